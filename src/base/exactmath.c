@@ -1,0 +1,50 @@
+#include "base/exactmath.h"
+
+#include <math.h>
+#include <sleef.h>
+
+void wr_sincos_turns(double u, double *sine, double *cosine)
+{
+    double r = u - rint(u);      /* -1/2 .. 1/2, exact */
+    double q = rint(4.0 * r);    /* nearest quarter turn, -2 .. 2 */
+    double x = 2.0 * (r - q / 4); /* half turns from it, -1/4 .. 1/4, exact */
+    double s = Sleef_cinz_sinpid1_u05purec(x), c = Sleef_cinz_cospid1_u05purec(x);
+    switch ((int)q & 3) {
+    case 0: *sine = s, *cosine = c; break;
+    case 1: *sine = c, *cosine = -s; break;
+    case 2: *sine = -s, *cosine = -c; break;
+    default: *sine = -c, *cosine = s; break;
+    }
+    *sine += 0.0; /* no negative zero */
+    *cosine += 0.0;
+}
+
+double wr_exp2(double x)
+{
+    return Sleef_cinz_exp2d1_u10purec(x);
+}
+
+double wr_log2(double x)
+{
+    return Sleef_cinz_log2d1_u10purec(x);
+}
+
+double wr_pow(double x, double y)
+{
+    return Sleef_cinz_powd1_u10purec(x, y);
+}
+
+double wr_atan2(double y, double x)
+{
+    return Sleef_cinz_atan2d1_u10purec(y, x);
+}
+
+double wr_asin(double x)
+{
+    return Sleef_cinz_asind1_u10purec(x);
+}
+
+double wr_acos(double x)
+{
+    return Sleef_cinz_acosd1_u10purec(x);
+}

@@ -1,0 +1,19 @@
+/* exactmath.h - transcendental functions whose bits are the same on every processor (SLEEF's
+   FMA-free scalar functions), for heights and for the double-precision path. libm's differ by
+   processor, so nothing that ends in a height may call them.
+   Layer 0. */
+#pragma once
+
+/* sin and cos of 2 pi u, u in turns, any finite value. The reduction is exact: whole, half and quarter
+   turns give exactly 0, 1, -1. Error under 1 ulp. */
+void wr_sincos_turns(double u, double *sine, double *cosine);
+
+double wr_exp2(double x);            /* 1 ulp */
+double wr_log2(double x);            /* 1 ulp; x > 0 */
+double wr_pow(double x, double y);   /* 1 ulp; pow(0,0) = 1 */
+double wr_atan2(double y, double x); /* 1 ulp, radians */
+double wr_asin(double x);            /* 1 ulp, radians */
+double wr_acos(double x);            /* 1 ulp, radians */
+
+#define WR_PI 3.14159265358979323846
+#define WR_RAD_PER_DEG (WR_PI / 180.0)

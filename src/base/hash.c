@@ -1,0 +1,55 @@
+#include "base/hash.h"
+
+#include <errno.h>
+#include <sha256.h>
+#include <string.h>
+#include <xxhash.h>
+
+WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed)
+{
+    XXH128_hash_t h = XXH3_128bits_withSeed(bytes, count, seed.low ^ (seed.high << 1));
+    return (WrHash){ h.low64, h.high64 };
+}
+
+bool wr_hash_equal(WrHash a, WrHash b)
+{
+    return a.low == b.low && a.high == b.high;
+}
+
+void wr_hash_print(WrHash hash, char text[33])
+{
+    snprintf(text, 33, "%016llx%016llx", (unsigned long long)hash.high,
+             (unsigned long long)hash.low);
+}
+
+static void hex_of(const uint8_t digest[SHA256_DIGEST_LENGTH], char hex[65])
+{
+    for (int i = 0; i < SHA256_DIGEST_LENGTH; i++) snprintf(hex + 2 * i, 3, "%02x", digest[i]);
+}
+
+void wr_sha256_bytes(const void *bytes, size_t count, char hex[65])
+{
+    uint8_t digest[SHA256_DIGEST_LENGTH];
+    SHA2_CTX ctx;
+    SHA256Init(&ctx);
+    SHA256Update(&ctx, bytes, count);
+    SHA256Final(digest, &ctx);
+    hex_of(digest, hex);
+}
+
+bool wr_sha256_file(const char *path, char hex[65], WrError *err)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) return wr_fail(err, "%s: %s", path, strerror(errno));
+    uint8_t block[65536], digest[SHA256_DIGEST_LENGTH];
+    SHA2_CTX ctx;
+    SHA256Init(&ctx);
+    size_t n;
+    while ((n = fread(block, 1, sizeof block, file)) > 0) SHA256Update(&ctx, block, n);
+    bool bad = ferror(file) != 0;
+    fclose(file);
+    if (bad) return wr_fail(err, "%s: cannot be read", path);
+    SHA256Final(digest, &ctx);
+    hex_of(digest, hex);
+    return true;
+}

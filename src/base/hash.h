@@ -1,0 +1,32 @@
+/* hash.h - checksums: a fast 128-bit one for the identity of heights, SHA-256 for files that commands
+   read, and integer mixing for random choices.
+   Layer 0. */
+#pragma once
+#include "base/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrHash {
+    uint64_t low, high;
+} WrHash;
+
+/* XXH3, 128 bits: the same on every processor. seed chains one hash into the next. */
+WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed);
+bool wr_hash_equal(WrHash a, WrHash b);
+/* 32 hex digits and a NUL. */
+void wr_hash_print(WrHash hash, char text[33]);
+
+/* SHA-256 as 64 lower-case hex digits and a NUL. */
+void wr_sha256_bytes(const void *bytes, size_t count, char hex[65]);
+bool wr_sha256_file(const char *path, char hex[65], WrError *err);
+
+/* A well-mixed 32-bit value of x (bijective). */
+static inline uint32_t wr_mix32(uint32_t x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352dU;
+    x ^= x >> 15;
+    x *= 0x846ca68bU;
+    return x ^ x >> 16;
+}

@@ -1,0 +1,195 @@
+#include "base/text.h"
+#include "base/memory.h"
+
+#include <ctype.h>
+#include <locale.h>
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+
+void wr_text_fini(WrText *text)
+{
+    wr_free(text->data);
+    *text = (WrText){ 0 };
+}
+
+void wr_text_clear(WrText *text)
+{
+    text->length = 0;
+    if (text->data) text->data[0] = '\0';
+}
+
+const char *wr_text_get(const WrText *text)
+{
+    return text->data ? text->data : "";
+}
+
+static void reserve(WrText *text, size_t more)
+{
+    size_t need = text->length + more + 1;
+    if (need <= text->capacity) return;
+    size_t grown = text->capacity ? text->capacity * 2 : 64;
+    if (grown < need) grown = need;
+    text->data = wr_realloc(text->data, text->length, grown, 1);
+    text->capacity = grown;
+}
+
+void wr_text_add_n(WrText *text, const char *bytes, size_t length)
+{
+    reserve(text, length);
+    memcpy(text->data + text->length, bytes, length);
+    text->length += length;
+    text->data[text->length] = '\0';
+}
+
+void wr_text_add(WrText *text, const char *bytes)
+{
+    wr_text_add_n(text, bytes, strlen(bytes));
+}
+
+void wr_text_addf(WrText *text, const char *format, ...)
+{
+    va_list args, again;
+    va_start(args, format);
+    va_copy(again, args);
+    int n = vsnprintf(NULL, 0, format, args);
+    va_end(args);
+    if (n > 0) {
+        reserve(text, (size_t)n);
+        vsnprintf(text->data + text->length, (size_t)n + 1, format, again);
+        text->length += (size_t)n;
+    }
+    va_end(again);
+}
+
+/* The C locale, whatever a library has set for the process. Made once and kept. */
+static locale_t c_locale(void)
+{
+    static locale_t made;
+    locale_t now = __atomic_load_n(&made, __ATOMIC_ACQUIRE);
+    if (now) return now;
+    locale_t mine = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    if (!__atomic_compare_exchange_n(&made, &now, mine, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
+        freelocale(mine);
+        return now;
+    }
+    return mine;
+}
+
+/* Print with `digits` significant digits under the C locale. */
+static void print_digits(double value, int digits, char *buffer)
+{
+    locale_t old = uselocale(c_locale());
+    snprintf(buffer, WR_NUMBER_SIZE, "%.*g", digits, value);
+    uselocale(old);
+}
+
+char *wr_number_print(double value, char *buffer)
+{
+    if (!isfinite(value)) return strcpy(buffer, isnan(value) ? "nan" : value < 0 ? "-inf" : "inf");
+    for (int digits = 1; digits <= 17; digits++) {
+        if (digits > 6 && digits < 15) continue; /* few values stop there; saves most of the tries */
+        print_digits(value, digits, buffer);
+        if (strtod_l(buffer, NULL, c_locale()) == value) break;
+    }
+    /* 15 digits may hide a shorter form of 7 to 14. */
+    for (int digits = 7; digits < 15; digits++) {
+        char shorter[WR_NUMBER_SIZE];
+        if (strlen(buffer) <= 7) break;
+        print_digits(value, digits, shorter);
+        if (strtod_l(shorter, NULL, c_locale()) == value) return strcpy(buffer, shorter);
+    }
+    return buffer;
+}
+
+char *wr_number_print_float(float value, char *buffer)
+{
+    if (!isfinite(value)) return wr_number_print((double)value, buffer);
+    for (int digits = 1; digits <= 9; digits++) {
+        print_digits((double)value, digits, buffer);
+        if (strtof_l(buffer, NULL, c_locale()) == value) break;
+    }
+    return buffer;
+}
+
+void wr_text_add_number(WrText *text, double value)
+{
+    char buffer[WR_NUMBER_SIZE];
+    wr_text_add(text, wr_number_print(value, buffer));
+}
+
+/* True if text[0..length) has the form [+-] digits [. digits] [e [+-] digits]. */
+static bool looks_decimal(const char *text, size_t length)
+{
+    size_t i = 0, digits = 0;
+    if (i < length && (text[i] == '+' || text[i] == '-')) i++;
+    while (i < length && isdigit((unsigned char)text[i])) i++, digits++;
+    if (i < length && text[i] == '.') {
+        i++;
+        while (i < length && isdigit((unsigned char)text[i])) i++, digits++;
+    }
+    if (digits == 0) return false;
+    if (i < length && (text[i] == 'e' || text[i] == 'E')) {
+        i++;
+        if (i < length && (text[i] == '+' || text[i] == '-')) i++;
+        size_t start = i;
+        while (i < length && isdigit((unsigned char)text[i])) i++;
+        if (i == start) return false;
+    }
+    return i == length;
+}
+
+bool wr_number_parse(const char *text, size_t length, double *value)
+{
+    char small[64], *copy = small;
+    if (!looks_decimal(text, length)) return false;
+    if (length >= sizeof small) copy = wr_alloc(length + 1, 1);
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    double v = strtod_l(copy, NULL, c_locale());
+    if (copy != small) wr_free(copy);
+    if (!isfinite(v)) return false;
+    *value = v;
+    return true;
+}
+
+/* Length of the valid UTF-8 sequence at s, 0 if there is none. Rejects overlong forms, surrogates and
+   values beyond U+10FFFF. */
+static size_t utf8_length(const unsigned char *s)
+{
+    if (s[0] < 0x80) return 1;
+    size_t n = s[0] >= 0xF0 && s[0] <= 0xF4 ? 4 : s[0] >= 0xE0 ? 3 : s[0] >= 0xC2 ? 2 : 0;
+    if (n == 0 || s[0] > 0xF4) return 0;
+    for (size_t i = 1; i < n; i++)
+        if ((s[i] & 0xC0) != 0x80) return 0;
+    if (s[0] == 0xE0 && s[1] < 0xA0) return 0;
+    if (s[0] == 0xED && s[1] > 0x9F) return 0;
+    if (s[0] == 0xF0 && s[1] < 0x90) return 0;
+    if (s[0] == 0xF4 && s[1] > 0x8F) return 0;
+    return n;
+}
+
+void wr_text_add_json_string(WrText *text, const char *bytes)
+{
+    const unsigned char *s = (const unsigned char *)bytes;
+    wr_text_add(text, "\"");
+    while (*s) {
+        size_t n = utf8_length(s);
+        if (n == 0) {
+            wr_text_add(text, "\xEF\xBF\xBD");
+            s++;
+            continue;
+        }
+        if (*s == '"' || *s == '\\') wr_text_addf(text, "\\%c", *s);
+        else if (*s < 0x20) wr_text_addf(text, "\\u%04x", *s);
+        else wr_text_add_n(text, (const char *)s, n);
+        s += n;
+    }
+    wr_text_add(text, "\"");
+}
+
+void wr_text_add_json_number(WrText *text, double value)
+{
+    if (!isfinite(value)) wr_text_add(text, "null");
+    else wr_text_add_number(text, value);
+}

@@ -1,0 +1,65 @@
+/* scheme.h - how F and its derivatives are made from table entries: the ladder's first axis.
+   Layer 1.
+
+   | scheme      | value                | derivative                             | order F, Fu | continuity |
+   | nearest     | the texel            | central difference at that texel       | 1, 1        | none       |
+   | bilinear    | bilinear             | of the bilinear interpolant (creases)  | 2, 1        | C0         |
+   | central     | bilinear             | the paper's central difference, E = one texel, of the bilinear
+   |             |                      | interpolant                            | 2, 2        | C0 slope   |
+   | bspline     | uniform cubic B-spline, table entries as coefficients, analytic | 2, 2 | C2        |
+   | bspline-fit | the same through the samples (circular prefilter, 28 taps a side, double) | 4, 3 | C2 |
+   | catmull     | Catmull-Rom, interpolating, analytic          | 3, 2            | C1         |
+
+   With x = W u - 1/2 and y = H (1 - v) - 1/2 the taps are floor(x), floor(x) + 1 and so on, so dF/dv
+   carries the minus sign of rows that run down. Derivatives are formed from differences of taps, so
+   that a flat table gives exactly 0 whatever its level (HC42-HC48). */
+#pragma once
+#include "field/field.h"
+
+typedef enum WrScheme {
+    WR_SCHEME_NEAREST,
+    WR_SCHEME_BILINEAR,
+    WR_SCHEME_CENTRAL,
+    WR_SCHEME_BSPLINE,
+    WR_SCHEME_BSPLINE_FIT,
+    WR_SCHEME_CATMULL,
+    WR_SCHEME_COUNT
+} WrScheme;
+
+typedef struct WrSchemeInfo {
+    const char *name;  /* as in commands: "bspline-fit" */
+    const char *label; /* for people: "cubic B-spline through the samples" */
+    const char *help;  /* one sentence */
+    int order_f, order_fu; /* of convergence in the texel's size, for smooth F */
+    int reach;         /* a texel's edit changes F or its slopes at most this many texels away */
+} WrSchemeInfo;
+
+extern const WrSchemeInfo wr_schemes[WR_SCHEME_COUNT];
+/* The scheme of that name, or -1. */
+int wr_scheme_find(const char *name);
+
+/* F and its derivatives at many points of the table itself (no height, no replication).
+ *
+ *   f[i] = F(u[i], v[i])   fu[i] = dF/du   fv[i] = dF/dv
+ *
+ * u, v     [count] any value; brought to [0,1) on a periodic axis; on a clamped one F is constant
+ *          outside [0,1] and its slope 0 there
+ * f        [count] heights in table units; may be NULL
+ * fu, fv   [count] table units per unit of u (v); may be NULL
+ * Errors   none      Threads  any number of readers
+ * Source   Blinn 1978 section 3 (FVAL, FU, FV; the printed F01 and the IFIX of negative arguments are
+ *          mended: floor, and a modulus on both corner indices) */
+void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
+                     const double *v, double *f, double *fu, double *fv);
+
+/* The paper's formula to the letter, as the historical rung and for tests: four bilinear look-ups,
+ * FU = (FVAL(U + E, V) - FVAL(U - E, V)) / (2 E) with E = 1/W, FV with 1/H. Equals `central` to
+ * rounding. */
+void wr_field_sample_blinn(const WrField *field, double u, double v, double *fu, double *fv);
+
+/* Cubic B-spline coefficients whose spline passes through the table's samples: one axis at a time,
+ * c_i = sum over |k| <= 28 of sqrt(3) (sqrt(3) - 2)^|k| T_(i+k), summed in double in a fixed order.
+ * Rectangle and pitch as in wr_field_read (indices outside wrap or are extrapolated). */
+#define WR_PREFILTER_REACH 28
+void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
+                          size_t pitch);

@@ -1,0 +1,87 @@
+/* image.h - pictures in memory and picture files of every kind that OpenImageIO knows.
+   Layer 1. The library behind it is loaded on first use: a program that opens no picture never pays
+   for it. */
+#pragma once
+#include "base/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum WrPixelType { WR_PIXEL_U8, WR_PIXEL_U16, WR_PIXEL_F32 } WrPixelType;
+
+/* A picture in memory: float, channels interleaved, row 0 on top. Integer files read as code / 255 or
+   code / 65535, never colour-converted; float files as their values. Shared by reference count. */
+typedef struct WrImage {
+    int refs;             /* atomic; use wr_image_share, wr_image_free */
+    int width, height;    /* 1..WR_IMAGE_MAX */
+    int channels;         /* 1..4: grey, grey + alpha, RGB, RGB + alpha */
+    WrPixelType type;     /* what the file held (half counts as F32) */
+    int64_t replaced;     /* texels that were NaN or infinite and became 0 */
+    float *data;          /* [height][width][channels], owned */
+} WrImage;
+
+#define WR_IMAGE_MAX 16384 /* pixels along a side */
+
+/* A picture of zeros. NULL and an error when sizes are out of range or memory is gone. */
+WrImage *wr_image_new(int width, int height, int channels, WrError *err);
+WrImage *wr_image_share(const WrImage *image);
+void wr_image_free(WrImage *image);
+
+/* Read the first part of a picture file; more than 4 channels keep the first 4. Errors name the file
+   and say what is wrong: missing, not a picture, truncated, over the limit. */
+WrImage *wr_image_read(const char *path, WrError *err);
+
+/* sRGB transfer curves (IEC 61966-2-1), exact to float; for pictures only, never for heights. */
+float wr_srgb_encode(float linear);
+float wr_srgb_decode(float code);
+
+/* Rec. 709 luma of a pixel of 1 to 4 channels (grey pictures: the grey; alpha is left out). */
+float wr_image_luma(const float *pixel, int channels);
+
+/* ---- files with several parts, attributes and any number of channels ---- */
+
+typedef struct WrImageAttribute {
+    const char *name, *text;
+} WrImageAttribute;
+
+/* Fill rows [y, y + rows) of a part, interleaved, in the part's pixel type. Return false to stop (the
+   write then fails with `err`). */
+typedef bool (*WrRowSource)(void *ctx, int y, int rows, void *out, WrError *err);
+
+typedef struct WrImageOut {
+    int width, height, channels;
+    WrPixelType type;                  /* integer types hold finished codes */
+    const char *const *channel_names;  /* [channels], or NULL for Y, YA, RGB, RGBA */
+    const char *part_name;             /* EXR parts; may be NULL */
+    const WrImageAttribute *attributes;
+    int attribute_count;
+    bool data;                         /* numbers, not colours: tagged linear where a format can say so */
+    WrRowSource rows;
+    void *ctx;
+} WrImageOut;
+
+/* Write a file as a whole replacement (base/file.h); the format goes by the ending. Several parts only
+   in EXR. A type that the format cannot hold is an error, never a silent conversion; so is any
+   failure that the library reports late (a full disk). */
+bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrError *err);
+/* Convenience: one part from memory, `pixels` tightly packed in `type`. */
+bool wr_image_write_pixels(const char *path, int width, int height, int channels, WrPixelType type,
+                           bool data, const void *pixels, WrError *err);
+
+typedef struct WrImageFile WrImageFile;
+
+typedef struct WrImagePart {
+    const char *name; /* "" if it has none */
+    int width, height, channels;
+    const char *const *channel_names;
+} WrImagePart;
+
+/* Open for reading part by part; checks sizes, part and channel counts before anything is allocated. */
+WrImageFile *wr_image_file_open(const char *path, WrError *err);
+void wr_image_file_close(WrImageFile *file);
+int wr_image_file_parts(const WrImageFile *file);
+WrImagePart wr_image_file_part(const WrImageFile *file, int part); /* valid until close */
+/* A text attribute of a part, or NULL. Valid until close. */
+const char *wr_image_file_attribute(const WrImageFile *file, int part, const char *name);
+/* All pixels of one part as float, [height][width][channels]. */
+bool wr_image_file_read(WrImageFile *file, int part, float *out, WrError *err);

@@ -1,0 +1,52 @@
+/* frame.h - a picture of a field under a scene: plan, visibility, geometry, bump, shade, resolve.
+   Layer 5. A renderer keeps caches (contiguous heights, gradient table, meshes) from frame to frame and
+   brings them up to date from what changed; give each view its own. */
+#pragma once
+#include "base/pool.h"
+#include "render/plan.h"
+#include "scene/scene.h"
+
+typedef struct WrRenderer WrRenderer;
+
+typedef struct WrFrameRequest {
+    const WrField *field; /* borrowed for the call */
+    const WrScene *scene;
+    int width, height;    /* pixels, 1..16384 each */
+    double turn_deg;      /* turntable angle about the world's y axis */
+    const WrDials *dials; /* NULL: the scene's */
+    bool plan_off;        /* run the full path whatever the plan could leave out (tests) */
+    const volatile int *cancel; /* may be NULL; non-zero: return early, false, err "cancelled" */
+} WrFrameRequest;
+
+typedef struct WrStageTimes { /* seconds, summed over threads, but for `total`, which is wall time */
+    double prepare, visibility, geometry, bump, shade, resolve, total;
+} WrStageTimes;
+
+typedef struct WrFrame {
+    int width, height;
+    float *rgba; /* [height][width][4] linear, premultiplied; A is coverage; owned by the renderer,
+                    valid until its next frame */
+    int64_t covered; /* pixels with coverage > 0 */
+    int64_t shaded;  /* samples shaded */
+    WrStageTimes times;
+    const WrPlan *plan; /* owned by the renderer, as rgba */
+} WrFrame;
+
+/* isa: NULL or "auto", else "ref", "v1" .. "v4"; NULL and an error for one that this processor lacks
+   or that does not exist. pool is borrowed. The caller owns the renderer. */
+WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err);
+void wr_renderer_free(WrRenderer *renderer);
+
+/* Render. The bits depend on the request alone: not on threads, nor (arithmetic exact) on the isa, nor
+   on what was rendered before. */
+bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
+                       WrError *err);
+
+/* 8-bit sRGB over a background (linear RGB): bytes [height][width][channels], channels 3, or 4 with
+   opaque alpha in memory order B,G,R,A when bgra. Non-finite counts as 0; returns how many (HC96). */
+int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool bgra, uint8_t *out,
+                          WrPool *pool);
+
+/* The (u,v) under a pixel position (from the top left, pixels) of the last frame; false where the
+   object is not. face: 0 but on the cube. */
+bool wr_renderer_pick(WrRenderer *renderer, double x, double y, double *u, double *v, int *face);

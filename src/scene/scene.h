@@ -1,0 +1,96 @@
+/* scene.h - all that a picture of a table depends on besides the table: surface, bump, material,
+   lights, camera, dials. Plain data with defaults and checks.
+   Layer 4. A scene that is shared is never written to: edits clone it (wr_scene_clone), so a snapshot
+   is one pointer. World space is right-handed, y up; colours are linear; angles here in degrees. */
+#pragma once
+#include "base/text.h"
+#include "base/vec.h"
+#include "field/analytic.h"
+#include "field/scheme.h"
+#include "image/image.h"
+#include "shade/bump.h"
+#include "surface/surface.h"
+
+typedef enum WrLightKind { WR_LIGHT_DIRECTIONAL, WR_LIGHT_POINT } WrLightKind;
+
+typedef struct WrLight {
+    WrLightKind kind;
+    WrVec3 where;    /* directional: from the surface TO the light, any length > 0; point: position */
+    WrVec3 colour;   /* linear RGB, 0..1e6 */
+    double strength; /* 0..1e6; the light's L is colour * strength */
+} WrLight;
+
+typedef struct WrMaterial {
+    double ambient, diffuse, specular; /* ka, kd, ks: 0..1000 */
+    double shininess;                  /* s: 0..1e6 */
+    WrVec3 colour;                     /* C, linear RGB; does not tint the highlight */
+    bool gate;                         /* highlight only where n'.l > 0 */
+} WrMaterial;
+
+typedef struct WrCamera {
+    bool orthographic;
+    bool fit;        /* eye is placed on the line from target along (eye - target) so that the object
+                        just fits; true until a camera command gives eye= */
+    WrVec3 eye, target, up;
+    double fov_deg;  /* vertical, perspective: 0.01..179 */
+    double size;     /* height of the view in scene units, orthographic; > 0 */
+} WrCamera;
+
+typedef enum WrAntialias { WR_AA_POINT, WR_AA_SUPERSAMPLE } WrAntialias;
+typedef enum WrArithmetic { WR_ARITHMETIC_EXACT, WR_ARITHMETIC_FAST } WrArithmetic;
+
+/* The rungs of the accuracy ladder that are settings of the scene. */
+typedef struct WrDials {
+    WrAntialias aa;
+    int samples;             /* supersample: K x K a pixel, 1..64 */
+    WrArithmetic arithmetic;
+} WrDials;
+
+typedef struct WrScene {
+    int refs; /* atomic; private to scene.c */
+    WrShape shape;
+    bool posed;          /* rotate was given; else the surface's own pose holds */
+    WrVec3 rotate_deg;   /* about the world's x, then y, then z */
+    WrBumpMode bump;
+    WrScheme scheme;
+    double height;       /* scene units per table unit; any finite value */
+    double replicate_u, replicate_v;
+    WrAnalytic analytic; /* replaces the table while its kind is not OFF; terms owned */
+    WrMaterial material;
+    WrImage *colour;     /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
+    char *colour_path;   /* as the command named it; owned; NULL without */
+    char colour_sha256[65];
+    bool lights_given;   /* false: `lights` holds the one default light */
+    WrLight *lights;     /* [light_count], owned */
+    int light_count;
+    WrCamera camera;
+    WrDials dials;
+    double background[3]; /* linear RGB behind 8-bit pictures */
+} WrScene;
+
+/* The scene of an empty document: the unit plane facing the viewer, blinn / central, one light from
+   the upper left. The caller owns it. */
+WrScene *wr_scene_new(void);
+/* A deep copy that the caller may change until it shares it. */
+WrScene *wr_scene_clone(const WrScene *scene);
+WrScene *wr_scene_share(const WrScene *scene); /* constant time */
+void wr_scene_free(WrScene *scene);
+
+/* Where things are for a picture: the object's rotation (pose, then `turn_deg` about the world's y
+   axis), its centre, and the camera with `fit` resolved for a picture of that aspect. */
+typedef struct WrPlacement {
+    double rotation[9];   /* row-major object -> world, orthonormal: rebuilt from angles each time, so
+                             it cannot drift (HC88) */
+    WrVec3 centre;        /* object point that stands at the world's origin */
+    WrVec3 eye, right, up, forward; /* world; orthonormal, right-handed: forward = -(right x up)... */
+    double half_height;   /* tan(fov/2), or size/2 */
+    bool orthographic;
+    double radius;        /* of the object about its centre */
+} WrPlacement;
+bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlacement *out,
+                    WrError *err);
+
+/* F = height * table(ru u, rv v) and its derivatives with respect to the PATCH parameters, in double,
+ * from the table or the analytic function. Outputs may be NULL. */
+void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
+                     double *fu, double *fv);

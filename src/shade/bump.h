@@ -1,0 +1,52 @@
+/* bump.h - the paper in one page: how F(u,v) turns the normal of P(u,v). The meaning; every faster form
+   must agree with it.
+   Layer 3. Double precision; N = Pu x Pv is not unit; n = N/|N| or its limit where N = 0.
+
+   blinn      N' = N + D,  D = Fu (n x Pv) - Fv (n x Pu)                       Blinn 1978 section 2
+              drops the terms in F: right while F is small against the radii of curvature.
+              The angle of rotation has tan(theta) = |D| / |N|, about A = Fv Pu - Fu Pv.
+   invariant  N'' = N + D',  D' = a D |N| / |D|,  a = sqrt(Fu^2 + Fv^2)         section 4
+              tan(theta') = a whatever the object's scale.
+   exact      N' = Pu' x Pv',  Pu' = Pu + Fu n + F n_u,  Pv' = Pv + Fv n + F n_v   the true normal of
+              the displaced surface P' = P + F n, with the terms that the paper drops. */
+#pragma once
+#include "base/vec.h"
+
+typedef enum WrBumpMode {
+    WR_BUMP_NONE,
+    WR_BUMP_BLINN,
+    WR_BUMP_INVARIANT,
+    WR_BUMP_EXACT,
+    WR_BUMP_COUNT
+} WrBumpMode;
+
+extern const char *const wr_bump_names[WR_BUMP_COUNT]; /* "none", "blinn", ... */
+int wr_bump_find(const char *name);                     /* mode, or -1 */
+
+/* D = Fu (n x Pv) - Fv (n x Pu) = n x (Fu Pv - Fv Pu), in the tangent plane, pointing downhill. */
+static inline WrVec3 wr_bump_d(WrVec3 n_unit, WrVec3 pu, WrVec3 pv, double fu, double fv)
+{
+    return v3_cross(n_unit, v3_sub(v3_scale(pv, fu), v3_scale(pu, fv)));
+}
+
+/* A = Fv Pu - Fu Pv: the axis of rotation; |A| = |D|. */
+static inline WrVec3 wr_bump_axis(WrVec3 pu, WrVec3 pv, double fu, double fv)
+{
+    return v3_sub(v3_scale(pu, fv), v3_scale(pv, fu));
+}
+
+/* N' in the given mode.
+ *
+ * n, n_unit     N and its unit (or limiting) direction
+ * pu, pv        tangents          n_u, n_v   derivatives of n_unit (exact only)
+ * f, fu, fv     scene units, and scene units per unit of u, v: height and replication included
+ * Result        not unit; exactly n where Fu = Fv = 0 (and F = 0 in exact), bit for bit (HC17)
+ * Never NaN for finite input, whatever the slope or scale (HC09, HC12-HC19). */
+WrVec3 wr_bump_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec3 pv, WrVec3 n_u,
+                      WrVec3 n_v, double f, double fu, double fv);
+
+/* N' made unit; n_unit where N' is 0. */
+WrVec3 wr_bump_unit(WrVec3 n_perturbed, WrVec3 n_unit);
+
+/* The angle between N and N' in degrees, atan2(|N x N'|, N.N'), 0..180. */
+double wr_bump_tilt_deg(WrVec3 n_unit, WrVec3 n_perturbed_unit);

@@ -1,0 +1,94 @@
+/* surface.h - parametric surfaces P(u,v), 0 <= u,v <= 1, oriented so that N = Pu x Pv points outward
+   or up. One file each (plane.h, torus.h, ...), one list of them (surface_list.h).
+   Layer 2. Object space; lengths in scene units; angles of parametrisation in turns (phi = 2 pi u). */
+#pragma once
+#include "base/error.h"
+#include "base/vec.h"
+
+#define WR_SURFACE_VALUES 48 /* numbers that describe a surface; a bicubic patch needs 16 points */
+#define WR_SURFACE_PARAMS 6
+
+typedef enum WrSurfaceKind {
+#define WR_X(name) WR_SURFACE_##name,
+#include "surface/surface_list.h"
+    WR_SURFACE_COUNT
+} WrSurfaceKind;
+
+/* A surface with its numbers: the values of its row's params, one after the other. */
+typedef struct WrShape {
+    WrSurfaceKind kind;
+    double value[WR_SURFACE_VALUES];
+} WrShape;
+
+/* The same in single precision, scaled for the renderer. */
+typedef struct WrShapef {
+    float value[WR_SURFACE_VALUES];
+} WrShapef;
+
+/* Everything that the formulas need at one point. N is not unit, as in the paper. Where N = 0, n_unit
+   is the right limiting normal (NUMERICS b) and n_u, n_v the limits of its derivatives where they
+   exist, else 0. Never NaN for finite parameters. */
+typedef struct WrSurfacePoint {
+    WrVec3 p, pu, pv, puu, puv, pvv;
+    WrVec3 n, n_unit; /* N = Pu x Pv; N/|N| or its limit */
+    WrVec3 n_u, n_v;  /* derivatives of n_unit: (N_u - n (n.N_u)) / |N| in closed form */
+    double n_len;     /* |N| */
+} WrSurfacePoint;
+typedef struct WrSurfacePointf {
+    WrVec3f p, pu, pv, puu, puv, pvv, n, n_unit, n_u, n_v;
+    float n_len;
+} WrSurfacePointf;
+
+/* How the renderer finds (u,v) from a ray. */
+typedef enum WrInversion {
+    WR_INVERT_MESH, /* refined mesh, then Newton's method: works for every surface */
+    WR_INVERT_PLANE,
+    WR_INVERT_SPHERE,
+    WR_INVERT_CYLINDER,
+    WR_INVERT_CONE,
+    WR_INVERT_CUBE
+} WrInversion;
+
+typedef struct WrSurfaceParam {
+    const char *name;       /* as in commands: "R"; NULL ends the list */
+    int components;         /* 1: a number; 3: a vector; 48: sixteen points, u index fastest */
+    double fallback[WR_SURFACE_VALUES];
+    double low, high;       /* closed range of each component */
+    bool length;            /* scales with the object (false: a count, an angle, a fraction) */
+    const char *help;       /* a few words, with the unit */
+} WrSurfaceParam;
+
+typedef struct WrSurfaceInfo {
+    const char *name, *label, *help;
+    WrSurfaceParam params[WR_SURFACE_PARAMS];
+    double pose_deg[3];      /* rotation x, y, z in which it first shows itself well */
+    double centre[3];        /* what turns stay about: a constant plus ... */
+    bool centre_half_ab;     /* ... (a/2, b/2, 0) where this is set (plane, bent) */
+    bool closed_u, closed_v; /* P has period 1: replication should be whole */
+    int faces;               /* 1; cube 6, each with its own (u,v) */
+    bool flat;               /* shape operator 0 everywhere: blinn is exact */
+    bool unit_sized;         /* fixed size (curl): not rescaled by the renderer */
+    bool convex_closed;      /* a closed convex body: front faces hide all else */
+    WrInversion inversion;
+    /* The point and all derivatives, in double. face is 0..faces-1. */
+    void (*at)(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);
+    /* Refuse numbers that make no surface (a fold, a zero size); may be NULL. */
+    bool (*check)(const WrShape *shape, WrError *err);
+} WrSurfaceInfo;
+
+extern const WrSurfaceInfo *const wr_surfaces[WR_SURFACE_COUNT];
+
+int wr_surface_find(const char *name);               /* kind, or -1 */
+void wr_shape_default(WrSurfaceKind kind, WrShape *shape); /* every param at its fallback */
+/* Where param `name` starts in shape->value, or -1. */
+int wr_surface_param_offset(WrSurfaceKind kind, const char *name);
+/* Check ranges, finiteness and the surface's own rule. */
+bool wr_shape_check(const WrShape *shape, WrError *err);
+WrVec3 wr_shape_centre(const WrShape *shape);
+/* Radius of a ball about the centre that holds the whole surface (sampled; 1 % generous). > 0. */
+double wr_shape_radius(const WrShape *shape);
+/* Evaluate; asserts kind and face. */
+void wr_surface_at(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);
+/* The shape in single precision with all lengths multiplied by `scale` (a power of two; 1 for
+   unit_sized surfaces). */
+void wr_shape_scaled(const WrShape *shape, double scale, WrShapef *out);

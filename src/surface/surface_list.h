@@ -1,0 +1,28 @@
+/* surface_list.h - the one list of surfaces: a new one is its file and its two lines here.
+   Included with WR_X(name) defined it names each; with WR_SURFACE_FORMULAS defined it brings in the
+   formulas (see formula.h). */
+#ifdef WR_X
+WR_X(plane)
+WR_X(bent)
+WR_X(curl)
+WR_X(bezier)
+WR_X(sphere)
+WR_X(cylinder)
+WR_X(cone)
+WR_X(torus)
+WR_X(cube)
+WR_X(ribbon)
+#undef WR_X
+#endif
+#ifdef WR_SURFACE_FORMULAS
+#include "surface/plane.h"
+#include "surface/bent.h"
+#include "surface/curl.h"
+#include "surface/bezier.h"
+#include "surface/sphere.h"
+#include "surface/cylinder.h"
+#include "surface/cone.h"
+#include "surface/torus.h"
+#include "surface/cube.h"
+#include "surface/ribbon.h"
+#endif

@@ -1,0 +1,201 @@
+/* Numbers as text, deterministic functions, files, the pool. */
+#include "test.h"
+
+#include "base/exactmath.h"
+#include "base/file.h"
+#include "base/kernmath.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/text.h"
+#include "base/vec.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void numbers_print_shortest_and_read_back(void **state)
+{
+    (void)state;
+    const struct {
+        double value;
+        const char *text;
+    } known[] = { { 0, "0" }, { 0.1, "0.1" }, { -3, "-3" }, { 1e20, "1e+20" }, { 512, "512" },
+                  { 0.30000000000000004, "0.30000000000000004" }, { 1.0 / 3, "0.3333333333333333" },
+                  { 123456.789, "123456.789" }, { 5e-324, "5e-324" } };
+    char buffer[WR_NUMBER_SIZE];
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        assert_string_equal(wr_number_print(known[i].value, buffer), known[i].text);
+    TestRandom random = { 7 };
+    for (int i = 0; i < 20000; i++) {
+        uint64_t bits = test_random_u64(&random);
+        double value, again;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value)) continue;
+        wr_number_print(value, buffer);
+        assert_true(wr_number_parse(buffer, strlen(buffer), &again));
+        assert_true(value == again);
+    }
+}
+
+static void words_that_are_no_numbers_are_refused(void **state)
+{
+    (void)state;
+    const char *bad[] = { "", "-", ".", "1e", "1,5", "0x10", "nan", "inf", " 1", "1 ", "1e999", "--1" };
+    double value;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_false(wr_number_parse(bad[i], strlen(bad[i]), &value));
+}
+
+static void invalid_utf8_never_reaches_json(void **state)
+{
+    (void)state;
+    WrText text = { 0 };
+    wr_text_add_json_string(&text, "a\"\\\n\xff\xc3\xa9\xed\xa0\x80");
+    assert_string_equal(wr_text_get(&text),
+                        "\"a\\\"\\\\\\u000a\xEF\xBF\xBD\xc3\xa9\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\"");
+    wr_text_fini(&text);
+}
+
+static void turns_are_exact_at_quarters_in_both_precisions(void **state)
+{
+    (void)state;
+    const double sines[] = { 0, 1, 0, -1 };
+    for (int k = -9; k <= 9; k++) {
+        double s, c;
+        float sf, cf;
+        wr_sincos_turns(k * 0.25, &s, &c);
+        wr_sincos_turns_f((float)k * 0.25f, &sf, &cf);
+        assert_true(s == sines[k & 3] && c == sines[(k + 1) & 3]);
+        assert_true(sf == (float)sines[k & 3] && cf == (float)sines[(k + 1) & 3]);
+    }
+}
+
+static void float_functions_keep_their_stated_error(void **state)
+{
+    (void)state;
+    double worst_sin = 0, worst_atan = 0, worst_log = 0, worst_exp = 0, worst_pow = 0;
+    for (int i = 0; i <= 100000; i++) {
+        double t = i / 100000.0;
+        float s, c, u = (float)(t * 4 - 2);
+        wr_sincos_turns_f(u, &s, &c);
+        worst_sin = fmax(worst_sin, fmax(fabs(s - sin(2 * WR_PI * u)), fabs(c - cos(2 * WR_PI * u))));
+        float x = (float)cos(2 * WR_PI * t), y = (float)sin(2 * WR_PI * t);
+        double turns = atan2(y, x) / (2 * WR_PI), d;
+        d = wr_atan2_turns_f(y, x) - (turns - floor(turns));
+        worst_atan = fmax(worst_atan, fabs(d - rint(d)));
+        float q = (float)exp2(t * 200 - 100), near = (float)(0.9 + 0.2 * t);
+        worst_log = fmax(worst_log, fabs(wr_log2_f(q) / log2(q) - 1) * (fabs(log2(q)) > 1e-3));
+        if (near != 1.0f) worst_log = fmax(worst_log, fabs(wr_log2_f(near) / log2(near) - 1));
+        float e = (float)(t * 240 - 120);
+        worst_exp = fmax(worst_exp, fabs(wr_exp2_f(e) / exp2(e) - 1));
+        worst_pow = fmax(worst_pow, fabs(wr_pow01_f((float)t, 40) - pow((float)t, 40)));
+    }
+    assert_near(worst_sin, 0, 1.2e-7);
+    assert_near(worst_atan, 0, 1e-7);
+    assert_near(worst_log, 0, 1.5e-7);
+    assert_near(worst_exp, 0, 1.2e-7);
+    assert_near(worst_pow, 0, 2e-6);
+}
+
+static void hc89_power_of_0_and_above_1_is_defined(void **state)
+{
+    (void)state;
+    assert_true(wr_pow01_f(0, 0) == 1 && wr_pow01_f(0, 5) == 0 && wr_pow01_f(1, 1e5f) == 1);
+    assert_true(wr_pow01_f(1.0000001f, 1e5f) == 1); /* HC90 */
+    assert_true(wr_pow01_f(0.5f, 1e5f) == 0 && wr_pow01_f(0.5f, 1) == 0.5f);
+}
+
+static void length_and_unit_survive_any_scale(void **state)
+{
+    (void)state;
+    const double scales[] = { 1, 1e20, 1e-20, 1e200, 1e-200, 1e-310 };
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        WrVec3 a = { 3 * scales[i], 0, 4 * scales[i] }, up = { 0, 1, 0 };
+        assert_near(v3_len(a) / (5 * scales[i]), 1, 1e-10);
+        assert_near(v3_unit(a, up).x, 0.6, 1e-10);
+    }
+    WrVec3 fallback = { 0, 1, 0 };
+    assert_true(v3_unit((WrVec3){ 0, 0, 0 }, fallback).y == 1);
+    assert_true(v3_unit((WrVec3){ NAN, 0, 0 }, fallback).y == 1);
+    assert_true(v3_unit((WrVec3){ INFINITY, 0, 0 }, fallback).y == 1);
+}
+
+static void hc20_angle_between_equal_directions_is_zero(void **state)
+{
+    (void)state;
+    WrVec3 a = { 0.1, 0.7, -0.3 }, b = { 0.1 + 1e-12, 0.7, -0.3 };
+    assert_true(v3_angle_rad(a, a) == 0);
+    assert_true(v3_angle_rad(a, b) > 0 && v3_angle_rad(a, b) < 1e-11);
+}
+
+static void count_piece(int index, int worker, void *ctx)
+{
+    (void)worker;
+    __atomic_fetch_add(&((int *)ctx)[index], 1, __ATOMIC_RELAXED);
+}
+
+static void each_piece_of_a_job_runs_once(void **state)
+{
+    (void)state;
+    for (int threads = 1; threads <= 7; threads += 3) {
+        WrPool *pool = wr_pool_new(threads);
+        for (int round = 0; round < 200; round++) {
+            int seen[100] = { 0 };
+            wr_pool_run(pool, 100, count_piece, seen);
+            for (int i = 0; i < 100; i++) assert_int_equal(seen[i], 1);
+        }
+        wr_pool_free(pool);
+    }
+}
+
+static void a_failed_write_leaves_the_old_file_whole(void **state)
+{
+    (void)state;
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.txt"), *link = wr_path_join(folder, "link.txt");
+    assert_true(wr_file_write(path, "old", 3, &err));
+    assert_int_equal(chmod(path, 0640), 0);
+    assert_int_equal(symlink("a.txt", link), 0);
+    WrFileTarget target;
+    assert_true(wr_file_begin(&target, link, &err));
+    wr_file_abort(&target);
+    assert_true(wr_file_write(link, "new", 3, &err)); /* through the link, keeping the mode */
+    char *bytes;
+    size_t length;
+    struct stat info;
+    assert_true(wr_file_read(path, 100, &bytes, &length, &err));
+    assert_int_equal(length, 3);
+    assert_string_equal(bytes, "new");
+    wr_free(bytes);
+    assert_int_equal(lstat(link, &info), 0);
+    assert_true(S_ISLNK(info.st_mode));
+    assert_int_equal(stat(path, &info), 0);
+    assert_int_equal(info.st_mode & 0777, 0640);
+    assert_false(wr_file_write(folder, "x", 1, &err));
+    assert_non_null(strstr(err.text, "is a folder"));
+    assert_false(wr_file_write("/nonexistent/x", "x", 1, &err));
+    assert_non_null(strstr(err.text, "does not exist"));
+    unlink(path);
+    unlink(link);
+    assert_int_equal(rmdir(folder), 0); /* nothing else was left behind */
+    wr_free(path);
+    wr_free(link);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_print_shortest_and_read_back),
+        cmocka_unit_test(words_that_are_no_numbers_are_refused),
+        cmocka_unit_test(invalid_utf8_never_reaches_json),
+        cmocka_unit_test(turns_are_exact_at_quarters_in_both_precisions),
+        cmocka_unit_test(float_functions_keep_their_stated_error),
+        cmocka_unit_test(hc89_power_of_0_and_above_1_is_defined),
+        cmocka_unit_test(length_and_unit_survive_any_scale),
+        cmocka_unit_test(hc20_angle_between_equal_directions_is_zero),
+        cmocka_unit_test(each_piece_of_a_job_runs_once),
+        cmocka_unit_test(a_failed_write_leaves_the_old_file_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
