@@ -18,9 +18,15 @@ static void numbers_print_shortest_and_read_back(void **state)
     const struct {
         double value;
         const char *text;
-    } known[] = { { 0, "0" }, { 0.1, "0.1" }, { -3, "-3" }, { 1e20, "1e+20" }, { 512, "512" },
-                  { 0.30000000000000004, "0.30000000000000004" }, { 1.0 / 3, "0.3333333333333333" },
-                  { 123456.789, "123456.789" }, { 5e-324, "5e-324" } };
+    } known[] = { { 0, "0" },
+                  { 0.1, "0.1" },
+                  { -3, "-3" },
+                  { 1e20, "1e+20" },
+                  { 512, "512" },
+                  { 0.30000000000000004, "0.30000000000000004" },
+                  { 1.0 / 3, "0.3333333333333333" },
+                  { 123456.789, "123456.789" },
+                  { 5e-324, "5e-324" } };
     char buffer[WR_NUMBER_SIZE];
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         assert_string_equal(wr_number_print(known[i].value, buffer), known[i].text);
@@ -39,7 +45,8 @@ static void numbers_print_shortest_and_read_back(void **state)
 static void words_that_are_no_numbers_are_refused(void **state)
 {
     (void)state;
-    const char *bad[] = { "", "-", ".", "1e", "1,5", "0x10", "nan", "inf", " 1", "1 ", "1e999", "--1" };
+    const char *bad[] = { "",    "-",   ".",  "1e", "1,5",   "0x10",
+                          "nan", "inf", " 1", "1 ", "1e999", "--1" };
     double value;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_false(wr_number_parse(bad[i], strlen(bad[i]), &value));
@@ -50,8 +57,9 @@ static void invalid_utf8_never_reaches_json(void **state)
     (void)state;
     WrText text = { 0 };
     wr_text_add_json_string(&text, "a\"\\\n\xff\xc3\xa9\xed\xa0\x80");
-    assert_string_equal(wr_text_get(&text),
-                        "\"a\\\"\\\\\\u000a\xEF\xBF\xBD\xc3\xa9\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\"");
+    assert_string_equal(
+        wr_text_get(&text),
+        "\"a\\\"\\\\\\u000a\xEF\xBF\xBD\xc3\xa9\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\"");
     wr_text_fini(&text);
 }
 
@@ -77,7 +85,8 @@ static void float_functions_keep_their_stated_error(void **state)
         double t = i / 100000.0;
         float s, c, u = (float)(t * 4 - 2);
         wr_sincos_turns_f(u, &s, &c);
-        worst_sin = fmax(worst_sin, fmax(fabs(s - sin(2 * WR_PI * u)), fabs(c - cos(2 * WR_PI * u))));
+        worst_sin =
+            fmax(worst_sin, fmax(fabs(s - sin(2 * WR_PI * u)), fabs(c - cos(2 * WR_PI * u))));
         float x = (float)cos(2 * WR_PI * t), y = (float)sin(2 * WR_PI * t);
         double turns = atan2(y, x) / (2 * WR_PI), d;
         d = wr_atan2_turns_f(y, x) - (turns - floor(turns));

@@ -37,6 +37,7 @@ void wr_error_prefix(WrError *err, const char *format, ...)
     int n = vsnprintf(err->text, sizeof err->text, format, args);
     va_end(args);
     if (n < 0) n = 0;
-    if ((size_t)n < sizeof err->text) snprintf(err->text + n, sizeof err->text - (size_t)n, "%s", old);
+    if ((size_t)n < sizeof err->text)
+        snprintf(err->text + n, sizeof err->text - (size_t)n, "%s", old);
     trim_utf8(err->text, sizeof err->text);
 }

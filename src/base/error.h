@@ -23,8 +23,8 @@ void wr_error_prefix(WrError *err, const char *format, ...) __attribute__((forma
 #define WR_ASSERT(condition) ((void)0)
 #else
 #define WR_ASSERT(condition)                                                                       \
-    ((condition) ? (void)0                                                                         \
-                 : (fprintf(stderr, "%s:%d: assertion failed: %s\n", __FILE__, __LINE__,           \
-                            #condition),                                                           \
-                    abort()))
+    ((condition)                                                                                   \
+         ? (void)0                                                                                 \
+         : (fprintf(stderr, "%s:%d: assertion failed: %s\n", __FILE__, __LINE__, #condition),      \
+            abort()))
 #endif

@@ -31,7 +31,8 @@ static inline void wr_sincos_turns_f(float u, float *sine, float *cosine)
     float r = u - floorf(u + 0.5f);
     float q = floorf(4.0f * r + 0.5f);
     float x = r - 0.25f * q, z = x * x; /* |x| <= 1/8 turn, exact */
-    float s = x * (6.28318548f + z * (-41.3417015f + z * (81.6052017f + z * (-76.6978683f + z * 41.4728317f))));
+    float s = x * (6.28318548f +
+                   z * (-41.3417015f + z * (81.6052017f + z * (-76.6978683f + z * 41.4728317f))));
     float c = 1.0f + z * (-19.7392082f + z * (64.9393158f + z * (-85.4428482f + z * 59.2201691f)));
     int32_t quarter = (int32_t)q;
     float a = (quarter & 1) ? c : s, b = (quarter & 1) ? s : c;
@@ -49,8 +50,10 @@ static inline float wr_atan2_turns_f(float y, float x)
     float num = steep != 0.0f ? small - large : small;
     float den = steep != 0.0f ? small + large : large;
     float t = num / (den > 0.0f ? den : 1.0f), z = t * t;
-    float a = t * (0.159154937f + z * (-0.0530516058f + z * (0.031828098f + z * (-0.0226629209f +
-              z * (0.0168224052f + z * -0.00959116314f)))));
+    float a = t * (0.159154937f +
+                   z * (-0.0530516058f +
+                        z * (0.031828098f +
+                             z * (-0.0226629209f + z * (0.0168224052f + z * -0.00959116314f)))));
     a = steep != 0.0f ? 0.125f + a : a;
     a = ay > ax ? 0.25f - a : a;
     a = x < 0.0f ? 0.5f - a : a;
@@ -64,9 +67,15 @@ static inline float wr_log2_f(float x)
     int32_t bits = wr_float_bits(x);
     int32_t e = (bits - 0x3f3504f3) >> 23; /* mantissa brought to sqrt(1/2) .. sqrt(2) */
     float f = wr_bits_float(bits - (int32_t)((uint32_t)e << 23)) - 1.0f;
-    float p = 1.44269502f + f * (-0.721347332f + f * (0.480898529f + f * (-0.360696554f +
-              f * (0.288552552f + f * (-0.239608124f + f * (0.204857647f + f * (-0.191388384f +
-              f * (0.184760332f + f * -0.107497893f))))))));
+    float p = 1.44269502f +
+              f * (-0.721347332f +
+                   f * (0.480898529f +
+                        f * (-0.360696554f +
+                             f * (0.288552552f +
+                                  f * (-0.239608124f +
+                                       f * (0.204857647f +
+                                            f * (-0.191388384f +
+                                                 f * (0.184760332f + f * -0.107497893f))))))));
     return (float)e + f * p;
 }
 
@@ -76,8 +85,11 @@ static inline float wr_exp2_f(float x)
     x = x < -126.0f ? -126.0f : x;
     x = x > 127.0f ? 127.0f : x;
     float n = floorf(x + 0.5f), f = x - n;
-    float p = 1.0f + f * (0.693147182f + f * (0.240226507f + f * (0.0555032715f + f * (0.00961805694f +
-              f * (0.0013400428f + f * 0.000154614449f)))));
+    float p =
+        1.0f + f * (0.693147182f +
+                    f * (0.240226507f +
+                         f * (0.0555032715f +
+                              f * (0.00961805694f + f * (0.0013400428f + f * 0.000154614449f)))));
     return wr_bits_float(wr_float_bits(p) + (int32_t)((uint32_t)(int32_t)n << 23));
 }
 

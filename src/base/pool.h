@@ -7,7 +7,7 @@ typedef struct WrPool WrPool;
 /* threads 0 means one per processor. The caller of run is one of them, so a pool of 1 starts none.
    Never fails; if a thread cannot be started the pool is smaller. */
 WrPool *wr_pool_new(int threads);
-void wr_pool_free(WrPool *pool); /* NULL is fine; no run may be under way */
+void wr_pool_free(WrPool *pool);         /* NULL is fine; no run may be under way */
 int wr_pool_threads(const WrPool *pool); /* how many work, the caller included; NULL gives 1 */
 
 /* Call piece(index, worker, ctx) once for each index in 0..count-1, on any thread and in any order,

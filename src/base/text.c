@@ -69,7 +69,8 @@ static locale_t c_locale(void)
     locale_t now = __atomic_load_n(&made, __ATOMIC_ACQUIRE);
     if (now) return now;
     locale_t mine = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!__atomic_compare_exchange_n(&made, &now, mine, false, __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
+    if (!__atomic_compare_exchange_n(&made, &now, mine, false, __ATOMIC_ACQ_REL,
+                                     __ATOMIC_ACQUIRE)) {
         freelocale(mine);
         return now;
     }
@@ -88,7 +89,8 @@ char *wr_number_print(double value, char *buffer)
 {
     if (!isfinite(value)) return strcpy(buffer, isnan(value) ? "nan" : value < 0 ? "-inf" : "inf");
     for (int digits = 1; digits <= 17; digits++) {
-        if (digits > 6 && digits < 15) continue; /* few values stop there; saves most of the tries */
+        if (digits > 6 && digits < 15)
+            continue; /* few values stop there; saves most of the tries */
         print_digits(value, digits, buffer);
         if (strtod_l(buffer, NULL, c_locale()) == value) break;
     }

@@ -13,15 +13,30 @@ typedef struct WrVec3f {
 } WrVec3f;
 
 #define WR_VEC_FUNCTIONS(V, R, p)                                                                  \
-    static inline V p##_add(V a, V b) { return (V){ a.x + b.x, a.y + b.y, a.z + b.z }; }           \
-    static inline V p##_sub(V a, V b) { return (V){ a.x - b.x, a.y - b.y, a.z - b.z }; }           \
-    static inline V p##_neg(V a) { return (V){ -a.x, -a.y, -a.z }; }                               \
-    static inline V p##_scale(V a, R s) { return (V){ a.x * s, a.y * s, a.z * s }; }               \
+    static inline V p##_add(V a, V b)                                                              \
+    {                                                                                              \
+        return (V){ a.x + b.x, a.y + b.y, a.z + b.z };                                             \
+    }                                                                                              \
+    static inline V p##_sub(V a, V b)                                                              \
+    {                                                                                              \
+        return (V){ a.x - b.x, a.y - b.y, a.z - b.z };                                             \
+    }                                                                                              \
+    static inline V p##_neg(V a)                                                                   \
+    {                                                                                              \
+        return (V){ -a.x, -a.y, -a.z };                                                            \
+    }                                                                                              \
+    static inline V p##_scale(V a, R s)                                                            \
+    {                                                                                              \
+        return (V){ a.x * s, a.y * s, a.z * s };                                                   \
+    }                                                                                              \
     static inline V p##_mad(V a, V b, R s) /* a + b s */                                           \
     {                                                                                              \
         return (V){ a.x + b.x * s, a.y + b.y * s, a.z + b.z * s };                                 \
     }                                                                                              \
-    static inline R p##_dot(V a, V b) { return a.x * b.x + a.y * b.y + a.z * b.z; }                \
+    static inline R p##_dot(V a, V b)                                                              \
+    {                                                                                              \
+        return a.x * b.x + a.y * b.y + a.z * b.z;                                                  \
+    }                                                                                              \
     static inline V p##_cross(V a, V b)                                                            \
     {                                                                                              \
         return (V){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };         \
@@ -30,13 +45,13 @@ WR_VEC_FUNCTIONS(WrVec3, double, v3)
 WR_VEC_FUNCTIONS(WrVec3f, float, v3f)
 #undef WR_VEC_FUNCTIONS
 
-#define v_add(a, b) _Generic((a), WrVec3: v3_add, WrVec3f: v3f_add)(a, b)
-#define v_sub(a, b) _Generic((a), WrVec3: v3_sub, WrVec3f: v3f_sub)(a, b)
-#define v_neg(a) _Generic((a), WrVec3: v3_neg, WrVec3f: v3f_neg)(a)
-#define v_scale(a, s) _Generic((a), WrVec3: v3_scale, WrVec3f: v3f_scale)(a, s)
-#define v_mad(a, b, s) _Generic((a), WrVec3: v3_mad, WrVec3f: v3f_mad)(a, b, s)
-#define v_dot(a, b) _Generic((a), WrVec3: v3_dot, WrVec3f: v3f_dot)(a, b)
-#define v_cross(a, b) _Generic((a), WrVec3: v3_cross, WrVec3f: v3f_cross)(a, b)
+#define v_add(a, b) _Generic((a), WrVec3 : v3_add, WrVec3f : v3f_add)(a, b)
+#define v_sub(a, b) _Generic((a), WrVec3 : v3_sub, WrVec3f : v3f_sub)(a, b)
+#define v_neg(a) _Generic((a), WrVec3 : v3_neg, WrVec3f : v3f_neg)(a)
+#define v_scale(a, s) _Generic((a), WrVec3 : v3_scale, WrVec3f : v3f_scale)(a, s)
+#define v_mad(a, b, s) _Generic((a), WrVec3 : v3_mad, WrVec3f : v3f_mad)(a, b, s)
+#define v_dot(a, b) _Generic((a), WrVec3 : v3_dot, WrVec3f : v3f_dot)(a, b)
+#define v_cross(a, b) _Generic((a), WrVec3 : v3_cross, WrVec3f : v3f_cross)(a, b)
 
 /* |a| without overflow or underflow: exact scaling by a power of two first. Non-finite input gives a
    non-finite result. */

@@ -10,8 +10,8 @@
 
 #include <stdint.h>
 
-#define WR_TILE 64           /* texels along a tile's side */
-#define WR_FIELD_MAX 16384   /* texels along a table's side */
+#define WR_TILE 64         /* texels along a tile's side */
+#define WR_FIELD_MAX 16384 /* texels along a table's side */
 
 typedef enum WrWrap {
     WR_WRAP_PERIODIC, /* true modulus: texel W is texel 0 */

@@ -26,12 +26,26 @@ typedef enum WrScheme {
     WR_SCHEME_COUNT
 } WrScheme;
 
+/* What a scheme works on. */
+typedef enum WrSchemeTaps {
+    WR_TAPS_TABLE,   /* table entries, from floor(x) - 1 to floor(x) + 2 */
+    WR_TAPS_CENTRED, /* table entries, from one before to two after the texel that holds the point */
+    WR_TAPS_FITTED   /* wr_field_read_fitted's coefficients, from floor(x) - 1 to floor(x) + 2 */
+} WrSchemeTaps;
+
+/* The scheme itself: taps[16], 4 rows of 4 from the top; a, b in 0..1 the place to the right of column 1
+ * and below row 1; out: F and its slopes to the right and downwards, per texel. */
+typedef void (*WrSchemeEval)(const float *taps, double a, double b, double out[3]);
+
 typedef struct WrSchemeInfo {
-    const char *name;  /* as in commands: "bspline-fit" */
-    const char *label; /* for people: "cubic B-spline through the samples" */
-    const char *help;  /* one sentence */
+    const char *name;      /* as in commands: "bspline-fit" */
+    const char *label;     /* for people: "cubic B-spline through the samples" */
+    const char *help;      /* one sentence */
     int order_f, order_fu; /* of convergence in the texel's size, for smooth F */
-    int reach;         /* a texel's edit changes F or its slopes at most this many texels away */
+    int reach; /* a texel's edit changes F or its slopes at most this many texels away, the
+                          extrapolated ends of a clamped axis included */
+    WrSchemeTaps taps;
+    WrSchemeEval eval;
 } WrSchemeInfo;
 
 extern const WrSchemeInfo wr_schemes[WR_SCHEME_COUNT];
@@ -54,12 +68,15 @@ void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const 
 
 /* The paper's formula to the letter, as the historical rung and for tests: four bilinear look-ups,
  * FU = (FVAL(U + E, V) - FVAL(U - E, V)) / (2 E) with E = 1/W, FV with 1/H. Equals `central` to
- * rounding. */
+ * rounding, but within 1.5 texels of the ends of a clamped axis: there FVAL is the constant outside.
+ * Either output may be NULL. */
 void wr_field_sample_blinn(const WrField *field, double u, double v, double *fu, double *fv);
 
 /* Cubic B-spline coefficients whose spline passes through the table's samples: one axis at a time,
  * c_i = sum over |k| <= 28 of sqrt(3) (sqrt(3) - 2)^|k| T_(i+k), summed in double in a fixed order.
- * Rectangle and pitch as in wr_field_read (indices outside wrap or are extrapolated). */
+ * Rectangle and pitch as in wr_field_read (indices outside wrap or are extrapolated).
+ * The same coefficient has the same bits whatever rectangle it is asked for in. About 30 ns a texel for
+ * large rectangles. */
 #define WR_PREFILTER_REACH 28
 void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
                           size_t pitch);

@@ -10,17 +10,21 @@
 typedef enum WrPixelType { WR_PIXEL_U8, WR_PIXEL_U16, WR_PIXEL_F32 } WrPixelType;
 
 /* A picture in memory: float, channels interleaved, row 0 on top. Integer files read as code / 255 or
-   code / 65535, never colour-converted; float files as their values. Shared by reference count. */
+   code / 65535, never colour-converted; float files as their values. (16-bit PNM, which OpenImageIO
+   scales itself, can be one code off.) Shared by reference count. */
 typedef struct WrImage {
-    int refs;             /* atomic; use wr_image_share, wr_image_free */
-    int width, height;    /* 1..WR_IMAGE_MAX */
-    int channels;         /* 1..4: grey, grey + alpha, RGB, RGB + alpha */
-    WrPixelType type;     /* what the file held (half counts as F32) */
-    int64_t replaced;     /* texels that were NaN or infinite and became 0 */
-    float *data;          /* [height][width][channels], owned */
+    int refs;          /* atomic; use wr_image_share, wr_image_free */
+    int width, height; /* 1..WR_IMAGE_MAX */
+    int channels;      /* 1..4: grey, grey + alpha, RGB, RGB + alpha */
+    WrPixelType type;  /* what the file held (half counts as F32) */
+    int64_t replaced;  /* texels that were NaN or infinite and became 0 */
+    float *data;       /* [height][width][channels], owned */
 } WrImage;
 
-#define WR_IMAGE_MAX 16384 /* pixels along a side */
+#define WR_IMAGE_MAX 16384        /* pixels along a side */
+#define WR_IMAGE_PARTS_MAX 1024   /* parts in a file */
+#define WR_IMAGE_CHANNELS_MAX 256 /* channels in a part */
+#define WR_IMAGE_STRIP 64         /* rows that a WrRowSource is asked for at a time, at most */
 
 /* A picture of zeros. NULL and an error when sizes are out of range or memory is gone. */
 WrImage *wr_image_new(int width, int height, int channels, WrError *err);
@@ -35,6 +39,12 @@ WrImage *wr_image_read(const char *path, WrError *err);
 float wr_srgb_encode(float linear);
 float wr_srgb_decode(float code);
 
+/* Finished codes (or floats) of `count` values 0..1: round(255 x), round(65535 x), halves away from 0.
+ * Values outside 0..1 are clamped and counted in *clipped (may be NULL; floats are never clamped). NaN
+ * and infinity become 0; returns how many (HC96). */
+int64_t wr_image_codes(WrPixelType type, const float *in, size_t count, void *out,
+                       int64_t *clipped);
+
 /* Rec. 709 luma of a pixel of 1 to 4 channels (grey pictures: the grey; alpha is left out). */
 float wr_image_luma(const float *pixel, int channels);
 
@@ -44,18 +54,20 @@ typedef struct WrImageAttribute {
     const char *name, *text;
 } WrImageAttribute;
 
-/* Fill rows [y, y + rows) of a part, interleaved, in the part's pixel type. Return false to stop (the
-   write then fails with `err`). */
+/* Fill rows [y, y + rows) of a part, interleaved, in the part's pixel type. Called for strips of at most
+   WR_IMAGE_STRIP rows, downwards, each row once. Return false to stop (the write then fails with `err`). */
 typedef bool (*WrRowSource)(void *ctx, int y, int rows, void *out, WrError *err);
 
 typedef struct WrImageOut {
     int width, height, channels;
-    WrPixelType type;                  /* integer types hold finished codes */
-    const char *const *channel_names;  /* [channels], or NULL for Y, YA, RGB, RGBA */
-    const char *part_name;             /* EXR parts; may be NULL */
-    const WrImageAttribute *attributes;
+    WrPixelType type;                 /* integer types hold finished codes */
+    const char *const *channel_names; /* [channels], or NULL for Y, YA, RGB, RGBA */
+    const char *part_name;            /* EXR parts; may be NULL */
+    const WrImageAttribute
+        *attributes; /* formats other than EXR keep them as lines "name=text" of the
+                                           picture's description, where they have one */
     int attribute_count;
-    bool data;                         /* numbers, not colours: tagged linear where a format can say so */
+    bool data; /* numbers, not colours: tagged linear where a format can say so */
     WrRowSource rows;
     void *ctx;
 } WrImageOut;
@@ -68,11 +80,20 @@ bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrErro
 bool wr_image_write_pixels(const char *path, int width, int height, int channels, WrPixelType type,
                            bool data, const void *pixels, WrError *err);
 
+/* Refuse a file name whose ending names no format that we write, or one that cannot hold pictures of
+   this type and channel count; needs no library. */
+bool wr_image_can_write(const char *path, WrPixelType type, int channels, bool data, WrError *err);
+/* The deepest type that the format of this ending holds: F32 for EXR and TIFF, U16 for PNG,
+   U8 for JPEG, BMP, TGA and PNM. */
+bool wr_image_deepest(const char *path, WrPixelType *type, WrError *err);
+
+/* Reading part by part. A file belongs to one thread at a time. */
 typedef struct WrImageFile WrImageFile;
 
 typedef struct WrImagePart {
     const char *name; /* "" if it has none */
     int width, height, channels;
+    WrPixelType type; /* what the file holds; half, double and 32-bit integers count as F32 */
     const char *const *channel_names;
 } WrImagePart;
 
@@ -81,7 +102,11 @@ WrImageFile *wr_image_file_open(const char *path, WrError *err);
 void wr_image_file_close(WrImageFile *file);
 int wr_image_file_parts(const WrImageFile *file);
 WrImagePart wr_image_file_part(const WrImageFile *file, int part); /* valid until close */
-/* A text attribute of a part, or NULL. Valid until close. */
+/* A text attribute of a part, or NULL; also one that wr_image_write put into a picture's description.
+   Valid until close. */
 const char *wr_image_file_attribute(const WrImageFile *file, int part, const char *name);
 /* All pixels of one part as float, [height][width][channels]. */
 bool wr_image_file_read(WrImageFile *file, int part, float *out, WrError *err);
+/* Rows [y, y + rows) of one part, as [rows][width][channels]. Fastest downwards in strips. */
+bool wr_image_file_read_rows(WrImageFile *file, int part, int y, int rows, float *out,
+                             WrError *err);

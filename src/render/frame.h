@@ -11,14 +11,15 @@ typedef struct WrRenderer WrRenderer;
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */
     const WrScene *scene;
-    int width, height;    /* pixels, 1..16384 each */
-    double turn_deg;      /* turntable angle about the world's y axis */
-    const WrDials *dials; /* NULL: the scene's */
-    bool plan_off;        /* run the full path whatever the plan could leave out (tests) */
+    int width, height;          /* pixels, 1..16384 each */
+    double turn_deg;            /* turntable angle about the world's y axis */
+    const WrDials *dials;       /* NULL: the scene's */
+    bool plan_off;              /* run the full path whatever the plan could leave out (tests) */
     const volatile int *cancel; /* may be NULL; non-zero: return early, false, err "cancelled" */
 } WrFrameRequest;
 
-typedef struct WrStageTimes { /* seconds, summed over threads, but for `total`, which is wall time */
+typedef struct
+    WrStageTimes { /* seconds, summed over threads, but for `total`, which is wall time */
     double prepare, visibility, geometry, bump, shade, resolve, total;
 } WrStageTimes;
 
@@ -29,7 +30,7 @@ typedef struct WrFrame {
     int64_t covered; /* pixels with coverage > 0 */
     int64_t shaded;  /* samples shaded */
     WrStageTimes times;
-    const WrPlan *plan; /* owned by the renderer, as rgba */
+    const WrPlan *plan; /* with what each effect cost; owned by the renderer, as rgba */
 } WrFrame;
 
 /* isa: NULL or "auto", else "ref", "v1" .. "v4"; NULL and an error for one that this processor lacks

@@ -1,48 +1,69 @@
 /* plan.h - which effects a scene calls for, and why: the shortest list of stages that gives the right
    picture. Nothing that is not on it is computed, allocated or kept.
-   Layer 5. Rule names E1.. are those of the planner's table (README, "The plan"). */
+   Layer 5. Rules are named E1, E2, ... as in the table of the README, "The plan". */
 #pragma once
 #include "scene/scene.h"
 
-/* How a decision is proved. */
+/* How leaving an effect out is justified. */
 typedef enum WrProof {
-    WR_PROOF_IDENTICAL, /* I: leaving it out gives the same bits */
+    WR_PROOF_IDENTICAL, /* I: the same bits */
     WR_PROOF_BOUNDED,   /* B: within a stated bound */
-    WR_PROOF_POLICY     /* P: changes the picture by choice */
+    WR_PROOF_POLICY     /* P: changes the picture, by the user's choice */
 } WrProof;
 
-typedef struct WrPlanEffect {
+/* What a row of the plan decides about; also the order in which `explain` prints. */
+typedef enum WrEffect {
+    WR_EFFECT_DIFFUSE,
+    WR_EFFECT_SPECULAR,
+    WR_EFFECT_COLOUR,
+    WR_EFFECT_BUMP,
+    WR_EFFECT_GRADIENT,
+    WR_EFFECT_WIDE,
+    WR_EFFECT_INVARIANT,
+    WR_EFFECT_EXACT,
+    WR_EFFECT_CURVATURE,
+    WR_EFFECT_SAMPLES,
+    WR_EFFECT_BACK,
+    WR_EFFECT_DEPTH,
+    WR_EFFECT_NEWTON,
+    WR_EFFECT_PERSPECTIVE,
+    WR_EFFECT_COUNT
+} WrEffect;
+
+typedef struct WrPlanRow {
     const char *rule; /* "E6" */
     const char *name; /* "bump" */
     bool run;
     WrProof proof;
-    char reason[160];    /* one sentence */
-    int64_t tiles, pixels; /* that it ran on in the last frame */
-    double ns_per_pixel; /* measured in the last frame; 0 if it did not run */
-} WrPlanEffect;
+    char reason[160]; /* one sentence */
+    int64_t tiles,
+        pixels; /* that it ran on in the last frame: tiles of the picture, samples shaded */
+    double ns_per_pixel; /* measured in the last frame, over its samples; 0 if it did not run */
+} WrPlanRow;
 
-#define WR_PLAN_MAX 32
-
-/* Stages in force, read by the renderer. */
+/* The decision, read by the renderer. */
 typedef struct WrPlan {
-    WrPlanEffect effects[WR_PLAN_MAX];
-    int count;
+    WrPlanRow rows[WR_EFFECT_COUNT];
     bool diffuse, specular, colour;
-    WrBumpMode bump;      /* as simplified: NONE where the table is proved flat, BLINN for exact on flat
-                             surfaces, ... */
-    bool need_f;          /* heights themselves, not only slopes */
-    bool curvature;       /* n_u, n_v */
-    bool gradient_table;  /* central, nearest: from the table of central differences */
-    bool newton, perspective, depth_buffer;
-    int samples;          /* K of K x K */
+    WrBumpMode bump; /* as simplified: NONE where the table has no slope, BLINN for exact on a flat
+                            base, ... */
+    bool need_heights;   /* F itself, not only its slopes */
+    bool curvature;      /* n_u, n_v */
+    bool gradient_table; /* central, nearest: slopes come from the table of central differences */
+    bool wide;           /* reduce r u in double */
+    bool mesh;           /* no closed form: mesh, depth buffer, Newton */
+    int samples;         /* K of K x K */
 } WrPlan;
 
-/* What the planner may ask of the table without reading it all: filled by the renderer's caches. */
+/* What the planner may ask of the table; the renderer's caches answer. */
 typedef struct WrTableFacts {
-    bool flat;          /* every texel equal */
-    bool slope_free;    /* the scheme's gradient is 0 everywhere (flat, or invisible to the scheme) */
+    bool flat;       /* every texel equal */
+    bool zero;       /* every texel 0 */
+    bool slope_free; /* the gradient table is 0 everywhere, though the table is not flat */
 } WrTableFacts;
 
-void wr_plan_build(const WrScene *scene, const WrDials *dials, const WrTableFacts *facts,
-                   bool everything, WrPlan *plan);
-const WrPlanEffect *wr_plan_find(const WrPlan *plan, const char *rule);
+/* everything: leave nothing out that could be left out without changing a bit (class I); for comparing. */
+void wr_plan_build(WrPlan *plan, const WrScene *scene, const WrDials *dials,
+                   const WrTableFacts *facts, bool everything);
+/* "I", "B", "P" */
+const char *wr_proof_letter(WrProof proof);

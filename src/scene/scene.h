@@ -1,7 +1,8 @@
 /* scene.h - all that a picture of a table depends on besides the table: surface, bump, material,
    lights, camera, dials. Plain data with defaults and checks.
-   Layer 4. A scene that is shared is never written to: edits clone it (wr_scene_clone), so a snapshot
-   is one pointer. World space is right-handed, y up; colours are linear; angles here in degrees. */
+   Layer 4. A scene that is shared is never written to: edits clone it (wr_scene_clone), so a
+   snapshot is one pointer. World space is right-handed, y up; colours are linear; angles here in
+   degrees. */
 #pragma once
 #include "base/text.h"
 #include "base/vec.h"
@@ -15,8 +16,8 @@ typedef enum WrLightKind { WR_LIGHT_DIRECTIONAL, WR_LIGHT_POINT } WrLightKind;
 
 typedef struct WrLight {
     WrLightKind kind;
-    WrVec3 where;    /* directional: from the surface TO the light, any length > 0; point: position */
-    WrVec3 colour;   /* linear RGB, 0..1e6 */
+    WrVec3 where;  /* directional: from the surface TO the light, any length > 0; point: position */
+    WrVec3 colour; /* linear RGB, 0..1e6 */
     double strength; /* 0..1e6; the light's L is colour * strength */
 } WrLight;
 
@@ -29,11 +30,12 @@ typedef struct WrMaterial {
 
 typedef struct WrCamera {
     bool orthographic;
-    bool fit;        /* eye is placed on the line from target along (eye - target) so that the object
-                        just fits; true until a camera command gives eye= */
+    /* The eye is placed on the line from target along (eye - target) so that the object just fits;
+       true until a camera command gives eye=. */
+    bool fit;
     WrVec3 eye, target, up;
-    double fov_deg;  /* vertical, perspective: 0.01..179 */
-    double size;     /* height of the view in scene units, orthographic; > 0 */
+    double fov_deg; /* vertical, perspective: 0.01..179 */
+    double size; /* height of the view in scene units, orthographic; <= 0: the object just fits */
 } WrCamera;
 
 typedef enum WrAntialias { WR_AA_POINT, WR_AA_SUPERSAMPLE } WrAntialias;
@@ -42,26 +44,26 @@ typedef enum WrArithmetic { WR_ARITHMETIC_EXACT, WR_ARITHMETIC_FAST } WrArithmet
 /* The rungs of the accuracy ladder that are settings of the scene. */
 typedef struct WrDials {
     WrAntialias aa;
-    int samples;             /* supersample: K x K a pixel, 1..64 */
+    int samples; /* supersample: K x K a pixel, 1..64 */
     WrArithmetic arithmetic;
 } WrDials;
 
 typedef struct WrScene {
     int refs; /* atomic; private to scene.c */
     WrShape shape;
-    bool posed;          /* rotate was given; else the surface's own pose holds */
-    WrVec3 rotate_deg;   /* about the world's x, then y, then z */
+    bool posed;        /* rotate was given; else the surface's own pose holds */
+    WrVec3 rotate_deg; /* about the world's x, then y, then z */
     WrBumpMode bump;
     WrScheme scheme;
-    double height;       /* scene units per table unit; any finite value */
+    double height; /* scene units per table unit; any finite value */
     double replicate_u, replicate_v;
     WrAnalytic analytic; /* replaces the table while its kind is not OFF; terms owned */
     WrMaterial material;
-    WrImage *colour;     /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
-    char *colour_path;   /* as the command named it; owned; NULL without */
+    WrImage *colour;   /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
+    char *colour_path; /* as the command named it; owned; NULL without */
     char colour_sha256[65];
-    bool lights_given;   /* false: `lights` holds the one default light */
-    WrLight *lights;     /* [light_count], owned */
+    bool lights_given; /* false: `lights` holds the one default light */
+    WrLight *lights;   /* [light_count], owned */
     int light_count;
     WrCamera camera;
     WrDials dials;
@@ -76,21 +78,36 @@ WrScene *wr_scene_clone(const WrScene *scene);
 WrScene *wr_scene_share(const WrScene *scene); /* constant time */
 void wr_scene_free(WrScene *scene);
 
-/* Where things are for a picture: the object's rotation (pose, then `turn_deg` about the world's y
-   axis), its centre, and the camera with `fit` resolved for a picture of that aspect. */
+/* Where things are for a picture. A point of the object stands in the world at
+ *   rotation * (P - centre),   rotation = Ry(turn_deg) Rz Ry Rx  (pose, then the turntable). */
 typedef struct WrPlacement {
-    double rotation[9];   /* row-major object -> world, orthonormal: rebuilt from angles each time, so
-                             it cannot drift (HC88) */
-    WrVec3 centre;        /* object point that stands at the world's origin */
-    WrVec3 eye, right, up, forward; /* world; orthonormal, right-handed: forward = -(right x up)... */
-    double half_height;   /* tan(fov/2), or size/2 */
+    /* Row-major object -> world, orthonormal: rebuilt from angles each time, so it cannot drift
+       (HC88). */
+    double rotation[9];
+    WrVec3 centre; /* object point that stands at the world's origin */
+    WrVec3 eye;    /* world; with `fit` resolved */
+    /* World; orthonormal, right x up = -forward: the camera looks down its own -Z. */
+    WrVec3 right, up, forward;
+    double half_height; /* tan(fov/2), or size/2; half the width is this times the aspect */
     bool orthographic;
-    double radius;        /* of the object about its centre */
+    double radius; /* of the object about its centre */
 } WrPlacement;
+
+/* The placement for a picture `aspect` times as wide as high, after a turn about the world's y.
+ *
+ * turn_deg   any finite value; whole turns are taken off exactly (HC87)
+ * fit        the eye stands so far from the target that the ball about the target which holds the
+ *            object's ball keeps a few percent from the picture's nearer pair of borders
+ * up         where it is 0 or along the view, another axis takes its place
+ * Errors     eye = target; an angle, position, field of view or aspect that is no number or out of
+ *            range */
 bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlacement *out,
                     WrError *err);
 
-/* F = height * table(ru u, rv v) and its derivatives with respect to the PATCH parameters, in double,
- * from the table or the analytic function. Outputs may be NULL. */
+/* F = height * table(ru u, rv v) and its derivatives with respect to the PATCH parameters, in
+ * double, from the table or the analytic function (field may then be NULL). On a periodic axis ru
+ * u is brought to 0..1; on a clamped one it is not: beyond the table's ends F is constant and its
+ * slope 0, so that a clamped table appears once whatever the replication. Outputs may be NULL, are
+ * finite, and carry the factors height, height ru, height rv. */
 void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
                      double *fu, double *fv);

@@ -1,5 +1,5 @@
-/* bump.h - the paper in one page: how F(u,v) turns the normal of P(u,v). The meaning; every faster form
-   must agree with it.
+/* bump.h - the paper in one page: how F(u,v) turns the normal of P(u,v). The meaning; every faster
+   form must agree with it.
    Layer 3. Double precision; N = Pu x Pv is not unit; n = N/|N| or its limit where N = 0.
 
    blinn      N' = N + D,  D = Fu (n x Pv) - Fv (n x Pu)                       Blinn 1978 section 2
@@ -7,8 +7,10 @@
               The angle of rotation has tan(theta) = |D| / |N|, about A = Fv Pu - Fu Pv.
    invariant  N'' = N + D',  D' = a D |N| / |D|,  a = sqrt(Fu^2 + Fv^2)         section 4
               tan(theta') = a whatever the object's scale.
-   exact      N' = Pu' x Pv',  Pu' = Pu + Fu n + F n_u,  Pv' = Pv + Fv n + F n_v   the true normal of
-              the displaced surface P' = P + F n, with the terms that the paper drops. */
+   exact      N' = Pu' x Pv',  Pu' = Pu + Fu n + F n_u,  Pv' = Pv + Fv n + F n_v   the true normal
+              of the displaced surface P' = P + F n, with the terms that the paper drops. Computed
+              as Qu x Qv + n x (Fu Qv - Fv Qu), Qu = Pu + F n_u, Qv = Pv + F n_v: n x n = 0 drops
+              out. */
 #pragma once
 #include "base/vec.h"
 
@@ -21,7 +23,7 @@ typedef enum WrBumpMode {
 } WrBumpMode;
 
 extern const char *const wr_bump_names[WR_BUMP_COUNT]; /* "none", "blinn", ... */
-int wr_bump_find(const char *name);                     /* mode, or -1 */
+int wr_bump_find(const char *name);                    /* mode, or -1 */
 
 /* D = Fu (n x Pv) - Fv (n x Pu) = n x (Fu Pv - Fv Pu), in the tangent plane, pointing downhill. */
 static inline WrVec3 wr_bump_d(WrVec3 n_unit, WrVec3 pu, WrVec3 pv, double fu, double fv)
@@ -39,14 +41,28 @@ static inline WrVec3 wr_bump_axis(WrVec3 pu, WrVec3 pv, double fu, double fv)
  *
  * n, n_unit     N and its unit (or limiting) direction
  * pu, pv        tangents          n_u, n_v   derivatives of n_unit (exact only)
- * f, fu, fv     scene units, and scene units per unit of u, v: height and replication included
- * Result        not unit; exactly n where Fu = Fv = 0 (and F = 0 in exact), bit for bit (HC17)
- * Never NaN for finite input, whatever the slope or scale (HC09, HC12-HC19). */
+ * f, fu, fv     scene units, and scene units per unit of u, v: height and replication included;
+ *               finite
+ * Result        not unit; exactly n where Fu = Fv = 0 (exact: where F or n_u and n_v are 0
+ *               as well), bit for bit (HC17). invariant gives N where N or D is 0; exact gives
+ *               exactly 0 where N' is nothing but rounding, as at a focal distance (HC12). Where
+ *               N' lies beyond double's range it comes divided by a power of two.
+ * Never NaN or infinite for finite input, whatever the slope or scale (HC09, HC12-HC19). */
 WrVec3 wr_bump_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec3 pv, WrVec3 n_u,
                       WrVec3 n_v, double f, double fu, double fv);
 
-/* N' made unit; n_unit where N' is 0. */
+/* N' made unit; n_unit where N' is 0 or not finite. */
 WrVec3 wr_bump_unit(WrVec3 n_perturbed, WrVec3 n_unit);
+
+/* The perturbed normal made unit, right at the limits as well; arguments as wr_bump_normal.
+ *
+ * Result        unit; n_unit bit for bit where Fu = Fv = 0, as above, and where N' = 0. invariant:
+ *               n + a D/|D| made unit, so that tan(theta') = a also where N = 0; where D = 0 too,
+ *               its direction is the limit for tangents at right angles, -Fv Pv where Pu = 0 and
+ *               -Fu Pu where Pv = 0. Else wr_bump_normal made unit, but without loss where N'
+ *               itself would leave double's range on either side. */
+WrVec3 wr_bump_unit_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec3 pv,
+                           WrVec3 n_u, WrVec3 n_v, double f, double fu, double fv);
 
 /* The angle between N and N' in degrees, atan2(|N x N'|, N.N'), 0..180. */
 double wr_bump_tilt_deg(WrVec3 n_unit, WrVec3 n_perturbed_unit);

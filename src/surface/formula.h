@@ -1,11 +1,15 @@
-/* formula.h - lets each surface's formulas be written once and compiled in double (surface.c) and in
-   single precision (the render kernels, where they must stay free of branches and library calls so
-   that loops over them vectorise: choose with ?:).
-   Include with WR_FORMULA_FLOAT defined or not, then surface_list.h with WR_SURFACE_FORMULAS. A surface
-   file has no include guard and defines
+/* formula.h - lets each surface's formulas be written once and compiled in double (surface.c) and
+   in single precision (the render kernels, where they must stay free of branches and library calls
+   so that loops over them vectorise: choose with ?:).
+   Include with WR_FORMULA_FLOAT defined or not, then surface_list.h with WR_SURFACE_FORMULAS. A
+   surface file has no include guard and defines
        static inline void FN(torus_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
    which fills every member of *o, and, in double only (#ifndef WR_FORMULA_FLOAT), its row
-       static const WrSurfaceInfo torus_row = { ... .at = torus_at_d ... };                        */
+       static const WrSurfaceInfo torus_row = { ... .at = torus_at_d ... };
+
+   In a span loop keep the POINT inside a static inline function of one index that the loop calls,
+   and the SHAPE in a local copy: gcc and clang then vectorise every surface (a POINT declared in
+   the body of an `omp simd` loop becomes an array in memory and stops gcc). */
 #include "base/exactmath.h"
 #include "base/kernmath.h"
 #include "base/vec.h"
@@ -17,6 +21,9 @@
 #undef SHAPE
 #undef FN
 #undef K_
+#undef R_INLINE
+#undef R_LEAST
+#undef R_NOISE
 #undef r_sincos_turns
 #undef r_sqrt
 #undef r_abs
@@ -27,6 +34,8 @@
 #define SHAPE WrShapef
 #define FN(name) name##_f
 #define K_(x) ((float)(x)) /* a constant */
+#define R_LEAST 0x1p-125f  /* above it a reciprocal is finite */
+#define R_NOISE 0x1p-23f   /* a cross product under this share of its factors is rounding */
 #define r_sincos_turns wr_sincos_turns_f
 #define r_sqrt sqrtf
 #define r_abs fabsf
@@ -37,7 +46,11 @@
 #define SHAPE WrShape
 #define FN(name) name##_d
 #define K_(x) (x)
+#define R_LEAST 0x1p-1021
+#define R_NOISE 0x1p-47
 #define r_sincos_turns wr_sincos_turns
 #define r_sqrt sqrt
 #define r_abs fabs
 #endif
+/* For the larger helpers, which compilers would else leave as calls inside a span loop. */
+#define R_INLINE static inline __attribute__((always_inline))

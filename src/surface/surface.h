@@ -1,12 +1,15 @@
-/* surface.h - parametric surfaces P(u,v), 0 <= u,v <= 1, oriented so that N = Pu x Pv points outward
-   or up. One file each (plane.h, torus.h, ...), one list of them (surface_list.h).
-   Layer 2. Object space; lengths in scene units; angles of parametrisation in turns (phi = 2 pi u). */
+/* surface.h - parametric surfaces P(u,v), 0 <= u,v <= 1, oriented so that N = Pu x Pv points
+   outward or up. One file each (plane.h, torus.h, ...), one list of them (surface_list.h).
+   Layer 2. Object space; lengths in scene units; angles of parametrisation are whole turns,
+   phi = 2 pi u. */
 #pragma once
 #include "base/error.h"
 #include "base/vec.h"
 
 #define WR_SURFACE_VALUES 48 /* numbers that describe a surface; a bicubic patch needs 16 points */
 #define WR_SURFACE_PARAMS 6
+#define WR_LENGTH_MIN 1e-30 /* scene units; |N|^2 stays within double's range between the two */
+#define WR_LENGTH_MAX 1e30
 
 typedef enum WrSurfaceKind {
 #define WR_X(name) WR_SURFACE_##name,
@@ -25,9 +28,12 @@ typedef struct WrShapef {
     float value[WR_SURFACE_VALUES];
 } WrShapef;
 
-/* Everything that the formulas need at one point. N is not unit, as in the paper. Where N = 0, n_unit
-   is the right limiting normal (NUMERICS b) and n_u, n_v the limits of its derivatives where they
-   exist, else 0. Never NaN for finite parameters. */
+/* Everything that the formulas need at one point. N is not unit, as in the paper. Where N = 0,
+   n_unit is the limiting normal: sphere's poles (0,0,-1) and (0,0,1); cone's tip the normal of
+   that u's generator; torus the direction away from the tube's centre line; bezier by the rules in
+   bezier.h; (0,0,1) where there is none. n_u, n_v are the limits of its derivatives (bezier: 0).
+   On the inner part of a spindle torus (R < r) N points against n_unit; everywhere else N = |N|
+   n_unit. Never NaN for shapes that wr_shape_check accepts. */
 typedef struct WrSurfacePoint {
     WrVec3 p, pu, pv, puu, puv, pvv;
     WrVec3 n, n_unit; /* N = Pu x Pv; N/|N| or its limit */
@@ -50,12 +56,12 @@ typedef enum WrInversion {
 } WrInversion;
 
 typedef struct WrSurfaceParam {
-    const char *name;       /* as in commands: "R"; NULL ends the list */
-    int components;         /* 1: a number; 3: a vector; 48: sixteen points, u index fastest */
-    double fallback[WR_SURFACE_VALUES];
-    double low, high;       /* closed range of each component */
-    bool length;            /* scales with the object (false: a count, an angle, a fraction) */
-    const char *help;       /* a few words, with the unit */
+    const char *name; /* as in commands: "R"; NULL ends the list */
+    int components;   /* 1: a number; 3: a vector; 48: sixteen points, u index fastest */
+    double fallback[WR_SURFACE_VALUES]; /* the default */
+    double low, high;                   /* closed range of each component */
+    bool length;      /* scales with the object (false: a count, an angle, a fraction) */
+    const char *help; /* a few words, with the unit */
 } WrSurfaceParam;
 
 typedef struct WrSurfaceInfo {
@@ -74,21 +80,24 @@ typedef struct WrSurfaceInfo {
     void (*at)(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);
     /* Refuse numbers that make no surface (a fold, a zero size); may be NULL. */
     bool (*check)(const WrShape *shape, WrError *err);
+    /* Radius of a ball about the centre that holds the surface; NULL: found by sampling. */
+    double (*radius)(const WrShape *shape);
 } WrSurfaceInfo;
 
 extern const WrSurfaceInfo *const wr_surfaces[WR_SURFACE_COUNT];
 
-int wr_surface_find(const char *name);               /* kind, or -1 */
+int wr_surface_find(const char *name);                     /* kind, or -1 */
 void wr_shape_default(WrSurfaceKind kind, WrShape *shape); /* every param at its fallback */
 /* Where param `name` starts in shape->value, or -1. */
 int wr_surface_param_offset(WrSurfaceKind kind, const char *name);
 /* Check ranges, finiteness and the surface's own rule. */
 bool wr_shape_check(const WrShape *shape, WrError *err);
 WrVec3 wr_shape_centre(const WrShape *shape);
-/* Radius of a ball about the centre that holds the whole surface (sampled; 1 % generous). > 0. */
+/* Radius of a ball about the centre that holds the whole surface. > 0; 1 if the surface is one
+   point at the centre (a patch whose points are all equal). */
 double wr_shape_radius(const WrShape *shape);
-/* Evaluate; asserts kind and face. */
+/* Evaluate; asserts kind and face. u, v: 0..1; a little outside is fine (Newton's steps). */
 void wr_surface_at(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);
 /* The shape in single precision with all lengths multiplied by `scale` (a power of two; 1 for
-   unit_sized surfaces). */
+   unit_sized surfaces). Values beyond float's range become its largest. */
 void wr_shape_scaled(const WrShape *shape, double scale, WrShapef *out);

@@ -15,6 +15,7 @@ WR_X(ribbon)
 #undef WR_X
 #endif
 #ifdef WR_SURFACE_FORMULAS
+#include "surface/frame.h"
 #include "surface/plane.h"
 #include "surface/bent.h"
 #include "surface/curl.h"

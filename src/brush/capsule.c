@@ -1,0 +1,73 @@
+#include "brush/capsule.h"
+
+#include <math.h>
+
+#define SLACK 1e-3 /* texels by which spans are too wide: above all rounding, below all cost */
+
+WrCapsule wr_capsule(const WrBrush *brush, double x, double y, double dx, double dy,
+                     double pressure_start, double pressure_end)
+{
+    WrCapsule c = { .x = x, .y = y, .dx = dx, .dy = dy, .pressure = pressure_start };
+    c.growth = pressure_end - pressure_start;
+    c.radius = brush->radius;
+    c.inner = wr_brush_inner(brush);
+    c.radius2 = c.radius * c.radius;
+    c.inner2 = c.inner * c.inner;
+    c.inverse_edge = 1.0 / (c.radius - c.inner);
+    double length2 = dx * dx + dy * dy;
+    if (length2 > 1e-12) {
+        c.inverse_length2 = 1.0 / length2;
+    } else { /* no direction: a dab, as strong as the stronger end */
+        c.dx = c.dy = c.growth = 0.0;
+        c.pressure = pressure_end > pressure_start ? pressure_end : pressure_start;
+    }
+    return c;
+}
+
+/* The disc at t of the way reaches to x(t) -+ sqrt(R^2 - (y - y(t))^2) on row y. Of t that is a convex
+ * (for the left end; concave for the right) function, whose extreme is where the disc's radius stands
+ * upright on the motion, or else the nearer end of the t that reach the row at all. */
+static double extreme(const WrCapsule *c, double y, double from, double to, double side)
+{
+    double t;
+    if (c->dy == 0.0) {
+        t = side * c->dx > 0.0 ? to : from;
+    } else {
+        /* the unit normal of the motion that points to `side` is side |dy| / length, ... */
+        double length = sqrt(c->dx * c->dx + c->dy * c->dy);
+        double normal_y = (c->dy > 0.0 ? -side : side) * c->dx / length;
+        t = (y - c->radius * normal_y - c->y) / c->dy;
+        t = t < from ? from : t > to ? to : t;
+    }
+    double off = y - (c->y + t * c->dy), half2 = c->radius * c->radius - off * off;
+    return c->x + t * c->dx + side * sqrt(half2 > 0.0 ? half2 : 0.0);
+}
+
+static bool dab_span(const WrCapsule *c, double y, double *low, double *high)
+{
+    double off = y - c->y, half2 = c->radius * c->radius - off * off;
+    if (!(half2 > 0.0)) return false;
+    double half = sqrt(half2) + SLACK;
+    *low = c->x - half;
+    *high = c->x + half;
+    return true;
+}
+
+bool wr_capsule_span(const WrCapsule *c, double y, double *low, double *high)
+{
+    if (!(c->inverse_length2 > 0.0)) return dab_span(c, y, low, high);
+    double from = 0.0, to = 1.0, off = y - c->y; /* the part of the motion that reaches the row */
+    if (c->dy != 0.0) {
+        double t0 = (off - c->radius) / c->dy, t1 = (off + c->radius) / c->dy;
+        from = t0 < t1 ? t0 : t1;
+        to = t0 < t1 ? t1 : t0;
+        from = from > 0.0 ? from : 0.0;
+        to = to < 1.0 ? to : 1.0;
+        if (from > to) return false;
+    } else if (fabs(off) > c->radius) {
+        return false;
+    }
+    *low = extreme(c, y, from, to, -1.0) - SLACK;
+    *high = extreme(c, y, from, to, 1.0) + SLACK;
+    return true;
+}

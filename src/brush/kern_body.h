@@ -1,0 +1,119 @@
+/* kern_body.h - the text of kern.h's loops, included once by each kern_v*.c, which defines
+   WR_BRUSH_TABLE and WR_BRUSH_NAME. A header without a guard, by intention. */
+#include "brush/kern.h"
+
+#include <math.h>
+
+/* Smoothstep of how far the distance, here squared, has come from the radius to the inner radius. It is
+ * cut to those two before the root is taken, where sqrt(r r) is r again, so that no constant of 0 or 1
+ * tempts compilers to branch; at the inner radius s is within a rounding of 1, and the result, which is
+ * flat there, is 1 to the last bit of a float. */
+static inline double profile(const WrCapsule *c, double d2)
+{
+    d2 = d2 < c->radius2 ? d2 : c->radius2;
+    d2 = d2 > c->inner2 ? d2 : c->inner2;
+    double s = (c->radius - sqrt(d2)) * c->inverse_edge;
+    return s * s * (3.0 - 2.0 * s);
+}
+
+/* Whole numbers as doubles, since few processors turn integers into doubles in whole vectors. */
+static const double steps[WR_TILE] = {
+    0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21,
+    22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43,
+    44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54, 55, 56, 57, 58, 59, 60, 61, 62, 63,
+};
+
+/* Texel x + steps[i] of a dab's row; that sum is exact, so a texel gets the same bits wherever the run
+ * that it is in begins. ey2: the row's distance, squared. */
+static inline float dab_cover(const WrCapsule *c, double ey2, double x, int i)
+{
+    double ex = (x + steps[i]) - c->x;
+    return (float)(c->pressure * profile(c, ex * ex + ey2));
+}
+
+/* start + strength cover; where cover is 0 the bits of start. No sum overflows: half of FLT_MAX's last
+ * place is 1e31, so FLT_MAX + 1e30 rounds to FLT_MAX. */
+static inline float raised(double strength, float start, float cover)
+{
+    float made = (float)(start + strength * cover);
+    return cover > 0.0f ? made : start;
+}
+
+static void dab(const WrCapsule *capsule, double y, double x, int count, float *restrict cover)
+{
+    const WrCapsule c = *capsule;
+    double ey = y - c.y, ey2 = ey * ey;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++) cover[i] = dab_cover(&c, ey2, x, i);
+}
+
+static void dab_add(const WrCapsule *capsule, double y, double x, int count, double strength,
+                    float *restrict heights)
+{
+    const WrCapsule c = *capsule;
+    double ey = y - c.y, ey2 = ey * ey;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
+            heights[i] = raised(strength, heights[i], dab_cover(&c, ey2, x, i));
+}
+
+static void motion(const WrCapsule *capsule, double y, double x, int count, float *restrict cover)
+{
+    const WrCapsule c = *capsule;
+    double py = y - c.y, along = py * c.dy;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++) {
+            double px = (x + steps[i]) - c.x, t = (px * c.dx + along) * c.inverse_length2;
+            t = 0.5 * (t + fabs(t)); /* exactly 0 below 0 */
+            t = t < 1.0 ? t : 1.0;
+            double ex = px - t * c.dx, ey = py - t * c.dy;
+            cover[i] = (float)((c.pressure + t * c.growth) * profile(&c, ex * ex + ey * ey));
+        }
+}
+
+static bool grows(const float *cover, const float *fresh, int count)
+{
+    int any = 0;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd reduction(| : any)
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++) any |= cover[i] < fresh[i];
+    return any;
+}
+
+static bool below(const float *cover, float most, int count)
+{
+    int any = 0;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd reduction(| : any)
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++) any |= cover[i] < most;
+    return any;
+}
+
+static void join(float *restrict cover, const float *restrict fresh, int count)
+{
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
+            cover[i] = cover[i] < fresh[i] ? fresh[i] : cover[i];
+}
+
+static void add(double strength, const float *start, const float *cover, int count, float *out)
+{
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++) out[i] = raised(strength, start[i], cover[i]);
+}
+
+const WrBrushKernels WR_BRUSH_TABLE = {
+    .name = WR_BRUSH_NAME,
+    .dab = dab,
+    .dab_add = dab_add,
+    .motion = motion,
+    .grows = grows,
+    .below = below,
+    .join = join,
+    .add = add,
+};

@@ -1,0 +1,45 @@
+/* bench.h - the program's own benchmark: what it measures and with which scenes.
+   Layer 7. Figures are medians of interleaved runs, so that a drift of the machine hits all alike. */
+#pragma once
+#include "cli/cli.h"
+#include "render/frame.h"
+
+typedef enum WrBenchMode {
+    WR_BENCH_PHONG, /* smooth */
+    WR_BENCH_TEXTURE,
+    WR_BENCH_BUMP, /* blinn, central */
+    WR_BENCH_BUMP_TEXTURE,
+    WR_BENCH_SS16, /* bump, 4 x 4 samples */
+    WR_BENCH_MODE_COUNT
+} WrBenchMode;
+extern const char *const wr_bench_modes[WR_BENCH_MODE_COUNT];
+
+/* One row to measure. The renderer keeps its caches from run to run, as the window's does. */
+typedef struct WrBenchRow {
+    const char *surface; /* "sphere", "bezier" or "torus" */
+    int size;            /* view: size x size pixels */
+    WrBenchMode mode;
+    int table;   /* texels along a side */
+    int threads; /* 0: all */
+    double ms;   /* median; filled by wr_bench_run */
+    int64_t covered;
+} WrBenchRow;
+
+/* Smooth lumps, scratches and grain, periodic; heights in scene units. NULL without memory. */
+WrField *wr_bench_field(int size, WrError *err);
+/* The reference scene: eye at (0,0,4), a unit sphere whose silhouette touches the view's edge (or a
+ * patch, or a torus), one directional light, ambient 0.08, diffuse 0.72, specular 0.35 with shininess
+ * 40. */
+WrScene *wr_bench_scene(const char *surface, WrBenchMode mode, bool fast, WrError *err);
+
+/* Measure all rows, `runs` rounds over them in turn. Stops and fails when interrupted. */
+bool wr_bench_run(const WrCli *cli, WrBenchRow *rows, int count, int runs, bool fast, WrError *err);
+
+typedef struct WrBenchStroke {
+    int table;
+    double apply_ms, apply_worst_ms; /* one stroke sample, radius 32 texels: median, worst */
+    double preview_ms;               /* the 512 x 512 preview after it, median */
+} WrBenchStroke;
+bool wr_bench_stroke(const WrCli *cli, WrBenchStroke *stroke, int samples, WrError *err);
+
+double wr_bench_median(double *values, int count); /* sorts values */

@@ -1,0 +1,95 @@
+#include "base/exactmath.h"
+#include "cli/bench.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *const wr_bench_modes[WR_BENCH_MODE_COUNT] = { "phong", "texture", "bump",
+                                                          "bump+texture", "ss16" };
+
+#define COLOUR_SIZE 512
+
+static double wave(double turns)
+{
+    double s, c;
+    wr_sincos_turns(turns, &s, &c);
+    return s;
+}
+
+static double grain(uint32_t seed)
+{
+    return (wr_mix32(seed) >> 8) * 0x1p-24 - 0.5;
+}
+
+WrField *wr_bench_field(int size, WrError *err)
+{
+    WrField *field = wr_field_new(size, size, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err);
+    if (!field) return NULL;
+    for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(field); tx++) {
+            float *tile = wr_field_tile_write(field, tx, ty);
+            for (int k = 0; k < WR_TILE * WR_TILE; k++) {
+                int i = tx * WR_TILE + k % WR_TILE, j = ty * WR_TILE + k / WR_TILE;
+                double u = (double)i / size, v = (double)j / size;
+                if (i >= size || j >= size) continue;
+                double lumps = 0.010 * wave(6 * u + 0.2069 * wave(3 * v)) * wave(5 * v);
+                double scratches = 0.004 * wave(13 * u + 11 * v) + 0.002 * wave(9 * u - 17 * v);
+                tile[k] =
+                    (float)(lumps + scratches + 0.05 / size * grain((uint32_t)(j * 8191 + i)));
+            }
+        }
+    return field;
+}
+
+static WrImage *bench_colour(WrError *err)
+{
+    WrImage *image = wr_image_new(COLOUR_SIZE, COLOUR_SIZE, 3, err);
+    if (!image) return NULL;
+    static const float tones[2][3] = { { 0.10f, 0.05f, 0.27f }, { 0.58f, 0.31f, 0.10f } };
+    for (int j = 0; j < COLOUR_SIZE; j++)
+        for (int i = 0; i < COLOUR_SIZE; i++) {
+            int check = ((i * 16 / COLOUR_SIZE) + (j * 8 / COLOUR_SIZE)) & 1;
+            float fleck = 0.1f * (float)grain((uint32_t)(j * 131071 + i));
+            for (int c = 0; c < 3; c++)
+                image->data[(j * COLOUR_SIZE + i) * 3 + c] = tones[check][c] + fleck;
+        }
+    return image;
+}
+
+/* A bicubic patch that stays regular and fills the view. */
+static const double patch[16][3] = {
+    { -1.25, -1.15, -.10 }, { -.45, -1.25, .45 }, { .45, -1.20, -.35 }, { 1.25, -1.15, .15 },
+    { -1.20, -.45, .40 },   { -.40, -.40, .75 },  { .40, -.45, .05 },   { 1.20, -.40, -.30 },
+    { -1.20, .45, -.25 },   { -.40, .40, .20 },   { .40, .45, .65 },    { 1.20, .40, .35 },
+    { -1.25, 1.15, .20 },   { -.45, 1.25, -.40 }, { .45, 1.20, .30 },   { 1.25, 1.15, -.15 },
+};
+
+WrScene *wr_bench_scene(const char *surface, WrBenchMode mode, bool fast, WrError *err)
+{
+    WrScene *scene = wr_scene_new();
+    WrSurfaceKind kind = (WrSurfaceKind)wr_surface_find(surface);
+    wr_shape_default(kind, &scene->shape);
+    if (kind == WR_SURFACE_bezier)
+        for (int k = 0; k < 48; k++)
+            scene->shape.value[k] = patch[k / 3][k % 3] + (k % 3 < 2 ? 0.5 : 0);
+    scene->posed = kind == WR_SURFACE_bezier;
+    if (kind == WR_SURFACE_torus) scene->shape.value[0] = 0.7, scene->shape.value[1] = 0.28;
+    scene->camera = (WrCamera){ .eye = { 0, 0, 4 }, .up = { 0, 1, 0 } };
+    scene->camera.fov_deg = 2 * atan(1 / sqrt(15.0)) / WR_RAD_PER_DEG;
+    scene->material = (WrMaterial){ 0.08, 0.72, 0.35, 40, { 1, 1, 1 }, true };
+    scene->lights[0] =
+        (WrLight){ WR_LIGHT_DIRECTIONAL, { 0.36514837, 0.54772256, 0.75592895 }, { 1, 1, 1 }, 1 };
+    scene->height = 1;
+    bool bump = mode == WR_BENCH_BUMP || mode == WR_BENCH_BUMP_TEXTURE || mode == WR_BENCH_SS16;
+    scene->bump = bump ? WR_BUMP_BLINN : WR_BUMP_NONE;
+    scene->dials.arithmetic = fast ? WR_ARITHMETIC_FAST : WR_ARITHMETIC_EXACT;
+    if (mode == WR_BENCH_SS16) scene->dials.aa = WR_AA_SUPERSAMPLE, scene->dials.samples = 4;
+    if (mode == WR_BENCH_TEXTURE || mode == WR_BENCH_BUMP_TEXTURE) {
+        scene->colour = bench_colour(err);
+        if (!scene->colour) {
+            wr_scene_free(scene);
+            return NULL;
+        }
+    }
+    return scene;
+}

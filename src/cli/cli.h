@@ -1,0 +1,98 @@
+/* cli.h - the command line: one struct of what the user asked for, one function a subcommand.
+   Layer 7.
+
+   Results go to standard output, notes and errors to standard error. Exit status: 0 done; 1 failed, with
+   one message that begins "wrinkle: "; 2 for the shell line itself (unknown subcommand or option,
+   missing value); 130 interrupted. */
+#pragma once
+#include "base/pool.h"
+#include "command/session.h"
+
+#define WR_EXIT_DONE 0
+#define WR_EXIT_FAILED 1
+#define WR_EXIT_USAGE 2
+#define WR_EXIT_INTERRUPTED 130
+
+typedef struct WrCli WrCli;
+
+typedef struct WrSubcommand {
+    const char *name;
+    const char *usage;   /* "render [FILE] -o OUT ..." */
+    const char *help;    /* one line */
+    unsigned options;    /* bits 1 << WrOption that it takes besides the common ones */
+    const char *details; /* for --help; may be NULL */
+    int (*run)(const WrCli *cli);
+} WrSubcommand;
+
+/* What the shell line says. All strings are borrowed from argv. */
+struct WrCli {
+    const WrSubcommand *command;
+    bool help;        /* -h, --help */
+    bool version;     /* --version */
+    const char *file; /* NULL: none */
+    const char *
+        *words; /* export: name=value; help: the verb; bench: everything that is not common */
+    int word_count;
+    const char **dos; /* --do, in order */
+    int do_count;
+    const char **ats; /* --at, in order */
+    int at_count;
+    int threads;       /* 0: one a processor */
+    const char *isa;   /* NULL: auto */
+    const char *out;   /* -o */
+    const char *kind;  /* --as */
+    int width, height; /* --size; 512x512 */
+    bool framed;       /* --frames was given */
+    int first, last;   /* of --frames */
+    bool turned;       /* --turn was given */
+    double turn_deg;   /* degrees a frame */
+    int face;          /* --face */
+    bool json;
+
+    WrPool *pool;               /* made by main; owned by it */
+    const volatile int *cancel; /* set by an interrupt */
+};
+
+typedef enum WrOption {
+    WR_OPTION_OUT,
+    WR_OPTION_AS,
+    WR_OPTION_SIZE,
+    WR_OPTION_FRAMES,
+    WR_OPTION_TURN,
+    WR_OPTION_AT,
+    WR_OPTION_FACE,
+    WR_OPTION_JSON,
+    WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
+    WR_OPTION_COMMON     /* of every subcommand */
+} WrOption;
+
+extern const WrSubcommand wr_subcommands[]; /* ends with name NULL; the first is the default */
+const WrSubcommand *wr_subcommand_find(const char *name); /* NULL if there is none */
+
+/* Read the shell line. The arrays in *cli are the caller's (wr_cli_fini). On failure *status is 1 or 2
+ * and err says why. */
+bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err);
+void wr_cli_fini(WrCli *cli);
+/* The help of one subcommand with its options, or of the program where command is NULL. */
+void wr_cli_help(const WrSubcommand *command, WrText *text);
+
+/* A session with FILE loaded (an empty document without one) and every --do run. outputs: perform output
+ * commands among the --do lines. The caller owns it; NULL and an error on failure. */
+WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err);
+/* An empty one, with notes going to standard error. */
+WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err);
+bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);
+
+/* "wrinkle: MESSAGE" on standard error. Returns status, or 130 when an interrupt was the reason. */
+int wr_cli_fail(const WrCli *cli, int status, const WrError *err);
+/* Write a result to standard output at once. Returns 0, or 1 with a message when that fails. */
+int wr_cli_print(const WrCli *cli, const WrText *text);
+
+int wr_cli_paint(const WrCli *cli);
+int wr_cli_run(const WrCli *cli);
+int wr_cli_render(const WrCli *cli);
+int wr_cli_export(const WrCli *cli);
+int wr_cli_inspect(const WrCli *cli);
+int wr_cli_explain(const WrCli *cli);
+int wr_cli_bench(const WrCli *cli); /* reads its own options from words */
+int wr_cli_help_command(const WrCli *cli);

@@ -1,0 +1,145 @@
+#include "base/memory.h"
+#include "cli/bench.h"
+
+#include <string.h>
+
+#define ROWS_MAX 128
+
+typedef struct Options {
+    bool lines, exact, quick;
+} Options;
+
+static bool read_options(const WrCli *cli, Options *options, WrError *err)
+{
+    *options = (Options){ false, false, false };
+    for (int i = 0; i < cli->word_count; i++) {
+        const char *word = cli->words[i];
+        if (strcmp(word, "--lines") == 0) options->lines = true;
+        else if (strcmp(word, "--exact") == 0) options->exact = true;
+        else if (strcmp(word, "--quick") == 0) options->quick = true;
+        else
+            return wr_fail(err, "bench: unknown option %s: must be --lines, --exact or --quick",
+                           word);
+    }
+    return true;
+}
+
+static int all_threads(const WrCli *cli)
+{
+    return cli->threads > 0 ? cli->threads : wr_pool_threads(cli->pool);
+}
+
+static int add_rows(WrBenchRow *rows, int count, const char *surface, int size, int table,
+                    int threads, const WrBenchMode *modes, int mode_count)
+{
+    for (int m = 0; m < mode_count; m++)
+        rows[count++] = (WrBenchRow){ .surface = surface,
+                                      .size = size,
+                                      .mode = modes[m],
+                                      .table = modes[m] == WR_BENCH_PHONG ? 0 : table,
+                                      .threads = threads };
+    return count;
+}
+
+/* 'surface view mode table threads ms', one line a measurement, for comparing with other renderers. */
+static bool bench_lines(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_TEXTURE, WR_BENCH_BUMP,
+                                         WR_BENCH_BUMP_TEXTURE, WR_BENCH_SS16 };
+    static const char *const surfaces[] = { "sphere", "bezier" };
+    static const int sizes[] = { 512, 1024, 2048 }, tables[] = { 512, 4096 };
+    const int threads[] = { 1, all_threads(cli) };
+    const int size_count = options->quick ? 1 : 3, table_count = options->quick ? 1 : 2;
+    for (int s = 0; s < 2; s++)
+        for (int z = 0; z < size_count; z++) {
+            WrBenchRow rows[ROWS_MAX];
+            int count = 0;
+            for (int t = 0; t < (threads[1] > 1 ? 2 : 1); t++)
+                for (int k = 0; k < table_count; k++)
+                    count = add_rows(rows, count, surfaces[s], sizes[z], tables[k], threads[t],
+                                     modes + (k > 0), k > 0 ? 3 : 5);
+            if (!wr_bench_run(cli, rows, count, options->quick ? 5 : 9, !options->exact, err))
+                return false;
+            for (int i = 0; i < count; i++)
+                wr_text_addf(text, "%s %d %s %d %d %.4f\n", rows[i].surface, rows[i].size,
+                             wr_bench_modes[rows[i].mode], rows[i].table, rows[i].threads,
+                             rows[i].ms);
+        }
+    return true;
+}
+
+static void print_frames(WrText *text, const WrBenchRow *rows, int count)
+{
+    wr_text_addf(text, "%-8s %-10s %-8s %7s %9s %9s %9s\n", "surface", "view", "mode", "threads",
+                 "ms", "frames/s", "ns/pixel");
+    for (int i = 0; i < count; i++) {
+        const WrBenchRow *r = &rows[i];
+        char view[32];
+        snprintf(view, sizeof view, "%dx%d", r->size, r->size);
+        wr_text_addf(text, "%-8s %-10s %-8s %7d %9.2f %9.0f %9.2f\n", r->surface, view,
+                     r->mode == WR_BENCH_PHONG ? "smooth" : wr_bench_modes[r->mode], r->threads,
+                     r->ms, 1e3 / r->ms, 1e6 * r->ms / (double)(r->covered > 0 ? r->covered : 1));
+    }
+}
+
+/* The paper, section 6: bump about 4 times smooth and about 2 times colour texture. */
+static void print_ratios(WrText *text, const WrBenchRow *rows, int count)
+{
+    wr_text_addf(text, "\n%-8s %-10s %7s %12s %13s   (the paper: about 4 and 2)\n", "surface",
+                 "view", "threads", "bump/smooth", "bump/texture");
+    for (int i = 0; i + 2 < count; i += 3) {
+        char view[32];
+        snprintf(view, sizeof view, "%dx%d", rows[i].size, rows[i].size);
+        wr_text_addf(text, "%-8s %-10s %7d %12.2f %13.2f\n", rows[i].surface, view, rows[i].threads,
+                     rows[i + 2].ms / rows[i].ms, rows[i + 2].ms / rows[i + 1].ms);
+    }
+}
+
+static bool bench_strokes(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    static const int tables[] = { 512, 4096 };
+    wr_text_addf(text, "\nstroke of radius 32   %12s %12s %14s %14s\n", "event ms", "worst ms",
+                 "preview ms", "event+preview");
+    for (int i = 0; i < 2; i++) {
+        WrBenchStroke stroke = { .table = tables[i] };
+        char table[32];
+        if (!wr_bench_stroke(cli, &stroke, options->quick ? 40 : 200, err)) return false;
+        snprintf(table, sizeof table, "%dx%d", stroke.table, stroke.table);
+        wr_text_addf(text, "  table %-13s %12.3f %12.3f %14.2f %14.2f\n", table, stroke.apply_ms,
+                     stroke.apply_worst_ms, stroke.preview_ms, stroke.apply_ms + stroke.preview_ms);
+    }
+    return true;
+}
+
+static bool bench_table(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_TEXTURE, WR_BENCH_BUMP };
+    static const char *const surfaces[] = { "sphere", "bezier", "torus" };
+    const int threads[] = { 1, all_threads(cli) };
+    WrBenchRow rows[ROWS_MAX];
+    int count = 0;
+    for (int s = 0; s < 3; s++)
+        for (int size = 512; size <= (options->quick ? 512 : 1024); size *= 2)
+            for (int t = 0; t < (threads[1] > 1 ? 2 : 1); t++)
+                count = add_rows(rows, count, surfaces[s], size, 512, threads[t], modes, 3);
+    wr_text_addf(text, "table 512x512, %s arithmetic, medians of interleaved runs\n\n",
+                 options->exact ? "exact" : "fast");
+    if (!wr_bench_run(cli, rows, count, options->quick ? 5 : 15, !options->exact, err))
+        return false;
+    print_frames(text, rows, count);
+    print_ratios(text, rows, count);
+    return bench_strokes(cli, options, text, err);
+}
+
+int wr_cli_bench(const WrCli *cli)
+{
+    WrError err = { "" };
+    Options options;
+    WrText text = { 0 };
+    if (!read_options(cli, &options, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
+    bool good = options.lines ? bench_lines(cli, &options, &text, &err)
+                              : bench_table(cli, &options, &text, &err);
+    int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    wr_text_fini(&text);
+    return status;
+}

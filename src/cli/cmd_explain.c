@@ -1,0 +1,57 @@
+#include "cli/cli.h"
+
+static void add_json(WrText *text, const WrPlan *plan)
+{
+    wr_text_add(text, "{\"effects\":[");
+    for (int i = 0; i < WR_EFFECT_COUNT; i++) {
+        const WrPlanRow *e = &plan->rows[i];
+        wr_text_addf(text, "%s{\"rule\":", i ? "," : "");
+        wr_text_add_json_string(text, e->rule);
+        wr_text_add(text, ",\"name\":");
+        wr_text_add_json_string(text, e->name);
+        wr_text_addf(text, ",\"run\":%s,\"class\":\"%s\",\"reason\":", e->run ? "true" : "false",
+                     wr_proof_letter(e->proof));
+        wr_text_add_json_string(text, e->reason);
+        wr_text_addf(text, ",\"tiles\":%lld,\"pixels\":%lld,\"ns_per_pixel\":", (long long)e->tiles,
+                     (long long)e->pixels);
+        wr_text_add_json_number(text, e->ns_per_pixel);
+        wr_text_add(text, "}");
+    }
+    wr_text_add(text, "]}\n");
+}
+
+static void add_table(WrText *text, const WrPlan *plan, const WrFrame *frame)
+{
+    wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", "rule", "effect", "run", "class",
+                 "ns/pixel", "reason");
+    for (int i = 0; i < WR_EFFECT_COUNT; i++) {
+        const WrPlanRow *e = &plan->rows[i];
+        char price[32] = "-";
+        if (e->run && e->ns_per_pixel > 0) snprintf(price, sizeof price, "%.1f", e->ns_per_pixel);
+        wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", e->rule, e->name,
+                     e->run ? "yes" : "no", wr_proof_letter(e->proof), price, e->reason);
+    }
+    wr_text_addf(text, "\n%dx%d pixels, %lld covered, %lld samples shaded, %.2f ms\n", frame->width,
+                 frame->height, (long long)frame->covered, (long long)frame->shaded,
+                 frame->times.total * 1e3);
+}
+
+int wr_cli_explain(const WrCli *cli)
+{
+    WrError err;
+    WrText text = { 0 };
+    WrFrame frame;
+    WrSession *session = wr_cli_load(cli, false, &err);
+    bool good = session && wr_session_frame(session, cli->width, cli->height, 0, &frame, &err);
+    int status;
+    if (good) {
+        if (cli->json) add_json(&text, frame.plan);
+        else add_table(&text, frame.plan, &frame);
+        status = wr_cli_print(cli, &text);
+    } else {
+        status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    }
+    wr_text_fini(&text);
+    wr_session_free(session);
+    return status;
+}

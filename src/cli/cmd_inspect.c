@@ -1,0 +1,181 @@
+#include "cli/cli.h"
+
+#include "base/memory.h"
+#include "document/document_file.h"
+#include "shade/bump.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/types.h>
+
+/* Everything that the formulas know of one point, in double, object space. */
+typedef struct Quantities {
+    double u, v, f, fu, fv, tilt_deg;
+    WrSurfacePoint point;
+    WrVec3 d, n_perturbed, n_perturbed_unit;
+} Quantities;
+
+static void compute(const WrDocument *document, int face, double u, double v, Quantities *q)
+{
+    const WrScene *scene = document->scene;
+    WrSurfacePoint *p = &q->point;
+    *q = (Quantities){ .u = u, .v = v };
+    wr_surface_at(&scene->shape, face, u, v, p);
+    wr_scene_height(scene, wr_document_field(document), u, v, &q->f, &q->fu, &q->fv);
+    q->d = wr_bump_d(p->n_unit, p->pu, p->pv, q->fu, q->fv);
+    q->n_perturbed = wr_bump_normal(scene->bump, p->n, p->n_unit, p->pu, p->pv, p->n_u, p->n_v,
+                                    q->f, q->fu, q->fv);
+    q->n_perturbed_unit = wr_bump_unit(q->n_perturbed, p->n_unit);
+    q->tilt_deg = wr_bump_tilt_deg(p->n_unit, q->n_perturbed_unit);
+}
+
+/* ---- output ---- */
+
+static void add_name(WrText *text, bool json, const char *name)
+{
+    if (json) wr_text_addf(text, "%s\"%s\":", text->data[text->length - 1] == '{' ? "" : ",", name);
+    else wr_text_addf(text, "%-12s ", name);
+}
+
+static void add_number(WrText *text, bool json, const char *name, double x)
+{
+    add_name(text, json, name);
+    if (json) wr_text_add_json_number(text, x);
+    else wr_text_add_number(text, x);
+    if (!json) wr_text_add(text, "\n");
+}
+
+static void add_vector(WrText *text, bool json, const char *name, WrVec3 a)
+{
+    const double c[3] = { a.x, a.y, a.z };
+    add_name(text, json, name);
+    if (json) wr_text_add(text, "[");
+    for (int i = 0; i < 3; i++) {
+        char number[WR_NUMBER_SIZE];
+        if (json) {
+            wr_text_add(text, i ? "," : "");
+            wr_text_add_json_number(text, c[i]);
+        } else {
+            wr_text_addf(text, i < 2 ? "%-24s " : "%s", wr_number_print(c[i], number));
+        }
+    }
+    wr_text_add(text, json ? "]" : "\n");
+}
+
+static void add_point(WrText *text, bool json, const Quantities *q)
+{
+    const WrSurfacePoint *p = &q->point;
+    if (json) wr_text_add(text, "{");
+    else if (text->length) wr_text_add(text, "\n");
+    add_number(text, json, "u", q->u);
+    add_number(text, json, "v", q->v);
+    add_vector(text, json, "P", p->p);
+    add_vector(text, json, "Pu", p->pu);
+    add_vector(text, json, "Pv", p->pv);
+    add_vector(text, json, "Puu", p->puu);
+    add_vector(text, json, "Puv", p->puv);
+    add_vector(text, json, "Pvv", p->pvv);
+    add_vector(text, json, "N", p->n);
+    add_vector(text, json, "n", p->n_unit);
+    add_number(text, json, "F", q->f);
+    add_number(text, json, "Fu", q->fu);
+    add_number(text, json, "Fv", q->fv);
+    add_vector(text, json, "D", q->d);
+    add_vector(text, json, "N_perturbed", q->n_perturbed);
+    add_vector(text, json, "n_perturbed", q->n_perturbed_unit);
+    add_number(text, json, "tilt_deg", q->tilt_deg);
+    if (json) wr_text_add(text, "}\n");
+}
+
+static void add_summary(WrText *text, bool json, const WrSession *session)
+{
+    const WrDocument *document = wr_session_document(session);
+    const WrField *field = wr_document_field(document);
+    int width = wr_field_width(field), height = wr_field_height(field);
+    char hash[33];
+    float low, high;
+    wr_hash_print(wr_session_hash(session), hash);
+    if (json) {
+        wr_text_addf(text, "{\"size\":[%d,%d],\"layers\":%d,\"hash\":\"%s\"}\n", width, height,
+                     document->layer_count, hash);
+        return;
+    }
+    wr_field_range(field, &low, &high);
+    wr_text_addf(text, "size         %dx%d texels\nwrap         %s\nheights      ", width, height,
+                 wr_document_wrap_word(wr_field_wrap_u(field), wr_field_wrap_v(field)));
+    wr_text_add_number(text, (double)low);
+    wr_text_add(text, " .. ");
+    wr_text_add_number(text, (double)high);
+    wr_text_addf(text, "\nlayers       %d\nhash         %s\n\n", document->layer_count, hash);
+    wr_session_scene_text(session, text);
+}
+
+/* ---- points ---- */
+
+static bool parse_point(const char *text, double *u, double *v, WrError *err)
+{
+    const char *comma = strchr(text, ',');
+    if (comma && wr_number_parse(text, (size_t)(comma - text), u) &&
+        wr_number_parse(comma + 1, strlen(comma + 1), v))
+        return true;
+    return wr_fail(err, "%.60s: must be U,V, two numbers", text);
+}
+
+static bool inspect_one(const WrCli *cli, const WrDocument *document, const char *at, WrText *text,
+                        WrError *err)
+{
+    Quantities q;
+    double u, v;
+    if (!parse_point(at, &u, &v, err)) return false;
+    compute(document, cli->face, u, v, &q);
+    add_point(text, cli->json, &q);
+    return true;
+}
+
+/* Points from standard input, one a line; blank lines do nothing. */
+static bool inspect_input(const WrCli *cli, const WrDocument *document, WrText *text, WrError *err)
+{
+    char line[256];
+    for (int number = 1; fgets(line, sizeof line, stdin); number++) {
+        if (*cli->cancel) return wr_fail(err, "cancelled");
+        line[strcspn(line, "\r\n")] = '\0';
+        if (*line && !inspect_one(cli, document, line, text, err)) {
+            wr_error_prefix(err, "--at -: line %d: ", number);
+            return false;
+        }
+    }
+    if (ferror(stdin)) return wr_fail(err, "standard input: %s", strerror(errno));
+    return true;
+}
+
+static bool inspect(const WrCli *cli, const WrSession *session, WrText *text, WrError *err)
+{
+    const WrDocument *document = wr_session_document(session);
+    const WrSurfaceInfo *surface = wr_surfaces[document->scene->shape.kind];
+    if (cli->face >= surface->faces)
+        return wr_fail(err, "--face %d: the %s has %s", cli->face, surface->name,
+                       surface->faces == 1 ? "only face 0" : "faces 0..5");
+    if (cli->at_count == 0) add_summary(text, cli->json, session);
+    for (int i = 0; i < cli->at_count; i++) {
+        if (strcmp(cli->ats[i], "-") == 0) {
+            if (!inspect_input(cli, document, text, err)) return false;
+        } else if (!inspect_one(cli, document, cli->ats[i], text, err)) {
+            wr_error_prefix(err, "--at ");
+            return false;
+        }
+    }
+    return true;
+}
+
+int wr_cli_inspect(const WrCli *cli)
+{
+    WrError err;
+    WrText text = { 0 };
+    WrSession *session = wr_cli_load(cli, false, &err);
+    bool good = session && inspect(cli, session, &text, &err);
+    int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    wr_text_fini(&text);
+    wr_session_free(session);
+    return status;
+}

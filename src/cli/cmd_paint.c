@@ -1,0 +1,50 @@
+#include "cli/cli.h"
+
+#ifdef WR_HAVE_UI
+#include "ui/app.h"
+
+static void keep_note(void *ctx, const char *text)
+{
+    wr_text_addf(ctx, "%s\n", text);
+}
+
+/* The window shows notes itself; output commands among the --do lines are skipped, as everywhere but in
+   run, and work once the window is open. */
+int wr_cli_paint(const WrCli *cli)
+{
+    WrError err;
+    WrText notes = { 0 };
+    WrSessionOptions options = {
+        .pool = cli->pool, .note = keep_note, .note_ctx = &notes, .outputs = true, .isa = cli->isa
+    };
+    WrSession *session = wr_session_new(&options);
+    wr_session_set_outputs(session, false);
+    bool good = !cli->file || wr_session_open(session, cli->file, &err);
+    good = good && wr_cli_run_dos(cli, session, &err);
+    wr_session_set_outputs(session, true);
+    int status = WR_EXIT_FAILED;
+    if (good) {
+        WrAppOptions app = { .session = session,
+                             .file_given = cli->file || cli->do_count > 0,
+                             .threads = cli->threads,
+                             .isa = cli->isa,
+                             .notes = &notes };
+        status = wr_app_run(&app);
+    } else {
+        wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    }
+    wr_session_free(session);
+    wr_text_fini(&notes);
+    return status;
+}
+
+#else
+
+int wr_cli_paint(const WrCli *cli)
+{
+    WrError err;
+    wr_fail(&err, "this build has no window: try `wrinkle --help`");
+    return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+}
+
+#endif

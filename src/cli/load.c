@@ -1,0 +1,46 @@
+#include "cli/cli.h"
+
+#include <stdio.h>
+
+static void print_note(void *ctx, const char *text)
+{
+    (void)ctx;
+    fprintf(stderr, "wrinkle: note: %s\n", text);
+}
+
+WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
+{
+    if (cli->isa) { /* a name that does not exist is said now, not at the first picture */
+        WrRenderer *renderer = wr_renderer_new(cli->pool, cli->isa, err);
+        if (!renderer) return NULL;
+        wr_renderer_free(renderer);
+    }
+    WrSessionOptions options = { .pool = cli->pool,
+                                 .note = print_note,
+                                 .outputs = outputs,
+                                 .isa = cli->isa,
+                                 .cancel = cli->cancel };
+    return wr_session_new(&options);
+}
+
+bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err)
+{
+    for (int i = 0; i < cli->do_count; i++)
+        if (!wr_session_run(session, cli->dos[i], err)) {
+            wr_error_prefix(err, "--do: ");
+            return false;
+        }
+    return true;
+}
+
+WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err)
+{
+    WrSession *session = wr_cli_session(cli, outputs, err);
+    if (!session) return NULL;
+    if ((cli->file && !wr_session_open(session, cli->file, err)) ||
+        !wr_cli_run_dos(cli, session, err)) {
+        wr_session_free(session);
+        return NULL;
+    }
+    return session;
+}

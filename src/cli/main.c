@@ -1,0 +1,72 @@
+#include "cli/cli.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The one thing that a signal handler can reach. */
+static volatile int interrupted;
+
+static void on_interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+/* The first interrupt asks the work to stop; a second one ends the program at once. No restart of
+   system calls, so that reading a script from a terminal stops too. */
+static void catch_interrupts(void)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_interrupt;
+    action.sa_flags = SA_RESETHAND;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
+{
+    bool stopped = cli->cancel && *cli->cancel && status == WR_EXIT_FAILED;
+    fprintf(stderr, "wrinkle: %s\n", stopped ? "interrupted" : err->text);
+    return stopped ? WR_EXIT_INTERRUPTED : status;
+}
+
+int wr_cli_print(const WrCli *cli, const WrText *text)
+{
+    WrError err;
+    if (fwrite(wr_text_get(text), 1, text->length, stdout) == text->length && fflush(stdout) == 0)
+        return WR_EXIT_DONE;
+    wr_fail(&err, "standard output: could not be written");
+    return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+}
+
+static int run(WrCli *cli)
+{
+    WrText text = { 0 };
+    if (cli->version || cli->help) {
+        if (cli->version) wr_text_add(&text, "wrinkle " WR_VERSION "\n");
+        else wr_cli_help(cli->command, &text);
+        int status = wr_cli_print(cli, &text);
+        wr_text_fini(&text);
+        return status;
+    }
+    cli->pool = wr_pool_new(cli->threads);
+    int status = cli->command->run(cli);
+    wr_pool_free(cli->pool);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    WrCli cli = { .cancel = &interrupted };
+    WrError err;
+    int status = WR_EXIT_USAGE;
+    catch_interrupts();
+    if (wr_cli_parse(argc, argv, &cli, &status, &err)) status = run(&cli);
+    else status = wr_cli_fail(&cli, status, &err);
+    wr_cli_fini(&cli);
+    return status;
+}

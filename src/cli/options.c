@@ -1,0 +1,321 @@
+/* The shell line: options and words. */
+#include "cli/cli.h"
+
+#include "base/memory.h"
+#include "command/call.h"
+
+#include <limits.h>
+#include <string.h>
+#include <sys/stat.h>
+
+typedef bool (*SetOption)(WrCli *cli, const char *value, WrError *err);
+
+/* ---- values ---- */
+
+static bool parse_whole(const char *text, size_t length, int low, int high, int *out)
+{
+    double value;
+    if (!wr_number_parse(text, length, &value)) return false;
+    if (!(value >= low && value <= high) || value != (double)(int)value) return false;
+    *out = (int)value;
+    return true;
+}
+
+static bool set_threads(WrCli *cli, const char *value, WrError *err)
+{
+    if (parse_whole(value, strlen(value), 1, 256, &cli->threads)) return true;
+    return wr_fail(err, "--threads %.40s: must be a whole number, 1..256", value);
+}
+
+static bool set_isa(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->isa = value;
+    return true;
+}
+
+static bool set_do(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->dos[cli->do_count++] = value;
+    return true;
+}
+
+static bool set_out(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "-o: the file name is empty");
+    cli->out = value;
+    return true;
+}
+
+static bool set_kind(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->kind = value;
+    return true;
+}
+
+static bool set_size(WrCli *cli, const char *value, WrError *err)
+{
+    const char *x = strchr(value, 'x');
+    if (x && parse_whole(value, (size_t)(x - value), 1, 16384, &cli->width) &&
+        parse_whole(x + 1, strlen(x + 1), 1, 16384, &cli->height))
+        return true;
+    return wr_fail(err, "--size %.40s: must be WxH, two whole numbers of pixels, each 1..16384",
+                   value);
+}
+
+static bool set_frames(WrCli *cli, const char *value, WrError *err)
+{
+    const char *dash = strchr(value, '-');
+    cli->framed = true;
+    if (dash && parse_whole(value, (size_t)(dash - value), 0, 999999, &cli->first) &&
+        parse_whole(dash + 1, strlen(dash + 1), 0, 999999, &cli->last) && cli->first <= cli->last)
+        return true;
+    return wr_fail(err, "--frames %.40s: must be A-B, two whole numbers, 0 <= A <= B <= 999999",
+                   value);
+}
+
+static bool set_turn(WrCli *cli, const char *value, WrError *err)
+{
+    cli->turned = true;
+    if (wr_number_parse(value, strlen(value), &cli->turn_deg) && cli->turn_deg >= -1e6 &&
+        cli->turn_deg <= 1e6)
+        return true;
+    return wr_fail(err, "--turn %.40s: must be degrees a frame, -1e6..1e6", value);
+}
+
+static bool set_at(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->ats[cli->at_count++] = value;
+    return true;
+}
+
+static bool set_face(WrCli *cli, const char *value, WrError *err)
+{
+    if (parse_whole(value, strlen(value), 0, 5, &cli->face)) return true;
+    return wr_fail(err, "--face %.40s: must be a whole number, 0..5", value);
+}
+
+static bool set_json(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->json = true;
+}
+
+static bool set_help(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->help = true;
+}
+
+static bool set_version(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->version = true;
+}
+
+/* ---- the options ---- */
+
+static const struct Option {
+    const char *name, *other; /* the other spelling, or NULL */
+    const char *value;        /* what it is called in help; NULL: takes none */
+    WrOption bit;
+    const char *help;
+    SetOption set;
+} options[] = {
+    { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write", set_out },
+    { "--as", NULL, "KIND", WR_OPTION_AS, "what to export; `wrinkle help export` lists the kinds",
+      set_kind },
+    { "--size", NULL, "WxH", WR_OPTION_SIZE, "of the picture in pixels (512x512)", set_size },
+    { "--frames", NULL, "A-B", WR_OPTION_FRAMES,
+      "a turntable: #### in OUT becomes the frame's number", set_frames },
+    { "--turn", NULL, "DEGREES", WR_OPTION_TURN,
+      "a frame, about the world's y axis (360 over all frames)", set_turn },
+    { "--at", NULL, "U,V", WR_OPTION_AT, "a point; repeatable; - reads them from standard input",
+      set_at },
+    { "--face", NULL, "N", WR_OPTION_FACE, "of a surface of several faces, the cube: 0..5",
+      set_face },
+    { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", set_json },
+    { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
+      "run a command after FILE is loaded; repeatable, in order", set_do },
+    { "--threads", NULL, "N", WR_OPTION_COMMON, "to work on (one a processor)", set_threads },
+    { "--isa", NULL, "NAME", WR_OPTION_COMMON, "instructions for pictures: ref v1 v2 v3 v4 auto",
+      set_isa },
+    { "--help", "-h", NULL, WR_OPTION_COMMON, "this text", set_help },
+    { "--version", NULL, NULL, WR_OPTION_COMMON, "of the program", set_version },
+};
+#define OPTION_COUNT ((int)(sizeof options / sizeof *options))
+
+/* The option that a word names: "--size" or "--size=4x4", whose value is then at *value. */
+static const struct Option *find_option(const char *word, const char **value)
+{
+    size_t length = strcspn(word, "=");
+    *value = NULL;
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const struct Option *o = &options[i];
+        if (strcmp(word, o->name) == 0 || (o->other && strcmp(word, o->other) == 0)) return o;
+        if (o->value && strncmp(word, "--", 2) == 0 && word[length] == '=' &&
+            strlen(o->name) == length && strncmp(word, o->name, length) == 0) {
+            *value = word + length + 1;
+            return o;
+        }
+    }
+    return NULL;
+}
+
+static const char *option_name(const void *ctx, int i)
+{
+    const WrSubcommand *command = ctx;
+    for (int k = 0; k < OPTION_COUNT; k++)
+        if ((options[k].bit == WR_OPTION_COMMON || command->options >> options[k].bit & 1) &&
+            i-- == 0)
+            return options[k].name;
+    return NULL;
+}
+
+static const char *subcommand_name(const void *ctx, int i)
+{
+    (void)ctx;
+    return wr_subcommands[i].name;
+}
+
+/* ---- words ---- */
+
+/* The first word that is no option: names the subcommand if it can. Its place in argv, or 0. */
+static int find_subcommand(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        const char *value;
+        if (argv[i][0] != '-' || !argv[i][1]) return wr_subcommand_find(argv[i]) ? i : 0;
+        if (strcmp(argv[i], "--") == 0) return 0;
+        const struct Option *o = find_option(argv[i], &value);
+        if (o && o->value && !value) i++;
+    }
+    return 0;
+}
+
+/* name=value, as export takes it. */
+static bool is_setting(const char *word)
+{
+    size_t n = strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
+    return n > 0 && word[n] == '=';
+}
+
+static bool take_word(WrCli *cli, const char *word, WrError *err)
+{
+    unsigned bits = cli->command->options;
+    if (bits >> WR_OPTION_ALL_WORDS & 1 || (bits >> WR_OPTION_AS & 1 && is_setting(word))) {
+        cli->words[cli->word_count++] = word;
+        return true;
+    }
+    if (cli->file) return wr_fail(err, "%.100s: one file at a time, after %.100s", word, cli->file);
+    cli->file = word;
+    return true;
+}
+
+static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, WrError *err)
+{
+    const char *word = argv[*i], *value;
+    const struct Option *o = find_option(word, &value);
+    unsigned bits = cli->command->options;
+    bool taken = o && (o->bit == WR_OPTION_COMMON || bits >> o->bit & 1);
+    if (!taken && bits >> WR_OPTION_ALL_WORDS & 1) return take_word(cli, word, err);
+    if (!taken) {
+        const char *near = wr_nearest_word(word, option_name, cli->command);
+        return wr_fail(err, "%s: unknown option %.60s%s%s: see `wrinkle %s --help`",
+                       cli->command->name, word, near ? ": did you mean " : "", near ? near : "",
+                       cli->command->name);
+    }
+    if (o->value && !value && *i + 1 >= argc)
+        return wr_fail(err, "%s: needs a value, %s", o->name, o->value);
+    if (o->value && !value) value = argv[++*i];
+    *status = WR_EXIT_FAILED; /* a value that is wrong */
+    return o->set(cli, value, err);
+}
+
+/* A lone word that is neither a subcommand nor like a file name is a mistyped subcommand. */
+static bool check_default(const WrCli *cli, WrError *err)
+{
+    struct stat info;
+    const char *word = cli->file;
+    if (!word || strpbrk(word, "./") || stat(word, &info) == 0) return true;
+    const char *near = wr_nearest_word(word, subcommand_name, NULL);
+    return wr_fail(err, "unknown subcommand \"%.60s\"%s%s: see `wrinkle --help`", word,
+                   near ? ": did you mean " : "", near ? near : "");
+}
+
+bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err)
+{
+    int verb = find_subcommand(argc, argv);
+    size_t room = (size_t)argc + 1;
+    bool only_words = false, good = true;
+    cli->command = verb ? wr_subcommand_find(argv[verb]) : &wr_subcommands[0];
+    cli->width = cli->height = 512;
+    cli->words = wr_alloc(room, sizeof *cli->words);
+    cli->dos = wr_alloc(room, sizeof *cli->dos);
+    cli->ats = wr_alloc(room, sizeof *cli->ats);
+    for (int i = 1; i < argc && good; i++) {
+        *status = WR_EXIT_USAGE;
+        if (i == verb) continue;
+        if (!only_words && strcmp(argv[i], "--") == 0) only_words = true;
+        else if (!only_words && argv[i][0] == '-' && argv[i][1])
+            good = take_option(cli, argc, argv, &i, status, err);
+        else good = take_word(cli, argv[i], err);
+    }
+    if (!good) return false;
+    *status = WR_EXIT_USAGE;
+    bool asks = cli->help || cli->version;
+    if (!verb && !asks && !only_words && !check_default(cli, err)) return false;
+    if (!verb) cli->command = cli->help ? NULL : cli->command;
+    return true;
+}
+
+void wr_cli_fini(WrCli *cli)
+{
+    wr_free(cli->words);
+    wr_free(cli->dos);
+    wr_free(cli->ats);
+}
+
+/* ---- help ---- */
+
+static void add_option(WrText *text, const struct Option *o)
+{
+    char left[40];
+    snprintf(left, sizeof left, "%s%s%s%s%s", o->name, o->other ? ", " : "",
+             o->other ? o->other : "", o->value ? " " : "", o->value ? o->value : "");
+    wr_text_addf(text, "  %-20s %s\n", left, o->help);
+}
+
+void wr_cli_help(const WrSubcommand *command, WrText *text)
+{
+    if (command) {
+        wr_text_addf(text, "usage: wrinkle %s\n\n%s\n\n", command->usage, command->help);
+        if (command->details) wr_text_addf(text, "%s\n\n", command->details);
+        wr_text_add(text, "options:\n");
+    } else {
+        wr_text_add(text, "wrinkle - an interactive paint program for bump functions\n\nusage:\n");
+        for (const WrSubcommand *c = wr_subcommands; c->name; c++)
+            wr_text_addf(text, "  wrinkle %-52s %s\n", c->usage, c->help);
+        wr_text_add(
+            text, "\nFILE is a document (*.exr), a script (*.wrinkle) or any picture with heights; "
+                  "left out, it is an\nempty 512x512 table on a plane.\n\n"
+                  "options of every subcommand:\n");
+    }
+    for (int i = 0; i < OPTION_COUNT; i++)
+        if (options[i].bit == WR_OPTION_COMMON ||
+            (command && command->options >> options[i].bit & 1))
+            add_option(text, &options[i]);
+    if (!command)
+        wr_text_add(text,
+                    "\n`wrinkle help` lists the commands that scripts and --do take, "
+                    "`wrinkle help VERB` tells\nmore of one, `wrinkle SUBCOMMAND --help` of a "
+                    "subcommand.\n\n"
+                    "Exit status: 0 done, 1 failed, 2 the shell line was wrong, 130 "
+                    "interrupted.\n");
+}

@@ -1,0 +1,50 @@
+#include "cli/cli.h"
+
+#include <string.h>
+
+#define BIT(name) (1u << WR_OPTION_##name)
+
+const WrSubcommand wr_subcommands[] = {
+    { "paint", "[paint] [FILE]", "the window", 0,
+      "Opens FILE, or a starter document, for painting.", wr_cli_paint },
+    { "run", "run SCRIPT", "run a script's commands, files included", 0,
+      "SCRIPT is a text file with one command a line; - reads standard input. Files are read "
+      "relative\n"
+      "to the script's folder and written relative to the current one.",
+      wr_cli_run },
+    { "render", "render [FILE] -o OUT [--size WxH] [--frames A-B]", "a picture, or a turntable",
+      BIT(OUT) | BIT(SIZE) | BIT(FRAMES) | BIT(TURN),
+      "exr and tiff files hold linear float red, green, blue and coverage, others 8-bit sRGB over "
+      "the\n"
+      "scene's background. Frame f of a turntable is turned by f times --turn degrees.",
+      wr_cli_render },
+    { "export", "export [FILE] --as KIND [name=value...] -o OUT", "the table for other programs",
+      BIT(OUT) | BIT(AS), "`wrinkle help export` lists the kinds and what each takes.",
+      wr_cli_export },
+    { "inspect", "inspect [FILE] [--at U,V]... [--json]",
+      "every quantity of the formulas at a point", BIT(AT) | BIT(FACE) | BIT(JSON),
+      "Without --at: the table's size, the layers and the document's hash. In object space, in "
+      "double\n"
+      "precision; F, Fu, Fv carry the bump's height and the replication.",
+      wr_cli_inspect },
+    { "explain", "explain [FILE] [--json] [--size WxH]", "the plan of a picture, with reasons",
+      BIT(JSON) | BIT(SIZE),
+      "Renders once and prints what was simulated and what was left out. class I: leaving it out "
+      "gives\n"
+      "the same bits; B: within a stated bound; P: a choice that changes the picture.",
+      wr_cli_explain },
+#ifdef WR_HAVE_BENCH
+    { "bench", "bench [options]", "the program's own benchmark", BIT(ALL_WORDS), NULL,
+      wr_cli_bench },
+#endif
+    { "help", "help [VERB] [--json]", "the commands of scripts and --do",
+      BIT(JSON) | BIT(ALL_WORDS), NULL, wr_cli_help_command },
+    { .name = NULL }
+};
+
+const WrSubcommand *wr_subcommand_find(const char *name)
+{
+    for (const WrSubcommand *c = wr_subcommands; c->name; c++)
+        if (strcmp(c->name, name) == 0) return c;
+    return NULL;
+}

@@ -1,0 +1,189 @@
+#include "command/help.h"
+
+#include "base/memory.h"
+#include "command/call.h"
+
+#include <string.h>
+
+/* Print the argument `name` of one canonical line, if it is given there. False if not. */
+static bool print_given(const char *line, int form, const char *name, WrText *text)
+{
+    WrCall *call = NULL;
+    bool found = false;
+    if (wr_call_parse(line, false, &call, NULL) && (form < 0 || call->form == form))
+        for (int i = 0; i < call->count && !found; i++)
+            if (strcmp(call->specs[i].name, name) == 0 && call->args[i].given) {
+                wr_arg_print(&call->specs[i], &call->args[i], text);
+                found = true;
+            }
+    wr_call_free(call);
+    return found;
+}
+
+/* A new document's scene says it: in the line of that form, else in any (the cameras share their eye). */
+void wr_help_initial(const WrCommand *command, int form, const char *name, WrText *text)
+{
+    if (!command->print) return;
+    WrText lines = { 0 };
+    WrScene *scene = wr_scene_new();
+    command->print(scene, &lines);
+    wr_scene_free(scene);
+    bool found = false;
+    for (int pass = form < 0; pass < 2; pass++)
+        for (const char *p = wr_text_get(&lines); *p && !found;) {
+            size_t length = strcspn(p, "\n");
+            char *line = wr_strndup(p, length);
+            found = print_given(line, pass == 0 ? form : -1, name, text);
+            wr_free(line);
+            p += length + (p[length] == '\n');
+        }
+    wr_text_fini(&lines);
+}
+
+/* How a value of this type is written: "x,y,z". */
+static const char *written(const WrArgSpec *spec)
+{
+    if (spec->shape) return spec->shape;
+    switch (spec->type) {
+    case WR_ARG_SIZE: return "WxH";
+    case WR_ARG_TUPLE: return spec->components == 2 ? "x,y" : "x,y,z";
+    case WR_ARG_SHA256: return "HEX";
+    default: return "";
+    }
+}
+
+/* A text's shape says in words what is allowed: too long for a usage line. */
+static const char *written_short(const WrArgSpec *spec)
+{
+    return spec->type == WR_ARG_TEXT ? "" : written(spec);
+}
+
+void wr_help_usage(const WrCommand *command, int form, WrText *text)
+{
+    WrArgSpec specs[WR_ARGS_MAX];
+    WrForm row;
+    wr_text_add(text, command->name);
+    if (form >= 0 && command->form(form, &row)) wr_text_addf(text, " %s", row.name);
+    else if (command->form) wr_text_addf(text, " %s", command->form_word);
+    int count = wr_command_specs(command, form, specs);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < count; i++) {
+            const WrArgSpec *s = &specs[i];
+            if (s->positional != (pass == 0)) continue;
+            wr_text_add(text, s->required ? " " : " [");
+            wr_text_add(text, s->name);
+            if (!s->positional) wr_text_addf(text, "=%s", written_short(s));
+            if (!s->required) wr_text_add(text, "]");
+        }
+}
+
+/* Text broken into lines of at most `width` columns, each after `indent` blanks; the first line goes on
+   from `column`. */
+static void add_wrapped(WrText *text, const char *words, int column, int indent, int width)
+{
+    for (const char *p = words; *p;) {
+        int length = (int)strcspn(p, " ");
+        if (column > indent && column + 1 + length > width) {
+            wr_text_addf(text, "\n%*s", indent, "");
+            column = indent;
+        } else if (column > indent && p != words) {
+            wr_text_add(text, " ");
+            column++;
+        }
+        wr_text_add_n(text, p, (size_t)length);
+        column += length;
+        p += length;
+        while (*p == ' ') p++;
+    }
+    wr_text_add(text, "\n");
+}
+
+static void add_argument(WrText *text, const WrCommand *command, int form, const WrArgSpec *spec)
+{
+    WrText left = { 0 }, right = { 0 }, value = { 0 };
+    wr_text_addf(&left, "%s%s%s", spec->name, spec->positional ? "" : "=",
+                 spec->positional ? "" : written_short(spec));
+    if (spec->type == WR_ARG_TEXT && spec->shape) wr_text_addf(&right, "%s: ", spec->shape);
+    wr_text_add(&right, spec->help);
+    if (spec->type != WR_ARG_PATH && spec->type != WR_ARG_TEXT && spec->type != WR_ARG_SHA256 &&
+        !spec->parts) {
+        wr_text_add(&right, "; ");
+        wr_arg_expectation(spec, &right);
+    }
+    wr_arg_fallback_print(spec, &value);
+    if (value.length && value.length < 60) {
+        wr_text_addf(&right, " (default %s)", wr_text_get(&value));
+    } else if (!value.length) {
+        wr_help_initial(command, form, spec->name, &value);
+        if (value.length && !spec->required)
+            wr_text_addf(&right, " (at first %s)", wr_text_get(&value));
+    }
+    if (left.length < 15) wr_text_addf(text, "    %-15s", wr_text_get(&left));
+    else wr_text_addf(text, "    %s\n%19s", wr_text_get(&left), "");
+    add_wrapped(text, wr_text_get(&right), 19, 19, 96);
+    wr_text_fini(&left);
+    wr_text_fini(&right);
+    wr_text_fini(&value);
+}
+
+static void add_form(WrText *text, const WrCommand *command, int form)
+{
+    WrArgSpec specs[WR_ARGS_MAX];
+    WrForm row;
+    wr_text_add(text, "  ");
+    wr_help_usage(command, form, text);
+    wr_text_add(text, "\n");
+    if (form >= 0 && command->form(form, &row)) {
+        wr_text_add(text, "    ");
+        add_wrapped(text, row.help, 4, 4, 96);
+    }
+    int count = wr_command_specs(command, form, specs);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < count; i++)
+            if (specs[i].positional == (pass == 0)) add_argument(text, command, form, &specs[i]);
+}
+
+static const char *name_at(const void *ctx, int i)
+{
+    (void)ctx;
+    return i < wr_command_count ? wr_commands[i].name : NULL;
+}
+
+bool wr_help_command(const char *name, WrText *text, WrError *err)
+{
+    const WrCommand *command = wr_command_find(name);
+    if (!command) {
+        char excerpt[WR_EXCERPT_SIZE];
+        const char *near = wr_nearest_word(name, name_at, NULL);
+        return wr_fail(err, "help: unknown command \"%s\": %s%s", wr_excerpt(name, excerpt),
+                       near ? "did you mean " : "`wrinkle help` lists them all", near ? near : "");
+    }
+    wr_text_addf(text, "%s - %s (%s)\n\n", command->name, command->help,
+                 wr_class_names[command->kind]);
+    WrForm row;
+    if (!command->form) add_form(text, command, -1);
+    for (int i = 0; command->form && command->form(i, &row); i++) {
+        if (i > 0) wr_text_add(text, "\n");
+        add_form(text, command, i);
+    }
+    if (command->details) {
+        wr_text_add(text, "\n  ");
+        add_wrapped(text, command->details, 2, 2, 96);
+    }
+    wr_text_addf(text, "\n  example: %s\n", command->example);
+    return true;
+}
+
+void wr_help_overview(WrText *text)
+{
+    static const char *const titles[] = { "Edits of the table", "The scene", "Files" };
+    for (int kind = WR_CLASS_EDIT; kind <= WR_CLASS_OUTPUT; kind++) {
+        wr_text_addf(text, "%s%s\n", kind ? "\n" : "", titles[kind]);
+        for (int i = 0; i < wr_command_count; i++)
+            if ((int)wr_commands[i].kind == kind)
+                wr_text_addf(text, "  %-10s %s\n", wr_commands[i].name, wr_commands[i].help);
+    }
+    wr_text_add(text, "\nOne command a line: verb value... name=value...   # comment\n"
+                      "Positions are u,v in 0..1 (v up), lengths in the table are texels, angles "
+                      "degrees,\ncolours linear r,g,b. `wrinkle help VERB` tells more.\n");
+}

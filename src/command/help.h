@@ -1,0 +1,26 @@
+/* help.h - the command table as text for people and as JSON for programs.
+   Layer 6. */
+#pragma once
+#include "command/table.h"
+
+/* All commands, grouped by class, one line each. */
+void wr_help_overview(WrText *text);
+/* One command: what it takes, with ranges and defaults. Fails for an unknown name. */
+bool wr_help_command(const char *name, WrText *text, WrError *err);
+
+/* The whole table as one JSON object:
+ *   {"commands":[{"name","class","help","details","example","usage","args":[ARG...],
+ *                 "form_word","forms":[{"name","help","args":[ARG...]}...]}...],
+ *    "surfaces":[{"name","label","help","params":[ARG...]}...]}
+ *   ARG: {"name","type","positional","required","default","keeps","low","high","above","whole",
+ *         "components","counts","parts","rows","choices","unit","shape","help"}
+ * args of a command with forms are those that all forms share. default is a number, a list of numbers
+ * (of lists, for lists) or a string, null without one; keeps: an argument that is left out keeps what
+ * the scene has, and default is what a new document has. Members that do not apply are left out. */
+void wr_help_json(WrText *text);
+
+/* "dab u,v [radius=] ...". */
+void wr_help_usage(const WrCommand *command, int form, WrText *text);
+/* The value that a new document's scene has for an argument whose row has no default, or "" if there is
+   none: "blinn", "0.1". */
+void wr_help_initial(const WrCommand *command, int form, const char *name, WrText *text);

@@ -1,0 +1,381 @@
+#include "command/call.h"
+
+#include "base/memory.h"
+
+#include <ctype.h>
+#include <string.h>
+
+/* ---- words ---- */
+
+/* Take the name of "name=" at *p, or NULL (and *p stays). The caller's. */
+static char *take_name(const char **p)
+{
+    const char *s = *p;
+    if (!isascii((unsigned char)*s) || !(isalpha((unsigned char)*s) || *s == '_')) return NULL;
+    while (isascii((unsigned char)*s) && (isalnum((unsigned char)*s) || *s == '_')) s++;
+    if (*s != '=') return NULL;
+    char *name = wr_strndup(*p, (size_t)(s - *p));
+    *p = s + 1;
+    return name;
+}
+
+static bool ends_word(char c)
+{
+    return c == '\0' || c == ' ' || c == '\t' || c == '#';
+}
+
+/* "..." with \" and \\; *p stands on the opening quote. */
+static bool take_quoted(const char **p, WrText *value, WrError *err)
+{
+    const char *s = *p + 1;
+    for (; *s && *s != '"'; s++) {
+        if (*s == '\\' && s[1] != '"' && s[1] != '\\')
+            return wr_fail(err, "a backslash in quotes must stand before a quote or a backslash");
+        if (*s == '\\') s++;
+        wr_text_add_n(value, s, 1);
+    }
+    if (!*s) return wr_fail(err, "a quote is not closed");
+    if (!ends_word(s[1])) return wr_fail(err, "a closing quote must be followed by a space");
+    *p = s + 1;
+    return true;
+}
+
+/* One word's value; *p stands on its first byte. */
+static bool take_value(const char **p, WrText *value, WrError *err)
+{
+    wr_text_clear(value);
+    if (**p == '"') return take_quoted(p, value, err);
+    const char *s = *p;
+    while (!ends_word(*s) && *s != '"') s++;
+    if (*s == '"') return wr_fail(err, "a quote may only open a value");
+    wr_text_add_n(value, *p, (size_t)(s - *p));
+    *p = s;
+    return true;
+}
+
+static const char *skip_blanks(const char *p)
+{
+    while (*p == ' ' || *p == '\t') p++;
+    return p;
+}
+
+/* One command is one line: control characters are a mistake, or a file that is not text. */
+static bool check_bytes(const char *line, WrError *err)
+{
+    for (const char *p = line; *p; p++)
+        if (((unsigned char)*p < 0x20 && *p != '\t') || *p == 0x7F)
+            return wr_fail(err,
+                           "a command is one line of text: it holds the control character 0x%02x",
+                           (unsigned char)*p);
+    return true;
+}
+
+/* ---- did you mean ---- */
+
+#define NEAR_MAX 31
+
+/* Edits between two short words: insertions, deletions, changes, swaps of neighbours. */
+static int edit_distance(const char *a, const char *b)
+{
+    size_t n = strlen(a), m = strlen(b);
+    if (n > NEAR_MAX || m > NEAR_MAX) return NEAR_MAX;
+    int d[NEAR_MAX + 1][NEAR_MAX + 1];
+    for (size_t i = 0; i <= n; i++) d[i][0] = (int)i;
+    for (size_t j = 0; j <= m; j++) d[0][j] = (int)j;
+    for (size_t i = 1; i <= n; i++)
+        for (size_t j = 1; j <= m; j++) {
+            int best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            if (d[i - 1][j] + 1 < best) best = d[i - 1][j] + 1;
+            if (d[i][j - 1] + 1 < best) best = d[i][j - 1] + 1;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
+                d[i - 2][j - 2] + 1 < best)
+                best = d[i - 2][j - 2] + 1;
+            d[i][j] = best;
+        }
+    return d[n][m];
+}
+
+const char *wr_nearest_word(const char *word, const char *(*list)(const void *ctx, int i),
+                            const void *ctx)
+{
+    size_t length = strlen(word);
+    int limit = length < 3 ? 1 : length < 6 ? 2 : 3, best = limit + 1;
+    const char *nearest = NULL;
+    for (int i = 0; list(ctx, i); i++) {
+        int d = edit_distance(word, list(ctx, i));
+        if (d < best && d < (int)strlen(list(ctx, i))) {
+            best = d;
+            nearest = list(ctx, i);
+        }
+    }
+    return nearest;
+}
+
+static const char *command_name(const void *ctx, int i)
+{
+    (void)ctx;
+    return i < wr_command_count ? wr_commands[i].name : NULL;
+}
+
+static bool fail_verb(const char *verb, WrError *err)
+{
+    char excerpt[WR_EXCERPT_SIZE];
+    const char *near = wr_nearest_word(verb, command_name, NULL);
+    if (near)
+        return wr_fail(err, "unknown command \"%s\": did you mean %s?", wr_excerpt(verb, excerpt),
+                       near);
+    return wr_fail(err, "unknown command \"%s\": `wrinkle help` lists them all",
+                   wr_excerpt(verb, excerpt));
+}
+
+static const char *argument_name(const void *ctx, int i)
+{
+    const WrCall *call = ctx;
+    for (int k = 0; k < call->count; k++)
+        if (!call->specs[k].positional && i-- == 0) return call->specs[k].name;
+    return NULL;
+}
+
+/* "dab", "light point". */
+static void add_title(WrText *text, const WrCall *call)
+{
+    wr_text_add(text, call->command->name);
+    if (*call->form_name) wr_text_addf(text, " %s", call->form_name);
+}
+
+static bool fail_name(const WrCall *call, const char *name, WrError *err)
+{
+    char excerpt[WR_EXCERPT_SIZE];
+    WrText names = { 0 }, title = { 0 };
+    for (int i = 0; argument_name(call, i); i++)
+        wr_text_addf(&names, "%s%s=", i ? " " : "", argument_name(call, i));
+    add_title(&title, call);
+    const char *near = wr_nearest_word(name, argument_name, call);
+    if (!names.length)
+        wr_fail(err,
+                "%s: unknown name \"%s\": it takes no names (a file name that holds a = goes in "
+                "quotes)",
+                wr_text_get(&title), wr_excerpt(name, excerpt));
+    else if (near)
+        wr_fail(err, "%s: unknown name \"%s\": did you mean %s=? It takes %s", wr_text_get(&title),
+                wr_excerpt(name, excerpt), near, wr_text_get(&names));
+    else
+        wr_fail(err, "%s: unknown name \"%s\": it takes %s", wr_text_get(&title),
+                wr_excerpt(name, excerpt), wr_text_get(&names));
+    wr_text_fini(&names);
+    wr_text_fini(&title);
+    return false;
+}
+
+/* A command whose forms are listed, and room for one. */
+typedef struct FormList {
+    const WrCommand *command;
+    WrForm *form;
+} FormList;
+
+static const char *form_name(const void *ctx, int i)
+{
+    const FormList *list = ctx;
+    return list->command->form(i, list->form) ? list->form->name : NULL;
+}
+
+static bool fail_form(const WrCommand *command, const char *word, WrError *err)
+{
+    WrForm form;
+    const FormList list = { command, &form };
+    WrText names = { 0 };
+    for (int i = 0; form_name(&list, i); i++)
+        wr_text_addf(&names, "%s%s", i ? ", " : "", form_name(&list, i));
+    char excerpt[WR_EXCERPT_SIZE];
+    const char *near = word ? wr_nearest_word(word, form_name, &list) : NULL;
+    if (!word)
+        wr_fail(err, "%s: %s is missing: one of %s", command->name, command->form_word,
+                wr_text_get(&names));
+    else if (near)
+        wr_fail(err, "%s: unknown %s \"%s\": did you mean %s? It must be one of %s", command->name,
+                command->form_word, wr_excerpt(word, excerpt), near, wr_text_get(&names));
+    else
+        wr_fail(err, "%s: unknown %s \"%s\": must be one of %s", command->name, command->form_word,
+                wr_excerpt(word, excerpt), wr_text_get(&names));
+    wr_text_fini(&names);
+    return false;
+}
+
+/* ---- a line ---- */
+
+/* Values that hold where none are given. */
+static void set_fallback(const WrArgSpec *spec, WrArg *arg)
+{
+    WrText text = { 0 };
+    wr_arg_fallback_print(spec, &text);
+    WrError unused;
+    if (text.length && wr_arg_parse(spec, "", wr_text_get(&text), arg, &unused)) arg->given = false;
+    wr_text_fini(&text);
+}
+
+static WrCall *new_call(const WrCommand *command, int form, const char *name)
+{
+    WrCall *call = wr_alloc(1, sizeof *call);
+    call->command = command;
+    call->form = form;
+    call->form_name = name;
+    if (command) call->count = wr_command_specs(command, form, call->specs);
+    for (int i = 0; i < WR_ARGS_MAX; i++) call->args[i].choice = -1;
+    return call;
+}
+
+/* Where the next value without a name goes; NULL past the last. */
+static WrArg *next_positional(WrCall *call)
+{
+    for (int i = 0; i < call->count; i++)
+        if (call->specs[i].positional && !call->args[i].given) return &call->args[i];
+    return NULL;
+}
+
+static WrArg *find_named(WrCall *call, const char *name)
+{
+    for (int i = 0; i < call->count; i++)
+        if (!call->specs[i].positional && strcmp(call->specs[i].name, name) == 0)
+            return &call->args[i];
+    return NULL;
+}
+
+/* Put one word where it belongs. */
+static bool assign(WrCall *call, const char *name, const char *value, WrError *err)
+{
+    WrText where = { 0 };
+    char excerpt[WR_EXCERPT_SIZE];
+    bool good = false;
+    add_title(&where, call);
+    WrArg *arg = name ? find_named(call, name) : next_positional(call);
+    if (!arg && name) {
+        fail_name(call, name, err);
+    } else if (!arg) {
+        wr_fail(err, "%s: \"%s\" is one value too many", wr_text_get(&where),
+                wr_excerpt(value, excerpt));
+    } else if (arg->given) {
+        wr_fail(err, "%s: %s= is given twice", wr_text_get(&where), name);
+    } else {
+        const WrArgSpec *spec = &call->specs[arg - call->args];
+        wr_text_addf(&where, ": %s", spec->name);
+        good = wr_arg_parse(spec, wr_text_get(&where), value, arg, err);
+    }
+    wr_text_fini(&where);
+    return good;
+}
+
+/* Read the words from p; where *form_word is set, the first value without a name is skipped: it named
+   the form. */
+static bool read_words(WrCall *call, const char *p, bool skip_form, WrError *err)
+{
+    WrText value = { 0 };
+    bool good = true;
+    for (p = skip_blanks(p); good && *p && *p != '#'; p = skip_blanks(p)) {
+        char *name = take_name(&p);
+        good = take_value(&p, &value, err);
+        if (!good) wr_error_prefix(err, "%s: ", call->command->name);
+        else if (!name && skip_form) skip_form = false;
+        else good = assign(call, name, wr_text_get(&value), err);
+        wr_free(name);
+    }
+    wr_text_fini(&value);
+    return good;
+}
+
+/* The first value without a name from p on, or "" . */
+static bool first_value(const char *p, WrText *value, WrError *err)
+{
+    for (p = skip_blanks(p); *p && *p != '#'; p = skip_blanks(p)) {
+        char *name = take_name(&p);
+        bool named = name != NULL;
+        wr_free(name);
+        if (!take_value(&p, value, err)) return false;
+        if (!named) return true;
+    }
+    wr_text_clear(value);
+    return true;
+}
+
+static bool check_missing(const WrCall *call, bool open, WrError *err)
+{
+    for (int i = 0; i < call->count; i++) {
+        const WrArgSpec *spec = &call->specs[i];
+        if (!spec->required || call->args[i].given) continue;
+        if (open && spec->type == WR_ARG_LIST) continue;
+        WrText right = { 0 }, title = { 0 };
+        wr_arg_expectation(spec, &right);
+        add_title(&title, call);
+        wr_fail(err, "%s: %s%s is missing (%s): must be %s", wr_text_get(&title), spec->name,
+                spec->positional ? "" : "=", spec->help, wr_text_get(&right));
+        wr_text_fini(&right);
+        wr_text_fini(&title);
+        return false;
+    }
+    return true;
+}
+
+/* A call of the verb with its form, no words read yet. */
+static WrCall *begin_call(const WrCommand *command, const char *rest, WrError *err)
+{
+    if (!command->form) return new_call(command, -1, "");
+    WrText word = { 0 };
+    WrForm form;
+    WrCall *call = NULL;
+    if (!first_value(rest, &word, err)) {
+        wr_error_prefix(err, "%s: ", command->name);
+    } else {
+        int index = word.length ? wr_command_form(command, wr_text_get(&word), &form) : -1;
+        if (index >= 0) call = new_call(command, index, form.name);
+        else fail_form(command, word.length ? wr_text_get(&word) : NULL, err);
+    }
+    wr_text_fini(&word);
+    return call;
+}
+
+bool wr_call_parse(const char *line, bool open, WrCall **out, WrError *err)
+{
+    if (!check_bytes(line, err)) return false;
+    const char *p = skip_blanks(line);
+    if (!*p || *p == '#') {
+        *out = new_call(NULL, -1, "");
+        return true;
+    }
+    WrText verb = { 0 };
+    WrCall *call = NULL;
+    if (take_value(&p, &verb, err)) {
+        const WrCommand *command = wr_command_find(wr_text_get(&verb));
+        if (command) call = begin_call(command, p, err);
+        else fail_verb(wr_text_get(&verb), err);
+    }
+    wr_text_fini(&verb);
+    if (!call) return false;
+    if (!read_words(call, p, call->command->form != NULL, err) || !check_missing(call, open, err)) {
+        wr_call_free(call);
+        return false;
+    }
+    for (int i = 0; i < call->count; i++)
+        if (!call->args[i].given) set_fallback(&call->specs[i], &call->args[i]);
+    *out = call;
+    return true;
+}
+
+void wr_call_free(WrCall *call)
+{
+    if (!call) return;
+    for (int i = 0; i < WR_ARGS_MAX; i++) wr_arg_fini(&call->args[i]);
+    wr_free(call);
+}
+
+void wr_call_print(const WrCall *call, WrText *text)
+{
+    if (!call->command) return;
+    add_title(text, call);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < call->count; i++) {
+            const WrArgSpec *spec = &call->specs[i];
+            if (!call->args[i].given || spec->positional != (pass == 0)) continue;
+            wr_text_add(text, " ");
+            if (!spec->positional) wr_text_addf(text, "%s=", spec->name);
+            wr_arg_print(spec, &call->args[i], text);
+        }
+}

@@ -1,0 +1,119 @@
+/* save, export, render: files. */
+#include "command/inner.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "document/document_file.h"
+#include "export/export.h"
+
+#include <string.h>
+
+/* ---- pictures ---- */
+
+bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
+                      WrError *err)
+{
+    if (!session->renderer)
+        session->renderer = wr_renderer_new(session->options.pool, session->options.isa, err);
+    if (!session->renderer) return false;
+    WrFrameRequest request = { .field = wr_document_field(session->state.document),
+                               .scene = session->state.document->scene,
+                               .width = width,
+                               .height = height,
+                               .turn_deg = turn_deg,
+                               .cancel = session->options.cancel };
+    return wr_renderer_frame(session->renderer, &request, frame, err);
+}
+
+/* 8-bit sRGB over the scene's background. */
+static bool write_codes(WrSession *session, const char *path, const WrFrame *frame, WrError *err)
+{
+    size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    uint8_t *codes = wr_try_alloc(pixels, 3, "the picture", err);
+    if (!codes) return false;
+    int64_t replaced = wr_frame_to_srgb8(frame, session->state.document->scene->background, false,
+                                         codes, session->options.pool);
+    if (replaced)
+        wr_session_note(session, "%s: %lld values were not finite and became 0", path,
+                        (long long)replaced);
+    bool good =
+        wr_image_write_pixels(path, frame->width, frame->height, 3, WR_PIXEL_U8, false, codes, err);
+    wr_free(codes);
+    return good;
+}
+
+/* Whether a file can be written there, before a long computation. */
+static bool check_target(const char *path, WrError *err)
+{
+    WrFileTarget target = { 0 };
+    if (!wr_file_begin(&target, path, err)) return false;
+    wr_file_abort(&target);
+    return true;
+}
+
+bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
+                       WrError *err)
+{
+    char buffer[16];
+    const char *ending = wr_path_ending(path, buffer);
+    bool linear =
+        strcmp(ending, "exr") == 0 || strcmp(ending, "tif") == 0 || strcmp(ending, "tiff") == 0;
+    WrFrame frame;
+    if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8, linear ? 4 : 3, linear, err))
+        return false;
+    if (!check_target(path, err)) return false;
+    if (!wr_session_frame(session, width, height, turn_deg, &frame, err)) return false;
+    if (!linear) return write_codes(session, path, &frame, err);
+    return wr_image_write_pixels(path, frame.width, frame.height, 4, WR_PIXEL_F32, true, frame.rgba,
+                                 err);
+}
+
+bool wr_run_render(WrSession *session, WrCall *call, WrError *err)
+{
+    const double *size = wr_call_arg(call, "size")->numbers;
+    return wr_session_render(session, wr_call_arg(call, "FILE")->text, (int)size[0], (int)size[1],
+                             0, err);
+}
+
+/* ---- documents ---- */
+
+bool wr_session_save(WrSession *session, const char *path, WrError *err)
+{
+    WrText text = { 0 };
+    wr_session_scene_text(session, &text);
+    bool good = wr_document_save(session->state.document, wr_text_get(&text), path, err);
+    wr_text_fini(&text);
+    if (!good) return false;
+    char *kept = wr_strdup(path); /* may be the old name itself */
+    wr_free(session->state.path);
+    session->state.path = kept;
+    session->state.saved_revision = session->state.revision;
+    return true;
+}
+
+bool wr_run_save(WrSession *session, WrCall *call, WrError *err)
+{
+    return wr_session_save(session, wr_call_arg(call, "FILE")->text, err);
+}
+
+/* ---- exports ---- */
+
+bool wr_run_export(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrExportKind *kind = &wr_export_kinds[call->form];
+    WrExportOptions options = wr_export_default();
+    for (int i = 0; i < call->count; i++)
+        if (call->args[i].given && !call->specs[i].positional &&
+            !wr_export_option(kind, &options, call->specs[i].name, call->args[i].text, err))
+            return false;
+    const char *path = wr_call_arg(call, "FILE")->text;
+    WrExportReport report;
+    if (!wr_export(kind, session->state.document, &options, session->options.pool, path, &report,
+                   err))
+        return false;
+    WrText text = { 0 };
+    wr_export_report_text(&report, &text);
+    wr_session_note(session, "%s: %s", path, wr_text_get(&text));
+    wr_text_fini(&text);
+    return true;
+}

@@ -1,0 +1,123 @@
+/* table, fill, grid, image. */
+#include "command/inner.h"
+
+#include "base/hash.h"
+#include "base/memory.h"
+#include "document/document_file.h"
+
+#include <string.h>
+
+bool wr_run_table(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrArg *size = wr_call_arg(call, "WxH");
+    int wrap = wr_call_choice(call, "wrap"); /* bit 0: clamp u, bit 1: clamp v */
+    WrField *field = wr_field_new((int)size->numbers[0], (int)size->numbers[1],
+                                  wrap & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC,
+                                  wrap & 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC, 0, err);
+    if (!field) return false;
+    wr_session_replace_field(session, field);
+    return true;
+}
+
+bool wr_run_fill(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    wr_field_fill(wr_session_field(session), (float)wr_call_number(call, "F"));
+    return true;
+}
+
+/* ---- grid ---- */
+
+/* Which of `count` texels along an axis of `cells` cells lie on a line: with the texel's centre at
+ * i + 1/2 and boundaries at multiples of count/cells, the signed distance p to the nearest boundary is
+ * an exact fraction q / (2 cells), q whole, -count <= q < count; high where -width/2 <= p < width/2. */
+static void mark_lines(int count, int cells, double width, unsigned char *high)
+{
+    double limit = width * cells; /* of q */
+    for (int i = 0; i < count; i++) {
+        int64_t q = (2 * (int64_t)i + 1) * cells % (2 * (int64_t)count);
+        if (q >= count) q -= 2 * (int64_t)count;
+        high[i] = -limit <= (double)q && (double)q < limit;
+    }
+}
+
+static bool any_set(const unsigned char *marks, int count)
+{
+    return memchr(marks, 1, (size_t)count) != NULL;
+}
+
+static void draw_lines(WrField *field, const unsigned char *columns, const unsigned char *rows,
+                       float level)
+{
+    int width = wr_field_width(field), height = wr_field_height(field);
+    for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(field); tx++) {
+            int i = tx * WR_TILE, j = ty * WR_TILE;
+            int w = width - i < WR_TILE ? width - i : WR_TILE;
+            int h = height - j < WR_TILE ? height - j : WR_TILE;
+            if (!any_set(columns + i, w) && !any_set(rows + j, h)) continue;
+            float *texels = wr_field_tile_write(field, tx, ty);
+            for (int y = 0; y < h; y++)
+                for (int x = 0; x < w; x++)
+                    if (columns[i + x] || rows[j + y]) texels[WR_TILE * y + x] = level;
+        }
+}
+
+bool wr_run_grid(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    WrField *field = wr_session_field(session);
+    const WrArg *cells = wr_call_arg(call, "cells");
+    double width = wr_call_number(call, "width");
+    unsigned char *columns = wr_alloc((size_t)wr_field_width(field), 1);
+    unsigned char *rows = wr_alloc((size_t)wr_field_height(field), 1);
+    mark_lines(wr_field_width(field), (int)cells->numbers[0], width, columns);
+    mark_lines(wr_field_height(field), (int)cells->numbers[1], width, rows);
+    wr_field_fill(field, (float)wr_call_number(call, "low"));
+    draw_lines(field, columns, rows, (float)wr_call_number(call, "high"));
+    wr_free(columns);
+    wr_free(rows);
+    return true;
+}
+
+/* ---- image ---- */
+
+/* Hash a file that a command reads, compare with what the line says, and write it into the line. */
+static bool note_sha256(WrCall *call, const char *path, WrError *err)
+{
+    char hex[65];
+    if (!wr_sha256_file(path, hex, err)) return false;
+    const WrArg *arg = wr_call_arg(call, "sha256");
+    if (arg->given && strcmp(arg->text, hex) != 0)
+        return wr_fail(err, "%s: another content than this line was written for: its SHA-256 is %s",
+                       path, hex);
+    if (!arg->given) wr_call_set_text(call, "sha256", hex);
+    return true;
+}
+
+WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err)
+{
+    char *path = wr_session_input_path(session, name);
+    WrImage *image = NULL;
+    if (note_sha256(call, path, err)) image = wr_image_read(path, err);
+    if (image && image->replaced)
+        wr_session_note(session, "%s: %lld values were not finite and became 0", path,
+                        (long long)image->replaced);
+    wr_free(path);
+    return image;
+}
+
+bool wr_run_image(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrField *old = wr_session_field(session);
+    bool fit = wr_call_given(call, "fit");
+    WrImage *image = wr_session_read_image(session, call, wr_call_arg(call, "FILE")->text, err);
+    if (!image) return false;
+    WrField *field =
+        wr_import_heights(image, fit ? wr_field_width(old) : 0, fit ? wr_field_height(old) : 0,
+                          wr_field_wrap_u(old), wr_field_wrap_v(old), err);
+    wr_image_free(image);
+    if (!field) return false;
+    wr_session_replace_field(session, field);
+    return true;
+}

@@ -1,0 +1,178 @@
+/* Sessions and files: scripts, documents, pictures. */
+#include "command/inner.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "document/document_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#define LINE_MAX_BYTES (64 << 20) /* a stroke of a million samples is some 20 MB */
+
+/* ---- scripts ---- */
+
+typedef enum LineResult { LINE_READ, LINE_END, LINE_FAILED } LineResult;
+
+/* The next line without its end (LF or CR LF). */
+static LineResult read_line(FILE *stream, WrText *line, WrError *err)
+{
+    int c, count = 0;
+    wr_text_clear(line);
+    while ((c = getc_unlocked(stream)) != EOF && c != '\n') {
+        char byte = (char)c;
+        if (byte == '\0') {
+            wr_fail(err, "a NUL byte: this is no text file");
+            return LINE_FAILED;
+        }
+        if (++count > LINE_MAX_BYTES) {
+            wr_fail(err, "a line of more than %d MB", LINE_MAX_BYTES >> 20);
+            return LINE_FAILED;
+        }
+        wr_text_add_n(line, &byte, 1);
+    }
+    if (ferror(stream)) {
+        wr_fail(err, "%s", strerror(errno));
+        return LINE_FAILED;
+    }
+    if (c == EOF && count == 0) return LINE_END;
+    if (line->length > 0 && line->data[line->length - 1] == '\r') line->data[--line->length] = '\0';
+    return LINE_READ;
+}
+
+static bool cancelled(const WrSession *session)
+{
+    return session->options.cancel && *session->options.cancel;
+}
+
+bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, WrError *err)
+{
+    WrText line = { 0 };
+    bool good = true;
+    for (int64_t number = 1;; number++) {
+        LineResult result = read_line(stream, &line, err);
+        if (result == LINE_END) break;
+        const char *text = wr_text_get(&line);
+        if (number == 1 && strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3; /* byte order mark */
+        if (cancelled(session)) good = wr_fail(err, "cancelled");
+        else good = result == LINE_READ && wr_session_run(session, text, err);
+        if (!good) {
+            wr_error_prefix(err, "%s:%lld: ", name, (long long)number);
+            break;
+        }
+    }
+    wr_text_fini(&line);
+    return good;
+}
+
+bool wr_session_run_script(WrSession *session, const char *path, WrError *err)
+{
+    FILE *stream = fopen(path, "re");
+    if (!stream) return wr_fail(err, "%s: %s", path, strerror(errno));
+    char *outer = session->folder;
+    session->folder = wr_path_folder(path);
+    bool good = wr_session_run_stream(session, stream, path, err);
+    wr_free(session->folder);
+    session->folder = outer;
+    fclose(stream);
+    return good;
+}
+
+/* ---- opening ---- */
+
+/* Run a document's scene lines. Only scene commands may stand there: a document opens no files. */
+static bool run_scene_lines(WrSession *session, const char *text, WrError *err)
+{
+    for (const char *p = text; *p;) {
+        size_t length = strcspn(p, "\n");
+        char *line = wr_strndup(p, length);
+        WrCall *call = NULL;
+        bool good = wr_call_parse(line, false, &call, err);
+        if (good && call->command && call->command->kind != WR_CLASS_SCENE)
+            good = wr_fail(err, "%s is no command of a scene", call->command->name);
+        if (good) good = wr_session_run(session, line, err);
+        wr_call_free(call);
+        wr_free(line);
+        if (!good) return false;
+        p += length + (p[length] == '\n');
+    }
+    return true;
+}
+
+static bool open_document(WrSession *session, const char *path, WrError *err)
+{
+    WrLoaded loaded = { 0 };
+    int64_t replaced = 0;
+    if (!wr_document_load(path, &loaded, &replaced, err)) return false;
+    wr_document_free(session->state.document);
+    session->state.document = loaded.document;
+    session->loading = true;
+    session->embedded = loaded.colour;
+    bool good = run_scene_lines(session, loaded.scene_text ? loaded.scene_text : "", err);
+    if (!good) wr_error_prefix(err, "%s: ", path);
+    session->loading = false;
+    session->embedded = NULL;
+    for (int i = 0; i < session->state.history.count; i++) wr_free(session->state.history.data[i]);
+    wr_array_free(&session->state.history);
+    session->state.path = wr_strdup(path);
+    wr_image_free(loaded.colour);
+    wr_free(loaded.scene_text);
+    if (good && replaced)
+        wr_session_note(session, "%s: %lld texels were not finite and became 0", path,
+                        (long long)replaced);
+    return good;
+}
+
+static bool open_script(WrSession *session, const char *path, WrError *err)
+{
+    bool outer = session->skip_outputs;
+    session->skip_outputs = true;
+    bool good = wr_session_run_script(session, path, err);
+    session->skip_outputs = outer;
+    return good;
+}
+
+static bool open_picture(WrSession *session, const char *path, WrError *err)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "image ");
+    wr_text_add_word(&line, path);
+    bool good = wr_session_run(session, wr_text_get(&line), err);
+    static const char prefix[] = "image: ";
+    if (!good && err && strncmp(err->text, prefix, sizeof prefix - 1) == 0)
+        memmove(err->text, err->text + sizeof prefix - 1, strlen(err->text) - sizeof prefix + 2);
+    wr_text_fini(&line);
+    return good;
+}
+
+/* Whether the file can be read at all, and whether it starts like an OpenEXR file: so that scripts and
+   mistakes never load the picture library. */
+static bool look_at_file(const char *path, bool *exr, WrError *err)
+{
+    static const char magic[4] = { 0x76, 0x2f, 0x31, 0x01 };
+    char start[4] = { 0 };
+    FILE *file = fopen(path, "re");
+    if (!file) return wr_fail(err, "%s: %s", path, strerror(errno));
+    size_t n = fread(start, 1, sizeof start, file);
+    int trouble = ferror(file) ? errno : 0;
+    fclose(file);
+    if (trouble) return wr_fail(err, "%s: %s", path, strerror(trouble));
+    *exr = n == sizeof start && memcmp(start, magic, sizeof magic) == 0;
+    return true;
+}
+
+bool wr_session_open(WrSession *session, const char *path, WrError *err)
+{
+    char buffer[16];
+    bool exr = false, good, script = strcmp(wr_path_ending(path, buffer), "wrinkle") == 0;
+    if (session->stroke) return wr_fail(err, "a stroke is being drawn: it must end first");
+    if (!script && !look_at_file(path, &exr, err)) return false;
+    WrSessionState old = wr_session_begin_state(session, wr_document_new());
+    if (script) good = open_script(session, path, err);
+    else if (exr && wr_document_recognise(path)) good = open_document(session, path, err);
+    else good = open_picture(session, path, err);
+    if (good) wr_session_keep_state(session, &old);
+    else wr_session_restore_state(session, &old);
+    return good;
+}

@@ -1,0 +1,113 @@
+/* table.h - the one table of commands: names, classes, arguments with types, ranges, defaults and help,
+   and the functions that carry them out. The parser, the printer, the help, the window's dialogs and the
+   tests all go by it, so a new command is one row here and one function.
+   Layer 6. */
+#pragma once
+#include "base/text.h"
+#include "scene/scene.h"
+
+typedef struct WrSession WrSession;
+typedef struct WrCall WrCall;
+
+#define WR_BIG_HEIGHT 3.4028234663852886e38 /* the largest float: heights are float32 */
+#define WR_ARGS_MAX 24                      /* arguments of one form of a command */
+#define WR_LIGHTS_MAX 256                   /* lights of a scene */
+#define WR_POINTS_MAX 1000000               /* samples of a stroke */
+#define WR_TERMS_MAX 65536                  /* terms of an analytic function */
+
+typedef enum WrCommandClass {
+    WR_CLASS_EDIT,  /* changes heights: undoable, journaled */
+    WR_CLASS_SCENE, /* what pictures show: undoable, journaled, saved with the document */
+    WR_CLASS_OUTPUT /* writes files: never in a journal, never in a document */
+} WrCommandClass;
+
+extern const char *const wr_class_names[]; /* "edit", "scene", "output" */
+
+typedef enum WrArgType {
+    WR_ARG_NUMBER, /* 0.5 */
+    WR_ARG_SIZE,   /* 512x256: two whole numbers */
+    WR_ARG_TUPLE,  /* 0,0,1: `components` numbers */
+    WR_ARG_LIST,   /* 0,0;1,0.5: tuples */
+    WR_ARG_CHOICE, /* one word of a fixed list */
+    WR_ARG_PATH,   /* a file name: any text but line ends */
+    WR_ARG_TEXT,   /* any text but line ends that `check` accepts */
+    WR_ARG_SHA256  /* 64 hex digits; printed in lower case */
+} WrArgType;
+
+extern const char *const wr_arg_type_names[]; /* "number", "size", ... */
+
+/* One number of a tuple whose numbers have ranges of their own. */
+typedef struct WrComponent {
+    const char *name;
+    double low, high; /* closed range */
+    bool whole;       /* whole numbers only */
+} WrComponent;
+
+typedef struct WrArgSpec {
+    const char *name; /* of a positional: how help shows it ("u,v"); NULL ends a list */
+    WrArgType type;
+    bool positional; /* by place; else name=value */
+    bool required;
+    double low, high; /* closed range of each number (of a size: of each side) */
+    bool above;       /* `low` itself is excluded */
+    bool whole;       /* whole numbers only (a size always is) */
+    int components;   /* numbers of a tuple, of each tuple of a list; others: 0 */
+    const WrComponent
+        *parts; /* [components] ranges of their own instead of low, high; NULL: none */
+    unsigned
+        counts; /* lists: bit n is set where a tuple may have n numbers; 0: always `components` */
+    const char *shape;            /* how it is written: "x,y,z"; NULL: by its type */
+    int rows_low, rows_high;      /* lists: how many tuples */
+    const char *(*choice)(int i); /* choices: word i, NULL past the last */
+    const double *fallback;       /* numbers that hold where none are given; NULL: none */
+    int fallback_rows;            /* lists: tuples in it */
+    const char *fallback_text;    /* the same for choices */
+    bool (*check)(const void *ctx, const char *name, const char *value, WrError *err); /* texts */
+    const void *check_ctx;
+    const char *unit; /* "texels", "degrees"; NULL: none */
+    const char *help; /* a few words; of a text also what is allowed */
+} WrArgSpec;
+
+/* A command such as `light` has forms (directional, point, clear): its first word names the form, and
+   each form has arguments of its own besides those that all share. */
+typedef struct WrForm {
+    const char *name;
+    const char *help;
+    WrArgSpec args[WR_ARGS_MAX]; /* ends with name NULL */
+} WrForm;
+
+typedef struct WrCommand {
+    const char *name; /* NULL ends the table */
+    WrCommandClass kind;
+    const char *help;      /* one line */
+    const char *details;   /* sentences for `help NAME`; may be NULL */
+    const char *example;   /* a line that parses */
+    const char *form_word; /* what the first word is called ("KIND"); NULL: no forms */
+    bool (*form)(int index, WrForm *out); /* the form's row; false past the last */
+    const WrArgSpec *args;                /* ends with name NULL; shared by all forms; NULL: none */
+
+    /* Carry out a call whose values are checked against this row. On failure the session may be left
+       half changed: the caller puts its snapshot back. */
+    bool (*run)(WrSession *session, WrCall *call, WrError *err);
+    /* Scene commands: the canonical lines that restore this part of a scene, each with its line end. */
+    void (*print)(const WrScene *scene, WrText *text);
+} WrCommand;
+
+/* In the order of help; the scene's in the order in which a document keeps them. */
+extern const WrCommand wr_commands[];
+extern const int wr_command_count;
+
+const WrCommand *wr_command_find(const char *name); /* NULL if there is none */
+/* The form of that name; its index, or -1. */
+int wr_command_form(const WrCommand *command, const char *name, WrForm *out);
+/* All arguments of a form (index -1 for a command without forms), shared ones last. Returns how many. */
+int wr_command_specs(const WrCommand *command, int form, WrArgSpec out[WR_ARGS_MAX]);
+/* Where an argument is not given: "16", "0,0,1", "blinn"; "" if it has no default. */
+void wr_arg_fallback_print(const WrArgSpec *spec, WrText *text);
+/* What would be right: "a number, 0..1e9 texels", "one of none, blinn, ...". */
+void wr_arg_expectation(const WrArgSpec *spec, WrText *text);
+
+/* The word of a list (ends with NULL) that is nearest to `word`, or NULL if none is near: for "did you
+   mean". */
+const char *wr_nearest_word(const char *word, const char *(*list)(const void *ctx, int i),
+                            const void *ctx);

@@ -1,0 +1,206 @@
+#include "export/export.h"
+
+#include "base/memory.h"
+#include "document/document_file.h"
+#include "export/job.h"
+
+#include <math.h>
+
+WrExportOptions wr_export_default(void)
+{
+    return (WrExportOptions){ .range = WR_EXPORT_RANGE_GIVEN,
+                              .low = 0.0,
+                              .high = 1.0,
+                              .cell_w = 1.0,
+                              .cell_h = 1.0,
+                              .scheme = -1 };
+}
+
+/* ---- what the kinds share ---- */
+
+double wr_export_last_code(const WrExportJob *job)
+{
+    return job->options.depth == 8 ? 255.0 : 65535.0;
+}
+
+double wr_export_row_v(const WrExportJob *job, int y)
+{
+    return 1.0 - (y + 0.5) / job->height;
+}
+
+/* Between -1/2 and 1/2, both excluded: the additive sequence of the plastic number over the texels, whose
+ * values are spread evenly over every small neighbourhood, so that no clumps are seen. */
+static double dither(WrExportTexel at)
+{
+    uint32_t phase = (uint32_t)at.column * 0xc13fa9a9U + (uint32_t)at.row * 0x91e10da5U +
+                     (uint32_t)at.channel * 0x9e3779b9U;
+    return (phase + 0.5) * 0x1p-32 - 0.5;
+}
+
+void wr_export_store_code(const WrExportJob *job, void *out, size_t i, double x, int zero,
+                          WrExportTexel at)
+{
+    double last = wr_export_last_code(job);
+    if (job->options.dither) x += dither(at);
+    double code = zero + round(x);
+    code = code < 0.0 ? 0.0 : code > last ? last : code;
+    if (job->options.depth == 8) ((uint8_t *)out)[i] = (uint8_t)code;
+    else ((uint16_t *)out)[i] = (uint16_t)code;
+}
+
+#define PIECE_ROWS 16
+
+typedef struct Run {
+    WrExportJob *job;
+    int y, rows;
+    WrExportPiece piece;
+    void *ctx;
+} Run;
+
+static void run_piece(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Run *run = ctx;
+    int first = index * PIECE_ROWS, left = run->rows - first;
+    run->piece(run->job, run->y + first, left < PIECE_ROWS ? left : PIECE_ROWS, run->ctx);
+}
+
+void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void *ctx)
+{
+    Run run = { job, y, rows, piece, ctx };
+    wr_pool_run(job->pool, (rows + PIECE_ROWS - 1) / PIECE_ROWS, run_piece, &run);
+}
+
+WrText *wr_export_attribute(WrExportJob *job, const char *name)
+{
+    WR_ASSERT(job->attribute_count < WR_EXPORT_ATTRIBUTES);
+    job->attribute_names[job->attribute_count] = name;
+    return &job->attribute_texts[job->attribute_count++];
+}
+
+/* ---- one export ---- */
+
+static WrPixelType type_of(int depth)
+{
+    return depth == 8 ? WR_PIXEL_U8 : depth == 16 ? WR_PIXEL_U16 : WR_PIXEL_F32;
+}
+
+static bool settle_options(const WrExportKind *kind, const WrScene *scene, const char *path,
+                           WrExportOptions *options, WrError *err)
+{
+    if (options->depth == 0) {
+        WrPixelType type;
+        if (!wr_image_deepest(path, &type, err)) return false;
+        options->depth = type == WR_PIXEL_U8 ? 8 : type == WR_PIXEL_U16 ? 16 : 32;
+    }
+    if (options->depth != 8 && options->depth != 16 && options->depth != 32)
+        return wr_fail(err, "depth %d: must be 8, 16 or 32", options->depth);
+    if (!wr_image_can_write(path, type_of(options->depth), kind->channels, true, err)) return false;
+    if (options->dither && options->depth != 8)
+        return wr_fail(err, "dither is for 8 bits a channel; this file has %d (depth=8 asks for 8)",
+                       options->depth);
+    if (options->range == WR_EXPORT_RANGE_GIVEN &&
+        !(options->low < options->high && isfinite(options->high - options->low)))
+        return wr_fail(err, "range %g,%g: LOW must be below HIGH, both finite", options->low,
+                       options->high);
+    if (!(options->cell_w > 0.0) || !(options->cell_h > 0.0) || !isfinite(options->cell_w) ||
+        !isfinite(options->cell_h))
+        return wr_fail(err, "cell %g,%g: both sizes must be above 0", options->cell_w,
+                       options->cell_h);
+    if (options->scheme < 0) options->scheme = (int)scene->scheme;
+    if (options->scheme >= WR_SCHEME_COUNT)
+        return wr_fail(err, "scheme %d: must be 0..%d", options->scheme, WR_SCHEME_COUNT - 1);
+    return true;
+}
+
+static bool job_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)err;
+    WrExportJob *job = ctx;
+    job->kind->rows(job, y, rows, out);
+    return true;
+}
+
+static void describe(WrExportJob *job)
+{
+    wr_text_add(wr_export_attribute(job, "wrinkle:kind"), job->kind->name);
+    wr_text_add(wr_export_attribute(job, "wrinkle:wrap"),
+                wr_document_wrap_word(wr_field_wrap_u(job->field), wr_field_wrap_v(job->field)));
+    job->kind->describe(job);
+}
+
+static bool write_job(WrExportJob *job, const char *path, WrError *err)
+{
+    WrImageAttribute attributes[WR_EXPORT_ATTRIBUTES];
+    if (job->kind->prepare) job->kind->prepare(job);
+    describe(job);
+    for (int i = 0; i < job->attribute_count; i++)
+        attributes[i] =
+            (WrImageAttribute){ job->attribute_names[i], wr_text_get(&job->attribute_texts[i]) };
+    WrImageOut out = { .width = job->width,
+                       .height = job->height,
+                       .channels = job->kind->channels,
+                       .type = type_of(job->options.depth),
+                       .attributes = attributes,
+                       .attribute_count = job->attribute_count,
+                       .data = true,
+                       .rows = job_rows,
+                       .ctx = job };
+    bool ok = wr_image_write(path, &out, 1, err);
+    for (int i = 0; i < job->attribute_count; i++) wr_text_fini(&job->attribute_texts[i]);
+    return ok;
+}
+
+bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
+               WrPool *pool, const char *path, WrExportReport *report, WrError *err)
+{
+    WrExportJob job = { .kind = kind,
+                        .field = wr_document_field(document),
+                        .scene = document->scene,
+                        .options = *options,
+                        .pool = pool };
+    if (!settle_options(kind, job.scene, path, &job.options, err)) return false;
+    job.width = wr_field_width(job.field);
+    job.height = wr_field_height(job.field);
+    job.analytic = job.scene->analytic.kind != WR_ANALYTIC_OFF;
+    job.report = (WrExportReport){ .width = job.width,
+                                   .height = job.height,
+                                   .zero_code = -1,
+                                   .channels = kind->channels,
+                                   .depth = job.options.depth };
+    job.u = wr_alloc((size_t)job.width, sizeof *job.u);
+    for (int i = 0; i < job.width; i++) job.u[i] = (i + 0.5) / job.width;
+    bool ok = write_job(&job, path, err);
+    wr_free(job.u);
+    if (ok && report) *report = job.report;
+    return ok;
+}
+
+static void add_count(WrText *text, int64_t count, const char *what)
+{
+    if (count > 0)
+        wr_text_addf(text, "; %lld texel%s %s", (long long)count, count == 1 ? "" : "s", what);
+}
+
+void wr_export_report_text(const WrExportReport *report, WrText *text)
+{
+    wr_text_addf(text, "%dx%d, %s", report->width, report->height,
+                 report->depth == 8    ? "8 bits"
+                 : report->depth == 16 ? "16 bits"
+                                       : "32-bit floats");
+    if (report->channels == 1) {
+        wr_text_add(text, ", heights ");
+        wr_text_add_number(text, report->low);
+        wr_text_add(text, " to ");
+        wr_text_add_number(text, report->high);
+    }
+    if (report->ranged) {
+        wr_text_add(text, ", codes are ");
+        wr_text_add_number(text, report->code_low);
+        wr_text_add(text, " to ");
+        wr_text_add_number(text, report->code_high);
+        if (report->zero_code >= 0) wr_text_addf(text, " with 0 at code %d", report->zero_code);
+    }
+    add_count(text, report->clipped, "outside the range, clipped");
+    add_count(text, report->replaced, "not finite, replaced by 0");
+}

@@ -1,0 +1,101 @@
+/* export.h - the table of F as files that other programs read: heights and normal maps of the unit
+   cell. One row in wr_export_kinds a kind; a new kind is one function and one row.
+   Layer 6.
+
+   The cell is exported as it is painted: replicate, surface and camera are not in it. Row 0 of a file is
+   the top row of the table. While the scene has an analytic F, that is sampled at the texels' centres
+   instead of the table, at the table's size. Files are whole replacements (base/file.h): on any failure
+   the target is as it was. The bytes are the same on any number of threads.
+
+   height, integer codes 0..M, M = 255 or 65535 (never 256 or 65536):
+     range lo,hi   code = round(M (F - lo) / (hi - lo)), clamped to 0..M; back: F = lo + code/M (hi - lo)
+     range auto    lo, hi = the smallest and largest F; a flat table is code 0, with hi above lo
+     range signed  code = Z + round((Z - 1) F / A), A = max |F|, Z = 128 or 32768: so 0 is exact
+   height, float: the heights themselves, unchanged, one channel Y; range plays no part.
+
+   normal+y, normal-y: at each texel's centre
+     n = normalise(-height dF/dU / cell_w, -height dF/dV / cell_h, 1)
+   with dF/dU, dF/dV the scheme's derivatives of the table over the unit cell, V up. normal-y negates the
+   second component. In a +Y map the upper flank of a bump is bright green. Codes are
+   round(M (n/2 + 1/2)); float files hold n/2 + 1/2. */
+#pragma once
+#include "base/pool.h"
+#include "base/text.h"
+#include "document/document.h"
+
+typedef enum WrExportRange {
+    WR_EXPORT_RANGE_GIVEN,
+    WR_EXPORT_RANGE_AUTO,
+    WR_EXPORT_RANGE_SIGNED
+} WrExportRange;
+
+typedef struct WrExportOptions {
+    int depth; /* bits a channel: 8, 16, 32 (float); 0 = the deepest that the ending holds */
+    WrExportRange range;   /* integer heights only */
+    double low, high;      /* range given: F of code 0 and of the last code, low < high */
+    double cell_w, cell_h; /* normals: size of the unit cell in scene units, > 0 */
+    int scheme;            /* normals: a WrScheme, or -1 for the scene's */
+    bool dither;           /* depth 8 only: ordered dither of up to half a code either way */
+} WrExportOptions;
+
+/* What was written, for the user to read. */
+typedef struct WrExportReport {
+    int width, height, channels, depth;
+    int64_t clipped;  /* texels outside the range */
+    int64_t replaced; /* texels whose F or normal was not finite and became 0 (or straight up) */
+    double low, high; /* smallest and largest F, table units */
+    bool ranged;      /* integer heights: the next four hold */
+    double code_low, code_high; /* F of code 0 and of the last code */
+    int zero_code;    /* the code of F = 0 when it is exact by construction (signed), else -1 */
+    double amplitude; /* signed: A */
+} WrExportReport;
+
+typedef struct WrExportOptionInfo {
+    const char *name;   /* as in commands: "range" */
+    const char *values; /* for people: "LOW,HIGH, auto or signed" */
+    const char *help;   /* a sentence with the default */
+    bool (*set)(WrExportOptions *options, const char *value,
+                WrError *err); /* use wr_export_option */
+} WrExportOptionInfo;
+
+#define WR_EXPORT_OPTIONS 4 /* most options of a kind */
+
+typedef struct WrExportJob WrExportJob; /* private to the room */
+
+typedef struct WrExportKind {
+    const char *name, *label, *help;
+    WrExportOptionInfo options[WR_EXPORT_OPTIONS + 1]; /* a NULL name ends the list */
+    int channels;
+    double green; /* normals: sign of the second component */
+    /* What must be known of the whole table before the first row (ranges). May be NULL. */
+    void (*prepare)(WrExportJob *job);
+    /* Fill codes or floats for texel rows [y, y + rows). */
+    void (*rows)(WrExportJob *job, int y, int rows, void *out);
+    /* Add the file's attributes. */
+    void (*describe)(WrExportJob *job);
+} WrExportKind;
+
+#define WR_EXPORT_KIND_COUNT 3
+extern const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT];
+const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
+
+WrExportOptions
+wr_export_default(void); /* depth 0, range 0,1, cell 1,1, the scene's scheme, no dither */
+
+/* Set one option from its text as in a command: ("range", "0,1"). Errors name the option, the value and
+ * what is allowed; an option that the kind lacks is an error too. */
+bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const char *name,
+                      const char *value, WrError *err);
+
+/* Write the file.
+ *
+ * document  read only     pool  may be NULL: one thread
+ * path      the format goes by its ending
+ * report    may be NULL
+ * Errors    options out of range, a depth that the format cannot hold, anything about the file */
+bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
+               WrPool *pool, const char *path, WrExportReport *report, WrError *err);
+
+/* The report as one sentence: "512x512, 16 bits, F -0.2..1.4, codes 0..65535 are 0..1; 37 texels were
+ * outside the range and clipped". */
+void wr_export_report_text(const WrExportReport *report, WrText *text);

@@ -1,0 +1,48 @@
+/* job.h - one export under way: what the kinds' functions work on.
+   Layer 6. Private to this room. */
+#pragma once
+#include "export/export.h"
+
+#define WR_EXPORT_ATTRIBUTES 8 /* at most */
+
+struct WrExportJob {
+    const WrExportKind *kind;
+    const WrField *field;
+    const WrScene *scene;
+    WrExportOptions options; /* depth and scheme settled */
+    WrPool *pool;            /* may be NULL */
+    int width, height;
+    bool analytic;         /* F is the scene's formula, not the table */
+    double *u;             /* [width] texel centres */
+    WrExportReport report; /* pieces add their counts atomically */
+    const char *attribute_names[WR_EXPORT_ATTRIBUTES];
+    WrText attribute_texts[WR_EXPORT_ATTRIBUTES];
+    int attribute_count;
+};
+
+/* The largest code, 255 or 65535. */
+double wr_export_last_code(const WrExportJob *job);
+/* The v of row y's centres. */
+double wr_export_row_v(const WrExportJob *job, int y);
+
+/* out[i] = zero + round(x), clamped to the codes that there are; halves away from zero. x is finite. With
+ * dither x is first moved by less than half a code, so that whole x stay as they are. */
+typedef struct WrExportTexel {
+    int column, row, channel; /* choose the dither */
+} WrExportTexel;
+void wr_export_store_code(const WrExportJob *job, void *out, size_t i, double x, int zero,
+                          WrExportTexel at);
+
+/* Call piece(job, y, rows, ctx) for stretches of [y, y + rows), on the job's pool. */
+typedef void (*WrExportPiece)(WrExportJob *job, int y, int rows, void *ctx);
+void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void *ctx);
+
+/* A new attribute's text, to be filled. */
+WrText *wr_export_attribute(WrExportJob *job, const char *name);
+
+/* height.c, normal.c: the functions of the kinds. */
+void wr_export_height_prepare(WrExportJob *job);
+void wr_export_height_rows(WrExportJob *job, int y, int rows, void *out);
+void wr_export_height_describe(WrExportJob *job);
+void wr_export_normal_rows(WrExportJob *job, int y, int rows, void *out);
+void wr_export_normal_describe(WrExportJob *job);

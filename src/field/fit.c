@@ -1,0 +1,99 @@
+/* The interpolating prefilter of the uniform cubic B-spline.
+ *
+ * The spline has the value (c[i-1] + 4 c[i] + c[i+1]) / 6 at sample i. The inverse of that filter on an
+ * endless (or circular) row is c[i] = sqrt(3) sum over k of z^|k| T[i+k] with z = sqrt(3) - 2 = -0.268,
+ * which is cut where z^|k| falls below double's rounding (z^29 = 2.6e-17): so an edit reaches
+ * WR_PREFILTER_REACH texels and no farther, and a coefficient does not depend on what was read with it.
+ *
+ * A chunk of columns is walked from top to bottom: each table row is filtered along u into a ring of
+ * rows, and each output row is the same filter across the ring. */
+#include "field/scheme.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/memory.h"
+
+#define REACH WR_PREFILTER_REACH
+#define TAPS (2 * REACH + 1)
+#define CHUNK 512 /* columns; the ring (230 kB) stays in the second-level cache */
+
+typedef struct Fit {
+    double weight[REACH + 1];
+    int width;     /* columns of a chunk: CHUNK, or all there are */
+    float *texels; /* [width + 2 REACH] one row as read, */
+    double *wide;  /* the same in double */
+    double *ring;  /* [TAPS][width] row j is in slot (j - first row) % TAPS */
+    double *sum;   /* [width] */
+} Fit;
+
+/* One block for all of it: a fit of 4 x 4 texels should cost its sums, not its memory. */
+static Fit *fit_new(int width)
+{
+    size_t across = (size_t)width + 2 * REACH;
+    size_t doubles = across + (size_t)width * (TAPS + 1);
+    Fit *fit = wr_alloc(1, sizeof *fit + doubles * sizeof(double) + across * sizeof(float));
+    fit->width = width;
+    fit->wide = (double *)(fit + 1);
+    fit->ring = fit->wide + across;
+    fit->sum = fit->ring + (size_t)width * TAPS;
+    fit->texels = (float *)(fit->sum + width);
+    double root = sqrt(3.0), w = root;
+    for (int k = 0; k <= REACH; k++, w *= root - 2.0) fit->weight[k] = w;
+    return fit;
+}
+
+static double *ring_row(Fit *fit, int j)
+{
+    return fit->ring + (size_t)(j % TAPS) * (size_t)fit->width;
+}
+
+/* sum[i] = sum over k, from the centre outwards, of weight[k] (below[k][i] + above[k][i]) */
+static void add_pair(double weight, const double *restrict below, const double *restrict above,
+                     int count, double *restrict sum)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) sum[i] += weight * (below[i] + above[i]);
+}
+
+/* Filter table row j, columns i .. i + count - 1, along u. */
+static void fit_row(Fit *fit, const WrField *field, int i, int j, int count, double *out)
+{
+    wr_field_read(field, i - REACH, j, count + 2 * REACH, 1, fit->texels, 0);
+    for (int k = 0; k < count + 2 * REACH; k++) fit->wide[k] = fit->texels[k];
+    const double *centre = fit->wide + REACH;
+    for (int k = 0; k < count; k++) out[k] = fit->weight[0] * centre[k];
+    for (int k = 1; k <= REACH; k++) add_pair(fit->weight[k], centre - k, centre + k, count, out);
+}
+
+/* Filter across the ring, rows middle - REACH .. middle + REACH. */
+static void fit_columns(Fit *fit, int middle, int count, float *out)
+{
+    const double *centre = ring_row(fit, middle);
+    for (int k = 0; k < count; k++) fit->sum[k] = fit->weight[0] * centre[k];
+    for (int k = 1; k <= REACH; k++)
+        add_pair(fit->weight[k], ring_row(fit, middle - k), ring_row(fit, middle + k), count,
+                 fit->sum);
+    for (int k = 0; k < count; k++) {
+        double c = fit->sum[k];
+        c = c > FLT_MAX ? FLT_MAX : c;
+        out[k] = (float)(c < -FLT_MAX ? -FLT_MAX : c);
+    }
+}
+
+void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
+                          size_t pitch)
+{
+    if (count_i <= 0 || count_j <= 0) return;
+    Fit *fit = fit_new(count_i < CHUNK ? count_i : CHUNK);
+    for (int col = 0; col < count_i; col += CHUNK) {
+        int cols = count_i - col < CHUNK ? count_i - col : CHUNK;
+        for (int row = 0; row < count_j + 2 * REACH; row++) {
+            fit_row(fit, field, i + col, j - REACH + row, cols, ring_row(fit, row));
+            int ready = row - 2 * REACH; /* this output row has all its rows in the ring */
+            if (ready >= 0)
+                fit_columns(fit, ready + REACH, cols, out + (size_t)ready * pitch + col);
+        }
+    }
+    wr_free(fit);
+}

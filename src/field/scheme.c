@@ -1,0 +1,234 @@
+/* Every scheme sees the 4 x 4 taps around a point, taps[4 j + i] with rows running down, and the point's
+ * place between the middle ones: a to the right of column 1, b below row 1. It gives F and its slopes in
+ * heights per texel, all from differences of taps, so that equal taps give their height and slopes of
+ * exactly 0. Differences are taken in double, where no two floats overflow (HC50). */
+#include "field/scheme.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+#define COLUMN(a, i, base) a[i] - base, a[4 + (i)] - base, a[8 + (i)] - base, a[12 + (i)] - base
+
+static double mix(double p, double q, double t)
+{
+    return p + t * (q - p);
+}
+
+/* Half the difference of the neighbours of tap (i, j), across and down. */
+static double central_across(const float *taps, int i, int j)
+{
+    return 0.5 * ((double)taps[4 * j + i + 1] - taps[4 * j + i - 1]);
+}
+
+static double central_down(const float *taps, int i, int j)
+{
+    return 0.5 * ((double)taps[4 * j + 4 + i] - taps[4 * j - 4 + i]);
+}
+
+static void eval_nearest(const float *taps, double a, double b, double out[3])
+{
+    (void)a, (void)b;
+    out[0] = taps[5];
+    out[1] = central_across(taps, 1, 1);
+    out[2] = central_down(taps, 1, 1);
+}
+
+static void eval_bilinear(const float *taps, double a, double b, double out[3])
+{
+    double t00 = taps[5], t10 = taps[6], t01 = taps[9], t11 = taps[10];
+    out[0] = mix(mix(t00, t10, a), mix(t01, t11, a), b);
+    out[1] = mix(t10 - t00, t11 - t01, b);
+    out[2] = mix(t01 - t00, t11 - t10, a);
+}
+
+/* With E = one texel, the central difference of the bilinear interpolant is the bilinear interpolant
+ * of the table of central differences. */
+static void eval_central(const float *taps, double a, double b, double out[3])
+{
+    eval_bilinear(taps, a, b, out);
+    out[1] = mix(mix(central_across(taps, 1, 1), central_across(taps, 2, 1), a),
+                 mix(central_across(taps, 1, 2), central_across(taps, 2, 2), a), b);
+    out[2] = mix(mix(central_down(taps, 1, 1), central_down(taps, 2, 1), a),
+                 mix(central_down(taps, 1, 2), central_down(taps, 2, 2), a), b);
+}
+
+/* One axis of the uniform cubic B-spline: value and slope at t between c1 and c2.
+ *   S  = (1-t)^3/6 c0 + (4 - 6 t^2 + 3 t^3)/6 c1 + (1 + 3 t + 3 t^2 - 3 t^3)/6 c2 + t^3/6 c3
+ *   S' = (1-t)^2/2 (c1 - c0) + (1/2 + t - t^2) (c2 - c1) + t^2/2 (c3 - c2)
+ * the weights sum to 1, so S is c1 plus weighted differences from it. */
+static double bspline_value(double c0, double c1, double c2, double c3, double t)
+{
+    double s = 1.0 - t;
+    double w0 = s * s * s / 6.0, w3 = t * t * t / 6.0;
+    double w2 = (1.0 + 3.0 * t * (1.0 + t * s)) / 6.0;
+    return c1 + (w0 * (c0 - c1) + w2 * (c2 - c1) + w3 * (c3 - c1));
+}
+
+static double bspline_slope(double c0, double c1, double c2, double c3, double t)
+{
+    double s = 1.0 - t;
+    return 0.5 * s * s * (c1 - c0) + (0.5 + t * s) * (c2 - c1) + 0.5 * t * t * (c3 - c2);
+}
+
+/* One axis of Catmull-Rom: the cubic with values p1, p2 and slopes (p2 - p0)/2, (p3 - p1)/2. */
+static double catmull_value(double p0, double p1, double p2, double p3, double t)
+{
+    double m1 = 0.5 * (p2 - p0), m2 = 0.5 * (p3 - p1), d = p2 - p1;
+    return p1 + t * (m1 + t * ((3.0 * d - 2.0 * m1 - m2) + t * (m1 + m2 - 2.0 * d)));
+}
+
+static double catmull_slope(double p0, double p1, double p2, double p3, double t)
+{
+    double m1 = 0.5 * (p2 - p0), m2 = 0.5 * (p3 - p1), d = p2 - p1;
+    return m1 + t * (2.0 * (3.0 * d - 2.0 * m1 - m2) + 3.0 * t * (m1 + m2 - 2.0 * d));
+}
+
+/* A product of one-axis cubics: columns are brought to one row each at height b, then joined at a. A
+ * tap is taken off all first, so that slopes do not see the table's level (HC48). */
+typedef double (*Cubic)(double p0, double p1, double p2, double p3, double t);
+
+static inline void eval_cubic(Cubic value, Cubic slope, const float *taps, double a, double b,
+                              double out[3])
+{
+    double base = taps[5], row[4], down[4]; /* of each column at b: value, slope */
+    for (int i = 0; i < 4; i++) {
+        row[i] = value(COLUMN(taps, i, base), b);
+        down[i] = slope(COLUMN(taps, i, base), b);
+    }
+    out[0] = base + value(row[0], row[1], row[2], row[3], a);
+    out[1] = slope(row[0], row[1], row[2], row[3], a);
+    out[2] = value(down[0], down[1], down[2], down[3], a);
+}
+
+static void eval_bspline(const float *taps, double a, double b, double out[3])
+{
+    eval_cubic(bspline_value, bspline_slope, taps, a, b, out);
+}
+
+static void eval_catmull(const float *taps, double a, double b, double out[3])
+{
+    eval_cubic(catmull_value, catmull_slope, taps, a, b, out);
+}
+
+const WrSchemeInfo wr_schemes[WR_SCHEME_COUNT] = {
+    [WR_SCHEME_NEAREST] = { "nearest", "nearest texel",
+                            "the texel's own height and its central difference: blocks", 1, 1, 3,
+                            WR_TAPS_CENTRED, eval_nearest },
+    [WR_SCHEME_BILINEAR] = { "bilinear", "bilinear",
+                             "straight between texels, with creases where cells meet", 2, 1, 3,
+                             WR_TAPS_TABLE, eval_bilinear },
+    [WR_SCHEME_CENTRAL] = { "central", "central difference",
+                            "the paper's: bilinear heights, differences one texel to either side",
+                            2, 2, 3, WR_TAPS_TABLE, eval_central },
+    [WR_SCHEME_BSPLINE] = { "bspline", "cubic B-spline",
+                            "smooth everywhere; rounds the heights off a little", 2, 2, 3,
+                            WR_TAPS_TABLE, eval_bspline },
+    [WR_SCHEME_BSPLINE_FIT] = { "bspline-fit", "cubic B-spline through the samples",
+                                "smooth everywhere and through every texel's height; may overshoot",
+                                4, 3, WR_PREFILTER_REACH + 2, WR_TAPS_FITTED, eval_bspline },
+    [WR_SCHEME_CATMULL] = { "catmull", "Catmull-Rom",
+                            "through every texel's height, with continuous slopes", 3, 2, 3,
+                            WR_TAPS_TABLE, eval_catmull },
+};
+
+int wr_scheme_find(const char *name)
+{
+    for (int k = 0; k < WR_SCHEME_COUNT; k++)
+        if (strcmp(name, wr_schemes[k].name) == 0) return k;
+    return -1;
+}
+
+/* A coordinate on one axis: its cell, the place in it, and whether F varies there at all. */
+typedef struct Place {
+    int cell;
+    double fraction; /* 0..1 */
+    bool varies;     /* false outside a clamped axis */
+} Place;
+
+static Place locate(double u, int n, WrWrap wrap, bool runs_down, WrSchemeTaps taps)
+{
+    Place place = { .varies = true };
+    double p = 0.0;
+    if (wrap == WR_WRAP_PERIODIC) {
+        p = wr_field_reduce(u, 1.0);
+    } else {
+        place.varies = u >= 0.0 && u <= 1.0;
+        p = u > 0.0 ? (u < 1.0 ? u : 1.0) : 0.0;
+    }
+    if (runs_down) p = 1.0 - p;
+    double x = n * p - (taps == WR_TAPS_CENTRED ? 0.0 : 0.5), cell = floor(x);
+    if (taps == WR_TAPS_CENTRED && wrap == WR_WRAP_CLAMP && cell > n - 1) cell = n - 1;
+    place.cell = (int)cell;
+    place.fraction = x - cell;
+    return place;
+}
+
+/* Whole tables of fitted coefficients with two texels around; NULL where taking single ones is cheaper
+ * (about 200 texels' worth each) or memory is gone. */
+static float *fit_whole(const WrField *field, size_t count)
+{
+    int width = wr_field_width(field) + 4, height = wr_field_height(field) + 4;
+    size_t texels = (size_t)width * (size_t)height;
+    if (count < texels / 200) return NULL;
+    float *whole = wr_try_alloc(texels, sizeof *whole, "fitted heights", NULL);
+    if (whole) wr_field_read_fitted(field, -2, -2, width, height, whole, (size_t)width);
+    return whole;
+}
+
+static void copy_taps(const float *whole, const WrField *field, int i, int j, float taps[16])
+{
+    size_t pitch = (size_t)wr_field_width(field) + 4;
+    for (int row = 0; row < 4; row++)
+        memcpy(taps + 4 * row, whole + (size_t)(j + 2 + row) * pitch + (i + 2), 4 * sizeof *taps);
+}
+
+void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
+                     const double *v, double *f, double *fu, double *fv)
+{
+    const WrSchemeInfo *info = &wr_schemes[scheme];
+    int width = wr_field_width(field), height = wr_field_height(field);
+    float *whole = info->taps == WR_TAPS_FITTED ? fit_whole(field, count) : NULL;
+    Place last_x = { .cell = -2 }, last_y = last_x; /* no point is in cell -2 */
+    float taps[16];
+    for (size_t k = 0; k < count; k++) {
+        Place x = locate(u[k], width, wr_field_wrap_u(field), false, info->taps);
+        Place y = locate(v[k], height, wr_field_wrap_v(field), true, info->taps);
+        if (x.cell != last_x.cell || y.cell != last_y.cell) {
+            if (whole) copy_taps(whole, field, x.cell - 1, y.cell - 1, taps);
+            else if (info->taps == WR_TAPS_FITTED)
+                wr_field_read_fitted(field, x.cell - 1, y.cell - 1, 4, 4, taps, 4);
+            else wr_field_read(field, x.cell - 1, y.cell - 1, 4, 4, taps, 4);
+        }
+        last_x = x, last_y = y;
+        double out[3];
+        info->eval(taps, x.fraction, y.fraction, out);
+        if (f) f[k] = out[0];
+        if (fu) fu[k] = x.varies ? width * out[1] : 0.0;
+        if (fv) fv[k] = y.varies ? 0.0 - height * out[2] : 0.0; /* rows run down; 0 - 0 is +0 */
+    }
+    wr_free(whole);
+}
+
+/* FVAL of the paper, with v up and texels at their centres. */
+static double fval(const WrField *field, double u, double v)
+{
+    int width = wr_field_width(field), height = wr_field_height(field);
+    Place x = locate(u, width, wr_field_wrap_u(field), false, WR_TAPS_TABLE);
+    Place y = locate(v, height, wr_field_wrap_v(field), true, WR_TAPS_TABLE);
+    float t[4];
+    wr_field_read(field, x.cell, y.cell, 2, 2, t, 2);
+    double f00 = t[0], f10 = t[1], f01 = t[2], f11 = t[3];
+    double fu0 = f00 + x.fraction * (f10 - f00), fu1 = f01 + x.fraction * (f11 - f01);
+    return fu0 + y.fraction * (fu1 - fu0);
+}
+
+void wr_field_sample_blinn(const WrField *field, double u, double v, double *fu, double *fv)
+{
+    double eu = 1.0 / wr_field_width(field), ev = 1.0 / wr_field_height(field);
+    if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) u = wr_field_reduce(u, 1.0);
+    if (wr_field_wrap_v(field) == WR_WRAP_PERIODIC) v = wr_field_reduce(v, 1.0);
+    if (fu) *fu = (fval(field, u + eu, v) - fval(field, u - eu, v)) / (2.0 * eu);
+    if (fv) *fv = (fval(field, u, v + ev) - fval(field, u, v - ev)) / (2.0 * ev);
+}

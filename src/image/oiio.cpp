@@ -1,0 +1,460 @@
+/* oiio.cpp - the only file that knows OpenImageIO: it becomes the module wrinkle_oiio.so. What it does
+   is in oiio.h. Ways of the library that it guards against:
+   - a damaged TIFF, and a PNG on a full disk, succeed everywhere and only leave an error message: after
+     every call a message counts as failure;
+   - limits on sizes are enforced by few readers: the checks here are the ones that hold;
+   - integer codes pass through float factors: they are read as they are and divided here;
+   - alpha is multiplied into colours unless told otherwise. */
+extern "C" {
+#include "image/oiio.h"
+}
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+using namespace OIIO;
+
+/* The message as one line that does not name the file: the caller does. */
+static bool fail(char *reason, std::string text, const std::string &path = std::string())
+{
+    for (size_t at; !path.empty() && (at = text.find(path)) != std::string::npos;)
+        text.replace(at, path.size(), "it");
+    std::string line;
+    for (char c : text) {
+        bool space = static_cast<unsigned char>(c) <= ' ';
+        if (!space) line += c;
+        else if (!line.empty() && line.back() != ' ') line += ' ';
+    }
+    while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
+    snprintf(reason, WR_OIIO_REASON, "%s", line.c_str());
+    return false;
+}
+
+/* Run a function that returns bool; an exception becomes a reason. */
+template <typename Body> static bool guarded(char *reason, Body body)
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc &) {
+        return fail(reason, "not enough memory");
+    } catch (const std::exception &problem) {
+        return fail(reason, problem.what());
+    } catch (...) {
+        return fail(reason, "unknown exception in the library");
+    }
+}
+
+static void settle_library()
+{
+    OIIO::attribute("threads", 1); /* ours is the work that is worth threads */
+    OIIO::attribute("try_all_readers", 0);
+    OIIO::attribute("debug", 0); /* else it talks on standard error */
+}
+
+/* ---- reading ---- */
+
+struct WrOiioReader {
+    std::string path;
+    std::unique_ptr<ImageInput> in;
+    std::vector<ImageSpec> specs;
+    std::vector<std::vector<const char *>> names;
+    std::vector<WrOiioPart> parts;
+    std::vector<char> codes; /* scratch */
+    std::vector<float> band; /* of a tiled file: rows [band_y, band_y + band_rows) of band_part */
+    int band_part = -1, band_y = 0, band_rows = 0, band_channels = 0;
+};
+
+static bool check_spec(const ImageSpec &spec, char *reason)
+{
+    std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
+    if (spec.width < 1 || spec.height < 1) return fail(reason, "has no pixels (" + size + ")");
+    if (spec.width > WR_IMAGE_MAX || spec.height > WR_IMAGE_MAX)
+        return fail(reason, "picture of " + size + ": each side must be 1.." +
+                                std::to_string(WR_IMAGE_MAX));
+    if (spec.depth > 1) return fail(reason, "is a volume, not a picture");
+    if (spec.deep) return fail(reason, "is a deep picture (several samples a pixel)");
+    if (spec.nchannels < 1 || spec.nchannels > WR_IMAGE_CHANNELS_MAX)
+        return fail(reason, std::to_string(spec.nchannels) + " channels: must be 1.." +
+                                std::to_string(WR_IMAGE_CHANNELS_MAX));
+    if (spec.tile_width != 0 && (spec.tile_height < 1 || spec.tile_height > WR_IMAGE_MAX ||
+                                 spec.tile_width < 1 || spec.tile_width > WR_IMAGE_MAX))
+        return fail(reason, "tiles of impossible size");
+    return true;
+}
+
+/* Formats without attributes of their own keep ours as lines of the description. */
+static void unpack_description(ImageSpec &spec)
+{
+    std::string text = spec.get_string_attribute("ImageDescription");
+    for (size_t at = 0; at < text.size();) {
+        size_t end = text.find('\n', at);
+        if (end == std::string::npos) end = text.size();
+        std::string line = text.substr(at, end - at);
+        size_t equals = line.find('=');
+        if (equals != std::string::npos && line.compare(0, 8, "wrinkle:") == 0 &&
+            !spec.find_attribute(line.substr(0, equals)))
+            spec.attribute(line.substr(0, equals), line.substr(equals + 1));
+        at = end + 1;
+    }
+}
+
+static bool add_part(WrOiioReader &reader, ImageSpec spec, char *reason)
+{
+    if (!check_spec(spec, reason)) return false;
+    unpack_description(spec);
+    WrOiioPart part = {};
+    part.part.width = spec.width;
+    part.part.height = spec.height;
+    part.part.channels = spec.nchannels;
+    part.part.type = WR_PIXEL_F32;
+    if (spec.channelformats.empty() && spec.format == TypeDesc::UINT8) {
+        part.part.type = WR_PIXEL_U8;
+        part.divisor = 255.0;
+    } else if (spec.channelformats.empty() && spec.format == TypeDesc::UINT16) {
+        part.part.type = WR_PIXEL_U16;
+        part.divisor = 65535.0;
+    }
+    reader.specs.push_back(spec);
+    reader.parts.push_back(part);
+    return true;
+}
+
+/* Pointers into the specs, once those no longer move. */
+static void name_parts(WrOiioReader &reader)
+{
+    for (size_t i = 0; i < reader.parts.size(); i++) {
+        ImageSpec &spec = reader.specs[i];
+        std::vector<const char *> names;
+        spec.channelnames.resize(static_cast<size_t>(spec.nchannels));
+        for (const std::string &name : spec.channelnames) names.push_back(name.c_str());
+        reader.names.push_back(names);
+        reader.parts[i].part.channel_names = nullptr;
+        reader.parts[i].part.name = ustring(spec.get_string_attribute("oiio:subimagename")).c_str();
+    }
+    for (size_t i = 0; i < reader.parts.size(); i++)
+        reader.parts[i].part.channel_names = reader.names[i].data();
+}
+
+static bool open_file(WrOiioReader &reader, const char *format, int most, char *reason)
+{
+    settle_library();
+    if (*format) reader.in = ImageInput::create(format);
+    std::string ignored = OIIO::geterror();
+    if (!reader.in || !std::strcmp(reader.in->format_name(), "null") ||
+        !std::strcmp(reader.in->format_name(), "FFmpeg movie"))
+        return fail(reason, "is not a picture of a kind that can be read");
+    ImageSpec config, spec;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    if (!reader.in->open(reader.path, spec, config))
+        return fail(reason,
+                    "cannot be opened, truncated or damaged (" + reader.in->geterror() + ")",
+                    reader.path);
+    for (int i = 0;; i++) {
+        if (i > 0 && !reader.in->seek_subimage(i, 0)) break;
+        if (i >= most) {
+            if (most == 1) break; /* only the first is wanted */
+            return fail(reason, "more than " + std::to_string(most) + " parts");
+        }
+        if (!add_part(reader, reader.in->spec(), reason)) return false;
+    }
+    ignored =
+        reader.in->geterror(); /* of the search for the end; damage shows when rows are read */
+    name_parts(reader);
+    return true;
+}
+
+static WrOiioReader *reader_open(const char *path, const char *format, int most, char *reason)
+{
+    WrOiioReader *opened = nullptr;
+    guarded(reason, [&] {
+        auto reader = std::make_unique<WrOiioReader>();
+        reader->path = path;
+        if (!open_file(*reader, format, most, reason)) return false;
+        opened = reader.release();
+        return true;
+    });
+    return opened;
+}
+
+static void reader_close(WrOiioReader *reader)
+{
+    char reason[WR_OIIO_REASON];
+    guarded(reason, [&] {
+        delete reader;
+        return true;
+    });
+}
+
+static int reader_parts(const WrOiioReader *reader)
+{
+    return static_cast<int>(reader->parts.size());
+}
+
+static const WrOiioPart *reader_part(const WrOiioReader *reader, int part)
+{
+    return &reader->parts[static_cast<size_t>(part)];
+}
+
+static const char *reader_attribute(const WrOiioReader *reader, int part, const char *name)
+{
+    const char *text = nullptr;
+    char reason[WR_OIIO_REASON];
+    guarded(reason, [&] {
+        const ImageSpec &spec = reader->specs[static_cast<size_t>(part)];
+        const ParamValue *found = spec.find_attribute(name, TypeDesc::STRING);
+        if (found) text = found->get_ustring().c_str(); /* lives as long as the process */
+        return true;
+    });
+    return text;
+}
+
+static bool check_read(WrOiioReader &reader, bool ok, char *reason)
+{
+    std::string message = reader.in->geterror();
+    if (ok && message.empty()) return true;
+    return fail(reason, message, reader.path);
+}
+
+template <typename Code>
+static void divide(const Code *codes, size_t count, float divisor, float *out)
+{
+    for (size_t i = 0; i < count; i++) out[i] = static_cast<float>(codes[i]) / divisor;
+}
+
+/* Values of rows [y, y + rows) in data-window rows: codes of 8 and 16 bits are divided here, exactly
+   rounded; half and double become float as they are, other integers by the library. */
+static bool read_band(WrOiioReader &reader, int part, int y, int rows, int channels, float *out,
+                      char *reason)
+{
+    const ImageSpec &spec = reader.specs[static_cast<size_t>(part)];
+    const WrOiioPart &is = reader.parts[static_cast<size_t>(part)];
+    size_t count =
+        static_cast<size_t>(spec.width) * static_cast<size_t>(rows) * static_cast<size_t>(channels);
+    TypeDesc type = is.divisor > 0.0 ? spec.format : TypeDesc(TypeDesc::FLOAT);
+    void *to = out;
+    if (is.divisor > 0.0) {
+        reader.codes.resize(count * type.size());
+        to = reader.codes.data();
+    }
+    int top = spec.y + y;
+    bool ok;
+    if (spec.tile_width)
+        ok = reader.in->read_tiles(part, 0, spec.x, spec.x + spec.width, top, top + rows, spec.z,
+                                   spec.z + 1, 0, channels, type, to);
+    else ok = reader.in->read_scanlines(part, 0, top, top + rows, spec.z, 0, channels, type, to);
+    if (!check_read(reader, ok, reason)) return false;
+    if (is.part.type == WR_PIXEL_U8 && is.divisor > 0.0)
+        divide(static_cast<const unsigned char *>(to), count, 255.0f, out);
+    else if (is.divisor > 0.0)
+        divide(static_cast<const unsigned short *>(to), count, 65535.0f, out);
+    return true;
+}
+
+/* A tiled file gives whole rows of tiles only: keep the one read last. */
+static bool read_tiled(WrOiioReader &reader, int part, int y, int rows, int channels, float *out,
+                       char *reason)
+{
+    const ImageSpec &spec = reader.specs[static_cast<size_t>(part)];
+    size_t row = static_cast<size_t>(spec.width) * static_cast<size_t>(channels);
+    for (int done = 0; done < rows;) {
+        int at = y + done, band_y = at - at % spec.tile_height;
+        if (reader.band_part != part || reader.band_y != band_y ||
+            reader.band_channels != channels) {
+            int band_rows = std::min(spec.tile_height, spec.height - band_y);
+            reader.band_part = -1;
+            reader.band.resize(row * static_cast<size_t>(band_rows));
+            if (!read_band(reader, part, band_y, band_rows, channels, reader.band.data(), reason))
+                return false;
+            reader.band_part = part;
+            reader.band_y = band_y;
+            reader.band_rows = band_rows;
+            reader.band_channels = channels;
+        }
+        int take = std::min(rows - done, band_y + reader.band_rows - at);
+        std::memcpy(out + static_cast<size_t>(done) * row,
+                    reader.band.data() + static_cast<size_t>(at - band_y) * row,
+                    static_cast<size_t>(take) * row * sizeof(float));
+        done += take;
+    }
+    return true;
+}
+
+static bool reader_read(WrOiioReader *reader, int part, int y, int rows, int channels, float *out,
+                        char *reason)
+{
+    return guarded(reason, [&] {
+        if (reader->specs[static_cast<size_t>(part)].tile_width)
+            return read_tiled(*reader, part, y, rows, channels, out, reason);
+        return read_band(*reader, part, y, rows, channels, out, reason);
+    });
+}
+
+/* ---- writing ---- */
+
+struct WrOiioWriter {
+    std::string path;
+    std::unique_ptr<ImageOutput> out;
+    std::vector<ImageSpec> specs;
+    std::vector<TypeDesc> types;
+    size_t part = 0;
+    int row = 0; /* how many rows of the part are written */
+    bool png = false;
+};
+
+static void name_channels(ImageSpec &spec, const WrImageOut &part)
+{
+    static const char *const usual[4][4] = {
+        { "Y" }, { "Y", "A" }, { "R", "G", "B" }, { "R", "G", "B", "A" }
+    };
+    spec.channelnames.clear();
+    spec.alpha_channel = -1;
+    for (int c = 0; c < part.channels; c++) {
+        if (part.channel_names) spec.channelnames.push_back(part.channel_names[c]);
+        else if (part.channels <= 4) spec.channelnames.push_back(usual[part.channels - 1][c]);
+        else spec.channelnames.push_back("c" + std::to_string(1000 + c)); /* EXR sorts by name */
+        if (spec.channelnames.back() == "A") spec.alpha_channel = c;
+    }
+}
+
+/* The same picture must give the same bytes tomorrow. The EXR and TIFF writers add the present time
+   unless there is a DateTime; one of a type that they cannot write keeps them from it and stays out of
+   the file. */
+static void forbid_date(ImageSpec &spec)
+{
+    long long nothing = 0;
+    spec.attribute("DateTime", TypeDesc::INT64, &nothing);
+}
+
+static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *format)
+{
+    bool exr = !std::strcmp(format, "openexr"), integer = part.type != WR_PIXEL_F32;
+    bool linear = part.data || !integer;
+    forbid_date(spec);
+    spec.attribute("oiio:ColorSpace", linear ? "linear" : "sRGB");
+    if (integer) spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (!std::strcmp(format, "jpeg")) {
+        spec.attribute("CompressionQuality", 95);
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    } else if (exr || !std::strcmp(format, "tiff")) {
+        spec.attribute("compression", "zip");
+    }
+    /* "Uncalibrated". The TIFF writer fails to write an empty Exif directory, so it gets an entry. */
+    if (!std::strcmp(format, "tiff") && linear) spec.attribute("Exif:ColorSpace", 65535);
+    if (exr && part.part_name) spec.attribute("oiio:subimagename", part.part_name);
+    std::string description;
+    for (int i = 0; i < part.attribute_count; i++) {
+        const WrImageAttribute &attribute = part.attributes[i];
+        if (exr) spec.attribute(attribute.name, attribute.text);
+        else description += std::string(attribute.name) + "=" + attribute.text + "\n";
+    }
+    if (!description.empty()) spec.attribute("ImageDescription", description);
+}
+
+static bool check_write(WrOiioWriter &writer, bool ok, char *reason)
+{
+    std::string message = writer.out->geterror();
+    if (ok && message.empty()) return true;
+    return fail(reason, message, writer.path);
+}
+
+static bool create_file(WrOiioWriter &writer, const char *format, const WrImageOut *parts,
+                        int count, char *reason)
+{
+    static const TypeDesc types[] = { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::FLOAT };
+    settle_library();
+    writer.out = ImageOutput::create(format);
+    if (!writer.out) return fail(reason, OIIO::geterror(), writer.path);
+    writer.png = !std::strcmp(format, "png");
+    for (int i = 0; i < count; i++) {
+        ImageSpec spec(parts[i].width, parts[i].height, parts[i].channels, types[parts[i].type]);
+        /* The parts of an EXR file share one display window. */
+        spec.full_width = parts[0].width;
+        spec.full_height = parts[0].height;
+        name_channels(spec, parts[i]);
+        set_attributes(spec, parts[i], format);
+        writer.specs.push_back(spec);
+        writer.types.push_back(types[parts[i].type]);
+    }
+    bool ok = count > 1 ? writer.out->open(writer.path, count, writer.specs.data())
+                        : writer.out->open(writer.path, writer.specs[0]);
+    if (!check_write(writer, ok, reason)) return false;
+    if (writer.out->spec().format != writer.types[0])
+        return fail(reason, "the format does not hold this type");
+    return true;
+}
+
+static WrOiioWriter *writer_create(const char *path, const char *format, const WrImageOut *parts,
+                                   int count, char *reason)
+{
+    WrOiioWriter *created = nullptr;
+    guarded(reason, [&] {
+        auto writer = std::make_unique<WrOiioWriter>();
+        writer->path = path;
+        if (!create_file(*writer, format, parts, count, reason)) return false;
+        created = writer.release();
+        return true;
+    });
+    return created;
+}
+
+static bool writer_write(WrOiioWriter *writer, int y, int rows, const void *pixels, char *reason)
+{
+    return guarded(reason, [&] {
+        bool ok = writer->out->write_scanlines(y, y + rows, 0, writer->types[writer->part], pixels);
+        writer->row = y + rows;
+        return check_write(*writer, ok, reason);
+    });
+}
+
+static bool writer_next(WrOiioWriter *writer, char *reason)
+{
+    return guarded(reason, [&] {
+        writer->part++;
+        writer->row = 0;
+        bool ok = writer->out->open(writer->path, writer->specs[writer->part],
+                                    ImageOutput::AppendSubimage);
+        return check_write(*writer, ok, reason);
+    });
+}
+
+/* libpng complains on standard error when a file is closed before its picture is complete, so one that is
+   given up gets black rows first. */
+static void complete_png(WrOiioWriter &writer)
+{
+    const ImageSpec &spec = writer.specs[0];
+    std::vector<char> black(spec.scanline_bytes() * WR_IMAGE_STRIP);
+    char ignored[WR_OIIO_REASON];
+    while (writer.row < spec.height) {
+        int rows = std::min(WR_IMAGE_STRIP, spec.height - writer.row);
+        bool ok = writer.out->write_scanlines(writer.row, writer.row + rows, 0, writer.types[0],
+                                              black.data());
+        if (!check_write(writer, ok, ignored)) return;
+        writer.row += rows;
+    }
+}
+
+static bool writer_finish(WrOiioWriter *writer, bool keep, char *reason)
+{
+    bool ok = guarded(reason, [&] {
+        if (!keep && writer->png) complete_png(*writer);
+        bool closed = writer->out->close();
+        return check_write(*writer, closed, reason);
+    });
+    char ignored[WR_OIIO_REASON];
+    guarded(ignored, [&] {
+        delete writer;
+        return true;
+    });
+    return ok;
+}
+
+extern "C" __attribute__((visibility("default"))) const WrOiioTable wr_oiio_table;
+const WrOiioTable wr_oiio_table = {
+    WR_OIIO_VERSION, reader_open,   reader_close, reader_parts, reader_part,   reader_attribute,
+    reader_read,     writer_create, writer_write, writer_next,  writer_finish,
+};

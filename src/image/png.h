@@ -1,0 +1,9 @@
+/* png.h - whether a PNG file is whole, before the library sees it: libpng talks on standard error about
+   damaged ones, allocates what a damaged length says, and forgives a missing end.
+   Private to this room. Source: PNG specification (ISO/IEC 15948), 5.3 chunk layout, annex D. */
+#pragma once
+#include "base/error.h"
+
+/* Walks the chunks of an open file that starts with the PNG signature: lengths stay inside the file,
+ * every CRC is right, the last chunk is IEND. The message does not name the file. */
+bool wr_png_check(FILE *file, WrError *err);

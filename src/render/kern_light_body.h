@@ -1,0 +1,103 @@
+/* kern_light_body.h - ambient, diffuse and highlight over strips. A part of kern_body.h. */
+
+FLAT static void kern_view(const WrRays *rays, WrStrip *strip)
+{
+    const int count = strip->count;
+    if (!rays->perspective) {
+        const WrVec3f toward = { rays->toward[0], rays->toward[1], rays->toward[2] };
+        SIMD for (int i = 0; i < count; i++)
+        {
+            STORE3(strip, v, i, toward);
+        }
+        return;
+    }
+    const WrVec3f eye = { rays->eye[0], rays->eye[1], rays->eye[2] };
+    SIMD for (int i = 0; i < count; i++)
+    {
+        WrVec3f w = v3f_sub(eye, LOAD3(strip, p, i));
+        float ww = v3f_dot(w, w), inv = 1.0f / sqrtf(ww > 1e-30f ? ww : 1.0f);
+        STORE3(strip, v, i, v3f_scale(w, inv));
+    }
+}
+
+/* The sums start at the ambient light; C(u,v) is 1 unless a picture follows. */
+FLAT static void kern_begin(float ambient, WrStrip *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        strip->dr[i] = strip->dg[i] = strip->db[i] = ambient;
+        strip->sr[i] = strip->sg[i] = strip->sb[i] = 0.0f;
+        strip->cr[i] = strip->cg[i] = strip->cb[i] = 1.0f;
+    }
+}
+
+FLAT static void kern_light(const WrKernLight *light, WrStrip *strip)
+{
+    const WrVec3f where = { light->where[0], light->where[1], light->where[2] };
+    const int count = strip->count;
+    if (!light->point) {
+        SIMD for (int i = 0; i < count; i++)
+        {
+            STORE3(strip, l, i, where);
+        }
+    } else {
+        SIMD for (int i = 0; i < count; i++)
+        {
+            WrVec3f w = v3f_sub(where, LOAD3(strip, p, i));
+            float ww = v3f_dot(w, w), inv = 1.0f / sqrtf(ww > 1e-30f ? ww : 1.0f);
+            STORE3(strip, l, i, v3f_scale(w, inv));
+        }
+    }
+    SIMD for (int i = 0; i < count; i++)
+    {
+        strip->n_dot_l[i] =
+            strip->bx[i] * strip->lx[i] + strip->by[i] * strip->ly[i] + strip->bz[i] * strip->lz[i];
+    }
+}
+
+FLAT static void kern_diffuse(const WrKernLight *light, float kd, WrStrip *strip)
+{
+    const float r = kd * light->rgb[0], g = kd * light->rgb[1], b = kd * light->rgb[2];
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        float lit = strip->n_dot_l[i] > 0.0f ? strip->n_dot_l[i] : 0.0f;
+        strip->dr[i] += r * lit;
+        strip->dg[i] += g * lit;
+        strip->db[i] += b * lit;
+    }
+}
+
+/* max(0, n'.h)^s with h = (l + v) / |l + v|; 0 where l and v are opposite (HC91). */
+FLAT static void kern_specular(const WrKernLight *light, float ks, float shininess, bool gate,
+                               WrStrip *strip)
+{
+    const float r = ks * light->rgb[0], g = ks * light->rgb[1], b = ks * light->rgb[2];
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        float hx = strip->lx[i] + strip->vx[i], hy = strip->ly[i] + strip->vy[i];
+        float hz = strip->lz[i] + strip->vz[i], hh = hx * hx + hy * hy + hz * hz;
+        float nh = strip->bx[i] * hx + strip->by[i] * hy + strip->bz[i] * hz;
+        float c = hh > 1e-24f ? nh / sqrtf(hh > 1e-24f ? hh : 1.0f) : 0.0f;
+        float shine = wr_pow01_f(c > 0.0f ? c : 0.0f, shininess);
+        shine = (!gate || strip->n_dot_l[i] > 0.0f) && hh > 1e-24f ? shine : 0.0f;
+        strip->sr[i] += r * shine;
+        strip->sg[i] += g * shine;
+        strip->sb[i] += b * shine;
+    }
+}
+
+/* I = C (ambient + diffuse) + specular */
+FLAT static void kern_finish(const float colour[3], WrStrip *strip)
+{
+    const float r = colour[0], g = colour[1], b = colour[2];
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        strip->cr[i] = r * strip->cr[i] * strip->dr[i] + strip->sr[i];
+        strip->cg[i] = g * strip->cg[i] * strip->dg[i] + strip->sg[i];
+        strip->cb[i] = b * strip->cb[i] * strip->db[i] + strip->sb[i];
+    }
+}

@@ -1,0 +1,230 @@
+#include "render/mesh.h"
+#include "base/memory.h"
+#include "render/raster.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static void free_points(WrMesh *mesh)
+{
+    wr_free(mesh->x);
+    wr_free(mesh->y);
+    wr_free(mesh->z);
+    wr_free(mesh->sx);
+    wr_free(mesh->sy);
+    wr_free(mesh->close);
+    wr_free(mesh->out);
+    wr_free(mesh->blocks);
+}
+
+void wr_mesh_fini(WrMesh *mesh)
+{
+    free_points(mesh);
+    *mesh = (WrMesh){ 0 };
+}
+
+/* Samples that one kernel unit of length may cover, at the nearest point of the object. */
+static double samples_per_unit(const WrView *view, const WrShape *shape)
+{
+    double per = view->grid_h / (2.0 * view->half_h);
+    if (!view->perspective) return per;
+    WrVec3 centre = v3_scale(wr_shape_centre(shape), view->scale);
+    double depth = v3_len(v3_sub(centre, view->eye)) - view->radius;
+    double least = 0.05 * view->radius;
+    return per / (depth > least ? depth : least);
+}
+
+/* The smallest of these that is enough: a few fixed sizes, so that a moving view seldom changes them. */
+static int round_cells(double want)
+{
+    static const int sizes[] = { 8, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512 };
+    const int count = (int)(sizeof sizes / sizeof *sizes);
+    for (int i = 0; i < count; i++)
+        if (want <= sizes[i]) return sizes[i];
+    return sizes[count - 1];
+}
+
+/* Largest |Puu|, |Puv|, |Pvv| over the surface (sampled), in object units; kept while the shape stays. */
+static void measure_bend(WrMesh *mesh, const WrShape *shape)
+{
+    if (mesh->measured && memcmp(&mesh->source, shape, sizeof *shape) == 0) return;
+    mesh->uu = mesh->uv = mesh->vv = 0;
+    for (int j = 0; j <= 16; j++)
+        for (int i = 0; i <= 16; i++) {
+            WrSurfacePoint at;
+            wr_surface_at(shape, 0, i / 16.0, j / 16.0, &at);
+            mesh->uu = fmax(mesh->uu, v3_len(at.puu));
+            mesh->uv = fmax(mesh->uv, v3_len(at.puv));
+            mesh->vv = fmax(mesh->vv, v3_len(at.pvv));
+        }
+    mesh->source = *shape;
+    mesh->measured = true;
+}
+
+/* A cell's chord is off by at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor). */
+static void choose_cells(const WrMesh *mesh, const WrShape *shape, const WrView *view, int samples,
+                         int *mu, int *mv)
+{
+    const double tolerance = 0.25 * samples; /* a quarter of a pixel, in samples */
+    double k = view->scale * samples_per_unit(view, shape) / (8.0 * tolerance);
+    *mu = round_cells(sqrt(2.0 * k * (mesh->uu + mesh->uv)));
+    *mv = round_cells(sqrt(2.0 * k * (mesh->vv + mesh->uv)));
+}
+
+typedef struct MeshJob {
+    WrMesh *mesh;
+    const WrView *view;
+    const WrKernels *kernels;
+} MeshJob;
+
+static void make_row(int j, int worker, void *ctx)
+{
+    (void)worker;
+    MeshJob *job = ctx;
+    WrMesh *mesh = job->mesh;
+    float u[WR_SPAN], v[WR_SPAN];
+    for (int from = 0; from <= mesh->mu; from += WR_SPAN) {
+        int n = mesh->mu + 1 - from < WR_SPAN ? mesh->mu + 1 - from : WR_SPAN;
+        for (int i = 0; i < n; i++) {
+            u[i] = (float)(from + i) / (float)mesh->mu;
+            v[i] = (float)j / (float)mesh->mv;
+        }
+        size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)from;
+        job->kernels->points[mesh->kind](&mesh->shape, n, u, v, mesh->x + at, mesh->y + at,
+                                         mesh->z + at);
+    }
+}
+
+static void project_row(int j, int worker, void *ctx)
+{
+    (void)worker;
+    MeshJob *job = ctx;
+    WrMesh *mesh = job->mesh;
+    const size_t row = (size_t)j * (size_t)(mesh->mu + 1);
+    for (int i = 0; i <= mesh->mu; i++) {
+        size_t at = row + (size_t)i;
+        WrVec3 p = { mesh->x[at], mesh->y[at], mesh->z[at] };
+        WrRasterVertex vertex;
+        mesh->out[at] = !wr_raster_project(job->view, p, 0, 0, &vertex);
+        mesh->sx[at] = vertex.x;
+        mesh->sy[at] = vertex.y;
+        mesh->close[at] = vertex.close;
+    }
+}
+
+static void bound_row(int by, int worker, void *ctx)
+{
+    (void)worker;
+    MeshJob *job = ctx;
+    WrMesh *mesh = job->mesh;
+    const int pitch = mesh->mu + 1;
+    for (int bx = 0; bx < mesh->blocks_u; bx++) {
+        WrMeshBlock b = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, false };
+        for (int y = 0; y <= WR_MESH_BLOCK; y++)
+            for (int x = 0; x <= WR_MESH_BLOCK; x++) {
+                size_t at = (size_t)(by * WR_MESH_BLOCK + y) * (size_t)pitch +
+                            (size_t)(bx * WR_MESH_BLOCK + x);
+                b.clipped |= mesh->out[at];
+                b.x0 = mesh->sx[at] < b.x0 ? mesh->sx[at] : b.x0;
+                b.x1 = mesh->sx[at] > b.x1 ? mesh->sx[at] : b.x1;
+                b.y0 = mesh->sy[at] < b.y0 ? mesh->sy[at] : b.y0;
+                b.y1 = mesh->sy[at] > b.y1 ? mesh->sy[at] : b.y1;
+            }
+        mesh->blocks[by * mesh->blocks_u + bx] = b;
+    }
+}
+
+static void allocate(WrMesh *mesh, int mu, int mv)
+{
+    size_t count = (size_t)(mu + 1) * (size_t)(mv + 1);
+    free_points(mesh);
+    mesh->mu = mu, mesh->mv = mv;
+    mesh->blocks_u = mu / WR_MESH_BLOCK, mesh->blocks_v = mv / WR_MESH_BLOCK;
+    mesh->x = wr_alloc(count, sizeof *mesh->x);
+    mesh->y = wr_alloc(count, sizeof *mesh->y);
+    mesh->z = wr_alloc(count, sizeof *mesh->z);
+    mesh->sx = wr_alloc(count, sizeof *mesh->sx);
+    mesh->sy = wr_alloc(count, sizeof *mesh->sy);
+    mesh->close = wr_alloc(count, sizeof *mesh->close);
+    mesh->out = wr_alloc(count, sizeof *mesh->out);
+    mesh->blocks = wr_alloc((size_t)(mesh->blocks_u * mesh->blocks_v), sizeof *mesh->blocks);
+}
+
+void wr_mesh_prepare(WrMesh *mesh, const WrShape *shape, const WrView *view, int samples,
+                     const WrKernels *kernels, WrPool *pool)
+{
+    MeshJob job = { mesh, view, kernels };
+    int mu, mv;
+    measure_bend(mesh, shape);
+    choose_cells(mesh, shape, view, samples, &mu, &mv);
+    bool same = mesh->mu == mu && mesh->mv == mv && mesh->kind == shape->kind &&
+                memcmp(&mesh->shape, &view->shape, sizeof view->shape) == 0;
+    if (!same) {
+        allocate(mesh, mu, mv);
+        mesh->kind = shape->kind;
+        mesh->shape = view->shape;
+        wr_pool_run(pool, mv + 1, make_row, &job);
+    }
+    wr_pool_run(pool, mv + 1, project_row, &job);
+    wr_pool_run(pool, mesh->blocks_v, bound_row, &job);
+}
+
+static bool block_meets(const WrMeshBlock *b, const WrDepthTile *tile)
+{
+    return b->clipped || (b->x1 >= tile->x * 256 && b->x0 <= (tile->x + tile->w) * 256 &&
+                          b->y1 >= tile->y * 256 && b->y0 <= (tile->y + tile->h) * 256);
+}
+
+bool wr_mesh_touches(const WrMesh *mesh, const WrDepthTile *tile)
+{
+    for (int i = 0; i < mesh->blocks_u * mesh->blocks_v; i++)
+        if (block_meets(&mesh->blocks[i], tile)) return true;
+    return false;
+}
+
+static WrRasterVertex vertex_at(const WrMesh *mesh, int i, int j)
+{
+    size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i;
+    return (WrRasterVertex){ mesh->sx[at], mesh->sy[at], mesh->close[at],
+                             (float)i / (float)mesh->mu, (float)j / (float)mesh->mv };
+}
+
+static void raster_clipped(const WrMesh *mesh, const WrView *view, const int ij[3][2],
+                           WrDepthTile *tile)
+{
+    WrClipVertex corner[3];
+    for (int k = 0; k < 3; k++) {
+        size_t at = (size_t)ij[k][1] * (size_t)(mesh->mu + 1) + (size_t)ij[k][0];
+        corner[k] = wr_raster_clip_vertex(view, (WrVec3){ mesh->x[at], mesh->y[at], mesh->z[at] },
+                                          (double)ij[k][0] / mesh->mu, (double)ij[k][1] / mesh->mv);
+    }
+    wr_raster_clipped(view, corner, tile);
+}
+
+static void raster_cell(const WrMesh *mesh, const WrView *view, int i, int j, WrDepthTile *tile)
+{
+    size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i, next = at + (size_t)mesh->mu + 1;
+    if (mesh->out[at] | mesh->out[at + 1] | mesh->out[next] | mesh->out[next + 1]) {
+        raster_clipped(mesh, view, (const int[3][2]){ { i, j }, { i + 1, j }, { i + 1, j + 1 } },
+                       tile);
+        raster_clipped(mesh, view, (const int[3][2]){ { i, j }, { i + 1, j + 1 }, { i, j + 1 } },
+                       tile);
+        return;
+    }
+    WrRasterVertex a = vertex_at(mesh, i, j), b = vertex_at(mesh, i + 1, j);
+    WrRasterVertex c = vertex_at(mesh, i, j + 1), d = vertex_at(mesh, i + 1, j + 1);
+    wr_raster_triangle(view, a, b, d, tile);
+    wr_raster_triangle(view, a, d, c, tile);
+}
+
+void wr_mesh_raster(const WrMesh *mesh, const WrView *view, WrDepthTile *tile)
+{
+    for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
+    for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++) {
+        if (!block_meets(&mesh->blocks[b], tile)) continue;
+        int i0 = b % mesh->blocks_u * WR_MESH_BLOCK, j0 = b / mesh->blocks_u * WR_MESH_BLOCK;
+        for (int j = j0; j < j0 + WR_MESH_BLOCK; j++)
+            for (int i = i0; i < i0 + WR_MESH_BLOCK; i++) raster_cell(mesh, view, i, j, tile);
+    }
+}

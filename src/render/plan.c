@@ -1,0 +1,190 @@
+#include "render/plan.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
+#define WIDE_FROM 1024.0
+
+static const struct {
+    const char *rule, *name;
+    WrProof proof;
+} effects[WR_EFFECT_COUNT] = {
+    [WR_EFFECT_DIFFUSE] = { "E1", "diffuse", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_SPECULAR] = { "E2", "specular", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_COLOUR] = { "E5", "colour picture", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_BUMP] = { "E6", "bump", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_GRADIENT] = { "E9", "gradient table", WR_PROOF_BOUNDED },
+    [WR_EFFECT_WIDE] = { "E10", "replication in double", WR_PROOF_BOUNDED },
+    [WR_EFFECT_INVARIANT] = { "E11", "scale invariance", WR_PROOF_BOUNDED },
+    [WR_EFFECT_EXACT] = { "E12", "exact normal", WR_PROOF_BOUNDED },
+    [WR_EFFECT_CURVATURE] = { "E13", "second derivatives", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_SAMPLES] = { "E15", "supersampling", WR_PROOF_POLICY },
+    [WR_EFFECT_BACK] = { "E25", "back faces", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED },
+    [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL },
+};
+
+const char *wr_proof_letter(WrProof proof)
+{
+    static const char *const letters[] = { "I", "B", "P" };
+    return letters[proof];
+}
+
+static void say(WrPlan *plan, WrEffect effect, bool run, const char *reason)
+{
+    WrPlanRow *row = &plan->rows[effect];
+    *row = (WrPlanRow){ .rule = effects[effect].rule,
+                        .name = effects[effect].name,
+                        .run = run,
+                        .proof = effects[effect].proof };
+    snprintf(row->reason, sizeof row->reason, "%s", reason);
+}
+
+static bool any_light(const WrScene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        const WrLight *light = &scene->lights[i];
+        if (light->strength != 0 &&
+            (light->colour.x != 0 || light->colour.y != 0 || light->colour.z != 0))
+            return true;
+    }
+    return false;
+}
+
+static bool colour_constant(const WrImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    for (size_t i = (size_t)image->channels; i < count; i++)
+        if (image->data[i] != image->data[i - (size_t)image->channels]) return false;
+    for (int c = 0; c < image->channels; c++)
+        if (image->data[c] != 1.0f) return false; /* white: multiplying changes nothing */
+    return true;
+}
+
+static void plan_light(WrPlan *plan, const WrScene *scene, bool everything)
+{
+    const WrMaterial *m = &scene->material;
+    const bool lit = any_light(scene);
+    const bool black = m->colour.x == 0 && m->colour.y == 0 && m->colour.z == 0;
+    plan->diffuse = everything || (lit && m->diffuse != 0 && !black);
+    plan->specular = everything || (lit && m->specular != 0);
+    say(plan, WR_EFFECT_DIFFUSE, plan->diffuse,
+        !lit              ? "no light shines"
+        : m->diffuse == 0 ? "diffuse is 0"
+        : black           ? "the material's colour is black"
+                          : "a light shines and diffuse is not 0");
+    say(plan, WR_EFFECT_SPECULAR, plan->specular,
+        !lit               ? "no light shines"
+        : m->specular == 0 ? "specular is 0"
+                           : "a light shines and specular is not 0");
+    plan->colour = scene->colour && (everything || !colour_constant(scene->colour));
+    say(plan, WR_EFFECT_COLOUR, plan->colour,
+        !scene->colour  ? "the scene has no colour picture"
+        : !plan->colour ? "the colour picture is white everywhere"
+                        : "the scene has a colour picture");
+}
+
+/* Why the table cannot move the normal, or NULL if it can. The exact normal of an offset surface
+   (constant F) is the base's up to its sign, which flips where F passes a focal distance: so with `exact`
+   on a curved base a constant F is left out only if it is 0. */
+static const char *no_bump(const WrPlan *plan, const WrScene *scene, const WrTableFacts *facts)
+{
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    const bool offset = scene->bump == WR_BUMP_EXACT && !wr_surfaces[scene->shape.kind]->flat;
+    if (scene->bump == WR_BUMP_NONE) return "bump mode is none";
+    if (!plan->diffuse && !plan->specular) return "no light depends on the normal";
+    if (scene->height == 0) return "height is 0";
+    if (table && facts->zero) return "the table is 0 everywhere";
+    if (offset) return NULL;
+    if (scene->replicate_u == 0 && scene->replicate_v == 0)
+        return "replication is 0,0: F is constant";
+    if (table && facts->flat) return "every texel of the table is equal";
+    if (table && facts->slope_free) return "the scheme sees no slope anywhere in the table";
+    return NULL;
+}
+
+static void plan_bump(WrPlan *plan, const WrScene *scene, const WrTableFacts *facts,
+                      bool everything)
+{
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    const double *size = scene->shape.value;
+    const char *why = no_bump(plan, scene, facts);
+    bool run = scene->bump != WR_BUMP_NONE && (everything || !why);
+    bool unit_square = scene->shape.kind == WR_SURFACE_plane && size[0] == 1 && size[1] == 1;
+    plan->bump = run ? scene->bump : WR_BUMP_NONE;
+    say(plan, WR_EFFECT_BUMP, run, why ? why : "the table has slopes and a light shows them");
+
+    bool invariant = plan->bump == WR_BUMP_INVARIANT && (everything || !unit_square);
+    say(plan, WR_EFFECT_INVARIANT, invariant,
+        scene->bump != WR_BUMP_INVARIANT ? "bump mode is not invariant"
+        : !run                           ? "bump does not run"
+        : unit_square                    ? "on the unit square it equals blinn"
+                                         : "bump mode is invariant");
+    if (plan->bump == WR_BUMP_INVARIANT && !invariant) plan->bump = WR_BUMP_BLINN;
+
+    bool exact = plan->bump == WR_BUMP_EXACT && (everything || !info->flat);
+    say(plan, WR_EFFECT_EXACT, exact,
+        scene->bump != WR_BUMP_EXACT ? "bump mode is not exact"
+        : !run                       ? "bump does not run"
+        : info->flat                 ? "the base is flat: blinn is exact there for any F"
+                                     : "bump mode is exact and the base is curved");
+    if (plan->bump == WR_BUMP_EXACT && !exact) plan->bump = WR_BUMP_BLINN;
+    plan->curvature = plan->bump == WR_BUMP_EXACT;
+    say(plan, WR_EFFECT_CURVATURE, plan->curvature,
+        plan->curvature ? "the exact normal needs how n turns"
+                        : "only the exact normal needs them");
+    plan->need_heights = plan->bump == WR_BUMP_EXACT;
+}
+
+static void plan_look(WrPlan *plan, const WrScene *scene)
+{
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF && plan->bump != WR_BUMP_NONE;
+    const bool differences =
+        scene->scheme == WR_SCHEME_CENTRAL || scene->scheme == WR_SCHEME_NEAREST;
+    plan->gradient_table = table && differences;
+    say(plan, WR_EFFECT_GRADIENT, plan->gradient_table,
+        !table        ? "no table is looked up"
+        : differences ? "one look-up of central differences equals the paper's four of F"
+                      : "this scheme takes its slopes from the heights");
+    const double r = fmax(fabs(scene->replicate_u), fabs(scene->replicate_v));
+    plan->wide = table && r >= WIDE_FROM;
+    say(plan, WR_EFFECT_WIDE, plan->wide,
+        !table           ? "no table is looked up"
+        : r >= WIDE_FROM ? "replication of 1024 and more loses texels in single precision"
+                         : "replication is under 1024: single precision is right to 1e-3 texel");
+}
+
+static void plan_visibility(WrPlan *plan, const WrScene *scene, const WrDials *dials)
+{
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    plan->mesh = info->inversion == WR_INVERT_MESH;
+    plan->samples = dials->aa == WR_AA_SUPERSAMPLE ? dials->samples : 1;
+    say(plan, WR_EFFECT_SAMPLES, plan->samples > 1,
+        dials->aa != WR_AA_SUPERSAMPLE ? "the dial says one sample at the pixel's centre"
+        : plan->samples == 1           ? "one sample a pixel was asked for"
+                                       : "the dial asks for the mean of K x K intensities");
+    const bool closed = info->convex_closed || (info->closed_u && info->closed_v);
+    say(plan, WR_EFFECT_BACK, !closed,
+        closed ? "a closed body seen from outside hides its own back"
+               : "the surface is open: its back can be seen");
+    say(plan, WR_EFFECT_DEPTH, plan->mesh,
+        plan->mesh ? "parts of the surface may hide others"
+                   : "the nearest root of the ray is enough");
+    say(plan, WR_EFFECT_NEWTON, plan->mesh,
+        plan->mesh ? "this surface has no closed inverse"
+                   : "rays meet this surface in closed form");
+    say(plan, WR_EFFECT_PERSPECTIVE, !scene->camera.orthographic,
+        scene->camera.orthographic ? "the camera is orthographic" : "the camera is in perspective");
+}
+
+void wr_plan_build(WrPlan *plan, const WrScene *scene, const WrDials *dials,
+                   const WrTableFacts *facts, bool everything)
+{
+    memset(plan, 0, sizeof *plan);
+    plan_light(plan, scene, everything);
+    plan_bump(plan, scene, facts, everything);
+    plan_look(plan, scene);
+    plan_visibility(plan, scene, dials);
+}

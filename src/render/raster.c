@@ -1,0 +1,164 @@
+#include "render/raster.h"
+
+#include <math.h>
+
+WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, double v)
+{
+    WrVec3 w = v3_sub(p, view->eye);
+    return (WrClipVertex){ v3_dot(w, view->right), v3_dot(w, view->up), v3_dot(w, view->forward), u,
+                           v };
+}
+
+/* Camera axes -> grid samples, for a vertex known to be inside the near plane and the guard band. */
+static WrRasterVertex project(const WrView *view, const WrClipVertex *c)
+{
+    double inv = view->perspective ? 1.0 / c->depth : 1.0;
+    double x = (0.5 + 0.5 * c->x * inv / view->half_w) * view->grid_w;
+    double y = (0.5 - 0.5 * c->y * inv / view->half_h) * view->grid_h;
+    return (WrRasterVertex){ (int32_t)rint(x * 256.0), (int32_t)rint(y * 256.0),
+                             (float)(view->perspective ? inv : -c->depth), (float)c->u,
+                             (float)c->v };
+}
+
+bool wr_raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out)
+{
+    WrClipVertex c = wr_raster_clip_vertex(view, p, u, v);
+    double reach = WR_GUARD * (view->perspective ? c.depth : 1.0);
+    *out = (WrRasterVertex){ 0 };
+    if (!(c.depth >= view->near) || !(fabs(c.x) <= reach * view->half_w) ||
+        !(fabs(c.y) <= reach * view->half_h))
+        return false;
+    *out = project(view, &c);
+    return true;
+}
+
+/* Edge from (ax, ay) to (bx, by): e(x, y) > 0 to its left; whole numbers, 1/256 sample squared. Samples
+   on the edge belong to it only if it is a top or left one. */
+typedef struct Edge {
+    int64_t at, step_x, step_y;
+} Edge;
+
+static Edge edge_of(int64_t ax, int64_t ay, int64_t bx, int64_t by, int64_t px, int64_t py)
+{
+    int64_t dx = bx - ax, dy = by - ay;
+    bool owns = dy < 0 || (dy == 0 && dx < 0);
+    Edge e = { dx * (py - ay) - dy * (px - ax) - (owns ? 0 : 1), -dy * 256, dx * 256 };
+    return e;
+}
+
+static int32_t floor_sample(int64_t x)
+{
+    return (int32_t)(x >= 0 ? x / 256 : -((-x + 255) / 256));
+}
+
+static int64_t min3(int64_t a, int64_t b, int64_t c)
+{
+    a = a < b ? a : b;
+    return a < c ? a : c;
+}
+
+static int64_t max3(int64_t a, int64_t b, int64_t c)
+{
+    a = a > b ? a : b;
+    return a > c ? a : c;
+}
+
+/* What is interpolated: q = value / depth is affine on the screen, so is closeness. */
+typedef struct Plane {
+    float base, d1, d2;
+} Plane;
+
+static Plane plane_of(float a, float b, float c)
+{
+    return (Plane){ a, b - a, c - a };
+}
+
+void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
+                        WrDepthTile *tile)
+{
+    const bool perspective = view->perspective;
+    int64_t area =
+        ((int64_t)b.x - a.x) * ((int64_t)c.y - a.y) - ((int64_t)b.y - a.y) * ((int64_t)c.x - a.x);
+    if (area == 0 || (area > 0 && view->cull)) return; /* rows run down: fronts have area < 0 */
+    if (area < 0) {
+        WrRasterVertex t = b;
+        b = c, c = t, area = -area;
+    }
+    int32_t x0 = floor_sample(min3(a.x, b.x, c.x) - 128) - tile->x;
+    int32_t x1 = floor_sample(max3(a.x, b.x, c.x) - 128) + 1 - tile->x;
+    int32_t y0 = floor_sample(min3(a.y, b.y, c.y) - 128) - tile->y;
+    int32_t y1 = floor_sample(max3(a.y, b.y, c.y) - 128) + 1 - tile->y;
+    x0 = x0 < 0 ? 0 : x0, y0 = y0 < 0 ? 0 : y0;
+    x1 = x1 > tile->w ? tile->w : x1, y1 = y1 > tile->h ? tile->h : y1;
+    if (x0 >= x1 || y0 >= y1) return;
+
+    int64_t px = ((int64_t)tile->x + x0) * 256 + 128, py = ((int64_t)tile->y + y0) * 256 + 128;
+    Edge ea = edge_of(b.x, b.y, c.x, c.y, px, py);
+    Edge eb = edge_of(c.x, c.y, a.x, a.y, px, py);
+    Edge ec = edge_of(a.x, a.y, b.x, b.y, px, py);
+    float inv = 1.0f / (float)area;
+    float wa = perspective ? a.close : 1, wb = perspective ? b.close : 1,
+          wc = perspective ? c.close : 1;
+    Plane close = plane_of(a.close, b.close, c.close);
+    Plane u = plane_of(a.u * wa, b.u * wb, c.u * wc), v = plane_of(a.v * wa, b.v * wb, c.v * wc);
+    for (int32_t y = y0; y < y1; y++) {
+        int64_t fa = ea.at, fb = eb.at, fc = ec.at;
+        size_t row = (size_t)y * (size_t)tile->w;
+        for (int32_t x = x0; x < x1; x++) {
+            if ((fa | fb | fc) >= 0) {
+                float l1 = (float)fb * inv, l2 = (float)fc * inv;
+                float near = close.base + l1 * close.d1 + l2 * close.d2;
+                if (near > tile->close[row + (size_t)x]) {
+                    float w = perspective ? 1.0f / near : 1.0f;
+                    tile->close[row + (size_t)x] = near;
+                    tile->u[row + (size_t)x] = (u.base + l1 * u.d1 + l2 * u.d2) * w;
+                    tile->v[row + (size_t)x] = (v.base + l1 * v.d1 + l2 * v.d2) * w;
+                }
+            }
+            fa += ea.step_x, fb += eb.step_x, fc += ec.step_x;
+        }
+        ea.at += ea.step_y, eb.at += eb.step_y, ec.at += ec.step_y;
+    }
+}
+
+/* Signed distance of a vertex from clip plane k: near, left, right, bottom, top. */
+static double inside(const WrView *view, int k, const WrClipVertex *c)
+{
+    double reach = 0.99 * WR_GUARD * (view->perspective ? c->depth : 1.0);
+    switch (k) {
+    case 0: return c->depth - view->near * 1.001;
+    case 1: return reach * view->half_w + c->x;
+    case 2: return reach * view->half_w - c->x;
+    case 3: return reach * view->half_h + c->y;
+    default: return reach * view->half_h - c->y;
+    }
+}
+
+static WrClipVertex between(const WrClipVertex *a, const WrClipVertex *b, double t)
+{
+    return (WrClipVertex){ a->x + t * (b->x - a->x), a->y + t * (b->y - a->y),
+                           a->depth + t * (b->depth - a->depth), a->u + t * (b->u - a->u),
+                           a->v + t * (b->v - a->v) };
+}
+
+void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile)
+{
+    WrClipVertex poly[16], next[16];
+    int count = 3;
+    for (int i = 0; i < 3; i++) poly[i] = corner[i];
+    for (int k = 0; k < 5 && count > 0; k++) { /* Sutherland and Hodgman, one plane at a time */
+        int kept = 0;
+        for (int i = 0; i < count; i++) {
+            const WrClipVertex *p = &poly[i], *q = &poly[(i + 1) % count];
+            double dp = inside(view, k, p), dq = inside(view, k, q);
+            if (dp >= 0) next[kept++] = *p;
+            if ((dp >= 0) != (dq >= 0)) next[kept++] = between(p, q, dp / (dp - dq));
+        }
+        for (int i = 0; i < kept; i++) poly[i] = next[i];
+        count = kept;
+    }
+    if (count < 3) return;
+    WrRasterVertex first = project(view, &poly[0]);
+    for (int i = 1; i + 1 < count; i++)
+        wr_raster_triangle(view, first, project(view, &poly[i]), project(view, &poly[i + 1]), tile);
+}

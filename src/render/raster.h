@@ -1,0 +1,27 @@
+/* raster.h - triangles into a tile of depth, u, v: projection, clipping, edge functions in whole
+   numbers.
+   Layer 5, private to the renderer. */
+#pragma once
+#include "render/mesh.h"
+
+/* A projected vertex. */
+typedef struct WrRasterVertex {
+    int32_t x, y; /* 1/256 samples */
+    float close;  /* 1/depth or -depth */
+    float u, v;
+} WrRasterVertex;
+
+/* A vertex before projection: camera axes in kernel units, depth along the view. */
+typedef struct WrClipVertex {
+    double x, y, depth, u, v;
+} WrClipVertex;
+
+WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, double v);
+/* False if the vertex lies before the near plane or more than WR_GUARD views outside: then `out` holds
+   zeros and the triangle has to be clipped. */
+#define WR_GUARD 2.0
+bool wr_raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out);
+void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
+                        WrDepthTile *tile);
+/* Clip against the near plane and the guard band, before any division (HC82, HC83). */
+void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile);

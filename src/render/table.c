@@ -1,0 +1,289 @@
+#include "render/table.h"
+#include "base/memory.h"
+
+#include <float.h>
+#include <string.h>
+
+/* How a copy is made: texels [i, i + w) x [j, j + h), indices outside the table included. */
+typedef void (*FillRect)(const WrField *field, int i, int j, int w, int h, float *out,
+                         size_t pitch);
+
+static float narrow(double x)
+{
+    return (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
+}
+
+/* Fu = (T[i+1] - T[i-1]) W/2, Fv = (T[j-1] - T[j+1]) H/2 (rows run down); differences in double, so
+   that neither a large level nor FLT_MAX beside -FLT_MAX does harm (HC48, HC50). */
+static void fill_gradient(const WrField *field, int i, int j, int w, int h, float *out,
+                          size_t pitch)
+{
+    const double half_w = 0.5 * wr_field_width(field), half_h = 0.5 * wr_field_height(field);
+    const size_t ring = (size_t)w + 2;
+    float *t = wr_alloc(ring * ((size_t)h + 2), sizeof *t);
+    wr_field_read(field, i - 1, j - 1, w + 2, h + 2, t, ring);
+    for (int y = 0; y < h; y++) {
+        const float *up = t + (size_t)y * ring + 1, *mid = up + ring, *down = mid + ring;
+        float *row = out + (size_t)y * pitch * 2;
+        for (int x = 0; x < w; x++) {
+            row[2 * x] = narrow(((double)mid[x + 1] - mid[x - 1]) * half_w);
+            row[2 * x + 1] = narrow(((double)up[x] - down[x]) * half_h);
+        }
+    }
+    wr_free(t);
+}
+
+static const struct {
+    FillRect fill;
+    int floats; /* a texel */
+    int reach;  /* a texel of F changes the copy this far away */
+    const char *what;
+} kinds[WR_COPY_COUNT] = {
+    [WR_COPY_HEIGHTS] = { wr_field_read, 1, 0, "heights for the picture" },
+    [WR_COPY_FITTED] = { wr_field_read_fitted, 1, WR_PREFILTER_REACH, "spline coefficients" },
+    [WR_COPY_GRADIENT] = { fill_gradient, 2, 1, "gradient table" },
+};
+
+static int tile_count(const WrField *field)
+{
+    return wr_field_tiles_u(field) * wr_field_tiles_v(field);
+}
+
+static bool same_layout(const WrField *a, const WrField *b)
+{
+    return a && wr_field_width(a) == wr_field_width(b) &&
+           wr_field_height(a) == wr_field_height(b) && wr_field_wrap_u(a) == wr_field_wrap_u(b) &&
+           wr_field_wrap_v(a) == wr_field_wrap_v(b);
+}
+
+void wr_table_init(WrTable *table)
+{
+    memset(table, 0, sizeof *table);
+}
+
+void wr_table_drop(WrTable *table, WrCopyKind kind)
+{
+    WrCopy *copy = &table->copies[kind];
+    wr_field_free(copy->seen);
+    wr_free(copy->data);
+    *copy = (WrCopy){ 0 };
+    if (kind != WR_COPY_GRADIENT) return;
+    wr_free(table->sloped);
+    table->sloped = NULL;
+}
+
+void wr_table_fini(WrTable *table)
+{
+    for (int kind = 0; kind < WR_COPY_COUNT; kind++) wr_table_drop(table, (WrCopyKind)kind);
+    wr_field_free(table->ranged);
+    wr_free(table->low);
+    wr_free(table->high);
+    memset(table, 0, sizeof *table);
+}
+
+/* ---- ranges ------------------------------------------------------------------------------------ */
+
+typedef struct RangeJob {
+    WrTable *table;
+    const WrField *field;
+} RangeJob;
+
+static void range_tile(int tx, int ty, void *ctx)
+{
+    RangeJob *job = ctx;
+    const WrField *field = job->field;
+    int at = ty * wr_field_tiles_u(field) + tx;
+    const float *tile = wr_field_tile(field, tx, ty);
+    float low = wr_field_level(field), high = low;
+    if (tile) {
+        int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
+        low = high = tile[0];
+        for (int y = 0; y < h && y < WR_TILE; y++)
+            for (int x = 0; x < w && x < WR_TILE; x++) {
+                float t = tile[y * WR_TILE + x];
+                low = t < low ? t : low;
+                high = t > high ? t : high;
+            }
+    }
+    job->table->low[at] = low;
+    job->table->high[at] = high;
+}
+
+bool wr_table_flat(WrTable *table, const WrField *field)
+{
+    RangeJob job = { table, field };
+    int count = tile_count(field);
+    if (same_layout(table->ranged, field)) {
+        wr_field_changes(table->ranged, field, range_tile, &job);
+    } else {
+        wr_free(table->low);
+        wr_free(table->high);
+        table->low = wr_alloc((size_t)count, sizeof *table->low);
+        table->high = wr_alloc((size_t)count, sizeof *table->high);
+        for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+            for (int tx = 0; tx < wr_field_tiles_u(field); tx++) range_tile(tx, ty, &job);
+    }
+    wr_field_free(table->ranged);
+    table->ranged = wr_field_share(field);
+    for (int i = 0; i < count; i++)
+        if (table->low[i] != table->high[i] || table->low[i] != table->low[0]) return false;
+    return true;
+}
+
+/* ---- copies ------------------------------------------------------------------------------------ */
+
+typedef struct CopyJob {
+    WrTable *table;
+    WrCopy *copy;
+    WrCopyKind kind;
+    const WrField *field;
+    bool border; /* something changed that the apron shows */
+    int changed; /* tiles */
+} CopyJob;
+
+static float *texel(const CopyJob *job, int i, int j)
+{
+    size_t at = (size_t)(j + WR_APRON) * (size_t)job->copy->pitch + (size_t)(i + WR_APRON);
+    return job->copy->data + at * (size_t)kinds[job->kind].floats;
+}
+
+static void refresh(CopyJob *job, int i, int j, int w, int h)
+{
+    if (w <= 0 || h <= 0) return;
+    kinds[job->kind].fill(job->field, i, j, w, h, texel(job, i, j), (size_t)job->copy->pitch);
+    __atomic_fetch_add(&job->table->texels_refreshed, (int64_t)w * h, __ATOMIC_RELAXED);
+}
+
+static void mark_sloped(CopyJob *job, int tx, int ty)
+{
+    const WrField *field = job->field;
+    int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
+    bool any = false;
+    for (int y = 0; y < h && y < WR_TILE && !any; y++) {
+        const float *row = texel(job, tx * WR_TILE, ty * WR_TILE + y);
+        for (int x = 0; x < 2 * w && x < 2 * WR_TILE; x++) any |= row[x] != 0.0f;
+    }
+    job->table->sloped[ty * wr_field_tiles_u(field) + tx] = any;
+}
+
+/* A strip of tile rows of a full build, apron columns included. */
+static void build_strip(int strip, int worker, void *ctx)
+{
+    (void)worker;
+    CopyJob *job = ctx;
+    const int w = wr_field_width(job->field), h = wr_field_height(job->field);
+    int top = strip * WR_TILE, bottom = top + WR_TILE < h ? top + WR_TILE : h;
+    int from = strip == 0 ? -WR_APRON : top;
+    int to = bottom == h ? h + WR_APRON : bottom;
+    refresh(job, -WR_APRON, from, w + 2 * WR_APRON, to - from);
+    if (job->kind == WR_COPY_GRADIENT)
+        for (int tx = 0; tx < wr_field_tiles_u(job->field); tx++) mark_sloped(job, tx, strip);
+}
+
+/* Refresh [a, b) of one axis in pieces that lie inside [0, n): a periodic axis wraps. */
+typedef struct Pieces {
+    int from[3], to[3], count;
+} Pieces;
+
+static Pieces cut(int a, int b, int n, WrWrap wrap)
+{
+    Pieces p = { { 0 }, { 0 }, 0 };
+    if (wrap == WR_WRAP_PERIODIC && b - a >= n) {
+        p.from[0] = 0, p.to[0] = n, p.count = 1;
+        return p;
+    }
+    for (int shift = -1; shift <= 1; shift++) {
+        if (shift != 0 && wrap != WR_WRAP_PERIODIC) continue;
+        int from = a + shift * n, to = b + shift * n;
+        from = from < 0 ? 0 : from;
+        to = to > n ? n : to;
+        if (from >= to) continue;
+        p.from[p.count] = from;
+        p.to[p.count++] = to;
+    }
+    return p;
+}
+
+static void refresh_tile(int tx, int ty, void *ctx)
+{
+    CopyJob *job = ctx;
+    const WrField *field = job->field;
+    const int w = wr_field_width(field), h = wr_field_height(field), reach = kinds[job->kind].reach;
+    const int edge = reach + WR_APRON;
+    int i1 = (tx + 1) * WR_TILE < w ? (tx + 1) * WR_TILE : w;
+    int j1 = (ty + 1) * WR_TILE < h ? (ty + 1) * WR_TILE : h;
+    Pieces pi = cut(tx * WR_TILE - reach, i1 + reach, w, wr_field_wrap_u(field));
+    Pieces pj = cut(ty * WR_TILE - reach, j1 + reach, h, wr_field_wrap_v(field));
+    for (int b = 0; b < pj.count; b++)
+        for (int a = 0; a < pi.count; a++) {
+            refresh(job, pi.from[a], pj.from[b], pi.to[a] - pi.from[a], pj.to[b] - pj.from[b]);
+            if (job->kind != WR_COPY_GRADIENT) continue;
+            for (int y = pj.from[b] / WR_TILE; y <= (pj.to[b] - 1) / WR_TILE; y++)
+                for (int x = pi.from[a] / WR_TILE; x <= (pi.to[a] - 1) / WR_TILE; x++)
+                    mark_sloped(job, x, y);
+        }
+    if (tx * WR_TILE < edge || i1 > w - edge || ty * WR_TILE < edge || j1 > h - edge)
+        job->border = true;
+}
+
+static void refresh_apron(CopyJob *job)
+{
+    const int w = wr_field_width(job->field), h = wr_field_height(job->field), a = WR_APRON;
+    refresh(job, -a, -a, w + 2 * a, a);
+    refresh(job, -a, h, w + 2 * a, a);
+    refresh(job, -a, 0, a, h);
+    refresh(job, w, 0, a, h);
+}
+
+static void count_tile(int tx, int ty, void *ctx)
+{
+    (void)tx, (void)ty;
+    ((CopyJob *)ctx)->changed++;
+}
+
+static bool allocate(CopyJob *job, WrError *err)
+{
+    int w = wr_field_width(job->field), h = wr_field_height(job->field);
+    int pitch = (w + 2 * WR_APRON + 15) / 16 * 16;
+    if (pitch % 512 == 0) pitch += 16; /* rows on the same cache sets would fight */
+    wr_table_drop(job->table, job->kind);
+    job->copy->data =
+        wr_try_alloc((size_t)pitch * (size_t)(h + 2 * WR_APRON),
+                     (size_t)kinds[job->kind].floats * sizeof(float), kinds[job->kind].what, err);
+    if (!job->copy->data) return false;
+    job->copy->pitch = pitch;
+    if (job->kind == WR_COPY_GRADIENT)
+        job->table->sloped = wr_alloc((size_t)tile_count(job->field), 1);
+    return true;
+}
+
+bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,
+                    WrError *err)
+{
+    CopyJob job = { .table = table, .copy = &table->copies[kind], .kind = kind, .field = field };
+    WrCopy *copy = job.copy;
+    table->texels_refreshed = 0;
+    if (same_layout(copy->seen, field)) {
+        wr_field_changes(copy->seen, field, count_tile, &job);
+        if (job.changed == 0) return true;
+    }
+    if (same_layout(copy->seen, field) && job.changed <= tile_count(field) / 2) {
+        wr_field_changes(copy->seen, field, refresh_tile, &job);
+        if (job.border) refresh_apron(&job);
+    } else {
+        if (!same_layout(copy->seen, field) && !allocate(&job, err)) return false;
+        wr_pool_run(pool, wr_field_tiles_v(field), build_strip, &job);
+    }
+    wr_field_free(copy->seen);
+    copy->seen = wr_field_share(field);
+    return true;
+}
+
+bool wr_table_slope_free(const WrTable *table)
+{
+    const WrCopy *copy = &table->copies[WR_COPY_GRADIENT];
+    if (!copy->seen) return false;
+    for (int i = 0; i < tile_count(copy->seen); i++)
+        if (table->sloped[i]) return false;
+    return true;
+}

@@ -1,0 +1,29 @@
+/* view.h - a scene as the kernels see it: camera, lights and surface in scaled object space.
+   Layer 5, private to the renderer. */
+#pragma once
+#include "render/kern.h"
+#include "scene/scene.h"
+
+typedef struct WrView {
+    int grid_w, grid_h; /* samples: picture size times K */
+    double scale;       /* object units -> kernel units; a power of two */
+    double radius;      /* of the object, kernel units */
+    WrShapef shape;
+    WrRays rays;
+    WrVec3 eye, right, up, forward; /* kernel units, object space; double for the mesh */
+    double half_w, half_h;          /* of the view: at depth 1, or the whole, orthographic */
+    double near;                    /* depth of the near plane */
+    bool perspective;
+    bool cull;       /* a closed surface seen from outside: back faces are hidden (E25) */
+    WrQuad quads[6]; /* planar surfaces: those that can be seen */
+    int quad_face[6];
+    int quad_count;
+    WrKernLight *lights; /* [light_count], owned */
+    int light_count;
+} WrView;
+
+/* Fill a view; all checks were made when the scene was accepted, so this fails only for a camera that
+   cannot look (eye on target). Call fini even then. */
+bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width, int height,
+                  int samples, WrError *err);
+void wr_view_fini(WrView *view);

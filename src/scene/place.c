@@ -1,0 +1,133 @@
+#include "scene/scene.h"
+
+#include <string.h>
+
+#include "base/exactmath.h"
+
+/* How much larger than the object's ball the view is, so that the object does not touch its
+   border. */
+#define MARGIN 1.04
+
+static bool finite3(WrVec3 a)
+{
+    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+/* out = a b, 3 x 3, row-major */
+static void multiply(const double a[9], const double b[9], double out[9])
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+    }
+}
+
+/* out = (rotation by `deg` about the axis 0, 1, 2 = x, y, z) in. The whole turns are taken off
+ * exactly before anything is rounded, so that an angle of days of turning is as good as a small
+ * one (HC87). */
+static void turn(int axis, double deg, const double in[9], double out[9])
+{
+    double s, c;
+    wr_sincos_turns(remainder(deg, 360) / 360, &s, &c);
+    int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    double m[9] = { 0 };
+    m[4 * axis] = 1;
+    m[4 * j] = m[4 * k] = c;
+    m[3 * j + k] = -s;
+    m[3 * k + j] = s;
+    multiply(m, in, out);
+}
+
+/* Turntable Ry(turn) after the pose Rz Ry Rx. */
+static void place_object(const WrScene *scene, double turn_deg, double rotation[9])
+{
+    const double *pose = wr_surfaces[scene->shape.kind]->pose_deg;
+    WrVec3 deg = scene->posed ? scene->rotate_deg : (WrVec3){ pose[0], pose[1], pose[2] };
+    const double same[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    double a[9], b[9];
+    turn(0, deg.x, same, a);
+    turn(1, deg.y, a, b);
+    turn(2, deg.z, b, a);
+    turn(1, turn_deg, a, rotation);
+}
+
+/* Where `up` says nothing, because it is 0 or lies along the view: the far side is up when looking
+ * straight down, the near side when looking straight up, else the world's y. */
+static WrVec3 other_up(WrVec3 forward)
+{
+    if (fabs(forward.y) > 0.9) return (WrVec3){ 0, 0, forward.y > 0 ? 1 : -1 };
+    return (WrVec3){ 0, 1, 0 };
+}
+
+static void place_axes(const WrCamera *camera, WrVec3 forward, WrPlacement *out)
+{
+    const WrVec3 none = { 0, 0, 0 };
+    WrVec3 across = v3_cross(forward, v3_unit(camera->up, none));
+    if (v3_len(across) < 1e-9) across = v3_cross(forward, other_up(forward));
+    out->forward = forward;
+    out->right = v3_unit(across, none);
+    out->up = v3_unit(v3_cross(out->right, forward), none);
+}
+
+static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
+{
+    if (!(aspect > 0) || !isfinite(aspect))
+        return wr_fail(err, "picture %g times as wide as high: must be above 0", aspect);
+    if (!finite3(camera->eye) || !finite3(camera->target) || !finite3(camera->up))
+        return wr_fail(err, "camera eye, target, up: must be finite");
+    if (!camera->orthographic && !(camera->fov_deg >= 0.01 && camera->fov_deg <= 179))
+        return wr_fail(err, "camera fov = %g: must be 0.01..179 degrees", camera->fov_deg);
+    if (!isfinite(camera->size)) return wr_fail(err, "camera size: must be finite");
+    WrVec3 back = v3_sub(camera->eye, camera->target);
+    if (!finite3(back) || v3_len(back) > 1e150)
+        return wr_fail(err, "camera eye and target: too far apart; keep them within 1e150");
+    if (v3_len(back) > 0) return true;
+    return wr_fail(err,
+                   "camera eye = target = %g,%g,%g: there is no direction of view; move the eye",
+                   camera->eye.x, camera->eye.y, camera->eye.z);
+}
+
+/* How far the eye stands from the target, for a ball of radius `ball` about the target to fit: its
+ * outline, at ball / sqrt(distance^2 - ball^2), falls on the nearer border divided by MARGIN. */
+static double fit_distance(double ball, double half_height, double aspect, bool orthographic)
+{
+    if (orthographic) return 2 * ball;
+    double half = half_height * (aspect < 1 ? aspect : 1); /* of the nearer pair of borders */
+    return ball * sqrt(1 + MARGIN / half * (MARGIN / half));
+}
+
+static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out)
+{
+    WrVec3 back = v3_unit(v3_sub(camera->eye, camera->target), (WrVec3){ 0, 0, 1 });
+    place_axes(camera, v3_neg(back), out);
+    /* The object's ball is about the world's origin; this one is about the target and holds it. */
+    double ball = out->radius + v3_len(camera->target);
+    out->orthographic = camera->orthographic;
+    if (camera->orthographic) {
+        double fitted = MARGIN * ball * (aspect < 1 ? 1 / aspect : 1);
+        out->half_height = camera->size > 0 ? camera->size / 2 : fitted;
+    } else {
+        double s, c;
+        wr_sincos_turns(camera->fov_deg / 720, &s, &c);
+        out->half_height = s / c;
+    }
+    double away = fit_distance(ball, out->half_height, aspect, camera->orthographic);
+    out->eye = camera->fit ? v3_mad(camera->target, back, away) : camera->eye;
+}
+
+bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlacement *out,
+                    WrError *err)
+{
+    if (!check_camera(&scene->camera, aspect, err)) return false;
+    if (!isfinite(turn_deg)) return wr_fail(err, "turn: the angle must be finite");
+    if (scene->posed && !finite3(scene->rotate_deg))
+        return wr_fail(err, "rotate: the angles must be finite");
+    WrPlacement placed;
+    memset(&placed, 0, sizeof placed);
+    placed.centre = wr_shape_centre(&scene->shape);
+    placed.radius = wr_shape_radius(&scene->shape);
+    place_object(scene, turn_deg, placed.rotation);
+    place_camera(&scene->camera, aspect, &placed);
+    *out = placed;
+    return true;
+}

@@ -1,0 +1,123 @@
+#include "scene/scene.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "field/field.h"
+
+static const WrLight default_light = {
+    .kind = WR_LIGHT_DIRECTIONAL,
+    .where = { -0.5, 0.6, 0.75 },
+    .colour = { 1, 1, 1 },
+    .strength = 1,
+};
+
+WrScene *wr_scene_new(void)
+{
+    WrScene *scene = wr_alloc(1, sizeof *scene);
+    scene->refs = 1;
+    wr_shape_default(WR_SURFACE_plane, &scene->shape);
+    scene->bump = WR_BUMP_BLINN;
+    scene->scheme = WR_SCHEME_CENTRAL;
+    scene->height = 0.1;
+    scene->replicate_u = scene->replicate_v = 1;
+    scene->material = (WrMaterial){ .ambient = 0.08,
+                                    .diffuse = 0.72,
+                                    .specular = 0.35,
+                                    .shininess = 40,
+                                    .colour = { 0.8, 0.8, 0.8 },
+                                    .gate = true };
+    scene->lights = wr_alloc(1, sizeof *scene->lights);
+    scene->lights[0] = default_light;
+    scene->light_count = 1;
+    scene->camera = (WrCamera){ .fit = true, .eye = { 0, 0, 1 }, .up = { 0, 1, 0 }, .fov_deg = 35 };
+    scene->dials = (WrDials){ WR_AA_POINT, 4, WR_ARITHMETIC_EXACT };
+    for (int i = 0; i < 3; i++) scene->background[i] = 0.032;
+    return scene;
+}
+
+/* `count` elements copied to a block of their own; NULL for none. */
+static void *copied(const void *block, int count, size_t size)
+{
+    if (!block || count <= 0) return NULL;
+    void *copy = wr_alloc((size_t)count, size);
+    memcpy(copy, block, (size_t)count * size);
+    return copy;
+}
+
+WrScene *wr_scene_clone(const WrScene *scene)
+{
+    WrScene *clone = wr_alloc(1, sizeof *clone);
+    clone->refs = 1;
+    clone->shape = scene->shape;
+    clone->posed = scene->posed;
+    clone->rotate_deg = scene->rotate_deg;
+    clone->bump = scene->bump;
+    clone->scheme = scene->scheme;
+    clone->height = scene->height;
+    clone->replicate_u = scene->replicate_u;
+    clone->replicate_v = scene->replicate_v;
+    clone->analytic = scene->analytic;
+    clone->analytic.terms =
+        copied(scene->analytic.terms, scene->analytic.count, sizeof *scene->analytic.terms);
+    clone->material = scene->material;
+    clone->colour = scene->colour ? wr_image_share(scene->colour) : NULL;
+    clone->colour_path = wr_strdup(scene->colour_path);
+    memcpy(clone->colour_sha256, scene->colour_sha256, sizeof clone->colour_sha256);
+    clone->lights_given = scene->lights_given;
+    clone->lights = copied(scene->lights, scene->light_count, sizeof *scene->lights);
+    clone->light_count = scene->light_count;
+    clone->camera = scene->camera;
+    clone->dials = scene->dials;
+    memcpy(clone->background, scene->background, sizeof clone->background);
+    return clone;
+}
+
+WrScene *wr_scene_share(const WrScene *scene)
+{
+    WrScene *shared = (WrScene *)scene; /* only the count changes */
+    __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
+    return shared;
+}
+
+void wr_scene_free(WrScene *scene)
+{
+    if (!scene || __atomic_sub_fetch(&scene->refs, 1, __ATOMIC_ACQ_REL) > 0) return;
+    wr_free(scene->analytic.terms);
+    if (scene->colour) wr_image_free(scene->colour);
+    wr_free(scene->colour_path);
+    wr_free(scene->lights);
+    wr_free(scene);
+}
+
+/* Where to look in the table: periodic axes are brought to 0..1; beyond the ends of a clamped one
+ * F is constant, so that replicas there do not repeat. */
+static double table_parameter(double u, double replicate, bool clamped)
+{
+    return clamped ? replicate * u : wr_field_reduce(u, replicate);
+}
+
+/* A product of finite numbers, kept finite. */
+static double bounded(double x)
+{
+    return fmax(-DBL_MAX, fmin(x, DBL_MAX));
+}
+
+void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
+                     double *fu, double *fv)
+{
+    double ru = scene->replicate_u, rv = scene->replicate_v;
+    double value = 0, slope_u = 0, slope_v = 0;
+    if (scene->analytic.kind != WR_ANALYTIC_OFF) {
+        double x = wr_field_reduce(u, ru), y = wr_field_reduce(v, rv);
+        wr_analytic_sample(&scene->analytic, x, y, &value, &slope_u, &slope_v);
+    } else {
+        double x = table_parameter(u, ru, wr_field_wrap_u(field) == WR_WRAP_CLAMP);
+        double y = table_parameter(v, rv, wr_field_wrap_v(field) == WR_WRAP_CLAMP);
+        wr_field_sample(field, scene->scheme, 1, &x, &y, &value, &slope_u, &slope_v);
+    }
+    if (f) *f = bounded(scene->height * value);
+    if (fu) *fu = bounded(bounded(scene->height * slope_u) * ru);
+    if (fv) *fv = bounded(bounded(scene->height * slope_v) * rv);
+}

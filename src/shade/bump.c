@@ -1,0 +1,231 @@
+#include "shade/bump.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/exactmath.h"
+
+const char *const wr_bump_names[WR_BUMP_COUNT] = { "none", "blinn", "invariant", "exact" };
+
+int wr_bump_find(const char *name)
+{
+    for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
+        if (strcmp(wr_bump_names[mode], name) == 0) return mode;
+    }
+    return -1;
+}
+
+/* Vectors and numbers with an exponent of their own, value = v 2^e, so that products of any finite
+   inputs neither overflow nor vanish. Scaling by powers of two is exact: where the plain formula
+   stays within double's range these give its bits. */
+typedef struct Wide {
+    WrVec3 v; /* largest component 1 <= |x| < 2, or all 0 */
+    int e;
+} Wide;
+
+/* Under any exponent that can come up, as the exponent of 0. */
+enum { FAR = 20000 };
+
+static WrVec3 scaled(WrVec3 a, int e)
+{
+    return (WrVec3){ scalbn(a.x, e), scalbn(a.y, e), scalbn(a.z, e) };
+}
+
+static double largest(WrVec3 a)
+{
+    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+}
+
+static Wide wide(WrVec3 a, int e)
+{
+    double m = largest(a);
+    if (!(m > 0 && m <= DBL_MAX)) return (Wide){ { 0, 0, 0 }, 0 };
+    int k = ilogb(m);
+    return (Wide){ scaled(a, -k), e + k };
+}
+
+static bool wide_zero(Wide a)
+{
+    return largest(a.v) == 0;
+}
+
+static Wide wide_scale(Wide a, double s)
+{
+    if (!(fabs(s) > 0 && fabs(s) <= DBL_MAX)) return (Wide){ { 0, 0, 0 }, 0 };
+    int k = ilogb(s);
+    return wide(v3_scale(a.v, scalbn(s, -k)), a.e + k);
+}
+
+static Wide wide_add(Wide a, Wide b)
+{
+    if (wide_zero(a)) return b;
+    if (wide_zero(b)) return a;
+    int e = a.e > b.e ? a.e : b.e;
+    return wide(v3_add(scaled(a.v, a.e - e), scaled(b.v, b.e - e)), e);
+}
+
+static Wide wide_sub(Wide a, Wide b)
+{
+    b.v = v3_neg(b.v);
+    return wide_add(a, b);
+}
+
+static Wide wide_cross(Wide a, Wide b)
+{
+    return wide(v3_cross(a.v, b.v), a.e + b.e);
+}
+
+/* Back to doubles; beyond their range divided by a power of two: the direction counts. */
+static WrVec3 wide_value(Wide a)
+{
+    return scaled(a.v, a.e < DBL_MAX_EXP - 2 ? a.e : DBL_MAX_EXP - 2);
+}
+
+static WrVec3 wide_unit(Wide a, WrVec3 fallback)
+{
+    return v3_unit(a.v, fallback);
+}
+
+/* What the formulas share at one point. */
+typedef struct Point {
+    WrVec3 n_unit;
+    Wide n, pu, pv;
+    double fu, fv;
+} Point;
+
+/* D = n x (Fu Pv - Fv Pu) */
+static Wide d_vector(const Point *p)
+{
+    Wide across = wide_sub(wide_scale(p->pv, p->fu), wide_scale(p->pu, p->fv));
+    return wide_cross(wide(p->n_unit, 0), across);
+}
+
+/* The direction of D, also where it has lost its length: where Pu = 0, n x Pu has tended to 0
+ * along Pv (and where Pv = 0, n x Pv along -Pu) if the two tangents meet it at right angles, so
+ * that D tends to 0 along -Fv Pv (-Fu Pu). Zero where nothing tells. */
+static WrVec3 d_direction(const Point *p)
+{
+    const WrVec3 zero = { 0, 0, 0 };
+    Wide d = d_vector(p);
+    if (wide_zero(d) && wide_zero(p->pu)) d = wide_scale(p->pv, -p->fv);
+    if (wide_zero(d) && wide_zero(p->pv)) d = wide_scale(p->pu, -p->fu);
+    return wide_unit(d, zero);
+}
+
+/* sqrt(Fu^2 + Fv^2) as m 2^e */
+static double steepness(const Point *p, int *e)
+{
+    WrVec3 slope = { p->fu, p->fv, 0 };
+    Wide a = wide(slope, 0);
+    *e = a.e;
+    return sqrt(v3_dot(a.v, a.v));
+}
+
+/* N'' = N + a |N| D/|D| */
+static Wide invariant(const Point *p)
+{
+    Wide d = d_vector(p);
+    if (wide_zero(d) || wide_zero(p->n)) return p->n;
+    int e;
+    double a = steepness(p, &e);
+    const WrVec3 zero = { 0, 0, 0 };
+    Wide turned = wide(wide_unit(d, zero), 0);
+    turned = wide_scale(turned, a);
+    turned = wide_scale(turned, sqrt(v3_dot(p->n.v, p->n.v)));
+    turned.e += e + p->n.e;
+    return wide_add(p->n, turned);
+}
+
+/* Q = P_u + F n_u, the tangent's part in the tangent plane, and the power of two over its terms. */
+static Wide offset_tangent(Wide tangent, double f, WrVec3 n_du, int *size)
+{
+    Wide turn = wide_scale(wide(n_du, 0), f);
+    *size = -FAR;
+    if (!wide_zero(tangent)) *size = tangent.e;
+    if (!wide_zero(turn) && turn.e > *size) *size = turn.e;
+    return wide_add(tangent, turn);
+}
+
+/* `a`, or 0 where it is nothing but what rounding left of terms of size 2^size that cancel. */
+static Wide above_rounding(Wide a, int size)
+{
+    const int bits = 46;
+    return a.e < size - bits ? (Wide){ { 0, 0, 0 }, 0 } : a;
+}
+
+static int exponent(double s)
+{
+    return s != 0 && fabs(s) <= DBL_MAX ? ilogb(s) : -FAR;
+}
+
+/* N' = (Qu + Fu n) x (Qv + Fv n), multiplied out, because n x n = 0 would else leave nothing but
+ * rounding on steep slopes:
+ *   N' = Qu x Qv + n x (Fu Qv - Fv Qu),   Qu = Pu + F n_u,  Qv = Pv + F n_v
+ * Blinn's formula with Q in place of the tangents. Exactly 0 at a focal distance, where
+ * det(I - F S) = 0 (HC12). */
+static Wide exact(const Point *p, WrVec3 n_u, WrVec3 n_v, double f)
+{
+    int size_u, size_v;
+    Point q = *p;
+    q.pu = offset_tangent(p->pu, f, n_u, &size_u);
+    q.pv = offset_tangent(p->pv, f, n_v, &size_v);
+    bool moved = f != 0 && (largest(n_u) > 0 || largest(n_v) > 0);
+    if (moved) q.n = above_rounding(wide_cross(q.pu, q.pv), size_u + size_v);
+    int rise_u = exponent(p->fu) + size_v, rise_v = exponent(p->fv) + size_u;
+    Wide d = above_rounding(d_vector(&q), rise_u > rise_v ? rise_u : rise_v);
+    return wide_add(q.n, d);
+}
+
+static Wide perturbed(WrBumpMode mode, const Point *p, WrVec3 n_u, WrVec3 n_v, double f)
+{
+    if (mode == WR_BUMP_EXACT) return exact(p, n_u, n_v, f);
+    if (mode == WR_BUMP_INVARIANT) return invariant(p);
+    return wide_add(p->n, d_vector(p));
+}
+
+/* Nothing to do: no slope, and in exact mode no offset of a curved surface either. */
+static bool untouched(WrBumpMode mode, WrVec3 n_u, WrVec3 n_v, double f, double fu, double fv)
+{
+    if (mode == WR_BUMP_NONE) return true;
+    if (fu != 0 || fv != 0) return false;
+    return mode != WR_BUMP_EXACT || f == 0 || (largest(n_u) == 0 && largest(n_v) == 0);
+}
+
+WrVec3 wr_bump_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec3 pv, WrVec3 n_u,
+                      WrVec3 n_v, double f, double fu, double fv)
+{
+    if (untouched(mode, n_u, n_v, f, fu, fv)) return n;
+    const Point p = { n_unit, wide(n, 0), wide(pu, 0), wide(pv, 0), fu, fv };
+    return wide_value(perturbed(mode, &p, n_u, n_v, f));
+}
+
+/* n + a D/|D|: the limit of N'' made unit, whatever became of |N| and |D| (HC19). */
+static WrVec3 invariant_unit(const Point *p)
+{
+    int e;
+    double a = steepness(p, &e);
+    Wide tip = wide_scale(wide(d_direction(p), 0), a);
+    tip.e += e;
+    return wide_unit(wide_add(wide(p->n_unit, 0), tip), p->n_unit);
+}
+
+WrVec3 wr_bump_unit_normal(WrBumpMode mode, WrVec3 n, WrVec3 n_unit, WrVec3 pu, WrVec3 pv,
+                           WrVec3 n_u, WrVec3 n_v, double f, double fu, double fv)
+{
+    if (untouched(mode, n_u, n_v, f, fu, fv)) return n_unit;
+    const Point p = { n_unit, wide(n, 0), wide(pu, 0), wide(pv, 0), fu, fv };
+    if (mode == WR_BUMP_INVARIANT) return invariant_unit(&p);
+    return wide_unit(perturbed(mode, &p, n_u, n_v, f), n_unit);
+}
+
+WrVec3 wr_bump_unit(WrVec3 n_perturbed, WrVec3 n_unit)
+{
+    return v3_unit(n_perturbed, n_unit);
+}
+
+double wr_bump_tilt_deg(WrVec3 n_unit, WrVec3 n_perturbed_unit)
+{
+    double sine = v3_len(v3_cross(n_unit, n_perturbed_unit));
+    return wr_atan2(sine, v3_dot(n_unit, n_perturbed_unit)) / WR_RAD_PER_DEG;
+}

@@ -1,0 +1,150 @@
+#include "surface/surface.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "surface/formula.h"
+#define WR_SURFACE_FORMULAS
+#include "surface/surface_list.h"
+#undef WR_SURFACE_FORMULAS
+
+const WrSurfaceInfo *const wr_surfaces[WR_SURFACE_COUNT] = {
+#define WR_X(name) [WR_SURFACE_##name] = &name##_row,
+#include "surface/surface_list.h"
+};
+
+int wr_surface_find(const char *name)
+{
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        if (strcmp(wr_surfaces[kind]->name, name) == 0) return kind;
+    }
+    return -1;
+}
+
+static bool kind_exists(WrSurfaceKind kind)
+{
+    return (int)kind >= 0 && (int)kind < WR_SURFACE_COUNT;
+}
+
+/* The next param of a row, or the first after NULL; NULL at the end. */
+static const WrSurfaceParam *next_param(const WrSurfaceInfo *info, const WrSurfaceParam *param)
+{
+    param = param ? param + 1 : info->params;
+    bool there = param < info->params + WR_SURFACE_PARAMS && param->name;
+    return there ? param : NULL;
+}
+
+void wr_shape_default(WrSurfaceKind kind, WrShape *shape)
+{
+    WR_ASSERT(kind_exists(kind));
+    memset(shape, 0, sizeof *shape);
+    shape->kind = kind;
+    double *value = shape->value;
+    const WrSurfaceParam *param = NULL;
+    while ((param = next_param(wr_surfaces[kind], param))) {
+        memcpy(value, param->fallback, (size_t)param->components * sizeof *value);
+        value += param->components;
+    }
+}
+
+int wr_surface_param_offset(WrSurfaceKind kind, const char *name)
+{
+    WR_ASSERT(kind_exists(kind));
+    int offset = 0;
+    const WrSurfaceParam *param = NULL;
+    while ((param = next_param(wr_surfaces[kind], param))) {
+        if (strcmp(param->name, name) == 0) return offset;
+        offset += param->components;
+    }
+    return -1;
+}
+
+static bool check_param(const WrSurfaceInfo *info, const WrSurfaceParam *param, const double *value,
+                        WrError *err)
+{
+    static const char axis[3] = { 'x', 'y', 'z' };
+    for (int i = 0; i < param->components; i++) {
+        if (value[i] >= param->low && value[i] <= param->high) continue;
+        char number[WR_NUMBER_SIZE], low[WR_NUMBER_SIZE], high[WR_NUMBER_SIZE], part[32] = "";
+        if (param->components == 3) snprintf(part, sizeof part, " %c", axis[i]);
+        if (param->components > 3)
+            snprintf(part, sizeof part, " %d %c", i / 3 + 1, axis[i % 3]); /* of the i-th point */
+        return wr_fail(err, "%s %s%s = %s: must be %s..%s (%s)", info->name, param->name, part,
+                       wr_number_print(value[i], number), wr_number_print(param->low, low),
+                       wr_number_print(param->high, high), param->help);
+    }
+    return true;
+}
+
+bool wr_shape_check(const WrShape *shape, WrError *err)
+{
+    if (!kind_exists(shape->kind))
+        return wr_fail(err, "surface number %d: must be 0..%d", (int)shape->kind,
+                       WR_SURFACE_COUNT - 1);
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    const double *value = shape->value;
+    const WrSurfaceParam *param = NULL;
+    while ((param = next_param(info, param))) {
+        if (!check_param(info, param, value, err)) return false;
+        value += param->components;
+    }
+    return !info->check || info->check(shape, err);
+}
+
+WrVec3 wr_shape_centre(const WrShape *shape)
+{
+    WR_ASSERT(kind_exists(shape->kind));
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    WrVec3 centre = { info->centre[0], info->centre[1], info->centre[2] };
+    if (info->centre_half_ab) {
+        centre.x += shape->value[wr_surface_param_offset(shape->kind, "a")] / 2;
+        centre.y += shape->value[wr_surface_param_offset(shape->kind, "b")] / 2;
+    }
+    return centre;
+}
+
+/* The farthest of 33 x 33 points, and a hundredth for what lies between them. */
+static double sampled_radius(const WrShape *shape)
+{
+    enum { STEPS = 32 };
+    WrVec3 centre = wr_shape_centre(shape);
+    double most = 0;
+    for (int j = 0; j <= STEPS; j++) {
+        for (int i = 0; i <= STEPS; i++) {
+            WrSurfacePoint o;
+            wr_surface_at(shape, 0, (double)i / STEPS, (double)j / STEPS, &o);
+            most = fmax(most, v3_len(v3_sub(o.p, centre)));
+        }
+    }
+    return 1.01 * most;
+}
+
+double wr_shape_radius(const WrShape *shape)
+{
+    WR_ASSERT(kind_exists(shape->kind));
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    double radius = info->radius ? info->radius(shape) : sampled_radius(shape);
+    return radius > 0 ? radius : 1;
+}
+
+void wr_surface_at(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out)
+{
+    WR_ASSERT(kind_exists(shape->kind));
+    WR_ASSERT(face >= 0 && face < wr_surfaces[shape->kind]->faces);
+    wr_surfaces[shape->kind]->at(shape, face, u, v, out);
+}
+
+void wr_shape_scaled(const WrShape *shape, double scale, WrShapef *out)
+{
+    WR_ASSERT(kind_exists(shape->kind));
+    memset(out, 0, sizeof *out);
+    int k = 0;
+    const WrSurfaceParam *param = NULL;
+    while ((param = next_param(wr_surfaces[shape->kind], param))) {
+        for (int i = 0; i < param->components; i++, k++) {
+            double value = shape->value[k] * (param->length ? scale : 1);
+            out->value[k] = (float)fmax(-FLT_MAX, fmin(value, FLT_MAX));
+        }
+    }
+}

@@ -1,0 +1,350 @@
+/* kern_check.c - every span kernel of every instruction set that this processor has, on random strips of
+   every length 0..67 (and a full one), against the plain C of "ref": `exact` sets must give the same bits,
+   `fast` sets stay within the stated bound. Nothing past the strip's length may change.
+   kern_check [--seed N]; kern_check --bench prints nanoseconds a sample instead. */
+#include "test.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "render/kern.h"
+
+#define FAST_BOUND 2e-4 /* relative to 1 or to the value, whichever is larger */
+
+typedef struct Bench {
+    WrStrip strip;
+    WrRays rays;
+    WrShapef shape[WR_SURFACE_COUNT];
+    WrQuad quad;
+    WrLook look;
+    WrColourLook colour;
+    WrKernLight light[2];
+    float *heights, *gradient, *rgba;
+} Bench;
+
+static float between(TestRandom *random, double low, double high)
+{
+    return (float)(low + (high - low) * test_random(random));
+}
+
+static void fill(TestRandom *random, float *out, int count, double low, double high)
+{
+    for (int i = 0; i < count; i++) out[i] = between(random, low, high);
+}
+
+/* Random unit vectors into three rows. */
+static void fill_units(TestRandom *random, float *x, float *y, float *z)
+{
+    for (int i = 0; i < WR_SPAN; i++) {
+        WrVec3 a = { between(random, -1, 1), between(random, -1, 1), between(random, -1, 1) };
+        a = v3_unit(a, (WrVec3){ 0, 0, 1 });
+        x[i] = (float)a.x, y[i] = (float)a.y, z[i] = (float)a.z;
+    }
+}
+
+static void fill_strip(TestRandom *random, WrStrip *s)
+{
+    memset(s, 0, sizeof *s);
+    fill(random, s->u, WR_SPAN, 0, 1);
+    fill(random, s->v, WR_SPAN, 0, 1);
+    for (int i = 0; i < WR_SPAN; i++) s->index[i] = i;
+    float *wide[] = { s->px,  s->py,  s->pz,  s->pux, s->puy, s->puz, s->pvx, s->pvy, s->pvz,
+                      s->nux, s->nuy, s->nuz, s->nvx, s->nvy, s->nvz, s->fu,  s->fv };
+    for (size_t k = 0; k < sizeof wide / sizeof *wide; k++) fill(random, wide[k], WR_SPAN, -2, 2);
+    fill(random, s->f, WR_SPAN, -0.2, 0.2);
+    fill(random, s->n_len, WR_SPAN, 0.01, 3);
+    fill_units(random, s->nx, s->ny, s->nz);
+    fill_units(random, s->bx, s->by, s->bz);
+    fill_units(random, s->vx, s->vy, s->vz);
+    fill_units(random, s->lx, s->ly, s->lz);
+    fill(random, s->n_dot_l, WR_SPAN, -1, 1);
+    float *colour[] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb, s->cr, s->cg, s->cb };
+    for (size_t k = 0; k < sizeof colour / sizeof *colour; k++)
+        fill(random, colour[k], WR_SPAN, 0, 1);
+    /* The corners of each range: level slopes, no normal, ends of the parameters. */
+    s->fu[3] = s->fv[3] = s->f[3] = 0.0f;
+    s->fu[5] = 3e38f, s->fv[5] = -1e38f;
+    s->n_len[7] = 0.0f;
+    s->u[9] = 0.0f, s->v[9] = 1.0f, s->u[11] = 1.0f, s->v[11] = 0.0f;
+}
+
+/* A view of the unit ball from (0, 0, 4), 64 samples high. */
+static WrRays some_rays(bool perspective)
+{
+    const float step = 2.4f / 64;
+    WrRays rays = { .q0 = { -1.2f, 1.2f, 0 },
+                    .qx = { step, 0, 0 },
+                    .qy = { 0, -step, 0 },
+                    .d0 = { 0, 0, -1 },
+                    .s_min = -3.9f,
+                    .perspective = perspective,
+                    .eye = { 0, 0, 4 },
+                    .toward = { 0, 0, 1 } };
+    if (!perspective) return rays;
+    rays.d0[0] = -0.3f, rays.d0[1] = 0.3f;
+    rays.dx[0] = step / 4, rays.dy[1] = -step / 4;
+    return rays;
+}
+
+#define SIDE 37 /* texels of the test table */
+
+static void bench_init(Bench *b, TestRandom *random)
+{
+    const int pitch = SIDE + 2 * WR_APRON;
+    b->heights = wr_alloc((size_t)(pitch * pitch), sizeof(float));
+    b->gradient = wr_alloc((size_t)(pitch * pitch), 2 * sizeof(float));
+    b->rgba = wr_alloc((SIDE + 2) * (SIDE + 2), 4 * sizeof(float));
+    fill(random, b->heights, pitch * pitch, -1, 1);
+    fill(random, b->gradient, 2 * pitch * pitch, -30, 30);
+    fill(random, b->rgba, 4 * (SIDE + 2) * (SIDE + 2), 0, 1);
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        WrShape shape;
+        wr_shape_default((WrSurfaceKind)kind, &shape);
+        wr_shape_scaled(&shape, 1, &b->shape[kind]);
+    }
+    b->quad = (WrQuad){ { -0.9f, -0.8f, 0 }, { 0, 0, 1 }, { 0.6f, 0, 0 }, { 0, 0.6f, 0 } };
+    b->look = (WrLook){ b->heights, b->gradient, pitch, SIDE, SIDE, 3,   2,
+                        true,       true,        false, 0.1f, 0.3f, 0.2f };
+    b->colour = (WrColourLook){ b->rgba, SIDE + 2, SIDE, SIDE, 3, 2, true, true };
+    b->light[0] = (WrKernLight){ false, { 0.6f, 0, 0.8f }, { 1, 0.9f, 0.8f } };
+    b->light[1] = (WrKernLight){ true, { 1, 3, 5 }, { 0.5f, 0.9f, 1 } };
+}
+
+static void bench_fini(Bench *b)
+{
+    wr_free(b->heights);
+    wr_free(b->gradient);
+    wr_free(b->rgba);
+}
+
+/* One kernel under test: which one is (family, member). Returns false past the last member. */
+typedef bool (*Run)(const WrKernels *k, Bench *b, int member, int count);
+
+static bool run_hit(const WrKernels *k, Bench *b, int member, int count)
+{
+    const WrHitKernel hits[] = { k->hit_sphere, k->hit_cylinder, k->hit_cone };
+    const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
+    if (member >= 8) return false;
+    b->rays = some_rays(member & 1);
+    if (member < 6)
+        hits[member / 2](&b->rays, &b->shape[shapes[member / 2]], 3, 31, count, &b->strip);
+    else k->hit_quad(&b->rays, &b->quad, 3, 31, count, &b->strip);
+    return true;
+}
+
+static bool run_polish(const WrKernels *k, Bench *b, int member, int count)
+{
+    if (member >= WR_SURFACE_COUNT) return false;
+    b->rays = some_rays(true);
+    b->strip.count = count;
+    k->polish[member](&b->rays, &b->shape[member], 3, 31, 0.02f, 0.02f, true, false, 2, &b->strip);
+    return true;
+}
+
+static bool run_geometry(const WrKernels *k, Bench *b, int member, int count)
+{
+    if (member >= WR_SURFACE_COUNT) return false;
+    b->strip.count = count;
+    k->geometry[member](&b->shape[member], member == WR_SURFACE_cube ? 4 : 0, &b->strip);
+    return true;
+}
+
+static bool run_curvature(const WrKernels *k, Bench *b, int member, int count)
+{
+    if (member >= WR_SURFACE_COUNT) return false;
+    b->strip.count = count;
+    k->curvature[member](&b->shape[member], 0, &b->strip);
+    return true;
+}
+
+static bool run_points(const WrKernels *k, Bench *b, int member, int count)
+{
+    if (member >= WR_SURFACE_COUNT) return false;
+    WrStrip *s = &b->strip;
+    k->points[member](&b->shape[member], count, s->u, s->v, s->px, s->py, s->pz);
+    return true;
+}
+
+/* Members run through schemes, then through periodic and clamped axes, narrow and wide. */
+static bool run_look(const WrKernels *k, Bench *b, int member, int count)
+{
+    if (member >= 8 * WR_SCHEME_COUNT) return false;
+    int how = member / WR_SCHEME_COUNT;
+    b->look.periodic_u = how & 1, b->look.periodic_v = how & 2, b->look.wide = how & 4;
+    b->strip.count = count;
+    k->look[member % WR_SCHEME_COUNT](&b->look, &b->strip);
+    return true;
+}
+
+static bool run_bump(const WrKernels *k, Bench *b, int member, int count)
+{
+    if (member >= 2 * WR_BUMP_COUNT) return false;
+    b->rays = some_rays(member >= WR_BUMP_COUNT);
+    b->strip.count = count;
+    k->bump[member % WR_BUMP_COUNT](&b->rays, &b->strip);
+    return true;
+}
+
+static bool run_light(const WrKernels *k, Bench *b, int member, int count)
+{
+    WrStrip *s = &b->strip;
+    s->count = count;
+    b->rays = some_rays(member & 1);
+    switch (member) {
+    case 0:
+    case 1: k->view(&b->rays, s); return true;
+    case 2: k->begin(0.1f, s); return true;
+    case 3: k->colour(&b->colour, s); return true;
+    case 4: k->light(&b->light[0], s); return true;
+    case 5: k->light(&b->light[1], s); return true;
+    case 6: k->diffuse(&b->light[0], 0.7f, s); return true;
+    case 7: k->specular(&b->light[0], 0.4f, 40, true, s); return true;
+    case 8: k->specular(&b->light[1], 0.4f, 0, false, s); return true;
+    case 9: k->finish((const float[3]){ 0.8f, 0.7f, 0.6f }, s); return true;
+    default: return false;
+    }
+}
+
+static const struct {
+    const char *name;
+    Run run;
+} families[] = {
+    { "hit", run_hit },           { "polish", run_polish },
+    { "geometry", run_geometry }, { "curvature", run_curvature },
+    { "points", run_points },     { "look", run_look },
+    { "bump", run_bump },         { "light", run_light },
+};
+#define FAMILIES (int)(sizeof families / sizeof *families)
+
+static uint64_t seed = 20241;
+
+static bool near_enough(float a, float b, bool exact)
+{
+    if (memcmp(&a, &b, sizeof a) == 0) return true;
+    if (exact) return false;
+    double scale = fmax(1.0, fmax(fabs((double)a), fabs((double)b)));
+    return fabs((double)a - (double)b) <= FAST_BOUND * scale;
+}
+
+/* Compare two strips: results in the first `count` places (rows of pairs and fours: more), nothing
+   changed past them. Every member after `index` is rows of WR_SPAN four-byte values. */
+static void compare(const WrStrip *got, const WrStrip *want, bool exact, const char *what)
+{
+    const float *a = (const float *)(const void *)got->index;
+    const float *b = (const float *)(const void *)want->index;
+    size_t count = (sizeof *got - offsetof(WrStrip, index)) / sizeof(float);
+    assert_int_equal(got->count, want->count);
+    for (size_t i = 0; i < count; i++)
+        if (!near_enough(a[i], b[i], exact))
+            fail_msg("%s: row %zu, sample %zu: %.9g, ref %.9g", what, i / WR_SPAN, i % WR_SPAN,
+                     (double)a[i], (double)b[i]);
+}
+
+static void check_set(const WrKernels *set, const WrKernels *ref)
+{
+    TestRandom random = { seed };
+    Bench *b = wr_alloc(1, sizeof *b), *r = wr_alloc(1, sizeof *r);
+    bench_init(b, &random);
+    for (int f = 0; f < FAMILIES; f++)
+        for (int member = 0; member < 64; member++) {
+            bool any = true;
+            for (int count = 0; count <= 68 && any; count++) {
+                char what[80];
+                int length = count == 68 ? WR_SPAN : count;
+                fill_strip(&random, &b->strip);
+                *r = *b;
+                any = families[f].run(set, b, member, length);
+                families[f].run(ref, r, member, length);
+                snprintf(what, sizeof what, "%s%s %s[%d], %d samples", set->exact ? "" : "fast ",
+                         set->name, families[f].name, member, length);
+                /* Newton may stop elsewhere when a residual ties; its point is what counts. */
+                if (set->exact || families[f].run != run_polish)
+                    compare(&b->strip, &r->strip, set->exact, what);
+            }
+            if (!any) break;
+        }
+    bench_fini(b);
+    wr_free(b);
+    wr_free(r);
+}
+
+static void exact_kernels_give_the_bits_of_the_reference(void **state)
+{
+    (void)state;
+    const char *const names[] = { "v1", "v2", "v3", "v4" };
+    const WrKernels *ref = wr_kernels_get("ref", false, NULL);
+    printf("seed %llu\n", (unsigned long long)seed);
+    for (int i = 0; i < 4; i++) {
+        const WrKernels *set = wr_kernels_get(names[i], false, NULL);
+        if (set) check_set(set, ref);
+        else printf("%s: this processor does not have it\n", names[i]);
+    }
+}
+
+static void fast_kernels_stay_within_their_bound(void **state)
+{
+    (void)state;
+    const char *const names[] = { "v3", "v4" };
+    const WrKernels *ref = wr_kernels_get("ref", false, NULL);
+    for (int i = 0; i < 2; i++) {
+        const WrKernels *set = wr_kernels_get(names[i], true, NULL);
+        if (set) check_set(set, ref);
+    }
+}
+
+static void unknown_sets_are_refused(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    assert_null(wr_kernels_get("v9", false, &err));
+    assert_non_null(strstr(err.text, "v9"));
+    assert_non_null(wr_kernels_get(NULL, false, &err));
+    assert_non_null(wr_kernels_get("auto", true, &err));
+}
+
+static void print_speed(const WrKernels *set, Bench *b, TestRandom *random)
+{
+    for (int f = 0; f < FAMILIES; f++)
+        for (int member = 0; member < 64; member++) {
+            double best = 1e9;
+            bool any = true;
+            for (int round = 0; round < 7 && any; round++) {
+                fill_strip(random, &b->strip);
+                double start = wr_clock_seconds();
+                for (int i = 0; i < 200 && any; i++) any = families[f].run(set, b, member, WR_SPAN);
+                best = fmin(best, wr_clock_seconds() - start);
+            }
+            if (!any) break;
+            printf("%-4s %-5s %-10s %2d %8.2f ns\n", set->name, set->exact ? "exact" : "fast",
+                   families[f].name, member, 1e9 * best / (200.0 * WR_SPAN));
+        }
+}
+
+static int bench(void)
+{
+    const char *const names[] = { "ref", "v1", "v2", "v3", "v4" };
+    TestRandom random = { seed };
+    Bench *b = wr_alloc(1, sizeof *b);
+    bench_init(b, &random);
+    for (int i = 0; i < 5; i++)
+        for (int fast = 0; fast < 2; fast++) {
+            const WrKernels *set = wr_kernels_get(names[i], fast, NULL);
+            if (set && set->exact == !fast) print_speed(set, b, &random);
+        }
+    bench_fini(b);
+    wr_free(b);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--bench") == 0) return bench();
+        if (strcmp(argv[i], "--seed") == 0 && i + 1 < argc) seed = strtoull(argv[++i], NULL, 10);
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact_kernels_give_the_bits_of_the_reference),
+        cmocka_unit_test(fast_kernels_stay_within_their_bound),
+        cmocka_unit_test(unknown_sets_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,38 @@
+# Tests of the repository as a whole, of what is installed, and of the samples.
+
+# wr_check(NAME SCRIPT ARGUMENTS...): a shell script of this folder as a test.
+function(wr_check name script)
+    add_test(NAME ${name} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${ARGN})
+    set_tests_properties(${name} PROPERTIES LABELS repository)
+endfunction()
+
+wr_check(rooms rooms.sh ${PROJECT_SOURCE_DIR})
+wr_check(headers headers.sh ${PROJECT_SOURCE_DIR})
+wr_check(format format.sh ${PROJECT_SOURCE_DIR})
+wr_check(shape shape.sh ${PROJECT_SOURCE_DIR})
+wr_check(shell shell.sh ${PROJECT_SOURCE_DIR})
+wr_check(start start.sh ${PROJECT_SOURCE_DIR})
+if(NOT WR_SANITIZE)
+    wr_check(symbols symbols.sh ${CMAKE_BINARY_DIR})
+endif()
+
+if(TARGET wrinkle)
+    wr_check(readme readme.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
+    wr_check(install install.sh ${CMAKE_BINARY_DIR})
+
+    add_executable(golden golden.c)
+    target_link_libraries(golden PRIVATE wr_image)
+    target_compile_definitions(golden PRIVATE WR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                               WR_BINARY_DIR="${CMAKE_BINARY_DIR}")
+    add_dependencies(golden wrinkle)
+    # Every sample is run, and its picture compared; a new one is seen by the folder's time.
+    file(GLOB samples RELATIVE ${PROJECT_SOURCE_DIR}/samples ${PROJECT_SOURCE_DIR}/samples/*.wrinkle)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/samples)
+    foreach(sample ${samples})
+        get_filename_component(name ${sample} NAME_WE)
+        wr_check(sample_${name} sample.sh ${PROJECT_SOURCE_DIR}/samples/${sample}
+                 $<TARGET_FILE:wrinkle>)
+        add_test(NAME golden_${name} COMMAND golden ${name})
+        set_tests_properties(golden_${name} PROPERTIES LABELS golden)
+    endforeach()
+endif()

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# A file includes its own room and the rooms that its own may use, never another; outside libraries
+# stay in the rooms that wrap them.  rooms.sh SOURCE-FOLDER
+set -uo pipefail
+cd "$1" || exit 1
+
+{
+    find src ui -name '*.c' -o -name '*.h' -o -name '*.cpp'
+} | sort | xargs awk '
+BEGIN {
+    base = " base "
+    may["base"] = base
+    may["field"] = may["noise"] = may["image"] = base
+    may["surface"] = base "field "
+    may["shade"] = base "field noise image "
+    may["generate"] = base "field surface noise image "
+    may["brush"] = base "field image "
+    may["scene"] = base "field surface shade image "
+    may["render"] = base "field surface shade scene "
+    may["accuracy"] = base "field noise image surface shade scene render "
+    may["document"] = base "field scene image "
+    may["export"] = base "field noise image surface shade scene render document "
+    may["command"] = may["export"] "generate brush accuracy export "
+    may["cli"] = may["command"] "command "
+    may["ui"] = may["command"] "command "
+    # Libraries, by how their headers begin, and the one room that may say so.
+    library["SDL"] = library["imgui"] = library["X11/"] = "ui"
+    library["OpenImageIO/"] = library["ft2build"] = library["freetype/"] = library["assimp/"] = "image"
+    library["sleef"] = library["xxhash"] = library["sha2"] = "base"
+    library["libmypaint"] = library["mypaint"] = "brush"
+}
+FNR == 1 {
+    count = split(FILENAME, part, "/")
+    room = part[1] == "ui" ? "ui" : part[2]
+    if (room != "ui" && !(room in may)) complain("is in a room that the table does not know")
+}
+function complain(what) {
+    printf "%s:%d: %s\n", FILENAME, FNR, what
+    bad = 1
+}
+/^[ \t]*#[ \t]*include[ \t]*["<]/ {
+    name = $0
+    sub(/^[^"<]*["<]/, "", name)
+    sub(/[">].*/, "", name)
+    if ($0 ~ /"/) {
+        seen++
+        if (name == "ui/app.h" && room == "cli") next
+        if (name !~ /\//) { complain("\"" name "\" is not written from src/"); next }
+        split(name, to, "/")
+        if (to[1] != room && index(may[room], " " to[1] " ") == 0)
+            complain("room " room " may not use " name)
+    } else {
+        for (start in library)
+            if (index(name, start) == 1 && room != library[start])
+                complain("only " library[start] " may include <" name ">")
+    }
+}
+END {
+    if (seen < 50) { printf "only %d includes found: is this the right folder?\n", seen; bad = 1 }
+    exit bad
+}'

@@ -1,0 +1,254 @@
+/* The renderer against an independent one: rays marched in double against the implicit equation of each
+   surface, then the paper's formulas from shade/bump.h. And what must not depend on anything: threads,
+   instruction sets, what was rendered before. */
+#include "test.h"
+
+#include "test_render_scenes.h"
+
+/* ---- the independent renderer ------------------------------------------------------------------- */
+
+/* Zero on the surface, in object space; outside the surface's ends: not a number. */
+static double implicit(const WrShape *shape, WrVec3 p)
+{
+    const double *a = shape->value;
+    double rho = hypot(p.x, p.y);
+    switch ((int)shape->kind) {
+    case WR_SURFACE_plane: return p.z;
+    case WR_SURFACE_sphere: return v3_len(p) - a[0];
+    case WR_SURFACE_cylinder: return rho - a[0];
+    case WR_SURFACE_cone: return rho - a[0] * (0.5 - p.z / a[1]);
+    default: return hypot(rho - a[0], p.z) - a[1]; /* torus */
+    }
+}
+
+/* (u, v) of a point of the surface; false if it lies past the surface's ends. */
+static bool invert(const WrShape *shape, WrVec3 p, double *u, double *v)
+{
+    const double *a = shape->value;
+    *u = atan2(p.y, p.x) / (2 * WR_PI);
+    *u -= floor(*u);
+    switch ((int)shape->kind) {
+    case WR_SURFACE_plane: *u = p.x / a[0], *v = p.y / a[1]; break;
+    case WR_SURFACE_sphere: *v = 0.5 + asin(p.z / v3_len(p)) / WR_PI; break;
+    case WR_SURFACE_cylinder:
+    case WR_SURFACE_cone: *v = 0.5 + p.z / a[1]; break;
+    default: *v = atan2(p.z, hypot(p.x, p.y) - a[0]) / (2 * WR_PI); *v -= floor(*v);
+    }
+    return *u >= 0 && *u <= 1 && *v >= 0 && *v <= 1;
+}
+
+static WrVec3 to_object(const WrPlacement *place, WrVec3 w)
+{
+    const double *m = place->rotation;
+    return (WrVec3){ m[0] * w.x + m[3] * w.y + m[6] * w.z, m[1] * w.x + m[4] * w.y + m[7] * w.z,
+                     m[2] * w.x + m[5] * w.y + m[8] * w.z };
+}
+
+/* First root along the ray by marching and bisection. */
+static bool march(const WrShape *shape, WrVec3 eye, WrVec3 d, double from, double to, double *u,
+                  double *v, WrVec3 *hit)
+{
+    const int steps = 1500;
+    double before = implicit(shape, v3_mad(eye, d, from));
+    for (int i = 1; i <= steps; i++) {
+        double t = from + (to - from) * i / steps, now = implicit(shape, v3_mad(eye, d, t));
+        if ((before < 0) != (now < 0)) {
+            double low = t - (to - from) / steps, high = t;
+            for (int k = 0; k < 60; k++) {
+                double middle = 0.5 * (low + high);
+                bool same = (implicit(shape, v3_mad(eye, d, middle)) < 0) == (before < 0);
+                if (same) low = middle;
+                else high = middle;
+            }
+            *hit = v3_mad(eye, d, high);
+            if (invert(shape, *hit, u, v)) return true;
+        }
+        before = now;
+    }
+    return false;
+}
+
+static WrVec3 shade(const WrScene *scene, const WrPlacement *place, WrVec3 eye, WrVec3 hit,
+                    double u, double v, const WrField *field, double *facing)
+{
+    const WrMaterial *m = &scene->material;
+    WrSurfacePoint at;
+    double f, fu, fv;
+    wr_surface_at(&scene->shape, 0, u, v, &at);
+    wr_scene_height(scene, field, u, v, &f, &fu, &fv);
+    WrVec3 n = wr_bump_unit(
+        wr_bump_normal(scene->bump, at.n, at.n_unit, at.pu, at.pv, at.n_u, at.n_v, f, fu, fv),
+        at.n_unit);
+    WrVec3 view = v3_unit(v3_sub(eye, hit), at.n_unit);
+    *facing = v3_dot(at.n_unit, view);
+    if (*facing < 0) n = v3_neg(n);
+    double diffuse = m->ambient, specular = 0;
+    for (int i = 0; i < scene->light_count; i++) {
+        const WrLight *light = &scene->lights[i];
+        WrVec3 l = to_object(place, light->where);
+        if (light->kind == WR_LIGHT_POINT) l = v3_sub(v3_add(l, place->centre), hit);
+        l = v3_unit(l, n);
+        WrVec3 h = v3_unit(v3_add(l, view), n);
+        double ndl = v3_dot(n, l), ndh = fmax(0, v3_dot(n, h));
+        diffuse += m->diffuse * fmax(0, ndl) * light->strength * light->colour.x;
+        if (ndl > 0)
+            specular += m->specular * pow(ndh, m->shininess) * light->strength * light->colour.x;
+    }
+    double red = m->colour.x * diffuse + specular;
+    return (WrVec3){ red, red, red };
+}
+
+/* Compare the red channel of every pixel; rims (grazing, or next to another coverage) apart. */
+static void compare_with_marched(const char *surface, WrBumpMode mode, WrScheme scheme, bool ortho)
+{
+    enum { SIDE = 48 };
+    WrField *field = bumpy_field(32, 40);
+    WrScene *scene = scene_of(surface);
+    scene->bump = mode;
+    scene->scheme = scheme;
+    scene->camera.orthographic = ortho;
+    scene->camera.size = 0;
+    Shot shot = shoot(scene, field, SIDE, SIDE, 2, "auto", false);
+    WrPlacement place;
+    assert_true(wr_scene_place(scene, 15, 1, &place, NULL));
+    WrVec3 eye = v3_add(to_object(&place, place.eye), place.centre);
+    WrVec3 right = to_object(&place, place.right), up = to_object(&place, place.up);
+    WrVec3 ahead = to_object(&place, place.forward);
+    double distance = v3_len(place.eye), worst = 0;
+    int compared = 0, wrong_cover = 0;
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++) {
+            double a = (2 * (x + 0.5) / SIDE - 1) * place.half_height, u, v, facing;
+            double b = (1 - 2 * (y + 0.5) / SIDE) * place.half_height;
+            WrVec3 sideways = v3_add(v3_scale(right, a), v3_scale(up, b)), hit, from = eye;
+            WrVec3 d = ortho ? ahead : v3_add(ahead, sideways);
+            if (ortho) from = v3_add(eye, sideways);
+            bool there = march(&scene->shape, from, d, distance - 1.5 * place.radius,
+                               distance + 1.5 * place.radius, &u, &v, &hit);
+            const float *got = shot.frame.rgba + (y * SIDE + x) * 4;
+            wrong_cover += there != (got[3] > 0);
+            if (!there || got[3] == 0) continue;
+            WrVec3 viewer = ortho ? v3_mad(hit, ahead, -1) : eye;
+            WrVec3 want = shade(scene, &place, viewer, hit, u, v, field, &facing);
+            if (fabs(facing) < 0.15) continue;
+            compared++;
+            worst = fmax(worst, fabs(want.x - (double)got[0]));
+        }
+    if (compared < 200 || worst > 2e-4 || wrong_cover > 12)
+        fail_msg("%s mode %d scheme %d: %d pixels, worst %g, %d with wrong coverage", surface, mode,
+                 scheme, compared, worst, wrong_cover);
+    put_away(&shot);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+static void pictures_agree_with_marched_rays_in_double(void **state)
+{
+    (void)state;
+    const char *const surfaces[] = { "plane", "sphere", "cylinder", "cone", "torus" };
+    for (int i = 0; i < 5; i++)
+        for (int mode = 0; mode < WR_BUMP_COUNT; mode++)
+            compare_with_marched(surfaces[i], (WrBumpMode)mode, WR_SCHEME_CENTRAL, mode & 1);
+    for (int scheme = WR_SCHEME_BILINEAR; scheme < WR_SCHEME_COUNT; scheme++)
+        compare_with_marched("torus", WR_BUMP_EXACT, (WrScheme)scheme, false);
+}
+
+/* ---- same bits ------------------------------------------------------------------------------------ */
+
+static void pictures_are_the_same_bits_on_any_threads_and_instruction_set(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(50, 70);
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        WrScene *scene = scene_of(wr_surfaces[kind]->name);
+        scene->bump = WR_BUMP_EXACT;
+        Shot one = shoot(scene, field, 150, 110, 1, "ref", false);
+        for (int k = 0; k < 3; k++) {
+            Shot other =
+                shoot(scene, field, 150, 110, k == 0 ? 2 : 7, k == 2 ? "v1" : "auto", false);
+            if (!same_picture(&one, &other)) fail_msg("%s differs", wr_surfaces[kind]->name);
+            put_away(&other);
+        }
+        put_away(&one);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+static void leaving_effects_out_changes_no_bit(void **state)
+{
+    (void)state;
+    WrField *flat = wr_field_new(40, 40, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.7f, NULL);
+    WrField *bumpy = bumpy_field(40, 40);
+    for (int which = 0; which < 6; which++) {
+        WrScene *scene = scene_of(which & 1 ? "torus" : "sphere");
+        if (which == 2) scene->material.specular = 0;
+        if (which == 3) scene->material.diffuse = 0;
+        if (which == 4) scene->lights[0].strength = 0;
+        if (which == 5) scene->height = 0;
+        const WrField *field = which < 2 ? flat : bumpy;
+        Shot planned = shoot(scene, field, 90, 90, 2, "auto", false);
+        Shot full = shoot(scene, field, 90, 90, 2, "auto", true);
+        if (!same_picture(&planned, &full)) fail_msg("scene %d differs", which);
+        put_away(&planned);
+        put_away(&full);
+        wr_scene_free(scene);
+    }
+    wr_field_free(flat);
+    wr_field_free(bumpy);
+}
+
+static void an_edit_refreshes_what_a_new_renderer_would_make(void **state)
+{
+    (void)state;
+    for (int scheme = 0; scheme < WR_SCHEME_COUNT; scheme++) {
+        WrField *field = bumpy_field(200, 150);
+        WrScene *scene = scene_of("plane");
+        scene->scheme = (WrScheme)scheme;
+        Shot kept = shoot(scene, field, 96, 96, 2, "auto", false);
+        TestRandom random = { 99 };
+        for (int step = 0; step < 12; step++) {
+            int i = step == 0 ? 0 : (int)(200 * test_random(&random));
+            int j = step == 1 ? 149 : (int)(150 * test_random(&random));
+            wr_field_set(field, i, j, (float)(2 * test_random(&random)));
+            WrFrameRequest request = {
+                .field = field, .scene = scene, .width = 96, .height = 96, .turn_deg = 15
+            };
+            assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
+            Shot fresh = shoot(scene, field, 96, 96, 1, "auto", false);
+            if (!same_picture(&kept, &fresh)) fail_msg("scheme %d, step %d differs", scheme, step);
+            put_away(&fresh);
+        }
+        put_away(&kept);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+static void fast_arithmetic_stays_near_the_exact_picture(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(64, 64);
+    WrScene *scene = scene_of("torus");
+    Shot exact = shoot(scene, field, 128, 128, 2, "auto", false);
+    scene->dials.arithmetic = WR_ARITHMETIC_FAST;
+    Shot fast = shoot(scene, field, 128, 128, 2, "auto", false);
+    assert_true(exact.frame.covered == fast.frame.covered);
+    assert_near((double)worst_difference(&exact, &fast), 0, 2e-3);
+    put_away(&exact);
+    put_away(&fast);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_agree_with_marched_rays_in_double),
+        cmocka_unit_test(pictures_are_the_same_bits_on_any_threads_and_instruction_set),
+        cmocka_unit_test(leaving_effects_out_changes_no_bit),
+        cmocka_unit_test(an_edit_refreshes_what_a_new_renderer_would_make),
+        cmocka_unit_test(fast_arithmetic_stays_near_the_exact_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,79 @@
+/* test_render_scenes.h - scenes, pictures of them and comparisons, for the tests of the renderer.
+   After test.h. */
+#pragma once
+#include "base/exactmath.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "render/frame.h"
+
+static inline WrField *bumpy_field(int w, int h)
+{
+    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++) {
+            double u = (i + 0.5) / w, v = 1 - (j + 0.5) / h;
+            wr_field_set(
+                field, i, j,
+                (float)(0.5 * sin(2 * WR_PI * (3 * u + 2 * v)) + 0.3 * cos(2 * WR_PI * 5 * v)));
+        }
+    return field;
+}
+
+static inline WrScene *scene_of(const char *surface)
+{
+    WrScene *scene = wr_scene_new();
+    wr_shape_default((WrSurfaceKind)wr_surface_find(surface), &scene->shape);
+    scene->height = 0.02;
+    scene->replicate_u = 3;
+    scene->replicate_v = 2;
+    return scene;
+}
+
+typedef struct Shot {
+    WrPool *pool;
+    WrRenderer *renderer;
+    WrFrame frame;
+} Shot;
+
+static inline Shot shoot(const WrScene *scene, const WrField *field, int w, int h, int threads,
+                         const char *isa, bool plan_off)
+{
+    WrError err = { "" };
+    Shot shot = { .pool = wr_pool_new(threads) };
+    shot.renderer = wr_renderer_new(shot.pool, isa, &err);
+    WrFrameRequest request = { .field = field,
+                               .scene = scene,
+                               .width = w,
+                               .height = h,
+                               .turn_deg = 15,
+                               .plan_off = plan_off };
+    if (!shot.renderer || !wr_renderer_frame(shot.renderer, &request, &shot.frame, &err))
+        fail_msg("%s", err.text);
+    return shot;
+}
+
+static inline void put_away(Shot *shot)
+{
+    wr_renderer_free(shot->renderer);
+    wr_pool_free(shot->pool);
+}
+
+static inline size_t frame_bytes(const WrFrame *frame)
+{
+    return (size_t)frame->width * (size_t)frame->height * 4 * sizeof(float);
+}
+
+static inline bool same_picture(const Shot *a, const Shot *b)
+{
+    return memcmp(a->frame.rgba, b->frame.rgba, frame_bytes(&a->frame)) == 0;
+}
+
+static inline float worst_difference(const Shot *a, const Shot *b)
+{
+    float worst = 0;
+    for (size_t i = 0; i < frame_bytes(&a->frame) / sizeof(float); i++) {
+        float d = fabsf(a->frame.rgba[i] - b->frame.rgba[i]);
+        worst = d > worst ? d : worst;
+    }
+    return worst;
+}

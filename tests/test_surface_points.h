@@ -1,0 +1,81 @@
+/* test_surface_points.h - what the surface tests share: the formulas in both precisions, and the
+   members of a point by number. */
+#pragma once
+#include "surface/formula.h"
+#include "surface/surface.h"
+
+/* The same formulas in single precision. */
+#define WR_FORMULA_FLOAT
+#include "surface/formula.h"
+#define WR_SURFACE_FORMULAS
+#include "surface/surface_list.h"
+#undef WR_SURFACE_FORMULAS
+
+typedef void (*FloatAt)(const WrShapef *, int, float, float, WrSurfacePointf *);
+static const FloatAt float_at[WR_SURFACE_COUNT] = {
+#define WR_X(name) [WR_SURFACE_##name] = name##_at_f,
+#include "surface/surface_list.h"
+};
+
+/* Members of a point by number, in either precision: P Pu Pv Puu Puv Pvv N n n_u n_v. */
+enum { P, PU, PV, PUU, PUV, PVV, N, UNIT, NU, NV, MEMBERS };
+static const char *const member_names[MEMBERS] = { "P",   "Pu", "Pv", "Puu", "Puv",
+                                                   "Pvv", "N",  "n",  "n_u", "n_v" };
+static inline WrVec3 member(const WrSurfacePoint *o, int which)
+{
+    return (&o->p)[which];
+}
+static inline WrVec3 member_f(const WrSurfacePointf *o, int which)
+{
+    WrVec3f a = (&o->p)[which];
+    return (WrVec3){ (double)a.x, (double)a.y, (double)a.z };
+}
+
+/* Evaluate the same numbers in both precisions; u and v exact in float. */
+static inline void both(const WrShape *shape, int face, float u, float v, WrSurfacePoint *o,
+                        WrSurfacePointf *of)
+{
+    WrShapef single;
+    WrShape rounded = *shape;
+    wr_shape_scaled(shape, 1, &single);
+    for (int i = 0; i < WR_SURFACE_VALUES; i++) rounded.value[i] = (double)single.value[i];
+    wr_surface_at(&rounded, face, (double)u, (double)v, o);
+    float_at[shape->kind](&single, face, u, v, of);
+}
+
+static inline bool all_finite(const WrSurfacePoint *o)
+{
+    bool good = isfinite(o->n_len);
+    for (int m = 0; m < MEMBERS; m++) {
+        WrVec3 a = member(o, m);
+        good = good && isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+    }
+    return good && fabs(v3_len(o->n_unit) - 1) < 1e-14;
+}
+
+static inline bool all_finite_f(const WrSurfacePointf *o)
+{
+    bool good = isfinite(o->n_len);
+    for (int m = 0; m < MEMBERS; m++) {
+        WrVec3 a = member_f(o, m);
+        good = good && isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+    }
+    return good && fabs(v3_len(member_f(o, UNIT)) - 1) < 1e-6;
+}
+
+/* Edges, corners and the middle, in both precisions. */
+static inline void assert_finite_everywhere(const WrShape *shape, bool single)
+{
+    static const float steps[] = { 0, 1e-30f, 0x1p-20f, 0.25f, 0.5f, 0.7f, 1 - 0x1p-24f, 1 };
+    for (int face = 0; face < wr_surfaces[shape->kind]->faces; face++) {
+        for (int k = 0; k < 64; k++) {
+            WrSurfacePoint o;
+            WrSurfacePointf of;
+            both(shape, face, steps[k % 8], steps[k / 8], &o, &of);
+            bool good = all_finite(&o) && (!single || all_finite_f(&of));
+            if (!good)
+                fail_msg("%s at %g,%g", wr_surfaces[shape->kind]->name, (double)steps[k % 8],
+                         (double)steps[k / 8]);
+        }
+    }
+}

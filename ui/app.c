@@ -1,0 +1,354 @@
+/* SPDX-License-Identifier: MIT
+   The window: SDL, the event loop, what is drawn when. */
+#include "ui/state.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FRAME_SECONDS (1.0 / 125.0) /* least time between two pictures of the window */
+#define CARET_SECONDS 0.3           /* a text field's caret blinks, messages go */
+
+void wr_app_redraw(WrApp *app)
+{
+    app->redraw = 2; /* the widgets need a second picture to settle */
+}
+
+/* ---- scale ---- */
+
+static double display_scale(SDL_Window *window)
+{
+    float dpi = 96.0f;
+    int display = SDL_GetWindowDisplayIndex(window);
+    if (display < 0 || SDL_GetDisplayDPI(display, NULL, &dpi, NULL) != 0) return 1.0;
+    double scale = floor((double)dpi / 96.0 * 4.0 + 0.25) / 4.0; /* displays that say 97 mean 96 */
+    return scale < 1.0 ? 1.0 : scale > 3.0 ? 3.0 : scale;
+}
+
+double wr_app_wanted_scale(const WrApp *app)
+{
+    const char *forced = getenv("WRINKLE_SCALE");
+    double scale;
+    if (forced && wr_number_parse(forced, strlen(forced), &scale) && scale >= 0.75 && scale <= 3.0)
+        return scale;
+    return app->settings.scale > 0.0 ? app->settings.scale : app->display_scale;
+}
+
+void wr_app_set_scale(WrApp *app, double setting)
+{
+    app->settings.scale = setting;
+    wr_app_redraw(app);
+}
+
+/* ---- life ---- */
+
+static bool has_gpu(void)
+{
+    return access("/dev/dri/renderD128", R_OK | W_OK) == 0;
+}
+
+/* Without a graphics card SDL's software renderer, with its window's surface straight to the display, is
+ * several times faster than any OpenGL made of software. */
+static SDL_Renderer *make_renderer(SDL_Window *window, bool software)
+{
+    if (!software) {
+        SDL_Renderer *fast = SDL_CreateRenderer(window, -1, SDL_RENDERER_ACCELERATED);
+        if (fast) return fast;
+    }
+    return SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
+}
+
+static bool make_window(WrApp *app)
+{
+    const char *wanted = getenv("WRINKLE_RENDERER");
+    bool software = wanted ? strcmp(wanted, "opengl") != 0 : !has_gpu();
+    if (software) SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    else SDL_SetHint(SDL_HINT_RENDER_DRIVER, "opengl");
+    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+    SDL_SetHint(SDL_HINT_APP_NAME, "wrinkle");
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return false;
+    const WrAppOptions *o = app->options;
+    int w = o->width > 0 ? o->width : app->settings.width;
+    int h = o->height > 0 ? o->height : app->settings.height;
+    SDL_Rect room;
+    if (o->width <= 0 && SDL_GetDisplayUsableBounds(0, &room) == 0) {
+        w = w < room.w ? w : room.w;
+        h = h < room.h ? h : room.h;
+    }
+    Uint32 flags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_HIDDEN;
+    if (app->settings.maximized && o->width <= 0) flags |= SDL_WINDOW_MAXIMIZED;
+    app->window = SDL_CreateWindow("Wrinkle", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, flags);
+    if (!app->window) return false;
+    SDL_SetWindowMinimumSize(app->window, 640, 420);
+    app->renderer = make_renderer(app->window, software);
+    if (!app->renderer) return false;
+    SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);
+    SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
+    app->display_scale = display_scale(app->window);
+    return true;
+}
+
+static void read_keys(WrApp *app)
+{
+    char *path = wr_config_path("keys.conf"), *text = NULL;
+    size_t length;
+    WrError err;
+    if (path && access(path, R_OK) == 0 && wr_file_read(path, 1 << 16, &text, &length, &err) &&
+        !wr_keys_read(app->keys, text, &err)) {
+        wr_error_prefix(&err, "%s: ", path);
+        wr_app_fail(app, &err);
+    }
+    wr_free(text);
+    wr_free(path);
+}
+
+static bool begin(WrApp *app, WrError *err)
+{
+    app->settings = wr_settings_default();
+    wr_settings_load(&app->settings);
+    if (!make_window(app)) return wr_fail(err, "no window: %s", SDL_GetError());
+    app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
+    if (!app->gui) return false;
+    app->ready_event = SDL_RegisterEvents(2);
+    app->file_event = app->ready_event + 1;
+    app->canvas = wr_canvas_new();
+    app->preview = wr_preview_new(app->options->threads, app->options->isa, app->ready_event);
+    app->files = wr_files_new(app->file_event);
+    app->keys = wr_keys_new();
+    app->forms = (WrForms){ .cells_u = 8, .cells_v = 8, .line_width = 8, .high = 1 };
+    app->visible = true;
+    read_keys(app);
+    wr_app_start(app);
+    wr_app_title(app);
+    SDL_ShowWindow(app->window);
+    SDL_StartTextInput();
+    wr_app_redraw(app);
+    return true;
+}
+
+static void end(WrApp *app)
+{
+    wr_preview_free(app->preview);
+    if (app->renderer) wr_patch_free(app);
+    wr_canvas_free(app->canvas);
+    wr_gui_free(app->gui);
+    wr_files_free(app->files);
+    wr_keys_free(app->keys);
+    if (app->live) wr_scene_free(app->live);
+    wr_messages_free(&app->messages);
+    wr_array_free(&app->brush.samples);
+    wr_settings_fini(&app->settings);
+    wr_free(app->after_path);
+    for (int i = 0; i < SDL_NUM_SYSTEM_CURSORS; i++)
+        if (app->cursors[i]) SDL_FreeCursor(app->cursors[i]);
+    if (app->renderer) SDL_DestroyRenderer(app->renderer);
+    if (app->window) SDL_DestroyWindow(app->window);
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    SDL_Quit();
+}
+
+/* ---- events ---- */
+
+static void window_event(WrApp *app, const SDL_WindowEvent *event)
+{
+    switch (event->event) {
+    case SDL_WINDOWEVENT_HIDDEN:
+    case SDL_WINDOWEVENT_MINIMIZED: app->visible = false; break;
+    case SDL_WINDOWEVENT_SHOWN:
+    case SDL_WINDOWEVENT_EXPOSED:
+    case SDL_WINDOWEVENT_RESTORED: app->visible = true; break;
+    case SDL_WINDOWEVENT_MAXIMIZED:
+        app->visible = true;
+        app->settings.maximized = true;
+        break;
+    case SDL_WINDOWEVENT_FOCUS_LOST:
+        wr_gui_release_all(app->gui);
+        app->hand.space = false;
+        break;
+    case SDL_WINDOWEVENT_LEAVE:
+        if (app->hand.grab == WR_GRAB_NONE) app->hand.on_canvas = app->hand.on_patch = false;
+        break;
+    case SDL_WINDOWEVENT_CLOSE: wr_app_quit(app); break;
+    case SDL_WINDOWEVENT_SIZE_CHANGED:
+        if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED)) app->settings.maximized = false;
+        break;
+    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = display_scale(app->window); break;
+    default: break;
+    }
+}
+
+static void handle(WrApp *app, const SDL_Event *event)
+{
+    if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
+    wr_gui_event(app->gui, event);
+    wr_app_redraw(app);
+    if (event->type == SDL_QUIT) {
+        wr_app_quit(app);
+    } else if (event->type == SDL_WINDOWEVENT) {
+        window_event(app, &event->window);
+    } else if (event->type == SDL_DROPFILE) {
+        if (event->drop.file) wr_app_open_path(app, event->drop.file);
+        SDL_free(event->drop.file);
+    } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
+        wr_canvas_forget(app->canvas);
+        app->patch.serial = 0;
+    } else if (event->type == app->file_event) {
+        WrFilePurpose purpose;
+        const char *path = wr_files_answer(app->files, &purpose);
+        if (path) wr_app_file_chosen(app, purpose, path);
+        else app->after = WR_AFTER_NOTHING;
+    } else {
+        wr_hand_event(app, event);
+    }
+}
+
+/* ---- drawing ---- */
+
+static void make_layout(WrApp *app)
+{
+    SDL_GetRendererOutputSize(app->renderer, &app->width, &app->height);
+    WrLayoutInput in = { .width = app->width,
+                         .height = app->height,
+                         .menu_height = app->menu_height,
+                         .scale = wr_gui_scale(),
+                         .divider = app->settings.divider,
+                         .views = app->settings.views,
+                         .panels = app->settings.panels };
+    app->layout = wr_layout_make(&in);
+}
+
+static SDL_SystemCursor cursor_for(const WrApp *app)
+{
+    const WrHand *hand = &app->hand;
+    if (hand->grab == WR_GRAB_DIVIDER ||
+        (hand->grab == WR_GRAB_NONE &&
+         wr_layout_inside(&app->layout.divider, (int)hand->at.x, (int)hand->at.y)))
+        return app->layout.stacked ? SDL_SYSTEM_CURSOR_SIZENS : SDL_SYSTEM_CURSOR_SIZEWE;
+    if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space)) return SDL_SYSTEM_CURSOR_SIZEALL;
+    if (hand->on_canvas) return SDL_SYSTEM_CURSOR_CROSSHAIR;
+    if (hand->on_patch) return hand->grab == WR_GRAB_NONE ? SDL_SYSTEM_CURSOR_HAND : SDL_SYSTEM_CURSOR_SIZEALL;
+    return wr_gui_cursor(app->gui);
+}
+
+static void set_cursor(WrApp *app)
+{
+    SDL_SystemCursor wanted = cursor_for(app);
+    if (wanted == app->cursor && app->cursors[wanted]) return;
+    if (!app->cursors[wanted]) app->cursors[wanted] = SDL_CreateSystemCursor(wanted);
+    if (app->cursors[wanted]) SDL_SetCursor(app->cursors[wanted]);
+    app->cursor = wanted;
+}
+
+static void draw_divider(const WrApp *app)
+{
+    const SDL_Rect *d = &app->layout.divider;
+    if (d->w <= 0) return;
+    bool hot = app->hand.grab == WR_GRAB_DIVIDER;
+    wr_gui_draw_fill(d->x, d->y, d->w, d->h, hot ? WR_COLOUR_SELECTED : 0xff232323u, 0);
+}
+
+static void draw(WrApp *app, double now)
+{
+    WrError err;
+    double scale = wr_app_wanted_scale(app);
+    if (scale != app->drawn_scale) {
+        if (!wr_gui_set_scale(app->gui, scale, &err)) wr_app_fail(app, &err);
+        app->drawn_scale = scale;
+        app->redraw = 2;
+    }
+    int width, height;
+    SDL_GetRendererOutputSize(app->renderer, &width, &height);
+    wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
+    wr_panel_menu(app);
+    make_layout(app);
+    wr_app_place_view(app);
+    wr_panel_options(app);
+    wr_panel_tools(app);
+    wr_panel_right(app);
+    SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
+    SDL_RenderClear(app->renderer);
+    wr_canvas_view_draw(app);
+    wr_patch_draw(app);
+    draw_divider(app);
+    wr_canvas_view_overlay(app);
+    wr_patch_overlay(app);
+    wr_panel_status(app);
+    wr_panel_dialogs(app);
+    wr_gui_frame_end(app->gui);
+    SDL_RenderPresent(app->renderer);
+    set_cursor(app);
+    app->drawn_at = now;
+}
+
+static void tell_timing(WrApp *app)
+{
+    if (app->timed) return;
+    app->timed = true;
+    if (getenv("WRINKLE_TIMING"))
+        fprintf(stderr, "first picture after %.0f ms\n", (wr_clock_seconds() - app->started_at) * 1e3);
+}
+
+/* ---- the loop ---- */
+
+/* Milliseconds until something is due without an event; -1: never. */
+static int wait_time(const WrApp *app, double now)
+{
+    double next = 1e300;
+    if (app->redraw > 0 && app->visible) next = app->drawn_at + FRAME_SECONDS;
+    double patch = wr_patch_next_time(app);
+    if (patch > 0.0 && patch < next) next = patch;
+    bool young = app->messages.list.count > 0 &&
+                 now - app->messages.list.data[app->messages.list.count - 1].since < 7.0;
+    bool alive = wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || young;
+    if (alive && app->drawn_at + CARET_SECONDS < next) next = app->drawn_at + CARET_SECONDS;
+    if (wr_gui_busy(app->gui) && now + 0.05 < next) next = now + 0.05;
+    if (next > 1e299) return -1;
+    double ms = ceil((next - now) * 1e3);
+    return ms < 0.0 ? 0 : ms > 60000.0 ? 60000 : (int)ms;
+}
+
+static void step(WrApp *app)
+{
+    SDL_Event event;
+    double now = wr_clock_seconds();
+    int wait = wait_time(app, now);
+    if (wait < 0 ? SDL_WaitEvent(&event) : SDL_WaitEventTimeout(&event, wait)) {
+        do handle(app, &event);
+        while (SDL_PollEvent(&event));
+    } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || app->messages.list.count > 0) {
+        if (app->redraw == 0) app->redraw = 1;
+    }
+    wr_brush_flush(app);
+    wr_patch_update(app);
+    now = wr_clock_seconds();
+    if (app->redraw > 0 && app->visible && now >= app->drawn_at + FRAME_SECONDS - 0.0005) {
+        app->redraw--;
+        draw(app, now);
+        tell_timing(app);
+    }
+}
+
+int wr_app_run(const WrAppOptions *options)
+{
+    WrError err = { "" };
+    WrApp *app = wr_alloc(1, sizeof *app);
+    app->options = options;
+    app->session = options->session;
+    app->started_at = wr_clock_seconds();
+    int status = 0;
+    if (begin(app, &err)) {
+        while (!app->quit) step(app);
+        if (!app->settings.maximized) SDL_GetWindowSize(app->window, &app->settings.width, &app->settings.height);
+        wr_settings_save(&app->settings);
+    } else {
+        fprintf(stderr, "wrinkle: %s\n", err.text);
+        status = 1;
+    }
+    end(app);
+    wr_free(app);
+    return status;
+}

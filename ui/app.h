@@ -1,0 +1,22 @@
+/* app.h - the window: paint a table on the left, watch it wrinkle a turning patch on the right.
+   Layer 7. The only header of ui/ that others include. */
+#pragma once
+#include "command/session.h"
+
+typedef struct WrAppOptions {
+    WrSession *session; /* borrowed; with outputs on. If file_given, what was asked for is open in it */
+    bool file_given;    /* false: the window opens the starter document (samples/bricks.wrinkle) */
+    int threads;        /* of the preview, as in wr_pool_new */
+    const char *isa;    /* kernels of the preview, as in wr_renderer_new; NULL: auto */
+    int width, height;  /* of the window, pixels; 0: as it was last time, at first 1440 x 900 */
+    WrText *notes;      /* where the session's note sink puts its lines, each ended by '\n'; the window
+                           shows and clears them. May be NULL */
+} WrAppOptions;
+
+/* Open the window and stay until it is closed. Returns the process's exit status: 0, or 1 with a
+ * message on standard error when there is no display to open it on.
+ *
+ * Environment: WRINKLE_RENDERER=software|opengl, WRINKLE_SCALE=0.75..3 (size of everything),
+ * WRINKLE_DIALOG=own (never the desktop's file dialog), WRINKLE_TIMING=1 (milliseconds to the first
+ * picture on standard error). Settings: $XDG_CONFIG_HOME/wrinkle/window.conf; keys: keys.conf there. */
+int wr_app_run(const WrAppOptions *options);

@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: MIT
+   The document behind the window: new, open, save, and what is asked before work is lost. All changes go
+   through the session. */
+#include "ui/state.h"
+
+#include "base/file.h"
+#include "command/call.h"
+
+#include <string.h>
+
+const WrField *wr_app_field(const WrApp *app)
+{
+    return wr_document_field(wr_session_document(app->session));
+}
+
+const WrScene *wr_app_scene(const WrApp *app)
+{
+    return app->live ? app->live : wr_session_document(app->session)->scene;
+}
+
+bool wr_app_unsaved(const WrApp *app)
+{
+    uint64_t now = wr_session_revision(app->session);
+    return wr_session_in_stroke(app->session) ||
+           (now != wr_session_saved_revision(app->session) && now != app->clean_revision);
+}
+
+bool wr_app_run_line(WrApp *app, const char *line)
+{
+    WrError err;
+    wr_hand_let_go(app); /* a stroke that is open would refuse it */
+    bool ok = wr_session_run(app->session, line, &err);
+    if (!ok) wr_app_fail(app, &err);
+    wr_app_take_notes(app);
+    wr_app_title(app);
+    wr_app_redraw(app);
+    return ok;
+}
+
+WrScene *wr_app_live(WrApp *app)
+{
+    WrScene *fresh = wr_scene_clone(wr_app_scene(app));
+    if (app->live) wr_scene_free(app->live);
+    app->live = fresh;
+    wr_app_redraw(app);
+    return fresh;
+}
+
+void wr_app_live_end(WrApp *app)
+{
+    if (app->live) wr_scene_free(app->live);
+    app->live = NULL;
+    wr_app_redraw(app);
+}
+
+/* ---- names ---- */
+
+const char *wr_app_name(const WrApp *app)
+{
+    const char *path = wr_session_path(app->session), *slash = strrchr(path, '/');
+    if (!path[0]) return app->starter ? "bricks (starter)" : "untitled";
+    return slash ? slash + 1 : path;
+}
+
+void wr_app_title(WrApp *app)
+{
+    char title[512];
+    snprintf(title, sizeof title, "%s%s - Wrinkle", wr_app_name(app), wr_app_unsaved(app) ? " *" : "");
+    if (strcmp(title, SDL_GetWindowTitle(app->window)) != 0) SDL_SetWindowTitle(app->window, title);
+}
+
+static void note_recent(WrApp *app, const char *path)
+{
+    char *full = realpath(path, NULL);
+    if (full) wr_settings_note_recent(&app->settings, full);
+    free(full);
+}
+
+/* ---- another document ---- */
+
+/* Everything that belonged to the old one. */
+static void changed_document(WrApp *app)
+{
+    wr_patch_commit_zoom(app, false);
+    wr_app_live_end(app);
+    app->view_placed = false;
+    app->brush.have_last = false;
+    app->hand.grab = WR_GRAB_NONE;
+    wr_app_take_notes(app);
+    wr_app_title(app);
+    wr_app_redraw(app);
+}
+
+static bool open_now(WrApp *app, const char *path)
+{
+    WrError err;
+    wr_hand_let_go(app);
+    if (!wr_session_open(app->session, path, &err)) {
+        wr_app_fail(app, &err);
+        return false;
+    }
+    app->starter = false;
+    note_recent(app, path);
+    changed_document(app);
+    return true;
+}
+
+/* Should the samples be missing: something to wrinkle all the same. */
+static void make_starter(WrApp *app)
+{
+    static const char *const lines[] = { "grid cells=4x8 width=10 low=0.7 high=0", "surface sphere",
+                                         "replicate 4,2", "bump height=0.05" };
+    WrError err;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (!wr_session_run(app->session, lines[i], &err)) wr_app_fail(app, &err);
+    app->clean_revision = wr_session_revision(app->session);
+}
+
+void wr_app_start(WrApp *app)
+{
+    app->clean_revision = wr_session_saved_revision(app->session);
+    app->hints = true;
+    if (app->options->file_given) {
+        if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
+        wr_app_take_notes(app);
+        return;
+    }
+    WrText path = { 0 };
+    WrError err;
+    app->starter = true;
+    if (!wr_data_find("samples/bricks.wrinkle", &path)) {
+        make_starter(app);
+    } else if (!wr_session_open(app->session, wr_text_get(&path), &err)) {
+        wr_app_fail(app, &err);
+        make_starter(app);
+    }
+    wr_text_fini(&path);
+    wr_app_take_notes(app);
+}
+
+/* ---- asking first ---- */
+
+void wr_app_go_on(WrApp *app)
+{
+    WrAfter after = app->after;
+    char *path = app->after_path;
+    app->after = WR_AFTER_NOTHING;
+    app->after_path = NULL;
+    switch (after) {
+    case WR_AFTER_NOTHING: break;
+    case WR_AFTER_NEW:
+        wr_hand_let_go(app);
+        wr_session_reset(app->session);
+        app->starter = false;
+        changed_document(app);
+        break;
+    case WR_AFTER_OPEN:
+        if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+        break;
+    case WR_AFTER_PATH: open_now(app, path); break;
+    case WR_AFTER_QUIT: app->quit = true; break;
+    }
+    wr_free(path);
+}
+
+static void ask_first(WrApp *app, WrAfter after, const char *path)
+{
+    wr_hand_let_go(app);
+    app->after = after;
+    wr_free(app->after_path);
+    app->after_path = path ? wr_strdup(path) : NULL;
+    if (wr_app_unsaved(app))
+        wr_dialog_open(app, WR_DIALOG_UNSAVED);
+    else
+        wr_app_go_on(app);
+}
+
+void wr_app_new(WrApp *app)
+{
+    ask_first(app, WR_AFTER_NEW, NULL);
+}
+
+void wr_app_open(WrApp *app)
+{
+    ask_first(app, WR_AFTER_OPEN, NULL);
+}
+
+void wr_app_open_path(WrApp *app, const char *path)
+{
+    ask_first(app, WR_AFTER_PATH, path);
+}
+
+void wr_app_quit(WrApp *app)
+{
+    ask_first(app, WR_AFTER_QUIT, NULL);
+}
+
+/* ---- saving ---- */
+
+static bool save_to(WrApp *app, const char *path)
+{
+    WrError err;
+    wr_hand_let_go(app);
+    wr_patch_commit_zoom(app, true);
+    bool ok = wr_session_save(app->session, path, &err);
+    if (!ok) {
+        wr_app_fail(app, &err);
+        app->after = WR_AFTER_NOTHING; /* nothing may be lost because a disk is full */
+        return false;
+    }
+    app->starter = false;
+    note_recent(app, path);
+    wr_app_take_notes(app);
+    wr_app_say(app, "Saved %s", path);
+    wr_app_title(app);
+    wr_app_go_on(app);
+    return true;
+}
+
+bool wr_app_save(WrApp *app)
+{
+    const char *path = wr_session_path(app->session);
+    if (path[0]) {
+        char *copy = wr_strdup(path); /* saving may replace it */
+        bool ok = save_to(app, copy);
+        wr_free(copy);
+        return ok;
+    }
+    wr_app_save_as(app);
+    return false;
+}
+
+/* The folder of the document, or NULL. Caller frees. */
+static char *folder_of(const WrApp *app)
+{
+    const char *path = wr_session_path(app->session);
+    return path[0] ? wr_path_folder(path) : NULL;
+}
+
+static void ask_file(WrApp *app, WrFilePurpose purpose, const char *name)
+{
+    char *folder = folder_of(app);
+    if (!wr_files_ask(app->files, purpose, folder, name)) wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_free(folder);
+}
+
+void wr_app_save_as(WrApp *app)
+{
+    wr_hand_let_go(app);
+    ask_file(app, WR_FILE_SAVE, wr_session_path(app->session)[0] ? wr_app_name(app) : "untitled.exr");
+}
+
+static char *with_ending(const char *path, const char *ending)
+{
+    char buffer[16];
+    if (wr_path_ending(path, buffer)[0]) return wr_strdup(path);
+    WrText text = { 0 };
+    wr_text_addf(&text, "%s%s", path, ending);
+    return text.data;
+}
+
+static void import_now(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "image ");
+    wr_text_add_word(&line, path);
+    if (app->forms.fit) wr_text_add(&line, " fit=table");
+    if (wr_app_run_line(app, wr_text_get(&line))) app->view_placed = false;
+    wr_text_fini(&line);
+}
+
+static void export_now(WrApp *app, const char *path)
+{
+    static const char *const ranges[] = { "0,1", "auto", "signed" };
+    const WrForms *forms = &app->forms;
+    const WrCommand *command = wr_command_find("export");
+    WrForm form;
+    if (!command || !command->form || !command->form(forms->kind, &form)) return;
+    WrText line = { 0 };
+    wr_text_addf(&line, "export %s ", form.name);
+    wr_text_add_word(&line, path);
+    if (strcmp(form.name, "height") == 0) wr_text_addf(&line, " range=%s", ranges[forms->range]);
+    if (wr_app_run_line(app, wr_text_get(&line)) && app->messages.list.count == 0)
+        wr_app_say(app, "Exported %s", path);
+    wr_text_fini(&line);
+}
+
+void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
+{
+    char *full = purpose == WR_FILE_SAVE     ? with_ending(path, ".exr")
+                 : purpose == WR_FILE_EXPORT ? with_ending(path, ".png")
+                                             : wr_strdup(path);
+    switch (purpose) {
+    case WR_FILE_OPEN: open_now(app, full); break;
+    case WR_FILE_SAVE: save_to(app, full); break;
+    case WR_FILE_IMPORT: import_now(app, full); break;
+    case WR_FILE_EXPORT: export_now(app, full); break;
+    }
+    wr_free(full);
+}

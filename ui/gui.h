@@ -1,0 +1,173 @@
+/* gui.h - widgets and drawing of the window as plain C.
+   The gui_imgui*.cpp files behind it are the only ones that know Dear ImGui, and gui_sdl.c the only one
+   that hands its triangles to SDL. Immediate mode: between frame_begin and frame_end the panels say what
+   they hold, and each widget answers at once. One thread; one WrGui at a time.
+
+   Sizes are pixels of the window unless a name says `units`: a unit is a pixel at scale 1. */
+#pragma once
+#include "base/error.h"
+#include "ui/theme.h"
+
+#include <SDL.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct WrGui WrGui;
+
+/* scale: 0.75..4. The caller owns it; it must be freed before the renderer. */
+WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err);
+void wr_gui_free(WrGui *gui); /* NULL is fine */
+/* Another scale; text is drawn anew at that size. Not between frame_begin and frame_end. */
+bool wr_gui_set_scale(WrGui *gui, double scale, WrError *err);
+
+/* Hand over an event. The caller looks at owns_point, holds_mouse and wants_text before it uses it
+   itself. */
+void wr_gui_event(WrGui *gui, const SDL_Event *event);
+/* Forget held keys and buttons (the window lost the keyboard). */
+void wr_gui_release_all(WrGui *gui);
+/* A press there would go to a widget: by the windows of the last frame, so that it is right even for
+   events that arrive in one bundle with the motion before them. */
+bool wr_gui_owns_point(const WrGui *gui, int x, int y);
+bool wr_gui_holds_mouse(const WrGui *gui); /* a widget is being dragged */
+bool wr_gui_wants_text(const WrGui *gui);  /* a text field has the keyboard */
+/* A widget waits for time to pass (a click that may become a double click): draw again soon. */
+bool wr_gui_busy(const WrGui *gui);
+/* The pointer's shape that the widgets ask for. */
+SDL_SystemCursor wr_gui_cursor(const WrGui *gui);
+
+void wr_gui_frame_begin(WrGui *gui, int width, int height, double seconds);
+void wr_gui_frame_end(WrGui *gui);
+
+double wr_gui_scale(void);         /* pixels a unit */
+int wr_gui_px(double units);       /* units as whole pixels */
+
+/* ---- icons (UTF-8 of the icon font; plain letters where it is missing) ---- */
+#define WR_ICON_BRUSH "\xef\x83\xa3"    /* f0e3 */
+#define WR_ICON_HAND "\xef\x81\x81"     /* f041 arrow-all */
+#define WR_ICON_ZOOM "\xef\x8d\x89"     /* f349 */
+#define WR_ICON_PICK "\xef\x88\x8a"     /* f20a */
+#define WR_ICON_PLAY "\xef\x90\x8a"     /* f40a */
+#define WR_ICON_PAUSE "\xef\x8f\xa4"    /* f3e4 */
+#define WR_ICON_DOWN "\xef\x8d\x9d"     /* f35d */
+#define WR_ICON_CLOSE "\xef\x85\x96"    /* f156 */
+#define WR_ICON_PLUS "\xef\x90\x95"     /* f415 */
+#define WR_ICON_DELETE "\xef\x87\x80"   /* f1c0 */
+#define WR_ICON_HELP "\xef\x8b\x97"     /* f2d7 */
+#define WR_ICON_ALERT "\xef\x80\xa6"    /* f026 */
+#define WR_ICON_FOLDER "\xef\x89\x8b"   /* f24b */
+#define WR_ICON_FILE "\xef\x88\xa4"     /* f224 */
+#define WR_ICON_UP "\xef\x81\x9d"       /* f05d */
+#define WR_ICON_CHECK "\xef\x84\xac"    /* f12c */
+#define WR_ICON_CAMERA "\xef\x91\xa4"   /* f464 rotate-3d */
+
+/* ---- areas: fixed rectangles that hold widgets ---- */
+typedef enum WrAreaKind {
+    WR_AREA_BAR,    /* one row of widgets, centred in height, never scrolls */
+    WR_AREA_PANEL,  /* scrolls when its content is taller */
+    WR_AREA_OVERLAY /* fits its content; lies on a view; rect x,y is the corner that `anchor` names */
+} WrAreaKind;
+void wr_gui_area_begin(const char *name, WrAreaKind kind, SDL_Rect rect, WrColour background);
+void wr_gui_area_end(void);
+/* A small area on a view. anchor_x, anchor_y: 0 puts its left (top) edge at x (y), 1 its right
+   (bottom) edge. */
+void wr_gui_overlay_begin(const char *name, int x, int y, double anchor_x, double anchor_y);
+void wr_gui_overlay_end(void);
+
+/* ---- placing ---- */
+void wr_gui_same_line(double gap_units);
+void wr_gui_space(double units);       /* downwards */
+void wr_gui_separator(void);           /* a thin line across the panel */
+void wr_gui_rule(void);                /* a thin upright line in a bar */
+double wr_gui_available(void);         /* width left on this row, in pixels */
+void wr_gui_move_to(double x);         /* the next widget starts x pixels from the area's left edge */
+double wr_gui_width(void);             /* of the area, in pixels */
+void wr_gui_push_id(int id);
+void wr_gui_pop_id(void);
+void wr_gui_disable(bool disabled);    /* grey out what follows; ends with wr_gui_enable */
+void wr_gui_enable(void);
+
+/* ---- text ---- */
+typedef enum WrFont { WR_FONT_TEXT, WR_FONT_BOLD, WR_FONT_SMALL, WR_FONT_ICON, WR_FONT_COUNT } WrFont;
+void wr_gui_text(WrFont font, WrColour colour, const char *text);
+void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text);
+void wr_gui_heading(const char *text); /* of a group of rows: small, in capitals as given */
+void wr_gui_label(const char *text);   /* left part of a row; the field follows on the same line */
+double wr_gui_text_width(WrFont font, const char *text);
+double wr_gui_line_height(WrFont font);
+void wr_gui_tip(const char *text);     /* of the widget before; shown when the pointer rests on it */
+
+/* ---- widgets ---- */
+/* What happened to a value in this frame. */
+typedef enum WrEdit {
+    WR_EDIT_NONE,
+    WR_EDIT_LIVE,  /* being dragged: *value is what it would become */
+    WR_EDIT_DONE   /* the edit is finished */
+} WrEdit;
+
+typedef struct WrNumber {
+    double low, high;           /* soft range: what a drag reaches, low < high */
+    double hard_low, hard_high; /* what typing may reach; both 0: the soft range */
+    double reset;               /* value after a double click */
+    int decimals;               /* digits after the point; -1: up to four significant digits */
+    const char *unit;           /* "px", "deg"; may be NULL */
+    bool logarithmic;           /* drag moves by equal ratios; low > 0 */
+    const char *tip;            /* may be NULL */
+} WrNumber;
+
+/* A slider that can be typed into: drag moves it, a click types, a double click resets. width <= 0:
+   what is left of the row. */
+WrEdit wr_gui_number(const char *id, double width, const WrNumber *spec, double *value);
+bool wr_gui_choice(const char *id, double width, const char *const *items, int count, int *index);
+/* Buttons in a row, one of them chosen; colours[i] (may be NULL) shows while i is the chosen one. */
+bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours, int count,
+                     int *index);
+/* Tabs across the area. */
+bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index);
+WrEdit wr_gui_colour(const char *id, double width, double linear_rgb[3]);
+bool wr_gui_check(const char *label, bool *value);
+bool wr_gui_button(const char *label, bool primary);
+/* A flat button of one icon, `units` wide and high. */
+bool wr_gui_icon_button(const char *id, const char *icon, double units, bool selected);
+/* A clickable word with an icon in front (may be NULL), on a dark chip. */
+bool wr_gui_chip(const char *icon, const char *label);
+/* A field for one line. focus: give it the keyboard now. True when Return was pressed. */
+bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus);
+/* A row of a list: 0 nothing, 1 clicked, 2 double-clicked. */
+int wr_gui_list_row(const char *icon, const char *label, bool selected);
+void wr_gui_list_begin(const char *id, double height);
+void wr_gui_list_end(void);
+
+/* ---- menus, popups, dialogs: begin returns true while open, and only then end follows ---- */
+double wr_gui_menu_bar_begin(void); /* returns its height in pixels */
+void wr_gui_menu_bar_end(void);
+bool wr_gui_menu_begin(const char *label);
+void wr_gui_menu_end(void);
+bool wr_gui_menu_item(const char *label, const char *keys, bool checked, bool enabled);
+void wr_gui_menu_separator(void);
+void wr_gui_popup_open(const char *id);
+bool wr_gui_popup_begin(const char *id);
+void wr_gui_popup_end(void);
+/* A dialog in the middle of the window, which takes all input. `open` true shows it. Escape or a
+   click beside it does not close it: the caller decides. */
+bool wr_gui_dialog_begin(const char *title, double width_units);
+void wr_gui_dialog_end(void);
+bool wr_gui_escape_pressed(void); /* in this frame */
+bool wr_gui_return_pressed(void); /* in this frame, and no text field took it */
+
+/* ---- drawing on the views, under the panels ---- */
+void wr_gui_draw_clip(SDL_Rect rect);
+void wr_gui_draw_unclip(void);
+void wr_gui_draw_line(double x0, double y0, double x1, double y1, WrColour colour, double width);
+void wr_gui_draw_rect(double x, double y, double w, double h, WrColour colour, double width);
+void wr_gui_draw_fill(double x, double y, double w, double h, WrColour colour, double rounding);
+void wr_gui_draw_circle(double x, double y, double radius, WrColour colour, double width);
+void wr_gui_draw_disc(double x, double y, double radius, WrColour colour);
+/* Part of a circle, clockwise from the top; turns 0..1. */
+void wr_gui_draw_arc(double x, double y, double radius, double turns, WrColour colour, double width);
+void wr_gui_draw_text(double x, double y, WrFont font, WrColour colour, const char *text);
+
+#ifdef __cplusplus
+}
+#endif

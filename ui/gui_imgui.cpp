@@ -1,0 +1,466 @@
+/* SPDX-License-Identifier: MIT
+   The widget library's context: fonts, style, events, frames. */
+#include "ui/gui_imgui.h"
+
+#include "ui/gui_sdl.h"
+
+#include <imgui_freetype.h>
+#include <imgui_internal.h>
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_ADVANCES_H
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+static_assert(sizeof(ImDrawVert) == sizeof(WrGuiVertex), "vertices are handed over as they are");
+static_assert(sizeof(ImDrawIdx) == sizeof(uint16_t), "indices are handed over as they are");
+
+WrGui *wr_gui_current(void)
+{
+    return static_cast<WrGui *>(ImGui::GetIO().UserData);
+}
+
+ImU32 wr_gui_colour_of(WrColour c)
+{
+    return IM_COL32((c >> 16) & 255, (c >> 8) & 255, c & 255, c >> 24);
+}
+
+ImVec4 wr_gui_vec_of(WrColour c)
+{
+    return ImGui::ColorConvertU32ToFloat4(wr_gui_colour_of(c));
+}
+
+/* ---- fonts ---- */
+
+static const char *first_readable(const char *const *paths)
+{
+    for (; *paths; paths++)
+        if (access(*paths, R_OK) == 0) return *paths;
+    return nullptr;
+}
+
+static const char *const text_faces[] = {
+    "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
+    "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
+    "/usr/share/fonts/inter/Inter-Regular.otf",
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+    nullptr
+};
+static const char *const bold_faces[] = {
+    "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf",
+    "/usr/share/fonts/truetype/inter/Inter-SemiBold.ttf",
+    "/usr/share/fonts/inter/Inter-SemiBold.otf",
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
+    "/usr/share/fonts/truetype/noto/NotoSans-Bold.ttf",
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf",
+    nullptr
+};
+static const float face_ems[] = { 14.0f, 14.0f, 12.0f }; /* units: text, bold, small */
+static const char *const icon_faces[] = {
+    "/usr/share/fonts/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf", nullptr
+};
+
+/* The widget library asks for the height of a line, from the highest ascender to the lowest descender;
+   type is measured by its em. Lines a em: 1.21 of Inter. */
+static float line_of_em(FT_Face face)
+{
+    double height = face->size ? (double)(face->ascender - face->descender) : 0.0;
+    return height > 0.0 && face->units_per_EM > 0 ? (float)(height / face->units_per_EM) : 1.2f;
+}
+
+/* Advances as the type's designer made them (the library rounds each up, which spreads words), and one
+   width for all digits, so that numbers do not jitter as they change. */
+static void space_letters(ImFont *font, FT_Face face, float em)
+{
+    float pixels_a_unit = em / (float)face->units_per_EM, digit = 0.0f;
+    for (int pass = 0; pass < 2; pass++) {
+        for (ImFontGlyph &glyph : font->Glyphs) {
+            FT_Fixed units = 0;
+            FT_UInt index = FT_Get_Char_Index(face, glyph.Codepoint);
+            bool number = glyph.Codepoint >= '0' && glyph.Codepoint <= '9';
+            if (index == 0 || FT_Get_Advance(face, index, FT_LOAD_NO_SCALE, &units) != 0) continue;
+            float advance = (float)units * pixels_a_unit;
+            if (pass == 0 && number && glyph.Codepoint != '1' && advance > digit) digit = advance;
+            if (pass == 1 && number) {
+                float shift = roundf((digit - advance) / 2.0f);
+                glyph.X0 += shift;
+                glyph.X1 += shift;
+                advance = digit;
+            }
+            if (pass == 1) glyph.AdvanceX = advance;
+        }
+    }
+    font->BuildLookupTable();
+}
+
+/* A face at `em` pixels; NULL if the file is none. The face stays open for space_letters. */
+static ImFont *add_face(ImFontAtlas *atlas, FT_Library library, const char *path, float em,
+                        FT_Face *face)
+{
+    static const ImWchar ranges[] = { 0x20,   0x17f,  0x370,  0x3ff,  0x400,  0x45f,
+                                      0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0 };
+    if (!library || FT_New_Face(library, path, 0, face) != 0) return nullptr;
+    ImFontConfig config;
+    config.OversampleH = config.OversampleV = 1;
+    return atlas->AddFontFromFileTTF(path, roundf(em * line_of_em(*face)), &config, ranges);
+}
+
+static void add_icons(ImFontAtlas *atlas, const char *path, float size, bool merge)
+{
+    static const ImWchar used[] = { 0xf0e3, 0xf0e3, 0xf041, 0xf041, 0xf349, 0xf349, 0xf20a, 0xf20a,
+                                    0xf40a, 0xf40a, 0xf3e4, 0xf3e4, 0xf35d, 0xf35d, 0xf156, 0xf156,
+                                    0xf415, 0xf415, 0xf1c0, 0xf1c0, 0xf2d7, 0xf2d7, 0xf026, 0xf026,
+                                    0xf24b, 0xf24b, 0xf224, 0xf224, 0xf05d, 0xf05d, 0xf12c, 0xf12c,
+                                    0xf464, 0xf464, 0 };
+    ImFontConfig config;
+    config.OversampleH = config.OversampleV = 1;
+    config.PixelSnapH = true;
+    config.MergeMode = merge;
+    if (merge) config.GlyphOffset.y = roundf(size * 0.06f);
+    atlas->AddFontFromFileTTF(path, size, &config, used);
+}
+
+static void add_fonts(WrGui *gui, ImFontAtlas *atlas, FT_Library library, FT_Face *faces)
+{
+    const char *text = first_readable(text_faces), *bold = first_readable(bold_faces);
+    const char *icons = first_readable(icon_faces);
+    if (!bold) bold = text;
+    for (int i = 0; i < WR_FONT_ICON; i++) {
+        float em = roundf(face_ems[i] * (float)gui->scale);
+        ImFont *font = text ? add_face(atlas, library, i == WR_FONT_BOLD ? bold : text, em, &faces[i])
+                            : nullptr;
+        gui->fonts[i] = font ? font : atlas->AddFontDefault();
+        if (font && icons) add_icons(atlas, icons, roundf(em * 1.35f), true);
+    }
+    gui->fonts[WR_FONT_ICON] = gui->fonts[WR_FONT_TEXT];
+    if (!icons) return;
+    int before = atlas->Fonts.Size;
+    add_icons(atlas, icons, roundf(22.0f * (float)gui->scale), false);
+    if (atlas->Fonts.Size > before) gui->fonts[WR_FONT_ICON] = atlas->Fonts.back();
+}
+
+static bool build_fonts(WrGui *gui, WrError *err)
+{
+    ImFontAtlas *atlas = ImGui::GetIO().Fonts;
+    FT_Library library = nullptr;
+    FT_Face faces[WR_FONT_ICON] = {};
+    if (FT_Init_FreeType(&library) != 0) library = nullptr;
+    atlas->Clear();
+    atlas->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
+    /* Sharp stems: whole pixels upwards only, so that letters keep their distances. */
+    atlas->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+    atlas->TexGlyphPadding = 1;
+    add_fonts(gui, atlas, library, faces);
+    unsigned char *pixels;
+    int width, height;
+    atlas->GetTexDataAsRGBA32(&pixels, &width, &height);
+    for (int i = 0; i < WR_FONT_ICON; i++) {
+        if (!faces[i]) continue;
+        space_letters(gui->fonts[i], faces[i], roundf(face_ems[i] * (float)gui->scale));
+        FT_Done_Face(faces[i]);
+    }
+    if (library) FT_Done_FreeType(library);
+    if (!pixels) return wr_fail(err, "no font could be drawn");
+    if (gui->atlas) SDL_DestroyTexture(gui->atlas);
+    gui->atlas = wr_gui_sdl_texture(gui->renderer, width, height, pixels);
+    if (!gui->atlas) return wr_fail(err, "a texture of %dx%d: %s", width, height, SDL_GetError());
+    atlas->SetTexID(gui->atlas);
+    return true;
+}
+
+/* ---- style ---- */
+
+static void set_colours(ImVec4 *c)
+{
+    c[ImGuiCol_Text] = wr_gui_vec_of(WR_COLOUR_TEXT);
+    c[ImGuiCol_TextDisabled] = wr_gui_vec_of(0xff787878u);
+    c[ImGuiCol_WindowBg] = c[ImGuiCol_MenuBarBg] = wr_gui_vec_of(WR_COLOUR_PANEL);
+    c[ImGuiCol_PopupBg] = wr_gui_vec_of(0xff242424u);
+    c[ImGuiCol_Border] = wr_gui_vec_of(WR_COLOUR_EDGE);
+    c[ImGuiCol_FrameBg] = c[ImGuiCol_ChildBg] = wr_gui_vec_of(WR_COLOUR_FIELD);
+    c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_FrameBgActive] = wr_gui_vec_of(0xff252525u);
+    c[ImGuiCol_Button] = wr_gui_vec_of(0xff393939u);
+    c[ImGuiCol_ButtonHovered] = wr_gui_vec_of(0xff454545u);
+    c[ImGuiCol_ButtonActive] = c[ImGuiCol_HeaderActive] = wr_gui_vec_of(WR_COLOUR_SELECTED);
+    c[ImGuiCol_Header] = c[ImGuiCol_HeaderHovered] = wr_gui_vec_of(WR_COLOUR_SELECTED);
+    c[ImGuiCol_CheckMark] = wr_gui_vec_of(WR_COLOUR_ACCENT);
+    c[ImGuiCol_Separator] = wr_gui_vec_of(WR_COLOUR_EDGE);
+    c[ImGuiCol_TextSelectedBg] = wr_gui_vec_of(WR_COLOUR_SELECTED);
+    c[ImGuiCol_ScrollbarBg] = wr_gui_vec_of(0x00000000u);
+    c[ImGuiCol_ScrollbarGrab] = wr_gui_vec_of(0xff444444u);
+    c[ImGuiCol_ScrollbarGrabHovered] = wr_gui_vec_of(0xff555555u);
+    c[ImGuiCol_ScrollbarGrabActive] = wr_gui_vec_of(0xff666666u);
+    c[ImGuiCol_ModalWindowDimBg] = wr_gui_vec_of(0x60000000u);
+    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = wr_gui_vec_of(WR_COLOUR_BAR);
+}
+
+static void set_style(double scale)
+{
+    ImGuiStyle style;
+    style.WindowRounding = 0.0f;
+    style.ChildRounding = style.FrameRounding = 3.0f;
+    style.PopupRounding = 4.0f;
+    style.WindowBorderSize = 0.0f;
+    style.ChildBorderSize = style.PopupBorderSize = style.FrameBorderSize = 1.0f;
+    style.FramePadding = ImVec2(8.0f, 4.0f);
+    style.ItemSpacing = ImVec2(8.0f, 8.0f);
+    style.ItemInnerSpacing = ImVec2(6.0f, 4.0f);
+    style.WindowPadding = ImVec2(12.0f, 12.0f);
+    style.ScrollbarSize = 10.0f;
+    style.ScrollbarRounding = 5.0f;
+    style.ScaleAllSizes((float)scale);
+    style.ChildBorderSize = style.PopupBorderSize = style.FrameBorderSize = 1.0f;
+    set_colours(style.Colors);
+    ImGui::GetStyle() = style;
+}
+
+/* ---- life ---- */
+
+static void set_key_map(ImGuiIO &io)
+{
+    static const struct {
+        int imgui, sdl;
+    } map[] = { { ImGuiKey_Tab, SDL_SCANCODE_TAB },
+                { ImGuiKey_LeftArrow, SDL_SCANCODE_LEFT },
+                { ImGuiKey_RightArrow, SDL_SCANCODE_RIGHT },
+                { ImGuiKey_UpArrow, SDL_SCANCODE_UP },
+                { ImGuiKey_DownArrow, SDL_SCANCODE_DOWN },
+                { ImGuiKey_PageUp, SDL_SCANCODE_PAGEUP },
+                { ImGuiKey_PageDown, SDL_SCANCODE_PAGEDOWN },
+                { ImGuiKey_Home, SDL_SCANCODE_HOME },
+                { ImGuiKey_End, SDL_SCANCODE_END },
+                { ImGuiKey_Delete, SDL_SCANCODE_DELETE },
+                { ImGuiKey_Backspace, SDL_SCANCODE_BACKSPACE },
+                { ImGuiKey_Enter, SDL_SCANCODE_RETURN },
+                { ImGuiKey_KeyPadEnter, SDL_SCANCODE_KP_ENTER },
+                { ImGuiKey_Escape, SDL_SCANCODE_ESCAPE },
+                { ImGuiKey_A, SDL_SCANCODE_A },
+                { ImGuiKey_C, SDL_SCANCODE_C },
+                { ImGuiKey_V, SDL_SCANCODE_V },
+                { ImGuiKey_X, SDL_SCANCODE_X },
+                { ImGuiKey_Y, SDL_SCANCODE_Y },
+                { ImGuiKey_Z, SDL_SCANCODE_Z } };
+    for (const auto &pair : map) io.KeyMap[pair.imgui] = pair.sdl;
+}
+
+static const char *get_clipboard(void *ctx)
+{
+    WrGui *gui = static_cast<WrGui *>(ctx); /* keeps the text, which must outlive the call */
+    char *held = SDL_GetClipboardText();
+    SDL_utf8strlcpy(gui->clipboard, held ? held : "", sizeof gui->clipboard);
+    SDL_free(held);
+    return gui->clipboard;
+}
+
+static void set_clipboard(void *, const char *text)
+{
+    SDL_SetClipboardText(text);
+}
+
+extern "C" WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err)
+try {
+    WrGui *gui = static_cast<WrGui *>(calloc(1, sizeof(WrGui)));
+    if (!gui) {
+        wr_fail(err, "no memory for the window");
+        return nullptr;
+    }
+    gui->renderer = renderer;
+    gui->context = ImGui::CreateContext();
+    ImGuiIO &io = ImGui::GetIO();
+    io.IniFilename = io.LogFilename = nullptr;
+    io.UserData = gui;
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.ClipboardUserData = gui;
+    io.GetClipboardTextFn = get_clipboard;
+    io.SetClipboardTextFn = set_clipboard;
+    set_key_map(io);
+    if (!wr_gui_set_scale(gui, scale, err)) {
+        wr_gui_free(gui);
+        return nullptr;
+    }
+    return gui;
+}
+WR_CAUGHT(nullptr)
+
+extern "C" void wr_gui_free(WrGui *gui)
+try {
+    if (!gui) return;
+    ImGui::DestroyContext(gui->context);
+    if (gui->atlas) SDL_DestroyTexture(gui->atlas);
+    free(gui);
+}
+WR_CAUGHT()
+
+extern "C" bool wr_gui_set_scale(WrGui *gui, double scale, WrError *err)
+try {
+    gui->scale = scale < 0.75 ? 0.75 : scale > 4.0 ? 4.0 : scale;
+    set_style(gui->scale);
+    return build_fonts(gui, err);
+}
+WR_CAUGHT(false)
+
+/* ---- events ---- */
+
+static void key_event(WrGui *gui, const SDL_KeyboardEvent *key)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    int code = key->keysym.scancode;
+    if (code < 0 || code >= 512) return;
+    if (key->type == SDL_KEYDOWN) {
+        io.KeysDown[code] = gui->pressed_now[code] = true;
+    } else if (gui->pressed_now[code]) {
+        gui->released_late[code] = true; /* seen for one frame, then let go */
+    } else {
+        io.KeysDown[code] = false;
+    }
+    SDL_Keymod mod = SDL_GetModState();
+    io.KeyShift = (mod & KMOD_SHIFT) != 0;
+    io.KeyCtrl = (mod & KMOD_CTRL) != 0;
+    io.KeyAlt = (mod & KMOD_ALT) != 0;
+}
+
+static int button_index(int button)
+{
+    return button == SDL_BUTTON_LEFT ? 0 : button == SDL_BUTTON_RIGHT ? 1
+                                       : button == SDL_BUTTON_MIDDLE  ? 2
+                                                                      : -1;
+}
+
+extern "C" void wr_gui_event(WrGui *gui, const SDL_Event *event)
+try {
+    ImGuiIO &io = ImGui::GetIO();
+    int button;
+    switch (event->type) {
+    case SDL_MOUSEMOTION:
+        io.MousePos = ImVec2((float)event->motion.x, (float)event->motion.y);
+        break;
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+        io.MousePos = ImVec2((float)event->button.x, (float)event->button.y);
+        button = button_index(event->button.button);
+        if (button < 0) break;
+        gui->held[button] = event->type == SDL_MOUSEBUTTONDOWN;
+        if (gui->held[button]) gui->pressed[button] = true;
+        break;
+    case SDL_MOUSEWHEEL:
+        io.MouseWheel += event->wheel.preciseY;
+        io.MouseWheelH += event->wheel.preciseX;
+        break;
+    case SDL_TEXTINPUT: io.AddInputCharactersUTF8(event->text.text); break;
+    case SDL_KEYDOWN:
+    case SDL_KEYUP: key_event(gui, &event->key); break;
+    case SDL_WINDOWEVENT:
+        if (event->window.event == SDL_WINDOWEVENT_LEAVE) io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
+        break;
+    default: break;
+    }
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_release_all(WrGui *gui)
+try {
+    ImGuiIO &io = ImGui::GetIO();
+    memset(io.KeysDown, 0, sizeof io.KeysDown);
+    memset(gui->held, 0, sizeof gui->held);
+    io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+}
+WR_CAUGHT()
+
+extern "C" bool wr_gui_owns_point(const WrGui *, int x, int y)
+try {
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    if (g.OpenPopupStack.Size > 0) return true;
+    ImVec2 point((float)x, (float)y);
+    for (const ImGuiWindow *window : g.Windows)
+        if (window->Active && !(window->Flags & ImGuiWindowFlags_NoInputs) && !window->ParentWindow &&
+            window->Rect().Contains(point))
+            return true;
+    return false;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_holds_mouse(const WrGui *)
+{
+    return ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::GetIO().MouseDown[0];
+}
+
+extern "C" bool wr_gui_wants_text(const WrGui *)
+{
+    return ImGui::GetIO().WantTextInput;
+}
+
+extern "C" bool wr_gui_busy(const WrGui *gui)
+{
+    return gui->armed != 0;
+}
+
+extern "C" SDL_SystemCursor wr_gui_cursor(const WrGui *)
+{
+    switch (ImGui::GetMouseCursor()) {
+    case ImGuiMouseCursor_TextInput: return SDL_SYSTEM_CURSOR_IBEAM;
+    case ImGuiMouseCursor_ResizeEW: return SDL_SYSTEM_CURSOR_SIZEWE;
+    case ImGuiMouseCursor_ResizeNS: return SDL_SYSTEM_CURSOR_SIZENS;
+    case ImGuiMouseCursor_Hand: return SDL_SYSTEM_CURSOR_HAND;
+    default: return SDL_SYSTEM_CURSOR_ARROW;
+    }
+}
+
+/* ---- frames ---- */
+
+extern "C" void wr_gui_frame_begin(WrGui *gui, int width, int height, double seconds)
+try {
+    ImGuiIO &io = ImGui::GetIO();
+    io.DisplaySize = ImVec2((float)width, (float)height);
+    io.DeltaTime = (float)(seconds > 1e-4 ? (seconds < 0.5 ? seconds : 0.5) : 1e-4);
+    for (int i = 0; i < 3; i++) { /* pressed and let go since the last frame: pressed for one frame */
+        io.MouseDown[i] = gui->held[i] || gui->pressed[i];
+        gui->pressed[i] = false;
+    }
+    ImGui::NewFrame();
+    for (int i = 0; i < 512; i++) {
+        gui->pressed_now[i] = false;
+        if (gui->released_late[i]) io.KeysDown[i] = gui->released_late[i] = false;
+    }
+    ImGui::PushFont(gui->fonts[WR_FONT_TEXT]);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_frame_end(WrGui *gui)
+try {
+    ImGui::PopFont();
+    ImGui::Render();
+    ImDrawData *data = ImGui::GetDrawData();
+    ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
+    for (int n = 0; n < data->CmdListsCount; n++) {
+        const ImDrawList *list = data->CmdLists[n];
+        const auto *vertices = reinterpret_cast<const WrGuiVertex *>(list->VtxBuffer.Data);
+        for (const ImDrawCmd &cmd : list->CmdBuffer) {
+            if (cmd.UserCallback) continue;
+            SDL_Rect clip = { (int)cmd.ClipRect.x, (int)cmd.ClipRect.y,
+                              (int)(cmd.ClipRect.z - cmd.ClipRect.x),
+                              (int)(cmd.ClipRect.w - cmd.ClipRect.y) };
+            if (clip.w <= 0 || clip.h <= 0) continue;
+            wr_gui_sdl_draw(gui->renderer, static_cast<SDL_Texture *>(cmd.GetTexID()), white.x,
+                            white.y, vertices + cmd.VtxOffset,
+                            list->VtxBuffer.Size - (int)cmd.VtxOffset,
+                            list->IdxBuffer.Data + cmd.IdxOffset, (int)cmd.ElemCount, clip);
+        }
+    }
+}
+WR_CAUGHT()
+
+extern "C" double wr_gui_scale(void)
+{
+    return wr_gui_current()->scale;
+}
+
+extern "C" int wr_gui_px(double units)
+{
+    return (int)lround(units * wr_gui_current()->scale);
+}

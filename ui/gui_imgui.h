@@ -1,0 +1,39 @@
+/* gui_imgui.h - what the gui_imgui*.cpp files share; nobody else includes it. */
+#pragma once
+extern "C" {
+#include "base/text.h"
+}
+#include "ui/gui.h"
+
+#include <imgui.h>
+
+struct WrGui {
+    SDL_Renderer *renderer; /* borrowed */
+    ImGuiContext *context;  /* owned */
+    SDL_Texture *atlas;     /* owned */
+    ImFont *fonts[WR_FONT_COUNT];
+    double scale;
+    bool held[3];           /* buttons as the events say */
+    bool pressed[3];        /* that went down since the last frame: none is ever missed */
+    bool released_late[512]; /* keys that went down and up between two frames */
+    bool pressed_now[512];
+    char clipboard[4096];
+    /* number fields */
+    ImGuiID typing, armed, dragging;
+    bool typing_focus, moved;
+    double armed_since, drag_value, drag_from;
+    float drag_x;
+    char typed[64];
+};
+
+/* The one whose frame is open. */
+WrGui *wr_gui_current(void);
+ImU32 wr_gui_colour_of(WrColour colour); /* 0xAARRGGBB as ImGui packs it */
+ImVec4 wr_gui_vec_of(WrColour colour);
+
+/* Nothing that is thrown may reach C. Written after a function's body that is a try block. */
+#define WR_CAUGHT(value)                                                                           \
+    catch (...)                                                                                    \
+    {                                                                                              \
+        return value;                                                                              \
+    }

@@ -1,0 +1,491 @@
+/* SPDX-License-Identifier: MIT
+   Areas, text, menus and widgets. */
+#include "ui/gui_imgui.h"
+
+extern "C" {
+#include "base/clock.h"
+}
+
+#include <imgui_internal.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static float px(double units)
+{
+    return (float)wr_gui_px(units);
+}
+
+/* ---- areas ---- */
+
+extern "C" void wr_gui_area_begin(const char *name, WrAreaKind kind, SDL_Rect rect,
+                                  WrColour background)
+try {
+    ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
+    ImGui::SetNextWindowSize(ImVec2((float)rect.w, (float)rect.h));
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                             ImGuiWindowFlags_NoNav;
+    ImVec2 padding(px(12), px(12));
+    if (kind == WR_AREA_PANEL) {
+        flags &= ~ImGuiWindowFlags_NoScrollbar;
+    } else {
+        flags |= ImGuiWindowFlags_NoScrollWithMouse;
+        float row = ImGui::GetFrameHeight();
+        float side = rect.w < rect.h ? roundf(((float)rect.w - px(36)) / 2) : px(12);
+        padding = ImVec2(side, rect.w < rect.h ? px(8) : floorf(((float)rect.h - row) / 2));
+        if (padding.y < 0) padding.y = 0;
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, wr_gui_colour_of(background));
+    ImGui::Begin(name, nullptr, flags);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_area_end(void)
+try {
+    ImGui::End();
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_overlay_begin(const char *name, int x, int y, double ax, double ay)
+try {
+    ImGui::SetNextWindowPos(ImVec2((float)x, (float)y), 0, ImVec2((float)ax, (float)ay));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoBackground);
+    ImGui::PopStyleVar(2);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_overlay_end(void)
+try {
+    ImGui::End();
+}
+WR_CAUGHT()
+
+/* ---- placing ---- */
+
+extern "C" void wr_gui_same_line(double gap_units)
+{
+    ImGui::SameLine(0.0f, px(gap_units));
+}
+
+extern "C" void wr_gui_space(double units)
+{
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(units));
+}
+
+extern "C" void wr_gui_separator(void)
+{
+    ImGui::Separator();
+}
+
+extern "C" void wr_gui_rule(void)
+{
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float h = ImGui::GetFrameHeight();
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + 2), ImVec2(at.x + 1, at.y + h - 2),
+                                              wr_gui_colour_of(WR_COLOUR_EDGE));
+    ImGui::Dummy(ImVec2(1, h));
+}
+
+extern "C" double wr_gui_available(void)
+{
+    return (double)ImGui::GetContentRegionAvail().x;
+}
+
+extern "C" void wr_gui_move_to(double x)
+{
+    ImGui::SetCursorPosX((float)x);
+}
+
+extern "C" double wr_gui_width(void)
+{
+    return (double)ImGui::GetWindowWidth();
+}
+
+extern "C" void wr_gui_push_id(int id)
+{
+    ImGui::PushID(id);
+}
+
+extern "C" void wr_gui_pop_id(void)
+{
+    ImGui::PopID();
+}
+
+extern "C" void wr_gui_disable(bool disabled)
+{
+    ImGui::BeginDisabled(disabled);
+}
+
+extern "C" void wr_gui_enable(void)
+{
+    ImGui::EndDisabled();
+}
+
+/* ---- text ---- */
+
+static void text_in(WrFont font, WrColour colour, const char *text, bool wrapped)
+{
+    ImGui::PushFont(wr_gui_current()->fonts[font]);
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
+    if (wrapped) ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text);
+    if (wrapped) ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+extern "C" void wr_gui_text(WrFont font, WrColour colour, const char *text)
+try {
+    ImGui::AlignTextToFramePadding();
+    text_in(font, colour, text, false);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text)
+try {
+    text_in(font, colour, text, true);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_heading(const char *text)
+try {
+    text_in(WR_FONT_SMALL, WR_COLOUR_LABEL, text, false);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_label(const char *text)
+try {
+    ImGui::AlignTextToFramePadding();
+    text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
+    float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.39f);
+    ImGui::SameLine(column);
+}
+WR_CAUGHT()
+
+extern "C" double wr_gui_text_width(WrFont font, const char *text)
+{
+    const ImFont *face = wr_gui_current()->fonts[font];
+    return (double)face->CalcTextSizeA(face->FontSize, FLT_MAX, 0.0f, text).x;
+}
+
+extern "C" double wr_gui_line_height(WrFont font)
+{
+    return (double)wr_gui_current()->fonts[font]->FontSize;
+}
+
+extern "C" void wr_gui_tip(const char *text)
+try {
+    if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    if (ImGui::GetCurrentContext()->HoveredIdTimer < 0.4f || ImGui::IsMouseDown(0)) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(px(300));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+    ImGui::PopStyleVar();
+}
+WR_CAUGHT()
+
+/* ---- choices and buttons ---- */
+
+extern "C" bool wr_gui_choice(const char *id, double width, const char *const *items, int count,
+                              int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float right = at.x + ImGui::CalcItemWidth() - px(13), arrow = px(4);
+    float middle = roundf(at.y + ImGui::GetFrameHeight() / 2 - arrow / 2);
+    bool open = ImGui::BeginCombo("##choice", *index >= 0 && *index < count ? items[*index] : "",
+                                  ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+    list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
+                            ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+    if (open) {
+        for (int i = 0; i < count; i++) {
+            if (ImGui::Selectable(items[i], i == *index)) {
+                changed = i != *index;
+                *index = i;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours,
+                                int count, int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    float h = ImGui::GetFrameHeight(), pad = px(10);
+    ImVec2 start = ImGui::GetCursorScreenPos();
+    float width = 0;
+    for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(items[i]).x + 2 * pad;
+    ImVec2 end(start.x + width, start.y + h);
+    list->AddRectFilled(start, end, wr_gui_colour_of(WR_COLOUR_FIELD), px(3));
+    for (int i = 0; i < count; i++) {
+        ImVec2 text = ImGui::CalcTextSize(items[i]);
+        if (i) ImGui::SameLine(0.0f, 0.0f);
+        ImVec2 at = ImGui::GetCursorScreenPos();
+        float w = text.x + 2 * pad;
+        if (ImGui::InvisibleButton(items[i], ImVec2(w, h))) {
+            changed = i != *index;
+            *index = i;
+        }
+        bool on = i == *index;
+        if (on)
+            list->AddRectFilled(at, ImVec2(at.x + w, at.y + h),
+                                wr_gui_colour_of(colours ? colours[i] : WR_COLOUR_SELECTED), px(3));
+        WrColour ink = on ? WR_COLOUR_STRONG
+                          : ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL;
+        list->AddText(ImVec2(at.x + pad, at.y + roundf((h - text.y) / 2)), wr_gui_colour_of(ink),
+                      items[i]);
+    }
+    list->AddRect(start, end, wr_gui_colour_of(WR_COLOUR_EDGE), px(3));
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImVec2 origin = ImGui::GetWindowPos();
+    float width = ImGui::GetWindowWidth(), h = px(32);
+    list->PushClipRect(origin, ImVec2(origin.x + width, origin.y + h)); /* over the padding */
+    for (int i = 0; i < count; i++) {
+        float x0 = roundf(width * (float)i / (float)count);
+        float w = roundf(width * (float)(i + 1) / (float)count) - x0;
+        ImGui::SetCursorPos(ImVec2(x0, 0));
+        ImVec2 at = ImGui::GetCursorScreenPos();
+        if (ImGui::InvisibleButton(items[i], ImVec2(w, h))) {
+            changed = i != *index;
+            *index = i;
+        }
+        bool on = i == *index;
+        if (on) {
+            list->AddRectFilled(at, ImVec2(at.x + w, at.y + h), wr_gui_colour_of(WR_COLOUR_PANEL));
+            list->AddRectFilled(at, ImVec2(at.x + w, at.y + px(2)),
+                                wr_gui_colour_of(WR_COLOUR_ACCENT));
+        }
+        ImVec2 text = ImGui::CalcTextSize(items[i]);
+        list->AddText(ImVec2(at.x + roundf((w - text.x) / 2), at.y + roundf((h - text.y) / 2)),
+                      wr_gui_colour_of(on || ImGui::IsItemHovered() ? WR_COLOUR_STRONG
+                                                                    : WR_COLOUR_LABEL),
+                      items[i]);
+    }
+    list->PopClipRect();
+    ImGui::SetCursorPosY(h + px(12));
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_check(const char *label, bool *value)
+try {
+    return ImGui::Checkbox(label, value);
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_button(const char *label, bool primary)
+try {
+    if (primary) {
+        ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_SELECTED));
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_ACCENT));
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
+    bool pressed = ImGui::Button(label);
+    ImGui::PopStyleVar();
+    if (primary) ImGui::PopStyleColor(2);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_icon_button(const char *id, const char *icon, double units, bool selected)
+try {
+    float side = px(units);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImVec2 end(at.x + side, at.y + side);
+    if (selected)
+        list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
+    else if (ImGui::IsItemHovered())
+        list->AddRectFilled(at, end, wr_gui_colour_of(0xff3c3c3cu), px(3));
+    const ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
+    ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, icon);
+    list->AddText(font, font->FontSize,
+                  ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
+                  wr_gui_colour_of(selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT), icon);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_chip(const char *icon, const char *label)
+try {
+    char text[160];
+    snprintf(text, sizeof text, "%s%s%s", icon ? icon : "", icon && label[0] ? "  " : "", label);
+    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_CHIP));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(0xf0343434u));
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
+    bool pressed = ImGui::Button(text);
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor(2);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+/* ---- menus, lists, fields ---- */
+
+extern "C" double wr_gui_menu_bar_begin(void)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(6)));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(14), px(6)));
+    ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_of(WR_COLOUR_BAR));
+    ImGui::BeginMainMenuBar();
+    return (double)ImGui::GetWindowHeight();
+}
+WR_CAUGHT(0.0)
+
+extern "C" void wr_gui_menu_bar_end(void)
+try {
+    ImGui::EndMainMenuBar();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+WR_CAUGHT()
+
+extern "C" bool wr_gui_menu_begin(const char *label)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
+    bool open = ImGui::BeginMenu(label);
+    ImGui::PopStyleVar();
+    return open;
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_menu_end(void)
+{
+    ImGui::EndMenu();
+}
+
+extern "C" bool wr_gui_menu_item(const char *label, const char *keys, bool checked, bool enabled)
+try {
+    return ImGui::MenuItem(label, keys, checked, enabled);
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_menu_separator(void)
+{
+    ImGui::Separator();
+}
+
+extern "C" void wr_gui_popup_open(const char *id)
+{
+    ImGui::OpenPopup(id);
+}
+
+extern "C" bool wr_gui_popup_begin(const char *id)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(10)));
+    bool open = ImGui::BeginPopup(id);
+    ImGui::PopStyleVar();
+    return open;
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_popup_end(void)
+{
+    ImGui::EndPopup();
+}
+
+extern "C" bool wr_gui_dialog_begin(const char *title, double width_units)
+try {
+    ImVec2 size = ImGui::GetIO().DisplaySize;
+    float width = px(width_units);
+    if (width > size.x - px(32)) width = size.x - px(32);
+    ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y * 0.46f), ImGuiCond_Always,
+                            ImVec2(0.5f, 0.5f));
+    ImGui::SetNextWindowSize(ImVec2(width, 0));
+    if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(20), px(18)));
+    bool open = ImGui::BeginPopupModal(title, nullptr,
+                                       ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                                           ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar();
+    if (!open) return false;
+    char heading[128];
+    snprintf(heading, sizeof heading, "%.*s", (int)strcspn(title, "#"), title);
+    text_in(WR_FONT_BOLD, WR_COLOUR_STRONG, heading, false);
+    wr_gui_space(4);
+    return true;
+}
+WR_CAUGHT(false)
+
+extern "C" void wr_gui_dialog_end(void)
+{
+    ImGui::EndPopup();
+}
+
+extern "C" bool wr_gui_escape_pressed(void)
+{
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+}
+
+extern "C" bool wr_gui_return_pressed(void)
+{
+    return !ImGui::GetIO().WantTextInput &&
+           (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
+            ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
+}
+
+extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus)
+try {
+    ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
+    if (focus) ImGui::SetKeyboardFocusHere();
+    return ImGui::InputText(id, text, size, ImGuiInputTextFlags_EnterReturnsTrue);
+}
+WR_CAUGHT(false)
+
+extern "C" int wr_gui_list_row(const char *icon, const char *label, bool selected)
+try {
+    char text[1100];
+    snprintf(text, sizeof text, "%s%s%s", icon ? icon : "", icon ? "  " : "", label);
+    if (!ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick)) return 0;
+    return ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
+}
+WR_CAUGHT(0)
+
+extern "C" void wr_gui_list_begin(const char *id, double height)
+try {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
+    ImGui::BeginChild(id, ImVec2(0, (float)height), true);
+    ImGui::PopStyleVar();
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_list_end(void)
+{
+    ImGui::EndChild();
+}

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/keys.h"
+
+#include "base/array.h"
+
+#include <string.h>
+
+static const char built_in[] = "new: Ctrl+N\n"
+                               "open: Ctrl+O\n"
+                               "save: Ctrl+S\n"
+                               "save_as: Ctrl+Shift+S\n"
+                               "export: Ctrl+E Ctrl+Shift+E\n"
+                               "quit: Ctrl+Q\n"
+                               "undo: Ctrl+Z Z\n"
+                               "redo: Ctrl+Shift+Z Ctrl+Y Y\n"
+                               "brush: B P\n"
+                               "pick: O\n"
+                               "pan: H\n"
+                               "zoom: Shift+Z\n"
+                               "size_down: [\n"
+                               "size_up: ]\n"
+                               "hardness_down: Shift+[\n"
+                               "hardness_up: Shift+]\n"
+                               "strength_down: I\n"
+                               "strength_up: Shift+I Shift+O\n"
+                               "swap_mode: X\n"
+                               "level_mode: L\n"
+                               "zoom_in: + = Shift+= Ctrl++ Ctrl+= Keypad_+\n"
+                               "zoom_out: - Ctrl+- Keypad_-\n"
+                               "zoom_100: 1\n"
+                               "fit: 2 Ctrl+0\n"
+                               "pan_left: Left\n"
+                               "pan_right: Right\n"
+                               "pan_up: Up\n"
+                               "pan_down: Down\n"
+                               "panels: Tab\n"
+                               "view_both: F2\n"
+                               "view_canvas: F3\n"
+                               "view_patch: F4\n"
+                               "look_grey: Alt+1\n"
+                               "look_signed: Alt+2\n"
+                               "range_auto: Alt+R\n"
+                               "turn: Ctrl+Space\n"
+                               "fullscreen: F11\n"
+                               "help: F1\n";
+
+typedef struct Binding {
+    char *action; /* owned */
+    WrKey key;
+} Binding;
+
+typedef WR_ARRAY(Binding) Bindings;
+
+struct WrKeyMap {
+    Bindings bindings;
+};
+
+int wr_key_mods(SDL_Keymod held)
+{
+    return ((held & KMOD_CTRL) ? WR_MOD_CTRL : 0) | ((held & KMOD_SHIFT) ? WR_MOD_SHIFT : 0) |
+           ((held & KMOD_ALT) ? WR_MOD_ALT : 0);
+}
+
+bool wr_key_parse(const char *text, size_t length, WrKey *key, WrError *err)
+{
+    static const struct {
+        const char *name;
+        int mod;
+    } mods[] = { { "Ctrl+", WR_MOD_CTRL }, { "Shift+", WR_MOD_SHIFT }, { "Alt+", WR_MOD_ALT } };
+    const char *at = text, *end = text + length;
+    WrKey out = { SDLK_UNKNOWN, 0 };
+    for (size_t m = 0; m < 3;) {
+        size_t n = strlen(mods[m].name);
+        if ((size_t)(end - at) > n && strncmp(at, mods[m].name, n) == 0) {
+            out.mods |= mods[m].mod;
+            at += n;
+            m = 0;
+        } else {
+            m++;
+        }
+    }
+    char name[32];
+    if (end - at < 1 || (size_t)(end - at) >= sizeof name)
+        return wr_fail(err, "key '%.*s': a name such as Ctrl+S, [ or F1", (int)length, text);
+    memcpy(name, at, (size_t)(end - at));
+    name[end - at] = '\0';
+    for (char *c = name; *c; c++)
+        if (*c == '_' && c != name) *c = ' ';
+    if (strncmp(name, "Keypad", 6) != 0 && name[1] == '\0' && name[0] >= 'A' && name[0] <= 'Z')
+        out.code = name[0] - 'A' + 'a';
+    else
+        out.code = SDL_GetKeyFromName(name);
+    if (out.code == SDLK_UNKNOWN)
+        return wr_fail(err, "key '%.*s': no key has the name '%s'", (int)length, text, name);
+    *key = out;
+    return true;
+}
+
+/* ---- the map ---- */
+
+static void drop_action(Bindings *bindings, const char *action)
+{
+    int kept = 0;
+    for (int i = 0; i < bindings->count; i++) {
+        if (strcmp(bindings->data[i].action, action) == 0)
+            wr_free(bindings->data[i].action);
+        else
+            bindings->data[kept++] = bindings->data[i];
+    }
+    bindings->count = kept;
+}
+
+static void free_bindings(Bindings *bindings)
+{
+    for (int i = 0; i < bindings->count; i++) wr_free(bindings->data[i].action);
+    wr_array_free(bindings);
+}
+
+/* One line "action: key key ...", without its end. */
+static bool read_line(Bindings *bindings, const char *line, size_t length, WrError *err)
+{
+    const char *hash = memchr(line, '#', length);
+    if (hash) length = (size_t)(hash - line);
+    while (length > 0 && (line[length - 1] == ' ' || line[length - 1] == '\r' || line[length - 1] == '\t'))
+        length--;
+    if (length == 0) return true;
+    const char *colon = memchr(line, ':', length), *end = line + length;
+    if (!colon || colon == line)
+        return wr_fail(err, "'%.*s': a line is 'action: key key ...'", (int)length, line);
+    char *action = wr_strndup(line, (size_t)(colon - line));
+    drop_action(bindings, action);
+    bool ok = true;
+    for (const char *at = colon + 1; ok && at < end;) {
+        while (at < end && (*at == ' ' || *at == '\t')) at++;
+        const char *from = at;
+        while (at < end && *at != ' ' && *at != '\t') at++;
+        if (at == from) break;
+        WrKey key;
+        ok = wr_key_parse(from, (size_t)(at - from), &key, err);
+        if (ok) wr_array_push(bindings, ((Binding){ wr_strdup(action), key }));
+    }
+    wr_free(action);
+    return ok;
+}
+
+bool wr_keys_read(WrKeyMap *map, const char *text, WrError *err)
+{
+    Bindings fresh = { 0 };
+    for (int i = 0; i < map->bindings.count; i++) {
+        Binding b = map->bindings.data[i];
+        wr_array_push(&fresh, ((Binding){ wr_strdup(b.action), b.key }));
+    }
+    int number = 1;
+    for (const char *at = text; *at; number++) {
+        size_t length = strcspn(at, "\n");
+        if (!read_line(&fresh, at, length, err)) {
+            wr_error_prefix(err, "line %d: ", number);
+            free_bindings(&fresh);
+            return false;
+        }
+        at += length + (at[length] == '\n');
+    }
+    free_bindings(&map->bindings);
+    map->bindings = fresh;
+    return true;
+}
+
+WrKeyMap *wr_keys_new(void)
+{
+    WrKeyMap *map = wr_alloc(1, sizeof *map);
+    WrError err;
+    bool ok = wr_keys_read(map, built_in, &err);
+    WR_ASSERT(ok);
+    (void)ok;
+    return map;
+}
+
+void wr_keys_free(WrKeyMap *map)
+{
+    if (!map) return;
+    free_bindings(&map->bindings);
+    wr_free(map);
+}
+
+static const char *find(const WrKeyMap *map, SDL_Keycode code, int mods)
+{
+    for (int i = 0; i < map->bindings.count; i++) {
+        const Binding *b = &map->bindings.data[i];
+        if (b->key.code == code && b->key.mods == mods) return b->action;
+    }
+    return NULL;
+}
+
+const char *wr_keys_find(const WrKeyMap *map, SDL_Keysym sym)
+{
+    int mods = wr_key_mods((SDL_Keymod)sym.mod);
+    const char *action = find(map, sym.sym, mods);
+    if (action) return action;
+    if (sym.scancode == SDL_SCANCODE_LEFTBRACKET) return find(map, SDLK_LEFTBRACKET, mods);
+    if (sym.scancode == SDL_SCANCODE_RIGHTBRACKET) return find(map, SDLK_RIGHTBRACKET, mods);
+    return NULL;
+}
+
+static void print_key(WrKey key, char *buffer, size_t size)
+{
+    snprintf(buffer, size, "%s%s%s%s", key.mods & WR_MOD_CTRL ? "Ctrl+" : "",
+             key.mods & WR_MOD_SHIFT ? "Shift+" : "", key.mods & WR_MOD_ALT ? "Alt+" : "",
+             SDL_GetKeyName(key.code));
+}
+
+char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])
+{
+    buffer[0] = '\0';
+    for (int i = 0; i < map->bindings.count; i++) {
+        if (strcmp(map->bindings.data[i].action, action) != 0) continue;
+        print_key(map->bindings.data[i].key, buffer, 32);
+        break;
+    }
+    return buffer;
+}
+
+void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out)
+{
+    char name[32];
+    bool any = false;
+    for (int i = 0; i < map->bindings.count; i++) {
+        if (strcmp(map->bindings.data[i].action, action) != 0) continue;
+        print_key(map->bindings.data[i].key, name, sizeof name);
+        wr_text_addf(out, "%s%s", any ? "  " : "", name);
+        any = true;
+    }
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/layout.h"
+
+#include <math.h>
+
+#define DIVIDER_UNITS 5
+#define VIEW_MIN_UNITS 120
+
+static int clamp_int(int x, int low, int high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+/* Cut `units` off the left (top) of a room of `size` for the canvas: its share, but leave each view
+ * something to be seen by. */
+static int canvas_size(int size, double share, int divider, int least)
+{
+    int size_canvas = (int)lround((size - divider) * share);
+    int high = size - divider - least;
+    return high < least ? (size - divider) / 2 : clamp_int(size_canvas, least, high);
+}
+
+WrLayout wr_layout_make(const WrLayoutInput *in)
+{
+    WrLayout out = { 0 };
+    double s = in->scale;
+    int w = in->width, h = in->height;
+    SDL_Rect room = { 0, in->menu_height, w, h - in->menu_height };
+    if (in->panels) {
+        int options = (int)lround(44 * s), status = (int)lround(28 * s), strip = (int)lround(48 * s);
+        int panel = clamp_int((int)lround(w * 0.208), (int)lround(250 * s), (int)lround(340 * s));
+        panel = panel < w / 2 ? panel : w / 2;
+        out.options = (SDL_Rect){ 0, room.y, w, options };
+        out.status = (SDL_Rect){ 0, h - status, w, status };
+        int top = room.y + options, tall = h - status - top;
+        out.strip = (SDL_Rect){ 0, top, strip, tall };
+        out.panel = (SDL_Rect){ w - panel, top, panel, tall };
+        room = (SDL_Rect){ strip, top, w - strip - panel, tall };
+    }
+    room.w = room.w > 1 ? room.w : 1;
+    room.h = room.h > 1 ? room.h : 1;
+    out.stacked = room.h > room.w && h > w;
+    if (in->views == WR_VIEWS_CANVAS) out.canvas = room;
+    if (in->views == WR_VIEWS_PATCH) out.patch = room;
+    if (in->views != WR_VIEWS_BOTH) return out;
+    int d = (int)lround(DIVIDER_UNITS * s), least = (int)lround(VIEW_MIN_UNITS * s);
+    if (out.stacked) {
+        int c = canvas_size(room.h, in->divider, d, least);
+        out.canvas = (SDL_Rect){ room.x, room.y, room.w, c };
+        out.divider = (SDL_Rect){ room.x, room.y + c, room.w, d };
+        out.patch = (SDL_Rect){ room.x, room.y + c + d, room.w, room.h - c - d };
+    } else {
+        int c = canvas_size(room.w, in->divider, d, least);
+        out.canvas = (SDL_Rect){ room.x, room.y, c, room.h };
+        out.divider = (SDL_Rect){ room.x + c, room.y, d, room.h };
+        out.patch = (SDL_Rect){ room.x + c + d, room.y, room.w - c - d, room.h };
+    }
+    return out;
+}
+
+double wr_layout_divider_at(const WrLayout *layout, int x, int y)
+{
+    const SDL_Rect *c = &layout->canvas, *p = &layout->patch, *d = &layout->divider;
+    double share = layout->stacked ? (y - c->y - d->h / 2.0) / (c->h + p->h)
+                                   : (x - c->x - d->w / 2.0) / (c->w + p->w);
+    return share < 0.05 ? 0.05 : share > 0.95 ? 0.95 : share;
+}
+
+bool wr_layout_inside(const SDL_Rect *r, int x, int y)
+{
+    return x >= r->x && y >= r->y && x < r->x + r->w && y < r->y + r->h;
+}

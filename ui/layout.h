@@ -1,0 +1,26 @@
+/* layout.h - which part of the window holds what. Pure geometry; tested without a window. */
+#pragma once
+#include <SDL.h>
+#include <stdbool.h>
+
+typedef enum WrViews { WR_VIEWS_BOTH, WR_VIEWS_CANVAS, WR_VIEWS_PATCH } WrViews;
+
+typedef struct WrLayoutInput {
+    int width, height;  /* of the window, pixels */
+    int menu_height;    /* pixels */
+    double scale;       /* pixels a unit */
+    double divider;     /* share of the views' room that the canvas gets, 0..1 */
+    WrViews views;
+    bool panels;        /* false: the views fill the window */
+} WrLayoutInput;
+
+/* Rectangles in pixels; w = 0 where there is none. They cover the window without gaps or overlaps. */
+typedef struct WrLayout {
+    SDL_Rect options, strip, canvas, divider, patch, panel, status;
+    bool stacked; /* the patch is under the canvas, not beside it */
+} WrLayout;
+
+WrLayout wr_layout_make(const WrLayoutInput *in);
+/* The divider's share for a pointer at (x, y). */
+double wr_layout_divider_at(const WrLayout *layout, int x, int y);
+bool wr_layout_inside(const SDL_Rect *rect, int x, int y);

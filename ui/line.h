@@ -1,0 +1,12 @@
+/* line.h - command lines, piece by piece. */
+#pragma once
+#include "base/text.h"
+#include "base/vec.h"
+
+void wr_line_number(WrText *line, const char *name, double value); /* " name=1.5" */
+void wr_line_vec(WrText *line, const char *name, WrVec3 value);    /* " name=1,2,3" */
+void wr_line_plain_vec(WrText *line, WrVec3 value);                /* "1,2,3" */
+/* x rounded to `digits` (0..9) after the point, never -0: what a hand can place, so that lines stay
+ * readable. */
+double wr_line_round(double x, int digits);
+WrVec3 wr_line_round_vec(WrVec3 v, int digits);

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT
+   What the window has to say: errors stay until they are read, notes for some seconds. */
+#include "ui/state.h"
+
+#include "base/clock.h"
+
+#include <stdarg.h>
+#include <string.h>
+
+#define KEPT 200 /* messages */
+
+static void add(WrApp *app, const char *text, bool bad)
+{
+    WrMessages *m = &app->messages;
+    if (m->list.count == KEPT) {
+        wr_free(m->list.data[0].text);
+        m->list.count--;
+        memmove(m->list.data, m->list.data + 1, (size_t)m->list.count * sizeof *m->list.data);
+    }
+    wr_array_push(&m->list, ((WrMessage){ wr_strdup(text), bad, wr_clock_seconds() }));
+    if (bad && m->unread < KEPT) m->unread++;
+    wr_app_redraw(app);
+}
+
+void wr_app_say(WrApp *app, const char *format, ...)
+{
+    char text[512];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    add(app, text, false);
+}
+
+void wr_app_fail(WrApp *app, const WrError *err)
+{
+    add(app, err->text, true);
+}
+
+void wr_app_take_notes(WrApp *app)
+{
+    WrText *notes = app->options->notes;
+    if (!notes || notes->length == 0) return;
+    for (char *at = notes->data; *at;) {
+        size_t length = strcspn(at, "\n");
+        bool more = at[length] == '\n';
+        at[length] = '\0';
+        if (length > 0) add(app, at, false);
+        at += length + more;
+    }
+    wr_text_clear(notes);
+}
+
+void wr_messages_free(WrMessages *messages)
+{
+    for (int i = 0; i < messages->list.count; i++) wr_free(messages->list.data[i].text);
+    wr_array_free(&messages->list);
+}

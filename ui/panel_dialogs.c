@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: MIT
+   Dialogs: only where a decision is needed. */
+#include "ui/line.h"
+#include "ui/state.h"
+
+#include "base/memory.h"
+#include "export/export.h"
+
+#include <math.h>
+
+void wr_dialog_open(WrApp *app, WrDialog dialog)
+{
+    wr_hand_let_go(app);
+    wr_patch_commit_zoom(app, true);
+    app->dialog = dialog;
+    app->dialog_fresh = true;
+    wr_app_redraw(app);
+}
+
+static void close_dialog(WrApp *app)
+{
+    app->dialog = WR_DIALOG_NONE;
+    wr_app_redraw(app);
+}
+
+int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
+{
+    int answer = 0;
+    wr_gui_space(8);
+    wr_gui_disable(!enabled);
+    if (wr_gui_button(done, true)) answer = 1;
+    wr_gui_enable();
+    wr_gui_same_line(8);
+    if (wr_gui_button("Cancel", false)) answer = -1;
+    if (enabled && !app->dialog_fresh && wr_gui_return_pressed()) answer = 1;
+    if (!app->dialog_fresh && wr_gui_escape_pressed()) answer = -1;
+    if (answer) close_dialog(app);
+    return answer;
+}
+
+static void unsaved(WrApp *app)
+{
+    char text[400];
+    if (!wr_gui_dialog_begin("Save the changes?", 420)) return;
+    snprintf(text, sizeof text, "%.200s has changes that are not saved. They are lost otherwise.",
+             wr_app_name(app));
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_gui_space(8);
+    bool key = !app->dialog_fresh;
+    if (wr_gui_button("Save", true) || (key && wr_gui_return_pressed())) {
+        close_dialog(app);
+        wr_app_save(app);
+    }
+    wr_gui_same_line(8);
+    if (wr_gui_button("Discard", false)) {
+        close_dialog(app);
+        wr_app_go_on(app);
+    }
+    wr_gui_same_line(8);
+    if (wr_gui_button("Cancel", false) || (key && wr_gui_escape_pressed())) {
+        close_dialog(app);
+        app->after = WR_AFTER_NOTHING;
+    }
+    wr_gui_dialog_end();
+}
+
+static void number(const char *label, double low, double high, double hard_low, double hard_high,
+                   double reset, int decimals, const char *unit, double *value)
+{
+    WrNumber spec = { .low = low, .high = high, .hard_low = hard_low, .hard_high = hard_high,
+                      .reset = reset, .decimals = decimals, .unit = unit };
+    wr_gui_label(label);
+    wr_gui_number(label, 0, &spec, value);
+}
+
+static void table(WrApp *app)
+{
+    static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
+                                         "Ends at top and bottom", "Ends all around" };
+    static const char *const names[] = { "periodic", "clamp-u", "clamp-v", "clamp" };
+    WrForms *f = &app->forms;
+    if (!wr_gui_dialog_begin("New table", 400)) return;
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "A table of this size at height 0 takes the place of the present one. The "
+                        "scene stays.");
+    number("Width", 16, 4096, 1, 16384, 512, 0, "texels", &f->width);
+    number("Height", 16, 4096, 1, 16384, 512, 0, "texels", &f->height);
+    wr_gui_label("Edges");
+    wr_gui_choice("wrap", 0, wraps, 4, &f->wrap);
+    if (wr_dialog_buttons(app, "Make it", true) > 0) {
+        WrText line = { 0 };
+        wr_text_addf(&line, "table %dx%d wrap=%s", (int)rint(f->width), (int)rint(f->height),
+                     names[f->wrap]);
+        wr_app_run_line(app, wr_text_get(&line));
+        wr_text_fini(&line);
+    }
+    wr_gui_dialog_end();
+}
+
+static void fill(WrApp *app)
+{
+    if (!wr_gui_dialog_begin("Fill the table", 360)) return;
+    number("Height", 0, 1, -1e30, 1e30, 0, 3, NULL, &app->forms.fill);
+    if (wr_dialog_buttons(app, "Fill", true) > 0) {
+        WrText line = { 0 };
+        wr_text_add(&line, "fill ");
+        wr_text_add_number(&line, app->forms.fill);
+        wr_app_run_line(app, wr_text_get(&line));
+        wr_text_fini(&line);
+    }
+    wr_gui_dialog_end();
+}
+
+static void grid(WrApp *app)
+{
+    WrForms *f = &app->forms;
+    if (!wr_gui_dialog_begin("Grid", 380)) return;
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "Cells of one height, parted by lines of another. Replaces the heights.");
+    number("Cells across", 1, 32, 1, 16384, 8, 0, NULL, &f->cells_u);
+    number("Cells down", 1, 32, 1, 16384, 8, 0, NULL, &f->cells_v);
+    number("Line width", 0, 64, 0, 16384, 8, 1, "texels", &f->line_width);
+    number("Cells' height", 0, 1, -1e30, 1e30, 0, 3, NULL, &f->low);
+    number("Lines' height", 0, 1, -1e30, 1e30, 1, 3, NULL, &f->high);
+    if (wr_dialog_buttons(app, "Draw", true) > 0) {
+        WrText line = { 0 };
+        wr_text_addf(&line, "grid cells=%dx%d", (int)rint(f->cells_u), (int)rint(f->cells_v));
+        wr_line_number(&line, "width", f->line_width);
+        wr_line_number(&line, "low", f->low);
+        wr_line_number(&line, "high", f->high);
+        wr_app_run_line(app, wr_text_get(&line));
+        wr_text_fini(&line);
+    }
+    wr_gui_dialog_end();
+}
+
+static void import(WrApp *app)
+{
+    static const char *const fits[] = { "The table takes its size", "It is fitted to the table" };
+    int fit = app->forms.fit;
+    if (!wr_gui_dialog_begin("Import heights", 420)) return;
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "Any picture: grey, or the luma of its colours. 8 and 16 bits give heights "
+                        "from 0 to 1, float files their values.");
+    wr_gui_label("Picture");
+    if (wr_gui_choice("fit", 0, fits, 2, &fit)) app->forms.fit = fit == 1;
+    if (wr_dialog_buttons(app, "Choose a file...", true) > 0 &&
+        !wr_files_ask(app->files, WR_FILE_IMPORT, NULL, ""))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_gui_dialog_end();
+}
+
+static void export(WrApp *app)
+{
+    static const char *const ranges[] = { "0 to 1", "Lowest to highest", "Signed, 0 in the middle" };
+    const char *kinds[WR_EXPORT_KIND_COUNT];
+    WrForms *f = &app->forms;
+    if (!wr_gui_dialog_begin("Export", 440)) return;
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++) kinds[i] = wr_export_kinds[i].label;
+    wr_gui_label("What");
+    wr_gui_choice("kind", 0, kinds, WR_EXPORT_KIND_COUNT, &f->kind);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_export_kinds[f->kind].help);
+    if (wr_export_kinds[f->kind].channels == 1) {
+        wr_gui_label("Codes hold");
+        wr_gui_choice("range", 0, ranges, 3, &f->range);
+    }
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        "The format goes by the file's ending: png and tif with 16 bits, exr with "
+                        "float, jpg with 8.");
+    if (wr_dialog_buttons(app, "Choose a file...", true) > 0 &&
+        !wr_files_ask(app->files, WR_FILE_EXPORT, NULL, "height.png"))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_gui_dialog_end();
+}
+
+static void file(WrApp *app)
+{
+    int answer = wr_files_panel(app->files);
+    if (answer == 0) return;
+    close_dialog(app);
+    WrFilePurpose purpose;
+    const char *path = wr_files_answer(app->files, &purpose);
+    if (answer > 0 && path) wr_app_file_chosen(app, purpose, path);
+    else app->after = WR_AFTER_NOTHING;
+}
+
+void wr_panel_dialogs(WrApp *app)
+{
+    WrDialog was = app->dialog;
+    bool fresh = app->dialog_fresh;
+    switch (app->dialog) {
+    case WR_DIALOG_NONE: break;
+    case WR_DIALOG_UNSAVED: unsaved(app); break;
+    case WR_DIALOG_TABLE: table(app); break;
+    case WR_DIALOG_FILL: fill(app); break;
+    case WR_DIALOG_GRID: grid(app); break;
+    case WR_DIALOG_IMPORT: import(app); break;
+    case WR_DIALOG_EXPORT: export(app); break;
+    case WR_DIALOG_FILE: file(app); break;
+    case WR_DIALOG_HELP:
+    case WR_DIALOG_ABOUT: wr_dialog_help(app); break;
+    }
+    if (app->dialog == was && fresh) app->dialog_fresh = false;
+    if (app->dialog == WR_DIALOG_NONE && was != WR_DIALOG_NONE) wr_app_redraw(app);
+}

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+   The short guide, and what this program is. */
+#include "ui/state.h"
+
+static void keys(const WrApp *app, const char *action, const char *text)
+{
+    WrText list = { 0 };
+    wr_keys_list(app->keys, action, &list);
+    wr_gui_label(wr_text_get(&list));
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_gui_space(-6);
+    wr_text_fini(&list);
+}
+
+static void hands(const char *gesture, const char *text)
+{
+    wr_gui_label(gesture);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_gui_space(-6);
+}
+
+static void guide(WrApp *app)
+{
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "On the left is the table of heights F(u,v): light is high. On the right the "
+                        "same heights wrinkle a surface. The table repeats; paint on any copy.");
+    wr_gui_space(4);
+    wr_gui_list_begin("guide", wr_gui_px(380) < app->height - wr_gui_px(240)
+                                   ? wr_gui_px(380)
+                                   : app->height - wr_gui_px(240));
+    wr_gui_heading("PAINTING");
+    hands("Drag", "paint; the brush raises, lowers, or moves to a height");
+    hands("Shift, click", "straight line from the last stroke");
+    hands("Shift, drag", "size of the brush");
+    hands("Ctrl, click", "pick the height and paint towards it");
+    keys(app, "size_down", "smaller");
+    keys(app, "size_up", "larger");
+    keys(app, "hardness_down", "softer");
+    keys(app, "hardness_up", "harder");
+    keys(app, "strength_down", "weaker");
+    keys(app, "strength_up", "stronger");
+    keys(app, "swap_mode", "swap raise and lower");
+    keys(app, "undo", "undo");
+    keys(app, "redo", "redo");
+    wr_gui_space(12);
+    wr_gui_heading("LOOKING");
+    hands("Wheel", "zoom at the pointer");
+    hands("Space, drag", "move the table; so does the middle button");
+    keys(app, "zoom_100", "100 %");
+    keys(app, "fit", "the whole cell");
+    keys(app, "panels", "hide and show the panels");
+    wr_gui_space(12);
+    wr_gui_heading("THE PATCH");
+    hands("Drag", "turn it");
+    hands("Right drag", "move the light; or drag the small sun");
+    hands("Wheel", "closer, farther");
+    hands("Space over it", "pause and go on turning");
+    wr_gui_space(8);
+    wr_gui_list_end();
+}
+
+void wr_dialog_help(WrApp *app)
+{
+    bool about = app->dialog == WR_DIALOG_ABOUT;
+    if (!wr_gui_dialog_begin(about ? "Wrinkle" : "Short guide", about ? 440 : 560)) return;
+    if (about)
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
+                            "Paint bump functions and watch them wrinkle a surface, after James F. "
+                            "Blinn, Simulation of Wrinkled Surfaces, 1978.");
+    else
+        guide(app);
+    wr_gui_space(8);
+    bool leave = wr_gui_button("Close", true);
+    if (!app->dialog_fresh && (wr_gui_escape_pressed() || wr_gui_return_pressed())) leave = true;
+    if (leave) app->dialog = WR_DIALOG_NONE;
+    wr_gui_dialog_end();
+}

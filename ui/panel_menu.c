@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/state.h"
+
+#include <string.h>
+
+/* Names of actions; "-" is a line, "recent" and "scale" are made below. */
+static const char *const file_menu[] = { "new",    "open", "recent", "-",    "save",
+                                         "save_as", "-",   "import", "export", "-", "quit", NULL };
+static const char *const edit_menu[] = { "undo", "redo", "-", "brush", "pick", "pan", "zoom", "-",
+                                         "size_up", "size_down", "hardness_up", "hardness_down",
+                                         "strength_up", "strength_down", "swap_mode", "level_mode", NULL };
+static const char *const table_menu[] = { "table_size", "fill", "grid", "import", NULL };
+static const char *const view_menu[] = { "look_grey", "look_signed", "range_auto", "-", "zoom_in",
+                                         "zoom_out", "zoom_100", "fit", "-", "turn", "pose_reset",
+                                         "camera_reset", "-", "view_both", "view_canvas",
+                                         "view_patch", "panels", "fullscreen", "scale", NULL };
+static const char *const help_menu[] = { "help", "about", NULL };
+
+static void recent(WrApp *app)
+{
+    if (!wr_gui_menu_begin("Open recent")) return;
+    const char *chosen = NULL;
+    for (int i = 0; i < WR_RECENT_MAX && app->settings.recent[i]; i++) {
+        wr_gui_push_id(i);
+        if (wr_gui_menu_item(app->settings.recent[i], NULL, false, true))
+            chosen = app->settings.recent[i];
+        wr_gui_pop_id();
+    }
+    if (!app->settings.recent[0]) wr_gui_menu_item("No files yet", NULL, false, false);
+    wr_gui_menu_end();
+    if (!chosen) return;
+    char *copy = wr_strdup(chosen); /* opening reorders the list */
+    wr_app_open_path(app, copy);
+    wr_free(copy);
+}
+
+static void scale(WrApp *app)
+{
+    static const int percents[] = { 75, 100, 125, 150, 175, 200, 250, 300 };
+    if (!wr_gui_menu_begin("Size of everything")) return;
+    if (wr_gui_menu_item("As the display", NULL, app->settings.scale == 0.0, true))
+        wr_app_set_scale(app, 0.0);
+    for (size_t i = 0; i < sizeof percents / sizeof *percents; i++) {
+        char label[16];
+        snprintf(label, sizeof label, "%d %%", percents[i]);
+        if (wr_gui_menu_item(label, NULL, app->settings.scale == percents[i] / 100.0, true))
+            wr_app_set_scale(app, percents[i] / 100.0);
+    }
+    wr_gui_menu_end();
+}
+
+static void item(WrApp *app, const char *name)
+{
+    char keys[32];
+    const WrAction *action = wr_action_find(name);
+    WR_ASSERT(action);
+    if (!action) return;
+    bool enabled = !action->enabled || action->enabled(app);
+    bool checked = action->checked && action->checked(app);
+    if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked, enabled))
+        wr_action_run(app, name);
+}
+
+static void menu(WrApp *app, const char *label, const char *const *names)
+{
+    if (!wr_gui_menu_begin(label)) return;
+    for (; *names; names++) {
+        if (strcmp(*names, "-") == 0) wr_gui_menu_separator();
+        else if (strcmp(*names, "recent") == 0) recent(app);
+        else if (strcmp(*names, "scale") == 0) scale(app);
+        else item(app, *names);
+    }
+    wr_gui_menu_end();
+}
+
+void wr_panel_menu(WrApp *app)
+{
+    app->menu_height = (int)wr_gui_menu_bar_begin();
+    menu(app, "File", file_menu);
+    menu(app, "Edit", edit_menu);
+    menu(app, "Table", table_menu);
+    menu(app, "View", view_menu);
+    menu(app, "Help", help_menu);
+    char title[300];
+    snprintf(title, sizeof title, "%.200s%s", wr_app_name(app), wr_app_unsaved(app) ? "  \xe2\x80\xa2" : "");
+    double at = (app->width - wr_gui_text_width(WR_FONT_BOLD, title)) / 2.0;
+    wr_gui_move_to(at);
+    wr_gui_text(WR_FONT_BOLD, WR_COLOUR_TEXT, title);
+    wr_gui_menu_bar_end();
+}

@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/preview.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#define MOVING_SECONDS 0.020 /* that a picture may take while something moves */
+#define COARSEST 0.125       /* of the view's width and height */
+#define NICENESS 5           /* so that the window's own thread goes first */
+
+typedef struct Wish {
+    WrField *field; /* own shares; NULL: no wish */
+    WrScene *scene;
+    double turn_deg;
+    int width, height;
+    bool moving;
+} Wish;
+
+struct WrPreview {
+    pthread_mutex_t lock; /* guards what follows, up to the next blank line */
+    pthread_cond_t wake;
+    bool started, quit;
+    Wish next;            /* not taken up yet */
+    bool settled;
+    double point_x, point_y;    /* asked for */
+    bool point_new, point_hit;  /* not looked up yet; on the object */
+    double point_u, point_v;
+    WrPreviewPicture *done, *shown; /* owned */
+    bool fresh;                     /* done is newer than shown */
+    bool failed;
+    WrError error;
+
+    volatile int cancel; /* atomic by nature: one writer at a time, any reader */
+    pthread_t thread;
+    int threads;
+    char *isa; /* owned */
+    Uint32 ready_event;
+
+    /* of the thread alone */
+    Wish now;
+    WrPreviewPicture *work; /* owned */
+    WrPreviewLevel level;   /* reached for `now` */
+    double scale;           /* of a moving picture, 0..1 */
+    double pixel_seconds;   /* of a moving picture, measured; 0: not yet */
+    uint64_t serial;
+    int last_width, last_height; /* of the last picture */
+};
+
+static void wish_clear(Wish *wish)
+{
+    wr_field_free(wish->field);
+    if (wish->scene) wr_scene_free(wish->scene);
+    *wish = (Wish){ 0 };
+}
+
+static void picture_free(WrPreviewPicture *picture)
+{
+    if (picture) wr_free(picture->bgra);
+    wr_free(picture);
+}
+
+WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event)
+{
+    WrPreview *preview = wr_alloc(1, sizeof *preview);
+    pthread_mutex_init(&preview->lock, NULL);
+    pthread_cond_init(&preview->wake, NULL);
+    preview->threads = threads;
+    preview->isa = wr_strdup(isa);
+    preview->ready_event = ready_event;
+    preview->scale = 0.4;
+    preview->point_x = -1.0;
+    preview->settled = true;
+    preview->done = wr_alloc(1, sizeof(WrPreviewPicture));
+    preview->shown = wr_alloc(1, sizeof(WrPreviewPicture));
+    preview->work = wr_alloc(1, sizeof(WrPreviewPicture));
+    return preview;
+}
+
+void wr_preview_free(WrPreview *preview)
+{
+    if (!preview) return;
+    pthread_mutex_lock(&preview->lock);
+    preview->quit = true;
+    preview->cancel = 1;
+    pthread_cond_signal(&preview->wake);
+    pthread_mutex_unlock(&preview->lock);
+    if (preview->started) pthread_join(preview->thread, NULL);
+    wish_clear(&preview->next);
+    wish_clear(&preview->now);
+    picture_free(preview->done);
+    picture_free(preview->shown);
+    picture_free(preview->work);
+    wr_free(preview->isa);
+    pthread_cond_destroy(&preview->wake);
+    pthread_mutex_destroy(&preview->lock);
+    wr_free(preview);
+}
+
+/* ---- the thread ---- */
+
+static void fail(WrPreview *preview, const WrError *err)
+{
+    pthread_mutex_lock(&preview->lock);
+    preview->failed = true;
+    preview->error = *err;
+    pthread_mutex_unlock(&preview->lock);
+}
+
+static void notify(WrPreview *preview)
+{
+    SDL_Event event = { .type = preview->ready_event };
+    SDL_PushEvent(&event);
+}
+
+static WrDials dials_for(const Wish *wish, WrPreviewLevel level)
+{
+    WrDials dials = wish->scene->dials;
+    int own = dials.aa == WR_AA_SUPERSAMPLE ? dials.samples : 1;
+    dials.aa = WR_AA_POINT;
+    dials.samples = 1;
+    if (level == WR_PREVIEW_MOVING) dials.arithmetic = WR_ARITHMETIC_FAST;
+    if (level == WR_PREVIEW_SMOOTH || level == WR_PREVIEW_FINAL) {
+        dials.aa = WR_AA_SUPERSAMPLE;
+        dials.samples = level == WR_PREVIEW_SMOOTH ? 2 : own > 4 ? own : 4;
+    }
+    return dials;
+}
+
+/* Follow the measured speed, but not every wobble of it: a picture that changes its resolution all the
+ * time looks worse than one that is a little too coarse. */
+static void adapt_scale(WrPreview *preview, double seconds, double pixels, double view_pixels)
+{
+    double measured = seconds / pixels;
+    double *known = &preview->pixel_seconds;
+    *known = *known > 0.0 ? *known + 0.25 * (measured - *known) : measured;
+    double scale = sqrt(MOVING_SECONDS / *known / view_pixels);
+    scale = scale > 0.9 ? 1.0 : scale < COARSEST ? COARSEST : scale;
+    if (fabs(scale - preview->scale) > 0.15 * preview->scale || (scale == 1.0)) preview->scale = scale;
+}
+
+static bool make_room(WrPreviewPicture *picture, int width, int height, WrError *err)
+{
+    if (picture->bgra && picture->width == width && picture->height == height) return true;
+    uint8_t *bgra = wr_try_alloc((size_t)width * (size_t)height, 4, "the preview", err);
+    if (!bgra) return false;
+    wr_free(picture->bgra);
+    picture->bgra = bgra;
+    picture->width = width;
+    picture->height = height;
+    return true;
+}
+
+static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level,
+                   WrError *err)
+{
+    static const double surround[3] = { 0.0273, 0.0284, 0.0302 }; /* linear, a shade of the panels */
+    const Wish *wish = &preview->now;
+    double started = wr_clock_seconds();
+    double scale = level == WR_PREVIEW_MOVING ? preview->scale : 1.0;
+    WrDials dials = dials_for(wish, level);
+    WrFrameRequest request = { .field = wish->field,
+                               .scene = wish->scene,
+                               .width = (int)fmax(1.0, rint(wish->width * scale)),
+                               .height = (int)fmax(1.0, rint(wish->height * scale)),
+                               .turn_deg = wish->turn_deg,
+                               .dials = &dials,
+                               .cancel = &preview->cancel };
+    WrFrame frame;
+    if (!wr_renderer_frame(renderer, &request, &frame, err)) return false;
+    WrPreviewPicture *out = preview->work;
+    if (!make_room(out, frame.width, frame.height, err)) return false;
+    wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
+    out->level = level;
+    out->turn_deg = wish->turn_deg;
+    out->times = frame.times;
+    out->plan = *frame.plan;
+    out->seconds = wr_clock_seconds() - started;
+    out->serial = ++preview->serial;
+    if (level == WR_PREVIEW_MOVING)
+        adapt_scale(preview, out->seconds, (double)frame.width * frame.height,
+                    (double)wish->width * wish->height);
+    return true;
+}
+
+/* Look up the point asked for in the last picture. */
+static void answer_point(WrPreview *preview, WrRenderer *renderer, int width, int height)
+{
+    pthread_mutex_lock(&preview->lock);
+    double x = preview->point_x, y = preview->point_y, u = 0.0, v = 0.0;
+    preview->point_new = false;
+    pthread_mutex_unlock(&preview->lock);
+    int face;
+    bool hit = x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0 &&
+               wr_renderer_pick(renderer, x * width, y * height, &u, &v, &face);
+    pthread_mutex_lock(&preview->lock);
+    preview->point_hit = hit;
+    preview->point_u = u;
+    preview->point_v = v;
+    pthread_mutex_unlock(&preview->lock);
+}
+
+/* Take up the next wish, or go on with the present one; false: nothing to do. Called under the lock. */
+static bool choose(WrPreview *preview, WrPreviewLevel *level)
+{
+    if (preview->next.field) {
+        wish_clear(&preview->now);
+        preview->now = preview->next;
+        preview->next = (Wish){ 0 };
+        preview->cancel = 0;
+        preview->level = WR_PREVIEW_NONE;
+        *level = preview->now.moving || preview->serial == 0 ? WR_PREVIEW_MOVING : WR_PREVIEW_FULL;
+        return true;
+    }
+    if (preview->now.field && !preview->now.moving && preview->level < WR_PREVIEW_FINAL &&
+        preview->level != WR_PREVIEW_NONE) {
+        *level = preview->level + 1;
+        return true;
+    }
+    return false;
+}
+
+/* Hand the finished picture over. Called under the lock. */
+static void publish(WrPreview *preview)
+{
+    WrPreviewPicture *finished = preview->work;
+    preview->work = preview->done;
+    preview->done = finished;
+    preview->fresh = true;
+}
+
+static void work(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level)
+{
+    WrError err = { "" };
+    bool ok = render(preview, renderer, pool, level, &err);
+    bool cancelled = preview->cancel != 0;
+    if (!ok && !cancelled) fail(preview, &err);
+    if (ok) {
+        preview->last_width = preview->work->width;
+        preview->last_height = preview->work->height;
+        answer_point(preview, renderer, preview->last_width, preview->last_height);
+    }
+    pthread_mutex_lock(&preview->lock);
+    preview->level = ok ? level : WR_PREVIEW_NONE;
+    if (ok) publish(preview);
+    pthread_mutex_unlock(&preview->lock);
+    if (ok || !cancelled) notify(preview);
+}
+
+static void *thread_main(void *arg)
+{
+    WrPreview *preview = arg;
+    setpriority(PRIO_PROCESS, 0, NICENESS); /* on Linux this thread and those it starts */
+    WrError err = { "" };
+    WrPool *pool = wr_pool_new(preview->threads);
+    WrRenderer *renderer = wr_renderer_new(pool, preview->isa, &err);
+    if (!renderer) fail(preview, &err);
+    pthread_mutex_lock(&preview->lock);
+    while (!preview->quit) {
+        WrPreviewLevel level;
+        if (renderer && choose(preview, &level)) {
+            preview->settled = false;
+            pthread_mutex_unlock(&preview->lock);
+            work(preview, renderer, pool, level);
+            pthread_mutex_lock(&preview->lock);
+            continue;
+        }
+        bool news = !preview->settled;
+        preview->settled = true;
+        if (renderer && preview->point_new && preview->last_width > 0) {
+            pthread_mutex_unlock(&preview->lock);
+            answer_point(preview, renderer, preview->last_width, preview->last_height);
+            notify(preview);
+            pthread_mutex_lock(&preview->lock);
+            continue;
+        }
+        if (news) notify(preview);
+        pthread_cond_wait(&preview->wake, &preview->lock);
+    }
+    pthread_mutex_unlock(&preview->lock);
+    wr_renderer_free(renderer);
+    wr_pool_free(pool);
+    return NULL;
+}
+
+/* ---- the window's side ---- */
+
+void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
+{
+    pthread_mutex_lock(&preview->lock);
+    wish_clear(&preview->next);
+    preview->next = (Wish){ .field = wr_field_share(wish->field),
+                            .scene = wr_scene_share(wish->scene),
+                            .turn_deg = wish->turn_deg,
+                            .width = wish->width,
+                            .height = wish->height,
+                            .moving = wish->moving };
+    /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
+    if (!preview->now.moving) preview->cancel = 1;
+    preview->settled = false;
+    if (!preview->started)
+        preview->started = pthread_create(&preview->thread, NULL, thread_main, preview) == 0;
+    pthread_cond_signal(&preview->wake);
+    pthread_mutex_unlock(&preview->lock);
+}
+
+void wr_preview_point(WrPreview *preview, double x, double y)
+{
+    pthread_mutex_lock(&preview->lock);
+    if (x != preview->point_x || y != preview->point_y) {
+        preview->point_x = x;
+        preview->point_y = y;
+        preview->point_new = true;
+        pthread_cond_signal(&preview->wake);
+    }
+    pthread_mutex_unlock(&preview->lock);
+}
+
+bool wr_preview_point_hit(WrPreview *preview, double *u, double *v)
+{
+    pthread_mutex_lock(&preview->lock);
+    bool hit = preview->point_hit;
+    *u = preview->point_u;
+    *v = preview->point_v;
+    pthread_mutex_unlock(&preview->lock);
+    return hit;
+}
+
+const WrPreviewPicture *wr_preview_picture(WrPreview *preview)
+{
+    pthread_mutex_lock(&preview->lock);
+    if (preview->fresh) {
+        WrPreviewPicture *newest = preview->done;
+        preview->done = preview->shown;
+        preview->shown = newest;
+        preview->fresh = false;
+    }
+    pthread_mutex_unlock(&preview->lock);
+    return preview->shown;
+}
+
+bool wr_preview_settled(WrPreview *preview)
+{
+    pthread_mutex_lock(&preview->lock);
+    bool settled = preview->settled;
+    pthread_mutex_unlock(&preview->lock);
+    return settled;
+}
+
+bool wr_preview_error(WrPreview *preview, WrError *err)
+{
+    pthread_mutex_lock(&preview->lock);
+    bool failed = preview->failed;
+    if (failed) *err = preview->error;
+    preview->failed = false;
+    pthread_mutex_unlock(&preview->lock);
+    return failed;
+}

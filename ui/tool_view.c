@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+   Moving and zooming the canvas. */
+#include "ui/state.h"
+
+#include <math.h>
+
+void wr_tool_pan_drag(WrApp *app, const WrPointer *at)
+{
+    wr_view_pan(&app->view, at->x - app->hand.at.x, at->y - app->hand.at.y);
+    wr_app_redraw(app);
+}
+
+void wr_tool_zoom_press(WrApp *app, const WrPointer *at)
+{
+    double factor = at->mods & WR_MOD_CTRL ? 0.5 : 2.0;
+    wr_view_zoom_at(&app->view, at->x, at->y, app->view.zoom * factor);
+    wr_app_redraw(app);
+}
+
+void wr_tool_zoom_drag(WrApp *app, const WrPointer *at)
+{
+    double steps = (app->hand.at.y - at->y) / (100.0 * wr_gui_scale());
+    wr_view_zoom_at(&app->view, app->hand.start.x, app->hand.start.y, app->view.zoom * exp2(steps));
+    wr_app_redraw(app);
+}
