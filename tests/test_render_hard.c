@@ -230,6 +230,22 @@ static void hc96_a_value_that_is_not_a_number_becomes_black_and_is_counted(void 
     assert_memory_equal(out, want, 9);
 }
 
+static void codes_of_8_bits_are_those_of_the_curve(void **state)
+{
+    (void)state;
+    TestRandom random = { 12 };
+    for (int i = 0; i < 20000; i++) {
+        float x = (float)(i < 10000 ? i / 9999.0 : pow(test_random(&random), 4));
+        float rgba[] = { x, x, x, 1 };
+        WrFrame frame = { .width = 1, .height = 1, .rgba = rgba };
+        uint8_t out[3];
+        assert_int_equal(wr_frame_to_srgb8(&frame, (const double[3]){ 0, 0, 0 }, false, out, NULL),
+                         0);
+        double code = 255 * (double)wr_srgb_encode(x); /* within rounding of the float borders */
+        assert_near(out[0], code, 0.5 + 2e-4);
+    }
+}
+
 static void scales_of_20_decades_give_the_same_picture(void **state)
 {
     (void)state;
@@ -366,6 +382,7 @@ int main(void)
         cmocka_unit_test(hc92_the_mean_of_equal_samples_is_that_sample),
         cmocka_unit_test(hc95_pictures_of_1x1_and_1xn_work_and_0_is_refused),
         cmocka_unit_test(hc96_a_value_that_is_not_a_number_becomes_black_and_is_counted),
+        cmocka_unit_test(codes_of_8_bits_are_those_of_the_curve),
         cmocka_unit_test(scales_of_20_decades_give_the_same_picture),
         cmocka_unit_test(poles_are_finite_whatever_the_table),
         cmocka_unit_test(what_lies_under_a_pixel_is_found),

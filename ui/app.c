@@ -6,6 +6,7 @@
 #include "base/file.h"
 
 #include <math.h>
+#include <signal.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -70,6 +71,10 @@ static bool make_window(WrApp *app)
     SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
     SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
     SDL_SetHint(SDL_HINT_APP_NAME, "wrinkle");
+    SDL_SetHint(SDL_HINT_QUIT_ON_LAST_WINDOW_CLOSE, "0");
+    /* SDL turns these into SDL_QUIT, but only where nobody else has taken them. */
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return false;
     const WrAppOptions *o = app->options;
     int w = o->width > 0 ? o->width : app->settings.width;
@@ -186,8 +191,9 @@ static void handle(WrApp *app, const SDL_Event *event)
     if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
     wr_gui_event(app->gui, event);
     wr_app_redraw(app);
-    if (event->type == SDL_QUIT) {
-        wr_app_quit(app);
+    if (event->type == SDL_QUIT) { /* a signal; a second one does not wait for an answer */
+        if (app->dialog == WR_DIALOG_UNSAVED) app->quit = true;
+        else wr_app_quit(app);
     } else if (event->type == SDL_WINDOWEVENT) {
         window_event(app, &event->window);
     } else if (event->type == SDL_DROPFILE) {
@@ -284,12 +290,24 @@ static void draw(WrApp *app, double now)
     app->drawn_at = now;
 }
 
-static void tell_timing(WrApp *app)
+/* WRINKLE_TIMING: milliseconds to the first picture at once, the rest at the end. */
+static void note_timing(WrApp *app, double seconds)
 {
-    if (app->timed) return;
-    app->timed = true;
-    if (getenv("WRINKLE_TIMING"))
+    WrTiming *t = &app->timing;
+    if (t->pictures++ == 0 && getenv("WRINKLE_TIMING"))
         fprintf(stderr, "first picture after %.0f ms\n", (wr_clock_seconds() - app->started_at) * 1e3);
+    t->seconds += seconds;
+    t->slowest = seconds > t->slowest ? seconds : t->slowest;
+}
+
+static void tell_timing(const WrApp *app)
+{
+    const WrTiming *t = &app->timing;
+    const WrPreviewPicture *p = wr_preview_picture(app->preview);
+    if (!getenv("WRINKLE_TIMING") || t->pictures == 0) return;
+    fprintf(stderr, "%d pictures of the window, %.2f ms each, slowest %.2f ms; %llu of the patch in %.1f s\n",
+            t->pictures, t->seconds / t->pictures * 1e3, t->slowest * 1e3,
+            (unsigned long long)p->serial, wr_clock_seconds() - app->started_at);
 }
 
 /* ---- the loop ---- */
@@ -328,7 +346,7 @@ static void step(WrApp *app)
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + FRAME_SECONDS - 0.0005) {
         app->redraw--;
         draw(app, now);
-        tell_timing(app);
+        note_timing(app, wr_clock_seconds() - now);
     }
 }
 
@@ -344,6 +362,7 @@ int wr_app_run(const WrAppOptions *options)
         while (!app->quit) step(app);
         if (!app->settings.maximized) SDL_GetWindowSize(app->window, &app->settings.width, &app->settings.height);
         wr_settings_save(&app->settings);
+        tell_timing(app);
     } else {
         fprintf(stderr, "wrinkle: %s\n", err.text);
         status = 1;

@@ -207,7 +207,7 @@ static void set_style(double scale)
     style.PopupRounding = 4.0f;
     style.WindowBorderSize = 0.0f;
     style.ChildBorderSize = style.PopupBorderSize = style.FrameBorderSize = 1.0f;
-    style.FramePadding = ImVec2(8.0f, 4.0f);
+    style.FramePadding = ImVec2(8.0f, 2.0f);
     style.ItemSpacing = ImVec2(8.0f, 8.0f);
     style.ItemInnerSpacing = ImVec2(6.0f, 4.0f);
     style.WindowPadding = ImVec2(12.0f, 12.0f);

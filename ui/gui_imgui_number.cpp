@@ -101,11 +101,9 @@ static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value
     float rounding = ImGui::GetStyle().FrameRounding, pad = ImGui::GetStyle().FramePadding.x;
     list->AddRectFilled(at, end, wr_gui_colour_of(hovered ? 0xff252525u : WR_COLOUR_FIELD), rounding);
     float fill = roundf((end.x - at.x) * (float)place_of(spec, value));
-    if (fill >= 1) {
-        list->PushClipRect(at, ImVec2(at.x + fill, end.y), true);
-        list->AddRectFilled(at, end, wr_gui_colour_of(hovered ? 0xff42709fu : WR_COLOUR_FILL), rounding);
-        list->PopClipRect();
-    }
+    if (fill >= 2) /* square and inside the edge: whole pixels */
+        list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + fill, end.y - 1),
+                            wr_gui_colour_of(hovered ? 0xff42709fu : WR_COLOUR_FILL));
     list->AddRect(at, end, wr_gui_colour_of(WR_COLOUR_EDGE), rounding);
     char text[96];
     print_value(spec, value, text, sizeof text - 24);

@@ -169,7 +169,7 @@ extern "C" void wr_gui_label(const char *text)
 try {
     ImGui::AlignTextToFramePadding();
     text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
-    float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.39f);
+    float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
     ImGui::SameLine(column);
 }
 WR_CAUGHT()
@@ -252,8 +252,8 @@ try {
         }
         bool on = i == *index;
         if (on)
-            list->AddRectFilled(at, ImVec2(at.x + w, at.y + h),
-                                wr_gui_colour_of(colours ? colours[i] : WR_COLOUR_SELECTED), px(3));
+            list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + w - 1, at.y + h - 1),
+                                wr_gui_colour_of(colours ? colours[i] : WR_COLOUR_SELECTED));
         WrColour ink = on ? WR_COLOUR_STRONG
                           : ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL;
         list->AddText(ImVec2(at.x + pad, at.y + roundf((h - text.y) / 2)), wr_gui_colour_of(ink),
@@ -363,6 +363,7 @@ try {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(14), px(6)));
     ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_of(WR_COLOUR_BAR));
     ImGui::BeginMainMenuBar();
+    ImGui::SetCursorPosX(px(5)); /* its first word over the first word of the row below */
     return (double)ImGui::GetWindowHeight();
 }
 WR_CAUGHT(0.0)

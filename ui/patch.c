@@ -77,7 +77,7 @@ static void take_picture(WrApp *app)
     }
     SDL_UpdateTexture(p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
                       picture->bgra, 4 * picture->width);
-    wr_app_redraw(app);
+    if (app->redraw < 1) app->redraw = 1; /* the widgets have nothing to settle */
 }
 
 static void advance_turn(WrPatch *p, double now)

@@ -135,6 +135,11 @@ typedef struct WrForms { /* what the dialogs hold while they are open */
     bool fit;
 } WrForms;
 
+typedef struct WrTiming { /* of the window's own pictures */
+    int pictures;
+    double seconds, slowest;
+} WrTiming;
+
 struct WrApp {
     const WrAppOptions *options; /* borrowed */
     WrSession *session;          /* borrowed */
@@ -158,7 +163,7 @@ struct WrApp {
     bool visible, quit;
     double drawn_at, started_at;
     double drawn_scale;
-    bool timed;           /* the time to the first picture was told */
+    WrTiming timing;
 
     WrView view;
     bool view_placed;

@@ -85,6 +85,14 @@ static void print_digits(double value, int digits, char *buffer)
     uselocale(old);
 }
 
+/* "4e+01" reads worse than "40": whole numbers below 1e15 are written out. */
+static char *write_out(double value, char *buffer)
+{
+    if (strchr(buffer, 'e') && fabs(value) >= 1 && fabs(value) < 1e15)
+        print_digits(value, 15, buffer);
+    return buffer;
+}
+
 char *wr_number_print(double value, char *buffer)
 {
     if (!isfinite(value)) return strcpy(buffer, isnan(value) ? "nan" : value < 0 ? "-inf" : "inf");
@@ -99,9 +107,10 @@ char *wr_number_print(double value, char *buffer)
         char shorter[WR_NUMBER_SIZE];
         if (strlen(buffer) <= 7) break;
         print_digits(value, digits, shorter);
-        if (strtod_l(shorter, NULL, c_locale()) == value) return strcpy(buffer, shorter);
+        if (strtod_l(shorter, NULL, c_locale()) == value)
+            return write_out(value, strcpy(buffer, shorter));
     }
-    return buffer;
+    return write_out(value, buffer);
 }
 
 char *wr_number_print_float(float value, char *buffer)
@@ -111,7 +120,7 @@ char *wr_number_print_float(float value, char *buffer)
         print_digits((double)value, digits, buffer);
         if (strtof_l(buffer, NULL, c_locale()) == value) break;
     }
-    return buffer;
+    return write_out((double)value, buffer);
 }
 
 void wr_text_add_number(WrText *text, double value)
@@ -193,5 +202,5 @@ void wr_text_add_json_string(WrText *text, const char *bytes)
 void wr_text_add_json_number(WrText *text, double value)
 {
     if (!isfinite(value)) wr_text_add(text, "null");
-    else wr_text_add_number(text, value);
+    else wr_text_add_number(text, value + 0.0); /* no negative zero */
 }

@@ -1,10 +1,11 @@
 #include "render/frame.h"
+#include "render/srgb_codes.h"
 
 #include <math.h>
 
-/* sRGB codes of equal steps of linear light: fine enough that the code is right to rounding but where
-   a value falls within 1e-4 of a code's border. */
-#define TABLE 16384
+/* Linear light cut into BINS: the code of a bin's lower end, and the code's own border, give the right
+   code of any value: nowhere does the curve rise by more than one code in a bin (12.92 * 255 / 4096). */
+#define BINS 4096
 
 typedef struct ResolveJob {
     const WrFrame *frame;
@@ -12,16 +13,24 @@ typedef struct ResolveJob {
     bool bgra;
     uint8_t *out;
     int64_t bad; /* atomic */
-    uint8_t table[TABLE + 2];
+    uint8_t bins[BINS + 1];
 } ResolveJob;
+
+static void fill_bins(uint8_t bins[BINS + 1])
+{
+    int code = 0;
+    for (int i = 0; i <= BINS; i++) {
+        while (code < 255 && (float)i / BINS >= wr_srgb_borders[code + 1]) code++;
+        bins[i] = (uint8_t)code;
+    }
+}
 
 static uint8_t code_of(const ResolveJob *job, float x)
 {
     x = x > 0.0f ? x : 0.0f;
     x = x < 1.0f ? x : 1.0f;
-    if (x < 0.05f)
-        return (uint8_t)(wr_srgb_encode(x) * 255.0f + 0.5f); /* the curve is steep here */
-    return job->table[(int)(x * TABLE + 0.5f)];
+    int code = job->bins[(int)(x * BINS)];
+    return (uint8_t)(code + (code < 255 && x >= wr_srgb_borders[code < 255 ? code + 1 : 255]));
 }
 
 static void resolve_row(int y, int worker, void *ctx)
@@ -52,9 +61,7 @@ int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool
 {
     ResolveJob job = { .frame = frame, .bgra = bgra, .out = out };
     for (int c = 0; c < 3; c++) job.background[c] = (float)background[c];
-    for (int i = 0; i <= TABLE; i++)
-        job.table[i] = (uint8_t)(wr_srgb_encode((float)i / TABLE) * 255.0f + 0.5f);
-    job.table[TABLE + 1] = 255;
+    fill_bins(job.bins);
     wr_pool_run(pool, frame->height, resolve_row, &job);
     return job.bad;
 }
