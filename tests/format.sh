@@ -7,5 +7,5 @@ if ! command -v clang-format >/dev/null; then
     printf 'clang-format is missing: apt-get install clang-format\n'
     exit 1
 fi
-find src ui tests -name '*.c' -o -name '*.h' -o -name '*.cpp' | sort |
+find src ui tests -name '*.c' -o -name '*.h' -o -name '*.cpp' -o -name '*.hpp' | sort |
     xargs clang-format --dry-run -Werror --ferror-limit=3

@@ -5,7 +5,7 @@ set -uo pipefail
 cd "$1" || exit 1
 
 bad=0
-mapfile -t sources < <(find src ui -name '*.c' -o -name '*.h' -o -name '*.cpp' | sort)
+mapfile -t sources < <(find src ui -name '*.c' -o -name '*.h' -o -name '*.cpp' -o -name '*.hpp' | sort)
 [[ ${#sources[@]} -ge 20 ]] || { printf 'only %d files found\n' "${#sources[@]}"; bad=1; }
 
 # A function's body stands between a brace in the first column and the next closing one.

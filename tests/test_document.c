@@ -132,6 +132,11 @@ static void f_is_the_sum_of_the_layers_after_every_kind_of_edit(void **state)
         document->layers[k].field = random_field(5, 3, WR_WRAP_CLAMP, WR_WRAP_CLAMP, (uint64_t)k);
     }
     check_sum(document);
+    for (int k = 0; k < 3; k++)
+        wr_field_fill(document->layers[k].field, 1.0f); /* no tiles at all */
+    check_sum(document);
+    wr_field_fill(document->layers[1].field, 4.0f);
+    check_sum(document);
     wr_field_set(document->layers[0].field, 0, 0, 3e38f);
     wr_field_set(document->layers[1].field, 0, 0, 3e38f);
     assert_true(isfinite(wr_field_get(wr_document_field(document), 0, 0)));
@@ -260,8 +265,10 @@ static void an_almost_empty_large_table_stays_small_in_memory(void **state)
     assert_true(wr_document_save(document, "", "large.exr", &err));
     assert_true(wr_document_load("large.exr", &loaded, &replaced, &err));
     getrusage(RUSAGE_SELF, &after);
+#ifndef __SANITIZE_ADDRESS__ /* which keeps freed memory */
     /* 64 MB a copy of the table; strips and the library's buffers take a few */
     assert_true(after.ru_maxrss - before.ru_maxrss < 32 * 1024);
+#endif
     assert_true(wr_field_bytes(loaded.document->layers[0].field) < 1 << 20);
     assert_true(wr_field_get(loaded.document->layers[0].field, 4000, 5) == 1.0f);
     wr_free(loaded.scene_text);

@@ -226,6 +226,13 @@ static void signed_heights_keep_zero_exact_and_mirror(void **state)
     const int codes8[5] = { 128, 255, 1, 128 + 51, 128 - 51 }; /* 127 / 2.5 = 50.8 */
     for (int i = 0; i < 5; i++) assert_int_equal(code_at(image, i, 0, 0), codes8[i]);
     wr_image_free(image);
+    wr_field_set(field, 2, 0, -5.0f); /* the deepest dent sets the scale as well */
+    report = export_to(document, "height", SETTINGS("range=signed"), "s.png");
+    assert_true(report.amplitude == 5.0 && report.clipped == 0);
+    image = read_back("s.png");
+    assert_int_equal(code_at(image, 2, 0, 0), 1);
+    assert_int_equal(code_at(image, 1, 0, 0), 32768 + 16384); /* 16383.5 */
+    wr_image_free(image);
     wr_document_free(document);
     document = document_of(new_field(2, 2, WR_WRAP_PERIODIC)); /* no amplitude at all */
     export_to(document, "height", SETTINGS("range=signed"), "s.png");

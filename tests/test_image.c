@@ -522,7 +522,8 @@ static void one_bit_and_sixteen_bit_pnm_read_sensibly(void **state)
     assert_true(wr_file_write("deep.pgm", "P5 2 1 65535\n\x12\x34\xff\xff", 17, &err));
     image = wr_image_read("deep.pgm", &err);
     if (!image) fail_msg("%s", err.text);
-    assert_near(image->data[0], 0x1234 / 65535.0, 1.01 / 65535); /* the library loses up to one code */
+    assert_near(image->data[0], 0x1234 / 65535.0,
+                1.01 / 65535); /* the library loses up to one code */
     assert_near(image->data[1], 1.0, 1.01 / 65535);
     wr_image_free(image);
 }

@@ -58,7 +58,8 @@ static void size_down(WrApp *app)
 
 static void add_hardness(WrApp *app, double step)
 {
-    app->settings.brush.hardness = clamp(rint((app->settings.brush.hardness + step) * 20.0) / 20.0, 0, 1);
+    app->settings.brush.hardness =
+        clamp(rint((app->settings.brush.hardness + step) * 20.0) / 20.0, 0, 1);
 }
 
 static void hardness_up(WrApp *app)

@@ -86,7 +86,8 @@ static bool make_window(WrApp *app)
     }
     Uint32 flags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_HIDDEN;
     if (app->settings.maximized && o->width <= 0) flags |= SDL_WINDOW_MAXIMIZED;
-    app->window = SDL_CreateWindow("Wrinkle", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, flags);
+    app->window =
+        SDL_CreateWindow("Wrinkle", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, flags);
     if (!app->window) return false;
     SDL_SetWindowMinimumSize(app->window, 640, 420);
     app->renderer = make_renderer(app->window, software);
@@ -179,7 +180,8 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
         break;
     case SDL_WINDOWEVENT_CLOSE: wr_app_quit(app); break;
     case SDL_WINDOWEVENT_SIZE_CHANGED:
-        if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED)) app->settings.maximized = false;
+        if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED))
+            app->settings.maximized = false;
         break;
     case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = display_scale(app->window); break;
     default: break;
@@ -234,9 +236,11 @@ static SDL_SystemCursor cursor_for(const WrApp *app)
         (hand->grab == WR_GRAB_NONE &&
          wr_layout_inside(&app->layout.divider, (int)hand->at.x, (int)hand->at.y)))
         return app->layout.stacked ? SDL_SYSTEM_CURSOR_SIZENS : SDL_SYSTEM_CURSOR_SIZEWE;
-    if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space)) return SDL_SYSTEM_CURSOR_SIZEALL;
+    if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space))
+        return SDL_SYSTEM_CURSOR_SIZEALL;
     if (hand->on_canvas) return SDL_SYSTEM_CURSOR_CROSSHAIR;
-    if (hand->on_patch) return hand->grab == WR_GRAB_NONE ? SDL_SYSTEM_CURSOR_HAND : SDL_SYSTEM_CURSOR_SIZEALL;
+    if (hand->on_patch)
+        return hand->grab == WR_GRAB_NONE ? SDL_SYSTEM_CURSOR_HAND : SDL_SYSTEM_CURSOR_SIZEALL;
     return wr_gui_cursor(app->gui);
 }
 
@@ -295,7 +299,8 @@ static void note_timing(WrApp *app, double seconds)
 {
     WrTiming *t = &app->timing;
     if (t->pictures++ == 0 && getenv("WRINKLE_TIMING"))
-        fprintf(stderr, "first picture after %.0f ms\n", (wr_clock_seconds() - app->started_at) * 1e3);
+        fprintf(stderr, "first picture after %.0f ms\n",
+                (wr_clock_seconds() - app->started_at) * 1e3);
     t->seconds += seconds;
     t->slowest = seconds > t->slowest ? seconds : t->slowest;
 }
@@ -305,9 +310,11 @@ static void tell_timing(const WrApp *app)
     const WrTiming *t = &app->timing;
     const WrPreviewPicture *p = wr_preview_picture(app->preview);
     if (!getenv("WRINKLE_TIMING") || t->pictures == 0) return;
-    fprintf(stderr, "%d pictures of the window, %.2f ms each, slowest %.2f ms; %llu of the patch in %.1f s\n",
-            t->pictures, t->seconds / t->pictures * 1e3, t->slowest * 1e3,
-            (unsigned long long)p->serial, wr_clock_seconds() - app->started_at);
+    fprintf(
+        stderr,
+        "%d pictures of the window, %.2f ms each, slowest %.2f ms; %llu of the patch in %.1f s\n",
+        t->pictures, t->seconds / t->pictures * 1e3, t->slowest * 1e3,
+        (unsigned long long)p->serial, wr_clock_seconds() - app->started_at);
 }
 
 /* ---- the loop ---- */
@@ -337,7 +344,8 @@ static void step(WrApp *app)
     if (wait < 0 ? SDL_WaitEvent(&event) : SDL_WaitEventTimeout(&event, wait)) {
         do handle(app, &event);
         while (SDL_PollEvent(&event));
-    } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || app->messages.list.count > 0) {
+    } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) ||
+               app->messages.list.count > 0) {
         if (app->redraw == 0) app->redraw = 1;
     }
     wr_brush_flush(app);
@@ -360,7 +368,8 @@ int wr_app_run(const WrAppOptions *options)
     int status = 0;
     if (begin(app, &err)) {
         while (!app->quit) step(app);
-        if (!app->settings.maximized) SDL_GetWindowSize(app->window, &app->settings.width, &app->settings.height);
+        if (!app->settings.maximized)
+            SDL_GetWindowSize(app->window, &app->settings.width, &app->settings.height);
         wr_settings_save(&app->settings);
         tell_timing(app);
     } else {

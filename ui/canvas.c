@@ -14,13 +14,13 @@
 struct WrCanvas {
     WrCells *cells;
     SDL_Texture *texture;
-    int width, height;  /* of texture and pixels */
-    uint32_t *pixels;   /* [height][width], ARGB */
+    int width, height;      /* of texture and pixels */
+    uint32_t *pixels;       /* [height][width], ARGB */
     WrTaps *columns, *rows; /* [width], [height] */
-    float *line;        /* one row of cells: [tiles_u * side] */
-    bool *needed;       /* [tiles_u] tile columns that a rectangle looks at */
+    float *line;            /* one row of cells: [tiles_u * side] */
+    bool *needed;           /* [tiles_u] tile columns that a rectangle looks at */
     uint32_t palette[256];
-    WrView view;        /* of the picture held */
+    WrView view; /* of the picture held */
     WrCanvasLook look;
     double low, high;
     bool valid, flooded;
@@ -109,8 +109,8 @@ static void make_taps(WrCanvas *canvas, const WrField *field, int level)
         canvas->columns[i] = wr_taps_make(x0 + i / view->zoom, x0 + (i + 1) / view->zoom,
                                           view->table_w, level, wraps_u);
     for (int j = 0; j < view->h; j++)
-        canvas->rows[j] = wr_taps_make(y0 + j / view->zoom, y0 + (j + 1) / view->zoom, view->table_h,
-                                       level, wraps_v);
+        canvas->rows[j] = wr_taps_make(y0 + j / view->zoom, y0 + (j + 1) / view->zoom,
+                                       view->table_h, level, wraps_v);
 }
 
 /* Add up the cell rows that one pixel row weighs, over the tile columns that are needed. */
@@ -154,7 +154,8 @@ static void paint_rect(WrCanvas *canvas, SDL_Rect rect, const WrField *field, in
     int tiles_u = wr_field_tiles_u(field), shift = 6 - level;
     memset(canvas->needed, 0, (size_t)tiles_u * sizeof *canvas->needed);
     for (int x = rect.x; x < rect.x + rect.w; x++)
-        for (int k = 0; k < WR_TAPS; k++) canvas->needed[canvas->columns[x].cell[k] >> shift] = true;
+        for (int k = 0; k < WR_TAPS; k++)
+            canvas->needed[canvas->columns[x].cell[k] >> shift] = true;
     for (int y = rect.y; y < rect.y + rect.h; y++) {
         const WrTaps *row = &canvas->rows[y];
         uint32_t *out = canvas->pixels + (size_t)y * (size_t)canvas->width;
@@ -268,8 +269,8 @@ bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view
     bool whole = !wr_cells_look(canvas->cells, field, level, note_dirty, canvas) || canvas->flooded;
     bool resized = canvas->width != view->w || canvas->height != view->h || !canvas->texture ||
                    canvas->view.table_w != view->table_w;
-    if (resized && !make_buffers(canvas, renderer, view->w, view->h,
-                                 wr_field_tiles_u(field) * WR_TILE))
+    if (resized &&
+        !make_buffers(canvas, renderer, view->w, view->h, wr_field_tiles_u(field) * WR_TILE))
         return false;
     if (whole || wr_cells_rough(canvas->cells) || !same_view(&canvas->view, view))
         canvas->valid = false;
@@ -289,6 +290,7 @@ bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view
     }
     range[0] = canvas->low;
     range[1] = canvas->high;
-    SDL_RenderCopy(renderer, canvas->texture, NULL, &(SDL_Rect){ view->x, view->y, view->w, view->h });
+    SDL_RenderCopy(renderer, canvas->texture, NULL,
+                   &(SDL_Rect){ view->x, view->y, view->w, view->h });
     return wr_cells_rough(canvas->cells);
 }

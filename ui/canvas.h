@@ -8,7 +8,11 @@
 
 typedef struct WrCanvas WrCanvas;
 
-typedef enum WrCanvasColours { WR_CANVAS_GREY, WR_CANVAS_SIGNED, WR_CANVAS_COLOURS } WrCanvasColours;
+typedef enum WrCanvasColours {
+    WR_CANVAS_GREY,
+    WR_CANVAS_SIGNED,
+    WR_CANVAS_COLOURS
+} WrCanvasColours;
 
 typedef struct WrCanvasLook {
     WrCanvasColours colours; /* SIGNED: blue below zero, white at zero, orange above */

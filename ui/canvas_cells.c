@@ -10,16 +10,16 @@
 #define CACHE_LIMIT (96u << 20) /* bytes of means; beyond it the cache starts anew */
 
 typedef struct Block {
-    float *mean;  /* owned; NULL until looked at (and always at level 0) */
+    float *mean; /* owned; NULL until looked at (and always at level 0) */
     bool rough;
 } Block;
 
 struct WrCells {
     WrField *field; /* shared */
     int level, tiles_u, tiles_v;
-    Block *blocks;  /* [tiles_v * tiles_u] */
-    size_t bytes;   /* of means */
-    bool rough;     /* some block that was handed out is */
+    Block *blocks;               /* [tiles_v * tiles_u] */
+    size_t bytes;                /* of means */
+    bool rough;                  /* some block that was handed out is */
     float *tile_low, *tile_high; /* [tiles_v * tiles_u]; NULL until the range is asked for */
     bool *tile_known;
     WrTileVisitor changed; /* of the look under way */
@@ -75,7 +75,8 @@ static bool same_frame(const WrField *a, const WrField *b)
            wr_field_wrap_v(a) == wr_field_wrap_v(b);
 }
 
-bool wr_cells_look(WrCells *cells, const WrField *field, int level, WrTileVisitor changed, void *ctx)
+bool wr_cells_look(WrCells *cells, const WrField *field, int level, WrTileVisitor changed,
+                   void *ctx)
 {
     bool same = cells->field && same_frame(cells->field, field);
     WrField *share = wr_field_share(field);

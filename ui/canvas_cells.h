@@ -13,7 +13,8 @@ void wr_cells_free(WrCells *cells);
 /* Look at `field` (shared, kept until the next call) at `level`. Blocks of tiles that did not change are
  * kept; changed(tx, ty, ctx) is called for each tile that may have. Returns false, without calls, when
  * everything may be different (another size or level). */
-bool wr_cells_look(WrCells *cells, const WrField *field, int level, WrTileVisitor changed, void *ctx);
+bool wr_cells_look(WrCells *cells, const WrField *field, int level, WrTileVisitor changed,
+                   void *ctx);
 
 /* The block of a tile: [side * side] means, side = 64 >> level, row by row; NULL where the whole tile
  * holds *flat. Blocks not made before `deadline` (wr_clock_seconds) are rough: single texels instead of

@@ -42,9 +42,10 @@ static void cell_outline(const WrApp *app)
     double x0, y0, x1, y1;
     wr_view_to_pixel(v, 0, 0, &x0, &y0);
     wr_view_to_pixel(v, v->table_w, v->table_h, &x1, &y1);
-    wr_gui_draw_rect(rint(x0) - 0.0, rint(y0), rint(x1) - rint(x0), rint(y1) - rint(y0),
-                     0x60000000u, 3.0);
-    wr_gui_draw_rect(rint(x0), rint(y0), rint(x1) - rint(x0), rint(y1) - rint(y0), WR_COLOUR_CELL, 1.0);
+    wr_gui_draw_rect(rint(x0), rint(y0), rint(x1) - rint(x0), rint(y1) - rint(y0), 0x90000000u,
+                     3.0);
+    wr_gui_draw_rect(rint(x0), rint(y0), rint(x1) - rint(x0), rint(y1) - rint(y0), WR_COLOUR_CELL,
+                     1.0);
 }
 
 /* Where the pointer on the patch is in the table. */
@@ -86,17 +87,25 @@ static void range_popup(WrApp *app)
     if (wr_gui_segments("look", looks, NULL, 2, &chosen)) look->colours = (WrCanvasColours)chosen;
     wr_gui_check("Range follows the table", &look->automatic);
     double field = 120 * wr_gui_scale();
-    WrNumber low = { .low = -1, .high = 1, .hard_low = -1e30, .hard_high = look->high - 1e-6,
-                     .reset = 0, .decimals = 3, .tip = "Height shown as black" };
-    WrNumber high = { .low = 0, .high = 2, .hard_low = look->low + 1e-6, .hard_high = 1e30,
-                      .reset = 1, .decimals = 3, .tip = "Height shown as white" };
+    WrNumber low = { .low = -1,
+                     .high = 1,
+                     .hard_low = -1e30,
+                     .hard_high = look->high - 1e-6,
+                     .reset = 0,
+                     .decimals = 3,
+                     .tip = "Height shown as black" };
+    WrNumber high = { .low = 0,
+                      .high = 2,
+                      .hard_low = look->low + 1e-6,
+                      .hard_high = 1e30,
+                      .reset = 1,
+                      .decimals = 3,
+                      .tip = "Height shown as white" };
     wr_gui_disable(look->automatic);
     double l = app->range[0], h = app->range[1];
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Black");
-    wr_gui_same_line(8);
+    wr_gui_label("Black");
     if (wr_gui_number("low", field, &low, &l) && l < look->high) look->low = l;
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "White");
-    wr_gui_same_line(8);
+    wr_gui_label("White");
     if (wr_gui_number("high", field, &high, &h) && h > look->low) look->high = h;
     wr_gui_enable();
     wr_gui_popup_end();

@@ -65,7 +65,8 @@ const char *wr_app_name(const WrApp *app)
 void wr_app_title(WrApp *app)
 {
     char title[512];
-    snprintf(title, sizeof title, "%s%s - Wrinkle", wr_app_name(app), wr_app_unsaved(app) ? " *" : "");
+    snprintf(title, sizeof title, "%s%s - Wrinkle", wr_app_name(app),
+             wr_app_unsaved(app) ? " *" : "");
     if (strcmp(title, SDL_GetWindowTitle(app->window)) != 0) SDL_SetWindowTitle(app->window, title);
 }
 
@@ -169,10 +170,8 @@ static void ask_first(WrApp *app, WrAfter after, const char *path)
     app->after = after;
     wr_free(app->after_path);
     app->after_path = path ? wr_strdup(path) : NULL;
-    if (wr_app_unsaved(app))
-        wr_dialog_open(app, WR_DIALOG_UNSAVED);
-    else
-        wr_app_go_on(app);
+    if (wr_app_unsaved(app)) wr_dialog_open(app, WR_DIALOG_UNSAVED);
+    else wr_app_go_on(app);
 }
 
 void wr_app_new(WrApp *app)
@@ -247,7 +246,8 @@ static void ask_file(WrApp *app, WrFilePurpose purpose, const char *name)
 void wr_app_save_as(WrApp *app)
 {
     wr_hand_let_go(app);
-    ask_file(app, WR_FILE_SAVE, wr_session_path(app->session)[0] ? wr_app_name(app) : "untitled.exr");
+    ask_file(app, WR_FILE_SAVE,
+             wr_session_path(app->session)[0] ? wr_app_name(app) : "untitled.exr");
 }
 
 static char *with_ending(const char *path, const char *ending)

@@ -96,7 +96,8 @@ static void *wait_for_child(void *arg)
         if (length == sizeof text - 1) break;
     }
     int status = 0;
-    while (waitpid(files->child, &status, 0) < 0 && errno == EINTR) {}
+    while (waitpid(files->child, &status, 0) < 0 && errno == EINTR) {
+    }
     while (length > 0 && text[length - 1] == '\n') length--;
     bool chosen = WIFEXITED(status) && WEXITSTATUS(status) == 0 && text[0] == '/' && length > 0;
     memcpy(files->answer, text, chosen ? length : 0);
@@ -115,11 +116,13 @@ static bool start(WrFiles *files, const char *program, const char *const *argume
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_addclose(&actions, ends[0]);
     posix_spawn_file_actions_addclose(&actions, ends[1]);
-    int trouble = posix_spawn(&files->child, program, &actions, NULL, (char *const *)arguments, environ);
+    int trouble =
+        posix_spawn(&files->child, program, &actions, NULL, (char *const *)arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     files->pipe = ends[0];
-    files->running = trouble == 0 && pthread_create(&files->waiter, NULL, wait_for_child, files) == 0;
+    files->running =
+        trouble == 0 && pthread_create(&files->waiter, NULL, wait_for_child, files) == 0;
     if (!files->running) close(ends[0]);
     return files->running;
 }
@@ -134,14 +137,20 @@ static bool ask_native(WrFiles *files, const char *start_at)
         WrText where = { 0 }, named = { 0 };
         wr_text_addf(&where, "--filename=%s", start_at);
         wr_text_addf(&named, "--title=%s", title);
-        const char *arguments[] = { zenity, "--file-selection", wr_text_get(&named), wr_text_get(&where),
-                                    save ? "--save" : NULL, "--confirm-overwrite", NULL };
+        const char *arguments[] = { zenity,
+                                    "--file-selection",
+                                    wr_text_get(&named),
+                                    wr_text_get(&where),
+                                    save ? "--save" : NULL,
+                                    "--confirm-overwrite",
+                                    NULL };
         ok = start(files, zenity, arguments);
         wr_text_fini(&where);
         wr_text_fini(&named);
     } else if (kdialog) {
-        const char *arguments[] = { kdialog, "--title", title,
-                                    save ? "--getsavefilename" : "--getopenfilename", start_at, NULL };
+        const char *arguments[] = { kdialog,  "--title",
+                                    title,    save ? "--getsavefilename" : "--getopenfilename",
+                                    start_at, NULL };
         ok = start(files, kdialog, arguments);
     }
     wr_free(zenity);
@@ -170,7 +179,8 @@ static void list_folder(WrFiles *files)
     files->trouble[0] = '\0';
     DIR *dir = opendir(files->folder);
     if (!dir) {
-        snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", files->folder, strerror(errno));
+        snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", files->folder,
+                 strerror(errno));
         return;
     }
     for (struct dirent *e; (e = readdir(dir)) && files->entries.count < ENTRIES_MAX;) {

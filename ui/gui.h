@@ -40,32 +40,32 @@ SDL_SystemCursor wr_gui_cursor(const WrGui *gui);
 void wr_gui_frame_begin(WrGui *gui, int width, int height, double seconds);
 void wr_gui_frame_end(WrGui *gui);
 
-double wr_gui_scale(void);         /* pixels a unit */
-int wr_gui_px(double units);       /* units as whole pixels */
+double wr_gui_scale(void);   /* pixels a unit */
+int wr_gui_px(double units); /* units as whole pixels */
 
 /* ---- icons (UTF-8 of the icon font; plain letters where it is missing) ---- */
-#define WR_ICON_BRUSH "\xef\x83\xa3"    /* f0e3 */
-#define WR_ICON_HAND "\xef\x81\x81"     /* f041 arrow-all */
-#define WR_ICON_ZOOM "\xef\x8d\x89"     /* f349 */
-#define WR_ICON_PICK "\xef\x88\x8a"     /* f20a */
-#define WR_ICON_PLAY "\xef\x90\x8a"     /* f40a */
-#define WR_ICON_PAUSE "\xef\x8f\xa4"    /* f3e4 */
-#define WR_ICON_DOWN "\xef\x8d\x9d"     /* f35d */
-#define WR_ICON_CLOSE "\xef\x85\x96"    /* f156 */
-#define WR_ICON_PLUS "\xef\x90\x95"     /* f415 */
-#define WR_ICON_DELETE "\xef\x87\x80"   /* f1c0 */
-#define WR_ICON_HELP "\xef\x8b\x97"     /* f2d7 */
-#define WR_ICON_ALERT "\xef\x80\xa6"    /* f026 */
-#define WR_ICON_FOLDER "\xef\x89\x8b"   /* f24b */
-#define WR_ICON_FILE "\xef\x88\xa4"     /* f224 */
-#define WR_ICON_UP "\xef\x81\x9d"       /* f05d */
-#define WR_ICON_CHECK "\xef\x84\xac"    /* f12c */
-#define WR_ICON_CAMERA "\xef\x91\xa4"   /* f464 rotate-3d */
+#define WR_ICON_BRUSH "\xef\x83\xa3"  /* f0e3 */
+#define WR_ICON_HAND "\xef\x81\x81"   /* f041 arrow-all */
+#define WR_ICON_ZOOM "\xef\x8d\x89"   /* f349 */
+#define WR_ICON_PICK "\xef\x88\x8a"   /* f20a */
+#define WR_ICON_PLAY "\xef\x90\x8a"   /* f40a */
+#define WR_ICON_PAUSE "\xef\x8f\xa4"  /* f3e4 */
+#define WR_ICON_DOWN "\xef\x8d\x9d"   /* f35d */
+#define WR_ICON_CLOSE "\xef\x85\x96"  /* f156 */
+#define WR_ICON_PLUS "\xef\x90\x95"   /* f415 */
+#define WR_ICON_DELETE "\xef\x87\x80" /* f1c0 */
+#define WR_ICON_HELP "\xef\x8b\x97"   /* f2d7 */
+#define WR_ICON_ALERT "\xef\x80\xa6"  /* f026 */
+#define WR_ICON_FOLDER "\xef\x89\x8b" /* f24b */
+#define WR_ICON_FILE "\xef\x88\xa4"   /* f224 */
+#define WR_ICON_UP "\xef\x81\x9d"     /* f05d */
+#define WR_ICON_CHECK "\xef\x84\xac"  /* f12c */
+#define WR_ICON_CAMERA "\xef\x91\xa4" /* f464 rotate-3d */
 
 /* ---- areas: fixed rectangles that hold widgets ---- */
 typedef enum WrAreaKind {
-    WR_AREA_BAR,    /* one row of widgets, centred in height, never scrolls */
-    WR_AREA_PANEL,  /* scrolls when its content is taller */
+    WR_AREA_BAR,   /* one row of widgets, centred in height, never scrolls */
+    WR_AREA_PANEL, /* scrolls when its content is taller */
     WR_AREA_OVERLAY /* fits its content; lies on a view; rect x,y is the corner that `anchor` names */
 } WrAreaKind;
 void wr_gui_area_begin(const char *name, WrAreaKind kind, SDL_Rect rect, WrColour background);
@@ -77,33 +77,39 @@ void wr_gui_overlay_end(void);
 
 /* ---- placing ---- */
 void wr_gui_same_line(double gap_units);
-void wr_gui_space(double units);       /* downwards */
-void wr_gui_separator(void);           /* a thin line across the panel */
-void wr_gui_rule(void);                /* a thin upright line in a bar */
-double wr_gui_available(void);         /* width left on this row, in pixels */
-void wr_gui_move_to(double x);         /* the next widget starts x pixels from the area's left edge */
-double wr_gui_width(void);             /* of the area, in pixels */
+void wr_gui_space(double units); /* downwards */
+void wr_gui_separator(void);     /* a thin line across the panel */
+void wr_gui_rule(void);          /* a thin upright line in a bar */
+double wr_gui_available(void);   /* width left on this row, in pixels */
+void wr_gui_move_to(double x);   /* the next widget starts x pixels from the area's left edge */
+double wr_gui_width(void);       /* of the area, in pixels */
 void wr_gui_push_id(int id);
 void wr_gui_pop_id(void);
-void wr_gui_disable(bool disabled);    /* grey out what follows; ends with wr_gui_enable */
+void wr_gui_disable(bool disabled); /* grey out what follows; ends with wr_gui_enable */
 void wr_gui_enable(void);
 
 /* ---- text ---- */
-typedef enum WrFont { WR_FONT_TEXT, WR_FONT_BOLD, WR_FONT_SMALL, WR_FONT_ICON, WR_FONT_COUNT } WrFont;
+typedef enum WrFont {
+    WR_FONT_TEXT,
+    WR_FONT_BOLD,
+    WR_FONT_SMALL,
+    WR_FONT_ICON,
+    WR_FONT_COUNT
+} WrFont;
 void wr_gui_text(WrFont font, WrColour colour, const char *text);
 void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text);
 void wr_gui_heading(const char *text); /* of a group of rows: small, in capitals as given */
 void wr_gui_label(const char *text);   /* left part of a row; the field follows on the same line */
 double wr_gui_text_width(WrFont font, const char *text);
 double wr_gui_line_height(WrFont font);
-void wr_gui_tip(const char *text);     /* of the widget before; shown when the pointer rests on it */
+void wr_gui_tip(const char *text); /* of the widget before; shown when the pointer rests on it */
 
 /* ---- widgets ---- */
 /* What happened to a value in this frame. */
 typedef enum WrEdit {
     WR_EDIT_NONE,
-    WR_EDIT_LIVE,  /* being dragged: *value is what it would become */
-    WR_EDIT_DONE   /* the edit is finished */
+    WR_EDIT_LIVE, /* being dragged: *value is what it would become */
+    WR_EDIT_DONE  /* the edit is finished */
 } WrEdit;
 
 typedef struct WrNumber {
@@ -155,6 +161,7 @@ bool wr_gui_dialog_begin(const char *title, double width_units);
 void wr_gui_dialog_end(void);
 bool wr_gui_escape_pressed(void); /* in this frame */
 bool wr_gui_return_pressed(void); /* in this frame, and no text field took it */
+bool wr_gui_letter_pressed(SDL_Scancode key);
 
 /* ---- drawing on the views, under the panels ---- */
 void wr_gui_draw_clip(SDL_Rect rect);
@@ -165,7 +172,8 @@ void wr_gui_draw_fill(double x, double y, double w, double h, WrColour colour, d
 void wr_gui_draw_circle(double x, double y, double radius, WrColour colour, double width);
 void wr_gui_draw_disc(double x, double y, double radius, WrColour colour);
 /* Part of a circle, clockwise from the top; turns 0..1. */
-void wr_gui_draw_arc(double x, double y, double radius, double turns, WrColour colour, double width);
+void wr_gui_draw_arc(double x, double y, double radius, double turns, WrColour colour,
+                     double width);
 void wr_gui_draw_text(double x, double y, WrFont font, WrColour colour, const char *text);
 
 #ifdef __cplusplus

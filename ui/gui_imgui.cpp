@@ -1,19 +1,13 @@
 /* SPDX-License-Identifier: MIT
-   The widget library's context: fonts, style, events, frames. */
+   The widget library's context: style, events, frames. */
 #include "ui/gui_imgui.h"
 
 #include "ui/gui_sdl.h"
 
-#include <imgui_freetype.h>
 #include <imgui_internal.h>
-
-#include <ft2build.h>
-#include FT_FREETYPE_H
-#include FT_ADVANCES_H
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 static_assert(sizeof(ImDrawVert) == sizeof(WrGuiVertex), "vertices are handed over as they are");
 static_assert(sizeof(ImDrawIdx) == sizeof(uint16_t), "indices are handed over as they are");
@@ -33,144 +27,13 @@ ImVec4 wr_gui_vec_of(WrColour c)
     return ImGui::ColorConvertU32ToFloat4(wr_gui_colour_of(c));
 }
 
-/* ---- fonts ---- */
-
-static const char *first_readable(const char *const *paths)
+void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high)
 {
-    for (; *paths; paths++)
-        if (access(*paths, R_OK) == 0) return *paths;
-    return nullptr;
-}
-
-static const char *const text_faces[] = {
-    "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
-    "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
-    "/usr/share/fonts/inter/Inter-Regular.otf",
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-    nullptr
-};
-static const char *const bold_faces[] = {
-    "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf",
-    "/usr/share/fonts/truetype/inter/Inter-SemiBold.ttf",
-    "/usr/share/fonts/inter/Inter-SemiBold.otf",
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Bold.ttf",
-    "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf",
-    nullptr
-};
-static const float face_ems[] = { 14.0f, 14.0f, 12.0f }; /* units: text, bold, small */
-static const char *const icon_faces[] = {
-    "/usr/share/fonts/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf", nullptr
-};
-
-/* The widget library asks for the height of a line, from the highest ascender to the lowest descender;
-   type is measured by its em. Lines a em: 1.21 of Inter. */
-static float line_of_em(FT_Face face)
-{
-    double height = face->size ? (double)(face->ascender - face->descender) : 0.0;
-    return height > 0.0 && face->units_per_EM > 0 ? (float)(height / face->units_per_EM) : 1.2f;
-}
-
-/* Advances as the type's designer made them (the library rounds each up, which spreads words), and one
-   width for all digits, so that numbers do not jitter as they change. */
-static void space_letters(ImFont *font, FT_Face face, float em)
-{
-    float pixels_a_unit = em / (float)face->units_per_EM, digit = 0.0f;
-    for (int pass = 0; pass < 2; pass++) {
-        for (ImFontGlyph &glyph : font->Glyphs) {
-            FT_Fixed units = 0;
-            FT_UInt index = FT_Get_Char_Index(face, glyph.Codepoint);
-            bool number = glyph.Codepoint >= '0' && glyph.Codepoint <= '9';
-            if (index == 0 || FT_Get_Advance(face, index, FT_LOAD_NO_SCALE, &units) != 0) continue;
-            float advance = (float)units * pixels_a_unit;
-            if (pass == 0 && number && glyph.Codepoint != '1' && advance > digit) digit = advance;
-            if (pass == 1 && number) {
-                float shift = roundf((digit - advance) / 2.0f);
-                glyph.X0 += shift;
-                glyph.X1 += shift;
-                advance = digit;
-            }
-            if (pass == 1) glyph.AdvanceX = advance;
-        }
-    }
-    font->BuildLookupTable();
-}
-
-/* A face at `em` pixels; NULL if the file is none. The face stays open for space_letters. */
-static ImFont *add_face(ImFontAtlas *atlas, FT_Library library, const char *path, float em,
-                        FT_Face *face)
-{
-    static const ImWchar ranges[] = { 0x20,   0x17f,  0x370,  0x3ff,  0x400,  0x45f,
-                                      0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0 };
-    if (!library || FT_New_Face(library, path, 0, face) != 0) return nullptr;
-    ImFontConfig config;
-    config.OversampleH = config.OversampleV = 1;
-    return atlas->AddFontFromFileTTF(path, roundf(em * line_of_em(*face)), &config, ranges);
-}
-
-static void add_icons(ImFontAtlas *atlas, const char *path, float size, bool merge)
-{
-    static const ImWchar used[] = { 0xf0e3, 0xf0e3, 0xf041, 0xf041, 0xf349, 0xf349, 0xf20a, 0xf20a,
-                                    0xf40a, 0xf40a, 0xf3e4, 0xf3e4, 0xf35d, 0xf35d, 0xf156, 0xf156,
-                                    0xf415, 0xf415, 0xf1c0, 0xf1c0, 0xf2d7, 0xf2d7, 0xf026, 0xf026,
-                                    0xf24b, 0xf24b, 0xf224, 0xf224, 0xf05d, 0xf05d, 0xf12c, 0xf12c,
-                                    0xf464, 0xf464, 0 };
-    ImFontConfig config;
-    config.OversampleH = config.OversampleV = 1;
-    config.PixelSnapH = true;
-    config.MergeMode = merge;
-    if (merge) config.GlyphOffset.y = roundf(size * 0.06f);
-    atlas->AddFontFromFileTTF(path, size, &config, used);
-}
-
-static void add_fonts(WrGui *gui, ImFontAtlas *atlas, FT_Library library, FT_Face *faces)
-{
-    const char *text = first_readable(text_faces), *bold = first_readable(bold_faces);
-    const char *icons = first_readable(icon_faces);
-    if (!bold) bold = text;
-    for (int i = 0; i < WR_FONT_ICON; i++) {
-        float em = roundf(face_ems[i] * (float)gui->scale);
-        ImFont *font = text ? add_face(atlas, library, i == WR_FONT_BOLD ? bold : text, em, &faces[i])
-                            : nullptr;
-        gui->fonts[i] = font ? font : atlas->AddFontDefault();
-        if (font && icons) add_icons(atlas, icons, roundf(em * 1.35f), true);
-    }
-    gui->fonts[WR_FONT_ICON] = gui->fonts[WR_FONT_TEXT];
-    if (!icons) return;
-    int before = atlas->Fonts.Size;
-    add_icons(atlas, icons, roundf(22.0f * (float)gui->scale), false);
-    if (atlas->Fonts.Size > before) gui->fonts[WR_FONT_ICON] = atlas->Fonts.back();
-}
-
-static bool build_fonts(WrGui *gui, WrError *err)
-{
-    ImFontAtlas *atlas = ImGui::GetIO().Fonts;
-    FT_Library library = nullptr;
-    FT_Face faces[WR_FONT_ICON] = {};
-    if (FT_Init_FreeType(&library) != 0) library = nullptr;
-    atlas->Clear();
-    atlas->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
-    /* Sharp stems: whole pixels upwards only, so that letters keep their distances. */
-    atlas->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
-    atlas->TexGlyphPadding = 1;
-    add_fonts(gui, atlas, library, faces);
-    unsigned char *pixels;
-    int width, height;
-    atlas->GetTexDataAsRGBA32(&pixels, &width, &height);
-    for (int i = 0; i < WR_FONT_ICON; i++) {
-        if (!faces[i]) continue;
-        space_letters(gui->fonts[i], faces[i], roundf(face_ems[i] * (float)gui->scale));
-        FT_Done_Face(faces[i]);
-    }
-    if (library) FT_Done_FreeType(library);
-    if (!pixels) return wr_fail(err, "no font could be drawn");
-    if (gui->atlas) SDL_DestroyTexture(gui->atlas);
-    gui->atlas = wr_gui_sdl_texture(gui->renderer, width, height, pixels);
-    if (!gui->atlas) return wr_fail(err, "a texture of %dx%d: %s", width, height, SDL_GetError());
-    atlas->SetTexID(gui->atlas);
-    return true;
+    ImU32 colour = wr_gui_colour_of(WR_COLOUR_EDGE);
+    list->AddRectFilled(ImVec2(low.x + 1, low.y), ImVec2(high.x - 1, low.y + 1), colour);
+    list->AddRectFilled(ImVec2(low.x + 1, high.y - 1), ImVec2(high.x - 1, high.y), colour);
+    list->AddRectFilled(ImVec2(low.x, low.y + 1), ImVec2(low.x + 1, high.y - 1), colour);
+    list->AddRectFilled(ImVec2(high.x - 1, low.y + 1), ImVec2(high.x, high.y - 1), colour);
 }
 
 /* ---- style ---- */
@@ -203,10 +66,11 @@ static void set_style(double scale)
 {
     ImGuiStyle style;
     style.WindowRounding = 0.0f;
-    style.ChildRounding = style.FrameRounding = 3.0f;
+    style.ChildRounding = style.FrameRounding = 0.0f;
     style.PopupRounding = 4.0f;
     style.WindowBorderSize = 0.0f;
-    style.ChildBorderSize = style.PopupBorderSize = style.FrameBorderSize = 1.0f;
+    style.CircleTessellationMaxError = 0.1f;
+    style.FrameBorderSize = 0.0f;
     style.FramePadding = ImVec2(8.0f, 2.0f);
     style.ItemSpacing = ImVec2(8.0f, 8.0f);
     style.ItemInnerSpacing = ImVec2(6.0f, 4.0f);
@@ -214,7 +78,7 @@ static void set_style(double scale)
     style.ScrollbarSize = 10.0f;
     style.ScrollbarRounding = 5.0f;
     style.ScaleAllSizes((float)scale);
-    style.ChildBorderSize = style.PopupBorderSize = style.FrameBorderSize = 1.0f;
+    style.ChildBorderSize = style.PopupBorderSize = 1.0f;
     set_colours(style.Colors);
     ImGui::GetStyle() = style;
 }
@@ -301,7 +165,7 @@ extern "C" bool wr_gui_set_scale(WrGui *gui, double scale, WrError *err)
 try {
     gui->scale = scale < 0.75 ? 0.75 : scale > 4.0 ? 4.0 : scale;
     set_style(gui->scale);
-    return build_fonts(gui, err);
+    return wr_gui_build_fonts(gui, err);
 }
 WR_CAUGHT(false)
 
@@ -313,6 +177,7 @@ static void key_event(WrGui *gui, const SDL_KeyboardEvent *key)
     int code = key->keysym.scancode;
     if (code < 0 || code >= 512) return;
     if (key->type == SDL_KEYDOWN) {
+        if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
         io.KeysDown[code] = gui->pressed_now[code] = true;
     } else if (gui->pressed_now[code]) {
         gui->released_late[code] = true; /* seen for one frame, then let go */
@@ -327,9 +192,10 @@ static void key_event(WrGui *gui, const SDL_KeyboardEvent *key)
 
 static int button_index(int button)
 {
-    return button == SDL_BUTTON_LEFT ? 0 : button == SDL_BUTTON_RIGHT ? 1
-                                       : button == SDL_BUTTON_MIDDLE  ? 2
-                                                                      : -1;
+    return button == SDL_BUTTON_LEFT     ? 0
+           : button == SDL_BUTTON_RIGHT  ? 1
+           : button == SDL_BUTTON_MIDDLE ? 2
+                                         : -1;
 }
 
 extern "C" void wr_gui_event(WrGui *gui, const SDL_Event *event)
@@ -378,8 +244,8 @@ try {
     if (g.OpenPopupStack.Size > 0) return true;
     ImVec2 point((float)x, (float)y);
     for (const ImGuiWindow *window : g.Windows)
-        if (window->Active && !(window->Flags & ImGuiWindowFlags_NoInputs) && !window->ParentWindow &&
-            window->Rect().Contains(point))
+        if (window->Active && !(window->Flags & ImGuiWindowFlags_NoMouseInputs) &&
+            !window->ParentWindow && window->Rect().Contains(point))
             return true;
     return false;
 }
@@ -418,11 +284,18 @@ try {
     ImGuiIO &io = ImGui::GetIO();
     io.DisplaySize = ImVec2((float)width, (float)height);
     io.DeltaTime = (float)(seconds > 1e-4 ? (seconds < 0.5 ? seconds : 0.5) : 1e-4);
-    for (int i = 0; i < 3; i++) { /* pressed and let go since the last frame: pressed for one frame */
+    for (int i = 0; i < 3;
+         i++) { /* pressed and let go since the last frame: pressed for one frame */
         io.MouseDown[i] = gui->held[i] || gui->pressed[i];
         gui->pressed[i] = false;
     }
     ImGui::NewFrame();
+    ImGuiContext &g = *ImGui::GetCurrentContext();
+    bool modal = g.OpenPopupStack.Size > 0 && g.OpenPopupStack[0].Window &&
+                 (g.OpenPopupStack[0].Window->Flags & ImGuiWindowFlags_Modal);
+    int keep = modal ? 1 : 0; /* a dialog's own lists close, the dialog decides for itself */
+    if (gui->close_popups && g.OpenPopupStack.Size > keep) ImGui::ClosePopupToLevel(keep, true);
+    gui->close_popups = false;
     for (int i = 0; i < 512; i++) {
         gui->pressed_now[i] = false;
         if (gui->released_late[i]) io.KeysDown[i] = gui->released_late[i] = false;

@@ -13,11 +13,12 @@ struct WrGui {
     SDL_Texture *atlas;     /* owned */
     ImFont *fonts[WR_FONT_COUNT];
     double scale;
-    bool held[3];           /* buttons as the events say */
-    bool pressed[3];        /* that went down since the last frame: none is ever missed */
+    bool held[3];            /* buttons as the events say */
+    bool pressed[3];         /* that went down since the last frame: none is ever missed */
     bool released_late[512]; /* keys that went down and up between two frames */
     bool pressed_now[512];
     char clipboard[4096];
+    bool close_popups; /* Escape was pressed over a menu */
     /* number fields */
     ImGuiID typing, armed, dragging;
     bool typing_focus, moved;
@@ -28,8 +29,13 @@ struct WrGui {
 
 /* The one whose frame is open. */
 WrGui *wr_gui_current(void);
+/* Draw the faces at the present scale and hand them to the renderer. */
+bool wr_gui_build_fonts(WrGui *gui, WrError *err);
 ImU32 wr_gui_colour_of(WrColour colour); /* 0xAARRGGBB as ImGui packs it */
 ImVec4 wr_gui_vec_of(WrColour colour);
+/* A thin edge of whole pixels, its corners left out: SDL's software renderer draws smooth thin outlines
+   unevenly. */
+void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high);
 
 /* Nothing that is thrown may reach C. Written after a function's body that is a try block. */
 #define WR_CAUGHT(value)                                                                           \

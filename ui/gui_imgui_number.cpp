@@ -18,19 +18,16 @@ extern "C" {
 
 static double place_of(const WrNumber *spec, double value)
 {
-    double t = spec->logarithmic
-                   ? log((value > spec->low ? value : spec->low) / spec->low) /
-                         log(spec->high / spec->low)
-                   : (value - spec->low) / (spec->high - spec->low);
+    double t = spec->logarithmic ? log((value > spec->low ? value : spec->low) / spec->low) /
+                                       log(spec->high / spec->low)
+                                 : (value - spec->low) / (spec->high - spec->low);
     return t < 0 ? 0 : t > 1 ? 1 : t;
 }
 
 static void print_value(const WrNumber *spec, double value, char *text, size_t size)
 {
-    if (spec->decimals >= 0)
-        snprintf(text, size, "%.*f", spec->decimals, value);
-    else
-        snprintf(text, size, "%.4g", value);
+    if (spec->decimals >= 0) snprintf(text, size, "%.*f", spec->decimals, value);
+    else snprintf(text, size, "%.4g", value);
 }
 
 /* As it would be printed: a drag gives 0.3, not 0.30000000000000004. */
@@ -70,9 +67,10 @@ static WrEdit type_into(WrGui *gui, ImGuiID item, float width, const WrNumber *s
     ImGui::SetNextItemWidth(width);
     bool first = gui->typing_focus;
     if (first) ImGui::SetKeyboardFocusHere();
-    bool done = ImGui::InputText("##typed", gui->typed, sizeof gui->typed,
-                                 ImGuiInputTextFlags_AutoSelectAll |
-                                     ImGuiInputTextFlags_EnterReturnsTrue);
+    bool done =
+        ImGui::InputText("##typed", gui->typed, sizeof gui->typed,
+                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
+    wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     bool active = ImGui::IsItemActive();
     if (first && active) gui->typing_focus = false;
     bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
@@ -89,22 +87,20 @@ static void start_typing(WrGui *gui, ImGuiID item, const WrNumber *spec, double 
     gui->armed = 0;
     gui->typing = item;
     gui->typing_focus = true;
-    if (spec->decimals >= 0)
-        print_value(spec, value, gui->typed, sizeof gui->typed);
-    else
-        wr_number_print(value, gui->typed);
+    if (spec->decimals >= 0) print_value(spec, value, gui->typed, sizeof gui->typed);
+    else wr_number_print(value, gui->typed);
 }
 
 static void draw_field(const WrNumber *spec, ImVec2 at, ImVec2 end, double value, bool hovered)
 {
     ImDrawList *list = ImGui::GetWindowDrawList();
-    float rounding = ImGui::GetStyle().FrameRounding, pad = ImGui::GetStyle().FramePadding.x;
-    list->AddRectFilled(at, end, wr_gui_colour_of(hovered ? 0xff252525u : WR_COLOUR_FIELD), rounding);
+    float pad = ImGui::GetStyle().FramePadding.x;
+    list->AddRectFilled(at, end, wr_gui_colour_of(hovered ? 0xff252525u : WR_COLOUR_FIELD));
     float fill = roundf((end.x - at.x) * (float)place_of(spec, value));
-    if (fill >= 2) /* square and inside the edge: whole pixels */
+    if (fill >= 2)
         list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + fill, end.y - 1),
                             wr_gui_colour_of(hovered ? 0xff42709fu : WR_COLOUR_FILL));
-    list->AddRect(at, end, wr_gui_colour_of(WR_COLOUR_EDGE), rounding);
+    wr_gui_edge(list, at, end);
     char text[96];
     print_value(spec, value, text, sizeof text - 24);
     if (spec->unit) {
@@ -143,7 +139,8 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         float dx = io.MousePos.x - gui->drag_x;
         if (fabsf(dx) > 2) gui->moved = true;
         if (gui->moved && ImGui::IsItemActive())
-            gui->drag_value = value_at(spec, gui->drag_from + (double)(dx / width) * (io.KeyShift ? 0.1 : 1.0));
+            gui->drag_value =
+                value_at(spec, gui->drag_from + (double)(dx / width) * (io.KeyShift ? 0.1 : 1.0));
         if (gui->moved) *value = gui->drag_value;
         edit = gui->moved ? WR_EDIT_LIVE : WR_EDIT_NONE;
         if (!ImGui::IsItemActive()) {
@@ -203,7 +200,8 @@ try {
         ImGui::SetNextItemWidth((float)wr_gui_px(220));
         if (ImGui::ColorPicker3("##picker", code,
                                 ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoLabel |
-                                    ImGuiColorEditFlags_DisplayRGB | ImGuiColorEditFlags_DisplayHex)) {
+                                    ImGuiColorEditFlags_DisplayRGB |
+                                    ImGuiColorEditFlags_DisplayHex)) {
             for (int k = 0; k < 3; k++) /* four digits are finer than any screen's codes */
                 rgb[k] = round(decode((double)code[k]) * 1e4) / 1e4;
             edit = WR_EDIT_LIVE;
@@ -270,8 +268,8 @@ extern "C" void wr_gui_draw_arc(double x, double y, double radius, double turns,
                                 double width)
 {
     const double top = -1.57079632679489662;
-    views()->PathArcTo(at(x, y), (float)radius, (float)top, (float)(top + turns * 6.28318530717958648),
-                       24);
+    views()->PathArcTo(at(x, y), (float)radius, (float)top,
+                       (float)(top + turns * 6.28318530717958648), 24);
     views()->PathStroke(wr_gui_colour_of(colour), 0, (float)width);
 }
 

@@ -25,8 +25,8 @@ try {
     ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
     ImGui::SetNextWindowSize(ImVec2((float)rect.w, (float)rect.h));
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                             ImGuiWindowFlags_NoNav;
+                             ImGuiWindowFlags_NoSavedSettings |
+                             ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
     ImVec2 padding(px(12), px(12));
     if (kind == WR_AREA_PANEL) {
         flags &= ~ImGuiWindowFlags_NoScrollbar;
@@ -93,8 +93,8 @@ extern "C" void wr_gui_rule(void)
 {
     ImVec2 at = ImGui::GetCursorScreenPos();
     float h = ImGui::GetFrameHeight();
-    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x, at.y + 2), ImVec2(at.x + 1, at.y + h - 2),
-                                              wr_gui_colour_of(WR_COLOUR_EDGE));
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        ImVec2(at.x, at.y + 2), ImVec2(at.x + 1, at.y + h - 2), wr_gui_colour_of(WR_COLOUR_EDGE));
     ImGui::Dummy(ImVec2(1, h));
 }
 
@@ -168,8 +168,11 @@ WR_CAUGHT()
 extern "C" void wr_gui_label(const char *text)
 try {
     ImGui::AlignTextToFramePadding();
-    text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
     float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
+    bool fits = ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x < column - px(4);
+    if (!fits)
+        ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(1)); /* onto the line of the others */
+    text_in(fits ? WR_FONT_TEXT : WR_FONT_SMALL, WR_COLOUR_LABEL, text, false);
     ImGui::SameLine(column);
 }
 WR_CAUGHT()
@@ -213,6 +216,7 @@ try {
     float middle = roundf(at.y + ImGui::GetFrameHeight() / 2 - arrow / 2);
     bool open = ImGui::BeginCombo("##choice", *index >= 0 && *index < count ? items[*index] : "",
                                   ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+    wr_gui_edge(list, at, ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
     list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
                             ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
     if (open) {
@@ -240,7 +244,7 @@ try {
     float width = 0;
     for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(items[i]).x + 2 * pad;
     ImVec2 end(start.x + width, start.y + h);
-    list->AddRectFilled(start, end, wr_gui_colour_of(WR_COLOUR_FIELD), px(3));
+    list->AddRectFilled(start, end, wr_gui_colour_of(WR_COLOUR_FIELD));
     for (int i = 0; i < count; i++) {
         ImVec2 text = ImGui::CalcTextSize(items[i]);
         if (i) ImGui::SameLine(0.0f, 0.0f);
@@ -254,12 +258,13 @@ try {
         if (on)
             list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + w - 1, at.y + h - 1),
                                 wr_gui_colour_of(colours ? colours[i] : WR_COLOUR_SELECTED));
-        WrColour ink = on ? WR_COLOUR_STRONG
-                          : ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL;
+        WrColour ink = on                       ? WR_COLOUR_STRONG
+                       : ImGui::IsItemHovered() ? WR_COLOUR_TEXT
+                                                : WR_COLOUR_LABEL;
         list->AddText(ImVec2(at.x + pad, at.y + roundf((h - text.y) / 2)), wr_gui_colour_of(ink),
                       items[i]);
     }
-    list->AddRect(start, end, wr_gui_colour_of(WR_COLOUR_EDGE), px(3));
+    wr_gui_edge(list, start, end);
     ImGui::PopID();
     return changed;
 }
@@ -289,10 +294,10 @@ try {
                                 wr_gui_colour_of(WR_COLOUR_ACCENT));
         }
         ImVec2 text = ImGui::CalcTextSize(items[i]);
-        list->AddText(ImVec2(at.x + roundf((w - text.x) / 2), at.y + roundf((h - text.y) / 2)),
-                      wr_gui_colour_of(on || ImGui::IsItemHovered() ? WR_COLOUR_STRONG
-                                                                    : WR_COLOUR_LABEL),
-                      items[i]);
+        list->AddText(
+            ImVec2(at.x + roundf((w - text.x) / 2), at.y + roundf((h - text.y) / 2)),
+            wr_gui_colour_of(on || ImGui::IsItemHovered() ? WR_COLOUR_STRONG : WR_COLOUR_LABEL),
+            items[i]);
     }
     list->PopClipRect();
     ImGui::SetCursorPosY(h + px(12));
@@ -303,7 +308,11 @@ WR_CAUGHT(false)
 
 extern "C" bool wr_gui_check(const char *label, bool *value)
 try {
-    return ImGui::Checkbox(label, value);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float side = ImGui::GetFrameHeight();
+    bool changed = ImGui::Checkbox(label, value);
+    wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
+    return changed;
 }
 WR_CAUGHT(false)
 
@@ -314,8 +323,9 @@ try {
         ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_ACCENT));
     }
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     bool pressed = ImGui::Button(label);
-    ImGui::PopStyleVar();
+    ImGui::PopStyleVar(2);
     if (primary) ImGui::PopStyleColor(2);
     return pressed;
 }
@@ -328,8 +338,7 @@ try {
     bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
     ImDrawList *list = ImGui::GetWindowDrawList();
     ImVec2 end(at.x + side, at.y + side);
-    if (selected)
-        list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
+    if (selected) list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
     else if (ImGui::IsItemHovered())
         list->AddRectFilled(at, end, wr_gui_colour_of(0xff3c3c3cu), px(3));
     const ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
@@ -347,146 +356,11 @@ try {
     snprintf(text, sizeof text, "%s%s%s", icon ? icon : "", icon && label[0] ? "  " : "", label);
     ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_CHIP));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(0xf0343434u));
-    ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(3)));
     bool pressed = ImGui::Button(text);
-    ImGui::PopStyleVar();
+    ImGui::PopStyleVar(2);
     ImGui::PopStyleColor(2);
     return pressed;
 }
 WR_CAUGHT(false)
-
-/* ---- menus, lists, fields ---- */
-
-extern "C" double wr_gui_menu_bar_begin(void)
-try {
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(6)));
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(14), px(6)));
-    ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_of(WR_COLOUR_BAR));
-    ImGui::BeginMainMenuBar();
-    ImGui::SetCursorPosX(px(5)); /* its first word over the first word of the row below */
-    return (double)ImGui::GetWindowHeight();
-}
-WR_CAUGHT(0.0)
-
-extern "C" void wr_gui_menu_bar_end(void)
-try {
-    ImGui::EndMainMenuBar();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar(2);
-}
-WR_CAUGHT()
-
-extern "C" bool wr_gui_menu_begin(const char *label)
-try {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
-    bool open = ImGui::BeginMenu(label);
-    ImGui::PopStyleVar();
-    return open;
-}
-WR_CAUGHT(false)
-
-extern "C" void wr_gui_menu_end(void)
-{
-    ImGui::EndMenu();
-}
-
-extern "C" bool wr_gui_menu_item(const char *label, const char *keys, bool checked, bool enabled)
-try {
-    return ImGui::MenuItem(label, keys, checked, enabled);
-}
-WR_CAUGHT(false)
-
-extern "C" void wr_gui_menu_separator(void)
-{
-    ImGui::Separator();
-}
-
-extern "C" void wr_gui_popup_open(const char *id)
-{
-    ImGui::OpenPopup(id);
-}
-
-extern "C" bool wr_gui_popup_begin(const char *id)
-try {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(10)));
-    bool open = ImGui::BeginPopup(id);
-    ImGui::PopStyleVar();
-    return open;
-}
-WR_CAUGHT(false)
-
-extern "C" void wr_gui_popup_end(void)
-{
-    ImGui::EndPopup();
-}
-
-extern "C" bool wr_gui_dialog_begin(const char *title, double width_units)
-try {
-    ImVec2 size = ImGui::GetIO().DisplaySize;
-    float width = px(width_units);
-    if (width > size.x - px(32)) width = size.x - px(32);
-    ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y * 0.46f), ImGuiCond_Always,
-                            ImVec2(0.5f, 0.5f));
-    ImGui::SetNextWindowSize(ImVec2(width, 0));
-    if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(20), px(18)));
-    bool open = ImGui::BeginPopupModal(title, nullptr,
-                                       ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
-                                           ImGuiWindowFlags_NoSavedSettings);
-    ImGui::PopStyleVar();
-    if (!open) return false;
-    char heading[128];
-    snprintf(heading, sizeof heading, "%.*s", (int)strcspn(title, "#"), title);
-    text_in(WR_FONT_BOLD, WR_COLOUR_STRONG, heading, false);
-    wr_gui_space(4);
-    return true;
-}
-WR_CAUGHT(false)
-
-extern "C" void wr_gui_dialog_end(void)
-{
-    ImGui::EndPopup();
-}
-
-extern "C" bool wr_gui_escape_pressed(void)
-{
-    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
-}
-
-extern "C" bool wr_gui_return_pressed(void)
-{
-    return !ImGui::GetIO().WantTextInput &&
-           (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
-            ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
-}
-
-extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus)
-try {
-    ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
-    if (focus) ImGui::SetKeyboardFocusHere();
-    return ImGui::InputText(id, text, size, ImGuiInputTextFlags_EnterReturnsTrue);
-}
-WR_CAUGHT(false)
-
-extern "C" int wr_gui_list_row(const char *icon, const char *label, bool selected)
-try {
-    char text[1100];
-    snprintf(text, sizeof text, "%s%s%s", icon ? icon : "", icon ? "  " : "", label);
-    if (!ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick)) return 0;
-    return ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
-}
-WR_CAUGHT(0)
-
-extern "C" void wr_gui_list_begin(const char *id, double height)
-try {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
-    ImGui::BeginChild(id, ImVec2(0, (float)height), true);
-    ImGui::PopStyleVar();
-}
-WR_CAUGHT()
-
-extern "C" void wr_gui_list_end(void)
-{
-    ImGui::EndChild();
-}

@@ -136,7 +136,8 @@ static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
     int x, y;
     SDL_GetMouseState(&x, &y);
     if (blocked(app) || wr_gui_owns_point(app->gui, x, y)) return;
-    double steps = (double)event->preciseY * (event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0);
+    double steps =
+        (double)event->preciseY * (event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0);
     if (wr_layout_inside(&app->layout.canvas, x, y)) {
         wr_view_zoom_at(&app->view, x, y, app->view.zoom * exp2(steps / 3.0));
         app->hand.at = pointer_at(app, x, y, app->hand.button);

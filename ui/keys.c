@@ -88,8 +88,7 @@ bool wr_key_parse(const char *text, size_t length, WrKey *key, WrError *err)
         if (*c == '_' && c != name) *c = ' ';
     if (strncmp(name, "Keypad", 6) != 0 && name[1] == '\0' && name[0] >= 'A' && name[0] <= 'Z')
         out.code = name[0] - 'A' + 'a';
-    else
-        out.code = SDL_GetKeyFromName(name);
+    else out.code = SDL_GetKeyFromName(name);
     if (out.code == SDLK_UNKNOWN)
         return wr_fail(err, "key '%.*s': no key has the name '%s'", (int)length, text, name);
     *key = out;
@@ -102,10 +101,8 @@ static void drop_action(Bindings *bindings, const char *action)
 {
     int kept = 0;
     for (int i = 0; i < bindings->count; i++) {
-        if (strcmp(bindings->data[i].action, action) == 0)
-            wr_free(bindings->data[i].action);
-        else
-            bindings->data[kept++] = bindings->data[i];
+        if (strcmp(bindings->data[i].action, action) == 0) wr_free(bindings->data[i].action);
+        else bindings->data[kept++] = bindings->data[i];
     }
     bindings->count = kept;
 }
@@ -121,7 +118,8 @@ static bool read_line(Bindings *bindings, const char *line, size_t length, WrErr
 {
     const char *hash = memchr(line, '#', length);
     if (hash) length = (size_t)(hash - line);
-    while (length > 0 && (line[length - 1] == ' ' || line[length - 1] == '\r' || line[length - 1] == '\t'))
+    while (length > 0 &&
+           (line[length - 1] == ' ' || line[length - 1] == '\r' || line[length - 1] == '\t'))
         length--;
     if (length == 0) return true;
     const char *colon = memchr(line, ':', length), *end = line + length;

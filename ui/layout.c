@@ -27,7 +27,8 @@ WrLayout wr_layout_make(const WrLayoutInput *in)
     int w = in->width, h = in->height;
     SDL_Rect room = { 0, in->menu_height, w, h - in->menu_height };
     if (in->panels) {
-        int options = (int)lround(44 * s), status = (int)lround(28 * s), strip = (int)lround(48 * s);
+        int options = (int)lround(44 * s), status = (int)lround(28 * s),
+            strip = (int)lround(48 * s);
         int panel = clamp_int((int)lround(w * 0.208), (int)lround(250 * s), (int)lround(340 * s));
         panel = panel < w / 2 ? panel : w / 2;
         out.options = (SDL_Rect){ 0, room.y, w, options };

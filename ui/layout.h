@@ -6,12 +6,12 @@
 typedef enum WrViews { WR_VIEWS_BOTH, WR_VIEWS_CANVAS, WR_VIEWS_PATCH } WrViews;
 
 typedef struct WrLayoutInput {
-    int width, height;  /* of the window, pixels */
-    int menu_height;    /* pixels */
-    double scale;       /* pixels a unit */
-    double divider;     /* share of the views' room that the canvas gets, 0..1 */
+    int width, height; /* of the window, pixels */
+    int menu_height;   /* pixels */
+    double scale;      /* pixels a unit */
+    double divider;    /* share of the views' room that the canvas gets, 0..1 */
     WrViews views;
-    bool panels;        /* false: the views fill the window */
+    bool panels; /* false: the views fill the window */
 } WrLayoutInput;
 
 /* Rectangles in pixels; w = 0 where there is none. They cover the window without gaps or overlaps. */

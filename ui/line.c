@@ -31,5 +31,6 @@ double wr_line_round(double x, int digits)
 
 WrVec3 wr_line_round_vec(WrVec3 v, int digits)
 {
-    return (WrVec3){ wr_line_round(v.x, digits), wr_line_round(v.y, digits), wr_line_round(v.z, digits) };
+    return (WrVec3){ wr_line_round(v.x, digits), wr_line_round(v.y, digits),
+                     wr_line_round(v.z, digits) };
 }

@@ -14,6 +14,7 @@ void wr_dialog_open(WrApp *app, WrDialog dialog)
     wr_patch_commit_zoom(app, true);
     app->dialog = dialog;
     app->dialog_fresh = true;
+    app->hand.on_canvas = app->hand.on_patch = app->hand.space = false;
     wr_app_redraw(app);
 }
 
@@ -52,10 +53,11 @@ static void unsaved(WrApp *app)
         wr_app_save(app);
     }
     wr_gui_same_line(8);
-    if (wr_gui_button("Discard", false)) {
+    if (wr_gui_button("Discard", false) || (key && wr_gui_letter_pressed(SDL_SCANCODE_D))) {
         close_dialog(app);
         wr_app_go_on(app);
     }
+    wr_gui_tip("D");
     wr_gui_same_line(8);
     if (wr_gui_button("Cancel", false) || (key && wr_gui_escape_pressed())) {
         close_dialog(app);
@@ -67,8 +69,13 @@ static void unsaved(WrApp *app)
 static void number(const char *label, double low, double high, double hard_low, double hard_high,
                    double reset, int decimals, const char *unit, double *value)
 {
-    WrNumber spec = { .low = low, .high = high, .hard_low = hard_low, .hard_high = hard_high,
-                      .reset = reset, .decimals = decimals, .unit = unit };
+    WrNumber spec = { .low = low,
+                      .high = high,
+                      .hard_low = hard_low,
+                      .hard_high = hard_high,
+                      .reset = reset,
+                      .decimals = decimals,
+                      .unit = unit };
     wr_gui_label(label);
     wr_gui_number(label, 0, &spec, value);
 }
@@ -152,7 +159,8 @@ static void import(WrApp *app)
 
 static void export(WrApp *app)
 {
-    static const char *const ranges[] = { "0 to 1", "Lowest to highest", "Signed, 0 in the middle" };
+    static const char *const ranges[] = { "0 to 1", "Lowest to highest",
+                                          "Signed, 0 in the middle" };
     const char *kinds[WR_EXPORT_KIND_COUNT];
     WrForms *f = &app->forms;
     if (!wr_gui_dialog_begin("Export", 440)) return;

@@ -7,7 +7,7 @@ static void keys(const WrApp *app, const char *action, const char *text)
     WrText list = { 0 };
     wr_keys_list(app->keys, action, &list);
     wr_gui_label(wr_text_get(&list));
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
     wr_gui_space(-6);
     wr_text_fini(&list);
 }
@@ -15,15 +15,16 @@ static void keys(const WrApp *app, const char *action, const char *text)
 static void hands(const char *gesture, const char *text)
 {
     wr_gui_label(gesture);
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
     wr_gui_space(-6);
 }
 
 static void guide(WrApp *app)
 {
-    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
-                        "On the left is the table of heights F(u,v): light is high. On the right the "
-                        "same heights wrinkle a surface. The table repeats; paint on any copy.");
+    wr_gui_text_wrapped(
+        WR_FONT_TEXT, WR_COLOUR_LABEL,
+        "On the left is the table of heights F(u,v): light is high. On the right the "
+        "same heights wrinkle a surface. The table repeats; paint on any copy.");
     wr_gui_space(4);
     wr_gui_list_begin("guide", wr_gui_px(380) < app->height - wr_gui_px(240)
                                    ? wr_gui_px(380)
@@ -62,13 +63,12 @@ static void guide(WrApp *app)
 void wr_dialog_help(WrApp *app)
 {
     bool about = app->dialog == WR_DIALOG_ABOUT;
-    if (!wr_gui_dialog_begin(about ? "Wrinkle" : "Short guide", about ? 440 : 560)) return;
+    if (!wr_gui_dialog_begin(about ? "Wrinkle" : "Short guide", about ? 440 : 620)) return;
     if (about)
         wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
                             "Paint bump functions and watch them wrinkle a surface, after James F. "
                             "Blinn, Simulation of Wrinkled Surfaces, 1978.");
-    else
-        guide(app);
+    else guide(app);
     wr_gui_space(8);
     bool leave = wr_gui_button("Close", true);
     if (!app->dialog_fresh && (wr_gui_escape_pressed() || wr_gui_return_pressed())) leave = true;

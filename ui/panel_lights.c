@@ -17,8 +17,13 @@ static void light_line(WrText *line, const WrLight *light, int index)
 static bool one_light(WrApp *app, int i)
 {
     static const char *const kinds[] = { "Far away", "Point" };
-    static const WrNumber strength = { .low = 0, .high = 2, .hard_low = 0, .hard_high = 1e6,
-                                       .reset = 1, .decimals = 2, .tip = "Times the colour" };
+    static const WrNumber strength = { .low = 0,
+                                       .high = 2,
+                                       .hard_low = 0,
+                                       .hard_high = 1e6,
+                                       .reset = 1,
+                                       .decimals = 2,
+                                       .tip = "Times the colour" };
     WrLight light = wr_app_scene(app)->lights[i];
     char label[24];
     int kind = (int)light.kind;
@@ -47,11 +52,13 @@ static bool one_light(WrApp *app, int i)
 
 static void preset(WrApp *app, int which)
 {
-    static const char *const raking[] = { "light clear", "light directional to=-0.9,0.35,0.28 strength=1.1" };
+    static const char *const raking[] = { "light clear",
+                                          "light directional to=-0.9,0.35,0.28 strength=1.1" };
     static const char *const studio[] = { "light clear", "light directional to=-0.5,0.6,0.75",
                                           "light directional to=0.8,0.1,0.5 strength=0.3",
                                           "light directional to=0.1,0.5,-1 strength=0.4" };
-    static const char *const overcast[] = { "light clear", "light directional to=0,1,0.3 strength=0.55",
+    static const char *const overcast[] = { "light clear",
+                                            "light directional to=0,1,0.3 strength=0.55",
                                             "light directional to=-0.8,0.4,0.6 strength=0.3",
                                             "light directional to=0.8,0.4,0.6 strength=0.3" };
     static const struct {
@@ -87,8 +94,13 @@ static void lights(WrApp *app)
 static void camera(WrApp *app)
 {
     static const char *const kinds[] = { "Perspective", "Orthographic" };
-    static const WrNumber fov = { .low = 5, .high = 120, .hard_low = 0.01, .hard_high = 179, .reset = 35,
-                                  .decimals = 1, .unit = "\xc2\xb0",
+    static const WrNumber fov = { .low = 5,
+                                  .high = 120,
+                                  .hard_low = 0.01,
+                                  .hard_high = 179,
+                                  .reset = 35,
+                                  .decimals = 1,
+                                  .unit = "\xc2\xb0",
                                   .tip = "Angle of view from bottom to top" };
     const WrCamera *c = &wr_app_scene(app)->camera;
     int kind = c->orthographic;

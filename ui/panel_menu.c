@@ -4,16 +4,21 @@
 #include <string.h>
 
 /* Names of actions; "-" is a line, "recent" and "scale" are made below. */
-static const char *const file_menu[] = { "new",    "open", "recent", "-",    "save",
-                                         "save_as", "-",   "import", "export", "-", "quit", NULL };
-static const char *const edit_menu[] = { "undo", "redo", "-", "brush", "pick", "pan", "zoom", "-",
-                                         "size_up", "size_down", "hardness_up", "hardness_down",
-                                         "strength_up", "strength_down", "swap_mode", "level_mode", NULL };
+static const char *const file_menu[] = { "new", "open",   "recent", "-", "save", "save_as",
+                                         "-",   "import", "export", "-", "quit", NULL };
+static const char *const edit_menu[] = {
+    "undo",        "redo",          "-",           "brush",
+    "pick",        "pan",           "zoom",        "-",
+    "size_up",     "size_down",     "hardness_up", "hardness_down",
+    "strength_up", "strength_down", "swap_mode",   "level_mode",
+    NULL
+};
 static const char *const table_menu[] = { "table_size", "fill", "grid", "import", NULL };
-static const char *const view_menu[] = { "look_grey", "look_signed", "range_auto", "-", "zoom_in",
-                                         "zoom_out", "zoom_100", "fit", "-", "turn", "pose_reset",
-                                         "camera_reset", "-", "view_both", "view_canvas",
-                                         "view_patch", "panels", "fullscreen", "scale", NULL };
+static const char *const view_menu[] = { "look_grey", "look_signed", "range_auto",  "-",
+                                         "zoom_in",   "zoom_out",    "zoom_100",    "fit",
+                                         "-",         "turn",        "pose_reset",  "camera_reset",
+                                         "-",         "view_both",   "view_canvas", "view_patch",
+                                         "panels",    "fullscreen",  "scale",       NULL };
 static const char *const help_menu[] = { "help", "about", NULL };
 
 static void recent(WrApp *app)
@@ -82,7 +87,8 @@ void wr_panel_menu(WrApp *app)
     menu(app, "View", view_menu);
     menu(app, "Help", help_menu);
     char title[300];
-    snprintf(title, sizeof title, "%.200s%s", wr_app_name(app), wr_app_unsaved(app) ? "  \xe2\x80\xa2" : "");
+    snprintf(title, sizeof title, "%.200s%s", wr_app_name(app),
+             wr_app_unsaved(app) ? "  \xe2\x80\xa2" : "");
     double at = (app->width - wr_gui_text_width(WR_FONT_BOLD, title)) / 2.0;
     wr_gui_move_to(at);
     wr_gui_text(WR_FONT_BOLD, WR_COLOUR_TEXT, title);

@@ -15,20 +15,40 @@ void wr_brush_options(WrApp *app)
 {
     static const WrColour colours[] = { WR_COLOUR_RAISE, WR_COLOUR_LOWER, WR_COLOUR_LEVEL };
     static const char *const modes[] = { "Raise", "Lower", "To height" };
-    static const WrNumber size = { .low = 1, .high = 1000, .hard_low = 0, .hard_high = 2e9,
-                                   .reset = 32, .decimals = -1, .unit = "px", .logarithmic = true,
+    static const WrNumber size = { .low = 1,
+                                   .high = 1000,
+                                   .hard_low = 0,
+                                   .hard_high = 2e9,
+                                   .reset = 32,
+                                   .decimals = -1,
+                                   .unit = "px",
+                                   .logarithmic = true,
                                    .tip = "Diameter of the brush in texels of the table.\n"
                                           "Drag, click to type, double-click to reset." };
-    static const WrNumber hard = { .low = 0, .high = 1, .reset = 0.5, .decimals = 2,
+    static const WrNumber hard = { .low = 0,
+                                   .high = 1,
+                                   .reset = 0.5,
+                                   .decimals = 2,
                                    .tip = "Part of the radius that is fully covered." };
-    static const WrNumber strength = { .low = 0.001, .high = 1, .hard_low = -1e30, .hard_high = 1e30,
-                                       .reset = 0.1, .decimals = -1, .logarithmic = true,
-                                       .tip = "How much one stroke changes the height at its middle, "
-                                              "in units of the table." };
-    static const WrNumber to = { .low = 0, .high = 1, .hard_low = -1e30, .hard_high = 1e30, .reset = 0,
+    static const WrNumber strength = { .low = 0.001,
+                                       .high = 1,
+                                       .hard_low = -1e30,
+                                       .hard_high = 1e30,
+                                       .reset = 0.1,
+                                       .decimals = -1,
+                                       .logarithmic = true,
+                                       .tip =
+                                           "How much one stroke changes the height at its middle, "
+                                           "in units of the table." };
+    static const WrNumber to = { .low = 0,
+                                 .high = 1,
+                                 .hard_low = -1e30,
+                                 .hard_high = 1e30,
+                                 .reset = 0,
                                  .decimals = 3,
-                                 .tip = "The height that the brush moves to. Ctrl and a click on the "
-                                        "table picks it." };
+                                 .tip =
+                                     "The height that the brush moves to. Ctrl and a click on the "
+                                     "table picks it." };
     WrBrush *brush = &app->settings.brush;
     bool narrow = app->width < wr_gui_px(1060);
     double field = wr_gui_px(narrow ? 84 : 118);

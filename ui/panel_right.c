@@ -7,7 +7,9 @@
 static const struct {
     const char *label;
     void (*draw)(WrApp *app);
-} tabs[] = { { "Scene", wr_panel_scene }, { "Plan", wr_panel_plan }, { "History", wr_panel_history } };
+} tabs[] = { { "Scene", wr_panel_scene },
+             { "Plan", wr_panel_plan },
+             { "History", wr_panel_history } };
 #define TABS ((int)(sizeof tabs / sizeof *tabs))
 
 void wr_panel_right(WrApp *app)
@@ -46,7 +48,8 @@ void wr_panel_history(WrApp *app)
         const char *full = wr_session_history_line(app->session, i);
         snprintf(line, sizeof line, "%.96s%s", full, strlen(full) > 96 ? " ..." : "");
         wr_gui_push_id(i);
-        wr_gui_text_wrapped(WR_FONT_SMALL, i == count - 1 ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, line);
+        wr_gui_text_wrapped(WR_FONT_SMALL, i == count - 1 ? WR_COLOUR_STRONG : WR_COLOUR_LABEL,
+                            line);
         wr_gui_pop_id();
     }
 }

@@ -49,14 +49,20 @@ static void surface_params(WrApp *app)
             static const char *const parts[] = { " x", " y", " z" };
             double high = p->high < 1e3 ? p->high : fmax(2.0, fabs(p->fallback[i]) * 4.0);
             double low = p->low > -1e3 ? p->low : -high;
-            WrNumber spec = { .low = low < high ? low : high - 1.0, .high = high, .hard_low = p->low,
-                              .hard_high = p->high, .reset = p->fallback[i], .decimals = 3,
+            WrNumber spec = { .low = low < high ? low : high - 1.0,
+                              .high = high,
+                              .hard_low = p->low,
+                              .hard_high = p->high,
+                              .reset = p->fallback[i],
+                              .decimals = 3,
                               .tip = p->help };
-            char label[48];
-            snprintf(label, sizeof label, "%s%s", p->name, p->components == 3 ? parts[i] : "");
+            char label[64];
+            snprintf(label, sizeof label, "%.48s%s", p->help, p->components == 3 ? parts[i] : "");
+            if (label[0] >= 'a' && label[0] <= 'z') label[0] = (char)(label[0] - 'a' + 'A');
             wr_gui_label(label);
             WrEdit edit = wr_gui_number(label, 0, &spec, &shape.value[offset + i]);
-            if (edit == WR_EDIT_LIVE && wr_shape_check(&shape, NULL)) wr_app_live(app)->shape = shape;
+            if (edit == WR_EDIT_LIVE && wr_shape_check(&shape, NULL))
+                wr_app_live(app)->shape = shape;
             if (edit == WR_EDIT_DONE) run_surface(app, &shape);
         }
         offset += p->components;
@@ -77,11 +83,15 @@ static void surface(WrApp *app)
     }
     wr_gui_tip(wr_surfaces[kind]->help);
     surface_params(app);
-    static const WrNumber spec = { .low = 1, .high = 16, .hard_low = -1e9, .hard_high = 1e9,
-                                   .reset = 1, .decimals = -1,
+    static const WrNumber spec = { .low = 1,
+                                   .high = 16,
+                                   .hard_low = -1e9,
+                                   .hard_high = 1e9,
+                                   .reset = 1,
+                                   .decimals = -1,
                                    .tip = "How often the table repeats along u and v" };
     double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;
-    wr_gui_label("Replicate u, v");
+    wr_gui_label("Repeat u, v");
     double half = (wr_gui_available() - wr_gui_px(8)) / 2.0;
     WrEdit edit_u = wr_gui_number("ru", half, &spec, &ru);
     wr_gui_same_line(8);

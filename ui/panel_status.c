@@ -102,7 +102,9 @@ static void right_side(const WrApp *app)
     double bytes = (double)wr_field_bytes(field);
     snprintf(text + used, sizeof text - (size_t)used, "%d \xc3\x97 %d  \xc2\xb7  %.3g MB     %s",
              wr_field_width(field), wr_field_height(field), bytes / 1048576.0,
-             wr_app_unsaved(app) ? "not saved" : wr_session_path(app->session)[0] ? "saved" : "no changes");
+             wr_app_unsaved(app)                ? "not saved"
+             : wr_session_path(app->session)[0] ? "saved"
+                                                : "no changes");
     double width = wr_gui_text_width(WR_FONT_TEXT, text);
     wr_gui_move_to(wr_gui_width() - width - wr_gui_px(12));
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
@@ -124,7 +126,8 @@ void wr_panel_status(WrApp *app)
     if (!message(app)) {
         char text[32];
         under_pointer(app);
-        snprintf(text, sizeof text, "%.4g %%", app->view.zoom * 100.0);
+        snprintf(text, sizeof text, app->view.zoom < 0.1 ? "%.1f %%" : "%.0f %%",
+                 app->view.zoom * 100.0);
         pair("zoom", text);
         right_side(app);
     }

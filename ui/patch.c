@@ -105,7 +105,8 @@ void wr_patch_update(WrApp *app)
     p->turned_at = now;
     if (differs(app)) {
         if (ready) wish(app, true);
-    } else if (p->wished_moving && !p->outstanding && now >= p->rest_at && app->hand.grab == WR_GRAB_NONE) {
+    } else if (p->wished_moving && !p->outstanding && now >= p->rest_at &&
+               app->hand.grab == WR_GRAB_NONE) {
         wish(app, false);
     }
 }
@@ -117,7 +118,8 @@ double wr_patch_next_time(const WrApp *app)
     if (app->layout.patch.w <= 0 || !app->visible) return next;
     double due = 0.0;
     if ((turns(app) || differs(app)) && !p->outstanding) due = p->wished_at + PICTURE_SECONDS;
-    else if (p->wished_moving && !p->outstanding && app->hand.grab == WR_GRAB_NONE) due = p->rest_at;
+    else if (p->wished_moving && !p->outstanding && app->hand.grab == WR_GRAB_NONE)
+        due = p->rest_at;
     if (due > 0.0 && (next == 0.0 || due < next)) next = due;
     return next;
 }
@@ -136,7 +138,8 @@ void wr_patch_free(WrApp *app)
 static bool place(const WrApp *app, WrPlacement *out)
 {
     const SDL_Rect *r = &app->layout.patch;
-    return r->w > 0 && wr_scene_place(wr_app_scene(app), app->patch.turn_deg, (double)r->w / r->h, out, NULL);
+    return r->w > 0 &&
+           wr_scene_place(wr_app_scene(app), app->patch.turn_deg, (double)r->w / r->h, out, NULL);
 }
 
 /* The pad on which lights stand: the view without its edges. */
@@ -150,9 +153,11 @@ static void pad(const WrApp *app, double *cx, double *cy, double *rx, double *ry
     *ry = fmax(1.0, r->h / 2.0 - margin);
 }
 
-static void light_spot(const WrApp *app, const WrPlacement *at, const WrLight *light, double *x, double *y)
+static void light_spot(const WrApp *app, const WrPlacement *at, const WrLight *light, double *x,
+                       double *y)
 {
-    WrVec3 w = light->where, camera = { v3_dot(w, at->right), v3_dot(w, at->up), -v3_dot(w, at->forward) };
+    WrVec3 w = light->where,
+           camera = { v3_dot(w, at->right), v3_dot(w, at->up), -v3_dot(w, at->forward) };
     double cx, cy, rx, ry, dx, dy;
     pad(app, &cx, &cy, &rx, &ry);
     wr_light_to_pad(v3_unit(camera, (WrVec3){ 0, 0, 1 }), &dx, &dy);
@@ -183,8 +188,8 @@ static void move_light(WrApp *app, double x, double y)
     if (!place(app, &at)) return;
     pad(app, &cx, &cy, &rx, &ry);
     WrVec3 d = wr_light_from_pad((x - cx) / rx, (cy - y) / ry);
-    WrVec3 world = v3_add(v3_add(v3_scale(at.right, d.x), v3_scale(at.up, d.y)),
-                          v3_scale(at.forward, -d.z));
+    WrVec3 world =
+        v3_add(v3_add(v3_scale(at.right, d.x), v3_scale(at.up, d.y)), v3_scale(at.forward, -d.z));
     WrLight *light = &wr_app_live(app)->lights[app->patch.light];
     double length = light->kind == WR_LIGHT_POINT ? v3_len(light->where) : 1.0;
     world = v3_scale(world, length > 0.0 ? length : 1.0);
@@ -269,8 +274,7 @@ void wr_patch_drag(WrApp *app, const WrPointer *at)
     if (app->hand.grab == WR_GRAB_LIGHT)
         move_light(app, app->patch.light_x + at->x - app->hand.start.x,
                    app->patch.light_y + at->y - app->hand.start.y);
-    else
-        orbit(app, at);
+    else orbit(app, at);
 }
 
 void wr_patch_release(WrApp *app)
@@ -359,7 +363,8 @@ static void draw_ring(const WrApp *app, const WrPreviewPicture *picture)
     wr_gui_draw_circle(x, y, 6.0 * s, 0x60000000u, 2.0 * s);
     if (picture->level > WR_PREVIEW_NONE)
         wr_gui_draw_arc(x, y, 6.0 * s, picture->level / (double)WR_PREVIEW_FINAL,
-                        picture->level == WR_PREVIEW_FINAL ? 0xff8a8a8au : WR_COLOUR_ACCENT, 2.0 * s);
+                        picture->level == WR_PREVIEW_FINAL ? 0xff8a8a8au : WR_COLOUR_ACCENT,
+                        2.0 * s);
 }
 
 void wr_patch_overlay(WrApp *app)
@@ -376,8 +381,9 @@ void wr_patch_overlay(WrApp *app)
     bool turning = app->settings.turning;
     if (wr_gui_chip(turning ? WR_ICON_PAUSE : WR_ICON_PLAY, turning ? "turning" : "paused"))
         wr_action_run(app, "turn");
-    wr_gui_tip("Space over the patch. Drag it to turn it by hand, drag with the right button to move "
-               "the light, wheel to come closer.");
+    wr_gui_tip(
+        "Space over the patch. Drag it to turn it by hand, drag with the right button to move "
+        "the light, wheel to come closer.");
     wr_gui_overlay_end();
     bool over = app->hand.on_patch;
     wr_preview_point(app->preview, over ? (app->hand.at.x - room->x) / room->w : -1.0,

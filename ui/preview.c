@@ -25,17 +25,17 @@ struct WrPreview {
     pthread_mutex_t lock; /* guards what follows, up to the next blank line */
     pthread_cond_t wake;
     bool started, quit;
-    Wish next;            /* not taken up yet */
+    Wish next; /* not taken up yet */
     bool settled;
-    double point_x, point_y;    /* asked for */
-    bool point_new, point_hit;  /* not looked up yet; on the object */
+    double point_x, point_y;   /* asked for */
+    bool point_new, point_hit; /* not looked up yet; on the object */
     double point_u, point_v;
     WrPreviewPicture *done, *shown; /* owned */
     bool fresh;                     /* done is newer than shown */
     bool failed;
     WrError error;
 
-    volatile int cancel; /* atomic by nature: one writer at a time, any reader */
+    volatile int cancel; /* atomic; read by the renderer */
     pthread_t thread;
     int threads;
     char *isa; /* owned */
@@ -86,7 +86,7 @@ void wr_preview_free(WrPreview *preview)
     if (!preview) return;
     pthread_mutex_lock(&preview->lock);
     preview->quit = true;
-    preview->cancel = 1;
+    __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     pthread_cond_signal(&preview->wake);
     pthread_mutex_unlock(&preview->lock);
     if (preview->started) pthread_join(preview->thread, NULL);
@@ -132,15 +132,20 @@ static WrDials dials_for(const Wish *wish, WrPreviewLevel level)
 }
 
 /* Follow the measured speed, but not every wobble of it: a picture that changes its resolution all the
- * time looks worse than one that is a little too coarse. */
-static void adapt_scale(WrPreview *preview, double seconds, double pixels, double view_pixels)
+ * time looks worse than one that is a little too coarse. What was only prepared, such as a new table's
+ * slopes, says nothing about the next picture. */
+static void adapt_scale(WrPreview *preview, const WrPreviewPicture *picture, double view_pixels)
 {
-    double measured = seconds / pixels;
+    double seconds = picture->seconds, prepare = picture->times.prepare;
+    double lasting = seconds - (prepare < 0.8 * seconds ? prepare : 0.8 * seconds);
+    double measured = lasting / ((double)picture->width * picture->height);
     double *known = &preview->pixel_seconds;
-    *known = *known > 0.0 ? *known + 0.25 * (measured - *known) : measured;
+    double pace = measured < *known ? 0.5 : 0.25;
+    *known = *known > 0.0 ? *known + pace * (measured - *known) : measured;
     double scale = sqrt(MOVING_SECONDS / *known / view_pixels);
     scale = scale > 0.9 ? 1.0 : scale < COARSEST ? COARSEST : scale;
-    if (fabs(scale - preview->scale) > 0.15 * preview->scale || (scale == 1.0)) preview->scale = scale;
+    if (fabs(scale - preview->scale) > 0.15 * preview->scale || scale == 1.0)
+        preview->scale = scale;
 }
 
 static bool make_room(WrPreviewPicture *picture, int width, int height, WrError *err)
@@ -158,7 +163,8 @@ static bool make_room(WrPreviewPicture *picture, int width, int height, WrError 
 static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level,
                    WrError *err)
 {
-    static const double surround[3] = { 0.0273, 0.0284, 0.0302 }; /* linear, a shade of the panels */
+    static const double surround[3] = { 0.0273, 0.0284,
+                                        0.0302 }; /* linear, a shade of the panels */
     const Wish *wish = &preview->now;
     double started = wr_clock_seconds();
     double scale = level == WR_PREVIEW_MOVING ? preview->scale : 1.0;
@@ -181,9 +187,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     out->plan = *frame.plan;
     out->seconds = wr_clock_seconds() - started;
     out->serial = ++preview->serial;
-    if (level == WR_PREVIEW_MOVING)
-        adapt_scale(preview, out->seconds, (double)frame.width * frame.height,
-                    (double)wish->width * wish->height);
+    if (level == WR_PREVIEW_MOVING) adapt_scale(preview, out, (double)wish->width * wish->height);
     return true;
 }
 
@@ -211,7 +215,7 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
         wish_clear(&preview->now);
         preview->now = preview->next;
         preview->next = (Wish){ 0 };
-        preview->cancel = 0;
+        __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
         preview->level = WR_PREVIEW_NONE;
         *level = preview->now.moving || preview->serial == 0 ? WR_PREVIEW_MOVING : WR_PREVIEW_FULL;
         return true;
@@ -237,7 +241,7 @@ static void work(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPrevi
 {
     WrError err = { "" };
     bool ok = render(preview, renderer, pool, level, &err);
-    bool cancelled = preview->cancel != 0;
+    bool cancelled = __atomic_load_n(&preview->cancel, __ATOMIC_RELAXED) != 0;
     if (!ok && !cancelled) fail(preview, &err);
     if (ok) {
         preview->last_width = preview->work->width;
@@ -300,7 +304,7 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
                             .height = wish->height,
                             .moving = wish->moving };
     /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
-    if (!preview->now.moving) preview->cancel = 1;
+    if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     preview->settled = false;
     if (!preview->started)
         preview->started = pthread_create(&preview->thread, NULL, thread_main, preview) == 0;

@@ -43,14 +43,14 @@ bool wr_preview_point_hit(WrPreview *preview, double *u, double *v);
 
 /* A finished picture. */
 typedef struct WrPreviewPicture {
-    int width, height;  /* pixels of bgra */
-    uint8_t *bgra;      /* [height][width][4] */
+    int width, height; /* pixels of bgra */
+    uint8_t *bgra;     /* [height][width][4] */
     WrPreviewLevel level;
     double turn_deg;
-    double seconds;     /* wall time, conversion included */
+    double seconds; /* wall time, conversion included */
     WrStageTimes times;
     WrPlan plan;
-    uint64_t serial;    /* counts pictures; 0: none yet */
+    uint64_t serial; /* counts pictures; 0: none yet */
 } WrPreviewPicture;
 
 /* The newest finished picture; stays as it is until the next call. */

@@ -13,7 +13,7 @@ WrRotation wr_rotation_from_deg(WrVec3 deg);
 /* The angles of a rotation: x and z in -180..180, y in -90..90. At y = +-90, where only x -+ z counts,
  * z is 0. Angles within 1e-9 of a whole number of degrees are that number. */
 WrVec3 wr_rotation_to_deg(const WrRotation *rotation);
-WrRotation wr_rotation_axis(WrVec3 unit_axis, double deg); /* right-handed */
+WrRotation wr_rotation_axis(WrVec3 unit_axis, double deg);              /* right-handed */
 WrRotation wr_rotation_times(const WrRotation *a, const WrRotation *b); /* first b, then a */
 WrVec3 wr_rotation_apply(const WrRotation *rotation, WrVec3 v);
 

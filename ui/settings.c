@@ -101,8 +101,7 @@ void wr_settings_parse(WrSettings *settings, const char *text)
             const char *value = at + name + 1;
             if (name == 6 && strncmp(at, "recent", 6) == 0)
                 add_recent_last(settings, value, length - name - 1);
-            else
-                take(settings, at, name, value, length - name - 1);
+            else take(settings, at, name, value, length - name - 1);
         }
         at += length + (at[length] == '\n');
     }
@@ -125,7 +124,8 @@ void wr_settings_print(const WrSettings *settings, WrText *text)
         wr_text_add(text, "\n");
     }
     for (int i = 0; i < WR_RECENT_MAX && settings->recent[i]; i++)
-        if (!strchr(settings->recent[i], '\n')) wr_text_addf(text, "recent %s\n", settings->recent[i]);
+        if (!strchr(settings->recent[i], '\n'))
+            wr_text_addf(text, "recent %s\n", settings->recent[i]);
 }
 
 /* ---- files ---- */
@@ -154,7 +154,8 @@ void wr_settings_load(WrSettings *settings)
 {
     char *path = wr_config_path("window.conf"), *bytes = NULL;
     size_t length;
-    if (path && wr_file_read(path, 1 << 16, &bytes, &length, NULL)) wr_settings_parse(settings, bytes);
+    if (path && wr_file_read(path, 1 << 16, &bytes, &length, NULL))
+        wr_settings_parse(settings, bytes);
     wr_free(bytes);
     wr_free(path);
 }
@@ -191,7 +192,8 @@ void wr_settings_note_recent(WrSettings *settings, const char *path)
 {
     char *first = wr_strdup(path);
     int at = 0;
-    while (at < WR_RECENT_MAX - 1 && settings->recent[at] && strcmp(settings->recent[at], path) != 0)
+    while (at < WR_RECENT_MAX - 1 && settings->recent[at] &&
+           strcmp(settings->recent[at], path) != 0)
         at++;
     wr_free(settings->recent[at]);
     memmove(settings->recent + 1, settings->recent, (size_t)at * sizeof *settings->recent);

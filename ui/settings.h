@@ -9,14 +9,14 @@
 #define WR_RECENT_MAX 8
 
 typedef struct WrSettings {
-    int width, height;  /* of the window, pixels at scale 1 of the display */
+    int width, height; /* of the window, pixels at scale 1 of the display */
     bool maximized;
-    double scale;       /* 0.75..3; 0: from the display */
-    double divider;     /* the canvas's share of the views, 0..1 */
+    double scale;   /* 0.75..3; 0: from the display */
+    double divider; /* the canvas's share of the views, 0..1 */
     WrViews views;
-    bool panels;        /* shown */
-    int tab;            /* of the panel on the right */
-    bool turning;       /* the patch turns by itself */
+    bool panels;  /* shown */
+    int tab;      /* of the panel on the right */
+    bool turning; /* the patch turns by itself */
     WrBrush brush;
     WrCanvasLook look;
     char *recent[WR_RECENT_MAX]; /* absolute paths, newest first, owned; NULL ends them */

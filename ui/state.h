@@ -17,22 +17,22 @@ typedef struct WrApp WrApp;
 /* ---- pointer ---- */
 
 typedef struct WrPointer {
-    double x, y;   /* pixels */
-    double u, v;   /* unwrapped position on the canvas */
-    int mods;      /* WR_MOD_ bits */
-    int button;    /* SDL_BUTTON_LEFT, ... */
+    double x, y; /* pixels */
+    double u, v; /* unwrapped position on the canvas */
+    int mods;    /* WR_MOD_ bits */
+    int button;  /* SDL_BUTTON_LEFT, ... */
 } WrPointer;
 
 /* A tool of the strip on the left. Each function may be NULL. */
 typedef struct WrTool {
     const char *action; /* that chooses it; its name, label and keys are the action's */
     const char *icon;
-    const char *help;   /* one sentence */
+    const char *help; /* one sentence */
     void (*press)(WrApp *app, const WrPointer *at);
     void (*drag)(WrApp *app, const WrPointer *at);
     void (*release)(WrApp *app, const WrPointer *at);
-    void (*overlay)(WrApp *app);  /* drawn over the canvas while the pointer is on it */
-    void (*options)(WrApp *app);  /* widgets of the option row */
+    void (*overlay)(WrApp *app); /* drawn over the canvas while the pointer is on it */
+    void (*options)(WrApp *app); /* widgets of the option row */
 } WrTool;
 extern const WrTool wr_tools[];
 extern const int wr_tool_count;
@@ -54,21 +54,21 @@ void wr_action_run(WrApp *app, const char *name);
 /* ---- parts of the state ---- */
 
 typedef enum WrGrab { /* what the pointer holds outside the widgets */
-    WR_GRAB_NONE,
-    WR_GRAB_TOOL,
-    WR_GRAB_PAN,
-    WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
-    WR_GRAB_DIVIDER,
-    WR_GRAB_ORBIT,
-    WR_GRAB_LIGHT
+                      WR_GRAB_NONE,
+                      WR_GRAB_TOOL,
+                      WR_GRAB_PAN,
+                      WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
+                      WR_GRAB_DIVIDER,
+                      WR_GRAB_ORBIT,
+                      WR_GRAB_LIGHT
 } WrGrab;
 
 typedef struct WrHand {
-    WrPointer at;      /* newest position */
-    WrPointer start;   /* where the grab began */
+    WrPointer at;    /* newest position */
+    WrPointer start; /* where the grab began */
     WrGrab grab;
-    int button;        /* that the grab began with */
-    bool space;        /* held over the canvas: the next drag pans */
+    int button; /* that the grab began with */
+    bool space; /* held over the canvas: the next drag pans */
     bool space_used;
     bool on_canvas, on_patch; /* the pointer is there and over no widget */
 } WrHand;
@@ -77,29 +77,29 @@ typedef struct WrBrushHand {
     WR_ARRAY(WrSample) samples; /* not handed to the session yet */
     bool have_last;             /* where the last stroke ended, for straight lines */
     double last_u, last_v;
-    double resize_radius;       /* at the start of a resize */
-    uint64_t line_key;          /* of the table when last_u, last_v were set: no lines into others */
+    double resize_radius; /* at the start of a resize */
+    uint64_t line_key;    /* of the table when last_u, last_v were set: no lines into others */
 } WrBrushHand;
 
 typedef struct WrPatch {
-    SDL_Texture *texture;   /* of the newest picture; owned */
+    SDL_Texture *texture; /* of the newest picture; owned */
     int texture_w, texture_h;
-    uint64_t serial;        /* of that picture */
-    double turn_deg;        /* 0..360 */
-    double turned_at;       /* clock at the last step of the turn */
-    WrField *wished_field;  /* own shares of what was wished for last */
+    uint64_t serial;       /* of that picture */
+    double turn_deg;       /* 0..360 */
+    double turned_at;      /* clock at the last step of the turn */
+    WrField *wished_field; /* own shares of what was wished for last */
     WrScene *wished_scene;
     double wished_turn;
     int wished_w, wished_h;
     bool wished_moving;
-    bool outstanding;       /* a moving picture was wished for and has not come */
+    bool outstanding; /* a moving picture was wished for and has not come */
     double wished_at, rest_at;
     double still_since;
     /* of a drag */
-    WrRotation from;        /* the object's own rotation at the start */
-    int light;              /* index of the light being moved */
+    WrRotation from; /* the object's own rotation at the start */
+    int light;       /* index of the light being moved */
     double light_x, light_y;
-    double zoom_commit_at;  /* clock at which a zoom by the wheel becomes a command; 0: none */
+    double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
 } WrPatch;
 
 typedef struct WrMessage {
@@ -127,7 +127,13 @@ typedef enum WrDialog {
 } WrDialog;
 
 /* What to do once unsaved work is dealt with. */
-typedef enum WrAfter { WR_AFTER_NOTHING, WR_AFTER_NEW, WR_AFTER_OPEN, WR_AFTER_PATH, WR_AFTER_QUIT } WrAfter;
+typedef enum WrAfter {
+    WR_AFTER_NOTHING,
+    WR_AFTER_NEW,
+    WR_AFTER_OPEN,
+    WR_AFTER_PATH,
+    WR_AFTER_QUIT
+} WrAfter;
 
 typedef struct WrForms { /* what the dialogs hold while they are open */
     double width, height, fill, cells_u, cells_v, line_width, low, high;
@@ -151,8 +157,8 @@ struct WrApp {
     WrKeyMap *keys;
     WrSettings settings;
     WrFiles *files;
-    Uint32 ready_event;   /* of the preview */
-    Uint32 file_event;    /* of a native file dialog */
+    Uint32 ready_event; /* of the preview */
+    Uint32 file_event;  /* of a native file dialog */
     SDL_Cursor *cursors[SDL_NUM_SYSTEM_CURSORS];
     SDL_SystemCursor cursor;
 
@@ -167,23 +173,23 @@ struct WrApp {
 
     WrView view;
     bool view_placed;
-    double range[2];      /* heights shown as black and white */
+    double range[2]; /* heights shown as black and white */
     bool canvas_unfinished;
     int tool;
     WrHand hand;
     WrBrushHand brush;
     WrPatch patch;
-    WrScene *live;        /* what the preview shows while a scene value is being dragged; owned */
-    bool hints;           /* shown until the first stroke */
+    WrScene *live; /* what the preview shows while a scene value is being dragged; owned */
+    bool hints;    /* shown until the first stroke */
 
     WrMessages messages;
     WrDialog dialog;
-    bool dialog_fresh;    /* in its first frame */
+    bool dialog_fresh; /* in its first frame */
     WrForms forms;
     WrAfter after;
-    char *after_path;     /* owned */
+    char *after_path;        /* owned */
     uint64_t clean_revision; /* also counts as saved: a starter made by commands */
-    bool starter;         /* the document is the starter */
+    bool starter;            /* the document is the starter */
 };
 
 /* ---- app.c ---- */
@@ -237,9 +243,9 @@ void wr_tool_zoom_press(WrApp *app, const WrPointer *at);
 void wr_tool_zoom_drag(WrApp *app, const WrPointer *at);
 
 /* ---- views ---- */
-void wr_canvas_view_draw(WrApp *app);     /* the picture */
-void wr_canvas_view_overlay(WrApp *app);  /* what lies on it */
-void wr_patch_update(WrApp *app);         /* wish for what is wanted; take what is ready */
+void wr_canvas_view_draw(WrApp *app);    /* the picture */
+void wr_canvas_view_overlay(WrApp *app); /* what lies on it */
+void wr_patch_update(WrApp *app);        /* wish for what is wanted; take what is ready */
 void wr_patch_draw(WrApp *app);
 void wr_patch_overlay(WrApp *app);
 bool wr_patch_press(WrApp *app, const WrPointer *at);

@@ -129,9 +129,9 @@ static void outline_in_cell(const WrApp *app, double x, double y, double radius)
 {
     const WrField *field = wr_app_field(app);
     WrShift copies[WR_VIEW_COPIES];
-    int count = wr_view_outline_copies(&app->view, wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
-                                       wr_field_wrap_v(field) == WR_WRAP_PERIODIC, x, y, radius,
-                                       copies);
+    int count =
+        wr_view_outline_copies(&app->view, wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
+                               wr_field_wrap_v(field) == WR_WRAP_PERIODIC, x, y, radius, copies);
     double x0, y0, x1, y1;
     wr_view_to_pixel(&app->view, 0, 0, &x0, &y0);
     wr_view_to_pixel(&app->view, app->view.table_w, app->view.table_h, &x1, &y1);

@@ -7,7 +7,8 @@
 const WrTool wr_tools[] = {
     { .action = "brush",
       .icon = WR_ICON_BRUSH,
-      .help = "Paint heights. Ctrl picks a height, Shift and dragging sizes the brush, Shift and a click "
+      .help = "Paint heights. Ctrl picks a height, Shift and dragging sizes the brush, Shift and a "
+              "click "
               "draws a straight line from the last stroke.",
       .press = wr_brush_press,
       .drag = wr_brush_drag,
@@ -26,7 +27,8 @@ const WrTool wr_tools[] = {
       .drag = wr_tool_pan_drag },
     { .action = "zoom",
       .icon = WR_ICON_ZOOM,
-      .help = "Click to zoom in, with Ctrl out; drag up and down to zoom smoothly. The wheel does it in "
+      .help = "Click to zoom in, with Ctrl out; drag up and down to zoom smoothly. The wheel does "
+              "it in "
               "any tool.",
       .press = wr_tool_zoom_press,
       .drag = wr_tool_zoom_drag },

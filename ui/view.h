@@ -7,9 +7,9 @@
 #include <stdbool.h>
 
 typedef struct WrView {
-    int x, y, w, h;          /* the canvas's rectangle in the window, pixels; w, h >= 1 */
-    int table_w, table_h;    /* texels */
-    double zoom;             /* pixels a texel; see wr_view_zoom_range */
+    int x, y, w, h;            /* the canvas's rectangle in the window, pixels; w, h >= 1 */
+    int table_w, table_h;      /* texels */
+    double zoom;               /* pixels a texel; see wr_view_zoom_range */
     double centre_x, centre_y; /* texel position in the middle of the canvas */
 } WrView;
 

@@ -81,6 +81,8 @@ void wr_cli_help(const WrSubcommand *command, WrText *text);
 WrSession *wr_cli_load(const WrCli *cli, bool outputs, WrError *err);
 /* An empty one, with notes going to standard error. */
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err);
+/* Refuse an --isa that does not exist or that this processor lacks, before any work. */
+bool wr_cli_check_isa(const WrCli *cli, WrError *err);
 bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);
 
 /* "wrinkle: MESSAGE" on standard error. Returns status, or 130 when an interrupt was the reason. */

@@ -23,15 +23,11 @@ int wr_cli_help_command(const WrCli *cli)
             wr_cli_help(wr_subcommand_find(word), &text);
         }
     }
-    if (status == WR_EXIT_DONE && cli->word_count == 0) {
-        if (cli->json) {
-            wr_help_json(&text);
-        } else {
-            wr_help_overview(&text);
-        }
-    } else if (status == WR_EXIT_DONE && cli->json) {
+    if (status == WR_EXIT_DONE && cli->json) { /* words are checked, then the whole table comes */
         wr_text_clear(&text);
         wr_help_json(&text);
+    } else if (status == WR_EXIT_DONE && cli->word_count == 0) {
+        wr_help_overview(&text);
     }
     status = status == WR_EXIT_DONE ? wr_cli_print(cli, &text) : wr_cli_fail(cli, status, &err);
     wr_text_fini(&text);

@@ -3,6 +3,8 @@
 #ifdef WR_HAVE_UI
 #include "ui/app.h"
 
+#include <signal.h>
+
 static void keep_note(void *ctx, const char *text)
 {
     wr_text_addf(ctx, "%s\n", text);
@@ -19,7 +21,8 @@ int wr_cli_paint(const WrCli *cli)
     };
     WrSession *session = wr_session_new(&options);
     wr_session_set_outputs(session, false);
-    bool good = !cli->file || wr_session_open(session, cli->file, &err);
+    bool good = wr_cli_check_isa(cli, &err);
+    good = good && (!cli->file || wr_session_open(session, cli->file, &err));
     good = good && wr_cli_run_dos(cli, session, &err);
     wr_session_set_outputs(session, true);
     int status = WR_EXIT_FAILED;
@@ -29,6 +32,8 @@ int wr_cli_paint(const WrCli *cli)
                              .threads = cli->threads,
                              .isa = cli->isa,
                              .notes = &notes };
+        signal(SIGINT, SIG_DFL); /* the window library makes it a request to close */
+        signal(SIGTERM, SIG_DFL);
         status = wr_app_run(&app);
     } else {
         wr_cli_fail(cli, WR_EXIT_FAILED, &err);

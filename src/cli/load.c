@@ -8,13 +8,17 @@ static void print_note(void *ctx, const char *text)
     fprintf(stderr, "wrinkle: note: %s\n", text);
 }
 
+bool wr_cli_check_isa(const WrCli *cli, WrError *err)
+{
+    if (!cli->isa) return true;
+    WrRenderer *renderer = wr_renderer_new(cli->pool, cli->isa, err);
+    wr_renderer_free(renderer);
+    return renderer != NULL;
+}
+
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
 {
-    if (cli->isa) { /* a name that does not exist is said now, not at the first picture */
-        WrRenderer *renderer = wr_renderer_new(cli->pool, cli->isa, err);
-        if (!renderer) return NULL;
-        wr_renderer_free(renderer);
-    }
+    if (!wr_cli_check_isa(cli, err)) return NULL;
     WrSessionOptions options = { .pool = cli->pool,
                                  .note = print_note,
                                  .outputs = outputs,

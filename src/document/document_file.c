@@ -97,9 +97,9 @@ static void print_range(const WrField *field, WrText *text)
 {
     float low, high;
     wr_field_range(field, &low, &high);
-    wr_text_add_number(text, low);
-    wr_text_add(text, ",");
-    wr_text_add_number(text, high);
+    char buffer[WR_NUMBER_SIZE];
+    wr_text_addf(text, "%s,", wr_number_print_float(low, buffer));
+    wr_text_add(text, wr_number_print_float(high, buffer));
 }
 
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,

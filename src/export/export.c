@@ -189,10 +189,9 @@ void wr_export_report_text(const WrExportReport *report, WrText *text)
                  : report->depth == 16 ? "16 bits"
                                        : "32-bit floats");
     if (report->channels == 1) {
-        wr_text_add(text, ", heights ");
-        wr_text_add_number(text, report->low);
-        wr_text_add(text, " to ");
-        wr_text_add_number(text, report->high);
+        char buffer[WR_NUMBER_SIZE];
+        wr_text_addf(text, ", heights %s", wr_number_print_float((float)report->low, buffer));
+        wr_text_addf(text, " to %s", wr_number_print_float((float)report->high, buffer));
     }
     if (report->ranged) {
         wr_text_add(text, ", codes are ");

@@ -157,17 +157,23 @@ void wr_export_height_rows(WrExportJob *job, int y, int rows, void *out)
 void wr_export_height_describe(WrExportJob *job)
 {
     const WrExportReport *report = &job->report;
+    char buffer[WR_NUMBER_SIZE];
     WrText *text = wr_export_attribute(job, "wrinkle:range");
-    wr_text_add_number(text, report->ranged ? report->code_low : report->low);
-    wr_text_add(text, ",");
-    wr_text_add_number(text, report->ranged ? report->code_high : report->high);
+    if (report->ranged) {
+        wr_text_add_number(text, report->code_low);
+        wr_text_add(text, ",");
+        wr_text_add_number(text, report->code_high);
+    } else {
+        wr_text_addf(text, "%s,", wr_number_print_float((float)report->low, buffer));
+        wr_text_add(text, wr_number_print_float((float)report->high, buffer));
+    }
     text = wr_export_attribute(job, "wrinkle:zero");
     if (report->ranged && report->zero_code >= 0) {
         wr_text_addf(text, "%d", report->zero_code);
         wr_text_add_number(wr_export_attribute(job, "wrinkle:amplitude"), report->amplitude);
     } else if (!report->ranged) {
         wr_text_add(text, "0");
-    } else { /* where it falls between the codes, as a fraction of the range */
+    } else { /* where it falls between the codes */
         wr_text_add_number(text, code_of(job, 0.0));
     }
     wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);

@@ -4,10 +4,14 @@
      every call a message counts as failure;
    - limits on sizes are enforced by few readers: the checks here are the ones that hold;
    - integer codes pass through float factors: they are read as they are and divided here;
-   - alpha is multiplied into colours unless told otherwise. */
+   - alpha is multiplied into colours unless told otherwise;
+   - libjpeg ends the whole program when it cannot write, and libpng talks on standard error: they never
+     get to see that a disk is full. */
 extern "C" {
 #include "image/oiio.h"
 }
+
+#include "image/oiio_disk.hpp"
 
 #include <OpenImageIO/imageio.h>
 
@@ -154,16 +158,14 @@ static bool open_file(WrOiioReader &reader, const char *format, int most, char *
         return fail(reason,
                     "cannot be opened, truncated or damaged (" + reader.in->geterror() + ")",
                     reader.path);
-    for (int i = 0;; i++) {
-        if (i > 0 && !reader.in->seek_subimage(i, 0)) break;
-        if (i >= most) {
-            if (most == 1) break; /* only the first is wanted */
-            return fail(reason, "more than " + std::to_string(most) + " parts");
-        }
+    if (!add_part(reader, reader.in->spec(), reason)) return false;
+    /* Readers find out about more parts by trying; some do not recover from it, so not without need. */
+    for (int i = 1; most > 1 && reader.in->seek_subimage(i, 0); i++) {
+        if (i >= most) return fail(reason, "more than " + std::to_string(most) + " parts");
         if (!add_part(reader, reader.in->spec(), reason)) return false;
     }
-    ignored =
-        reader.in->geterror(); /* of the search for the end; damage shows when rows are read */
+    /* What the search for the end says is of no interest; damage shows when rows are read. */
+    ignored = reader.in->geterror();
     name_parts(reader);
     return true;
 }
@@ -298,6 +300,9 @@ static bool reader_read(WrOiioReader *reader, int part, int y, int rows, int cha
 
 struct WrOiioWriter {
     std::string path;
+    /* Outlives `out`. NULL for TIFF, which reads back what it wrote, and for EXR of several parts, which
+       opens its file itself: both report failures well. */
+    std::unique_ptr<Disk> disk;
     std::unique_ptr<ImageOutput> out;
     std::vector<ImageSpec> specs;
     std::vector<TypeDesc> types;
@@ -358,6 +363,7 @@ static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *
 static bool check_write(WrOiioWriter &writer, bool ok, char *reason)
 {
     std::string message = writer.out->geterror();
+    if (writer.disk && writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
     if (ok && message.empty()) return true;
     return fail(reason, message, writer.path);
 }
@@ -379,6 +385,12 @@ static bool create_file(WrOiioWriter &writer, const char *format, const WrImageO
         set_attributes(spec, parts[i], format);
         writer.specs.push_back(spec);
         writer.types.push_back(types[parts[i].type]);
+    }
+    if (count == 1 && std::strcmp(format, "tiff") != 0) {
+        writer.disk = std::make_unique<Disk>(writer.path);
+        if (writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
+        if (!writer.out->set_ioproxy(writer.disk.get()))
+            return fail(reason, "the format cannot be written to a file of ours");
     }
     bool ok = count > 1 ? writer.out->open(writer.path, count, writer.specs.data())
                         : writer.out->open(writer.path, writer.specs[0]);
@@ -443,6 +455,7 @@ static bool writer_finish(WrOiioWriter *writer, bool keep, char *reason)
     bool ok = guarded(reason, [&] {
         if (!keep && writer->png) complete_png(*writer);
         bool closed = writer->out->close();
+        if (writer->disk) writer->disk->shut();
         return check_write(*writer, closed, reason);
     });
     char ignored[WR_OIIO_REASON];

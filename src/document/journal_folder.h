@@ -1,0 +1,30 @@
+/* journal_folder.h - the folder of journals: making it, locks, what lies beside a journal, removal.
+   Layer 5. Private to this room. */
+#pragma once
+#include "document/journal.h"
+
+#define WR_JOURNAL_ENDING ".wj"
+#define WR_JOURNAL_FILES_ENDING ".files"
+
+/* Make a folder and those above it, mode 0700 each; fine if it is there. */
+bool wr_journal_make_folder(const char *path, WrError *err);
+/* "X/NAME.wj" -> "X/NAME.files". Caller frees. */
+char *wr_journal_files_folder(const char *journal_path);
+
+/* Sync a file, or a folder so that the names in it are on the disk. Some file systems cannot sync
+   folders; that is no failure. */
+bool wr_journal_sync_path(const char *path, WrError *err);
+/* Write all bytes, in one call unless it is interrupted or the disk is full. Sets errno on failure. */
+bool wr_journal_write_all(int fd, const char *bytes, size_t length);
+
+/* Open a journal without following a link or waiting for a pipe: -1 with an error unless it is a regular
+   file. */
+int wr_journal_open(const char *path, WrError *err);
+/* Lock without waiting. False: another program has it, or `path` no longer names this file. */
+bool wr_journal_lock(int fd, const char *path);
+
+/* Remove the files of NAME.files/ but those called keep_a or (in front of its ending) keep_b, either NULL;
+   the folder too if it is empty then. */
+void wr_journal_clear_files(const char *files, const char *keep_a, const char *keep_b);
+/* Remove what killed programs left half made in the folder, if it is older than a day. */
+void wr_journal_sweep(const char *folder);

@@ -1,0 +1,251 @@
+#include "document/journal_line.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#define MAGIC "wrinkle-journal"
+#define HASH_DIGITS 32
+#define HEADER_WORDS 7 /* after the checksum: program, time, kind, hash, sha256, snapshot, path */
+
+static const char *const kind_words[] = { "empty", "document", "snapshot" };
+#define KIND_COUNT (int)(sizeof kind_words / sizeof *kind_words)
+
+/* ---- escapes ---- */
+
+static void add_escaped(WrText *line, const char *text, bool word)
+{
+    const char *special = word ? "\\\n\r " : "\\\n\r";
+    if (word && !*text) wr_text_add(line, "\\e");
+    while (*text) {
+        size_t plain = strcspn(text, special);
+        wr_text_add_n(line, text, plain);
+        text += plain;
+        if (!*text) break;
+        char letter = *text == '\n' ? 'n' : *text == '\r' ? 'r' : *text == ' ' ? 's' : '\\';
+        wr_text_add_n(line, (char[]){ '\\', letter }, 2);
+        text++;
+    }
+}
+
+/* True if each backslash of text[0..length) starts an escape that add_escaped writes. */
+static bool escapes_are_good(const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] != '\\') continue;
+        i++;
+        if (i >= length || !strchr("nrse\\", text[i]) || !text[i]) return false;
+    }
+    return true;
+}
+
+/* In place; returns the new length. The escapes are good, and text has room for a NUL. */
+static size_t unescape(char *text, size_t length)
+{
+    size_t out = 0;
+    for (size_t i = 0; i < length; i++) {
+        char c = text[i];
+        if (c == '\\') {
+            c = text[++i];
+            if (c == 'e') continue;
+            c = c == 'n' ? '\n' : c == 'r' ? '\r' : c == 's' ? ' ' : '\\';
+        }
+        text[out++] = c;
+    }
+    text[out] = '\0';
+    return out;
+}
+
+/* ---- checksums ---- */
+
+static bool parse_hex(const char *text, int digits, uint64_t *value)
+{
+    uint64_t v = 0;
+    for (int i = 0; i < digits; i++) {
+        char c = text[i];
+        if (c >= '0' && c <= '9') v = v << 4 | (uint64_t)(c - '0');
+        else if (c >= 'a' && c <= 'f') v = v << 4 | (uint64_t)(c - 'a' + 10);
+        else return false;
+    }
+    *value = v;
+    return true;
+}
+
+bool wr_journal_parse_hash(const char *text, WrHash *hash)
+{
+    WrHash h;
+    if (strnlen(text, HASH_DIGITS + 1) != HASH_DIGITS) return false;
+    if (!parse_hex(text, 16, &h.high) || !parse_hex(text + 16, 16, &h.low)) return false;
+    *hash = h;
+    return true;
+}
+
+bool wr_journal_is_sha256(const char *text)
+{
+    return strnlen(text, 65) == 64 && strspn(text, "0123456789abcdef") == 64;
+}
+
+bool wr_journal_is_name(const char *text)
+{
+    return *text && *text != '.' && !strchr(text, '/');
+}
+
+/* "CHECKSUM BODY\n": the checksum is known only when the body is, so its room is kept and filled in. */
+static size_t begin_body(WrText *line)
+{
+    char room[HASH_DIGITS + 2];
+    snprintf(room, sizeof room, "%*s", HASH_DIGITS + 1, "");
+    wr_text_add(line, room);
+    return line->length;
+}
+
+static void end_body(WrText *line, size_t body, WrHash *chain)
+{
+    char digits[HASH_DIGITS + 1];
+    *chain = wr_hash_bytes(line->data + body, line->length - body, *chain);
+    wr_hash_print(*chain, digits);
+    memcpy(line->data + body - HASH_DIGITS - 1, digits, HASH_DIGITS);
+    wr_text_add(line, "\n");
+}
+
+/* text = "CHECKSUM BODY": moves the chain on if the checksum is that of the body after the chain. */
+static bool check_body(const char *text, size_t length, WrHash *chain)
+{
+    char digits[HASH_DIGITS + 1];
+    if (length < HASH_DIGITS + 1 || text[HASH_DIGITS] != ' ') return false;
+    WrHash hash = wr_hash_bytes(text + HASH_DIGITS + 1, length - HASH_DIGITS - 1, *chain);
+    wr_hash_print(hash, digits);
+    if (memcmp(digits, text, HASH_DIGITS) != 0) return false;
+    *chain = hash;
+    return true;
+}
+
+/* ---- header ---- */
+
+void wr_journal_print_header(WrText *line, const WrJournalHeader *header, WrHash *chain)
+{
+    const WrJournalStart *start = &header->start;
+    char hash[HASH_DIGITS + 1];
+    wr_text_addf(line, MAGIC " %d ", WR_JOURNAL_FORMAT);
+    size_t body = begin_body(line);
+    add_escaped(line, header->program, true);
+    wr_hash_print(start->hash, hash);
+    wr_text_addf(line, " %" PRId64 " %s %s ", header->time, kind_words[start->kind], hash);
+    add_escaped(line, start->sha256 ? start->sha256 : "", true);
+    wr_text_add(line, " ");
+    add_escaped(line, start->snapshot ? start->snapshot : "", true);
+    wr_text_add(line, " ");
+    add_escaped(line, start->path ? start->path : "", true);
+    *chain = (WrHash){ 0, 0 };
+    end_body(line, body, chain);
+}
+
+/* Cut "a b c" at its spaces into exactly `count` words, each unescaped. */
+static bool split_words(char *text, size_t length, char **words, int count)
+{
+    if (!escapes_are_good(text, length)) return false;
+    char *end = text + length;
+    for (int i = 0; i < count; i++) {
+        char *space = memchr(text, ' ', (size_t)(end - text));
+        if ((space == NULL) != (i == count - 1)) return false;
+        char *stop = space ? space : end;
+        if (stop == text) return false;
+        words[i] = text;
+        text = stop + 1;
+        unescape(words[i], (size_t)(stop - words[i]));
+    }
+    return true;
+}
+
+static bool parse_time(const char *text, int64_t *value)
+{
+    size_t digits = strspn(text, "0123456789");
+    if (digits == 0 || digits > 18 || text[digits]) return false;
+    *value = strtoll(text, NULL, 10);
+    return true;
+}
+
+/* The words of a header whose checksum fits: still checked, since anybody can make a checksum. */
+static bool header_from_words(char *const words[HEADER_WORDS], WrJournalHeader *out)
+{
+    WrJournalHeader h = { .program = words[0] };
+    int kind = 0;
+    while (kind < KIND_COUNT && strcmp(words[2], kind_words[kind]) != 0) kind++;
+    if (kind == KIND_COUNT) return false;
+    h.start.kind = (WrJournalKind)kind;
+    if (!parse_time(words[1], &h.time)) return false;
+    if (!wr_journal_parse_hash(words[3], &h.start.hash)) return false;
+    if (*words[4]) h.start.sha256 = words[4];
+    if (*words[5]) h.start.snapshot = words[5];
+    if (*words[6]) h.start.path = words[6];
+    if (h.start.sha256 && !wr_journal_is_sha256(h.start.sha256)) return false;
+    if (h.start.snapshot && !wr_journal_is_name(h.start.snapshot)) return false;
+    if (h.start.path && h.start.path[0] != '/') return false;
+    if ((h.start.kind == WR_JOURNAL_SNAPSHOT) != (h.start.snapshot != NULL)) return false;
+    if (h.start.kind == WR_JOURNAL_DOCUMENT && !h.start.path) return false;
+    *out = h;
+    return true;
+}
+
+bool wr_journal_parse_header(char *line, size_t length, WrJournalHeader *out, WrHash *chain,
+                             WrError *err)
+{
+    size_t magic = strlen(MAGIC " ");
+    if (length < magic || memcmp(line, MAGIC " ", magic) != 0)
+        return wr_fail(err, "not a journal of this program");
+    size_t digits = 0;
+    int version = 0;
+    while (magic + digits < length && digits < 6 && line[magic + digits] >= '0' &&
+           line[magic + digits] <= '9')
+        version = version * 10 + (line[magic + digits++] - '0');
+    if (version > WR_JOURNAL_FORMAT)
+        return wr_fail(err,
+                       "journal of format %d, which is newer than this program's (%d): use the "
+                       "program that wrote it, or a newer one",
+                       version, WR_JOURNAL_FORMAT);
+    char *rest = line + magic + digits + 1;
+    size_t skipped = magic + digits + 1;
+    WrHash after = { 0, 0 };
+    char *words[HEADER_WORDS];
+    if (version != WR_JOURNAL_FORMAT || digits != 1 || skipped > length || rest[-1] != ' ' ||
+        memchr(line, '\0', length) || !check_body(rest, length - skipped, &after))
+        return wr_fail(err, "the journal's first line is damaged");
+    size_t body = HASH_DIGITS + 1;
+    if (!split_words(rest + body, length - skipped - body, words, HEADER_WORDS) ||
+        !header_from_words(words, out))
+        return wr_fail(err, "the journal's first line makes no sense");
+    *chain = after;
+    return true;
+}
+
+/* ---- records ---- */
+
+void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const char *payload,
+                           WrHash *chain)
+{
+    size_t body = begin_body(line);
+    wr_text_addf(line, "%" PRIu64 " %c ", sequence, kind);
+    add_escaped(line, payload, false);
+    end_body(line, body, chain);
+}
+
+bool wr_journal_parse_line(char *line, size_t length, uint64_t sequence, WrHash *chain, char *kind,
+                           char **payload, size_t *payload_length, WrError *err)
+{
+    WrHash after = *chain;
+    if (!check_body(line, length, &after))
+        return wr_fail(err, "its checksum does not fit: the line is damaged");
+    char number[24];
+    int digits = snprintf(number, sizeof number, "%" PRIu64 " ", sequence);
+    size_t at = HASH_DIGITS + 1, skip = at + (size_t)digits + 2; /* "17 c " */
+    if (length < skip || memcmp(line + at, number, (size_t)digits) != 0 || line[skip - 1] != ' ')
+        return wr_fail(err, "not line %" PRIu64 " of the journal", sequence);
+    if (!strchr("cdbseng", line[skip - 2]) || !line[skip - 2])
+        return wr_fail(err, "a line of an unknown kind");
+    if (memchr(line + skip, '\0', length - skip) || !escapes_are_good(line + skip, length - skip))
+        return wr_fail(err, "a line that makes no sense");
+    *kind = line[skip - 2];
+    *payload = line + skip;
+    *payload_length = unescape(line + skip, length - skip);
+    *chain = after;
+    return true;
+}

@@ -1,0 +1,103 @@
+/* recover.h - journals that were left behind: which there are, what is in them, and trying a command that
+   may have crashed.
+   Layer 5. Everything read here is checked: a torn, damaged or hostile journal gives the lines before the
+   first bad byte, or a clear error.
+
+   A recovery: wr_journal_list; wr_journal_claim the one chosen, so that no other program recovers it too;
+   wr_journal_read; bring the start state back and compare its hash; run the lines, comparing hashes where
+   they have one; if the last did not finish, wr_journal_trial it or ask; give the session a journal
+   of its own that starts from a snapshot of the result; then wr_journal_claim_remove. */
+#pragma once
+#include "document/journal.h"
+
+#define WR_JOURNAL_COMMANDS_MAX 1000000 /* in one journal; what follows is dropped */
+
+/* One command to run. */
+typedef struct WrJournalLine {
+    const char *text; /* a whole command line; strokes put together. Lives with the WrJournalRead */
+    bool stroke;      /* it was drawn as a stroke */
+    bool done;        /* its end is on record, or lines that came after it */
+    bool hashed;      /* `hash` holds */
+    WrHash hash;      /* of the document after it ran */
+} WrJournalLine;
+
+typedef struct WrJournalRead {
+    WrJournalStart start; /* snapshot is a whole path here; strings live as long as this struct */
+    const char *program;  /* version that wrote it */
+    int64_t started;      /* seconds since 1970, UTC */
+    WrJournalLine *lines; /* [count], owned; those that failed or were cancelled are left out */
+    int count;
+    bool unfinished;       /* the last line has no end on record: it may be the one that crashed */
+    bool in_stroke;        /* and it is a stroke that was still being drawn */
+    int64_t dropped_bytes; /* after the last good line; 0: the file is whole */
+    char damage[256];      /* why they were dropped: "line 7: ..."; "" */
+    char gap[256];         /* the program itself said that lines are missing at the end, and why; "" */
+    char *owned[3];        /* header, snapshot path, texts */
+} WrJournalRead;
+
+/* Read and verify a journal, in use or not. Stops at the first torn or damaged line (see damage). Fails,
+ * with *out untouched, if it is no regular file, no journal, its header is damaged, or it was written by
+ * a newer program (the message says so; the file stays). Memory: about the file's size, at most 1 GB, and
+ * 48 bytes a command. */
+bool wr_journal_read(const char *path, WrJournalRead *out, WrError *err);
+void wr_journal_read_fini(WrJournalRead *read); /* fine on a zeroed one */
+
+/* A journal that no program holds. */
+typedef struct WrJournalEntry {
+    char *path;            /* of the .wj file; owned */
+    char *document;        /* the document's own file, "" if it never had one; owned */
+    WrJournalKind kind;    /* of the start state */
+    int64_t started;       /* seconds since 1970, UTC */
+    int64_t written;       /* the same: when it last changed */
+    int64_t bytes;         /* size of the file */
+    int complete;          /* commands to recover that finished */
+    bool unfinished;       /* one more, that did not */
+    bool nothing;          /* nothing to recover: no commands, and the start state is there anyway */
+    int64_t dropped_bytes; /* damaged tail */
+    char damage[256];      /* as in WrJournalRead */
+    char error[256];       /* it cannot be read at all, and why; ""; then only path, written, bytes hold */
+} WrJournalEntry;
+
+typedef struct WrJournalList {
+    WrJournalEntry *entries; /* [count], owned; the newest first */
+    int count;
+} WrJournalList;
+
+/* The journals of a folder (NULL: wr_journal_folder) that are not in use. A folder that does not exist
+   has none. */
+bool wr_journal_list(const char *folder, WrJournalList *out, WrError *err);
+void wr_journal_list_fini(WrJournalList *list); /* fine on a zeroed one */
+
+/* Hold a journal that was left behind, against all other programs. NULL and an error if one that
+   lives holds it, or it is gone. */
+typedef struct WrJournalClaim WrJournalClaim;
+WrJournalClaim *wr_journal_claim(const char *path, WrError *err);
+void wr_journal_claim_free(WrJournalClaim *claim); /* leaves the journal; NULL is fine */
+/* Remove the journal and its files; frees the claim either way. */
+bool wr_journal_claim_remove(WrJournalClaim *claim, WrError *err);
+
+/* The kept copy of a file that a command of the journal at `journal_path` reads, by its SHA-256. named:
+   the file's name in the command, for the copy with the same ending where there are several; may be
+   NULL. False if there is none. */
+bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
+                          WrText *path, WrError *err);
+
+typedef enum WrTrial {
+    WR_TRIAL_TRUE,    /* the function returned true */
+    WR_TRIAL_FALSE,   /* it returned false: *err has its message */
+    WR_TRIAL_CRASHED, /* a signal, or an exit, ended it: *err says which */
+    WR_TRIAL_TIMEOUT, /* it took too long and was killed */
+    WR_TRIAL_UNABLE   /* no child could be started: nothing is known */
+} WrTrial;
+
+/* Run function(ctx) in a forked child and say how that ended. Nothing that it does to memory shows here;
+ * what it does to files does, so it must do nothing to files. Its standard output and error go nowhere.
+ *
+ * seconds  real time that it may take, over 0
+ * bytes    memory that it may take besides what this program has now; 0: any (sanitizers need that)
+ * Threads  the child has only the thread that called: the function may use no lock, pool or library
+ *          that other threads of this program may hold at that moment. `wrinkle recover` calls this
+ *          before any thread is started. */
+typedef bool (*WrTrialFunction)(void *ctx, WrError *err);
+WrTrial wr_journal_trial(WrTrialFunction function, void *ctx, double seconds, size_t bytes,
+                         WrError *err);

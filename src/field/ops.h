@@ -1,0 +1,74 @@
+/* ops.h - table operations: a table in, a new table out. Blur, median, levels, resize and the like, in
+   one const table of rows, by which commands, menus, live preview and tests are made: a new operation is
+   one function and one row.
+   Layer 1.
+
+   What all of them keep to:
+   - Periodic axes wrap; on a clamped axis the edge texel is repeated outwards.
+   - The same bits on every processor and for any number of threads, whatever tiles the heights are kept
+     in. Where no texel's place changes by other than whole texels, op(roll(F)) is roll(op(F)), bit for bit.
+   - Tiles whose texels come out equal are the very tiles of the input; those that are NULL stay NULL.
+     (Where the table's level changes with them, as when a constant is added to a table that has NULL
+     tiles, these stay NULL at the new level, and all others are new.)
+   - Filters leave flat neighbourhoods exactly as they are.
+   - Heights that would pass float's range are clamped to it. Filters are exact as stated while heights
+     are under 1e37. */
+#pragma once
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/field.h"
+
+#define WR_OP_PARAMS 6 /* parameters of one operation, at most */
+
+typedef struct WrOpParam {
+    const char *name;  /* as in commands: "sigma"; NULL ends the list */
+    const char *label; /* for people: "width of the blur" */
+    const char *help;  /* a few words */
+    const char *unit;  /* "texels", "table units"; "" for plain numbers and words */
+    double fallback;   /* the default */
+    double low, high;  /* closed range */
+    double soft_low, soft_high; /* what a slider spans, within the range */
+    bool whole;                 /* whole numbers only */
+    bool above;                 /* `low` itself is excluded */
+    const char *const *choices; /* words, ends with NULL; the value is the word's index. NULL: a number */
+} WrOpParam;
+
+/* What an operation may be given besides its table and its parameters. */
+typedef struct WrOpOptions {
+    const WrField *mask; /* selection, 0..1 (clamped), of the table's size; NULL = everything.
+                            result = in + mask (op - in); where it is 0 a texel keeps its bits */
+    WrPool *pool;        /* NULL: the calling thread alone */
+    const WrProgress *progress; /* NULL: no reports, no cancelling */
+} WrOpOptions;
+
+typedef struct WrOpJob WrOpJob; /* private to the operations */
+
+typedef struct WrOpInfo {
+    const char *name;  /* as in commands: "slope-limit"; unique; NULL ends the table */
+    const char *label; /* in menus: "Limit slope" */
+    const char *help;  /* one sentence */
+    bool reshapes;     /* gives another size or another place for the edges: takes no mask */
+    WrField *(*run)(WrOpJob *job, const double *param); /* private: call wr_op_run */
+    WrOpParam params[WR_OP_PARAMS + 1];
+} WrOpInfo;
+
+extern const WrOpInfo wr_ops[]; /* in the order of menus; ends with name NULL */
+extern const int wr_op_count;
+
+/* The operation of that name, or NULL. */
+const WrOpInfo *wr_op_find(const char *name);
+/* How many parameters it has, 0..WR_OP_PARAMS. */
+int wr_op_param_count(const WrOpInfo *op);
+
+/* Carry out an operation.
+ *
+ * in       read only; no writer may run meanwhile
+ * param    [wr_op_param_count(op)] in the order of op->params; NULL = all defaults
+ * options  NULL = whole table, one thread, no reports
+ * Returns  a new table, the caller's; NULL and an error for a parameter out of its range or not finite, a
+ *          mask of another size or where none is taken, no memory for scratch space, or when cancelled
+ * Threads  reports come on the calling thread; pieces of work run on the pool's
+ * Memory   a few megabytes a thread; a wide blur holds one more copy of the table, slope-limit one or
+ *          two */
+WrField *wr_op_run(const WrOpInfo *op, const WrField *in, const double *param,
+                   const WrOpOptions *options, WrError *err);

@@ -1,0 +1,247 @@
+#!/usr/bin/env bash
+# The command line: exit statuses, messages, --do, standard input, inspect, explain, render, export, and
+# that nothing is written that nobody asked for.  cli.sh PROGRAM
+set -uo pipefail
+program=$1
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+complain() {
+    printf '%s\n' "$*"
+    failures=$((failures + 1))
+}
+
+# expect STATUS ARGUMENTS...: runs the program, keeps out and err; an error is one line that begins
+# "wrinkle: ".
+expect() {
+    local want=$1 got
+    shift
+    "$program" "$@" >out 2>err </dev/null
+    got=$?
+    [[ $got == "$want" ]] || complain "status $got, not $want: $* ($(head -c 300 err))"
+    if [[ $want != 0 ]]; then
+        [[ $(grep -vc '^wrinkle: note: ' err) == 1 && $(tail -n 1 err) == "wrinkle: "* ]] ||
+            complain "not one clear message: $*: $(cat err)"
+        [[ ! -s out ]] || complain "results in spite of an error: $*"
+    fi
+}
+
+# has FILE TEXT: the file holds the text.
+has() { grep -qF -- "$2" "$1" || complain "$1 lacks: $2"; }
+
+# is WHAT GOT WANT
+is() { [[ $2 == "$3" ]] || complain "$1: $2, not $3"; }
+
+# empty: the folder holds nothing but this script's own two files.
+empty() {
+    rm -f out err
+    [[ -z $(ls -A) ]] || complain "$1 left files: $(ls -A)"
+}
+
+# ---- the shell line ----
+expect 0 --version
+has out 'wrinkle 0.'
+expect 0 --help
+has out 'wrinkle render'
+for command in run render export inspect explain help; do
+    expect 0 "$command" --help
+    has out "wrinkle $command"
+    expect 0 "$command" -h
+done
+expect 2 rendr
+has err 'did you mean render'
+expect 2 render --sise 4x4 -o a.png
+has err 'did you mean --size'
+expect 2 render
+has err '-o OUT'
+expect 2 render -o
+expect 2 render -o a.png --turn 5
+expect 2 inspect --do
+expect 2 inspect --size 4x4
+expect 2 export -o a.png
+expect 2 export --as height
+expect 2 run
+expect 2 inspect a b
+expect 1 render -o a.png --size 0x0
+has err '0x0'
+expect 1 render -o a.png --size 4
+expect 1 inspect --threads 0
+expect 1 inspect --threads many
+expect 1 inspect --isa mmx
+expect 1 inspect --face 7
+expect 1 inspect --face 1
+expect 1 inspect --at 1
+expect 1 inspect --at 0.5,x
+expect 1 export --as nosuch -o a.png
+has err 'nosuch'
+expect 1 export --as height nosuch=1 -o a.png
+expect 1 export --as height range=0,1 range=0,2 -o a.png
+expect 1 render -o a.png --frames 0-3
+has err '####'
+expect 1 render -o 'a####.png' --frames 3-1
+expect 1 help nosuch
+expect 1 inspect nosuch.exr
+is 'missing file' "$(cat err)" 'wrinkle: nosuch.exr: No such file or directory'
+expect 1 run nosuch.wrinkle
+expect 1 inspect -- --strange
+expect 1 inspect /
+expect 1 inspect --do 'fil 1'
+has err 'did you mean fill'
+empty 'errors'
+
+# ---- --do, in order, before or after FILE ----
+printf 'table 8x8\nfill 1\nsave s.exr\nrender s.png\nexport height s.png\n' >s.wrinkle
+expect 0 inspect --do 'fill 2' s.wrinkle --do 'fill 3'
+has out 'heights      3 .. 3'
+is 'a note for each skipped output' "$(grep -c skipped err)" 3
+[[ $(echo *) == 'err out s.wrinkle' ]] || complain "inspect of a script left $(echo *)"
+expect 0 inspect s.wrinkle --do 'fill 3' --do 'fill 2' --do 'save t.exr'
+has out 'heights      2 .. 2'
+expect 0 --threads=1 inspect s.wrinkle
+has out 'heights      1 .. 1'
+expect 1 inspect s.wrinkle --do 'fill 3' --do 'fill'
+for file in s.exr s.png t.exr; do [[ ! -e $file ]] || complain "$file was written"; done
+rm s.wrinkle
+
+# ---- run ----
+printf 'table 8x4\nfill 0.25\n\nsave d.exr\n' | "$program" run - >out 2>err || complain "run -: $(cat err)"
+[[ ! -s out && ! -s err ]] || complain 'run - talks'
+expect 0 inspect d.exr
+has out '8x4'
+has out 'heights      0.25 .. 0.25'
+printf 'fill 1\nfil 2\nsave e.exr\n' | "$program" run - >out 2>err
+is 'a bad line of standard input' "$?" 1
+has err 'wrinkle: standard input:2: unknown command "fil"'
+[[ ! -e e.exr ]] || complain 'run went on after an error'
+mkdir sub
+cp d.exr sub/h.exr
+printf 'image h.exr\nexport height h.png range=0,0.5\n' >sub/a.wrinkle
+expect 0 run sub/a.wrinkle --do 'save f.exr'
+[[ -s h.png && -s f.exr && ! -e sub/h.png ]] || complain 'run wrote elsewhere'
+printf 'fill 1\ndab 9\n' >sub/b.wrinkle
+expect 1 run sub/b.wrinkle
+has err 'wrinkle: sub/b.wrinkle:2: dab'
+rm -rf sub ./*.exr ./*.png
+
+# ---- inspect: points whose values are known ----
+# F = 0.5 (2 + 0.25 u v) = 1 + 0.125 u v on the unit plane: Fu = 0.125 v, Fv = 0.125 u, all exact in
+# binary; n = (0,0,1), D = Fu (n x Pv) - Fv (n x Pu) = (-Fu, -Fv, 0).
+expect 0 inspect --json --do 'analytic poly c=0,0,2;1,1,0.25' --do 'bump height=0.5 mode=blinn' \
+    --at 0.5,0.25 --at 0,0
+is 'objects' "$(wc -l <out)" 2
+first=$(head -n 1 out)
+want='{"u":0.5,"v":0.25,"P":[0.5,0.25,0],"Pu":[1,0,0],"Pv":[0,1,0],"Puu":[0,0,0],"Puv":[0,0,0],'
+want+='"Pvv":[0,0,0],"N":[0,0,1],"n":[0,0,1],"F":1.015625,"Fu":0.03125,"Fv":0.0625,'
+want+='"D":[-0.03125,-0.0625,0],"N_perturbed":[-0.03125,-0.0625,1],"n_perturbed":['
+[[ $first == "$want"* ]] || complain "inspect gave $first"
+keys=$(grep -o '"[A-Za-z_]*":' <<<"$first" | tr -d '":' | tr '\n' ' ')
+is 'the order of fields' "$keys" \
+    'u v P Pu Pv Puu Puv Pvv N n F Fu Fv D N_perturbed n_perturbed tilt_deg '
+# tilt = atan |D| / |N| = atan(0.0625 sqrt(1.25))
+awk -v line="$first" 'BEGIN {
+    sub(/.*tilt_deg":/, "", line); x = line + 0
+    y = atan2(0.0625 * sqrt(1.25), 1) * 180 / atan2(0, -1)
+    exit !(x - y < 1e-12 && y - x < 1e-12)
+}' || complain "tilt_deg of $first"
+# A slope that only the table gives: 64 texels, 1 in texel column 32, central difference across two.
+printf '0.5,0.25\n\n0.25,0.5\n' | "$program" inspect --json --at - --do 'analytic poly c=1,0,1' \
+    --do 'bump height=1' >points 2>err || complain "--at -: $(cat err)"
+is 'points of standard input' "$(wc -l <points)" 2
+has points '"F":0.25,"Fu":1,"Fv":0'
+printf '0.5,0.25\nx\n' | "$program" inspect --at - >out 2>err
+is 'a bad point' "$?" 1
+has err 'line 2'
+[[ ! -s out ]] || complain 'results in spite of a bad point'
+expect 0 inspect --json --at 1e300,0.5 --do 'surface plane a=1e10'
+has out '"N":[0,0,10000000000]'
+expect 0 inspect --json --do 'table 12x34'
+[[ $(cat out) == '{"size":[12,34],"layers":1,"hash":"'????????????????????????????????'"}' ]] ||
+    complain "summary: $(cat out)"
+expect 0 inspect --at 0.5,0.5 --do 'surface cube' --face 5 --json
+expect 1 inspect --at 0.5,0.5 --do 'surface cube' --face 6
+rm -f points
+empty 'inspect'
+
+# ---- the same bits on any number of threads ----
+cat >work.wrinkle <<'END'
+table 300x200
+grid cells=7x5 width=9 high=0.5
+stroke points=0.1,0.1;0.9,0.4,0.5;1.2,1.1,0.9 radius=23 strength=0.2
+dab 0.02,0.98 radius=50 mode=to to=-0.25 strength=0.125
+surface torus
+bump height=0.05
+END
+for threads in 1 2 7; do
+    expect 0 inspect work.wrinkle --json --threads "$threads"
+    mv out hash
+    expect 0 render work.wrinkle -o frame.exr --size 60x50 --threads "$threads"
+    cat hash <(sha256sum <frame.exr) >"same$threads"
+done
+{ cmp -s same1 same2 && cmp -s same1 same7; } || complain 'threads change the document or its picture'
+rm -f same? hash
+
+# ---- render and export ----
+rm -f frame.exr
+expect 0 render work.wrinkle -o 't####.png' --size 16x16 --frames 8-11 --turn 90
+[[ $(echo t*) == 't0008.png t0009.png t0010.png t0011.png' ]] || complain "frames: $(echo t*)"
+expect 0 render work.wrinkle -o still.png --size 16x16
+cmp -s t0008.png still.png || complain 'frame 8 at 90 degrees a frame is not the still picture'
+cmp -s t0009.png still.png && complain 'a quarter turn changes nothing'
+rm -f t*.png still.png
+echo before >kept.png
+expect 1 render work.wrinkle -o kept.png --do 'fill x'
+expect 1 render work.wrinkle -o nofolder/a.png
+expect 1 render work.wrinkle -o a.nosuch
+expect 1 export work.wrinkle --as height -o kept.jpg depth=16
+is 'a file that an error must not touch' "$(cat kept.png)" before
+expect 0 export range=0,0.5 work.wrinkle --as height -o h.png
+has out 'h.png: 300x200'
+[[ -s h.png ]] || complain 'export wrote nothing'
+expect 0 inspect h.png
+has out '300x200'
+rm -f kept.png h.png
+
+# ---- explain ----
+expect 0 explain work.wrinkle --json --size 16x16
+[[ $(cat out) == '{"effects":[{"rule":"E'*'}]}' ]] || complain "explain: $(cat out)"
+has out '"run":true,"class":"'
+expect 0 explain work.wrinkle --size 16x16
+has out 'reason'
+
+# ---- help ----
+expect 0 help
+has out 'stroke'
+expect 0 help render
+has out 'size=WxH'
+expect 0 help --json
+has out '"name":"stroke","class":"edit"'
+"$program" help >/dev/full 2>err
+is 'a full disk under standard output' "$?" 1
+has err 'standard output'
+
+# ---- an interrupt ----
+rm -f err
+mkfifo pipe
+"$program" run - <pipe >out 2>err &
+job=$!
+exec 9>pipe
+printf 'surface torus\nreplicate 0.5,1\n' >&9 # a note tells that it runs
+for ((i = 0; i < 200; i++)); do
+    [[ -s err ]] && break
+    sleep 0.05
+done
+kill -INT "$job"
+wait "$job" # the pipe stays open: only the signal can end it
+status=$?
+exec 9>&-
+is 'an interrupt' "$status" 130
+has err 'wrinkle: interrupted'
+rm -f pipe work.wrinkle
+empty 'everything'
+
+if [[ $failures != 0 ]]; then
+    printf '%d failures\n' "$failures"
+    exit 1
+fi
