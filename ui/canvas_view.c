@@ -35,17 +35,16 @@ static void pixel_grid(const WrApp *app)
     }
 }
 
-/* The copy of the real cell that has the view's middle in it. */
+/* The real cell. */
 static void cell_outline(const WrApp *app)
 {
     const WrView *v = &app->view;
-    double x0, y0, x1, y1;
+    double x0, y0, x1, y1, line = wr_gui_px(1);
     wr_view_to_pixel(v, 0, 0, &x0, &y0);
     wr_view_to_pixel(v, v->table_w, v->table_h, &x1, &y1);
-    wr_gui_draw_rect(rint(x0), rint(y0), rint(x1) - rint(x0), rint(y1) - rint(y0), 0x90000000u,
-                     3.0);
-    wr_gui_draw_rect(rint(x0), rint(y0), rint(x1) - rint(x0), rint(y1) - rint(y0), WR_COLOUR_CELL,
-                     1.0);
+    double x = rint(x0), y = rint(y0), w = rint(x1) - x, h = rint(y1) - y;
+    wr_gui_draw_rect(x, y, w, h, 0x90000000u, 3.0 * line);
+    wr_gui_draw_rect(x, y, w, h, WR_COLOUR_CELL, line);
 }
 
 /* Where the pointer on the patch is in the table. */

@@ -105,8 +105,7 @@ void wr_patch_update(WrApp *app)
     p->turned_at = now;
     if (differs(app)) {
         if (ready) wish(app, true);
-    } else if (p->wished_moving && !p->outstanding && now >= p->rest_at &&
-               app->hand.grab == WR_GRAB_NONE) {
+    } else if (p->wished_moving && !p->outstanding && now >= p->rest_at) {
         wish(app, false);
     }
 }

@@ -16,9 +16,12 @@ int wr_cli_paint(const WrCli *cli)
 {
     WrError err;
     WrText notes = { 0 };
-    WrSessionOptions options = {
-        .pool = cli->pool, .note = keep_note, .note_ctx = &notes, .outputs = true, .isa = cli->isa
-    };
+    WrSessionOptions options = { .pool = cli->pool,
+                                 .note = keep_note,
+                                 .note_ctx = &notes,
+                                 .outputs = true,
+                                 .isa = cli->isa,
+                                 .cancel = cli->cancel };
     WrSession *session = wr_session_new(&options);
     wr_session_set_outputs(session, false);
     bool good = wr_cli_check_isa(cli, &err);
@@ -36,7 +39,7 @@ int wr_cli_paint(const WrCli *cli)
         signal(SIGTERM, SIG_DFL);
         status = wr_app_run(&app);
     } else {
-        wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+        status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     }
     wr_session_free(session);
     wr_text_fini(&notes);

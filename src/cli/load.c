@@ -12,8 +12,9 @@ bool wr_cli_check_isa(const WrCli *cli, WrError *err)
 {
     if (!cli->isa) return true;
     WrRenderer *renderer = wr_renderer_new(cli->pool, cli->isa, err);
+    if (!renderer) return false;
     wr_renderer_free(renderer);
-    return renderer != NULL;
+    return true;
 }
 
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)

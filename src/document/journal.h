@@ -47,11 +47,12 @@ typedef void (*WrJournalReport)(void *ctx, const char *text);
 
 /* Zeroed: the defaults. Read once by wr_journal_begin; strings are copied. */
 typedef struct WrJournalOptions {
-    const char *folder;     /* NULL: wr_journal_folder; made with mode 0700 if missing */
-    const char *program;    /* version of the program; NULL: this one's */
-    int64_t max_bytes;      /* ask for a shorter journal beyond this; 0: 64 MB */
-    int64_t max_lines;      /* the same in lines; 0: 20000 */
-    double sync_seconds;    /* a line is on the disk itself at most this much later, if lines keep coming;
+    const char *folder;  /* NULL: wr_journal_folder; made with mode 0700 if missing */
+    const char *program; /* version of the program; NULL: this one's */
+    int64_t max_bytes;   /* ask for a shorter journal beyond this; 0: 64 MB */
+    int64_t max_lines;   /* the same in lines; 0: 20000 */
+    double
+        sync_seconds; /* a line is on the disk itself at most this much later, if lines keep coming;
                                0: 1 s; negative: only when wr_journal_sync says so */
     double retry_seconds;   /* try a journal that failed again this often at most; 0: 1 s */
     WrJournalReport report; /* may be NULL */
@@ -70,11 +71,12 @@ typedef struct WrJournalState {
     bool safe;          /* every command so far can be recovered */
     const char *reason; /* why not; "" while safe; valid until the next call */
     WrJournalWant want;
-    bool busy;        /* a command or a stroke is open: no restart now */
-    int64_t commands; /* commands and strokes begun since the start state. An undo that reaches farther
+    bool busy; /* a command or a stroke is open: no restart now */
+    int64_t
+        commands;  /* commands and strokes begun since the start state. An undo that reaches farther
                          back cannot be replayed: restart with a snapshot instead */
-    int64_t lines;    /* in the file */
-    int64_t bytes;    /* of the file */
+    int64_t lines; /* in the file */
+    int64_t bytes; /* of the file */
 } WrJournalState;
 
 typedef enum WrJournalOutcome {

@@ -40,6 +40,7 @@ bool wr_journal_folder(WrText *path, WrError *err)
 
 bool wr_journal_make_folder(const char *path, WrError *err)
 {
+    if (!*path) return wr_fail(err, "a folder without a name cannot be made");
     char *part = wr_strdup(path);
     bool ok = true;
     int saved = 0;

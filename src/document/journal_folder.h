@@ -1,7 +1,7 @@
 /* journal_folder.h - the folder of journals: making it, locks, what lies beside a journal, removal.
    Layer 5. Private to this room. */
 #pragma once
-#include "document/journal.h"
+#include "document/recover.h"
 
 #define WR_JOURNAL_ENDING ".wj"
 #define WR_JOURNAL_FILES_ENDING ".files"
@@ -23,8 +23,16 @@ int wr_journal_open(const char *path, WrError *err);
 /* Lock without waiting. False: another program has it, or `path` no longer names this file. */
 bool wr_journal_lock(int fd, const char *path);
 
+/* wr_journal_keep_file for the journal whose files are in `files`, one of the journals of `folder`. */
+bool wr_journal_keep(const char *folder, const char *files, const char *path, const char *sha256,
+                     WrError *err);
+
 /* Remove the files of NAME.files/ but those called keep_a or (in front of its ending) keep_b, either NULL;
    the folder too if it is empty then. */
 void wr_journal_clear_files(const char *files, const char *keep_a, const char *keep_b);
 /* Remove what killed programs left half made in the folder, if it is older than a day. */
 void wr_journal_sweep(const char *folder);
+
+/* wr_journal_read of an open file of which nothing has been read; `path` is for messages and for the
+   snapshot's place. The caller closes fd. */
+bool wr_journal_read_fd(int fd, const char *path, WrJournalRead *out, WrError *err);

@@ -31,8 +31,8 @@ typedef struct WrJournalRead {
     bool in_stroke;        /* and it is a stroke that was still being drawn */
     int64_t dropped_bytes; /* after the last good line; 0: the file is whole */
     char damage[256];      /* why they were dropped: "line 7: ..."; "" */
-    char gap[256];         /* the program itself said that lines are missing at the end, and why; "" */
-    char *owned[3];        /* header, snapshot path, texts */
+    char gap[256];  /* the program itself said that lines are missing at the end, and why; "" */
+    char *owned[3]; /* header, snapshot path, texts */
 } WrJournalRead;
 
 /* Read and verify a journal, in use or not. Stops at the first torn or damaged line (see damage). Fails,
@@ -44,18 +44,19 @@ void wr_journal_read_fini(WrJournalRead *read); /* fine on a zeroed one */
 
 /* A journal that no program holds. */
 typedef struct WrJournalEntry {
-    char *path;            /* of the .wj file; owned */
-    char *document;        /* the document's own file, "" if it never had one; owned */
-    WrJournalKind kind;    /* of the start state */
-    int64_t started;       /* seconds since 1970, UTC */
-    int64_t written;       /* the same: when it last changed */
-    int64_t bytes;         /* size of the file */
-    int complete;          /* commands to recover that finished */
-    bool unfinished;       /* one more, that did not */
-    bool nothing;          /* nothing to recover: no commands, and the start state is there anyway */
+    char *path;         /* of the .wj file; owned */
+    char *document;     /* the document's own file, "" if it never had one; owned */
+    WrJournalKind kind; /* of the start state */
+    int64_t started;    /* seconds since 1970, UTC */
+    int64_t written;    /* the same: when it last changed */
+    int64_t bytes;      /* size of the file */
+    int complete;       /* commands to recover that finished */
+    bool unfinished;    /* one more, that did not */
+    bool nothing;       /* nothing to recover: no commands, and the start state is there anyway */
     int64_t dropped_bytes; /* damaged tail */
     char damage[256];      /* as in WrJournalRead */
-    char error[256];       /* it cannot be read at all, and why; ""; then only path, written, bytes hold */
+    char
+        error[256]; /* it cannot be read at all, and why; ""; then only path, written, bytes hold */
 } WrJournalEntry;
 
 typedef struct WrJournalList {

@@ -21,16 +21,17 @@
 #define WR_OP_PARAMS 6 /* parameters of one operation, at most */
 
 typedef struct WrOpParam {
-    const char *name;  /* as in commands: "sigma"; NULL ends the list */
-    const char *label; /* for people: "width of the blur" */
-    const char *help;  /* a few words */
-    const char *unit;  /* "texels", "table units"; "" for plain numbers and words */
-    double fallback;   /* the default */
-    double low, high;  /* closed range */
+    const char *name;           /* as in commands: "sigma"; NULL ends the list */
+    const char *label;          /* for people: "width of the blur" */
+    const char *help;           /* a few words */
+    const char *unit;           /* "texels", "table units"; "" for plain numbers and words */
+    double fallback;            /* the default */
+    double low, high;           /* closed range */
     double soft_low, soft_high; /* what a slider spans, within the range */
     bool whole;                 /* whole numbers only */
     bool above;                 /* `low` itself is excluded */
-    const char *const *choices; /* words, ends with NULL; the value is the word's index. NULL: a number */
+    const char *const
+        *choices; /* words, ends with NULL; the value is the word's index. NULL: a number */
 } WrOpParam;
 
 /* What an operation may be given besides its table and its parameters. */

@@ -14,8 +14,8 @@
 #include "base/exactmath.h"
 
 #define REACH WR_OP_NARROW_REACH
-#define AT_ONCE 4                           /* taps on either side in one pass over a row */
-#define WIDE (WR_OP_SIDE + 2 * REACH)       /* a block with its apron */
+#define AT_ONCE 4                     /* taps on either side in one pass over a row */
+#define WIDE (WR_OP_SIDE + 2 * REACH) /* a block with its apron */
 #define READ_PITCH (WIDE + 16)
 #define MID_PITCH (WR_OP_SIDE + 16)
 #define LOG2_E 1.4426950408889634

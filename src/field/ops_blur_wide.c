@@ -99,8 +99,7 @@ static double to_steps(const WideBlur *wide, float height)
 /* The height plus what the blur adds to it, so that where that is nothing the bits stay. */
 static float blurred(const WideBlur *wide, float height, double both)
 {
-    return wr_op_float((double)height +
-                       (0.5 * both - to_steps(wide, height)) * wide->step);
+    return wr_op_float((double)height + (0.5 * both - to_steps(wide, height)) * wide->step);
 }
 
 static void blur_rows(int index, int worker, void *ctx)
@@ -113,8 +112,7 @@ static void blur_rows(int index, int worker, void *ctx)
     float *texels = (float *)(row + 4 * wide->length);
     for (int lane = 0; lane < rows; lane++) {
         wr_op_read(wide->in, -wide->apron, j + lane, across, 1, texels, (size_t)across);
-        for (int i = 0; i < across; i++)
-            row[(size_t)i * LANES + lane] = to_steps(wide, texels[i]);
+        for (int i = 0; i < across; i++) row[(size_t)i * LANES + lane] = to_steps(wide, texels[i]);
     }
     const double *sum = run_chains(wide, row, plane->width);
     for (int lane = 0; lane < rows; lane++) {
@@ -167,7 +165,8 @@ static bool run_axes(const WrOpJob *job, WideBlur *wide)
 {
     WrOpJob half = *job;
     half.to = 0.5 * (job->from + job->to);
-    if (!wr_op_pieces(&half, (wide->plane->height + LANES - 1) / LANES, blur_rows, wide)) return false;
+    if (!wr_op_pieces(&half, (wide->plane->height + LANES - 1) / LANES, blur_rows, wide))
+        return false;
     half.from = half.to;
     half.to = job->to;
     return wr_op_pieces(&half, (wide->plane->width + LANES - 1) / LANES, blur_columns, wide);

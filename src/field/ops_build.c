@@ -9,8 +9,8 @@
 #include "base/memory.h"
 
 #define SIDE WR_OP_SIDE
-#define BATCH 32                  /* blocks; 8 MB of new heights */
-#define ACROSS (SIDE / WR_TILE)   /* tiles along a block's side */
+#define BATCH 32                /* blocks; 8 MB of new heights */
+#define ACROSS (SIDE / WR_TILE) /* tiles along a block's side */
 #define BLOCK_TILES (ACROSS * ACROSS)
 
 /* Per thread. */
@@ -28,7 +28,7 @@ typedef struct Build {
     Bench *bench;                 /* [threads] */
     char *scratch;                /* [threads][scratch_pitch] */
     size_t scratch_pitch;
-    float *tile[BATCH][BLOCK_TILES];   /* where to write; NULL: unchanged */
+    float *tile[BATCH][BLOCK_TILES]; /* where to write; NULL: unchanged */
     bool changed[BATCH][BLOCK_TILES];
 } Build;
 
@@ -157,10 +157,11 @@ static void fetch_tiles(Build *build, int count)
     for (int index = 0; index < count; index++) {
         WrOpBlock b = block_at(build, build->first + index);
         for (int t = 0; t < BLOCK_TILES; t++)
-            build->tile[index][t] = !build->changed[index][t]
-                                        ? NULL
-                                        : wr_field_tile_write(build->out, b.i / WR_TILE + t % ACROSS,
-                                                              b.j / WR_TILE + t / ACROSS);
+            build->tile[index][t] =
+                !build->changed[index][t]
+                    ? NULL
+                    : wr_field_tile_write(build->out, b.i / WR_TILE + t % ACROSS,
+                                          b.j / WR_TILE + t / ACROSS);
     }
 }
 

@@ -60,7 +60,7 @@ static void set_ranks(Desk *desk, int count)
     for (int r = 0; r < count; r++) {
         uint32_t place = (uint32_t)desk->item[1][r];
         desk->rank[place] = (uint16_t)r;
-        desk->sorted[r] = desk->height[place];
+        desk->sorted[r] = desk->height[place] == 0.0f ? 0.0f : desk->height[place];
     }
 }
 

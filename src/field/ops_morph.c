@@ -15,7 +15,8 @@
 
 typedef struct Morph {
     int reach;
-    int half[2 * RADIUS_MAX + 1], level[2 * RADIUS_MAX + 1]; /* of the window's row -reach .. reach */
+    int half[2 * RADIUS_MAX + 1],
+        level[2 * RADIUS_MAX + 1]; /* of the window's row -reach .. reach */
     int levels;
     bool erode;
 } Morph;

@@ -114,10 +114,9 @@ WrField *wr_op_rotate(WrOpJob *job, const double *param)
     const WrField *in = job->in;
     int quarter = (int)param[0];
     bool half = quarter == 1;
-    WrField *base =
-        half ? wr_field_share(in)
-             : wr_op_base(job, wr_field_height(in), wr_field_width(in), wr_field_wrap_v(in),
-                          wr_field_wrap_u(in));
+    WrField *base = half ? wr_field_share(in)
+                         : wr_op_base(job, wr_field_height(in), wr_field_width(in),
+                                      wr_field_wrap_v(in), wr_field_wrap_u(in));
     WrOpWork work = { .make = half ? make_half_turn : make_quarter_turn,
                       .ctx = &quarter,
                       .scratch = sizeof(float) * WR_OP_SIDE * WR_OP_SIDE,
@@ -126,14 +125,16 @@ WrField *wr_op_rotate(WrOpJob *job, const double *param)
     return wr_op_build(job, base, &work);
 }
 
-static bool check_span(const WrOpJob *job, const char *axis, int from, int count, int n, WrWrap wrap)
+static bool check_span(const WrOpJob *job, const char *axis, int from, int count, int n,
+                       WrWrap wrap)
 {
     if (count > n)
         return wr_fail(job->err, "%s: %d texels along %s: the table has %d", job->name, count, axis,
                        n);
     if (wrap == WR_WRAP_CLAMP && from + count > n)
-        return wr_fail(job->err, "%s: texels %d to %d along %s: the table ends at %d, and that axis is "
-                                 "not periodic",
+        return wr_fail(job->err,
+                       "%s: texels %d to %d along %s: the table ends at %d, and that axis is "
+                       "not periodic",
                        job->name, from, from + count - 1, axis, n - 1);
     if (from >= n)
         return wr_fail(job->err, "%s: starts at texel %d along %s: the last is %d", job->name, from,

@@ -62,7 +62,8 @@ void wr_op_read(const WrField *field, int i, int j, int count_i, int count_j, fl
 {
     Span u = span_inside(i, count_i, wr_field_width(field), wr_field_wrap_u(field));
     Span v = span_inside(j, count_j, wr_field_height(field), wr_field_wrap_v(field));
-    wr_field_read(field, u.from, v.from, u.count, v.count, out + (size_t)v.at * pitch + u.at, pitch);
+    wr_field_read(field, u.from, v.from, u.count, v.count, out + (size_t)v.at * pitch + u.at,
+                  pitch);
     for (int y = v.at; y < v.at + v.count; y++) {
         float *row = out + (size_t)y * pitch;
         int end = u.at + u.count;

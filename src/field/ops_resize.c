@@ -31,7 +31,8 @@ typedef struct Taps {
     int from, count;
 } Taps;
 typedef struct Axis {
-    int most; /* taps of an output texel */
+    int most;   /* taps of an output texel */
+    bool folds; /* they may be more than the input has texels: all outputs see all of these */
     Taps *taps;
     double *weight; /* [outputs][most] */
 } Axis;
@@ -61,14 +62,17 @@ static double filter_value(int filter, double x)
         return a < 1.0   ? 1.0 + a * a * (1.5 * a - 2.5)
                : a < 2.0 ? 2.0 + a * (-4.0 + a * (2.5 - 0.5 * a))
                          : 0.0;
-    double sum = 0.0, first = x - ceil(x - 3.0) - 6.0; /* the values one apart, in -3 .. 3 */
-    for (int k = 0; k < 13; k++) sum += lanczos3(first + k);
+    double sum = 0.0, part = x - floor(x);
+    for (int k = -3; k < 3; k++) sum += lanczos3(part + k);
     return lanczos3(x) / sum;
 }
 
-static double filter_reach(int filter)
+/* How many input texels to either side an output texel sees, at most. */
+static double filter_reach(int filter, double ratio)
 {
-    return filter == FILTER_LINEAR ? 1.0 : filter == FILTER_CATMULL ? 2.0 : 3.0;
+    double stretch = ratio > 1.0 ? ratio : 1.0;
+    if (filter == FILTER_BOX) return 0.5 * ratio + 0.5;
+    return stretch * (filter == FILTER_LINEAR ? 1.0 : filter == FILTER_CATMULL ? 2.0 : 3.0);
 }
 
 /* What of input texel k, which covers k - 1/2 .. k + 1/2, lies in low .. high. */
@@ -109,7 +113,7 @@ static void set_taps(Axis *axis, int index, int filter, int n, int out, WrWrap w
 {
     double ratio = (double)n / out, x = (index + 0.5) * ratio - 0.5;
     double stretch = ratio > 1.0 ? ratio : 1.0;
-    double half = filter == FILTER_BOX ? 0.5 * ratio + 0.5 : filter_reach(filter) * stretch;
+    double half = filter_reach(filter, ratio);
     Taps *taps = &axis->taps[index];
     taps->from = (int)ceil(x - half);
     taps->count = (int)floor(x + half) - taps->from + 1;
@@ -119,16 +123,16 @@ static void set_taps(Axis *axis, int index, int filter, int n, int out, WrWrap w
                                        : filter_value(filter, (at - x) / stretch);
     }
     double *weight = axis->weight + (size_t)index * (size_t)axis->most;
-    if (taps->count > n) fold(taps, weight, wide, n, wrap);
+    if (axis->folds) fold(taps, weight, wide, n, wrap);
     else memcpy(weight, wide, sizeof *wide * (size_t)taps->count);
     round_weights(weight, taps->count);
 }
 
 static bool axis_init(Axis *axis, const WrOpJob *job, int filter, int n, int out, WrWrap wrap)
 {
-    double ratio = (double)n / out, stretch = ratio > 1.0 ? ratio : 1.0;
-    int widest = (int)(2.0 * 3.0 * stretch) + 3;
-    axis->most = widest < n ? widest : n;
+    int widest = (int)(2.0 * filter_reach(filter, (double)n / out)) + 1;
+    axis->folds = widest > n;
+    axis->most = axis->folds ? n : widest;
     axis->taps = wr_try_alloc((size_t)out, sizeof *axis->taps, job->name, job->err);
     if (!axis->taps) return false;
     axis->weight =
@@ -169,8 +173,7 @@ static Taps seen(const Axis *axis, int i, int count)
 
 static void add_row(const Axis *v, WrOpBlock b, int row, int *open, const double *mid, double *sums)
 {
-    while (*open < b.count_j &&
-           v->taps[b.j + *open].from + v->taps[b.j + *open].count <= row)
+    while (*open < b.count_j && v->taps[b.j + *open].from + v->taps[b.j + *open].count <= row)
         ++*open; /* outputs that are done; the ends of the taps rise with the outputs */
     for (int y = *open; y < b.count_j && v->taps[b.j + y].from <= row; y++) {
         double weight =

@@ -58,15 +58,17 @@ WrField *wr_op_levels(WrOpJob *job, const double *param)
 {
     double span = param[1] - param[0];
     if (span == 0.0) {
-        wr_fail(job->err, "%s: in-low and in-high are both %g: they must differ", job->name, param[0]);
+        wr_fail(job->err, "%s: in-low and in-high are both %g: they must differ", job->name,
+                param[0]);
         return NULL;
     }
     if (!(1.0 / span <= DBL_MAX && 1.0 / span >= -DBL_MAX)) {
-        wr_fail(job->err, "%s: in-low and in-high differ by %g: they must differ by more", job->name,
-                span);
+        wr_fail(job->err, "%s: in-low and in-high differ by %g: they must differ by more",
+                job->name, span);
         return NULL;
     }
-    Tone tone = { map_levels, { param[0], 1.0 / span, 1.0 / param[2], param[3], param[4] - param[3] } };
+    Tone tone = { map_levels,
+                  { param[0], 1.0 / span, 1.0 / param[2], param[3], param[4] - param[3] } };
     return run_tone(job, &tone);
 }
 

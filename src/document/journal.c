@@ -1,0 +1,448 @@
+#include "document/journal.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "document/journal_folder.h"
+#include "document/journal_line.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#ifndef WR_VERSION
+#define WR_VERSION "0"
+#endif
+
+#define MAX_BYTES ((int64_t)64 << 20)
+#define MAX_LINES 20000
+#define PATIENCE_SECONDS 10.0
+#define PATIENCE_MOST_SECONDS 300.0
+#define PROBE_BYTES 65536 /* room on the disk that counts as "writing works again" */
+
+typedef enum Open { OPEN_NOTHING, OPEN_COMMAND, OPEN_STROKE } Open;
+
+struct WrJournal {
+    WrJournalOptions options; /* folder and program are copies; owned */
+    char *path, *temporary, *files;
+    int fd;        /* locked, appending; -1: there is no file yet */
+    int64_t bytes; /* whole lines in the file: what a failed write is cut back to */
+    int64_t lines, commands;
+    uint64_t sequence; /* of the next record */
+    WrHash chain;
+    Open open;
+    WrText line;      /* scratch */
+    bool unsynced;    /* lines were written since synced_at */
+    double synced_at; /* wr_clock_seconds */
+    bool broken;      /* lines are missing: only a restart helps */
+    bool gap_marked;  /* and the file says so */
+    bool writable;    /* broken, but writing has worked since */
+    double tried_at;  /* wr_clock_seconds of the last failure or try */
+    double ask_at;    /* do not ask for a restart before */
+    double patience;  /* seconds to the next question when one is put off */
+    int snapshot;     /* number of the last snapshot handed out */
+    char reason[384]; /* why it is broken */
+};
+
+/* ---- failing, and coming back ---- */
+
+static void report(WrJournal *journal, const char *text)
+{
+    if (journal->options.report) journal->options.report(journal->options.ctx, text);
+}
+
+/* A fact for the reader that may be missing without harm, so failing to write it is no failure. */
+static void mark_gap(WrJournal *journal)
+{
+    if (journal->fd < 0 || journal->gap_marked) return;
+    if (ftruncate(journal->fd, journal->bytes) != 0) return; /* torn bytes: nothing may follow */
+    WrHash chain = journal->chain;
+    wr_text_clear(&journal->line);
+    wr_journal_print_line(&journal->line, journal->sequence, 'g', journal->reason, &chain);
+    journal->gap_marked =
+        wr_journal_write_all(journal->fd, journal->line.data, journal->line.length);
+    if (!journal->gap_marked && ftruncate(journal->fd, journal->bytes) != 0)
+        return; /* the reader drops torn bytes */
+}
+
+static void become_unsafe(WrJournal *journal, const char *reason)
+{
+    if (journal->broken) return;
+    journal->broken = true;
+    journal->writable = false;
+    journal->tried_at = wr_clock_seconds();
+    snprintf(journal->reason, sizeof journal->reason, "%.380s", reason);
+    mark_gap(journal);
+    WrText text = { 0 };
+    wr_text_addf(&text, "the journal is not safe: %s", journal->reason);
+    report(journal, wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+/* Would a new file have room? Writes one and removes it. */
+static bool probe(const WrJournal *journal)
+{
+    if (!journal->path || !wr_journal_make_folder(journal->options.folder, NULL)) return false;
+    unlink(journal->temporary);
+    int fd = open(journal->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (fd < 0) return false;
+    char *block = wr_alloc(PROBE_BYTES, 1);
+    bool ok = wr_journal_write_all(fd, block, PROBE_BYTES) && fsync(fd) == 0;
+    wr_free(block);
+    close(fd);
+    unlink(journal->temporary);
+    return ok;
+}
+
+static void retry(WrJournal *journal)
+{
+    double now = wr_clock_seconds();
+    if (journal->writable || now - journal->tried_at < journal->options.retry_seconds) return;
+    journal->tried_at = now;
+    journal->writable = probe(journal);
+    if (journal->writable) mark_gap(journal);
+}
+
+/* ---- writing lines ---- */
+
+static bool write_line(WrJournal *journal, WrError *err)
+{
+    struct stat info;
+    int64_t length = (int64_t)journal->line.length;
+    if (length > WR_JOURNAL_LINE_MAX)
+        return wr_fail(err, "a line of %.0f MB is over the limit of %.0f MB", (double)length / 1e6,
+                       (double)WR_JOURNAL_LINE_MAX / 1e6);
+    if (journal->bytes + length > WR_JOURNAL_FILE_MAX)
+        return wr_fail(err, "%s: over %.0f MB", journal->path, (double)WR_JOURNAL_FILE_MAX / 1e6);
+    if (fstat(journal->fd, &info) != 0 || info.st_nlink == 0)
+        return wr_fail(err, "%s: was removed", journal->path);
+    if (wr_journal_write_all(journal->fd, journal->line.data, (size_t)length)) return true;
+    return wr_fail(err, "%s: %s", journal->path, strerror(errno));
+}
+
+static bool append(WrJournal *journal, char kind, const char *payload, WrError *err)
+{
+    WrError local;
+    if (!err) err = &local;
+    if (journal->broken) {
+        retry(journal);
+        return wr_fail(err, "the journal is not safe: %s", journal->reason);
+    }
+    WrHash chain = journal->chain;
+    wr_text_clear(&journal->line);
+    wr_journal_print_line(&journal->line, journal->sequence, kind, payload, &chain);
+    if (!write_line(journal, err)) {
+        become_unsafe(journal, err->text);
+        return false;
+    }
+    journal->bytes += (int64_t)journal->line.length;
+    journal->chain = chain;
+    journal->sequence++;
+    journal->lines++;
+    journal->unsynced = true;
+    double wait = journal->options.sync_seconds;
+    if (wait < 0 || wr_clock_seconds() - journal->synced_at < wait) return true;
+    return wr_journal_sync(journal, err);
+}
+
+bool wr_journal_command(WrJournal *journal, const char *text, WrError *err)
+{
+    journal->open = OPEN_COMMAND;
+    journal->commands++;
+    return append(journal, 'c', text, err);
+}
+
+bool wr_journal_done(WrJournal *journal, WrJournalOutcome outcome, const WrHash *hash, WrError *err)
+{
+    char text[48] = "dropped", digits[33];
+    if (journal->open == OPEN_NOTHING) return true;
+    journal->open = OPEN_NOTHING;
+    if (outcome == WR_JOURNAL_OK) {
+        if (hash) wr_hash_print(*hash, digits);
+        snprintf(text, sizeof text, "ok%s%s", hash ? " " : "", hash ? digits : "");
+    }
+    return append(journal, 'd', text, err);
+}
+
+bool wr_journal_stroke_begin(WrJournal *journal, const char *head, WrError *err)
+{
+    journal->open = OPEN_STROKE;
+    journal->commands++;
+    return append(journal, 'b', head, err);
+}
+
+bool wr_journal_stroke_add(WrJournal *journal, const char *samples, WrError *err)
+{
+    if (journal->open != OPEN_STROKE) return wr_fail(err, "no stroke is open in the journal");
+    return append(journal, 's', samples, err);
+}
+
+bool wr_journal_stroke_end(WrJournal *journal, WrError *err)
+{
+    if (journal->open != OPEN_STROKE) return wr_fail(err, "no stroke is open in the journal");
+    journal->open = OPEN_COMMAND;
+    return append(journal, 'e', "", err);
+}
+
+bool wr_journal_note(WrJournal *journal, const char *text, WrError *err)
+{
+    return append(journal, 'n', text, err);
+}
+
+bool wr_journal_sync(WrJournal *journal, WrError *err)
+{
+    WrError local;
+    struct stat mine, named;
+    if (!err) err = &local;
+    if (journal->broken) {
+        retry(journal);
+        return wr_fail(err, "the journal is not safe: %s", journal->reason);
+    }
+    journal->synced_at = wr_clock_seconds();
+    bool ok = true;
+    if (stat(journal->path, &named) != 0 || fstat(journal->fd, &mine) != 0 ||
+        named.st_ino != mine.st_ino || named.st_dev != mine.st_dev)
+        ok = wr_fail(err, "%s: was removed or moved", journal->path);
+    else if (journal->unsynced && fdatasync(journal->fd) != 0)
+        ok = wr_fail(err, "%s: cannot be written to the disk (%s)", journal->path, strerror(errno));
+    journal->unsynced = false;
+    if (!ok) become_unsafe(journal, err->text);
+    return ok;
+}
+
+WrJournalState wr_journal_state(const WrJournal *journal)
+{
+    bool busy = journal->open != OPEN_NOTHING;
+    bool ask = !busy && wr_clock_seconds() >= journal->ask_at;
+    bool too_long =
+        journal->bytes > journal->options.max_bytes || journal->lines > journal->options.max_lines;
+    WrJournalWant want = WR_JOURNAL_WANT_NOTHING;
+    if (ask && journal->broken && journal->writable) want = WR_JOURNAL_WANT_WHOLE;
+    if (ask && !journal->broken && too_long) want = WR_JOURNAL_WANT_SHORTER;
+    return (WrJournalState){ .safe = !journal->broken,
+                             .reason = journal->broken ? journal->reason : "",
+                             .want = want,
+                             .busy = busy,
+                             .commands = journal->commands,
+                             .lines = journal->lines,
+                             .bytes = journal->bytes };
+}
+
+const char *wr_journal_path(const WrJournal *journal)
+{
+    return journal->path ? journal->path : "";
+}
+
+/* ---- beginning and restarting ---- */
+
+/* The header of a start state; the caller frees *absolute. */
+static bool print_start(WrJournal *journal, const WrJournalStart *start, char **absolute,
+                        WrHash *chain, WrError *err)
+{
+    WrJournalHeader header = { .start = *start,
+                               .program = journal->options.program,
+                               .time = (int64_t)time(NULL) };
+    if (start->kind == WR_JOURNAL_DOCUMENT && (!start->path || !*start->path))
+        return wr_fail(err, "a journal that starts from a document needs its path");
+    if (start->sha256 && !wr_journal_is_sha256(start->sha256))
+        return wr_fail(err, "'%.70s': a SHA-256 must be 64 lower-case hex digits", start->sha256);
+    header.start.snapshot = NULL;
+    if (start->kind == WR_JOURNAL_SNAPSHOT) {
+        const char *slash = start->snapshot ? strrchr(start->snapshot, '/') : NULL;
+        if (!slash || strncmp(start->snapshot, journal->files, strlen(journal->files)) != 0 ||
+            start->snapshot + strlen(journal->files) != slash || !wr_journal_is_name(slash + 1))
+            return wr_fail(err, "%s: not a snapshot of this journal",
+                           start->snapshot ? start->snapshot : "no file");
+        if (!wr_journal_sync_path(start->snapshot, err)) return false;
+        wr_journal_sync_path(journal->files, NULL);
+        header.start.snapshot = slash + 1;
+    }
+    if (start->path && *start->path && *start->path != '/') {
+        char *here = getcwd(NULL, 0);
+        WrText text = { 0 };
+        wr_text_addf(&text, "%s/%s", here ? here : "", start->path);
+        free(here);
+        header.start.path = *absolute = text.data;
+    }
+    wr_text_clear(&journal->line);
+    wr_journal_print_header(&journal->line, &header, chain);
+    return true;
+}
+
+/* A locked file with the header that is in journal->line, under its temporary name, on the disk. */
+static int create_file(const WrJournal *journal, WrError *err)
+{
+    unlink(journal->temporary);
+    int fd = open(journal->temporary, O_RDWR | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (fd < 0) {
+        wr_fail(err, "%s: cannot be written (%s)", journal->path, strerror(errno));
+        return -1;
+    }
+    if (flock(fd, LOCK_EX | LOCK_NB) == 0 &&
+        wr_journal_write_all(fd, journal->line.data, journal->line.length) && fsync(fd) == 0 &&
+        rename(journal->temporary, journal->path) == 0)
+        return fd;
+    wr_fail(err, "%s: cannot be written (%s)", journal->path, strerror(errno));
+    unlink(journal->temporary);
+    close(fd);
+    return -1;
+}
+
+/* Put a new file with another start state in the place of the old one, if any. */
+static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError *err)
+{
+    char *absolute = NULL;
+    WrHash chain;
+    if (!journal->path) return wr_fail(err, "%s", journal->reason);
+    if (!wr_journal_make_folder(journal->options.folder, err)) return false;
+    bool ok = print_start(journal, start, &absolute, &chain, err);
+    int fd = ok ? create_file(journal, err) : -1;
+    wr_free(absolute);
+    if (fd < 0) return false;
+    wr_journal_sync_path(journal->options.folder, NULL);
+    if (journal->fd >= 0) close(journal->fd); /* only now, so that the name was never unheld */
+    journal->fd = fd;
+    journal->bytes = (int64_t)journal->line.length;
+    journal->lines = 1;
+    journal->commands = 0;
+    journal->sequence = 1;
+    journal->chain = chain;
+    journal->unsynced = false;
+    journal->synced_at = wr_clock_seconds();
+    journal->broken = journal->gap_marked = journal->writable = false;
+    journal->patience = PATIENCE_SECONDS;
+    journal->ask_at = 0;
+    return true;
+}
+
+/* "20260131-235959-PID-RANDOM": unique by the random part, readable by the rest. */
+static void choose_paths(WrJournal *journal)
+{
+    uint64_t random = 0;
+    if (getrandom(&random, sizeof random, 0) != (ssize_t)sizeof random)
+        random = (uint64_t)(wr_clock_seconds() * 1e9);
+    time_t now = time(NULL);
+    struct tm date = { 0 };
+    gmtime_r(&now, &date);
+    char stamp[32], name[96];
+    if (strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", &date) == 0) stamp[0] = '\0';
+    snprintf(name, sizeof name, "%s-%ld-%016llx", stamp, (long)getpid(),
+             (unsigned long long)random);
+    WrText path = { 0 }, temporary = { 0 };
+    const char *folder = journal->options.folder;
+    wr_text_addf(&path, "%s/%s" WR_JOURNAL_ENDING, folder, name);
+    wr_text_addf(&temporary, "%s/.%s.new", folder, name);
+    journal->path = path.data;
+    journal->temporary = temporary.data;
+    journal->files = wr_journal_files_folder(journal->path);
+}
+
+/* A file-size limit is to be an error of write(), not the end of the program. */
+static void outlive_size_limit(void)
+{
+    struct sigaction now;
+    if (sigaction(SIGXFSZ, NULL, &now) != 0 || now.sa_handler != SIG_DFL) return;
+    now.sa_handler = SIG_IGN;
+    sigaction(SIGXFSZ, &now, NULL);
+}
+
+WrJournal *wr_journal_begin(const WrJournalOptions *options, const WrJournalStart *start)
+{
+    WrJournal *journal = wr_alloc(1, sizeof *journal);
+    WrJournalOptions *o = &journal->options;
+    WrError err = { "" };
+    *o = *options;
+    journal->fd = -1;
+    if (o->max_bytes <= 0) o->max_bytes = MAX_BYTES;
+    if (o->max_lines <= 0) o->max_lines = MAX_LINES;
+    if (o->sync_seconds == 0) o->sync_seconds = 1;
+    if (o->retry_seconds <= 0) o->retry_seconds = 1;
+    o->program = wr_strdup(o->program ? o->program : WR_VERSION);
+    WrText folder = { 0 };
+    if (o->folder) wr_text_add(&folder, o->folder);
+    else wr_journal_folder(&folder, &err);
+    o->folder = folder.data;
+    outlive_size_limit();
+    if (o->folder) {
+        wr_journal_sweep(o->folder);
+        choose_paths(journal);
+        start_file(journal, start, &err);
+    }
+    journal->patience = PATIENCE_SECONDS;
+    if (journal->fd < 0) become_unsafe(journal, err.text);
+    return journal;
+}
+
+bool wr_journal_restart(WrJournal *journal, const WrJournalStart *start, WrError *err)
+{
+    if (journal->open != OPEN_NOTHING)
+        return wr_fail(err, "the journal cannot restart while a command is under way");
+    bool was_broken = journal->broken;
+    if (!start_file(journal, start, err)) return false;
+    const char *slash = start->snapshot ? strrchr(start->snapshot, '/') : NULL;
+    wr_journal_clear_files(journal->files, slash ? slash + 1 : NULL, start->sha256);
+    if (was_broken) report(journal, "the journal is safe again");
+    return true;
+}
+
+void wr_journal_put_off(WrJournal *journal)
+{
+    journal->ask_at = wr_clock_seconds() + journal->patience;
+    journal->patience *= 2;
+    if (journal->patience > PATIENCE_MOST_SECONDS) journal->patience = PATIENCE_MOST_SECONDS;
+}
+
+/* ---- files beside it ---- */
+
+bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err)
+{
+    if (!journal->path) return wr_fail(err, "%s", journal->reason);
+    return wr_journal_keep(journal->options.folder, journal->files, path, sha256, err);
+}
+
+bool wr_journal_snapshot_path(WrJournal *journal, WrText *path, WrError *err)
+{
+    if (!journal->path) return wr_fail(err, "%s", journal->reason);
+    if (!wr_journal_make_folder(journal->files, err)) return false;
+    wr_text_addf(path, "%s/snapshot-%d.exr", journal->files, ++journal->snapshot);
+    return true;
+}
+
+/* ---- closing ---- */
+
+static void free_journal(WrJournal *journal)
+{
+    if (journal->fd >= 0) close(journal->fd); /* and with it the lock */
+    wr_free((char *)journal->options.folder);
+    wr_free((char *)journal->options.program);
+    wr_free(journal->path);
+    wr_free(journal->temporary);
+    wr_free(journal->files);
+    wr_text_fini(&journal->line);
+    wr_free(journal);
+}
+
+void wr_journal_finish(WrJournal *journal)
+{
+    struct stat mine, named;
+    if (!journal) return;
+    /* The journal first: without it the files mean nothing, while it without them would mislead. */
+    if (journal->fd >= 0 && fstat(journal->fd, &mine) == 0 && stat(journal->path, &named) == 0 &&
+        mine.st_ino == named.st_ino && mine.st_dev == named.st_dev)
+        unlink(journal->path);
+    if (journal->path) wr_journal_clear_files(journal->files, NULL, NULL);
+    free_journal(journal);
+}
+
+void wr_journal_leave(WrJournal *journal)
+{
+    if (!journal) return;
+    if (!journal->broken && journal->unsynced) wr_journal_sync(journal, NULL);
+    free_journal(journal);
+}

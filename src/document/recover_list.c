@@ -1,0 +1,139 @@
+/* Which journals were left behind, and holding one while it is recovered. */
+#include "document/recover.h"
+
+#include "base/array.h"
+#include "base/file.h"
+#include "document/journal_folder.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void fini_entry(WrJournalEntry *entry)
+{
+    wr_free(entry->path);
+    wr_free(entry->document);
+}
+
+static void describe(int fd, WrJournalEntry *entry)
+{
+    WrJournalRead read;
+    WrError err;
+    if (!wr_journal_read_fd(fd, entry->path, &read, &err)) {
+        entry->document = wr_strdup("");
+        snprintf(entry->error, sizeof entry->error, "%.250s", err.text);
+        return;
+    }
+    entry->document = wr_strdup(read.start.path ? read.start.path : "");
+    entry->kind = read.start.kind;
+    entry->started = read.started;
+    entry->complete = read.count - (read.unfinished ? 1 : 0);
+    entry->unfinished = read.unfinished;
+    entry->dropped_bytes = read.dropped_bytes;
+    memcpy(entry->damage, read.damage, sizeof entry->damage);
+    entry->nothing =
+        read.count == 0 && read.start.kind != WR_JOURNAL_SNAPSHOT && !*read.damage && !*read.gap;
+    wr_journal_read_fini(&read);
+}
+
+/* False if a program holds it, or it is no journal file at all. The lock is held only to know that. */
+static bool look_at(const char *path, WrJournalEntry *entry)
+{
+    struct stat info;
+    int fd = wr_journal_open(path, NULL);
+    if (fd < 0) return false;
+    bool left = wr_journal_lock(fd, path) && fstat(fd, &info) == 0;
+    if (left) {
+        flock(fd, LOCK_UN);
+        *entry = (WrJournalEntry){ .path = wr_strdup(path),
+                                   .written = (int64_t)info.st_mtime,
+                                   .bytes = (int64_t)info.st_size };
+        describe(fd, entry);
+    }
+    close(fd);
+    return left;
+}
+
+static int newest_first(const void *a, const void *b)
+{
+    const WrJournalEntry *x = a, *y = b;
+    if (x->written != y->written) return x->written < y->written ? 1 : -1;
+    return strcmp(y->path, x->path);
+}
+
+bool wr_journal_list(const char *folder, WrJournalList *out, WrError *err)
+{
+    WrText usual = { 0 };
+    if (!folder && !wr_journal_folder(&usual, err)) return false;
+    const char *place = folder ? folder : wr_text_get(&usual);
+    WR_ARRAY(WrJournalEntry) found = { 0 };
+    DIR *dir = opendir(place);
+    bool ok = dir || errno == ENOENT || wr_fail(err, "%s: %s", place, strerror(errno));
+    struct dirent *entry;
+    while (dir && (entry = readdir(dir))) {
+        size_t length = strlen(entry->d_name), ending = strlen(WR_JOURNAL_ENDING);
+        if (entry->d_name[0] == '.' || length <= ending ||
+            strcmp(entry->d_name + length - ending, WR_JOURNAL_ENDING) != 0)
+            continue;
+        WrJournalEntry one;
+        char *path = wr_path_join(place, entry->d_name);
+        if (look_at(path, &one)) wr_array_push(&found, one);
+        wr_free(path);
+    }
+    if (dir) closedir(dir);
+    wr_text_fini(&usual);
+    if (!ok) return false;
+    if (found.count > 1) qsort(found.data, (size_t)found.count, sizeof *found.data, newest_first);
+    *out = (WrJournalList){ found.data, found.count };
+    return true;
+}
+
+void wr_journal_list_fini(WrJournalList *list)
+{
+    for (int i = 0; i < list->count; i++) fini_entry(&list->entries[i]);
+    wr_free(list->entries);
+    *list = (WrJournalList){ 0 };
+}
+
+struct WrJournalClaim {
+    char *path; /* owned */
+    int fd;     /* locked */
+};
+
+WrJournalClaim *wr_journal_claim(const char *path, WrError *err)
+{
+    int fd = wr_journal_open(path, err);
+    if (fd < 0) return NULL;
+    if (!wr_journal_lock(fd, path)) {
+        close(fd);
+        wr_fail(err, "%s: in use by a running program", path);
+        return NULL;
+    }
+    WrJournalClaim *claim = wr_alloc(1, sizeof *claim);
+    *claim = (WrJournalClaim){ wr_strdup(path), fd };
+    return claim;
+}
+
+void wr_journal_claim_free(WrJournalClaim *claim)
+{
+    if (!claim) return;
+    close(claim->fd);
+    wr_free(claim->path);
+    wr_free(claim);
+}
+
+bool wr_journal_claim_remove(WrJournalClaim *claim, WrError *err)
+{
+    bool ok = unlink(claim->path) == 0 || errno == ENOENT ||
+              wr_fail(err, "%s: cannot be removed (%s)", claim->path, strerror(errno));
+    if (ok) {
+        char *files = wr_journal_files_folder(claim->path);
+        wr_journal_clear_files(files, NULL, NULL);
+        wr_free(files);
+    }
+    wr_journal_claim_free(claim);
+    return ok;
+}
