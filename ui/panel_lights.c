@@ -61,18 +61,21 @@ static void preset(WrApp *app, int which)
                                             "light directional to=0,1,0.3 strength=0.55",
                                             "light directional to=-0.8,0.4,0.6 strength=0.3",
                                             "light directional to=0.8,0.4,0.6 strength=0.3" };
+    static const char *const paper[] = { "light clear",
+                                         "light directional to=-0.4,0.5,0.8 strength=1" };
     static const struct {
         const char *const *lines;
         int count;
-    } sets[] = { { raking, 2 }, { studio, 4 }, { overcast, 4 } };
+    } sets[] = { { raking, 2 }, { studio, 4 }, { overcast, 4 }, { paper, 2 } };
     wr_patch_commit_zoom(app, true);
     for (int i = 0; i < sets[which].count; i++) wr_app_run_line(app, sets[which].lines[i]);
 }
 
 static void lights(WrApp *app)
 {
-    static const char *const presets[] = { "Raking", "Studio", "Overcast" };
-    int chosen = -1;
+    static const char *const presets[] = { "choose \xe2\x80\xa6", "Raking", "Studio", "Overcast",
+                                           "The paper's" };
+    int chosen = 0;
     wr_gui_space(8);
     wr_gui_heading("LIGHT");
     for (int i = 0; i < wr_app_scene(app)->light_count; i++) {
@@ -82,7 +85,7 @@ static void lights(WrApp *app)
         if (changed) break;
     }
     wr_gui_label("Presets");
-    if (wr_gui_choice("presets", 0, presets, 3, &chosen)) preset(app, chosen);
+    if (wr_gui_choice("presets", 0, presets, 5, &chosen) && chosen > 0) preset(app, chosen - 1);
     wr_gui_label("");
     if (wr_gui_chip(WR_ICON_PLUS, "Add a light")) {
         WrText line = { 0 };

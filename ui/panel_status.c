@@ -89,15 +89,28 @@ static bool message(WrApp *app)
     return true;
 }
 
+/* Where the picture's time went, in percent: the stages work on several threads at once. */
+static int stages(const WrStageTimes *t, char *text, size_t size, int used)
+{
+    double all = t->visibility + t->geometry + t->bump + t->shade + t->resolve;
+    if (all <= 0) return used;
+    return used + snprintf(text + used, size - (size_t)used,
+                           "visibility %.0f %%  geometry %.0f %%  bump %.0f %%  shade %.0f %%     ",
+                           100 * t->visibility / all, 100 * t->geometry / all, 100 * t->bump / all,
+                           100 * t->shade / all);
+}
+
 static void right_side(const WrApp *app)
 {
     const WrPreviewPicture *p = wr_preview_picture(app->preview);
     const WrField *field = wr_app_field(app);
-    char text[200];
+    char text[300];
     int used = 0;
     if (p->serial) {
         used = snprintf(text, sizeof text, "%s  \xc2\xb7  %.1f ms     ",
                         wr_surfaces[wr_app_scene(app)->shape.kind]->label, p->seconds * 1e3);
+        if (app->layout.status.w > wr_gui_px(1200))
+            used = stages(&p->times, text, sizeof text, used);
     }
     double bytes = (double)wr_field_bytes(field);
     snprintf(text + used, sizeof text - (size_t)used, "%d \xc3\x97 %d  \xc2\xb7  %.3g MB     %s",

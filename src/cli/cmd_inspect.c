@@ -104,9 +104,10 @@ static void add_summary(WrText *text, bool json, const WrSession *session)
     wr_field_range(field, &low, &high);
     wr_text_addf(text, "size         %dx%d texels\nwrap         %s\nheights      ", width, height,
                  wr_document_wrap_word(wr_field_wrap_u(field), wr_field_wrap_v(field)));
-    wr_text_add_number(text, (double)low);
+    char number[WR_NUMBER_SIZE];
+    wr_text_add(text, wr_number_print_float(low, number));
     wr_text_add(text, " .. ");
-    wr_text_add_number(text, (double)high);
+    wr_text_add(text, wr_number_print_float(high, number));
     wr_text_addf(text, "\nlayers       %d\nhash         %s\n\n", document->layer_count, hash);
     wr_session_scene_text(session, text);
 }
