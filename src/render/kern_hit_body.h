@@ -34,6 +34,22 @@ FLAT static int kern_hit_sphere(const WrRays *rays, const WrShapef *shape, float
     return hits;
 }
 
+/* The samples that hit a body of revolution of height h: u goes round the axis, v up it. */
+static inline int place_round(const WrRays *rays, Row row, float gx, int count, float h,
+                              WrStrip *strip)
+{
+    int hits = compact(count, strip);
+    SIMD for (int i = 0; i < hits; i++)
+    {
+        float g = gx + (float)strip->index[i];
+        WrVec3f q = affine(row.q, rays->qx, g), d = affine(row.d, rays->dx, g);
+        WrVec3f p = v3f_mad(q, d, strip->s[i]);
+        strip->u[i] = wr_atan2_turns_f(p.y, p.x);
+        strip->v[i] = clamp01(0.5f + p.z / h);
+    }
+    return hits;
+}
+
 /* x^2 + y^2 = R^2, |z| <= H/2, open at both ends: the nearer root if it lies on the tube, else the other. */
 FLAT static int kern_hit_cylinder(const WrRays *rays, const WrShapef *shape, float gx, float gy,
                                   int count, WrStrip *strip)
@@ -56,16 +72,7 @@ FLAT static int kern_hit_cylinder(const WrRays *rays, const WrShapef *shape, flo
         float s = z0 <= top && s0 > s_min ? s0 : second;
         strip->s[i] = left >= 0.0f && dd > 1e-30f ? s : MISS;
     }
-    int hits = compact(count, strip);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        float g = gx + (float)strip->index[i];
-        WrVec3f q = affine(row.q, rays->qx, g), d = affine(row.d, rays->dx, g);
-        WrVec3f p = v3f_mad(q, d, strip->s[i]);
-        strip->u[i] = wr_atan2_turns_f(p.y, p.x);
-        strip->v[i] = clamp01(0.5f + p.z / h);
-    }
-    return hits;
+    return place_round(rays, row, gx, count, h, strip);
 }
 
 /* x^2 + y^2 = (R/H)^2 w^2 with w = H/2 - z in 0..H: a s^2 + 2 b s + c = 0, roots in the stable form
@@ -93,16 +100,7 @@ FLAT static int kern_hit_cone(const WrRays *rays, const WrShapef *shape, float g
         float s = w0 >= 0.0f && w0 <= h && s0 > s_min ? s0 : second;
         strip->s[i] = disc >= 0.0f ? s : MISS;
     }
-    int hits = compact(count, strip);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        float g = gx + (float)strip->index[i];
-        WrVec3f q = affine(row.q, rays->qx, g), d = affine(row.d, rays->dx, g);
-        WrVec3f p = v3f_mad(q, d, strip->s[i]);
-        strip->u[i] = wr_atan2_turns_f(p.y, p.x);
-        strip->v[i] = clamp01(0.5f + p.z / h);
-    }
-    return hits;
+    return place_round(rays, row, gx, count, h, strip);
 }
 
 FLAT static int kern_hit_quad(const WrRays *rays, const WrQuad *quad, float gx, float gy, int count,
