@@ -225,6 +225,45 @@ static void an_edit_refreshes_what_a_new_renderer_would_make(void **state)
     }
 }
 
+/* E29: only tiles that an edit reaches are rendered again, and nobody can tell. */
+static void a_resting_view_is_refreshed_to_the_bits_of_a_new_picture(void **state)
+{
+    (void)state;
+    const char *const surfaces[] = { "plane", "sphere", "torus", "cube" };
+    for (int kind = 0; kind < 4; kind++) {
+        WrField *field = bumpy_field(300, 200);
+        WrScene *scene = scene_of(surfaces[kind]);
+        scene->scheme = (WrScheme)(kind + WR_SCHEME_CENTRAL);
+        scene->dials.aa = WR_AA_SUPERSAMPLE;
+        scene->dials.samples = 2;
+        scene->replicate_u = scene->replicate_v = 1;
+        Shot kept = shoot(scene, field, 120, 96, 2, "auto", false);
+        WrFrameRequest request = {
+            .field = field, .scene = scene, .width = 120, .height = 96, .turn_deg = 15, .keep = true
+        };
+        assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
+        int64_t whole = kept.frame.shaded, covered = kept.frame.covered;
+        TestRandom random = { 5 };
+        for (int step = 0; step < 10; step++) {
+            int i = step == 0 ? 0 : (int)(300 * test_random(&random));
+            int j = step == 1 ? 199 : (int)(200 * test_random(&random));
+            wr_field_set(field, i, j, (float)(2 * test_random(&random)));
+            assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
+            Shot fresh = shoot(scene, field, 120, 96, 1, "auto", false);
+            if (!same_picture(&kept, &fresh)) fail_msg("%s, step %d", surfaces[kind], step);
+            assert_true(kept.frame.covered == covered && fresh.frame.covered == covered);
+            assert_true(kept.frame.shaded <= whole);
+            if (kind == 0) assert_true(kept.frame.shaded < whole); /* its tiles see parts of v */
+            put_away(&fresh);
+        }
+        assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
+        assert_int_equal(kept.frame.shaded, 0); /* nothing changed: nothing is done */
+        put_away(&kept);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
 static void fast_arithmetic_stays_near_the_exact_picture(void **state)
 {
     (void)state;
@@ -248,6 +287,7 @@ int main(void)
         cmocka_unit_test(pictures_are_the_same_bits_on_any_threads_and_instruction_set),
         cmocka_unit_test(leaving_effects_out_changes_no_bit),
         cmocka_unit_test(an_edit_refreshes_what_a_new_renderer_would_make),
+        cmocka_unit_test(a_resting_view_is_refreshed_to_the_bits_of_a_new_picture),
         cmocka_unit_test(fast_arithmetic_stays_near_the_exact_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,6 +28,17 @@ static bool differs(const WrApp *app)
            p->wished_w != app->layout.patch.w || p->wished_h != app->layout.patch.h;
 }
 
+/* Only the table differs from what a resting, finished picture shows (or is being refreshed to show): the
+ * preview then renders what the edit reaches, at once sharp. */
+static bool only_edited(const WrApp *app)
+{
+    const WrPatch *p = &app->patch;
+    return p->wished_field && !p->wished_moving && p->wished_scene == wr_app_scene(app) &&
+           p->wished_turn == p->turn_deg && p->wished_w == app->layout.patch.w &&
+           p->wished_h == app->layout.patch.h &&
+           (p->refreshing || wr_preview_settled(app->preview));
+}
+
 static void wish(WrApp *app, bool moving)
 {
     WrPatch *p = &app->patch;
@@ -48,6 +59,7 @@ static void wish(WrApp *app, bool moving)
     p->wished_h = room->h;
     p->wished_moving = moving;
     p->outstanding = moving;
+    p->refreshing = false;
     p->wished_at = wr_clock_seconds();
     p->rest_at = p->wished_at + REST_SECONDS;
 }
@@ -104,7 +116,11 @@ void wr_patch_update(WrApp *app)
     }
     p->turned_at = now;
     if (differs(app)) {
-        if (ready) wish(app, true);
+        bool edited = only_edited(app);
+        if (!ready) return;
+        wish(app, !edited);
+        p->refreshing = edited;
+        p->outstanding = true;
     } else if (p->wished_moving && !p->outstanding && now >= p->rest_at) {
         wish(app, false);
     }

@@ -175,6 +175,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .height = (int)fmax(1.0, rint(wish->height * scale)),
                                .turn_deg = wish->turn_deg,
                                .dials = &dials,
+                               .keep = level > WR_PREVIEW_MOVING,
                                .cancel = &preview->cancel };
     WrFrame frame;
     if (!wr_renderer_frame(renderer, &request, &frame, err)) return false;
@@ -208,14 +209,29 @@ static void answer_point(WrPreview *preview, WrRenderer *renderer, int width, in
     pthread_mutex_unlock(&preview->lock);
 }
 
+/* Does the wish ask for what is shown, but for an edit of the table? Then the sharp picture is brought up to
+ * date where the edit reaches, instead of starting coarse again. */
+static bool only_edited(const WrPreview *preview)
+{
+    const Wish *now = &preview->now, *next = &preview->next;
+    return now->field && preview->level > WR_PREVIEW_MOVING && !next->moving && !now->moving &&
+           now->scene == next->scene && now->turn_deg == next->turn_deg &&
+           now->width == next->width && now->height == next->height;
+}
+
 /* Take up the next wish, or go on with the present one; false: nothing to do. Called under the lock. */
 static bool choose(WrPreview *preview, WrPreviewLevel *level)
 {
     if (preview->next.field) {
+        bool edited = only_edited(preview);
         wish_clear(&preview->now);
         preview->now = preview->next;
         preview->next = (Wish){ 0 };
         __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
+        if (edited) {
+            *level = preview->level;
+            return true;
+        }
         preview->level = WR_PREVIEW_NONE;
         *level = preview->now.moving || preview->serial == 0 ? WR_PREVIEW_MOVING : WR_PREVIEW_FULL;
         return true;

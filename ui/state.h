@@ -92,6 +92,7 @@ typedef struct WrPatch {
     double wished_turn;
     int wished_w, wished_h;
     bool wished_moving;
+    bool refreshing;  /* sharp pictures are being brought up to date by an edit */
     bool outstanding; /* a moving picture was wished for and has not come */
     double wished_at, rest_at;
     double still_since;

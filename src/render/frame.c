@@ -1,6 +1,7 @@
 #include "render/frame.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "render/keep.h"
 #include "render/table.h"
 #include "render/tile.h"
 
@@ -29,6 +30,10 @@ struct WrRenderer {
     WrScene *scene;
     int samples;
     bool seen; /* view and scene are set */
+    WrKeep keep;
+    WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
+    const WrKernels *kernels; /* that it was made with */
+    int64_t covered;
 };
 
 WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
@@ -62,6 +67,7 @@ void wr_renderer_free(WrRenderer *renderer)
 {
     if (!renderer) return;
     forget_view(renderer);
+    wr_keep_fini(&renderer->keep);
     wr_table_fini(&renderer->table);
     wr_mesh_fini(&renderer->mesh);
     drop_colour(&renderer->colour);
@@ -184,6 +190,7 @@ typedef struct FrameJob {
     WrTileJob tile;
     WrTileScratch **scratch;
     int tiles_u;
+    const WrKeep *keep; /* render only what this one's changes touch; NULL: all */
     const volatile int *cancel;
 } FrameJob;
 
@@ -191,7 +198,9 @@ static void render_tile(int index, int worker, void *ctx)
 {
     FrameJob *job = ctx;
     if (job->cancel && *job->cancel) return;
-    wr_tile_render(&job->tile, index % job->tiles_u, index / job->tiles_u, job->scratch[worker]);
+    if (job->keep && !wr_keep_touches(job->keep, index)) return;
+    wr_tile_render(&job->tile, index % job->tiles_u, index / job->tiles_u, index,
+                   job->scratch[worker]);
 }
 
 static void start_counts(WrRenderer *renderer)
@@ -222,6 +231,7 @@ static void account(WrRenderer *renderer, const double seconds[WR_STAGE_COUNT], 
         [WR_EFFECT_SAMPLES] = WR_STAGE_RESOLVE,
         [WR_EFFECT_BACK] = -1,
         [WR_EFFECT_DEPTH] = WR_STAGE_VISIBILITY,
+        [WR_EFFECT_AGAIN] = -1,
         [WR_EFFECT_NEWTON] = WR_STAGE_NEWTON,
         [WR_EFFECT_PERSPECTIVE] = -1,
     };
@@ -236,7 +246,8 @@ static void account(WrRenderer *renderer, const double seconds[WR_STAGE_COUNT], 
     }
 }
 
-static void finish_frame(WrRenderer *renderer, double prepared, double started, WrFrame *frame)
+static void finish_frame(WrRenderer *renderer, bool refreshed, double prepared, double started,
+                         WrFrame *frame)
 {
     double seconds[WR_STAGE_COUNT] = { 0 };
     int64_t tiles = 0;
@@ -251,6 +262,8 @@ static void finish_frame(WrRenderer *renderer, double prepared, double started, 
         frame->shaded += s->shaded;
         tiles += s->tiles;
     }
+    if (refreshed) frame->covered = renderer->covered; /* heights do not move the outline */
+    renderer->covered = frame->covered;
     account(renderer, seconds, tiles, frame->shaded);
     frame->times = (WrStageTimes){
         .prepare = prepared,
@@ -283,40 +296,95 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
     return job;
 }
 
-bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
-                       WrError *err)
+/* Do two plans run the same stages? */
+static bool same_stages(const WrPlan *a, const WrPlan *b)
 {
-    const double started = wr_clock_seconds();
+    return a->diffuse == b->diffuse && a->specular == b->specular && a->colour == b->colour &&
+           a->bump == b->bump && a->need_heights == b->need_heights && a->wide == b->wide &&
+           a->gradient_table == b->gradient_table && a->samples == b->samples;
+}
+
+/* May the last picture stand where the table has not changed? */
+static bool may_refresh(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
+                        const WrKernels *kernels)
+{
+    const WrFrameRequest *last = &renderer->last;
+    return request->keep && renderer->seen && renderer->scene == request->scene &&
+           last->turn_deg == request->turn_deg && last->width == request->width &&
+           last->height == request->height && renderer->kernels == kernels &&
+           same_stages(before, &renderer->plan) &&
+           wr_keep_compare(&renderer->keep, request->field,
+                           wr_schemes[request->scene->scheme].reach + 2);
+}
+
+/* View and mesh of a whole new picture. */
+static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
+                         const WrKernels *kernels, WrError *err)
+{
     const WrScene *scene = request->scene;
-    const WrDials *dials = request->dials ? request->dials : &scene->dials;
-    const WrKernels *kernels =
-        wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, err);
-    if (!kernels || !resize(renderer, request->width, request->height, err)) return false;
-    if (!prepare_table(renderer, request, dials, err)) return false;
-    if (renderer->plan.colour) {
-        if (!bring_colour(&renderer->colour, scene->colour, request->field, err)) return false;
-    } else {
-        drop_colour(&renderer->colour);
-    }
+    WrScene *shared = wr_scene_share(scene); /* before the old one goes: it may be the same */
     forget_view(renderer);
+    renderer->scene = shared;
     renderer->samples = renderer->plan.samples;
     renderer->seen = wr_view_init(&renderer->view, scene, request->turn_deg, request->width,
                                   request->height, renderer->samples, err);
     if (!renderer->seen) return false;
-    renderer->scene = wr_scene_share(scene);
     if (renderer->plan.mesh)
         wr_mesh_prepare(&renderer->mesh, &scene->shape, &renderer->view, renderer->samples, kernels,
                         renderer->pool);
     else wr_mesh_fini(&renderer->mesh);
+    return true;
+}
 
-    FrameJob job = { make_job(renderer, request, kernels), renderer->scratch, 0, request->cancel };
+static bool prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    if (renderer->plan.colour)
+        return bring_colour(&renderer->colour, request->scene->colour, request->field, err);
+    drop_colour(&renderer->colour);
+    return true;
+}
+
+bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
+                       WrError *err)
+{
+    const double started = wr_clock_seconds();
+    const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
+    const WrKernels *kernels =
+        wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, err);
+    if (!kernels || !resize(renderer, request->width, request->height, err)) return false;
+    const WrPlan before = renderer->plan;
+    if (!prepare_table(renderer, request, dials, err)) return false;
+    if (!prepare_colour(renderer, request, err)) return false;
+    const bool refresh = may_refresh(renderer, request, &before, kernels);
+    if (!refresh) {
+        wr_keep_fini(&renderer->keep);
+        if (!prepare_view(renderer, request, kernels, err)) return false;
+    }
+    FrameJob job = { .tile = make_job(renderer, request, kernels), .scratch = renderer->scratch };
     start_counts(renderer);
     job.tiles_u = (request->width + job.tile.tile_w - 1) / job.tile.tile_w;
-    int tiles_v = (request->height + job.tile.tile_h - 1) / job.tile.tile_h;
+    int tiles = job.tiles_u * ((request->height + job.tile.tile_h - 1) / job.tile.tile_h);
+    if (refresh) {
+        job.keep = &renderer->keep;
+        wr_plan_again(&renderer->plan, true,
+                      "the view rests: only tiles that an edit reached are new");
+    } else {
+        job.cancel = request->cancel;
+    }
+    if (request->keep && !refresh) {
+        wr_keep_start(&renderer->keep, tiles);
+        job.tile.seen = renderer->keep.seen;
+    }
     const double prepared = wr_clock_seconds() - started;
-    wr_pool_run(renderer->pool, job.tiles_u * tiles_v, render_tile, &job);
-    if (request->cancel && *request->cancel) return wr_fail(err, "cancelled");
-    finish_frame(renderer, prepared, started, frame);
+    wr_pool_run(renderer->pool, tiles, render_tile, &job);
+    if (job.cancel && *job.cancel) {
+        wr_keep_fini(&renderer->keep);
+        return wr_fail(err, "cancelled");
+    }
+    if (request->keep) wr_keep_field(&renderer->keep, request->field);
+    renderer->last = *request;
+    renderer->kernels = kernels;
+    finish_frame(renderer, refresh, prepared, started, frame);
     return true;
 }
 

@@ -11,10 +11,14 @@ typedef struct WrRenderer WrRenderer;
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */
     const WrScene *scene;
-    int width, height;          /* pixels, 1..16384 each */
-    double turn_deg;            /* turntable angle about the world's y axis */
-    const WrDials *dials;       /* NULL: the scene's */
-    bool plan_off;              /* run the full path whatever the plan could leave out (tests) */
+    int width, height;    /* pixels, 1..16384 each */
+    double turn_deg;      /* turntable angle about the world's y axis */
+    const WrDials *dials; /* NULL: the scene's */
+    bool keep;     /* the view rests: remember what each tile of the picture looks at, so that the
+                             next frame of the same scene, turn, size and dials renders only the tiles
+                             that an edit of the table reaches (E29); the bits are the same. Such a
+                             frame does not look at `cancel` */
+    bool plan_off; /* run the full path whatever the plan could leave out (tests) */
     const volatile int *cancel; /* may be NULL; non-zero: return early, false, err "cancelled" */
 } WrFrameRequest;
 
@@ -28,7 +32,7 @@ typedef struct WrFrame {
     float *rgba; /* [height][width][4] linear, premultiplied; A is coverage; owned by the renderer,
                     valid until its next frame */
     int64_t covered; /* pixels with coverage > 0 */
-    int64_t shaded;  /* samples shaded */
+    int64_t shaded;  /* samples shaded for this frame */
     WrStageTimes times;
     const WrPlan *plan; /* with what each effect cost; owned by the renderer, as rgba */
 } WrFrame;

@@ -24,6 +24,7 @@ static const struct {
     [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL },
     [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED },
     [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_AGAIN] = { "E29", "re-rendering", WR_PROOF_IDENTICAL },
 };
 
 const char *wr_proof_letter(WrProof proof)
@@ -40,6 +41,11 @@ static void say(WrPlan *plan, WrEffect effect, bool run, const char *reason)
                         .run = run,
                         .proof = effects[effect].proof };
     snprintf(row->reason, sizeof row->reason, "%s", reason);
+}
+
+void wr_plan_again(WrPlan *plan, bool refresh, const char *reason)
+{
+    say(plan, WR_EFFECT_AGAIN, !refresh, reason);
 }
 
 static bool any_light(const WrScene *scene)
@@ -187,4 +193,5 @@ void wr_plan_build(WrPlan *plan, const WrScene *scene, const WrDials *dials,
     plan_bump(plan, scene, facts, everything);
     plan_look(plan, scene);
     plan_visibility(plan, scene, dials);
+    wr_plan_again(plan, false, "a new picture: every tile is rendered");
 }

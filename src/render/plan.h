@@ -27,6 +27,7 @@ typedef enum WrEffect {
     WR_EFFECT_DEPTH,
     WR_EFFECT_NEWTON,
     WR_EFFECT_PERSPECTIVE,
+    WR_EFFECT_AGAIN,
     WR_EFFECT_COUNT
 } WrEffect;
 
@@ -54,6 +55,9 @@ typedef struct WrPlan {
     bool mesh;           /* no closed form: mesh, depth buffer, Newton */
     int samples;         /* K of K x K */
 } WrPlan;
+
+/* The row about rendering tiles again (E29), which the renderer decides: it alone knows the last frame. */
+void wr_plan_again(WrPlan *plan, bool refresh, const char *reason);
 
 /* What the planner may ask of the table; the renderer's caches answer. */
 typedef struct WrTableFacts {

@@ -71,7 +71,8 @@ static void light_strip(const WrTileJob *job, WrStrip *strip, Watch *watch)
 }
 
 /* All stages of the plan from (u, v) to the colour. */
-static void shade_strip(const WrTileJob *job, int face, WrStrip *strip, Watch *watch)
+static void shade_strip(const WrTileJob *job, int face, WrStrip *strip, WrBlocks *seen,
+                        Watch *watch)
 {
     const WrKernels *k = job->kernels;
     const WrPlan *plan = job->plan;
@@ -86,6 +87,7 @@ static void shade_strip(const WrTileJob *job, int face, WrStrip *strip, Watch *w
         if (plan->bump != WR_BUMP_NONE) {
             if (job->scene->analytic.kind != WR_ANALYTIC_OFF) look_analytic(job, strip);
             else k->look[job->scene->scheme](&job->look, strip);
+            if (seen && job->scene->analytic.kind == WR_ANALYTIC_OFF) wr_keep_note(seen, strip);
             watch_lap(watch, WR_STAGE_LOOK);
         }
         k->bump[plan->bump](&job->view->rays, strip);
@@ -126,7 +128,7 @@ static void finish_strip(const WrTileJob *job, const WrDepthTile *tile, int face
 {
     WrStrip *strip = &scratch->strip;
     if (strip->count == 0) return;
-    shade_strip(job, face, strip, watch);
+    shade_strip(job, face, strip, scratch->seen, watch);
     scatter(job, tile, y, scratch);
     watch_lap(watch, WR_STAGE_RESOLVE);
     scratch->shaded += strip->count;
@@ -256,10 +258,11 @@ static WrDepthTile depth_tile(const WrTileJob *job, int tile_x, int tile_y, WrTi
     return (WrDepthTile){ x * k, y * k, w * k, h * k, scratch->close, scratch->u, scratch->v };
 }
 
-void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, WrTileScratch *scratch)
+void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, int index, WrTileScratch *scratch)
 {
     WrDepthTile tile = depth_tile(job, tile_x, tile_y, scratch);
     const int64_t before = scratch->shaded;
+    scratch->seen = job->seen ? &job->seen[index] : NULL;
     clear(job, &tile, scratch);
     if (!job->mesh || wr_mesh_touches(job->mesh, &tile)) {
         if (job->mesh) {

@@ -2,6 +2,7 @@
    the samples of each pixel.
    Layer 5, private to the renderer. */
 #pragma once
+#include "render/keep.h"
 #include "render/mesh.h"
 #include "render/plan.h"
 
@@ -35,6 +36,7 @@ typedef struct WrTileJob {
     int width, height;   /* pixels */
     int tile_w, tile_h;  /* pixels */
     float *rgba;         /* the picture */
+    WrBlocks *seen;      /* [tiles] to fill with what each tile looks at; NULL: not wanted */
 } WrTileJob;
 
 /* One thread's memory and counts. */
@@ -46,12 +48,15 @@ typedef struct WrTileScratch {
     double seconds[WR_STAGE_COUNT];
     int64_t covered, shaded; /* pixels, samples */
     int64_t tiles;           /* that held anything */
+    WrBlocks *seen;          /* of the tile at hand; NULL: not wanted */
     unsigned strips;         /* counts strips: one in eight is timed */
 } WrTileScratch;
 
 /* Tile sizes for K x K samples: about 256 x 32 samples whatever K. */
 void wr_tile_size(int samples, int *tile_w, int *tile_h);
-void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, WrTileScratch *scratch);
+/* index: of the tile in job->seen. */
+void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, int index,
+                    WrTileScratch *scratch);
 /* (u,v) and face at one sample of the grid; false where nothing is. Uses scratch. */
 bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u,
                   double *v, int *face);
