@@ -157,8 +157,17 @@ has err 'line 2'
 expect 0 inspect --json --at 1e300,0.5 --do 'surface plane a=1e10'
 has out '"N":[0,0,10000000000]'
 expect 0 inspect --json --do 'table 12x34'
-[[ $(cat out) == '{"size":[12,34],"layers":1,"hash":"'????????????????????????????????'"}' ]] ||
+want='"layer_list":[{"name":"base","blend":"add","opacity":1,"radius":0,"visible":true,"locked":false,'
+want+='"cover":false,"mask":false,"active":true,"solo":false}],"selection":false}'
+[[ $(cat out) == '{"size":[12,34],"layers":1,"hash":"'????????????????????????????????'",'"$want" ]] ||
     complain "summary: $(cat out)"
+expect 0 inspect --do 'layer add moss blend=smooth-max radius=0.5' --do 'layer set 1 lock=on visible=off'
+has out '> 2          moss  smooth-max, opacity 1, radius 0.5'
+has out '  1          base  add, opacity 1, hidden, locked'
+expect 1 inspect --do 'layer set 1 lock=on' --do 'fill 1'
+has err 'layer 1 "base" is locked'
+expect 1 inspect --do undo
+has err 'nothing to undo'
 expect 0 inspect --at 0.5,0.5 --do 'surface cube' --face 5 --json
 expect 1 inspect --at 0.5,0.5 --do 'surface cube' --face 6
 rm -f points

@@ -51,6 +51,13 @@ static void lines_print_in_canonical_form(void **state)
         { "export range=0,2 height out.png", "export height out.png range=0,2" },
         { "render \"out.png\" size=6x4", "render out.png size=6x4" },
         { "replicate 1.25e2,-2.5e-1", "replicate 125,-0.25" },
+        { "layer add opacity=0.50 \"red moss\" blend=max",
+          "layer add \"red moss\" blend=max opacity=0.5" },
+        { "layer move to=1 2", "layer move 2 to=1" },
+        { "select mode=add lasso points=0,0;1,0;0,1.0",
+          "select lasso points=0,0;1,0;0,1 mode=add" },
+        { "adjust levels out-low=-1 in-high=.5", "adjust levels in-high=0.5 out-low=-1" },
+        { "undo 03", "undo 3" },
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         char *text = canonical(known[i].line), *again = canonical(text);
@@ -115,6 +122,15 @@ static void mistakes_are_named_with_what_would_be_right(void **state)
         { "image x.png sha256=abc", { "64" } },
         { "colour \"\"", { "file name" } },
         { "fill 1\nfill 2", { "0x0a" } },
+        { "layer ad", { "ACTION", "did you mean add" } },
+        { "layer set 1 blend=maxx", { "blend=maxx", "smooth-max" } },
+        { "layer set 1 opacity=1.1", { "opacity=1.1", "0..1" } },
+        { "layer move 1 to=0", { "to=0", "1..256" } },
+        { "select lasso points=0,0;1,1", { "at least 3" } },
+        { "adjust blur sigma=-1", { "adjust blur", "sigma=-1", "texels" } },
+        { "adjust invert about=mean", { "about=mean", "range, zero" } },
+        { "adjust resize width=20000", { "width=20000", "1..16384" } },
+        { "undo 0", { "undo", "1.." } },
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         WrCall *call = NULL;
@@ -224,9 +240,9 @@ static void add_value(const WrArgSpec *s, TestRandom *random, WrText *line)
                                          "off" };
     if (s->type == WR_ARG_CHOICE) {
         int count = 0;
-        while (s->choice(count)) count++;
-        wr_text_add(line, s->choice((int)(test_random(random) * count)));
-    } else if (s->type == WR_ARG_PATH) {
+        while (wr_arg_word(s, count)) count++;
+        wr_text_add(line, wr_arg_word(s, (int)(test_random(random) * count)));
+    } else if (s->type == WR_ARG_PATH || s->type == WR_ARG_NAME || s->type == WR_ARG_LAYER) {
         wr_text_add(line, words[(int)(test_random(random) * 5)]);
     } else if (s->type == WR_ARG_SHA256) {
         for (int i = 0; i < 64; i++) wr_text_addf(line, "%c", "0123456789abcdefABCDEF"[i % 22]);
@@ -339,7 +355,7 @@ static void expect_refused(BadCheck *check, const char *verb, const char *line)
 /* A value that is right, without chance. */
 static void add_right(const WrArgSpec *s, WrText *line)
 {
-    if (s->type == WR_ARG_CHOICE) wr_text_add(line, s->choice(0));
+    if (s->type == WR_ARG_CHOICE) wr_text_add(line, wr_arg_word(s, 0));
     else if (s->type >= WR_ARG_PATH) wr_text_add(line, "nosuchfile.png");
     for (int r = 0; s->type <= WR_ARG_LIST && r < (s->type == WR_ARG_LIST ? s->rows_low : 1); r++)
         for (int i = 0; i < wr_arg_width(s); i++) {
@@ -429,7 +445,7 @@ static void check_bad_arguments(const WrCommand *command, int form, void *ctx)
         }
         WrText line = { 0 };
         wr_text_addf(&line, "%s%s", wr_text_get(&check->line),
-                     s->type == WR_ARG_PATH ? "\"\"" : "no-such-value");
+                     s->type == WR_ARG_PATH || s->type == WR_ARG_NAME ? "\"\"" : "no-such-value");
         expect_refused(check, command->name, wr_text_get(&line));
         wr_text_fini(&line);
     }
@@ -437,7 +453,7 @@ static void check_bad_arguments(const WrCommand *command, int form, void *ctx)
     wr_text_add(&check->line, "nosuchname=1");
     expect_refused(check, command->name, wr_text_get(&check->line));
     begin_line(command, form, specs, count, -1, &check->line);
-    wr_text_add(&check->line, "surplus");
+    wr_text_add(&check->line, "surplus surplus surplus"); /* some take a value or two */
     expect_refused(check, command->name, wr_text_get(&check->line));
 }
 

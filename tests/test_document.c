@@ -27,13 +27,15 @@ static WrDocument *make_document(int count, const char *const *names, int width,
 {
     WrDocument *document = wr_document_new();
     wr_free(document->layers[0].name);
-    wr_field_free(document->layers[0].field);
+    wr_field_free(document->layers[0].heights);
     wr_free(document->layers);
     document->layers = wr_alloc((size_t)count, sizeof *document->layers);
     document->layer_count = count;
     for (int i = 0; i < count; i++) {
         WrField *field = random_field(width, height, wrap_u, wrap_v, (uint64_t)(i + 11));
-        document->layers[i] = (WrLayer){ wr_strdup(names[i]), field };
+        document->layers[i] = (WrLayer){
+            .name = wr_strdup(names[i]), .heights = field, .opacity = 1.0f, .visible = true
+        };
     }
     return document;
 }
@@ -62,7 +64,7 @@ static void edits_after_a_snapshot_do_not_show_in_it(void **state)
     WrHash before = wr_document_hash(document, "");
     wr_document_field(document);
     WrDocument *snapshot = wr_document_share(document);
-    wr_field_set(document->layers[1].field, 99, 69, 1e6f);
+    wr_field_set(document->layers[1].heights, 99, 69, 1e6f);
     assert_true(wr_hash_equal(wr_document_hash(snapshot, ""), before));
     assert_false(wr_hash_equal(wr_document_hash(document, ""), before));
     assert_true(wr_field_get(wr_document_field(snapshot), 99, 69) < 1e4f);
@@ -80,10 +82,10 @@ static void the_hash_tells_heights_names_layers_and_scenes_apart(void **state)
     WrDocument *document = make_document(2, names, 30, 20, WR_WRAP_PERIODIC, WR_WRAP_CLAMP);
     hashes[0] = wr_document_hash(document, "surface torus");
     hashes[1] = wr_document_hash(document, "surface plane");
-    float old = wr_field_get(document->layers[1].field, 3, 4);
-    wr_field_set(document->layers[1].field, 3, 4, old + 1);
+    float old = wr_field_get(document->layers[1].heights, 3, 4);
+    wr_field_set(document->layers[1].heights, 3, 4, old + 1);
     hashes[2] = wr_document_hash(document, "surface torus");
-    wr_field_set(document->layers[1].field, 3, 4,
+    wr_field_set(document->layers[1].heights, 3, 4,
                  old); /* and the same contents hash the same again */
     assert_true(wr_hash_equal(hashes[0], wr_document_hash(document, "surface torus")));
     wr_document_free(document);
@@ -97,15 +99,18 @@ static void the_hash_tells_heights_names_layers_and_scenes_apart(void **state)
         for (int k = 0; k < i; k++) assert_false(wr_hash_equal(hashes[i], hashes[k]));
 }
 
+/* Layers that are added: each sum is rounded once to float, from the bottom up. */
 static void check_sum(const WrDocument *document)
 {
     const WrField *sum = wr_document_field(document);
     for (int j = 0; j < wr_field_height(sum); j++)
         for (int i = 0; i < wr_field_width(sum); i++) {
-            double want = 0.0;
-            for (int k = 0; k < document->layer_count; k++)
-                want += wr_field_get(document->layers[k].field, i, j);
-            assert_true(wr_field_get(sum, i, j) == (float)want);
+            float want = 0.0f;
+            for (int k = 0; k < document->layer_count; k++) {
+                double exact = (double)want + wr_field_get(document->layers[k].heights, i, j);
+                want = (float)(exact > 3.4028234663852886e38 ? 3.4028234663852886e38 : exact);
+            }
+            assert_true(wr_field_get(sum, i, j) == want);
         }
 }
 
@@ -118,27 +123,27 @@ static void f_is_the_sum_of_the_layers_after_every_kind_of_edit(void **state)
     assert_true(wr_field_wrap_v(wr_document_field(document)) == WR_WRAP_CLAMP);
     uint64_t key = wr_field_key(wr_document_field(document));
     assert_true(wr_field_key(wr_document_field(document)) == key); /* nothing changed: same table */
-    wr_field_set(document->layers[2].field, 140, 3, 7.0f);
-    wr_field_set(document->layers[0].field, 140, 3, 0.5f);
+    wr_field_set(document->layers[2].heights, 140, 3, 7.0f);
+    wr_field_set(document->layers[0].heights, 140, 3, 0.5f);
     check_sum(document);
-    wr_field_fill(document->layers[1].field, 2.5f);
+    wr_field_fill(document->layers[1].heights, 2.5f);
     check_sum(document);
     wr_field_free(
-        document->layers[0].field); /* a command may replace a table, by another size too */
-    document->layers[0].field = random_field(150, 70, WR_WRAP_PERIODIC, WR_WRAP_CLAMP, 77);
+        document->layers[0].heights); /* a command may replace a table, by another size too */
+    document->layers[0].heights = random_field(150, 70, WR_WRAP_PERIODIC, WR_WRAP_CLAMP, 77);
     check_sum(document);
     for (int k = 0; k < 3; k++) {
-        wr_field_free(document->layers[k].field);
-        document->layers[k].field = random_field(5, 3, WR_WRAP_CLAMP, WR_WRAP_CLAMP, (uint64_t)k);
+        wr_field_free(document->layers[k].heights);
+        document->layers[k].heights = random_field(5, 3, WR_WRAP_CLAMP, WR_WRAP_CLAMP, (uint64_t)k);
     }
     check_sum(document);
     for (int k = 0; k < 3; k++)
-        wr_field_fill(document->layers[k].field, 1.0f); /* no tiles at all */
+        wr_field_fill(document->layers[k].heights, 1.0f); /* no tiles at all */
     check_sum(document);
-    wr_field_fill(document->layers[1].field, 4.0f);
+    wr_field_fill(document->layers[1].heights, 4.0f);
     check_sum(document);
-    wr_field_set(document->layers[0].field, 0, 0, 3e38f);
-    wr_field_set(document->layers[1].field, 0, 0, 3e38f);
+    wr_field_set(document->layers[0].heights, 0, 0, 3e38f);
+    wr_field_set(document->layers[1].heights, 0, 0, 3e38f);
     assert_true(isfinite(wr_field_get(wr_document_field(document), 0, 0)));
     wr_document_free(document);
 }
@@ -253,10 +258,10 @@ static void an_almost_empty_large_table_stays_small_in_memory(void **state)
 {
     (void)state;
     WrDocument *document = wr_document_new();
-    wr_field_free(document->layers[0].field);
-    document->layers[0].field =
+    wr_field_free(document->layers[0].heights);
+    document->layers[0].heights =
         wr_field_new(4096, 4096, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    wr_field_set(document->layers[0].field, 4000, 5, 1.0f);
+    wr_field_set(document->layers[0].heights, 4000, 5, 1.0f);
     WrError err;
     struct rusage before, after;
     WrLoaded loaded;
@@ -269,8 +274,8 @@ static void an_almost_empty_large_table_stays_small_in_memory(void **state)
     /* 64 MB a copy of the table; strips and the library's buffers take a few */
     assert_true(after.ru_maxrss - before.ru_maxrss < 32 * 1024);
 #endif
-    assert_true(wr_field_bytes(loaded.document->layers[0].field) < 1 << 20);
-    assert_true(wr_field_get(loaded.document->layers[0].field, 4000, 5) == 1.0f);
+    assert_true(wr_field_bytes(loaded.document->layers[0].heights) < 1 << 20);
+    assert_true(wr_field_get(loaded.document->layers[0].heights, 4000, 5) == 1.0f);
     wr_free(loaded.scene_text);
     wr_document_free(loaded.document);
     wr_document_free(document);
@@ -330,9 +335,6 @@ static void strange_documents_are_refused_with_a_reason(void **state)
     (void)state;
     Part f = { "F", 8, 6, 1, 0 }, layer = { "layer:base", 8, 6, 1, 2 };
     Part good[2] = { f, layer };
-    write_parts("v2.exr", "2", "periodic", good, 2);
-    assert_true(wr_document_recognise("v2.exr"));
-    check_not_loaded("v2.exr", "newer version");
     write_parts("v.exr", "one", "periodic", good, 2);
     check_not_loaded("v.exr", "document version 'one'");
     write_parts("v0.exr", "0.5", "periodic", good, 2);
@@ -352,7 +354,7 @@ static void strange_documents_are_refused_with_a_reason(void **state)
     check_not_loaded("stranger.exr", "part 'mask' has no place");
     Part early[3] = { f, { "colour", 8, 6, 3, 2 }, layer };
     write_parts("early.exr", "1", "periodic", early, 3);
-    check_not_loaded("early.exr", "part 'colour' has no place");
+    check_not_loaded("early.exr", "part 'layer:base' has no place"); /* after the colour */
     Part grey[3] = { f, layer, { "colour", 8, 6, 1, 2 } };
     write_parts("grey.exr", "1", "periodic", grey, 3);
     check_not_loaded("grey.exr", "colour picture has 1 channels");
@@ -368,9 +370,9 @@ static void heights_that_are_not_finite_load_as_zero_and_are_counted(void **stat
     assert_true(wr_document_load("nan.exr", &loaded, &replaced, NULL));
     assert_int_equal(replaced, 70 * 66);
     float low, high;
-    wr_field_range(loaded.document->layers[0].field, &low, &high);
+    wr_field_range(loaded.document->layers[0].heights, &low, &high);
     assert_true(low == 0.0f && high == 0.0f);
-    assert_true(wr_field_wrap_u(loaded.document->layers[0].field) == WR_WRAP_CLAMP);
+    assert_true(wr_field_wrap_u(loaded.document->layers[0].heights) == WR_WRAP_CLAMP);
     assert_string_equal(loaded.scene_text, "");
     wr_free(loaded.scene_text);
     wr_document_free(loaded.document);

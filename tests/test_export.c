@@ -16,8 +16,8 @@
 static WrDocument *document_of(WrField *field)
 {
     WrDocument *document = wr_document_new();
-    wr_field_free(document->layers[0].field);
-    document->layers[0].field = field;
+    wr_field_free(document->layers[0].heights);
+    document->layers[0].heights = field;
     return document;
 }
 

@@ -655,7 +655,7 @@ static void many_threads_read_at_once(void **state)
     assert_int_equal(good, 64);
 }
 
-/* This program in a folder of its own, without the module beside it. */
+/* This program in a folder of its own, with neither the reader nor the module beside it. */
 static void a_missing_module_is_an_error_and_the_variable_finds_it(void **state)
 {
     (void)state;
@@ -671,13 +671,21 @@ static void a_missing_module_is_an_error_and_the_variable_finds_it(void **state)
     char *text;
     size_t length;
     assert_true(wr_file_read("out.txt", 4096, &text, &length, &err));
+    assert_non_null(strstr(text, "need the program wrinkle-reader, looked for at: "));
+    assert_non_null(strstr(text, "/lonely/wrinkle-reader"));
+    wr_free(text);
+    const char *inside = "WRINKLE_READER=inside lonely/program --read m.png >out.txt";
+    assert_int_equal(WEXITSTATUS(system(inside)), 3);
+    assert_true(wr_file_read("out.txt", 4096, &text, &length, &err));
     assert_non_null(strstr(text, "need the module wrinkle_oiio.so, looked for at: "));
     assert_non_null(strstr(text, "/lonely/wrinkle_oiio.so"));
     wr_free(text);
     setenv("WRINKLE_MODULES", folder, 1);
     assert_int_equal(WEXITSTATUS(system("lonely/program --read m.png >out.txt")), 0);
+    assert_int_equal(WEXITSTATUS(system(inside)), 0);
     assert_true(wr_file_write("lonely/wrinkle_oiio.so", "not a library", 13, &err));
     assert_int_equal(WEXITSTATUS(system("lonely/program --read m.png >out.txt")), 0);
+    assert_int_equal(WEXITSTATUS(system(inside)), 0);
     unsetenv("WRINKLE_MODULES");
     assert_int_equal(WEXITSTATUS(system("lonely/program --read m.png >out.txt")), 3);
     wr_free(folder);

@@ -61,6 +61,19 @@ int wr_gui_px(double units); /* units as whole pixels */
 #define WR_ICON_UP "\xef\x81\x9d"     /* f05d */
 #define WR_ICON_CHECK "\xef\x84\xac"  /* f12c */
 #define WR_ICON_CAMERA "\xef\x91\xa4" /* f464 rotate-3d */
+#define WR_ICON_EYE "\xef\x88\x88"     /* f208 */
+#define WR_ICON_EYE_OFF "\xef\x88\x89" /* f209 */
+#define WR_ICON_LOCK "\xef\x8c\xbe"    /* f33e */
+#define WR_ICON_UNLOCK "\xef\x8d\x80"  /* f340 lock-open-outline */
+#define WR_ICON_COPY "\xef\x86\x91"    /* f191 content-duplicate */
+#define WR_ICON_MERGE "\xef\x83\xb8"   /* f0f8 call-merge */
+#define WR_ICON_LOWER "\xef\x81\x85"   /* f045 arrow-down */
+#define WR_ICON_RAISE "\xef\x81\x9d"   /* f05d arrow-up */
+#define WR_ICON_RECT "\xef\x92\x89"    /* f489 selection */
+#define WR_ICON_ELLIPSE "\xef\x95\x96" /* f556 vector-circle */
+#define WR_ICON_LASSO "\xef\x95\xa2"   /* f562 vector-selection */
+#define WR_ICON_MORE "\xef\x87\x99"    /* f1d9 dots-vertical */
+#define WR_ICON_SEARCH "\xef\x8d\x89"  /* f349 magnify */
 
 /* ---- areas: fixed rectangles that hold widgets ---- */
 typedef enum WrAreaKind {
@@ -144,6 +157,36 @@ bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bo
 int wr_gui_list_row(const char *icon, const char *label, bool selected);
 void wr_gui_list_begin(const char *id, double height);
 void wr_gui_list_end(void);
+/* Scroll so that the widget before is seen. */
+void wr_gui_scroll_here(void);
+/* The text field before lost the keyboard in this frame, by Return, Escape or a click elsewhere. */
+bool wr_gui_field_left(void);
+/* A bar that fills; fraction 0..1. width <= 0: what is left of the row. */
+void wr_gui_progress(double width, double fraction);
+/* A dark square with its four sides coloured (left, right, top, bottom); for a tip. */
+void wr_gui_square(const char *id, double units, const WrColour sides[4]);
+
+/* ---- rows that hold widgets: between begin and end, wr_gui_row_at says where the next one goes ---- */
+typedef struct WrRow {
+    double top, height;    /* pixels of the window */
+    double pointer_y;      /* pixels of the window */
+    bool clicked, doubled; /* let go over the row without dragging, for the second time at once */
+    bool menu;             /* pressed with the right button */
+    bool dragging;         /* held and moved */
+    bool dropped;          /* let go after dragging */
+} WrRow;
+/* Across the whole area. */
+WrRow wr_gui_row_begin(int id, double height_units, bool selected);
+/* x: pixels from the row's left edge. tall: height of what comes, pixels; 0: a line of text. */
+void wr_gui_row_at(double x, double tall);
+double wr_gui_row_width(void); /* pixels */
+void wr_gui_row_end(void);
+/* A line across the area at y pixels of the window: where what is dragged will go. */
+void wr_gui_drop_line(double y);
+/* Text cut off with dots where it is wider than `width` pixels. */
+void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width);
+/* A picture of w x h pixels, with a thin edge. */
+void wr_gui_image(SDL_Texture *texture, double w, double h);
 
 /* ---- menus, popups, dialogs: begin returns true while open, and only then end follows ---- */
 double wr_gui_menu_bar_begin(void); /* returns its height in pixels */
@@ -158,10 +201,13 @@ void wr_gui_popup_end(void);
 /* A dialog in the middle of the window, which takes all input. `open` true shows it. Escape or a
    click beside it does not close it: the caller decides. */
 bool wr_gui_dialog_begin(const char *title, double width_units);
+/* The same at a place of its own, nothing dimmed: the views show what it does. */
+bool wr_gui_dialog_begin_at(const char *title, SDL_Rect place);
 void wr_gui_dialog_end(void);
 bool wr_gui_escape_pressed(void); /* in this frame */
 bool wr_gui_return_pressed(void); /* in this frame, and no text field took it */
 bool wr_gui_letter_pressed(SDL_Scancode key);
+bool wr_gui_key_pressed(SDL_Scancode key); /* in this frame, or repeated; text field or not */
 
 /* ---- drawing on the views, under the panels ---- */
 void wr_gui_draw_clip(SDL_Rect rect);

@@ -25,6 +25,9 @@ struct WrGui {
     double armed_since, drag_value, drag_from;
     float drag_x;
     char typed[64];
+    /* the row that is open, in pixels of the window; and the one that is dragged */
+    float row_left, row_right, row_top, row_height;
+    ImGuiID row_drag;
 };
 
 /* The one whose frame is open. */

@@ -75,16 +75,16 @@ extern "C" void wr_gui_popup_end(void)
     ImGui::EndPopup();
 }
 
-extern "C" bool wr_gui_dialog_begin(const char *title, double width_units)
-try {
-    ImVec2 size = ImGui::GetIO().DisplaySize;
-    float width = px(width_units);
-    if (width > size.x - px(32)) width = size.x - px(32);
-    ImGui::SetNextWindowPos(ImVec2(size.x / 2, size.y * 0.46f), ImGuiCond_Always,
-                            ImVec2(0.5f, 0.5f));
+/* title up to ## is its heading. */
+static bool dialog(const char *title, ImVec2 at, ImVec2 pivot, float width, bool dim)
+{
+    ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg] =
+        wr_gui_vec_of(dim ? 0x60000000u : 0x00000000u);
+    ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
     ImGui::SetNextWindowSize(ImVec2(width, 0));
     if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(20), px(18)));
+    float side = px(dim ? 20 : 14);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(side, px(dim ? 18 : 14)));
     bool open = ImGui::BeginPopupModal(title, nullptr,
                                        ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                            ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
@@ -96,6 +96,21 @@ try {
     wr_gui_text_wrapped(WR_FONT_BOLD, WR_COLOUR_STRONG, heading);
     wr_gui_space(4);
     return true;
+}
+
+extern "C" bool wr_gui_dialog_begin(const char *title, double width_units)
+try {
+    ImVec2 size = ImGui::GetIO().DisplaySize;
+    float width = px(width_units);
+    if (width > size.x - px(32)) width = size.x - px(32);
+    return dialog(title, ImVec2(size.x / 2, size.y * 0.46f), ImVec2(0.5f, 0.5f), width, true);
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_dialog_begin_at(const char *title, SDL_Rect place)
+try {
+    return dialog(title, ImVec2((float)place.x, (float)place.y), ImVec2(0, 0), (float)place.w,
+                  false);
 }
 WR_CAUGHT(false)
 
@@ -121,11 +136,23 @@ extern "C" bool wr_gui_letter_pressed(SDL_Scancode key)
     return !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(key, false);
 }
 
+extern "C" bool wr_gui_key_pressed(SDL_Scancode key)
+{
+    return ImGui::IsKeyPressed(key, true);
+}
+
+extern "C" bool wr_gui_field_left(void)
+{
+    return ImGui::IsItemDeactivated();
+}
+
 extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus)
 try {
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     if (focus) ImGui::SetKeyboardFocusHere();
-    bool done = ImGui::InputText(id, text, size, ImGuiInputTextFlags_EnterReturnsTrue);
+    bool done = ImGui::InputText(id, text, size,
+                                 ImGuiInputTextFlags_EnterReturnsTrue |
+                                     (focus ? ImGuiInputTextFlags_AutoSelectAll : 0));
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     return done;
 }

@@ -6,8 +6,9 @@
 
 /* The caller's; any member, and the pointer to the struct itself, may be NULL. */
 typedef struct WrProgress {
-    volatile int
-        *cancel; /* the work stops soon after this becomes other than 0; any thread may set it */
+    /* The work stops soon after this becomes other than 0. Any thread may set it; it must then stay set
+       until the work has returned. */
+    volatile int *cancel;
     /* Called now and then on the thread that asked for the work, fraction rising from 0 to 1. It may
        set *cancel. */
     void (*report)(void *ctx, double fraction);

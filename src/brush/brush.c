@@ -29,3 +29,14 @@ void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v)
     double x, y;
     if (wr_paint_place(field, u, v, &x, &y)) wr_paint_motion(&paint, x, y, 0.0, 0.0, 1.0, 1.0);
 }
+
+void wr_brush_dab_on(const WrBrushGround *ground, const WrBrush *brush, double u, double v)
+{
+    if (!ground->mark && !ground->selection) {
+        wr_brush_dab(ground->field, brush, u, v);
+        return;
+    }
+    WrStroke *stroke = wr_stroke_new_on(ground, brush);
+    wr_stroke_add(stroke, (WrSample){ .u = u, .v = v, .pressure = 1.0 });
+    wr_stroke_free(stroke);
+}

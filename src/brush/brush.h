@@ -55,11 +55,26 @@ double wr_brush_coverage(const WrBrush *brush, double d);
  * finite. */
 void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v);
 
+/* A table with what belongs to it, all of one size. */
+typedef struct WrBrushGround {
+    WrField *field; /* what is painted on */
+    WrField *
+        mark; /* raised to the coverage, max(mark, s c), where anything is painted; NULL: not kept */
+    const WrField
+        *selection; /* s, 0..1: coverage counts as s c, and where it is 0 texels keep their bits;
+                                 NULL: 1 everywhere */
+} WrBrushGround;
+
+/* The same as wr_brush_dab with neither mark nor selection. */
+void wr_brush_dab_on(const WrBrushGround *ground, const WrBrush *brush, double u, double v);
+
 typedef struct WrStroke WrStroke;
 
 /* Begin a stroke on field, which must outlive it and must not be written to by others meanwhile.
    The caller owns the stroke. */
 WrStroke *wr_stroke_new(WrField *field, const WrBrush *brush);
+/* The same on a table with mark and selection: the same bits where the selection is 1. */
+WrStroke *wr_stroke_new_on(const WrBrushGround *ground, const WrBrush *brush);
 /* Apply one more sample at once: the first makes a dab, later ones join to the one before along the
    shortest way round (HC73), with the pressure between theirs. Cost goes by the area that it covers,
    never by the table's size. A sample within max(1/4, R/32) texel of the last one drawn, and within

@@ -102,7 +102,8 @@ typedef struct Sheet {
     WrPaint *paint;
     int tx, ty;
     const float *start, *cover; /* of the whole stroke; NULL: level, 0 */
-    float *out, *cover_out;
+    const float *selection;     /* NULL: its level */
+    float *out, *cover_out, *mark_out;
 } Sheet;
 
 static Sheet sheet_of(WrPaint *paint, int tx, int ty)
@@ -112,6 +113,7 @@ static Sheet sheet_of(WrPaint *paint, int tx, int ty)
         sheet.start = wr_field_tile(paint->start, tx, ty);
         sheet.cover = wr_field_tile(paint->cover, tx, ty);
     }
+    if (paint->selection) sheet.selection = wr_field_tile(paint->selection, tx, ty);
     return sheet;
 }
 
@@ -121,6 +123,8 @@ static void sheet_open(Sheet *sheet)
     if (!sheet->paint->start) return;
     sheet->cover_out = wr_field_tile_write(sheet->paint->cover, sheet->tx, sheet->ty);
     sheet->cover = sheet->cover_out;
+    if (sheet->paint->mark)
+        sheet->mark_out = wr_field_tile_write(sheet->paint->mark, sheet->tx, sheet->ty);
 }
 
 static bool all_zero(const float *cover, int count)
@@ -128,6 +132,30 @@ static bool all_zero(const float *cover, int count)
     for (int i = 0; i < count; i++)
         if (cover[i] > 0.0f) return false;
     return true;
+}
+
+/* Is nothing selected in the tile, or in `count` of its texels from `at` on? */
+static bool sheet_closed(const Sheet *sheet, int at, int count)
+{
+    const WrField *selection = sheet->paint->selection;
+    if (!selection) return false;
+    return sheet->selection ? all_zero(sheet->selection + at, count)
+                            : !(wr_field_level(selection) > 0.0f);
+}
+
+/* Coverage as the selection lets it through. */
+static const float *through(const Sheet *sheet, int at, const float *cover, int count,
+                            float *limited)
+{
+    const WrField *selection = sheet->paint->selection;
+    if (!selection) return cover;
+    float level = wr_field_level(selection);
+    for (int i = 0; i < count; i++) {
+        float s = sheet->selection ? sheet->selection[at + i] : level;
+        s = s > 0.0f ? s : 0.0f;
+        limited[i] = cover[i] * (s < 1.0f ? s : 1.0f);
+    }
+    return limited;
 }
 
 /* Bring `count` texels from `at` on, whole blocks, up to coverage `fresh`. */
@@ -138,15 +166,17 @@ static void sheet_blocks(Sheet *sheet, int at, int count, const float *fresh)
     if (!(opened && !paint->start)) { /* a dab's open tile takes all */
         bool gains = sheet->cover ? paint->kernels->grows(sheet->cover + at, fresh, count)
                                   : !all_zero(fresh, count);
-        if (!gains) return;
+        if (!gains || sheet_closed(sheet, at, count)) return;
         if (!opened) sheet_open(sheet);
     }
     if (!paint->start) {
         make_row(paint, sheet->out + at, fresh, count, sheet->out + at);
         return;
     }
-    float flat[WR_TILE], *cover = sheet->cover_out + at;
-    paint->kernels->join(cover, fresh, count);
+    alignas(WR_ALIGN) float flat[WR_TILE], limited[WR_TILE];
+    paint->kernels->join(sheet->cover_out + at, fresh, count);
+    const float *cover = through(sheet, at, sheet->cover_out + at, count, limited);
+    if (sheet->mark_out) paint->kernels->join(sheet->mark_out + at, cover, count);
     if (!sheet->start)
         for (int i = 0; i < count; i++) flat[i] = wr_field_level(paint->start);
     make_row(paint, sheet->start ? sheet->start + at : flat, cover, count, sheet->out + at);
@@ -250,6 +280,7 @@ static void paint_tile(WrPaint *paint, const WrCapsule *capsule, const Band *ban
                        int texel)
 {
     Sheet sheet = sheet_of(paint, texel / WR_TILE, band->texel / WR_TILE);
+    if (!sheet.selection && sheet_closed(&sheet, 0, 0)) return;
     int width = wr_field_width(paint->field);
     double stronger =
         capsule->growth > 0.0 ? capsule->pressure + capsule->growth : capsule->pressure;

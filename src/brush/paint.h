@@ -7,10 +7,12 @@
  * largest coverage it ever had; without, each call must stand for a whole stroke, and touches each texel
  * at most once if the motion's length is 0. */
 typedef struct WrPaint {
-    WrField *field;       /* borrowed */
-    const WrField *start; /* the table as it was; borrowed, or NULL */
-    WrField *cover;       /* coverage so far, 0 in a fresh tile; same size; borrowed, or NULL */
-    WrBrush brush;        /* from wr_brush_sane */
+    WrField *field;           /* borrowed */
+    const WrField *start;     /* the table as it was; borrowed, or NULL */
+    WrField *cover;           /* coverage so far, 0 in a fresh tile; same size; borrowed, or NULL */
+    WrField *mark;            /* what is painted at all, as in WrBrushGround; with `cover` only */
+    const WrField *selection; /* the same */
+    WrBrush brush;            /* from wr_brush_sane */
     const WrBrushKernels *kernels;
 } WrPaint;
 

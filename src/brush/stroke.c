@@ -19,8 +19,9 @@ struct WrStroke {
     Spot last, held;
 };
 
-WrStroke *wr_stroke_new(WrField *field, const WrBrush *brush)
+WrStroke *wr_stroke_new_on(const WrBrushGround *ground, const WrBrush *brush)
 {
+    WrField *field = ground->field;
     WrStroke *stroke = wr_alloc(1, sizeof *stroke);
     stroke->start = wr_field_share(field);
     stroke->cover = wr_field_new(wr_field_width(field), wr_field_height(field), WR_WRAP_PERIODIC,
@@ -28,9 +29,17 @@ WrStroke *wr_stroke_new(WrField *field, const WrBrush *brush)
     stroke->paint = (WrPaint){ .field = field,
                                .start = stroke->start,
                                .cover = stroke->cover,
+                               .mark = ground->mark,
+                               .selection = ground->selection,
                                .brush = wr_brush_sane(brush),
                                .kernels = wr_brush_kernels() };
     return stroke;
+}
+
+WrStroke *wr_stroke_new(WrField *field, const WrBrush *brush)
+{
+    WrBrushGround ground = { .field = field };
+    return wr_stroke_new_on(&ground, brush);
 }
 
 /* The way from a to b, the shorter way round on periodic axes. */

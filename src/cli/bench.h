@@ -42,4 +42,19 @@ typedef struct WrBenchStroke {
 } WrBenchStroke;
 bool wr_bench_stroke(const WrCli *cli, WrBenchStroke *stroke, int samples, WrError *err);
 
+/* A dab of 64 texels across and its undo, each with the composite brought up to date after it: medians. */
+typedef struct WrBenchEdit {
+    int table, layers;
+    double dab_ms, composite_ms, undo_ms, undo_composite_ms;
+    double bytes; /* that the step costs */
+} WrBenchEdit;
+bool wr_bench_edit(const WrCli *cli, WrBenchEdit *edit, int rounds, WrError *err);
+
+/* Save and load a document of rough layers. */
+typedef struct WrBenchFile {
+    int table, layers;
+    double save_seconds, load_seconds;
+} WrBenchFile;
+bool wr_bench_file(WrBenchFile *file, WrError *err);
+
 double wr_bench_median(double *values, int count); /* sorts values */

@@ -96,5 +96,6 @@ int wr_cli_render(const WrCli *cli);
 int wr_cli_export(const WrCli *cli);
 int wr_cli_inspect(const WrCli *cli);
 int wr_cli_explain(const WrCli *cli);
+int wr_cli_recover(const WrCli *cli);
 int wr_cli_bench(const WrCli *cli); /* reads its own options from words */
 int wr_cli_help_command(const WrCli *cli);

@@ -111,6 +111,32 @@ static bool bench_strokes(const WrCli *cli, const Options *options, WrText *text
     return true;
 }
 
+static bool bench_edits(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    static const int tables[] = { 512, 4096, 16384 }, layers[] = { 1, 20 };
+    wr_text_addf(text, "\ndab of 64 texels       layers %9s %12s %9s %12s %9s\n", "dab ms",
+                 "composite ms", "undo ms", "composite ms", "bytes");
+    for (int i = 0; i < 6; i++) {
+        WrBenchEdit edit = { .table = tables[i / 2], .layers = layers[i % 2] };
+        char table[32];
+        if (!wr_bench_edit(cli, &edit, options->quick ? 21 : 101, err)) return false;
+        snprintf(table, sizeof table, "%dx%d", edit.table, edit.table);
+        wr_text_addf(text, "  table %-13s %8d %9.3f %12.3f %9.3f %12.3f %9.0f\n", table,
+                     edit.layers, edit.dab_ms, edit.composite_ms, edit.undo_ms,
+                     edit.undo_composite_ms, edit.bytes);
+    }
+    return true;
+}
+
+static bool bench_files(const Options *options, WrText *text, WrError *err)
+{
+    WrBenchFile file = { .table = options->quick ? 1024 : 4096, .layers = 5 };
+    if (!wr_bench_file(&file, err)) return false;
+    wr_text_addf(text, "\ndocument %dx%d, %d layers: save %.2f s, load %.2f s\n", file.table,
+                 file.table, file.layers, file.save_seconds, file.load_seconds);
+    return true;
+}
+
 static bool bench_table(const WrCli *cli, const Options *options, WrText *text, WrError *err)
 {
     static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_TEXTURE, WR_BENCH_BUMP };
@@ -128,7 +154,8 @@ static bool bench_table(const WrCli *cli, const Options *options, WrText *text, 
         return false;
     print_frames(text, rows, count);
     print_ratios(text, rows, count);
-    return bench_strokes(cli, options, text, err);
+    return bench_strokes(cli, options, text, err) && bench_edits(cli, options, text, err) &&
+           bench_files(options, text, err);
 }
 
 int wr_cli_bench(const WrCli *cli)

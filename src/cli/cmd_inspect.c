@@ -88,6 +88,51 @@ static void add_point(WrText *text, bool json, const Quantities *q)
     if (json) wr_text_add(text, "}\n");
 }
 
+/* {"name":"moss","blend":"max","opacity":0.5,...}, bottom first. */
+static void add_layer_json(WrText *text, const WrDocument *document, int index)
+{
+    const WrLayer *layer = &document->layers[index];
+    wr_text_add(text, index ? ",{\"name\":" : "{\"name\":");
+    wr_text_add_json_string(text, layer->name);
+    wr_text_addf(text, ",\"blend\":\"%s\",\"opacity\":", wr_blends[layer->blend].name);
+    wr_text_add_json_number(text, (double)layer->opacity);
+    wr_text_add(text, ",\"radius\":");
+    wr_text_add_json_number(text, (double)layer->radius);
+    wr_text_addf(text,
+                 ",\"visible\":%s,\"locked\":%s,\"cover\":%s,\"mask\":%s,\"active\":%s,"
+                 "\"solo\":%s}",
+                 layer->visible ? "true" : "false", layer->locked ? "true" : "false",
+                 layer->cover ? "true" : "false", layer->mask ? "true" : "false",
+                 document->active == index ? "true" : "false",
+                 document->solo == index ? "true" : "false");
+}
+
+/* "  2 moss  max, opacity 0.5, hidden", top first, as they lie on each other. */
+static void add_layer_text(WrText *text, const WrDocument *document, int index)
+{
+    const WrLayer *layer = &document->layers[index];
+    char number[WR_NUMBER_SIZE];
+    wr_text_addf(text, "%c %-10d %s  %s, opacity %s", document->active == index ? '>' : ' ',
+                 index + 1, layer->name, wr_blends[layer->blend].name,
+                 wr_number_print_float(layer->opacity, number));
+    if (wr_blends[layer->blend].uses_radius)
+        wr_text_addf(text, ", radius %s", wr_number_print_float(layer->radius, number));
+    if (layer->mask) wr_text_add(text, ", masked");
+    if (!layer->visible) wr_text_add(text, ", hidden");
+    if (layer->locked) wr_text_add(text, ", locked");
+    if (document->solo == index) wr_text_add(text, ", alone");
+    wr_text_add(text, "\n");
+}
+
+static void add_summary_json(WrText *text, const WrDocument *document, const char *hash)
+{
+    const WrField *field = wr_document_field(document);
+    wr_text_addf(text, "{\"size\":[%d,%d],\"layers\":%d,\"hash\":\"%s\",\"layer_list\":[",
+                 wr_field_width(field), wr_field_height(field), document->layer_count, hash);
+    for (int i = 0; i < document->layer_count; i++) add_layer_json(text, document, i);
+    wr_text_addf(text, "],\"selection\":%s}\n", document->selection ? "true" : "false");
+}
+
 static void add_summary(WrText *text, bool json, const WrSession *session)
 {
     const WrDocument *document = wr_session_document(session);
@@ -97,8 +142,7 @@ static void add_summary(WrText *text, bool json, const WrSession *session)
     float low, high;
     wr_hash_print(wr_session_hash(session), hash);
     if (json) {
-        wr_text_addf(text, "{\"size\":[%d,%d],\"layers\":%d,\"hash\":\"%s\"}\n", width, height,
-                     document->layer_count, hash);
+        add_summary_json(text, document, hash);
         return;
     }
     wr_field_range(field, &low, &high);
@@ -108,7 +152,10 @@ static void add_summary(WrText *text, bool json, const WrSession *session)
     wr_text_add(text, wr_number_print_float(low, number));
     wr_text_add(text, " .. ");
     wr_text_add(text, wr_number_print_float(high, number));
-    wr_text_addf(text, "\nlayers       %d\nhash         %s\n\n", document->layer_count, hash);
+    wr_text_addf(text, "\nlayers       %d\n", document->layer_count);
+    for (int i = document->layer_count - 1; i >= 0; i--) add_layer_text(text, document, i);
+    if (document->selection) wr_text_add(text, "selection    part of the table\n");
+    wr_text_addf(text, "hash         %s\n\n", hash);
     wr_session_scene_text(session, text);
 }
 

@@ -28,6 +28,7 @@ int wr_cli_paint(const WrCli *cli)
     good = good && (!cli->file || wr_session_open(session, cli->file, &err));
     good = good && wr_cli_run_dos(cli, session, &err);
     wr_session_set_outputs(session, true);
+    wr_session_set_journal(session, true);
     int status = WR_EXIT_FAILED;
     if (good) {
         WrAppOptions app = { .session = session,

@@ -12,6 +12,7 @@ int wr_cli_run(const WrCli *cli)
     WrSession *session = wr_cli_session(cli, true, &err);
     if (!session) return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     bool good;
+    wr_session_set_journal(session, true);
     if (strcmp(cli->file, "-") == 0)
         good = wr_session_run_stream(session, stdin, "standard input", &err);
     else good = wr_session_run_script(session, cli->file, &err);

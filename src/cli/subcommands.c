@@ -33,6 +33,13 @@ const WrSubcommand wr_subcommands[] = {
       "gives\n"
       "the same bits; B: within a stated bound; P: a choice that changes the picture.",
       wr_cli_explain },
+    { "recover", "recover [N|JOURNAL -o OUT] [discard N|JOURNAL] [--json]",
+      "work that a crash left behind", BIT(OUT) | BIT(JSON) | BIT(ALL_WORDS),
+      "Without words: what there is. With a number of that list, or a journal's path: brings its "
+      "document\n"
+      "back and saves it to OUT. A command that had not ended is tried in a process of its own "
+      "first.",
+      wr_cli_recover },
 #ifdef WR_HAVE_BENCH
     { "bench", "bench [options]", "the program's own benchmark", BIT(ALL_WORDS), NULL,
       wr_cli_bench },

@@ -73,6 +73,12 @@ const WrArgSpec wr_args_image[] = {
     { 0 }
 };
 
+const WrArgSpec wr_args_open[] = { { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a document" },
+                                   { .name = "sha256",
+                                     .type = WR_ARG_SHA256,
+                                     .help = "of the file: another content is then an error" },
+                                   { 0 } };
+
 #define BRUSH_ARGS                                                                                 \
     { .name = "radius",                                                                            \
       .type = WR_ARG_NUMBER,                                                                       \

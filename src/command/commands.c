@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-const char *const wr_class_names[] = { "edit", "scene", "output" };
+const char *const wr_class_names[] = { "edit", "scene", "output", "history" };
 
 const WrCommand wr_commands[] = {
     { .name = "table",
@@ -11,6 +11,7 @@ const WrCommand wr_commands[] = {
       .args = wr_args_table,
       .run = wr_run_table,
       .help = "a new height table, everywhere 0",
+      .details = "It has one layer, and nothing is selected.",
       .example = "table 512x256 wrap=clamp-v" },
     { .name = "fill",
       .kind = WR_CLASS_EDIT,
@@ -53,6 +54,45 @@ const WrCommand wr_commands[] = {
           "Each texel is covered at most once by a stroke, by the largest coverage times the "
           "pen's pressure there (1 where it is left out).",
       .example = "stroke points=0.1,0.5;0.9,0.5,0.4 radius=12 mode=lower" },
+    { .name = "open",
+      .kind = WR_CLASS_EDIT,
+      .args = wr_args_open,
+      .run = wr_run_open,
+      .help = "take a document's layers, selection and scene",
+      .details = "In a script the file is looked up beside the script.",
+      .example = "open bricks.exr" },
+    { .name = "layer",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "ACTION",
+      .form = wr_form_layer,
+      .run = wr_run_layer,
+      .help = "add, order, join and set layers",
+      .details =
+          "Layers are named by their numbers, from 1 at the bottom, or by their names where only "
+          "one "
+          "has it. Edits go to the active layer; where it is locked or not shown they are refused.",
+      .example = "layer add moss blend=max" },
+    { .name = "select",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "WHAT",
+      .form = wr_form_select,
+      .run = wr_run_select,
+      .help = "choose where edits act",
+      .details = "Shapes wrap round periodic edges, and their edges are smooth. An edit under a "
+                 "selection s leaves old + s (new - old), and where s is 0 every bit as it was.",
+      .example = "select ellipse centre=0.5,0.5 radii=0.3,0.2" },
+    { .name = "adjust",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "OPERATION",
+      .form = wr_form_adjust,
+      .run = wr_run_adjust,
+      .help = "change a whole table: blur, levels, resize and the like",
+      .details =
+          "They act on the active layer inside the selection; those that change the table's size "
+          "act "
+          "on all layers, masks and the selection, locked or not. Where texels move, a layer's "
+          "coverage and mask move along.",
+      .example = "adjust blur sigma=3" },
     { .name = "surface",
       .kind = WR_CLASS_SCENE,
       .form_word = "NAME",
@@ -161,6 +201,33 @@ const WrCommand wr_commands[] = {
       .run = wr_run_render,
       .help = "write a picture of the scene",
       .example = "render bricks.png size=640x480" },
+    { .name = "script",
+      .kind = WR_CLASS_OUTPUT,
+      .args = wr_args_script,
+      .run = wr_run_script,
+      .help = "write what was done as a script",
+      .details = "The script makes the same document, bit for bit; undone steps are not in it.",
+      .example = "script bricks.wrinkle" },
+    { .name = "undo",
+      .kind = WR_CLASS_HISTORY,
+      .args = wr_args_undo,
+      .run = wr_run_undo,
+      .help = "go back to before the last commands",
+      .details = "Every edit and every scene command is one step.",
+      .example = "undo 2" },
+    { .name = "redo",
+      .kind = WR_CLASS_HISTORY,
+      .args = wr_args_redo,
+      .run = wr_run_redo,
+      .help = "do again what was undone",
+      .example = "redo" },
+    { .name = "history",
+      .kind = WR_CLASS_HISTORY,
+      .args = wr_args_history,
+      .run = wr_run_history,
+      .help = "how much memory undo may take",
+      .details = "The oldest states go first; the last step can always be undone.",
+      .example = "history budget=2e9" },
     { .name = NULL }
 };
 

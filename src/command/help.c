@@ -105,8 +105,7 @@ static void add_argument(WrText *text, const WrCommand *command, int form, const
                  spec->positional ? "" : written_short(spec));
     if (spec->type == WR_ARG_TEXT && spec->shape) wr_text_addf(&right, "%s: ", spec->shape);
     wr_text_add(&right, spec->help);
-    if (spec->type != WR_ARG_PATH && spec->type != WR_ARG_TEXT && spec->type != WR_ARG_SHA256 &&
-        !spec->parts) {
+    if ((spec->type < WR_ARG_PATH || spec->type == WR_ARG_LAYER) && !spec->parts) {
         wr_text_add(&right, "; ");
         wr_arg_expectation(spec, &right);
     }
@@ -176,8 +175,9 @@ bool wr_help_command(const char *name, WrText *text, WrError *err)
 
 void wr_help_overview(WrText *text)
 {
-    static const char *const titles[] = { "Edits of the table", "The scene", "Files" };
-    for (int kind = WR_CLASS_EDIT; kind <= WR_CLASS_OUTPUT; kind++) {
+    static const char *const titles[] = { "Edits of the table", "The scene", "Files",
+                                          "What was done" };
+    for (int kind = 0; kind < WR_CLASS_COUNT; kind++) {
         wr_text_addf(text, "%s%s\n", kind ? "\n" : "", titles[kind]);
         for (int i = 0; i < wr_command_count; i++)
             if ((int)wr_commands[i].kind == kind)

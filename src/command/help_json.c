@@ -122,9 +122,9 @@ static void add_arg(WrText *text, const WrCommand *command, int form, const WrAr
     if (spec->type == WR_ARG_CHOICE) {
         add_key(text, "choices");
         wr_text_add(text, "[");
-        for (int i = 0; spec->choice(i); i++) {
+        for (int i = 0; wr_arg_word(spec, i); i++) {
             wr_text_add(text, i ? "," : "");
-            wr_text_add_json_string(text, spec->choice(i));
+            wr_text_add_json_string(text, wr_arg_word(spec, i));
         }
         wr_text_add(text, "]");
     }

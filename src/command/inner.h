@@ -4,27 +4,36 @@
 #include "base/array.h"
 #include "command/call.h"
 #include "command/session.h"
+#include "document/history.h"
+#include "document/journal.h"
 
 /* What is replaced as a whole by open and reset, and put back where open fails. */
 typedef struct WrSessionState {
-    WrDocument *document;     /* owned */
-    WR_ARRAY(char *) history; /* owned canonical lines of the commands that ran, oldest first */
-    uint64_t revision, saved_revision;
-    char *path; /* of the document file; owned; NULL: none */
+    WrDocument *document; /* owned; between commands, what the history's present state holds */
+    WrHistory *history;   /* owned; its marks are revisions */
+    uint64_t saved_revision;
+    char *path;       /* of the document file; owned; NULL: none */
+    char *origin;     /* the command line that makes the history's first state; owned; NULL: none */
+    char *newer_path; /* a file of a newer version that must not be saved over; owned; NULL: none */
 } WrSessionState;
 
 struct WrSession {
     WrSessionOptions options; /* isa is a copy, owned */
     WrSessionState state;
-    char *folder;         /* of the script that is running; borrowed; NULL: the current folder */
-    bool skip_outputs;    /* while a script is opened rather than run */
-    bool loading;         /* the scene's lines of a document are running */
+    uint64_t last_revision; /* that was ever given */
+    size_t budget;          /* of the history, bytes */
+    int depth;         /* commands under way, one inside the other; only the outermost is a step */
+    char *folder;      /* of the script that is running; borrowed; NULL: the current folder */
+    bool skip_outputs; /* while a script is opened rather than run */
+    bool loading;      /* the scene's lines of a document are running */
+    bool opening;      /* a script, a picture or a recovery is being opened: nothing is journaled */
+    WrJournal *journal; /* of the document, from its first command on; owned; NULL: none yet */
+    int journal_base, journal_top; /* history positions that a replay of it can reach */
     WrImage *embedded;    /* while loading: the document's colour picture; borrowed; NULL: none */
     WrRenderer *renderer; /* made on first use; owned */
 
-    WrStroke *stroke;          /* open stroke, or NULL; owned */
-    WrCall *stroke_call;       /* its line so far; owned */
-    WrDocument *stroke_before; /* snapshot from before it; owned */
+    WrStroke *stroke;    /* open stroke, or NULL; owned */
+    WrCall *stroke_call; /* its line so far; owned */
 };
 
 /* Say something that is no failure. */
@@ -32,30 +41,82 @@ void wr_session_note(WrSession *session, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* `path` as a command of the running script means it for reading. Caller frees. */
 char *wr_session_input_path(const WrSession *session, const char *path);
+/* "a stroke is being drawn" */
+bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err);
+
+/* ---- steps ---- */
+
+/* The command of that call is done: make it a step. */
+void wr_session_remember(WrSession *session, const WrCall *call);
+/* Go to a state of the history; only undo and redo do so, that the journal may know. */
+bool wr_session_go_to(WrSession *session, int state, WrError *err);
+/* Bring the document back to what the history's present state holds. */
+void wr_session_restore(WrSession *session);
+/* Begin the history anew from the document as it is, with a new revision. */
+void wr_session_rebase(WrSession *session);
 /* Put a new document (taken) in place of the old state, which is returned: then keep the new one as
    opened, or put the old one back. Either consumes *old. */
 WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document);
 void wr_session_keep_state(WrSession *session, WrSessionState *old);
 void wr_session_restore_state(WrSession *session, WrSessionState *old);
-/* The layer that edits change, for writing. */
-WrField *wr_session_field(WrSession *session);
-void wr_session_replace_field(WrSession *session, WrField *field); /* takes it */
+
+/* ---- the journal: session_journal.c ---- */
+
+/* Around an outermost command that changes the document. */
+void wr_session_journal_before(WrSession *session, const WrCall *call);
+/* pushed: it made a step, rather than going through them. */
+void wr_session_journal_after(WrSession *session, bool good, bool pushed);
+/* A stroke; rows as printed, with their lengths. kept: false if it was cancelled or empty. */
+void wr_session_journal_stroke_begin(WrSession *session, const WrCall *call);
+void wr_session_journal_stroke_add(WrSession *session, const double rows[][6], const int *lengths,
+                                   int count);
+void wr_session_journal_stroke_end(WrSession *session, bool kept);
+/* The document is saved or given up: its journal goes. */
+void wr_session_journal_drop(WrSession *session);
+/* Begin a journal from a snapshot of the document as it is. */
+bool wr_session_journal_anew(WrSession *session, WrError *err);
+
+/* ---- what commands change ---- */
+
+/* The layer that edits change. NULL and an error if it is locked or not shown. */
+WrLayer *wr_session_layer(WrSession *session, WrError *err);
+/* "layer 2 \"moss\"": how messages name a layer. */
+const char *wr_session_layer_name(const WrSession *session, int index, WrText *buffer);
+/* Fails if that layer is locked. */
+bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err);
+/* What paint goes on; false and an error if the active layer is locked or not shown. */
+bool wr_session_ground(WrSession *session, WrBrushGround *ground, WrError *err);
+/* Put `made` (taken) in the place of *field, of the same size, inside the selection. */
+void wr_session_put_field(WrSession *session, WrField **field, WrField *made);
+/* Give a layer new heights of the same size (taken), inside the selection; there it now says something. */
+void wr_session_put_heights(WrSession *session, WrLayer *layer, WrField *heights);
 /* Put a changed clone in the document's place for its scene; takes it. */
 void wr_session_replace_scene(WrSession *session, WrScene *scene);
+/* The index of the layer that a command's argument names: by number, from 1, or by name. */
+bool wr_session_find_layer(const WrSession *session, const char *word, int *index, WrError *err);
+
+/* Hash a file that a command reads, compare with what the line says, and write it into the line. */
+bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err);
 /* Read the picture that a line names; checks its sha256= argument, or sets it. The caller owns it. */
 WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err);
+/* Put a document file's content in the place of the session's document, scene included. */
+bool wr_session_load(WrSession *session, const char *path, WrError *err);
 /* The brush that a dab's or stroke's arguments describe. */
 WrBrush wr_call_brush(const WrCall *call);
 
 /* The commands' functions, by subject: see commands.c. */
 typedef bool WrHandler(WrSession *session, WrCall *call, WrError *err);
-WrHandler wr_run_table, wr_run_fill, wr_run_grid, wr_run_image; /* run_table.c */
-WrHandler wr_run_dab, wr_run_stroke;                            /* run_brush.c */
+WrHandler wr_run_table, wr_run_fill, wr_run_grid, wr_run_image, wr_run_open; /* run_table.c */
+WrHandler wr_run_dab, wr_run_stroke;                                         /* run_brush.c */
+WrHandler wr_run_layer;                                                      /* run_layer.c */
+WrHandler wr_run_select;                                                     /* run_select.c */
+WrHandler wr_run_adjust;                                                     /* run_adjust.c */
 WrHandler wr_run_analytic, wr_run_surface, wr_run_bump, wr_run_replicate,
     wr_run_rotate; /* run_shape.c */
 WrHandler wr_run_material, wr_run_colour, wr_run_light, wr_run_camera,
-    wr_run_dials;                                    /* run_look.c */
-WrHandler wr_run_save, wr_run_export, wr_run_render; /* run_output.c */
+    wr_run_dials;                                                  /* run_look.c */
+WrHandler wr_run_save, wr_run_export, wr_run_render;               /* run_output.c */
+WrHandler wr_run_undo, wr_run_redo, wr_run_history, wr_run_script; /* run_history.c */
 
 /* The scene's canonical lines, by subject: scene_text.c. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);

@@ -7,12 +7,17 @@
 
 /* ---- words ---- */
 
+static bool is_in_name(char c)
+{
+    return isascii((unsigned char)c) && (isalnum((unsigned char)c) || c == '_' || c == '-');
+}
+
 /* Take the name of "name=" at *p, or NULL (and *p stays). The caller's. */
 static char *take_name(const char **p)
 {
     const char *s = *p;
-    if (!isascii((unsigned char)*s) || !(isalpha((unsigned char)*s) || *s == '_')) return NULL;
-    while (isascii((unsigned char)*s) && (isalnum((unsigned char)*s) || *s == '_')) s++;
+    if (!is_in_name(*s) || isdigit((unsigned char)*s) || *s == '-') return NULL;
+    while (is_in_name(*s)) s++;
     if (*s != '=') return NULL;
     char *name = wr_strndup(*p, (size_t)(s - *p));
     *p = s + 1;

@@ -12,10 +12,11 @@ WrBrush wr_call_brush(const WrCall *call)
 
 bool wr_run_dab(WrSession *session, WrCall *call, WrError *err)
 {
-    (void)err;
     WrBrush brush = wr_call_brush(call);
+    WrBrushGround ground;
+    if (!wr_session_ground(session, &ground, err)) return false;
     const WrArg *at = wr_call_arg(call, "u,v");
-    wr_brush_dab(wr_session_field(session), &brush, at->numbers[0], at->numbers[1]);
+    wr_brush_dab_on(&ground, &brush, at->numbers[0], at->numbers[1]);
     return true;
 }
 
@@ -24,7 +25,9 @@ bool wr_run_stroke(WrSession *session, WrCall *call, WrError *err)
     const volatile int *cancel = session->options.cancel;
     WrBrush brush = wr_call_brush(call);
     const WrArg *points = wr_call_arg(call, "points");
-    WrStroke *stroke = wr_stroke_new(wr_session_field(session), &brush);
+    WrBrushGround ground;
+    if (!wr_session_ground(session, &ground, err)) return false;
+    WrStroke *stroke = wr_stroke_new_on(&ground, &brush);
     bool good = true;
     for (int i = 0; good && i < points->rows; i++) {
         const double *row = points->numbers + (size_t)6 * (size_t)i;

@@ -7,6 +7,7 @@
 #include "export/export.h"
 
 #include <string.h>
+#include <sys/stat.h>
 
 /* ---- pictures ---- */
 
@@ -16,7 +17,8 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
     if (!session->renderer)
         session->renderer = wr_renderer_new(session->options.pool, session->options.isa, err);
     if (!session->renderer) return false;
-    WrFrameRequest request = { .field = wr_document_field(session->state.document),
+    WrFrameRequest request = { .field = wr_document_composite(session->state.document,
+                                                              session->options.pool),
                                .scene = session->state.document->scene,
                                .width = width,
                                .height = height,
@@ -77,9 +79,23 @@ bool wr_run_render(WrSession *session, WrCall *call, WrError *err)
 
 /* ---- documents ---- */
 
+/* Do both names lead to one file? */
+static bool same_file(const char *a, const char *b)
+{
+    struct stat first, second;
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
 bool wr_session_save(WrSession *session, const char *path, WrError *err)
 {
     WrText text = { 0 };
+    if (session->state.newer_path && same_file(session->state.newer_path, path))
+        return wr_fail(err,
+                       "%s: was saved by a newer version of the program: saving over it would lose "
+                       "what this one does not know; choose another name",
+                       path);
+    wr_document_composite(session->state.document, session->options.pool);
     wr_session_scene_text(session, &text);
     bool good = wr_document_save(session->state.document, wr_text_get(&text), path, err);
     wr_text_fini(&text);
@@ -87,7 +103,8 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     char *kept = wr_strdup(path); /* may be the old name itself */
     wr_free(session->state.path);
     session->state.path = kept;
-    session->state.saved_revision = session->state.revision;
+    session->state.saved_revision = wr_session_revision(session);
+    wr_session_journal_drop(session);
     return true;
 }
 
@@ -108,6 +125,7 @@ bool wr_run_export(WrSession *session, WrCall *call, WrError *err)
             return false;
     const char *path = wr_call_arg(call, "FILE")->text;
     WrExportReport report;
+    wr_document_composite(session->state.document, session->options.pool);
     if (!wr_export(kind, session->state.document, &options, session->options.pool, path, &report,
                    err))
         return false;

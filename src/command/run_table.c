@@ -1,4 +1,4 @@
-/* table, fill, grid, image. */
+/* table, fill, grid, image, open. */
 #include "command/inner.h"
 
 #include "base/hash.h"
@@ -15,14 +15,22 @@ bool wr_run_table(WrSession *session, WrCall *call, WrError *err)
                                   wrap & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC,
                                   wrap & 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC, 0, err);
     if (!field) return false;
-    wr_session_replace_field(session, field);
+    wr_document_start_over(session->state.document, field);
     return true;
+}
+
+/* A table like the layer's, every height `level`. */
+static WrField *flat_like(const WrField *field, double level)
+{
+    return wr_field_new(wr_field_width(field), wr_field_height(field), wr_field_wrap_u(field),
+                        wr_field_wrap_v(field), (float)level, NULL);
 }
 
 bool wr_run_fill(WrSession *session, WrCall *call, WrError *err)
 {
-    (void)err;
-    wr_field_fill(wr_session_field(session), (float)wr_call_number(call, "F"));
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    wr_session_put_heights(session, layer, flat_like(layer->heights, wr_call_number(call, "F")));
     return true;
 }
 
@@ -65,25 +73,25 @@ static void draw_lines(WrField *field, const unsigned char *columns, const unsig
 
 bool wr_run_grid(WrSession *session, WrCall *call, WrError *err)
 {
-    (void)err;
-    WrField *field = wr_session_field(session);
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    WrField *field = flat_like(layer->heights, wr_call_number(call, "low"));
     const WrArg *cells = wr_call_arg(call, "cells");
     double width = wr_call_number(call, "width");
     unsigned char *columns = wr_alloc((size_t)wr_field_width(field), 1);
     unsigned char *rows = wr_alloc((size_t)wr_field_height(field), 1);
     mark_lines(wr_field_width(field), (int)cells->numbers[0], width, columns);
     mark_lines(wr_field_height(field), (int)cells->numbers[1], width, rows);
-    wr_field_fill(field, (float)wr_call_number(call, "low"));
     draw_lines(field, columns, rows, (float)wr_call_number(call, "high"));
     wr_free(columns);
     wr_free(rows);
+    wr_session_put_heights(session, layer, field);
     return true;
 }
 
 /* ---- image ---- */
 
-/* Hash a file that a command reads, compare with what the line says, and write it into the line. */
-static bool note_sha256(WrCall *call, const char *path, WrError *err)
+bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err)
 {
     char hex[65];
     if (!wr_sha256_file(path, hex, err)) return false;
@@ -99,7 +107,7 @@ WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *nam
 {
     char *path = wr_session_input_path(session, name);
     WrImage *image = NULL;
-    if (note_sha256(call, path, err)) image = wr_image_read(path, err);
+    if (wr_session_check_sha256(call, path, err)) image = wr_image_read(path, err);
     if (image && image->replaced)
         wr_session_note(session, "%s: %lld values were not finite and became 0", path,
                         (long long)image->replaced);
@@ -107,10 +115,37 @@ WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *nam
     return image;
 }
 
+static bool same_size(const WrField *a, const WrField *b)
+{
+    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
+}
+
+/* A picture of another size makes the table another; so it can only where there is nothing but one layer. */
+static bool replace_table(WrSession *session, WrLayer *layer, WrField *field, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    if (document->layer_count > 1 || document->selection || layer->mask) {
+        wr_fail(err,
+                "the picture is %dx%d, the table %dx%d: with more layers, a mask or a selection it "
+                "must be resampled (fit=table)",
+                wr_field_width(field), wr_field_height(field), wr_field_width(layer->heights),
+                wr_field_height(layer->heights));
+        wr_field_free(field);
+        return false;
+    }
+    wr_field_free(layer->heights);
+    wr_field_free(layer->cover);
+    layer->heights = field;
+    layer->cover = NULL;
+    return true;
+}
+
 bool wr_run_image(WrSession *session, WrCall *call, WrError *err)
 {
-    const WrField *old = wr_session_field(session);
     bool fit = wr_call_given(call, "fit");
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    const WrField *old = layer->heights;
     WrImage *image = wr_session_read_image(session, call, wr_call_arg(call, "FILE")->text, err);
     if (!image) return false;
     WrField *field =
@@ -118,6 +153,17 @@ bool wr_run_image(WrSession *session, WrCall *call, WrError *err)
                           wr_field_wrap_u(old), wr_field_wrap_v(old), err);
     wr_image_free(image);
     if (!field) return false;
-    wr_session_replace_field(session, field);
+    if (!same_size(field, old)) return replace_table(session, layer, field, err);
+    wr_session_put_heights(session, layer, field);
     return true;
+}
+
+/* ---- open ---- */
+
+bool wr_run_open(WrSession *session, WrCall *call, WrError *err)
+{
+    char *path = wr_session_input_path(session, wr_call_arg(call, "FILE")->text);
+    bool good = wr_session_check_sha256(call, path, err) && wr_session_load(session, path, err);
+    wr_free(path);
+    return good;
 }

@@ -11,9 +11,10 @@
 static void state_fini(WrSessionState *state)
 {
     wr_document_free(state->document);
-    for (int i = 0; i < state->history.count; i++) wr_free(state->history.data[i]);
-    wr_array_free(&state->history);
+    wr_history_free(state->history);
     wr_free(state->path);
+    wr_free(state->origin);
+    wr_free(state->newer_path);
     *state = (WrSessionState){ 0 };
 }
 
@@ -22,7 +23,9 @@ WrSession *wr_session_new(const WrSessionOptions *options)
     WrSession *session = wr_alloc(1, sizeof *session);
     if (options) session->options = *options;
     session->options.isa = wr_strdup(session->options.isa);
+    session->budget = WR_HISTORY_BUDGET;
     session->state.document = wr_document_new();
+    session->state.history = wr_history_new(session->state.document, 0, session->budget);
     return session;
 }
 
@@ -30,6 +33,7 @@ void wr_session_free(WrSession *session)
 {
     if (!session) return;
     wr_session_stroke_cancel(session);
+    wr_session_journal_drop(session);
     state_fini(&session->state);
     wr_renderer_free(session->renderer);
     wr_free((char *)session->options.isa);
@@ -52,40 +56,44 @@ void wr_session_note(WrSession *session, const char *format, ...)
     session->options.note(session->options.note_ctx, text);
 }
 
-/* ---- what commands change ---- */
-
-WrField *wr_session_field(WrSession *session)
-{
-    return session->state.document->layers[0].field;
-}
-
-void wr_session_replace_field(WrSession *session, WrField *field)
-{
-    WrLayer *layer = &session->state.document->layers[0];
-    wr_field_free(layer->field);
-    layer->field = field;
-}
-
-void wr_session_replace_scene(WrSession *session, WrScene *scene)
-{
-    wr_scene_free(session->state.document->scene);
-    session->state.document->scene = scene;
-}
-
-char *wr_session_input_path(const WrSession *session, const char *path)
-{
-    return wr_path_join(session->folder, path);
-}
-
 /* ---- running ---- */
 
-static void remember(WrSession *session, const WrCall *call)
+/* What relative file names of a line are relative to, as an absolute path; NULL if it names no file. */
+static char *folder_of(const WrSession *session, const WrCall *call)
+{
+    bool names = false;
+    for (int i = 0; i < call->count; i++)
+        names |= call->specs[i].type == WR_ARG_PATH && call->args[i].given;
+    if (!names) return NULL;
+    char *full = realpath(session->folder ? session->folder : ".", NULL);
+    char *kept = wr_strdup(full);
+    free(full);
+    return kept;
+}
+
+void wr_session_remember(WrSession *session, const WrCall *call)
 {
     WrText text = { 0 };
+    char *folder = folder_of(session, call);
     wr_call_print(call, &text);
-    wr_array_push(&session->state.history, wr_strdup(wr_text_get(&text)));
-    session->state.revision++;
+    wr_history_push(session->state.history, session->state.document, wr_text_get(&text), folder,
+                    ++session->last_revision);
+    wr_free(folder);
     wr_text_fini(&text);
+}
+
+/* Put another document (taken) in the place of the session's, which knows how it was composited. */
+static void put_document(WrSession *session, WrDocument *document)
+{
+    wr_document_swap_composites(document, session->state.document);
+    wr_document_free(session->state.document);
+    session->state.document = document;
+}
+
+void wr_session_restore(WrSession *session)
+{
+    WrHistory *history = session->state.history;
+    put_document(session, wr_history_go(history, wr_history_position(history)));
 }
 
 static bool run_output(WrSession *session, WrCall *call, WrError *err)
@@ -99,22 +107,29 @@ static bool run_output(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+/* Only the outermost command is a step, and only its failure puts the old state back. */
 static bool run_call(WrSession *session, WrCall *call, WrError *err)
 {
     if (!call->command) return true;
     if (call->command->kind == WR_CLASS_OUTPUT) return run_output(session, call, err);
-    WrDocument *before = wr_document_share(session->state.document);
-    if (!call->command->run(session, call, err)) {
-        wr_document_free(session->state.document);
-        session->state.document = before;
-        return false;
+    bool good;
+    wr_session_journal_before(session, call);
+    if (call->command->kind == WR_CLASS_HISTORY) {
+        good = call->command->run(session, call, err);
+        wr_session_journal_after(session, good, false);
+        return good;
     }
-    wr_document_free(before);
-    remember(session, call);
-    return true;
+    session->depth++;
+    good = call->command->run(session, call, err);
+    session->depth--;
+    if (session->depth > 0) return good;
+    if (good) wr_session_remember(session, call);
+    else wr_session_restore(session);
+    wr_session_journal_after(session, good, true);
+    return good;
 }
 
-static bool refuse_in_stroke(const WrSession *session, WrError *err)
+bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err)
 {
     if (!session->stroke) return true;
     return wr_fail(err, "a stroke is being drawn: it must end first");
@@ -131,7 +146,7 @@ static void name_command(WrError *err, const char *verb)
 bool wr_session_run(WrSession *session, const char *line, WrError *err)
 {
     WrCall *call;
-    if (!refuse_in_stroke(session, err)) return false;
+    if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!wr_call_parse(line, false, &call, err)) return false;
     bool good = run_call(session, call, err);
     if (!good) name_command(err, call->command->name);
@@ -139,101 +154,74 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
     return good;
 }
 
-/* ---- a stroke in progress ---- */
+/* ---- through the history ---- */
 
-bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
+bool wr_session_go(WrSession *session, int state, WrError *err)
 {
-    WrCall *call;
-    if (!refuse_in_stroke(session, err)) return false;
-    if (!wr_call_parse(head, true, &call, err)) return false;
-    if (!call->command || strcmp(call->command->name, "stroke") != 0 ||
-        wr_call_given(call, "points")) {
-        wr_call_free(call);
-        return wr_fail(err, "a stroke begins with a stroke command without points");
-    }
-    WrBrush brush = wr_call_brush(call);
-    session->stroke_call = call;
-    session->stroke_before = wr_document_share(session->state.document);
-    session->stroke = wr_stroke_new(wr_session_field(session), &brush);
+    char line[32];
+    int steps = state - wr_session_history_position(session);
+    if (state < wr_session_history_oldest(session) || state > wr_session_history_count(session) ||
+        steps == 0)
+        return wr_session_go_to(session, state, err); /* which says why not */
+    snprintf(line, sizeof line, "%s %d", steps < 0 ? "undo" : "redo", abs(steps));
+    return wr_session_run(session, line, err);
+}
+
+bool wr_session_go_to(WrSession *session, int state, WrError *err)
+{
+    WrHistory *history = session->state.history;
+    int count = wr_history_count(history), oldest = wr_history_oldest(history);
+    if (!wr_session_refuse_in_stroke(session, err)) return false;
+    if (state < 0 || state > count) return wr_fail(err, "step %d: there are %d", state, count);
+    if (state < oldest)
+        return wr_fail(err,
+                       "step %d was given up to keep the history in its budget: %d is the oldest",
+                       state, oldest);
+    put_document(session, wr_history_go(history, state));
     return true;
 }
 
-/* The double that `value`, printed with that many decimals, reads back as: k / 10^n is correctly rounded
-   because both are whole and below 2^53. */
-static double round_decimals(double value, double ten_to_n)
+int wr_session_history_count(const WrSession *session)
 {
-    double k = rint(value * ten_to_n);
-    return fabs(k) < 0x1p53 ? k / ten_to_n + 0.0 : value;
+    return wr_history_count(session->state.history);
 }
 
-static double clamp_finite(double value, double low, double high)
+int wr_session_history_position(const WrSession *session)
 {
-    if (!(value >= low)) return isnan(value) ? 0 : low;
-    return value > high ? high : value;
+    return wr_history_position(session->state.history);
 }
 
-static WrSample round_sample(WrSample s)
+int wr_session_history_oldest(const WrSession *session)
 {
-    return (WrSample){ .u = round_decimals(s.u, 1e7),
-                       .v = round_decimals(s.v, 1e7),
-                       .pressure = round_decimals(clamp_finite(s.pressure, 0, 1), 1e4),
-                       .tilt_x = round_decimals(clamp_finite(s.tilt_x, -1, 1), 1e4),
-                       .tilt_y = round_decimals(clamp_finite(s.tilt_y, -1, 1), 1e4),
-                       .seconds = round_decimals(clamp_finite(s.seconds, 0, 1e9), 1e4) };
+    return wr_history_oldest(session->state.history);
 }
 
-bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err)
+const char *wr_session_history_line(const WrSession *session, int index)
 {
-    if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
-    for (int i = 0; i < count; i++)
-        if (!(fabs(samples[i].u) <= 1e9) || !(fabs(samples[i].v) <= 1e9))
-            return wr_fail(err, "stroke: sample %d is at %g,%g: must be within 1e9 of 0", i + 1,
-                           samples[i].u, samples[i].v);
-    if (count > WR_POINTS_MAX - wr_call_arg(session->stroke_call, "points")->rows)
-        return wr_fail(err, "stroke: more than %d samples", WR_POINTS_MAX);
-    for (int i = 0; i < count; i++) {
-        WrSample s = round_sample(samples[i]);
-        double row[6] = { s.u, s.v, s.pressure, s.tilt_x, s.tilt_y, s.seconds };
-        int n = s.seconds != 0 ? 6 : s.tilt_x != 0 || s.tilt_y != 0 ? 5 : s.pressure != 1 ? 3 : 2;
-        wr_call_add_row(session->stroke_call, "points", row, n);
-        wr_stroke_add(session->stroke, s);
-    }
-    return true;
+    if (index < 0 || index >= wr_history_count(session->state.history)) return "";
+    return wr_history_line(session->state.history, index);
 }
 
-/* Close the open stroke; the caller has seen to the document. */
-static void drop_stroke(WrSession *session)
+size_t wr_session_history_bytes(const WrSession *session)
 {
-    wr_stroke_free(session->stroke);
-    wr_call_free(session->stroke_call);
-    wr_document_free(session->stroke_before);
-    session->stroke = NULL;
-    session->stroke_call = NULL;
-    session->stroke_before = NULL;
+    return wr_history_bytes(session->state.history);
 }
 
-bool wr_session_stroke_end(WrSession *session, WrError *err)
+size_t wr_session_history_step_bytes(const WrSession *session, int index)
 {
-    if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
-    if (wr_call_given(session->stroke_call, "points")) remember(session, session->stroke_call);
-    drop_stroke(session);
-    return true;
+    if (index < 0 || index >= wr_history_count(session->state.history)) return 0;
+    return wr_history_step_bytes(session->state.history, index);
 }
 
-void wr_session_stroke_cancel(WrSession *session)
+size_t wr_session_history_budget(const WrSession *session)
 {
-    if (!session->stroke) return;
-    wr_stroke_free(session->stroke); /* before the field that it draws on */
-    session->stroke = NULL;
-    wr_document_free(session->state.document);
-    session->state.document = session->stroke_before;
-    session->stroke_before = NULL;
-    drop_stroke(session);
+    return session->budget;
 }
 
-bool wr_session_in_stroke(const WrSession *session)
+void wr_session_set_history_budget(WrSession *session, size_t bytes)
 {
-    return session->stroke != NULL;
+    session->budget = bytes;
+    wr_history_set_budget(session->state.history, bytes);
 }
 
 /* ---- what a session tells ---- */
@@ -243,25 +231,14 @@ const WrDocument *wr_session_document(const WrSession *session)
     return session->state.document;
 }
 
-int wr_session_history_count(const WrSession *session)
-{
-    return session->state.history.count;
-}
-
-const char *wr_session_history_line(const WrSession *session, int index)
-{
-    if (index < 0 || index >= session->state.history.count) return "";
-    return session->state.history.data[index];
-}
-
 const char *wr_session_last_command(const WrSession *session)
 {
-    return wr_session_history_line(session, session->state.history.count - 1);
+    return wr_session_history_line(session, wr_session_history_position(session) - 1);
 }
 
 uint64_t wr_session_revision(const WrSession *session)
 {
-    return session->state.revision;
+    return wr_history_mark(session->state.history);
 }
 
 uint64_t wr_session_saved_revision(const WrSession *session)
@@ -280,10 +257,22 @@ void wr_session_scene_text(const WrSession *session, WrText *text)
         if (wr_commands[i].print) wr_commands[i].print(session->state.document->scene, text);
 }
 
+/* A colour picture is what its content is, wherever its file lies. */
+static void add_colour(const WrScene *scene, WrText *text)
+{
+    if (scene->colour && *scene->colour_sha256)
+        wr_text_addf(text, "colour sha256=%s\n", scene->colour_sha256);
+    else wr_print_colour(scene, text);
+}
+
 WrHash wr_session_hash(const WrSession *session)
 {
     WrText text = { 0 };
-    wr_session_scene_text(session, &text);
+    const WrScene *scene = session->state.document->scene;
+    for (int i = 0; i < wr_command_count; i++) {
+        if (wr_commands[i].print == wr_print_colour) add_colour(scene, &text);
+        else if (wr_commands[i].print) wr_commands[i].print(scene, &text);
+    }
     WrHash hash = wr_document_hash(session->state.document, wr_text_get(&text));
     wr_text_fini(&text);
     return hash;
@@ -291,18 +280,25 @@ WrHash wr_session_hash(const WrSession *session)
 
 /* ---- replacing the document as a whole ---- */
 
+void wr_session_rebase(WrSession *session)
+{
+    wr_history_free(session->state.history);
+    session->state.history =
+        wr_history_new(session->state.document, ++session->last_revision, session->budget);
+}
+
 WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document)
 {
     WrSessionState old = session->state;
-    session->state = (WrSessionState){ .document = document, .revision = old.revision };
+    session->state = (WrSessionState){ .document = document };
+    wr_session_rebase(session);
     return old;
 }
 
 void wr_session_keep_state(WrSession *session, WrSessionState *old)
 {
     state_fini(old);
-    session->state.revision++;
-    session->state.saved_revision = session->state.revision;
+    session->state.saved_revision = wr_session_revision(session);
 }
 
 void wr_session_restore_state(WrSession *session, WrSessionState *old)
@@ -314,6 +310,7 @@ void wr_session_restore_state(WrSession *session, WrSessionState *old)
 void wr_session_reset(WrSession *session)
 {
     wr_session_stroke_cancel(session);
+    wr_session_journal_drop(session);
     WrSessionState old = wr_session_begin_state(session, wr_document_new());
     wr_session_keep_state(session, &old);
 }

@@ -19,6 +19,8 @@ typedef struct WrSessionOptions {
     bool outputs;    /* perform output commands (only `wrinkle run` and the window do); otherwise
                              they are skipped with a note */
     const char *isa; /* kernel set for renders: NULL or "auto"; copied, checked at first use */
+    bool journal; /* keep a journal of the document, so that a crash loses at most the command under
+                     way (document/journal.h) */
     const volatile int *cancel; /* may be NULL; non-zero: scripts and renders stop with an error */
 } WrSessionOptions;
 
@@ -30,8 +32,8 @@ void wr_session_free(WrSession *session);
 void wr_session_set_outputs(WrSession *session, bool outputs);
 
 /* Replace the document by a file's: a document, a script (*.wrinkle, run from empty; its output commands
-   are skipped with a note whatever the options say) or any picture with heights. On failure the session
-   keeps what it had. */
+   are skipped with a note whatever the options say) or any picture with heights. Of a document of a newer
+   version it takes what it understands, and a note says so. On failure the session keeps what it had. */
 bool wr_session_open(WrSession *session, const char *path, WrError *err);
 /* An empty document. */
 void wr_session_reset(WrSession *session);
@@ -50,7 +52,8 @@ bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, W
 /* A stroke in progress is an open command: `head` is a stroke command without points, such as
    "stroke radius=20 strength=0.1". Each sample is rounded to its printed text (u, v to 1e-7, pressure,
    tilt and seconds to 1e-4) and then applied at once; the finished line replays to the same bits. While
-   it is open, run and open fail. A sample with a u or v that is not finite or beyond 1e9 is refused. */
+   it is open, run, open and go fail. It begins only on a layer that is shown and not locked, and keeps to
+   the selection. A sample with a u or v that is not finite or beyond 1e9 is refused. */
 bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err);
 bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err);
 bool wr_session_stroke_end(WrSession *session, WrError *err); /* no samples: nothing happened */
@@ -60,22 +63,58 @@ bool wr_session_in_stroke(const WrSession *session);
 
 /* Borrowed until the next call that changes it. */
 const WrDocument *wr_session_document(const WrSession *session);
-/* The canonical text of the last command that ran ("" if none), and how many have run: a counter that
-   changes with each edit, for "unsaved changes". */
+/* The canonical text of the last command that is in force ("" if none), and the number of the state that
+   it made: every state has its own, and going back brings the old one back. */
 const char *wr_session_last_command(const WrSession *session);
 uint64_t wr_session_revision(const WrSession *session);
 /* Revision at the last save or open; the document is unsaved while they differ. */
 uint64_t wr_session_saved_revision(const WrSession *session);
 const char *wr_session_path(const WrSession *session); /* of the document file, "" if none */
 
-/* The canonical lines of the edits and scene commands that ran since the document was made or opened,
-   oldest first. Output commands are not among them. */
+/* ---- the journal ---- */
+
+/* Change options.journal: from the next command on. */
+void wr_session_set_journal(WrSession *session, bool journal);
+/* True if every command so far can be recovered after a crash, or no journal is kept; else *reason says why
+   not ("" if safe; valid until the next call). */
+bool wr_session_journal_safe(const WrSession *session, const char **reason);
+/* When nothing else is to do: begin the journal anew from a snapshot if it has grown long, or if lines are
+   missing since the disk was full. May take as long as a save. True if it did something. */
+bool wr_session_journal_tend(WrSession *session);
+/* Keep the journal for a recovery though the session ends (its work could not be saved). */
+void wr_session_journal_leave(WrSession *session);
+
+/* ---- what was done ---- */
+
+/* Steps: the canonical lines of the edits and scene commands since the document was made or opened,
+   oldest first, those that were undone and can be redone included. Output and history commands are not
+   among them. */
 int wr_session_history_count(const WrSession *session);
 const char *wr_session_history_line(const WrSession *session, int index); /* "" out of range */
+/* How many of them are in force: steps 0 .. position - 1. */
+int wr_session_history_position(const WrSession *session);
+/* The lowest position that can be gone back to: older states were given up for the budget. */
+int wr_session_history_oldest(const WrSession *session);
+/* Go to the state after `position` steps, oldest .. count, bit for bit as it was. The next command drops the
+   steps after it. Fails in a stroke. */
+bool wr_session_go(WrSession *session, int position, WrError *err);
+
+/* Memory: what all kept steps cost, what one does (0 for those given up), and how much it may be: 1 GiB unless
+   set. Oldest states go first; the last step can always be undone. */
+size_t wr_session_history_bytes(const WrSession *session);
+size_t wr_session_history_step_bytes(const WrSession *session, int index);
+size_t wr_session_history_budget(const WrSession *session);
+void wr_session_set_history_budget(WrSession *session, size_t bytes);
+
+/* Write the steps that are in force as a script that makes the same document, hash and all; where the session
+   opened a document, its first line opens that. Files are named relative to the script if they lie beside or
+   below it, else by their whole paths. Works whatever options.outputs says. */
+bool wr_session_save_history(WrSession *session, const char *path, WrError *err);
 
 /* The scene as canonical command lines, which restore it from a new document. */
 void wr_session_scene_text(const WrSession *session, WrText *text);
-/* The document's hash: heights, layers, scene. */
+/* The document's hash: all that is saved (layers, selection, scene), but for the name of the colour picture's
+   file, whose content counts. */
 WrHash wr_session_hash(const WrSession *session);
 
 /* A picture of the document as it is, by the scene's dials. turn_deg: turntable angle about the world's
@@ -86,5 +125,6 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
    8-bit sRGB over the scene's background. Works whatever options.outputs says. */
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
                        WrError *err);
-/* Save under that name; then path and saved_revision are set. Works whatever options.outputs says. */
+/* Save under that name; then path and saved_revision are set. Refuses to save over a file of a newer version
+   that was opened here. Works whatever options.outputs says. */
 bool wr_session_save(WrSession *session, const char *path, WrError *err);

@@ -57,6 +57,7 @@ bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, W
         if (number == 1 && strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3; /* byte order mark */
         if (cancelled(session)) good = wr_fail(err, "cancelled");
         else good = result == LINE_READ && wr_session_run(session, text, err);
+        if (good) wr_session_journal_tend(session);
         if (!good) {
             wr_error_prefix(err, "%s:%lld: ", name, (long long)number);
             break;
@@ -81,8 +82,9 @@ bool wr_session_run_script(WrSession *session, const char *path, WrError *err)
 
 /* ---- opening ---- */
 
-/* Run a document's scene lines. Only scene commands may stand there: a document opens no files. */
-static bool run_scene_lines(WrSession *session, const char *text, WrError *err)
+/* Run a document's scene lines. Only scene commands may stand there: a document opens no files. lenient:
+   lines that fail are left out, with a note. */
+static bool run_scene_lines(WrSession *session, const char *text, bool lenient, WrError *err)
 {
     for (const char *p = text; *p;) {
         size_t length = strcspn(p, "\n");
@@ -94,13 +96,27 @@ static bool run_scene_lines(WrSession *session, const char *text, WrError *err)
         if (good) good = wr_session_run(session, line, err);
         wr_call_free(call);
         wr_free(line);
-        if (!good) return false;
+        if (!good && !lenient) return false;
+        if (!good) wr_session_note(session, "left out: %s", err ? err->text : "a line");
         p += length + (p[length] == '\n');
     }
     return true;
 }
 
-static bool open_document(WrSession *session, const char *path, WrError *err)
+/* A newer version's file: what this one does not know was passed over, so it must not be written back. */
+static void note_newer(WrSession *session, const char *path, double version)
+{
+    wr_session_note(
+        session,
+        "%s: was saved by a newer version of the program (document version %g; this one "
+        "knows up to %d): opened without what it does not understand; saving over it is "
+        "refused",
+        path, version, WR_DOCUMENT_VERSION);
+    wr_free(session->state.newer_path);
+    session->state.newer_path = wr_strdup(path);
+}
+
+bool wr_session_load(WrSession *session, const char *path, WrError *err)
 {
     WrLoaded loaded = { 0 };
     int64_t replaced = 0;
@@ -109,19 +125,43 @@ static bool open_document(WrSession *session, const char *path, WrError *err)
     session->state.document = loaded.document;
     session->loading = true;
     session->embedded = loaded.colour;
-    bool good = run_scene_lines(session, loaded.scene_text ? loaded.scene_text : "", err);
+    session->depth++;
+    bool newer = loaded.newer_version > 0;
+    bool good = run_scene_lines(session, loaded.scene_text ? loaded.scene_text : "", newer, err);
+    session->depth--;
     if (!good) wr_error_prefix(err, "%s: ", path);
     session->loading = false;
     session->embedded = NULL;
-    for (int i = 0; i < session->state.history.count; i++) wr_free(session->state.history.data[i]);
-    wr_array_free(&session->state.history);
-    session->state.path = wr_strdup(path);
     wr_image_free(loaded.colour);
     wr_free(loaded.scene_text);
     if (good && replaced)
         wr_session_note(session, "%s: %lld texels were not finite and became 0", path,
                         (long long)replaced);
+    if (good && newer) note_newer(session, path, loaded.newer_version);
     return good;
+}
+
+/* The command that opens the document again, for a script of what was done to it. */
+static bool note_origin(WrSession *session, const char *path, WrError *err)
+{
+    char hex[65], *full = realpath(path, NULL);
+    bool good = wr_sha256_file(path, hex, err);
+    WrText line = { 0 };
+    wr_text_add(&line, "open ");
+    wr_text_add_word(&line, full ? full : path);
+    wr_text_addf(&line, " sha256=%s", good ? hex : "");
+    if (good) session->state.origin = wr_strdup(wr_text_get(&line));
+    wr_text_fini(&line);
+    free(full);
+    return good;
+}
+
+static bool open_document(WrSession *session, const char *path, WrError *err)
+{
+    if (!note_origin(session, path, err) || !wr_session_load(session, path, err)) return false;
+    wr_session_rebase(session);
+    session->state.path = wr_strdup(path);
+    return true;
 }
 
 static bool open_script(WrSession *session, const char *path, WrError *err)
@@ -166,12 +206,15 @@ bool wr_session_open(WrSession *session, const char *path, WrError *err)
 {
     char buffer[16];
     bool exr = false, good, script = strcmp(wr_path_ending(path, buffer), "wrinkle") == 0;
-    if (session->stroke) return wr_fail(err, "a stroke is being drawn: it must end first");
+    if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!script && !look_at_file(path, &exr, err)) return false;
     WrSessionState old = wr_session_begin_state(session, wr_document_new());
+    session->opening = true;
     if (script) good = open_script(session, path, err);
     else if (exr && wr_document_recognise(path)) good = open_document(session, path, err);
     else good = open_picture(session, path, err);
+    session->opening = false;
+    if (good) wr_session_journal_drop(session);
     if (good) wr_session_keep_state(session, &old);
     else wr_session_restore_state(session, &old);
     return good;

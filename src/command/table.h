@@ -16,12 +16,14 @@ typedef struct WrCall WrCall;
 #define WR_TERMS_MAX 65536                  /* terms of an analytic function */
 
 typedef enum WrCommandClass {
-    WR_CLASS_EDIT,  /* changes heights: undoable, journaled */
-    WR_CLASS_SCENE, /* what pictures show: undoable, journaled, saved with the document */
-    WR_CLASS_OUTPUT /* writes files: never in a journal, never in a document */
+    WR_CLASS_EDIT,   /* changes heights, layers or the selection: undoable, journaled */
+    WR_CLASS_SCENE,  /* what pictures show: undoable, journaled, saved with the document */
+    WR_CLASS_OUTPUT, /* writes files: never in a journal, never in a document */
+    WR_CLASS_HISTORY /* goes through what was done: no step of its own, journaled as itself */
 } WrCommandClass;
+#define WR_CLASS_COUNT 4
 
-extern const char *const wr_class_names[]; /* "edit", "scene", "output" */
+extern const char *const wr_class_names[]; /* "edit", "scene", "output", "history" */
 
 typedef enum WrArgType {
     WR_ARG_NUMBER, /* 0.5 */
@@ -31,7 +33,9 @@ typedef enum WrArgType {
     WR_ARG_CHOICE, /* one word of a fixed list */
     WR_ARG_PATH,   /* a file name: any text but line ends */
     WR_ARG_TEXT,   /* any text but line ends that `check` accepts */
-    WR_ARG_SHA256  /* 64 hex digits; printed in lower case */
+    WR_ARG_SHA256, /* 64 hex digits; printed in lower case */
+    WR_ARG_NAME,   /* a layer's name: any text but line ends, up to WR_LAYER_NAME_MAX bytes */
+    WR_ARG_LAYER   /* a layer: its number, from 1 at the bottom, or its name */
 } WrArgType;
 
 extern const char *const wr_arg_type_names[]; /* "number", "size", ... */
@@ -58,7 +62,8 @@ typedef struct WrArgSpec {
         counts; /* lists: bit n is set where a tuple may have n numbers; 0: always `components` */
     const char *shape;            /* how it is written: "x,y,z"; NULL: by its type */
     int rows_low, rows_high;      /* lists: how many tuples */
-    const char *(*choice)(int i); /* choices: word i, NULL past the last */
+    const char *(*choice)(int i); /* choices: word i, NULL past the last; or else: */
+    const char *const *words;     /* choices: the words, ends with NULL */
     const double *fallback;       /* numbers that hold where none are given; NULL: none */
     int fallback_rows;            /* lists: tuples in it */
     const char *fallback_text;    /* the same for choices */
@@ -98,6 +103,8 @@ extern const WrCommand wr_commands[];
 extern const int wr_command_count;
 
 const WrCommand *wr_command_find(const char *name); /* NULL if there is none */
+/* Word i of a choice, NULL past the last (0 <= i <= their number). */
+const char *wr_arg_word(const WrArgSpec *spec, int i);
 /* The form of that name; its index, or -1. */
 int wr_command_form(const WrCommand *command, const char *name, WrForm *out);
 /* All arguments of a form (index -1 for a command without forms), shared ones last. Returns how many. */

@@ -1,13 +1,19 @@
 #include "command/call.h"
 
 #include "base/memory.h"
+#include "document/document.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-const char *const wr_arg_type_names[] = { "number", "size", "tuple", "list",
-                                          "choice", "path", "text",  "sha256" };
+const char *const wr_arg_type_names[] = { "number", "size", "tuple",  "list", "choice",
+                                          "path",   "text", "sha256", "name", "layer" };
+
+const char *wr_arg_word(const WrArgSpec *spec, int i)
+{
+    return spec->words ? spec->words[i] : spec->choice(i);
+}
 
 int wr_arg_width(const WrArgSpec *spec)
 {
@@ -59,8 +65,8 @@ static void add_range(WrText *text, double low, double high, bool above)
 
 static void add_choices(WrText *text, const WrArgSpec *spec)
 {
-    for (int i = 0; spec->choice(i); i++)
-        wr_text_addf(text, "%s%s", i ? ", " : "", spec->choice(i));
+    for (int i = 0; wr_arg_word(spec, i); i++)
+        wr_text_addf(text, "%s%s", i ? ", " : "", wr_arg_word(spec, i));
 }
 
 void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
@@ -86,6 +92,8 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
     case WR_ARG_PATH: wr_text_add(text, "a file name"); return;
     case WR_ARG_TEXT: wr_text_add(text, spec->shape ? spec->shape : "a text"); return;
     case WR_ARG_SHA256: wr_text_add(text, "64 hexadecimal digits"); return;
+    case WR_ARG_NAME: wr_text_addf(text, "a name of up to %d bytes", WR_LAYER_NAME_MAX); return;
+    case WR_ARG_LAYER: wr_text_add(text, "a layer's number, from 1 at the bottom, or name"); return;
     }
     if (!spec->parts) add_range(text, spec->low, spec->high, spec->above);
     if (spec->unit) wr_text_addf(text, " %s", spec->unit);
@@ -220,8 +228,8 @@ static bool parse_numbers(const WrArgSpec *spec, const char *where, const char *
 static bool parse_choice(const WrArgSpec *spec, const char *where, const char *value, WrArg *arg,
                          WrError *err)
 {
-    for (int i = 0; spec->choice(i); i++)
-        if (strcmp(spec->choice(i), value) == 0) {
+    for (int i = 0; wr_arg_word(spec, i); i++)
+        if (strcmp(wr_arg_word(spec, i), value) == 0) {
             arg->choice = i;
             arg->rows = 1;
             return true;
@@ -234,6 +242,8 @@ static bool parse_text(const WrArgSpec *spec, const char *where, const char *val
                        WrError *err)
 {
     if (!*value) return fail_value(spec, where, value, err);
+    if (spec->type == WR_ARG_NAME && strlen(value) > WR_LAYER_NAME_MAX)
+        return fail_value(spec, where, value, err);
     if (spec->type == WR_ARG_SHA256 &&
         (strlen(value) != 64 || strspn(value, "0123456789abcdefABCDEF") != 64))
         return fail_value(spec, where, value, err);
@@ -258,6 +268,8 @@ bool wr_arg_parse(const WrArgSpec *spec, const char *where, const char *value, W
     case WR_ARG_CHOICE: good = parse_choice(spec, where, value, &made, err); break;
     case WR_ARG_PATH:
     case WR_ARG_TEXT:
+    case WR_ARG_NAME:
+    case WR_ARG_LAYER:
     case WR_ARG_SHA256: good = parse_text(spec, where, value, &made, err); break;
     default: good = parse_numbers(spec, where, value, &made, err); break;
     }
@@ -293,7 +305,7 @@ void wr_text_add_word(WrText *text, const char *word)
 void wr_arg_print(const WrArgSpec *spec, const WrArg *arg, WrText *text)
 {
     if (spec->type == WR_ARG_CHOICE) {
-        wr_text_add(text, spec->choice(arg->choice));
+        wr_text_add(text, wr_arg_word(spec, arg->choice));
         return;
     }
     if (arg->text) {

@@ -59,6 +59,12 @@ static bool same_size(const WrField *a, const WrField *b)
     return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
 }
 
+static bool same_shape(const WrField *a, const WrField *b)
+{
+    return same_size(a, b) && wr_field_wrap_u(a) == wr_field_wrap_u(b) &&
+           wr_field_wrap_v(a) == wr_field_wrap_v(b);
+}
+
 bool wr_blend_layer_check(const WrBlendLayer *layer, WrError *err)
 {
     if ((int)layer->mode < 0 || layer->mode >= WR_BLEND_COUNT)
@@ -385,8 +391,8 @@ static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
 {
     update->parts = wr_alloc((size_t)count, sizeof *update->parts);
     for (int i = 0; i < count; i++) {
-        WR_ASSERT(wr_blend_layer_check(&layers[i], NULL) &&
-                  same_size(layers[i].heights, layers[0].heights));
+        WR_ASSERT(wr_blend_layer_check(&layers[i], NULL));
+        WR_ASSERT(same_shape(layers[i].heights, layers[0].heights));
         if (layers[i].hidden || !(layers[i].opacity > 0.0f)) continue;
         Part *part = &update->parts[update->count];
         *part = (Part){ .layer = layers[i], .on_ground = update->count == 0 };
@@ -400,11 +406,8 @@ static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
 static bool is_mendable(const Update *update, const WrField *like, float level)
 {
     const WrCompositor *c = update->compositor;
-    if (!c->result || !same_size(c->result, like) ||
-        wr_field_wrap_u(c->result) != wr_field_wrap_u(like) ||
-        wr_field_wrap_v(c->result) != wr_field_wrap_v(like))
-        return false;
-    return same_bits(wr_field_level(c->result), level) &&
+    return c->result && same_shape(c->result, like) &&
+           same_bits(wr_field_level(c->result), level) &&
            !base_of(c->parts, c->count, level) == !update->base;
 }
 

@@ -6,7 +6,7 @@
 #include "field/field.h"
 
 /* One layer, bottom first in the stack. Fields are borrowed for the call and may be edited in place
- * between calls; all have one size. */
+ * between calls; the heights of a stack have one size and one wrap. */
 typedef struct WrBlendLayer {
     const WrField *heights;
     const WrField *cover; /* 0..1, where the layer says something; NULL: 1 everywhere */
@@ -35,7 +35,7 @@ void wr_compositor_free(WrCompositor *compositor); /* NULL is fine */
  *   but for -0: so a single layer added in full gives exactly its heights.
  *
  * The bits depend on the layers alone: not on the edits that led to them, on the threads, nor on which
- * flat tiles are NULL. The composite has the size and wrap of layers[0].
+ * flat tiles are NULL.
  *
  * Cost: the tiles whose heights, cover or mask changed since the last call, times the layers there;
  * for a layer whose settings, place or visibility changed, the tiles where it (or, if several layers

@@ -1,32 +1,91 @@
-/* document.h - what a user works on: layers of heights and a scene. Plain data.
+/* document.h - what a user works on: layers of heights, a selection and a scene. Plain data.
    Layer 5. Only a session (command/session.h) changes a document. */
 #pragma once
+#include "base/pool.h"
+#include "document/blend.h"
 #include "scene/scene.h"
 
+#define WR_LAYERS_MAX 256     /* of a document */
+#define WR_LAYER_NAME_MAX 255 /* bytes of a layer's name */
+
+/* One layer. All fields of a document have one size and one wrap. */
 typedef struct WrLayer {
-    char *name;     /* UTF-8, owned */
-    WrField *field; /* owned; shared tiles */
+    char *name;       /* UTF-8, owned; names need not differ */
+    WrField *heights; /* owned; shared tiles */
+    WrField *cover;   /* 0..1, where the layer says something; NULL: everywhere. Owned */
+    WrField *mask;    /* 0..1, how much of it shows; NULL: all. Owned */
+    WrBlend blend;    /* how it joins what lies below (blend.h) */
+    float opacity;    /* 0..1 */
+    float radius;     /* of the smooth blends, height units, 0 or more */
+    bool visible;     /* hidden layers are not in the composite, and edits refuse them */
+    bool locked;      /* edits refuse it */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the room */
 
-/* Commands edit layers[i].field in place and replace `scene`; layers have one size and one wrap. */
+/* Commands edit the active layer's fields in place, replace `selection` and replace `scene`. */
 typedef struct WrDocument {
-    WrLayer *layers; /* [layer_count], bottom first, owned; at least one, "base" */
+    WrLayer *layers; /* [layer_count], bottom first, owned; at least one */
     int layer_count;
+    int active;             /* index of the layer that edits change */
+    int solo;               /* index of the layer that is shown alone, hidden or not; -1: none */
+    WrField *selection;     /* 0..1, where edits act; NULL: everywhere. Owned */
     WrScene *scene;         /* shared; replaced, never written */
-    WrComposite *composite; /* the sum of several layers, made when asked for */
+    WrComposite *composite; /* kept up to date when asked for */
 } WrDocument;
 
 /* An empty document: a 512 x 512 table at 0, periodic, one layer "base", the default scene. */
 WrDocument *wr_document_new(void);
-/* A snapshot: constant time, later edits of either do not show in the other. */
+/* A snapshot: cost goes by the layers' number alone; later edits of either do not show in the other. */
 WrDocument *wr_document_share(const WrDocument *document);
-void wr_document_free(WrDocument *document);
+/* The same without the composite, so that nothing but the document itself is kept alive. */
+WrDocument *wr_document_snapshot(const WrDocument *document);
+/* Let `document` have what `from` knows of its composite, which is then brought up to date by what
+   differs instead of being made anew; `from` gets the other's. */
+void wr_document_swap_composites(WrDocument *document, WrDocument *from);
+void wr_document_free(WrDocument *document); /* NULL is fine */
 
-/* The composited F: the sum of the layers. With one layer it is that layer, in constant time; with
-   several, tiles that changed since the last call are added up again. Borrowed until the next edit. Any
-   number of threads may call it as long as nobody edits. */
+/* The composited F: the visible layers joined from the bottom up (compositor.h), or the solo layer alone
+ * on the ground. A document of one plain layer (visible, opacity 1, no mask, taken as it is) has that
+ * layer's heights themselves; otherwise tiles that changed since the last call are done again. Borrowed
+ * until the next edit. Any number of threads may call it as long as nobody edits. */
 const WrField *wr_document_field(const WrDocument *document);
-/* Heights, layers and their names; the scene enters through scene_text, its canonical commands. */
+/* The same, with a pool for the tiles that changed; NULL: this thread. */
+const WrField *wr_document_composite(const WrDocument *document, WrPool *pool);
+
+/* All that a document file keeps: layers with their names, settings and fields, the selection, which
+   layer is active and alone; the scene enters through scene_text, its canonical commands. */
 WrHash wr_document_hash(const WrDocument *document, const char *scene_text);
+
+/* Bytes of memory that it costs to keep `before` beside `after`: tiles and pictures of either that the
+ * other does not share, and the structs. Looks only at what differs. */
+size_t wr_document_difference(const WrDocument *before, const WrDocument *after);
+
+/* ---- layers ---- */
+
+/* A layer of the field's size and wrap, heights 0, saying nothing anywhere (cover 0), add, opacity 1. */
+WrLayer wr_layer_new(const char *name, const WrField *like);
+WrLayer wr_layer_share(const WrLayer *layer); /* a second one, fields shared */
+void wr_layer_fini(WrLayer *layer);
+/* Is it shown: visible, and no other layer alone? */
+bool wr_document_shows(const WrDocument *document, int index);
+
+/* Structural changes keep `active` and `solo` at the layers that they meant; where one of these goes away,
+   active falls to the layer below (else above), solo to none. */
+void wr_document_insert(WrDocument *document, int index, WrLayer layer); /* takes it */
+void wr_document_remove(WrDocument *document, int index);                /* not the last one */
+void wr_document_move(WrDocument *document, int from, int to);
+/* One layer "base" of these heights (taken) in the place of all; no selection. */
+void wr_document_start_over(WrDocument *document, WrField *heights);
+
+/* Join layer index (1 or more) and the one below to one layer, which keeps the lower one's name and place;
+ * both must be visible. The composite stays, up to rounding:
+ *   - onto the bottom layer: exactly; the new layer holds the composite of the two and is added;
+ *   - add or subtract onto add or subtract: the new layer holds the sum of what they add;
+ *   - any others: the new layer holds what the two change in the composite of the layers below, and adds
+ *     that, so later edits below no longer meet the old layers' blends.
+ * In the last two each height changes by at most 2^-21 times the largest height that meets there. */
+void wr_document_merge(WrDocument *document, int index, WrPool *pool);
+/* One layer with the bottom one's name that holds the composite of the visible layers, bit for bit, solo or
+   not; hidden layers are lost. The selection stays. */
+void wr_document_flatten(WrDocument *document, WrPool *pool);

@@ -1,21 +1,36 @@
 /* document_file.h - the document as one multi-part OpenEXR file.
    Layer 5.
 
-   Part 0 "F": the composited heights, one float32 channel Y, so that every program that opens EXR sees
-   the relief. Part 1 .. n: one a layer, float32, ZIP, named "layer:NAME" (then
-   "layer:NAME (2)" where names repeat), the name itself in wrinkle:layer. Last, if the scene has a colour
-   picture: part "colour", RGB float32. Attributes of part 0: wrinkle:version (of this format, "1"),
-   wrinkle:program, wrinkle:scene (canonical command lines), wrinkle:wrap ("periodic", "clamp-u", ...),
-   wrinkle:zero, wrinkle:range. */
+   All parts float32, ZIP. Part 0 "F": the composited heights as they are shown, one channel Y, so that every
+   program that opens EXR sees the relief. Then for each layer, bottom first: its heights, "layer:NAME" (then
+   "layer:NAME (2)" where names repeat; the name itself in wrinkle:layer), its coverage "cover:N" and its
+   mask "mask:N" if it has them (N counts layers from 1). Then "selection", if there is one, and "colour", the
+   scene's colour picture in RGB, if there is one.
+
+   Attributes of part 0: wrinkle:version (of this format), wrinkle:program, wrinkle:scene (canonical command
+   lines), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
+   layer that edits change), wrinkle:solo (of the layer shown alone, 0: none). Of a layer: wrinkle:layer,
+   wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and wrinkle:locked ("on", "off").
+
+   Version 1 knew layers by name and heights alone, all added; it is still read. */
 #pragma once
 #include "document/document.h"
 
-#define WR_DOCUMENT_VERSION 1
+#define WR_DOCUMENT_VERSION 2
+
+/* Names of parts. */
+#define WR_DOCUMENT_LAYER "layer:"
+#define WR_DOCUMENT_COVER "cover:"
+#define WR_DOCUMENT_MASK "mask:"
+#define WR_DOCUMENT_SELECTION "selection"
+#define WR_DOCUMENT_COLOUR "colour"
 
 /* "periodic", "clamp-u", "clamp-v" or "clamp": the word for the wrap of a table, as in commands. */
 const char *wr_document_wrap_word(WrWrap wrap_u, WrWrap wrap_v);
+bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v); /* false: no such */
 
-/* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. */
+/* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. Saving what was
+   loaded gives the same bytes. */
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
                       WrError *err);
 
@@ -23,12 +38,15 @@ typedef struct WrLoaded {
     WrDocument *document; /* the scene is the default one: run scene_text to restore it */
     char *scene_text;     /* owned, wr_free */
     WrImage *colour;      /* embedded colour picture or NULL; owned */
+    double
+        newer_version; /* of the format, where that is newer than ours: parts and settings that we do
+                             not know were passed over, so it must not be saved over; else 0 */
 } WrLoaded;
 
 /* True if the file is an EXR that carries our version attribute (false also for missing files). */
 bool wr_document_recognise(const char *path);
-/* A file from a newer version is an error that says so. Non-finite heights become 0 and are counted in
-   *replaced. Only the layers are read; F is their sum. Outputs are untouched on failure. */
+/* Non-finite heights become 0 and are counted in *replaced; coverage, masks and selection are brought to
+ * 0..1. Only the layers are read; F is made of them. Outputs are untouched on failure. */
 bool wr_document_load(const char *path, WrLoaded *out, int64_t *replaced, WrError *err);
 
 /* Heights from any picture: grey, or Rec. 709 luma of the codes; NaN and infinity became 0 when it was

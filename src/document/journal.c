@@ -71,9 +71,9 @@ static void mark_gap(WrJournal *journal)
         return; /* the reader drops torn bytes */
 }
 
+/* Only ever called while it is safe: what writes asks first. */
 static void become_unsafe(WrJournal *journal, const char *reason)
 {
-    if (journal->broken) return;
     journal->broken = true;
     journal->writable = false;
     journal->tried_at = wr_clock_seconds();
@@ -118,7 +118,7 @@ static bool write_line(WrJournal *journal, WrError *err)
     if (length > WR_JOURNAL_LINE_MAX)
         return wr_fail(err, "a line of %.0f MB is over the limit of %.0f MB", (double)length / 1e6,
                        (double)WR_JOURNAL_LINE_MAX / 1e6);
-    if (journal->bytes + length > WR_JOURNAL_FILE_MAX)
+    if (journal->bytes + length >= WR_JOURNAL_FILE_MAX)
         return wr_fail(err, "%s: over %.0f MB", journal->path, (double)WR_JOURNAL_FILE_MAX / 1e6);
     if (fstat(journal->fd, &info) != 0 || info.st_nlink == 0)
         return wr_fail(err, "%s: was removed", journal->path);
@@ -241,6 +241,14 @@ const char *wr_journal_path(const WrJournal *journal)
 
 /* ---- beginning and restarting ---- */
 
+/* Wherever the program goes later. Caller frees. */
+static char *absolute_path(const char *path)
+{
+    char *here = getcwd(NULL, 0), *whole = wr_path_join(here ? here : "/", path);
+    free(here);
+    return whole;
+}
+
 /* The header of a start state; the caller frees *absolute. */
 static bool print_start(WrJournal *journal, const WrJournalStart *start, char **absolute,
                         WrHash *chain, WrError *err)
@@ -263,13 +271,7 @@ static bool print_start(WrJournal *journal, const WrJournalStart *start, char **
         wr_journal_sync_path(journal->files, NULL);
         header.start.snapshot = slash + 1;
     }
-    if (start->path && *start->path && *start->path != '/') {
-        char *here = getcwd(NULL, 0);
-        WrText text = { 0 };
-        wr_text_addf(&text, "%s/%s", here ? here : "", start->path);
-        free(here);
-        header.start.path = *absolute = text.data;
-    }
+    if (start->path && *start->path) header.start.path = *absolute = absolute_path(start->path);
     wr_text_clear(&journal->line);
     wr_journal_print_header(&journal->line, &header, chain);
     return true;
@@ -367,7 +369,8 @@ WrJournal *wr_journal_begin(const WrJournalOptions *options, const WrJournalStar
     WrText folder = { 0 };
     if (o->folder) wr_text_add(&folder, o->folder);
     else wr_journal_folder(&folder, &err);
-    o->folder = folder.data;
+    o->folder = folder.data ? absolute_path(folder.data) : NULL;
+    wr_text_fini(&folder);
     outlive_size_limit();
     if (o->folder) {
         wr_journal_sweep(o->folder);

@@ -47,8 +47,9 @@ bool wr_journal_make_folder(const char *path, WrError *err)
     for (char *slash = part + 1; ok; slash++) {
         slash = strchr(slash, '/');
         if (slash) *slash = '\0';
-        ok = mkdir(part, 0700) == 0 || errno == EEXIST || access(part, X_OK) == 0;
+        ok = mkdir(part, 0700) == 0 || errno == EEXIST;
         saved = errno;
+        if (!ok) ok = access(part, X_OK) == 0; /* EROFS, EACCES: but it is there */
         if (!slash) break;
         *slash = '/';
     }
@@ -109,11 +110,11 @@ int wr_journal_open(const char *path, WrError *err)
     return -1;
 }
 
-bool wr_journal_lock(int fd, const char *path)
+bool wr_journal_lock(int fd, const char *path, int how)
 {
     struct stat mine, named;
     int done;
-    do done = flock(fd, LOCK_EX | LOCK_NB);
+    do done = flock(fd, how | LOCK_NB);
     while (done != 0 && errno == EINTR);
     if (done != 0) return false;
     if (fstat(fd, &mine) == 0 && stat(path, &named) == 0 && mine.st_ino == named.st_ino &&
@@ -154,7 +155,7 @@ static void sweep_new(const char *path)
 {
     int fd = wr_journal_open(path, NULL);
     if (fd < 0) return;
-    if (wr_journal_lock(fd, path)) unlink(path);
+    if (wr_journal_lock(fd, path, LOCK_EX)) unlink(path);
     close(fd);
 }
 

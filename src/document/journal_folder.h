@@ -14,25 +14,26 @@ char *wr_journal_files_folder(const char *journal_path);
 /* Sync a file, or a folder so that the names in it are on the disk. Some file systems cannot sync
    folders; that is no failure. */
 bool wr_journal_sync_path(const char *path, WrError *err);
-/* Write all bytes, in one call unless it is interrupted or the disk is full. Sets errno on failure. */
+/* Write all bytes, in one call unless interrupted or the disk is full. Sets errno on failure. */
 bool wr_journal_write_all(int fd, const char *bytes, size_t length);
 
-/* Open a journal without following a link or waiting for a pipe: -1 with an error unless it is a regular
-   file. */
+/* Open a journal without following a link or waiting for a pipe: -1 with an error unless it is a
+   regular file. */
 int wr_journal_open(const char *path, WrError *err);
-/* Lock without waiting. False: another program has it, or `path` no longer names this file. */
-bool wr_journal_lock(int fd, const char *path);
+/* Lock (LOCK_SH, LOCK_EX of <sys/file.h>) without waiting. False: another program has it, or `path`
+   no longer names this file. */
+bool wr_journal_lock(int fd, const char *path, int how);
 
-/* wr_journal_keep_file for the journal whose files are in `files`, one of the journals of `folder`. */
+/* wr_journal_keep_file for the journal whose files are in `files`, one of those of `folder`. */
 bool wr_journal_keep(const char *folder, const char *files, const char *path, const char *sha256,
                      WrError *err);
 
-/* Remove the files of NAME.files/ but those called keep_a or (in front of its ending) keep_b, either NULL;
-   the folder too if it is empty then. */
+/* Remove the files of NAME.files/ but those called keep_a or (in front of its ending) keep_b,
+   either NULL; the folder too if it is empty then. */
 void wr_journal_clear_files(const char *files, const char *keep_a, const char *keep_b);
 /* Remove what killed programs left half made in the folder, if it is older than a day. */
 void wr_journal_sweep(const char *folder);
 
-/* wr_journal_read of an open file of which nothing has been read; `path` is for messages and for the
-   snapshot's place. The caller closes fd. */
+/* wr_journal_read of an open file of which nothing has been read; `path` is for messages and for
+   the snapshot's place. The caller closes fd. */
 bool wr_journal_read_fd(int fd, const char *path, WrJournalRead *out, WrError *err);

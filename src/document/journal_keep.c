@@ -78,8 +78,8 @@ static bool copy_bytes(int from, int to)
     }
 }
 
-/* Copy to a temporary name, check the copy rather than the file (which may be changing), then give it its
-   name. */
+/* Copy to a temporary name, check the copy rather than the file (which may be changing), then give
+   it its name. */
 static bool copy_file(const char *path, const char *target, const char *sha256, WrError *err)
 {
     struct stat info;

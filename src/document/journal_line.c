@@ -89,7 +89,7 @@ bool wr_journal_is_name(const char *text)
     return *text && *text != '.' && !strchr(text, '/');
 }
 
-/* "CHECKSUM BODY\n": the checksum is known only when the body is, so its room is kept and filled in. */
+/* "CHECKSUM BODY\n": the checksum is known only when the body is, so its room comes first. */
 static size_t begin_body(WrText *line)
 {
     char room[HASH_DIGITS + 2];
@@ -107,7 +107,7 @@ static void end_body(WrText *line, size_t body, WrHash *chain)
     wr_text_add(line, "\n");
 }
 
-/* text = "CHECKSUM BODY": moves the chain on if the checksum is that of the body after the chain. */
+/* text = "CHECKSUM BODY": moves the chain on if the checksum is that of the body after it. */
 static bool check_body(const char *text, size_t length, WrHash *chain)
 {
     char digits[HASH_DIGITS + 1];

@@ -12,15 +12,16 @@ typedef struct WrJournalHeader {
 
 /* Append the header line with its line end. *chain becomes its checksum. */
 void wr_journal_print_header(WrText *line, const WrJournalHeader *header, WrHash *chain);
-/* Read a header line, without its line end; `line` is changed in place. Errors do not name the file. */
+/* Read a header line, without its line end; `line` is changed in place. No file in errors. */
 bool wr_journal_parse_header(char *line, size_t length, WrJournalHeader *out, WrHash *chain,
                              WrError *err);
 
 /* Append a record with its line end. *chain: the line before's checksum, then this one's. */
 void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const char *payload,
                            WrHash *chain);
-/* Read a record, without its line end. On success *chain moves on, and *payload is the unescaped text,
-   ended with a NUL, inside `line` (which has room for the NUL). On failure `line` is as it was. */
+/* Read a record, without its line end. On success *chain moves on, and *payload is the unescaped
+   text, ended with a NUL, inside `line` (which has room for the NUL). On failure `line` is as it
+   was. */
 bool wr_journal_parse_line(char *line, size_t length, uint64_t sequence, WrHash *chain, char *kind,
                            char **payload, size_t *payload_length, WrError *err);
 

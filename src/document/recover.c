@@ -66,7 +66,7 @@ static bool fill(Reader *reader, WrError *err)
     return true;
 }
 
-/* The next whole line, without its end, in place; good until the next call. *err only with NEXT_BAD. */
+/* The next whole line, without its end, in place; until the next call. *err only with NEXT_BAD. */
 static Next next_line(Reader *reader, char **line, size_t *length, WrError *err)
 {
     size_t searched = 0;

@@ -1,12 +1,13 @@
-/* recover.h - journals that were left behind: which there are, what is in them, and trying a command that
-   may have crashed.
-   Layer 5. Everything read here is checked: a torn, damaged or hostile journal gives the lines before the
-   first bad byte, or a clear error.
+/* recover.h - journals that were left behind: which there are, what is in them, and trying a
+   command that may have crashed.
+   Layer 5. Everything read here is checked: a torn, damaged or hostile journal gives the lines
+   before the first bad byte, or a clear error.
 
-   A recovery: wr_journal_list; wr_journal_claim the one chosen, so that no other program recovers it too;
-   wr_journal_read; bring the start state back and compare its hash; run the lines, comparing hashes where
-   they have one; if the last did not finish, wr_journal_trial it or ask; give the session a journal
-   of its own that starts from a snapshot of the result; then wr_journal_claim_remove. */
+   A recovery: wr_journal_list; wr_journal_claim the one chosen, so that no other program recovers
+   it too; wr_journal_read; bring the start state back and compare its hash; run the lines,
+   comparing hashes where they have one; if the last did not finish, wr_journal_trial it or ask;
+   give the session a journal of its own that starts from a snapshot of the result; then
+   wr_journal_claim_remove. */
 #pragma once
 #include "document/journal.h"
 
@@ -35,10 +36,10 @@ typedef struct WrJournalRead {
     char *owned[3]; /* header, snapshot path, texts */
 } WrJournalRead;
 
-/* Read and verify a journal, in use or not. Stops at the first torn or damaged line (see damage). Fails,
- * with *out untouched, if it is no regular file, no journal, its header is damaged, or it was written by
- * a newer program (the message says so; the file stays). Memory: about the file's size, at most 1 GB, and
- * 48 bytes a command. */
+/* Read and verify a journal, in use or not. Stops at the first torn or damaged line (see damage).
+ * Fails, with *out untouched, if it is no regular file, no journal, its header is damaged, or it
+ * was written by a newer program (the message says so; the file stays). Memory: at most 1 GB of the
+ * file is read, and up to three times what was read is needed meanwhile. */
 bool wr_journal_read(const char *path, WrJournalRead *out, WrError *err);
 void wr_journal_read_fini(WrJournalRead *read); /* fine on a zeroed one */
 
@@ -55,8 +56,8 @@ typedef struct WrJournalEntry {
     bool nothing;       /* nothing to recover: no commands, and the start state is there anyway */
     int64_t dropped_bytes; /* damaged tail */
     char damage[256];      /* as in WrJournalRead */
-    char
-        error[256]; /* it cannot be read at all, and why; ""; then only path, written, bytes hold */
+    /* It cannot be read at all, and why; else "". Then only path, written and bytes hold. */
+    char error[256];
 } WrJournalEntry;
 
 typedef struct WrJournalList {
@@ -64,8 +65,8 @@ typedef struct WrJournalList {
     int count;
 } WrJournalList;
 
-/* The journals of a folder (NULL: wr_journal_folder) that are not in use. A folder that does not exist
-   has none. */
+/* The journals of a folder (NULL: wr_journal_folder) that are not in use. A folder that does not
+   exist has none. */
 bool wr_journal_list(const char *folder, WrJournalList *out, WrError *err);
 void wr_journal_list_fini(WrJournalList *list); /* fine on a zeroed one */
 
@@ -77,9 +78,9 @@ void wr_journal_claim_free(WrJournalClaim *claim); /* leaves the journal; NULL i
 /* Remove the journal and its files; frees the claim either way. */
 bool wr_journal_claim_remove(WrJournalClaim *claim, WrError *err);
 
-/* The kept copy of a file that a command of the journal at `journal_path` reads, by its SHA-256. named:
-   the file's name in the command, for the copy with the same ending where there are several; may be
-   NULL. False if there is none. */
+/* The kept copy of a file that a command of the journal at `journal_path` reads, by its SHA-256.
+   named: the file's name in the command, for the copy with the same ending where there are several;
+   may be NULL. False if there is none. */
 bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
                           WrText *path, WrError *err);
 
@@ -91,8 +92,9 @@ typedef enum WrTrial {
     WR_TRIAL_UNABLE   /* no child could be started: nothing is known */
 } WrTrial;
 
-/* Run function(ctx) in a forked child and say how that ended. Nothing that it does to memory shows here;
- * what it does to files does, so it must do nothing to files. Its standard output and error go nowhere.
+/* Run function(ctx) in a forked child and say how that ended. Nothing that it does to memory shows
+ * here; what it does to files does, so it must do nothing to files. Its standard output and error
+ * go nowhere.
  *
  * seconds  real time that it may take, over 0
  * bytes    memory that it may take besides what this program has now; 0: any (sanitizers need that)

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static void fini_entry(WrJournalEntry *entry)
@@ -39,13 +40,14 @@ static void describe(int fd, WrJournalEntry *entry)
     wr_journal_read_fini(&read);
 }
 
-/* False if a program holds it, or it is no journal file at all. The lock is held only to know that. */
+/* False if a program holds it, or it is no journal file at all. The lock is held only to know that,
+   and shared, so that two programs that look do not hide it from each other. */
 static bool look_at(const char *path, WrJournalEntry *entry)
 {
     struct stat info;
     int fd = wr_journal_open(path, NULL);
     if (fd < 0) return false;
-    bool left = wr_journal_lock(fd, path) && fstat(fd, &info) == 0;
+    bool left = wr_journal_lock(fd, path, LOCK_SH) && fstat(fd, &info) == 0;
     if (left) {
         flock(fd, LOCK_UN);
         *entry = (WrJournalEntry){ .path = wr_strdup(path),
@@ -103,11 +105,21 @@ struct WrJournalClaim {
     int fd;     /* locked */
 };
 
+/* Others that list journals hold a lock for a moment, so not at the first refusal. */
+static bool lock_patiently(int fd, const char *path)
+{
+    for (int tries = 0; tries < 10; tries++) {
+        if (wr_journal_lock(fd, path, LOCK_EX)) return true;
+        nanosleep(&(struct timespec){ .tv_nsec = 5000000 }, NULL);
+    }
+    return false;
+}
+
 WrJournalClaim *wr_journal_claim(const char *path, WrError *err)
 {
     int fd = wr_journal_open(path, err);
     if (fd < 0) return NULL;
-    if (!wr_journal_lock(fd, path)) {
+    if (!lock_patiently(fd, path)) {
         close(fd);
         wr_fail(err, "%s: in use by a running program", path);
         return NULL;

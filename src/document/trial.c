@@ -65,27 +65,30 @@ static _Noreturn void run_child(WrTrialFunction function, void *ctx, double seco
     _exit(n == (ssize_t)sizeof verdict ? 0 : 1); /* not exit: the parent's buffers are not ours */
 }
 
-/* Wait until the child ends or the time is over. Returns how much of the verdict came. */
-static size_t listen_to(pid_t child, int from, double seconds, Verdict *verdict, bool *ended,
-                        int *status)
+/* Read from the pipe what is there; false once nothing more can come. */
+static bool hear(int from, Verdict *verdict, size_t *have)
+{
+    if (*have == sizeof *verdict) return false;
+    ssize_t n = read(from, (char *)verdict + *have, sizeof *verdict - *have);
+    if (n > 0) *have += (size_t)n;
+    return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
+}
+
+/* Wait until the child has ended, which is not taken note of yet so that its number stays its own,
+   or the time is over. True if it ended. */
+static bool listen_to(pid_t child, int from, double seconds, Verdict *verdict, size_t *have)
 {
     double stop = wr_clock_seconds() + seconds;
-    size_t have = 0;
-    *ended = false;
+    bool open = true;
     for (;;) {
         struct pollfd one = { from, POLLIN, 0 };
-        /* Once its end of the pipe is closed poll returns at once, so then only wait. */
-        bool more = have < sizeof *verdict;
-        poll(more ? &one : NULL, more ? 1 : 0, (int)(SLICE_SECONDS * 1000));
-        pid_t gone = *ended ? child : waitpid(child, status, WNOHANG);
-        *ended = gone == child || (gone < 0 && errno == ECHILD);
-        ssize_t n = 0;
-        if (more && (one.revents & (POLLIN | POLLHUP))) {
-            n = read(from, (char *)verdict + have, sizeof *verdict - have);
-            if (n > 0) have += (size_t)n;
-        }
-        if (*ended && n <= 0) return have;
-        if (!*ended && wr_clock_seconds() >= stop) return have;
+        siginfo_t info = { 0 };
+        poll(open ? &one : NULL, open ? 1 : 0, (int)(SLICE_SECONDS * 1000));
+        int asked = waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT);
+        bool ended = (asked == 0 && info.si_pid == child) || (asked != 0 && errno == ECHILD);
+        if (open) open = hear(from, verdict, have); /* it came whole, or not at all */
+        if (ended) return true;
+        if (wr_clock_seconds() >= stop) return false;
     }
 }
 
@@ -109,7 +112,7 @@ WrTrial wr_journal_trial(WrTrialFunction function, void *ctx, double seconds, si
                          WrError *err)
 {
     int ends[2], status = 0;
-    bool ended;
+    size_t have = 0;
     Verdict verdict = { 0 };
     pid_t parent = getpid();
     if (!(seconds > 0)) seconds = SLICE_SECONDS;
@@ -128,14 +131,13 @@ WrTrial wr_journal_trial(WrTrialFunction function, void *ctx, double seconds, si
         return WR_TRIAL_UNABLE;
     }
     setpgid(child, child); /* whichever of the two comes first */
-    size_t have = listen_to(child, ends[0], seconds, &verdict, &ended, &status);
+    bool ended = listen_to(child, ends[0], seconds, &verdict, &have);
     close(ends[0]);
-    kill(-child, SIGKILL);
-    if (!ended) {
-        while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-        wr_fail(err, "it took more than %g s", seconds);
-        return have == sizeof verdict ? judge(&verdict, true, status, err) : WR_TRIAL_TIMEOUT;
-    }
+    kill(-child, SIGKILL); /* and whatever it started */
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
     verdict.err.text[sizeof verdict.err.text - 1] = '\0';
-    return judge(&verdict, have == sizeof verdict, status, err);
+    if (ended || have == sizeof verdict)
+        return judge(&verdict, have == sizeof verdict, status, err);
+    wr_fail(err, "it took more than %g s", seconds);
+    return WR_TRIAL_TIMEOUT;
 }

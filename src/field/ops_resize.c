@@ -7,9 +7,6 @@
  * wherever they begin. Triangle and Catmull-Rom do; Lanczos does after division by that sum. `box` is the
  * mean of what an output texel covers, exact for any ratio.
  *
- * Weights are rounded to multiples of 2^-28 that add to exactly 1: with heights of 24 bits every product
- * and sum of a flat neighbourhood is exact in double.
- *
  * A block of the result goes through its input rows once: each is filtered along u and added to the
  * output rows that see it, so that not even a shrink of 16384 rows to one needs much memory. */
 #include "field/ops_inner.h"
@@ -21,7 +18,6 @@
 #include "base/memory.h"
 
 #define SIDE WR_OP_SIDE
-#define ONE 0x1p28
 
 enum { FILTER_BOX, FILTER_LINEAR, FILTER_CATMULL, FILTER_LANCZOS3 };
 
@@ -82,18 +78,13 @@ static double covered(double k, double low, double high)
     return to > from ? to - from : 0.0;
 }
 
-/* Round to multiples of 2^-28 that add to 1: each is the step between rounded running sums, so that no
-   texel gathers the others' rounding. */
-static void round_weights(double *weight, int count)
+/* A sum of double weights is 1 but for some 1e-14, which float's rounding of a flat table's height takes
+   away. */
+static void divide_by_sum(double *weight, int count)
 {
-    double total = 0.0, run = 0.0, before = 0.0;
-    for (int k = 0; k < count; k++) total += weight[k];
-    for (int k = 0; k < count; k++) {
-        run += weight[k];
-        double now = k == count - 1 ? 1.0 : rint(run / total * ONE) / ONE;
-        weight[k] = now - before;
-        before = now;
-    }
+    double sum = 0.0;
+    for (int k = 0; k < count; k++) sum += weight[k];
+    for (int k = 0; k < count; k++) weight[k] /= sum;
 }
 
 /* Bring taps that lie outside back to the texels that stand for them: from = 0, count = n. */
@@ -125,7 +116,7 @@ static void set_taps(Axis *axis, int index, int filter, int n, int out, WrWrap w
     double *weight = axis->weight + (size_t)index * (size_t)axis->most;
     if (axis->folds) fold(taps, weight, wide, n, wrap);
     else memcpy(weight, wide, sizeof *wide * (size_t)taps->count);
-    round_weights(weight, taps->count);
+    divide_by_sum(weight, taps->count);
 }
 
 static bool axis_init(Axis *axis, const WrOpJob *job, int filter, int n, int out, WrWrap wrap)

@@ -8,7 +8,10 @@
  * A way may be put in the order: vertical and diagonal steps, then horizontal ones. So a sweep down, one
  * up and one along each row do nearly all; a second round carries it over the seams, and the rest is
  * rounding. Sweeps down and up go row by row, all texels of a row at once; rows are independent in the
- * third. The smallest function above F is the same for -F. */
+ * third. The smallest function above F is the same for -F.
+ *
+ * The heights are floats: a limit under half a unit in the last place of the heights is as good as 0, and
+ * along a long slope the roundings of its steps add up. */
 #include "field/ops_inner.h"
 
 #include <math.h>
@@ -104,15 +107,12 @@ static bool sweep_up(const Sweep *sweep)
 
 static bool too_steep(const Sweep *sweep, float *row)
 {
-    int steep = 0, width = sweep->plane->width;
-    float step = sweep->step;
     set_margins(sweep, row);
-#pragma omp simd reduction(| : steep)
-    for (int x = 0; x < width; x++) {
-        float low = (row[x - 1] < row[x + 1] ? row[x - 1] : row[x + 1]) + step;
-        steep |= low < row[x];
+    for (int x = 0; x < sweep->plane->width; x++) {
+        float low = (row[x - 1] < row[x + 1] ? row[x - 1] : row[x + 1]) + sweep->step;
+        if (low < row[x]) return true;
     }
-    return steep != 0;
+    return false;
 }
 
 /* To the right and to the left, twice each where the row is periodic. */

@@ -25,6 +25,7 @@ typedef struct WrImage {
 #define WR_IMAGE_PARTS_MAX 1024   /* parts in a file */
 #define WR_IMAGE_CHANNELS_MAX 256 /* channels in a part */
 #define WR_IMAGE_STRIP 64         /* rows that a WrRowSource is asked for at a time, at most */
+#define WR_IMAGE_BAND 512         /* rows that whole pictures are read by */
 
 /* A picture of zeros. NULL and an error when sizes are out of range or memory is gone. */
 WrImage *wr_image_new(int width, int height, int channels, WrError *err);
@@ -34,6 +35,14 @@ void wr_image_free(WrImage *image);
 /* Read the first part of a picture file; more than 4 channels keep the first 4. Errors name the file
    and say what is wrong: missing, not a picture, truncated, over the limit. */
 WrImage *wr_image_read(const char *path, WrError *err);
+/* The same of a file that is in memory; name stands in messages, and its ending counts as a path's. */
+WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err);
+
+/* Files are read by a process of its own, so that a hostile one can only end that: with one clear error
+ * here. It is started when the first file is read, which takes a quarter of a second, and kept. This starts
+ * it ahead of need and returns at once; any thread. With WRINKLE_READER=inside in the environment files are
+ * read in this process, for debugging. */
+void wr_image_warm(void);
 
 /* sRGB transfer curves (IEC 61966-2-1), exact to float; for pictures only, never for heights. */
 float wr_srgb_encode(float linear);
@@ -76,6 +85,10 @@ typedef struct WrImageOut {
    in EXR. A type that the format cannot hold is an error, never a silent conversion; so is any
    failure that the library reports late (a full disk). */
 bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrError *err);
+/* The same into memory, one part only: the bytes of the file that `name` would be. They are the caller's
+   (wr_free). For PNG, EXR and what else goes through one file; not TIFF. */
+bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes, size_t *length,
+                          WrError *err);
 /* Convenience: one part from memory, `pixels` tightly packed in `type`. */
 bool wr_image_write_pixels(const char *path, int width, int height, int channels, WrPixelType type,
                            bool data, const void *pixels, WrError *err);

@@ -1,7 +1,8 @@
-#include "image/oiio.h"
+#include "image/module.h"
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "image/oiio.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -14,18 +15,24 @@
 #define WR_MODULE_FOLDER "../lib/wrinkle"
 #endif
 
+bool wr_module_path(int place, const char *file, WrText *path)
+{
+    const char *given = getenv("WRINKLE_MODULES");
+    char *program = wr_program_folder();
+    wr_text_clear(path);
+    if (place == 0) wr_text_addf(path, "%s/%s", program, file);
+    if (place == 1) wr_text_addf(path, "%s/" WR_MODULE_FOLDER "/%s", program, file);
+    if (place == 2 && given && *given) wr_text_addf(path, "%s/%s", given, file);
+    wr_free(program);
+    return path->length > 0;
+}
+
 static const WrOiioTable *load(WrError *err)
 {
-    char *program = wr_program_folder();
-    const char *given = getenv("WRINKLE_MODULES");
     const WrOiioTable *table = NULL;
     WrText path = { 0 }, looked = { 0 };
-    for (int place = 0; place < 3 && !table; place++) {
-        if (place == 2 && (!given || !*given)) continue;
-        wr_text_clear(&path);
-        if (place == 0) wr_text_addf(&path, "%s/" MODULE_FILE, program);
-        if (place == 1) wr_text_addf(&path, "%s/" WR_MODULE_FOLDER "/" MODULE_FILE, program);
-        if (place == 2) wr_text_addf(&path, "%s/" MODULE_FILE, given);
+    for (int place = 0; place < WR_MODULE_PLACES && !table; place++) {
+        if (!wr_module_path(place, MODULE_FILE, &path)) continue;
         wr_text_addf(&looked, "%s%s", looked.length ? ", " : "", wr_text_get(&path));
         if (access(wr_text_get(&path), F_OK) != 0) continue;
         void *module = dlopen(wr_text_get(&path), RTLD_NOW | RTLD_LOCAL);
@@ -44,7 +51,6 @@ static const WrOiioTable *load(WrError *err)
     if (!table)
         wr_fail(err, "picture files need the module " MODULE_FILE ", looked for at: %s",
                 wr_text_get(&looked));
-    wr_free(program);
     wr_text_fini(&path);
     wr_text_fini(&looked);
     return table;

@@ -45,7 +45,7 @@ template <typename Body> static bool guarded(char *reason, Body body)
     try {
         return body();
     } catch (const std::bad_alloc &) {
-        return fail(reason, "not enough memory");
+        return fail(reason, WR_OIIO_NO_MEMORY);
     } catch (const std::exception &problem) {
         return fail(reason, problem.what());
     } catch (...) {
@@ -138,7 +138,9 @@ static void name_parts(WrOiioReader &reader)
         for (const std::string &name : spec.channelnames) names.push_back(name.c_str());
         reader.names.push_back(names);
         reader.parts[i].part.channel_names = nullptr;
-        reader.parts[i].part.name = ustring(spec.get_string_attribute("oiio:subimagename")).c_str();
+        /* Lives as long as the process; of an empty one there is no text at all. */
+        const char *name = ustring(spec.get_string_attribute("oiio:subimagename")).c_str();
+        reader.parts[i].part.name = name ? name : "";
     }
     for (size_t i = 0; i < reader.parts.size(); i++)
         reader.parts[i].part.channel_names = reader.names[i].data();
@@ -209,7 +211,8 @@ static const char *reader_attribute(const WrOiioReader *reader, int part, const 
     guarded(reason, [&] {
         const ImageSpec &spec = reader->specs[static_cast<size_t>(part)];
         const ParamValue *found = spec.find_attribute(name, TypeDesc::STRING);
-        if (found) text = found->get_ustring().c_str(); /* lives as long as the process */
+        if (found) text = found->get_ustring().c_str();
+        if (found && !text) text = "";
         return true;
     });
     return text;

@@ -11,6 +11,7 @@
 #define WR_OIIO_VERSION 1
 #define WR_OIIO_REASON 320
 #define WR_OIIO_SYMBOL "wr_oiio_table"
+#define WR_OIIO_NO_MEMORY "not enough memory" /* a reason that callers look for */
 
 typedef struct WrOiioReader WrOiioReader;
 typedef struct WrOiioWriter WrOiioWriter;

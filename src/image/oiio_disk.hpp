@@ -12,7 +12,7 @@ class Disk : public OIIO::Filesystem::IOProxy
 {
   public:
     explicit Disk(const std::string &path)
-        : IOProxy(path, Write), file(std::fopen(path.c_str(), "wbx"))
+        : IOProxy(path, Write), file(std::fopen(path.c_str(), in_memory(path) ? "wb" : "wbx"))
     {
         if (!file) error = errno;
     }
@@ -57,6 +57,11 @@ class Disk : public OIIO::Filesystem::IOProxy
     int error = 0; /* errno of the first failure */
 
   private:
+    /* A memory file of the caller's is there already. */
+    static bool in_memory(const std::string &path)
+    {
+        return path.compare(0, 14, "/proc/self/fd/") == 0;
+    }
     FILE *file;
     int64_t end = 0;
 };

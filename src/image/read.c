@@ -1,80 +1,149 @@
-#include "image/format.h"
-#include "image/oiio.h"
-#include "image/png.h"
-
 #include "base/file.h"
 #include "base/memory.h"
+#include "image/decode.h"
+#include "image/process.h"
+#include "image/reader.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* Strangers' files are read by the reader process; inside this one only where the environment says so. */
 struct WrImageFile {
-    const WrOiioTable *library;
-    WrOiioReader *reader;
+    WrReader *reader; /* or NULL, and then */
+    WrDecoder *decoder;
     char *path; /* for messages */
+    int fd;     /* of the decoder; -1: the reader has its own */
 };
 
-/* The file, open, if it can be a picture file at all. Never waits: a pipe is refused before it is read. */
-static FILE *open_regular(const char *path, WrError *err)
+static bool read_inside(void)
+{
+    const char *where = getenv("WRINKLE_READER");
+    return where && strcmp(where, "inside") == 0;
+}
+
+void wr_image_warm(void)
+{
+    if (!read_inside()) wr_process_start(NULL);
+}
+
+/* The file, open, if it can be a picture file at all; -1 if not. Never waits: a pipe is refused before it
+ * is read. */
+static int open_regular(const char *path, WrError *err)
 {
     int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     struct stat info;
-    if (fd < 0 || fstat(fd, &info) != 0) {
-        wr_fail(err, "%s: %s", path, strerror(errno));
-    } else if (S_ISDIR(info.st_mode)) {
-        wr_fail(err, "%s: is a folder; a picture file is needed", path);
-    } else if (!S_ISREG(info.st_mode)) {
-        wr_fail(err, "%s: is not a regular file", path);
-    } else if (info.st_size == 0) {
-        wr_fail(err, "%s: is empty", path);
-    } else {
-        FILE *file = fdopen(fd, "rb");
-        if (file) return file;
-        wr_fail(err, "%s: %s", path, strerror(errno));
-    }
+    if (fd < 0 || fstat(fd, &info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
+    else if (S_ISDIR(info.st_mode)) wr_fail(err, "%s: is a folder; a picture file is needed", path);
+    else if (!S_ISREG(info.st_mode)) wr_fail(err, "%s: is not a regular file", path);
+    else if (info.st_size == 0) wr_fail(err, "%s: is empty", path);
+    else return fd;
     if (fd >= 0) close(fd);
-    return NULL;
+    return -1;
 }
 
-/* The format by the file's first bytes, else by its ending. */
-static const char *find_format(const char *path, char ending[16], WrError *err)
+/* A file that is nowhere but in memory. */
+static int open_bytes(const char *name, const void *bytes, size_t length, WrError *err)
 {
-    FILE *file = open_regular(path, err);
-    if (!file) return NULL;
-    unsigned char bytes[WR_IMAGE_SNIFF];
-    size_t count = fread(bytes, 1, sizeof bytes, file);
-    const char *format = wr_image_sniff(bytes, count);
-    if (!format) format = wr_path_ending(path, ending);
-    if (strcmp(format, "png") == 0 && !wr_png_check(file, err)) {
-        wr_error_prefix(err, "%s: ", path);
-        format = NULL;
+    int fd = memfd_create("wrinkle picture", MFD_CLOEXEC);
+    const char *from = bytes;
+    while (fd >= 0 && length > 0) {
+        ssize_t n = write(fd, from, length);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) {
+            close(fd);
+            fd = -1;
+            break;
+        }
+        from += n;
+        length -= (size_t)n;
     }
-    fclose(file);
-    return format;
+    if (fd < 0) wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
+    return fd;
 }
 
-static WrOiioReader *open_reader(const char *path, int most, const WrOiioTable **library,
-                                 WrError *err)
+/* Takes the descriptor over; -1 passes a failure on. */
+static WrImageFile *open_file(const char *name, int fd, int most, WrError *err)
 {
-    char ending[16], reason[WR_OIIO_REASON] = "";
-    const char *format = find_format(path, ending, err);
-    if (!format) return NULL;
-    *library = wr_oiio(err);
-    if (!*library) return NULL;
-    WrOiioReader *reader = (*library)->open(path, format, most, reason);
-    if (!reader) wr_fail(err, "%s: %s", path, reason);
-    return reader;
+    if (fd < 0) return NULL;
+    WrImageFile file = { .fd = -1 };
+    if (read_inside()) {
+        char ending[16];
+        file.decoder = wr_decoder_open(fd, wr_path_ending(name, ending), most, NULL, err);
+        if (file.decoder) file.fd = fd;
+        else wr_error_prefix(err, "%s: ", name);
+    } else {
+        file.reader = wr_reader_open(name, fd, most, err);
+    }
+    if (file.fd < 0) close(fd);
+    if (!file.reader && !file.decoder) return NULL;
+    file.path = wr_strdup(name);
+    WrImageFile *opened = wr_alloc(1, sizeof *opened);
+    *opened = file;
+    return opened;
 }
 
-static bool fail_read(WrError *err, const char *path, const char *reason)
+WrImageFile *wr_image_file_open(const char *path, WrError *err)
 {
-    return wr_fail(err, "%s: cannot be read whole, truncated or damaged%s%s%s", path,
-                   *reason ? " (" : "", reason, *reason ? ")" : "");
+    return open_file(path, open_regular(path, err), WR_IMAGE_PARTS_MAX, err);
 }
+
+void wr_image_file_close(WrImageFile *file)
+{
+    if (!file) return;
+    wr_reader_close(file->reader);
+    wr_decoder_close(file->decoder);
+    if (file->fd >= 0) close(file->fd);
+    wr_free(file->path);
+    wr_free(file);
+}
+
+int wr_image_file_parts(const WrImageFile *file)
+{
+    return file->reader ? wr_reader_parts(file->reader) : wr_decoder_parts(file->decoder);
+}
+
+WrImagePart wr_image_file_part(const WrImageFile *file, int part)
+{
+    return file->reader ? wr_reader_part(file->reader, part) : wr_decoder_part(file->decoder, part);
+}
+
+const char *wr_image_file_attribute(const WrImageFile *file, int part, const char *name)
+{
+    return file->reader ? wr_reader_attribute(file->reader, part, name)
+                        : wr_decoder_attribute(file->decoder, part, name);
+}
+
+static bool read_rows(WrImageFile *file, int part, int y, int rows, int channels, float *out,
+                      WrError *err)
+{
+    if (file->reader) return wr_reader_read(file->reader, part, y, rows, channels, out, err);
+    if (wr_decoder_read(file->decoder, part, y, rows, channels, out, NULL, err)) return true;
+    wr_error_prefix(err, "%s: ", file->path);
+    return false;
+}
+
+bool wr_image_file_read_rows(WrImageFile *file, int part, int y, int rows, float *out, WrError *err)
+{
+    return read_rows(file, part, y, rows, wr_image_file_part(file, part).channels, out, err);
+}
+
+bool wr_image_file_read(WrImageFile *file, int part, float *out, WrError *err)
+{
+    WrImagePart is = wr_image_file_part(file, part);
+    size_t row = (size_t)is.width * (size_t)is.channels;
+    for (int y = 0; y < is.height; y += WR_IMAGE_BAND) {
+        int rows = is.height - y < WR_IMAGE_BAND ? is.height - y : WR_IMAGE_BAND;
+        if (!wr_image_file_read_rows(file, part, y, rows, out + (size_t)y * row, err)) return false;
+    }
+    return true;
+}
+
+/* ---- whole pictures ---- */
 
 /* Values that are not finite become 0; returns how many pixels had one. */
 static int64_t replace_bad_pixels(float *values, size_t pixels, int channels)
@@ -93,85 +162,47 @@ static int64_t replace_bad_pixels(float *values, size_t pixels, int channels)
     return replaced;
 }
 
-WrImage *wr_image_read(const char *path, WrError *err)
+static WrImage *read_first_part(WrImageFile *file, WrError *err)
 {
-    const WrOiioTable *library;
-    WrOiioReader *reader = open_reader(path, 1, &library, err);
-    if (!reader) return NULL;
-    const WrImagePart *part = &library->part(reader, 0)->part;
-    int channels = part->channels < 4 ? part->channels : 4;
-    WrImage *image = wr_image_new(part->width, part->height, channels, err);
+    WrImagePart part = wr_image_file_part(file, 0);
+    int channels = part.channels < 4 ? part.channels : 4;
+    WrImage *image = wr_image_new(part.width, part.height, channels, err);
     if (!image) {
-        wr_error_prefix(err, "%s: ", path);
-        goto done;
+        wr_error_prefix(err, "%s: ", file->path);
+        return NULL;
     }
-    image->type = part->type;
+    image->type = part.type;
     size_t row = (size_t)image->width * (size_t)channels;
-    for (int y = 0; y < image->height; y += WR_IMAGE_STRIP) {
-        int rows = image->height - y < WR_IMAGE_STRIP ? image->height - y : WR_IMAGE_STRIP;
+    for (int y = 0; y < image->height; y += WR_IMAGE_BAND) {
+        int rows = image->height - y < WR_IMAGE_BAND ? image->height - y : WR_IMAGE_BAND;
         float *out = image->data + (size_t)y * row;
-        char reason[WR_OIIO_REASON] = "";
-        if (!library->read(reader, 0, y, rows, channels, out, reason)) {
-            fail_read(err, path, reason);
+        if (!read_rows(file, 0, y, rows, channels, out, err)) {
             wr_image_free(image);
-            image = NULL;
-            goto done;
+            return NULL;
         }
         image->replaced += replace_bad_pixels(out, (size_t)image->width * (size_t)rows, channels);
     }
-done:
-    library->close(reader);
     return image;
 }
 
-WrImageFile *wr_image_file_open(const char *path, WrError *err)
+static WrImage *read_whole(const char *name, int fd, WrError *err)
 {
-    const WrOiioTable *library;
-    WrOiioReader *reader = open_reader(path, WR_IMAGE_PARTS_MAX, &library, err);
-    if (!reader) return NULL;
-    WrImageFile *file = wr_alloc(1, sizeof *file);
-    *file = (WrImageFile){ .library = library, .reader = reader, .path = wr_strdup(path) };
-    return file;
+    WrImageFile *file = open_file(name, fd, 1, err);
+    WrImage *image = file ? read_first_part(file, err) : NULL;
+    wr_image_file_close(file);
+    return image;
 }
 
-void wr_image_file_close(WrImageFile *file)
+WrImage *wr_image_read(const char *path, WrError *err)
 {
-    if (!file) return;
-    file->library->close(file->reader);
-    wr_free(file->path);
-    wr_free(file);
+    return read_whole(path, open_regular(path, err), err);
 }
 
-int wr_image_file_parts(const WrImageFile *file)
+WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err)
 {
-    return file->library->parts(file->reader);
-}
-
-WrImagePart wr_image_file_part(const WrImageFile *file, int part)
-{
-    return file->library->part(file->reader, part)->part;
-}
-
-const char *wr_image_file_attribute(const WrImageFile *file, int part, const char *name)
-{
-    return file->library->attribute(file->reader, part, name);
-}
-
-bool wr_image_file_read_rows(WrImageFile *file, int part, int y, int rows, float *out, WrError *err)
-{
-    char reason[WR_OIIO_REASON] = "";
-    int channels = wr_image_file_part(file, part).channels;
-    if (file->library->read(file->reader, part, y, rows, channels, out, reason)) return true;
-    return fail_read(err, file->path, reason);
-}
-
-bool wr_image_file_read(WrImageFile *file, int part, float *out, WrError *err)
-{
-    WrImagePart is = wr_image_file_part(file, part);
-    size_t row = (size_t)is.width * (size_t)is.channels;
-    for (int y = 0; y < is.height; y += WR_IMAGE_STRIP) {
-        int rows = is.height - y < WR_IMAGE_STRIP ? is.height - y : WR_IMAGE_STRIP;
-        if (!wr_image_file_read_rows(file, part, y, rows, out + (size_t)y * row, err)) return false;
+    if (length == 0) {
+        wr_fail(err, "%s: is empty", name);
+        return NULL;
     }
-    return true;
+    return read_whole(name, open_bytes(name, bytes, length, err), err);
 }

@@ -4,7 +4,11 @@
 #include "base/file.h"
 #include "base/memory.h"
 
+#include <errno.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static size_t type_bytes(WrPixelType type)
 {
@@ -90,6 +94,45 @@ bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrErro
         return false;
     }
     return wr_file_commit(&target, err);
+}
+
+/* Everything that was written to a memory file. */
+static bool take_bytes(const char *name, int fd, char **bytes, size_t *length, WrError *err)
+{
+    struct stat info;
+    if (fstat(fd, &info) != 0) return wr_fail(err, "%s: %s", name, strerror(errno));
+    size_t want = (size_t)info.st_size, have = 0;
+    char *block = wr_try_alloc(want + 1, 1, name, err);
+    if (!block) return false;
+    while (have < want) {
+        ssize_t n = pread(fd, block + have, want - have, (off_t)have);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) {
+            wr_free(block);
+            return wr_fail(err, "%s: %s", name, strerror(n < 0 ? errno : EIO));
+        }
+        have += (size_t)n;
+    }
+    *bytes = block;
+    *length = want;
+    return true;
+}
+
+bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes, size_t *length,
+                          WrError *err)
+{
+    if (!check_parts(name, part, 1, err)) return false;
+    const char *format = wr_image_format(name, err)->library;
+    if (strcmp(format, "tiff") == 0)
+        return wr_fail(err, "%s: TIFF files cannot be written into memory", name);
+    int fd = memfd_create("wrinkle picture", MFD_CLOEXEC);
+    if (fd < 0) return wr_fail(err, "%s: %s", name, strerror(errno));
+    char path[32];
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    bool ok =
+        write_file(name, path, format, part, 1, err) && take_bytes(name, fd, bytes, length, err);
+    close(fd);
+    return ok;
 }
 
 typedef struct Pixels {

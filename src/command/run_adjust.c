@@ -1,0 +1,79 @@
+/* adjust: the table's operations (field/ops.h), on one layer or on all. */
+#include "command/inner.h"
+
+#include "base/memory.h"
+#include "field/ops.h"
+
+#include <string.h>
+
+typedef struct Adjusting {
+    const WrOpInfo *op;
+    double param[WR_OP_PARAMS];
+    WrOpOptions options;
+} Adjusting;
+
+/* Operations that only move texels: coverage and masks move along with the heights. */
+static bool moves_texels(const WrOpInfo *op)
+{
+    static const char *const names[] = { "offset", "flip-u", "flip-v" };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(op->name, names[i]) == 0) return true;
+    return op->reshapes;
+}
+
+static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
+{
+    if (!*field) return true;
+    WrField *made = wr_op_run(adjusting->op, *field, adjusting->param, &adjusting->options, err);
+    if (!made) return false;
+    wr_field_free(*field);
+    *field = made;
+    return true;
+}
+
+/* The same for coverage, masks and selections, which stay in 0..1 whatever the filter overshoots. */
+static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *err)
+{
+    if (!*field || !run_on(adjusting, field, err)) return !*field;
+    const double unit[WR_OP_PARAMS] = { 0, 1 };
+    WrOpOptions options = { .pool = adjusting->options.pool };
+    WrField *clamped = wr_op_run(wr_op_find("clamp"), *field, unit, &options, err);
+    if (!clamped) return false;
+    wr_field_free(*field);
+    *field = clamped;
+    return true;
+}
+
+static bool run_on_layer(const Adjusting *adjusting, WrLayer *layer, WrError *err)
+{
+    if (!run_on(adjusting, &layer->heights, err)) return false;
+    return !moves_texels(adjusting->op) || (run_on_part(adjusting, &layer->cover, err) &&
+                                            run_on_part(adjusting, &layer->mask, err));
+}
+
+static bool run_on_all(WrSession *session, const Adjusting *adjusting, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    for (int i = 0; i < document->layer_count; i++) {
+        /* all tables have one size, so a lock cannot keep one from being reshaped */
+        if (!adjusting->op->reshapes && !wr_session_check_unlocked(session, i, err)) return false;
+        if (!run_on_layer(adjusting, &document->layers[i], err)) return false;
+    }
+    return !adjusting->op->reshapes || run_on_part(adjusting, &document->selection, err);
+}
+
+bool wr_run_adjust(WrSession *session, WrCall *call, WrError *err)
+{
+    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
+    Adjusting adjusting = { .op = &wr_ops[call->form] };
+    const WrOpInfo *op = adjusting.op;
+    adjusting.options = (WrOpOptions){ .pool = session->options.pool, .progress = &progress };
+    if (!op->reshapes) adjusting.options.mask = session->state.document->selection;
+    for (int i = 0; i < wr_op_param_count(op); i++)
+        adjusting.param[i] = op->params[i].choices ? wr_call_choice(call, op->params[i].name)
+                                                   : wr_call_number(call, op->params[i].name);
+    if (op->reshapes || wr_call_choice(call, "layers") == 1)
+        return run_on_all(session, &adjusting, err);
+    WrLayer *layer = wr_session_layer(session, err);
+    return layer && run_on_layer(&adjusting, layer, err);
+}

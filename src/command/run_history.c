@@ -1,0 +1,98 @@
+/* undo, redo, history, script: what was done. */
+#include "command/inner.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+bool wr_run_undo(WrSession *session, WrCall *call, WrError *err)
+{
+    int steps = (int)wr_call_number(call, "N");
+    int position = wr_session_history_position(session);
+    int most = position - wr_session_history_oldest(session);
+    if (position == 0) return wr_fail(err, "nothing to undo");
+    if (steps > most)
+        return wr_fail(err, "%d steps: %d can be undone%s", steps, most,
+                       position > most ? "; older states were given up to keep the history in its "
+                                         "budget"
+                                       : "");
+    return wr_session_go_to(session, position - steps, err);
+}
+
+bool wr_run_redo(WrSession *session, WrCall *call, WrError *err)
+{
+    int steps = (int)wr_call_number(call, "N");
+    int position = wr_session_history_position(session);
+    int most = wr_session_history_count(session) - position;
+    if (most == 0) return wr_fail(err, "nothing to redo");
+    if (steps > most) return wr_fail(err, "%d steps: %d can be redone", steps, most);
+    return wr_session_go_to(session, position + steps, err);
+}
+
+bool wr_run_history(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    if (wr_call_given(call, "budget"))
+        wr_session_set_history_budget(session, (size_t)wr_call_number(call, "budget"));
+    int position = wr_session_history_position(session);
+    wr_session_note(session, "%d steps can be undone, %d redone; they take %.1f of %.1f MB",
+                    position - wr_session_history_oldest(session),
+                    wr_session_history_count(session) - position,
+                    (double)wr_session_history_bytes(session) / 1e6,
+                    (double)wr_session_history_budget(session) / 1e6);
+    return true;
+}
+
+/* ---- as a script ---- */
+
+/* `path` as a script in `home` (absolute, "" if unknown) names it. Points into path. */
+static const char *seen_from(const char *home, const char *path)
+{
+    size_t length = strlen(home);
+    bool below = length > 0 && strncmp(path, home, length) == 0 && path[length] == '/';
+    return below ? path + length + 1 : path;
+}
+
+/* Files that were read carry a hash: name them so that the script finds them. */
+static void add_line(WrText *text, const char *line, const char *folder, const char *home)
+{
+    WrCall *call = NULL;
+    bool hashed = false;
+    if (!wr_call_parse(line, false, &call, NULL)) { /* cannot be: it ran */
+        wr_text_addf(text, "%s\n", line);
+        return;
+    }
+    for (int i = 0; i < call->count; i++)
+        hashed |= call->specs[i].type == WR_ARG_SHA256 && call->args[i].given;
+    for (int i = 0; hashed && i < call->count; i++) {
+        if (call->specs[i].type != WR_ARG_PATH || !call->args[i].given) continue;
+        char *full = wr_path_join(folder ? folder : ".", call->args[i].text);
+        wr_call_set_text(call, call->specs[i].name, seen_from(home, full));
+        wr_free(full);
+    }
+    wr_call_print(call, text);
+    wr_text_add(text, "\n");
+    wr_call_free(call);
+}
+
+bool wr_session_save_history(WrSession *session, const char *path, WrError *err)
+{
+    const WrHistory *history = session->state.history;
+    WrText text = { 0 };
+    char *folder = wr_path_folder(path), *real = realpath(folder, NULL);
+    const char *home = real ? real : "";
+    if (session->state.origin) add_line(&text, session->state.origin, NULL, home);
+    for (int i = 0; i < wr_history_position(history); i++)
+        add_line(&text, wr_history_line(history, i), wr_history_folder(history, i), home);
+    bool good = wr_file_write(path, wr_text_get(&text), text.length, err);
+    free(real);
+    wr_free(folder);
+    wr_text_fini(&text);
+    return good;
+}
+
+bool wr_run_script(WrSession *session, WrCall *call, WrError *err)
+{
+    return wr_session_save_history(session, wr_call_arg(call, "FILE")->text, err);
+}

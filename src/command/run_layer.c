@@ -1,0 +1,256 @@
+/* layer: adding, ordering, joining and setting layers. */
+#include "command/inner.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+typedef bool LayerHandler(WrSession *session, WrCall *call, WrError *err);
+
+/* The layer that argument N names; the active one where N may be left out and is. */
+static bool find(const WrSession *session, const WrCall *call, const char *name, int *index,
+                 WrError *err)
+{
+    const WrArg *arg = wr_call_arg(call, name);
+    *index = session->state.document->active;
+    return !arg->given || wr_session_find_layer(session, arg->text, index, err);
+}
+
+static bool find_unlocked(const WrSession *session, const WrCall *call, int *index, WrError *err)
+{
+    return find(session, call, "N", index, err) && wr_session_check_unlocked(session, *index, err);
+}
+
+static bool check_room(const WrDocument *document, WrError *err)
+{
+    if (document->layer_count < WR_LAYERS_MAX) return true;
+    return wr_fail(err, "a document has up to %d layers", WR_LAYERS_MAX);
+}
+
+/* ---- making and removing ---- */
+
+static bool is_taken(const WrDocument *document, const char *name)
+{
+    for (int i = 0; i < document->layer_count; i++)
+        if (strcmp(document->layers[i].name, name) == 0) return true;
+    return false;
+}
+
+/* "layer 3": the first number from the count on that no layer has yet. */
+static void free_name(const WrDocument *document, WrText *text)
+{
+    int number = document->layer_count + 1;
+    do {
+        wr_text_clear(text);
+        wr_text_addf(text, "layer %d", number++);
+    } while (is_taken(document, wr_text_get(text)));
+}
+
+static void take_settings(const WrCall *call, WrLayer *layer)
+{
+    if (wr_call_given(call, "blend")) layer->blend = (WrBlend)wr_call_choice(call, "blend");
+    if (wr_call_given(call, "opacity")) layer->opacity = (float)wr_call_number(call, "opacity");
+    if (wr_call_given(call, "radius")) layer->radius = (float)wr_call_number(call, "radius");
+}
+
+static bool layer_add(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const char *name = wr_call_arg(call, "NAME")->text;
+    int below;
+    WrText made = { 0 };
+    if (!check_room(document, err) || !find(session, call, "above", &below, err)) return false;
+    free_name(document, &made);
+    WrLayer layer = wr_layer_new(name ? name : wr_text_get(&made), document->layers[0].heights);
+    wr_text_fini(&made);
+    take_settings(call, &layer);
+    wr_document_insert(document, below + 1, layer);
+    document->active = below + 1;
+    return true;
+}
+
+static bool layer_delete(WrSession *session, WrCall *call, WrError *err)
+{
+    int index;
+    if (!find_unlocked(session, call, &index, err)) return false;
+    if (session->state.document->layer_count == 1)
+        return wr_fail(err, "the last layer stays: a document has at least one");
+    wr_document_remove(session->state.document, index);
+    return true;
+}
+
+/* At most WR_LAYER_NAME_MAX bytes of "NAME copy", whole characters. */
+static char *copy_name(const char *name)
+{
+    static const char ending[] = " copy";
+    size_t length = strlen(name), most = WR_LAYER_NAME_MAX - (sizeof ending - 1);
+    if (length > most) {
+        length = most;
+        while (length > 0 && ((unsigned char)name[length] & 0xC0) == 0x80) length--;
+    }
+    WrText text = { 0 };
+    wr_text_add_n(&text, name, length);
+    wr_text_add(&text, ending);
+    return text.data;
+}
+
+static bool layer_duplicate(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    int index;
+    if (!check_room(document, err) || !find(session, call, "N", &index, err)) return false;
+    WrLayer layer = wr_layer_share(&document->layers[index]);
+    wr_free(layer.name);
+    layer.name = copy_name(document->layers[index].name);
+    layer.locked = false;
+    wr_document_insert(document, index + 1, layer);
+    document->active = index + 1;
+    return true;
+}
+
+/* ---- joining ---- */
+
+static bool check_visible(const WrSession *session, int index, WrError *err)
+{
+    if (session->state.document->layers[index].visible) return true;
+    WrText name = { 0 };
+    wr_fail(err, "%s is hidden: only layers that are visible can be joined",
+            wr_session_layer_name(session, index, &name));
+    wr_text_fini(&name);
+    return false;
+}
+
+static bool layer_merge(WrSession *session, WrCall *call, WrError *err)
+{
+    int index;
+    if (!find_unlocked(session, call, &index, err)) return false;
+    if (index == 0) return wr_fail(err, "layer 1 has none below that it could be merged into");
+    if (!wr_session_check_unlocked(session, index - 1, err) ||
+        !check_visible(session, index, err) || !check_visible(session, index - 1, err))
+        return false;
+    wr_document_merge(session->state.document, index, session->options.pool);
+    return true;
+}
+
+static bool layer_flatten(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)call;
+    WrDocument *document = session->state.document;
+    int hidden = 0;
+    for (int i = 0; i < document->layer_count; i++) {
+        if (!wr_session_check_unlocked(session, i, err)) return false;
+        hidden += !document->layers[i].visible;
+    }
+    if (hidden) wr_session_note(session, "%d hidden layers are gone", hidden);
+    wr_document_flatten(document, session->options.pool);
+    return true;
+}
+
+/* ---- settings ---- */
+
+static bool layer_use(WrSession *session, WrCall *call, WrError *err)
+{
+    return find(session, call, "N", &session->state.document->active, err);
+}
+
+static bool layer_move(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    int from;
+    double to = wr_call_number(call, "to");
+    if (!find(session, call, "N", &from, err)) return false;
+    if (to > document->layer_count)
+        return wr_fail(err, "to=%g: must be 1..%d", to, document->layer_count);
+    wr_document_move(document, from, (int)to - 1);
+    return true;
+}
+
+static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
+{
+    int index;
+    if (!find(session, call, "N", &index, err)) return false;
+    WrLayer *layer = &session->state.document->layers[index];
+    wr_free(layer->name);
+    layer->name = wr_strdup(wr_call_arg(call, "NAME")->text);
+    return true;
+}
+
+static bool layer_set(WrSession *session, WrCall *call, WrError *err)
+{
+    int index;
+    bool any = false;
+    for (int i = 0; i < call->count; i++) any |= call->args[i].given && !call->specs[i].positional;
+    if (!any)
+        return wr_fail(err, "nothing to set: give blend=, opacity=, radius=, visible= or lock=");
+    if (!find(session, call, "N", &index, err)) return false;
+    WrLayer *layer = &session->state.document->layers[index];
+    take_settings(call, layer);
+    if (wr_call_given(call, "visible")) layer->visible = wr_call_choice(call, "visible") == 1;
+    if (wr_call_given(call, "lock")) layer->locked = wr_call_choice(call, "lock") == 1;
+    return true;
+}
+
+static bool layer_solo(WrSession *session, WrCall *call, WrError *err)
+{
+    int index = -1;
+    const char *word = wr_call_arg(call, "N|off")->text;
+    if (strcmp(word, "off") != 0 && !wr_session_find_layer(session, word, &index, err))
+        return false;
+    session->state.document->solo = index;
+    return true;
+}
+
+/* ---- contents ---- */
+
+static WrField *uniform(const WrLayer *layer, float level)
+{
+    const WrField *f = layer->heights;
+    return wr_field_new(wr_field_width(f), wr_field_height(f), wr_field_wrap_u(f),
+                        wr_field_wrap_v(f), level, NULL);
+}
+
+static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    int index;
+    if (!find_unlocked(session, call, &index, err)) return false;
+    WrLayer *layer = &document->layers[index];
+    wr_session_put_field(session, &layer->heights, uniform(layer, 0.0f));
+    if (layer->cover) wr_session_put_field(session, &layer->cover, uniform(layer, 0.0f));
+    return true;
+}
+
+static bool layer_mask(WrSession *session, WrCall *call, WrError *err)
+{
+    enum { FROM_SELECTION, FROM_NONE, FROM_WHITE };
+    WrDocument *document = session->state.document;
+    int index, from = wr_call_choice(call, "from");
+    if (!find_unlocked(session, call, &index, err)) return false;
+    if (from == FROM_SELECTION && !document->selection)
+        return wr_fail(err, "from=selection: nothing is selected");
+    WrLayer *layer = &document->layers[index];
+    WrField *mask = from == FROM_SELECTION ? wr_field_share(document->selection)
+                    : from == FROM_NONE    ? NULL
+                                           : uniform(layer, from == FROM_WHITE ? 1.0f : 0.0f);
+    wr_field_free(layer->mask);
+    layer->mask = mask;
+    return true;
+}
+
+/* By the names of the forms. */
+static const struct {
+    const char *form;
+    LayerHandler *run;
+} handlers[] = { { "add", layer_add },       { "delete", layer_delete },
+                 { "use", layer_use },       { "move", layer_move },
+                 { "rename", layer_rename }, { "set", layer_set },
+                 { "clear", layer_clear },   { "duplicate", layer_duplicate },
+                 { "merge", layer_merge },   { "flatten", layer_flatten },
+                 { "solo", layer_solo },     { "mask", layer_mask } };
+
+bool wr_run_layer(WrSession *session, WrCall *call, WrError *err)
+{
+    int i = 0;
+    while (strcmp(handlers[i].form, call->form_name) != 0) i++;
+    return handlers[i].run(session, call, err);
+}

@@ -1,0 +1,126 @@
+/* What commands change in a document, and what keeps them from it. */
+#include "command/inner.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "document/edit.h"
+
+#include <string.h>
+
+char *wr_session_input_path(const WrSession *session, const char *path)
+{
+    return wr_path_join(session->folder, path);
+}
+
+void wr_session_replace_scene(WrSession *session, WrScene *scene)
+{
+    wr_scene_free(session->state.document->scene);
+    session->state.document->scene = scene;
+}
+
+/* ---- layers ---- */
+
+const char *wr_session_layer_name(const WrSession *session, int index, WrText *buffer)
+{
+    char excerpt[WR_EXCERPT_SIZE];
+    wr_text_clear(buffer);
+    wr_text_addf(buffer, "layer %d \"%s\"", index + 1,
+                 wr_excerpt(session->state.document->layers[index].name, excerpt));
+    return wr_text_get(buffer);
+}
+
+bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err)
+{
+    if (!session->state.document->layers[index].locked) return true;
+    WrText name = { 0 };
+    wr_fail(err, "%s is locked: `layer set %d lock=off` unlocks it",
+            wr_session_layer_name(session, index, &name), index + 1);
+    wr_text_fini(&name);
+    return false;
+}
+
+static bool check_shown(const WrSession *session, int index, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    if (wr_document_shows(document, index)) return true;
+    WrText name = { 0 };
+    wr_session_layer_name(session, index, &name);
+    if (document->solo >= 0)
+        wr_fail(err, "%s is not shown while layer %d is alone: `layer solo off` shows all",
+                wr_text_get(&name), document->solo + 1);
+    else
+        wr_fail(err, "%s is hidden: `layer set %d visible=on` shows it", wr_text_get(&name),
+                index + 1);
+    wr_text_fini(&name);
+    return false;
+}
+
+WrLayer *wr_session_layer(WrSession *session, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    if (!wr_session_check_unlocked(session, document->active, err) ||
+        !check_shown(session, document->active, err))
+        return NULL;
+    return &document->layers[document->active];
+}
+
+bool wr_session_ground(WrSession *session, WrBrushGround *ground, WrError *err)
+{
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    *ground = (WrBrushGround){ layer->heights, layer->cover, session->state.document->selection };
+    return true;
+}
+
+void wr_session_put_field(WrSession *session, WrField **field, WrField *made)
+{
+    const WrField *selection = session->state.document->selection;
+    if (selection) {
+        WrField *within = wr_edit_within(*field, made, selection);
+        wr_field_free(made);
+        made = within;
+    }
+    wr_field_free(*field);
+    *field = made;
+}
+
+void wr_session_put_heights(WrSession *session, WrLayer *layer, WrField *heights)
+{
+    wr_session_put_field(session, &layer->heights, heights);
+    wr_edit_mark(layer->cover, session->state.document->selection);
+}
+
+/* The number that a word of digits is, or 0. */
+static int layer_number(const char *word)
+{
+    size_t length = strlen(word);
+    if (length == 0 || length > 6 || strspn(word, "0123456789") != length) return 0;
+    return atoi(word);
+}
+
+bool wr_session_find_layer(const WrSession *session, const char *word, int *index, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    char excerpt[WR_EXCERPT_SIZE];
+    int number = layer_number(word), found = -1, same = 0;
+    if (strspn(word, "0123456789") == strlen(word)) {
+        if (number < 1 || number > document->layer_count)
+            return wr_fail(err, "layer %s: must be 1..%d", wr_excerpt(word, excerpt),
+                           document->layer_count);
+        *index = number - 1;
+        return true;
+    }
+    for (int i = 0; i < document->layer_count; i++)
+        if (strcmp(document->layers[i].name, word) == 0) {
+            found = i;
+            same++;
+        }
+    if (same == 0)
+        return wr_fail(err, "no layer is called \"%s\": must be a name or 1..%d",
+                       wr_excerpt(word, excerpt), document->layer_count);
+    if (same > 1)
+        return wr_fail(err, "%d layers are called \"%s\": say which by its number", same,
+                       wr_excerpt(word, excerpt));
+    *index = found;
+    return true;
+}

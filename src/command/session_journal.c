@@ -1,0 +1,216 @@
+/* The journal of a session: each command is on disk before it runs. */
+#include "command/inner.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "document/document_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void report(void *ctx, const char *text)
+{
+    wr_session_note(ctx, "%s", text);
+}
+
+/* Name the files that a line reads by whole paths and their content, and keep copies of them, so that a
+   replay depends neither on the folder nor on what becomes of the files. */
+static void name_files(WrSession *session, WrCall *call, const char *folder)
+{
+    const char *hash_name = NULL;
+    for (int i = 0; i < call->count; i++)
+        if (call->specs[i].type == WR_ARG_SHA256) hash_name = call->specs[i].name;
+    for (int i = 0; hash_name && i < call->count; i++) {
+        if (call->specs[i].type != WR_ARG_PATH || !call->args[i].given) continue;
+        char hex[65], *seen = wr_path_join(folder ? folder : ".", call->args[i].text);
+        char *full = realpath(seen, NULL);
+        if (full && wr_sha256_file(full, hex, NULL)) {
+            if (!wr_call_given(call, hash_name)) wr_call_set_text(call, hash_name, hex);
+            wr_call_set_text(call, call->specs[i].name, full);
+            wr_journal_keep_file(session->journal, full, wr_call_arg(call, hash_name)->text, NULL);
+        }
+        free(full);
+        wr_free(seen);
+    }
+}
+
+/* The line as the journal holds it. */
+static void journal_line(WrSession *session, const char *line, const char *folder, WrText *text)
+{
+    WrCall *call = NULL;
+    if (!wr_call_parse(line, false, &call, NULL)) {
+        wr_text_add(text, line);
+        return;
+    }
+    name_files(session, call, folder);
+    wr_call_print(call, text);
+    wr_call_free(call);
+}
+
+/* What the document was before the first command, as a journal's start. */
+static void begin(WrSession *session)
+{
+    const WrSessionState *state = &session->state;
+    const WrHistory *history = state->history;
+    WrJournalOptions options = { .report = report, .ctx = session };
+    WrJournalStart start = { .kind = WR_JOURNAL_EMPTY };
+    char hex[65] = "";
+    if (state->origin && state->path && wr_sha256_file(state->path, hex, NULL))
+        start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT, .path = state->path, .sha256 = hex };
+    if (wr_history_position(history) == 0) start.hash = wr_session_hash(session);
+    session->journal = wr_journal_begin(&options, &start);
+    if (*hex) wr_journal_keep_file(session->journal, state->path, hex, NULL);
+    session->journal_base = 0;
+    session->journal_top = wr_history_position(history);
+    /* What was done since: the lines of a script or picture that was opened. */
+    for (int i = 0; i < wr_history_position(history); i++) {
+        WrText text = { 0 };
+        journal_line(session, wr_history_line(history, i), wr_history_folder(history, i), &text);
+        wr_journal_command(session->journal, wr_text_get(&text), NULL);
+        wr_journal_done(session->journal, WR_JOURNAL_OK, NULL, NULL);
+        wr_text_fini(&text);
+    }
+}
+
+static bool journaled(const WrSession *session)
+{
+    return session->options.journal && session->depth == 0 && !session->opening &&
+           !session->loading;
+}
+
+void wr_session_journal_before(WrSession *session, const WrCall *call)
+{
+    if (!journaled(session)) return;
+    if (!session->journal) begin(session);
+    WrText canonical = { 0 }, text = { 0 };
+    wr_call_print(call, &canonical);
+    journal_line(session, wr_text_get(&canonical), session->folder, &text);
+    wr_journal_command(session->journal, wr_text_get(&text), NULL);
+    wr_text_fini(&canonical);
+    wr_text_fini(&text);
+}
+
+static bool restart(WrSession *session, WrError *err);
+
+/* A replay knows the steps from the journal's start on: an undo or a redo that leaves these cannot be
+   replayed, so the journal then begins anew from what it led to. */
+static void follow(WrSession *session, bool pushed)
+{
+    int position = wr_session_history_position(session);
+    if (pushed) session->journal_top = position;
+    if (position < session->journal_base || position > session->journal_top) restart(session, NULL);
+}
+
+void wr_session_journal_after(WrSession *session, bool good, bool pushed)
+{
+    if (!journaled(session) || !session->journal) return;
+    wr_journal_done(session->journal, good ? WR_JOURNAL_OK : WR_JOURNAL_DROPPED, NULL, NULL);
+    if (good) follow(session, pushed);
+}
+
+/* ---- strokes ---- */
+
+void wr_session_journal_stroke_begin(WrSession *session, const WrCall *call)
+{
+    if (!journaled(session)) return;
+    if (!session->journal) begin(session);
+    WrText head = { 0 };
+    wr_call_print(call, &head);
+    wr_text_add(&head, " points=");
+    wr_journal_stroke_begin(session->journal, wr_text_get(&head), NULL);
+    wr_text_fini(&head);
+}
+
+void wr_session_journal_stroke_add(WrSession *session, const double rows[][6], const int *lengths,
+                                   int count)
+{
+    if (!journaled(session) || !session->journal || count == 0) return;
+    WrText text = { 0 };
+    for (int i = 0; i < count; i++) {
+        if (i > 0) wr_text_add(&text, ";");
+        for (int k = 0; k < lengths[i]; k++) {
+            if (k > 0) wr_text_add(&text, ",");
+            wr_text_add_number(&text, rows[i][k]);
+        }
+    }
+    wr_journal_stroke_add(session->journal, wr_text_get(&text), NULL);
+    wr_text_fini(&text);
+}
+
+void wr_session_journal_stroke_end(WrSession *session, bool kept)
+{
+    if (!journaled(session) || !session->journal) return;
+    if (kept) wr_journal_stroke_end(session->journal, NULL);
+    wr_journal_done(session->journal, kept ? WR_JOURNAL_OK : WR_JOURNAL_DROPPED, NULL, NULL);
+    if (!kept) return;
+    wr_journal_sync(session->journal, NULL);
+    follow(session, true);
+}
+
+/* ---- between commands ---- */
+
+void wr_session_set_journal(WrSession *session, bool journal)
+{
+    session->options.journal = journal;
+}
+
+void wr_session_journal_leave(WrSession *session)
+{
+    wr_journal_leave(session->journal);
+    session->journal = NULL;
+}
+
+void wr_session_journal_drop(WrSession *session)
+{
+    wr_journal_finish(session->journal);
+    session->journal = NULL;
+}
+
+/* Begin the journal anew from the document as it is now. */
+static bool restart(WrSession *session, WrError *err)
+{
+    WrText path = { 0 }, scene = { 0 };
+    wr_session_scene_text(session, &scene);
+    WrJournalStart start = { .kind = WR_JOURNAL_SNAPSHOT,
+                             .hash = wr_session_hash(session),
+                             .path = session->state.path };
+    bool good =
+        wr_journal_snapshot_path(session->journal, &path, err) &&
+        wr_document_save(session->state.document, wr_text_get(&scene), wr_text_get(&path), err);
+    start.snapshot = wr_text_get(&path);
+    good = good && wr_journal_restart(session->journal, &start, err);
+    if (good) session->journal_base = session->journal_top = wr_session_history_position(session);
+    else wr_journal_put_off(session->journal);
+    wr_text_fini(&path);
+    wr_text_fini(&scene);
+    return good;
+}
+
+bool wr_session_journal_anew(WrSession *session, WrError *err)
+{
+    if (!session->options.journal) return true;
+    if (!session->journal) {
+        WrJournalOptions options = { .report = report, .ctx = session };
+        WrJournalStart start = { .kind = WR_JOURNAL_EMPTY };
+        session->journal = wr_journal_begin(&options, &start);
+    }
+    return restart(session, err);
+}
+
+bool wr_session_journal_tend(WrSession *session)
+{
+    if (!session->journal || session->stroke) return false;
+    WrJournalState state = wr_journal_state(session->journal);
+    if (state.busy || state.want == WR_JOURNAL_WANT_NOTHING) return false;
+    restart(session, NULL);
+    return true;
+}
+
+bool wr_session_journal_safe(const WrSession *session, const char **reason)
+{
+    *reason = "";
+    if (!session->journal) return true;
+    WrJournalState state = wr_journal_state(session->journal);
+    *reason = state.reason;
+    return state.safe;
+}

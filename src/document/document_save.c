@@ -1,0 +1,209 @@
+#include "document/document_file.h"
+
+#include "base/array.h"
+
+#include <string.h>
+
+#ifndef WR_VERSION
+#define WR_VERSION "0"
+#endif
+
+#define FILE_ATTRIBUTES 8
+#define LAYER_ATTRIBUTES 6
+#define PARTS_MAX                                                                                  \
+    (3 + 3 * WR_LAYERS_MAX) /* F, selection, colour; heights, cover, mask of a layer */
+_Static_assert(PARTS_MAX <= WR_IMAGE_PARTS_MAX, "a document must fit into one file");
+
+static const struct {
+    const char *word;
+    WrWrap u, v;
+} wraps[] = { { "periodic", WR_WRAP_PERIODIC, WR_WRAP_PERIODIC },
+              { "clamp-u", WR_WRAP_CLAMP, WR_WRAP_PERIODIC },
+              { "clamp-v", WR_WRAP_PERIODIC, WR_WRAP_CLAMP },
+              { "clamp", WR_WRAP_CLAMP, WR_WRAP_CLAMP } };
+#define WRAP_COUNT (int)(sizeof wraps / sizeof *wraps)
+
+const char *wr_document_wrap_word(WrWrap wrap_u, WrWrap wrap_v)
+{
+    int i = 0;
+    while (wraps[i].u != wrap_u || wraps[i].v != wrap_v) i++;
+    return wraps[i].word;
+}
+
+bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v)
+{
+    for (int i = 0; i < WRAP_COUNT; i++) {
+        if (strcmp(word, wraps[i].word) != 0) continue;
+        *wrap_u = wraps[i].u;
+        *wrap_v = wraps[i].v;
+        return true;
+    }
+    return false;
+}
+
+/* ---- rows of parts ---- */
+
+static bool field_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)err;
+    const WrField *field = ctx;
+    int width = wr_field_width(field);
+    wr_field_read(field, 0, y, width, rows, out, (size_t)width);
+    return true;
+}
+
+static bool colour_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)err;
+    const WrImage *image = ctx;
+    size_t first = (size_t)y * (size_t)image->width, count = (size_t)rows * (size_t)image->width;
+    int step = image->channels;
+    float *rgb = out;
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            rgb[3 * i + (size_t)c] =
+                image->data[(first + i) * (size_t)step + (size_t)(step < 3 ? 0 : c)];
+    return true;
+}
+
+/* ---- putting a file together ---- */
+
+typedef struct Saving {
+    const WrDocument *document;
+    WrImageOut parts[PARTS_MAX];
+    int count;
+    WrImageAttribute of_file[FILE_ATTRIBUTES];
+    WrImageAttribute of_layers[WR_LAYERS_MAX][LAYER_ATTRIBUTES];
+    WR_ARRAY(char *) texts; /* names and values that were made for the file; owned */
+} Saving;
+
+/* A text that lives as long as the saving; takes it. */
+static const char *keep(Saving *to, WrText text)
+{
+    char *kept = text.data ? text.data : wr_strdup("");
+    wr_array_push(&to->texts, kept);
+    return kept;
+}
+
+static const char *keep_number(Saving *to, float value)
+{
+    char buffer[WR_NUMBER_SIZE];
+    WrText text = { 0 };
+    wr_text_add(&text, wr_number_print_float(value, buffer));
+    return keep(to, text);
+}
+
+static const char *keep_whole(Saving *to, const char *before, int value)
+{
+    WrText text = { 0 };
+    wr_text_addf(&text, "%s%d", before, value);
+    return keep(to, text);
+}
+
+static WrImageOut *add_field(Saving *to, const WrField *field, const char *name)
+{
+    WrImageOut *part = &to->parts[to->count++];
+    *part = (WrImageOut){ .width = wr_field_width(field),
+                          .height = wr_field_height(field),
+                          .channels = 1,
+                          .type = WR_PIXEL_F32,
+                          .part_name = name,
+                          .data = true,
+                          .rows = field_rows,
+                          .ctx = (void *)field };
+    return part;
+}
+
+static const char *range_of(Saving *to, const WrField *field)
+{
+    float low, high;
+    wr_field_range(field, &low, &high);
+    char buffer[WR_NUMBER_SIZE];
+    WrText text = { 0 };
+    wr_text_addf(&text, "%s,", wr_number_print_float(low, buffer));
+    wr_text_add(&text, wr_number_print_float(high, buffer));
+    return keep(to, text);
+}
+
+static void add_composite(Saving *to, const char *scene_text)
+{
+    const WrDocument *document = to->document;
+    const WrField *f = wr_document_field(document);
+    const WrImageAttribute attributes[FILE_ATTRIBUTES] = {
+        { "wrinkle:version", keep_whole(to, "", WR_DOCUMENT_VERSION) },
+        { "wrinkle:program", "Wrinkle " WR_VERSION },
+        { "wrinkle:scene", scene_text },
+        { "wrinkle:wrap", wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)) },
+        { "wrinkle:zero", "0" },
+        { "wrinkle:range", range_of(to, f) },
+        { "wrinkle:active", keep_whole(to, "", document->active + 1) },
+        { "wrinkle:solo", keep_whole(to, "", document->solo + 1) },
+    };
+    memcpy(to->of_file, attributes, sizeof attributes);
+    WrImageOut *part = add_field(to, f, "F");
+    part->attributes = to->of_file;
+    part->attribute_count = FILE_ATTRIBUTES;
+}
+
+/* Part names must differ, layers' names need not: "layer:NAME", then "layer:NAME (2)" and so on. The
+ * attribute wrinkle:layer holds the name itself. */
+static const char *part_name(Saving *to, int layer)
+{
+    const WrLayer *layers = to->document->layers;
+    int same = 1;
+    for (int i = 0; i < layer; i++) same += strcmp(layers[i].name, layers[layer].name) == 0;
+    WrText text = { 0 };
+    wr_text_addf(&text, WR_DOCUMENT_LAYER "%s", layers[layer].name);
+    if (same > 1) wr_text_addf(&text, " (%d)", same);
+    return keep(to, text);
+}
+
+static void add_layer(Saving *to, int index)
+{
+    const WrLayer *layer = &to->document->layers[index];
+    const WrImageAttribute attributes[LAYER_ATTRIBUTES] = {
+        { "wrinkle:layer", layer->name },
+        { "wrinkle:blend", wr_blends[layer->blend].name },
+        { "wrinkle:opacity", keep_number(to, layer->opacity) },
+        { "wrinkle:radius", keep_number(to, layer->radius) },
+        { "wrinkle:visible", layer->visible ? "on" : "off" },
+        { "wrinkle:locked", layer->locked ? "on" : "off" },
+    };
+    memcpy(to->of_layers[index], attributes, sizeof attributes);
+    WrImageOut *part = add_field(to, layer->heights, part_name(to, index));
+    part->attributes = to->of_layers[index];
+    part->attribute_count = LAYER_ATTRIBUTES;
+    if (layer->cover) add_field(to, layer->cover, keep_whole(to, WR_DOCUMENT_COVER, index + 1));
+    if (layer->mask) add_field(to, layer->mask, keep_whole(to, WR_DOCUMENT_MASK, index + 1));
+}
+
+static void add_colour(Saving *to, WrImage *colour)
+{
+    to->parts[to->count++] = (WrImageOut){ .width = colour->width,
+                                           .height = colour->height,
+                                           .channels = 3,
+                                           .type = WR_PIXEL_F32,
+                                           .part_name = WR_DOCUMENT_COLOUR,
+                                           .rows = colour_rows,
+                                           .ctx = colour };
+}
+
+bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
+                      WrError *err)
+{
+    WrImage *colour = document->scene->colour;
+    if (colour && (colour->width > WR_IMAGE_MAX || colour->height > WR_IMAGE_MAX))
+        return wr_fail(err, "%s: the colour picture is %dx%d: each side must be 1..%d", path,
+                       colour->width, colour->height, WR_IMAGE_MAX);
+    Saving *to = wr_alloc(1, sizeof *to);
+    to->document = document;
+    add_composite(to, scene_text);
+    for (int i = 0; i < document->layer_count; i++) add_layer(to, i);
+    if (document->selection) add_field(to, document->selection, WR_DOCUMENT_SELECTION);
+    if (colour) add_colour(to, colour);
+    bool ok = wr_image_write(path, to->parts, to->count, err);
+    for (int i = 0; i < to->texts.count; i++) wr_free(to->texts.data[i]);
+    wr_array_free(&to->texts);
+    wr_free(to);
+    return ok;
+}

@@ -1,0 +1,43 @@
+/* ora.h - documents as OpenRaster files (*.ora), which other paint programs open as well.
+   Layer 5.
+
+   An OpenRaster file is a zip archive: first "mimetype", stored; "stack.xml", the layers, topmost first;
+   a 16-bit PNG of each layer under data/; "mergedimage.png", the picture of them all;
+   "Thumbnails/thumbnail.png". Those are for others: grey from black to white over the range of heights
+   that wrinkle:range states, alpha = coverage times mask. Our own heights lie beside them as float32
+   EXR files, named by attributes of the namespace WR_ORA_NAMESPACE, which others pass over:
+
+     image   wrinkle:version  wrinkle:wrap  wrinkle:range  wrinkle:active  wrinkle:solo (layers counted from 1
+             at the bottom; 0: none)  wrinkle:scene  wrinkle:selection  wrinkle:colour (names of entries)
+     layer   wrinkle:heights  wrinkle:cover  wrinkle:mask (names of entries)  wrinkle:blend  wrinkle:radius
+             wrinkle:name (bytes in hex, where XML cannot hold the name)
+
+   So what we save comes back bit for bit. The same document gives the same bytes.
+   Source: OpenRaster baseline specification 0.0.5; PKWARE APPNOTE for the archive. */
+#pragma once
+#include "document/document_file.h"
+
+#define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
+#define WR_ORA_VERSION 1
+
+/* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. */
+bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path,
+                 WrError *err);
+
+/* Does the file begin like an OpenRaster file? False also for missing files; never waits on a pipe. */
+bool wr_ora_recognise(const char *path);
+
+/* Load an OpenRaster file, ours or a stranger's; no file is ever written for it.
+ *
+ * Of a stranger's file: the table is the canvas, periodic; each layer's heights are the Rec. 709 luma of
+ * its codes, 0..1, and its alpha becomes the coverage (none where it is opaque and fills the canvas);
+ * what lies outside the canvas is cut off; groups are dissolved, their opacity, visibility and offset
+ * going to their layers; composite-op becomes the blend mode that comes nearest.
+ *
+ * out       as wr_document_load; scene_text is "" for a stranger's file
+ * replaced  heights that were not finite and became 0
+ * notes     takes one line for each thing that is not as it was in the file; may be NULL
+ * Errors    name the file. Outputs are untouched on failure
+ * Limits    WR_LAYERS_MAX layers, 16384 pixels a side, 10000 entries, groups 64 deep, no document type and
+ *           so no entities, entries stored or deflated by less than 200:1, 2 GB each and 16 GB in all */
+bool wr_ora_load(const char *path, WrLoaded *out, int64_t *replaced, WrText *notes, WrError *err);

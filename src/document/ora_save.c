@@ -1,0 +1,437 @@
+#include "document/ora.h"
+
+#include "base/array.h"
+#include "base/file.h"
+#include "document/ora_stack.h"
+
+#include <string.h>
+#include <zip.h>
+
+#define THUMBNAIL 256 /* pixels along a side at most */
+#define DOS_DATE 0x21 /* 1 January 1980: no file tells when it was saved */
+
+/* Pictures are made when the archive comes to them, so that only one is in memory at a time. */
+typedef struct Entry {
+    struct Saving *to;
+    char *name; /* in the archive; owned */
+    WrImageOut picture;
+    const WrField *heights, *cover, *mask; /* what its rows are made of; the last two may be NULL */
+    char *bytes;                           /* the finished file, while it is being read; owned */
+    size_t length, at;
+    bool known; /* `length` is right */
+} Entry;
+
+typedef struct Saving {
+    const WrDocument *document;
+    zip_t *archive;
+    float low, high; /* heights that previews show as black and white */
+    WR_ARRAY(Entry *) entries;
+    WrText stack, scene;
+    uint8_t *thumbnail; /* RGBA */
+    WrError err;        /* of a picture, since the archive cannot pass it on */
+} Saving;
+
+/* ---- rows of pictures ---- */
+
+static bool float_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)err;
+    const Entry *entry = ctx;
+    int width = wr_field_width(entry->heights);
+    wr_field_read(entry->heights, 0, y, width, rows, out, (size_t)width);
+    return true;
+}
+
+static bool colour_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)err;
+    const WrImage *image = ((const Entry *)ctx)->to->document->scene->colour;
+    size_t first = (size_t)y * (size_t)image->width, count = (size_t)rows * (size_t)image->width;
+    size_t step = (size_t)image->channels;
+    float *rgb = out;
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < 3; c++)
+            rgb[3 * i + c] = image->data[(first + i) * step + (step < 3 ? 0 : c)];
+    return true;
+}
+
+static double clamp01(double x)
+{
+    return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0;
+}
+
+static double grey_of(const Saving *to, float height)
+{
+    return clamp01(((double)height - to->low) / ((double)to->high - to->low));
+}
+
+/* Grey, grey, grey, coverage times mask; straight alpha. */
+static bool preview_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    const Entry *entry = ctx;
+    int width = wr_field_width(entry->heights);
+    size_t pitch = (size_t)width, count = pitch * (size_t)rows;
+    float *values = wr_try_alloc(3 * count, sizeof *values, "rows of a picture", err);
+    if (!values) return false;
+    float *cover = values + count, *mask = cover + count;
+    wr_field_read(entry->heights, 0, y, width, rows, values, pitch);
+    if (entry->cover) wr_field_read(entry->cover, 0, y, width, rows, cover, pitch);
+    if (entry->mask) wr_field_read(entry->mask, 0, y, width, rows, mask, pitch);
+    uint16_t *codes = out;
+    for (size_t i = 0; i < count; i++) {
+        double alpha = (entry->cover ? clamp01(cover[i]) : 1.0);
+        if (entry->mask) alpha *= clamp01(mask[i]);
+        uint16_t grey = (uint16_t)(65535.0 * grey_of(entry->to, values[i]) + 0.5);
+        codes[4 * i] = codes[4 * i + 1] = codes[4 * i + 2] = grey;
+        codes[4 * i + 3] = (uint16_t)(65535.0 * alpha + 0.5);
+    }
+    wr_free(values);
+    return true;
+}
+
+static bool thumbnail_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)err;
+    const Entry *entry = ctx;
+    size_t row = (size_t)entry->picture.width * 4;
+    memcpy(out, entry->to->thumbnail + (size_t)y * row, (size_t)rows * row);
+    return true;
+}
+
+/* ---- the archive ---- */
+
+static bool render(Entry *entry)
+{
+    if (entry->bytes) return true;
+    if (!wr_image_write_bytes(entry->name, &entry->picture, &entry->bytes, &entry->length,
+                              &entry->to->err))
+        return false;
+    entry->known = true;
+    return true;
+}
+
+static zip_int64_t answer_error(void *data, zip_uint64_t length)
+{
+    int codes[2] = { ZIP_ER_INTERNAL, 0 };
+    if (length < sizeof codes) return -1;
+    memcpy(data, codes, sizeof codes);
+    return sizeof codes;
+}
+
+/* What the archive asks of a picture that it is to hold. */
+static zip_int64_t on_source(void *ctx, void *data, zip_uint64_t length, zip_source_cmd_t command)
+{
+    Entry *entry = ctx;
+    if (command == ZIP_SOURCE_SUPPORTS)
+        return zip_source_make_command_bitmap(ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE,
+                                              ZIP_SOURCE_STAT, ZIP_SOURCE_ERROR, ZIP_SOURCE_FREE,
+                                              -1);
+    if (command == ZIP_SOURCE_ERROR) return answer_error(data, length);
+    if (command == ZIP_SOURCE_STAT) {
+        if (!entry->known && !render(entry)) return -1;
+        zip_stat_t *told = data;
+        zip_stat_init(told);
+        told->size = entry->length;
+        told->valid = ZIP_STAT_SIZE;
+        return sizeof *told;
+    }
+    if (command == ZIP_SOURCE_OPEN) {
+        entry->at = 0;
+        return render(entry) ? 0 : -1;
+    }
+    if (command == ZIP_SOURCE_READ) {
+        size_t left = entry->length - entry->at, take = left < length ? left : (size_t)length;
+        memcpy(data, entry->bytes + entry->at, take);
+        entry->at += take;
+        return (zip_int64_t)take;
+    }
+    if (command == ZIP_SOURCE_CLOSE) {
+        wr_free(entry->bytes);
+        entry->bytes = NULL;
+    }
+    return 0;
+}
+
+/* All entries are stored: the pictures are compressed already, and the first one must be. */
+static bool add_source(Saving *to, const char *name, zip_source_t *source, WrError *err)
+{
+    zip_int64_t index = source ? zip_file_add(to->archive, name, source, ZIP_FL_ENC_UTF_8) : -1;
+    if (index < 0 && source) zip_source_free(source);
+    if (index < 0 ||
+        zip_set_file_compression(to->archive, (zip_uint64_t)index, ZIP_CM_STORE, 0) != 0 ||
+        zip_file_set_dostime(to->archive, (zip_uint64_t)index, 0, DOS_DATE, 0) != 0)
+        return wr_fail(err, "%s", zip_strerror(to->archive));
+    return true;
+}
+
+/* The bytes live until the archive is closed. */
+static bool add_text(Saving *to, const char *name, const char *text, size_t length, WrError *err)
+{
+    zip_error_t trouble;
+    zip_error_init(&trouble);
+    zip_source_t *source = zip_source_buffer_create(text, length, 0, &trouble);
+    zip_error_fini(&trouble);
+    return add_source(to, name, source, err);
+}
+
+static bool add_entry(Saving *to, Entry made, WrError *err)
+{
+    Entry *entry = wr_alloc(1, sizeof *entry);
+    *entry = made;
+    entry->to = to;
+    entry->picture.ctx = entry;
+    wr_array_push(&to->entries, entry);
+    zip_error_t trouble;
+    zip_error_init(&trouble);
+    zip_source_t *source = zip_source_function_create(on_source, entry, &trouble);
+    zip_error_fini(&trouble);
+    return add_source(to, entry->name, source, err);
+}
+
+/* Takes the name. */
+static bool add_floats(Saving *to, char *name, const WrField *field, WrError *err)
+{
+    Entry entry = { .name = name,
+                    .heights = field,
+                    .picture = { .width = wr_field_width(field),
+                                 .height = wr_field_height(field),
+                                 .channels = 1,
+                                 .type = WR_PIXEL_F32,
+                                 .data = true,
+                                 .rows = float_rows } };
+    return add_entry(to, entry, err);
+}
+
+static bool add_preview(Saving *to, char *name, const WrField *heights, const WrField *cover,
+                        const WrField *mask, WrError *err)
+{
+    Entry entry = { .name = name,
+                    .heights = heights,
+                    .cover = cover,
+                    .mask = mask,
+                    .picture = { .width = wr_field_width(heights),
+                                 .height = wr_field_height(heights),
+                                 .channels = 4,
+                                 .type = WR_PIXEL_U16,
+                                 .rows = preview_rows } };
+    return add_entry(to, entry, err);
+}
+
+static bool add_colour(Saving *to, WrError *err)
+{
+    const WrImage *colour = to->document->scene->colour;
+    Entry entry = { .name = wr_strdup("data/colour.exr"),
+                    .picture = { .width = colour->width,
+                                 .height = colour->height,
+                                 .channels = 3,
+                                 .type = WR_PIXEL_F32,
+                                 .rows = colour_rows } };
+    wr_ora_add_attribute(&to->stack, "wrinkle:colour", entry.name);
+    return add_entry(to, entry, err);
+}
+
+/* ---- what is in it ---- */
+
+static char *numbered(const char *before, int number, const char *after)
+{
+    WrText text = { 0 };
+    wr_text_addf(&text, "%s%d%s", before, number, after);
+    return text.data;
+}
+
+static void widen(Saving *to, const WrField *field)
+{
+    float low, high;
+    wr_field_range(field, &low, &high);
+    if (low < to->low) to->low = low;
+    if (high > to->high) to->high = high;
+}
+
+/* 0..1 as long as all heights are in it, so that what came from pictures keeps its codes. */
+static void choose_range(Saving *to)
+{
+    to->low = 0.0f;
+    to->high = 1.0f;
+    widen(to, wr_document_field(to->document));
+    for (int i = 0; i < to->document->layer_count; i++) widen(to, to->document->layers[i].heights);
+}
+
+/* Each pixel is the mean of the greys below it. */
+static bool make_thumbnail(Saving *to, int *width, int *height, WrError *err)
+{
+    const WrField *f = wr_document_field(to->document);
+    int w = wr_field_width(f), h = wr_field_height(f), most = w > h ? w : h;
+    int tw = most <= THUMBNAIL ? w : w * THUMBNAIL / most;
+    int th = most <= THUMBNAIL ? h : h * THUMBNAIL / most;
+    tw = tw < 1 ? 1 : tw;
+    th = th < 1 ? 1 : th;
+    float *row = wr_try_alloc((size_t)w, sizeof *row, "a thumbnail", err);
+    if (!row) return false;
+    to->thumbnail = wr_alloc((size_t)tw * (size_t)th, 4);
+    double sums[THUMBNAIL];
+    for (int y = 0; y < th; y++) {
+        int top = (int)((int64_t)y * h / th), bottom = (int)((int64_t)(y + 1) * h / th);
+        memset(sums, 0, sizeof sums);
+        for (int j = top; j < bottom; j++) {
+            wr_field_read(f, 0, j, w, 1, row, (size_t)w);
+            for (int x = 0; x < tw; x++)
+                for (int i = (int)((int64_t)x * w / tw); i < (int)((int64_t)(x + 1) * w / tw); i++)
+                    sums[x] += grey_of(to, row[i]);
+        }
+        for (int x = 0; x < tw; x++) {
+            int64_t columns = (int64_t)(x + 1) * w / tw - (int64_t)x * w / tw;
+            double mean = sums[x] / ((double)columns * (bottom - top));
+            uint8_t *pixel = to->thumbnail + 4 * ((size_t)y * (size_t)tw + (size_t)x);
+            pixel[0] = pixel[1] = pixel[2] = (uint8_t)(255.0 * clamp01(mean) + 0.5);
+            pixel[3] = 255;
+        }
+    }
+    wr_free(row);
+    *width = tw;
+    *height = th;
+    return true;
+}
+
+static void add_float_attribute(WrText *xml, const char *name, float value)
+{
+    char buffer[WR_NUMBER_SIZE];
+    wr_ora_add_attribute(xml, name, wr_number_print_float(value, buffer));
+}
+
+static void add_name(WrText *xml, const char *name)
+{
+    if (wr_ora_add_attribute(xml, "name", name)) return;
+    wr_text_add(xml, " wrinkle:name=\"");
+    for (; *name; name++) wr_text_addf(xml, "%02x", (unsigned)(unsigned char)*name);
+    wr_text_add(xml, "\"");
+}
+
+static bool add_field(Saving *to, const char *attribute, char *name, const WrField *field,
+                      WrError *err)
+{
+    wr_ora_add_attribute(&to->stack, attribute, name);
+    return add_floats(to, name, field, err);
+}
+
+/* The one place where a layer's settings become attributes; ora_load.c has the way back. */
+static bool add_layer(Saving *to, int index, WrError *err)
+{
+    const WrLayer *layer = &to->document->layers[index];
+    WrText *xml = &to->stack;
+    int number = index + 1;
+    char *png = numbered("data/layer", number, ".png");
+    wr_text_add(xml, "    <layer");
+    add_name(xml, layer->name);
+    wr_ora_add_attribute(xml, "src", png);
+    wr_text_add(xml, " x=\"0\" y=\"0\"");
+    add_float_attribute(xml, "opacity", layer->opacity);
+    wr_ora_add_attribute(xml, "visibility", layer->visible ? "visible" : "hidden");
+    wr_ora_add_attribute(xml, "composite-op", wr_ora_operation(layer->blend));
+    if (layer->locked) wr_ora_add_attribute(xml, "edit-locked", "true");
+    if (index == to->document->active) wr_ora_add_attribute(xml, "selected", "true");
+    wr_ora_add_attribute(xml, "wrinkle:blend", wr_blends[layer->blend].name);
+    add_float_attribute(xml, "wrinkle:radius", layer->radius);
+    bool good =
+        add_preview(to, png, layer->heights, layer->cover, layer->mask, err) &&
+        add_field(to, "wrinkle:heights", numbered("data/layer", number, ".exr"), layer->heights,
+                  err) &&
+        (!layer->cover || add_field(to, "wrinkle:cover", numbered("data/cover", number, ".exr"),
+                                    layer->cover, err)) &&
+        (!layer->mask ||
+         add_field(to, "wrinkle:mask", numbered("data/mask", number, ".exr"), layer->mask, err));
+    wr_text_add(xml, "/>\n");
+    return good;
+}
+
+static bool add_image_attributes(Saving *to, WrError *err)
+{
+    const WrDocument *document = to->document;
+    const WrField *f = document->layers[0].heights;
+    char low[WR_NUMBER_SIZE], high[WR_NUMBER_SIZE];
+    wr_text_addf(&to->stack,
+                 "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<image version=\"0.0.5\" w=\"%d\" "
+                 "h=\"%d\" xmlns:wrinkle=\"" WR_ORA_NAMESPACE "\" wrinkle:version=\"%d\" "
+                 "wrinkle:wrap=\"%s\" wrinkle:range=\"%s,%s\" wrinkle:active=\"%d\" "
+                 "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
+                 wr_field_width(f), wr_field_height(f), WR_ORA_VERSION,
+                 wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
+                 wr_number_print_float(to->low, low), wr_number_print_float(to->high, high),
+                 document->active + 1, document->solo + 1);
+    if (document->selection && !add_field(to, "wrinkle:selection",
+                                          wr_strdup("data/selection.exr"), document->selection,
+                                          err))
+        return false;
+    if (document->scene->colour && !add_colour(to, err)) return false;
+    wr_text_add(&to->stack, ">\n  <stack>\n");
+    return true;
+}
+
+static bool add_pictures_of_all(Saving *to, WrError *err)
+{
+    const WrField *f = wr_document_field(to->document);
+    Entry thumbnail = { .name = wr_strdup("Thumbnails/thumbnail.png"),
+                        .picture = { .channels = 4, .type = WR_PIXEL_U8, .rows = thumbnail_rows } };
+    if (!make_thumbnail(to, &thumbnail.picture.width, &thumbnail.picture.height, err)) {
+        wr_free(thumbnail.name);
+        return false;
+    }
+    return add_preview(to, wr_strdup("mergedimage.png"), f, NULL, NULL, err) &&
+           add_entry(to, thumbnail, err);
+}
+
+static bool fill_archive(Saving *to, WrError *err)
+{
+    static const char type[] = "image/openraster";
+    choose_range(to);
+    if (!add_text(to, "mimetype", type, sizeof type - 1, err) || !add_image_attributes(to, err))
+        return false;
+    for (int i = to->document->layer_count - 1; i >= 0; i--)
+        if (!add_layer(to, i, err)) return false;
+    wr_text_add(&to->stack, "  </stack>\n</image>\n");
+    return add_text(to, "stack.xml", to->stack.data, to->stack.length, err) &&
+           add_text(to, "data/scene.wrinkle", wr_text_get(&to->scene), to->scene.length, err) &&
+           add_pictures_of_all(to, err);
+}
+
+static bool write_archive(Saving *to, const char *temporary, WrError *err)
+{
+    int trouble = 0;
+    to->archive = zip_open(temporary, ZIP_CREATE | ZIP_EXCL, &trouble);
+    if (!to->archive) {
+        zip_error_t error;
+        zip_error_init_with_code(&error, trouble);
+        wr_fail(err, "%s", zip_error_strerror(&error));
+        zip_error_fini(&error);
+        return false;
+    }
+    bool good = fill_archive(to, err);
+    if (good && zip_close(to->archive) != 0)
+        good = wr_fail(err, "%s", to->err.text[0] ? to->err.text : zip_strerror(to->archive));
+    else if (good) to->archive = NULL;
+    if (to->archive) zip_discard(to->archive);
+    return good;
+}
+
+bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path, WrError *err)
+{
+    WrFileTarget target;
+    if (!wr_file_begin(&target, path, err)) return false;
+    Saving *to = wr_alloc(1, sizeof *to);
+    to->document = document;
+    wr_text_add(&to->scene, scene_text);
+    bool good = write_archive(to, target.temporary, err);
+    if (!good) wr_error_prefix(err, "%s: cannot be written: ", path);
+    for (int i = 0; i < to->entries.count; i++) {
+        wr_free(to->entries.data[i]->name);
+        wr_free(to->entries.data[i]->bytes);
+        wr_free(to->entries.data[i]);
+    }
+    wr_array_free(&to->entries);
+    wr_text_fini(&to->stack);
+    wr_text_fini(&to->scene);
+    wr_free(to->thumbnail);
+    wr_free(to);
+    if (good) return wr_file_commit(&target, err);
+    wr_file_abort(&target);
+    return false;
+}

@@ -1,0 +1,278 @@
+#include "document/ora_stack.h"
+
+#include "document/document.h"
+#include "document/ora.h"
+
+#include <expat.h>
+#include <math.h>
+#include <string.h>
+
+#define DEPTH_MAX 64
+#define OURS WR_ORA_NAMESPACE "|"
+
+/* ---- blend modes ---- */
+
+const char *wr_ora_operation(WrBlend blend)
+{
+    static const char *const operations[WR_BLEND_COUNT] = {
+        [WR_BLEND_ADD] = "svg:plus",           [WR_BLEND_SUBTRACT] = "svg:difference",
+        [WR_BLEND_MAX] = "svg:lighten",        [WR_BLEND_MIN] = "svg:darken",
+        [WR_BLEND_SMOOTH_MAX] = "svg:lighten", [WR_BLEND_SMOOTH_MIN] = "svg:darken",
+        [WR_BLEND_REPLACE] = "svg:src-over",   [WR_BLEND_MIX] = "svg:src-over",
+        [WR_BLEND_MULTIPLY] = "svg:multiply",
+    };
+    return operations[blend] ? operations[blend] : "svg:src-over";
+}
+
+WrBlend wr_ora_blend(const char *operation, bool *exact)
+{
+    static const struct {
+        const char *operation;
+        WrBlend blend;
+    } known[] = {
+        { "svg:src-over", WR_BLEND_REPLACE }, { "svg:plus", WR_BLEND_ADD },
+        { "svg:lighten", WR_BLEND_MAX },      { "svg:darken", WR_BLEND_MIN },
+        { "svg:multiply", WR_BLEND_MULTIPLY },
+    };
+    *exact = true;
+    for (size_t i = 0; operation && i < sizeof known / sizeof *known; i++)
+        if (strcmp(operation, known[i].operation) == 0) return known[i].blend;
+    *exact = operation == NULL; /* the format's own default */
+    return WR_BLEND_REPLACE;
+}
+
+/* ---- writing ---- */
+
+/* Bytes of a valid UTF-8 sequence that XML 1.0 can hold, else 0. */
+static size_t whole_character(const unsigned char *at)
+{
+    static const unsigned least[5] = { 0, 0, 0x80, 0x800, 0x10000 };
+    size_t length = at[0] < 0x80 ? 1 : at[0] < 0xC0 ? 0 : at[0] < 0xE0 ? 2 : at[0] < 0xF0 ? 3 : 4;
+    if (length == 0 || at[0] > 0xF4) return 0;
+    unsigned code = length == 1 ? at[0] : at[0] & (0xFFU >> (length + 1));
+    for (size_t i = 1; i < length; i++) {
+        if ((at[i] & 0xC0) != 0x80) return 0;
+        code = code << 6 | (at[i] & 0x3FU);
+    }
+    bool good = code >= 0x20 ? code != 0xFFFE && code != 0xFFFF && (code & ~0x7FFU) != 0xD800 &&
+                                   code <= 0x10FFFF
+                             : code == '\t' || code == '\n' || code == '\r';
+    return good && code >= least[length] ? length : 0;
+}
+
+bool wr_ora_add_attribute(WrText *xml, const char *name, const char *value)
+{
+    bool whole = true;
+    wr_text_addf(xml, " %s=\"", name);
+    for (const char *at = value; *at;) {
+        size_t length = whole_character((const unsigned char *)at);
+        if (length == 0) {
+            wr_text_add(xml, "?");
+            whole = false;
+            at++;
+            continue;
+        }
+        if (strchr("&<>\"\t\n\r", *at)) wr_text_addf(xml, "&#%d;", *at);
+        else wr_text_add_n(xml, at, length);
+        at += length;
+    }
+    wr_text_add(xml, "\"");
+    return whole;
+}
+
+/* ---- reading ---- */
+
+typedef struct Group {
+    int x, y;
+    double opacity;
+    bool visible;
+} Group;
+
+typedef struct Reading {
+    WrOraStack *stack;
+    XML_Parser parser;
+    Group groups[DEPTH_MAX];
+    int depth;   /* of groups; the root stack is one */
+    int element; /* nesting of elements of any kind */
+    int skip;    /* element at which something unknown began, or 0 */
+    WrError err; /* why the parser was stopped; "" if it was not */
+} Reading;
+
+static void stop(Reading *reading, const char *why)
+{
+    if (!reading->err.text[0]) wr_fail(&reading->err, "%s", why);
+    XML_StopParser(reading->parser, XML_FALSE);
+}
+
+static const char *find(const char **attributes, const char *name)
+{
+    for (; attributes[0]; attributes += 2)
+        if (strcmp(attributes[0], name) == 0) return attributes[1];
+    return NULL;
+}
+
+static double number(Reading *reading, const char **attributes, const char *name, double otherwise,
+                     double low, double high)
+{
+    const char *text = find(attributes, name);
+    double value = otherwise;
+    if (!text) return otherwise;
+    if (wr_number_parse(text, strlen(text), &value) && value >= low && value <= high) return value;
+    char why[160];
+    snprintf(why, sizeof why, "damaged: %s is '%.40s' in its list of layers", name, text);
+    stop(reading, why);
+    return otherwise;
+}
+
+static bool is(const char *text, const char *word)
+{
+    return text && strcmp(text, word) == 0;
+}
+
+/* What a group or layer has on its own, joined with what its group has. */
+static Group read_group(Reading *reading, const char **attributes)
+{
+    Group outer = { 0, 0, 1.0, true };
+    if (reading->depth > 0) outer = reading->groups[reading->depth - 1];
+    double limit = 1e6; /* sums of 64 stay far inside int */
+    return (Group){
+        outer.x + (int)number(reading, attributes, "x", 0.0, -limit, limit),
+        outer.y + (int)number(reading, attributes, "y", 0.0, -limit, limit),
+        outer.opacity * number(reading, attributes, "opacity", 1.0, 0.0, 1.0),
+        outer.visible && !is(find(attributes, "visibility"), "hidden"),
+    };
+}
+
+static void begin_group(Reading *reading, const char **attributes)
+{
+    if (reading->depth >= DEPTH_MAX) {
+        stop(reading, "its groups are nested more than 64 deep");
+        return;
+    }
+    Group group = read_group(reading, attributes);
+    if (reading->depth > 0) reading->stack->groups++;
+    reading->groups[reading->depth++] = group;
+}
+
+static void add_layer(Reading *reading, const char **attributes)
+{
+    if (reading->stack->layers.count >= WR_LAYERS_MAX) {
+        char why[64];
+        snprintf(why, sizeof why, "has more than %d layers", WR_LAYERS_MAX);
+        stop(reading, why);
+        return;
+    }
+    Group joined = read_group(reading, attributes);
+    WrOraLayer layer = { .x = joined.x,
+                         .y = joined.y,
+                         .opacity = joined.opacity,
+                         .visible = joined.visible,
+                         .locked = is(find(attributes, "edit-locked"), "true"),
+                         .selected = is(find(attributes, "selected"), "true"),
+                         .name = wr_strdup(find(attributes, "name")),
+                         .src = wr_strdup(find(attributes, "src")),
+                         .operation = wr_strdup(find(attributes, "composite-op")),
+                         .heights = wr_strdup(find(attributes, OURS "heights")),
+                         .cover = wr_strdup(find(attributes, OURS "cover")),
+                         .mask = wr_strdup(find(attributes, OURS "mask")),
+                         .blend = wr_strdup(find(attributes, OURS "blend")),
+                         .radius = wr_strdup(find(attributes, OURS "radius")),
+                         .name_bytes = wr_strdup(find(attributes, OURS "name")) };
+    wr_array_push(&reading->stack->layers, layer);
+}
+
+static void read_image(Reading *reading, const char **attributes)
+{
+    WrOraStack *stack = reading->stack;
+    stack->width = (int)number(reading, attributes, "w", 0.0, 0.0, 1e9);
+    stack->height = (int)number(reading, attributes, "h", 0.0, 0.0, 1e9);
+    stack->version = wr_strdup(find(attributes, OURS "version"));
+    stack->wrap = wr_strdup(find(attributes, OURS "wrap"));
+    stack->active = wr_strdup(find(attributes, OURS "active"));
+    stack->solo = wr_strdup(find(attributes, OURS "solo"));
+    stack->scene = wr_strdup(find(attributes, OURS "scene"));
+    stack->selection = wr_strdup(find(attributes, OURS "selection"));
+    stack->colour = wr_strdup(find(attributes, OURS "colour"));
+}
+
+/* Some programs give the elements a namespace, most do not. */
+static const char *local(const char *name)
+{
+    const char *bar = strrchr(name, '|');
+    return bar ? bar + 1 : name;
+}
+
+static void XMLCALL on_start(void *ctx, const char *name, const char **attributes)
+{
+    Reading *reading = ctx;
+    name = local(name);
+    reading->element++;
+    if (reading->element > 2 * DEPTH_MAX) stop(reading, "its list of layers is nested too deep");
+    else if (reading->skip) return;
+    else if (reading->element == 1 && is(name, "image")) read_image(reading, attributes);
+    else if (reading->element == 1) stop(reading, "damaged: its list of layers is no list of layers");
+    else if (is(name, "stack") && reading->element == reading->depth + 2)
+        begin_group(reading, attributes);
+    else if (is(name, "layer") && reading->depth > 0 && reading->element == reading->depth + 2)
+        add_layer(reading, attributes);
+    else {
+        reading->stack->unknown++;
+        reading->skip = reading->element;
+    }
+}
+
+static void XMLCALL on_end(void *ctx, const char *name)
+{
+    Reading *reading = ctx;
+    if (reading->skip == reading->element) reading->skip = 0;
+    else if (!reading->skip && is(local(name), "stack") && reading->depth > 0) reading->depth--;
+    reading->element--;
+}
+
+/* Entities live in a document type: there is none in these files, and so no expansion without end. */
+static void XMLCALL on_doctype(void *ctx, const char *name, const char *system, const char *public,
+                               int internal)
+{
+    (void)name;
+    (void)system;
+    (void)public;
+    (void)internal;
+    stop(ctx, "its list of layers declares a document type, which such files must not");
+}
+
+bool wr_ora_stack_read(const char *xml, size_t length, WrOraStack *stack, WrError *err)
+{
+    *stack = (WrOraStack){ 0 };
+    Reading *reading = wr_alloc(1, sizeof *reading);
+    reading->stack = stack;
+    reading->parser = XML_ParserCreateNS(NULL, '|');
+    XML_SetUserData(reading->parser, reading);
+    XML_SetElementHandler(reading->parser, on_start, on_end);
+    XML_SetStartDoctypeDeclHandler(reading->parser, on_doctype);
+    bool good = XML_Parse(reading->parser, xml, (int)length, 1) == XML_STATUS_OK;
+    if (reading->err.text[0]) good = wr_fail(err, "%s", reading->err.text);
+    else if (!good)
+        wr_fail(err, "damaged: its list of layers, line %lu: %s",
+                (unsigned long)XML_GetCurrentLineNumber(reading->parser),
+                XML_ErrorString(XML_GetErrorCode(reading->parser)));
+    XML_ParserFree(reading->parser);
+    wr_free(reading);
+    if (!good) wr_ora_stack_fini(stack);
+    return good;
+}
+
+void wr_ora_stack_fini(WrOraStack *stack)
+{
+    for (int i = 0; i < stack->layers.count; i++) {
+        WrOraLayer *layer = &stack->layers.data[i];
+        char *texts[] = { layer->name,  layer->src,  layer->operation, layer->heights,
+                          layer->cover, layer->mask, layer->blend,     layer->radius,
+                          layer->name_bytes };
+        for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
+    }
+    wr_array_free(&stack->layers);
+    char *texts[] = { stack->version, stack->wrap,      stack->active, stack->solo,
+                      stack->scene,   stack->selection, stack->colour };
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
+    *stack = (WrOraStack){ 0 };
+}

@@ -1,0 +1,22 @@
+/* cage.h - what a child of the reader process gives up before it looks at a stranger's file.
+   Private to this room. Part of the reader process alone. */
+#pragma once
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Limit this process for good:
+ *
+ *   no files but those already open and, for reading, `file` itself by its path under /proc/self/fd
+ *   (Landlock where the kernel has it); nothing written to files, no core;
+ *   no sockets, no programs, no memory that can be executed, no signals to others: all system calls that
+ *   decoding does not need fail with EPERM (seccomp);
+ *   processor time at most `seconds`; memory at most `memory` bytes more than now (0: no limit)
+ *
+ * With sanitizers, whose own needs are others, there is no limit on memory and no filter. False if the
+ * filter cannot be set up: then the file must not be read. */
+bool wr_cage_enter(int file, uint64_t memory, unsigned seconds);
+
+/* Bytes of address space that this process has; to be asked before the cage is entered. */
+uint64_t wr_cage_space(void);
+/* Lower the limit on memory to `memory` bytes beyond `space`; does nothing if it is lower already. */
+void wr_cage_memory(uint64_t space, uint64_t memory);

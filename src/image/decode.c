@@ -1,0 +1,91 @@
+#include "image/decode.h"
+
+#include "base/memory.h"
+#include "image/format.h"
+#include "image/oiio.h"
+#include "image/png.h"
+
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+struct WrDecoder {
+    const WrOiioTable *library;
+    WrOiioReader *reader;
+};
+
+/* The format by the file's first bytes, else by its ending. */
+static const char *find_format(int fd, const char *ending, WrError *err)
+{
+    int copy = dup(fd);
+    FILE *file = copy < 0 ? NULL : fdopen(copy, "rb");
+    if (!file) {
+        wr_fail(err, "%s", strerror(errno));
+        if (copy >= 0) close(copy);
+        return NULL;
+    }
+    unsigned char bytes[WR_IMAGE_SNIFF];
+    rewind(file);
+    size_t count = fread(bytes, 1, sizeof bytes, file);
+    const char *format = wr_image_sniff(bytes, count);
+    if (!format) format = ending;
+    if (strcmp(format, "png") == 0 && !wr_png_check(file, err)) format = NULL;
+    fclose(file);
+    return format;
+}
+
+static bool is_memory(const char *reason)
+{
+    return strcmp(reason, WR_OIIO_NO_MEMORY) == 0;
+}
+
+WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, WrError *err)
+{
+    char path[32], reason[WR_OIIO_REASON] = "";
+    const char *format = find_format(fd, ending, err);
+    if (!format) return NULL;
+    const WrOiioTable *library = wr_oiio(err);
+    if (!library) return NULL;
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    WrOiioReader *reader = library->open(path, format, most, reason);
+    if (!reader) {
+        if (memory) *memory = is_memory(reason);
+        wr_fail(err, "%s", reason);
+        return NULL;
+    }
+    WrDecoder *decoder = wr_alloc(1, sizeof *decoder);
+    *decoder = (WrDecoder){ library, reader };
+    return decoder;
+}
+
+void wr_decoder_close(WrDecoder *decoder)
+{
+    if (!decoder) return;
+    decoder->library->close(decoder->reader);
+    wr_free(decoder);
+}
+
+int wr_decoder_parts(const WrDecoder *decoder)
+{
+    return decoder->library->parts(decoder->reader);
+}
+
+WrImagePart wr_decoder_part(const WrDecoder *decoder, int part)
+{
+    return decoder->library->part(decoder->reader, part)->part;
+}
+
+const char *wr_decoder_attribute(const WrDecoder *decoder, int part, const char *name)
+{
+    return decoder->library->attribute(decoder->reader, part, name);
+}
+
+bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels, float *out,
+                     bool *memory, WrError *err)
+{
+    char reason[WR_OIIO_REASON] = "";
+    if (decoder->library->read(decoder->reader, part, y, rows, channels, out, reason)) return true;
+    if (memory) *memory = is_memory(reason);
+    return wr_fail(err, "cannot be read whole, truncated or damaged%s%s%s", *reason ? " (" : "",
+                   reason, *reason ? ")" : "");
+}

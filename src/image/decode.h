@@ -1,0 +1,25 @@
+/* decode.h - a picture file read within this process: finds out the format and drives the module. What
+   the reader process does for strangers' files, and what reading "inside" does without it.
+   Private to this room. */
+#pragma once
+#include "image/image.h"
+
+typedef struct WrDecoder WrDecoder;
+
+/* Open a picture.
+ *
+ * fd       a regular file or a memory file, open for reading; borrowed, and kept until close
+ * ending   of the file's name: what it is believed to be where its first bytes tell nothing
+ * most     parts up to this many; more is an error
+ * memory   set to whether the failure was one of memory; may be NULL
+ * Errors   one sentence that does not name the file */
+WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, WrError *err);
+void wr_decoder_close(WrDecoder *decoder); /* NULL is fine */
+
+int wr_decoder_parts(const WrDecoder *decoder);
+WrImagePart wr_decoder_part(const WrDecoder *decoder, int part); /* valid until close */
+/* A text attribute or NULL; valid until close. */
+const char *wr_decoder_attribute(const WrDecoder *decoder, int part, const char *name);
+/* Rows [y, y + rows) and the first `channels` channels as WrImage has them, interleaved. */
+bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels, float *out,
+                     bool *memory, WrError *err);

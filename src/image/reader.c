@@ -1,0 +1,379 @@
+#include "image/reader.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/file.h"
+#include "image/process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define SECONDS 60               /* without a sign of life */
+#define MEGABYTES 4096           /* of memory */
+#define CHUNK ((size_t)16 << 20) /* bytes of rows that travel at once, where a row is not larger */
+
+typedef struct Attribute {
+    int part;
+    char *name, *text; /* owned; text NULL: there is none */
+} Attribute;
+
+struct WrReader {
+    char *name; /* of the file, for messages */
+    int channel;
+    unsigned seconds, megabytes;
+    char *answer; /* what OPENED brought; the parts point into it */
+    WrImagePart *parts;
+    int count;
+    const char **names; /* of all channels of all parts */
+    WR_ARRAY(Attribute) attributes;
+    const char *shared; /* memory that the child writes to */
+    size_t shared_bytes;
+    bool dead; /* the child is gone, for the reason in `end` */
+    WrError end;
+};
+
+typedef struct Answer {
+    WrWireHead head;
+    char *bytes; /* [head.length] and a NUL; NULL for length 0 */
+} Answer;
+
+/* ---- messages ---- */
+
+static unsigned setting(const char *name, unsigned otherwise)
+{
+    const char *text = getenv(name);
+    double value;
+    if (!text || !wr_number_parse(text, strlen(text), &value)) return otherwise;
+    return value >= 1 && value <= 1e6 ? (unsigned)value : otherwise;
+}
+
+/* The end of this reading, whatever comes. Closing the channel ends the child if it still lives. */
+static bool die(WrReader *reader, const char *why)
+{
+    if (reader->channel >= 0) close(reader->channel);
+    reader->channel = -1;
+    reader->dead = true;
+    return wr_fail(&reader->end, "%s: %s", reader->name, why);
+}
+
+static bool die_of_nonsense(WrReader *reader)
+{
+    return die(reader, "the reader's answer makes no sense; the file is damaged or hostile");
+}
+
+static bool die_of_time(WrReader *reader)
+{
+    char why[128];
+    snprintf(why, sizeof why, "gave nothing to read within %u s; the file is damaged or hostile",
+             reader->seconds);
+    return die(reader, why);
+}
+
+static bool die_of_status(WrReader *reader, const Answer *answer)
+{
+    int32_t status;
+    char why[160];
+    if (answer->head.length != sizeof status) return die_of_nonsense(reader);
+    memcpy(&status, answer->bytes, sizeof status);
+    int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (number == SIGXCPU) return die_of_time(reader);
+    if (number == SIGKILL)
+        return die(reader, "the reader was killed while it read this file (by hand, or for want of "
+                           "memory)");
+    const char *name = sigdescr_np(number);
+    snprintf(why, sizeof why, "the reader crashed on this file%s%s%s; it is damaged or hostile",
+             number && name ? " (" : "", number && name ? name : "", number && name ? ")" : "");
+    return die(reader, why);
+}
+
+/* What the reader says is wrong, on one line. */
+static bool fail_sentence(const WrReader *reader, Answer *answer, WrError *err)
+{
+    for (uint32_t i = 0; i < answer->head.length; i++)
+        if ((unsigned char)answer->bytes[i] < ' ' || answer->bytes[i] == 127)
+            answer->bytes[i] = ' ';
+    return wr_fail(err, "%s: %.400s", reader->name, answer->bytes ? answer->bytes : "");
+}
+
+static bool fail_memory(const WrReader *reader, WrError *err)
+{
+    return wr_fail(err, "%s: needs more than %u MB of memory to be read", reader->name,
+                   reader->megabytes);
+}
+
+static bool receive_whole(WrReader *reader, Answer *answer)
+{
+    double deadline = wr_clock_seconds() + reader->seconds;
+    *answer = (Answer){ 0 };
+    WrWireGot got =
+        wr_wire_receive(reader->channel, &answer->head, sizeof answer->head, deadline, NULL);
+    if (got == WR_WIRE_GOT && answer->head.length > WR_WIRE_MAX) return die_of_nonsense(reader);
+    if (got == WR_WIRE_GOT && answer->head.length > 0) {
+        WrError err;
+        answer->bytes = wr_try_alloc((size_t)answer->head.length + 1, 1, "an answer", &err);
+        if (!answer->bytes) return die(reader, err.text);
+        got = wr_wire_receive(reader->channel, answer->bytes, answer->head.length, deadline, NULL);
+    }
+    if (got == WR_WIRE_LATE) return die_of_time(reader);
+    if (got == WR_WIRE_GONE) return die(reader, "the reader was killed while it read this file");
+    if (answer->head.kind == WR_WIRE_DIED) return die_of_status(reader, answer);
+    return true;
+}
+
+/* Wait for an answer of this kind. On success the caller frees answer->bytes. */
+static bool receive(WrReader *reader, WrWireKind kind, Answer *answer, WrError *err)
+{
+    bool good = receive_whole(reader, answer);
+    if (good && answer->head.kind == kind) return true;
+    if (good && answer->head.kind == WR_WIRE_FAILED) fail_sentence(reader, answer, err);
+    else if (good && answer->head.kind == WR_WIRE_MEMORY) fail_memory(reader, err);
+    else {
+        if (good) die_of_nonsense(reader);
+        wr_fail(err, "%s", reader->end.text);
+    }
+    wr_free(answer->bytes);
+    answer->bytes = NULL;
+    return false;
+}
+
+/* ---- opening ---- */
+
+/* The next text of a list of texts that each end in NUL, or NULL. */
+static const char *take_text(const char **at, const char *end)
+{
+    const char *text = *at, *stop = memchr(text, '\0', (size_t)(end - text));
+    if (!stop) return NULL;
+    *at = stop + 1;
+    return text;
+}
+
+static bool take_part(WrReader *reader, const char **at, const char *end, int *names)
+{
+    int32_t numbers[4];
+    if ((size_t)(end - *at) < sizeof numbers || reader->count >= WR_IMAGE_PARTS_MAX) return false;
+    memcpy(numbers, *at, sizeof numbers);
+    *at += sizeof numbers;
+    if (numbers[0] < 1 || numbers[0] > WR_IMAGE_MAX || numbers[1] < 1 ||
+        numbers[1] > WR_IMAGE_MAX || numbers[2] < 1 || numbers[2] > WR_IMAGE_CHANNELS_MAX ||
+        numbers[3] < 0 || numbers[3] > WR_PIXEL_F32)
+        return false;
+    WrImagePart part = { .name = take_text(at, end),
+                         .width = numbers[0],
+                         .height = numbers[1],
+                         .channels = numbers[2],
+                         .type = (WrPixelType)numbers[3] };
+    if (!part.name) return false;
+    reader->names = wr_realloc(reader->names, (size_t)*names, (size_t)(*names + part.channels),
+                               sizeof *reader->names);
+    for (int c = 0; c < part.channels; c++) {
+        const char *name = take_text(at, end);
+        if (!name) return false;
+        reader->names[(*names)++] = name;
+    }
+    reader->parts = wr_realloc(reader->parts, (size_t)reader->count, (size_t)reader->count + 1,
+                               sizeof *reader->parts);
+    reader->parts[reader->count++] = part;
+    return true;
+}
+
+/* The parts as serve.c lists them. The answer becomes the reader's. */
+static bool take_parts(WrReader *reader, const Answer *answer, int most)
+{
+    reader->answer = answer->bytes;
+    const char *at = answer->bytes, *end = at + answer->head.length;
+    int names = 0;
+    while (at != end)
+        if (!take_part(reader, &at, end, &names)) return false;
+    const char **next = reader->names;
+    for (int i = 0; i < reader->count; i++) {
+        reader->parts[i].channel_names = next;
+        next += reader->parts[i].channels;
+    }
+    return reader->count >= 1 && reader->count <= most;
+}
+
+/* One try. *gone: nothing came back, not even how the reader died: perhaps the process itself is gone. */
+static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, bool *gone, WrError *err)
+{
+    int ends[2];
+    Answer answer;
+    *gone = false;
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+        return wr_fail(err, "%s: no socket for the reader", reader->name);
+    bool sent = wr_process_order(order, fd, ends[1], err);
+    close(ends[1]);
+    reader->channel = ends[0];
+    reader->dead = false;
+    if (!sent) {
+        wr_error_prefix(err, "%s: ", reader->name);
+        return false;
+    }
+    *gone = wr_wire_wait(reader->channel, wr_clock_seconds() + reader->seconds) == WR_WIRE_GONE;
+    if (!receive(reader, WR_WIRE_OPENED, &answer, err)) return false;
+    if (take_parts(reader, &answer, order->most)) return true;
+    die_of_nonsense(reader);
+    return wr_fail(err, "%s", reader->end.text);
+}
+
+WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
+{
+    struct stat info;
+    double size = fstat(fd, &info) == 0 ? (double)info.st_size : 0.0;
+    WrReader *reader = wr_alloc(1, sizeof *reader);
+    reader->name = wr_strdup(name);
+    reader->channel = -1;
+    reader->seconds = setting("WRINKLE_READER_SECONDS", SECONDS + (unsigned)(size / 1e6));
+    reader->megabytes = setting("WRINKLE_READER_MB", MEGABYTES);
+    WrWireOrder order = { .version = WR_WIRE_VERSION,
+                          .most = most,
+                          .memory = (uint64_t)reader->megabytes << 20,
+                          .seconds = 10 * reader->seconds };
+    wr_path_ending(name, order.ending);
+    bool gone, good = open_once(reader, &order, fd, &gone, err);
+    if (!good && gone) {
+        if (reader->channel >= 0) close(reader->channel);
+        good = open_once(reader, &order, fd, &gone, err);
+    }
+    if (good) return reader;
+    wr_reader_close(reader);
+    return NULL;
+}
+
+void wr_reader_close(WrReader *reader)
+{
+    if (!reader) return;
+    if (reader->channel >= 0) close(reader->channel);
+    if (reader->shared) munmap((void *)reader->shared, reader->shared_bytes);
+    for (int i = 0; i < reader->attributes.count; i++) {
+        wr_free(reader->attributes.data[i].name);
+        wr_free(reader->attributes.data[i].text);
+    }
+    wr_array_free(&reader->attributes);
+    wr_free(reader->parts);
+    wr_free((void *)reader->names);
+    wr_free(reader->answer);
+    wr_free(reader->name);
+    wr_free(reader);
+}
+
+int wr_reader_parts(const WrReader *reader)
+{
+    return reader->count;
+}
+
+WrImagePart wr_reader_part(const WrReader *reader, int part)
+{
+    return reader->parts[part];
+}
+
+const char *wr_reader_attribute(WrReader *reader, int part, const char *name)
+{
+    for (int i = 0; i < reader->attributes.count; i++) {
+        const Attribute *known = &reader->attributes.data[i];
+        if (known->part == part && strcmp(known->name, name) == 0) return known->text;
+    }
+    WrWireText want = { .part = part };
+    Answer answer;
+    if (reader->dead || strlen(name) >= sizeof want.name) return NULL;
+    strcpy(want.name, name);
+    if (!wr_wire_send(reader->channel, WR_WIRE_TEXT, &want, sizeof want, -1) ||
+        !receive(reader, WR_WIRE_TEXT, &answer, NULL))
+        return NULL;
+    wr_array_push(&reader->attributes, ((Attribute){ part, wr_strdup(name), answer.bytes }));
+    return answer.bytes;
+}
+
+/* ---- pixels ---- */
+
+/* Memory of at least `bytes` that the child may write to and nobody can shrink. Returns its descriptor
+ * to be sent, -1 where the child has it already, or -2 and an error. */
+static int share(WrReader *reader, size_t bytes, WrError *err)
+{
+    if (reader->shared && reader->shared_bytes >= bytes) return -1;
+    if (reader->shared) munmap((void *)reader->shared, reader->shared_bytes);
+    reader->shared = NULL;
+    int fd = memfd_create("wrinkle rows", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+    void *map = MAP_FAILED;
+    if (fd >= 0 && ftruncate(fd, (off_t)bytes) == 0 &&
+        fcntl(fd, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0)
+        map = mmap(NULL, bytes, PROT_READ, MAP_SHARED, fd, 0);
+    if (map == MAP_FAILED) {
+        if (fd >= 0) close(fd);
+        wr_fail(err, "%s: no memory for %.0f MB of rows", reader->name, (double)bytes / 1e6);
+        return -2;
+    }
+    reader->shared = map;
+    reader->shared_bytes = bytes;
+    return fd;
+}
+
+/* Rows travel in chunks, two under way at a time: one is decoded while the other is copied. */
+typedef struct Rows {
+    int part, y, rows, channels;
+    size_t row;  /* bytes */
+    int step;    /* rows of a chunk */
+    int count;   /* chunks */
+    size_t slot; /* bytes of a chunk */
+} Rows;
+
+static int chunk_rows(const Rows *rows, int chunk)
+{
+    int left = rows->rows - chunk * rows->step;
+    return left < rows->step ? left : rows->step;
+}
+
+static bool ask(WrReader *reader, const Rows *rows, int chunk, WrError *err)
+{
+    int fd = chunk == 0 ? share(reader, 2 * rows->slot, err) : -1;
+    if (fd == -2) return false;
+    WrWireRead want = { .part = rows->part,
+                        .y = rows->y + chunk * rows->step,
+                        .rows = chunk_rows(rows, chunk),
+                        .channels = rows->channels,
+                        .at = (uint64_t)(chunk & 1) * rows->slot,
+                        .bytes = fd >= 0 ? reader->shared_bytes : 0 };
+    /* If the child is gone, its last words are still to be read. */
+    wr_wire_send(reader->channel, WR_WIRE_READ, &want, sizeof want, fd);
+    if (fd >= 0) close(fd);
+    return true;
+}
+
+bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
+                    WrError *err)
+{
+    if (reader->dead) return wr_fail(err, "%s", reader->end.text);
+    Rows all = { .part = part, .y = y, .rows = rows, .channels = channels };
+    all.row = (size_t)reader->parts[part].width * (size_t)channels * sizeof(float);
+    all.step = CHUNK / all.row >= WR_IMAGE_STRIP ? WR_IMAGE_STRIP
+               : CHUNK / all.row > 1             ? (int)(CHUNK / all.row)
+                                                 : 1;
+    all.count = (rows + all.step - 1) / all.step;
+    all.slot = all.row * (size_t)all.step;
+    int asked = 0, done = 0;
+    bool good = true;
+    while (good && done < all.count) {
+        while (good && asked < all.count && asked - done < 2)
+            good = ask(reader, &all, asked++, err);
+        Answer answer;
+        good = good && receive(reader, WR_WIRE_DONE, &answer, err);
+        if (!good) break;
+        wr_free(answer.bytes);
+        memcpy((char *)out + (size_t)done * all.slot,
+               reader->shared + (size_t)(done & 1) * all.slot,
+               all.row * (size_t)chunk_rows(&all, done));
+        done++;
+    }
+    /* The answer that is still under way belongs to nobody. */
+    if (!good && asked - done > 1 && !reader->dead) {
+        Answer ignored;
+        receive_whole(reader, &ignored);
+        wr_free(ignored.bytes);
+    }
+    return good;
+}

@@ -1,0 +1,36 @@
+/* inner.h - what the files of this room share.
+   Layer 1, private to this room. */
+#pragma once
+#include "noise/grid.h"
+
+/* The kinds on simplices; t brought into one period, or within 2^40. slope as in wr_noise_at, never
+ * NULL. */
+double wr_noise_simplex(const WrNoise *noise, const double *t, double *slope);
+double wr_noise_sheared(const WrNoise *noise, const double *t, double *slope);
+double wr_noise_torus(const WrNoise *noise, const double *t, double *slope);
+
+/* The factor of perlin noise's slopes from the fixed set. */
+double wr_noise_perlin_scale(int dim);
+
+/* A grid is filled in pieces of this size, whose intermediate values stay in a core's caches. */
+#define WR_NOISE_STRIP 256 /* texels of a row */
+#define WR_NOISE_BAND 32   /* rows */
+
+/* One octave over a piece: f and df/dt (per cell), [row][column]. */
+typedef struct WrNoiseBand {
+    float f[WR_NOISE_BAND][WR_NOISE_STRIP];
+    float fx[WR_NOISE_BAND][WR_NOISE_STRIP], fy[WR_NOISE_BAND][WR_NOISE_STRIP];
+} WrNoiseBand;
+
+/* grid: at most a piece. Without slopes, fx and fy are left alone. */
+void wr_noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes, WrNoiseBand *band);
+
+/* The centre of a texel. */
+static inline double wr_noise_grid_u(const WrNoiseGrid *grid, int i)
+{
+    return (i + 0.5) / grid->width;
+}
+static inline double wr_noise_grid_v(const WrNoiseGrid *grid, int j)
+{
+    return 1.0 - (j + 0.5) / grid->height;
+}

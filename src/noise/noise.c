@@ -1,0 +1,285 @@
+#include "noise/noise.h"
+
+#include "noise/inner.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A period of any whole number of cells, on one to three axes. */
+#define ANY                                                                                        \
+    {                                                                                              \
+        [0] = { .works = true, .step = { 1 } }, [1] = { .works = true, .step = { 1, 1 } }, [2] = { \
+            .works = true,                                                                         \
+            .step = { 1, 1, 1 }                                                                    \
+        }                                                                                          \
+    }
+
+const WrNoiseInfo wr_noises[WR_NOISE_KIND_COUNT] = {
+    [WR_NOISE_VALUE] = { .name = "value",
+                         .label = "value",
+                         .help = "Blends random heights that stand on a square lattice.",
+                         .cells = true,
+                         .repeat = ANY },
+    [WR_NOISE_GRADIENT] = { .name = "gradient",
+                            .label = "gradient",
+                            .help = "Meets random heights and random slopes on a square lattice.",
+                            .cells = true,
+                            .repeat = ANY },
+    [WR_NOISE_PERLIN] = { .name = "perlin",
+                          .label = "Perlin",
+                          .help = "Is 0 with a slope from a fixed set on a square lattice.",
+                          .cells = true,
+                          .repeat = ANY },
+    [WR_NOISE_SIMPLEX] = { .name = "simplex",
+                           .label = "simplex",
+                           .help =
+                               "Adds round bumps on a lattice of triangles or tetrahedra; in 2D "
+                               "it cannot repeat.",
+                           .repeat = { [1] = { .works = true },
+                                       [2] = { .works = true, .step = { 3, 3, 3 } } } },
+    [WR_NOISE_SHEARED] = { .name = "sheared",
+                           .label = "simplex on sheared triangles",
+                           .help =
+                               "Simplex noise on triangles of base 1 and height 1, which repeat.",
+                           .repeat = { [1] = { .works = true, .step = { 1, 2 } } } },
+    [WR_NOISE_TORUS] = { .name = "torus",
+                         .label = "simplex on a torus",
+                         .help =
+                             "4D simplex noise on a torus: repeats, without favoured directions.",
+                         .repeat = { [1] = { .works = true, .always = true, .step = { 1, 1 } } } },
+};
+#undef ANY
+
+int wr_noise_find(const char *name)
+{
+    for (int k = 0; k < WR_NOISE_KIND_COUNT; k++)
+        if (strcmp(wr_noises[k].name, name) == 0) return k;
+    return -1;
+}
+
+static bool check_period(const WrNoise *noise, int axis, WrError *err)
+{
+    const WrNoiseInfo *info = &wr_noises[noise->kind];
+    const WrNoiseRepeat *repeat = &info->repeat[noise->dim - 1];
+    int period = noise->lattice.period[axis], step = repeat->step[axis];
+    char name = "xyz"[axis];
+    if (period < 0 || period > WR_LATTICE_MOST)
+        return wr_fail(err, "%s noise: period %d along %c: must be 0 (none) to %d cells",
+                       info->name, period, name, WR_LATTICE_MOST);
+    if (period == 0) {
+        if (repeat->always || noise->lattice.source == WR_LATTICE_DATA)
+            return wr_fail(err, "%s noise%s needs a period along %c: at least %d cells", info->name,
+                           repeat->always ? "" : " from data", name, step);
+        return true;
+    }
+    if (step == 0)
+        return wr_fail(err,
+                       "simplex noise in 2D cannot repeat on a square (its lattice is skewed by an "
+                       "irrational amount): use sheared or torus, or period 0");
+    if (period % step)
+        return wr_fail(err, "%s noise: period %d along %c: must be a multiple of %d cells",
+                       info->name, period, name, step);
+    return true;
+}
+
+/* The number of lattice points of data; 0 when it passes what memory could hold. */
+static size_t data_points(const WrNoise *noise)
+{
+    size_t count = 1;
+    for (int a = 0; a < noise->dim; a++)
+        if (__builtin_mul_overflow(count, (size_t)noise->lattice.period[a], &count)) return 0;
+    return count <= SIZE_MAX / (WR_NOISE_AXES * sizeof(double)) ? count : 0;
+}
+
+static bool check_finite(const double *data, size_t count, const char *what, WrError *err)
+{
+    for (size_t k = 0; k < count; k++)
+        if (!isfinite(data[k]))
+            return wr_fail(err, "noise from data: %s %zu is not a finite number", what, k);
+    return true;
+}
+
+static bool check_data(const WrNoise *noise, WrError *err)
+{
+    const WrLattice *lattice = &noise->lattice;
+    const char *name = wr_noises[noise->kind].name;
+    size_t count = data_points(noise);
+    if (count == 0) return wr_fail(err, "%s noise from data: the lattice is too large", name);
+    if (!lattice->values) return wr_fail(err, "%s noise from data: there are no values", name);
+    if (!check_finite(lattice->values, count, "value", err)) return false;
+    if (noise->kind == WR_NOISE_VALUE) return true;
+    if (!lattice->slopes) return wr_fail(err, "%s noise from data: there are no slopes", name);
+    return check_finite(lattice->slopes, count * (size_t)noise->dim, "slope", err);
+}
+
+bool wr_noise_check(const WrNoise *noise, WrError *err)
+{
+    if ((int)noise->kind < 0 || noise->kind >= WR_NOISE_KIND_COUNT)
+        return wr_fail(err, "noise kind %d: must be 0..%d", (int)noise->kind,
+                       WR_NOISE_KIND_COUNT - 1);
+    const WrNoiseInfo *info = &wr_noises[noise->kind];
+    if ((int)noise->fade < 0 || noise->fade >= WR_FADE_COUNT)
+        return wr_fail(err, "fade %d: must be 0..%d", (int)noise->fade, WR_FADE_COUNT - 1);
+    if (noise->dim < 1 || noise->dim > WR_NOISE_AXES)
+        return wr_fail(err, "noise in %d dimensions: must be 1..%d", noise->dim, WR_NOISE_AXES);
+    if (!info->repeat[noise->dim - 1].works)
+        return wr_fail(err, "%s noise in %dD: there is %s", info->name, noise->dim,
+                       info->repeat[2].works ? "2D and 3D only" : "2D only");
+    WrLatticeSource source = noise->lattice.source;
+    if ((int)source < 0 || source >= WR_LATTICE_SOURCE_COUNT)
+        return wr_fail(err, "lattice source %d: must be 0..%d", (int)source,
+                       WR_LATTICE_SOURCE_COUNT - 1);
+    if (source != WR_LATTICE_HASH && !info->cells)
+        return wr_fail(err, "%s noise takes its slopes from the integer hash only", info->name);
+    if (source == WR_LATTICE_LECTURE && noise->dim > 2)
+        return wr_fail(err,
+                       "the lecture's hash in 3D: it is made of two coordinates; use 1D or 2D");
+    if (source == WR_LATTICE_DATA && noise->kind == WR_NOISE_PERLIN)
+        return wr_fail(err,
+                       "perlin noise from data: its slopes are a fixed set; use gradient noise "
+                       "with values of 0");
+    for (int a = 0; a < noise->dim; a++)
+        if (!check_period(noise, a, err)) return false;
+    return source != WR_LATTICE_DATA || check_data(noise, err);
+}
+
+/* The factor that brings perlin noise into -1..1. With unit slopes sum w_k |t - p_k| is at most
+ * sqrt(sum w_k |t - p_k|^2) (the weights add up to 1), and each axis's share of that sum,
+ * (1 - alpha) x^2 + alpha (1 - x)^2, is at most 1/4, for each fade: so |f| <= sqrt(d)/2. */
+double wr_noise_perlin_scale(int dim)
+{
+    static const double scale[] = { 2.0, 1.41421356237309505, 0.81649658092772603 };
+    return scale[dim - 1];
+}
+
+static double prescribed_by_hash(const WrNoise *noise, const uint32_t *c, double *slope)
+{
+    uint32_t h = wr_lattice_hash(noise->lattice.seed, c, noise->dim);
+    if (noise->kind == WR_NOISE_PERLIN) {
+        const double *g = wr_lattice_gradient(noise->dim, h);
+        double scale = wr_noise_perlin_scale(noise->dim);
+        for (int a = 0; a < noise->dim; a++) slope[a] = scale * g[a];
+        return 0.0;
+    }
+    for (int a = 0; a < noise->dim; a++)
+        slope[a] =
+            noise->kind == WR_NOISE_GRADIENT ? wr_lattice_number(wr_lattice_slope_hash(h, a)) : 0.0;
+    return wr_lattice_number(h);
+}
+
+static double prescribed_by_lecture(const WrNoise *noise, const uint32_t *c, double *slope)
+{
+    double x = c[0], y = noise->dim > 1 ? c[1] : 0.0, salt = noise->lattice.seed;
+    if (noise->kind == WR_NOISE_PERLIN) {
+        uint32_t h = (uint32_t)(wr_hash_lecture(x, y, salt) * 0x1p32);
+        const double *g = wr_lattice_gradient(noise->dim, h);
+        for (int a = 0; a < noise->dim; a++) slope[a] = wr_noise_perlin_scale(noise->dim) * g[a];
+        return 0.0;
+    }
+    for (int a = 0; a < noise->dim; a++)
+        slope[a] = noise->kind == WR_NOISE_GRADIENT
+                       ? 2.0 * wr_hash_lecture(x, y, salt + 1.0 + a) - 1.0
+                       : 0.0;
+    return 2.0 * wr_hash_lecture(x, y, salt) - 1.0;
+}
+
+static double prescribed_by_data(const WrNoise *noise, const uint32_t *c, double *slope)
+{
+    const WrLattice *lattice = &noise->lattice;
+    size_t at = 0;
+    for (int a = noise->dim - 1; a >= 0; a--) at = at * (size_t)lattice->period[a] + c[a];
+    for (int a = 0; a < noise->dim; a++)
+        slope[a] = noise->kind == WR_NOISE_GRADIENT
+                       ? lattice->slopes[at * (size_t)noise->dim + (size_t)a]
+                       : 0.0;
+    return lattice->values[at];
+}
+
+double wr_noise_prescribed(const WrNoise *noise, const uint32_t *c, double *slope)
+{
+    switch (noise->lattice.source) {
+    case WR_LATTICE_DATA: return prescribed_by_data(noise, c, slope);
+    case WR_LATTICE_LECTURE: return prescribed_by_lecture(noise, c, slope);
+    default: return prescribed_by_hash(noise, c, slope);
+    }
+}
+
+double wr_noise_bound(const WrNoise *noise)
+{
+    const WrLattice *lattice = &noise->lattice;
+    double half_diagonal = 0.5 * sqrt(noise->dim), value = 0.0, slope2 = 0.0;
+    if (lattice->source != WR_LATTICE_DATA)
+        return noise->kind == WR_NOISE_GRADIENT ? 1.0 + 0.5 * noise->dim : 1.0;
+    size_t count = data_points(noise), dim = (size_t)noise->dim;
+    for (size_t k = 0; k < count; k++) {
+        double sum = 0.0;
+        for (size_t a = 0; a < dim && noise->kind == WR_NOISE_GRADIENT; a++)
+            sum += lattice->slopes[k * dim + a] * lattice->slopes[k * dim + a];
+        slope2 = sum > slope2 ? sum : slope2;
+        value = fabs(lattice->values[k]) > value ? fabs(lattice->values[k]) : value;
+    }
+    return value + sqrt(slope2) * half_diagonal;
+}
+
+/* What a blend so far amounts to: f and its gradient. */
+typedef struct Blend {
+    double f, d[WR_NOISE_AXES];
+} Blend;
+
+/* The blend of p and q along an axis: f = p + alpha (q - p), so that
+ * df/da = p_a + alpha (q_a - p_a) + alpha' (q - p), and without the last term along the other axes. */
+static Blend blend(const Blend *p, const Blend *q, int dim, int axis, double alpha, double rate)
+{
+    Blend out = { .f = p->f + alpha * (q->f - p->f) };
+    for (int b = 0; b < dim; b++) out.d[b] = p->d[b] + alpha * (q->d[b] - p->d[b]);
+    out.d[axis] += rate * (q->f - p->f);
+    return out;
+}
+
+/* Value, gradient and perlin noise: one blend along each axis in turn of the 2^d corners' planes
+ * lambda_k = f_k + g_k . (t - p_k). */
+static double cells(const WrNoise *noise, const double *t, double *slope)
+{
+    const WrFadeInfo *fade = &wr_fades[noise->fade];
+    int dim = noise->dim;
+    double x[WR_NOISE_AXES];
+    uint32_t near[WR_NOISE_AXES], far[WR_NOISE_AXES];
+    for (int a = 0; a < dim; a++) {
+        double whole = floor(t[a]);
+        x[a] = t[a] - whole;
+        near[a] = (uint32_t)(int64_t)whole;
+        far[a] = near[a] + 1;
+        if (noise->lattice.period[a] && far[a] == (uint32_t)noise->lattice.period[a]) far[a] = 0;
+    }
+    Blend corner[1 << WR_NOISE_AXES];
+    for (int k = 0; k < 1 << dim; k++) {
+        uint32_t c[WR_NOISE_AXES];
+        for (int a = 0; a < dim; a++) c[a] = k >> a & 1 ? far[a] : near[a];
+        corner[k].f = wr_noise_prescribed(noise, c, corner[k].d);
+        for (int a = 0; a < dim; a++)
+            corner[k].f += corner[k].d[a] * (k >> a & 1 ? x[a] - 1.0 : x[a]);
+    }
+    for (int a = 0; a < dim; a++) {
+        double alpha = wr_fade_alpha(fade, x[a]), rate = wr_fade_slope(fade, x[a]);
+        for (int k = 0; k < 1 << (dim - 1 - a); k++)
+            corner[k] = blend(&corner[2 * k], &corner[2 * k + 1], dim, a, alpha, rate);
+    }
+    for (int a = 0; a < dim; a++) slope[a] = corner[0].d[a];
+    return corner[0].f;
+}
+
+double wr_noise_at(const WrNoise *noise, const double *t, double *slope)
+{
+    double reduced[WR_NOISE_AXES], unwanted[WR_NOISE_AXES];
+    if (!slope) slope = unwanted;
+    for (int a = 0; a < noise->dim; a++) {
+        int period = noise->lattice.period[a];
+        reduced[a] = wr_noise_reduce(t[a], period ? period : fabs(t[a]) > 0x1p40 ? 0x1p40 : 0.0);
+    }
+    switch (noise->kind) {
+    case WR_NOISE_SIMPLEX: return wr_noise_simplex(noise, reduced, slope);
+    case WR_NOISE_SHEARED: return wr_noise_sheared(noise, reduced, slope);
+    case WR_NOISE_TORUS: return wr_noise_torus(noise, reduced, slope);
+    default: return cells(noise, reduced, slope);
+    }
+}

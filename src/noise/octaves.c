@@ -1,0 +1,186 @@
+#include "noise/octaves.h"
+
+#include "base/text.h"
+
+#include <math.h>
+#include <string.h>
+
+const WrOctavesInfo wr_octaves_modes[WR_OCTAVES_MODE_COUNT] = {
+    [WR_OCTAVES_FBM] = { "fbm", "fractional Brownian motion", "The sum of the octaves." },
+    [WR_OCTAVES_TURBULENCE] = { "turbulence", "turbulence",
+                                "The sum of the octaves' absolute values: creased valleys." },
+    [WR_OCTAVES_BILLOW] = { "billow", "billow",
+                            "Turbulence about a ground level of 0: rounded hills between "
+                            "creases." },
+    [WR_OCTAVES_RIDGED] = { "ridged", "ridged",
+                            "Sharp ridges where the octaves are 0; finer octaves on the ridges "
+                            "only." },
+};
+
+int wr_octaves_mode_find(const char *name)
+{
+    for (int k = 0; k < WR_OCTAVES_MODE_COUNT; k++)
+        if (strcmp(wr_octaves_modes[k].name, name) == 0) return k;
+    return -1;
+}
+
+WrOctaves wr_octaves_default(int dim)
+{
+    return (WrOctaves){
+        .kind = WR_NOISE_PERLIN,
+        .fade = WR_FADE_QUINTIC,
+        .dim = dim,
+        .tile = true,
+        .count = 8,
+        .ratio = 2.0,
+        .step = 2.0,
+        .cells = { 4.0, 4.0, 4.0 },
+        .seed = 1,
+        .scatter = true,
+        .ridge_offset = 1.0,
+        .ridge_gain = 2.0,
+    };
+}
+
+int wr_octaves_usable(double n0, double s, int texels)
+{
+    double limit = texels > 0 ? 0.5 * texels : WR_LATTICE_MOST;
+    if (limit > WR_LATTICE_MOST) limit = WR_LATTICE_MOST;
+    int usable = 0;
+    for (double n = n0; usable < WR_OCTAVES_MOST && n <= limit; n *= s) usable++;
+    return usable;
+}
+
+static bool check_number(const char *what, double value, double low, double high, WrError *err)
+{
+    if (value >= low && value <= high) return true;
+    char bad[WR_NUMBER_SIZE], from[WR_NUMBER_SIZE], to[WR_NUMBER_SIZE];
+    return wr_fail(err, "noise octaves: %s %s: must be %s..%s", what, wr_number_print(value, bad),
+                   wr_number_print(low, from), wr_number_print(high, to));
+}
+
+static bool check_above_one(const char *what, double value, WrError *err)
+{
+    if (value > 1.0 && isfinite(value)) return true;
+    char bad[WR_NUMBER_SIZE];
+    return wr_fail(err, "noise octaves: %s %s: must be above 1 and finite", what,
+                   wr_number_print(value, bad));
+}
+
+static bool check_cells(const WrOctaves *octaves, WrError *err)
+{
+    for (int a = 0; a < octaves->dim; a++) {
+        const char what[] = { 'c', 'e', 'l', 'l', 's', ' ',      'a',
+                              'l', 'o', 'n', 'g', ' ', "xyz"[a], 0 };
+        double low = octaves->tile ? 1.0 : 1e-9;
+        if (!check_number(what, octaves->cells[a], low, WR_LATTICE_MOST, err)) return false;
+    }
+    return true;
+}
+
+static bool check_octaves(const WrOctaves *octaves, WrError *err)
+{
+    if (octaves->dim < 1 || octaves->dim > WR_NOISE_AXES)
+        return wr_fail(err, "noise in %d dimensions: must be 1..%d", octaves->dim, WR_NOISE_AXES);
+    if (octaves->count < 1 || octaves->count > WR_OCTAVES_MOST)
+        return wr_fail(err, "noise of %d octaves: must be 1..%d", octaves->count, WR_OCTAVES_MOST);
+    if ((int)octaves->mode < 0 || octaves->mode >= WR_OCTAVES_MODE_COUNT)
+        return wr_fail(err, "octave mode %d: must be 0..%d", (int)octaves->mode,
+                       WR_OCTAVES_MODE_COUNT - 1);
+    if (octaves->source == WR_LATTICE_DATA)
+        return wr_fail(err, "octaves of noise from data: one table cannot be the lattice of all of "
+                            "them; use the hash");
+    if (!check_above_one("amplitude ratio r =", octaves->ratio, err) ||
+        !check_above_one("frequency step s =", octaves->step, err) || !check_cells(octaves, err))
+        return false;
+    if (octaves->mode == WR_OCTAVES_RIDGED &&
+        (!check_number("ridge offset", octaves->ridge_offset, 0.0, 10.0, err) ||
+         !check_number("ridge gain", octaves->ridge_gain, 0.0, 100.0, err)))
+        return false;
+    for (int k = 0; octaves->offsets && k < octaves->count * octaves->dim; k++)
+        if (!check_number("offset", octaves->offsets[k], -1e9, 1e9, err)) return false;
+    return true;
+}
+
+/* The number of cells nearest to n that the kind can repeat after, at least one step. */
+static int repeat_cells(const WrOctaves *octaves, int axis, double n)
+{
+    int step = 1;
+    if ((int)octaves->kind >= 0 && octaves->kind < WR_NOISE_KIND_COUNT)
+        step = wr_noises[octaves->kind].repeat[octaves->dim - 1].step[axis];
+    if (step == 0) step = 1; /* the check that follows says that it cannot */
+    double steps = floor(n / step + 0.5), most = WR_LATTICE_MOST / step;
+    return step * (int)(steps < 1.0 ? 1.0 : steps > most ? most : steps);
+}
+
+/* Octave i along one axis, n = n0 s^i. Scattered offsets are multiples of 1/64 of a cell below 64 cells,
+ * never whole: no texel of a power-of-two table is lost in rounding them. */
+static void place_octave(const WrOctaves *octaves, int i, int axis, double n, WrOctave *octave)
+{
+    double offset = 0.0;
+    if (octaves->offsets) {
+        offset = octaves->offsets[i * octaves->dim + axis];
+    } else if (octaves->scatter) {
+        uint32_t h = wr_mix32(octave->noise.lattice.seed + 0x27d4eb2fU * ((uint32_t)axis + 1U));
+        offset = (double)((h >> 20) | 1U) / 64.0;
+    }
+    if (octaves->tile) {
+        int cells = repeat_cells(octaves, axis, n);
+        octave->noise.lattice.period[axis] = cells;
+        octave->frequency[axis] = cells;
+        octave->offset[axis] = wr_noise_reduce(offset, cells);
+    } else {
+        octave->noise.lattice.period[axis] = 0;
+        octave->frequency[axis] = n;
+        octave->offset[axis] = offset;
+    }
+}
+
+/* The most that one octave's term can be, for |f| <= most. */
+static double term_bound(const WrOctaves *octaves, double most)
+{
+    double o = octaves->ridge_offset, far = fabs(o - most);
+    switch (octaves->mode) {
+    case WR_OCTAVES_BILLOW: return fabs(2.0 * most - 1.0) > 1.0 ? fabs(2.0 * most - 1.0) : 1.0;
+    case WR_OCTAVES_RIDGED: return far > o ? far * far : o * o;
+    default: return most;
+    }
+}
+
+bool wr_octaves_plan(const WrOctaves *octaves, const int *texels, WrOctavesPlan *plan, WrError *err)
+{
+    if (!check_octaves(octaves, err)) return false;
+    WrOctavesPlan made = { .mode = octaves->mode,
+                           .dim = octaves->dim,
+                           .tile = octaves->tile,
+                           .ridge_offset = octaves->ridge_offset,
+                           .ridge_gain = octaves->ridge_gain,
+                           .asked = octaves->count,
+                           .used = octaves->count };
+    double n[WR_NOISE_AXES], amplitude = 1.0;
+    for (int a = 0; a < made.dim; a++) {
+        int usable = wr_octaves_usable(octaves->cells[a], octaves->step, texels ? texels[a] : 0);
+        made.used = usable < made.used ? usable : made.used;
+        n[a] = octaves->cells[a];
+    }
+    /* The first octave is checked even if it is not used, so that a mistake never goes unnoticed. */
+    for (int i = 0; i < made.used || i == 0; i++) {
+        WrOctave *octave = &made.octave[i];
+        octave->noise = (WrNoise){ .kind = octaves->kind, .fade = octaves->fade, .dim = made.dim };
+        octave->noise.lattice.source = octaves->source;
+        octave->noise.lattice.seed = octaves->source == WR_LATTICE_LECTURE
+                                         ? (octaves->seed + (uint32_t)i) % 1000U
+                                         : wr_mix32(octaves->seed + 0x9e3779b9U * (uint32_t)i);
+        octave->amplitude = amplitude;
+        for (int a = 0; a < made.dim; a++) {
+            place_octave(octaves, i, a, n[a], octave);
+            n[a] *= octaves->step;
+        }
+        if (!wr_noise_check(&octave->noise, err)) return false;
+        if (i < made.used)
+            made.bound += amplitude * term_bound(octaves, wr_noise_bound(&octave->noise));
+        amplitude /= octaves->ratio;
+    }
+    *plan = made;
+    return true;
+}

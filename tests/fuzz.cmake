@@ -1,0 +1,38 @@
+# Fuzzers: built and run for some seconds where clang and its libFuzzer are installed (package clang and
+# libclang-rt-*-dev). For a longer run: BUILD-FOLDER/fuzz_NAME -max_total_time=600.
+find_program(WR_CLANG NAMES clang clang-14 clang-15 clang-16)
+set(fuzz_flags -std=c17 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all)
+if(WR_CLANG AND NOT DEFINED WR_HAVE_FUZZER)
+    set(try ${CMAKE_BINARY_DIR}/try_fuzzer.c)
+    file(WRITE ${try} "int LLVMFuzzerTestOneInput(const unsigned char *data, unsigned long size);\n"
+                      "int LLVMFuzzerTestOneInput(const unsigned char *data, unsigned long size)\n"
+                      "{\n    return size > 1000000 && data[0];\n}\n")
+    execute_process(COMMAND ${WR_CLANG} ${fuzz_flags} ${try} -o ${CMAKE_BINARY_DIR}/try_fuzzer
+                    RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+    if(failed EQUAL 0)
+        set(WR_HAVE_FUZZER ON CACHE INTERNAL "clang can build fuzzers")
+    else()
+        set(WR_HAVE_FUZZER OFF CACHE INTERNAL "clang can build fuzzers")
+    endif()
+endif()
+
+# wr_fuzz(NAME SOURCES...): tests/fuzz_NAME.c with the sources that it exercises, by paths from src/.
+function(wr_fuzz name)
+    if(NOT WR_CLANG OR NOT WR_HAVE_FUZZER)
+        return()
+    endif()
+    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/src/ OUTPUT_VARIABLE sources)
+    file(GLOB headers ${PROJECT_SOURCE_DIR}/src/*/*.h)
+    set(program ${CMAKE_BINARY_DIR}/fuzz_${name})
+    add_custom_command(OUTPUT ${program}
+        COMMAND ${WR_CLANG} ${fuzz_flags} -D_GNU_SOURCE -I${PROJECT_SOURCE_DIR}/src
+                ${CMAKE_CURRENT_SOURCE_DIR}/fuzz_${name}.c ${sources} -lxxhash -lmd -lm -o ${program}
+        DEPENDS fuzz_${name}.c ${sources} ${headers} VERBATIM)
+    add_custom_target(fuzz_${name} ALL DEPENDS ${program})
+    add_test(NAME fuzz_${name} COMMAND ${program} -seed=1 -runs=20000 -max_len=2000 -max_total_time=10
+                                       -artifact_prefix=${CMAKE_BINARY_DIR}/fuzz_${name}-)
+    set_tests_properties(fuzz_${name} PROPERTIES LABELS fuzz)
+endfunction()
+
+wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c
+        base/file.c base/hash.c base/memory.c base/text.c)

@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT
+   Rows that hold widgets, pictures, bars. */
+#include "ui/gui_imgui.h"
+
+#include <imgui_internal.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static float px(double units)
+{
+    return (float)wr_gui_px(units);
+}
+
+/* The window's full width, over its padding. */
+static void full_width(float *left, float *right)
+{
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    *left = window->Pos.x;
+    *right = window->Pos.x + window->Size.x - window->ScrollbarSizes.x;
+}
+
+extern "C" WrRow wr_gui_row_begin(int id, double height_units, bool selected)
+try {
+    WrGui *gui = wr_gui_current();
+    ImGui::PushID(id);
+    float left, right, height = px(height_units);
+    full_width(&left, &right);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    gui->row_left = left;
+    gui->row_right = right;
+    gui->row_top = at.y;
+    gui->row_height = height;
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    const ImRect &inner = ImGui::GetCurrentWindow()->InnerRect;
+    list->PushClipRect(ImVec2(left, inner.Min.y), ImVec2(right, inner.Max.y));
+    ImGui::SetCursorScreenPos(ImVec2(left, at.y));
+    ImGui::GetCurrentWindow()->ClipRect = ImRect(left, inner.Min.y, right, inner.Max.y).ToVec4();
+    bool released = ImGui::InvisibleButton("row", ImVec2(right - left, height));
+    bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
+    bool doubled = hovered && ImGui::IsMouseDoubleClicked(0);
+    bool menu = hovered && ImGui::IsMouseClicked(1);
+    bool moved = ImGui::IsMouseDragPastThreshold(0, px(5));
+    ImGui::SetItemAllowOverlap();
+    WrColour ground = selected ? 0xff36475cu : hovered ? 0xff323232u : 0;
+    if (ground)
+        list->AddRectFilled(ImVec2(left, at.y), ImVec2(right, at.y + height),
+                            wr_gui_colour_of(ground));
+    list->AddRectFilled(ImVec2(left, at.y + height - 1), ImVec2(right, at.y + height),
+                        wr_gui_colour_of(0xff242424u));
+    bool was = gui->row_drag != 0 && gui->row_drag == ImGui::GetID("row");
+    if (held && moved) gui->row_drag = ImGui::GetID("row");
+    bool dropped = was && !held;
+    if (dropped) gui->row_drag = 0;
+    return WrRow{ (double)at.y,
+                  (double)height,
+                  (double)ImGui::GetIO().MousePos.y,
+                  released && !was,
+                  doubled,
+                  menu,
+                  held && gui->row_drag != 0,
+                  dropped };
+}
+WR_CAUGHT(WrRow{})
+
+extern "C" void wr_gui_row_at(double x, double tall)
+{
+    const WrGui *gui = wr_gui_current();
+    float h = tall > 0 ? (float)tall : ImGui::GetFrameHeight();
+    ImGui::SetCursorScreenPos(ImVec2(gui->row_left + (float)x,
+                                     gui->row_top + floorf((gui->row_height - 1 - h) / 2)));
+}
+
+extern "C" double wr_gui_row_width(void)
+{
+    return (double)(wr_gui_current()->row_right - wr_gui_current()->row_left);
+}
+
+extern "C" void wr_gui_row_end(void)
+try {
+    const WrGui *gui = wr_gui_current();
+    ImGui::GetWindowDrawList()->PopClipRect();
+    ImGuiWindow *window = ImGui::GetCurrentWindow();
+    window->ClipRect = window->DrawList->_ClipRectStack.back();
+    ImGui::SetCursorScreenPos(
+        ImVec2(window->Pos.x + window->WindowPadding.x, gui->row_top + gui->row_height));
+    ImGui::PopID();
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_drop_line(double y)
+{
+    float left, right, at = roundf((float)y);
+    full_width(&left, &right);
+    ImGui::GetForegroundDrawList()->AddRectFilled(ImVec2(left, at - px(1)),
+                                                  ImVec2(right, at + px(1)),
+                                                  wr_gui_colour_of(WR_COLOUR_ACCENT));
+}
+
+extern "C" void wr_gui_scroll_here(void)
+{
+    ImGui::SetScrollHereY(0.5f);
+}
+
+extern "C" void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width)
+try {
+    const ImFont *face = wr_gui_current()->fonts[font];
+    float size = face->FontSize;
+    char cut[300];
+    snprintf(cut, sizeof cut, "%s", text);
+    if ((double)face->CalcTextSizeA(size, FLT_MAX, 0, cut).x > width) {
+        const char *rest = cut;
+        float room = (float)width - face->CalcTextSizeA(size, FLT_MAX, 0, "...").x;
+        face->CalcTextSizeA(size, room > 0 ? room : 1, 0, cut, nullptr, &rest);
+        size_t length = (size_t)(rest - cut);
+        if (length > sizeof cut - 4) length = sizeof cut - 4;
+        memcpy(cut + length, "...", 4);
+    }
+    wr_gui_text(font, colour, cut);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_image(SDL_Texture *texture, double w, double h)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
+    ImGui::Dummy(ImVec2((float)w, (float)h));
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    if (texture) list->AddImage(texture, at, end);
+    wr_gui_edge(list, at, end);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_progress(double width, double fraction)
+try {
+    double f = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    float w = width > 0 ? (float)width : ImGui::GetContentRegionAvail().x;
+    float h = ImGui::GetFrameHeight(), bar = px(8);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(ImVec2(w, h));
+    at.y += floorf((h - bar) / 2);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, ImVec2(at.x + w, at.y + bar), wr_gui_colour_of(WR_COLOUR_FIELD));
+    list->AddRectFilled(ImVec2(at.x + 1, at.y + 1),
+                        ImVec2(at.x + 1 + roundf((w - 2) * (float)f), at.y + bar - 1),
+                        wr_gui_colour_of(WR_COLOUR_ACCENT));
+    wr_gui_edge(list, at, ImVec2(at.x + w, at.y + bar));
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_square(const char *id, double units, const WrColour sides[4])
+try {
+    float side = px(units), gap = px(6), line = px(2);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton(id, ImVec2(side, side));
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, ImVec2(at.x + side, at.y + side), wr_gui_colour_of(WR_COLOUR_CHIP),
+                        px(3));
+    float x0 = at.x + gap, y0 = at.y + gap, x1 = at.x + side - gap, y1 = at.y + side - gap;
+    list->AddRectFilled(ImVec2(x0, y0), ImVec2(x0 + line, y1), wr_gui_colour_of(sides[0]));
+    list->AddRectFilled(ImVec2(x1 - line, y0), ImVec2(x1, y1), wr_gui_colour_of(sides[1]));
+    list->AddRectFilled(ImVec2(x0 + line, y0), ImVec2(x1 - line, y0 + line),
+                        wr_gui_colour_of(sides[2]));
+    list->AddRectFilled(ImVec2(x0 + line, y1 - line), ImVec2(x1 - line, y1),
+                        wr_gui_colour_of(sides[3]));
+}
+WR_CAUGHT()

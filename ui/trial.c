@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/trial.h"
+
+#include "base/memory.h"
+#include "ui/job.h"
+
+typedef struct Work {
+    WrDocument *document; /* a snapshot of its own, changed by the work */
+    WrTrialAsk ask;
+    WrField *field; /* the result; NULL: none */
+    WrError err;
+    bool cancelled;
+} Work;
+
+struct WrTrial {
+    WrJob *job;
+    WrField *field; /* newest result; owned */
+    WrError err;
+    bool failed;
+};
+
+static void drop(void *arg)
+{
+    Work *work = arg;
+    wr_document_free(work->document);
+    wr_field_free(work->field);
+    wr_free(work);
+}
+
+/* ---- on the job's thread ---- */
+
+static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
+{
+    WrField *made = wr_op_run(work->ask.op, layer->heights, work->ask.param, options, err);
+    if (!made) return false;
+    wr_field_free(layer->heights);
+    layer->heights = made;
+    return true;
+}
+
+static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError *err)
+{
+    WrDocument *document = work->document;
+    WrOpOptions options = { .pool = pool, .progress = progress };
+    if (work->ask.op->reshapes) {
+        work->field = wr_op_run(work->ask.op, wr_document_composite(document, pool),
+                                work->ask.param, &options, err);
+        return work->field != NULL;
+    }
+    options.mask = document->selection;
+    if (!work->ask.all_layers)
+        return adjust_layer(work, &document->layers[document->active], &options, err);
+    for (int i = 0; i < document->layer_count; i++)
+        if (!adjust_layer(work, &document->layers[i], &options, err)) return false;
+    return true;
+}
+
+static void run(void *arg, WrPool *pool, const WrProgress *progress)
+{
+    Work *work = arg;
+    const WrTrialAsk *ask = &work->ask;
+    if (ask->op) {
+        if (!adjust(work, pool, progress, &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else {
+        WrLayer *layer = &work->document->layers[ask->layer];
+        layer->blend = ask->blend;
+        layer->opacity = ask->opacity;
+        layer->radius = ask->radius;
+    }
+    if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));
+}
+
+/* ---- the window's side ---- */
+
+WrTrial *wr_trial_new(int threads, Uint32 done_event)
+{
+    static const WrJobKind kind = { run, drop };
+    WrTrial *trial = wr_alloc(1, sizeof *trial);
+    trial->job = wr_job_new(&kind, threads, done_event);
+    return trial;
+}
+
+void wr_trial_free(WrTrial *trial)
+{
+    if (!trial) return;
+    wr_job_free(trial->job);
+    wr_field_free(trial->field);
+    wr_free(trial);
+}
+
+void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *ask)
+{
+    Work *work = wr_alloc(1, sizeof *work);
+    work->document = wr_document_share(document);
+    work->ask = *ask;
+    trial->failed = false;
+    wr_job_start(trial->job, work);
+}
+
+void wr_trial_end(WrTrial *trial)
+{
+    wr_job_cancel(trial->job);
+    wr_field_free(trial->field);
+    trial->field = NULL;
+    trial->failed = false;
+}
+
+void wr_trial_stop(WrTrial *trial)
+{
+    wr_job_interrupt(trial->job);
+}
+
+static void take(WrTrial *trial)
+{
+    Work *work = wr_job_take(trial->job);
+    if (!work) return;
+    if (work->field) {
+        wr_field_free(trial->field);
+        trial->field = work->field;
+        work->field = NULL;
+    } else if (!work->cancelled) {
+        trial->failed = true;
+        trial->err = work->err;
+    }
+    drop(work);
+}
+
+const WrField *wr_trial_field(WrTrial *trial)
+{
+    take(trial);
+    return trial->field;
+}
+
+bool wr_trial_busy(WrTrial *trial, double *fraction, double *seconds)
+{
+    return wr_job_busy(trial->job, fraction, seconds);
+}
+
+bool wr_trial_error(WrTrial *trial, WrError *err)
+{
+    take(trial);
+    bool failed = trial->failed;
+    if (failed) *err = trial->err;
+    trial->failed = false;
+    return failed;
+}

@@ -1,0 +1,40 @@
+/* trial.h - what a change would look like before it is made: computed in the background on a snapshot, so
+   that the document is never touched and the window never waits.
+   All calls come from the window's thread. */
+#pragma once
+#include "document/document.h"
+#include "field/ops.h"
+
+#include <SDL.h>
+
+typedef struct WrTrial WrTrial;
+
+/* threads: as in wr_pool_new. done_event: an SDL event type, pushed when a result is there. */
+WrTrial *wr_trial_new(int threads, Uint32 done_event);
+void wr_trial_free(WrTrial *trial); /* NULL is fine */
+
+typedef struct WrTrialAsk {
+    const WrOpInfo *op; /* an operation on the active layer, inside the selection; or NULL: */
+    double param[WR_OP_PARAMS];
+    bool all_layers;
+
+    int layer; /* a layer with other settings */
+    WrBlend blend;
+    float opacity, radius;
+} WrTrialAsk;
+
+/* Ask what the document's composite would be. Replaces what was asked before, which is given up; its result,
+ * if it came, stays until the new one is there. Takes a snapshot of the document. (An operation that gives
+ * the table another size is tried on the composite itself.) */
+void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *ask);
+/* Nothing is tried any more. */
+void wr_trial_end(WrTrial *trial);
+/* Stop what is under way; what was there before stays. */
+void wr_trial_stop(WrTrial *trial);
+
+/* The newest result, or NULL. Valid until the next call but wr_trial_busy. */
+const WrField *wr_trial_field(WrTrial *trial);
+/* Something is under way: how far it is (0..1) and for how many seconds; either may be NULL. */
+bool wr_trial_busy(WrTrial *trial, double *fraction, double *seconds);
+/* Why the newest ask gave nothing, or false. Told once. */
+bool wr_trial_error(WrTrial *trial, WrError *err);
