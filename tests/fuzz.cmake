@@ -16,23 +16,40 @@ if(WR_CLANG AND NOT DEFINED WR_HAVE_FUZZER)
     endif()
 endif()
 
-# wr_fuzz(NAME SOURCES...): tests/fuzz_NAME.c with the sources that it exercises, by paths from src/.
+# wr_fuzz(NAME SOURCES... [ROOMS rooms] [LIBRARIES flags]): tests/fuzz_NAME.c with the sources that it
+# exercises, by paths from src/, built for fuzzing; rooms are linked as they are.
 function(wr_fuzz name)
+    cmake_parse_arguments(FUZZ "" "" "ROOMS;LIBRARIES" ${ARGN})
     if(NOT WR_CLANG OR NOT WR_HAVE_FUZZER)
         return()
     endif()
-    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/src/ OUTPUT_VARIABLE sources)
+    list(TRANSFORM FUZZ_UNPARSED_ARGUMENTS PREPEND ${PROJECT_SOURCE_DIR}/src/
+         OUTPUT_VARIABLE sources)
+    set(rooms "")
+    set(targets "")
+    foreach(room ${FUZZ_ROOMS})
+        list(APPEND rooms $<TARGET_FILE:wr_${room}>)
+        list(APPEND targets wr_${room})
+    endforeach()
     file(GLOB headers ${PROJECT_SOURCE_DIR}/src/*/*.h)
     set(program ${CMAKE_BINARY_DIR}/fuzz_${name})
     add_custom_command(OUTPUT ${program}
         COMMAND ${WR_CLANG} ${fuzz_flags} -D_GNU_SOURCE -I${PROJECT_SOURCE_DIR}/src
-                ${CMAKE_CURRENT_SOURCE_DIR}/fuzz_${name}.c ${sources} -lxxhash -lmd -lm -o ${program}
-        DEPENDS fuzz_${name}.c ${sources} ${headers} VERBATIM)
+                ${CMAKE_CURRENT_SOURCE_DIR}/fuzz_${name}.c ${sources}
+                ${rooms} ${FUZZ_LIBRARIES} -lxxhash -lmd -lm -o ${program}
+        DEPENDS fuzz_${name}.c ${sources} ${headers} ${targets} VERBATIM)
     add_custom_target(fuzz_${name} ALL DEPENDS ${program})
-    add_test(NAME fuzz_${name} COMMAND ${program} -seed=1 -runs=20000 -max_len=2000 -max_total_time=10
+    add_test(NAME fuzz_${name} COMMAND ${program} -seed=1 -runs=100000 -max_len=2000 -max_total_time=10
                                        -artifact_prefix=${CMAKE_BINARY_DIR}/fuzz_${name}-)
     set_tests_properties(fuzz_${name} PROPERTIES LABELS fuzz)
 endfunction()
 
 wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c
         base/file.c base/hash.c base/memory.c base/text.c)
+
+# Under sanitizers of gcc the rooms cannot be linked with clang's.
+if(NOT WR_SANITIZE)
+    wr_fuzz(commands command/parse.c command/value.c command/scene_text.c
+            ROOMS command export render document brush scene shade surface image field base
+            LIBRARIES -lsleef -lzip -lexpat -ldl -lpthread)
+endif()

@@ -24,8 +24,8 @@ static void tolerances(const WrOctavesPlan *plan, double *height, double slope[2
         for (int a = 0; a < 2; a++)
             sloped[a] += plan->octave[k].amplitude * plan->octave[k].frequency[a];
     }
-    *height = 2e-6 * amplitudes;
-    for (int a = 0; a < 2; a++) slope[a] = 1e-5 * sloped[a];
+    *height = 1e-6 * amplitudes;
+    for (int a = 0; a < 2; a++) slope[a] = 5e-6 * sloped[a];
 }
 
 static void assert_grid_is_points(const WrOctavesPlan *plan, int width, int height)
@@ -66,7 +66,7 @@ static void a_grid_of_any_kind_is_the_point_function_at_texel_centres(void **sta
                 }
 }
 
-/* Creases are where a float and a double may fall on either side of 0, so |slopes| are compared. */
+/* On creases a float and a double may fall on either side of 0: one texel in 2000 may have another slope. */
 static void grids_of_every_mode_are_the_point_function(void **state)
 {
     (void)state;
@@ -79,15 +79,12 @@ static void grids_of_every_mode_are_the_point_function(void **state)
         WrOctavesPlan plan = plan_of(&octaves);
         double allowed, sloped[2];
         tolerances(&plan, &allowed, sloped);
-        bool ridged = mode == WR_OCTAVES_RIDGED;
         wr_octaves_grid(&plan, &(WrNoiseGrid){ W, H, 0, 0, W, H }, f, fu, fv, W);
         int far = 0;
         for (int k = 0; k < W * H; k++) {
             double p[2] = { (k % W + 0.5) / W, 1.0 - (k / W + 0.5) / H }, d[2];
-            assert_near(f[k], wr_octaves_at(&plan, p, d), ridged ? 2e-5 : allowed);
-            double most = ridged ? 20.0 : 1.0;
-            far +=
-                !(fabs(fu[k] - d[0]) <= most * sloped[0] && fabs(fv[k] - d[1]) <= most * sloped[1]);
+            assert_near(f[k], wr_octaves_at(&plan, p, d), allowed);
+            far += !(fabs(fu[k] - d[0]) <= sloped[0] && fabs(fv[k] - d[1]) <= sloped[1]);
         }
         assert_true(far <= (mode == WR_OCTAVES_FBM ? 0 : W * H / 2000));
     }

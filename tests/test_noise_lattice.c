@@ -151,6 +151,8 @@ static void the_lectures_hash_is_its_formula_in_double(void **state)
     }
     assert_true(wr_hash_lecture(NAN, 0, 0) == 0.0 && wr_hash_lecture(0, DBL_MAX, INFINITY) == 0.0);
     assert_true(wr_hash_lecture(1e300, 0, 0) < 1.0);
+    /* a tiny negative angle, whose fraction rounds to 1 */
+    assert_true(wr_hash_lecture(-1e-300, 0, -1.1235) == 0.0);
 }
 
 static void hc61_reduction_is_floored_and_exact(void **state)

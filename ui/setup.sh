@@ -12,7 +12,7 @@ wr_program_packages=(
 # the program writes.
 # shellcheck disable=SC2034  # used by tests/run.sh
 wr_test_packages=(
-    libcmocka-dev clang-format
+    libcmocka-dev clang clang-format libclang-rt-14-dev
     xvfb xauth xdotool x11-utils
     imagemagick openimageio-tools
     desktop-file-utils groff-base jq librsvg2-bin shellcheck

@@ -54,6 +54,7 @@ bool wr_bench_edit(const WrCli *cli, WrBenchEdit *edit, int rounds, WrError *err
 typedef struct WrBenchFile {
     int table, layers;
     double save_seconds, load_seconds;
+    double copy_seconds; /* oiiotool reading the file and writing it again; 0: not installed */
 } WrBenchFile;
 bool wr_bench_file(WrBenchFile *file, WrError *err);
 

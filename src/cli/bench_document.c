@@ -83,6 +83,22 @@ static WrDocument *make_document(int size, int layers, WrError *err)
     return document;
 }
 
+/* The same parts through another program, for comparison; seconds, or 0 if it is not there. */
+static double copy_with_oiiotool(const char *folder)
+{
+    char command[256];
+    snprintf(command, sizeof command,
+             "command -v oiiotool >/dev/null && oiiotool -a '%s/bench.exr' -o '%s/copy.exr' "
+             ">/dev/null 2>&1",
+             folder, folder);
+    double start = wr_clock_seconds();
+    bool good = system(command) == 0;
+    double seconds = wr_clock_seconds() - start;
+    snprintf(command, sizeof command, "%s/copy.exr", folder);
+    unlink(command);
+    return good ? seconds : 0;
+}
+
 bool wr_bench_file(WrBenchFile *file, WrError *err)
 {
     char folder[] = "/tmp/wrinkle-bench-XXXXXX", path[64];
@@ -105,6 +121,7 @@ bool wr_bench_file(WrBenchFile *file, WrError *err)
     file->load_seconds = wr_clock_seconds() - start;
     wr_document_free(loaded.document);
     wr_free(loaded.scene_text);
+    file->copy_seconds = good ? copy_with_oiiotool(folder) : 0;
     unlink(path);
     rmdir(folder);
     return good;

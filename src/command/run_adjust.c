@@ -12,15 +12,6 @@ typedef struct Adjusting {
     WrOpOptions options;
 } Adjusting;
 
-/* Operations that only move texels: coverage and masks move along with the heights. */
-static bool moves_texels(const WrOpInfo *op)
-{
-    static const char *const names[] = { "offset", "flip-u", "flip-v" };
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(op->name, names[i]) == 0) return true;
-    return op->reshapes;
-}
-
 static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
 {
     if (!*field) return true;
@@ -47,7 +38,8 @@ static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *er
 static bool run_on_layer(const Adjusting *adjusting, WrLayer *layer, WrError *err)
 {
     if (!run_on(adjusting, &layer->heights, err)) return false;
-    return !moves_texels(adjusting->op) || (run_on_part(adjusting, &layer->cover, err) &&
+    const WrOpInfo *op = adjusting->op;
+    return !(op->moves || op->reshapes) || (run_on_part(adjusting, &layer->cover, err) &&
                                             run_on_part(adjusting, &layer->mask, err));
 }
 

@@ -48,6 +48,7 @@ typedef struct WrOpInfo {
     const char *name;  /* as in commands: "slope-limit"; unique; NULL ends the table */
     const char *label; /* in menus: "Limit slope" */
     const char *help;  /* one sentence */
+    bool moves;        /* only moves texels: what lies over a table has to move with it */
     bool reshapes;     /* gives another size or another place for the edges: takes no mask */
     WrField *(*run)(WrOpJob *job, const double *param); /* private: call wr_op_run */
     WrOpParam params[WR_OP_PARAMS + 1];
