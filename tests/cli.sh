@@ -250,6 +250,40 @@ has err 'wrinkle: interrupted'
 rm -f pipe work.wrinkle
 empty 'everything'
 
+# ---- a kill, and what it leaves ----
+export WRINKLE_STATE=$folder/state
+expect 0 recover
+has out 'nothing to recover'
+mkfifo pipe
+"$program" run - <pipe >out 2>err &
+job=$!
+exec 9>pipe
+printf 'table 64x64\ndab 0.5,0.5\nlayer add moss\nreplicate 0.5,1\nsurface sphere\nreplicate 0.5,1\n' >&9
+for ((i = 0; i < 200; i++)); do
+    grep -q note err && break
+    sleep 0.05
+done
+kill -KILL "$job"
+wait "$job" 2>/dev/null
+exec 9>&-
+expect 0 recover
+has out '(never saved)  '
+expect 0 recover --json
+has out '"commands":'
+expect 1 recover 1
+has err 'needs -o'
+expect 1 recover 7 -o back.exr
+has err 'must be a number of the list'
+expect 0 recover 1 -o back.exr
+"$program" inspect --do 'table 64x64' --do 'dab 0.5,0.5' --do 'layer add moss' \
+    --do 'replicate 0.5,1' --do 'surface sphere' --do 'replicate 0.5,1' --json >want 2>err
+"$program" inspect back.exr --json >got 2>err
+is 'what a kill left' "$(cat got)" "$(cat want)"
+expect 0 recover
+has out 'nothing to recover'
+rm -rf pipe back.exr want got state
+empty 'a recovery'
+
 if [[ $failures != 0 ]]; then
     printf '%d failures\n' "$failures"
     exit 1

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "document/document_file.h"
+#include "document/ora.h"
 #include "export/export.h"
 
 #include <string.h>
@@ -97,7 +98,10 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
                        path);
     wr_document_composite(session->state.document, session->options.pool);
     wr_session_scene_text(session, &text);
-    bool good = wr_document_save(session->state.document, wr_text_get(&text), path, err);
+    char ending[16];
+    bool ora = strcmp(wr_path_ending(path, ending), "ora") == 0;
+    bool good = (ora ? wr_ora_save : wr_document_save)(session->state.document, wr_text_get(&text),
+                                                      path, err);
     wr_text_fini(&text);
     if (!good) return false;
     char *kept = wr_strdup(path); /* may be the old name itself */

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "document/document_file.h"
+#include "document/ora.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -116,11 +117,28 @@ static void note_newer(WrSession *session, const char *path, double version)
     session->state.newer_path = wr_strdup(path);
 }
 
+/* An OpenRaster file says line by line what it could not keep. */
+static bool load_ora(WrSession *session, const char *path, WrLoaded *loaded, int64_t *replaced,
+                     WrError *err)
+{
+    WrText notes = { 0 };
+    bool good = wr_ora_load(path, loaded, replaced, &notes, err);
+    for (const char *p = wr_text_get(&notes); good && *p;) {
+        size_t length = strcspn(p, "\n");
+        wr_session_note(session, "%s: %.*s", path, (int)length, p);
+        p += length + (p[length] == '\n');
+    }
+    wr_text_fini(&notes);
+    return good;
+}
+
 bool wr_session_load(WrSession *session, const char *path, WrError *err)
 {
     WrLoaded loaded = { 0 };
     int64_t replaced = 0;
-    if (!wr_document_load(path, &loaded, &replaced, err)) return false;
+    if (!(wr_ora_recognise(path) ? load_ora(session, path, &loaded, &replaced, err)
+                                 : wr_document_load(path, &loaded, &replaced, err)))
+        return false;
     wr_document_free(session->state.document);
     session->state.document = loaded.document;
     session->loading = true;
@@ -211,7 +229,8 @@ bool wr_session_open(WrSession *session, const char *path, WrError *err)
     WrSessionState old = wr_session_begin_state(session, wr_document_new());
     session->opening = true;
     if (script) good = open_script(session, path, err);
-    else if (exr && wr_document_recognise(path)) good = open_document(session, path, err);
+    else if ((exr && wr_document_recognise(path)) || wr_ora_recognise(path))
+        good = open_document(session, path, err);
     else good = open_picture(session, path, err);
     session->opening = false;
     if (good) wr_session_journal_drop(session);

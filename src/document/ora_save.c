@@ -357,9 +357,8 @@ static bool add_image_attributes(Saving *to, WrError *err)
                  wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
                  wr_number_print_float(to->low, low), wr_number_print_float(to->high, high),
                  document->active + 1, document->solo + 1);
-    if (document->selection && !add_field(to, "wrinkle:selection",
-                                          wr_strdup("data/selection.exr"), document->selection,
-                                          err))
+    if (document->selection && !add_field(to, "wrinkle:selection", wr_strdup("data/selection.exr"),
+                                          document->selection, err))
         return false;
     if (document->scene->colour && !add_colour(to, err)) return false;
     wr_text_add(&to->stack, ">\n  <stack>\n");

@@ -30,8 +30,8 @@ WrBlend wr_ora_blend(const char *operation, bool *exact)
         const char *operation;
         WrBlend blend;
     } known[] = {
-        { "svg:src-over", WR_BLEND_REPLACE }, { "svg:plus", WR_BLEND_ADD },
-        { "svg:lighten", WR_BLEND_MAX },      { "svg:darken", WR_BLEND_MIN },
+        { "svg:src-over", WR_BLEND_REPLACE },  { "svg:plus", WR_BLEND_ADD },
+        { "svg:lighten", WR_BLEND_MAX },       { "svg:darken", WR_BLEND_MIN },
         { "svg:multiply", WR_BLEND_MULTIPLY },
     };
     *exact = true;
@@ -210,7 +210,8 @@ static void XMLCALL on_start(void *ctx, const char *name, const char **attribute
     if (reading->element > 2 * DEPTH_MAX) stop(reading, "its list of layers is nested too deep");
     else if (reading->skip) return;
     else if (reading->element == 1 && is(name, "image")) read_image(reading, attributes);
-    else if (reading->element == 1) stop(reading, "damaged: its list of layers is no list of layers");
+    else if (reading->element == 1)
+        stop(reading, "damaged: its list of layers is no list of layers");
     else if (is(name, "stack") && reading->element == reading->depth + 2)
         begin_group(reading, attributes);
     else if (is(name, "layer") && reading->depth > 0 && reading->element == reading->depth + 2)
@@ -265,9 +266,9 @@ void wr_ora_stack_fini(WrOraStack *stack)
 {
     for (int i = 0; i < stack->layers.count; i++) {
         WrOraLayer *layer = &stack->layers.data[i];
-        char *texts[] = { layer->name,  layer->src,  layer->operation, layer->heights,
-                          layer->cover, layer->mask, layer->blend,     layer->radius,
-                          layer->name_bytes };
+        char *texts[] = { layer->name,    layer->src,    layer->operation,
+                          layer->heights, layer->cover,  layer->mask,
+                          layer->blend,   layer->radius, layer->name_bytes };
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }
     wr_array_free(&stack->layers);

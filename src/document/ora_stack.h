@@ -12,12 +12,12 @@ typedef struct WrOraLayer {
     double opacity;   /* 0..1, groups' multiplied in */
     bool visible;     /* and all its groups */
     bool locked, selected;
-    char *operation; /* composite-op */
+    char *operation;                                            /* composite-op */
     char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* ours */
 } WrOraLayer;
 
 typedef struct WrOraStack {
-    int width, height; /* canvas; not checked */
+    int width, height;           /* canvas; not checked */
     WR_ARRAY(WrOraLayer) layers; /* topmost first */
     int groups;                  /* that were dissolved */
     int unknown;                 /* elements that are neither layers nor groups */

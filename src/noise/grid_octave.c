@@ -200,7 +200,9 @@ static void band_of_points(const WrOctave *octave, const WrNoiseGrid *grid, bool
 void wr_noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes, WrNoiseBand *band)
 {
     WR_ASSERT(grid->count_i <= WR_NOISE_STRIP && grid->count_j <= WR_NOISE_BAND);
-    if (wr_noises[octave->noise.kind].cells && octave->frequency[0] <= grid->width)
+    if (octave->frequency[0] <= grid->width && wr_noises[octave->noise.kind].cells)
         band_of_cells(octave, grid, slopes, band);
+    else if (octave->frequency[0] <= grid->width && octave->noise.kind == WR_NOISE_SHEARED)
+        wr_noise_band_sheared(octave, grid, slopes, band);
     else band_of_points(octave, grid, slopes, band);
 }

@@ -25,6 +25,10 @@ typedef struct WrNoiseBand {
 /* grid: at most a piece. Without slopes, fx and fy are left alone. */
 void wr_noise_band(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes, WrNoiseBand *band);
 
+/* The same for sheared noise of at most one cell a texel along x. */
+void wr_noise_band_sheared(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
+                           WrNoiseBand *band);
+
 /* The centre of a texel. */
 static inline double wr_noise_grid_u(const WrNoiseGrid *grid, int i)
 {

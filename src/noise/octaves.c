@@ -113,7 +113,7 @@ static int repeat_cells(const WrOctaves *octaves, int axis, double n)
     return step * (int)(steps < 1.0 ? 1.0 : steps > most ? most : steps);
 }
 
-/* Octave i along one axis, n = n0 s^i. Scattered offsets are multiples of 1/64 of a cell below 64 cells,
+/* Octave i along one axis, n = n0 s^i. Scattered offsets are odd multiples of 1/64 below 64 cells,
  * never whole: no texel of a power-of-two table is lost in rounding them. */
 static void place_octave(const WrOctaves *octaves, int i, int axis, double n, WrOctave *octave)
 {

@@ -43,7 +43,7 @@ int wr_octaves_mode_find(const char *name);
 typedef struct WrOctaves {
     WrNoiseKind kind;
     WrFade fade;
-    WrLatticeSource source; /* HASH or LECTURE */
+    WrLatticeSource source; /* HASH, or LECTURE with salt (seed + i) mod 1000 */
     int dim;                /* 1..3 */
     WrOctavesMode mode;
     bool tile;    /* repeats with period 1 in each coordinate */
