@@ -1,5 +1,6 @@
 /* Documents: layers and their sum, snapshots, hashes, the file, heights from pictures. */
 #include "test.h"
+#include "test_folder.h"
 
 #include "base/exactmath.h"
 #include "base/file.h"
@@ -567,21 +568,6 @@ static void imports_out_of_range_are_errors(void **state)
     assert_null(wr_import_heights(image, 16385, 5, WR_WRAP_CLAMP, WR_WRAP_CLAMP, &err));
     assert_null(wr_import_heights(image, -1, -1, WR_WRAP_CLAMP, WR_WRAP_CLAMP, &err));
     wr_image_free(image);
-}
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    static char folder[] = "/tmp/wr_document_XXXXXX";
-    *state = mkdtemp(folder);
-    return *state ? chdir(folder) : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(void)

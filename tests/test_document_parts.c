@@ -1,9 +1,10 @@
 /* The document file with all its parts: round trips, newer and older versions, hostile files. */
 #include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "command/session.h"
 #include "document/document_file.h"
 
 #include <unistd.h>
@@ -21,17 +22,6 @@ static WrSession *new_session(Notes *notes)
 {
     WrSessionOptions options = { .note = keep_note, .note_ctx = notes };
     return wr_session_new(&options);
-}
-
-static void must_run(WrSession *session, const char *line)
-{
-    WrError err;
-    if (!wr_session_run(session, line, &err)) fail_msg("%s\n  %s", line, err.text);
-}
-
-static const WrDocument *doc(const WrSession *session)
-{
-    return wr_session_document(session);
 }
 
 static void read_bytes(const char *path, char **bytes, size_t *length)
@@ -346,20 +336,6 @@ static void hostile_documents_load_or_say_why_not(void **state)
     wr_free(bytes);
     wr_session_free(s);
     wr_text_fini(&notes.text);
-}
-
-static int enter_folder(void **state)
-{
-    static char folder[] = "/tmp/wr_parts_XXXXXX";
-    *state = mkdtemp(folder);
-    return *state ? chdir(folder) : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(void)

@@ -1,5 +1,6 @@
 /* Exports: codes and normals against their formulas, through real files. */
 #include "test.h"
+#include "test_folder.h"
 
 #include "base/exactmath.h"
 #include "base/file.h"
@@ -683,21 +684,6 @@ static void the_report_reads_as_a_sentence(void **state)
     assert_string_equal(wr_text_get(&text), "8x4, 16 bits, heights -0.5 to 1.25, codes are 0 to 1; "
                                             "1 texel outside the range, clipped");
     wr_text_fini(&text);
-}
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    static char folder[] = "/tmp/wr_export_XXXXXX";
-    *state = mkdtemp(folder);
-    return *state ? chdir(folder) : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(void)

@@ -1,10 +1,11 @@
 /* What was done: undo and redo of everything, bit for bit; the budget; the history as a script. */
 #include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
 
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "command/session.h"
 #include "command/table.h"
 #include "image/image.h"
 
@@ -16,24 +17,6 @@ static int count_of(int full)
 {
     const char *all = getenv("WR_FULL");
     return all && *all && strcmp(all, "0") != 0 ? full : full / 10;
-}
-
-static void must_run(WrSession *session, const char *line)
-{
-    WrError err;
-    if (!wr_session_run(session, line, &err)) fail_msg("%s\n  %s", line, err.text);
-}
-
-static void must_fail(WrSession *session, const char *line, const char *word)
-{
-    WrError err = { "" };
-    if (wr_session_run(session, line, &err)) fail_msg("accepted: %s", line);
-    if (!strstr(err.text, word)) fail_msg("%s\n  gave: %s\n  without: %s", line, err.text, word);
-}
-
-static const WrDocument *doc(const WrSession *session)
-{
-    return wr_session_document(session);
 }
 
 static bool has_hash(const WrSession *session, WrHash hash)
@@ -457,20 +440,6 @@ static void open_is_an_edit_that_can_be_undone(void **state)
     must_run(s, "redo");
     assert_true(has_hash(s, saved));
     wr_session_free(s);
-}
-
-static int enter_folder(void **state)
-{
-    static char folder[] = "/tmp/wr_history_XXXXXX";
-    *state = mkdtemp(folder);
-    return *state ? chdir(folder) : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(void)

@@ -1,5 +1,6 @@
 /* Pictures: what goes out comes back, bit for bit where the format can; hostile files; full disks. */
 #include "test.h"
+#include "test_folder.h"
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -736,21 +737,6 @@ static void shared_pictures_live_until_the_last_owner(void **state)
     assert_true(b->data[11] == 0.0f && b->width == 3);
     wr_image_free(b);
     wr_image_free(NULL);
-}
-
-static int enter_folder(void **state)
-{
-    (void)state;
-    static char folder[] = "/tmp/wr_image_XXXXXX";
-    *state = mkdtemp(folder);
-    return *state ? chdir(folder) : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(int argc, char **argv)

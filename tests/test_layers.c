@@ -1,45 +1,8 @@
 /* Layers as commands: what they make together, their order, joining them. */
 #include "test.h"
+#include "test_session_help.h"
 
 #include "base/memory.h"
-#include "command/session.h"
-
-static void must_run(WrSession *session, const char *line)
-{
-    WrError err;
-    if (!wr_session_run(session, line, &err)) fail_msg("%s\n  %s", line, err.text);
-}
-
-static WrSession *session_of(const char *const *lines)
-{
-    WrSession *session = wr_session_new(NULL);
-    for (; *lines; lines++) must_run(session, *lines);
-    return session;
-}
-
-static void must_fail(WrSession *session, const char *line, const char *word)
-{
-    WrError err = { "" };
-    WrHash before = wr_session_hash(session);
-    if (wr_session_run(session, line, &err)) fail_msg("accepted: %s", line);
-    if (!strstr(err.text, word)) fail_msg("%s\n  gave: %s\n  without: %s", line, err.text, word);
-    assert_true(wr_hash_equal(before, wr_session_hash(session)));
-}
-
-static const WrDocument *doc(const WrSession *session)
-{
-    return wr_session_document(session);
-}
-
-static float f_at(const WrSession *session, int i, int j)
-{
-    return wr_field_get(wr_document_field(doc(session)), i, j);
-}
-
-static bool same_field(const WrField *a, const WrField *b)
-{
-    return wr_hash_equal(wr_field_hash(a), wr_field_hash(b));
-}
 
 /* ---- the composite ---- */
 

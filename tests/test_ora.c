@@ -1,6 +1,7 @@
 /* OpenRaster files: ours come back bit for bit and are what others expect; strangers' become layers; hostile
    ones one clear sentence. */
 #include "test.h"
+#include "test_folder.h"
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -595,20 +596,6 @@ static void a_failed_save_leaves_the_old_file_and_nothing_else(void **state)
         if (strncmp(err.text, "disk/a.ora: cannot be written", 29) != 0) fail_msg("%s", err.text);
     }
     wr_document_free(document);
-}
-
-static int enter_folder(void **state)
-{
-    static char folder[] = "/tmp/wr_ora_XXXXXX";
-    *state = mkdtemp(folder);
-    return *state ? chdir(folder) : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(void)

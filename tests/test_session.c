@@ -1,21 +1,8 @@
 /* Sessions: every edit and scene command, failures that change nothing, strokes in progress. */
 #include "test.h"
+#include "test_session_help.h"
 
 #include "base/memory.h"
-#include "command/session.h"
-
-static void must_run(WrSession *session, const char *line)
-{
-    WrError err;
-    if (!wr_session_run(session, line, &err)) fail_msg("%s\n  %s", line, err.text);
-}
-
-static WrSession *session_of(const char *const *lines)
-{
-    WrSession *session = wr_session_new(NULL);
-    for (; *lines; lines++) must_run(session, *lines);
-    return session;
-}
 
 static const WrField *field_of(const WrSession *session)
 {

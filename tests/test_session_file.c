@@ -1,10 +1,10 @@
 /* Sessions and files: scripts, pictures, documents, colour pictures, outputs. */
 #include "test.h"
+#include "test_session_help.h"
 
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "command/session.h"
 #include "image/image.h"
 
 #include <sys/stat.h>
@@ -41,12 +41,6 @@ static WrSession *new_session(Notes *notes, bool outputs)
 {
     WrSessionOptions options = { .note = keep_note, .note_ctx = notes, .outputs = outputs };
     return wr_session_new(&options);
-}
-
-static void must_run(WrSession *session, const char *line)
-{
-    WrError err;
-    if (!wr_session_run(session, line, &err)) fail_msg("%s\n  %s", line, err.text);
 }
 
 static void write_text(const char *path, const char *text)

@@ -3,10 +3,10 @@
 
 #include "export/export.h"
 
-const WrArgSpec wr_args_save[] = {
-    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "an OpenEXR file, *.exr, or an OpenRaster file, *.ora" },
-    { 0 }
-};
+const WrArgSpec wr_args_save[] = { { PLACE("FILE"), .type = WR_ARG_PATH,
+                                     .help =
+                                         "an OpenEXR file, *.exr, or an OpenRaster file, *.ora" },
+                                   { 0 } };
 
 static bool check_export_option(const void *ctx, const char *name, const char *value, WrError *err)
 {

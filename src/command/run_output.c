@@ -101,7 +101,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     char ending[16];
     bool ora = strcmp(wr_path_ending(path, ending), "ora") == 0;
     bool good = (ora ? wr_ora_save : wr_document_save)(session->state.document, wr_text_get(&text),
-                                                      path, err);
+                                                       path, err);
     wr_text_fini(&text);
     if (!good) return false;
     char *kept = wr_strdup(path); /* may be the old name itself */
