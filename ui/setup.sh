@@ -4,8 +4,8 @@
 # The program: compiler and build tools, then the libraries that it links with, then its fonts.
 wr_program_packages=(
     build-essential cmake ninja-build pkg-config
-    libfreetype-dev libimgui-dev libmd-dev libopenimageio-dev libsdl2-dev libsleef-dev libstb-dev
-    libxxhash-dev
+    libexpat1-dev libfreetype-dev libimgui-dev libmd-dev libopenimageio-dev libsdl2-dev libsleef-dev
+    libstb-dev libxxhash-dev libzip-dev
     fonts-inter fonts-materialdesignicons-webfont
 )
 # The tests besides: the framework, checkers, an X server and hands for the window, readers of what

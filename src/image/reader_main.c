@@ -6,6 +6,7 @@
 #include "image/serve.h"
 #include "image/wire.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -51,6 +52,35 @@ static void warm(void)
     const WrOiioTable *library = wr_oiio(NULL);
     WrOiioReader *none = library ? library->open("/dev/null", "png", 1, reason) : NULL;
     if (none) library->close(none);
+}
+
+/* Whether every other thread of this process sleeps. */
+static bool others_sleep(void)
+{
+    DIR *folder = opendir("/proc/self/task");
+    bool asleep = true;
+    if (!folder) return true;
+    for (struct dirent *entry; (entry = readdir(folder));) {
+        char path[64], state = 'S';
+        if (entry->d_name[0] == '.' || atoi(entry->d_name) == getpid()) continue;
+        snprintf(path, sizeof path, "/proc/self/task/%.20s/stat", entry->d_name);
+        FILE *file = fopen(path, "re");
+        if (file && fscanf(file, "%*d (%*[^)]) %c", &state) == 1 && state != 'S') asleep = false;
+        if (file) fclose(file);
+    }
+    closedir(folder);
+    return asleep;
+}
+
+/* Libraries of the picture library start threads when they are loaded. A child has none of them, but it
+ * would inherit for ever what they hold at that moment; once they wait for work they hold nothing. */
+static void wait_for_others(void)
+{
+    int quiet = 0;
+    for (int ms = 0; ms < 3000 && quiet < 3; ms++) {
+        quiet = others_sleep() ? quiet + 1 : 0;
+        usleep(1000);
+    }
 }
 
 /* ---- children ---- */
@@ -162,6 +192,15 @@ static void work(Process *process)
     }
 }
 
+#if defined(__SANITIZE_THREAD__)
+/* Decoders start threads in a child, which this sanitizer forbids where the parent had threads as well. */
+const char *__tsan_default_options(void);
+const char *__tsan_default_options(void)
+{
+    return "die_after_fork=0";
+}
+#endif
+
 int main(void)
 {
     struct sockaddr_storage name;
@@ -178,6 +217,7 @@ int main(void)
     sigaddset(&ended, SIGCHLD);
     sigprocmask(SIG_BLOCK, &ended, NULL);
     warm();
+    wait_for_others();
     process.signals = signalfd(-1, &ended, SFD_CLOEXEC | SFD_NONBLOCK);
     if (process.signals >= 0) work(&process);
     for (int i = 0; i < process.children.count; i++) kill(process.children.data[i].pid, SIGKILL);
