@@ -264,10 +264,10 @@ static bool overlap(const SDL_Rect *a, const SDL_Rect *b)
 static void check_layout(const WrLayoutInput *in)
 {
     WrLayout l = wr_layout_make(in);
-    const SDL_Rect *r[] = { &l.options, &l.strip, &l.canvas, &l.divider,
-                            &l.patch,   &l.panel, &l.status };
+    const SDL_Rect *r[] = { &l.options, &l.strip,  &l.canvas,        &l.divider, &l.patch,
+                            &l.panel,   &l.status, &l.panel_divider, &l.lower };
     long area = 0;
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 9; i++) {
         area += (long)r[i]->w * r[i]->h;
         assert_true(r[i]->x >= 0 && r[i]->y >= 0 && r[i]->w >= 0 && r[i]->h >= 0);
         assert_true(r[i]->x + r[i]->w <= in->width && r[i]->y + r[i]->h <= in->height);
@@ -289,7 +289,7 @@ static void parts_of_the_window_cover_it_without_overlap(void **state)
                 for (int d = 0; d <= 4; d++) {
                     WrLayoutInput in = { sizes[i][0], sizes[i][1], (int)(29 * scales[s]),
                                          scales[s],   d / 4.0,     (WrViews)views,
-                                         d % 2 == 0 };
+                                         d % 2 == 0,  0.2 * d };
                     check_layout(&in);
                 }
             }
@@ -300,7 +300,7 @@ static void parts_of_the_window_cover_it_without_overlap(void **state)
 static void both_views_stay_usable_wherever_the_divider_is_dragged(void **state)
 {
     (void)state;
-    WrLayoutInput in = { 900, 600, 29, 1, 0.5, WR_VIEWS_BOTH, true };
+    WrLayoutInput in = { 900, 600, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4 };
     for (int x = -100; x < 1000; x += 7) {
         WrLayout l = wr_layout_make(&in);
         in.divider = wr_layout_divider_at(&l, x, 300);
@@ -313,7 +313,7 @@ static void both_views_stay_usable_wherever_the_divider_is_dragged(void **state)
 static void views_are_stacked_in_a_tall_window(void **state)
 {
     (void)state;
-    WrLayoutInput in = { 800, 1200, 29, 1, 0.5, WR_VIEWS_BOTH, true };
+    WrLayoutInput in = { 800, 1200, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4 };
     WrLayout l = wr_layout_make(&in);
     assert_true(l.stacked);
     assert_true(l.patch.y > l.canvas.y);

@@ -49,11 +49,12 @@ server=$!
 read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
 export DISPLAY=:$number
 unset WAYLAND_DISPLAY SDL_VIDEODRIVER WRINKLE_SCALE
-export HOME=$folder XDG_CONFIG_HOME=$folder/config WRINKLE_DATA=$source WRINKLE_DIALOG=own
+export HOME=$folder XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state WRINKLE_DATA=$source WRINKLE_DIALOG=own
 export WRINKLE_RENDERER=software WRINKLE_TIMING=1
 mkdir -p "$folder/config/wrinkle"
-# The patch stands still, so that its picture changes only when it has a reason to.
-printf 'width 1200\nheight 800\nturning 0\nradius 24\nstrength 0.4\nmode 1\n' >"$folder/config/wrinkle/window.conf"
+# The patch and the outline of a selection stand still, so that the picture changes only when it has a
+# reason to.
+printf 'width 1200\nheight 800\nturning 0\nants 0\nradius 24\nstrength 0.4\nmode 1\n' >"$folder/config/wrinkle/window.conf"
 cd "$folder" || exit 1
 
 has_window() {
@@ -86,6 +87,13 @@ ends() {
 }
 
 shot() { import -window "$window" "$1.ppm"; }
+
+# home: the pointer goes where its outline is not in the way of comparisons.
+home() {
+    xdotool mousemove $((X + 340)) $((Y + 400)) # else, if it is there, it would not be seen to move
+    xdotool mousemove $((X + 330)) $((Y + 400))
+    settle
+}
 
 # settle: wait until two pictures in a row are the same. The line that blinks in a text field is not
 # waited for: nobody calls this while there is one.
@@ -121,6 +129,26 @@ drag() {
 hash_of() { "$program" inspect "$1" --json | sed -n 's/.*"hash":"\([0-9a-f]*\)".*/\1/p'; }
 title_is() { [[ $(xdotool getwindowname "$window" 2>/dev/null) == "$1 - Wrinkle" ]]; }
 
+# save_as NAME [KEY]: by hand, and wait until the file is there.
+file_is_there() { [[ -s $1 ]]; }
+shows_dialog() {
+    shot asking
+    changed=$(differs unasked asking 400x200+400+270)
+    [[ ${changed%.*} -gt 20000 ]]
+}
+save_as() {
+    shot unasked
+    xdotool key "${2:-ctrl+shift+s}"
+    until_true 10 "the question for a file" shows_dialog || return
+    sleep 0.2
+    xdotool key ctrl+a
+    xdotool type --delay 20 "$folder/$1"
+    xdotool key Return
+    until_true 20 "the file $1" file_is_there "$1"
+    until_true 10 "the title of $1" title_is "$1"
+}
+layers_of() { "$program" inspect "$1" --json | grep -o '"blend"' | wc -l; }
+
 # ---- it opens, with something to wrinkle ----
 start
 shot start
@@ -150,14 +178,7 @@ settle
 shot saved
 
 # ---- it is saved where it was typed ----
-file_is_there() { [[ -s $1 ]]; }
-xdotool key ctrl+s
-sleep 0.5
-xdotool key ctrl+a
-xdotool type --delay 20 "$folder/painted.exr"
-xdotool key Return
-until_true 20 "the saved file" file_is_there painted.exr
-until_true 10 "the title of the saved file" title_is painted.exr
+save_as painted.exr ctrl+s
 "$program" inspect painted.exr --json >inspected || complain "the saved file is no document"
 grep -q '"size":\[512,512\]' inspected || complain "the saved table has another size: $(cat inspected)"
 [[ $(hash_of painted.exr) != "$(hash_of "$source/samples/bricks.wrinkle")" ]] ||
@@ -173,13 +194,7 @@ title_is painted.exr || complain "the title is $(xdotool getwindowname "$window"
 shot again
 changed=$(differs saved again "$canvas")
 [[ ${changed%.*} -lt 200 ]] || complain "opened again, $changed pixels of the table are others"
-xdotool key ctrl+shift+s
-sleep 0.5
-xdotool key ctrl+a
-xdotool type --delay 20 "$folder/second.exr"
-xdotool key Return
-until_true 20 "the second file" file_is_there second.exr
-until_true 10 "the title of the second file" title_is second.exr
+save_as second.exr
 [[ $(hash_of painted.exr) == "$(hash_of second.exr)" ]] || complain "saved again it has another hash"
 
 # ---- unsaved work is asked about; Escape goes back to it, D gives it up ----
@@ -213,6 +228,78 @@ settle
 xdotool key Return
 ends 0
 [[ $(hash_of painted.exr) != "$(hash_of second.exr)" ]] || complain "saving at the end wrote nothing"
+
+# ---- layers are added and painted by hand; undone, the document is what it was, bit for bit ----
+start painted.exr
+shot start
+xdotool key ctrl+shift+n
+until_true 10 "the mark of a new layer" title_is 'painted.exr *'
+drag 180 300 6 4 20
+xdotool key ctrl+shift+n
+drag 380 520 -5 -3 20
+home
+shot layers
+changed=$(differs start layers "$canvas")
+[[ ${changed%.*} -gt 2000 ]] || complain "strokes on two layers changed only $changed pixels"
+save_as layered.exr
+[[ $(layers_of layered.exr) == 3 ]] || complain "the document has $(layers_of layered.exr) layers, not 3"
+[[ $(hash_of layered.exr) != "$(hash_of painted.exr)" ]] || complain "layers leave no trace in the file"
+xdotool key ctrl+z ctrl+z ctrl+z ctrl+z
+home
+shot undone
+changed=$(differs start undone "$canvas")
+[[ ${changed%.*} -lt 20 ]] || complain "four steps undone, $changed pixels of the table are others"
+save_as undone.exr
+[[ $(hash_of undone.exr) == "$(hash_of painted.exr)" ]] || complain "undoing all does not give the same document"
+xdotool key ctrl+shift+z ctrl+y y ctrl+shift+z
+settle
+save_as redone.exr
+[[ $(hash_of redone.exr) == "$(hash_of layered.exr)" ]] || complain "redoing all does not give the same document"
+
+# ---- an operation shows what it would do, and cancelled leaves no trace ----
+home
+shot calm
+xdotool key ctrl+i
+home
+shot tried
+changed=$(differs calm tried "$canvas")
+[[ ${changed%.*} -gt 2000 ]] || complain "an operation that is tried changes only $changed pixels"
+title_is redone.exr || complain "trying an operation makes unsaved work"
+xdotool key Escape
+home
+shot back
+changed=$(differs calm back "$canvas")
+[[ ${changed%.*} -lt 20 ]] || complain "a cancelled operation leaves $changed pixels changed"
+save_as cancelled.exr
+[[ $(hash_of cancelled.exr) == "$(hash_of redone.exr)" ]] || complain "a cancelled operation changes the document"
+xdotool key ctrl+i
+settle
+xdotool key Return
+until_true 10 "the mark of an operation" title_is 'cancelled.exr *'
+xdotool key ctrl+z
+until_true 10 "an operation undone" title_is cancelled.exr
+
+# ---- a stroke keeps to what is selected ----
+xdotool key shift+r
+drag 250 200 4 20 20
+xdotool key b
+home
+shot selected
+changed=$(differs back selected "$canvas")
+[[ ${changed%.*} -gt 200 ]] || complain "a selection is outlined by $changed pixels only"
+drag 200 500 9 0 20
+home
+shot confined
+changed=$(differs selected confined 40x80+265+460)
+[[ ${changed%.*} -gt 500 ]] || complain "a stroke changed only $changed pixels of what is selected"
+changed=$(differs selected confined 50x80+190+460)
+[[ ${changed%.*} -lt 20 ]] || complain "a stroke changed $changed pixels outside the selection"
+xdotool key ctrl+shift+a
+settle
+xdotool key ctrl+q
+settle
+xdotool key d
+ends 0
 
 # ---- a signal ends the program ----
 start painted.exr

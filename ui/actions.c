@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT
    The one table of actions: menus, keys and buttons all go by it. */
-#include "ui/state.h"
-
-#include "command/table.h"
+#include "ui/actions.h"
 #include "ui/line.h"
 
 #include <math.h>
@@ -22,13 +20,22 @@ static void redo(WrApp *app)
 
 static bool can_undo(const WrApp *app)
 {
-    return wr_command_find("undo") != NULL && wr_session_history_count(app->session) > 0;
+    return wr_session_history_position(app->session) > wr_session_history_oldest(app->session);
 }
 
 static bool can_redo(const WrApp *app)
 {
-    (void)app;
-    return wr_command_find("redo") != NULL;
+    return wr_session_history_position(app->session) < wr_session_history_count(app->session);
+}
+
+static bool has_history(const WrApp *app)
+{
+    return wr_session_history_position(app->session) > 0;
+}
+
+static void search(WrApp *app)
+{
+    wr_dialog_open(app, WR_DIALOG_SEARCH);
 }
 
 /* ---- brush ---- */
@@ -116,6 +123,21 @@ static void tool_brush(WrApp *app)
 static void tool_pick(WrApp *app)
 {
     choose_tool(app, "pick");
+}
+
+static void tool_select_rect(WrApp *app)
+{
+    choose_tool(app, "select_rect");
+}
+
+static void tool_select_ellipse(WrApp *app)
+{
+    choose_tool(app, "select_ellipse");
+}
+
+static void tool_select_lasso(WrApp *app)
+{
+    choose_tool(app, "select_lasso");
 }
 
 static void tool_pan(WrApp *app)
@@ -285,6 +307,16 @@ static bool is_auto(const WrApp *app)
     return app->settings.look.automatic;
 }
 
+static void ants(WrApp *app)
+{
+    app->settings.ants = !app->settings.ants;
+}
+
+static bool is_ants(const WrApp *app)
+{
+    return app->settings.ants;
+}
+
 static void turn(WrApp *app)
 {
     app->settings.turning = !app->settings.turning;
@@ -338,10 +370,15 @@ const WrAction wr_actions[] = {
     { "save", "Save", save, NULL, NULL },
     { "save_as", "Save as...", wr_app_save_as, NULL, NULL },
     { "export", "Export...", export, NULL, NULL },
+    { "save_history", "Save history as script...", wr_app_save_history, has_history, NULL },
     { "quit", "Quit", wr_app_quit, NULL, NULL },
     { "undo", "Undo", undo, can_undo, NULL },
     { "redo", "Redo", redo, can_redo, NULL },
+    { "search", "Search actions...", search, NULL, NULL },
     { "brush", "Brush", tool_brush, NULL, NULL },
+    { "select_rect", "Rectangle selection", tool_select_rect, NULL, NULL },
+    { "select_ellipse", "Ellipse selection", tool_select_ellipse, NULL, NULL },
+    { "select_lasso", "Lasso selection", tool_select_lasso, NULL, NULL },
     { "pick", "Pick height", tool_pick, NULL, NULL },
     { "pan", "Move the table", tool_pan, NULL, NULL },
     { "zoom", "Zoom", tool_zoom, NULL, NULL },
@@ -353,7 +390,35 @@ const WrAction wr_actions[] = {
     { "strength_down", "Weaker brush", strength_down, NULL, NULL },
     { "swap_mode", "Swap raise and lower", swap_mode, NULL, NULL },
     { "level_mode", "Paint to a height", level_mode, NULL, NULL },
+    { "select_all", "Select all", wr_act_select_all, NULL, NULL },
+    { "select_none", "Select none", wr_act_select_none, wr_can_mask_selection, NULL },
+    { "select_invert", "Invert selection", wr_act_select_invert, NULL, NULL },
+    { "select_grow", "Grow selection...", wr_act_select_grow, wr_can_mask_selection, NULL },
+    { "select_shrink", "Shrink selection...", wr_act_select_shrink, wr_can_mask_selection, NULL },
+    { "select_feather", "Feather selection...", wr_act_select_feather, wr_can_mask_selection,
+      NULL },
+    { "select_height", "Select by height...", wr_act_select_height, NULL, NULL },
+    { "select_slope", "Select by slope...", wr_act_select_slope, NULL, NULL },
+    { "layer_add", "New layer", wr_act_layer_add, NULL, NULL },
+    { "layer_duplicate", "Duplicate layer", wr_act_layer_duplicate, NULL, NULL },
+    { "layer_delete", "Delete layer", wr_act_layer_delete, wr_can_several_layers, NULL },
+    { "layer_rename", "Rename layer", wr_act_layer_rename, NULL, NULL },
+    { "layer_merge", "Merge layer down", wr_act_layer_merge, wr_can_merge, NULL },
+    { "layer_flatten", "Flatten all layers", wr_act_layer_flatten, wr_can_several_layers, NULL },
+    { "layer_clear", "Clear layer", wr_act_layer_clear, NULL, NULL },
+    { "layer_show", "Layer is shown", wr_act_layer_show, NULL, wr_is_layer_shown },
+    { "layer_lock", "Layer is locked", wr_act_layer_lock, NULL, wr_is_layer_locked },
+    { "layer_solo", "Show layer alone", wr_act_layer_solo, NULL, wr_is_solo },
+    { "layer_raise", "Raise layer", wr_act_layer_raise, wr_can_raise, NULL },
+    { "layer_lower", "Lower layer", wr_act_layer_lower, wr_can_merge, NULL },
+    { "layer_above", "Layer above", wr_act_layer_above, wr_can_raise, NULL },
+    { "layer_below", "Layer below", wr_act_layer_below, wr_can_merge, NULL },
+    { "mask_selection", "Mask from selection", wr_act_mask_selection, wr_can_mask_selection, NULL },
+    { "mask_white", "Mask that shows all", wr_act_mask_white, NULL, NULL },
+    { "mask_black", "Mask that hides all", wr_act_mask_black, NULL, NULL },
+    { "mask_none", "Remove mask", wr_act_mask_none, wr_can_mask_none, NULL },
     { "table_size", "New table...", table_size, NULL, NULL },
+    { "offset_half", "Offset by half a cell", wr_act_offset_half, NULL, NULL },
     { "fill", "Fill...", fill, NULL, NULL },
     { "grid", "Grid...", grid, NULL, NULL },
     { "import", "Import heights...", import, NULL, NULL },
@@ -372,6 +437,7 @@ const WrAction wr_actions[] = {
     { "look_grey", "Grey", look_grey, NULL, is_grey },
     { "look_signed", "Blue below zero, orange above", look_signed, NULL, is_signed },
     { "range_auto", "Range follows the table", range_auto, NULL, is_auto },
+    { "ants", "Selection's outline moves", ants, NULL, is_ants },
     { "turn", "Turning patch", turn, NULL, is_turning },
     { "camera_reset", "Reset the camera", camera_reset, NULL, NULL },
     { "pose_reset", "Reset the patch's pose", pose_reset, NULL, NULL },
@@ -391,7 +457,10 @@ const WrAction *wr_action_find(const char *name)
 void wr_action_run(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(name);
+    const WrOpInfo *op = action ? NULL : wr_action_op(name);
+    if (op) wr_dialog_adjust_open(app, op);
     if (!action || (action->enabled && !action->enabled(app))) return;
-    action->run(app);
+    if (app->in_frame) wr_later_action(app, name); /* it may take long */
+    else action->run(app);
     wr_app_redraw(app);
 }

@@ -46,8 +46,7 @@ static void add_segment(WrAnts *ants, const WrView *view, Spot a, Spot b)
             ants->cut = true;
             return;
         }
-        wr_array_push(&ants->pixels,
-                      ((WrAnt){ at, (float)(a.along + t * (b.along - a.along)) }));
+        wr_array_push(&ants->pixels, ((WrAnt){ at, (float)(a.along + t * (b.along - a.along)) }));
     }
 }
 
@@ -87,7 +86,7 @@ void wr_ants_add(WrAnts *ants, const WrSelectPoint *points, int count, int wind_
                  const WrView *view, bool wraps_u, bool wraps_v)
 {
     Spots spots = { 0 };
-    if (count < 2) return;
+    if (count < 1) return; /* one is enough for a straight line round the table */
     to_pixels(points, count, wind_u, wind_v, view, &spots);
     double x0 = INFINITY, x1 = -INFINITY, y0 = INFINITY, y1 = -INFINITY;
     for (int i = 0; i < spots.count; i++) {

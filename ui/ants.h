@@ -10,8 +10,8 @@
 #define WR_ANTS_MAX 200000 /* pixels at most: the rest of a larger outline is left out */
 
 typedef struct WrAnt {
-    SDL_Point at;    /* pixel of the window */
-    float along;     /* pixels from the beginning of its line */
+    SDL_Point at; /* pixel of the window */
+    float along;  /* pixels from the beginning of its line */
 } WrAnt;
 
 typedef struct WrAnts {

@@ -12,6 +12,7 @@
 
 #define FRAME_SECONDS (1.0 / 125.0) /* least time between two pictures of the window */
 #define CARET_SECONDS 0.3           /* a text field's caret blinks, messages go */
+#define BAR_SECONDS 0.1             /* between pictures of a bar that fills */
 
 void wr_app_redraw(WrApp *app)
 {
@@ -119,8 +120,12 @@ static bool begin(WrApp *app, WrError *err)
     if (!make_window(app)) return wr_fail(err, "no window: %s", SDL_GetError());
     app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
     if (!app->gui) return false;
-    app->ready_event = SDL_RegisterEvents(2);
+    app->ready_event = SDL_RegisterEvents(3);
     app->file_event = app->ready_event + 1;
+    app->job_event = app->ready_event + 2;
+    app->trial = wr_trial_new(app->options->threads, app->job_event);
+    app->marks.outliner = wr_outliner_new(app->options->threads, app->job_event);
+    app->layers.dragged = app->layers.renamed = -1;
     app->canvas = wr_canvas_new();
     app->preview = wr_preview_new(app->options->threads, app->options->isa, app->ready_event);
     app->files = wr_files_new(app->file_event);
@@ -130,6 +135,7 @@ static bool begin(WrApp *app, WrError *err)
     read_keys(app);
     wr_app_start(app);
     wr_app_title(app);
+    wr_dialog_recover_open(app);
     SDL_ShowWindow(app->window);
     SDL_StartTextInput();
     wr_app_redraw(app);
@@ -139,7 +145,13 @@ static bool begin(WrApp *app, WrError *err)
 static void end(WrApp *app)
 {
     wr_preview_free(app->preview);
+    wr_trial_free(app->trial);
+    wr_marks_free(app);
+    wr_recovery_free(app->recovery);
+    wr_free(app->later.line);
+    wr_free(app->later.path);
     if (app->renderer) wr_patch_free(app);
+    if (app->renderer) wr_panel_layers_forget(app);
     wr_canvas_free(app->canvas);
     wr_gui_free(app->gui);
     wr_files_free(app->files);
@@ -191,7 +203,12 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
 static void handle(WrApp *app, const SDL_Event *event)
 {
     if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
+    if (event->type == app->job_event) {         /* what the result is needed for takes it */
+        wr_app_redraw(app);
+        return;
+    }
     wr_gui_event(app->gui, event);
+    app->input_at = wr_clock_seconds();
     wr_app_redraw(app);
     if (event->type == SDL_QUIT) { /* a signal; a second one does not wait for an answer */
         if (app->dialog == WR_DIALOG_UNSAVED) app->quit = true;
@@ -203,6 +220,7 @@ static void handle(WrApp *app, const SDL_Event *event)
         SDL_free(event->drop.file);
     } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
         wr_canvas_forget(app->canvas);
+        wr_panel_layers_forget(app);
         app->patch.serial = 0;
     } else if (event->type == app->file_event) {
         WrFilePurpose purpose;
@@ -225,7 +243,8 @@ static void make_layout(WrApp *app)
                          .scale = wr_gui_scale(),
                          .divider = app->settings.divider,
                          .views = app->settings.views,
-                         .panels = app->settings.panels };
+                         .panels = app->settings.panels,
+                         .lower = app->settings.lower };
     app->layout = wr_layout_make(&in);
 }
 
@@ -236,6 +255,10 @@ static SDL_SystemCursor cursor_for(const WrApp *app)
         (hand->grab == WR_GRAB_NONE &&
          wr_layout_inside(&app->layout.divider, (int)hand->at.x, (int)hand->at.y)))
         return app->layout.stacked ? SDL_SYSTEM_CURSOR_SIZENS : SDL_SYSTEM_CURSOR_SIZEWE;
+    if (hand->grab == WR_GRAB_PANELS ||
+        (hand->grab == WR_GRAB_NONE &&
+         wr_layout_inside(&app->layout.panel_divider, (int)hand->at.x, (int)hand->at.y)))
+        return SDL_SYSTEM_CURSOR_SIZENS;
     if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space))
         return SDL_SYSTEM_CURSOR_SIZEALL;
     if (hand->on_canvas) return SDL_SYSTEM_CURSOR_CROSSHAIR;
@@ -253,11 +276,9 @@ static void set_cursor(WrApp *app)
     app->cursor = wanted;
 }
 
-static void draw_divider(const WrApp *app)
+static void draw_divider(const SDL_Rect *d, bool hot)
 {
-    const SDL_Rect *d = &app->layout.divider;
     if (d->w <= 0) return;
-    bool hot = app->hand.grab == WR_GRAB_DIVIDER;
     wr_gui_draw_fill(d->x, d->y, d->w, d->h, hot ? WR_COLOUR_SELECTED : 0xff232323u, 0);
 }
 
@@ -273,6 +294,7 @@ static void draw(WrApp *app, double now)
     int width, height;
     SDL_GetRendererOutputSize(app->renderer, &width, &height);
     wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
+    app->in_frame = true;
     wr_panel_menu(app);
     make_layout(app);
     wr_app_place_view(app);
@@ -283,11 +305,13 @@ static void draw(WrApp *app, double now)
     SDL_RenderClear(app->renderer);
     wr_canvas_view_draw(app);
     wr_patch_draw(app);
-    draw_divider(app);
+    draw_divider(&app->layout.divider, app->hand.grab == WR_GRAB_DIVIDER);
+    draw_divider(&app->layout.panel_divider, app->hand.grab == WR_GRAB_PANELS);
     wr_canvas_view_overlay(app);
     wr_patch_overlay(app);
     wr_panel_status(app);
     wr_panel_dialogs(app);
+    app->in_frame = false;
     wr_gui_frame_end(app->gui);
     SDL_RenderPresent(app->renderer);
     set_cursor(app);
@@ -319,6 +343,13 @@ static void tell_timing(const WrApp *app)
 
 /* ---- the loop ---- */
 
+/* Something is being computed in the background: its bar moves. */
+static bool works(const WrApp *app)
+{
+    return wr_trial_busy(app->trial, NULL, NULL) ||
+           wr_outliner_busy(app->marks.outliner, NULL, NULL);
+}
+
 /* Milliseconds until something is due without an event; -1: never. */
 static int wait_time(const WrApp *app, double now)
 {
@@ -326,6 +357,9 @@ static int wait_time(const WrApp *app, double now)
     if (app->redraw > 0 && app->visible) next = app->drawn_at + FRAME_SECONDS;
     double patch = wr_patch_next_time(app);
     if (patch > 0.0 && patch < next) next = patch;
+    double march = wr_marks_next_time(app);
+    if (march > 0.0 && march < next) next = march;
+    if (works(app) && app->drawn_at + BAR_SECONDS < next) next = app->drawn_at + BAR_SECONDS;
     bool young = app->messages.list.count > 0 &&
                  now - app->messages.list.data[app->messages.list.count - 1].since < 7.0;
     bool alive = wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || young;
@@ -334,6 +368,15 @@ static int wait_time(const WrApp *app, double now)
     if (next > 1e299) return -1;
     double ms = ceil((next - now) * 1e3);
     return ms < 0.0 ? 0 : ms > 60000.0 ? 60000 : (int)ms;
+}
+
+/* The outline of the selection moves on. */
+static void march(WrApp *app)
+{
+    double now = wr_clock_seconds(), due = wr_marks_next_time(app);
+    if (due == 0.0 || now < due) return;
+    app->marks.stepped_at = now;
+    if (app->redraw == 0) app->redraw = 1;
 }
 
 static void step(WrApp *app)
@@ -345,10 +388,13 @@ static void step(WrApp *app)
         do handle(app, &event);
         while (SDL_PollEvent(&event));
     } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) ||
-               app->messages.list.count > 0) {
+               app->messages.list.count > 0 || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
     wr_brush_flush(app);
+    wr_later_run(app);
+    march(app);
+    wr_marks_update(app);
     wr_patch_update(app);
     now = wr_clock_seconds();
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + FRAME_SECONDS - 0.0005) {

@@ -15,6 +15,7 @@ void wr_canvas_view_draw(WrApp *app)
         wr_canvas_draw(app->canvas, app->renderer, &app->view, wr_app_field(app),
                        &app->settings.look, MEANS_BUDGET, app->range);
     if (app->canvas_unfinished) wr_app_redraw(app);
+    wr_marks_draw(app);
 }
 
 /* Lines between texels, faint: dark on light and light on dark. */
@@ -139,4 +140,5 @@ void wr_canvas_view_overlay(WrApp *app)
     if (app->hints && app->starter) hints(app);
     wr_gui_draw_unclip();
     if (room->w > wr_gui_px(140)) chips(app);
+    if (room->w > wr_gui_px(240)) wr_panel_seam(app);
 }

@@ -6,11 +6,33 @@
 #include "base/file.h"
 #include "command/call.h"
 
+#include <stdarg.h>
 #include <string.h>
+
+const WrDocument *wr_app_document(const WrApp *app)
+{
+    return wr_session_document(app->session);
+}
 
 const WrField *wr_app_field(const WrApp *app)
 {
-    return wr_document_field(wr_session_document(app->session));
+    const WrField *tried = app->trying ? wr_trial_field(app->trial) : NULL;
+    return tried ? tried : wr_document_field(wr_app_document(app));
+}
+
+void wr_app_try(WrApp *app, const WrTrialAsk *ask)
+{
+    app->trying = true;
+    wr_trial_ask(app->trial, wr_app_document(app), ask);
+    wr_app_redraw(app);
+}
+
+void wr_app_try_end(WrApp *app)
+{
+    if (!app->trying) return;
+    app->trying = false;
+    wr_trial_end(app->trial);
+    wr_app_redraw(app);
 }
 
 const WrScene *wr_app_scene(const WrApp *app)
@@ -31,10 +53,21 @@ bool wr_app_run_line(WrApp *app, const char *line)
     wr_hand_let_go(app); /* a stroke that is open would refuse it */
     bool ok = wr_session_run(app->session, line, &err);
     if (!ok) wr_app_fail(app, &err);
+    wr_app_try_end(app);
     wr_app_take_notes(app);
     wr_app_title(app);
     wr_app_redraw(app);
     return ok;
+}
+
+bool wr_app_run_linef(WrApp *app, const char *format, ...)
+{
+    char line[256];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    return wr_app_run_line(app, line);
 }
 
 WrScene *wr_app_live(WrApp *app)
@@ -79,9 +112,12 @@ static void note_recent(WrApp *app, const char *path)
 
 /* ---- another document ---- */
 
-/* Everything that belonged to the old one. */
-static void changed_document(WrApp *app)
+void wr_app_changed_document(WrApp *app)
 {
+    app->clean_revision = wr_session_saved_revision(app->session);
+    wr_app_try_end(app);
+    app->layers.dragged = app->layers.renamed = -1;
+    wr_select_cancel(app);
     wr_patch_commit_zoom(app, false);
     wr_app_live_end(app);
     app->view_placed = false;
@@ -92,17 +128,36 @@ static void changed_document(WrApp *app)
     wr_app_redraw(app);
 }
 
+/* A call that may take long, as wr_busy_run wants it. */
+typedef struct FileCall {
+    WrSession *session;
+    const char *path;
+} FileCall;
+
+static bool open_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    return wr_session_open(call->session, call->path, err);
+}
+
+static bool save_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    return wr_session_save(call->session, call->path, err);
+}
+
 static bool open_now(WrApp *app, const char *path)
 {
     WrError err;
+    FileCall call = { app->session, path };
     wr_hand_let_go(app);
-    if (!wr_session_open(app->session, path, &err)) {
+    if (!wr_busy_run(app, "Opening", open_work, &call, &err)) {
         wr_app_fail(app, &err);
         return false;
     }
     app->starter = false;
     note_recent(app, path);
-    changed_document(app);
+    wr_app_changed_document(app);
     return true;
 }
 
@@ -153,7 +208,7 @@ void wr_app_go_on(WrApp *app)
         wr_hand_let_go(app);
         wr_session_reset(app->session);
         app->starter = false;
-        changed_document(app);
+        wr_app_changed_document(app);
         break;
     case WR_AFTER_OPEN:
         if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
@@ -201,13 +256,16 @@ static bool save_to(WrApp *app, const char *path)
     WrError err;
     wr_hand_let_go(app);
     wr_patch_commit_zoom(app, true);
-    bool ok = wr_session_save(app->session, path, &err);
+    FileCall call = { app->session, path };
+    bool ok = wr_busy_run(app, "Saving", save_work, &call, &err);
     if (!ok) {
         wr_app_fail(app, &err);
         app->after = WR_AFTER_NOTHING; /* nothing may be lost because a disk is full */
         return false;
     }
     app->starter = false;
+    app->clean_revision =
+        wr_session_saved_revision(app->session); /* the old one is not in this file */
     note_recent(app, path);
     wr_app_take_notes(app);
     wr_app_say(app, "Saved %s", path);
@@ -250,6 +308,19 @@ void wr_app_save_as(WrApp *app)
              wr_session_path(app->session)[0] ? wr_app_name(app) : "untitled.exr");
 }
 
+void wr_app_save_history(WrApp *app)
+{
+    wr_hand_let_go(app);
+    ask_file(app, WR_FILE_HISTORY, "history.wrinkle");
+}
+
+static void save_history_now(WrApp *app, const char *path)
+{
+    WrError err;
+    if (!wr_session_save_history(app->session, path, &err)) wr_app_fail(app, &err);
+    else wr_app_say(app, "Saved %d steps as %s", wr_session_history_position(app->session), path);
+}
+
 static char *with_ending(const char *path, const char *ending)
 {
     char buffer[16];
@@ -265,7 +336,8 @@ static void import_now(WrApp *app, const char *path)
     wr_text_add(&line, "image ");
     wr_text_add_word(&line, path);
     if (app->forms.fit) wr_text_add(&line, " fit=table");
-    if (wr_app_run_line(app, wr_text_get(&line))) app->view_placed = false;
+    wr_app_run_slow(app, wr_text_get(&line));
+    app->view_placed = false;
     wr_text_fini(&line);
 }
 
@@ -287,14 +359,20 @@ static void export_now(WrApp *app, const char *path)
 
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
-    char *full = purpose == WR_FILE_SAVE     ? with_ending(path, ".exr")
-                 : purpose == WR_FILE_EXPORT ? with_ending(path, ".png")
-                                             : wr_strdup(path);
+    if (app->in_frame) { /* it may take long */
+        wr_later_file(app, purpose, path);
+        return;
+    }
+    static const char *const endings[WR_FILE_HISTORY + 1] = {
+        [WR_FILE_SAVE] = ".exr", [WR_FILE_EXPORT] = ".png", [WR_FILE_HISTORY] = ".wrinkle"
+    };
+    char *full = endings[purpose] ? with_ending(path, endings[purpose]) : wr_strdup(path);
     switch (purpose) {
     case WR_FILE_OPEN: open_now(app, full); break;
     case WR_FILE_SAVE: save_to(app, full); break;
     case WR_FILE_IMPORT: import_now(app, full); break;
     case WR_FILE_EXPORT: export_now(app, full); break;
+    case WR_FILE_HISTORY: save_history_now(app, full); break;
     }
     wr_free(full);
 }

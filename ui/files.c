@@ -50,6 +50,7 @@ static const struct {
     [WR_FILE_SAVE] = { "Save as", "Save", true },
     [WR_FILE_EXPORT] = { "Export to", "Export", true },
     [WR_FILE_IMPORT] = { "Import heights", "Import", false },
+    [WR_FILE_HISTORY] = { "Save the history as a script", "Save", true },
 };
 
 static void free_entries(WrFiles *files)

@@ -9,7 +9,8 @@ typedef enum WrFilePurpose {
     WR_FILE_OPEN,
     WR_FILE_SAVE,
     WR_FILE_EXPORT,
-    WR_FILE_IMPORT
+    WR_FILE_IMPORT,
+    WR_FILE_HISTORY
 } WrFilePurpose;
 
 typedef struct WrFiles WrFiles;

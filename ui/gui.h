@@ -44,23 +44,23 @@ double wr_gui_scale(void);   /* pixels a unit */
 int wr_gui_px(double units); /* units as whole pixels */
 
 /* ---- icons (UTF-8 of the icon font; plain letters where it is missing) ---- */
-#define WR_ICON_BRUSH "\xef\x83\xa3"  /* f0e3 */
-#define WR_ICON_HAND "\xef\x81\x81"   /* f041 arrow-all */
-#define WR_ICON_ZOOM "\xef\x8d\x89"   /* f349 */
-#define WR_ICON_PICK "\xef\x88\x8a"   /* f20a */
-#define WR_ICON_PLAY "\xef\x90\x8a"   /* f40a */
-#define WR_ICON_PAUSE "\xef\x8f\xa4"  /* f3e4 */
-#define WR_ICON_DOWN "\xef\x8d\x9d"   /* f35d */
-#define WR_ICON_CLOSE "\xef\x85\x96"  /* f156 */
-#define WR_ICON_PLUS "\xef\x90\x95"   /* f415 */
-#define WR_ICON_DELETE "\xef\x87\x80" /* f1c0 */
-#define WR_ICON_HELP "\xef\x8b\x97"   /* f2d7 */
-#define WR_ICON_ALERT "\xef\x80\xa6"  /* f026 */
-#define WR_ICON_FOLDER "\xef\x89\x8b" /* f24b */
-#define WR_ICON_FILE "\xef\x88\xa4"   /* f224 */
-#define WR_ICON_UP "\xef\x81\x9d"     /* f05d */
-#define WR_ICON_CHECK "\xef\x84\xac"  /* f12c */
-#define WR_ICON_CAMERA "\xef\x91\xa4" /* f464 rotate-3d */
+#define WR_ICON_BRUSH "\xef\x83\xa3"   /* f0e3 */
+#define WR_ICON_HAND "\xef\x81\x81"    /* f041 arrow-all */
+#define WR_ICON_ZOOM "\xef\x8d\x89"    /* f349 */
+#define WR_ICON_PICK "\xef\x88\x8a"    /* f20a */
+#define WR_ICON_PLAY "\xef\x90\x8a"    /* f40a */
+#define WR_ICON_PAUSE "\xef\x8f\xa4"   /* f3e4 */
+#define WR_ICON_DOWN "\xef\x8d\x9d"    /* f35d */
+#define WR_ICON_CLOSE "\xef\x85\x96"   /* f156 */
+#define WR_ICON_PLUS "\xef\x90\x95"    /* f415 */
+#define WR_ICON_DELETE "\xef\x87\x80"  /* f1c0 */
+#define WR_ICON_HELP "\xef\x8b\x97"    /* f2d7 */
+#define WR_ICON_ALERT "\xef\x80\xa6"   /* f026 */
+#define WR_ICON_FOLDER "\xef\x89\x8b"  /* f24b */
+#define WR_ICON_FILE "\xef\x88\xa4"    /* f224 */
+#define WR_ICON_UP "\xef\x81\x9d"      /* f05d */
+#define WR_ICON_CHECK "\xef\x84\xac"   /* f12c */
+#define WR_ICON_CAMERA "\xef\x91\xa4"  /* f464 rotate-3d */
 #define WR_ICON_EYE "\xef\x88\x88"     /* f208 */
 #define WR_ICON_EYE_OFF "\xef\x88\x89" /* f209 */
 #define WR_ICON_LOCK "\xef\x8c\xbe"    /* f33e */
@@ -149,8 +149,12 @@ bool wr_gui_check(const char *label, bool *value);
 bool wr_gui_button(const char *label, bool primary);
 /* A flat button of one icon, `units` wide and high. */
 bool wr_gui_icon_button(const char *id, const char *icon, double units, bool selected);
+/* The same, smaller, without a ground. */
+bool wr_gui_glyph(const char *id, const char *icon, double units, WrColour colour);
 /* A clickable word with an icon in front (may be NULL), on a dark chip. */
 bool wr_gui_chip(const char *icon, const char *label);
+/* A button that looks like a field: a word, and its keys at the right. */
+bool wr_gui_find_button(const char *label, const char *keys, double width);
 /* A field for one line. focus: give it the keyboard now. True when Return was pressed. */
 bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus);
 /* A row of a list: 0 nothing, 1 clicked, 2 double-clicked. */
@@ -161,7 +165,7 @@ void wr_gui_list_end(void);
 void wr_gui_scroll_here(void);
 /* The text field before lost the keyboard in this frame, by Return, Escape or a click elsewhere. */
 bool wr_gui_field_left(void);
-/* A bar that fills; fraction 0..1. width <= 0: what is left of the row. */
+/* A bar that fills; fraction 0..1, below 0: nobody knows how far it is. width <= 0: what is left of the row. */
 void wr_gui_progress(double width, double fraction);
 /* A dark square with its four sides coloured (left, right, top, bottom); for a tip. */
 void wr_gui_square(const char *id, double units, const WrColour sides[4]);
@@ -201,7 +205,7 @@ void wr_gui_popup_end(void);
 /* A dialog in the middle of the window, which takes all input. `open` true shows it. Escape or a
    click beside it does not close it: the caller decides. */
 bool wr_gui_dialog_begin(const char *title, double width_units);
-/* The same at a place of its own, nothing dimmed: the views show what it does. */
+/* The same at a place of its own, at least that tall, nothing dimmed: the views show what it does. */
 bool wr_gui_dialog_begin_at(const char *title, SDL_Rect place);
 void wr_gui_dialog_end(void);
 bool wr_gui_escape_pressed(void); /* in this frame */

@@ -76,12 +76,14 @@ extern "C" void wr_gui_popup_end(void)
 }
 
 /* title up to ## is its heading. */
-static bool dialog(const char *title, ImVec2 at, ImVec2 pivot, float width, bool dim)
+static bool dialog(const char *title, ImVec2 at, ImVec2 pivot, float width, float least, bool dim)
 {
     ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg] =
         wr_gui_vec_of(dim ? 0x60000000u : 0x00000000u);
     ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
     ImGui::SetNextWindowSize(ImVec2(width, 0));
+    if (least > 0)
+        ImGui::SetNextWindowSizeConstraints(ImVec2(width, least), ImVec2(width, FLT_MAX));
     if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
     float side = px(dim ? 20 : 14);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(side, px(dim ? 18 : 14)));
@@ -103,14 +105,14 @@ try {
     ImVec2 size = ImGui::GetIO().DisplaySize;
     float width = px(width_units);
     if (width > size.x - px(32)) width = size.x - px(32);
-    return dialog(title, ImVec2(size.x / 2, size.y * 0.46f), ImVec2(0.5f, 0.5f), width, true);
+    return dialog(title, ImVec2(size.x / 2, size.y * 0.46f), ImVec2(0.5f, 0.5f), width, 0, true);
 }
 WR_CAUGHT(false)
 
 extern "C" bool wr_gui_dialog_begin_at(const char *title, SDL_Rect place)
 try {
     return dialog(title, ImVec2((float)place.x, (float)place.y), ImVec2(0, 0), (float)place.w,
-                  false);
+                  (float)place.h, false);
 }
 WR_CAUGHT(false)
 

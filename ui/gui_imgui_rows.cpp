@@ -34,9 +34,8 @@ try {
     gui->row_height = height;
     ImDrawList *list = ImGui::GetWindowDrawList();
     const ImRect &inner = ImGui::GetCurrentWindow()->InnerRect;
-    list->PushClipRect(ImVec2(left, inner.Min.y), ImVec2(right, inner.Max.y));
+    ImGui::PushClipRect(ImVec2(left, inner.Min.y), ImVec2(right, inner.Max.y), false);
     ImGui::SetCursorScreenPos(ImVec2(left, at.y));
-    ImGui::GetCurrentWindow()->ClipRect = ImRect(left, inner.Min.y, right, inner.Max.y).ToVec4();
     bool released = ImGui::InvisibleButton("row", ImVec2(right - left, height));
     bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
     bool doubled = hovered && ImGui::IsMouseDoubleClicked(0);
@@ -53,14 +52,8 @@ try {
     if (held && moved) gui->row_drag = ImGui::GetID("row");
     bool dropped = was && !held;
     if (dropped) gui->row_drag = 0;
-    return WrRow{ (double)at.y,
-                  (double)height,
-                  (double)ImGui::GetIO().MousePos.y,
-                  released && !was,
-                  doubled,
-                  menu,
-                  held && gui->row_drag != 0,
-                  dropped };
+    return WrRow{ (double)at.y, (double)height, (double)ImGui::GetIO().MousePos.y, released && !was,
+                  doubled,      menu,           held && gui->row_drag != 0,        dropped };
 }
 WR_CAUGHT(WrRow{})
 
@@ -68,8 +61,8 @@ extern "C" void wr_gui_row_at(double x, double tall)
 {
     const WrGui *gui = wr_gui_current();
     float h = tall > 0 ? (float)tall : ImGui::GetFrameHeight();
-    ImGui::SetCursorScreenPos(ImVec2(gui->row_left + (float)x,
-                                     gui->row_top + floorf((gui->row_height - 1 - h) / 2)));
+    ImGui::SetCursorScreenPos(
+        ImVec2(gui->row_left + (float)x, gui->row_top + floorf((gui->row_height - 1 - h) / 2)));
 }
 
 extern "C" double wr_gui_row_width(void)
@@ -80,9 +73,8 @@ extern "C" double wr_gui_row_width(void)
 extern "C" void wr_gui_row_end(void)
 try {
     const WrGui *gui = wr_gui_current();
-    ImGui::GetWindowDrawList()->PopClipRect();
-    ImGuiWindow *window = ImGui::GetCurrentWindow();
-    window->ClipRect = window->DrawList->_ClipRectStack.back();
+    const ImGuiWindow *window = ImGui::GetCurrentWindow();
+    ImGui::PopClipRect();
     ImGui::SetCursorScreenPos(
         ImVec2(window->Pos.x + window->WindowPadding.x, gui->row_top + gui->row_height));
     ImGui::PopID();
@@ -93,9 +85,8 @@ extern "C" void wr_gui_drop_line(double y)
 {
     float left, right, at = roundf((float)y);
     full_width(&left, &right);
-    ImGui::GetForegroundDrawList()->AddRectFilled(ImVec2(left, at - px(1)),
-                                                  ImVec2(right, at + px(1)),
-                                                  wr_gui_colour_of(WR_COLOUR_ACCENT));
+    ImGui::GetForegroundDrawList()->AddRectFilled(
+        ImVec2(left, at - px(1)), ImVec2(right, at + px(1)), wr_gui_colour_of(WR_COLOUR_ACCENT));
 }
 
 extern "C" void wr_gui_scroll_here(void)
@@ -132,9 +123,45 @@ try {
 }
 WR_CAUGHT()
 
+extern "C" bool wr_gui_find_button(const char *label, const char *keys, double width)
+try {
+    const ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    float h = roundf(ImGui::GetTextLineHeight() + px(8)), pad = px(8);
+    ImVec2 bar = ImGui::GetWindowSize(), where = ImGui::GetWindowPos();
+    ImVec2 at(ImGui::GetCursorScreenPos().x, where.y + roundf((bar.y - h) / 2));
+    ImGui::SetCursorScreenPos(at);
+    bool pressed = ImGui::InvisibleButton(label, ImVec2((float)width, h));
+    ImVec2 end(at.x + (float)width, at.y + h);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    wr_gui_edge(list, at, end);
+    ImU32 ink = wr_gui_colour_of(ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL);
+    ImVec2 size = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0, keys);
+    float y = at.y + floorf((h - small->FontSize) / 2);
+    list->AddText(small, small->FontSize, ImVec2(at.x + pad, y), ink, label);
+    list->AddText(small, small->FontSize, ImVec2(end.x - pad - size.x, y),
+                  wr_gui_colour_of(0xff7a7a7au), keys);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_glyph(const char *id, const char *icon, double units, WrColour colour)
+try {
+    float side = px(units);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
+    bool hovered = ImGui::IsItemHovered();
+    ImVec2 size = ImGui::CalcTextSize(icon);
+    ImGui::GetWindowDrawList()->AddText(
+        ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
+        wr_gui_colour_of(hovered ? WR_COLOUR_STRONG : colour), icon);
+    return pressed;
+}
+WR_CAUGHT(false)
+
 extern "C" void wr_gui_progress(double width, double fraction)
 try {
-    double f = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
+    double f = fraction < 0 ? 0.25 : fraction > 1 ? 1 : fraction;
     float w = width > 0 ? (float)width : ImGui::GetContentRegionAvail().x;
     float h = ImGui::GetFrameHeight(), bar = px(8);
     ImVec2 at = ImGui::GetCursorScreenPos();
@@ -142,8 +169,10 @@ try {
     at.y += floorf((h - bar) / 2);
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, ImVec2(at.x + w, at.y + bar), wr_gui_colour_of(WR_COLOUR_FIELD));
-    list->AddRectFilled(ImVec2(at.x + 1, at.y + 1),
-                        ImVec2(at.x + 1 + roundf((w - 2) * (float)f), at.y + bar - 1),
+    double t = fmod(ImGui::GetTime(), 1.6) / 0.8; /* there and back */
+    float from = fraction < 0 ? (float)(0.75 * (t < 1 ? t : 2 - t)) : 0.0f, long_way = w - 2;
+    list->AddRectFilled(ImVec2(at.x + 1 + roundf(long_way * from), at.y + 1),
+                        ImVec2(at.x + 1 + roundf(long_way * (from + (float)f)), at.y + bar - 1),
                         wr_gui_colour_of(WR_COLOUR_ACCENT));
     wr_gui_edge(list, at, ImVec2(at.x + w, at.y + bar));
 }

@@ -17,6 +17,17 @@ static bool blocked(const WrApp *app)
     return app->dialog != WR_DIALOG_NONE;
 }
 
+/* A dialog is open whose effect the canvas shows: it may be looked at from all sides. */
+static bool shows_effect(const WrApp *app)
+{
+    return app->dialog == WR_DIALOG_ADJUST || app->dialog == WR_DIALOG_SELECT;
+}
+
+static bool can_look(const WrApp *app, int button)
+{
+    return shows_effect(app) && button == SDL_BUTTON_MIDDLE;
+}
+
 /* ---- buttons ---- */
 
 static void press_canvas(WrApp *app, const WrPointer *at)
@@ -43,16 +54,18 @@ static void press_canvas(WrApp *app, const WrPointer *at)
 static void button_down(WrApp *app, const SDL_MouseButtonEvent *event)
 {
     WrHand *hand = &app->hand;
-    if (hand->grab != WR_GRAB_NONE || blocked(app)) return;
+    if (hand->grab != WR_GRAB_NONE || (blocked(app) && !can_look(app, event->button))) return;
     if (wr_gui_owns_point(app->gui, event->x, event->y)) return;
     WrPointer at = pointer_at(app, event->x, event->y, event->button);
     hand->at = hand->start = at;
     hand->button = event->button;
     if (wr_layout_inside(&app->layout.divider, event->x, event->y)) {
         if (event->button == SDL_BUTTON_LEFT) hand->grab = WR_GRAB_DIVIDER;
+    } else if (wr_layout_inside(&app->layout.panel_divider, event->x, event->y)) {
+        if (event->button == SDL_BUTTON_LEFT) hand->grab = WR_GRAB_PANELS;
     } else if (wr_layout_inside(&app->layout.canvas, event->x, event->y)) {
         press_canvas(app, &at);
-    } else if (wr_layout_inside(&app->layout.patch, event->x, event->y)) {
+    } else if (!blocked(app) && wr_layout_inside(&app->layout.patch, event->x, event->y)) {
         wr_patch_press(app, &at);
     }
 }
@@ -112,6 +125,7 @@ static void drag(WrApp *app, const WrPointer *at)
     case WR_GRAB_DIVIDER:
         app->settings.divider = wr_layout_divider_at(&app->layout, (int)at->x, (int)at->y);
         break;
+    case WR_GRAB_PANELS: app->settings.lower = wr_layout_lower_at(&app->layout, (int)at->y); break;
     case WR_GRAB_ORBIT:
     case WR_GRAB_LIGHT: wr_patch_drag(app, at); break;
     case WR_GRAB_NONE: break;
@@ -135,13 +149,13 @@ static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
 {
     int x, y;
     SDL_GetMouseState(&x, &y);
-    if (blocked(app) || wr_gui_owns_point(app->gui, x, y)) return;
+    if ((blocked(app) && !shows_effect(app)) || wr_gui_owns_point(app->gui, x, y)) return;
     double steps =
         (double)event->preciseY * (event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0);
     if (wr_layout_inside(&app->layout.canvas, x, y)) {
         wr_view_zoom_at(&app->view, x, y, app->view.zoom * exp2(steps / 3.0));
         app->hand.at = pointer_at(app, x, y, app->hand.button);
-    } else if (wr_layout_inside(&app->layout.patch, x, y)) {
+    } else if (!blocked(app) && wr_layout_inside(&app->layout.patch, x, y)) {
         wr_patch_wheel(app, steps);
     }
 }
@@ -167,6 +181,11 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
     if (event->keysym.sym == SDLK_SPACE && mods == 0) {
         if (!event->repeat) space(app, true);
+        return;
+    }
+    if (event->keysym.sym == SDLK_ESCAPE && app->select.active) {
+        wr_select_cancel(app);
+        app->hand.grab = WR_GRAB_NONE;
         return;
     }
     if (event->keysym.sym == SDLK_ESCAPE) {

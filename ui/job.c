@@ -13,7 +13,7 @@ struct WrJob {
     pthread_mutex_t lock; /* guards what follows, up to the next blank line */
     pthread_cond_t wake;
     bool started, quit;
-    void *next, *done; /* owned; NULL: none */
+    void *next, *done;   /* owned; NULL: none */
     bool running, stale; /* stale: what runs is not wanted any more */
     double fraction, asked_at;
 

@@ -5,6 +5,8 @@
 
 #define DIVIDER_UNITS 5
 #define VIEW_MIN_UNITS 120
+#define PANEL_MIN_UNITS 190 /* of the panel on the right */
+#define LOWER_MIN_UNITS 270 /* of its lower part: three layers are seen */
 
 static int clamp_int(int x, int low, int high)
 {
@@ -18,6 +20,19 @@ static int canvas_size(int size, double share, int divider, int least)
     int size_canvas = (int)lround((size - divider) * share);
     int high = size - divider - least;
     return high < least ? (size - divider) / 2 : clamp_int(size_canvas, least, high);
+}
+
+/* Cut the lower part off the panel on the right, if there is room for both. */
+static void split_panel(WrLayout *out, double share, double s)
+{
+    int d = (int)lround(DIVIDER_UNITS * s), least = (int)lround(LOWER_MIN_UNITS * s);
+    SDL_Rect whole = out->panel;
+    int most = whole.h - d - (int)lround(PANEL_MIN_UNITS * s);
+    if (most < least) return;
+    int lower = clamp_int((int)lround((whole.h - d) * share), least, most);
+    out->panel.h = whole.h - d - lower;
+    out->panel_divider = (SDL_Rect){ whole.x, whole.y + out->panel.h, whole.w, d };
+    out->lower = (SDL_Rect){ whole.x, whole.y + out->panel.h + d, whole.w, lower };
 }
 
 WrLayout wr_layout_make(const WrLayoutInput *in)
@@ -36,6 +51,7 @@ WrLayout wr_layout_make(const WrLayoutInput *in)
         int top = room.y + options, tall = h - status - top;
         out.strip = (SDL_Rect){ 0, top, strip, tall };
         out.panel = (SDL_Rect){ w - panel, top, panel, tall };
+        split_panel(&out, in->lower, s);
         room = (SDL_Rect){ strip, top, w - strip - panel, tall };
     }
     room.w = room.w > 1 ? room.w : 1;
@@ -57,6 +73,14 @@ WrLayout wr_layout_make(const WrLayoutInput *in)
         out.patch = (SDL_Rect){ room.x + c + d, room.y, room.w - c - d, room.h };
     }
     return out;
+}
+
+double wr_layout_lower_at(const WrLayout *layout, int y)
+{
+    const SDL_Rect *d = &layout->panel_divider;
+    double room = layout->panel.h + layout->lower.h;
+    double share = (layout->lower.y + layout->lower.h - y - d->h / 2.0) / fmax(room, 1.0);
+    return share < 0.05 ? 0.05 : share > 0.95 ? 0.95 : share;
 }
 
 double wr_layout_divider_at(const WrLayout *layout, int x, int y)

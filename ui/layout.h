@@ -11,16 +11,20 @@ typedef struct WrLayoutInput {
     double scale;      /* pixels a unit */
     double divider;    /* share of the views' room that the canvas gets, 0..1 */
     WrViews views;
-    bool panels; /* false: the views fill the window */
+    bool panels;  /* false: the views fill the window */
+    double lower; /* share of the panel on the right that its lower part gets, 0..1 */
 } WrLayoutInput;
 
 /* Rectangles in pixels; w = 0 where there is none. They cover the window without gaps or overlaps. */
 typedef struct WrLayout {
-    SDL_Rect options, strip, canvas, divider, patch, panel, status;
-    bool stacked; /* the patch is under the canvas, not beside it */
+    SDL_Rect options, strip, canvas, divider, patch, status;
+    SDL_Rect panel, panel_divider, lower; /* on the right; lower.w is 0 where it is too short */
+    bool stacked;                         /* the patch is under the canvas, not beside it */
 } WrLayout;
 
 WrLayout wr_layout_make(const WrLayoutInput *in);
+/* The lower panel's share for a pointer at y. */
+double wr_layout_lower_at(const WrLayout *layout, int y);
 /* The divider's share for a pointer at (x, y). */
 double wr_layout_divider_at(const WrLayout *layout, int x, int y);
 bool wr_layout_inside(const SDL_Rect *rect, int x, int y);

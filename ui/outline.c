@@ -41,8 +41,7 @@ static WrField *by_slope(const Work *work, const WrField *field, WrPool *pool)
 static WrField *join(const Work *work, WrField *made)
 {
     if (!made || work->ask.mode == WR_SELECT_REPLACE) return made;
-    WrField *joined =
-        wr_select_combine(work->document->selection, made, work->ask.mode, NULL);
+    WrField *joined = wr_select_combine(work->document->selection, made, work->ask.mode, NULL);
     wr_field_free(made);
     return joined;
 }

@@ -18,7 +18,7 @@ void wr_dialog_open(WrApp *app, WrDialog dialog)
     wr_app_redraw(app);
 }
 
-static void close_dialog(WrApp *app)
+void wr_dialog_close(WrApp *app)
 {
     app->dialog = WR_DIALOG_NONE;
     wr_app_redraw(app);
@@ -35,7 +35,7 @@ int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
     if (wr_gui_button("Cancel", false)) answer = -1;
     if (enabled && !app->dialog_fresh && wr_gui_return_pressed()) answer = 1;
     if (!app->dialog_fresh && wr_gui_escape_pressed()) answer = -1;
-    if (answer) close_dialog(app);
+    if (answer) wr_dialog_close(app);
     return answer;
 }
 
@@ -49,18 +49,18 @@ static void unsaved(WrApp *app)
     wr_gui_space(8);
     bool key = !app->dialog_fresh;
     if (wr_gui_button("Save", true) || (key && wr_gui_return_pressed())) {
-        close_dialog(app);
-        wr_app_save(app);
+        wr_dialog_close(app);
+        wr_later_action(app, "save");
     }
     wr_gui_same_line(8);
     if (wr_gui_button("Discard", false) || (key && wr_gui_letter_pressed(SDL_SCANCODE_D))) {
-        close_dialog(app);
+        wr_dialog_close(app);
         wr_app_go_on(app);
     }
     wr_gui_tip("D");
     wr_gui_same_line(8);
     if (wr_gui_button("Cancel", false) || (key && wr_gui_escape_pressed())) {
-        close_dialog(app);
+        wr_dialog_close(app);
         app->after = WR_AFTER_NOTHING;
     }
     wr_gui_dialog_end();
@@ -98,7 +98,7 @@ static void table(WrApp *app)
         WrText line = { 0 };
         wr_text_addf(&line, "table %dx%d wrap=%s", (int)rint(f->width), (int)rint(f->height),
                      names[f->wrap]);
-        wr_app_run_line(app, wr_text_get(&line));
+        wr_app_run_slow(app, wr_text_get(&line));
         wr_text_fini(&line);
     }
     wr_gui_dialog_end();
@@ -112,7 +112,7 @@ static void fill(WrApp *app)
         WrText line = { 0 };
         wr_text_add(&line, "fill ");
         wr_text_add_number(&line, app->forms.fill);
-        wr_app_run_line(app, wr_text_get(&line));
+        wr_app_run_slow(app, wr_text_get(&line));
         wr_text_fini(&line);
     }
     wr_gui_dialog_end();
@@ -135,7 +135,7 @@ static void grid(WrApp *app)
         wr_line_number(&line, "width", f->line_width);
         wr_line_number(&line, "low", f->low);
         wr_line_number(&line, "high", f->high);
-        wr_app_run_line(app, wr_text_get(&line));
+        wr_app_run_slow(app, wr_text_get(&line));
         wr_text_fini(&line);
     }
     wr_gui_dialog_end();
@@ -185,7 +185,7 @@ static void file(WrApp *app)
 {
     int answer = wr_files_panel(app->files);
     if (answer == 0) return;
-    close_dialog(app);
+    wr_dialog_close(app);
     WrFilePurpose purpose;
     const char *path = wr_files_answer(app->files, &purpose);
     if (answer > 0 && path) wr_app_file_chosen(app, purpose, path);
@@ -205,6 +205,10 @@ void wr_panel_dialogs(WrApp *app)
     case WR_DIALOG_IMPORT: import(app); break;
     case WR_DIALOG_EXPORT: export(app); break;
     case WR_DIALOG_FILE: file(app); break;
+    case WR_DIALOG_ADJUST: wr_dialog_adjust(app); break;
+    case WR_DIALOG_SELECT: wr_dialog_select(app); break;
+    case WR_DIALOG_SEARCH: wr_dialog_search(app); break;
+    case WR_DIALOG_RECOVER: wr_dialog_recover(app); break;
     case WR_DIALOG_HELP:
     case WR_DIALOG_ABOUT: wr_dialog_help(app); break;
     }

@@ -3,17 +3,69 @@
 
 #include <string.h>
 
-/* Names of actions; "-" is a line, "recent" and "scale" are made below. */
-static const char *const file_menu[] = { "new", "open",   "recent", "-", "save", "save_as",
-                                         "-",   "import", "export", "-", "quit", NULL };
-static const char *const edit_menu[] = {
-    "undo",        "redo",          "-",           "brush",
-    "pick",        "pan",           "zoom",        "-",
-    "size_up",     "size_down",     "hardness_up", "hardness_down",
-    "strength_up", "strength_down", "swap_mode",   "level_mode",
-    NULL
-};
-static const char *const table_menu[] = { "table_size", "fill", "grid", "import", NULL };
+/* Names of actions; "-" is a line, "recent", "scale" and "operations" are made below. */
+static const char *const file_menu[] = { "new",     "open",         "recent", "-",      "save",
+                                         "save_as", "save_history", "-",      "import", "export",
+                                         "-",       "quit",         NULL };
+static const char *const edit_menu[] = { "undo",
+                                         "redo",
+                                         "search",
+                                         "-",
+                                         "brush",
+                                         "pick",
+                                         "pan",
+                                         "zoom",
+                                         "-",
+                                         "size_up",
+                                         "size_down",
+                                         "hardness_up",
+                                         "hardness_down",
+                                         "strength_up",
+                                         "strength_down",
+                                         "swap_mode",
+                                         "level_mode",
+                                         NULL };
+static const char *const layer_menu[] = { "layer_add",
+                                          "layer_duplicate",
+                                          "layer_delete",
+                                          "layer_rename",
+                                          "-",
+                                          "layer_raise",
+                                          "layer_lower",
+                                          "layer_above",
+                                          "layer_below",
+                                          "-",
+                                          "layer_show",
+                                          "layer_lock",
+                                          "layer_solo",
+                                          "-",
+                                          "mask_selection",
+                                          "mask_white",
+                                          "mask_black",
+                                          "mask_none",
+                                          "-",
+                                          "layer_merge",
+                                          "layer_flatten",
+                                          "layer_clear",
+                                          NULL };
+static const char *const select_menu[] = { "select_all",
+                                           "select_none",
+                                           "select_invert",
+                                           "-",
+                                           "select_grow",
+                                           "select_shrink",
+                                           "select_feather",
+                                           "-",
+                                           "select_height",
+                                           "select_slope",
+                                           "-",
+                                           "select_rect",
+                                           "select_ellipse",
+                                           "select_lasso",
+                                           "ants",
+                                           NULL };
+static const char *const table_menu[] = { "table_size", "fill",        "grid",       "import",
+                                          "-",          "offset_half", "operations", NULL };
 static const char *const view_menu[] = { "look_grey", "look_signed", "range_auto",  "-",
                                          "zoom_in",   "zoom_out",    "zoom_100",    "fit",
                                          "-",         "turn",        "pose_reset",  "camera_reset",
@@ -66,6 +118,19 @@ static void item(WrApp *app, const char *name)
         wr_action_run(app, name);
 }
 
+/* All table operations, in the order of their table. */
+static void operations(WrApp *app)
+{
+    for (const WrOpInfo *op = wr_ops; op->name; op++) {
+        char name[64], label[80], keys[32];
+        snprintf(name, sizeof name, "adjust_%.50s", op->name);
+        snprintf(label, sizeof label, "%.60s...", op->label);
+        if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false, true))
+            wr_action_run(app, name);
+        wr_gui_tip(op->help);
+    }
+}
+
 static void menu(WrApp *app, const char *label, const char *const *names)
 {
     if (!wr_gui_menu_begin(label)) return;
@@ -73,9 +138,21 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         if (strcmp(*names, "-") == 0) wr_gui_menu_separator();
         else if (strcmp(*names, "recent") == 0) recent(app);
         else if (strcmp(*names, "scale") == 0) scale(app);
+        else if (strcmp(*names, "operations") == 0) operations(app);
         else item(app, *names);
     }
     wr_gui_menu_end();
+}
+
+/* At the right end: what opens the search. */
+static void find_field(WrApp *app)
+{
+    double wide = wr_gui_px(200);
+    if (app->width < wr_gui_px(900)) return;
+    wr_gui_move_to(app->width - wide - wr_gui_px(12));
+    char keys[32];
+    if (wr_gui_find_button("Search actions", wr_keys_label(app->keys, "search", keys), wide))
+        wr_action_run(app, "search");
 }
 
 void wr_panel_menu(WrApp *app)
@@ -83,6 +160,8 @@ void wr_panel_menu(WrApp *app)
     app->menu_height = (int)wr_gui_menu_bar_begin();
     menu(app, "File", file_menu);
     menu(app, "Edit", edit_menu);
+    menu(app, "Layer", layer_menu);
+    menu(app, "Select", select_menu);
     menu(app, "Table", table_menu);
     menu(app, "View", view_menu);
     menu(app, "Help", help_menu);
@@ -92,5 +171,6 @@ void wr_panel_menu(WrApp *app)
     double at = (app->width - wr_gui_text_width(WR_FONT_BOLD, title)) / 2.0;
     wr_gui_move_to(at);
     wr_gui_text(WR_FONT_BOLD, WR_COLOUR_TEXT, title);
+    find_field(app);
     wr_gui_menu_bar_end();
 }

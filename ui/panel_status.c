@@ -6,8 +6,12 @@
 #include "base/exactmath.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <unistd.h>
 
 #define NOTE_SECONDS 6.0
+#define METER_SECONDS 2.0
+#define MOMENT_SECONDS 0.2 /* work that takes less shows no bar */
 
 static void pair(const char *name, const char *value)
 {
@@ -100,28 +104,73 @@ static int stages(const WrStageTimes *t, char *text, size_t size, int used)
                            100 * t->shade / all);
 }
 
-static void right_side(const WrApp *app)
+/* ---- memory ---- */
+
+/* Bytes of the process that are in memory. */
+static double resident(void)
+{
+    long pages = 0, in_memory = 0;
+    FILE *file = fopen("/proc/self/statm", "re");
+    if (!file) return 0.0;
+    int got = fscanf(file, "%ld %ld", &pages, &in_memory);
+    fclose(file);
+    return got == 2 ? (double)in_memory * (double)sysconf(_SC_PAGESIZE) : 0.0;
+}
+
+static double layer_bytes(const WrLayer *layer)
+{
+    double bytes = (double)wr_field_bytes(layer->heights);
+    if (layer->cover) bytes += (double)wr_field_bytes(layer->cover);
+    return layer->mask ? bytes + (double)wr_field_bytes(layer->mask) : bytes;
+}
+
+/* Looked at now and then: counting the tiles of a large table takes a moment. */
+static void measure(WrApp *app)
+{
+    WrMeter *meter = &app->meter;
+    double now = wr_clock_seconds();
+    const WrDocument *document = wr_app_document(app);
+    if (meter->at > 0.0 && now - meter->at < METER_SECONDS) return;
+    meter->at = now;
+    meter->tiles = document->selection ? (double)wr_field_bytes(document->selection) : 0.0;
+    for (int i = 0; i < document->layer_count; i++)
+        meter->tiles += layer_bytes(&document->layers[i]);
+    meter->undo = (double)wr_session_history_bytes(app->session);
+    meter->all = resident();
+}
+
+static void memory(WrApp *app)
+{
+    const WrMeter *m = &app->meter;
+    char text[48], tip[200];
+    measure(app);
+    snprintf(text, sizeof text, "%.3g MB", m->all / 1e6);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
+    double rest = m->all - m->tiles - m->undo;
+    snprintf(tip, sizeof tip,
+             "Memory\nlayers and selection %.3g MB\nundo %.3g MB\npictures, caches and the program "
+             "%.3g MB",
+             m->tiles / 1e6, m->undo / 1e6, rest > 0.0 ? rest / 1e6 : 0.0);
+    wr_gui_tip(tip);
+}
+
+/* ---- the right end ---- */
+
+static void picture(const WrApp *app, char *text, size_t size)
 {
     const WrPreviewPicture *p = wr_preview_picture(app->preview);
-    const WrField *field = wr_app_field(app);
-    char text[300];
-    int used = 0;
-    if (p->serial) {
-        used = snprintf(text, sizeof text, "%s  \xc2\xb7  %.1f ms     ",
-                        wr_surfaces[wr_app_scene(app)->shape.kind]->label, p->seconds * 1e3);
-        if (app->layout.status.w > wr_gui_px(1200))
-            used = stages(&p->times, text, sizeof text, used);
-    }
-    double bytes = (double)wr_field_bytes(field);
-    snprintf(text + used, sizeof text - (size_t)used, "%d \xc3\x97 %d  \xc2\xb7  %.3g MB     %s",
-             wr_field_width(field), wr_field_height(field), bytes / 1048576.0,
-             wr_app_unsaved(app)                ? "not saved"
-             : wr_session_path(app->session)[0] ? "saved"
-                                                : "no changes");
-    double width = wr_gui_text_width(WR_FONT_TEXT, text);
-    wr_gui_move_to(wr_gui_width() - width - wr_gui_px(12));
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
+    text[0] = '\0';
     if (!p->serial) return;
+    int used = snprintf(text, size, "%s  \xc2\xb7  %.1f ms",
+                        wr_surfaces[wr_app_scene(app)->shape.kind]->label, p->seconds * 1e3);
+    if (app->layout.status.w <= wr_gui_px(1400)) return;
+    used += snprintf(text + used, size - (size_t)used, "   ");
+    stages(&p->times, text, size, used);
+}
+
+static void picture_tip(const WrApp *app)
+{
+    const WrPreviewPicture *p = wr_preview_picture(app->preview);
     char tip[300];
     const WrStageTimes *t = &p->times;
     snprintf(tip, sizeof tip,
@@ -132,11 +181,64 @@ static void right_side(const WrApp *app)
     wr_gui_tip(tip);
 }
 
+static const char *saved_word(const WrApp *app)
+{
+    return wr_app_unsaved(app)                ? "not saved"
+           : wr_session_path(app->session)[0] ? "saved"
+                                              : "no changes";
+}
+
+static void right_side(WrApp *app)
+{
+    const WrField *field = wr_app_field(app);
+    const char *reason = "", *saved = saved_word(app);
+    char render[300], size[64];
+    bool safe = wr_session_journal_safe(app->session, &reason);
+    const char *journal = safe ? "journal safe" : "journal not safe";
+    picture(app, render, sizeof render);
+    snprintf(size, sizeof size, "%d \xc3\x97 %d", wr_field_width(field), wr_field_height(field));
+    double gap = wr_gui_px(18), memory_width = wr_gui_text_width(WR_FONT_TEXT, "8888 MB");
+    double width = memory_width + 4 * gap;
+    const char *const parts[] = { render, size, saved, journal };
+    for (int i = 0; i < 4; i++) width += wr_gui_text_width(WR_FONT_TEXT, parts[i]);
+    wr_gui_move_to(wr_gui_width() - width - wr_gui_px(12));
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, render);
+    if (render[0]) picture_tip(app);
+    wr_gui_same_line(18);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, size);
+    wr_gui_same_line(18);
+    memory(app);
+    wr_gui_same_line(18);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, saved);
+    wr_gui_same_line(18);
+    wr_gui_text(WR_FONT_TEXT, safe ? WR_COLOUR_LABEL : WR_COLOUR_RAISE, journal);
+    wr_gui_tip(safe ? "Should the program or the computer stop, every change so far can be brought "
+                      "back."
+                    : reason);
+}
+
+/* What is being computed for a dialog, if it takes longer than a moment. */
+static bool work(WrApp *app)
+{
+    double fraction, seconds;
+    bool tried = wr_trial_busy(app->trial, &fraction, &seconds) && seconds > MOMENT_SECONDS;
+    bool outlined = !tried && wr_outliner_busy(app->marks.outliner, &fraction, &seconds) &&
+                    seconds > MOMENT_SECONDS;
+    if (!tried && !outlined) return false;
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_STRONG,
+                outlined         ? "Outlining the selection"
+                : app->adjust.op ? app->adjust.op->label
+                                 : "Joining the layers");
+    wr_gui_same_line(12);
+    wr_gui_progress(wr_gui_px(220), tried ? fraction : -1.0);
+    return true;
+}
+
 void wr_panel_status(WrApp *app)
 {
     if (app->layout.status.w <= 0) return;
     wr_gui_area_begin("##status", WR_AREA_BAR, app->layout.status, WR_COLOUR_BAR);
-    if (!message(app)) {
+    if (!work(app) && !message(app)) {
         char text[32];
         under_pointer(app);
         snprintf(text, sizeof text, app->view.zoom < 0.1 ? "%.1f %%" : "%.0f %%",

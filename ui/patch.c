@@ -126,6 +126,26 @@ void wr_patch_update(WrApp *app)
     }
 }
 
+void wr_patch_turn_on(WrApp *app)
+{
+    WrPatch *p = &app->patch;
+    double now = wr_clock_seconds();
+    take_picture(app);
+    if (!p->wished_field || !turns(app) || p->outstanding || now < p->wished_at + PICTURE_SECONDS)
+        return;
+    advance_turn(p, now);
+    WrPreviewWish w = { .field = p->wished_field,
+                        .scene = p->wished_scene,
+                        .turn_deg = p->turn_deg,
+                        .width = p->wished_w,
+                        .height = p->wished_h,
+                        .moving = true };
+    wr_preview_want(app->preview, &w);
+    p->wished_turn = p->turn_deg;
+    p->wished_moving = p->outstanding = true;
+    p->wished_at = now;
+}
+
 double wr_patch_next_time(const WrApp *app)
 {
     const WrPatch *p = &app->patch;

@@ -7,7 +7,7 @@
  * mean squares along the edge; `inside` is the largest of the same over columns (rows) within the table.
  * In table units, creases in table units a texel. */
 typedef struct WrSeamEdge {
-    bool wraps; /* false: the axis ends there, and nothing is measured */
+    bool wraps;                          /* false: the axis ends there, and nothing is measured */
     double jump, jump_inside, jump_most; /* jump_most: the largest single one on the edge */
     double crease, crease_inside;
     bool jumps, creases; /* clearly more than anywhere inside */

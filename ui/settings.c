@@ -15,6 +15,8 @@ WrSettings wr_settings_default(void)
                          .height = 900,
                          .divider = 0.5,
                          .panels = true,
+                         .lower = 0.42,
+                         .ants = true,
                          .turning = true,
                          .brush = { .radius = 16, .hardness = 0.5, .strength = 0.1 },
                          .look = { .high = 1.0 } };
@@ -49,6 +51,9 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "divider", &s->divider, NULL, NULL, 0.05, 0.95 },
         { "views", NULL, (int *)&s->views, NULL, 0, 2 },
         { "panels", NULL, NULL, &s->panels, 0, 1 },
+        { "lower", &s->lower, NULL, NULL, 0.05, 0.95 },
+        { "ants", NULL, NULL, &s->ants, 0, 1 },
+        { "join", NULL, &s->join, NULL, 0, 3 },
         { "tab", NULL, &s->tab, NULL, 0, 15 },
         { "turning", NULL, NULL, &s->turning, 0, 1 },
         { "radius", &s->brush.radius, NULL, NULL, 0, 1e9 },

@@ -15,6 +15,9 @@ typedef struct WrSettings {
     double divider; /* the canvas's share of the views, 0..1 */
     WrViews views;
     bool panels;  /* shown */
+    double lower; /* the layers' share of the panel on the right, 0..1 */
+    bool ants;    /* the outline of a selection moves */
+    int join;     /* how a new selection joins the present one: WrSelectMode */
     int tab;      /* of the panel on the right */
     bool turning; /* the patch turns by itself */
     WrBrush brush;

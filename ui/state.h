@@ -1,15 +1,19 @@
 /* state.h - the window's state, and what its files offer each other. Nobody outside ui/ includes it. */
 #pragma once
 #include "base/array.h"
+#include "ui/ants.h"
 #include "ui/app.h"
 #include "ui/canvas.h"
 #include "ui/files.h"
 #include "ui/gui.h"
 #include "ui/keys.h"
 #include "ui/layout.h"
+#include "ui/outline.h"
 #include "ui/preview.h"
 #include "ui/rotation.h"
+#include "ui/seam.h"
 #include "ui/settings.h"
+#include "ui/trial.h"
 #include "ui/view.h"
 
 typedef struct WrApp WrApp;
@@ -59,6 +63,7 @@ typedef enum WrGrab { /* what the pointer holds outside the widgets */
                       WR_GRAB_PAN,
                       WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
                       WR_GRAB_DIVIDER,
+                      WR_GRAB_PANELS, /* the line between the panels on the right */
                       WR_GRAB_ORBIT,
                       WR_GRAB_LIGHT
 } WrGrab;
@@ -103,6 +108,71 @@ typedef struct WrPatch {
     double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
 } WrPatch;
 
+/* A selection that is being drawn. */
+typedef struct WrSelectHand {
+    bool active;
+    WrSelectMode mode;
+    double x, y;                    /* texel where it began, unwrapped */
+    WR_ARRAY(WrSelectPoint) points; /* the shape so far; of a lasso also what the command gets */
+} WrSelectHand;
+
+/* The outlines on the canvas. */
+typedef struct WrMarks {
+    WrOutliner *outliner;
+    bool trying;        /* the outline is of what a dialog would make, not of the selection */
+    uint64_t asked_key; /* of the selection that was outlined last; 0: none */
+    WrAnts ants, shape;
+    uint64_t traced; /* serial of the outline in ants */
+    WrView traced_view;
+    double stepped_at; /* clock at the last step of the march */
+} WrMarks;
+
+/* A small picture of a table in a list. */
+typedef struct WrThumb {
+    SDL_Texture *texture; /* owned */
+    int side;             /* pixels */
+    uint64_t key, cover;  /* of what it shows */
+    double made_at;
+} WrThumb;
+
+typedef struct WrLayersHand {
+    int dragged; /* index of the layer that is held, -1: none */
+    int gap;     /* where it would go: between layers gap - 1 and gap */
+    int renamed; /* index of the layer whose name is being typed, -1: none */
+    bool fresh;  /* it is the field's first frame */
+    char name[WR_LAYER_NAME_MAX + 1];
+    bool open;                /* the menu is asked for */
+    WR_ARRAY(WrThumb) thumbs; /* two a layer: heights, mask */
+} WrLayersHand;
+
+/* What the dialog of an operation holds. */
+typedef struct WrAdjust {
+    const WrOpInfo *op; /* NULL: none */
+    double param[WR_OP_PARAMS];
+    int layers;  /* 0 the active one, 1 all */
+    WrView view; /* as it was before */
+} WrAdjust;
+
+typedef struct WrFinder { /* the search for actions */
+    char text[80];
+    int chosen;
+} WrFinder;
+
+typedef struct WrMeter {     /* memory, measured now and then */
+    double at;               /* clock */
+    double tiles, undo, all; /* bytes */
+} WrMeter;
+
+/* What was asked for inside a picture of the window, to be done after it. */
+typedef struct WrLater {
+    const WrAction *action; /* NULL: none */
+    char *line;             /* a command; owned */
+    char *path;             /* a file chosen; owned */
+    WrFilePurpose purpose;
+} WrLater;
+
+typedef struct WrRecovery WrRecovery;
+
 typedef struct WrMessage {
     char *text; /* owned */
     bool bad;   /* an error: stays until read */
@@ -123,6 +193,10 @@ typedef enum WrDialog {
     WR_DIALOG_IMPORT,
     WR_DIALOG_EXPORT,
     WR_DIALOG_FILE,
+    WR_DIALOG_ADJUST,
+    WR_DIALOG_SELECT,
+    WR_DIALOG_SEARCH,
+    WR_DIALOG_RECOVER,
     WR_DIALOG_HELP,
     WR_DIALOG_ABOUT
 } WrDialog;
@@ -160,6 +234,7 @@ struct WrApp {
     WrFiles *files;
     Uint32 ready_event; /* of the preview */
     Uint32 file_event;  /* of a native file dialog */
+    Uint32 job_event;   /* of work in the background */
     SDL_Cursor *cursors[SDL_NUM_SYSTEM_CURSORS];
     SDL_SystemCursor cursor;
 
@@ -183,6 +258,22 @@ struct WrApp {
     WrScene *live; /* what the preview shows while a scene value is being dragged; owned */
     bool hints;    /* shown until the first stroke */
 
+    WrTrial *trial;
+    bool trying; /* the views show what the trial gives */
+    WrMarks marks;
+    WrSelectHand select;
+    WrLayersHand layers;
+    WrAdjust adjust;
+    WrOutlineAsk selecting; /* of the dialogs that change the selection */
+    WrFinder finder;
+    WrSeam seam;
+    uint64_t seam_key; /* of the table that it was measured on */
+    WrMeter meter;
+    WrLater later;
+    WrRecovery *recovery; /* while its dialog is open; owned */
+    bool in_frame;        /* between the first and the last widget of a picture */
+    double input_at;      /* clock at the last event of the user's */
+
     WrMessages messages;
     WrDialog dialog;
     bool dialog_fresh; /* in its first frame */
@@ -199,11 +290,17 @@ double wr_app_wanted_scale(const WrApp *app);
 void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's */
 
 /* ---- document.c: the document behind the window ---- */
+/* What the views show: the composite, or what it would become by what is being tried. */
 const WrField *wr_app_field(const WrApp *app);
+const WrDocument *wr_app_document(const WrApp *app);
+/* Show what this would give; the document is not touched. */
+void wr_app_try(WrApp *app, const WrTrialAsk *ask);
+void wr_app_try_end(WrApp *app);
 const WrScene *wr_app_scene(const WrApp *app); /* live if a value is being dragged */
 bool wr_app_unsaved(const WrApp *app);
 /* Run a command line; a failure becomes a message. */
 bool wr_app_run_line(WrApp *app, const char *line);
+bool wr_app_run_linef(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A scene that the caller may change at once; the preview shows it until wr_app_live_end. */
 WrScene *wr_app_live(WrApp *app);
 void wr_app_live_end(WrApp *app);
@@ -213,11 +310,34 @@ void wr_app_open(WrApp *app);
 void wr_app_open_path(WrApp *app, const char *path); /* asks first if work is unsaved */
 bool wr_app_save(WrApp *app); /* false: not saved yet (a dialog is open, or it failed) */
 void wr_app_save_as(WrApp *app);
+void wr_app_save_history(WrApp *app); /* asks for the file */
+/* The document is another one: forget what belonged to the old one. */
+void wr_app_changed_document(WrApp *app);
 void wr_app_quit(WrApp *app);
 void wr_app_go_on(WrApp *app); /* with `after` */
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path);
 void wr_app_title(WrApp *app);
 const char *wr_app_name(const WrApp *app); /* of the document, without folders */
+
+/* ---- busy.c: what may take long ---- */
+/* Call work(ctx), on another thread, and come back when it is done: with what it said. What takes longer
+   than a moment shows `what` and a bar; the window stays alive, but nothing else can be done. Inside a
+   picture of the window it is simply called. */
+typedef bool WrBusyWork(void *ctx, WrError *err);
+bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err);
+/* Run a command that may take long, at once or after the picture of the window that is being made. */
+void wr_app_run_slow(WrApp *app, const char *line);
+/* The same for a file that was chosen, and for an action. */
+void wr_later_file(WrApp *app, WrFilePurpose purpose, const char *path);
+void wr_later_action(WrApp *app, const char *name);
+void wr_later_run(WrApp *app); /* do what was put off */
+
+/* ---- marks.c: outlines of selections ---- */
+void wr_marks_update(WrApp *app);
+void wr_marks_draw(WrApp *app);
+void wr_marks_try(WrApp *app, const WrOutlineAsk *ask); /* NULL: the selection as it is */
+double wr_marks_next_time(const WrApp *app); /* clock at which they move on; 0: they do not */
+void wr_marks_free(WrApp *app);
 
 /* ---- messages.c ---- */
 void wr_app_say(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -243,10 +363,18 @@ void wr_tool_pan_drag(WrApp *app, const WrPointer *at);
 void wr_tool_zoom_press(WrApp *app, const WrPointer *at);
 void wr_tool_zoom_drag(WrApp *app, const WrPointer *at);
 
+void wr_select_press(WrApp *app, const WrPointer *at);
+void wr_select_drag(WrApp *app, const WrPointer *at);
+void wr_select_release(WrApp *app, const WrPointer *at);
+void wr_select_cancel(WrApp *app);
+void wr_select_options(WrApp *app);
+
 /* ---- views ---- */
 void wr_canvas_view_draw(WrApp *app);    /* the picture */
 void wr_canvas_view_overlay(WrApp *app); /* what lies on it */
 void wr_patch_update(WrApp *app);        /* wish for what is wanted; take what is ready */
+void wr_patch_turn_on(
+    WrApp *app); /* the same without a look at the document: it is being changed */
 void wr_patch_draw(WrApp *app);
 void wr_patch_overlay(WrApp *app);
 bool wr_patch_press(WrApp *app, const WrPointer *at);
@@ -271,10 +399,26 @@ void wr_scene_run(WrApp *app, WrText *line);
 void wr_scene_live_number(WrApp *app, size_t place, double value);
 void wr_panel_plan(WrApp *app);
 void wr_panel_history(WrApp *app);
+void wr_panel_layers(WrApp *app, SDL_Rect room);
+void wr_panel_layers_forget(WrApp *app); /* its pictures */
+void wr_layer_rename_start(WrApp *app, int index);
+void wr_panel_seam(WrApp *app); /* on the canvas */
 void wr_panel_status(WrApp *app);
 void wr_panel_dialogs(WrApp *app);
 void wr_dialog_help(WrApp *app);
-void wr_dialog_export(WrApp *app);
+void wr_dialog_close(WrApp *app);
+/* The operation of an action "adjust_NAME", or NULL. */
+const WrOpInfo *wr_action_op(const char *name);
+void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op);
+void wr_dialog_adjust(WrApp *app);
+void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
+void wr_dialog_select(WrApp *app);
+void wr_dialog_search(WrApp *app);
+void wr_dialog_recover_open(WrApp *app); /* if there is anything to recover */
+void wr_dialog_recover(WrApp *app);
+void wr_recovery_free(WrRecovery *recovery); /* NULL is fine */
+/* Where a dialog stands whose effect the views show. */
+SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 done, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define NOTHING 0x1f /* grey of what a layer says nothing about: as a field's */
+#define NOTHING 0x48 /* grey of what a layer says nothing about */
 
 static float texel(const WrField *field, double u, double v)
 {
@@ -35,6 +35,9 @@ void wr_thumb_draw(const WrField *field, const WrField *cover, bool unit, int si
     if (unit || !(high > low)) {
         low = 0.0f;
         high = 1.0f;
+    } else if (cover) {
+        high = -low > high ? -low : high;
+        low = -high;
     }
     for (int y = 0; y < side; y++)
         for (int x = 0; x < side; x++) {

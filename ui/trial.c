@@ -29,13 +29,23 @@ static void drop(void *arg)
 
 /* ---- on the job's thread ---- */
 
+static bool adjust_field(const Work *work, WrField **field, const WrOpOptions *options,
+                         WrError *err)
+{
+    if (!*field) return true;
+    WrField *made = wr_op_run(work->ask.op, *field, work->ask.param, options, err);
+    if (!made) return false;
+    wr_field_free(*field);
+    *field = made;
+    return true;
+}
+
+/* As the adjust command: where texels only move, what a layer says something about moves with them. */
 static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
 {
-    WrField *made = wr_op_run(work->ask.op, layer->heights, work->ask.param, options, err);
-    if (!made) return false;
-    wr_field_free(layer->heights);
-    layer->heights = made;
-    return true;
+    if (!adjust_field(work, &layer->heights, options, err)) return false;
+    return !work->ask.op->moves || (adjust_field(work, &layer->cover, options, err) &&
+                                    adjust_field(work, &layer->mask, options, err));
 }
 
 static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError *err)

@@ -1,0 +1,172 @@
+/* What the window shows before a change is made: computed beside the document, which never changes, and the
+   same as what the command then makes. */
+#include "test.h"
+
+#include "base/clock.h"
+#include "command/session.h"
+#include "ui/outline.h"
+#include "ui/trial.h"
+
+#include <unistd.h>
+
+static WrSession *session_of(const char *const *lines, int count)
+{
+    WrError err;
+    WrSession *session = wr_session_new(&(WrSessionOptions){ 0 });
+    for (int i = 0; i < count; i++)
+        if (!wr_session_run(session, lines[i], &err)) fail_msg("%s: %s", lines[i], err.text);
+    return session;
+}
+
+static const char *const painted[] = { "table 256x192", "grid cells=4x3 width=6 low=0 high=1",
+                                       "layer add moss blend=max",
+                                       "stroke points=0.1,0.2;0.9,0.7 radius=20 strength=2",
+                                       "select rect from=0.3,0.1 to=1.2,0.6" };
+
+static void wait_until_done(WrTrial *trial)
+{
+    double began = wr_clock_seconds();
+    while (wr_trial_busy(trial, NULL, NULL) && wr_clock_seconds() - began < 20) usleep(500);
+    assert_false(wr_trial_busy(trial, NULL, NULL));
+}
+
+static void assert_same_heights(const WrField *a, const WrField *b)
+{
+    WrHash x = wr_field_hash(a), y = wr_field_hash(b);
+    assert_memory_equal(&x, &y, sizeof x);
+}
+
+/* Try, then do: the composite that was shown is the one that comes, bit for bit. */
+static void try_then_run(const WrTrialAsk *ask, const char *line)
+{
+    WrError err;
+    WrSession *session = session_of(painted, 5);
+    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
+    WrHash before = wr_session_hash(session);
+    wr_trial_ask(trial, wr_session_document(session), ask);
+    wait_until_done(trial);
+    WrHash after = wr_session_hash(session);
+    assert_memory_equal(&before, &after, sizeof before);
+    const WrField *tried = wr_trial_field(trial);
+    assert_non_null(tried);
+    if (!wr_session_run(session, line, &err)) fail_msg("%s: %s", line, err.text);
+    assert_same_heights(tried, wr_document_field(wr_session_document(session)));
+    wr_trial_end(trial);
+    assert_null(wr_trial_field(trial));
+    wr_trial_free(trial);
+    wr_session_free(session);
+}
+
+static void an_operation_that_is_tried_comes_out_as_its_command(void **state)
+{
+    (void)state;
+    try_then_run(&(WrTrialAsk){ .op = wr_op_find("blur"), .param = { 5 } }, "adjust blur sigma=5");
+    try_then_run(&(WrTrialAsk){ .op = wr_op_find("invert"), .param = { 1 }, .all_layers = true },
+                 "adjust invert about=zero layers=all");
+}
+
+/* Coverage goes along where texels only move. */
+static void an_offset_that_is_tried_moves_what_layers_say_too(void **state)
+{
+    (void)state;
+    try_then_run(
+        &(WrTrialAsk){ .op = wr_op_find("offset"), .param = { 100, 31 }, .all_layers = true },
+        "adjust offset du=100 dv=31 layers=all");
+}
+
+static void a_layers_settings_that_are_tried_come_out_as_their_command(void **state)
+{
+    (void)state;
+    try_then_run(
+        &(WrTrialAsk){ .layer = 1, .blend = WR_BLEND_SMOOTH_MAX, .opacity = 0.5f, .radius = 0.25f },
+        "layer set 2 blend=smooth-max opacity=0.5 radius=0.25");
+}
+
+static void a_trial_that_fails_says_why_once(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    WrSession *session = session_of(painted, 5);
+    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
+    wr_trial_ask(trial, wr_session_document(session),
+                 &(WrTrialAsk){ .op = wr_op_find("blur"), .param = { -1 } });
+    wait_until_done(trial);
+    assert_null(wr_trial_field(trial));
+    assert_true(wr_trial_error(trial, &err));
+    assert_non_null(strstr(err.text, "sigma"));
+    assert_false(wr_trial_error(trial, &err));
+    wr_trial_free(trial);
+    wr_session_free(session);
+}
+
+/* ---- outlines ---- */
+
+static const WrOutline *outline_of(WrOutliner *outliner, const WrSession *session,
+                                   const WrOutlineAsk *ask)
+{
+    uint64_t serial;
+    wr_outliner_ask(outliner, wr_session_document(session), ask);
+    double began = wr_clock_seconds();
+    while (wr_outliner_busy(outliner, NULL, NULL) && wr_clock_seconds() - began < 20) usleep(500);
+    return wr_outliner_get(outliner, &serial);
+}
+
+/* The longest way across an outline in u. */
+static double width_of(const WrOutline *outline)
+{
+    double low = 1e9, high = -1e9;
+    for (int i = 0; i < outline->point_count; i++) {
+        low = fmin(low, outline->points[i].u);
+        high = fmax(high, outline->points[i].u);
+    }
+    return high - low;
+}
+
+static void outlines_show_what_a_selection_would_become(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(painted, 5);
+    WrOutliner *outliner = wr_outliner_new(1, SDL_USEREVENT);
+    const WrOutline *now = outline_of(outliner, session, &(WrOutlineAsk){ 0 });
+    assert_non_null(now);
+    assert_near(width_of(now), 0.9, 1.5 / 256); /* 0.3 to 1.2, over the edge */
+    const WrOutline *grown =
+        outline_of(outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_GROW, .by = 5 });
+    assert_non_null(grown);
+    assert_near(width_of(grown), 0.9 + 10.0 / 256, 1.5 / 256);
+    const WrOutline *shrunk =
+        outline_of(outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_SHRINK, .by = 5 });
+    assert_non_null(shrunk);
+    assert_near(width_of(shrunk), 0.9 - 10.0 / 256, 1.5 / 256);
+    uint64_t serial;
+    wr_outliner_clear(outliner);
+    assert_null(wr_outliner_get(outliner, &serial));
+    wr_outliner_free(outliner);
+    wr_session_free(session);
+}
+
+static void without_a_selection_there_is_no_outline(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(painted, 4);
+    WrOutliner *outliner = wr_outliner_new(1, SDL_USEREVENT);
+    assert_null(outline_of(outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_GROW, .by = 5 }));
+    /* by height there is one: around the strokes and the grid's lines */
+    assert_non_null(outline_of(
+        outliner, session, &(WrOutlineAsk){ .kind = WR_OUTLINE_HEIGHT, .low = 0.5, .high = 10 }));
+    wr_outliner_free(outliner);
+    wr_session_free(session);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_operation_that_is_tried_comes_out_as_its_command),
+        cmocka_unit_test(an_offset_that_is_tried_moves_what_layers_say_too),
+        cmocka_unit_test(a_layers_settings_that_are_tried_come_out_as_their_command),
+        cmocka_unit_test(a_trial_that_fails_says_why_once),
+        cmocka_unit_test(outlines_show_what_a_selection_would_become),
+        cmocka_unit_test(without_a_selection_there_is_no_outline),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

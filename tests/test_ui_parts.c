@@ -1,0 +1,410 @@
+/* What the window's panels and outlines stand on: searching, small pictures, seams, marching outlines and
+   work in the background. */
+#include "test.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "ui/ants.h"
+#include "ui/job.h"
+#include "ui/layout.h"
+#include "ui/seam.h"
+#include "ui/search.h"
+#include "ui/thumb.h"
+
+#include <unistd.h>
+
+#define TURN 6.28318530717958648
+
+/* ---- search ---- */
+
+static void a_search_takes_all_words_in_any_order_and_case(void **state)
+{
+    (void)state;
+    assert_int_equal(wr_search_score("Gaussian blur...", "sharp"), 0);
+    assert_true(wr_search_score("Gaussian blur...", "BLUR gau") > 0);
+    assert_int_equal(wr_search_score("Gaussian blur...", "blur sharp"), 0);
+    assert_true(wr_search_score("Gaussian blur...", "") > 0);
+    assert_true(wr_search_score("Gaussian blur...", "   ") > 0);
+}
+
+static void the_beginning_of_a_label_counts_more_than_its_middle(void **state)
+{
+    (void)state;
+    int begin = wr_search_score("Select all", "sel");
+    int word = wr_search_score("Grow selection...", "sel");
+    int inside = wr_search_score("Unselect", "sel");
+    assert_true(begin > word && word > inside && inside > 0);
+}
+
+/* ---- small pictures ---- */
+
+static int grey_of(uint32_t argb)
+{
+    assert_int_equal(argb >> 24, 255);
+    assert_int_equal(argb >> 16 & 255, argb & 255);
+    assert_int_equal(argb >> 8 & 255, argb & 255);
+    return (int)(argb & 255);
+}
+
+static void a_small_picture_shows_the_table_upright(void **state)
+{
+    (void)state;
+    uint32_t argb[16 * 16];
+    WrField *field = wr_field_new(256, 128, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < 64; j++)
+        for (int i = 0; i < 128; i++) wr_field_set(field, i, j, 5.0f); /* top left quarter */
+    wr_thumb_draw(field, NULL, false, 16, argb);
+    for (int y = 0; y < 16; y++)
+        for (int x = 0; x < 16; x++)
+            assert_int_equal(grey_of(argb[16 * y + x]), x < 8 && y < 8 ? 255 : 0);
+    wr_field_free(field);
+}
+
+/* A layer: what is raised is lighter than the ground, what is lowered darker, what it says nothing about is
+   neither. */
+static void a_layers_picture_tells_up_from_down_from_nothing(void **state)
+{
+    (void)state;
+    uint32_t argb[4];
+    WrField *field = wr_field_new(128, 128, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    WrField *cover = wr_field_new(128, 128, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, NULL);
+    for (int j = 0; j < 128; j++)
+        for (int i = 0; i < 128; i++) {
+            wr_field_set(field, i, j, i < 64 ? (j < 64 ? 2.0f : -2.0f) : 0.0f);
+            if (i >= 64 && j >= 64) wr_field_set(cover, i, j, 0.0f);
+        }
+    wr_thumb_draw(field, cover, false, 2, argb);
+    assert_int_equal(grey_of(argb[0]), 255);
+    assert_int_equal(grey_of(argb[2]), 0);
+    assert_true(abs(grey_of(argb[1]) - 128) <= 1);
+    assert_true(grey_of(argb[3]) > 20 && grey_of(argb[3]) < 110);
+    wr_field_free(cover);
+    wr_field_free(field);
+}
+
+static void a_masks_picture_goes_from_0_to_1_whatever_is_in_it(void **state)
+{
+    (void)state;
+    uint32_t argb[WR_THUMB_MAX * WR_THUMB_MAX];
+    WrField *field = wr_field_new(1, 1, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.25f, NULL);
+    wr_thumb_draw(field, NULL, true, WR_THUMB_MAX, argb);
+    assert_true(abs(grey_of(argb[WR_THUMB_MAX * WR_THUMB_MAX - 1]) - 64) <= 1);
+    wr_field_free(field);
+}
+
+/* ---- seams ---- */
+
+static WrField *table_of(int w, int h, double (*f)(double u, double v))
+{
+    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++)
+            wr_field_set(field, i, j, (float)f((i + 0.5) / w, 1.0 - (j + 0.5) / h));
+    return field;
+}
+
+static double waves(double u, double v)
+{
+    return sin(TURN * 2 * u) + cos(TURN * v);
+}
+
+static double slope_in_u(double u, double v)
+{
+    return u + 0.1 * sin(TURN * v);
+}
+
+static double ridge(double u, double v)
+{
+    (void)v;
+    return 4 * u * (1 - u); /* meets itself at 0, but not in slope */
+}
+
+static void waves_that_fit_the_cell_have_no_seam(void **state)
+{
+    (void)state;
+    WrField *field = table_of(512, 200, waves);
+    WrSeam seam = wr_seam_measure(field);
+    assert_true(seam.u.wraps && seam.v.wraps);
+    assert_false(seam.u.jumps || seam.u.creases || seam.v.jumps || seam.v.creases);
+    wr_field_free(field);
+}
+
+static void a_slope_that_does_not_fit_jumps_by_what_is_missing(void **state)
+{
+    (void)state;
+    WrField *field = table_of(256, 256, slope_in_u);
+    WrSeam seam = wr_seam_measure(field);
+    assert_true(seam.u.jumps);
+    assert_near(seam.u.jump, 1.0, 1e-3); /* from 1 back to 0 */
+    assert_near(seam.u.jump_most, 1.0, 1e-3);
+    assert_near(seam.u.jump_inside, 0.0, 1e-5);
+    assert_false(seam.v.jumps || seam.v.creases);
+    wr_field_free(field);
+}
+
+static void a_ridge_on_the_edge_is_a_crease_and_no_jump(void **state)
+{
+    (void)state;
+    WrField *field = table_of(256, 64, ridge);
+    WrSeam seam = wr_seam_measure(field);
+    assert_true(seam.u.creases);
+    assert_near(seam.u.crease, 8.0 / 256, 0.05 * 8.0 / 256); /* slope 4 to slope -4, per texel */
+    assert_true(seam.u.jump < 0.01 * seam.u.crease);
+    wr_field_free(field);
+}
+
+static void an_axis_that_ends_has_no_seam_to_measure(void **state)
+{
+    (void)state;
+    WrField *field = wr_field_new(64, 64, WR_WRAP_CLAMP, WR_WRAP_PERIODIC, 0, NULL);
+    WrField *tiny = wr_field_new(1, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < 64; j++) wr_field_set(field, 0, j, 9.0f);
+    assert_false(wr_seam_measure(field).u.wraps || wr_seam_measure(field).u.jumps);
+    assert_true(wr_seam_measure(field).v.wraps);
+    assert_false(wr_seam_measure(tiny).u.wraps || wr_seam_measure(tiny).v.wraps);
+    wr_field_free(tiny);
+    wr_field_free(field);
+}
+
+/* ---- marching outlines ---- */
+
+/* A table of 100 x 100 texels at two pixels a texel: copies every 200 pixels; the real cell stands from
+   (100, 50) on. */
+static WrView ants_view(void)
+{
+    return (WrView){ .x = 10,
+                     .y = 20,
+                     .w = 580,
+                     .h = 460,
+                     .table_w = 100,
+                     .table_h = 100,
+                     .zoom = 2,
+                     .centre_x = 100,
+                     .centre_y = 100 };
+}
+
+static const WrSelectPoint square[] = { { 0.2, 0.2 }, { 0.4, 0.2 }, { 0.4, 0.4 }, { 0.2, 0.4 } };
+
+static void an_outline_is_drawn_on_every_copy_that_is_seen(void **state)
+{
+    (void)state;
+    WrView view = ants_view();
+    WrAnts ants = { 0 };
+    wr_ants_add(&ants, square, 4, 0, 0, &view, false, false);
+    int one = ants.pixels.count;
+    assert_int_equal(one, 160); /* four sides of 40 pixels */
+    for (int i = 0; i < one; i++) {
+        double x, y;
+        wr_view_to_texel(&view, ants.pixels.data[i].at.x + 0.5, ants.pixels.data[i].at.y + 0.5, &x,
+                         &y);
+        double dx = fabs(x - 30), dy = fabs(y - 70);
+        assert_near(dx > dy ? dx : dy, 10, 0.6);
+        assert_near((double)ants.pixels.data[i].along, i, 1e-3);
+    }
+    ants.pixels.count = 0;
+    wr_ants_add(&ants, square, 4, 0, 0, &view, true, true);
+    int whole = ants.pixels.count;
+    assert_true(whole > 5 * one && whole < 9 * one); /* 580 x 460 pixels hold 2.9 x 2.3 cells */
+    for (int i = 0; i < whole; i++) {
+        SDL_Point p = ants.pixels.data[i].at;
+        assert_true(p.x >= 10 && p.x < 590 && p.y >= 20 && p.y < 480);
+    }
+    wr_ants_free(&ants);
+}
+
+/* A band round the table: its edges are lines without ends. */
+static void hc73_an_outline_that_runs_round_the_table_goes_on_over_the_edge(void **state)
+{
+    (void)state;
+    WrView view = ants_view();
+    WrField *band = wr_field_new(100, 100, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 40; j < 60; j++)
+        for (int i = 0; i < 100; i++) wr_field_set(band, i, j, 1.0f);
+    WrOutline outline = { 0 };
+    assert_true(wr_select_outline(band, &outline, NULL));
+    WrAnts ants = { 0 };
+    wr_ants_trace(&ants, &outline, &view, true, true);
+    static bool seen[460][580];
+    memset(seen, 0, sizeof seen);
+    for (int i = 0; i < ants.pixels.count; i++)
+        seen[ants.pixels.data[i].at.y - 20][ants.pixels.data[i].at.x - 10] = true;
+    int full = 0;
+    for (int y = 0; y < 460; y++) {
+        int dots = 0;
+        for (int x = 0; x < 580; x++) dots += seen[y][x];
+        assert_true(dots == 0 || dots >= 578); /* no gap where cells meet */
+        full += dots > 0;
+    }
+    assert_true(full >= 4 && full <= 6); /* two edges on each of two to three copies */
+    wr_ants_free(&ants);
+    wr_outline_fini(&outline);
+    wr_field_free(band);
+}
+
+static void a_huge_outline_is_cut_off_and_says_so(void **state)
+{
+    (void)state;
+    WrView view = ants_view();
+    WrAnts ants = { 0 };
+    TestRandom r = { 5 };
+    int count = 60000;
+    WrSelectPoint *points = wr_alloc((size_t)count, sizeof *points);
+    for (int i = 0; i < count; i++) points[i] = (WrSelectPoint){ test_random(&r), test_random(&r) };
+    wr_ants_add(&ants, points, count, 0, 0, &view, true, true);
+    assert_true(ants.cut);
+    assert_int_equal(ants.pixels.count, WR_ANTS_MAX);
+    wr_free(points);
+    wr_ants_free(&ants);
+}
+
+/* Zoomed far in, a side of millions of pixels costs what is seen of it. */
+static void only_what_is_seen_of_a_long_side_is_walked(void **state)
+{
+    (void)state;
+    WrView view = ants_view();
+    view.table_w = view.table_h = 16384;
+    view.zoom = 128;
+    view.centre_x = view.centre_y = 8192;
+    static const WrSelectPoint big[] = { { 0.5, -40 }, { 0.5, 40 }, { -40, 40 } };
+    WrAnts ants = { 0 };
+    double began = wr_clock_seconds();
+    wr_ants_add(&ants, big, 3, 0, 0, &view, false, false);
+    assert_true(wr_clock_seconds() - began < 0.5);
+    assert_true(abs(ants.pixels.count - 460) <= 2);
+    wr_ants_free(&ants);
+}
+
+/* ---- work in the background ---- */
+
+typedef struct Piece {
+    volatile int *dropped, *ran; /* counters, atomic */
+    double seconds;              /* unless it is cancelled */
+    int number;
+    bool cancelled;
+} Piece;
+
+static void run_piece(void *arg, WrPool *pool, const WrProgress *progress)
+{
+    (void)pool;
+    Piece *piece = arg;
+    __atomic_add_fetch(piece->ran, 1, __ATOMIC_SEQ_CST);
+    double began = wr_clock_seconds(), now = began;
+    while (now - began < piece->seconds && wr_progress_step(progress, (now - began) / 10)) {
+        usleep(1000);
+        now = wr_clock_seconds();
+    }
+    piece->cancelled = wr_progress_cancelled(progress);
+}
+
+static void drop_piece(void *arg)
+{
+    Piece *piece = arg;
+    __atomic_add_fetch(piece->dropped, 1, __ATOMIC_SEQ_CST);
+    wr_free(piece);
+}
+
+static const WrJobKind kind = { run_piece, drop_piece };
+static volatile int dropped, ran;
+
+static Piece *piece_of(int number, double seconds)
+{
+    Piece *piece = wr_alloc(1, sizeof *piece);
+    *piece = (Piece){ &dropped, &ran, seconds, number, false };
+    return piece;
+}
+
+static Piece *wait_for(WrJob *job)
+{
+    double began = wr_clock_seconds();
+    Piece *piece;
+    while (!(piece = wr_job_take(job)) && wr_clock_seconds() - began < 10) usleep(500);
+    assert_non_null(piece);
+    return piece;
+}
+
+static void the_newest_piece_of_work_wins_and_the_others_are_dropped(void **state)
+{
+    (void)state;
+    dropped = ran = 0;
+    WrJob *job = wr_job_new(&kind, 1, SDL_USEREVENT);
+    assert_false(wr_job_busy(job, NULL, NULL));
+    wr_job_start(job, piece_of(1, 30)); /* would take half a minute */
+    while (__atomic_load_n(&ran, __ATOMIC_SEQ_CST) == 0) usleep(500);
+    double fraction, seconds;
+    assert_true(wr_job_busy(job, &fraction, &seconds));
+    assert_true(fraction >= 0 && fraction <= 1 && seconds >= 0);
+    wr_job_start(job, piece_of(2, 0));
+    wr_job_start(job, piece_of(3, 0));
+    Piece *piece = wait_for(job);
+    while (piece->number != 3) { /* 2 may have been done before 3 was asked for: then it is gone */
+        drop_piece(piece);
+        piece = wait_for(job);
+    }
+    assert_false(piece->cancelled);
+    assert_false(wr_job_busy(job, NULL, NULL));
+    assert_null(wr_job_take(job));
+    drop_piece(piece);
+    wr_job_free(job);
+    assert_int_equal(dropped, 3); /* each exactly once */
+}
+
+static void cancelled_work_gives_nothing_and_interrupted_work_what_it_has(void **state)
+{
+    (void)state;
+    dropped = ran = 0;
+    WrJob *job = wr_job_new(&kind, 1, SDL_USEREVENT);
+    wr_job_start(job, piece_of(1, 30));
+    while (__atomic_load_n(&ran, __ATOMIC_SEQ_CST) == 0) usleep(500);
+    wr_job_cancel(job);
+    assert_false(wr_job_busy(job, NULL, NULL));
+    wr_job_start(job, piece_of(2, 30));
+    while (__atomic_load_n(&ran, __ATOMIC_SEQ_CST) < 2) usleep(500);
+    wr_job_interrupt(job);
+    Piece *piece = wait_for(job);
+    assert_int_equal(piece->number, 2);
+    assert_true(piece->cancelled);
+    drop_piece(piece);
+    wr_job_start(job, piece_of(3, 30));
+    wr_job_free(job); /* in the middle of it */
+    assert_int_equal(dropped, 3);
+}
+
+/* ---- the panel's two parts ---- */
+
+static void the_layers_get_their_share_of_the_panel_where_there_is_room(void **state)
+{
+    (void)state;
+    WrLayoutInput in = { 1440, 900, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4 };
+    for (int y = 0; y < 900; y += 13) {
+        WrLayout l = wr_layout_make(&in);
+        in.lower = wr_layout_lower_at(&l, y);
+        l = wr_layout_make(&in);
+        assert_true(l.panel.h >= 150 && l.lower.h >= 150);
+        if (y > 280 && y < 660) assert_near(l.panel_divider.y + l.panel_divider.h / 2.0, y, 2);
+    }
+    in.height = 420;
+    assert_int_equal(wr_layout_make(&in).lower.w, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_search_takes_all_words_in_any_order_and_case),
+        cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
+        cmocka_unit_test(a_small_picture_shows_the_table_upright),
+        cmocka_unit_test(a_layers_picture_tells_up_from_down_from_nothing),
+        cmocka_unit_test(a_masks_picture_goes_from_0_to_1_whatever_is_in_it),
+        cmocka_unit_test(waves_that_fit_the_cell_have_no_seam),
+        cmocka_unit_test(a_slope_that_does_not_fit_jumps_by_what_is_missing),
+        cmocka_unit_test(a_ridge_on_the_edge_is_a_crease_and_no_jump),
+        cmocka_unit_test(an_axis_that_ends_has_no_seam_to_measure),
+        cmocka_unit_test(an_outline_is_drawn_on_every_copy_that_is_seen),
+        cmocka_unit_test(hc73_an_outline_that_runs_round_the_table_goes_on_over_the_edge),
+        cmocka_unit_test(a_huge_outline_is_cut_off_and_says_so),
+        cmocka_unit_test(only_what_is_seen_of_a_long_side_is_walked),
+        cmocka_unit_test(the_newest_piece_of_work_wins_and_the_others_are_dropped),
+        cmocka_unit_test(cancelled_work_gives_nothing_and_interrupted_work_what_it_has),
+        cmocka_unit_test(the_layers_get_their_share_of_the_panel_where_there_is_room),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
