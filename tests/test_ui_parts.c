@@ -380,7 +380,7 @@ static void the_layers_get_their_share_of_the_panel_where_there_is_room(void **s
         in.lower = wr_layout_lower_at(&l, y);
         l = wr_layout_make(&in);
         assert_true(l.panel.h >= 150 && l.lower.h >= 150);
-        if (y > 280 && y < 660) assert_near(l.panel_divider.y + l.panel_divider.h / 2.0, y, 2);
+        if (y > 280 && y < 580) assert_near(l.panel_divider.y + l.panel_divider.h / 2.0, y, 2);
     }
     in.height = 420;
     assert_int_equal(wr_layout_make(&in).lower.w, 0);

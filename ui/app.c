@@ -150,6 +150,7 @@ static void end(WrApp *app)
     wr_recovery_free(app->recovery);
     wr_free(app->later.line);
     wr_free(app->later.path);
+    wr_free(app->later.journal);
     if (app->renderer) wr_patch_free(app);
     if (app->renderer) wr_panel_layers_forget(app);
     wr_canvas_free(app->canvas);
@@ -391,6 +392,7 @@ static void step(WrApp *app)
                app->messages.list.count > 0 || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
+    if (!wr_session_in_stroke(app->session)) wr_session_journal_tend(app->session);
     wr_brush_flush(app);
     wr_later_run(app);
     march(app);

@@ -55,7 +55,7 @@ static void draw(WrApp *app, SDL_Texture *behind, const char *what, double secon
 {
     SDL_Rect room = app->layout.status;
     int tall = wr_gui_px(28);
-    char text[96];
+    char text[24];
     if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
     wr_gui_frame_begin(app->gui, app->width, app->height, PICTURE_SECONDS);
     SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
@@ -63,11 +63,13 @@ static void draw(WrApp *app, SDL_Texture *behind, const char *what, double secon
     if (behind) SDL_RenderCopy(app->renderer, behind, NULL, NULL);
     wr_patch_draw(app);
     wr_gui_area_begin("##busy", WR_AREA_BAR, room, WR_COLOUR_BAR);
-    snprintf(text, sizeof text, "%.60s   %.1f s", what, seconds);
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_STRONG, text);
+    wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, what, wr_gui_px(280));
     wr_gui_same_line(12);
-    wr_gui_move_to(wr_gui_px(300));
+    wr_gui_move_to(wr_gui_px(310));
     wr_gui_progress(wr_gui_px(220), -1.0);
+    wr_gui_same_line(12);
+    snprintf(text, sizeof text, "%.1f s", seconds);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
     if (app->options->cancel) {
         wr_gui_same_line(12);
         if (wr_gui_chip(NULL, "Cancel"))
@@ -133,6 +135,13 @@ bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrEr
 
 /* ---- later ---- */
 
+/* The window is first drawn without the dialog or menu that asked for it. */
+static void put_off(WrApp *app)
+{
+    app->later.since = wr_clock_seconds();
+    wr_app_redraw(app);
+}
+
 typedef struct Line {
     WrSession *session;
     const char *text;
@@ -149,6 +158,7 @@ void wr_app_run_slow(WrApp *app, const char *line)
     if (app->in_frame) {
         wr_free(app->later.line);
         app->later.line = wr_strdup(line);
+        put_off(app);
         return;
     }
     WrError err;
@@ -167,7 +177,14 @@ void wr_app_run_slow(WrApp *app, const char *line)
 void wr_later_action(WrApp *app, const char *name)
 {
     app->later.action = wr_action_find(name);
-    wr_app_redraw(app);
+    put_off(app);
+}
+
+void wr_later_recover(WrApp *app, const char *journal)
+{
+    wr_free(app->later.journal);
+    app->later.journal = wr_strdup(journal);
+    put_off(app);
 }
 
 void wr_later_file(WrApp *app, WrFilePurpose purpose, const char *path)
@@ -175,18 +192,21 @@ void wr_later_file(WrApp *app, WrFilePurpose purpose, const char *path)
     wr_free(app->later.path);
     app->later.path = wr_strdup(path);
     app->later.purpose = purpose;
-    wr_app_redraw(app);
+    put_off(app);
 }
 
 void wr_later_run(WrApp *app)
 {
     WrLater later = app->later;
-    if (!later.action && !later.line && !later.path) return;
+    if (!later.action && !later.line && !later.path && !later.journal) return;
+    if (app->visible && app->drawn_at <= later.since) return;
     app->later = (WrLater){ 0 };
     if (later.line) wr_app_run_slow(app, later.line);
     if (later.action) wr_action_run(app, later.action->name);
     if (later.path) wr_app_file_chosen(app, later.purpose, later.path);
+    if (later.journal) wr_recover(app, later.journal);
     wr_free(later.line);
     wr_free(later.path);
+    wr_free(later.journal);
     wr_app_redraw(app);
 }

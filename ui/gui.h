@@ -95,6 +95,7 @@ void wr_gui_separator(void);     /* a thin line across the panel */
 void wr_gui_rule(void);          /* a thin upright line in a bar */
 double wr_gui_available(void);   /* width left on this row, in pixels */
 void wr_gui_move_to(double x);   /* the next widget starts x pixels from the area's left edge */
+double wr_gui_place(void);       /* where that would be without it */
 double wr_gui_width(void);       /* of the area, in pixels */
 void wr_gui_push_id(int id);
 void wr_gui_pop_id(void);

@@ -108,6 +108,11 @@ extern "C" void wr_gui_move_to(double x)
     ImGui::SetCursorPosX((float)x);
 }
 
+extern "C" double wr_gui_place(void)
+{
+    return (double)ImGui::GetCursorPosX();
+}
+
 extern "C" double wr_gui_width(void)
 {
     return (double)ImGui::GetWindowWidth();

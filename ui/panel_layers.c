@@ -169,6 +169,27 @@ static void describe(const WrLayer *layer, char *text, size_t size)
              rint((double)layer->opacity * 1000.0) / 10.0);
 }
 
+/* The name, and blend and opacity beside it, or below it where it is narrow. */
+static void row_name(const WrLayer *layer, double x, double right, bool shown, bool active)
+{
+    WrColour ink = !shown ? 0xff8a8a8au : active ? WR_COLOUR_STRONG : WR_COLOUR_TEXT;
+    char text[64];
+    describe(layer, text, sizeof text);
+    double wide = wr_gui_text_width(WR_FONT_SMALL, text), gap = wr_gui_px(6);
+    if (right - x - wide - gap >= wr_gui_text_width(WR_FONT_TEXT, layer->name)) {
+        wr_gui_row_at(right - wide, 0);
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+        wr_gui_row_at(x, 0);
+        wr_gui_text(WR_FONT_TEXT, ink, layer->name);
+        return;
+    }
+    double line = wr_gui_line_height(WR_FONT_TEXT);
+    wr_gui_row_at(x, 2.35 * line);
+    wr_gui_text_cut(WR_FONT_TEXT, ink, layer->name, right - x);
+    wr_gui_row_at(x, 0.15 * line);
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, right - x);
+}
+
 /* True if a command was run: the layers are others now. */
 static bool row_parts(WrApp *app, int i, bool active)
 {
@@ -177,7 +198,6 @@ static bool row_parts(WrApp *app, int i, bool active)
     bool shown = wr_document_shows(document, i);
     double side = wr_gui_px(THUMB_UNITS), x = wr_gui_px(8), gap = wr_gui_px(8);
     double right = wr_gui_row_width() - wr_gui_px(34);
-    char text[64];
     wr_gui_row_at(x, wr_gui_px(24));
     const char *eye = layer->visible ? WR_ICON_EYE : WR_ICON_EYE_OFF;
     if (wr_gui_glyph("eye", eye, 24, shown ? WR_COLOUR_TEXT : 0xff6c6c6cu))
@@ -206,16 +226,7 @@ static bool row_parts(WrApp *app, int i, bool active)
         name_field(app, right - x - gap);
         return app->layers.renamed != i;
     }
-    describe(layer, text, sizeof text);
-    double wide = wr_gui_text_width(WR_FONT_SMALL, text);
-    wr_gui_row_at(right - wide - gap / 2, 0);
-    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
-    wr_gui_row_at(x, 0);
-    wr_gui_text_cut(WR_FONT_TEXT,
-                    !shown   ? 0xff8a8a8au
-                    : active ? WR_COLOUR_STRONG
-                             : WR_COLOUR_TEXT,
-                    layer->name, right - wide - gap - x);
+    row_name(layer, x, right - gap / 2.0, shown, active);
     return false;
 }
 

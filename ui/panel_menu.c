@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#define FIND_UNITS 190 /* width of what opens the search */
+
 /* Names of actions; "-" is a line, "recent", "scale" and "operations" are made below. */
 static const char *const file_menu[] = { "new",     "open",         "recent", "-",      "save",
                                          "save_as", "save_history", "-",      "import", "export",
@@ -147,7 +149,7 @@ static void menu(WrApp *app, const char *label, const char *const *names)
 /* At the right end: what opens the search. */
 static void find_field(WrApp *app)
 {
-    double wide = wr_gui_px(200);
+    double wide = wr_gui_px(FIND_UNITS);
     if (app->width < wr_gui_px(900)) return;
     wr_gui_move_to(app->width - wide - wr_gui_px(12));
     char keys[32];
@@ -168,9 +170,13 @@ void wr_panel_menu(WrApp *app)
     char title[300];
     snprintf(title, sizeof title, "%.200s%s", wr_app_name(app),
              wr_app_unsaved(app) ? "  \xe2\x80\xa2" : "");
-    double at = (app->width - wr_gui_text_width(WR_FONT_BOLD, title)) / 2.0;
+    double wide = wr_gui_text_width(WR_FONT_BOLD, title), at = (app->width - wide) / 2.0;
+    double from = wr_gui_place() + wr_gui_px(16); /* after the menus */
+    double to = app->width - wr_gui_px(app->width < wr_gui_px(900) ? 12 : FIND_UNITS + 28);
+    at = at + wide < to ? at : to - wide;
+    at = at > from ? at : from;
     wr_gui_move_to(at);
-    wr_gui_text(WR_FONT_BOLD, WR_COLOUR_TEXT, title);
+    wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_TEXT, title, to - at);
     find_field(app);
     wr_gui_menu_bar_end();
 }

@@ -79,7 +79,7 @@ static void say_lines(WrApp *app, const char *text)
     }
 }
 
-static void recover(WrApp *app, const char *journal)
+void wr_recover(WrApp *app, const char *journal)
 {
     WrError err;
     Call call = { .session = app->session, .journal = journal };
@@ -153,10 +153,8 @@ void wr_dialog_recover(WrApp *app)
     bool later = wr_gui_button("Later", false) || (key && wr_gui_escape_pressed());
     wr_gui_tip("It is offered again the next time");
     if (now) {
-        char *journal = wr_strdup(recovery->list[recovery->chosen].journal);
+        wr_later_recover(app, recovery->list[recovery->chosen].journal);
         wr_dialog_close(app);
-        recover(app, journal);
-        wr_free(journal);
     } else if (lose) {
         discard(app);
     } else if (later) {
