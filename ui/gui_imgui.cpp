@@ -179,15 +179,24 @@ static void key_event(WrGui *gui, const SDL_KeyboardEvent *key)
     if (key->type == SDL_KEYDOWN) {
         if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
         io.KeysDown[code] = gui->pressed_now[code] = true;
+        gui->held_late |= key->keysym.mod & (KMOD_CTRL | KMOD_SHIFT | KMOD_ALT);
     } else if (gui->pressed_now[code]) {
         gui->released_late[code] = true; /* seen for one frame, then let go */
     } else {
         io.KeysDown[code] = false;
     }
-    SDL_Keymod mod = SDL_GetModState();
+}
+
+/* Those held now, and those that were held while a key went down since the last frame: Ctrl+A counts even if
+   both were let go before there was one. */
+static void set_held(WrGui *gui)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    int mod = (int)SDL_GetModState() | gui->held_late;
     io.KeyShift = (mod & KMOD_SHIFT) != 0;
     io.KeyCtrl = (mod & KMOD_CTRL) != 0;
     io.KeyAlt = (mod & KMOD_ALT) != 0;
+    gui->held_late = 0;
 }
 
 static int button_index(int button)
@@ -289,6 +298,7 @@ try {
         io.MouseDown[i] = gui->held[i] || gui->pressed[i];
         gui->pressed[i] = false;
     }
+    set_held(gui);
     ImGui::NewFrame();
     ImGuiContext &g = *ImGui::GetCurrentContext();
     bool modal = g.OpenPopupStack.Size > 0 && g.OpenPopupStack[0].Window &&

@@ -17,6 +17,7 @@ struct WrGui {
     bool pressed[3];         /* that went down since the last frame: none is ever missed */
     bool released_late[512]; /* keys that went down and up between two frames */
     bool pressed_now[512];
+    int held_late; /* KMOD_ bits held while a key went down since the last frame */
     char clipboard[4096];
     bool close_popups; /* Escape was pressed over a menu */
     /* number fields */

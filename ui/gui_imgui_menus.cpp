@@ -152,9 +152,8 @@ extern "C" bool wr_gui_text_field(const char *id, double width, char *text, size
 try {
     ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
     if (focus) ImGui::SetKeyboardFocusHere();
-    bool done = ImGui::InputText(id, text, size,
-                                 ImGuiInputTextFlags_EnterReturnsTrue |
-                                     (focus ? ImGuiInputTextFlags_AutoSelectAll : 0));
+    bool done = ImGui::InputText(
+        id, text, size, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     return done;
 }
