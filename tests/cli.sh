@@ -156,6 +156,19 @@ has err 'line 2'
 [[ ! -s out ]] || complain 'results in spite of a bad point'
 expect 0 inspect --json --at 1e300,0.5 --do 'surface plane a=1e10'
 has out '"N":[0,0,10000000000]'
+noise='noise perlin cells=4 octaves=1 scatter=off level=2 amplitude=0.5'
+expect 0 inspect --json --noise "$noise" --at 0.25,0.5 --at 0.3,0.4 # 0 at lattice points
+[[ $(head -n 1 out) == '{"u":0.25,"v":0.5,"noise":0,"noise_u":'*',"F":2,"Fu":'*',"octaves":1}' ]] ||
+    complain "the noise at a lattice point is $(head -n 1 out)"
+[[ $(wc -l <out) == 2 ]] || complain 'not a line for each point'
+expect 0 inspect --noise "$noise" --do 'table 4x4' --at 0.3,0.4 # too fine for so small a table
+has out 'octaves      0'
+expect 1 inspect --noise "$noise"
+has err '--at U,V is missing'
+expect 1 inspect --noise 'fill 3' --at 0,0
+has err 'must be a noise command'
+expect 1 inspect --noise 'noise perlin ratio=1' --at 0,0
+has err 'ratio=1'
 expect 0 inspect --json --do 'table 12x34'
 want='"layer_list":[{"name":"base","blend":"add","opacity":1,"radius":0,"visible":true,"locked":false,'
 want+='"cover":false,"mask":false,"active":true,"solo":false}],"selection":false}'

@@ -47,9 +47,18 @@ endfunction()
 wr_fuzz(journal document/journal_folder.c document/journal_line.c document/recover.c base/error.c
         base/file.c base/hash.c base/memory.c base/text.c)
 
+set(tip_sources brush/tip.c brush/tip_gbr.c brush/tip_gih.c brush/tip_smooth.c base/error.c base/exactmath.c
+    base/memory.c base/text.c)
+wr_fuzz(gbr ${tip_sources} LIBRARIES -lsleef)
+wr_fuzz(gih ${tip_sources} LIBRARIES -lsleef)
+
 # Under sanitizers of gcc the rooms cannot be linked with clang's.
 if(NOT WR_SANITIZE)
     wr_fuzz(commands command/parse.c command/value.c command/scene_text.c
-            ROOMS command export render document brush scene shade surface image field base
-            LIBRARIES -lsleef -lzip -lexpat -ldl -lpthread)
+            ROOMS command export render document generate brush scene shade surface noise image field
+                  base
+            LIBRARIES -lmypaint -ljson-c -lsleef -lzip -lexpat -ldl -lpthread)
+    wr_fuzz(myb brush/engine.c brush/engine_path.c brush/preset.c brush/preset_parse.c brush/preset_print.c
+            brush/settings.c
+            ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lsleef -lfreetype -ldl -lpthread)
 endif()

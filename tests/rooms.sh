@@ -28,7 +28,7 @@ BEGIN {
     library["OpenImageIO/"] = library["assimp/"] = "image"
     library["ft2build"] = library["freetype/"] = "image ui" # the type of the window is drawn with it too
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
-    library["libmypaint"] = library["mypaint"] = "brush"
+    library["libmypaint"] = library["mypaint"] = library["json-c/"] = "brush"
 }
 FNR == 1 {
     count = split(FILENAME, part, "/")

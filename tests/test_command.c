@@ -58,6 +58,15 @@ static void lines_print_in_canonical_form(void **state)
           "select lasso points=0,0;1,0;0,1 mode=add" },
         { "adjust levels out-low=-1 in-high=.5", "adjust levels in-high=0.5 out-low=-1" },
         { "undo 03", "undo 3" },
+        { "dab 0,0 set=\"slow_tracking=2;opaque=.5\" preset=soft tip=\"a b.png\"",
+          "dab 0,0 preset=soft set=\"slow_tracking=2;opaque=.5\" tip=\"a b.png\"" },
+        { "stroke points=0,0 mirror=uv repeat=3x2 jitter=0.5,90,.25",
+          "stroke points=0,0 jitter=0.5,90,0.25 mirror=uv repeat=3x2" },
+        { "shape paint=fill ellipse radii=0.1,.2 middle=0.5,0.5 mode=to",
+          "shape ellipse middle=0.5,0.5 radii=0.1,0.2 paint=fill mode=to" },
+        { "flood diagonal=on 0.5,.5", "flood 0.5,0.5 diagonal=on" },
+        { "ramp fold=on cone to=1,0 from=0,0", "ramp cone from=0,0 to=1,0 fold=on" },
+        { "select flood tolerance=0.5 0.1,0.2", "select flood 0.1,0.2 tolerance=0.5" },
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         char *text = canonical(known[i].line), *again = canonical(text);
@@ -131,6 +140,15 @@ static void mistakes_are_named_with_what_would_be_right(void **state)
         { "adjust invert about=mean", { "about=mean", "range, zero" } },
         { "adjust resize width=20000", { "width=20000", "1..16384" } },
         { "undo 0", { "undo", "1.." } },
+        { "dab 0,0 set=slow_traking=2", { "dab", "set", "slow_traking" } },
+        { "dab 0,0 set=slow_tracking=much", { "dab", "slow_tracking=number" } },
+        { "dab 0,0 mode=erode2", { "mode=erode2", "erode", "smear" } },
+        { "dab 0,0 jitter=0,181,0", { "jitter", "angle is \"181\"", "0..180" } },
+        { "dab 0,0 repeat=65x1", { "repeat=65x1", "1..64" } },
+        { "shape circle", { "KIND", "ellipse", "path" } },
+        { "shape path points=0,0;1,1", { "at least 4" } },
+        { "ramp linear from=0,0", { "to=", "missing" } },
+        { "flood 0,0 radius=3", { "flood", "unknown name", "strength=" } },
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         WrCall *call = NULL;
@@ -217,6 +235,16 @@ static void brush_defaults_are_the_brushes_own(void **state)
     assert_true(wr_call_number(call, "strength") == brush.strength);
     assert_int_equal(wr_call_choice(call, "mode"), brush.mode);
     assert_true(wr_call_number(call, "to") == brush.to);
+    assert_true(wr_call_number(call, "opacity") == brush.opacity);
+    assert_true(wr_call_number(call, "flow") == brush.flow);
+    assert_int_equal(wr_call_choice(call, "buildup"), brush.buildup);
+    assert_true(wr_call_number(call, "spacing") == brush.spacing);
+    assert_true(wr_call_number(call, "reach") == brush.reach);
+    assert_int_equal(wr_call_choice(call, "pressure"), brush.pressure);
+    assert_true(wr_call_number(call, "seed") == (double)brush.seed);
+    assert_true(wr_call_number(call, "angle") == brush.angle_deg);
+    assert_true(fmax(1, brush.aspect) == wr_call_number(call, "aspect"));
+    assert_int_equal(wr_call_choice(call, "follow"), brush.follow);
     wr_call_free(call);
 }
 
@@ -242,7 +270,8 @@ static void add_value(const WrArgSpec *s, TestRandom *random, WrText *line)
         int count = 0;
         while (wr_arg_word(s, count)) count++;
         wr_text_add(line, wr_arg_word(s, (int)(test_random(random) * count)));
-    } else if (s->type == WR_ARG_PATH || s->type == WR_ARG_NAME || s->type == WR_ARG_LAYER) {
+    } else if (s->type == WR_ARG_PATH || s->type == WR_ARG_NAME || s->type == WR_ARG_LAYER ||
+               s->type == WR_ARG_PRESET) {
         wr_text_add(line, words[(int)(test_random(random) * 5)]);
     } else if (s->type == WR_ARG_SHA256) {
         for (int i = 0; i < 64; i++) wr_text_addf(line, "%c", "0123456789abcdefABCDEF"[i % 22]);
@@ -252,11 +281,9 @@ static void add_value(const WrArgSpec *s, TestRandom *random, WrText *line)
         int rows = list ? s->rows_low + extra : 1;
         for (int r = 0; r < rows; r++) {
             int n = wr_arg_width(s);
-            while (s->counts && (!(s->counts >> n & 1) || (n > 2 && test_random(random) < 0.4))) {
-                n--;
-                if (s->counts >> n & 1 && test_random(random) < 0.5) break;
-                if (!(s->counts & ((1u << n) - 1)) && s->counts >> n & 1) break;
-            }
+            if (s->counts) do
+                    n = 1 + (int)(test_random(random) * wr_arg_width(s));
+                while (!(s->counts >> n & 1));
             wr_text_add(line, r ? ";" : "");
             for (int i = 0; i < n; i++) {
                 char digits[64];
@@ -581,6 +608,24 @@ static void help_covers_every_command_as_text_and_as_json(void **state)
     wr_text_fini(&json);
 }
 
+static void help_tells_each_brush_mode_and_what_it_goes_by(void **state)
+{
+    (void)state;
+    static const char *const painters[] = { "dab", "stroke", "shape", "flood" };
+    for (int k = 0; k < 4; k++) {
+        WrText text = { 0 };
+        assert_true(wr_help_command(painters[k], &text, NULL));
+        for (int i = 0; i < WR_BRUSH_MODE_COUNT; i++) {
+            char row[32];
+            snprintf(row, sizeof row, "\n%21s%s ", "", wr_brush_modes[i].name);
+            assert_non_null(strstr(wr_text_get(&text), row));
+        }
+        assert_non_null(strstr(wr_text_get(&text), "(source=)\n")); /* clone alone */
+        assert_non_null(strstr(wr_text_get(&text), "(strength= to=)\n"));
+        wr_text_fini(&text);
+    }
+}
+
 static void help_tells_what_a_new_scene_has_where_a_row_keeps(void **state)
 {
     (void)state;
@@ -609,6 +654,7 @@ int main(void)
         cmocka_unit_test(every_argument_of_every_command_refuses_bad_values),
         cmocka_unit_test(damaged_lines_never_crash_and_print_stably_where_they_parse),
         cmocka_unit_test(help_covers_every_command_as_text_and_as_json),
+        cmocka_unit_test(help_tells_each_brush_mode_and_what_it_goes_by),
         cmocka_unit_test(help_tells_what_a_new_scene_has_where_a_row_keeps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,6 +18,13 @@ static const char *const edits[] = { "fill 2",
                                      "adjust levels gamma=1.5 out-high=3",
                                      "adjust blur sigma=2",
                                      "adjust offset du=17",
+                                     "stroke points=0.2,0.9;0.7,0.5 radius=20 mode=erase",
+                                     "stroke points=0.2,0.9;0.7,0.5 radius=20 mode=dilate reach=6",
+                                     "stroke points=0.2,0.9;0.7,0.5 radius=20 flow=0.4",
+                                     "shape rectangle a=0.1,0.3 b=0.6,0.9 corner=9 radius=12",
+                                     "shape ellipse middle=0.3,0.6 radii=0.3,0.2 paint=fill turn=9",
+                                     "flood 0,0 tolerance=0.2 strength=2",
+                                     "ramp cone from=0.3,0.5 to=0.6,0.6",
                                      "layer clear" };
 #define EDIT_COUNT (sizeof edits / sizeof *edits)
 

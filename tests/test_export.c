@@ -518,7 +518,9 @@ static void the_bytes_do_not_depend_on_the_number_of_threads(void **state)
         for (int which = 0; which < 2; which++)
             for (int t = 0; t < 3; t++) {
                 const char *name = wr_export_kinds[kind].name;
-                WrExportOptions options = options_of(name, SETTINGS("depth=8", "dither=on"));
+                bool drawn = wr_export_kinds[kind].write != NULL;
+                WrExportOptions options =
+                    options_of(name, drawn ? NULL : SETTINGS("depth=8", "dither=on"));
                 options.range = WR_EXPORT_RANGE_AUTO;
                 options.scheme = WR_SCHEME_BSPLINE_FIT;
                 WrPool *pool = wr_pool_new(threads[t]);
@@ -563,13 +565,40 @@ static void dither_keeps_the_mean_and_whole_codes(void **state)
     wr_document_free(document);
 }
 
+static void a_line_drawing_leaves_as_a_picture_and_as_vectors(void **state)
+{
+    (void)state;
+    WrDocument *document = document_of(random_field(20, 12, WR_WRAP_PERIODIC, 0, 1));
+    export_to(document, "lines", SETTINGS("size=320x200"), "drawn.png");
+    WrImage *image = read_back("drawn.png");
+    assert_int_equal(image->width, 320);
+    assert_int_equal(image->height, 200);
+    assert_int_equal(image->channels, 1);
+    assert_near(image->data[0], 1.0, 0); /* paper */
+    int64_t inked = 0;
+    for (int i = 0; i < 320 * 200; i++) inked += image->data[i] < 0.5f;
+    assert_true(inked > 320 && inked < 320 * 200 / 2);
+    wr_image_free(image);
+    export_to(document, "lines", SETTINGS("hidden=on"), "drawn.svg");
+    char *text;
+    size_t length;
+    WrError err;
+    assert_true(wr_file_read("drawn.svg", 1 << 20, &text, &length, &err));
+    int strokes = 0; /* one path a line: 12 along u, 20 along v, none broken */
+    for (size_t i = 0; i < length; i++) strokes += text[i] == 'M';
+    assert_int_equal(strokes, 12 + 20);
+    assert_non_null(strstr(text, "viewBox=\"0 0 1024 768\""));
+    wr_free(text);
+    wr_document_free(document);
+}
+
 static void hc95_a_single_texel_leaves_as_every_kind(void **state)
 {
     (void)state;
     const char *paths[] = { "one.png", "one.exr", "one.tif" };
     WrDocument *document = document_of(random_field(1, 1, WR_WRAP_PERIODIC, 0, 1));
     for (int kind = 0; kind < WR_EXPORT_KIND_COUNT; kind++)
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && !wr_export_kinds[kind].write; k++) {
             export_to(document, wr_export_kinds[kind].name, NULL, paths[k]);
             WrImage *image = read_back(paths[k]);
             assert_int_equal(image->width * image->height, 1);
@@ -706,6 +735,7 @@ int main(void)
         cmocka_unit_test(hc96_values_that_are_not_finite_are_replaced_and_counted),
         cmocka_unit_test(the_bytes_do_not_depend_on_the_number_of_threads),
         cmocka_unit_test(dither_keeps_the_mean_and_whole_codes),
+        cmocka_unit_test(a_line_drawing_leaves_as_a_picture_and_as_vectors),
         cmocka_unit_test(hc95_a_single_texel_leaves_as_every_kind),
         cmocka_unit_test(options_out_of_range_are_errors_that_name_them),
         cmocka_unit_test(exports_that_cannot_be_leave_no_file),

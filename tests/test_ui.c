@@ -289,7 +289,7 @@ static void parts_of_the_window_cover_it_without_overlap(void **state)
                 for (int d = 0; d <= 4; d++) {
                     WrLayoutInput in = { sizes[i][0], sizes[i][1], (int)(29 * scales[s]),
                                          scales[s],   d / 4.0,     (WrViews)views,
-                                         d % 2 == 0,  0.2 * d };
+                                         d % 2 == 0,  0.2 * d,     17 };
                     check_layout(&in);
                 }
             }
@@ -300,20 +300,20 @@ static void parts_of_the_window_cover_it_without_overlap(void **state)
 static void both_views_stay_usable_wherever_the_divider_is_dragged(void **state)
 {
     (void)state;
-    WrLayoutInput in = { 900, 600, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4 };
+    WrLayoutInput in = { 900, 600, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4, 17 };
     for (int x = -100; x < 1000; x += 7) {
         WrLayout l = wr_layout_make(&in);
         in.divider = wr_layout_divider_at(&l, x, 300);
         l = wr_layout_make(&in);
         assert_true(l.canvas.w >= 120 && l.patch.w >= 120);
-        if (x > 180 && x < 520) assert_near(l.divider.x + l.divider.w / 2.0, x, 2);
+        if (x > 210 && x < 520) assert_near(l.divider.x + l.divider.w / 2.0, x, 2);
     }
 }
 
 static void views_are_stacked_in_a_tall_window(void **state)
 {
     (void)state;
-    WrLayoutInput in = { 800, 1200, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4 };
+    WrLayoutInput in = { 800, 1200, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4, 17 };
     WrLayout l = wr_layout_make(&in);
     assert_true(l.stacked);
     assert_true(l.patch.y > l.canvas.y);
@@ -401,7 +401,14 @@ static void settings_survive_being_written_and_read(void **state)
     a.divider = 0.3;
     a.scale = 1.5;
     a.turning = false;
-    a.brush = (WrBrush){ 77.5, 0.25, -0.125, WR_BRUSH_TO, 0.1 };
+    a.brush.radius = 77.5;
+    a.brush.hardness = 0.25;
+    a.brush.strength = -0.125;
+    a.brush.mode = WR_BRUSH_TO;
+    a.brush.to = 0.1;
+    a.brush.opacity = 0.75;
+    a.symmetry.radial = 5;
+    a.drawing.tolerance = 0.125;
     a.look = (WrCanvasLook){ WR_CANVAS_SIGNED, true, -2, 3 };
     wr_settings_note_recent(&a, "/one");
     wr_settings_note_recent(&a, "/with a space/two");

@@ -6,10 +6,13 @@
 #include "base/memory.h"
 #include "ui/ants.h"
 #include "ui/job.h"
+#include "ui/keys.h"
 #include "ui/layout.h"
 #include "ui/seam.h"
 #include "ui/search.h"
+#include "ui/settings.h"
 #include "ui/thumb.h"
+#include "ui/tuning.h"
 
 #include <unistd.h>
 
@@ -34,6 +37,179 @@ static void the_beginning_of_a_label_counts_more_than_its_middle(void **state)
     int word = wr_search_score("Grow selection...", "sel");
     int inside = wr_search_score("Unselect", "sel");
     assert_true(begin > word && word > inside && inside > 0);
+}
+
+/* ---- changed settings of a preset ---- */
+
+static void a_changed_setting_takes_its_place_and_can_be_taken_back(void **state)
+{
+    (void)state;
+    WrText a = { 0 }, b = { 0 };
+    double value = 7;
+    wr_tuning_put(NULL, "opaque", 0.5, &a);
+    assert_string_equal(wr_text_get(&a), "opaque=0.5");
+    wr_tuning_put(wr_text_get(&a), "slow_tracking", 2, &b);
+    assert_string_equal(wr_text_get(&b), "opaque=0.5;slow_tracking=2");
+    wr_tuning_put(wr_text_get(&b), "opaque", -1.25, &a);
+    assert_string_equal(wr_text_get(&a), "opaque=-1.25;slow_tracking=2");
+    assert_true(wr_tuning_get(wr_text_get(&a), "slow_tracking", &value) && value == 2);
+    assert_false(wr_tuning_get(wr_text_get(&a), "slow", &value));
+    assert_false(wr_tuning_get(NULL, "opaque", &value));
+    assert_true(value == 2);
+    wr_tuning_put(wr_text_get(&a), "opaque", (double)NAN, &b);
+    assert_string_equal(wr_text_get(&b), "slow_tracking=2");
+    wr_tuning_put(wr_text_get(&b), "hardness", (double)NAN, &a);
+    assert_string_equal(wr_text_get(&a), "slow_tracking=2");
+    wr_tuning_put(wr_text_get(&a), "slow_tracking", (double)NAN, &b);
+    assert_string_equal(wr_text_get(&b), "");
+    wr_text_fini(&a);
+    wr_text_fini(&b);
+}
+
+static void damaged_texts_of_settings_are_read_as_far_as_they_make_sense(void **state)
+{
+    (void)state;
+    double value = 7;
+    assert_int_equal(wr_tuning_count(";;nothing;a=1;=;b=x;"), 3);
+    assert_true(wr_tuning_get(";;nothing;a=1;", "a", &value) && value == 1);
+    assert_false(wr_tuning_get("b=x", "b", &value));
+    assert_int_equal(wr_tuning_count(NULL), 0);
+}
+
+/* ---- brushes that are remembered ---- */
+
+static void favourites_come_and_go_and_survive_the_settings_file(void **state)
+{
+    (void)state;
+    WrSettings s = wr_settings_default(), t = wr_settings_default();
+    WrText text = { 0 };
+    wr_settings_set_favourite(&s, "wrinkle/groove", true);
+    wr_settings_set_favourite(&s, "mypaint2/classic/pencil", true);
+    wr_settings_set_favourite(&s, "wrinkle/groove", true);
+    assert_int_equal(wr_settings_favourite(&s, "mypaint2/classic/pencil"), 1);
+    wr_settings_set_text(&s.preset, "wrinkle/groove");
+    wr_settings_set_text(&s.set, "opaque=0.5;hardness=1");
+    wr_settings_note_used(&s, "round");
+    wr_settings_note_used(&s, "wrinkle/groove");
+    wr_settings_note_used(&s, "round");
+    wr_settings_print(&s, &text);
+    wr_settings_parse(&t, wr_text_get(&text));
+    assert_int_equal(wr_settings_favourite(&t, "wrinkle/groove"), 0);
+    assert_int_equal(wr_settings_favourite(&t, "mypaint2/classic/pencil"), 1);
+    assert_string_equal(t.preset, "wrinkle/groove");
+    assert_string_equal(t.set, "opaque=0.5;hardness=1");
+    assert_null(t.tip);
+    assert_string_equal(t.used[0], "round");
+    assert_string_equal(t.used[1], "wrinkle/groove");
+    assert_null(t.used[2]);
+    wr_settings_set_favourite(&t, "wrinkle/groove", false);
+    assert_int_equal(wr_settings_favourite(&t, "wrinkle/groove"), -1);
+    assert_int_equal(wr_settings_favourite(&t, "mypaint2/classic/pencil"), 0);
+    wr_text_fini(&text);
+    wr_settings_fini(&s);
+    wr_settings_fini(&t);
+}
+
+static void more_favourites_than_there_are_places_are_left_out(void **state)
+{
+    (void)state;
+    WrSettings s = wr_settings_default();
+    char name[32];
+    for (int i = 0; i < WR_FAVOURITES_MAX + 5; i++) {
+        snprintf(name, sizeof name, "user/%d", i);
+        wr_settings_set_favourite(&s, name, true);
+        wr_settings_note_used(&s, name);
+    }
+    assert_int_equal(wr_settings_favourite(&s, "user/63"), 63);
+    assert_int_equal(wr_settings_favourite(&s, "user/64"), -1);
+    wr_settings_set_favourite(&s, "user/0", false);
+    assert_int_equal(wr_settings_favourite(&s, "user/63"), 62);
+    assert_string_equal(s.used[0], name);
+    assert_string_equal(s.used[WR_USED_MAX - 1], "user/57");
+    wr_settings_fini(&s);
+}
+
+/* ---- keys that are held ---- */
+
+static void keys_that_are_held_go_by_the_map(void **state)
+{
+    (void)state;
+    WrError err;
+    WrKeyMap *map = wr_keys_new();
+    assert_true(wr_keys_hold(map, "hold_pick", WR_MOD_CTRL));
+    assert_true(wr_keys_hold(map, "hold_size", WR_MOD_SHIFT));
+    assert_false(wr_keys_hold(map, "hold_pick", WR_MOD_CTRL | WR_MOD_SHIFT));
+    assert_false(wr_keys_hold(map, "hold_pick", 0));
+    assert_true(wr_keys_read(map, wr_key_maps[1].text, &err));
+    assert_true(wr_keys_hold(map, "hold_invert", WR_MOD_CTRL));
+    assert_true(wr_keys_hold(map, "hold_smooth", WR_MOD_SHIFT));
+    assert_true(wr_keys_hold(map, "hold_pick", WR_MOD_ALT));
+    assert_true(wr_keys_hold(map, "hold_size", WR_MOD_ALT | WR_MOD_SHIFT));
+    assert_false(wr_keys_hold(map, "hold_pick", WR_MOD_CTRL));
+    assert_true(wr_keys_read(map, "hold_pick: Shift+Ctrl", &err));
+    assert_true(wr_keys_hold(map, "hold_pick", WR_MOD_CTRL | WR_MOD_SHIFT));
+    wr_keys_free(map);
+}
+
+static void a_key_that_is_held_has_a_name_and_no_event(void **state)
+{
+    (void)state;
+    char label[32];
+    WrKeyMap *map = wr_keys_new();
+    assert_string_equal(wr_keys_label(map, "hold_pick", label), "Ctrl");
+    assert_string_equal(wr_keys_label(map, "hold_smooth", label), "Shift+Alt");
+    assert_null(wr_keys_find(map, (SDL_Keysym){ .sym = SDLK_UNKNOWN, .mod = KMOD_LCTRL }));
+    wr_keys_free(map);
+}
+
+/* No two actions of a map may want the same key. */
+static void no_key_of_a_map_that_is_shipped_means_two_things(void **state)
+{
+    (void)state;
+    WrError err;
+    static const char *const actions[] = {
+        "brush",       "smooth",      "smear",         "clone",           "flood",
+        "ramp",        "shape_rect",  "shape_ellipse", "shape_polygon",   "shape_path",
+        "stamp",       "symmetry",    "erase_mode",    "reset_values",    "height_up",
+        "height_down", "preset_last", "preset_next",   "preset_previous", "swap_mode"
+    };
+    for (int m = 0; m < WR_KEY_MAPS; m++) {
+        WrKeyMap *map = wr_keys_new();
+        assert_true(wr_keys_read(map, wr_key_maps[m].text, &err));
+        for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
+            char label[32];
+            WrKey key;
+            wr_keys_label(map, actions[i], label);
+            assert_true(wr_key_parse(label, strlen(label), &key, &err));
+            SDL_Keymod mod = (SDL_Keymod)((key.mods & WR_MOD_CTRL ? KMOD_LCTRL : 0) |
+                                          (key.mods & WR_MOD_SHIFT ? KMOD_LSHIFT : 0));
+            const char *found = wr_keys_find(map, (SDL_Keysym){ .sym = key.code, .mod = mod });
+            assert_string_equal(found, actions[i]);
+        }
+        wr_keys_free(map);
+    }
+}
+
+/* ---- the strip of tools ---- */
+
+static void a_strip_that_is_too_short_for_its_tools_has_two_columns(void **state)
+{
+    (void)state;
+    WrLayoutInput in = { .width = 900,
+                         .height = 600,
+                         .menu_height = 28,
+                         .scale = 1.0,
+                         .divider = 0.5,
+                         .panels = true,
+                         .lower = 0.4,
+                         .tools = 12 };
+    assert_int_equal(wr_layout_make(&in).strip.w, 48);
+    in.tools = 20;
+    WrLayout layout = wr_layout_make(&in);
+    assert_true(layout.strip.w > 72);
+    assert_int_equal(layout.canvas.x, layout.strip.w);
+    in.height = 1000;
+    assert_int_equal(wr_layout_make(&in).strip.w, 48);
 }
 
 /* ---- small pictures ---- */
@@ -374,7 +550,7 @@ static void cancelled_work_gives_nothing_and_interrupted_work_what_it_has(void *
 static void the_layers_get_their_share_of_the_panel_where_there_is_room(void **state)
 {
     (void)state;
-    WrLayoutInput in = { 1440, 900, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4 };
+    WrLayoutInput in = { 1440, 900, 29, 1, 0.5, WR_VIEWS_BOTH, true, 0.4, 17 };
     for (int y = 0; y < 900; y += 13) {
         WrLayout l = wr_layout_make(&in);
         in.lower = wr_layout_lower_at(&l, y);
@@ -391,6 +567,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_search_takes_all_words_in_any_order_and_case),
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
+        cmocka_unit_test(a_changed_setting_takes_its_place_and_can_be_taken_back),
+        cmocka_unit_test(damaged_texts_of_settings_are_read_as_far_as_they_make_sense),
+        cmocka_unit_test(favourites_come_and_go_and_survive_the_settings_file),
+        cmocka_unit_test(more_favourites_than_there_are_places_are_left_out),
+        cmocka_unit_test(keys_that_are_held_go_by_the_map),
+        cmocka_unit_test(a_key_that_is_held_has_a_name_and_no_event),
+        cmocka_unit_test(no_key_of_a_map_that_is_shipped_means_two_things),
+        cmocka_unit_test(a_strip_that_is_too_short_for_its_tools_has_two_columns),
         cmocka_unit_test(a_small_picture_shows_the_table_upright),
         cmocka_unit_test(a_layers_picture_tells_up_from_down_from_nothing),
         cmocka_unit_test(a_masks_picture_goes_from_0_to_1_whatever_is_in_it),

@@ -5,18 +5,8 @@ set -uo pipefail
 program=$1
 source=$2
 folder=$(mktemp -d) || exit 1
-server='' window='' pid='' failures=0
-
-cleanup() {
-    # shellcheck disable=SC2086
-    [[ -z $pid ]] || kill -KILL $pid 2>/dev/null
-    # shellcheck disable=SC2086
-    [[ -z $server ]] || kill -TERM $server 2>/dev/null
-    wait
-    rm -rf "$folder"
-}
-trap cleanup EXIT
-trap 'exit 1' INT TERM
+# shellcheck source=tests/window_help.sh
+source "$source/tests/window_help.sh"
 
 for tool in Xvfb xdotool import compare convert; do
     command -v "$tool" >/dev/null && continue
@@ -24,129 +14,22 @@ for tool in Xvfb xdotool import compare convert; do
     exit 1
 done
 
-complain() {
-    printf '%s\n' "$*"
-    failures=$((failures + 1))
-}
-
-# until_true SECONDS WHAT COMMAND...: the command comes true in time, or that is a failure.
-until_true() {
-    local end=$((SECONDS + $1)) what=$2
-    shift 2
-    until "$@"; do
-        if [[ $SECONDS -ge $end ]]; then
-            complain "in vain waited for: $what"
-            return 1
-        fi
-        sleep 0.05
-    done
-}
-
 # ---- the server, on whatever display is free ----
 mkfifo "$folder/display"
 Xvfb -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
 server=$!
 read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
 export DISPLAY=:$number
-unset WAYLAND_DISPLAY SDL_VIDEODRIVER WRINKLE_SCALE
-export HOME=$folder XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state WRINKLE_DATA=$source WRINKLE_DIALOG=own
-export WRINKLE_RENDERER=software WRINKLE_TIMING=1
+quiet_environment
 mkdir -p "$folder/config/wrinkle"
 # The patch and the outline of a selection stand still, so that the picture changes only when it has a
 # reason to.
 printf 'width 1200\nheight 800\nturning 0\nants 0\nradius 24\nstrength 0.4\nmode 1\n' >"$folder/config/wrinkle/window.conf"
 cd "$folder" || exit 1
 
-has_window() {
-    window=$(xdotool search --name ' - Wrinkle$' 2>/dev/null | head -n 1)
-    [[ -n $window ]]
-}
-shows_picture() { grep -q 'first picture' err; }
-is_gone() { ! kill -0 "$pid" 2>/dev/null; }
-
-# start ARGUMENT...: open the window and wait until it has drawn itself.
-start() {
-    : >err
-    "$program" paint "$@" >out 2>err &
-    pid=$!
-    until_true 30 "the first picture" shows_picture || { cat err; exit 1; }
-    until_true 10 "the window" has_window || exit 1
-    eval "$(xdotool getwindowgeometry --shell "$window" | grep -E '^(X|Y|WIDTH|HEIGHT)=')"
-    # Without a window manager keys go where the pointer is.
-    xdotool mousemove $((X + 330)) $((Y + 400))
-    settle
-}
-
-# ends STATUS: the program ends by itself with that status.
-ends() {
-    until_true 20 "the end of the program" is_gone || return
-    wait "$pid"
-    local got=$?
-    [[ $got == "$1" ]] || complain "exit status $got, not $1: $(cat err)"
-    pid=''
-}
-
-shot() { import -window "$window" "$1.ppm"; }
-
-# home: the pointer goes where its outline is not in the way of comparisons.
-home() {
-    xdotool mousemove $((X + 340)) $((Y + 400)) # else, if it is there, it would not be seen to move
-    xdotool mousemove $((X + 330)) $((Y + 400))
-    settle
-}
-
-# settle: wait until two pictures in a row are the same. The line that blinks in a text field is not
-# waited for: nobody calls this while there is one.
-settle() {
-    local end=$((SECONDS + 20))
-    shot settled
-    while :; do
-        sleep 0.3
-        cp settled.ppm before.ppm
-        shot settled
-        cmp -s before.ppm settled.ppm && return
-        [[ $SECONDS -lt $end ]] || { complain "the window does not come to rest"; return; }
-    done
-}
-
-# differs A B GEOMETRY: how many pixels of that part differ.
-differs() {
-    convert "$1.ppm" -crop "$3" +repage a.ppm
-    convert "$2.ppm" -crop "$3" +repage b.ppm
-    compare -metric AE a.ppm b.ppm null: 2>&1
-}
 canvas=380x500+60+120
 patch=380x500+500+120
 
-# drag X Y DX DY STEPS: press the left button, move in steps, let go.
-drag() {
-    xdotool mousemove $((X + $1)) $((Y + $2))
-    xdotool mousedown 1
-    for ((i = 0; i < $5; i++)); do xdotool mousemove_relative -- "$3" "$4"; done
-    xdotool mouseup 1
-}
-
-hash_of() { "$program" inspect "$1" --json | sed -n 's/.*"hash":"\([0-9a-f]*\)".*/\1/p'; }
-title_is() { [[ $(xdotool getwindowname "$window" 2>/dev/null) == "$1 - Wrinkle" ]]; }
-
-# save_as NAME [KEY]: by hand, and wait until the file is there.
-file_is_there() { [[ -s $1 ]]; }
-shows_dialog() {
-    shot asking
-    changed=$(differs unasked asking 400x200+400+270)
-    [[ ${changed%.*} -gt 20000 ]]
-}
-save_as() {
-    shot unasked
-    xdotool key "${2:-ctrl+shift+s}"
-    until_true 10 "the question for a file" shows_dialog || return
-    sleep 0.2
-    xdotool key ctrl+a
-    xdotool type --delay 20 "$folder/$1"
-    xdotool key Return
-    until_true 20 "the file $1" file_is_there "$1"
-    until_true 10 "the title of $1" title_is "$1"
-}
 layers_of() { "$program" inspect "$1" --json | grep -o '"blend"' | wc -l; }
 
 # ---- it opens, with something to wrinkle ----
@@ -300,6 +183,86 @@ xdotool key ctrl+q
 settle
 xdotool key d
 ends 0
+
+# ---- V and dragging: a straight line, aimed first and drawn when it is let go, however the hand shook ----
+start painted.exr
+home
+shot calm
+xdotool mousemove $((X + 150)) $((Y + 520))
+xdotool keydown v
+sleep 0.2
+xdotool mousedown 1
+for step in '60 -60' '60 60' '60 -60' '40 60'; do
+    # shellcheck disable=SC2086
+    xdotool mousemove_relative -- $step
+done
+settle
+title_is painted.exr || complain "a line that is only aimed counts as work"
+xdotool mouseup 1
+xdotool keyup v
+until_true 10 "the line" title_is 'painted.exr *'
+home
+shot lined
+changed=$(differs calm lined 200x20+160+510)
+[[ ${changed%.*} -gt 2000 ]] || complain "a straight line changed only $changed pixels on its way"
+changed=$(differs calm lined 200x24+160+456)
+[[ ${changed%.*} -lt 20 ]] || complain "a straight line changed $changed pixels where the hand shook"
+
+# ---- Escape gives up the stroke that is being drawn ----
+xdotool mousemove $((X + 150)) $((Y + 260))
+xdotool mousedown 1
+for ((i = 0; i < 10; i++)); do xdotool mousemove_relative -- 15 0; done
+xdotool key Escape
+xdotool mouseup 1
+home
+shot given_up
+changed=$(differs lined given_up "$canvas")
+[[ ${changed%.*} -lt 20 ]] || complain "a stroke that was given up changed $changed pixels"
+xdotool key ctrl+z
+until_true 10 "the line undone" title_is painted.exr
+
+# ---- on the patch the brush paints the table under it, the patch stays as it is turned; undone it is gone ----
+home
+shot calm
+xdotool key a
+settle
+drag 660 430 6 3 15
+until_true 10 "a stroke on the patch" title_is 'painted.exr *'
+home
+shot on_patch
+changed=$(differs calm on_patch "$canvas")
+[[ ${changed%.*} -gt 500 ]] || complain "a stroke on the patch changed only $changed pixels of the table"
+changed=$(differs calm on_patch 150x110+630+405)
+[[ ${changed%.*} -gt 500 ]] || complain "a stroke on the patch changed only $changed pixels under it"
+changed=$(differs calm on_patch 300x60+520+560)
+[[ ${changed%.*} -lt 400 ]] || complain "painting on the patch turned it: $changed pixels differ"
+xdotool key ctrl+z
+until_true 10 "the stroke on the patch undone" title_is painted.exr
+home
+shot undone
+changed=$(differs calm undone "$canvas")
+[[ ${changed%.*} -lt 20 ]] || complain "undone, a stroke on the patch leaves $changed pixels changed"
+xdotool key a
+xdotool key ctrl+q
+ends 0
+
+# ---- a brush on a string follows when the string is taut ----
+sed -i '/^steady/d' "$folder/config/wrinkle/window.conf"
+printf 'steady 2\nsteady_string 100\n' >>"$folder/config/wrinkle/window.conf"
+start painted.exr
+shot calm
+drag 180 300 8 0 25
+home
+shot pulled
+changed=$(differs calm pulled 100x60+160+270)
+[[ ${changed%.*} -gt 1000 ]] || complain "on a string a stroke changed only $changed pixels"
+changed=$(differs calm pulled 70x60+330+270)
+[[ ${changed%.*} -lt 20 ]] || complain "on a string the brush reached $changed pixels too far"
+xdotool key ctrl+q
+settle
+xdotool key d
+ends 0
+sed -i '/^steady/d' "$folder/config/wrinkle/window.conf"
 
 # ---- a signal ends the program ----
 start painted.exr

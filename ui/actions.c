@@ -38,86 +38,66 @@ static void search(WrApp *app)
     wr_dialog_open(app, WR_DIALOG_SEARCH);
 }
 
-/* ---- brush ---- */
-
-static double clamp(double x, double low, double high)
-{
-    return x < low ? low : x > high ? high : x;
-}
-
-static void scale_radius(WrApp *app, double factor)
-{
-    double old = app->settings.brush.radius, r = old * factor;
-    r = r < 10.0 ? rint(r * 10.0) / 10.0 : rint(r);
-    if (r == old) r += factor > 1.0 ? 0.1 : -0.1;
-    app->settings.brush.radius = clamp(r, 0.5, 16384.0);
-}
-
-static void size_up(WrApp *app)
-{
-    scale_radius(app, 1.15);
-}
-
-static void size_down(WrApp *app)
-{
-    scale_radius(app, 1.0 / 1.15);
-}
-
-static void add_hardness(WrApp *app, double step)
-{
-    app->settings.brush.hardness =
-        clamp(rint((app->settings.brush.hardness + step) * 20.0) / 20.0, 0, 1);
-}
-
-static void hardness_up(WrApp *app)
-{
-    add_hardness(app, 0.05);
-}
-
-static void hardness_down(WrApp *app)
-{
-    add_hardness(app, -0.05);
-}
-
-/* Two digits: 0.1, 0.12, 0.14, 0.17 ... */
-static void scale_strength(WrApp *app, double factor)
-{
-    double s = app->settings.brush.strength * factor;
-    s = clamp(s, 1e-4, 1e6);
-    double unit = pow(10.0, floor(log10(s)) - 1.0), digits = rint(s / unit);
-    app->settings.brush.strength = unit < 1.0 ? digits / rint(1.0 / unit) : digits * unit;
-}
-
-static void strength_up(WrApp *app)
-{
-    scale_strength(app, 1.2);
-}
-
-static void strength_down(WrApp *app)
-{
-    scale_strength(app, 1.0 / 1.2);
-}
-
-static void swap_mode(WrApp *app)
-{
-    WrBrush *brush = &app->settings.brush;
-    brush->mode = brush->mode == WR_BRUSH_RAISE ? WR_BRUSH_LOWER : WR_BRUSH_RAISE;
-}
-
-static void level_mode(WrApp *app)
-{
-    app->settings.brush.mode = WR_BRUSH_TO;
-}
+/* ---- tools ---- */
 
 static void choose_tool(WrApp *app, const char *name)
 {
-    wr_hand_let_go(app);
-    app->tool = wr_tool_find(name);
+    wr_tool_choose(app, wr_tool_find(name));
 }
 
 static void tool_brush(WrApp *app)
 {
     choose_tool(app, "brush");
+}
+
+static void tool_smooth(WrApp *app)
+{
+    choose_tool(app, "smooth");
+}
+
+static void tool_smear(WrApp *app)
+{
+    choose_tool(app, "smear");
+}
+
+static void tool_clone(WrApp *app)
+{
+    choose_tool(app, "clone");
+}
+
+static void tool_flood(WrApp *app)
+{
+    choose_tool(app, "flood");
+}
+
+static void tool_ramp(WrApp *app)
+{
+    choose_tool(app, "ramp");
+}
+
+static void tool_shape_rect(WrApp *app)
+{
+    choose_tool(app, "shape_rect");
+}
+
+static void tool_shape_ellipse(WrApp *app)
+{
+    choose_tool(app, "shape_ellipse");
+}
+
+static void tool_shape_polygon(WrApp *app)
+{
+    choose_tool(app, "shape_polygon");
+}
+
+static void tool_shape_path(WrApp *app)
+{
+    choose_tool(app, "shape_path");
+}
+
+static void tool_stamp(WrApp *app)
+{
+    choose_tool(app, "stamp");
 }
 
 static void tool_pick(WrApp *app)
@@ -376,20 +356,60 @@ const WrAction wr_actions[] = {
     { "redo", "Redo", redo, can_redo, NULL },
     { "search", "Search actions...", search, NULL, NULL },
     { "brush", "Brush", tool_brush, NULL, NULL },
+    { "smooth", "Smooth", tool_smooth, NULL, NULL },
+    { "smear", "Smear", tool_smear, NULL, NULL },
+    { "clone", "Clone", tool_clone, NULL, NULL },
+    { "flood", "Fill an area", tool_flood, NULL, NULL },
+    { "ramp", "Ramp", tool_ramp, NULL, NULL },
+    { "shape_rect", "Rectangle", tool_shape_rect, NULL, NULL },
+    { "shape_ellipse", "Ellipse", tool_shape_ellipse, NULL, NULL },
+    { "shape_polygon", "Polygon", tool_shape_polygon, NULL, NULL },
+    { "shape_path", "Bezier path", tool_shape_path, NULL, NULL },
+    { "stamp", "Stamp", tool_stamp, NULL, NULL },
+    { "stamp_open", "Open a picture as a stamp...", wr_act_stamp_open, NULL, NULL },
     { "select_rect", "Rectangle selection", tool_select_rect, NULL, NULL },
     { "select_ellipse", "Ellipse selection", tool_select_ellipse, NULL, NULL },
     { "select_lasso", "Lasso selection", tool_select_lasso, NULL, NULL },
     { "pick", "Pick height", tool_pick, NULL, NULL },
     { "pan", "Move the table", tool_pan, NULL, NULL },
     { "zoom", "Zoom", tool_zoom, NULL, NULL },
-    { "size_up", "Larger brush", size_up, NULL, NULL },
-    { "size_down", "Smaller brush", size_down, NULL, NULL },
-    { "hardness_up", "Harder brush", hardness_up, NULL, NULL },
-    { "hardness_down", "Softer brush", hardness_down, NULL, NULL },
-    { "strength_up", "Stronger brush", strength_up, NULL, NULL },
-    { "strength_down", "Weaker brush", strength_down, NULL, NULL },
-    { "swap_mode", "Swap raise and lower", swap_mode, NULL, NULL },
-    { "level_mode", "Paint to a height", level_mode, NULL, NULL },
+    { "size_up", "Larger brush", wr_act_size_up, NULL, NULL },
+    { "size_down", "Smaller brush", wr_act_size_down, NULL, NULL },
+    { "hardness_up", "Harder brush", wr_act_hardness_up, NULL, NULL },
+    { "hardness_down", "Softer brush", wr_act_hardness_down, NULL, NULL },
+    { "strength_up", "Stronger brush", wr_act_strength_up, NULL, NULL },
+    { "strength_down", "Weaker brush", wr_act_strength_down, NULL, NULL },
+    { "swap_mode", "Swap raise and lower", wr_act_swap_mode, NULL, NULL },
+    { "level_mode", "Paint to a height", wr_act_level_mode, NULL, NULL },
+    { "height_up", "Raise the height that is painted to", wr_act_height_up, NULL, NULL },
+    { "height_down", "Lower the height that is painted to", wr_act_height_down, NULL, NULL },
+    { "erase_mode", "Erase", wr_act_erase_mode, NULL, wr_is_erase_mode },
+    { "reset_values", "Reset the brush's values", wr_act_reset_values, NULL, NULL },
+    { "brushes", "Brushes", wr_act_brushes, NULL, NULL },
+    { "round_brush", "Round brush", wr_act_round_brush, NULL, wr_is_round_brush },
+    { "preset_last", "Brush used before", wr_shelf_last, NULL, NULL },
+    { "preset_next", "Next favourite brush", wr_act_preset_next, NULL, NULL },
+    { "preset_previous", "Favourite brush before", wr_act_preset_previous, NULL, NULL },
+    { "favourite", "Brush is a favourite", wr_act_favourite, NULL, wr_is_favourite },
+    { "preset_save", "Save brush as a preset...", wr_act_preset_save, NULL, NULL },
+    { "lock_size", "Keep the size when brushes change", wr_act_lock_size, NULL, wr_is_lock_size },
+    { "symmetry", "Symmetry...", wr_act_symmetry, NULL, wr_is_symmetry },
+    { "symmetry_on", "Symmetry is on", wr_act_symmetry_on, NULL, wr_is_symmetry_on },
+    { "keys_paint", "Keys for painters: Ctrl picks, Shift sizes", wr_act_keys_paint, NULL,
+      wr_is_keys_paint },
+    { "keys_sculpt", "Keys for sculptors: Ctrl inverts, Shift smooths", wr_act_keys_sculpt, NULL,
+      wr_is_keys_sculpt },
+    { "straight_line", "Straight lines", wr_act_straight_line, NULL, wr_is_straight_line },
+    { "paint_patch", "Paint on the patch", wr_act_paint_patch, NULL, wr_is_painting_patch },
+    { "pressure_up", "Press the mouse harder", wr_act_pressure_up, NULL, NULL },
+    { "pressure_down", "Press the mouse less", wr_act_pressure_down, NULL, NULL },
+    { "pressure_speed", "Mouse presses by its speed", wr_act_pressure_speed, NULL,
+      wr_is_pressure_speed },
+    { "steady_off", "Hand as it is", wr_act_steady_off, NULL, wr_is_steady_off },
+    { "steady_smooth", "Smoothed hand", wr_act_steady_smooth, NULL, wr_is_steady_smooth },
+    { "steady_string", "Brush on a string", wr_act_steady_string, NULL, wr_is_steady_string },
+    { "steady_catch_up", "Strokes end at the pointer", wr_act_steady_catch_up, NULL,
+      wr_is_steady_catch_up },
     { "select_all", "Select all", wr_act_select_all, NULL, NULL },
     { "select_none", "Select none", wr_act_select_none, wr_can_mask_selection, NULL },
     { "select_invert", "Invert selection", wr_act_select_invert, NULL, NULL },
@@ -442,6 +462,7 @@ const WrAction wr_actions[] = {
     { "camera_reset", "Reset the camera", camera_reset, NULL, NULL },
     { "pose_reset", "Reset the patch's pose", pose_reset, NULL, NULL },
     { "fullscreen", "Full screen", fullscreen, NULL, NULL },
+    { "tablet", "Tablet tester...", wr_dialog_tablet_open, NULL, NULL },
     { "help", "Short guide", help, NULL, NULL },
     { "about", "About Wrinkle", about, NULL, NULL },
     { NULL, NULL, NULL, NULL, NULL }

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <signal.h>
@@ -11,8 +12,10 @@
 #include <unistd.h>
 
 #define FRAME_SECONDS (1.0 / 125.0) /* least time between two pictures of the window */
-#define CARET_SECONDS 0.3           /* a text field's caret blinks, messages go */
-#define BAR_SECONDS 0.1             /* between pictures of a bar that fills */
+#define DRAWN_SECONDS                                                                              \
+    (1.0 / 300.0)         /* while the pointer is held, so that what it does is seen at once */
+#define CARET_SECONDS 0.3 /* a text field's caret blinks, messages go */
+#define BAR_SECONDS 0.1   /* between pictures of a bar that fills */
 
 void wr_app_redraw(WrApp *app)
 {
@@ -99,8 +102,16 @@ static bool make_window(WrApp *app)
     return true;
 }
 
-static void read_keys(WrApp *app)
+/* The built-in keys, the map that is chosen, and the user's own file. */
+void wr_app_read_keys(WrApp *app)
 {
+    WrError map_err;
+    wr_keys_free(app->keys);
+    app->keys = wr_keys_new();
+    int map = app->settings.key_map;
+    if (map > 0 && map < WR_KEY_MAPS && !wr_keys_read(app->keys, wr_key_maps[map].text, &map_err))
+        wr_app_fail(app, &map_err);
+    if (app->latency) return; /* only what is built in */
     char *path = wr_config_path("keys.conf"), *text = NULL;
     size_t length;
     WrError err;
@@ -113,10 +124,10 @@ static void read_keys(WrApp *app)
     wr_free(path);
 }
 
-static bool begin(WrApp *app, WrError *err)
+bool wr_app_begin(WrApp *app, WrError *err)
 {
     app->settings = wr_settings_default();
-    wr_settings_load(&app->settings);
+    if (!app->latency) wr_settings_load(&app->settings);
     if (!make_window(app)) return wr_fail(err, "no window: %s", SDL_GetError());
     app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
     if (!app->gui) return false;
@@ -129,20 +140,23 @@ static bool begin(WrApp *app, WrError *err)
     app->canvas = wr_canvas_new();
     app->preview = wr_preview_new(app->options->threads, app->options->isa, app->ready_event);
     app->files = wr_files_new(app->file_event);
+    app->pen = wr_pen_new(app->window);
+    wr_tablet_start(app);
     app->keys = wr_keys_new();
     app->forms = (WrForms){ .cells_u = 8, .cells_v = 8, .line_width = 8, .high = 1 };
     app->visible = true;
-    read_keys(app);
+    wr_app_read_keys(app);
+    wr_shelf_start(app);
     wr_app_start(app);
     wr_app_title(app);
-    wr_dialog_recover_open(app);
+    if (!app->latency) wr_dialog_recover_open(app);
     SDL_ShowWindow(app->window);
     SDL_StartTextInput();
     wr_app_redraw(app);
     return true;
 }
 
-static void end(WrApp *app)
+void wr_app_end(WrApp *app)
 {
     wr_preview_free(app->preview);
     wr_trial_free(app->trial);
@@ -152,14 +166,18 @@ static void end(WrApp *app)
     wr_free(app->later.path);
     wr_free(app->later.journal);
     if (app->renderer) wr_patch_free(app);
+    wr_shelf_free(app);
+    wr_stamp_forget(app);
     if (app->renderer) wr_panel_layers_forget(app);
     wr_canvas_free(app->canvas);
     wr_gui_free(app->gui);
     wr_files_free(app->files);
+    wr_pen_free(app->pen);
+    wr_tablet_free(app);
     wr_keys_free(app->keys);
     if (app->live) wr_scene_free(app->live);
     wr_messages_free(&app->messages);
-    wr_array_free(&app->brush.samples);
+    wr_strokes_free(app);
     wr_settings_fini(&app->settings);
     wr_free(app->after_path);
     for (int i = 0; i < SDL_NUM_SYSTEM_CURSORS; i++)
@@ -222,6 +240,7 @@ static void handle(WrApp *app, const SDL_Event *event)
     } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
         wr_canvas_forget(app->canvas);
         wr_panel_layers_forget(app);
+        wr_thumbs_forget(app);
         app->patch.serial = 0;
     } else if (event->type == app->file_event) {
         WrFilePurpose purpose;
@@ -244,6 +263,7 @@ static void make_layout(WrApp *app)
                          .scale = wr_gui_scale(),
                          .divider = app->settings.divider,
                          .views = app->settings.views,
+                         .tools = wr_tool_count,
                          .panels = app->settings.panels,
                          .lower = app->settings.lower };
     app->layout = wr_layout_make(&in);
@@ -263,6 +283,8 @@ static SDL_SystemCursor cursor_for(const WrApp *app)
     if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space))
         return SDL_SYSTEM_CURSOR_SIZEALL;
     if (hand->on_canvas) return SDL_SYSTEM_CURSOR_CROSSHAIR;
+    if (hand->grab == WR_GRAB_PATCH_PAINT || (hand->on_patch && wr_patch_paints(app)))
+        return SDL_SYSTEM_CURSOR_CROSSHAIR;
     if (hand->on_patch)
         return hand->grab == WR_GRAB_NONE ? SDL_SYSTEM_CURSOR_HAND : SDL_SYSTEM_CURSOR_SIZEALL;
     return wr_gui_cursor(app->gui);
@@ -312,11 +334,13 @@ static void draw(WrApp *app, double now)
     wr_patch_overlay(app);
     wr_panel_status(app);
     wr_panel_dialogs(app);
+    wr_thumbs_update(app);
     app->in_frame = false;
     wr_gui_frame_end(app->gui);
     SDL_RenderPresent(app->renderer);
     set_cursor(app);
     app->drawn_at = now;
+    if (app->latency) wr_latency_drawn(app);
 }
 
 /* WRINKLE_TIMING: milliseconds to the first picture at once, the rest at the end. */
@@ -326,6 +350,8 @@ static void note_timing(WrApp *app, double seconds)
     if (t->pictures++ == 0 && getenv("WRINKLE_TIMING"))
         fprintf(stderr, "first picture after %.0f ms\n",
                 (wr_clock_seconds() - app->started_at) * 1e3);
+    /* The first picture file is read at once then; its reader starts beside the window, not before it. */
+    if (t->pictures == 2 && !app->latency) wr_image_warm();
     t->seconds += seconds;
     t->slowest = seconds > t->slowest ? seconds : t->slowest;
 }
@@ -351,11 +377,18 @@ static bool works(const WrApp *app)
            wr_outliner_busy(app->marks.outliner, NULL, NULL);
 }
 
+static double frame_seconds(const WrApp *app)
+{
+    return app->hand.grab != WR_GRAB_NONE ? DRAWN_SECONDS : FRAME_SECONDS;
+}
+
 /* Milliseconds until something is due without an event; -1: never. */
 static int wait_time(const WrApp *app, double now)
 {
     double next = 1e300;
-    if (app->redraw > 0 && app->visible) next = app->drawn_at + FRAME_SECONDS;
+    if (wr_strokes_waits(app)) return 0;
+    if (wr_pen_replaying(app->pen)) next = now + 0.002;
+    if (app->redraw > 0 && app->visible) next = app->drawn_at + frame_seconds(app);
     double patch = wr_patch_next_time(app);
     if (patch > 0.0 && patch < next) next = patch;
     double march = wr_marks_next_time(app);
@@ -380,7 +413,19 @@ static void march(WrApp *app)
     if (app->redraw == 0) app->redraw = 1;
 }
 
-static void step(WrApp *app)
+/* What pens and fingers did since the last time; they come by a way of their own. */
+static bool take_pens(WrApp *app)
+{
+    WrPenEvent event;
+    bool any = false;
+    while (wr_pen_next(app->pen, &event)) {
+        wr_hand_pen(app, &event);
+        any = true;
+    }
+    return any;
+}
+
+void wr_app_step(WrApp *app)
 {
     SDL_Event event;
     double now = wr_clock_seconds();
@@ -388,18 +433,22 @@ static void step(WrApp *app)
     if (wait < 0 ? SDL_WaitEvent(&event) : SDL_WaitEventTimeout(&event, wait)) {
         do handle(app, &event);
         while (SDL_PollEvent(&event));
+        take_pens(app);
+    } else if (take_pens(app)) {
+        /* a picture was asked for */
     } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) ||
                app->messages.list.count > 0 || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
     if (!wr_session_in_stroke(app->session)) wr_session_journal_tend(app->session);
-    wr_brush_flush(app);
+    wr_strokes_work(app);
     wr_later_run(app);
     march(app);
     wr_marks_update(app);
+    wr_stamp_update(app);
     wr_patch_update(app);
     now = wr_clock_seconds();
-    if (app->redraw > 0 && app->visible && now >= app->drawn_at + FRAME_SECONDS - 0.0005) {
+    if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
         app->redraw--;
         draw(app, now);
         note_timing(app, wr_clock_seconds() - now);
@@ -414,17 +463,18 @@ int wr_app_run(const WrAppOptions *options)
     app->session = options->session;
     app->started_at = wr_clock_seconds();
     int status = 0;
-    if (begin(app, &err)) {
-        while (!app->quit) step(app);
+    if (wr_app_begin(app, &err)) {
+        while (!app->quit) wr_app_step(app);
         if (!app->settings.maximized)
             SDL_GetWindowSize(app->window, &app->settings.width, &app->settings.height);
+        wr_shelf_remember(app);
         wr_settings_save(&app->settings);
         tell_timing(app);
     } else {
         fprintf(stderr, "wrinkle: %s\n", err.text);
         status = 1;
     }
-    end(app);
+    wr_app_end(app);
     wr_free(app);
     return status;
 }

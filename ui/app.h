@@ -24,3 +24,26 @@ typedef struct WrAppOptions {
  * WRINKLE_DIALOG=own (never the desktop's file dialog), WRINKLE_TIMING=1 (milliseconds to the first
  * picture on standard error). Settings: $XDG_CONFIG_HOME/wrinkle/window.conf; keys: keys.conf there. */
 int wr_app_run(const WrAppOptions *options);
+
+/* How soon a pointer's motion is seen: milliseconds from the moment that the system has an event until a
+   picture of the window shows what it did. */
+typedef struct WrAppDelays {
+    double half, most, nearly_all, all; /* of the events: within this many ms (50, 95, 99, 100 %) */
+} WrAppDelays;
+
+typedef struct WrAppLatency {
+    /* asked for */
+    double radius;  /* of the brush, texels */
+    double seconds; /* of scribbling, 0.5..600 */
+    bool turning;   /* the patch turns meanwhile */
+    /* measured */
+    int64_t events, pictures;
+    WrAppDelays pointer; /* the outline stands at the pointer's place */
+    WrAppDelays canvas;  /* the table's picture holds all that the event paints */
+    WrAppDelays preview; /* so does the patch's picture */
+} WrAppLatency;
+
+/* Open a window that nobody sees (1440 x 900, without a display), scribble on its canvas for a while, the
+ * same each time, at 125 events a second of real time, and measure. The session's document is painted on.
+ * Reads and writes no settings. Error: no window, nothing measured, interrupted. */
+bool wr_app_latency(const WrAppOptions *options, WrAppLatency *latency, WrError *err);

@@ -136,9 +136,12 @@ void wr_canvas_view_overlay(WrApp *app)
     patch_mark(app);
     const WrTool *tool = &wr_tools[app->tool];
     bool panning = app->hand.grab == WR_GRAB_PAN || app->hand.space;
+    wr_symmetry_marks(app);
     if (app->hand.on_canvas && tool->overlay && !panning) tool->overlay(app);
+    if (tool->marks) tool->marks(app);
     if (app->hints && app->starter) hints(app);
     wr_gui_draw_unclip();
     if (room->w > wr_gui_px(140)) chips(app);
+    wr_panel_symmetry(app);
     if (room->w > wr_gui_px(240)) wr_panel_seam(app);
 }

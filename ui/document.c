@@ -118,6 +118,8 @@ void wr_app_changed_document(WrApp *app)
     wr_app_try_end(app);
     app->layers.dragged = app->layers.renamed = -1;
     wr_select_cancel(app);
+    if (wr_tools[app->tool].leave) wr_tools[app->tool].leave(app);
+    app->draw.source = app->draw.anchored = false;
     wr_patch_commit_zoom(app, false);
     wr_app_live_end(app);
     app->view_placed = false;
@@ -363,7 +365,7 @@ void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
         wr_later_file(app, purpose, path);
         return;
     }
-    static const char *const endings[WR_FILE_HISTORY + 1] = {
+    static const char *const endings[WR_FILE_STAMP + 1] = {
         [WR_FILE_SAVE] = ".exr", [WR_FILE_EXPORT] = ".png", [WR_FILE_HISTORY] = ".wrinkle"
     };
     char *full = endings[purpose] ? with_ending(path, endings[purpose]) : wr_strdup(path);
@@ -373,6 +375,7 @@ void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
     case WR_FILE_IMPORT: import_now(app, full); break;
     case WR_FILE_EXPORT: export_now(app, full); break;
     case WR_FILE_HISTORY: save_history_now(app, full); break;
+    case WR_FILE_STAMP: wr_stamp_choose(app, full); break;
     }
     wr_free(full);
 }

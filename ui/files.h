@@ -10,7 +10,8 @@ typedef enum WrFilePurpose {
     WR_FILE_SAVE,
     WR_FILE_EXPORT,
     WR_FILE_IMPORT,
-    WR_FILE_HISTORY
+    WR_FILE_HISTORY,
+    WR_FILE_STAMP
 } WrFilePurpose;
 
 typedef struct WrFiles WrFiles;

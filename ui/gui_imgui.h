@@ -29,6 +29,7 @@ struct WrGui {
     /* the row that is open, in pixels of the window; and the one that is dragged */
     float row_left, row_right, row_top, row_height;
     ImGuiID row_drag;
+    ImDrawList *pad; /* that drawing goes to; NULL: to the views */
 };
 
 /* The one whose frame is open. */

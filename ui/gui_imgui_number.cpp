@@ -218,7 +218,8 @@ WR_CAUGHT(WR_EDIT_NONE)
 
 static ImDrawList *views(void)
 {
-    return ImGui::GetBackgroundDrawList();
+    ImDrawList *pad = wr_gui_current()->pad;
+    return pad ? pad : ImGui::GetBackgroundDrawList();
 }
 
 static ImVec2 at(double x, double y)

@@ -177,7 +177,9 @@ try {
     bool fits = ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x < column - px(4);
     if (!fits)
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(1)); /* onto the line of the others */
-    text_in(fits ? WR_FONT_TEXT : WR_FONT_SMALL, WR_COLOUR_LABEL, text, false);
+    double room = (double)(column - ImGui::GetCursorPosX() - px(4));
+    if (fits) text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
+    else wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, room > 0 ? room : 1);
     ImGui::SameLine(column);
 }
 WR_CAUGHT()

@@ -15,6 +15,10 @@ static const char built_in[] = "new: Ctrl+N\n"
                                "undo: Ctrl+Z Z\n"
                                "redo: Ctrl+Shift+Z Ctrl+Y Y\n"
                                "brush: B\n"
+                               "straight_line: V\n"
+                               "paint_patch: A\n"
+                               "pressure_up: Alt+Shift+S\n"
+                               "pressure_down: Alt+Shift+A\n"
                                "pick: P\n"
                                "select_rect: Shift+R\n"
                                "select_ellipse: Shift+E\n"
@@ -44,7 +48,30 @@ static const char built_in[] = "new: Ctrl+N\n"
                                "strength_down: I\n"
                                "strength_up: O\n"
                                "swap_mode: X\n"
-                               "level_mode: L\n"
+                               "reset_values: D\n"
+                               "height_up: L\n"
+                               "height_down: K\n"
+                               "erase_mode: E\n"
+                               "preset_last: /\n"
+                               "preset_previous: ,\n"
+                               "preset_next: .\n"
+                               "brushes: F5\n"
+                               "smooth: Shift+U\n"
+                               "smear: S\n"
+                               "clone: C\n"
+                               "flood: G F\n"
+                               "ramp: Shift+G\n"
+                               "shape_rect: R\n"
+                               "shape_ellipse: Q\n"
+                               "shape_polygon: Shift+Q\n"
+                               "shape_path: N\n"
+                               "stamp: Shift+S\n"
+                               "symmetry: U\n"
+                               "symmetry_on: Shift+M\n"
+                               "hold_pick: Ctrl\n"
+                               "hold_size: Shift\n"
+                               "hold_invert: Alt\n"
+                               "hold_smooth: Alt+Shift\n"
                                "zoom_in: + = Shift+= Ctrl++ Ctrl+= Keypad_+\n"
                                "zoom_out: - Ctrl+- Keypad_-\n"
                                "zoom_100: 1\n"
@@ -62,6 +89,7 @@ static const char built_in[] = "new: Ctrl+N\n"
                                "range_auto: Alt+R\n"
                                "turn: Ctrl+Space\n"
                                "fullscreen: F11\n"
+                               "tablet: Ctrl+Shift+T\n"
                                "help: F1\n";
 
 typedef struct Binding {
@@ -81,23 +109,40 @@ int wr_key_mods(SDL_Keymod held)
            ((held & KMOD_ALT) ? WR_MOD_ALT : 0);
 }
 
+static const struct {
+    const char *name;
+    int mod;
+} held_mods[] = { { "Ctrl+", WR_MOD_CTRL }, { "Shift+", WR_MOD_SHIFT }, { "Alt+", WR_MOD_ALT } };
+
+/* "Shift" at the end: a key that is only held. 0 if it is none. */
+static int held_alone(const char *at, const char *end)
+{
+    for (size_t m = 0; m < 3; m++) {
+        size_t n = strlen(held_mods[m].name) - 1;
+        if ((size_t)(end - at) == n && strncmp(at, held_mods[m].name, n) == 0)
+            return held_mods[m].mod;
+    }
+    return 0;
+}
+
 bool wr_key_parse(const char *text, size_t length, WrKey *key, WrError *err)
 {
-    static const struct {
-        const char *name;
-        int mod;
-    } mods[] = { { "Ctrl+", WR_MOD_CTRL }, { "Shift+", WR_MOD_SHIFT }, { "Alt+", WR_MOD_ALT } };
     const char *at = text, *end = text + length;
     WrKey out = { SDLK_UNKNOWN, 0 };
     for (size_t m = 0; m < 3;) {
-        size_t n = strlen(mods[m].name);
-        if ((size_t)(end - at) > n && strncmp(at, mods[m].name, n) == 0) {
-            out.mods |= mods[m].mod;
+        size_t n = strlen(held_mods[m].name);
+        if ((size_t)(end - at) > n && strncmp(at, held_mods[m].name, n) == 0) {
+            out.mods |= held_mods[m].mod;
             at += n;
             m = 0;
         } else {
             m++;
         }
+    }
+    int held = held_alone(at, end);
+    if (held) {
+        *key = (WrKey){ SDLK_UNKNOWN, out.mods | held };
+        return true;
     }
     char name[32];
     if (end - at < 1 || (size_t)(end - at) >= sizeof name)
@@ -200,9 +245,10 @@ void wr_keys_free(WrKeyMap *map)
     wr_free(map);
 }
 
+/* The newest line that wants a key has it. */
 static const char *find(const WrKeyMap *map, SDL_Keycode code, int mods)
 {
-    for (int i = 0; i < map->bindings.count; i++) {
+    for (int i = map->bindings.count - 1; i >= 0; i--) {
         const Binding *b = &map->bindings.data[i];
         if (b->key.code == code && b->key.mods == mods) return b->action;
     }
@@ -211,19 +257,33 @@ static const char *find(const WrKeyMap *map, SDL_Keycode code, int mods)
 
 const char *wr_keys_find(const WrKeyMap *map, SDL_Keysym sym)
 {
-    int mods = wr_key_mods((SDL_Keymod)sym.mod);
-    const char *action = find(map, sym.sym, mods);
+    int held = wr_key_mods((SDL_Keymod)sym.mod);
+    if (sym.sym == SDLK_UNKNOWN) return NULL;
+    const char *action = find(map, sym.sym, held);
     if (action) return action;
-    if (sym.scancode == SDL_SCANCODE_LEFTBRACKET) return find(map, SDLK_LEFTBRACKET, mods);
-    if (sym.scancode == SDL_SCANCODE_RIGHTBRACKET) return find(map, SDLK_RIGHTBRACKET, mods);
+    if (sym.scancode == SDL_SCANCODE_LEFTBRACKET) return find(map, SDLK_LEFTBRACKET, held);
+    if (sym.scancode == SDL_SCANCODE_RIGHTBRACKET) return find(map, SDLK_RIGHTBRACKET, held);
     return NULL;
+}
+
+bool wr_keys_hold(const WrKeyMap *map, const char *action, int held)
+{
+    for (int i = 0; i < map->bindings.count; i++) {
+        const Binding *b = &map->bindings.data[i];
+        if (b->key.code == SDLK_UNKNOWN && b->key.mods == held && strcmp(b->action, action) == 0)
+            return true;
+    }
+    return false;
 }
 
 static void print_key(WrKey key, char *buffer, size_t size)
 {
+    bool only = key.code == SDLK_UNKNOWN;
     snprintf(buffer, size, "%s%s%s%s", key.mods & WR_MOD_CTRL ? "Ctrl+" : "",
              key.mods & WR_MOD_SHIFT ? "Shift+" : "", key.mods & WR_MOD_ALT ? "Alt+" : "",
-             SDL_GetKeyName(key.code));
+             only ? "" : SDL_GetKeyName(key.code));
+    size_t length = strlen(buffer);
+    if (only && length > 0) buffer[length - 1] = '\0'; /* the last plus */
 }
 
 char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])

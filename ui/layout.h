@@ -13,6 +13,7 @@ typedef struct WrLayoutInput {
     WrViews views;
     bool panels;  /* false: the views fill the window */
     double lower; /* share of the panel on the right that its lower part gets, 0..1 */
+    int tools;    /* in the strip, which has two columns where one is too short for them */
 } WrLayoutInput;
 
 /* Rectangles in pixels; w = 0 where there is none. They cover the window without gaps or overlaps. */

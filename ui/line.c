@@ -22,6 +22,16 @@ void wr_line_vec(WrText *line, const char *name, WrVec3 value)
     wr_line_plain_vec(line, value);
 }
 
+void wr_line_text(WrText *line, const char *name, const char *value)
+{
+    wr_text_addf(line, " %s=\"", name);
+    for (const char *c = value; *c; c++) {
+        if (*c == '"' || *c == '\\') wr_text_add(line, "\\");
+        wr_text_add_n(line, c, 1);
+    }
+    wr_text_add(line, "\"");
+}
+
 double wr_line_round(double x, int digits)
 {
     static const double powers[] = { 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9 };

@@ -6,6 +6,8 @@
 void wr_line_number(WrText *line, const char *name, double value); /* " name=1.5" */
 void wr_line_vec(WrText *line, const char *name, WrVec3 value);    /* " name=1,2,3" */
 void wr_line_plain_vec(WrText *line, WrVec3 value);                /* "1,2,3" */
+/* " name="value"", quoted as the command language wants it */
+void wr_line_text(WrText *line, const char *name, const char *value);
 /* x rounded to `digits` (0..9) after the point, never -0: what a hand can place, so that lines stay
  * readable. */
 double wr_line_round(double x, int digits);

@@ -168,7 +168,7 @@ static void export(WrApp *app)
     wr_gui_label("What");
     wr_gui_choice("kind", 0, kinds, WR_EXPORT_KIND_COUNT, &f->kind);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_export_kinds[f->kind].help);
-    if (wr_export_kinds[f->kind].channels == 1) {
+    if (wr_export_kinds[f->kind].prepare) { /* it has a range */
         wr_gui_label("Codes hold");
         wr_gui_choice("range", 0, ranges, 3, &f->range);
     }
@@ -209,6 +209,8 @@ void wr_panel_dialogs(WrApp *app)
     case WR_DIALOG_SELECT: wr_dialog_select(app); break;
     case WR_DIALOG_SEARCH: wr_dialog_search(app); break;
     case WR_DIALOG_RECOVER: wr_dialog_recover(app); break;
+    case WR_DIALOG_TABLET: wr_dialog_tablet(app); break;
+    case WR_DIALOG_PRESET: wr_dialog_preset(app); break;
     case WR_DIALOG_HELP:
     case WR_DIALOG_ABOUT: wr_dialog_help(app); break;
     }

@@ -19,6 +19,38 @@ static void hands(const char *gesture, const char *text)
     wr_gui_space(-6);
 }
 
+static void brushes(WrApp *app)
+{
+    wr_gui_heading("BRUSHES");
+    keys(app, "brushes", "the tab of brushes: presets, and the values of the one in hand");
+    keys(app, "preset_last", "the brush used before");
+    keys(app, "preset_next", "the next favourite; the star makes them");
+    keys(app, "preset_previous", "the favourite before");
+    keys(app, "erase_mode", "erase with the same brush, and back");
+    keys(app, "height_up", "the height that is painted to, up");
+    keys(app, "height_down", "and down");
+    keys(app, "reset_values", "mode and strength as the brush has them");
+    wr_gui_space(12);
+    wr_gui_heading("TOOLS");
+    keys(app, "smooth", "smooth");
+    keys(app, "smear", "smear, as with a finger");
+    keys(app, "clone", "paint with heights from elsewhere; Ctrl, click says from where");
+    keys(app, "flood", "fill what is connected");
+    keys(app, "ramp", "drag a slope from low to high");
+    keys(app, "shape_rect", "rectangle; Shift a square, Ctrl from its middle");
+    keys(app, "shape_ellipse", "ellipse");
+    keys(app, "shape_polygon", "polygon: click its corners, then Enter");
+    keys(app, "shape_path", "Bezier path: drag its arms, then Enter");
+    keys(app, "stamp", "stamp: press, drag for turn and size; the wheel sizes it");
+    keys(app, "symmetry", "mirrors, turns, a lattice; drag their centre");
+    wr_gui_space(12);
+    wr_gui_heading("TABLETS");
+    hands("Press", "harder for more, or wider: Pressure in the row above says which");
+    hands("Other end", "erases with the same brush");
+    keys(app, "tablet", "what the tablet says, and its curve");
+    wr_gui_space(12);
+}
+
 static void guide(WrApp *app)
 {
     wr_gui_text_wrapped(
@@ -33,7 +65,9 @@ static void guide(WrApp *app)
     hands("Drag", "paint; the brush raises, lowers, or moves to a height");
     hands("Shift, click", "straight line from the last stroke");
     hands("Shift, drag", "size of the brush");
-    hands("Ctrl, click", "pick the height and paint towards it");
+    keys(app, "hold_pick", "and a click: pick the height and paint towards it");
+    keys(app, "hold_invert", "held: raise and lower change places");
+    keys(app, "hold_smooth", "held: smooth");
     keys(app, "size_down", "smaller");
     keys(app, "size_up", "larger");
     keys(app, "hardness_down", "softer");
@@ -44,6 +78,13 @@ static void guide(WrApp *app)
     keys(app, "undo", "undo");
     keys(app, "redo", "redo");
     wr_gui_space(12);
+    wr_gui_heading("TABLET");
+    hands("Pen", "paint; pressure does what the option row says");
+    hands("Its other end", "erase");
+    hands("Lower button", "pick a height; the upper one moves the table");
+    keys(app, "tablet", "tablet tester, and the pen's pressure curve");
+    wr_gui_space(12);
+    brushes(app);
     wr_gui_heading("LOOKING");
     hands("Wheel", "zoom at the pointer");
     hands("Space, drag", "move the table; so does the middle button");

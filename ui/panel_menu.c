@@ -9,24 +9,48 @@
 static const char *const file_menu[] = { "new",     "open",         "recent", "-",      "save",
                                          "save_as", "save_history", "-",      "import", "export",
                                          "-",       "quit",         NULL };
-static const char *const edit_menu[] = { "undo",
-                                         "redo",
-                                         "search",
-                                         "-",
-                                         "brush",
-                                         "pick",
-                                         "pan",
-                                         "zoom",
-                                         "-",
-                                         "size_up",
-                                         "size_down",
-                                         "hardness_up",
-                                         "hardness_down",
-                                         "strength_up",
-                                         "strength_down",
-                                         "swap_mode",
-                                         "level_mode",
-                                         NULL };
+static const char *const edit_menu[] = { "undo",       "redo",        "search", "-",
+                                         "keys_paint", "keys_sculpt", NULL };
+static const char *const brush_menu[] = { "brushes",
+                                          "round_brush",
+                                          "preset_last",
+                                          "preset_next",
+                                          "preset_previous",
+                                          "favourite",
+                                          "preset_save",
+                                          "lock_size",
+                                          "-",
+                                          "size_up",
+                                          "size_down",
+                                          "hardness_up",
+                                          "hardness_down",
+                                          "strength_up",
+                                          "strength_down",
+                                          "swap_mode",
+                                          "erase_mode",
+                                          "level_mode",
+                                          "height_up",
+                                          "height_down",
+                                          "reset_values",
+                                          "-",
+                                          "steady_off",
+                                          "steady_smooth",
+                                          "steady_string",
+                                          "steady_catch_up",
+                                          "-",
+                                          "pressure_up",
+                                          "pressure_down",
+                                          "pressure_speed",
+                                          "-",
+                                          "symmetry",
+                                          "symmetry_on",
+                                          NULL };
+static const char *const tool_menu[] = {
+    "brush", "smooth",     "smear",      "clone",         "straight_line",  "paint_patch",  "-",
+    "flood", "ramp",       "shape_rect", "shape_ellipse", "shape_polygon",  "shape_path",   "-",
+    "stamp", "stamp_open", "-",          "select_rect",   "select_ellipse", "select_lasso", "pick",
+    "pan",   "zoom",       NULL
+};
 static const char *const layer_menu[] = { "layer_add",
                                           "layer_duplicate",
                                           "layer_delete",
@@ -73,7 +97,7 @@ static const char *const view_menu[] = { "look_grey", "look_signed", "range_auto
                                          "-",         "turn",        "pose_reset",  "camera_reset",
                                          "-",         "view_both",   "view_canvas", "view_patch",
                                          "panels",    "fullscreen",  "scale",       NULL };
-static const char *const help_menu[] = { "help", "about", NULL };
+static const char *const help_menu[] = { "help", "tablet", "about", NULL };
 
 static void recent(WrApp *app)
 {
@@ -162,6 +186,8 @@ void wr_panel_menu(WrApp *app)
     app->menu_height = (int)wr_gui_menu_bar_begin();
     menu(app, "File", file_menu);
     menu(app, "Edit", edit_menu);
+    menu(app, "Brush", brush_menu);
+    menu(app, "Tools", tool_menu);
     menu(app, "Layer", layer_menu);
     menu(app, "Select", select_menu);
     menu(app, "Table", table_menu);

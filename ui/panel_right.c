@@ -8,7 +8,8 @@
 static const struct {
     const char *label;
     void (*draw)(WrApp *app);
-} tabs[] = { { "Scene", wr_panel_scene },
+} tabs[] = { { "Brushes", NULL }, /* has areas of its own */
+             { "Scene", wr_panel_scene },
              { "Plan", wr_panel_plan },
              { "History", wr_panel_history } };
 #define TABS ((int)(sizeof tabs / sizeof *tabs))
@@ -50,6 +51,10 @@ void wr_panel_right(WrApp *app)
     if (room.h <= 0) return;
     if (*tab == TABS) {
         wr_panel_layers(app, room);
+        return;
+    }
+    if (!tabs[*tab].draw) {
+        wr_panel_brushes(app, room);
         return;
     }
     wr_gui_area_begin(labels[*tab], WR_AREA_PANEL, room, WR_COLOUR_PANEL);

@@ -6,8 +6,11 @@ void wr_panel_tools(WrApp *app)
 {
     if (app->layout.strip.w <= 0) return;
     wr_gui_area_begin("##tools", WR_AREA_BAR, app->layout.strip, WR_COLOUR_BAR);
+    int columns = app->layout.strip.w > wr_gui_px(60) ? 2 : 1;
     for (int i = 0; i < wr_tool_count; i++) {
         const WrAction *action = wr_action_find(wr_tools[i].action);
+        if (i % columns) wr_gui_same_line(0);
+        wr_gui_move_to(wr_gui_px(columns == 1 ? 6 : 4 + 40 * (i % columns)));
         if (wr_gui_icon_button(wr_tools[i].action, wr_tools[i].icon, 36, i == app->tool))
             wr_action_run(app, wr_tools[i].action);
         WrText tip = { 0 }, keys = { 0 };
@@ -16,7 +19,7 @@ void wr_panel_tools(WrApp *app)
         wr_gui_tip(wr_text_get(&tip));
         wr_text_fini(&tip);
         wr_text_fini(&keys);
-        wr_gui_space(-4);
+        if (i % columns == columns - 1) wr_gui_space(-4);
     }
     wr_gui_area_end();
 }

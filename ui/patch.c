@@ -9,14 +9,42 @@
 
 #define TURN_DEG_PER_SECOND 14.0
 #define PICTURE_SECONDS (1.0 / 40.0) /* between moving pictures */
+#define QUICK_SECONDS (1.0 / 60.0)   /* the same while it is painted on */
 #define REST_SECONDS 0.12            /* without change before the picture is made sharp */
 #define ZOOM_COMMIT_SECONDS 0.4
 
 /* ---- wishes ---- */
 
+static bool is_painted(const WrApp *app)
+{
+    return app->brush.jobs.count > 0;
+}
+
+static double picture_seconds(const WrApp *app)
+{
+    return is_painted(app) ? QUICK_SECONDS : PICTURE_SECONDS;
+}
+
+/* Nobody can aim at what moves. */
+static bool is_held(const WrApp *app)
+{
+    return app->hand.grab == WR_GRAB_PATCH_PAINT || (wr_patch_paints(app) && app->hand.on_patch);
+}
+
+/* It stops as it is shown, not as it was wished for last. */
+static void hold_still(WrApp *app)
+{
+    WrPatch *p = &app->patch;
+    bool held = is_held(app);
+    const WrPreviewPicture *picture = wr_preview_picture(app->preview);
+    if (held && !p->held && app->settings.turning && picture->serial > 0)
+        p->turn_deg = picture->turn_deg;
+    p->held = held;
+}
+
 static bool turns(const WrApp *app)
 {
-    return app->settings.turning && app->visible && app->layout.patch.w > 0 &&
+    return app->settings.turning && !is_held(app) && app->visible && app->layout.patch.w > 0 &&
            app->hand.grab != WR_GRAB_ORBIT && app->hand.grab != WR_GRAB_LIGHT;
 }
 
@@ -48,7 +76,9 @@ static void wish(WrApp *app, bool moving)
                         .turn_deg = p->turn_deg,
                         .width = room->w,
                         .height = room->h,
-                        .moving = moving };
+                        .tag = app->brush.shown,
+                        .moving = moving,
+                        .painting = is_painted(app) };
     wr_preview_want(app->preview, &w);
     wr_field_free(p->wished_field);
     if (p->wished_scene) wr_scene_free(p->wished_scene);
@@ -58,6 +88,7 @@ static void wish(WrApp *app, bool moving)
     p->wished_w = room->w;
     p->wished_h = room->h;
     p->wished_moving = moving;
+    p->wished_painted = is_painted(app);
     p->outstanding = moving;
     p->refreshing = false;
     p->wished_at = wr_clock_seconds();
@@ -76,6 +107,7 @@ static void take_picture(WrApp *app)
     }
     if (picture->serial == 0 || (picture->serial == p->serial && p->texture)) return;
     p->serial = picture->serial;
+    p->seen = picture->tag;
     p->outstanding = false;
     if (!p->texture || p->texture_w < picture->width || p->texture_h < picture->height) {
         if (p->texture) SDL_DestroyTexture(p->texture);
@@ -105,9 +137,10 @@ void wr_patch_update(WrApp *app)
     WrPatch *p = &app->patch;
     double now = wr_clock_seconds();
     take_picture(app);
+    hold_still(app);
     if (p->zoom_commit_at > 0.0 && now >= p->zoom_commit_at) wr_patch_commit_zoom(app, true);
     if (app->layout.patch.w <= 0 || !app->visible || app->drawn_at == 0.0) return;
-    bool ready = !p->outstanding && now >= p->wished_at + PICTURE_SECONDS;
+    bool ready = !p->outstanding && now >= p->wished_at + picture_seconds(app);
     if (turns(app)) {
         if (!ready) return;
         advance_turn(p, now);
@@ -117,10 +150,12 @@ void wr_patch_update(WrApp *app)
     p->turned_at = now;
     if (differs(app)) {
         bool edited = only_edited(app);
-        if (!ready) return;
+        if (edited ? p->outstanding : !ready) return; /* what an edit reaches is made in no time */
         wish(app, !edited);
         p->refreshing = edited;
         p->outstanding = true;
+    } else if (p->wished_painted && !is_painted(app) && !p->wished_moving && !p->outstanding) {
+        wish(app, false); /* what was only quick may become fine */
     } else if (p->wished_moving && !p->outstanding && now >= p->rest_at) {
         wish(app, false);
     }
@@ -139,6 +174,7 @@ void wr_patch_turn_on(WrApp *app)
                         .turn_deg = p->turn_deg,
                         .width = p->wished_w,
                         .height = p->wished_h,
+                        .tag = p->seen,
                         .moving = true };
     wr_preview_want(app->preview, &w);
     p->wished_turn = p->turn_deg;
@@ -152,7 +188,8 @@ double wr_patch_next_time(const WrApp *app)
     double next = p->zoom_commit_at;
     if (app->layout.patch.w <= 0 || !app->visible) return next;
     double due = 0.0;
-    if ((turns(app) || differs(app)) && !p->outstanding) due = p->wished_at + PICTURE_SECONDS;
+    if ((turns(app) || differs(app)) && !p->outstanding)
+        due = only_edited(app) && !turns(app) ? p->wished_at : p->wished_at + picture_seconds(app);
     else if (p->wished_moving && !p->outstanding && app->hand.grab == WR_GRAB_NONE)
         due = p->rest_at;
     if (due > 0.0 && (next == 0.0 || due < next)) next = due;
@@ -166,6 +203,7 @@ void wr_patch_free(WrApp *app)
     if (p->wished_scene) wr_scene_free(p->wished_scene);
     if (p->texture) SDL_DestroyTexture(p->texture);
     *p = (WrPatch){ 0 };
+    wr_patch_paint_free(app);
 }
 
 /* ---- the light ---- */
@@ -409,11 +447,20 @@ void wr_patch_overlay(WrApp *app)
     wr_gui_draw_clip(*room);
     draw_lights(app);
     draw_ring(app, wr_preview_picture(app->preview));
+    wr_patch_paint_overlay(app);
     wr_gui_draw_unclip();
     int gap = wr_gui_px(12);
     if (room->w <= wr_gui_px(140)) return;
     wr_gui_overlay_begin("##turn", room->x + room->w - gap, room->y + gap, 1, 0);
     bool turning = app->settings.turning;
+    if (room->w > wr_gui_px(220)) {
+        if (wr_gui_chip(WR_ICON_BRUSH, app->paint.on ? "painting" : "paint"))
+            wr_action_run(app, "paint_patch");
+        wr_gui_tip(app->paint.on ? "The brush paints on the object, which stands still under it. "
+                                   "Click to turn it by hand again."
+                                 : "Paint on the object itself.");
+        wr_gui_same_line(6);
+    }
     if (wr_gui_chip(turning ? WR_ICON_PAUSE : WR_ICON_PLAY, turning ? "turning" : "paused"))
         wr_action_run(app, "turn");
     wr_gui_tip(

@@ -10,15 +10,19 @@
 #include <sys/resource.h>
 
 #define MOVING_SECONDS 0.020 /* that a picture may take while something moves */
-#define COARSEST 0.125       /* of the view's width and height */
-#define NICENESS 5           /* so that the window's own thread goes first */
+#define QUICK_SECONDS 0.011  /* and while it is painted on besides */
+#define EDIT_SECONDS                                                                               \
+    0.012              /* that a refresh after an edit may take before finer samples are given up */
+#define COARSEST 0.125 /* of the view's width and height */
+#define NICENESS 5     /* so that the window's own thread goes first */
 
 typedef struct Wish {
     WrField *field; /* own shares; NULL: no wish */
     WrScene *scene;
     double turn_deg;
     int width, height;
-    bool moving;
+    int64_t tag;
+    bool moving, painting;
 } Wish;
 
 struct WrPreview {
@@ -47,6 +51,8 @@ struct WrPreview {
     WrPreviewLevel level;   /* reached for `now` */
     double scale;           /* of a moving picture, 0..1 */
     double pixel_seconds;   /* of a moving picture, measured; 0: not yet */
+    double edit_seconds; /* of the last refresh after an edit with more than one sample a pixel */
+    bool edited;         /* the picture under way is such a refresh */
     uint64_t serial;
     int last_width, last_height; /* of the last picture */
 };
@@ -142,7 +148,8 @@ static void adapt_scale(WrPreview *preview, const WrPreviewPicture *picture, dou
     double *known = &preview->pixel_seconds;
     double pace = measured < *known ? 0.5 : 0.25;
     *known = *known > 0.0 ? *known + pace * (measured - *known) : measured;
-    double scale = sqrt(MOVING_SECONDS / *known / view_pixels);
+    double allowed = preview->now.painting ? QUICK_SECONDS : MOVING_SECONDS;
+    double scale = sqrt(allowed / *known / view_pixels);
     scale = scale > 0.9 ? 1.0 : scale < COARSEST ? COARSEST : scale;
     if (fabs(scale - preview->scale) > 0.15 * preview->scale || scale == 1.0)
         preview->scale = scale;
@@ -184,10 +191,12 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
     out->level = level;
     out->turn_deg = wish->turn_deg;
+    out->tag = wish->tag;
     out->times = frame.times;
     out->plan = *frame.plan;
     out->seconds = wr_clock_seconds() - started;
     out->serial = ++preview->serial;
+    if (preview->edited) preview->edit_seconds = out->seconds;
     if (level == WR_PREVIEW_MOVING) adapt_scale(preview, out, (double)wish->width * wish->height);
     return true;
 }
@@ -228,16 +237,21 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
         preview->now = preview->next;
         preview->next = (Wish){ 0 };
         __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
+        preview->edited = edited && preview->level > WR_PREVIEW_FULL;
         if (edited) {
-            *level = preview->level;
+            bool slow = preview->now.painting && preview->edit_seconds > EDIT_SECONDS;
+            *level = slow ? WR_PREVIEW_FULL : preview->level;
+            preview->edited = preview->edited && !slow;
             return true;
         }
         preview->level = WR_PREVIEW_NONE;
+        preview->edit_seconds = 0.0;
         *level = preview->now.moving || preview->serial == 0 ? WR_PREVIEW_MOVING : WR_PREVIEW_FULL;
         return true;
     }
-    if (preview->now.field && !preview->now.moving && preview->level < WR_PREVIEW_FINAL &&
-        preview->level != WR_PREVIEW_NONE) {
+    bool rests = preview->now.field && !preview->now.moving && !preview->now.painting;
+    if (rests && preview->level < WR_PREVIEW_FINAL && preview->level != WR_PREVIEW_NONE) {
+        preview->edited = false;
         *level = preview->level + 1;
         return true;
     }
@@ -318,7 +332,9 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
                             .turn_deg = wish->turn_deg,
                             .width = wish->width,
                             .height = wish->height,
-                            .moving = wish->moving };
+                            .tag = wish->tag,
+                            .moving = wish->moving,
+                            .painting = wish->painting };
     /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
     if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     preview->settled = false;

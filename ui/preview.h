@@ -29,7 +29,9 @@ typedef struct WrPreviewWish {
     const WrScene *scene;
     double turn_deg;
     int width, height; /* of the view, pixels */
-    bool moving;       /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
+    int64_t tag;       /* comes back with the picture */
+    bool painting; /* edits follow one another: be quick rather than fine, and do not refine yet */
+    bool moving;   /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
 } WrPreviewWish;
 
 /* Replace the wish. A sharp picture under way for an older one is given up. */
@@ -50,6 +52,7 @@ typedef struct WrPreviewPicture {
     double seconds; /* wall time, conversion included */
     WrStageTimes times;
     WrPlan plan;
+    int64_t tag;     /* of the wish that it shows */
     uint64_t serial; /* counts pictures; 0: none yet */
 } WrPreviewPicture;
 

@@ -5,8 +5,25 @@
 #include "brush/brush.h"
 #include "ui/canvas.h"
 #include "ui/layout.h"
+#include "ui/pen_curve.h"
+#include "ui/steady.h"
 
 #define WR_RECENT_MAX 8
+#define WR_FAVOURITES_MAX 64
+#define WR_USED_MAX 12
+#define WR_PENS_MAX 32
+
+/* What the tools that draw other things than strokes go by. */
+typedef struct WrDrawing {
+    bool fills;       /* shapes: their inside, not their outline */
+    bool closed;      /* the Bezier path ends where it began */
+    double corner;    /* of rectangles, texels */
+    double tolerance; /* of the flood, heights */
+    bool diagonal;    /* it also goes over corners */
+    int ramp, blend;  /* wr_ramp_kinds, wr_ramp_blends */
+    bool fold;
+    double low, high; /* heights of the ramp's ends */
+} WrDrawing;
 
 typedef struct WrSettings {
     int width, height; /* of the window, pixels at scale 1 of the display */
@@ -22,6 +39,22 @@ typedef struct WrSettings {
     bool turning; /* the patch turns by itself */
     WrBrush brush;
     WrCanvasLook look;
+    /* The files that the brush comes from, owned, NULL: none; as WrBrushFiles. */
+    char *preset, *tip, *set;
+    double other_strength; /* of lowering while raising, and the other way round; 0: the same */
+    bool lock_size;        /* another preset keeps the size */
+    char *favourites[WR_FAVOURITES_MAX]; /* ids of presets, owned; NULL ends them */
+    char *used[WR_USED_MAX]; /* the same, newest first; "round" is the brush without a preset */
+    bool symmetric;          /* brush.symmetry is `symmetry`; else there is none */
+    WrSymmetry symmetry;     /* kept while it is off */
+    bool symmetry_panel;     /* shown */
+    int key_map;             /* wr_key_maps */
+    WrDrawing drawing;
+    int steady;                          /* WrSteadyKind of strokes by hand */
+    double steady_smooth, steady_string; /* their lengths, pixels at scale 1 */
+    bool steady_catch_up;                /* a line on a string ends where the pointer does */
+    WrFakePressure fake;                 /* of the mouse; held counts while it is not by speed */
+    char *pens[WR_PENS_MAX]; /* pressure curves of devices, "CURVE NAME", owned; NULL ends them */
     char *recent[WR_RECENT_MAX]; /* absolute paths, newest first, owned; NULL ends them */
 } WrSettings;
 
@@ -37,6 +70,15 @@ char *wr_config_path(const char *name);
 void wr_settings_load(WrSettings *settings);
 /* Creates the folder if need be; a failure is silent: nothing is lost but comfort. */
 void wr_settings_save(const WrSettings *settings);
+
+/* Keep a text of the settings, NULL: none. */
+void wr_settings_set_text(char **text, const char *value);
+/* A preset was chosen: it becomes the first of those used. */
+void wr_settings_note_used(WrSettings *settings, const char *id);
+/* Index of a favourite, or -1; put it at the end, or take it out; does nothing more when all places are
+ * taken. */
+int wr_settings_favourite(const WrSettings *settings, const char *id);
+void wr_settings_set_favourite(WrSettings *settings, const char *id, bool favourite);
 
 /* Put a path first in the list of recent files. */
 void wr_settings_note_recent(WrSettings *settings, const char *path);

@@ -4,8 +4,8 @@
 # The program: compiler and build tools, then the libraries that it links with, then its fonts.
 wr_program_packages=(
     build-essential cmake ninja-build pkg-config
-    libexpat1-dev libfreetype-dev libimgui-dev libmd-dev libopenimageio-dev libsdl2-dev libsleef-dev
-    libstb-dev libxxhash-dev libzip-dev
+    libexpat1-dev libfreetype-dev libimgui-dev libjson-c-dev libmd-dev libmypaint-dev libopenimageio-dev
+    libsdl2-dev libsleef-dev libstb-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
     fonts-inter fonts-materialdesignicons-webfont
 )
 # The tests besides: the framework, checkers, an X server and hands for the window, readers of what
@@ -14,6 +14,7 @@ wr_program_packages=(
 wr_test_packages=(
     libcmocka-dev clang clang-format libclang-rt-14-dev
     xvfb xauth xdotool x11-utils
+    xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools
     desktop-file-utils groff-base jq librsvg2-bin shellcheck
 )

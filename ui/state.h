@@ -9,22 +9,32 @@
 #include "ui/keys.h"
 #include "ui/layout.h"
 #include "ui/outline.h"
+#include "ui/patch_pick.h"
+#include "ui/pen.h"
 #include "ui/preview.h"
 #include "ui/rotation.h"
 #include "ui/seam.h"
 #include "ui/settings.h"
+#include "ui/shelf.h"
+#include "ui/steady.h"
 #include "ui/trial.h"
 #include "ui/view.h"
 
 typedef struct WrApp WrApp;
+typedef struct WrLatency WrLatency; /* latency.c */
 
 /* ---- pointer ---- */
 
 typedef struct WrPointer {
-    double x, y; /* pixels */
-    double u, v; /* unwrapped position on the canvas */
-    int mods;    /* WR_MOD_ bits */
-    int button;  /* SDL_BUTTON_LEFT, ... */
+    double x, y;           /* pixels of the window; 0.5 is the middle of the first */
+    double u, v;           /* unwrapped position on the canvas */
+    double pressure;       /* 0..1; of a mouse as settings.fake makes it, 1 unless set */
+    double tilt_x, tilt_y; /* -1..1, to the right and towards the user; 0 of a mouse */
+    double seconds;        /* of the device's clock; only differences mean something */
+    bool pen;              /* a pen or a finger, not the mouse */
+    bool eraser;           /* the pen's other end */
+    int mods;              /* WR_MOD_ bits */
+    int button;            /* SDL_BUTTON_LEFT, ...: a pen's tip is the left one */
 } WrPointer;
 
 /* A tool of the strip on the left. Each function may be NULL. */
@@ -35,12 +45,19 @@ typedef struct WrTool {
     void (*press)(WrApp *app, const WrPointer *at);
     void (*drag)(WrApp *app, const WrPointer *at);
     void (*release)(WrApp *app, const WrPointer *at);
-    void (*overlay)(WrApp *app); /* drawn over the canvas while the pointer is on it */
-    void (*options)(WrApp *app); /* widgets of the option row */
+    void (*overlay)(WrApp *app);              /* drawn over the canvas while the pointer is on it */
+    void (*marks)(WrApp *app);                /* drawn over the canvas wherever the pointer is */
+    void (*options)(WrApp *app);              /* widgets of the option row */
+    bool (*key)(WrApp *app, SDL_Keycode key); /* Escape, Return, ...: true if it took it */
+    bool (*wheel)(WrApp *app, double steps);  /* over the canvas: true if it took it */
+    void (*leave)(WrApp *app);                /* another tool is chosen, or another document */
+    bool paints;                              /* press, drag, release are the brush's */
+    int mode; /* 1 + the WrBrushMode that it paints with; 0: the brush's own */
 } WrTool;
 extern const WrTool wr_tools[];
 extern const int wr_tool_count;
 int wr_tool_find(const char *action); /* index, or -1 */
+void wr_tool_choose(WrApp *app, int index);
 
 /* ---- actions ---- */
 
@@ -60,10 +77,13 @@ void wr_action_run(WrApp *app, const char *name);
 typedef enum WrGrab { /* what the pointer holds outside the widgets */
                       WR_GRAB_NONE,
                       WR_GRAB_TOOL,
+                      WR_GRAB_PATCH_PAINT, /* the brush, on the patch */
+                      WR_GRAB_PICK,        /* a height, by a pen's second button */
                       WR_GRAB_PAN,
                       WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
                       WR_GRAB_DIVIDER,
-                      WR_GRAB_PANELS, /* the line between the panels on the right */
+                      WR_GRAB_PANELS,   /* the line between the panels on the right */
+                      WR_GRAB_SYMMETRY, /* its centre */
                       WR_GRAB_ORBIT,
                       WR_GRAB_LIGHT
 } WrGrab;
@@ -76,29 +96,79 @@ typedef struct WrHand {
     bool space; /* held over the canvas: the next drag pans */
     bool space_used;
     bool on_canvas, on_patch; /* the pointer is there and over no widget */
+    bool line;                /* the key for straight lines is held */
+    SDL_Keycode line_key, quick_key;
+    double quick_at;  /* clock at which the key for painting on the patch went down; 0: up */
+    int quick_events; /* brush.strokes then */
+    int device;       /* that the grab began with: of a pen, or -1 */
+    double fake_at;   /* seconds of the mouse's last motion, for its pressure */
+    int64_t events;   /* of pointers, taken so far (latency.c) */
 } WrHand;
 
-typedef struct WrBrushHand {
+/* What of the brush comes from files, as command lines name it. settings.brush.preset and .tip are what
+   was read from them, owned by the window. */
+typedef struct WrBrushFiles {
+    char *preset; /* id of the preset, owned; NULL: none */
+    char *tip;    /* path of a tip that is not the preset's own, owned; NULL: none */
+    char *set;    /* "name=value;...", owned; NULL: the preset's own settings */
+} WrBrushFiles;
+
+/* One stroke: being drawn by the session, or waiting for the one before it to be done. */
+typedef struct WrStrokeJob {
+    char *head; /* the command without points, owned; NULL once the session has it */
     WR_ARRAY(WrSample) samples; /* not handed to the session yet */
-    bool have_last;             /* where the last stroke ended, for straight lines */
+    bool released;              /* the pointer let go: no more will come */
+} WrStrokeJob;
+
+typedef struct WrBrushHand {
+    WR_ARRAY(WrStrokeJob) jobs; /* oldest first; the first may be open in the session */
+    bool opened;                /* the first is */
+    bool unfinished;            /* the session has more to draw of it */
+    bool drawing;               /* the pointer is down and draws the last job */
+    bool on_patch;              /* on the patch */
+    WrBrush now;                /* the brush of the stroke under way: eraser, seed */
+    double began;               /* seconds of its first sample */
+    double pressure;            /* newest */
+    double way_x, way_y;        /* newest direction in pixels, for outlines that follow it */
+    WrSteady steady;
+    bool have_last; /* where the last stroke ended, for straight lines */
     double last_u, last_v;
+    bool straight; /* a straight line is being aimed */
+    double line_u, line_v, to_u, to_v;
     double resize_radius; /* at the start of a resize */
     uint64_t line_key;    /* of the table when last_u, last_v were set: no lines into others */
+    int strokes;          /* begun so far */
+    uint32_t seeds;       /* strokes with chance in them so far */
+    int64_t taken, shown; /* pointer events handed to the session, and drawn (latency.c) */
 } WrBrushHand;
+
+/* Painting on the patch (patch_paint.c). */
+typedef struct WrPatchPaint {
+    bool on;             /* the pointer over the patch paints instead of turning it */
+    WrPatchPick *picker; /* owned */
+    WrScene *scene;      /* own share; what the picker was made for */
+    double turn_deg;
+    SDL_Rect room;
+    bool inside; /* the last step lay on the object */
+    WrPatchSpot last;
+    WrPointer at; /* where the last step ended */
+} WrPatchPaint;
 
 typedef struct WrPatch {
     SDL_Texture *texture; /* of the newest picture; owned */
     int texture_w, texture_h;
     uint64_t serial;       /* of that picture */
+    int64_t seen;          /* pointer events that it shows (latency.c) */
     double turn_deg;       /* 0..360 */
     double turned_at;      /* clock at the last step of the turn */
     WrField *wished_field; /* own shares of what was wished for last */
     WrScene *wished_scene;
     double wished_turn;
     int wished_w, wished_h;
-    bool wished_moving;
+    bool wished_moving, wished_painted;
     bool refreshing;  /* sharp pictures are being brought up to date by an edit */
     bool outstanding; /* a moving picture was wished for and has not come */
+    bool held;        /* it stands still to be painted on */
     double wished_at, rest_at;
     double still_since;
     /* of a drag */
@@ -115,6 +185,36 @@ typedef struct WrSelectHand {
     double x, y;                    /* texel where it began, unwrapped */
     WR_ARRAY(WrSelectPoint) points; /* the shape so far; of a lasso also what the command gets */
 } WrSelectHand;
+
+/* An anchor of a Bezier path: its place and where its two arms end, texels, unwrapped. */
+typedef struct WrAnchor {
+    double x, y;
+    double in_x, in_y, out_x, out_y;
+} WrAnchor;
+
+/* What the tools that draw other things than strokes hold. Places are texels, unwrapped. */
+typedef struct WrDrawHand {
+    bool active;                /* something is begun and neither done nor given up */
+    double x0, y0, x1, y1;      /* of a drag: where it began, where it is */
+    WR_ARRAY(WrAnchor) anchors; /* of polygons and paths */
+    bool closed;                /* the path was closed by a click on its first anchor */
+    int held, part;    /* anchor that is dragged, -1: none; 0 itself, 1 its arm back, 2 ahead */
+    double clicked_at; /* clock at the last press */
+    /* clone */
+    bool source, anchored; /* a source was set; and a stroke tied it to the pointer */
+    double source_u, source_v;
+    /* stamp: settings.brush's mode and values, with a picture, size and turn of its own */
+    WrTip *tip;     /* owned; NULL: none chosen */
+    char *tip_path; /* owned */
+    double radius, angle_deg, first_radius, first_angle;
+    bool placed, dragged; /* it lies on the table; its turn and size were dragged */
+    double u, v;          /* where */
+    WrTrialAsk tried;     /* what was asked for last */
+    WrBrush tried_brush;
+    bool trying;
+    WR_ARRAY(char *) stamps; /* pictures to choose from, owned */
+    bool stamps_known;
+} WrDrawHand;
 
 /* The outlines on the canvas. */
 typedef struct WrMarks {
@@ -174,6 +274,7 @@ typedef struct WrLater {
 } WrLater;
 
 typedef struct WrRecovery WrRecovery;
+typedef struct WrTester WrTester; /* panel_tablet.h */
 
 typedef struct WrMessage {
     char *text; /* owned */
@@ -199,6 +300,8 @@ typedef enum WrDialog {
     WR_DIALOG_SELECT,
     WR_DIALOG_SEARCH,
     WR_DIALOG_RECOVER,
+    WR_DIALOG_PRESET, /* the name of a preset to be saved */
+    WR_DIALOG_TABLET,
     WR_DIALOG_HELP,
     WR_DIALOG_ABOUT
 } WrDialog;
@@ -232,6 +335,8 @@ struct WrApp {
     WrCanvas *canvas;
     WrPreview *preview;
     WrKeyMap *keys;
+    WrPen *pen;
+    WrTester *tester; /* of tablets; owned, NULL until it is opened */
     WrSettings settings;
     WrFiles *files;
     Uint32 ready_event; /* of the preview */
@@ -256,9 +361,14 @@ struct WrApp {
     int tool;
     WrHand hand;
     WrBrushHand brush;
+    WrBrushFiles brush_files;
+    WrShelf shelf;
+    WrDrawHand draw;
     WrPatch patch;
-    WrScene *live; /* what the preview shows while a scene value is being dragged; owned */
-    bool hints;    /* shown until the first stroke */
+    WrPatchPaint paint;
+    WrLatency *latency; /* while it is being measured; borrowed */
+    WrScene *live;      /* what the preview shows while a scene value is being dragged; owned */
+    bool hints;         /* shown until the first stroke */
 
     WrTrial *trial;
     bool trying; /* the views show what the trial gives */
@@ -286,143 +396,4 @@ struct WrApp {
     bool starter;            /* the document is the starter */
 };
 
-/* ---- app.c ---- */
-void wr_app_redraw(WrApp *app);
-double wr_app_wanted_scale(const WrApp *app);
-void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's */
-
-/* ---- document.c: the document behind the window ---- */
-/* What the views show: the composite, or what it would become by what is being tried. */
-const WrField *wr_app_field(const WrApp *app);
-const WrDocument *wr_app_document(const WrApp *app);
-/* Show what this would give; the document is not touched. */
-void wr_app_try(WrApp *app, const WrTrialAsk *ask);
-void wr_app_try_end(WrApp *app);
-const WrScene *wr_app_scene(const WrApp *app); /* live if a value is being dragged */
-bool wr_app_unsaved(const WrApp *app);
-/* Run a command line; a failure becomes a message. */
-bool wr_app_run_line(WrApp *app, const char *line);
-bool wr_app_run_linef(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* A scene that the caller may change at once; the preview shows it until wr_app_live_end. */
-WrScene *wr_app_live(WrApp *app);
-void wr_app_live_end(WrApp *app);
-void wr_app_start(WrApp *app); /* the starter, or what was asked for */
-void wr_app_new(WrApp *app);
-void wr_app_open(WrApp *app);
-void wr_app_open_path(WrApp *app, const char *path); /* asks first if work is unsaved */
-bool wr_app_save(WrApp *app); /* false: not saved yet (a dialog is open, or it failed) */
-void wr_app_save_as(WrApp *app);
-void wr_app_save_history(WrApp *app); /* asks for the file */
-/* The document is another one: forget what belonged to the old one. */
-void wr_app_changed_document(WrApp *app);
-void wr_app_quit(WrApp *app);
-void wr_app_go_on(WrApp *app); /* with `after` */
-void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path);
-void wr_app_title(WrApp *app);
-const char *wr_app_name(const WrApp *app); /* of the document, without folders */
-
-/* ---- busy.c: what may take long ---- */
-/* Call work(ctx), on another thread, and come back when it is done: with what it said. What takes longer
-   than a moment shows `what` and a bar; the window stays alive, but nothing else can be done. Inside a
-   picture of the window it is simply called. */
-typedef bool WrBusyWork(void *ctx, WrError *err);
-bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err);
-/* Run a command that may take long, at once or after the picture of the window that is being made. */
-void wr_app_run_slow(WrApp *app, const char *line);
-/* The same for a file that was chosen, and for an action. */
-void wr_later_file(WrApp *app, WrFilePurpose purpose, const char *path);
-void wr_later_action(WrApp *app, const char *name);
-void wr_later_recover(WrApp *app, const char *journal);
-void wr_later_run(WrApp *app); /* do what was put off */
-
-/* ---- marks.c: outlines of selections ---- */
-void wr_marks_update(WrApp *app);
-void wr_marks_draw(WrApp *app);
-void wr_marks_try(WrApp *app, const WrOutlineAsk *ask); /* NULL: the selection as it is */
-double wr_marks_next_time(const WrApp *app); /* clock at which they move on; 0: they do not */
-void wr_marks_free(WrApp *app);
-
-/* ---- messages.c ---- */
-void wr_app_say(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void wr_app_fail(WrApp *app, const WrError *err);
-void wr_app_take_notes(WrApp *app);
-void wr_messages_free(WrMessages *messages);
-
-/* ---- hand.c: pointer and keys ---- */
-void wr_hand_event(WrApp *app, const SDL_Event *event);
-void wr_hand_let_go(WrApp *app); /* end what is being held, keeping what was done */
-void wr_app_place_view(WrApp *app);
-
-/* ---- tools ---- */
-void wr_brush_press(WrApp *app, const WrPointer *at);
-void wr_brush_drag(WrApp *app, const WrPointer *at);
-void wr_brush_release(WrApp *app, const WrPointer *at);
-void wr_brush_overlay(WrApp *app);
-void wr_brush_flush(WrApp *app); /* hand the samples to the session */
-void wr_brush_resize(WrApp *app, const WrPointer *at);
-void wr_brush_pick(WrApp *app, const WrPointer *at);
-void wr_brush_options(WrApp *app);
-void wr_tool_pan_drag(WrApp *app, const WrPointer *at);
-void wr_tool_zoom_press(WrApp *app, const WrPointer *at);
-void wr_tool_zoom_drag(WrApp *app, const WrPointer *at);
-
-void wr_select_press(WrApp *app, const WrPointer *at);
-void wr_select_drag(WrApp *app, const WrPointer *at);
-void wr_select_release(WrApp *app, const WrPointer *at);
-void wr_select_cancel(WrApp *app);
-void wr_select_options(WrApp *app);
-
-/* ---- views ---- */
-void wr_canvas_view_draw(WrApp *app);    /* the picture */
-void wr_canvas_view_overlay(WrApp *app); /* what lies on it */
-void wr_patch_update(WrApp *app);        /* wish for what is wanted; take what is ready */
-void wr_patch_turn_on(
-    WrApp *app); /* the same without a look at the document: it is being changed */
-void wr_patch_draw(WrApp *app);
-void wr_patch_overlay(WrApp *app);
-bool wr_patch_press(WrApp *app, const WrPointer *at);
-void wr_patch_drag(WrApp *app, const WrPointer *at);
-void wr_patch_release(WrApp *app);
-void wr_patch_wheel(WrApp *app, double steps);
-void wr_patch_commit_zoom(WrApp *app, bool now);
-void wr_patch_free(WrApp *app);
-double wr_patch_next_time(const WrApp *app); /* clock at which update must run; 0: only on events */
-
-/* ---- panels ---- */
-void wr_panel_menu(WrApp *app);
-void wr_panel_options(WrApp *app);
-void wr_panel_tools(WrApp *app);
-void wr_panel_right(WrApp *app);
-void wr_panel_scene(WrApp *app);
-void wr_panel_material(WrApp *app); /* its lower parts */
-void wr_panel_lights(WrApp *app);
-/* Run a scene command whose value was being dragged; clears the line. */
-void wr_scene_run(WrApp *app, WrText *line);
-/* A number of the scene at `place` bytes, while it is being dragged. */
-void wr_scene_live_number(WrApp *app, size_t place, double value);
-void wr_panel_plan(WrApp *app);
-void wr_panel_history(WrApp *app);
-void wr_panel_layers(WrApp *app, SDL_Rect room);
-void wr_panel_layers_forget(WrApp *app); /* its pictures */
-void wr_layer_rename_start(WrApp *app, int index);
-void wr_panel_seam(WrApp *app); /* on the canvas */
-void wr_panel_status(WrApp *app);
-void wr_panel_dialogs(WrApp *app);
-void wr_dialog_help(WrApp *app);
-void wr_dialog_close(WrApp *app);
-/* The operation of an action "adjust_NAME", or NULL. */
-const WrOpInfo *wr_action_op(const char *name);
-void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op);
-void wr_dialog_adjust(WrApp *app);
-void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
-void wr_dialog_select(WrApp *app);
-void wr_dialog_search(WrApp *app);
-void wr_dialog_recover_open(WrApp *app); /* if there is anything to recover */
-void wr_dialog_recover(WrApp *app);
-void wr_recover(WrApp *app, const char *journal);
-void wr_recovery_free(WrRecovery *recovery); /* NULL is fine */
-/* Where a dialog stands whose effect the views show. */
-SDL_Rect wr_dialog_side(const WrApp *app);
-void wr_dialog_open(WrApp *app, WrDialog dialog);
-/* The buttons at the end of a dialog: 1 done, -1 cancelled (also by Escape), 0 neither. */
-int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
+#include "ui/calls.h"

@@ -1,87 +1,156 @@
 /* SPDX-License-Identifier: MIT
-   The brush: gestures become stroke commands. Every sample that the system sends is handed to the
-   session, in one bundle before the next picture. */
-#include "ui/line.h"
+   The brush: gestures become strokes. Freehand, straight lines from the last stroke (Shift and a click) or
+   by a key that is held, picking a height, sizing. */
 #include "ui/state.h"
 
 #include <math.h>
-#include <string.h>
 
-static void sample(WrApp *app, double u, double v)
+#define SNAP_DEG 15.0
+
+static WrSteadyPoint steady_point(const WrPointer *at)
 {
-    wr_array_push(&app->brush.samples, ((WrSample){ .u = u, .v = v, .pressure = 1.0 }));
+    return (WrSteadyPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
 }
 
-static void write_head(const WrBrush *brush, WrText *line)
+static WrPointer pointer_of(const WrPointer *at, const WrSteadyPoint *p)
 {
-    wr_text_add(line, "stroke");
-    wr_line_number(line, "radius", brush->radius);
-    wr_line_number(line, "hardness", brush->hardness);
-    wr_line_number(line, "strength", brush->strength);
-    wr_text_addf(line, " mode=%s", wr_brush_modes[brush->mode].name);
-    if (brush->mode == WR_BRUSH_TO) wr_line_number(line, "to", brush->to);
+    WrPointer out = *at;
+    out.x = p->x;
+    out.y = p->y;
+    out.pressure = p->pressure;
+    out.tilt_x = p->tilt_x;
+    out.tilt_y = p->tilt_y;
+    out.seconds = p->seconds;
+    return out;
 }
+
+void wr_brush_steady_begin(WrApp *app, const WrPointer *at)
+{
+    const WrSettings *s = &app->settings;
+    double length = s->steady == WR_STEADY_STRING ? s->steady_string : s->steady_smooth;
+    WrSteadyPoint p = steady_point(at);
+    wr_steady_begin(&app->brush.steady, (WrSteadyKind)s->steady, length * wr_gui_scale(), &p);
+    app->brush.way_x = app->brush.way_y = 0.0;
+}
+
+void wr_brush_steady_move(WrApp *app, const WrPointer *at,
+                          void (*draw)(WrApp *app, const WrPointer *at))
+{
+    WrSteadyPoint out[WR_STEADY_POINTS], p = steady_point(at);
+    WrBrushHand *hand = &app->brush;
+    int count = wr_steady_move(&hand->steady, &p, out);
+    double dx = at->x - app->hand.at.x, dy = at->y - app->hand.at.y;
+    if (hypot(dx, dy) > 0.5) {
+        hand->way_x = dx;
+        hand->way_y = dy;
+    }
+    for (int i = 0; i < count; i++) {
+        WrPointer to = pointer_of(at, &out[i]);
+        draw(app, &to);
+    }
+    wr_app_redraw(app); /* a string moves though nothing is drawn */
+}
+
+void wr_brush_steady_end(WrApp *app, const WrPointer *at,
+                         void (*draw)(WrApp *app, const WrPointer *at))
+{
+    WrSteadyPoint out;
+    if (wr_steady_end(&app->brush.steady, app->settings.steady_catch_up, &out) == 0) return;
+    WrPointer to = pointer_of(at, &out);
+    draw(app, &to);
+}
+
+/* ---- freehand ---- */
+
+static void draw_at(WrApp *app, const WrPointer *at)
+{
+    double u, v;
+    wr_view_to_uv(&app->view, at->x, at->y, &u, &v);
+    wr_strokes_sample(app, at, u, v);
+}
+
+/* ---- straight lines ---- */
+
+/* Where the line that is aimed ends, in pixels: with Ctrl or Shift at the nearest of 24 directions. */
+static void aim(WrApp *app, const WrPointer *at)
+{
+    WrBrushHand *hand = &app->brush;
+    const WrPointer *from = &app->hand.start;
+    double dx = at->x - from->x, dy = at->y - from->y;
+    if (at->mods & (WR_MOD_CTRL | WR_MOD_SHIFT)) {
+        double step = SNAP_DEG / 57.29577951308232, turn = rint(atan2(dy, dx) / step) * step;
+        double way = dx * cos(turn) + dy * sin(turn);
+        dx = way * cos(turn);
+        dy = way * sin(turn);
+    }
+    wr_view_to_uv(&app->view, from->x, from->y, &hand->line_u, &hand->line_v);
+    wr_view_to_uv(&app->view, from->x + dx, from->y + dy, &hand->to_u, &hand->to_v);
+    if (at->pressure > hand->pressure) hand->pressure = at->pressure;
+    wr_app_redraw(app);
+}
+
+/* The line as it was aimed, however many copies of the cell it crosses: a stroke joins samples by the
+ * shortest way round, so none may be half a cell from the next. The pressure is the most that was. */
+static void draw_line(WrApp *app, const WrPointer *at)
+{
+    WrBrushHand *hand = &app->brush;
+    WrPointer steady = *at;
+    steady.pressure = hand->pressure;
+    double du = hand->to_u - hand->line_u, dv = hand->to_v - hand->line_v;
+    int pieces = (int)fmin(64.0, ceil(fmax(fabs(du), fabs(dv)) / 0.4));
+    WrBrush brush = wr_strokes_brush(app, at);
+    if (!wr_strokes_begin(app, &brush, at)) return;
+    wr_strokes_sample(app, &steady, hand->line_u, hand->line_v);
+    for (int i = 1; i <= pieces; i++)
+        wr_strokes_sample(app, &steady, hand->line_u + du * i / pieces,
+                          hand->line_v + dv * i / pieces);
+    wr_strokes_end(app);
+}
+
+/* ---- the tool ---- */
 
 void wr_brush_press(WrApp *app, const WrPointer *at)
 {
-    if (at->mods & WR_MOD_CTRL) {
+    WrBrushHand *hand = &app->brush;
+    if (app->hand.line) {
+        hand->straight = true;
+        hand->pressure = at->pressure;
+        aim(app, at);
+        return;
+    }
+    if (wr_keys_hold(app->keys, "hold_pick", at->mods)) {
         wr_brush_pick(app, at);
         return;
     }
-    WrText head = { 0 };
-    WrError err;
-    write_head(&app->settings.brush, &head);
-    bool begun = wr_session_stroke_begin(app->session, wr_text_get(&head), &err);
-    wr_text_fini(&head);
-    if (!begun) {
-        wr_app_fail(app, &err);
-        wr_hand_let_go(app);
+    bool joins = wr_keys_hold(app->keys, "hold_size", at->mods) && hand->have_last;
+    double u = hand->last_u, v = hand->last_v;
+    WrBrush brush = wr_strokes_brush(app, at);
+    if (!wr_strokes_begin(app, &brush, at)) {
+        app->hand.grab = WR_GRAB_NONE;
         return;
     }
-    app->hints = false;
-    app->brush.samples.count = 0;
-    if ((at->mods & WR_MOD_SHIFT) && app->brush.have_last)
-        sample(app, app->brush.last_u, app->brush.last_v);
-    sample(app, at->u, at->v);
-    wr_app_redraw(app);
+    wr_brush_steady_begin(app, at);
+    if (joins) wr_strokes_sample(app, at, u, v);
+    draw_at(app, at);
 }
 
 void wr_brush_drag(WrApp *app, const WrPointer *at)
 {
-    if (at->mods & WR_MOD_CTRL && !wr_session_in_stroke(app->session)) {
-        wr_brush_pick(app, at);
-        return;
-    }
-    if (!wr_session_in_stroke(app->session)) return;
-    sample(app, at->u, at->v);
-    wr_app_redraw(app);
-}
-
-void wr_brush_flush(WrApp *app)
-{
-    WrError err;
-    int count = app->brush.samples.count;
-    if (count == 0) return;
-    app->brush.samples.count = 0;
-    if (!wr_session_in_stroke(app->session)) return;
-    if (!wr_session_stroke_add(app->session, app->brush.samples.data, count, &err))
-        wr_app_fail(app, &err);
-    const WrSample *last = &app->brush.samples.data[count - 1];
-    app->brush.last_u = last->u;
-    app->brush.last_v = last->v;
-    app->brush.have_last = true;
+    if (app->brush.straight) aim(app, at);
+    else if (app->brush.drawing) wr_brush_steady_move(app, at, draw_at);
+    else if (wr_keys_hold(app->keys, "hold_pick", at->mods)) wr_brush_pick(app, at);
 }
 
 void wr_brush_release(WrApp *app, const WrPointer *at)
 {
-    (void)at;
-    WrError err;
-    if (!wr_session_in_stroke(app->session)) return;
-    wr_brush_flush(app);
-    if (!wr_session_stroke_end(app->session, &err)) wr_app_fail(app, &err);
-    wr_app_take_notes(app);
-    wr_app_title(app);
-    wr_app_redraw(app);
+    if (app->brush.straight) {
+        app->brush.straight = false;
+        draw_line(app, at);
+        return;
+    }
+    if (!app->brush.drawing) return;
+    wr_brush_steady_end(app, at, draw_at);
+    wr_strokes_end(app);
 }
 
 void wr_brush_pick(WrApp *app, const WrPointer *at)
@@ -101,69 +170,4 @@ void wr_brush_resize(WrApp *app, const WrPointer *at)
     grown = grown < 0.5 ? 0.5 : grown > largest ? largest : grown;
     app->settings.brush.radius = grown < 10.0 ? rint(grown * 10.0) / 10.0 : rint(grown);
     wr_app_redraw(app);
-}
-
-/* ---- outline ---- */
-
-static void outline(double x, double y, double radius, WrColour dark, WrColour light)
-{
-    wr_gui_draw_circle(x, y, radius + 1.0, dark, 1.5);
-    wr_gui_draw_circle(x, y, radius, light, 1.2);
-}
-
-static void cross(double x, double y)
-{
-    double s = wr_gui_scale(), from = 3.0 * s, to = 9.0 * s;
-    for (int pass = 0; pass < 2; pass++) {
-        WrColour colour = pass ? 0xfff4f4f4u : 0xb0000000u;
-        double w = pass ? 1.2 : 3.0;
-        wr_gui_draw_line(x - to, y, x - from, y, colour, w);
-        wr_gui_draw_line(x + from, y, x + to, y, colour, w);
-        wr_gui_draw_line(x, y - to, x, y - from, colour, w);
-        wr_gui_draw_line(x, y + from, x, y + to, colour, w);
-    }
-}
-
-/* Inside the real cell: what the stroke touches there from the other side of an edge, or from a copy. */
-static void outline_in_cell(const WrApp *app, double x, double y, double radius)
-{
-    const WrField *field = wr_app_field(app);
-    WrShift copies[WR_VIEW_COPIES];
-    int count =
-        wr_view_outline_copies(&app->view, wr_field_wrap_u(field) == WR_WRAP_PERIODIC,
-                               wr_field_wrap_v(field) == WR_WRAP_PERIODIC, x, y, radius, copies);
-    double x0, y0, x1, y1;
-    wr_view_to_pixel(&app->view, 0, 0, &x0, &y0);
-    wr_view_to_pixel(&app->view, app->view.table_w, app->view.table_h, &x1, &y1);
-    SDL_Rect cell = { (int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0) };
-    wr_gui_draw_clip(cell);
-    for (int i = 0; i < count; i++) {
-        if (copies[i].dx == 0.0 && copies[i].dy == 0.0) continue;
-        double px, py;
-        wr_view_to_pixel(&app->view, x + copies[i].dx, y + copies[i].dy, &px, &py);
-        outline(px, py, radius * app->view.zoom, 0x60000000u, 0x90f4f4f4u);
-    }
-    wr_gui_draw_unclip();
-}
-
-void wr_brush_overlay(WrApp *app)
-{
-    const WrBrush *brush = &app->settings.brush;
-    const WrPointer *at = app->hand.grab == WR_GRAB_RESIZE ? &app->hand.start : &app->hand.at;
-    double x, y, radius = brush->radius * app->view.zoom;
-    wr_view_to_texel(&app->view, at->x, at->y, &x, &y);
-    if (radius < 3.0 * wr_gui_scale()) {
-        cross(at->x, at->y);
-        return;
-    }
-    outline_in_cell(app, x, y, brush->radius);
-    outline(at->x, at->y, radius, 0xb0000000u, 0xfff4f4f4u);
-    if (app->hand.grab != WR_GRAB_RESIZE) return;
-    char text[48];
-    snprintf(text, sizeof text, "%.4g px", 2.0 * brush->radius);
-    double w = wr_gui_text_width(WR_FONT_TEXT, text), h = wr_gui_line_height(WR_FONT_TEXT);
-    double pad = 6.0 * wr_gui_scale();
-    wr_gui_draw_fill(at->x - w / 2 - pad, at->y - h / 2 - pad, w + 2 * pad, h + 2 * pad,
-                     WR_COLOUR_CHIP, 3.0);
-    wr_gui_draw_text(at->x - w / 2, at->y - h / 2, WR_FONT_TEXT, WR_COLOUR_STRONG, text);
 }

@@ -23,7 +23,7 @@ static Shape shape_of(const WrApp *app)
 
 static void texel_at(const WrApp *app, const WrPointer *at, double *x, double *y)
 {
-    wr_view_to_texel(&app->view, at->x + 0.5, at->y + 0.5, x, y);
+    wr_view_to_texel(&app->view, at->x, at->y, x, y);
 }
 
 static WrSelectPoint point_of(const WrApp *app, double x, double y)

@@ -2,11 +2,13 @@
 #include "ui/trial.h"
 
 #include "base/memory.h"
+#include "brush/tip.h"
 #include "ui/job.h"
 
 typedef struct Work {
     WrDocument *document; /* a snapshot of its own, changed by the work */
     WrTrialAsk ask;
+    WrBrush brush;  /* of a dab; ask.dab points to it */
     WrField *field; /* the result; NULL: none */
     WrError err;
     bool cancelled;
@@ -24,6 +26,7 @@ static void drop(void *arg)
     Work *work = arg;
     wr_document_free(work->document);
     wr_field_free(work->field);
+    if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a share of its own */
     wr_free(work);
 }
 
@@ -65,6 +68,17 @@ static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError
     return true;
 }
 
+static void dab(Work *work, WrPool *pool)
+{
+    WrDocument *document = work->document;
+    WrLayer *layer = &document->layers[document->active];
+    WrBrushGround ground = { .field = layer->heights,
+                             .mark = layer->cover,
+                             .selection = document->selection,
+                             .pool = pool };
+    wr_brush_dab_on(&ground, &work->brush, work->ask.u, work->ask.v);
+}
+
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     Work *work = arg;
@@ -74,6 +88,8 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
             work->cancelled = wr_progress_cancelled(progress);
             return;
         }
+    } else if (ask->dab) {
+        dab(work, pool);
     } else {
         WrLayer *layer = &work->document->layers[ask->layer];
         layer->blend = ask->blend;
@@ -106,6 +122,12 @@ void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *
     Work *work = wr_alloc(1, sizeof *work);
     work->document = wr_document_share(document);
     work->ask = *ask;
+    if (ask->dab) {
+        work->brush = *ask->dab;
+        work->brush.preset = NULL;
+        work->brush.tip = ask->dab->tip ? wr_tip_share(ask->dab->tip) : NULL;
+        work->ask.dab = &work->brush;
+    }
     trial->failed = false;
     wr_job_start(trial->job, work);
 }

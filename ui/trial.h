@@ -2,6 +2,7 @@
    that the document is never touched and the window never waits.
    All calls come from the window's thread. */
 #pragma once
+#include "brush/brush.h"
 #include "document/document.h"
 #include "field/ops.h"
 
@@ -18,7 +19,12 @@ typedef struct WrTrialAsk {
     double param[WR_OP_PARAMS];
     bool all_layers;
 
-    int layer; /* a layer with other settings */
+    const WrBrush
+        *dab; /* or a dab of this brush at u, v on the active layer; copied, its tip shared;
+                           presets do not count */
+    double u, v;
+
+    int layer; /* or a layer with other settings */
     WrBlend blend;
     float opacity, radius;
 } WrTrialAsk;

@@ -204,3 +204,21 @@ void wr_text_add_json_number(WrText *text, double value)
     if (!isfinite(value)) wr_text_add(text, "null");
     else wr_text_add_number(text, value + 0.0); /* no negative zero */
 }
+
+int wr_text_distance(const char *a, const char *b)
+{
+    int n = (int)strnlen(a, WR_WORD_MAX), m = (int)strnlen(b, WR_WORD_MAX);
+    int d[WR_WORD_MAX + 1][WR_WORD_MAX + 1];
+    for (int i = 0; i <= n; i++) d[i][0] = i;
+    for (int j = 0; j <= m; j++) d[0][j] = j;
+    for (int i = 1; i <= n; i++)
+        for (int j = 1; j <= m; j++) {
+            int best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            if (d[i - 1][j] + 1 < best) best = d[i - 1][j] + 1;
+            if (d[i][j - 1] + 1 < best) best = d[i][j - 1] + 1;
+            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped && d[i - 2][j - 2] + 1 < best) best = d[i - 2][j - 2] + 1;
+            d[i][j] = best;
+        }
+    return d[n][m];
+}

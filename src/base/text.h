@@ -33,6 +33,11 @@ void wr_text_add_number(WrText *text, double value);
    inf or nan, no surrounding space. Values beyond the range of double are refused. */
 bool wr_number_parse(const char *text, size_t length, double *value);
 
+/* Edits that make one word another: insertions, deletions, changes, swaps of neighbours. Of words longer
+   than WR_WORD_MAX bytes only so much is compared. */
+#define WR_WORD_MAX 63
+int wr_text_distance(const char *a, const char *b);
+
 /* A JSON string with its quotes; invalid UTF-8 bytes become U+FFFD. */
 void wr_text_add_json_string(WrText *text, const char *bytes);
 /* A JSON number with up to 17 digits, or null when not finite. */

@@ -1,14 +1,18 @@
-#include "brush/paint.h"
+#include <stdalign.h>
 
-const WrBrushModeInfo wr_brush_modes[WR_BRUSH_MODE_COUNT] = {
-    [WR_BRUSH_RAISE] = { "raise", "Raise", "adds strength to the height" },
-    [WR_BRUSH_LOWER] = { "lower", "Lower", "takes strength from the height" },
-    [WR_BRUSH_TO] = { "to", "Level", "brings the height towards a given one, by strength at most" },
-};
+#include "base/memory.h"
+#include "brush/make.h"
+#include "brush/paint.h"
 
 WrBrush wr_brush_default(void)
 {
-    return (WrBrush){ .radius = 16.0, .hardness = 0.5, .strength = 0.1, .mode = WR_BRUSH_RAISE };
+    return (WrBrush){ .radius = 16.0,
+                      .hardness = 0.5,
+                      .strength = 0.1,
+                      .mode = WR_BRUSH_RAISE,
+                      .opacity = 1.0,
+                      .flow = 1.0,
+                      .aspect = 1.0 };
 }
 
 double wr_brush_coverage(const WrBrush *brush, double d)
@@ -21,22 +25,106 @@ double wr_brush_coverage(const WrBrush *brush, double d)
     return cover[0];
 }
 
-void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v)
+static void dab_by_stroke(const WrBrushGround *ground, const WrBrush *brush, double u, double v)
 {
-    WrPaint paint = { .field = field,
-                      .brush = wr_brush_sane(brush),
-                      .kernels = wr_brush_kernels() };
-    double x, y;
-    if (wr_paint_place(field, u, v, &x, &y)) wr_paint_motion(&paint, x, y, 0.0, 0.0, 1.0, 1.0);
+    WrStroke *stroke = wr_stroke_new_on(ground, brush);
+    wr_stroke_add(stroke, (WrSample){ .u = u, .v = v, .pressure = 1.0 });
+    wr_stroke_free(stroke);
 }
 
 void wr_brush_dab_on(const WrBrushGround *ground, const WrBrush *brush, double u, double v)
 {
-    if (!ground->mark && !ground->selection) {
-        wr_brush_dab(ground->field, brush, u, v);
-        return;
+    WrBrush sane = wr_brush_sane(brush);
+    double x, y;
+    if (ground->mark || ground->selection || !wr_paint_is_plain(&sane))
+        dab_by_stroke(ground, brush, u, v);
+    else if (wr_paint_place(ground->field, u, v, &x, &y)) wr_paint_dab(ground->field, &sane, x, y);
+}
+
+void wr_brush_dab(WrField *field, const WrBrush *brush, double u, double v)
+{
+    wr_brush_dab_on(&(WrBrushGround){ .field = field }, brush, u, v);
+}
+
+/* Tiles of a shape in a row of tiles, for several threads. */
+typedef struct Filling {
+    const WrMaker *maker;
+    WrMake makes[WR_FIELD_MAX / WR_TILE];
+    int count;
+} Filling;
+
+static void fill_one(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Filling *filling = ctx;
+    WrMake make = filling->makes[index];
+    const WrMaker *maker = filling->maker;
+    /* whole blocks, of which texels beyond the table's edge get nothing */
+    float *inside = NULL, *target = NULL;
+    if (make.count % WR_BRUSH_BLOCK) {
+        inside = wr_alloc(WR_TILE * WR_TILE, sizeof *inside);
+        for (int y = 0; y <= make.high_y; y++)
+            for (int x = 0; x < make.count; x++)
+                inside[y * WR_TILE + x] = make.cover[y * WR_TILE + x];
+        make.cover = inside;
+        make.count = (make.count / WR_BRUSH_BLOCK + 1) * WR_BRUSH_BLOCK;
     }
-    WrStroke *stroke = wr_stroke_new_on(ground, brush);
-    wr_stroke_add(stroke, (WrSample){ .u = u, .v = v, .pressure = 1.0 });
-    wr_stroke_free(stroke);
+    if (maker->targets.kind != WR_TARGET_NONE) {
+        target = wr_alloc(WR_TILE * WR_TILE, sizeof *target);
+        wr_target_tile(&maker->targets, make.tx, make.ty, target);
+        make.target = target;
+    }
+    wr_make(maker, &make);
+    wr_free(target);
+    wr_free(inside);
+}
+
+/* flat: [WR_TILE * WR_TILE] of the coverage's level */
+static void fill_row(Filling *filling, const WrField *coverage, int ty, const float *flat)
+{
+    const WrMaker *maker = filling->maker;
+    filling->count = 0;
+    for (int tx = 0; tx < wr_field_tiles_u(coverage); tx++) {
+        const float *cover = wr_field_tile(coverage, tx, ty);
+        int width = wr_field_width(coverage) - tx * WR_TILE;
+        int height = wr_field_height(coverage) - ty * WR_TILE;
+        WrMake make = { .tx = tx,
+                        .ty = ty,
+                        .high_y = (height < WR_TILE ? height : WR_TILE) - 1,
+                        .count = width < WR_TILE ? width : WR_TILE,
+                        .cover = cover ? cover : flat };
+        if (!wr_make_needed(maker, &make)) continue;
+        wr_make_open(maker, &make);
+        filling->makes[filling->count++] = make;
+    }
+    wr_pool_run(filling->count > 4 ? maker->ground.pool : NULL, filling->count, fill_one, filling);
+}
+
+bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrField *coverage,
+                   double first_u, double first_v, WrError *err)
+{
+    WrBrush sane = wr_brush_sane(brush);
+    if (!wr_mode_work(sane.mode)->cover)
+        return wr_fail(err, "mode=%s: moves heights along a path; a shape takes one that covers",
+                       wr_brush_modes[sane.mode].name);
+    if (wr_field_width(coverage) != wr_field_width(ground->field) ||
+        wr_field_height(coverage) != wr_field_height(ground->field))
+        return wr_fail(err, "a shape of %dx%d: must be of the table's size, %dx%d",
+                       wr_field_width(coverage), wr_field_height(coverage),
+                       wr_field_width(ground->field), wr_field_height(ground->field));
+    if (sane.strength == 0.0 && wr_mode_work(sane.mode)->as_strong) return true;
+    sane.buildup = false; /* once */
+    WrMaker maker;
+    wr_maker_init(&maker, ground, &sane);
+    double x, y;
+    if (wr_paint_place(ground->field, first_u, first_v, &x, &y)) wr_maker_first(&maker, x, y);
+    float *flat = wr_alloc(WR_TILE * WR_TILE, sizeof *flat);
+    for (int k = 0; k < WR_TILE * WR_TILE; k++) flat[k] = wr_field_level(coverage);
+    Filling *filling = wr_alloc(1, sizeof *filling);
+    filling->maker = &maker;
+    for (int ty = 0; ty < wr_field_tiles_v(coverage); ty++) fill_row(filling, coverage, ty, flat);
+    wr_free(filling);
+    wr_free(flat);
+    wr_maker_fini(&maker);
+    return true;
 }

@@ -20,6 +20,8 @@ WrCapsule wr_capsule(const WrBrush *brush, double x, double y, double dx, double
     } else { /* no direction: a dab, as strong as the stronger end */
         c.dx = c.dy = c.growth = 0.0;
         c.pressure = pressure_end > pressure_start ? pressure_end : pressure_start;
+        double s = (c.radius - sqrt(c.inner2)) * c.inverse_edge; /* as the kernels do it */
+        c.most = (float)(c.pressure * (s * s * (3.0 - 2.0 * s)));
     }
     return c;
 }

@@ -12,6 +12,7 @@ typedef struct WrCapsule {
     double radius2, inner2;  /* their squares */
     double inverse_length2;  /* 1/(dx^2 + dy^2); 0 for a dab */
     double inverse_edge;     /* 1/(radius - inner) */
+    float most;              /* coverage within the inner radius, of a dab */
 } WrCapsule;
 
 /* The brush must be one that wr_brush_sane returned, and not thin. */

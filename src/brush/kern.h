@@ -8,12 +8,28 @@
 #define WR_BRUSH_BLOCK 16    /* texels */
 #define WR_BRUSH_STRONG 1e30 /* table units */
 
+/* A dab that is not round, or whose falloff is libmypaint's. */
+typedef struct WrEllipse {
+    double x, y;                                /* centre */
+    double ux, uy;                              /* the long axis, unit, y down */
+    double aspect, radius2;                     /* length over breadth; half the length, squared */
+    double radius, inner, inner2, inverse_edge; /* of the round brush's falloff, as in WrCapsule */
+    double a, b, c; /* a ex^2 + 2 b ex ey + c ey^2 is the square of the distance */
+    float alpha, hardness, slope_in, slope_out; /* 1/k - 1, k/(1 - k) of hardness k */
+    float inverse_radius2;
+    bool rounded; /* the round brush's falloff */
+} WrEllipse;
+
 typedef struct WrBrushKernels {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
 
     /* cover[i] = coverage times pressure of texel (x + i, y); for motions of length 0, and others. */
     void (*dab)(const WrCapsule *capsule, double y, double x, int count, float *cover);
     void (*motion)(const WrCapsule *capsule, double y, double x, int count, float *cover);
+
+    /* The same for an ellipse: the round brush's falloff, libmypaint's (dab.h). */
+    void (*ellipse)(const WrEllipse *ellipse, double y, double x, int count, float *cover);
+    void (*soft)(const WrEllipse *ellipse, double y, double x, int count, float *cover);
 
     /* What `dab` and then `add` do to heights[i]. */
     void (*dab_add)(const WrCapsule *capsule, double y, double x, int count, double strength,
@@ -24,6 +40,20 @@ typedef struct WrBrushKernels {
     bool (*below)(const float *cover, float most, int count);
     /* cover[i] = the larger of it and fresh[i] */
     void (*join)(float *cover, const float *fresh, int count);
+
+    /* cover[i] = 1 - (1 - cover[i]) (1 - fresh[i]) */
+    void (*over)(float *cover, const float *fresh, int count);
+    /* cover[i] + rest[i] = the same and fresh[i], in twice float's precision */
+    void (*sum)(float *cover, float *rest, const float *fresh, int count);
+    /* What `soft` and then `over` do. */
+    void (*soft_over)(const WrEllipse *ellipse, double y, double x, int count, float *cover);
+
+    /* Heights flow between each texel and four neighbours, by a fifth of the difference times the
+     * smaller of both weights. f and w point into rows with `stride` texels before and after;
+     * f_up, w_up, f_down, w_down: the rows `stride` away. |differences| may be beyond float's range.
+     * count: any. */
+    void (*flow)(const float *f, const float *w, const float *f_up, const float *w_up,
+                 const float *f_down, const float *w_down, int stride, int count, float *out);
 
     /* out[i] = start[i] + strength cover[i]; where cover[i] is 0 the bits of start[i]. |strength| at most
      * WR_BRUSH_STRONG, so that nothing overflows. start may be out itself. */

@@ -39,13 +39,28 @@ static inline float raised(double strength, float start, float cover)
     return cover > 0.0f ? made : start;
 }
 
+/* Whether the block of texels from x on lies nearer than the inner radius: there the squared distance is
+ * cut to one and the same number, so coverage is the same, bit for bit. */
+static inline bool is_flat(const WrCapsule *c, double ey2, double x)
+{
+    double left = fabs(x - c->x), right = fabs(x + (WR_BRUSH_BLOCK - 1) - c->x);
+    double far = left > right ? left : right;
+    return far * far + ey2 < c->inner2;
+}
+
 static void dab(const WrCapsule *capsule, double y, double x, int count, float *restrict cover)
 {
     const WrCapsule c = *capsule;
     double ey = y - c.y, ey2 = ey * ey;
-    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK) {
+        if (is_flat(&c, ey2, x + b)) {
+#pragma omp simd
+            for (int i = b; i < b + WR_BRUSH_BLOCK; i++) cover[i] = c.most;
+            continue;
+        }
 #pragma omp simd
         for (int i = b; i < b + WR_BRUSH_BLOCK; i++) cover[i] = dab_cover(&c, ey2, x, i);
+    }
 }
 
 static void dab_add(const WrCapsule *capsule, double y, double x, int count, double strength,
@@ -53,10 +68,17 @@ static void dab_add(const WrCapsule *capsule, double y, double x, int count, dou
 {
     const WrCapsule c = *capsule;
     double ey = y - c.y, ey2 = ey * ey;
-    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK) {
+        if (is_flat(&c, ey2, x + b)) {
+#pragma omp simd
+            for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
+                heights[i] = raised(strength, heights[i], c.most);
+            continue;
+        }
 #pragma omp simd
         for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
             heights[i] = raised(strength, heights[i], dab_cover(&c, ey2, x, i));
+    }
 }
 
 static void motion(const WrCapsule *capsule, double y, double x, int count, float *restrict cover)
@@ -72,6 +94,98 @@ static void motion(const WrCapsule *capsule, double y, double x, int count, floa
             double ex = px - t * c.dx, ey = py - t * c.dy;
             cover[i] = (float)((c.pressure + t * c.growth) * profile(&c, ex * ex + ey * ey));
         }
+}
+
+/* The square of the distance to an ellipse's centre, its short axis stretched to the long one. The sums
+ * are such that mirror images and quarter turns give the same bits. */
+static inline double ellipse_d2(const WrEllipse *e, double ex, double ey)
+{
+    double along = ex * e->ux + ey * e->uy, across = (ey * e->ux - ex * e->uy) * e->aspect;
+    return along * along + across * across;
+}
+
+static void ellipse(const WrEllipse *ellipse, double y, double x, int count, float *restrict cover)
+{
+    const WrEllipse e = *ellipse;
+    const WrCapsule c = {
+        .radius = e.radius, .radius2 = e.radius2, .inner2 = e.inner2, .inverse_edge = e.inverse_edge
+    };
+    double ey = y - e.y, alpha = e.alpha;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
+            cover[i] = (float)(alpha * profile(&c, ellipse_d2(&e, (x + steps[i]) - e.x, ey)));
+}
+
+/* libmypaint's falloff of q = (d/R)^2: two straight lines that meet at q = hardness. */
+static inline float soft_at(const WrEllipse *e, double ex, double ey)
+{
+    float q = (float)ellipse_d2(e, ex, ey) * e->inverse_radius2;
+    float near = 1.0f - q * e->slope_in, far = (1.0f - q) * e->slope_out;
+    float value = q <= e->hardness ? near : far;
+    return e->alpha * (value > 0.0f ? value : 0.0f);
+}
+
+static void soft(const WrEllipse *ellipse, double y, double x, int count, float *restrict cover)
+{
+    const WrEllipse e = *ellipse;
+    double ey = y - e.y;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
+            cover[i] = soft_at(&e, (x + steps[i]) - e.x, ey);
+}
+
+static void soft_over(const WrEllipse *ellipse, double y, double x, int count,
+                      float *restrict cover)
+{
+    const WrEllipse e = *ellipse;
+    double ey = y - e.y;
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
+            cover[i] += (1.0f - cover[i]) * soft_at(&e, (x + steps[i]) - e.x, ey);
+}
+
+static void over(float *restrict cover, const float *restrict fresh, int count)
+{
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++) cover[i] += (1.0f - cover[i]) * fresh[i];
+}
+
+/* What the sum's rounding loses goes to the rest. */
+static void sum(float *restrict cover, float *restrict rest, const float *restrict fresh, int count)
+{
+    for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_BRUSH_BLOCK; i++) {
+            float a = cover[i], more = fresh[i] + rest[i], s = a + more;
+            float back = s - a;
+            rest[i] = (a - (s - back)) + (more - back);
+            cover[i] = s;
+        }
+}
+
+/* What flows from b to a: an eighth is exact, and keeps differences within float's range. The two sides
+ * of a pair see the same number with the other sign. */
+static inline float flux(float fa, float wa, float fb, float wb)
+{
+    float w = wa < wb ? wa : wb;
+    return (1.6f * w) * (0.125f * fb - 0.125f * fa);
+}
+
+static void flow(const float *f, const float *w, const float *f_up, const float *w_up,
+                 const float *f_down, const float *w_down, int stride, int count,
+                 float *restrict out)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        float across = flux(f[i], w[i], f[i - stride], w[i - stride]) +
+                       flux(f[i], w[i], f[i + stride], w[i + stride]);
+        float down = flux(f[i], w[i], f_up[i], w_up[i]) + flux(f[i], w[i], f_down[i], w_down[i]);
+        out[i] = (f[i] + across) + down; /* in this order nothing overflows */
+    }
 }
 
 static bool grows(const float *cover, const float *fresh, int count)
@@ -112,6 +226,12 @@ const WrBrushKernels WR_BRUSH_TABLE = {
     .dab = dab,
     .dab_add = dab_add,
     .motion = motion,
+    .ellipse = ellipse,
+    .soft = soft,
+    .over = over,
+    .sum = sum,
+    .soft_over = soft_over,
+    .flow = flow,
     .grows = grows,
     .below = below,
     .join = join,

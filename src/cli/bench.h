@@ -58,4 +58,20 @@ typedef struct WrBenchFile {
 } WrBenchFile;
 bool wr_bench_file(WrBenchFile *file, WrError *err);
 
+/* How soon a motion of the pen is seen in the window, as rows of text; nothing where there is no window. */
+bool wr_bench_window(const WrCli *cli, bool quick, WrText *text, WrError *err);
+
+/* Dabs of one radius, dabs a second on one thread: medians. */
+typedef struct WrBenchBrush {
+    int table;
+    double radius;
+    double peer;   /* libmypaint's own surface */
+    double engine; /* its engine with the same brush and motion, into our tiles */
+    double round;  /* our round brush, as far apart */
+} WrBenchBrush;
+bool wr_bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds, WrError *err);
+/* All radii, as lines and as a table. */
+bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *err);
+bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *err);
+
 double wr_bench_median(double *values, int count); /* sorts values */

@@ -37,6 +37,7 @@ struct WrCli {
     int do_count;
     const char **ats; /* --at, in order */
     int at_count;
+    const char *noise; /* --noise: a command line; NULL: none */
     int threads;       /* 0: one a processor */
     const char *isa;   /* NULL: auto */
     const char *out;   /* -o */
@@ -48,6 +49,9 @@ struct WrCli {
     double turn_deg;   /* degrees a frame */
     int face;          /* --face */
     bool json;
+    const char *sheet;      /* --sheet */
+    const char *thumbnails; /* --thumbnails */
+    const char *collection; /* --collection */
 
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
@@ -60,8 +64,10 @@ typedef enum WrOption {
     WR_OPTION_FRAMES,
     WR_OPTION_TURN,
     WR_OPTION_AT,
+    WR_OPTION_NOISE,
     WR_OPTION_FACE,
     WR_OPTION_JSON,
+    WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;
@@ -97,5 +103,6 @@ int wr_cli_export(const WrCli *cli);
 int wr_cli_inspect(const WrCli *cli);
 int wr_cli_explain(const WrCli *cli);
 int wr_cli_recover(const WrCli *cli);
+int wr_cli_brushes(const WrCli *cli);
 int wr_cli_bench(const WrCli *cli); /* reads its own options from words */
 int wr_cli_help_command(const WrCli *cli);

@@ -65,7 +65,7 @@ static bool bench_lines(const WrCli *cli, const Options *options, WrText *text, 
                              wr_bench_modes[rows[i].mode], rows[i].table, rows[i].threads,
                              rows[i].ms);
         }
-    return true;
+    return wr_bench_brush_lines(cli, options->quick, text, err);
 }
 
 static void print_frames(WrText *text, const WrBenchRow *rows, int count)
@@ -157,8 +157,10 @@ static bool bench_table(const WrCli *cli, const Options *options, WrText *text, 
         return false;
     print_frames(text, rows, count);
     print_ratios(text, rows, count);
-    return bench_strokes(cli, options, text, err) && bench_edits(cli, options, text, err) &&
-           bench_files(options, text, err);
+    return bench_strokes(cli, options, text, err) &&
+           wr_bench_brush_table(cli, options->quick, text, err) &&
+           bench_edits(cli, options, text, err) && bench_files(options, text, err) &&
+           wr_bench_window(cli, options->quick, text, err);
 }
 
 int wr_cli_bench(const WrCli *cli)

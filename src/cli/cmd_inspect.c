@@ -1,7 +1,9 @@
 #include "cli/cli.h"
 
 #include "base/memory.h"
+#include "command/generate.h"
 #include "document/document_file.h"
+#include "generate/noise_rows.h"
 #include "shade/bump.h"
 
 #include <errno.h>
@@ -88,6 +90,25 @@ static void add_point(WrText *text, bool json, const Quantities *q)
     if (json) wr_text_add(text, "}\n");
 }
 
+/* What a noise command describes: N and its slopes, and the heights F = level + amplitude N that it makes. */
+static void add_noise(WrText *text, bool json, const WrNoiseMaker *maker, double u, double v)
+{
+    WrNoiseReading r;
+    wr_noise_maker_at(maker, u, v, &r);
+    if (json) wr_text_add(text, "{");
+    else if (text->length) wr_text_add(text, "\n");
+    add_number(text, json, "u", u);
+    add_number(text, json, "v", v);
+    add_number(text, json, "noise", r.n);
+    add_number(text, json, "noise_u", r.nu);
+    add_number(text, json, "noise_v", r.nv);
+    add_number(text, json, "F", r.f);
+    add_number(text, json, "Fu", r.fu);
+    add_number(text, json, "Fv", r.fv);
+    add_number(text, json, "octaves", maker->plan.used);
+    if (json) wr_text_add(text, "}\n");
+}
+
 /* {"name":"moss","blend":"max","opacity":0.5,...}, bottom first. */
 static void add_layer_json(WrText *text, const WrDocument *document, int index)
 {
@@ -170,31 +191,60 @@ static bool parse_point(const char *text, double *u, double *v, WrError *err)
     return wr_fail(err, "%.60s: must be U,V, two numbers", text);
 }
 
-static bool inspect_one(const WrCli *cli, const WrDocument *document, const char *at, WrText *text,
-                        WrError *err)
+/* noise: of --noise, or NULL */
+static bool inspect_one(const WrCli *cli, const WrDocument *document, const WrNoiseMaker *noise,
+                        const char *at, WrText *text, WrError *err)
 {
     Quantities q;
     double u, v;
     if (!parse_point(at, &u, &v, err)) return false;
+    if (noise) {
+        add_noise(text, cli->json, noise, u, v);
+        return true;
+    }
     compute(document, cli->face, u, v, &q);
     add_point(text, cli->json, &q);
     return true;
 }
 
 /* Points from standard input, one a line; blank lines do nothing. */
-static bool inspect_input(const WrCli *cli, const WrDocument *document, WrText *text, WrError *err)
+static bool inspect_input(const WrCli *cli, const WrDocument *document, const WrNoiseMaker *noise,
+                          WrText *text, WrError *err)
 {
     char line[256];
     for (int number = 1; fgets(line, sizeof line, stdin); number++) {
         if (*cli->cancel) return wr_fail(err, "cancelled");
         line[strcspn(line, "\r\n")] = '\0';
-        if (*line && !inspect_one(cli, document, line, text, err)) {
+        if (*line && !inspect_one(cli, document, noise, line, text, err)) {
             wr_error_prefix(err, "--at -: line %d: ", number);
             return false;
         }
     }
     if (ferror(stdin)) return wr_fail(err, "standard input: %s", strerror(errno));
     return true;
+}
+
+/* The command line of --noise, for the document's table. */
+static bool read_noise(const WrCli *cli, const WrDocument *document, WrNoiseMaker *maker,
+                       WrError *err)
+{
+    WrCall *call;
+    if (cli->at_count == 0) return wr_fail(err, "--at U,V is missing: which points?");
+    if (!wr_call_parse(cli->noise, false, &call, err)) return false;
+    const WrGenerator *row = wr_call_generator(call);
+    bool good = row && strcmp(row->family, "noise") == 0;
+    if (good) {
+        WrParamValue values[WR_GENERATOR_PARAMS];
+        const WrField *field = wr_document_field(document);
+        wr_call_values(call, row, values);
+        good =
+            wr_noise_maker(row, values, wr_field_width(field), wr_field_height(field), maker, err);
+    } else {
+        wr_fail(err, "%.60s: must be a noise command, such as \"noise perlin cells=4\"",
+                cli->noise);
+    }
+    wr_call_free(call);
+    return good;
 }
 
 static bool inspect(const WrCli *cli, const WrSession *session, WrText *text, WrError *err)
@@ -204,11 +254,17 @@ static bool inspect(const WrCli *cli, const WrSession *session, WrText *text, Wr
     if (cli->face >= surface->faces)
         return wr_fail(err, "--face %d: the %s has %s", cli->face, surface->name,
                        surface->faces == 1 ? "only face 0" : "faces 0..5");
+    WrNoiseMaker maker;
+    const WrNoiseMaker *noise = cli->noise ? &maker : NULL;
+    if (noise && !read_noise(cli, document, &maker, err)) {
+        wr_error_prefix(err, "--noise: ");
+        return false;
+    }
     if (cli->at_count == 0) add_summary(text, cli->json, session);
     for (int i = 0; i < cli->at_count; i++) {
         if (strcmp(cli->ats[i], "-") == 0) {
-            if (!inspect_input(cli, document, text, err)) return false;
-        } else if (!inspect_one(cli, document, cli->ats[i], text, err)) {
+            if (!inspect_input(cli, document, noise, text, err)) return false;
+        } else if (!inspect_one(cli, document, noise, cli->ats[i], text, err)) {
             wr_error_prefix(err, "--at ");
             return false;
         }

@@ -92,6 +92,13 @@ static bool set_at(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
+static bool set_noise(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->noise = value;
+    return true;
+}
+
 static bool set_face(WrCli *cli, const char *value, WrError *err)
 {
     if (parse_whole(value, strlen(value), 0, 5, &cli->face)) return true;
@@ -103,6 +110,27 @@ static bool set_json(WrCli *cli, const char *value, WrError *err)
     (void)value;
     (void)err;
     return cli->json = true;
+}
+
+static bool set_sheet(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "--sheet: the file name is empty");
+    cli->sheet = value;
+    return true;
+}
+
+static bool set_thumbnails(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "--thumbnails: the folder's name is empty");
+    cli->thumbnails = value;
+    return true;
+}
+
+static bool set_collection(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->collection = value;
+    return true;
 }
 
 static bool set_help(WrCli *cli, const char *value, WrError *err)
@@ -138,8 +166,17 @@ static const struct Option {
       "a frame, about the world's y axis (360 over all frames)", set_turn },
     { "--at", NULL, "U,V", WR_OPTION_AT, "a point; repeatable; - reads them from standard input",
       set_at },
+    { "--noise", NULL, "COMMAND", WR_OPTION_NOISE,
+      "the noise of such a command at the points, in place of the surface", set_noise },
     { "--face", NULL, "N", WR_OPTION_FACE, "of a surface of several faces, the cube: 0..5",
       set_face },
+    { "--collection", NULL, "NAME", WR_OPTION_SHEET,
+      "only these: user, wrinkle, mypaint2, mypaint1, or mypaint for both", set_collection },
+    { "--sheet", NULL, "FILE", WR_OPTION_SHEET, "write a picture with a stroke of each preset",
+      set_sheet },
+    { "--thumbnails", NULL, "FOLDER", WR_OPTION_SHEET,
+      "write a small picture of each, NAME_prev.png; without names of our own presets",
+      set_thumbnails },
     { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", set_json },
     { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
       "run a command after FILE is loaded; repeatable, in order", set_do },

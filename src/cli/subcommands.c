@@ -21,8 +21,8 @@ const WrSubcommand wr_subcommands[] = {
     { "export", "export [FILE] --as KIND [name=value...] -o OUT", "the table for other programs",
       BIT(OUT) | BIT(AS), "`wrinkle help export` lists the kinds and what each takes.",
       wr_cli_export },
-    { "inspect", "inspect [FILE] [--at U,V]... [--json]",
-      "every quantity of the formulas at a point", BIT(AT) | BIT(FACE) | BIT(JSON),
+    { "inspect", "inspect [FILE] [--at U,V]... [--noise COMMAND] [--json]",
+      "every quantity of the formulas at a point", BIT(AT) | BIT(NOISE) | BIT(FACE) | BIT(JSON),
       "Without --at: the table's size, the layers and the document's hash. In object space, in "
       "double\n"
       "precision; F, Fu, Fv carry the bump's height and the replication.",
@@ -40,6 +40,14 @@ const WrSubcommand wr_subcommands[] = {
       "back and saves it to OUT. A command that had not ended is tried in a process of its own "
       "first.",
       wr_cli_recover },
+    { "brushes", "brushes [NAME...] [--sheet FILE] [--json]", "the brush presets, and what they do",
+      BIT(SHEET) | BIT(JSON) | BIT(ALL_WORDS),
+      "Without names: all presets that are found, by collection and group. With names: what each "
+      "says\n"
+      "of itself, its brush, and which of its settings are used, mean something else, or are left "
+      "out.\n"
+      "--sheet paints the same stroke with each and shows them lit, with their names.",
+      wr_cli_brushes },
 #ifdef WR_HAVE_BENCH
     { "bench", "bench [options]", "the program's own benchmark", BIT(ALL_WORDS), NULL,
       wr_cli_bench },

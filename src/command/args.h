@@ -1,5 +1,6 @@
 /* args.h - the rows of arguments that the table of commands is made of, by subject: args_table.c,
-   args_layer.c, args_scene.c, args_output.c, args_history.c. Choices, surfaces and export kinds come from the tables of their rooms.
+   args_brush.c, args_layer.c, args_scene.c, args_output.c, args_history.c. Choices, surfaces and export
+   kinds come from the tables of their rooms.
    Layer 6, private to src/command. */
 #pragma once
 #include "command/inner.h"
@@ -17,7 +18,8 @@
 
 /* Each ends with name NULL. */
 extern const WrArgSpec wr_args_table[], wr_args_fill[], wr_args_grid[], wr_args_image[],
-    wr_args_open[], wr_args_dab[], wr_args_stroke[];
+    wr_args_open[];
+extern const WrArgSpec wr_args_brush[], wr_args_dab[], wr_args_stroke[], wr_args_flood[];
 extern const WrArgSpec wr_args_rotate[], wr_args_bump[], wr_args_replicate[], wr_args_material[],
     wr_args_colour[], wr_args_dials[];
 extern const WrArgSpec wr_args_save[], wr_args_export[], wr_args_render[];
@@ -26,4 +28,8 @@ extern const WrArgSpec wr_args_undo[], wr_args_redo[], wr_args_history[], wr_arg
 /* The rows of forms, as in WrCommand. */
 typedef bool WrFormRow(int index, WrForm *out);
 WrFormRow wr_form_layer, wr_form_select, wr_form_adjust, wr_form_surface, wr_form_analytic,
-    wr_form_light, wr_form_camera, wr_form_export;
+    wr_form_light, wr_form_camera, wr_form_export, wr_form_shape, wr_form_ramp;
+/* Of the families of generators: args_generate.c. */
+WrFormRow wr_form_pattern, wr_form_noise, wr_form_formula, wr_form_solid, wr_form_terrain,
+    wr_form_picture;
+bool wr_row_text(WrForm *out);

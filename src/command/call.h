@@ -47,6 +47,12 @@ double wr_call_number(const WrCall *call, const char *name);
 int wr_call_choice(const WrCall *call, const char *name);
 /* Three numbers of a tuple. */
 WrVec3 wr_call_vec3(const WrCall *call, const char *name);
+/* The name of the argument that holds the SHA-256 of the file that argument `index` names: NAME_sha256, or
+ * sha256. NULL if it names none, or one that is not read. */
+const char *wr_call_hash_name(const WrCall *call, int index);
+/* Is argument `index` given, and a file's name? A preset may be one or not. */
+bool wr_call_names_file(const WrCall *call, int index);
+bool wr_names_preset_file(const char *word); /* it ends in .myb */
 /* Set a text argument as if the line had given it. */
 void wr_call_set_text(WrCall *call, const char *name, const char *text);
 /* Append a tuple of `count` numbers to a list argument. */

@@ -42,18 +42,89 @@ const WrCommand wr_commands[] = {
     { .name = "dab",
       .kind = WR_CLASS_EDIT,
       .args = wr_args_dab,
+      .more = wr_args_brush,
       .run = wr_run_dab,
-      .help = "touch the table once with the round brush",
+      .help = "touch the table once with a brush",
+      .details = "With tip= it is a stamp. What is given takes the place of the preset's own.",
       .example = "dab 0.5,0.5 radius=40 strength=0.3" },
     { .name = "stroke",
       .kind = WR_CLASS_EDIT,
       .args = wr_args_stroke,
+      .more = wr_args_brush,
       .run = wr_run_stroke,
-      .help = "draw the round brush along a path",
+      .help = "draw a brush along a path",
       .details =
-          "Each texel is covered at most once by a stroke, by the largest coverage times the "
-          "pen's pressure there (1 where it is left out).",
+          "The modes up to erode make a texel anew from the height that it had when the stroke "
+          "began and the largest coverage it ever had, so crossing one's own stroke does not "
+          "double "
+          "it; flow= below 1, presets and buildup=on add the dabs up instead. smooth, level, pinch "
+          "and smear change what they find, dab by dab. Samples are joined along the shorter way "
+          "round. What is given takes the place of the preset's own. Symmetry draws the whole "
+          "stroke again: mirrors, turns, and a lattice over the cell.",
       .example = "stroke points=0.1,0.5;0.9,0.5,0.4 radius=12 mode=lower" },
+    { .name = "shape",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "KIND",
+      .form = wr_form_shape,
+      .more = wr_args_brush,
+      .run = wr_run_shape,
+      .help = "draw or fill a rectangle, an ellipse, a polygon or a path",
+      .details =
+          "An outline is drawn as a stroke with the brush at full pressure; a closed one meets "
+          "itself without doubling. A fill covers the inside, smooth at its edge, with what the "
+          "mode does to texels that a stroke covers wholly; the brush's radius does not matter, "
+          "and "
+          "modes that move heights cannot fill. Shapes wrap round periodic edges and keep their "
+          "form "
+          "in a cell that is not square.",
+      .example = "shape ellipse middle=0.5,0.5 radii=0.3,0.2 paint=fill strength=0.5" },
+    { .name = "flood",
+      .kind = WR_CLASS_EDIT,
+      .args = wr_args_flood,
+      .run = wr_run_flood,
+      .help = "fill a connected part of about one height",
+      .details = "The part is found in the composite, goes on across periodic edges, and has no "
+                 "soft edge; "
+                 "`select flood` selects it instead, to be feathered or grown.",
+      .example = "flood 0.5,0.5 tolerance=0.05 mode=to to=1 strength=10" },
+    { .name = "ramp",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "KIND",
+      .form = wr_form_ramp,
+      .run = wr_run_ramp,
+      .help = "heights that lead from one place to another",
+      .example = "ramp linear from=0.1,0.5 to=0.6,0.5 fold=on" },
+    { .name = "pattern",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "KIND",
+      .form = wr_form_pattern,
+      .run = wr_run_generate,
+      .help = "bricks, tiles, cloth, cells and other regular things",
+      .details =
+          "They close at the table's edges, and origin= rolls them. What they make joins the "
+          "active "
+          "layer inside the selection, as blend= says: replace, unless the row has another way.",
+      .example = "pattern bricks across=4 rows=10 joint=5" },
+    { .name = "noise",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "KIND",
+      .form = wr_form_noise,
+      .run = wr_run_generate,
+      .help = "sums of value, gradient or simplex noise",
+      .details =
+          "Heights become level + amplitude N, N the sum of octaves of ratio^-i noise, octave i "
+          "with "
+          "cells step^i cells, rounded, so that every octave closes at the table's edges. Octaves "
+          "that would alias are left out. `wrinkle inspect --noise` tells N at any point.",
+      .example = "noise perlin cells=6 octaves=5 amplitude=0.3" },
+    { .name = "formula",
+      .kind = WR_CLASS_EDIT,
+      .form_word = "KIND",
+      .form = wr_form_formula,
+      .run = wr_run_generate,
+      .help = "a polynomial or a Fourier series, texel by texel",
+      .details = "It is what `analytic` shows, as heights that can be painted on.",
+      .example = "formula fourier terms=3,0,0.5;0,5,0.25,90,0" },
     { .name = "open",
       .kind = WR_CLASS_EDIT,
       .args = wr_args_open,
@@ -251,12 +322,14 @@ int wr_command_specs(const WrCommand *command, int form, WrArgSpec out[WR_ARGS_M
 {
     int count = 0;
     WrForm row;
-    if (form >= 0 && command->form && command->form(form, &row))
+    if (form >= 0 && command->form ? command->form(form, &row) : command->row && command->row(&row))
         while (count < WR_ARGS_MAX && row.args[count].name) {
             out[count] = row.args[count];
             count++;
         }
     for (const WrArgSpec *s = command->args; s && s->name && count < WR_ARGS_MAX; s++)
+        out[count++] = *s;
+    for (const WrArgSpec *s = command->more; s && s->name && count < WR_ARGS_MAX; s++)
         out[count++] = *s;
     return count;
 }

@@ -58,14 +58,20 @@ static const char *written_short(const WrArgSpec *spec)
     return spec->type == WR_ARG_TEXT ? "" : written(spec);
 }
 
-void wr_help_usage(const WrCommand *command, int form, WrText *text)
+/* How many of a form's arguments are its own or its command's, rather than those that others have too. */
+static int count_own(const WrCommand *command, int count)
 {
-    WrArgSpec specs[WR_ARGS_MAX];
+    for (const WrArgSpec *s = command->more; s && s->name; s++) count--;
+    return count;
+}
+
+static void add_usage(const WrCommand *command, int form, const WrArgSpec *specs, int count,
+                      WrText *text)
+{
     WrForm row;
     wr_text_add(text, command->name);
     if (form >= 0 && command->form(form, &row)) wr_text_addf(text, " %s", row.name);
     else if (command->form) wr_text_addf(text, " %s", command->form_word);
-    int count = wr_command_specs(command, form, specs);
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < count; i++) {
             const WrArgSpec *s = &specs[i];
@@ -75,6 +81,12 @@ void wr_help_usage(const WrCommand *command, int form, WrText *text)
             if (!s->positional) wr_text_addf(text, "=%s", written_short(s));
             if (!s->required) wr_text_add(text, "]");
         }
+}
+
+void wr_help_usage(const WrCommand *command, int form, WrText *text)
+{
+    WrArgSpec specs[WR_ARGS_MAX];
+    add_usage(command, form, specs, wr_command_specs(command, form, specs), text);
 }
 
 /* Text broken into lines of at most `width` columns, each after `indent` blanks; the first line goes on
@@ -98,6 +110,18 @@ static void add_wrapped(WrText *text, const char *words, int column, int indent,
     wr_text_add(text, "\n");
 }
 
+/* What each word of a choice means, a line each. */
+static void add_meanings(WrText *text, const WrArgSpec *spec)
+{
+    for (int i = 0; spec->explain && wr_arg_word(spec, i); i++) {
+        WrText meaning = { 0 };
+        spec->explain(i, &meaning);
+        wr_text_addf(text, "%21s%-9s ", "", wr_arg_word(spec, i));
+        add_wrapped(text, wr_text_get(&meaning), 31, 31, 96);
+        wr_text_fini(&meaning);
+    }
+}
+
 static void add_argument(WrText *text, const WrCommand *command, int form, const WrArgSpec *spec)
 {
     WrText left = { 0 }, right = { 0 }, value = { 0 };
@@ -105,7 +129,8 @@ static void add_argument(WrText *text, const WrCommand *command, int form, const
                  spec->positional ? "" : written_short(spec));
     if (spec->type == WR_ARG_TEXT && spec->shape) wr_text_addf(&right, "%s: ", spec->shape);
     wr_text_add(&right, spec->help);
-    if ((spec->type < WR_ARG_PATH || spec->type == WR_ARG_LAYER) && !spec->parts) {
+    if ((spec->type < WR_ARG_PATH || spec->type == WR_ARG_LAYER) && !spec->parts &&
+        !spec->explain) {
         wr_text_add(&right, "; ");
         wr_arg_expectation(spec, &right);
     }
@@ -117,29 +142,50 @@ static void add_argument(WrText *text, const WrCommand *command, int form, const
         if (value.length && !spec->required)
             wr_text_addf(&right, " (at first %s)", wr_text_get(&value));
     }
+    if (spec->explain) wr_text_add(&right, ":");
     if (left.length < 15) wr_text_addf(text, "    %-15s", wr_text_get(&left));
     else wr_text_addf(text, "    %s\n%19s", wr_text_get(&left), "");
     add_wrapped(text, wr_text_get(&right), 19, 19, 96);
+    add_meanings(text, spec);
     wr_text_fini(&left);
     wr_text_fini(&right);
     wr_text_fini(&value);
 }
 
+static void add_arguments(WrText *text, const WrCommand *command, int form, const WrArgSpec *specs,
+                          int count)
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < count; i++)
+            if (specs[i].positional == (pass == 0)) add_argument(text, command, form, &specs[i]);
+}
+
+/* What the forms have in common with other commands is told once, behind them all. */
 static void add_form(WrText *text, const WrCommand *command, int form)
 {
     WrArgSpec specs[WR_ARGS_MAX];
     WrForm row;
+    WrText usage = { 0 };
+    int count = wr_command_specs(command, form, specs);
+    if (form >= 0) count = count_own(command, count);
+    add_usage(command, form, specs, count, &usage);
+    if (form >= 0 && command->more) wr_text_add(&usage, " ...");
     wr_text_add(text, "  ");
-    wr_help_usage(command, form, text);
-    wr_text_add(text, "\n");
+    add_wrapped(text, wr_text_get(&usage), 2, 4, 96);
+    wr_text_fini(&usage);
     if (form >= 0 && command->form(form, &row)) {
         wr_text_add(text, "    ");
         add_wrapped(text, row.help, 4, 4, 96);
     }
-    int count = wr_command_specs(command, form, specs);
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < count; i++)
-            if (specs[i].positional == (pass == 0)) add_argument(text, command, form, &specs[i]);
+    add_arguments(text, command, form, specs, count);
+}
+
+static void add_common(WrText *text, const WrCommand *command)
+{
+    int count = 0;
+    while (command->more[count].name) count++;
+    wr_text_add(text, "\n  ... are, for all of them\n");
+    add_arguments(text, command, -1, command->more, count);
 }
 
 static const char *name_at(const void *ctx, int i)
@@ -165,6 +211,7 @@ bool wr_help_command(const char *name, WrText *text, WrError *err)
         if (i > 0) wr_text_add(text, "\n");
         add_form(text, command, i);
     }
+    if (command->form && command->more) add_common(text, command);
     if (command->details) {
         wr_text_add(text, "\n  ");
         add_wrapped(text, command->details, 2, 2, 96);

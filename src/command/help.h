@@ -13,7 +13,7 @@ bool wr_help_command(const char *name, WrText *text, WrError *err);
  *                 "form_word","forms":[{"name","help","args":[ARG...]}...]}...],
  *    "surfaces":[{"name","label","help","params":[ARG...]}...]}
  *   ARG: {"name","type","positional","required","default","keeps","low","high","above","whole",
- *         "components","counts","parts","rows","choices","unit","shape","help"}
+ *         "components","counts","parts","rows","choices","meanings","unit","shape","help"}
  * args of a command with forms are those that all forms share. default is a number, a list of numbers
  * (of lists, for lists) or a string, null without one; keeps: an argument that is left out keeps what
  * the scene has, and default is what a new document has. Members that do not apply are left out. */

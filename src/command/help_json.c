@@ -110,6 +110,22 @@ static void add_range(WrText *text, const WrArgSpec *spec)
     wr_text_addf(text, "],\"rows\":[%d,%d]", spec->rows_low, spec->rows_high);
 }
 
+/* What each word of a choice means, in their order. */
+static void add_meanings(WrText *text, const WrArgSpec *spec)
+{
+    if (!spec->explain) return;
+    add_key(text, "meanings");
+    wr_text_add(text, "[");
+    for (int i = 0; wr_arg_word(spec, i); i++) {
+        WrText meaning = { 0 };
+        spec->explain(i, &meaning);
+        wr_text_add(text, i ? "," : "");
+        wr_text_add_json_string(text, wr_text_get(&meaning));
+        wr_text_fini(&meaning);
+    }
+    wr_text_add(text, "]");
+}
+
 static void add_arg(WrText *text, const WrCommand *command, int form, const WrArgSpec *spec)
 {
     wr_text_add(text, "{");
@@ -127,6 +143,7 @@ static void add_arg(WrText *text, const WrCommand *command, int form, const WrAr
             wr_text_add_json_string(text, wr_arg_word(spec, i));
         }
         wr_text_add(text, "]");
+        add_meanings(text, spec);
     }
     add_string(text, "unit", spec->unit);
     add_string(text, "shape", spec->shape);
@@ -149,13 +166,14 @@ static void add_args(WrText *text, const char *key, const WrCommand *command, in
 static int count_args(const WrArgSpec *specs)
 {
     int count = 0;
-    while (specs && specs[count].name) count++;
+    while (specs[count].name) count++;
     return count;
 }
 
 static void add_command(WrText *text, const WrCommand *command)
 {
     WrForm row;
+    WrArgSpec specs[WR_ARGS_MAX];
     WrText usage = { 0 };
     wr_help_usage(command, -1, &usage);
     wr_text_add(text, "{");
@@ -165,7 +183,8 @@ static void add_command(WrText *text, const WrCommand *command)
     add_string(text, "details", command->details);
     add_string(text, "example", command->example);
     add_string(text, "usage", wr_text_get(&usage));
-    add_args(text, "args", command, -1, command->args, count_args(command->args));
+    int count = wr_command_specs(command, -1, specs);
+    add_args(text, "args", command, -1, specs, count);
     if (command->form) {
         add_string(text, "form_word", command->form_word);
         add_key(text, "forms");

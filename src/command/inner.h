@@ -7,6 +7,25 @@
 #include "document/history.h"
 #include "document/journal.h"
 
+typedef struct WrBrushFiles WrBrushFiles;
+
+/* A brush and what it borrows from. */
+typedef struct WrHeldBrush {
+    WrBrush brush;
+    WrPreset *preset; /* owned; NULL: none */
+    WrTip *tip;       /* owned; NULL: none, or the preset's */
+} WrHeldBrush;
+
+/* Paint under way on the active layer. Zeroed: none. */
+typedef struct WrPainting {
+    WrHeldBrush held;
+    WrBrushGround ground; /* borrows from the document and from below */
+    WrField *below;       /* owned; NULL: not needed */
+    WrField
+        *cover_before; /* erasing must clear heights where the cover goes to 0: the cover as it was;
+                              owned; NULL: it must not */
+} WrPainting;
+
 /* What is replaced as a whole by open and reset, and put back where open fails. */
 typedef struct WrSessionState {
     WrDocument *document; /* owned; between commands, what the history's present state holds */
@@ -34,6 +53,10 @@ struct WrSession {
 
     WrStroke *stroke;    /* open stroke, or NULL; owned */
     WrCall *stroke_call; /* its line so far; owned */
+    WrPainting painting; /* what it paints with and on */
+
+    WrBrushFiles *brush_files; /* presets and tips that were read; made on first use; owned */
+    WR_ARRAY(char *) kept;     /* SHA-256 of the files that the journal has copies of; owned */
 };
 
 /* Say something that is no failure. */
@@ -84,8 +107,6 @@ WrLayer *wr_session_layer(WrSession *session, WrError *err);
 const char *wr_session_layer_name(const WrSession *session, int index, WrText *buffer);
 /* Fails if that layer is locked. */
 bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err);
-/* What paint goes on; false and an error if the active layer is locked or not shown. */
-bool wr_session_ground(WrSession *session, WrBrushGround *ground, WrError *err);
 /* Put `made` (taken) in the place of *field, of the same size, inside the selection. */
 void wr_session_put_field(WrSession *session, WrField **field, WrField *made);
 /* Give a layer new heights of the same size (taken), inside the selection; there it now says something. */
@@ -97,19 +118,60 @@ bool wr_session_find_layer(const WrSession *session, const char *word, int *inde
 
 /* Hash a file that a command reads, compare with what the line says, and write it into the line. */
 bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err);
+/* The same for a file that was hashed already; name: of the argument that holds the hash. */
+bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, const char *hex,
+                          WrError *err);
 /* Read the picture that a line names; checks its sha256= argument, or sets it. The caller owns it. */
 WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err);
 /* Put a document file's content in the place of the session's document, scene included. */
 bool wr_session_load(WrSession *session, const char *path, WrError *err);
-/* The brush that a dab's or stroke's arguments describe. */
-WrBrush wr_call_brush(const WrCall *call);
+
+/* ---- paint: session_paint.c ---- */
+
+/* The brush that a line describes, and the active layer as its ground. Fills in the hashes of the files that
+ * the line names, or compares. False and an error, and nothing to end, if the layer is locked or not shown,
+ * or the brush cannot be had. */
+bool wr_painting_begin(WrSession *session, WrCall *call, WrPainting *painting, WrError *err);
+/* The paint is on: finish what erasing leaves, and let go. After a failure too; fine on a zeroed one. */
+void wr_painting_end(WrSession *session, WrPainting *painting);
+/* Draw a whole stroke of samples, sample(ctx, 0) .. sample(ctx, count - 1). False and an error when
+ * cancelled. */
+typedef WrSample WrSampleAt(const void *ctx, int index);
+bool wr_session_draw(WrSession *session, const WrPainting *painting, WrSampleAt *sample,
+                     const void *ctx, int count, WrError *err);
+/* One of the brush's arguments is given. False where the form has none of that name. */
+bool wr_call_gives(const WrCall *call, const char *name);
+
+/* ---- presets and tips: session_brushes.c ---- */
+
+/* A file that brushes come from. Borrowed until the next call. */
+typedef struct WrBrushFile {
+    const char *path; /* absolute */
+    const char *sha256;
+    const WrPreset *preset; /* or: */
+    const WrTip *tip;
+    const char *tip_path; /* of the preset's own tip, beside it; NULL: none */
+} WrBrushFile;
+/* Read it, or find it among those read before, unless the file has changed since. word: as in a line of the
+ * script whose folder that is (NULL: the current one). */
+bool wr_session_preset_file(WrSession *session, const char *word, const char *folder,
+                            WrBrushFile *file, WrError *err);
+bool wr_session_tip_file(WrSession *session, const char *word, const char *folder,
+                         WrBrushFile *file, WrError *err);
+void wr_brush_files_free(WrBrushFiles *files); /* NULL is fine */
+
+/* The check of set=. */
+bool wr_check_settings(const void *ctx, const char *name, const char *value, WrError *err);
 
 /* The commands' functions, by subject: see commands.c. */
 typedef bool WrHandler(WrSession *session, WrCall *call, WrError *err);
 WrHandler wr_run_table, wr_run_fill, wr_run_grid, wr_run_image, wr_run_open; /* run_table.c */
 WrHandler wr_run_dab, wr_run_stroke;                                         /* run_brush.c */
+WrHandler wr_run_shape;                                                      /* run_figure.c */
+WrHandler wr_run_flood, wr_run_ramp;                                         /* run_flood.c */
 WrHandler wr_run_layer;                                                      /* run_layer.c */
 WrHandler wr_run_select;                                                     /* run_select.c */
+WrHandler wr_run_generate;                                                   /* run_generate.c */
 WrHandler wr_run_adjust;                                                     /* run_adjust.c */
 WrHandler wr_run_analytic, wr_run_surface, wr_run_bump, wr_run_replicate,
     wr_run_rotate; /* run_shape.c */

@@ -104,16 +104,14 @@ static char *with_copies(const char *journal, const char *line)
 {
     WrCall *call = NULL;
     WrText text = { 0 }, copy = { 0 };
-    const char *sha256 = NULL;
     if (!wr_call_parse(line, false, &call, NULL)) return wr_strdup(line);
-    for (int i = 0; i < call->count; i++)
-        if (call->specs[i].type == WR_ARG_SHA256 && call->args[i].given)
-            sha256 = call->args[i].text;
-    for (int i = 0; sha256 && i < call->count; i++) {
+    for (int i = 0; i < call->count; i++) {
         char hex[65];
-        const char *name = call->args[i].text;
-        if (call->specs[i].type != WR_ARG_PATH || !call->args[i].given) continue;
+        const char *name = call->args[i].text, *hash = wr_call_hash_name(call, i);
+        if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
+        const char *sha256 = wr_call_arg(call, hash)->text;
         if (wr_sha256_file(name, hex, NULL) && strcmp(hex, sha256) == 0) continue;
+        wr_text_clear(&copy);
         if (wr_journal_kept_file(journal, sha256, name, &copy, NULL))
             wr_call_set_text(call, call->specs[i].name, wr_text_get(&copy));
     }

@@ -1,41 +1,51 @@
 /* dab, stroke. */
 #include "command/inner.h"
 
-WrBrush wr_call_brush(const WrCall *call)
-{
-    return (WrBrush){ .radius = wr_call_number(call, "radius"),
-                      .hardness = wr_call_number(call, "hardness"),
-                      .strength = wr_call_number(call, "strength"),
-                      .mode = (WrBrushMode)wr_call_choice(call, "mode"),
-                      .to = wr_call_number(call, "to") };
-}
+#define SLICE 0.05 /* seconds between two looks at whether somebody wants it to stop */
 
 bool wr_run_dab(WrSession *session, WrCall *call, WrError *err)
 {
-    WrBrush brush = wr_call_brush(call);
-    WrBrushGround ground;
-    if (!wr_session_ground(session, &ground, err)) return false;
+    WrPainting painting;
+    if (!wr_painting_begin(session, call, &painting, err)) return false;
     const WrArg *at = wr_call_arg(call, "u,v");
-    wr_brush_dab_on(&ground, &brush, at->numbers[0], at->numbers[1]);
+    wr_brush_dab_on(&painting.ground, &painting.held.brush, at->numbers[0], at->numbers[1]);
+    wr_painting_end(session, &painting);
     return true;
+}
+
+bool wr_session_draw(WrSession *session, const WrPainting *painting, WrSampleAt *sample,
+                     const void *ctx, int count, WrError *err)
+{
+    const volatile int *cancel = session->options.cancel;
+    WrStroke *stroke = wr_stroke_new_on(&painting->ground, &painting->held.brush);
+    bool more = true;
+    for (int i = 0; i < count; i++) {
+        wr_stroke_push(stroke, sample(ctx, i));
+        do {
+            if (cancel && *cancel) {
+                wr_stroke_abandon(stroke);
+                return wr_fail(err, "cancelled");
+            }
+            more = wr_stroke_work(stroke, SLICE);
+        } while (more);
+    }
+    wr_stroke_free(stroke);
+    return true;
+}
+
+static WrSample sample_of(const void *ctx, int i)
+{
+    const WrArg *points = ctx;
+    const double *row = points->numbers + (size_t)6 * (size_t)i;
+    return (WrSample){ row[0], row[1], points->counts[i] > 2 ? row[2] : 1, row[3], row[4], row[5] };
 }
 
 bool wr_run_stroke(WrSession *session, WrCall *call, WrError *err)
 {
-    const volatile int *cancel = session->options.cancel;
-    WrBrush brush = wr_call_brush(call);
+    WrPainting painting;
+    if (!wr_painting_begin(session, call, &painting, err)) return false;
     const WrArg *points = wr_call_arg(call, "points");
-    WrBrushGround ground;
-    if (!wr_session_ground(session, &ground, err)) return false;
-    WrStroke *stroke = wr_stroke_new_on(&ground, &brush);
-    bool good = true;
-    for (int i = 0; good && i < points->rows; i++) {
-        const double *row = points->numbers + (size_t)6 * (size_t)i;
-        WrSample sample = { row[0], row[1], points->counts[i] > 2 ? row[2] : 1,
-                            row[3], row[4], row[5] };
-        wr_stroke_add(stroke, sample);
-        if (cancel && *cancel) good = wr_fail(err, "cancelled");
-    }
-    wr_stroke_free(stroke);
+    bool good = wr_session_draw(session, &painting, sample_of, points, points->rows, err);
+    wr_painting_end(session, &painting);
     return good;
 }

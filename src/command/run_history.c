@@ -58,15 +58,13 @@ static const char *seen_from(const char *home, const char *path)
 static void add_line(WrText *text, const char *line, const char *folder, const char *home)
 {
     WrCall *call = NULL;
-    bool hashed = false;
     if (!wr_call_parse(line, false, &call, NULL)) { /* cannot be: it ran */
         wr_text_addf(text, "%s\n", line);
         return;
     }
-    for (int i = 0; i < call->count; i++)
-        hashed |= call->specs[i].type == WR_ARG_SHA256 && call->args[i].given;
-    for (int i = 0; hashed && i < call->count; i++) {
-        if (call->specs[i].type != WR_ARG_PATH || !call->args[i].given) continue;
+    for (int i = 0; i < call->count; i++) {
+        const char *hash = wr_call_hash_name(call, i);
+        if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
         char *full = wr_path_join(folder ? folder : ".", call->args[i].text);
         wr_call_set_text(call, call->specs[i].name, seen_from(home, full));
         wr_free(full);

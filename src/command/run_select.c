@@ -89,6 +89,14 @@ static WrField *select_slope(WrSession *session, const WrCall *call, WrError *er
                            wr_call_number(call, "soft"), session->options.pool, err);
 }
 
+static WrField *select_flood(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrField *f = wr_document_composite(session->state.document, session->options.pool);
+    WrSelectPoint at = point(call, "u,v");
+    return wr_select_flood(f, at.u, at.v, wr_call_number(call, "tolerance"),
+                           wr_call_choice(call, "diagonal") == 1, session->options.pool, err);
+}
+
 /* ---- changes of the present one ---- */
 
 static const WrField *present(const WrSession *session, const WrCall *call, WrError *err)
@@ -120,10 +128,10 @@ static WrField *select_feather(WrSession *session, const WrCall *call, WrError *
 static const struct {
     Maker *make; /* NULL: nothing selected, so edits act everywhere */
     bool joins;  /* has mode= */
-} makers[] = { { select_all, false },    { NULL, false },          { select_invert, false },
-               { select_rect, true },    { select_ellipse, true }, { select_lasso, true },
-               { select_height, true },  { select_slope, true },   { select_grow, false },
-               { select_shrink, false }, { select_feather, false } };
+} makers[] = { { select_all, false },   { NULL, false },          { select_invert, false },
+               { select_rect, true },   { select_ellipse, true }, { select_lasso, true },
+               { select_height, true }, { select_slope, true },   { select_flood, true },
+               { select_grow, false },  { select_shrink, false }, { select_feather, false } };
 
 /* Join what was made (taken) to the present selection. */
 static WrField *join(WrSession *session, const WrCall *call, WrField *made, WrError *err)

@@ -94,12 +94,17 @@ bool wr_run_grid(WrSession *session, WrCall *call, WrError *err)
 bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err)
 {
     char hex[65];
-    if (!wr_sha256_file(path, hex, err)) return false;
-    const WrArg *arg = wr_call_arg(call, "sha256");
+    return wr_sha256_file(path, hex, err) && wr_call_check_sha256(call, "sha256", path, hex, err);
+}
+
+bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, const char *hex,
+                          WrError *err)
+{
+    const WrArg *arg = wr_call_arg(call, name);
     if (arg->given && strcmp(arg->text, hex) != 0)
         return wr_fail(err, "%s: another content than this line was written for: its SHA-256 is %s",
                        path, hex);
-    if (!arg->given) wr_call_set_text(call, "sha256", hex);
+    if (!arg->given) wr_call_set_text(call, name, hex);
     return true;
 }
 

@@ -36,6 +36,7 @@ void wr_session_free(WrSession *session)
     wr_session_journal_drop(session);
     state_fini(&session->state);
     wr_renderer_free(session->renderer);
+    wr_brush_files_free(session->brush_files);
     wr_free((char *)session->options.isa);
     wr_free(session);
 }
@@ -62,8 +63,7 @@ void wr_session_note(WrSession *session, const char *format, ...)
 static char *folder_of(const WrSession *session, const WrCall *call)
 {
     bool names = false;
-    for (int i = 0; i < call->count; i++)
-        names |= call->specs[i].type == WR_ARG_PATH && call->args[i].given;
+    for (int i = 0; i < call->count; i++) names |= wr_call_names_file(call, i);
     if (!names) return NULL;
     char *full = realpath(session->folder ? session->folder : ".", NULL);
     char *kept = wr_strdup(full);

@@ -56,10 +56,19 @@ bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, W
    the selection. A sample with a u or v that is not finite or beyond 1e9 is refused. */
 bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err);
 bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err);
+/* The same in two steps, so that a large brush keeps nobody waiting: journal the samples and take them in,
+   and draw what was taken in for about that long (at least one piece of work). True while more is left to
+   draw. The bits do not depend on how the work was cut. */
+bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int count, WrError *err);
+bool wr_session_stroke_work(WrSession *session, double seconds); /* false without a stroke */
+/* Draws what is left. */
 bool wr_session_stroke_end(WrSession *session, WrError *err); /* no samples: nothing happened */
 void wr_session_stroke_cancel(
     WrSession *session); /* the document is as before it; fine without one */
 bool wr_session_in_stroke(const WrSession *session);
+/* Presets and tips that were read are kept, and read again only where their files changed; which file a
+   preset's bare name means is looked up anew after this. For a program that has written a preset. */
+void wr_session_forget_brushes(WrSession *session);
 
 /* Borrowed until the next call that changes it. */
 const WrDocument *wr_session_document(const WrSession *session);

@@ -64,14 +64,6 @@ WrLayer *wr_session_layer(WrSession *session, WrError *err)
     return &document->layers[document->active];
 }
 
-bool wr_session_ground(WrSession *session, WrBrushGround *ground, WrError *err)
-{
-    WrLayer *layer = wr_session_layer(session, err);
-    if (!layer) return false;
-    *ground = (WrBrushGround){ layer->heights, layer->cover, session->state.document->selection };
-    return true;
-}
-
 void wr_session_put_field(WrSession *session, WrField **field, WrField *made)
 {
     const WrField *selection = session->state.document->selection;

@@ -13,24 +13,73 @@ static void report(void *ctx, const char *text)
     wr_session_note(ctx, "%s", text);
 }
 
+/* ---- copies of files ---- */
+
+static void forget_kept(WrSession *session)
+{
+    for (int i = 0; i < session->kept.count; i++) wr_free(session->kept.data[i]);
+    wr_array_free(&session->kept);
+}
+
+/* Looks for the copy only once: strokes name the same brush again and again. */
+static void keep(WrSession *session, const char *path, const char *sha256)
+{
+    for (int i = 0; i < session->kept.count; i++)
+        if (strcmp(session->kept.data[i], sha256) == 0) return;
+    if (wr_journal_keep_file(session->journal, path, sha256, NULL))
+        wr_array_push(&session->kept, wr_strdup(sha256));
+}
+
+/* A preset looks for its tip beside itself, by its name. */
+static void keep_tip_beside(WrSession *session, const char *path)
+{
+    for (int i = 0; i < session->kept.count; i++)
+        if (strcmp(session->kept.data[i], path) == 0) return;
+    if (wr_journal_keep_named(session->journal, path, NULL))
+        wr_array_push(&session->kept, wr_strdup(path));
+}
+
+/* The file that argument `index` names, and its content. False if it cannot be read, or there is none. */
+static bool file_of(WrSession *session, const WrCall *call, int index, const char *folder,
+                    WrText *path, char hex[65])
+{
+    const char *word = call->args[index].text;
+    WrBrushFile file;
+    if (call->specs[index].type == WR_ARG_PRESET) {
+        if (!wr_session_preset_file(session, word, folder, &file, NULL)) return false;
+        wr_text_add(path, file.path);
+        memcpy(hex, file.sha256, 65);
+        if (file.tip_path) keep_tip_beside(session, file.tip_path);
+        return true;
+    }
+    if (strcmp(call->specs[index].name, "tip") == 0 &&
+        wr_session_tip_file(session, word, folder, &file, NULL)) {
+        wr_text_add(path, file.path);
+        memcpy(hex, file.sha256, 65);
+        return true;
+    }
+    char *seen = wr_path_join(folder ? folder : ".", word), *full = realpath(seen, NULL);
+    bool good = full && wr_sha256_file(full, hex, NULL);
+    if (good) wr_text_add(path, full);
+    free(full);
+    wr_free(seen);
+    return good;
+}
+
 /* Name the files that a line reads by whole paths and their content, and keep copies of them, so that a
    replay depends neither on the folder nor on what becomes of the files. */
 static void name_files(WrSession *session, WrCall *call, const char *folder)
 {
-    const char *hash_name = NULL;
-    for (int i = 0; i < call->count; i++)
-        if (call->specs[i].type == WR_ARG_SHA256) hash_name = call->specs[i].name;
-    for (int i = 0; hash_name && i < call->count; i++) {
-        if (call->specs[i].type != WR_ARG_PATH || !call->args[i].given) continue;
-        char hex[65], *seen = wr_path_join(folder ? folder : ".", call->args[i].text);
-        char *full = realpath(seen, NULL);
-        if (full && wr_sha256_file(full, hex, NULL)) {
+    for (int i = 0; i < call->count; i++) {
+        const char *hash_name = wr_call_hash_name(call, i);
+        WrText path = { 0 };
+        char hex[65];
+        if (hash_name && call->args[i].given && file_of(session, call, i, folder, &path, hex)) {
             if (!wr_call_given(call, hash_name)) wr_call_set_text(call, hash_name, hex);
-            wr_call_set_text(call, call->specs[i].name, full);
-            wr_journal_keep_file(session->journal, full, wr_call_arg(call, hash_name)->text, NULL);
+            wr_call_set_text(call, call->specs[i].name, wr_text_get(&path));
+            keep(session, wr_text_get(&path), wr_call_arg(call, hash_name)->text);
         }
-        free(full);
-        wr_free(seen);
+        wr_text_fini(&path);
     }
 }
 
@@ -38,7 +87,7 @@ static void name_files(WrSession *session, WrCall *call, const char *folder)
 static void journal_line(WrSession *session, const char *line, const char *folder, WrText *text)
 {
     WrCall *call = NULL;
-    if (!wr_call_parse(line, false, &call, NULL)) {
+    if (!wr_call_parse(line, true, &call, NULL)) { /* the head of a stroke has no points yet */
         wr_text_add(text, line);
         return;
     }
@@ -59,7 +108,8 @@ static void begin(WrSession *session)
         start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT, .path = state->path, .sha256 = hex };
     if (wr_history_position(history) == 0) start.hash = wr_session_hash(session);
     session->journal = wr_journal_begin(&options, &start);
-    if (*hex) wr_journal_keep_file(session->journal, state->path, hex, NULL);
+    forget_kept(session);
+    if (*hex) keep(session, state->path, hex);
     session->journal_base = 0;
     session->journal_top = wr_history_position(history);
     /* What was done since: the lines of a script or picture that was opened. */
@@ -114,10 +164,12 @@ void wr_session_journal_stroke_begin(WrSession *session, const WrCall *call)
 {
     if (!journaled(session)) return;
     if (!session->journal) begin(session);
-    WrText head = { 0 };
-    wr_call_print(call, &head);
+    WrText canonical = { 0 }, head = { 0 };
+    wr_call_print(call, &canonical);
+    journal_line(session, wr_text_get(&canonical), session->folder, &head);
     wr_text_add(&head, " points=");
     wr_journal_stroke_begin(session->journal, wr_text_get(&head), NULL);
+    wr_text_fini(&canonical);
     wr_text_fini(&head);
 }
 
@@ -158,12 +210,14 @@ void wr_session_journal_leave(WrSession *session)
 {
     wr_journal_leave(session->journal);
     session->journal = NULL;
+    forget_kept(session);
 }
 
 void wr_session_journal_drop(WrSession *session)
 {
     wr_journal_finish(session->journal);
     session->journal = NULL;
+    forget_kept(session);
 }
 
 /* Begin the journal anew from the document as it is now. */
@@ -179,6 +233,7 @@ static bool restart(WrSession *session, WrError *err)
         wr_document_save(session->state.document, wr_text_get(&scene), wr_text_get(&path), err);
     start.snapshot = wr_text_get(&path);
     good = good && wr_journal_restart(session->journal, &start, err);
+    if (good) forget_kept(session);
     if (good) session->journal_base = session->journal_top = wr_session_history_position(session);
     else wr_journal_put_off(session->journal);
     wr_text_fini(&path);

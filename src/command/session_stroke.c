@@ -14,16 +14,16 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
         wr_call_free(call);
         return wr_fail(err, "a stroke begins with a stroke command without points");
     }
-    WrBrush brush = wr_call_brush(call);
-    WrBrushGround ground;
-    if (!wr_session_ground(session, &ground, err)) {
+    WrPainting painting;
+    if (!wr_painting_begin(session, call, &painting, err)) {
         wr_call_free(call);
         wr_error_prefix(err, "stroke: ");
         return false;
     }
     wr_session_journal_stroke_begin(session, call);
     session->stroke_call = call;
-    session->stroke = wr_stroke_new_on(&ground, &brush);
+    session->painting = painting;
+    session->stroke = wr_stroke_new_on(&session->painting.ground, &session->painting.held.brush);
     return true;
 }
 
@@ -51,7 +51,7 @@ static WrSample round_sample(WrSample s)
                        .seconds = round_decimals(clamp_finite(s.seconds, 0, 1e9), 1e4) };
 }
 
-bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err)
+bool wr_session_stroke_push(WrSession *session, const WrSample *samples, int count, WrError *err)
 {
     if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
     for (int i = 0; i < count; i++)
@@ -66,27 +66,43 @@ bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int coun
         int n = s.seconds != 0 ? 6 : s.tilt_x != 0 || s.tilt_y != 0 ? 5 : s.pressure != 1 ? 3 : 2;
         wr_session_journal_stroke_add(session, (const double(*)[6])row, &n, 1);
         wr_call_add_row(session->stroke_call, "points", row[0], n);
-        wr_stroke_add(session->stroke, s);
+        wr_stroke_push(session->stroke, s);
     }
     return true;
 }
 
-/* What waits in the stroke is drawn when it is freed. */
-static WrCall *close_stroke(WrSession *session)
+bool wr_session_stroke_work(WrSession *session, double seconds)
+{
+    return session->stroke && wr_stroke_work(session->stroke, seconds);
+}
+
+bool wr_session_stroke_add(WrSession *session, const WrSample *samples, int count, WrError *err)
+{
+    if (!wr_session_stroke_push(session, samples, count, err)) return false;
+    while (wr_session_stroke_work(session, 1.0)) {
+    }
+    return true;
+}
+
+/* The line of the stroke, which is no longer open. */
+static WrCall *take_call(WrSession *session)
 {
     WrCall *call = session->stroke_call;
-    wr_stroke_free(session->stroke);
     session->stroke = NULL;
     session->stroke_call = NULL;
     return call;
 }
 
+/* What is left, or waits, is drawn when the stroke is freed. */
 bool wr_session_stroke_end(WrSession *session, WrError *err)
 {
     if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
-    WrCall *call = close_stroke(session);
+    wr_stroke_free(session->stroke);
+    wr_painting_end(session, &session->painting);
+    WrCall *call = take_call(session);
     bool drawn = wr_call_given(call, "points");
     if (drawn) wr_session_remember(session, call);
+    else wr_session_restore(session);
     wr_session_journal_stroke_end(session, drawn);
     wr_call_free(call);
     return true;
@@ -95,7 +111,9 @@ bool wr_session_stroke_end(WrSession *session, WrError *err)
 void wr_session_stroke_cancel(WrSession *session)
 {
     if (!session->stroke) return;
-    wr_call_free(close_stroke(session));
+    wr_stroke_abandon(session->stroke);
+    wr_painting_end(session, &session->painting);
+    wr_call_free(take_call(session));
     wr_session_journal_stroke_end(session, false);
     wr_session_restore(session);
 }

@@ -4,13 +4,14 @@
    Layer 6. */
 #pragma once
 #include "base/text.h"
+#include "generate/generator.h"
 #include "scene/scene.h"
 
 typedef struct WrSession WrSession;
 typedef struct WrCall WrCall;
 
 #define WR_BIG_HEIGHT 3.4028234663852886e38 /* the largest float: heights are float32 */
-#define WR_ARGS_MAX 24                      /* arguments of one form of a command */
+#define WR_ARGS_MAX 48                      /* arguments of one form of a command */
 #define WR_LIGHTS_MAX 256                   /* lights of a scene */
 #define WR_POINTS_MAX 1000000               /* samples of a stroke */
 #define WR_TERMS_MAX 65536                  /* terms of an analytic function */
@@ -35,17 +36,14 @@ typedef enum WrArgType {
     WR_ARG_TEXT,   /* any text but line ends that `check` accepts */
     WR_ARG_SHA256, /* 64 hex digits; printed in lower case */
     WR_ARG_NAME,   /* a layer's name: any text but line ends, up to WR_LAYER_NAME_MAX bytes */
-    WR_ARG_LAYER   /* a layer: its number, from 1 at the bottom, or its name */
+    WR_ARG_LAYER,  /* a layer: its number, from 1 at the bottom, or its name */
+    WR_ARG_PRESET  /* a brush preset: its name, or a file name that ends in .myb */
 } WrArgType;
 
 extern const char *const wr_arg_type_names[]; /* "number", "size", ... */
 
 /* One number of a tuple whose numbers have ranges of their own. */
-typedef struct WrComponent {
-    const char *name;
-    double low, high; /* closed range */
-    bool whole;       /* whole numbers only */
-} WrComponent;
+typedef WrParamPart WrComponent;
 
 typedef struct WrArgSpec {
     const char *name; /* of a positional: how help shows it ("u,v"); NULL ends a list */
@@ -60,13 +58,14 @@ typedef struct WrArgSpec {
         *parts; /* [components] ranges of their own instead of low, high; NULL: none */
     unsigned
         counts; /* lists: bit n is set where a tuple may have n numbers; 0: always `components` */
-    const char *shape;            /* how it is written: "x,y,z"; NULL: by its type */
-    int rows_low, rows_high;      /* lists: how many tuples */
-    const char *(*choice)(int i); /* choices: word i, NULL past the last; or else: */
-    const char *const *words;     /* choices: the words, ends with NULL */
-    const double *fallback;       /* numbers that hold where none are given; NULL: none */
-    int fallback_rows;            /* lists: tuples in it */
-    const char *fallback_text;    /* the same for choices */
+    const char *shape;                    /* how it is written: "x,y,z"; NULL: by its type */
+    int rows_low, rows_high;              /* lists: how many tuples */
+    const char *(*choice)(int i);         /* choices: word i, NULL past the last; or else: */
+    const char *const *words;             /* choices: the words, ends with NULL */
+    const double *fallback;               /* numbers that hold where none are given; NULL: none */
+    int fallback_rows;                    /* lists: tuples in it */
+    const char *fallback_text;            /* the same for choices */
+    void (*explain)(int i, WrText *text); /* choices: what word i means, for help; NULL: unsaid */
     bool (*check)(const void *ctx, const char *name, const char *value, WrError *err); /* texts */
     const void *check_ctx;
     const char *unit; /* "texels", "degrees"; NULL: none */
@@ -89,7 +88,11 @@ typedef struct WrCommand {
     const char *example;   /* a line that parses */
     const char *form_word; /* what the first word is called ("KIND"); NULL: no forms */
     bool (*form)(int index, WrForm *out); /* the form's row; false past the last */
-    const WrArgSpec *args;                /* ends with name NULL; shared by all forms; NULL: none */
+    bool (*row)(
+        WrForm *out); /* the arguments of a command without forms, where another table makes them;
+                                 NULL: only args and more */
+    const WrArgSpec *args; /* ends with name NULL; shared by all forms; NULL: none */
+    const WrArgSpec *more; /* further ones, which other commands have too; or NULL */
 
     /* Carry out a call whose values are checked against this row. On failure the session may be left
        half changed: the caller puts its snapshot back. */

@@ -1,5 +1,6 @@
 #include "command/call.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "document/document.h"
 
@@ -7,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-const char *const wr_arg_type_names[] = { "number", "size", "tuple",  "list", "choice",
-                                          "path",   "text", "sha256", "name", "layer" };
+const char *const wr_arg_type_names[] = { "number", "size",   "tuple", "list",  "choice", "path",
+                                          "text",   "sha256", "name",  "layer", "preset" };
 
 const char *wr_arg_word(const WrArgSpec *spec, int i)
 {
@@ -60,7 +61,8 @@ static void add_range(WrText *text, double low, double high, bool above)
         wr_text_add_number(text, low);
         wr_text_add(text, "..");
     }
-    wr_text_add_number(text, high);
+    if (high == WR_BIG_HEIGHT) wr_text_add(text, "3.4e38");
+    else wr_text_add_number(text, high);
 }
 
 static void add_choices(WrText *text, const WrArgSpec *spec)
@@ -73,7 +75,9 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
 {
     switch (spec->type) {
     case WR_ARG_NUMBER: wr_text_add(text, spec->whole ? "a whole number, " : "a number, "); break;
-    case WR_ARG_SIZE: wr_text_add(text, "WxH, two whole numbers, each "); break;
+    case WR_ARG_SIZE:
+        wr_text_addf(text, "%s, two whole numbers, each ", spec->shape ? spec->shape : "WxH");
+        break;
     case WR_ARG_TUPLE:
         wr_text_addf(text, "%d %snumbers parted by commas", spec->components,
                      spec->whole ? "whole " : "");
@@ -94,6 +98,7 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
     case WR_ARG_SHA256: wr_text_add(text, "64 hexadecimal digits"); return;
     case WR_ARG_NAME: wr_text_addf(text, "a name of up to %d bytes", WR_LAYER_NAME_MAX); return;
     case WR_ARG_LAYER: wr_text_add(text, "a layer's number, from 1 at the bottom, or name"); return;
+    case WR_ARG_PRESET: wr_text_add(text, "a preset's name, or a file that ends in .myb"); return;
     }
     if (!spec->parts) add_range(text, spec->low, spec->high, spec->above);
     if (spec->unit) wr_text_addf(text, " %s", spec->unit);
@@ -270,6 +275,7 @@ bool wr_arg_parse(const WrArgSpec *spec, const char *where, const char *value, W
     case WR_ARG_TEXT:
     case WR_ARG_NAME:
     case WR_ARG_LAYER:
+    case WR_ARG_PRESET:
     case WR_ARG_SHA256: good = parse_text(spec, where, value, &made, err); break;
     default: good = parse_numbers(spec, where, value, &made, err); break;
     }
@@ -360,6 +366,33 @@ WrVec3 wr_call_vec3(const WrCall *call, const char *name)
     const WrArg *arg = wr_call_arg(call, name);
     WR_ASSERT(arg->numbers);
     return (WrVec3){ arg->numbers[0], arg->numbers[1], arg->numbers[2] };
+}
+
+const char *wr_call_hash_name(const WrCall *call, int index)
+{
+    const WrArgSpec *spec = &call->specs[index];
+    if (spec->type != WR_ARG_PATH && spec->type != WR_ARG_PRESET) return NULL;
+    char name[64];
+    snprintf(name, sizeof name, "%s_sha256", spec->name);
+    for (int i = 0; i < call->count; i++)
+        if (call->specs[i].type == WR_ARG_SHA256 &&
+            (strcmp(call->specs[i].name, name) == 0 || strcmp(call->specs[i].name, "sha256") == 0))
+            return call->specs[i].name;
+    return NULL;
+}
+
+bool wr_call_names_file(const WrCall *call, int index)
+{
+    const WrArg *arg = &call->args[index];
+    if (!arg->given || !arg->text) return false;
+    if (call->specs[index].type == WR_ARG_PATH) return true;
+    return call->specs[index].type == WR_ARG_PRESET && wr_names_preset_file(arg->text);
+}
+
+bool wr_names_preset_file(const char *word)
+{
+    char buffer[16];
+    return strcmp(wr_path_ending(word, buffer), "myb") == 0;
 }
 
 void wr_call_set_text(WrCall *call, const char *name, const char *text)

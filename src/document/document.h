@@ -53,6 +53,10 @@ const WrField *wr_document_field(const WrDocument *document);
 /* The same, with a pool for the tiles that changed; NULL: this thread. */
 const WrField *wr_document_composite(const WrDocument *document, WrPool *pool);
 
+/* What lies below layer `index` (0..layer_count - 1): the composite of the visible layers under it, 0 where
+ * there is nothing. A table of its own, the caller's. */
+WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool);
+
 /* All that a document file keeps: layers with their names, settings and fields, the selection, which
    layer is active and alone; the scene enters through scene_text, its canonical commands. */
 WrHash wr_document_hash(const WrDocument *document, const char *scene_text);

@@ -409,6 +409,12 @@ bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha2
     return wr_journal_keep(journal->options.folder, journal->files, path, sha256, err);
 }
 
+bool wr_journal_keep_named(WrJournal *journal, const char *path, WrError *err)
+{
+    if (!journal->path) return wr_fail(err, "%s", journal->reason);
+    return wr_journal_keep_as_named(journal->files, path, err);
+}
+
 bool wr_journal_snapshot_path(WrJournal *journal, WrText *path, WrError *err)
 {
     if (!journal->path) return wr_fail(err, "%s", journal->reason);

@@ -142,6 +142,10 @@ const char *wr_journal_path(const WrJournal *journal); /* of NAME.wj; "" without
  * refused. Fails without harm to the journal: a replay then depends on the file itself. */
 bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err);
 
+/* Keep a copy under the file's own name, for a kept file that names it as its neighbour. Where another file
+ * of that name is kept already, that one stays: then this fails. */
+bool wr_journal_keep_named(WrJournal *journal, const char *path, WrError *err);
+
 /* Where to write the next snapshot; makes the folder. Ends in ".exr". */
 bool wr_journal_snapshot_path(WrJournal *journal, WrText *path, WrError *err);
 /* Begin anew from another start state, in one step: at any moment either the old journal is there

@@ -28,6 +28,9 @@ bool wr_journal_lock(int fd, const char *path, int how);
 bool wr_journal_keep(const char *folder, const char *files, const char *path, const char *sha256,
                      WrError *err);
 
+/* wr_journal_keep_named. */
+bool wr_journal_keep_as_named(const char *files, const char *path, WrError *err);
+
 /* Remove the files of NAME.files/ but those called keep_a or (in front of its ending) keep_b,
    either NULL; the folder too if it is empty then. */
 void wr_journal_clear_files(const char *files, const char *keep_a, const char *keep_b);

@@ -126,6 +126,23 @@ bool wr_journal_keep(const char *folder, const char *files, const char *path, co
     return ok;
 }
 
+bool wr_journal_keep_as_named(const char *files, const char *path, WrError *err)
+{
+    char hex[65];
+    const char *slash = strrchr(path, '/');
+    if (!wr_sha256_file(path, hex, err)) return false;
+    WrText target = { 0 };
+    wr_text_addf(&target, "%s/%s", files, slash ? slash + 1 : path);
+    bool ok = wr_journal_make_folder(files, err);
+    if (ok && access(wr_text_get(&target), F_OK) != 0)
+        ok = copy_file(path, wr_text_get(&target), hex, err);
+    else if (ok && !content_is(wr_text_get(&target), hex))
+        ok = wr_fail(err, "%s: no copy can be kept: another file of that name is", path);
+    if (ok) wr_journal_sync_path(files, NULL);
+    wr_text_fini(&target);
+    return ok;
+}
+
 bool wr_journal_kept_file(const char *journal_path, const char *sha256, const char *named,
                           WrText *path, WrError *err)
 {

@@ -135,6 +135,14 @@ static WrField *cover_of(const WrLayer *a, const WrLayer *b)
     return out;
 }
 
+WrField *wr_document_below(const WrDocument *document, int index, WrPool *pool)
+{
+    const WrField *like = document->layers[index].heights;
+    if (index > 0) return composite_of(document->layers, index, -1, pool);
+    return wr_field_new(wr_field_width(like), wr_field_height(like), wr_field_wrap_u(like),
+                        wr_field_wrap_v(like), 0.0f, NULL);
+}
+
 void wr_document_merge(WrDocument *document, int index, WrPool *pool)
 {
     WrLayer *layers = document->layers, *upper = &layers[index], *lower = &layers[index - 1];

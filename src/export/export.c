@@ -13,7 +13,14 @@ WrExportOptions wr_export_default(void)
                               .high = 1.0,
                               .cell_w = 1.0,
                               .cell_h = 1.0,
-                              .scheme = -1 };
+                              .scheme = -1,
+                              .lines_u = 64,
+                              .lines_v = 64,
+                              .turn_deg = 30.0,
+                              .tilt_deg = 35.0,
+                              .drawing_w = 1024,
+                              .drawing_h = 768,
+                              .pen = 1.0 };
 }
 
 /* ---- what the kinds share ---- */
@@ -88,6 +95,7 @@ static WrPixelType type_of(int depth)
 static bool settle_options(const WrExportKind *kind, const WrScene *scene, const char *path,
                            WrExportOptions *options, WrError *err)
 {
+    if (kind->write) return true; /* it sees to its own */
     if (options->depth == 0) {
         WrPixelType type;
         if (!wr_image_deepest(path, &type, err)) return false;
@@ -170,7 +178,7 @@ bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExp
                                    .depth = job.options.depth };
     job.u = wr_alloc((size_t)job.width, sizeof *job.u);
     for (int i = 0; i < job.width; i++) job.u[i] = (i + 0.5) / job.width;
-    bool ok = write_job(&job, path, err);
+    bool ok = kind->write ? kind->write(&job, path, err) : write_job(&job, path, err);
     wr_free(job.u);
     if (ok && report) *report = job.report;
     return ok;
@@ -184,6 +192,11 @@ static void add_count(WrText *text, int64_t count, const char *what)
 
 void wr_export_report_text(const WrExportReport *report, WrText *text)
 {
+    if (report->lines) {
+        wr_text_addf(text, "%dx%d pixels, %lld visible stretches of lines", report->width,
+                     report->height, (long long)report->lines);
+        return;
+    }
     wr_text_addf(text, "%dx%d, %s", report->width, report->height,
                  report->depth == 8    ? "8 bits"
                  : report->depth == 16 ? "16 bits"

@@ -17,7 +17,10 @@
      n = normalise(-height dF/dU / cell_w, -height dF/dV / cell_h, 1)
    with dF/dU, dF/dV the scheme's derivatives of the table over the unit cell, V up. normal-y negates the
    second component. In a +Y map the upper flank of a bump is bright green. Codes are
-   round(M (n/2 + 1/2)); float files hold n/2 + 1/2. */
+   round(M (n/2 + 1/2)); float files hold n/2 + 1/2.
+
+   lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
+   white; vectors where the ending is svg, else a picture of 8 bits. */
 #pragma once
 #include "base/pool.h"
 #include "base/text.h"
@@ -36,6 +39,13 @@ typedef struct WrExportOptions {
     double cell_w, cell_h; /* normals: size of the unit cell in scene units, > 0 */
     int scheme;            /* normals: a WrScheme, or -1 for the scene's */
     bool dither;           /* depth 8 only: ordered dither of up to half a code either way */
+    /* lines: */
+    int lines_u, lines_v; /* lines along u, along v: 0..1024, not both 0; at most one a texel */
+    double turn_deg, tilt_deg; /* about the vertical; above the horizon, 0..90 */
+    double relief; /* height of F = 1 in cells; 0: so that all of it is a fifth of one high */
+    int drawing_w, drawing_h; /* pixels, 16..4096 */
+    double pen;               /* breadth of a line, pixels, 0.1..20 */
+    bool hidden;              /* hidden lines are drawn as well */
 } WrExportOptions;
 
 /* What was written, for the user to read. */
@@ -48,6 +58,7 @@ typedef struct WrExportReport {
     double code_low, code_high; /* F of code 0 and of the last code */
     int zero_code;    /* the code of F = 0 when it is exact by construction (signed), else -1 */
     double amplitude; /* signed: A */
+    int64_t lines;    /* lines: visible stretches; else 0 */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -58,7 +69,7 @@ typedef struct WrExportOptionInfo {
                 WrError *err); /* use wr_export_option */
 } WrExportOptionInfo;
 
-#define WR_EXPORT_OPTIONS 4 /* most options of a kind */
+#define WR_EXPORT_OPTIONS 7 /* most options of a kind */
 
 typedef struct WrExportJob WrExportJob; /* private to the room */
 
@@ -69,18 +80,22 @@ typedef struct WrExportKind {
     double green; /* normals: sign of the second component */
     /* What must be known of the whole table before the first row (ranges). May be NULL. */
     void (*prepare)(WrExportJob *job);
+    /* Write the whole file, in place of what follows: drawings. The job's options are settled. May be
+     * NULL. */
+    bool (*write)(WrExportJob *job, const char *path, WrError *err);
     /* Fill codes or floats for texel rows [y, y + rows). */
     void (*rows)(WrExportJob *job, int y, int rows, void *out);
     /* Add the file's attributes. */
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 3
+#define WR_EXPORT_KIND_COUNT 4
 extern const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 
-WrExportOptions
-wr_export_default(void); /* depth 0, range 0,1, cell 1,1, the scene's scheme, no dither */
+WrExportOptions wr_export_default(
+    void); /* depth 0, range 0,1, cell 1,1, the scene's scheme, no dither; 64 lines each way
+                            seen from 30,35 */
 
 /* Set one option from its text as in a command: ("range", "0,1"). Errors name the option, the value and
  * what is allowed; an option that the kind lacks is an error too. */

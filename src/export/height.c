@@ -5,9 +5,8 @@
 #include <math.h>
 #include <pthread.h>
 
-/* Heights of rows [y, y + rows) in table units, as floats; returns how many were not finite and became
- * 0 (formulas only: a table is always finite). */
-static int64_t heights(const WrExportJob *job, int y, int rows, float *out)
+/* Only formulas can give what is not finite. */
+int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out)
 {
     if (!job->analytic) {
         wr_field_read(job->field, 0, y, job->width, rows, out, (size_t)job->width);
@@ -41,7 +40,7 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
     float *row = wr_alloc((size_t)job->width, sizeof *row);
     double low = INFINITY, high = -INFINITY;
     for (int j = 0; j < rows; j++) {
-        heights(job, y + j, 1, row);
+        wr_export_heights(job, y + j, 1, row);
         for (int i = 0; i < job->width; i++) {
             low = row[i] < low ? row[i] : low;
             high = row[i] > high ? row[i] : high;
@@ -128,14 +127,14 @@ static void height_piece(WrExportJob *job, int y, int rows, void *ctx)
     size_t width = (size_t)job->width, first = (size_t)(y - strip->y) * width;
     int64_t replaced = 0, clipped = 0;
     if (job->options.depth == 32) {
-        replaced = heights(job, y, rows, (float *)strip->out + first);
+        replaced = wr_export_heights(job, y, rows, (float *)strip->out + first);
     } else {
         float *row = wr_alloc(width, sizeof *row);
         bool given = job->options.range == WR_EXPORT_RANGE_GIVEN;
         double low = job->report.code_low, high = job->report.code_high;
         int zero = job->report.zero_code < 0 ? 0 : job->report.zero_code;
         for (int j = 0; j < rows; j++) {
-            replaced += heights(job, y + j, 1, row);
+            replaced += wr_export_heights(job, y + j, 1, row);
             for (int i = 0; i < job->width; i++) {
                 clipped += given && (row[i] < low || row[i] > high);
                 wr_export_store_code(job, strip->out, first + (size_t)j * width + (size_t)i,

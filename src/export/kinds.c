@@ -1,4 +1,5 @@
 #include "export/job.h"
+#include "export/lines.h"
 
 #include <math.h>
 #include <string.h>
@@ -74,6 +75,78 @@ static bool set_dither(WrExportOptions *options, const char *value, WrError *err
     return true;
 }
 
+/* "MxN", whole numbers */
+static bool parse_size(const char *value, double low, double high, int *a, int *b)
+{
+    const char *x = strchr(value, 'x');
+    double m, n;
+    if (!x || !wr_number_parse(value, (size_t)(x - value), &m) ||
+        !wr_number_parse(x + 1, strlen(x + 1), &n) || m != floor(m) || n != floor(n) || m < low ||
+        n < low || m > high || n > high)
+        return false;
+    *a = (int)m;
+    *b = (int)n;
+    return true;
+}
+
+static bool set_lines(WrExportOptions *options, const char *value, WrError *err)
+{
+    int u, v;
+    if (!parse_size(value, 0, WR_LINES_MOST, &u, &v) || u + v == 0)
+        return wr_fail(err, "lines '%.40s': must be MxN, lines along u and along v, 0..%d each",
+                       value, WR_LINES_MOST);
+    options->lines_u = u;
+    options->lines_v = v;
+    return true;
+}
+
+static bool set_size(WrExportOptions *options, const char *value, WrError *err)
+{
+    if (!parse_size(value, 16, WR_DRAWING_MOST, &options->drawing_w, &options->drawing_h))
+        return wr_fail(err, "size '%.40s': must be WIDTHxHEIGHT in pixels, 16..%d each", value,
+                       WR_DRAWING_MOST);
+    return true;
+}
+
+static bool set_view(WrExportOptions *options, const char *value, WrError *err)
+{
+    double turn, tilt;
+    if (!parse_pair(value, &turn, &tilt) || fabs(turn) > 360.0 || tilt < 0.0 || tilt > 90.0)
+        return wr_fail(err, "view '%.80s': must be TURN,TILT in degrees, -360..360 and 0..90",
+                       value);
+    options->turn_deg = turn;
+    options->tilt_deg = tilt;
+    return true;
+}
+
+static bool set_relief(WrExportOptions *options, const char *value, WrError *err)
+{
+    double relief = 0.0;
+    if (strcmp(value, "auto") != 0 && (!wr_number_parse(value, strlen(value), &relief) ||
+                                       !(fabs(relief) <= 1e6) || relief == 0.0))
+        return wr_fail(err, "relief '%.40s': must be the height of 1 in cells, or auto", value);
+    options->relief = relief;
+    return true;
+}
+
+static bool set_pen(WrExportOptions *options, const char *value, WrError *err)
+{
+    double pen;
+    if (!wr_number_parse(value, strlen(value), &pen) || !(pen >= 0.1 && pen <= 20.0))
+        return wr_fail(err, "pen '%.40s': must be the breadth of lines in pixels, 0.1..20", value);
+    options->pen = pen;
+    return true;
+}
+
+static bool set_hidden(WrExportOptions *options, const char *value, WrError *err)
+{
+    bool on = strcmp(value, "on") == 0;
+    if (!on && strcmp(value, "off") != 0)
+        return wr_fail(err, "hidden '%.40s': must be on or off", value);
+    options->hidden = on;
+    return true;
+}
+
 #define DEPTH                                                                                      \
     {                                                                                              \
         "depth", "8, 16 or 32",                                                                    \
@@ -130,6 +203,22 @@ const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT] = {
       .green = -1.0,
       .rows = wr_export_normal_rows,
       .describe = wr_export_normal_describe },
+    { .name = "lines",
+      .label = "line drawing",
+      .help = "the cell as a 3D line drawing with hidden lines removed: svg, or a picture",
+      .options = { { "lines", "MxN", "lines along u and along v; left out: 64x64", set_lines },
+                   { "view", "TURN,TILT",
+                     "degrees about the vertical and above the horizon; left out: 30,35",
+                     set_view },
+                   { "relief", "HEIGHT or auto",
+                     "of F = 1, in cells; left out: all of it is a fifth of a cell high",
+                     set_relief },
+                   { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
+                   { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen },
+                   { "hidden", "on or off", "draw what is hidden too; left out: off",
+                     set_hidden } },
+      .channels = 1,
+      .write = wr_export_drawing_write },
 };
 
 const WrExportKind *wr_export_find(const char *name)

@@ -51,6 +51,14 @@ WrField *wr_select_height(const WrField *field, double low, double high, double 
 WrField *wr_select_slope(const WrField *field, double relief, double low, double high, double soft,
                          WrPool *pool, WrError *err);
 
+/* The connected part, round all periodic edges, of the texels whose heights are within `tolerance` (0 or
+ * more) of the height of the texel that holds (u, v): 1 there, 0 elsewhere, without soft edges. Texels are
+ * connected where they share a side, with `diagonal` also where they share a corner. Off the ends of a
+ * clamped axis the nearest texel counts.
+ * Memory   one bit a texel and the edge of what was reached, besides the result */
+WrField *wr_select_flood(const WrField *field, double u, double v, double tolerance, bool diagonal,
+                         WrPool *pool, WrError *err);
+
 typedef enum WrSelectMode {
     WR_SELECT_REPLACE,
     WR_SELECT_ADD,       /* max(a, b) */

@@ -1,0 +1,388 @@
+/* How libmypaint 1.6 is driven, and what of it must be guarded against:
+
+   - It computes in float; so positions are counted from an origin that moves along by whole multiples of
+     REBASE, radii above LARGE are halved together with all lengths (`unit`), and what comes out is checked.
+   - Its current values are not set before its first step (and its v2 interface reads them): prime() makes
+     steps over nothing.
+   - Its random numbers always begin alike, and nothing can set them: a number of resets, each of which
+     takes one, leads to another place in their sequence.
+   - It says on standard output that time runs backwards where a call ends exactly with a dab and float
+     rounds to the wrong side: a call that would is ended a little earlier (nudge()).
+   - How many dabs a step makes goes by values that curves can drive to anything: after DABS_PER_STEP the
+     callback makes its count small (a radius of 1000 pixels, one dab a radius), which ends the step. */
+#include <float.h>
+#include <math.h>
+
+#include "base/exactmath.h"
+#include "base/hash.h"
+#include "brush/engine_inner.h"
+#include "brush/preset_inner.h"
+
+#define LN2 0.69314718055994530942
+#define LARGE 512.0         /* texels: radii above are scaled down; the library stops at 1000 */
+#define SMALLEST 0.2        /* the library's smallest radius */
+#define REBASE 65536.0      /* texels in units; a multiple of the library's grids of 256 */
+#define OFF 100000.0        /* how far from the origin before it moves */
+#define DABS_PER_STEP 65536 /* about */
+#define SEEDS 16384         /* places where the random numbers may begin */
+
+/* ---- the surface that the library sees ---- */
+
+static bool all_finite(const float *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!isfinite(values[i])) return false;
+    return true;
+}
+
+/* Ends a step that would go on for too long. */
+static void rein_in(WrEngine *engine)
+{
+    mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_ACTUAL_RADIUS, 1000.0f);
+    mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_ACTUAL_ELLIPTICAL_DAB_RATIO, 1.0f);
+    mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_DABS_PER_ACTUAL_RADIUS, 1e-6f);
+    mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_DABS_PER_BASIC_RADIUS, 1e-6f);
+    mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_DABS_PER_SECOND, 0.0f);
+}
+
+/* 0 <= x < 1, for one use of one dab. */
+static double chance(const WrEngine *engine, uint32_t use)
+{
+    uint32_t x = (uint32_t)engine->look.seed ^ wr_mix32((uint32_t)(engine->look.seed >> 32) + use);
+    x = wr_mix32(x + wr_mix32((uint32_t)engine->number + 0x9e3779b9U * use));
+    return (x >> 8) * 0x1p-24;
+}
+
+/* What the brush says on top of its preset: angle, aspect, following the path, jitter, and the tip. */
+static void dress(const WrEngine *engine, WrDab *dab, double pressure)
+{
+    const WrBrush *look = &engine->look;
+    double across = mypaint_brush_get_state(engine->brush, MYPAINT_BRUSH_STATE_DIRECTION_ANGLE_DX);
+    double down = mypaint_brush_get_state(engine->brush, MYPAINT_BRUSH_STATE_DIRECTION_ANGLE_DY);
+    bool moves = isfinite(across) && isfinite(down) && (across != 0.0 || down != 0.0);
+    double way_rad = moves ? wr_atan2(-down, across) : 0.0;
+    if (!engine->angles) dab->angle_rad = 0.0;
+    dab->angle_rad += look->angle_deg * WR_RAD_PER_DEG;
+    if (look->follow) dab->angle_rad += way_rad;
+    if (look->jitter_angle_deg > 0.0)
+        dab->angle_rad += (2.0 * chance(engine, 2) - 1.0) * look->jitter_angle_deg * WR_RAD_PER_DEG;
+    if (look->aspect > 1.0) dab->aspect *= look->aspect;
+    if (look->jitter_size > 0.0) dab->radius *= 1.0 - look->jitter_size * chance(engine, 3);
+    if (look->jitter_place > 0.0) { /* evenly over a disc */
+        double sine, cosine, far = look->jitter_place * engine->radius * sqrt(chance(engine, 0));
+        wr_sincos_turns(chance(engine, 1), &sine, &cosine);
+        dab->x += far * cosine;
+        dab->y += far * sine;
+    }
+    if (look->tip)
+        dab->tip_cell =
+            wr_tip_pick(look->tip, engine->number, way_rad, pressure, chance(engine, 4));
+}
+
+static int draw_dab(MyPaintSurface2 *self, float x, float y, float radius, float r, float g,
+                    float b, float opaque, float hardness, float alpha_eraser, float aspect,
+                    float angle, float lock_alpha, float colorize, float posterize,
+                    float posterize_num, float paint)
+{
+    (void)r, (void)b, (void)lock_alpha, (void)colorize;
+    (void)posterize, (void)posterize_num, (void)paint;
+    WrEngine *engine = (WrEngine *)self;
+    if (++engine->dabs > DABS_PER_STEP) rein_in(engine);
+    if (engine->muted) return 1;
+    engine->touched = true;
+    const float values[] = { x, y, radius, opaque, hardness, aspect, angle };
+    if (!all_finite(values, 7) || !(radius > 0.0f) || !(hardness > 0.0f)) return 0;
+    double erased = 1.0 - clamp(alpha_eraser, 0.0, 1.0);
+    WrDab dab = { .x = x * engine->unit - 0.5 + engine->origin_x,
+                  .y = y * engine->unit - 0.5 + engine->origin_y,
+                  .radius = radius * engine->unit,
+                  .hardness = clamp(hardness, 0.0, 1.0),
+                  .alpha = clamp(opaque, 0.0, 1.0) * engine->flow *
+                           (engine->erases ? erased : 1.0 - erased),
+                  .aspect = clamp(aspect, 1.0, 1e6),
+                  .angle_rad = -angle * WR_RAD_PER_DEG,
+                  .falloff = WR_FALLOFF_MYPAINT };
+    if (!(dab.alpha > 0.0)) return 0;
+    float dragged = mypaint_brush_get_state(engine->brush, MYPAINT_BRUSH_STATE_SMUDGE_RA);
+    if (engine->smudges && g > 0.0f && isfinite(dragged)) {
+        dab.drag = clamp(g, 0.0, 1.0);
+        dab.dragged = dragged;
+    }
+    dress(engine, &dab, mypaint_brush_get_state(engine->brush, MYPAINT_BRUSH_STATE_PRESSURE));
+    if (!(dab.radius > 0.0)) return 0;
+    if (engine->drew) {
+        dab.dx = dab.x - engine->last_x;
+        dab.dy = dab.y - engine->last_y;
+    }
+    engine->drew = true;
+    engine->number++;
+    engine->last_x = dab.x;
+    engine->last_y = dab.y;
+    engine->sink.dab(engine->sink.ctx, &dab);
+    return 1;
+}
+
+/* A height as the library can carry and mix it. */
+static float carried(double height)
+{
+    return isnan(height) ? 0.0f : (float)clamp(height, -FLT_MAX / 4.0, FLT_MAX / 4.0);
+}
+
+static void get_colour(MyPaintSurface2 *self, float x, float y, float radius, float *r, float *g,
+                       float *b, float *a, float paint)
+{
+    (void)paint;
+    WrEngine *engine = (WrEngine *)self;
+    double height = 0.0;
+    if (!engine->muted && isfinite(x) && isfinite(y) && isfinite(radius))
+        height =
+            engine->sink.height(engine->sink.ctx, x * engine->unit - 0.5 + engine->origin_x,
+                                y * engine->unit - 0.5 + engine->origin_y, radius * engine->unit);
+    *r = carried(height);
+    *g = *b = *a = 1.0f;
+}
+
+/* The same by the library's older interface, which it does not use on a surface like this one. */
+static int draw_dab_1(MyPaintSurface *self, float x, float y, float radius, float r, float g,
+                      float b, float opaque, float hardness, float alpha_eraser, float aspect,
+                      float angle, float lock_alpha, float colorize)
+{
+    return draw_dab((MyPaintSurface2 *)self, x, y, radius, r, g, b, opaque, hardness, alpha_eraser,
+                    aspect, angle, lock_alpha, colorize, 0.0f, 1.0f, 0.0f);
+}
+
+static void get_colour_1(MyPaintSurface *self, float x, float y, float radius, float *r, float *g,
+                         float *b, float *a)
+{
+    get_colour((MyPaintSurface2 *)self, x, y, radius, r, g, b, a, 0.0f);
+}
+
+/* ---- making one ---- */
+
+static void set_value(WrEngine *engine, int setting, double value)
+{
+    mypaint_brush_set_base_value(engine->brush, (MyPaintBrushSetting)setting, (float)value);
+}
+
+static void set_settings(WrEngine *engine, const WrBrush *brush)
+{
+    const WrPreset *preset = engine->preset;
+    for (int i = 0; i < MYPAINT_BRUSH_SETTINGS_COUNT; i++)
+        if (wr_preset_setting(i)->use != WR_SETTING_IGNORED) set_value(engine, i, preset->base[i]);
+    for (int i = 0; i < preset->curves.count; i++) {
+        const WrCurve *curve = &preset->curves.data[i];
+        MyPaintBrushSetting setting = (MyPaintBrushSetting)curve->setting;
+        MyPaintBrushInput input = (MyPaintBrushInput)curve->input;
+        if (wr_preset_setting(curve->setting)->use == WR_SETTING_IGNORED) continue;
+        mypaint_brush_set_mapping_n(engine->brush, setting, input, curve->count);
+        for (int k = 0; k < curve->count; k++)
+            mypaint_brush_set_mapping_point(engine->brush, setting, input, k, curve->points[k][0],
+                                            curve->points[k][1]);
+    }
+    double hardness = clamp(brush->hardness, 0.01, 1.0);
+    set_value(engine, MYPAINT_BRUSH_SETTING_HARDNESS, hardness);
+    set_value(engine, MYPAINT_BRUSH_SETTING_RADIUS_LOGARITHMIC,
+              wr_log2(engine->radius / engine->unit) * LN2);
+}
+
+/* Black, and nothing of colours: what the library would do with them costs time. */
+static void set_plain(WrEngine *engine)
+{
+    mypaint_brush_from_defaults(engine->brush);
+    set_value(engine, MYPAINT_BRUSH_SETTING_COLOR_V, 0.0);
+    set_value(engine, MYPAINT_BRUSH_SETTING_PAINT_MODE, 0.0);
+    mypaint_brush_set_mapping_n(engine->brush, MYPAINT_BRUSH_SETTING_OPAQUE_MULTIPLY,
+                                MYPAINT_BRUSH_INPUT_PRESSURE, 0);
+}
+
+static void call(WrEngine *engine, double x, double y, double pressure, double tilt_x,
+                 double tilt_y, double seconds)
+{
+    mypaint_brush_stroke_to_2(engine->brush, &engine->surface, (float)x, (float)y, (float)pressure,
+                              (float)tilt_x, (float)tilt_y, seconds, 1.0f, 0.0f, 0.0f);
+}
+
+/* Put down anew at a place; longer than 5 s is the library's word for it. */
+static void place(WrEngine *engine, double x, double y)
+{
+    mypaint_brush_reset(engine->brush);
+    call(engine, x, y, 0.0, 0.0, 0.0, 10.0);
+}
+
+/* A step by the older interface, which does not read the library's current values but sets them. */
+static void settle(WrEngine *engine)
+{
+    place(engine, 0.0, 0.0);
+    mypaint_brush_stroke_to(engine->brush, &engine->surface.parent, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+                            WR_ENGINE_STEP);
+}
+
+static void prime(WrEngine *engine, const WrBrush *brush)
+{
+    engine->muted = true;
+    set_plain(engine);
+    settle(engine);
+    if (wr_preset_is_random(engine->preset)) {
+        uint32_t seed = (uint32_t)brush->seed ^ wr_mix32((uint32_t)(brush->seed >> 32));
+        int resets = (int)(wr_mix32(seed) % SEEDS);
+        for (int i = 0; i < resets; i++) place(engine, 0.0, 0.0);
+    }
+    set_settings(engine, brush);
+    settle(engine);
+    engine->muted = false;
+}
+
+WrEngine *wr_engine_new(const WrBrush *brush, const WrDabSink *sink)
+{
+    WrEngine *engine = wr_alloc(1, sizeof *engine);
+    engine->brush = mypaint_brush_new();
+    engine->preset = wr_preset_share(brush->preset);
+    engine->look = *brush;
+    engine->look.tip = brush->tip ? wr_tip_share(brush->tip) : NULL;
+    engine->angles =
+        !wr_preset_is_constant(brush->preset, MYPAINT_BRUSH_SETTING_ELLIPTICAL_DAB_ANGLE) ||
+        wr_preset_peak(brush->preset, MYPAINT_BRUSH_SETTING_ELLIPTICAL_DAB_RATIO) > 1.0;
+    engine->sink = *sink;
+    mypaint_surface_init(&engine->surface.parent);
+    engine->surface.parent.draw_dab = draw_dab_1;
+    engine->surface.parent.get_color = get_colour_1;
+    engine->surface.draw_dab_pigment = draw_dab;
+    engine->surface.get_color_pigment = get_colour;
+    engine->radius = clamp(brush->radius, SMALLEST, 1e9);
+    engine->unit = 1.0;
+    while (engine->radius / engine->unit > LARGE) engine->unit *= 2.0;
+    engine->flow = brush->radius > 0.0 ? clamp(brush->flow, 0.0, 1.0) : 0.0;
+    engine->erases = engine->preset->base[MYPAINT_BRUSH_SETTING_ERASER] >= 0.5;
+    engine->smudges = wr_preset_smudges(engine->preset);
+    prime(engine, brush);
+    return engine;
+}
+
+void wr_engine_free(WrEngine *engine)
+{
+    if (!engine) return;
+    mypaint_brush_unref(engine->brush);
+    wr_preset_free(engine->preset);
+    wr_tip_free((WrTip *)(uintptr_t)engine->look.tip); /* our own share of it */
+    wr_array_free(&engine->knots);
+    wr_free(engine);
+}
+
+/* ---- driving it ---- */
+
+/* Moves the origin, in the library's states too, so that floats stay exact enough. */
+static void move_origin(WrEngine *engine, double dx, double dy)
+{
+    static const MyPaintBrushState across[] = { MYPAINT_BRUSH_STATE_X,
+                                                MYPAINT_BRUSH_STATE_ACTUAL_X };
+    static const MyPaintBrushState down[] = { MYPAINT_BRUSH_STATE_Y, MYPAINT_BRUSH_STATE_ACTUAL_Y };
+    engine->origin_x += dx;
+    engine->origin_y += dy;
+    for (int i = 0; i < 2; i++) {
+        float x = mypaint_brush_get_state(engine->brush, across[i]);
+        float y = mypaint_brush_get_state(engine->brush, down[i]);
+        mypaint_brush_set_state(engine->brush, across[i], (float)(x - dx / engine->unit));
+        mypaint_brush_set_state(engine->brush, down[i], (float)(y - dy / engine->unit));
+    }
+}
+
+/* Texels to the library's pixels, whose centres are at one half. */
+static double across(const WrEngine *engine, double x)
+{
+    return (x + 0.5 - engine->origin_x) / engine->unit;
+}
+
+static double down(const WrEngine *engine, double y)
+{
+    return (y + 0.5 - engine->origin_y) / engine->unit;
+}
+
+void wr_engine_go(WrEngine *engine, const WrEnginePoint *point, double seconds)
+{
+    double base = REBASE * engine->unit, x = across(engine, point->x), y = down(engine, point->y);
+    if (fabs(x) > OFF || fabs(y) > OFF)
+        move_origin(engine, rint(x / REBASE) * base, rint(y / REBASE) * base);
+    call(engine, across(engine, point->x), down(engine, point->y), point->pressure, point->tilt_x,
+         point->tilt_y, seconds);
+}
+
+static double state(const WrEngine *engine, MyPaintBrushState which)
+{
+    return mypaint_brush_get_state(engine->brush, which);
+}
+
+static double base_value(const WrEngine *engine, MyPaintBrushSetting which)
+{
+    return mypaint_brush_get_base_value(engine->brush, which);
+}
+
+double wr_engine_count(const WrEngine *engine, const WrEnginePoint *to, double seconds)
+{
+    double follow = base_value(engine, MYPAINT_BRUSH_SETTING_SLOW_TRACKING);
+    double part = follow > 0.001 ? 1.0 - wr_exp2(-100.0 * seconds / follow / LN2) : 1.0;
+    float x = (float)across(engine, to->x), y = (float)down(engine, to->y); /* as it is told */
+    double dx = part * (x - state(engine, MYPAINT_BRUSH_STATE_X));
+    double dy = part * (y - state(engine, MYPAINT_BRUSH_STATE_Y));
+    double aspect = state(engine, MYPAINT_BRUSH_STATE_ACTUAL_ELLIPTICAL_DAB_RATIO);
+    if (aspect > 1.0) {
+        double angle = state(engine, MYPAINT_BRUSH_STATE_ACTUAL_ELLIPTICAL_DAB_ANGLE), sine, cosine;
+        wr_sincos_turns(angle / 360.0, &sine, &cosine);
+        double along = dy * sine + dx * cosine;
+        dy = (dy * cosine - dx * sine) * aspect;
+        dx = along;
+    }
+    double length = sqrt(dx * dx + dy * dy);
+    double actual = state(engine, MYPAINT_BRUSH_STATE_ACTUAL_RADIUS);
+    double basic = engine->radius / engine->unit;
+    double by_actual = state(engine, MYPAINT_BRUSH_STATE_DABS_PER_ACTUAL_RADIUS);
+    double by_basic = state(engine, MYPAINT_BRUSH_STATE_DABS_PER_BASIC_RADIUS);
+    if (by_actual == 0.0 || isnan(by_actual))
+        by_actual = base_value(engine, MYPAINT_BRUSH_SETTING_DABS_PER_ACTUAL_RADIUS);
+    if (by_basic == 0.0 || isnan(by_basic))
+        by_basic = base_value(engine, MYPAINT_BRUSH_SETTING_DABS_PER_BASIC_RADIUS);
+    return length * (by_actual / (actual > 0.0 ? actual : basic) + by_basic / basic) +
+           seconds * state(engine, MYPAINT_BRUSH_STATE_DABS_PER_SECOND);
+}
+
+double wr_engine_due(const WrEngine *engine)
+{
+    return state(engine, MYPAINT_BRUSH_STATE_PARTIAL_DABS);
+}
+
+/* What is dragged along is the height under the first sample, also where the preset never looks. */
+static void pick_up(WrEngine *engine, const WrEnginePoint *first)
+{
+    static const MyPaintBrushState ones[] = { MYPAINT_BRUSH_STATE_SMUDGE_GA,
+                                              MYPAINT_BRUSH_STATE_SMUDGE_BA,
+                                              MYPAINT_BRUSH_STATE_SMUDGE_A };
+    double height = engine->sink.height(engine->sink.ctx, first->x, first->y, engine->radius);
+    mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_SMUDGE_RA, carried(height));
+    for (int i = 0; i < 3; i++) mypaint_brush_set_state(engine->brush, ones[i], 1.0f);
+}
+
+void wr_engine_begin(WrEngine *engine, const WrEnginePoint *first)
+{
+    double base = REBASE * engine->unit;
+    engine->origin_x = rint(first->x / base) * base;
+    engine->origin_y = rint(first->y / base) * base;
+    mypaint_brush_new_stroke(engine->brush);
+    place(engine, across(engine, first->x), down(engine, first->y));
+    if (engine->smudges) pick_up(engine, first);
+    wr_engine_go(engine, first, WR_ENGINE_STEP); /* pressure and tilt are there at once */
+    engine->pen = *first;
+    engine->begun = true;
+}
+
+/* A pen that was put down and lifted leaves one dab, though the library asks for motion first. */
+void wr_engine_tap(WrEngine *engine)
+{
+    WrEnginePoint to = engine->pen;
+    double length = engine->radius / 64.0;
+    for (int i = 0; i < 8 && !engine->touched; i++, length *= 4.0) {
+        mypaint_brush_set_state(engine->brush, MYPAINT_BRUSH_STATE_PARTIAL_DABS, 0.999f);
+        to.x += length;
+        engine->dabs = 0;
+        wr_engine_go(engine, &to, WR_ENGINE_STEP);
+    }
+    engine->touched = true;
+}

@@ -1,0 +1,296 @@
+#include "brush/library.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/array.h"
+#include "base/file.h"
+
+#define DEEP 3        /* folders inside one another */
+#define MANY 20000    /* presets in all */
+#define ORDER 4194304 /* bytes of an order.conf */
+
+typedef struct Found {
+    WrPresetEntry entry;
+    int collection, group, place; /* by these they are sorted; then by name */
+} Found;
+
+struct WrLibrary {
+    WR_ARRAY(Found) found;
+};
+
+static const char *const collections[] = { "user", "wrinkle", "mypaint2", "mypaint1" };
+enum { COLLECTIONS = sizeof collections / sizeof *collections };
+
+/* ---- folders ---- */
+
+static char *user_folder(void)
+{
+    const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
+    if (data && data[0] == '/') return wr_path_join(data, "wrinkle/brushes");
+    return home && *home ? wr_path_join(home, ".local/share/wrinkle/brushes") : NULL;
+}
+
+/* NULL where there is none. The caller frees it. */
+static char *collection_folder(int collection)
+{
+    WrText path = { 0 };
+    switch (collection) {
+    case 0: return user_folder();
+    case 1:
+        if (wr_data_find("brushes", &path)) return path.data;
+        wr_text_fini(&path);
+        return NULL;
+    case 2: return wr_strdup("/usr/share/mypaint-data/2.0/brushes");
+    default: return wr_strdup("/usr/share/mypaint-data/1.0/brushes");
+    }
+}
+
+char *wr_library_user_folder(WrError *err)
+{
+    char *folder = user_folder();
+    if (!folder) {
+        wr_fail(err, "presets of your own need a folder: neither XDG_DATA_HOME nor HOME is set");
+        return NULL;
+    }
+    for (char *slash = folder + 1;; slash++) {
+        if (*slash != '/' && *slash) continue;
+        char kept = *slash;
+        *slash = '\0';
+        bool made = mkdir(folder, 0777) == 0 || errno == EEXIST;
+        if (!made) {
+            wr_fail(err, "%s: cannot be made: %s", folder, strerror(errno));
+            wr_free(folder);
+            return NULL;
+        }
+        *slash = kept;
+        if (!kept) return folder;
+    }
+}
+
+/* ---- order.conf ---- */
+
+/* A line a preset, without ending, after its group's "Group: NAME". Sets group, and places, of those of
+   one collection that are named; the first group that names one counts. */
+static void read_order(WrLibrary *library, int first, char *text)
+{
+    int group = 0, place = 0;
+    const char *name = "";
+    for (char *next, *line = text; line; line = next) {
+        next = strchr(line, '\n');
+        if (next) *next++ = '\0';
+        line[strcspn(line, "\r")] = '\0';
+        if (strncmp(line, "Group: ", 7) == 0) {
+            name = line + 7;
+            group++;
+        } else if (*line && *line != '#') {
+            place++;
+            for (int i = first; i < library->found.count; i++) {
+                Found *found = &library->found.data[i];
+                if (found->place > 0 || strcmp(found->entry.name, line) != 0) continue;
+                found->group = group;
+                found->place = place;
+                wr_free(found->entry.group);
+                found->entry.group = wr_strdup(name);
+                break;
+            }
+        }
+    }
+}
+
+/* ---- looking through a folder ---- */
+
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static void add_preset(WrLibrary *library, int collection, const char *root, const char *name)
+{
+    WrText text = { 0 };
+    Found found = { .collection = collection, .group = 1 << 20 };
+    size_t stem = strlen(name) - 4;
+    wr_text_addf(&text, "%s/%s", root, name);
+    found.entry.path = text.data;
+    text = (WrText){ 0 };
+    wr_text_addf(&text, "%s/%.*s_prev.png", root, (int)stem, name);
+    struct stat info;
+    if (stat(text.data, &info) == 0 && S_ISREG(info.st_mode)) {
+        found.entry.picture = text.data;
+    } else {
+        wr_text_fini(&text);
+    }
+    text = (WrText){ 0 };
+    wr_text_addf(&text, "%s/%.*s", collections[collection], (int)stem, name);
+    found.entry.id = text.data;
+    found.entry.name = text.data + strlen(collections[collection]) + 1;
+    found.entry.collection = collections[collection];
+    const char *slash = strrchr(found.entry.name, '/');
+    found.entry.group =
+        slash ? wr_strndup(found.entry.name, (size_t)(slash - found.entry.name)) : wr_strdup("");
+    wr_array_push(&library->found, found);
+}
+
+/* below: what of the path comes after root, "" or "classic". */
+static void look_through(WrLibrary *library, int collection, const char *root, const char *below,
+                         int deep)
+{
+    char *folder = *below ? wr_path_join(root, below) : wr_strdup(root);
+    DIR *dir = opendir(folder);
+    struct dirent *item;
+    while (dir && library->found.count < MANY && (item = readdir(dir))) {
+        const char *name = item->d_name;
+        size_t length = strlen(name);
+        if (name[0] == '.') continue;
+        WrText path = { 0 }, full = { 0 };
+        wr_text_addf(&path, "%s%s%s", below, *below ? "/" : "", name);
+        wr_text_addf(&full, "%s/%s", root, path.data);
+        if (is_folder(full.data)) {
+            if (deep < DEEP) look_through(library, collection, root, path.data, deep + 1);
+        } else if (length > 4 && strcmp(name + length - 4, ".myb") == 0) {
+            add_preset(library, collection, root, path.data);
+        }
+        wr_text_fini(&path);
+        wr_text_fini(&full);
+    }
+    if (dir) closedir(dir);
+    wr_free(folder);
+}
+
+static int compare(const void *left, const void *right)
+{
+    const Found *a = left, *b = right;
+    if (a->collection != b->collection) return a->collection - b->collection;
+    if (a->group != b->group) return a->group - b->group;
+    if (a->place != b->place) return a->place - b->place;
+    return strcmp(a->entry.name, b->entry.name);
+}
+
+WrLibrary *wr_library_new(void)
+{
+    WrLibrary *library = wr_alloc(1, sizeof *library);
+    for (int i = 0; i < COLLECTIONS; i++) {
+        char *folder = collection_folder(i);
+        if (!folder) continue;
+        int first = library->found.count;
+        look_through(library, i, folder, "", 0);
+        char *path = wr_path_join(folder, "order.conf"), *text;
+        size_t length;
+        if (wr_file_read(path, ORDER, &text, &length, NULL)) {
+            read_order(library, first, text);
+            wr_free(text);
+        }
+        wr_free(path);
+        wr_free(folder);
+    }
+    if (library->found.count > 0)
+        qsort(library->found.data, (size_t)library->found.count, sizeof *library->found.data,
+              compare);
+    return library;
+}
+
+void wr_library_free(WrLibrary *library)
+{
+    if (!library) return;
+    for (int i = 0; i < library->found.count; i++) {
+        WrPresetEntry *entry = &library->found.data[i].entry;
+        wr_free(entry->id);
+        wr_free(entry->path);
+        wr_free(entry->group);
+        wr_free(entry->picture);
+    }
+    wr_array_free(&library->found);
+    wr_free(library);
+}
+
+int wr_library_count(const WrLibrary *library)
+{
+    return library->found.count;
+}
+
+const WrPresetEntry *wr_library_entry(const WrLibrary *library, int index)
+{
+    WR_ASSERT(index >= 0 && index < library->found.count);
+    return &library->found.data[index].entry;
+}
+
+/* ---- finding ---- */
+
+static bool ends_in_myb(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 4 && strcmp(name + length - 4, ".myb") == 0;
+}
+
+/* The part after the last slash. */
+static const char *tail(const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    return slash ? slash + 1 : name;
+}
+
+/* The entry that a name means: its id, its name without collection, or its last part alone; -1. */
+static int find(const WrLibrary *library, const char *name)
+{
+    for (int way = 0; way < 3; way++)
+        for (int i = 0; i < library->found.count; i++) {
+            const WrPresetEntry *entry = &library->found.data[i].entry;
+            const char *called = way == 0 ? entry->id : way == 1 ? entry->name : tail(entry->name);
+            if (strcmp(called, name) == 0) return i;
+        }
+    return -1;
+}
+
+static bool fail_find(const WrLibrary *library, const char *name, WrError *err)
+{
+    const char *nearest = NULL;
+    int best = 1 + (int)strlen(name) / 3;
+    for (int i = 0; i < library->found.count; i++) {
+        const WrPresetEntry *entry = &library->found.data[i].entry;
+        const char *called[] = { entry->name, tail(entry->name), entry->id };
+        for (int k = 0; k < 3; k++) {
+            int distance = wr_text_distance(name, called[k]);
+            if (distance > best || (distance == best && nearest)) continue;
+            best = distance;
+            nearest = entry->id;
+        }
+    }
+    if (nearest)
+        return wr_fail(err, "brush preset '%.80s' is not there; did you mean %s?", name, nearest);
+    return wr_fail(err,
+                   "brush preset '%.80s' is not there: must be one of the %d of the library, "
+                   "or a .myb file",
+                   name, library->found.count);
+}
+
+char *wr_library_find(const char *name, WrError *err)
+{
+    struct stat info;
+    if (ends_in_myb(name)) {
+        if (stat(name, &info) == 0) return wr_strdup(name);
+        wr_fail(err, "%s: %s", name, strerror(errno));
+        return NULL;
+    }
+    WrLibrary *library = wr_library_new();
+    int index = find(library, name);
+    char *path = NULL;
+    if (index >= 0) {
+        path = wr_strdup(library->found.data[index].entry.path);
+    } else {
+        fail_find(library, name, err);
+    }
+    wr_library_free(library);
+    return path;
+}
+
+WrPreset *wr_library_read(const char *name, WrError *err)
+{
+    char *path = wr_library_find(name, err);
+    WrPreset *preset = path ? wr_preset_read(path, name, err) : NULL;
+    wr_free(path);
+    return preset;
+}

@@ -1,0 +1,44 @@
+/* shape.h - the footprint of one dab or motion: which texels it reaches and how strongly.
+   Layer 2, inside this room. Texel coordinates as in capsule.h. */
+#pragma once
+#include "brush/dab.h"
+#include "brush/kern.h"
+#include "brush/tip.h"
+
+/* A brush of at most this radius paints single texels; a little over sqrt(1/2). */
+#define WR_THIN 0.70711
+
+typedef enum WrShapeKind {
+    WR_SHAPE_TEXEL, /* the one texel at (x, y), which are whole numbers */
+    WR_SHAPE_DAB,   /* round: capsule */
+    WR_SHAPE_MOTION,
+    WR_SHAPE_ELLIPSE, /* the round brush's falloff or libmypaint's: ellipse */
+    WR_SHAPE_TIP
+} WrShapeKind;
+
+typedef struct WrShape {
+    WrShapeKind kind;
+    double x, y, dx, dy;     /* centre, or start and way of a motion; not wrapped */
+    double reach_x, reach_y; /* beyond these distances from (x, y) or the way there is nothing */
+    double strongest;        /* no coverage is above it */
+    const WrBrushKernels *kernels;
+    WrCapsule capsule;
+    WrEllipse ellipse; /* of a tip: its axes, hl and hb below in place of the radius */
+    WrTipView tip;
+    double across, down; /* tip: pictures a texel */
+    bool flips;
+} WrShape;
+
+/* The field gives size and wrap; brush from wr_brush_sane. False where nothing is painted. */
+bool wr_shape_of_motion(const WrField *field, const WrBrush *brush, double x, double y, double dx,
+                        double dy, double pressure_start, double pressure_end, WrShape *shape);
+bool wr_shape_of_texel(const WrField *field, double x, double y, double alpha, WrShape *shape);
+/* A dab, as `copy` makes it. tip: NULL, or in place of the dab's falloff. */
+bool wr_shape_of_dab(const WrField *field, const WrTip *tip, const WrDab *dab, const WrCopy *copy,
+                     WrShape *shape);
+
+/* The columns *low .. *high outside of which it does not reach on row y, a little wide and not rounded;
+ * false if it misses the row. */
+bool wr_shape_span(const WrShape *shape, double y, double *low, double *high);
+/* fresh[i] = coverage of texel (x + i, y); count as in kern.h. */
+void wr_shape_row(const WrShape *shape, double y, double x, int count, float *fresh);

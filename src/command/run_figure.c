@@ -1,0 +1,292 @@
+/* shape: outlines drawn with the brush, and insides filled. */
+#include "command/inner.h"
+
+#include "base/memory.h"
+#include "brush/preset.h"
+#include "field/figure.h"
+
+#include <math.h>
+
+#define OUTLINE_TOLERANCE 0.0625      /* texels between a curve and its chords */
+#define FILL_TOLERANCE (1.0 / 1024.0) /* the same where areas count */
+
+static WrSelectPoint point(const WrCall *call, const char *name)
+{
+    const double *numbers = wr_call_arg(call, name)->numbers;
+    return (WrSelectPoint){ numbers[0], numbers[1] };
+}
+
+/* ---- the four shapes: from a call to a figure ---- */
+
+typedef bool Maker(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+                   WrError *err);
+
+static bool rectangle(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+                      WrError *err)
+{
+    return wr_figure_rectangle(like, point(call, "a"), point(call, "b"),
+                               wr_call_number(call, "corner"), wr_call_number(call, "turn"),
+                               tolerance, out, err);
+}
+
+static bool ellipse(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+                    WrError *err)
+{
+    return wr_figure_ellipse(like, point(call, "middle"), point(call, "radii"),
+                             wr_call_number(call, "turn"), tolerance, out, err);
+}
+
+static WrSelectPoint *points_of(const WrArg *list)
+{
+    WrSelectPoint *points = wr_alloc((size_t)list->rows, sizeof *points);
+    for (int i = 0; i < list->rows; i++)
+        points[i] = (WrSelectPoint){ list->numbers[2 * i], list->numbers[2 * i + 1] };
+    return points;
+}
+
+static bool polygon(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+                    WrError *err)
+{
+    (void)like;
+    (void)tolerance;
+    const WrArg *list = wr_call_arg(call, "points");
+    WrSelectPoint *points = points_of(list);
+    bool good = wr_figure_polygon(points, list->rows, out, err);
+    wr_free(points);
+    return good;
+}
+
+static bool path(const WrField *like, const WrCall *call, double tolerance, WrFigure *out,
+                 WrError *err)
+{
+    const WrArg *list = wr_call_arg(call, "points");
+    WrSelectPoint *points = points_of(list);
+    bool closed = wr_call_choice(call, "closed") == 1;
+    bool good = wr_figure_path(like, points, list->rows, closed, tolerance, out, err);
+    wr_free(points);
+    return good;
+}
+
+/* In the order of wr_form_shape. */
+static Maker *const makers[] = { rectangle, ellipse, polygon, path };
+
+/* ---- outlines ---- */
+
+/* An outline as the samples of a stroke. */
+typedef struct Trace {
+    WR_ARRAY(WrSelectPoint) points;
+    double width, height;
+    double length; /* texels */
+} Trace;
+
+static double distance(const Trace *trace, WrSelectPoint a, WrSelectPoint b)
+{
+    double x = trace->width * (b.u - a.u), y = trace->height * (b.v - a.v);
+    return sqrt(x * x + y * y);
+}
+
+/* Strokes join samples along the shorter way round, so no step may be as long as half a table. */
+static void go(Trace *trace, WrSelectPoint to)
+{
+    WrSelectPoint from = trace->points.data[trace->points.count - 1];
+    double u = fabs(to.u - from.u), v = fabs(to.v - from.v);
+    int steps = (int)ceil(4.0 * (u > v ? u : v));
+    trace->length += distance(trace, from, to);
+    for (int i = 1; i < steps; i++) {
+        double t = (double)i / steps;
+        WrSelectPoint p = { from.u + t * (to.u - from.u), from.v + t * (to.v - from.v) };
+        wr_array_push(&trace->points, p);
+    }
+    wr_array_push(&trace->points, to);
+}
+
+/* Take so many texels off the end, but never the whole. */
+static void shorten(Trace *trace, double by)
+{
+    while (trace->points.count >= 2) {
+        WrSelectPoint *end = &trace->points.data[trace->points.count - 1];
+        double step = distance(trace, end[-1], end[0]);
+        if (step > by) {
+            double t = by / step;
+            end->u += t * (end[-1].u - end->u);
+            end->v += t * (end[-1].v - end->v);
+            return;
+        }
+        if (trace->points.count == 2) return;
+        trace->points.count--;
+        by -= step;
+    }
+}
+
+/* Texels between the dabs of a preset. */
+static double preset_step(const WrBrush *brush)
+{
+    static const char *const names[] = { "dabs_per_actual_radius", "dabs_per_basic_radius" };
+    double dabs = 0.0;
+    for (int i = 0; i < 2; i++) {
+        int index = wr_preset_setting_find(names[i]);
+        if (index >= 0) dabs += wr_preset_value(brush->preset, index);
+    }
+    return dabs > 0.0 ? brush->radius / dabs : 0.0;
+}
+
+static bool goes_by_dabs(const WrBrush *b)
+{
+    return b->tip || b->buildup || b->flow < 1.0 || b->aspect > 1.0 || b->jitter_place > 0.0 ||
+           b->jitter_size > 0.0 || b->jitter_angle_deg > 0.0 || wr_brush_modes[b->mode].moves;
+}
+
+/* A closed outline must not have two dabs where it meets itself: spread them evenly over its length, and
+   stop just before the one that would fall on the first. */
+static void close_evenly(Trace *trace, WrBrush *brush)
+{
+    if (brush->preset) {
+        double step = preset_step(brush);
+        shorten(trace, 0.5 * (step < trace->length ? step : trace->length));
+        return;
+    }
+    if (!goes_by_dabs(brush) || !(brush->radius > 0.0) || !(trace->length > 0.0)) return;
+    double spacing = brush->spacing > 0.0 ? brush->spacing : wr_brush_modes[brush->mode].spacing;
+    if (spacing < 0.01) spacing = 0.01;
+    double dabs = floor(trace->length / (spacing * brush->radius));
+    if (dabs < 1.0) dabs = 1.0;
+    double step = trace->length / dabs;
+    brush->spacing = step / brush->radius;
+    shorten(trace, 1e-3 * step);
+}
+
+static WrSample sample_at(const void *ctx, int i)
+{
+    const Trace *trace = ctx;
+    return (
+        WrSample){ .u = trace->points.data[i].u, .v = trace->points.data[i].v, .pressure = 1.0 };
+}
+
+static bool draw_outline(WrSession *session, WrPainting *painting, const WrFigure *figure,
+                         WrError *err)
+{
+    const WrField *field = painting->ground.field;
+    Trace trace = { .width = wr_field_width(field), .height = wr_field_height(field) };
+    bool good = true;
+    wr_array_push(&trace.points, figure->points[0]);
+    for (int i = 1; i < figure->count + figure->closed && good; i++) {
+        go(&trace, figure->points[i % figure->count]);
+        if (trace.points.count > WR_POINTS_MAX)
+            good = wr_fail(err, "an outline of more than %d samples", WR_POINTS_MAX);
+    }
+    if (good && figure->closed) close_evenly(&trace, &painting->held.brush);
+    good = good && wr_session_draw(session, painting, sample_at, &trace, trace.points.count, err);
+    wr_array_free(&trace.points);
+    return good;
+}
+
+/* ---- insides ---- */
+
+/* The figure's points as a copy of the symmetry has them, near the table on periodic axes. */
+static void move_points(const WrField *field, const WrFigure *figure, const WrCopy *copy,
+                        WrSelectPoint *out)
+{
+    double width = wr_field_width(field), height = wr_field_height(field), du = 0.0, dv = 0.0;
+    for (int i = 0; i < figure->count; i++) {
+        double x = width * figure->points[i].u - 0.5,
+               y = height * (1.0 - figure->points[i].v) - 0.5;
+        double u = (copy->a * x + copy->b * y + copy->dx + 0.5) / width;
+        double v = 1.0 - (copy->c * x + copy->d * y + copy->dy + 0.5) / height;
+        if (i == 0 && wr_field_wrap_u(field) == WR_WRAP_PERIODIC) du = floor(u);
+        if (i == 0 && wr_field_wrap_v(field) == WR_WRAP_PERIODIC) dv = floor(v);
+        out[i] = (WrSelectPoint){ u - du, v - dv };
+    }
+}
+
+/* The union of all copies; NULL and an error when cancelled or out of range. */
+static WrField *cover_copies(WrSession *session, const WrField *field, const WrFigure *figure,
+                             const WrCopy *copies, int count, WrError *err)
+{
+    const volatile int *cancel = session->options.cancel;
+    WrSelectPoint *points = wr_alloc((size_t)figure->count, sizeof *points);
+    WrField *cover = NULL;
+    for (int i = 0; i < count; i++) {
+        move_points(field, figure, &copies[i], points);
+        WrField *one = wr_select_lasso(field, points, figure->count, session->options.pool, err);
+        WrField *both =
+            one ? wr_select_combine(cover, one, cover ? WR_SELECT_ADD : WR_SELECT_REPLACE, err)
+                : NULL;
+        wr_field_free(one);
+        wr_field_free(cover);
+        cover = both;
+        if (cover && cancel && *cancel) {
+            wr_fail(err, "cancelled");
+            wr_field_free(cover);
+            cover = NULL;
+        }
+        if (!cover) break;
+    }
+    wr_free(points);
+    return cover;
+}
+
+/* Where nothing turns or mirrors it, rectangles and ellipses are covered more exactly than by points. */
+static WrField *cover_plain(WrSession *session, const WrField *field, const WrCall *call,
+                            const WrFigure *figure, WrError *err)
+{
+    WrPool *pool = session->options.pool;
+    Maker *maker = makers[call->form];
+    bool straight =
+        maker == rectangle || maker == ellipse ? wr_call_number(call, "turn") == 0.0 : false;
+    if (straight && maker == ellipse) {
+        WrSelectPoint m = point(call, "middle"), r = point(call, "radii");
+        WrSelectPoint a = { m.u - r.u, m.v - r.v }, b = { m.u + r.u, m.v + r.v };
+        if (fabs(m.u) + r.u <= WR_SELECT_REACH && fabs(m.v) + r.v <= WR_SELECT_REACH)
+            return wr_select_ellipse(field, a, b, pool, err);
+    }
+    if (straight && maker == rectangle && wr_call_number(call, "corner") == 0.0)
+        return wr_select_rectangle(field, point(call, "a"), point(call, "b"), pool, err);
+    return wr_select_lasso(field, figure->points, figure->count, pool, err);
+}
+
+static bool fill_inside(WrSession *session, const WrPainting *painting, const WrCall *call,
+                        const WrFigure *figure, WrError *err)
+{
+    const WrField *field = painting->ground.field;
+    const WrBrush *brush = &painting->held.brush;
+    WrCopy *copies = wr_alloc(WR_COPIES_MAX, sizeof *copies);
+    int count = wr_symmetry_copies(&brush->symmetry, field, copies);
+    WrField *cover = count > 1 ? cover_copies(session, field, figure, copies, count, err)
+                               : cover_plain(session, field, call, figure, err);
+    bool good = cover && wr_brush_fill(&painting->ground, brush, cover, figure->points[0].u,
+                                       figure->points[0].v, err);
+    wr_field_free(cover);
+    wr_free(copies);
+    return good;
+}
+
+/* ---- the command ---- */
+
+/* The inside's points are so many as the precision wants, or as a polygon may have. */
+static bool make_figure(const WrField *like, const WrCall *call, bool fill, WrFigure *figure,
+                        WrError *err)
+{
+    double tolerance = fill ? FILL_TOLERANCE : OUTLINE_TOLERANCE;
+    if (!makers[call->form](like, call, tolerance, figure, err)) return false;
+    while (fill && figure->count > WR_SELECT_POINTS && tolerance < 0.1) {
+        tolerance *= 4.0;
+        wr_figure_fini(figure);
+        if (!makers[call->form](like, call, tolerance, figure, err)) return false;
+    }
+    return true;
+}
+
+bool wr_run_shape(WrSession *session, WrCall *call, WrError *err)
+{
+    WrPainting painting;
+    WrFigure figure = { 0 };
+    bool fill = wr_call_choice(call, "paint") == 1;
+    if (!wr_painting_begin(session, call, &painting, err)) return false;
+    bool good = make_figure(painting.ground.field, call, fill, &figure, err);
+    if (good)
+        good = fill ? fill_inside(session, &painting, call, &figure, err)
+                    : draw_outline(session, &painting, &figure, err);
+    wr_figure_fini(&figure);
+    wr_painting_end(session, &painting);
+    return good;
+}

@@ -1,0 +1,228 @@
+/* Presets and tips that commands name: read once, and again only where their files change, so that a stroke
+   begins without touching the disk but for one look at the file's date. */
+#include "command/inner.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "brush/library.h"
+#include "brush/tip.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+#define FILES_MAX 48 /* kept in memory */
+
+/* What changes when a file does. */
+typedef struct Stamp {
+    dev_t device;
+    ino_t inode;
+    off_t size;
+    struct timespec written, changed;
+} Stamp;
+
+typedef struct Entry {
+    bool is_tip;
+    char *key;  /* a bare name, or a file's path; owned */
+    char *path; /* owned */
+    Stamp stamp;
+    char sha256[65];
+    WrPreset *preset; /* owned, or: */
+    WrTip *tip;       /* owned */
+    char *tip_path;   /* owned; of the preset's own tip; NULL: none */
+    uint64_t used;
+} Entry;
+
+struct WrBrushFiles {
+    Entry entries[FILES_MAX];
+    int count;
+    uint64_t clock;
+};
+
+static void entry_fini(Entry *entry)
+{
+    wr_free(entry->key);
+    wr_free(entry->path);
+    wr_free(entry->tip_path);
+    wr_preset_free(entry->preset);
+    wr_tip_free(entry->tip);
+    *entry = (Entry){ 0 };
+}
+
+void wr_brush_files_free(WrBrushFiles *files)
+{
+    for (int i = 0; files && i < files->count; i++) entry_fini(&files->entries[i]);
+    wr_free(files);
+}
+
+void wr_session_forget_brushes(WrSession *session)
+{
+    wr_brush_files_free(session->brush_files);
+    session->brush_files = NULL;
+}
+
+/* ---- files ---- */
+
+static bool same_time(struct timespec a, struct timespec b)
+{
+    return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
+}
+
+static bool stamp_of(const char *path, Stamp *stamp)
+{
+    struct stat info;
+    if (stat(path, &info) != 0) return false;
+    *stamp = (Stamp){ info.st_dev, info.st_ino, info.st_size, info.st_mtim, info.st_ctim };
+    return true;
+}
+
+static bool is_fresh(const Entry *entry)
+{
+    Stamp now;
+    const Stamp *then = &entry->stamp;
+    return stamp_of(entry->path, &now) && now.device == then->device && now.inode == then->inode &&
+           now.size == then->size && same_time(now.written, then->written) &&
+           same_time(now.changed, then->changed);
+}
+
+/* Behind `"tip" :` the string that follows, or NULL; *p moves on. The caller frees it. A name with escapes
+   in it is left out. */
+static char *next_tip_name(const char **p)
+{
+    static const char key[] = "\"tip\"", blanks[] = " \t\r\n";
+    while ((*p = strstr(*p, key))) {
+        const char *s = *p += sizeof key - 1;
+        s += strspn(s, blanks);
+        if (*s++ != ':') continue;
+        s += strspn(s, blanks);
+        if (*s++ != '"') continue;
+        size_t length = strcspn(s, "\"\\/");
+        if (length == 0 || s[length] != '"') continue;
+        return wr_strndup(s, length);
+    }
+    return NULL;
+}
+
+/* The file beside a preset that is its tip. The text is one that was read as a preset, so whatever lies
+   behind a key "tip" is at worst a file that nobody asks for. */
+static char *tip_beside(const char *text, const char *folder)
+{
+    char *name, *found = NULL;
+    while (!found && (name = next_tip_name(&text))) {
+        struct stat info;
+        char *path = wr_path_join(folder, name);
+        if (stat(path, &info) == 0 && S_ISREG(info.st_mode)) found = path;
+        else wr_free(path);
+        wr_free(name);
+    }
+    return found;
+}
+
+/* "x/soft.myb" -> "soft"; a bare name stays. */
+static char *short_name(const char *word)
+{
+    if (!wr_names_preset_file(word)) return wr_strdup(word);
+    const char *slash = strrchr(word, '/');
+    const char *base = slash ? slash + 1 : word;
+    return wr_strndup(base, (size_t)(strrchr(base, '.') - base));
+}
+
+static bool read_preset(Entry *entry, const char *word, WrError *err)
+{
+    char *bytes;
+    size_t length;
+    if (!wr_file_read(entry->path, WR_PRESET_BYTES, &bytes, &length, err)) return false;
+    char *folder = wr_path_folder(entry->path), *name = short_name(word);
+    wr_sha256_bytes(bytes, length, entry->sha256);
+    entry->preset = wr_preset_parse(bytes, length, name, folder, err);
+    if (entry->preset && wr_preset_tip(entry->preset)) entry->tip_path = tip_beside(bytes, folder);
+    if (!entry->preset && err && !strstr(err->text, entry->path))
+        wr_error_prefix(err, "%s: ", entry->path);
+    wr_free(folder);
+    wr_free(name);
+    wr_free(bytes);
+    return entry->preset != NULL;
+}
+
+static bool read_tip(Entry *entry, WrError *err)
+{
+    if (!wr_sha256_file(entry->path, entry->sha256, err)) return false;
+    entry->tip = wr_tip_read(entry->path, err);
+    return entry->tip != NULL;
+}
+
+/* ---- the kept ones ---- */
+
+static Entry *find(WrBrushFiles *files, bool is_tip, const char *key)
+{
+    for (int i = 0; i < files->count; i++)
+        if (files->entries[i].is_tip == is_tip && strcmp(files->entries[i].key, key) == 0)
+            return &files->entries[i];
+    return NULL;
+}
+
+/* A place for one more: where `old` was, behind the others, or where the one was that nobody used for the
+   longest time. */
+static Entry *place_for(WrBrushFiles *files, Entry *old)
+{
+    Entry *place = old;
+    if (!place && files->count < FILES_MAX) return &files->entries[files->count++];
+    for (int i = 0; !old && i < files->count; i++)
+        if (!place || files->entries[i].used < place->used) place = &files->entries[i];
+    entry_fini(place);
+    return place;
+}
+
+/* The path (taken), absolute and without links where that can be said. */
+static char *absolute(char *path)
+{
+    char *real = path ? realpath(path, NULL) : NULL;
+    if (!real) return path;
+    wr_free(path);
+    path = wr_strdup(real);
+    free(real);
+    return path;
+}
+
+static bool take(WrSession *session, bool is_tip, const char *key, WrBrushFile *file, WrError *err)
+{
+    if (!session->brush_files) session->brush_files = wr_alloc(1, sizeof *session->brush_files);
+    WrBrushFiles *files = session->brush_files;
+    Entry *entry = find(files, is_tip, key);
+    if (!entry || !is_fresh(entry)) {
+        bool bare = !is_tip && !wr_names_preset_file(key);
+        Entry made = { .is_tip = is_tip,
+                       .path = bare ? absolute(wr_library_find(key, err)) : wr_strdup(key) };
+        /* The date first: a file that changes while it is read is then read again. */
+        bool good = made.path != NULL;
+        if (good && !stamp_of(made.path, &made.stamp)) made.stamp = (Stamp){ .size = -1 };
+        good = good && (is_tip ? read_tip(&made, err) : read_preset(&made, key, err));
+        if (!good) {
+            entry_fini(&made);
+            return false;
+        }
+        made.key = wr_strdup(key);
+        entry = place_for(files, entry);
+        *entry = made;
+    }
+    entry->used = ++files->clock;
+    *file = (WrBrushFile){ entry->path, entry->sha256, entry->preset, entry->tip, entry->tip_path };
+    return true;
+}
+
+bool wr_session_preset_file(WrSession *session, const char *word, const char *folder,
+                            WrBrushFile *file, WrError *err)
+{
+    char *key = wr_names_preset_file(word) ? absolute(wr_path_join(folder, word)) : wr_strdup(word);
+    bool good = take(session, false, key, file, err);
+    wr_free(key);
+    return good;
+}
+
+bool wr_session_tip_file(WrSession *session, const char *word, const char *folder,
+                         WrBrushFile *file, WrError *err)
+{
+    char *key = absolute(wr_path_join(folder, word));
+    bool good = take(session, true, key, file, err);
+    wr_free(key);
+    return good;
+}

@@ -1,0 +1,136 @@
+#include "field/ramp.h"
+
+#include <math.h>
+
+#include "base/exactmath.h"
+#include "field/select_inner.h"
+
+/* One axis in texels. */
+typedef struct Axis {
+    double size; /* of the table */
+    bool periodic;
+    double from, way;
+} Axis;
+
+typedef struct Ramping {
+    WrRamp ramp;
+    int width;
+    Axis u, v;
+    double length2; /* |d|^2 */
+} Ramping;
+
+/* The image of e nearest to `middle`: middle - size/2 <= result < middle + size/2. */
+static double nearest(const Axis *axis, double e, double middle)
+{
+    if (!axis->periodic) return e;
+    double turns = floor((e - middle) / axis->size + 0.5);
+    return e - turns * axis->size;
+}
+
+static double unit(double t)
+{
+    return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+}
+
+/* From 0 at `from` to 1 at `to` the way that was given, and back to 0 the rest of the way round. */
+static double round_trip(const Axis *axis, double e)
+{
+    double way = fabs(axis->way);
+    if (way == 0.0) return 0.0;
+    if (axis->way < 0.0) e = -e;
+    if (!axis->periodic) return unit(e / way);
+    e -= floor(e / axis->size) * axis->size;
+    return unit(e <= way ? e / way : (axis->size - e) / (axis->size - way));
+}
+
+/* e near 0; beyond a quarter of the table it leads back to 0. */
+static double mirrored(const Axis *axis, double e)
+{
+    if (!axis->periodic) return e;
+    e = nearest(axis, e, 0.0);
+    if (e > 0.25 * axis->size) return 0.5 * axis->size - e;
+    return e < -0.25 * axis->size ? -0.5 * axis->size - e : e;
+}
+
+static double linear(const Ramping *r, double ex, double ey)
+{
+    const Axis *u = &r->u, *v = &r->v;
+    if (r->ramp.fold)
+        return unit((round_trip(u, ex) * u->way * u->way + round_trip(v, ey) * v->way * v->way) /
+                    r->length2);
+    ex = nearest(u, ex, 0.5 * u->way);
+    ey = nearest(v, ey, 0.5 * v->way);
+    return unit((ex * u->way + ey * v->way) / r->length2);
+}
+
+static double radial(const Ramping *r, double ex, double ey)
+{
+    ex = nearest(&r->u, ex, 0.0);
+    ey = nearest(&r->v, ey, 0.0);
+    double t = sqrt((ex * ex + ey * ey) / r->length2);
+    return unit(r->ramp.fold && t > 1.0 ? 2.0 - t : t);
+}
+
+static double cone(const Ramping *r, double ex, double ey)
+{
+    const Axis *u = &r->u, *v = &r->v;
+    bool fold = r->ramp.fold;
+    ex = fold ? mirrored(u, ex) : nearest(u, ex, 0.0);
+    ey = fold ? mirrored(v, ey) : nearest(v, ey, 0.0);
+    if (ex == 0.0 && ey == 0.0) return 0.0;
+    double along = ex * u->way + ey * v->way, across = ey * u->way - ex * v->way;
+    double t = wr_atan2(across, along) / (2.0 * WR_PI);
+    if (fold) return unit(2.0 * fabs(t));
+    return unit(t < 0.0 ? t + 1.0 : t);
+}
+
+static float height_at(const Ramping *r, double ex, double ey)
+{
+    double t = 0.0, low = r->ramp.low, high = r->ramp.high;
+    switch (r->ramp.kind) {
+    case WR_RAMP_LINEAR: t = linear(r, ex, ey); break;
+    case WR_RAMP_RADIAL: t = radial(r, ex, ey); break;
+    default: t = cone(r, ex, ey); break;
+    }
+    return (float)(t >= 1.0 ? high : low + t * (high - low));
+}
+
+static bool make_rows(void *ctx, int worker, int j, int rows, float *out)
+{
+    const Ramping *r = ctx;
+    (void)worker;
+    for (int y = 0; y < rows; y++) {
+        double ey = (r->v.size - (j + y + 0.5)) - r->v.from;
+        for (int i = 0; i < r->width; i++)
+            out[(size_t)y * (size_t)r->width + (size_t)i] = height_at(r, (i + 0.5) - r->u.from, ey);
+    }
+    return true;
+}
+
+static bool check_fold(const Axis *axis, const char *name, WrError *err)
+{
+    if (!axis->periodic || fabs(axis->way) < axis->size) return true;
+    return wr_fail(
+        err, "from and to are %.9g tables apart along %s: with fold=on they must be less than 1",
+        fabs(axis->way) / axis->size, name);
+}
+
+WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool, WrError *err)
+{
+    double width = wr_field_width(like), height = wr_field_height(like);
+    Ramping r = { .ramp = *ramp, .width = wr_field_width(like) };
+    r.u = (Axis){ width, wr_field_wrap_u(like) == WR_WRAP_PERIODIC, width * ramp->from_u,
+                  width * (ramp->to_u - ramp->from_u) };
+    r.v = (Axis){ height, wr_field_wrap_v(like) == WR_WRAP_PERIODIC, height * ramp->from_v,
+                  height * (ramp->to_v - ramp->from_v) };
+    r.length2 = r.u.way * r.u.way + r.v.way * r.v.way;
+    if (!(r.length2 > 0.0)) {
+        wr_fail(err, "from and to are the same place, %.9g,%.9g: must be two", ramp->from_u,
+                ramp->from_v);
+        return NULL;
+    }
+    if (ramp->fold && ramp->kind == WR_RAMP_LINEAR &&
+        (!check_fold(&r.u, "u", err) || !check_fold(&r.v, "v", err)))
+        return NULL;
+    return wr_select_build(like, 0.0f, make_rows, &r, pool, err);
+}

@@ -1,0 +1,207 @@
+#include "generate/generator.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <math.h>
+#include <string.h>
+
+const WrFamily wr_families[] = {
+    { .name = "pattern",
+      .label = "Patterns",
+      .help = "bricks, tiles, cloth, cells and other regular things",
+      .example = "pattern bricks across=4 rows=10 joint=5",
+      .rows = wr_patterns },
+    { .name = "noise",
+      .label = "Noise",
+      .help = "sums of value, gradient or simplex noise",
+      .example = "noise perlin cells=6 octaves=5",
+      .rows = wr_noise_rows },
+    { .name = "formula",
+      .label = "Formulas",
+      .help = "a polynomial or a Fourier series, texel by texel",
+      .example = "formula fourier terms=3,0,0.5;0,5,0.25,90,0",
+      .rows = wr_formula_rows },
+    { .name = "text",
+      .label = "Text",
+      .help = "letters of any font",
+      .example = "text Wrinkle",
+      .rows = wr_text_rows },
+    { .name = "solid",
+      .label = "Solids",
+      .help = "solids seen from above by a Z-buffer",
+      .example = "solid sphere",
+      .rows = wr_solids },
+    { .name = "terrain",
+      .label = "Terrain",
+      .help = "mountains, and what weather makes of them",
+      .example = "terrain fault",
+      .rows = wr_terrains },
+    { .name = "picture",
+      .label = "Pictures",
+      .help = "heights from pictures and from normal maps",
+      .example = "picture height FILE",
+      .rows = wr_picture_rows },
+    { .name = NULL },
+};
+
+void wr_relief_fini(WrRelief *relief)
+{
+    wr_field_free(relief->heights);
+    wr_field_free(relief->cover);
+    *relief = (WrRelief){ NULL, NULL };
+}
+
+const WrFamily *wr_family_find(const char *name)
+{
+    for (const WrFamily *f = wr_families; f->name; f++)
+        if (strcmp(f->name, name) == 0) return f;
+    return NULL;
+}
+
+const WrGenerator *wr_generator_find(const char *family, const char *name)
+{
+    const WrFamily *f = wr_family_find(family);
+    for (const WrGenerator *g = f ? f->rows : NULL; g && g->family; g++)
+        if (name && g->name ? strcmp(g->name, name) == 0 : name == g->name) return g;
+    return NULL;
+}
+
+int wr_generator_param_count(const WrGenerator *generator)
+{
+    int count = 0;
+    while (generator->params[count].name) count++;
+    return count;
+}
+
+int wr_generator_param_find(const WrGenerator *generator, const char *name)
+{
+    for (int i = 0; generator->params[i].name; i++)
+        if (strcmp(generator->params[i].name, name) == 0) return i;
+    return -1;
+}
+
+void wr_generator_defaults(const WrGenerator *generator, WrParamValue *values)
+{
+    for (int i = 0; generator->params[i].name; i++) {
+        const WrParam *p = &generator->params[i];
+        values[i] = (WrParamValue){ .text = p->fallback_text };
+        memcpy(values[i].number, p->fallback, sizeof p->fallback);
+    }
+}
+
+/* ---- checks ---- */
+
+static void add_title(WrText *text, const WrGenerator *g)
+{
+    wr_text_add(text, g->family);
+    if (g->name) wr_text_addf(text, " %s", g->name);
+}
+
+/* "pattern bricks: joint=-1: must be a number, 0..16384 texels" */
+static bool fail_number(const WrGenerator *g, const WrParam *p, const WrParamPart *part,
+                        double value, WrError *err)
+{
+    WrText text = { 0 };
+    add_title(&text, g);
+    wr_text_addf(&text, ": %s", p->name);
+    if (part) wr_text_addf(&text, ": %s", part->name);
+    wr_text_add(&text, "=");
+    wr_text_add_number(&text, value);
+    bool whole = part ? part->whole : p->kind == WR_PARAM_WHOLE;
+    wr_text_addf(&text, ": must be %s number, ", whole ? "a whole" : "a");
+    if (!part && p->above) wr_text_add(&text, "above ");
+    wr_text_add_number(&text, part ? part->low : p->low);
+    wr_text_add(&text, !part && p->above ? ", up to " : "..");
+    wr_text_add_number(&text, part ? part->high : p->high);
+    if (p->unit && *p->unit) wr_text_addf(&text, " %s", p->unit);
+    wr_fail(err, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
+    return false;
+}
+
+static bool fail_missing(const WrGenerator *g, const WrParam *p, WrError *err)
+{
+    WrText title = { 0 };
+    add_title(&title, g);
+    wr_fail(err, "%s: %s is missing: must be %s", wr_text_get(&title), p->name, p->help);
+    wr_text_fini(&title);
+    return false;
+}
+
+static bool fits(const WrParam *p, double value)
+{
+    if (!(value >= p->low && value <= p->high)) return false;
+    if (p->above && value == p->low) return false;
+    return p->kind != WR_PARAM_WHOLE || value == floor(value);
+}
+
+static bool check_numbers(const WrGenerator *g, const WrParam *p, const WrParamValue *value,
+                          WrError *err)
+{
+    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
+    for (int i = 0; i < count; i++)
+        if (!fits(p, value->number[i])) return fail_number(g, p, NULL, value->number[i], err);
+    return true;
+}
+
+static bool check_word(const WrGenerator *g, const WrParam *p, const WrParamValue *value,
+                       WrError *err)
+{
+    int count = 2;
+    if (p->kind == WR_PARAM_CHOICE)
+        for (count = 0; p->words[count];) count++;
+    double x = value->number[0];
+    if (x >= 0.0 && x < count && x == floor(x)) return true;
+    const WrParam range = { .name = p->name, .kind = WR_PARAM_WHOLE, .high = count - 1 };
+    return fail_number(g, &range, NULL, x, err);
+}
+
+static bool check_points(const WrGenerator *g, const WrParam *p, const WrParamValue *value,
+                         WrError *err)
+{
+    if (value->count < 0 || value->count > WR_GENERATOR_POINTS)
+        return wr_fail(err, "%s: %d points: must be 0..%d", p->name, value->count,
+                       WR_GENERATOR_POINTS);
+    for (int i = 0; i < 2 * value->count; i++)
+        if (!fits(p, value->points[i])) return fail_number(g, p, NULL, value->points[i], err);
+    return true;
+}
+
+static bool check_terms(const WrGenerator *g, const WrParam *p, const WrParamValue *value,
+                        WrError *err)
+{
+    if (value->count < 1) return fail_missing(g, p, err);
+    for (int i = 0; i < value->count * p->components; i++) {
+        const WrParamPart *part = &p->parts[i % p->components];
+        double x = value->points[i];
+        if (!(x >= part->low && x <= part->high) || (part->whole && x != floor(x)))
+            return fail_number(g, p, part, x, err);
+    }
+    return true;
+}
+
+static bool check(const WrGenerator *g, const WrParam *p, const WrParamValue *value, WrError *err)
+{
+    switch (p->kind) {
+    case WR_PARAM_NUMBER:
+    case WR_PARAM_WHOLE:
+    case WR_PARAM_TUPLE: return check_numbers(g, p, value, err);
+    case WR_PARAM_CHOICE:
+    case WR_PARAM_SWITCH: return check_word(g, p, value, err);
+    case WR_PARAM_POINTS: return check_points(g, p, value, err);
+    case WR_PARAM_TERMS: return check_terms(g, p, value, err);
+    case WR_PARAM_TEXT:
+    case WR_PARAM_FILE: break;
+    }
+    /* a text or file whose fallback is "" may be left out */
+    return value->text || p->fallback_text ? true : fail_missing(g, p, err);
+}
+
+bool wr_generator_make(const WrGenerator *generator, const WrParamValue *values,
+                       const WrGenerateJob *job, WrRelief *out, WrError *err)
+{
+    for (int i = 0; generator->params[i].name; i++)
+        if (!check(generator, &generator->params[i], &values[i], err)) return false;
+    return generator->make(values, job, out, err);
+}

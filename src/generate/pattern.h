@@ -1,0 +1,138 @@
+/* pattern.h - what the patterns share: the grid that they are drawn on, edges, and pieces that differ from
+   one another.
+   Layer 4, private to this room.
+
+   A pattern is a function of a place: x texels to the right of the origin, y upwards, within one table.
+   It gives 0..1 or thereabouts, and a row's `height` multiplies it. All things stand whole numbers of
+   times across the table, so that the pattern closes; and since a place is all that it knows, a moved
+   origin rolls it bit for bit. */
+#pragma once
+#include "generate/build.h"
+#include "generate/param.h"
+#include "noise/noise.h"
+
+/* Height at a place; ctx is the pattern's own. Any thread. */
+typedef double (*WrPatternAt)(const void *ctx, double x, double y);
+
+/* Fill a relief: height times the mean of samples x samples places in each texel (1: at its centre, for
+ * patterns that are antialiased by themselves; in a coarse preview always). Reads height and origin. */
+bool wr_pattern_make(const WrParams *params, const WrGenerateJob *job, WrPatternAt at,
+                     const void *ctx, int samples, WrRelief *out, WrError *err);
+#define WR_PATTERN_SAMPLES 4
+
+/* ---- cells ---- */
+
+/* So many cells across and up, of so many texels. */
+typedef struct WrCells {
+    double width, height;           /* of the table, texels */
+    int across, rows;               /* cells, from 1 */
+    double cell_width, cell_height; /* texels; need not be whole */
+} WrCells;
+
+WrCells wr_cells(const WrField *like, int across, int rows);
+/* By the parameters across and rows. */
+WrCells wr_cells_of(const WrParams *params, const WrField *like);
+/* The same with the table on its side, for things that run upwards. */
+WrCells wr_cells_turned(const WrParams *params, const WrField *like);
+
+#define WR_CELLS_MOST 1024 /* along an axis */
+#define WR_P_ACROSS(value) WR_P_WHOLE("across", "Across", value, 1, WR_CELLS_MOST, 32, "how many")
+#define WR_P_ROWS(value) WR_P_WHOLE("rows", "Rows", value, 1, WR_CELLS_MOST, 32, "how many")
+
+static inline int wr_modulo(int i, int n)
+{
+    int rest = i % n;
+    return rest < 0 ? rest + n : rest;
+}
+
+/* 0..1 by a seed and two whole numbers and a use; a multiple of 2^-24, so that sums stay exact. */
+double wr_chance(uint32_t seed, int i, int j, int use);
+
+/* Tell that rows are no multiple of `multiple`, if so: "the bond closes where ..." */
+void wr_note_rows(const WrGenerateJob *job, int rows, int multiple, const char *what);
+
+/* ---- edges ---- */
+
+typedef enum WrProfile {
+    WR_PROFILE_ROUND,   /* a quarter of a circle */
+    WR_PROFILE_SMOOTH,  /* 3 t^2 - 2 t^3 */
+    WR_PROFILE_CHAMFER, /* a straight slope */
+    WR_PROFILE_COVE     /* a quarter of a circle, hollow */
+} WrProfile;
+
+/* How a height rises from 0 at an edge to 1 at `bevel` texels inside of it. */
+typedef struct WrEdge {
+    double bevel; /* texels, 0: a step */
+    WrProfile profile;
+} WrEdge;
+
+extern const char *const wr_profile_words[];
+#define WR_P_BEVEL(value) WR_P_TEXELS("bevel", "Bevel", value, 32, "width of the rounded edge")
+#define WR_P_PROFILE                                                                               \
+    WR_P_CHOICE("profile", "Profile", WR_PROFILE_ROUND, wr_profile_words, "of the edge")
+WrEdge wr_edge_of(const WrParams *params);
+
+/* The height at d texels inside of an edge (below 0: outside), averaged over one texel across the edge, in
+ * closed form: for a straight edge along the table's axes what an exact box filter gives. */
+double wr_edge(const WrEdge *edge, double d);
+
+/* How far (dx, dy) is inside of a rectangle of those half sides with rounded corners, texels. */
+double wr_inside_box(double dx, double dy, double half_x, double half_y, double corner);
+
+/* ---- pieces: bricks, tiles, planks, stones ---- */
+
+/* What makes pieces differ and their surface uneven. */
+typedef struct WrPieces {
+    WrEdge edge;
+    double uneven, tilt, pillow, rough; /* parts of the height */
+    uint32_t seed;
+    double width, height; /* of the table, texels */
+    WrNoise grain[2];     /* coarse and fine */
+} WrPieces;
+
+#define WR_P_PIECES(uneven, tilt, pillow, rough)                                                   \
+    WR_P_PART("uneven", "Uneven", uneven, "how much lower some lie, as a part of the height"),     \
+        WR_P_PART("tilt", "Tilt", tilt, "how far they lean, as a part of the height"),             \
+        WR_P_PART("pillow", "Pillow", pillow, "how far their middle bulges"),                      \
+        WR_P_PART("rough", "Roughness", rough, "of their surface, as a part of the height"),       \
+        WR_P_SEED
+
+/* cells: whose size goes with that of the grain. */
+WrPieces wr_pieces_of(const WrParams *params, const WrCells *cells);
+/* The height of a piece at a place that is d texels inside of its edge, (px, py) from its middle with -1
+ * and 1 at its sides; (i, j) says which piece it is. */
+double wr_piece(const WrPieces *pieces, double d, double px, double py, int i, int j, double x,
+                double y);
+/* sin(2 pi turns) to 1e-7, for detail that is drawn many times a texel; |turns| < 1e9. */
+double wr_ripple(double turns);
+/* Noise of -1..1, two octaves, at a place. */
+double wr_grain(const WrNoise grain[2], const WrPieces *pieces, double x, double y);
+/* A noise that repeats after so many cells. */
+WrNoise wr_pattern_noise(uint32_t seed, double cells_u, double cells_v);
+
+/* ---- the rows: parameters and functions, by file ---- */
+
+#define WR_PATTERN(name)                                                                           \
+    extern const WrParam wr_params_##name[];                                                       \
+    bool wr_pattern_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
+                           WrError *err)
+
+WR_PATTERN(bricks); /* pattern_wall.c */
+WR_PATTERN(tiles);
+WR_PATTERN(hexagons);
+WR_PATTERN(planks);
+WR_PATTERN(shingles); /* pattern_coat.c */
+WR_PATTERN(scales);
+WR_PATTERN(grid); /* pattern_line.c */
+WR_PATTERN(checks);
+WR_PATTERN(stripes);
+WR_PATTERN(waves);
+WR_PATTERN(knurl);
+WR_PATTERN(dots); /* pattern_cell.c */
+WR_PATTERN(voronoi);
+WR_PATTERN(cracks);
+WR_PATTERN(weave); /* pattern_cloth.c */
+WR_PATTERN(rope);
+WR_PATTERN(chain);     /* pattern_metal.c */
+WR_PATTERN(scratches); /* pattern_scratch.c */
+#undef WR_PATTERN

@@ -1,0 +1,5 @@
+#include "generate/generator.h"
+
+const WrGenerator wr_solids[] = {
+    { .family = NULL },
+};

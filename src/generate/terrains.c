@@ -1,0 +1,5 @@
+#include "generate/generator.h"
+
+const WrGenerator wr_terrains[] = {
+    { .family = NULL },
+};

@@ -1,0 +1,96 @@
+/* The whole window without a display: a pointer scribbles, the table is painted, and how soon that is seen
+   is measured. */
+#include "test.h"
+
+#include "ui/app.h"
+
+static WrSession *session_of(WrPool *pool)
+{
+    WrError err = { "" };
+    WrSessionOptions options = { .pool = pool, .outputs = true };
+    WrSession *session = wr_session_new(&options);
+    if (!wr_session_run(session, "table 256x256", &err)) fail_msg("%s", err.text);
+    if (!wr_session_run(session, "surface sphere", &err)) fail_msg("%s", err.text);
+    return session;
+}
+
+static void assert_ordered(const WrAppDelays *ms)
+{
+    assert_true(ms->half > 0 && ms->half <= ms->most);
+    assert_true(ms->most <= ms->nearly_all && ms->nearly_all <= ms->all);
+    assert_true(ms->all < 60e3);
+}
+
+static void a_scribble_in_the_window_is_painted_and_timed(void **state)
+{
+    (void)state;
+    WrPool *pool = wr_pool_new(2);
+    WrError err = { "" };
+    for (int turning = 0; turning < 2; turning++) {
+        WrSession *session = session_of(pool);
+        int before = wr_session_history_count(session);
+        WrAppOptions options = { .session = session, .threads = 2 };
+        WrAppLatency latency = { .radius = 8, .seconds = 1, .turning = turning };
+        if (!wr_app_latency(&options, &latency, &err)) fail_msg("%s", err.text);
+        assert_int_equal(latency.events, 125); /* of the pace that was promised */
+        assert_true(latency.pictures > 10);
+        assert_ordered(&latency.pointer);
+        assert_ordered(&latency.canvas);
+        assert_ordered(&latency.preview);
+        /* the paint cannot be seen before the pointer's own event is */
+        assert_true(latency.canvas.half >= latency.pointer.half * 0.5);
+        /* one stroke, as one step, that begins where the scribble does */
+        assert_false(wr_session_in_stroke(session));
+        assert_int_equal(wr_session_history_count(session), before + 1);
+        assert_non_null(strstr(wr_session_last_command(session), "stroke "));
+        assert_non_null(strstr(wr_session_last_command(session), "radius=8 "));
+        float low, high;
+        wr_field_range(wr_document_field(wr_session_document(session)), &low, &high);
+        assert_true(low == 0 && high > 0.0199f && high <= 0.02f); /* its strength, nowhere twice */
+        wr_session_free(session);
+    }
+    wr_pool_free(pool);
+}
+
+/* What the window draws a few milliseconds at a time is what the command means as a whole. */
+static void a_stroke_drawn_by_and_by_replays_to_the_same_bits(void **state)
+{
+    (void)state;
+    WrPool *pool = wr_pool_new(2);
+    WrError err = { "" };
+    WrSession *session = session_of(pool), *again = session_of(pool);
+    WrAppOptions options = { .session = session, .threads = 2 };
+    WrAppLatency latency = { .radius = 60, .seconds = 0.8 };
+    if (!wr_app_latency(&options, &latency, &err)) fail_msg("%s", err.text);
+    if (!wr_session_run(again, wr_session_last_command(session), &err)) fail_msg("%s", err.text);
+    WrHash a = wr_session_hash(session), b = wr_session_hash(again);
+    assert_memory_equal(&a, &b, sizeof a);
+    wr_session_free(session);
+    wr_session_free(again);
+    wr_pool_free(pool);
+}
+
+static void times_out_of_range_are_refused(void **state)
+{
+    (void)state;
+    const double bad[] = { 0, -1, 0.4, 601, NAN, INFINITY };
+    WrSession *session = session_of(NULL);
+    WrAppOptions options = { .session = session };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        WrError err = { "" };
+        WrAppLatency latency = { .radius = 8, .seconds = bad[i] };
+        assert_false(wr_app_latency(&options, &latency, &err));
+        assert_non_null(strstr(err.text, "0.5..600"));
+    }
+    wr_session_free(session);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scribble_in_the_window_is_painted_and_timed),
+        cmocka_unit_test(a_stroke_drawn_by_and_by_replays_to_the_same_bits),
+        cmocka_unit_test(times_out_of_range_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

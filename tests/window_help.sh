@@ -1,0 +1,134 @@
+# window_help.sh - what the tests of the window share: waiting, keys and mouse, pictures. Sourced, not run;
+# needs `program` and `folder`, a folder of its own; makes `server`, `pid`, `window` and `failures`.
+# shellcheck shell=bash disable=SC2154
+
+server='' window='' pid='' failures=0
+
+cleanup() {
+    # shellcheck disable=SC2086
+    [[ -z $pid ]] || kill -KILL $pid 2>/dev/null
+    # shellcheck disable=SC2086
+    [[ -z $server ]] || kill -TERM $server 2>/dev/null
+    wait
+    rm -rf "$folder"
+}
+trap cleanup EXIT
+trap 'exit 1' INT TERM
+
+complain() {
+    printf '%s\n' "$*"
+    failures=$((failures + 1))
+}
+
+# until_true SECONDS WHAT COMMAND...: the command comes true in time, or that is a failure.
+until_true() {
+    local end=$((SECONDS + $1)) what=$2
+    shift 2
+    until "$@"; do
+        if [[ $SECONDS -ge $end ]]; then
+            complain "in vain waited for: $what"
+            return 1
+        fi
+        sleep 0.05
+    done
+}
+
+# The program shall find nothing of the user's.
+quiet_environment() {
+    unset WAYLAND_DISPLAY SDL_VIDEODRIVER WRINKLE_SCALE
+    export HOME=$folder XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state WRINKLE_DATA=$source WRINKLE_DIALOG=own
+    export WRINKLE_RENDERER=software WRINKLE_TIMING=1
+}
+
+has_window() {
+    window=$(xdotool search --name ' - Wrinkle$' 2>/dev/null | head -n 1)
+    [[ -n $window ]]
+}
+shows_picture() { grep -q 'first picture' err; }
+is_gone() { ! kill -0 "$pid" 2>/dev/null; }
+
+# start ARGUMENT...: open the window and wait until it has drawn itself.
+start() {
+    : >err
+    "$program" paint "$@" >out 2>err &
+    pid=$!
+    until_true 30 "the first picture" shows_picture || { cat err; exit 1; }
+    until_true 10 "the window" has_window || exit 1
+    eval "$(xdotool getwindowgeometry --shell "$window" | grep -E '^(X|Y|WIDTH|HEIGHT)=')"
+    # Without a window manager keys go where the pointer is.
+    xdotool mousemove $((X + 330)) $((Y + 400))
+    settle
+}
+
+# ends STATUS: the program ends by itself with that status.
+ends() {
+    until_true 20 "the end of the program" is_gone || return
+    wait "$pid"
+    local got=$?
+    [[ $got == "$1" ]] || complain "exit status $got, not $1: $(cat err)"
+    pid=''
+}
+
+shot() { import -window "$window" "$1.ppm"; }
+
+# home: the pointer goes where its outline is not in the way of comparisons.
+home() {
+    xdotool mousemove $((X + 340)) $((Y + 400)) # else, if it is there, it would not be seen to move
+    xdotool mousemove $((X + 330)) $((Y + 400))
+    settle
+}
+
+# settle: wait until two pictures in a row are the same. The line that blinks in a text field is not
+# waited for: nobody calls this while there is one.
+settle() {
+    local end=$((SECONDS + 20))
+    shot settled
+    while :; do
+        sleep 0.3
+        cp settled.ppm settling.ppm
+        shot settled
+        cmp -s settling.ppm settled.ppm && return
+        [[ $SECONDS -lt $end ]] || { complain "the window does not come to rest"; return; }
+    done
+}
+
+# differs A B GEOMETRY: how many pixels of that part differ.
+differs() {
+    convert "$1.ppm" -crop "$3" +repage a.ppm
+    convert "$2.ppm" -crop "$3" +repage b.ppm
+    compare -metric AE a.ppm b.ppm null: 2>&1
+}
+
+# drag X Y DX DY STEPS: press the left button, move in steps, let go.
+drag() {
+    xdotool mousemove $((X + $1)) $((Y + $2))
+    xdotool mousedown 1
+    for ((i = 0; i < $5; i++)); do xdotool mousemove_relative -- "$3" "$4"; done
+    xdotool mouseup 1
+}
+
+hash_of() { "$program" inspect "$1" --json | sed -n 's/.*"hash":"\([0-9a-f]*\)".*/\1/p'; }
+title_is() { [[ $(xdotool getwindowname "$window" 2>/dev/null) == "$1 - Wrinkle" ]]; }
+
+file_is_there() { [[ -s $1 ]]; }
+shows_dialog() {
+    shot asking
+    changed=$(differs unasked asking 400x200+400+270)
+    [[ ${changed%.*} -gt 20000 ]]
+}
+# answer_file NAME KEY: ask for a file by hand, and wait until it is there.
+answer_file() {
+    shot unasked
+    xdotool key "$2"
+    until_true 10 "the question for a file" shows_dialog || return
+    sleep 0.2
+    xdotool key ctrl+a
+    xdotool type --delay 20 "$folder/$1"
+    xdotool key Return
+    until_true 20 "the file $1" file_is_there "$1"
+}
+# save_as NAME [KEY]
+save_as() {
+    answer_file "$1" "${2:-ctrl+shift+s}" || return
+    until_true 10 "the title of $1" title_is "$1"
+}

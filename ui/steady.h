@@ -1,0 +1,43 @@
+/* steady.h - a steadier hand: what is drawn follows the pointer along a smoother way. No window needed.
+
+   Both kinds go by the way that the pointer goes, not by time or by the number of events: the same path
+   gives the same line however it was cut into motions, up to rounding. Between two places of the pointer
+   its path is straight, and what follows it has a closed form:
+
+   smooth   p' = (q - p) / L along the pointer's way s: for q = a + m s,
+            p(s) = q(s) - L m + (p(0) - a + L m) exp(-s/L)
+   string   p hangs on a string of length L: it rests while |q - p| < L and then is dragged along a tractrix,
+            tan(t/2) = tan(t0/2) exp(-s/L), t the angle between the string and the pointer's way */
+#pragma once
+#include <stdbool.h>
+
+typedef enum WrSteadyKind {
+    WR_STEADY_OFF,
+    WR_STEADY_SMOOTH,
+    WR_STEADY_STRING,
+    WR_STEADY_COUNT
+} WrSteadyKind;
+
+typedef struct WrSteadyPoint {
+    double x, y; /* pixels */
+    double pressure, tilt_x, tilt_y, seconds;
+} WrSteadyPoint;
+
+typedef struct WrSteady {
+    WrSteadyKind kind;
+    double length;          /* L, pixels; 0: off */
+    WrSteadyPoint pointer;  /* newest place of the pointer */
+    WrSteadyPoint follower; /* and of what is drawn */
+} WrSteady;
+
+/* What comes out of one motion: at most this many points, a few pixels apart on curves. */
+#define WR_STEADY_POINTS 64
+
+/* The line begins at `at`, which is its first point. */
+void wr_steady_begin(WrSteady *steady, WrSteadyKind kind, double length, const WrSteadyPoint *at);
+/* The pointer moved on straight to `to`. Returns how many points follow on the line. A follower that rests
+ * gives none. */
+int wr_steady_move(WrSteady *steady, const WrSteadyPoint *to, WrSteadyPoint out[WR_STEADY_POINTS]);
+/* The line ends: a smooth one comes to the pointer; one on a string does so only if `catch_up`. Returns 0 or
+ * 1 points. */
+int wr_steady_end(WrSteady *steady, bool catch_up, WrSteadyPoint *out);

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: MIT
+   A stamp: a picture, or the round brush, put onto the table once. What would come of it is shown under
+   the pointer, on the table and on the patch, on a snapshot: press where its middle goes, drag for its turn
+   and size, let go. The wheel sizes it, Enter puts it where the pointer is, Escape gives up. */
+#include "ui/brush_line.h"
+#include "ui/line.h"
+#include "ui/state.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DRAG_PIXELS 8.0
+#define FIRST_RADIUS 48.0
+
+static double radius_of(const WrApp *app)
+{
+    double least = fmin(app->view.table_w, app->view.table_h);
+    return app->draw.radius > 0.0 ? app->draw.radius : fmax(1.0, fmin(FIRST_RADIUS, least / 6.0));
+}
+
+static WrBrush brush_of(const WrApp *app)
+{
+    WrBrush brush = app->settings.brush;
+    brush.preset = NULL;
+    brush.tip = app->draw.tip;
+    brush.radius = radius_of(app);
+    brush.angle_deg = app->draw.angle_deg;
+    brush.aspect = 1.0;
+    brush.follow = false;
+    brush.jitter_place = brush.jitter_angle_deg = brush.jitter_size = 0.0;
+    brush.flow = 1.0;
+    brush.seed = 0;
+    return brush;
+}
+
+bool wr_stamp_choose(WrApp *app, const char *path)
+{
+    WrDrawHand *draw = &app->draw;
+    WrError err;
+    WrTip *tip = path ? wr_tip_read(path, &err) : NULL;
+    if (path && !tip) {
+        wr_app_fail(app, &err);
+        return false;
+    }
+    char *copy = path ? wr_strdup(path) : NULL;
+    wr_tip_free(draw->tip);
+    wr_free(draw->tip_path);
+    draw->tip = tip;
+    draw->tip_path = copy;
+    draw->trying = false;
+    wr_app_redraw(app);
+    return true;
+}
+
+void wr_stamp_forget(WrApp *app)
+{
+    wr_tip_free(app->draw.tip);
+    wr_free(app->draw.tip_path);
+    wr_array_free(&app->draw.anchors);
+    wr_stamps_free(app);
+    app->draw.tip = NULL;
+    app->draw.tip_path = NULL;
+}
+
+/* ---- what would come of it ---- */
+
+/* The middle, as the command will say it. */
+static void place_of(const WrApp *app, double *u, double *v)
+{
+    const WrDrawHand *draw = &app->draw;
+    double pu = draw->placed ? draw->u : app->hand.at.u,
+           pv = draw->placed ? draw->v : app->hand.at.v;
+    WrSelectPoint home = wr_overlay_home(app, pu, pv);
+    *u = wr_line_round(pu + home.u, 7);
+    *v = wr_line_round(pv + home.v, 7);
+}
+
+static bool is_wanted(const WrApp *app)
+{
+    bool free = app->hand.grab == WR_GRAB_NONE || app->hand.grab == WR_GRAB_TOOL;
+    return wr_tools[app->tool].press == wr_stamp_press && app->dialog == WR_DIALOG_NONE && free &&
+           (app->draw.placed || (app->hand.on_canvas && !app->hand.space));
+}
+
+/* All of a brush that a stamp goes by. */
+static bool same_brush(const WrBrush *a, const WrBrush *b)
+{
+    const WrSymmetry *s = &a->symmetry, *t = &b->symmetry;
+    return a->tip == b->tip && a->radius == b->radius && a->hardness == b->hardness &&
+           a->angle_deg == b->angle_deg && a->strength == b->strength && a->mode == b->mode &&
+           a->to == b->to && a->opacity == b->opacity && a->reach == b->reach &&
+           s->mirror_u == t->mirror_u && s->mirror_v == t->mirror_v && s->radial == t->radial &&
+           s->centre_u == t->centre_u && s->centre_v == t->centre_v && s->repeat_u == t->repeat_u &&
+           s->repeat_v == t->repeat_v && s->stagger == t->stagger;
+}
+
+void wr_stamp_update(WrApp *app)
+{
+    WrDrawHand *draw = &app->draw;
+    if (!is_wanted(app)) {
+        if (draw->trying && app->dialog == WR_DIALOG_NONE) wr_app_try_end(app);
+        draw->trying = false;
+        return;
+    }
+    WrBrush brush = brush_of(app);
+    WrTrialAsk ask = { .dab = &brush };
+    place_of(app, &ask.u, &ask.v);
+    bool same = draw->trying && app->trying && draw->tried.u == ask.u && draw->tried.v == ask.v &&
+                same_brush(&draw->tried_brush, &brush);
+    if (same || wr_trial_busy(app->trial, NULL, NULL)) return;
+    draw->tried = ask;
+    draw->tried_brush = brush;
+    draw->trying = true;
+    wr_app_try(app, &ask);
+}
+
+void wr_stamp_leave(WrApp *app)
+{
+    app->draw.placed = app->draw.dragged = false;
+    if (app->draw.trying) wr_app_try_end(app);
+    app->draw.trying = false;
+}
+
+/* ---- the gesture ---- */
+
+static void commit(WrApp *app)
+{
+    WrDrawHand *draw = &app->draw;
+    WrBrush brush = brush_of(app), base = wr_brush_default();
+    WrBrushNames names = { .tip = draw->tip_path };
+    WrText line = { 0 };
+    double u, v;
+    place_of(app, &u, &v);
+    wr_text_add(&line, "dab ");
+    wr_text_add_number(&line, u);
+    wr_text_add(&line, ",");
+    wr_text_add_number(&line, v);
+    brush.radius = wr_line_round(brush.radius, 3);
+    brush.angle_deg = wr_line_round(brush.angle_deg, 3);
+    wr_brush_line(&line, &brush, &base, &names);
+    app->hand.grab = WR_GRAB_NONE;
+    draw->placed = draw->dragged = draw->trying = false;
+    app->hints = false;
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+void wr_stamp_press(WrApp *app, const WrPointer *at)
+{
+    WrDrawHand *draw = &app->draw;
+    draw->placed = true;
+    draw->dragged = false;
+    draw->u = at->u;
+    draw->v = at->v;
+    draw->first_radius = draw->radius;
+    draw->first_angle = draw->angle_deg;
+    wr_app_redraw(app);
+}
+
+void wr_stamp_drag(WrApp *app, const WrPointer *at)
+{
+    WrDrawHand *draw = &app->draw;
+    double dx = at->x - app->hand.start.x, dy = at->y - app->hand.start.y, way = hypot(dx, dy);
+    if (!draw->placed || (!draw->dragged && way < DRAG_PIXELS * wr_gui_scale())) return;
+    draw->dragged = true;
+    double turn = atan2(-dy, dx) * 57.29577951308232;
+    if (at->mods & WR_MOD_SHIFT) turn = rint(turn / 15.0) * 15.0;
+    draw->angle_deg = wr_line_round(turn, 1);
+    draw->radius = wr_line_round(fmax(way / app->view.zoom, 0.5), 1);
+    wr_app_redraw(app);
+}
+
+void wr_stamp_release(WrApp *app, const WrPointer *at)
+{
+    (void)at;
+    if (app->draw.placed) commit(app);
+}
+
+bool wr_stamp_key(WrApp *app, SDL_Keycode key)
+{
+    WrDrawHand *draw = &app->draw;
+    if (key == SDLK_ESCAPE && draw->placed) {
+        draw->radius = draw->first_radius;
+        draw->angle_deg = draw->first_angle;
+        app->hand.grab = WR_GRAB_NONE;
+        wr_stamp_leave(app);
+        wr_app_redraw(app);
+        return true;
+    }
+    if ((key != SDLK_RETURN && key != SDLK_KP_ENTER) || !(app->hand.on_canvas || draw->placed))
+        return false;
+    commit(app);
+    return true;
+}
+
+bool wr_stamp_wheel(WrApp *app, double steps)
+{
+    if (wr_key_mods(SDL_GetModState()) != 0) return false; /* Ctrl and the wheel zoom as ever */
+    double r = radius_of(app) * exp2(steps / 6.0);
+    r = r < 0.5 ? 0.5 : r > 16384.0 ? 16384.0 : r;
+    app->draw.radius = wr_line_round(r, r < 10.0 ? 1 : 0);
+    wr_app_redraw(app);
+    return true;
+}
+
+/* ---- on the canvas ---- */
+
+/* Its frame: the picture's edges, turned; a circle for the round brush. */
+void wr_stamp_overlay(WrApp *app)
+{
+    WrSelectPoint points[48];
+    double u, v, r = radius_of(app), a = app->draw.angle_deg / 57.29577951308232;
+    int count = app->draw.tip ? 4 : 48, w = 1, h = 1;
+    if (app->draw.tip) wr_tip_size(app->draw.tip, 0, &w, &h);
+    double longer = w > h ? w : h;
+    place_of(app, &u, &v);
+    double x = u * app->view.table_w, y = (1.0 - v) * app->view.table_h;
+    for (int i = 0; i < count; i++) {
+        double turn = 6.283185307179586 * i / count;
+        double px = count == 4 ? (i == 0 || i == 3 ? r : -r) * w / longer : r * cos(turn);
+        double py = count == 4 ? (i < 2 ? r : -r) * h / longer : r * sin(turn); /* up */
+        points[i] =
+            wr_overlay_uv(app, x + px * cos(a) - py * sin(a), y - px * sin(a) - py * cos(a));
+    }
+    wr_overlay_lines(app, points, count, true, 0xd0f4f4f4u);
+}
+
+void wr_stamp_marks(WrApp *app)
+{
+    const WrDrawHand *draw = &app->draw;
+    char text[64];
+    if (!draw->placed || !draw->dragged) return;
+    snprintf(text, sizeof text, "%.4g px  %.0f\xc2\xb0", 2.0 * draw->radius, draw->angle_deg);
+    wr_overlay_label(app->hand.start.x, app->hand.start.y, text);
+}

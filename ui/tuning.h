@@ -1,0 +1,12 @@
+/* tuning.h - the text "name=value;name=value" of a preset's changed settings. No window needed. */
+#pragma once
+#include "base/text.h"
+
+#include <stdbool.h>
+
+/* The value of a name; false if it is not in the text (which may be NULL). */
+bool wr_tuning_get(const char *set, const char *name, double *value);
+/* The text with that value, in the order in which they came; NAN takes the name out. */
+void wr_tuning_put(const char *set, const char *name, double value, WrText *out);
+/* How many there are. */
+int wr_tuning_count(const char *set);
