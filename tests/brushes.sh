@@ -23,6 +23,11 @@ expect() {
     [[ $got -eq $status ]] || fail "brushes $*: status $got, not $status: $(head -c 300 err)"
 }
 
+# ---- the table of settings is the one that the documentation prints ----
+expect 0 --settings
+grep '^|' "$source/brushes/README.md" | cmp -s - out ||
+    fail "brushes/README.md has another table than \`wrinkle brushes --settings\`"
+
 # ---- lists ----
 expect 0
 for name in wrinkle mypaint2 mypaint1; do

@@ -27,6 +27,7 @@ BEGIN {
     library["SDL"] = library["imgui"] = library["X11/"] = "ui"
     library["OpenImageIO/"] = library["assimp/"] = "image"
     library["ft2build"] = library["freetype/"] = "image ui" # the type of the window is drawn with it too
+    library["hb"] = library["fribidi"] = library["zlib"] = "image"
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
     library["libmypaint"] = library["mypaint"] = library["json-c/"] = "brush"
 }

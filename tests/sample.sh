@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A sample runs without a word of complaint, writes nothing, and gives the same document whatever the
-# number of threads.  sample.sh SCRIPT PROGRAM
+# A sample runs without a word of complaint, writes the files that its lines name and no others, and gives
+# the same document and the same files whatever the number of threads.  sample.sh SCRIPT PROGRAM
 set -uo pipefail
 script=$1 program=$2
 folder=$(mktemp -d) || exit 1
@@ -11,10 +11,31 @@ fail() {
     printf '%s: %s\n' "$script" "$*"
     exit 1
 }
-"$program" run "$script" >out 2>err || fail "run failed: $(cat err)"
-[[ ! -s err ]] || fail "run complained: $(cat err)"
-rm -f out err
-[[ -z $(ls -A) ]] || fail "run wrote $(ls -A)"
+# What its output lines name: the third word of an export, the second of the others.
+sed -nE 's/^export +[^ ]+ +([^ ]+).*/\1/p; s/^(save|render|script) +([^ ]+).*/\2/p' "$script" |
+    LC_ALL=C sort >"$folder.named"
+trap 'rm -rf "$folder" "$folder.named"' EXIT
+# run THREADS: run it, and put what it wrote into a folder of that name.
+run() {
+    mkdir "$1" && cd "$1" || exit 1
+    "$program" run "$script" --threads "$1" >../out 2>../err || fail "run failed: $(cat ../err)"
+    # A note on each file that was written is no complaint.
+    while read -r file; do
+        sed -i "\|^wrinkle: note: $file: |d" ../err
+    done <"$folder.named"
+    [[ ! -s ../err ]] || fail "run complained: $(cat ../err)"
+    find . -type f -printf '%P\n' | LC_ALL=C sort | cmp -s - "$folder.named" || fail "run wrote $(ls -A)"
+    while read -r file; do
+        [[ -s $file ]] || fail "$file is empty"
+    done <"$folder.named"
+    cd .. && rm out err
+}
+run 1
+if [[ -s $folder.named ]]; then
+    run 3
+    diff -r 1 3 || fail "not the same files on 1 and 3 threads"
+fi
+rm -rf 1 3
 for threads in 1 2 7; do
     "$program" inspect "$script" --threads "$threads" >"$threads" 2>err || fail "inspect failed: $(cat err)"
 done

@@ -271,7 +271,7 @@ static void add_value(const WrArgSpec *s, TestRandom *random, WrText *line)
         while (wr_arg_word(s, count)) count++;
         wr_text_add(line, wr_arg_word(s, (int)(test_random(random) * count)));
     } else if (s->type == WR_ARG_PATH || s->type == WR_ARG_NAME || s->type == WR_ARG_LAYER ||
-               s->type == WR_ARG_PRESET) {
+               s->type == WR_ARG_PRESET || s->type == WR_ARG_TEXT) {
         wr_text_add(line, words[(int)(test_random(random) * 5)]);
     } else if (s->type == WR_ARG_SHA256) {
         for (int i = 0; i < 64; i++) wr_text_addf(line, "%c", "0123456789abcdefABCDEF"[i % 22]);
@@ -306,7 +306,8 @@ static void make_line(const WrCommand *command, int form, bool all, TestRandom *
     wr_text_add(line, command->name);
     if (form >= 0 && command->form(form, &row)) wr_text_addf(line, " %s", row.name);
     for (int i = 0; i < count; i++) {
-        if (specs[i].type == WR_ARG_TEXT) continue; /* what it may hold is another room's affair */
+        if (specs[i].type == WR_ARG_TEXT && !specs[i].may_be_empty)
+            continue; /* what it may hold is another room's affair */
         if (!specs[i].required && !all && test_random(random) < 0.5) continue;
         wr_text_add(line, test_random(random) < 0.2 ? " \t " : " ");
         if (!specs[i].positional) wr_text_addf(line, "%s=", specs[i].name);
@@ -470,6 +471,7 @@ static void check_bad_arguments(const WrCommand *command, int form, void *ctx)
             try_numbers(check, command, s);
             continue;
         }
+        if (s->may_be_empty) continue; /* any text is right */
         WrText line = { 0 };
         wr_text_addf(&line, "%s%s", wr_text_get(&check->line),
                      s->type == WR_ARG_PATH || s->type == WR_ARG_NAME ? "\"\"" : "no-such-value");

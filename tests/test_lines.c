@@ -26,8 +26,8 @@ static void a_flat_table_from_above_is_a_plain_grid(void **state)
     assert_true(wr_lines_draw(heights, 16, 16, &view, NULL, &drawing, &err));
     assert_int_equal(drawing.stretch_count, 5 + 3);
     for (int s = 0; s < drawing.stretch_count; s++) {
-        const WrDrawingPoint *p = drawing.points + drawing.stretches[s].first;
-        const WrDrawingPoint *last = p + drawing.stretches[s].count - 1;
+        const WrInkPoint *p = drawing.points + drawing.stretches[s].first;
+        const WrInkPoint *last = p + drawing.stretches[s].count - 1;
         for (int i = 0; i < drawing.stretches[s].count; i++)
             assert_true(fabs((double)(s < 5 ? p[i].y - p->y : p[i].x - p->x)) < 1e-4);
         /* 15/16 of a cell long in 300 x 200 less 4 % at either end: the height rules */

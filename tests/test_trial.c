@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "command/session.h"
 #include "ui/outline.h"
 #include "ui/trial.h"
@@ -80,6 +81,110 @@ static void a_layers_settings_that_are_tried_come_out_as_their_command(void **st
     try_then_run(
         &(WrTrialAsk){ .layer = 1, .blend = WR_BLEND_SMOOTH_MAX, .opacity = 0.5f, .radius = 0.25f },
         "layer set 2 blend=smooth-max opacity=0.5 radius=0.25");
+}
+
+/* Inside the selection, onto the active layer, as it blends. */
+static void a_generator_that_is_tried_comes_out_as_its_command(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "pattern bricks across=3 rows=5 height=0.5 blend=smooth-max offset=-0.1",
+        "noise perlin cells=5 octaves=3 blend=add",
+        "formula fourier terms=3,0,0.5;0,5,0.25,90,0 blend=multiply"
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        try_then_run(&(WrTrialAsk){ .line = lines[i] }, lines[i]);
+}
+
+static void take_note(void *ctx, const char *text)
+{
+    snprintf(ctx, 256, "%s", text);
+}
+
+static void what_a_generator_notes_is_told_with_what_it_shows(void **state)
+{
+    (void)state;
+    WrError err;
+    char said[256] = "", expected[260];
+    static const char line[] = "noise perlin cells=64 octaves=10";
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .note = take_note, .note_ctx = said });
+    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
+    wr_trial_ask(trial, wr_session_document(session), &(WrTrialAsk){ .line = line });
+    wait_until_done(trial);
+    assert_true(wr_session_run(session, line, &err));
+    assert_true(said[0]);
+    snprintf(expected, sizeof expected, "%s\n", said);
+    assert_string_equal(wr_trial_notes(trial), expected);
+    assert_true(wr_trial_seconds(trial) > 0.0);
+    wr_trial_end(trial);
+    assert_string_equal(wr_trial_notes(trial), "");
+    wr_trial_free(trial);
+    wr_session_free(session);
+}
+
+static double mean_difference(const WrField *a, const WrField *b)
+{
+    int width = wr_field_width(a), height = wr_field_height(a);
+    float *row = wr_alloc((size_t)width, 2 * sizeof *row);
+    double sum = 0.0;
+    for (int j = 0; j < height; j++) {
+        wr_field_read(a, 0, j, width, 1, row, (size_t)width);
+        wr_field_read(b, 0, j, width, 1, row + width, (size_t)width);
+        for (int i = 0; i < width; i++) sum += fabs((double)row[i] - (double)row[width + i]);
+    }
+    wr_free(row);
+    return sum / width / height;
+}
+
+/* Lines of 24 texels with bevels of 8, 128 apart, made at half the size: a length that were not halved
+   would fill as many texels too much on either side, a tenth of the table and more. */
+static void a_rough_trial_is_near_and_then_the_exact_one_comes(void **state)
+{
+    (void)state;
+    WrError err;
+    static const char line[] = "pattern grid across=8 rows=8 width=24 bevel=8";
+    WrSession *session = session_of((const char *const[]){ "table 1024x1024" }, 1);
+    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
+    WrTrialAsk ask = { .line = line, .rough = true };
+    wr_trial_ask(trial, wr_session_document(session), &ask);
+    wait_until_done(trial);
+    assert_true(wr_trial_rough(trial)); /* the exact one begins when this is taken */
+    WrField *rough = wr_field_share(wr_trial_field(trial));
+    wait_until_done(trial);
+    assert_false(wr_trial_rough(trial));
+    WrField *exact = wr_field_share(wr_trial_field(trial));
+    assert_true(wr_session_run(session, line, &err));
+    assert_same_heights(exact, wr_document_field(wr_session_document(session)));
+    assert_int_equal(wr_field_width(rough), 1024);
+    assert_true(mean_difference(rough, exact) > 0.0);
+    assert_true(mean_difference(rough, exact) < 0.02);
+    wr_field_free(rough);
+    wr_field_free(exact);
+    wr_trial_free(trial);
+    wr_session_free(session);
+}
+
+static void a_line_that_is_wrong_is_said_to_be(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *says;
+    } wrong[] = { { "pattern bricks across=0", "across" },
+                  { "pattern brocks", "bricks" },
+                  { "dab 0.5,0.5", "generator" },
+                  { "", "generator" } };
+    WrSession *session = session_of(painted, 5);
+    WrTrial *trial = wr_trial_new(1, SDL_USEREVENT);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        WrError err = { "" };
+        wr_trial_ask(trial, wr_session_document(session), &(WrTrialAsk){ .line = wrong[i].line });
+        wait_until_done(trial);
+        assert_null(wr_trial_field(trial));
+        assert_true(wr_trial_error(trial, &err));
+        if (!strstr(err.text, wrong[i].says)) fail_msg("%s: %s", wrong[i].line, err.text);
+    }
+    wr_trial_free(trial);
+    wr_session_free(session);
 }
 
 static void a_trial_that_fails_says_why_once(void **state)
@@ -164,6 +269,10 @@ int main(void)
         cmocka_unit_test(an_operation_that_is_tried_comes_out_as_its_command),
         cmocka_unit_test(an_offset_that_is_tried_moves_what_layers_say_too),
         cmocka_unit_test(a_layers_settings_that_are_tried_come_out_as_their_command),
+        cmocka_unit_test(a_generator_that_is_tried_comes_out_as_its_command),
+        cmocka_unit_test(what_a_generator_notes_is_told_with_what_it_shows),
+        cmocka_unit_test(a_rough_trial_is_near_and_then_the_exact_one_comes),
+        cmocka_unit_test(a_line_that_is_wrong_is_said_to_be),
         cmocka_unit_test(a_trial_that_fails_says_why_once),
         cmocka_unit_test(outlines_show_what_a_selection_would_become),
         cmocka_unit_test(without_a_selection_there_is_no_outline),

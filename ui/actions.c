@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The one table of actions: menus, keys and buttons all go by it. */
 #include "ui/actions.h"
+#include "ui/generate_hand.h"
 #include "ui/line.h"
 
 #include <math.h>
@@ -367,6 +368,7 @@ const WrAction wr_actions[] = {
     { "shape_path", "Bezier path", tool_shape_path, NULL, NULL },
     { "stamp", "Stamp", tool_stamp, NULL, NULL },
     { "stamp_open", "Open a picture as a stamp...", wr_act_stamp_open, NULL, NULL },
+    { "generate", "Generate", wr_generate_open_last, NULL, NULL },
     { "select_rect", "Rectangle selection", tool_select_rect, NULL, NULL },
     { "select_ellipse", "Ellipse selection", tool_select_ellipse, NULL, NULL },
     { "select_lasso", "Lasso selection", tool_select_lasso, NULL, NULL },
@@ -479,7 +481,9 @@ void wr_action_run(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(name);
     const WrOpInfo *op = action ? NULL : wr_action_op(name);
+    const WrGenerator *generator = action ? NULL : wr_action_generator(name);
     if (op) wr_dialog_adjust_open(app, op);
+    if (generator) wr_generate_open(app, generator);
     if (!action || (action->enabled && !action->enabled(app))) return;
     if (app->in_frame) wr_later_action(app, name); /* it may take long */
     else action->run(app);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
    The window: SDL, the event loop, what is drawn when. */
-#include "ui/state.h"
+#include "ui/generate_hand.h"
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -19,7 +19,10 @@
 
 void wr_app_redraw(WrApp *app)
 {
-    app->redraw = 2; /* the widgets need a second picture to settle */
+    bool held = app->hand.grab != WR_GRAB_NONE;
+    /* The widgets need a second picture to settle; while the pointer works on a view they rest. */
+    if (!held) app->redraw = 2;
+    else if (app->redraw < 1) app->redraw = 1;
 }
 
 /* ---- scale ---- */
@@ -147,6 +150,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->visible = true;
     wr_app_read_keys(app);
     wr_shelf_start(app);
+    wr_generate_new(app);
     wr_app_start(app);
     wr_app_title(app);
     if (!app->latency) wr_dialog_recover_open(app);
@@ -168,6 +172,7 @@ void wr_app_end(WrApp *app)
     if (app->renderer) wr_patch_free(app);
     wr_shelf_free(app);
     wr_stamp_forget(app);
+    wr_generate_free(app);
     if (app->renderer) wr_panel_layers_forget(app);
     wr_canvas_free(app->canvas);
     wr_gui_free(app->gui);
@@ -446,6 +451,7 @@ void wr_app_step(WrApp *app)
     march(app);
     wr_marks_update(app);
     wr_stamp_update(app);
+    wr_generate_update(app);
     wr_patch_update(app);
     now = wr_clock_seconds();
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {

@@ -229,6 +229,7 @@ void wr_panel_menu(WrApp *app);
 void wr_panel_options(WrApp *app);
 void wr_panel_tools(WrApp *app);
 void wr_panel_right(WrApp *app);
+int wr_panel_right_tab(const char *label); /* its index, for settings.tab */
 void wr_panel_brushes(WrApp *app, SDL_Rect room);
 void wr_panel_brush(WrApp *app); /* the values of the brush in hand */
 void wr_panel_scene(WrApp *app);

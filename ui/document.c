@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The document behind the window: new, open, save, and what is asked before work is lost. All changes go
    through the session. */
-#include "ui/state.h"
+#include "ui/generate_hand.h"
 
 #include "base/file.h"
 #include "command/call.h"
@@ -365,7 +365,7 @@ void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
         wr_later_file(app, purpose, path);
         return;
     }
-    static const char *const endings[WR_FILE_STAMP + 1] = {
+    static const char *const endings[WR_FILE_GENERATE + 1] = {
         [WR_FILE_SAVE] = ".exr", [WR_FILE_EXPORT] = ".png", [WR_FILE_HISTORY] = ".wrinkle"
     };
     char *full = endings[purpose] ? with_ending(path, endings[purpose]) : wr_strdup(path);
@@ -376,6 +376,7 @@ void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
     case WR_FILE_EXPORT: export_now(app, full); break;
     case WR_FILE_HISTORY: save_history_now(app, full); break;
     case WR_FILE_STAMP: wr_stamp_choose(app, full); break;
+    case WR_FILE_GENERATE: wr_generate_file(app, full); break;
     }
     wr_free(full);
 }

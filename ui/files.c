@@ -52,6 +52,7 @@ static const struct {
     [WR_FILE_IMPORT] = { "Import heights", "Import", false },
     [WR_FILE_HISTORY] = { "Save the history as a script", "Save", true },
     [WR_FILE_STAMP] = { "Open a picture as a stamp", "Open", false },
+    [WR_FILE_GENERATE] = { "Choose a file", "Choose", false },
 };
 
 static void free_entries(WrFiles *files)

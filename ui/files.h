@@ -11,7 +11,8 @@ typedef enum WrFilePurpose {
     WR_FILE_EXPORT,
     WR_FILE_IMPORT,
     WR_FILE_HISTORY,
-    WR_FILE_STAMP
+    WR_FILE_STAMP,
+    WR_FILE_GENERATE
 } WrFilePurpose;
 
 typedef struct WrFiles WrFiles;

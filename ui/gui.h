@@ -91,6 +91,7 @@ int wr_gui_px(double units); /* units as whole pixels */
 #define WR_ICON_SAVE "\xef\x86\x93"     /* f193 content-save */
 #define WR_ICON_BACK "\xef\x91\xa5"     /* f465 rotate-left */
 #define WR_ICON_DOTS "\xef\x87\x98"     /* f1d8 dots-horizontal */
+#define WR_ICON_WAND "\xef\x81\xa8"     /* f068 auto-fix */
 
 /* ---- areas: fixed rectangles that hold widgets ---- */
 typedef enum WrAreaKind {
@@ -160,7 +161,7 @@ bool wr_gui_choice(const char *id, double width, const char *const *items, int c
 /* Buttons in a row, one of them chosen; colours[i] (may be NULL) shows while i is the chosen one. */
 bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours, int count,
                      int *index);
-/* Tabs across the area. */
+/* Tabs across the area; in a smaller face where they would touch. */
 bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index);
 WrEdit wr_gui_colour(const char *id, double width, double linear_rgb[3]);
 bool wr_gui_check(const char *label, bool *value);
@@ -175,6 +176,8 @@ bool wr_gui_chip(const char *icon, const char *label);
 bool wr_gui_find_button(const char *label, const char *keys, double width);
 /* A field for one line. focus: give it the keyboard now. True when Return was pressed. */
 bool wr_gui_text_field(const char *id, double width, char *text, size_t size, bool focus);
+/* A field for several lines, as many of them tall; focus as above. True when the text changed. */
+bool wr_gui_text_area(const char *id, int lines, char *text, size_t size, bool focus);
 /* A row of a list: 0 nothing, 1 clicked, 2 double-clicked. */
 int wr_gui_list_row(const char *icon, const char *label, bool selected);
 void wr_gui_list_begin(const char *id, double height);
@@ -224,7 +227,8 @@ void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double widt
 void wr_gui_image(SDL_Texture *texture, double w, double h);
 
 /* ---- menus, popups, dialogs: begin returns true while open, and only then end follows ---- */
-double wr_gui_menu_bar_begin(void); /* returns its height in pixels */
+/* tight: there is little room. Returns its height in pixels. */
+double wr_gui_menu_bar_begin(bool tight);
 void wr_gui_menu_bar_end(void);
 bool wr_gui_menu_begin(const char *label);
 void wr_gui_menu_end(void);
@@ -233,6 +237,7 @@ void wr_gui_menu_separator(void);
 void wr_gui_popup_open(const char *id);
 bool wr_gui_popup_begin(const char *id);
 void wr_gui_popup_end(void);
+void wr_gui_popup_close(void); /* the one that is being drawn */
 /* A dialog in the middle of the window, which takes all input. `open` true shows it. Escape or a
    click beside it does not close it: the caller decides. */
 bool wr_gui_dialog_begin(const char *title, double width_units);

@@ -12,10 +12,10 @@ static float px(double units)
     return (float)wr_gui_px(units);
 }
 
-extern "C" double wr_gui_menu_bar_begin(void)
+extern "C" double wr_gui_menu_bar_begin(bool tight)
 try {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(6)));
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(14), px(6)));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(tight ? 7 : 14), px(6)));
     ImGui::PushStyleColor(ImGuiCol_MenuBarBg, wr_gui_colour_of(WR_COLOUR_BAR));
     ImGui::BeginMainMenuBar();
     ImGui::SetCursorPosX(px(5)); /* its first word over the first word of the row below */
@@ -69,6 +69,11 @@ try {
     return open;
 }
 WR_CAUGHT(false)
+
+extern "C" void wr_gui_popup_close(void)
+{
+    ImGui::CloseCurrentPopup();
+}
 
 extern "C" void wr_gui_popup_end(void)
 {
@@ -156,6 +161,16 @@ try {
         id, text, size, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     return done;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_text_area(const char *id, int lines, char *text, size_t size, bool focus)
+try {
+    float tall = ImGui::GetTextLineHeight() * (float)lines + 2 * ImGui::GetStyle().FramePadding.y;
+    if (focus) ImGui::SetKeyboardFocusHere();
+    bool changed = ImGui::InputTextMultiline(id, text, size, ImVec2(-1.0f, tall));
+    wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+    return changed;
 }
 WR_CAUGHT(false)
 

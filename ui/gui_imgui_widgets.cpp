@@ -277,6 +277,13 @@ try {
 }
 WR_CAUGHT(false)
 
+static float tabs_wide(const char *const *items, int count)
+{
+    float wide = 0;
+    for (int i = 0; i < count; i++) wide += ImGui::CalcTextSize(items[i]).x;
+    return wide;
+}
+
 extern "C" bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index)
 try {
     bool changed = false;
@@ -285,9 +292,13 @@ try {
     ImVec2 origin = ImGui::GetWindowPos();
     float width = ImGui::GetWindowWidth(), h = px(32);
     list->PushClipRect(origin, ImVec2(origin.x + width, origin.y + h)); /* over the padding */
+    bool small = tabs_wide(items, count) + px(6) * (float)count > width;
+    if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    float gap = (width - tabs_wide(items, count)) / (float)count, end = 0;
     for (int i = 0; i < count; i++) {
-        float x0 = roundf(width * (float)i / (float)count);
-        float w = roundf(width * (float)(i + 1) / (float)count) - x0;
+        float x0 = roundf(end);
+        end += ImGui::CalcTextSize(items[i]).x + gap;
+        float w = roundf(end) - x0;
         ImGui::SetCursorPos(ImVec2(x0, 0));
         ImVec2 at = ImGui::GetCursorScreenPos();
         if (ImGui::InvisibleButton(items[i], ImVec2(w, h))) {
@@ -306,6 +317,7 @@ try {
             wr_gui_colour_of(on || ImGui::IsItemHovered() ? WR_COLOUR_STRONG : WR_COLOUR_LABEL),
             items[i]);
     }
+    if (small) ImGui::PopFont();
     list->PopClipRect();
     ImGui::SetCursorPosY(h + px(12));
     ImGui::PopID();

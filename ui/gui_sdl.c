@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "ui/gui_sdl.h"
 
+#include <math.h>
+
 static bool is_white(const WrGuiVertex *vertices, const uint16_t *triangle, float u, float v)
 {
     for (int k = 0; k < 3; k++) {
@@ -19,6 +21,38 @@ static void draw_run(SDL_Renderer *renderer, SDL_Texture *texture, const WrGuiVe
                           (int)sizeof *indices);
 }
 
+static bool same_colour(SDL_Color a, SDL_Color b)
+{
+    return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a;
+}
+
+/* Two white triangles that make an upright rectangle of one colour, as the grounds of panels and fields
+ * are: filled as one, which costs a fraction. Covers the pixels whose middles lie inside, as the triangles
+ * would. */
+static bool is_rectangle(const WrGuiVertex *vertices, const uint16_t *indices)
+{
+    if (indices[3] != indices[0] || indices[4] != indices[2]) return false;
+    const WrGuiVertex *a = &vertices[indices[0]], *b = &vertices[indices[1]];
+    const WrGuiVertex *c = &vertices[indices[2]], *d = &vertices[indices[5]];
+    bool upright = a->y == b->y && c->y == d->y && a->x == d->x && b->x == c->x;
+    bool plain = same_colour(a->colour, b->colour) && same_colour(a->colour, c->colour) &&
+                 same_colour(a->colour, d->colour);
+    return upright && plain && b->x >= a->x && c->y >= a->y;
+}
+
+static void fill(SDL_Renderer *renderer, const WrGuiVertex *vertices, const uint16_t *indices)
+{
+    const WrGuiVertex *a = &vertices[indices[0]], *c = &vertices[indices[2]];
+    int x0 = (int)ceilf(a->x - 0.5f), x1 = (int)ceilf(c->x - 0.5f);
+    int y0 = (int)ceilf(a->y - 0.5f), y1 = (int)ceilf(c->y - 0.5f);
+    SDL_SetRenderDrawColor(renderer, a->colour.r, a->colour.g, a->colour.b, a->colour.a);
+    /* SDL blends pixel by pixel even where nothing shines through. */
+    bool opaque = a->colour.a == 255;
+    if (opaque) SDL_SetRenderDrawBlendMode(renderer, SDL_BLENDMODE_NONE);
+    SDL_RenderFillRect(renderer, &(SDL_Rect){ x0, y0, x1 - x0, y1 - y0 });
+    if (opaque) SDL_SetRenderDrawBlendMode(renderer, SDL_BLENDMODE_BLEND);
+}
+
 void wr_gui_sdl_draw(SDL_Renderer *renderer, SDL_Texture *texture, float white_u, float white_v,
                      const WrGuiVertex *vertices, int vertex_count, const uint16_t *indices,
                      int index_count, SDL_Rect clip)
@@ -28,10 +62,18 @@ void wr_gui_sdl_draw(SDL_Renderer *renderer, SDL_Texture *texture, float white_u
     bool plain = false;
     for (int i = 0; i + 2 < index_count; i += 3) {
         bool white = is_white(vertices, indices + i, white_u, white_v);
-        if (i > start && white != plain) {
+        bool pair = white && i + 5 < index_count &&
+                    is_white(vertices, indices + i + 3, white_u, white_v) &&
+                    is_rectangle(vertices, indices + i);
+        if (i > start && (white != plain || pair)) {
             draw_run(renderer, plain ? NULL : texture, vertices, vertex_count, indices + start,
                      i - start);
             start = i;
+        }
+        if (pair) {
+            fill(renderer, vertices, indices + i);
+            i += 3;
+            start = i + 3;
         }
         plain = white;
     }

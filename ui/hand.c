@@ -212,11 +212,13 @@ static void move(WrApp *app, const WrPointer *at)
 
 /* ---- the mouse ---- */
 
-/* What only echoes a pen or a finger, whose own events say more. */
+/* What only echoes a pen or a finger, whose own events say more. What the mouse holds it holds to the end:
+ * of a pen that pressed without hovering first the press may have come as the mouse's. */
 static bool is_echo(const WrApp *app, Uint32 which)
 {
-    return which == SDL_TOUCH_MOUSEID || wr_pen_moves_mouse(app->pen) ||
-           (app->hand.grab != WR_GRAB_NONE && app->hand.device != MOUSE);
+    if (which == SDL_TOUCH_MOUSEID) return true;
+    if (app->hand.grab != WR_GRAB_NONE) return app->hand.device != MOUSE;
+    return wr_pen_moves_mouse(app->pen);
 }
 
 static void mouse_moved(WrApp *app, const SDL_MouseMotionEvent *event)

@@ -42,6 +42,8 @@ static void brushes(WrApp *app)
     keys(app, "shape_polygon", "polygon: click its corners, then Enter");
     keys(app, "shape_path", "Bezier path: drag its arms, then Enter");
     keys(app, "stamp", "stamp: press, drag for turn and size; the wheel sizes it");
+    keys(app, "generate_text", "text: type it, drag it, Ctrl+Enter puts it there");
+    keys(app, "generate", "patterns, noise, solids: Enter puts them there, Escape gives up");
     keys(app, "symmetry", "mirrors, turns, a lattice; drag their centre");
     wr_gui_space(12);
     wr_gui_heading("TABLETS");

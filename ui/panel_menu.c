@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "ui/state.h"
+#include "ui/generate_hand.h"
 
 #include <string.h>
 
@@ -157,6 +157,36 @@ static void operations(WrApp *app)
     }
 }
 
+static void generator_item(WrApp *app, const WrGenerator *generator)
+{
+    char name[WR_GENERATE_ACTION], label[80], keys[32];
+    wr_generate_action(generator, name);
+    snprintf(label, sizeof label, "%.60s...", generator->label);
+    if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys),
+                         app->generate->generator == generator, true))
+        wr_action_run(app, name);
+    wr_gui_tip(generator->help);
+}
+
+/* All generators, by family. */
+static void generators(WrApp *app)
+{
+    if (!wr_gui_menu_begin("Generate")) return;
+    item(app, "generate");
+    wr_gui_menu_separator();
+    for (const WrFamily *f = wr_families; f->name; f++) {
+        if (!f->rows->family) continue;
+        bool alone = !f->rows[1].family;
+        if (alone) {
+            generator_item(app, f->rows);
+        } else if (wr_gui_menu_begin(f->label)) {
+            for (const WrGenerator *g = f->rows; g->family; g++) generator_item(app, g);
+            wr_gui_menu_end();
+        }
+    }
+    wr_gui_menu_end();
+}
+
 static void menu(WrApp *app, const char *label, const char *const *names)
 {
     if (!wr_gui_menu_begin(label)) return;
@@ -183,7 +213,7 @@ static void find_field(WrApp *app)
 
 void wr_panel_menu(WrApp *app)
 {
-    app->menu_height = (int)wr_gui_menu_bar_begin();
+    app->menu_height = (int)wr_gui_menu_bar_begin(app->width < wr_gui_px(860));
     menu(app, "File", file_menu);
     menu(app, "Edit", edit_menu);
     menu(app, "Brush", brush_menu);
@@ -191,6 +221,7 @@ void wr_panel_menu(WrApp *app)
     menu(app, "Layer", layer_menu);
     menu(app, "Select", select_menu);
     menu(app, "Table", table_menu);
+    generators(app);
     menu(app, "View", view_menu);
     menu(app, "Help", help_menu);
     char title[300];

@@ -1,18 +1,30 @@
 /* SPDX-License-Identifier: MIT
    The panel on the right: one tab at a time above, the layers below; where there is no room for both,
-   the layers are a tab too. */
-#include "ui/state.h"
+   the layers are a tab too. What needs many rows takes the layers' place where they leave it only a few. */
+#include "ui/generate_hand.h"
 
 #include <string.h>
 
 static const struct {
     const char *label;
     void (*draw)(WrApp *app);
-} tabs[] = { { "Brushes", NULL }, /* has areas of its own */
-             { "Scene", wr_panel_scene },
-             { "Plan", wr_panel_plan },
-             { "History", wr_panel_history } };
+    void (*fill)(WrApp *app, SDL_Rect room); /* instead: has areas of its own */
+    bool is_long;
+} tabs[] = { { "Brushes", NULL, wr_panel_brushes, false },
+             { "Scene", wr_panel_scene, NULL, false },
+             { "Plan", wr_panel_plan, NULL, false },
+             { "History", wr_panel_history, NULL, false },
+             { "Generate", NULL, wr_panel_generate, true } };
 #define TABS ((int)(sizeof tabs / sizeof *tabs))
+
+int wr_panel_right_tab(const char *label)
+{
+    for (int i = 0; i < TABS; i++)
+        if (strcmp(tabs[i].label, label) == 0) return i;
+    return 0;
+}
+
+#define LONG_UNITS 400 /* that a long tab needs above the layers */
 
 static SDL_Rect below_head(SDL_Rect room, SDL_Rect *head)
 {
@@ -43,18 +55,21 @@ void wr_panel_right(WrApp *app)
     for (int i = 0; i < TABS; i++) labels[i] = tabs[i].label;
     labels[TABS] = "Layers";
     if (*tab < 0 || *tab >= count) *tab = 0;
-    SDL_Rect head, room = below_head(app->layout.panel, &head);
+    SDL_Rect head, whole = app->layout.panel, low = app->layout.lower;
+    bool covers = split && tabs[*tab].is_long && whole.h < wr_gui_px(LONG_UNITS);
+    if (covers) whole.h = low.y + low.h - whole.y;
+    SDL_Rect room = below_head(whole, &head);
     wr_gui_area_begin("##tabs", WR_AREA_BAR, head, WR_COLOUR_BAR);
     wr_gui_tabs("tabs", labels, count, tab);
     wr_gui_area_end();
-    if (split) lower(app);
+    if (split && !covers) lower(app);
     if (room.h <= 0) return;
     if (*tab == TABS) {
         wr_panel_layers(app, room);
         return;
     }
-    if (!tabs[*tab].draw) {
-        wr_panel_brushes(app, room);
+    if (tabs[*tab].fill) {
+        tabs[*tab].fill(app, room);
         return;
     }
     wr_gui_area_begin(labels[*tab], WR_AREA_PANEL, room, WR_COLOUR_PANEL);

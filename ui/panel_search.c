@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
-   Finding an action by typing: all that the menus hold, and every table operation. */
+   Finding an action by typing: all that the menus hold, every table operation, every generator. */
+#include "ui/generate_hand.h"
 #include "ui/search.h"
-#include "ui/state.h"
 
 #include <string.h>
 
@@ -12,11 +12,13 @@ typedef struct Found {
     int score;
 } Found;
 
-/* Keep the best, those of equal score in the order of their table. */
+/* Keep the best, those of equal score in the order of their table. also: what it answers to besides its label,
+   or NULL. */
 static void offer(Found found[FOUND_MAX], int *count, const char *name, const char *label,
-                  const char *query)
+                  const char *also, const char *query)
 {
     int score = wr_search_score(label, query), at = *count;
+    if (score == 0 && also && wr_search_score(also, query) > 0) score = 1;
     if (score == 0) return;
     while (at > 0 && found[at - 1].score < score) at--;
     if (at >= FOUND_MAX) return;
@@ -33,13 +35,22 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
     int count = 0;
     const char *query = app->finder.text;
     for (const WrAction *a = wr_actions; a->name; a++)
-        if (strcmp(a->name, "search") != 0) offer(found, &count, a->name, a->label, query);
+        if (strcmp(a->name, "search") != 0) offer(found, &count, a->name, a->label, NULL, query);
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
         char name[64], label[80];
         snprintf(name, sizeof name, "adjust_%.50s", op->name);
         snprintf(label, sizeof label, "%.60s...", op->label);
-        offer(found, &count, name, label, query);
+        offer(found, &count, name, label, op->name, query);
     }
+    for (const WrFamily *f = wr_families; f->name; f++)
+        for (const WrGenerator *g = f->rows; g->family; g++) {
+            char name[WR_GENERATE_ACTION], label[80], also[200];
+            wr_generate_action(g, name);
+            snprintf(label, sizeof label, g->name ? "%.30s: %.40s" : "%.30s", f->label, g->label);
+            snprintf(also, sizeof also, "%.30s %.30s %.130s", f->name, g->name ? g->name : "",
+                     g->help);
+            offer(found, &count, name, label, also, query);
+        }
     return count;
 }
 
@@ -47,7 +58,9 @@ static void run(WrApp *app, const char *name)
 {
     wr_dialog_close(app);
     const WrOpInfo *op = wr_action_op(name);
+    const WrGenerator *generator = wr_action_generator(name);
     if (op) wr_dialog_adjust_open(app, op);
+    else if (generator) wr_generate_open(app, generator);
     else wr_later_action(app, name);
 }
 

@@ -10,7 +10,7 @@ void wr_panel_tools(WrApp *app)
     for (int i = 0; i < wr_tool_count; i++) {
         const WrAction *action = wr_action_find(wr_tools[i].action);
         if (i % columns) wr_gui_same_line(0);
-        wr_gui_move_to(wr_gui_px(columns == 1 ? 6 : 4 + 40 * (i % columns)));
+        wr_gui_move_to(wr_gui_px(columns == 1 ? 6 : 4 + 38 * (i % columns)));
         if (wr_gui_icon_button(wr_tools[i].action, wr_tools[i].icon, 36, i == app->tool))
             wr_action_run(app, wr_tools[i].action);
         WrText tip = { 0 }, keys = { 0 };
@@ -19,7 +19,7 @@ void wr_panel_tools(WrApp *app)
         wr_gui_tip(wr_text_get(&tip));
         wr_text_fini(&tip);
         wr_text_fini(&keys);
-        if (i % columns == columns - 1) wr_gui_space(-4);
+        if (i % columns == columns - 1) wr_gui_space(-6);
     }
     wr_gui_area_end();
 }

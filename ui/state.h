@@ -21,7 +21,8 @@
 #include "ui/view.h"
 
 typedef struct WrApp WrApp;
-typedef struct WrLatency WrLatency; /* latency.c */
+typedef struct WrGenerateHand WrGenerateHand; /* generate_hand.h */
+typedef struct WrLatency WrLatency;           /* latency.c */
 
 /* ---- pointer ---- */
 
@@ -364,6 +365,7 @@ struct WrApp {
     WrBrushFiles brush_files;
     WrShelf shelf;
     WrDrawHand draw;
+    WrGenerateHand *generate; /* owned */
     WrPatch patch;
     WrPatchPaint paint;
     WrLatency *latency; /* while it is being measured; borrowed */

@@ -89,21 +89,27 @@ static void aim(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-/* The line as it was aimed, however many copies of the cell it crosses: a stroke joins samples by the
- * shortest way round, so none may be half a cell from the next. The pressure is the most that was. */
+/* From one place on to another, however many copies of the cell lie between: a stroke joins samples by the
+ * shortest way round, so none may be half a cell from the next. */
+static void straight_on(WrApp *app, const WrPointer *at, double u, double v, double to_u,
+                        double to_v)
+{
+    double du = to_u - u, dv = to_v - v;
+    int pieces = (int)fmin(64.0, ceil(fmax(fabs(du), fabs(dv)) / 0.4));
+    for (int i = 1; i <= pieces; i++)
+        wr_strokes_sample(app, at, u + du * i / pieces, v + dv * i / pieces);
+}
+
+/* The line as it was aimed. The pressure is the most that was. */
 static void draw_line(WrApp *app, const WrPointer *at)
 {
     WrBrushHand *hand = &app->brush;
     WrPointer steady = *at;
     steady.pressure = hand->pressure;
-    double du = hand->to_u - hand->line_u, dv = hand->to_v - hand->line_v;
-    int pieces = (int)fmin(64.0, ceil(fmax(fabs(du), fabs(dv)) / 0.4));
     WrBrush brush = wr_strokes_brush(app, at);
     if (!wr_strokes_begin(app, &brush, at)) return;
     wr_strokes_sample(app, &steady, hand->line_u, hand->line_v);
-    for (int i = 1; i <= pieces; i++)
-        wr_strokes_sample(app, &steady, hand->line_u + du * i / pieces,
-                          hand->line_v + dv * i / pieces);
+    straight_on(app, &steady, hand->line_u, hand->line_v, hand->to_u, hand->to_v);
     wr_strokes_end(app);
 }
 
@@ -130,8 +136,14 @@ void wr_brush_press(WrApp *app, const WrPointer *at)
         return;
     }
     wr_brush_steady_begin(app, at);
-    if (joins) wr_strokes_sample(app, at, u, v);
-    draw_at(app, at);
+    if (joins) {
+        double to_u, to_v;
+        wr_view_to_uv(&app->view, at->x, at->y, &to_u, &to_v);
+        wr_strokes_sample(app, at, u, v);
+        straight_on(app, at, u, v, to_u, to_v);
+    } else {
+        draw_at(app, at);
+    }
 }
 
 void wr_brush_drag(WrApp *app, const WrPointer *at)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
    The one table of tools: a new tool is a row here and its functions. */
-#include "ui/state.h"
+#include "ui/generate_hand.h"
 
 #include <string.h>
 
@@ -114,6 +114,18 @@ const WrTool wr_tools[] = {
       .key = wr_stamp_key,
       .wheel = wr_stamp_wheel,
       .leave = wr_stamp_leave },
+    { .action = "generate",
+      .icon = WR_ICON_WAND,
+      .help =
+          "Patterns, noise, text and more from the Generate tab: drag what it makes, Enter puts "
+          "it on the table, Escape gives up.",
+      .press = wr_pose_press,
+      .drag = wr_pose_drag,
+      .release = wr_pose_release,
+      .marks = wr_pose_marks,
+      .options = wr_pose_options,
+      .key = wr_pose_key,
+      .leave = wr_generate_cancel },
     { .action = "pick",
       .icon = WR_ICON_PICK,
       .help = "Pick the height under the pointer and paint towards it.",

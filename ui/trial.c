@@ -1,13 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 #include "ui/trial.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "brush/tip.h"
 #include "ui/job.h"
+#include "ui/trial_generate.h"
 
 typedef struct Work {
     WrDocument *document; /* a snapshot of its own, changed by the work */
     WrTrialAsk ask;
+    WrDocument
+        *again; /* the snapshot as it was, for the exact result after a rough one; NULL: none */
+    char *line; /* of a generator; ask.line points to it */
+    WrText notes;
+    double seconds;
     WrBrush brush;  /* of a dab; ask.dab points to it */
     WrField *field; /* the result; NULL: none */
     WrError err;
@@ -19,12 +26,18 @@ struct WrTrial {
     WrField *field; /* newest result; owned */
     WrError err;
     bool failed;
+    bool rough; /* the field is */
+    WrText notes;
+    double seconds;
 };
 
 static void drop(void *arg)
 {
     Work *work = arg;
     wr_document_free(work->document);
+    wr_document_free(work->again);
+    wr_free(work->line);
+    wr_text_fini(&work->notes);
     wr_field_free(work->field);
     if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a share of its own */
     wr_free(work);
@@ -83,7 +96,14 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     Work *work = arg;
     const WrTrialAsk *ask = &work->ask;
-    if (ask->op) {
+    double began = wr_clock_seconds();
+    if (ask->line) {
+        if (!wr_trial_generate(work->document, ask->line, ask->rough, pool, progress, &work->notes,
+                               &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else if (ask->op) {
         if (!adjust(work, pool, progress, &work->err)) {
             work->cancelled = wr_progress_cancelled(progress);
             return;
@@ -97,6 +117,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
         layer->radius = ask->radius;
     }
     if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));
+    work->seconds = wr_clock_seconds() - began;
 }
 
 /* ---- the window's side ---- */
@@ -114,6 +135,7 @@ void wr_trial_free(WrTrial *trial)
     if (!trial) return;
     wr_job_free(trial->job);
     wr_field_free(trial->field);
+    wr_text_fini(&trial->notes);
     wr_free(trial);
 }
 
@@ -122,6 +144,9 @@ void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *
     Work *work = wr_alloc(1, sizeof *work);
     work->document = wr_document_share(document);
     work->ask = *ask;
+    work->ask.rough = ask->line && ask->rough;
+    if (work->ask.rough) work->again = wr_document_share(document);
+    if (ask->line) work->ask.line = work->line = wr_strdup(ask->line);
     if (ask->dab) {
         work->brush = *ask->dab;
         work->brush.preset = NULL;
@@ -137,12 +162,21 @@ void wr_trial_end(WrTrial *trial)
     wr_job_cancel(trial->job);
     wr_field_free(trial->field);
     trial->field = NULL;
-    trial->failed = false;
+    trial->failed = trial->rough = false;
+    wr_text_clear(&trial->notes);
 }
 
 void wr_trial_stop(WrTrial *trial)
 {
     wr_job_interrupt(trial->job);
+}
+
+/* A rough result is there: now the exact one. */
+static void go_on(WrTrial *trial, const Work *rough)
+{
+    WrTrialAsk ask = rough->ask;
+    ask.rough = false;
+    wr_trial_ask(trial, rough->again, &ask);
 }
 
 static void take(WrTrial *trial)
@@ -153,6 +187,12 @@ static void take(WrTrial *trial)
         wr_field_free(trial->field);
         trial->field = work->field;
         work->field = NULL;
+        WrText notes = trial->notes;
+        trial->notes = work->notes;
+        work->notes = notes;
+        trial->rough = work->ask.rough;
+        if (trial->rough) go_on(trial, work);
+        else trial->seconds = work->seconds;
     } else if (!work->cancelled) {
         trial->failed = true;
         trial->err = work->err;
@@ -169,6 +209,24 @@ const WrField *wr_trial_field(WrTrial *trial)
 bool wr_trial_busy(WrTrial *trial, double *fraction, double *seconds)
 {
     return wr_job_busy(trial->job, fraction, seconds);
+}
+
+bool wr_trial_rough(WrTrial *trial)
+{
+    take(trial);
+    return trial->field && trial->rough;
+}
+
+const char *wr_trial_notes(WrTrial *trial)
+{
+    take(trial);
+    return wr_text_get(&trial->notes);
+}
+
+double wr_trial_seconds(WrTrial *trial)
+{
+    take(trial);
+    return trial->seconds;
 }
 
 bool wr_trial_error(WrTrial *trial, WrError *err)

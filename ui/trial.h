@@ -24,6 +24,9 @@ typedef struct WrTrialAsk {
                            presets do not count */
     double u, v;
 
+    const char *line; /* or a generator's command line (trial_generate.h); copied */
+    bool rough;       /* first roughly, at once, and only then as the command makes it */
+
     int layer; /* or a layer with other settings */
     WrBlend blend;
     float opacity, radius;
@@ -42,5 +45,11 @@ void wr_trial_stop(WrTrial *trial);
 const WrField *wr_trial_field(WrTrial *trial);
 /* Something is under way: how far it is (0..1) and for how many seconds; either may be NULL. */
 bool wr_trial_busy(WrTrial *trial, double *fraction, double *seconds);
+/* Of a generator's line. The newest result is the rough one: the other is under way. */
+bool wr_trial_rough(WrTrial *trial);
+/* What the newest result has to say, one a line; "" if nothing. Valid until the next call but wr_trial_busy. */
+const char *wr_trial_notes(WrTrial *trial);
+/* How long the newest result took that was not rough; 0: there is none. */
+double wr_trial_seconds(WrTrial *trial);
 /* Why the newest ask gave nothing, or false. Told once. */
 bool wr_trial_error(WrTrial *trial, WrError *err);

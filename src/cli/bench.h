@@ -74,4 +74,8 @@ bool wr_bench_brush(const WrCli *cli, WrBenchBrush *brush, int dabs, int rounds,
 bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *err);
 bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *err);
 
+/* Generators and operations of whole tables of 4096 x 4096, beside other programs where these are
+ * installed: a table, or lines 'make WHAT WHO table threads ms'. It takes minutes, seconds where quick. */
+bool wr_bench_generate(const WrCli *cli, bool quick, bool lines, WrText *text, WrError *err);
+
 double wr_bench_median(double *values, int count); /* sorts values */

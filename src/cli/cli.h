@@ -52,6 +52,7 @@ struct WrCli {
     const char *sheet;      /* --sheet */
     const char *thumbnails; /* --thumbnails */
     const char *collection; /* --collection */
+    bool settings;          /* --settings */
 
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
@@ -67,7 +68,7 @@ typedef enum WrOption {
     WR_OPTION_NOISE,
     WR_OPTION_FACE,
     WR_OPTION_JSON,
-    WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection */
+    WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;

@@ -6,20 +6,21 @@
 #define ROWS_MAX 128
 
 typedef struct Options {
-    bool lines, exact, quick;
+    bool lines, exact, quick, made;
 } Options;
 
 static bool read_options(const WrCli *cli, Options *options, WrError *err)
 {
-    *options = (Options){ false, false, false };
+    *options = (Options){ false, false, false, false };
     for (int i = 0; i < cli->word_count; i++) {
         const char *word = cli->words[i];
         if (strcmp(word, "--lines") == 0) options->lines = true;
         else if (strcmp(word, "--exact") == 0) options->exact = true;
         else if (strcmp(word, "--quick") == 0) options->quick = true;
+        else if (strcmp(word, "--made") == 0) options->made = true;
         else
-            return wr_fail(err, "bench: unknown option %s: must be --lines, --exact or --quick",
-                           word);
+            return wr_fail(
+                err, "bench: unknown option %s: must be --lines, --exact, --quick or --made", word);
     }
     return true;
 }
@@ -65,7 +66,8 @@ static bool bench_lines(const WrCli *cli, const Options *options, WrText *text, 
                              wr_bench_modes[rows[i].mode], rows[i].table, rows[i].threads,
                              rows[i].ms);
         }
-    return wr_bench_brush_lines(cli, options->quick, text, err);
+    return wr_bench_brush_lines(cli, options->quick, text, err) &&
+           wr_bench_generate(cli, options->quick, true, text, err);
 }
 
 static void print_frames(WrText *text, const WrBenchRow *rows, int count)
@@ -159,6 +161,7 @@ static bool bench_table(const WrCli *cli, const Options *options, WrText *text, 
     print_ratios(text, rows, count);
     return bench_strokes(cli, options, text, err) &&
            wr_bench_brush_table(cli, options->quick, text, err) &&
+           wr_bench_generate(cli, options->quick, false, text, err) &&
            bench_edits(cli, options, text, err) && bench_files(options, text, err) &&
            wr_bench_window(cli, options->quick, text, err);
 }
@@ -169,8 +172,9 @@ int wr_cli_bench(const WrCli *cli)
     Options options;
     WrText text = { 0 };
     if (!read_options(cli, &options, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
-    bool good = options.lines ? bench_lines(cli, &options, &text, &err)
-                              : bench_table(cli, &options, &text, &err);
+    bool good = options.made    ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
+                : options.lines ? bench_lines(cli, &options, &text, &err)
+                                : bench_table(cli, &options, &text, &err);
     int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&text);
     return status;

@@ -116,11 +116,27 @@ static bool check_line(const WrCli *cli, WrError *err)
     return true;
 }
 
+/* The table of brushes/README.md. */
+static void settings_table(WrText *text)
+{
+    static const char *const uses[] = { "as MyPaint means it", "something else", "nothing" };
+    wr_text_add(text, "| setting | means for heights | from | to | |\n"
+                      "| --- | --- | --- | --- | --- |\n");
+    for (int i = 0; i < wr_preset_setting_count(); i++) {
+        const WrSettingInfo *info = wr_preset_setting(i);
+        char low[WR_NUMBER_SIZE], high[WR_NUMBER_SIZE];
+        wr_text_addf(text, "| `%s` | %s | %s | %s | %s |\n", info->name, uses[info->use],
+                     wr_number_print_float((float)info->low, low),
+                     wr_number_print_float((float)info->high, high), info->meaning);
+    }
+}
+
 static bool answer(const WrCli *cli, const WrBrushList *list, WrText *text, WrError *err)
 {
     if (cli->sheet && !wr_brushes_sheet(cli, list, cli->sheet, err)) return false;
     if (cli->thumbnails && !wr_brushes_thumbnails(cli, list, cli->thumbnails, err)) return false;
-    if (cli->sheet || cli->thumbnails) return true;
+    if (cli->settings) settings_table(text);
+    if (cli->sheet || cli->thumbnails || cli->settings) return true;
     if (cli->word_count > 0 || cli->json) return tell_each(cli, list, text, err);
     list_lines(list, text);
     return true;

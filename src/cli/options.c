@@ -133,6 +133,13 @@ static bool set_collection(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
+static bool set_settings(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->settings = true;
+}
+
 static bool set_help(WrCli *cli, const char *value, WrError *err)
 {
     (void)value;
@@ -177,6 +184,8 @@ static const struct Option {
     { "--thumbnails", NULL, "FOLDER", WR_OPTION_SHEET,
       "write a small picture of each, NAME_prev.png; without names of our own presets",
       set_thumbnails },
+    { "--settings", NULL, NULL, WR_OPTION_SHEET,
+      "what each setting of MyPaint's presets means for heights, as a table", set_settings },
     { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", set_json },
     { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
       "run a command after FILE is loaded; repeatable, in order", set_do },

@@ -69,6 +69,7 @@ static WrArgSpec argument(const WrParam *p)
     case WR_PARAM_TEXT:
     case WR_PARAM_FILE:
         spec.type = p->kind == WR_PARAM_TEXT ? WR_ARG_TEXT : WR_ARG_PATH;
+        spec.may_be_empty = p->kind == WR_PARAM_TEXT;
         spec.required = !p->fallback_text;
         spec.fallback_text = p->fallback_text;
         break;
@@ -78,6 +79,7 @@ static WrArgSpec argument(const WrParam *p)
 
 static int add_shared(const WrGenerator *g, WrArgSpec *out)
 {
+    static const double radius[] = { 0.1 }, offset[] = { 0.0 };
     int count = 0;
     out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "blend"),
                                 .type = WR_ARG_CHOICE,
@@ -88,14 +90,14 @@ static int add_shared(const WrGenerator *g, WrArgSpec *out)
                                 .type = WR_ARG_NUMBER,
                                 .low = 0,
                                 .high = WR_BIG_HEIGHT,
-                                .fallback = NUMBERS(0.1),
+                                .fallback = radius,
                                 .unit = "table units",
                                 .help = "of the smooth ways to join" };
     out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "offset"),
                                 .type = WR_ARG_NUMBER,
                                 .low = -WR_BIG_HEIGHT,
                                 .high = WR_BIG_HEIGHT,
-                                .fallback = NUMBERS(0),
+                                .fallback = offset,
                                 .unit = "table units",
                                 .help = "added to its heights first" };
     for (int i = 0; g->params[i].name; i++)

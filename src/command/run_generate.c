@@ -38,8 +38,7 @@ void wr_call_values(const WrCall *call, const WrGenerator *generator, WrParamVal
 
 /* ---- texts and files ---- */
 
-/* \n stands for a new line and \\ for a backslash; any other backslash for itself. Caller frees. */
-static char *with_lines(const char *text)
+char *wr_generator_text(const char *text)
 {
     WrText out = { 0 };
     for (const char *p = text; *p; p++) {
@@ -59,7 +58,7 @@ static bool resolve(WrSession *session, WrCall *call, const WrGenerator *generat
     for (int i = 0; generator->params[i].name; i++) {
         WrParamKind kind = generator->params[i].kind;
         if (kind == WR_PARAM_TEXT && values[i].text) {
-            values[i].text = owned[i] = with_lines(values[i].text);
+            values[i].text = owned[i] = wr_generator_text(values[i].text);
         } else if (kind == WR_PARAM_FILE && values[i].text && *values[i].text) {
             values[i].text = owned[i] = wr_session_input_path(session, values[i].text);
             if (!wr_session_check_sha256(call, owned[i], err)) return false;
@@ -163,10 +162,11 @@ static WrField *weight_of(const WrField *cover, const WrField *selection)
     return weight;
 }
 
-static bool join(const WrSession *session, const WrCall *call, const WrGenerator *generator,
-                 const WrRelief *relief, WrLayer *layer, const WrProgress *progress, WrError *err)
+bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
+                  WrLayer *layer, const WrProgress *progress, WrError *err)
 {
-    WrField *weight = weight_of(relief->cover, session->state.document->selection);
+    const WrGenerator *generator = wr_call_generator(call);
+    WrField *weight = weight_of(relief->cover, selection);
     Joining joining = {
         .blend = (WrBlend)wr_call_choice(call, wr_generator_argument(generator, "blend")),
         .radius = (float)wr_call_number(call, wr_generator_argument(generator, "radius")),
@@ -196,9 +196,10 @@ bool wr_run_generate(WrSession *session, WrCall *call, WrError *err)
     char *owned[WR_GENERATOR_PARAMS] = { NULL };
     WrRelief relief = { NULL, NULL };
     wr_call_values(call, generator, values);
-    bool good = resolve(session, call, generator, values, owned, err) &&
-                wr_generator_make(generator, values, &job, &relief, err) &&
-                join(session, call, generator, &relief, layer, &progress, err);
+    bool good =
+        resolve(session, call, generator, values, owned, err) &&
+        wr_generator_make(generator, values, &job, &relief, err) &&
+        wr_call_join(call, &relief, session->state.document->selection, layer, &progress, err);
     wr_relief_fini(&relief);
     for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
     return good;

@@ -68,8 +68,9 @@ typedef struct WrArgSpec {
     void (*explain)(int i, WrText *text); /* choices: what word i means, for help; NULL: unsaid */
     bool (*check)(const void *ctx, const char *name, const char *value, WrError *err); /* texts */
     const void *check_ctx;
-    const char *unit; /* "texels", "degrees"; NULL: none */
-    const char *help; /* a few words; of a text also what is allowed */
+    bool may_be_empty; /* texts: "" is one */
+    const char *unit;  /* "texels", "degrees"; NULL: none */
+    const char *help;  /* a few words; of a text also what is allowed */
 } WrArgSpec;
 
 /* A command such as `light` has forms (directional, point, clear): its first word names the form, and

@@ -246,7 +246,7 @@ static bool parse_choice(const WrArgSpec *spec, const char *where, const char *v
 static bool parse_text(const WrArgSpec *spec, const char *where, const char *value, WrArg *arg,
                        WrError *err)
 {
-    if (!*value) return fail_value(spec, where, value, err);
+    if (!*value && !spec->may_be_empty) return fail_value(spec, where, value, err);
     if (spec->type == WR_ARG_NAME && strlen(value) > WR_LAYER_NAME_MAX)
         return fail_value(spec, where, value, err);
     if (spec->type == WR_ARG_SHA256 &&

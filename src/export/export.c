@@ -20,7 +20,9 @@ WrExportOptions wr_export_default(void)
                               .tilt_deg = 35.0,
                               .drawing_w = 1024,
                               .drawing_h = 768,
-                              .pen = 1.0 };
+                              .pen = 1.0,
+                              .at = 0.5,
+                              .grid = 8 };
 }
 
 /* ---- what the kinds share ---- */
@@ -193,8 +195,9 @@ static void add_count(WrText *text, int64_t count, const char *what)
 void wr_export_report_text(const WrExportReport *report, WrText *text)
 {
     if (report->lines) {
-        wr_text_addf(text, "%dx%d pixels, %lld visible stretches of lines", report->width,
-                     report->height, (long long)report->lines);
+        wr_text_addf(text, "%dx%d pixels", report->width, report->height);
+        if (report->lines > 1)
+            wr_text_addf(text, ", %lld visible stretches of lines", (long long)report->lines);
         return;
     }
     wr_text_addf(text, "%dx%d, %s", report->width, report->height,

@@ -20,7 +20,8 @@
    round(M (n/2 + 1/2)); float files hold n/2 + 1/2.
 
    lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
-   white; vectors where the ending is svg, else a picture of 8 bits. */
+   white; vectors where the ending is svg, else a picture of 8 bits. profile: F along a line of the cell
+   as a chart, by the scheme's interpolation. */
 #pragma once
 #include "base/pool.h"
 #include "base/text.h"
@@ -46,6 +47,10 @@ typedef struct WrExportOptions {
     int drawing_w, drawing_h; /* pixels, 16..4096 */
     double pen;               /* breadth of a line, pixels, 0.1..20 */
     bool hidden;              /* hidden lines are drawn as well */
+    /* profile, whose size and pen are those of lines: */
+    bool along_v; /* along v, else along u */
+    double at;    /* the other coordinate, 0..1 */
+    int grid;     /* divisions of the line, 1..256 */
 } WrExportOptions;
 
 /* What was written, for the user to read. */
@@ -58,7 +63,7 @@ typedef struct WrExportReport {
     double code_low, code_high; /* F of code 0 and of the last code */
     int zero_code;    /* the code of F = 0 when it is exact by construction (signed), else -1 */
     double amplitude; /* signed: A */
-    int64_t lines;    /* lines: visible stretches; else 0 */
+    int64_t lines;    /* drawings: visible stretches of lines; else 0 */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -89,7 +94,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 4
+#define WR_EXPORT_KIND_COUNT 5
 extern const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

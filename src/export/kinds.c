@@ -147,6 +147,33 @@ static bool set_hidden(WrExportOptions *options, const char *value, WrError *err
     return true;
 }
 
+static bool set_along(WrExportOptions *options, const char *value, WrError *err)
+{
+    bool v = strcmp(value, "v") == 0;
+    if (!v && strcmp(value, "u") != 0) return wr_fail(err, "along '%.40s': must be u or v", value);
+    options->along_v = v;
+    return true;
+}
+
+static bool set_at(WrExportOptions *options, const char *value, WrError *err)
+{
+    double at;
+    if (!wr_number_parse(value, strlen(value), &at) || !(at >= 0.0 && at <= 1.0))
+        return wr_fail(err, "at '%.40s': must be the other coordinate, 0..1", value);
+    options->at = at;
+    return true;
+}
+
+static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
+{
+    double grid;
+    if (!wr_number_parse(value, strlen(value), &grid) || grid != floor(grid) ||
+        !(grid >= 1.0 && grid <= 256.0))
+        return wr_fail(err, "grid '%.40s': must be a whole number of divisions, 1..256", value);
+    options->grid = (int)grid;
+    return true;
+}
+
 #define DEPTH                                                                                      \
     {                                                                                              \
         "depth", "8, 16 or 32",                                                                    \
@@ -219,6 +246,18 @@ const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT] = {
                      set_hidden } },
       .channels = 1,
       .write = wr_export_drawing_write },
+    { .name = "profile",
+      .label = "profile",
+      .help = "heights along a line of the cell as a chart: svg, or a picture",
+      .options = { { "along", "u or v", "the coordinate that the line follows; left out: u",
+                     set_along },
+                   { "at", "COORDINATE", "the other one, 0..1; left out: 0.5", set_at },
+                   { "grid", "N", "divisions of the line; left out: 8", set_grid },
+                   SCHEME,
+                   { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
+                   { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen } },
+      .channels = 1,
+      .write = wr_export_profile_write },
 };
 
 const WrExportKind *wr_export_find(const char *name)

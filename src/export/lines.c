@@ -161,13 +161,13 @@ static bool is_seen(const Sheet *sheet, const WrLinesPlace *p)
 
 typedef struct Points {
     WR_ARRAY(WrStretch) stretches;
-    WR_ARRAY(WrDrawingPoint) points;
+    WR_ARRAY(WrInkPoint) points;
     bool open; /* the last stretch goes on */
 } Points;
 
 static void put_point(Points *out, double x, double y)
 {
-    wr_array_push(&out->points, ((WrDrawingPoint){ (float)x, (float)y }));
+    wr_array_push(&out->points, ((WrInkPoint){ (float)x, (float)y }));
 }
 
 static void begin_stretch(Points *out, double x, double y)

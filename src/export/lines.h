@@ -5,8 +5,9 @@
    turned about the vertical by turn_deg and seen from tilt_deg above the horizon. Lines run along u and
    along v through texels' centres. */
 #pragma once
-#include "base/pool.h"
-#include "field/field.h"
+#include "export/ink.h"
+
+#include <stdint.h>
 
 #define WR_LINES_MOST 1024   /* lines along either axis */
 #define WR_DRAWING_MOST 4096 /* pixels along a side of the drawing */
@@ -25,13 +26,9 @@ typedef struct WrStretch {
     int first, count; /* points[first] .. */
 } WrStretch;
 
-typedef struct WrDrawingPoint {
-    float x, y; /* pixels from the top left */
-} WrDrawingPoint;
-
 typedef struct WrDrawing {
-    WrDrawingPoint *points; /* [point_count]; owned */
-    WrStretch *stretches;   /* [stretch_count]; owned */
+    WrInkPoint *points;   /* [point_count]; owned */
+    WrStretch *stretches; /* [stretch_count]; owned */
     int point_count, stretch_count;
 } WrDrawing;
 

@@ -1,5 +1,183 @@
-#include "generate/generator.h"
+/* The text generator: from parameters to placed outlines. */
+#include "base/text.h"
+#include "generate/param.h"
+#include "generate/text_lay.h"
+
+#include <string.h>
+
+static const char *const align_words[] = { "left", "centre", "right", NULL };
+static const char *const anchor_words[] = { "middle", "baseline", "top", "bottom", NULL };
+static const char *const direction_words[] = { "auto", "left-to-right", "right-to-left", NULL };
+static const char *const around_words[] = { "off", "u", "v", "lattice", NULL };
+static const char *const edge_words[] = { "wrap", "clip", NULL };
+static const char *const profile_words[] = { "flat", "round", "chisel", "ridge", "engraved", NULL };
+
+static const WrParam params[] = {
+    { .name = "text",
+      .label = "Text",
+      .help = "the letters; \\n begins a new line",
+      .unit = "",
+      .kind = WR_PARAM_TEXT,
+      .positional = true },
+    { .name = "font",
+      .label = "Font",
+      .help = "an installed font, where no file is named",
+      .unit = "",
+      .kind = WR_PARAM_CHOICE,
+      .words = wr_font_names },
+    { .name = "file",
+      .label = "Font file",
+      .help = "a font: TrueType, OpenType, Type 1, PCF, BDF, PSF, also packed by gzip",
+      .unit = "",
+      .kind = WR_PARAM_FILE,
+      .fallback_text = "" },
+    WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "which of a collection of fonts in one file"),
+    WR_P_ABOVE("size", "Size", 64, 0, WR_FONT_SIZE_MAX, 512, "texels",
+               "of the font's em; of a bitmap font its dots' height"),
+    { .name = "at",
+      .label = "Place",
+      .help = "where the text's anchor stands",
+      .unit = "",
+      .kind = WR_PARAM_TUPLE,
+      .fallback = { 0.5, 0.5 },
+      .low = -64,
+      .high = 64,
+      .soft_low = 0,
+      .soft_high = 1,
+      .shape = "u,v",
+      .components = 2 },
+    WR_P_CHOICE("align", "Alignment", WR_FONT_CENTRE, align_words,
+                "of the lines with one another and to the anchor"),
+    WR_P_CHOICE("anchor", "Anchor", 0, anchor_words, "what of the text's height stands there"),
+    WR_P_NUMBER("letters", "Letter spacing", 0, -16384, 16384, 32, "texels",
+                "added between letters"),
+    WR_P_NUMBER("lines", "Line spacing", 1, 0, 100, 3, "", "times the font's own"),
+    WR_P_NUMBER("rotate", "Turn", 0, -36000, 36000, 180, "degrees",
+                "anticlockwise, about the anchor"),
+    WR_P_CHOICE("direction", "Direction", 0, direction_words,
+                "of a line as a whole; auto: by its first letter"),
+    { .name = "language",
+      .label = "Language",
+      .help = "as in ar, hi, sr: some fonts have other letters for it",
+      .unit = "",
+      .kind = WR_PARAM_TEXT,
+      .fallback_text = "" },
+    { .name = "points",
+      .label = "Path",
+      .help = "the text stands on a smooth curve through these places",
+      .unit = "",
+      .kind = WR_PARAM_POINTS,
+      .low = -64,
+      .high = 64 },
+    WR_P_CHOICE("around", "Around", 0, around_words,
+                "once round the table, the letters' spacing such that it closes: along u, v or the "
+                "lattice direction"),
+    { .name = "lattice",
+      .label = "Lattice direction",
+      .help = "how many tables to the right and up until it closes",
+      .unit = "",
+      .kind = WR_PARAM_TUPLE,
+      .fallback = { 1, 1 },
+      .low = -16,
+      .high = 16,
+      .soft_low = -4,
+      .soft_high = 4,
+      .shape = "i,j",
+      .components = 2 },
+    WR_P_WHOLE("repeats", "Repeats", 0, 0, 4096, 16,
+               "around: how many times; 0: as many as fit best"),
+    WR_P_CHOICE("edge", "Edges", 0, edge_words,
+                "what passes a periodic edge comes back on the other side, or is cut off"),
+    WR_P_CHOICE("profile", "Profile", WR_TEXT_FLAT, profile_words,
+                "how it rises from its rim; a ridge has bevel as its run for one height"),
+    WR_P_TEXELS("bevel", "Bevel", 4, 64, "how far inside of the rim the height is reached"),
+    WR_P_HEIGHT,
+    WR_P_END
+};
+
+static WrTextWish wish_of(const WrParams *p)
+{
+    const WrParamValue *at = wr_param_value(p, "at"), *lattice = wr_param_value(p, "lattice");
+    const WrParamValue *path = wr_param_value(p, "points");
+    const char *language = wr_param_value(p, "language")->text;
+    WrTextWish wish = {
+        .setting = { .size = wr_param_number(p, "size"),
+                     .letter_spacing = wr_param_number(p, "letters"),
+                     .line_spacing = wr_param_number(p, "lines"),
+                     .align = (WrFontAlign)wr_param_whole(p, "align") },
+        .at = { at->number[0], at->number[1] },
+        .anchor = (WrTextAnchor)wr_param_whole(p, "anchor"),
+        .rotate_deg = wr_param_number(p, "rotate"),
+        .points = path->points,
+        .point_count = path->count,
+        .around = wr_param_whole(p, "around") != 0,
+        .repeats = wr_param_whole(p, "repeats"),
+        .clip = wr_param_whole(p, "edge") == 1,
+    };
+    wish.ask = (WrFontAsk){ .text = wr_param_value(p, "text")->text,
+                            .face = wr_param_whole(p, "face"),
+                            .direction = (WrFontDirection)wr_param_whole(p, "direction"),
+                            .language = language && *language ? language : NULL };
+    wish.lattice[0] = wr_param_whole(p, "around") == 1 ? 1.0 : 0.0;
+    wish.lattice[1] = wr_param_whole(p, "around") == 2 ? 1.0 : 0.0;
+    for (int k = 0; k < 2 && wr_param_whole(p, "around") == 3; k++)
+        wish.lattice[k] = lattice->number[k];
+    return wish;
+}
+
+static void note_missing(const WrFontText *text, const WrGenerateJob *job)
+{
+    WrText line = { 0 };
+    for (int i = 0; i < text->missing_count && i < 16; i++)
+        wr_text_addf(&line, "%s U+%04X", i ? "," : "", text->missing[i]);
+    if (text->missing_count > 16) wr_text_add(&line, " and others");
+    if (text->missing_count > 0)
+        wr_generate_note(job, "the font has no glyph for%s: drawn as its sign for that",
+                         wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+static bool make_shaped(const WrTextWish *wish, const WrFontText *text, const WrTextFinish *finish,
+                        const WrGenerateJob *job, WrRelief *out, WrError *err)
+{
+    WrTextShape shape = { 0 };
+    if (!wr_text_shape_init(&shape, job->like, wish->clip, err)) return false;
+    bool good =
+        wr_text_lay(wish, text, job, &shape, err) && wr_text_relief(&shape, finish, job, out, err);
+    wr_text_shape_fini(&shape);
+    return good;
+}
+
+static bool make_text(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+                      WrError *err)
+{
+    WrParams p = { params, values };
+    WrTextWish wish = wish_of(&p);
+    WrTextFinish finish = { (WrTextProfile)wr_param_whole(&p, "profile"),
+                            wr_param_number(&p, "bevel"), wr_param_number(&p, "height") };
+    WrFontText text = { 0 };
+    const char *file = wr_param_value(&p, "file")->text;
+    char *found = NULL;
+    if (!file || !*file) {
+        found = wr_font_find(wr_param_whole(&p, "font"), wish.setting.size, err);
+        if (!found) return false;
+        file = found;
+    }
+    bool good = wr_font_shape(file, &wish.ask, &text, err);
+    wr_free(found);
+    if (!good) return false;
+    note_missing(&text, job);
+    good = make_shaped(&wish, &text, &finish, job, out, err);
+    wr_font_text_fini(&text);
+    return good;
+}
 
 const WrGenerator wr_text_rows[] = {
+    { .family = "text",
+      .label = "Text",
+      .help = "letters of any font and script, in relief",
+      .blend = "add",
+      .params = params,
+      .make = make_text },
     { .family = NULL },
 };

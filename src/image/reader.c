@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #define SECONDS 60               /* without a sign of life */
+#define BLOCK_SECONDS 20         /* the same for files that are read in one go */
 #define MEGABYTES 4096           /* of memory */
 #define CHUNK ((size_t)16 << 20) /* bytes of rows that travel at once, where a row is not larger */
 
@@ -198,22 +199,26 @@ static bool take_parts(WrReader *reader, const Answer *answer, int most)
     return reader->count >= 1 && reader->count <= most;
 }
 
-/* One try. *gone: nothing came back, not even how the reader died: perhaps the process itself is gone. */
-static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, bool *gone, WrError *err)
+/* Have the process read the file; the reader gets its channel. */
+static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrError *err)
 {
     int ends[2];
-    Answer answer;
-    *gone = false;
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return wr_fail(err, "%s: no socket for the reader", reader->name);
     bool sent = wr_process_order(order, fd, ends[1], err);
     close(ends[1]);
     reader->channel = ends[0];
     reader->dead = false;
-    if (!sent) {
-        wr_error_prefix(err, "%s: ", reader->name);
-        return false;
-    }
+    if (!sent) wr_error_prefix(err, "%s: ", reader->name);
+    return sent;
+}
+
+/* One try. *gone: nothing came back, not even how the reader died: perhaps the process itself is gone. */
+static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, bool *gone, WrError *err)
+{
+    Answer answer;
+    *gone = false;
+    if (!send_order(reader, order, fd, err)) return false;
     *gone = wr_wire_wait(reader->channel, wr_clock_seconds() + reader->seconds) == WR_WIRE_GONE;
     if (!receive(reader, WR_WIRE_OPENED, &answer, err)) return false;
     if (take_parts(reader, &answer, order->most)) return true;
@@ -221,20 +226,29 @@ static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, bool *
     return wr_fail(err, "%s", reader->end.text);
 }
 
-WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
+static WrReader *new_reader(const char *name, int fd, WrWireTask task, int most, WrWireOrder *order)
 {
     struct stat info;
     double size = fstat(fd, &info) == 0 ? (double)info.st_size : 0.0;
     WrReader *reader = wr_alloc(1, sizeof *reader);
     reader->name = wr_strdup(name);
     reader->channel = -1;
-    reader->seconds = setting("WRINKLE_READER_SECONDS", SECONDS + (unsigned)(size / 1e6));
+    unsigned patience = task == WR_WIRE_PICTURE ? SECONDS : BLOCK_SECONDS;
+    reader->seconds = setting("WRINKLE_READER_SECONDS", patience + (unsigned)(size / 1e6));
     reader->megabytes = setting("WRINKLE_READER_MB", MEGABYTES);
-    WrWireOrder order = { .version = WR_WIRE_VERSION,
-                          .most = most,
-                          .memory = (uint64_t)reader->megabytes << 20,
-                          .seconds = 10 * reader->seconds };
-    wr_path_ending(name, order.ending);
+    *order = (WrWireOrder){ .version = WR_WIRE_VERSION,
+                            .task = task,
+                            .most = most,
+                            .memory = (uint64_t)reader->megabytes << 20,
+                            .seconds = 10 * reader->seconds };
+    wr_path_ending(name, order->ending);
+    return reader;
+}
+
+WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
+{
+    WrWireOrder order;
+    WrReader *reader = new_reader(name, fd, WR_WIRE_PICTURE, most, &order);
     bool gone, good = open_once(reader, &order, fd, &gone, err);
     if (!good && gone) {
         if (reader->channel >= 0) close(reader->channel);
@@ -375,5 +389,32 @@ bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, f
         receive_whole(reader, &ignored);
         wr_free(ignored.bytes);
     }
+    return good;
+}
+
+/* ---- other files ---- */
+
+bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask, size_t ask_length,
+                     char **block, size_t *length, WrError *err)
+{
+    WrWireOrder order;
+    WrReader *reader = new_reader(name, fd, task, 1, &order);
+    Answer answer = { 0 };
+    bool good = false, gone = true;
+    for (int attempt = 0; attempt < 2 && gone && !good; attempt++) {
+        if (reader->channel >= 0) close(reader->channel);
+        reader->channel = -1;
+        gone = false;
+        if (!send_order(reader, &order, fd, err)) break;
+        /* If the child is gone, its last words are still to be read. */
+        wr_wire_send(reader->channel, WR_WIRE_ASK, ask, ask_length, -1);
+        gone = wr_wire_wait(reader->channel, wr_clock_seconds() + reader->seconds) == WR_WIRE_GONE;
+        good = receive(reader, WR_WIRE_BLOCK, &answer, err);
+    }
+    if (good) {
+        *block = answer.bytes ? answer.bytes : wr_alloc(1, 1);
+        *length = answer.head.length;
+    }
+    wr_reader_close(reader);
     return good;
 }

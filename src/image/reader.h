@@ -1,4 +1,4 @@
-/* reader.h - a picture file read by the reader process (wire.h), so that a hostile file can harm that
+/* reader.h - a picture or font file read by the reader process (wire.h), so that a hostile file can harm that
    process alone. The same functions as decode.h has.
    Private to this room.
 
@@ -8,6 +8,7 @@
    WRINKLE_READER_SECONDS, WRINKLE_READER_MB. */
 #pragma once
 #include "image/image.h"
+#include "image/wire.h"
 
 typedef struct WrReader WrReader;
 
@@ -26,3 +27,12 @@ WrImagePart wr_reader_part(const WrReader *reader, int part); /* valid until clo
 const char *wr_reader_attribute(WrReader *reader, int part, const char *name);
 bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
                     WrError *err);
+
+/* Have a file of another kind read in one go.
+ *
+ * task     what kind; ask: [ask_length] bytes that its reader in the process understands
+ * block    what it answers, [*length] and a NUL; the caller's (wr_free). A stranger may have sent it
+ * Errors   one sentence that names the file
+ * Threads  any number at once */
+bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask, size_t ask_length,
+                     char **block, size_t *length, WrError *err);

@@ -2,6 +2,7 @@
    for what it is told and what it answers. It loads the picture library once and then forks for each
    file, so that no file meets what another one left behind; it never looks at a file itself. */
 #include "base/array.h"
+#include "image/mesh_make.h"
 #include "image/oiio.h"
 #include "image/serve.h"
 #include "image/wire.h"
@@ -94,6 +95,7 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
         close(channel);
         return;
     }
+    if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL); /* here, so that it is loaded but once */
     pid_t pid = fork();
     if (pid == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);

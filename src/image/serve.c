@@ -3,7 +3,10 @@
 #include "base/memory.h"
 #include "image/cage.h"
 #include "image/decode.h"
+#include "image/font_inner.h"
+#include "image/mesh_make.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <string.h>
@@ -114,18 +117,85 @@ static void serve_requests(Serving *serving)
     }
 }
 
+/* ---- files that are read in one go ---- */
+
+/* The whole file. NULL and an error if there is no memory. */
+static char *read_file(size_t *length, WrError *err)
+{
+    off_t size = lseek(PICTURE, 0, SEEK_END);
+    char *bytes = wr_try_alloc((size_t)(size > 0 ? size : 0) + 1, 1, "the file", err);
+    *length = 0;
+    while (bytes && *length < (size_t)size) {
+        ssize_t n = pread(PICTURE, bytes + *length, (size_t)size - *length, (off_t)*length);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) break;
+        *length += (size_t)n;
+    }
+    return bytes;
+}
+
+static bool make_font(const char *bytes, size_t length, const char *want, size_t want_length,
+                      WrText *block, WrError *err)
+{
+    WrFontOrder order;
+    if (want_length < sizeof order) return wr_fail(err, "no text to shape");
+    memcpy(&order, want, sizeof order);
+    WrFontAsk ask = { .text = want + sizeof order,
+                      .face = order.face,
+                      .direction = (WrFontDirection)order.direction };
+    if (order.language_length) ask.language = ask.text + order.text_length + 1;
+    return wr_font_make(bytes, length, &ask, block, err);
+}
+
+static char *receive_ask(uint32_t *length)
+{
+    WrWireHead head;
+    if (wr_wire_receive(CHANNEL, &head, sizeof head, 0.0, NULL) != WR_WIRE_GOT) _exit(0);
+    char *ask = wr_alloc((size_t)head.length + 1, 1);
+    if (head.length > 0 && wr_wire_receive(CHANNEL, ask, head.length, 0.0, NULL) != WR_WIRE_GOT)
+        _exit(0);
+    *length = head.length;
+    return ask;
+}
+
+static void serve_block(const WrWireOrder *order)
+{
+    WrError err = { "" };
+    WrText block = { 0 };
+    uint32_t ask_length;
+    size_t length;
+    bool memory = false;
+    char *ask = receive_ask(&ask_length), *bytes = read_file(&length, &err);
+    bool good = false;
+    if (!bytes) memory = true;
+    else if (order->task == WR_WIRE_MESH)
+        good = wr_mesh_make(bytes, length, order->ending, &block, &memory, &err);
+    else good = make_font(bytes, length, ask, ask_length, &block, &err);
+    wr_free(bytes);
+    wr_free(ask);
+    if (good && block.length > WR_WIRE_MAX) good = wr_fail(&err, "holds too much");
+    if (good) answer(WR_WIRE_BLOCK, block.data, block.length);
+    else answer_failure(memory, &err);
+}
+
+/* ---- all ---- */
+
 void wr_serve(const WrWireOrder *order, int file, int channel)
 {
     WrError err = { "" };
     bool memory = false;
-    uint64_t space = wr_cage_space();
     keep_two(file, channel);
+    uint64_t space = wr_cage_space();
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     if (!wr_cage_enter(PICTURE, order->memory, order->seconds)) {
         wr_fail(&err, "cannot be read safely here: the system refuses to limit the reader process");
         answer_failure(false, &err);
+        return;
+    }
+    if (order->task != WR_WIRE_PICTURE) {
+        serve_block(order);
         return;
     }
     Serving serving = { .decoder =

@@ -14,6 +14,10 @@
                TEXT WrWireText  -> child: TEXT (found: the text and a NUL; else nothing)
      process:  DIED int32 (a wait status)
 
+   Files of other tasks than pictures are read in one go; there the program speaks first:
+
+     program:  ASK (of a font: WrFontOrder and texts, font_inner.h)  -> child: BLOCK bytes, FAILED, MEMORY
+
    Pixels go through a memory file of the program's, sealed against change of size, that travels with the
    first READ that needs it. */
 #pragma once
@@ -21,11 +25,15 @@
 
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 1
+#define WR_WIRE_VERSION 2
 #define WR_WIRE_MAX (256U << 20) /* bytes of a message */
+
+/* What kind of file. */
+typedef enum WrWireTask { WR_WIRE_PICTURE, WR_WIRE_MESH, WR_WIRE_FONT } WrWireTask;
 
 typedef struct WrWireOrder {
     uint32_t version; /* WR_WIRE_VERSION */
+    uint32_t task;    /* WrWireTask */
     int32_t most;     /* parts */
     uint64_t memory;  /* bytes that reading may take beyond what the process has; 0: no limit */
     uint32_t seconds; /* of processor time, for the whole file */
@@ -39,7 +47,9 @@ typedef enum WrWireKind {
     WR_WIRE_READ,
     WR_WIRE_DONE,
     WR_WIRE_TEXT,
-    WR_WIRE_DIED
+    WR_WIRE_DIED,
+    WR_WIRE_ASK,
+    WR_WIRE_BLOCK
 } WrWireKind;
 
 typedef struct WrWireHead {

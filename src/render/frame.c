@@ -19,7 +19,7 @@ struct WrRenderer {
     WrPool *pool;
     char isa[8];
     WrTable table;
-    WrMesh mesh;
+    WrViewMesh mesh;
     ColourCopy colour;
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
@@ -69,7 +69,7 @@ void wr_renderer_free(WrRenderer *renderer)
     forget_view(renderer);
     wr_keep_fini(&renderer->keep);
     wr_table_fini(&renderer->table);
-    wr_mesh_fini(&renderer->mesh);
+    wr_view_mesh_fini(&renderer->mesh);
     drop_colour(&renderer->colour);
     for (int i = 0; i < renderer->threads; i++) wr_free(renderer->scratch[i]);
     wr_free(renderer->scratch);
@@ -330,9 +330,9 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
                                   request->height, renderer->samples, err);
     if (!renderer->seen) return false;
     if (renderer->plan.mesh)
-        wr_mesh_prepare(&renderer->mesh, &scene->shape, &renderer->view, renderer->samples, kernels,
-                        renderer->pool);
-    else wr_mesh_fini(&renderer->mesh);
+        wr_view_mesh_prepare(&renderer->mesh, &scene->shape, &renderer->view, renderer->samples,
+                             kernels, renderer->pool);
+    else wr_view_mesh_fini(&renderer->mesh);
     return true;
 }
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-static void free_points(WrMesh *mesh)
+static void free_points(WrViewMesh *mesh)
 {
     wr_free(mesh->x);
     wr_free(mesh->y);
@@ -18,10 +18,10 @@ static void free_points(WrMesh *mesh)
     wr_free(mesh->blocks);
 }
 
-void wr_mesh_fini(WrMesh *mesh)
+void wr_view_mesh_fini(WrViewMesh *mesh)
 {
     free_points(mesh);
-    *mesh = (WrMesh){ 0 };
+    *mesh = (WrViewMesh){ 0 };
 }
 
 /* Samples that one kernel unit of length may cover, at the nearest point of the object. */
@@ -46,7 +46,7 @@ static int round_cells(double want)
 }
 
 /* Largest |Puu|, |Puv|, |Pvv| over the surface (sampled), in object units; kept while the shape stays. */
-static void measure_bend(WrMesh *mesh, const WrShape *shape)
+static void measure_bend(WrViewMesh *mesh, const WrShape *shape)
 {
     if (mesh->measured && memcmp(&mesh->source, shape, sizeof *shape) == 0) return;
     mesh->uu = mesh->uv = mesh->vv = 0;
@@ -63,8 +63,8 @@ static void measure_bend(WrMesh *mesh, const WrShape *shape)
 }
 
 /* A cell's chord is off by at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor). */
-static void choose_cells(const WrMesh *mesh, const WrShape *shape, const WrView *view, int samples,
-                         int *mu, int *mv)
+static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrView *view,
+                         int samples, int *mu, int *mv)
 {
     const double tolerance = 0.25 * samples; /* a quarter of a pixel, in samples */
     double k = view->scale * samples_per_unit(view, shape) / (8.0 * tolerance);
@@ -73,7 +73,7 @@ static void choose_cells(const WrMesh *mesh, const WrShape *shape, const WrView 
 }
 
 typedef struct MeshJob {
-    WrMesh *mesh;
+    WrViewMesh *mesh;
     const WrView *view;
     const WrKernels *kernels;
 } MeshJob;
@@ -82,7 +82,7 @@ static void make_row(int j, int worker, void *ctx)
 {
     (void)worker;
     MeshJob *job = ctx;
-    WrMesh *mesh = job->mesh;
+    WrViewMesh *mesh = job->mesh;
     float u[WR_SPAN], v[WR_SPAN];
     for (int from = 0; from <= mesh->mu; from += WR_SPAN) {
         int n = mesh->mu + 1 - from < WR_SPAN ? mesh->mu + 1 - from : WR_SPAN;
@@ -100,7 +100,7 @@ static void project_row(int j, int worker, void *ctx)
 {
     (void)worker;
     MeshJob *job = ctx;
-    WrMesh *mesh = job->mesh;
+    WrViewMesh *mesh = job->mesh;
     const size_t row = (size_t)j * (size_t)(mesh->mu + 1);
     for (int i = 0; i <= mesh->mu; i++) {
         size_t at = row + (size_t)i;
@@ -117,10 +117,10 @@ static void bound_row(int by, int worker, void *ctx)
 {
     (void)worker;
     MeshJob *job = ctx;
-    WrMesh *mesh = job->mesh;
+    WrViewMesh *mesh = job->mesh;
     const int pitch = mesh->mu + 1;
     for (int bx = 0; bx < mesh->blocks_u; bx++) {
-        WrMeshBlock b = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, false };
+        WrViewMeshBlock b = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, false };
         for (int y = 0; y <= WR_MESH_BLOCK; y++)
             for (int x = 0; x <= WR_MESH_BLOCK; x++) {
                 size_t at = (size_t)(by * WR_MESH_BLOCK + y) * (size_t)pitch +
@@ -135,7 +135,7 @@ static void bound_row(int by, int worker, void *ctx)
     }
 }
 
-static void allocate(WrMesh *mesh, int mu, int mv)
+static void allocate(WrViewMesh *mesh, int mu, int mv)
 {
     size_t count = (size_t)(mu + 1) * (size_t)(mv + 1);
     free_points(mesh);
@@ -151,8 +151,8 @@ static void allocate(WrMesh *mesh, int mu, int mv)
     mesh->blocks = wr_alloc((size_t)(mesh->blocks_u * mesh->blocks_v), sizeof *mesh->blocks);
 }
 
-void wr_mesh_prepare(WrMesh *mesh, const WrShape *shape, const WrView *view, int samples,
-                     const WrKernels *kernels, WrPool *pool)
+void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view, int samples,
+                          const WrKernels *kernels, WrPool *pool)
 {
     MeshJob job = { mesh, view, kernels };
     int mu, mv;
@@ -170,27 +170,27 @@ void wr_mesh_prepare(WrMesh *mesh, const WrShape *shape, const WrView *view, int
     wr_pool_run(pool, mesh->blocks_v, bound_row, &job);
 }
 
-static bool block_meets(const WrMeshBlock *b, const WrDepthTile *tile)
+static bool block_meets(const WrViewMeshBlock *b, const WrDepthTile *tile)
 {
     return b->clipped || (b->x1 >= tile->x * 256 && b->x0 <= (tile->x + tile->w) * 256 &&
                           b->y1 >= tile->y * 256 && b->y0 <= (tile->y + tile->h) * 256);
 }
 
-bool wr_mesh_touches(const WrMesh *mesh, const WrDepthTile *tile)
+bool wr_view_mesh_touches(const WrViewMesh *mesh, const WrDepthTile *tile)
 {
     for (int i = 0; i < mesh->blocks_u * mesh->blocks_v; i++)
         if (block_meets(&mesh->blocks[i], tile)) return true;
     return false;
 }
 
-static WrRasterVertex vertex_at(const WrMesh *mesh, int i, int j)
+static WrRasterVertex vertex_at(const WrViewMesh *mesh, int i, int j)
 {
     size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i;
     return (WrRasterVertex){ mesh->sx[at], mesh->sy[at], mesh->close[at],
                              (float)i / (float)mesh->mu, (float)j / (float)mesh->mv };
 }
 
-static void raster_clipped(const WrMesh *mesh, const WrView *view, const int ij[3][2],
+static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int ij[3][2],
                            WrDepthTile *tile)
 {
     WrClipVertex corner[3];
@@ -202,7 +202,7 @@ static void raster_clipped(const WrMesh *mesh, const WrView *view, const int ij[
     wr_raster_clipped(view, corner, tile);
 }
 
-static void raster_cell(const WrMesh *mesh, const WrView *view, int i, int j, WrDepthTile *tile)
+static void raster_cell(const WrViewMesh *mesh, const WrView *view, int i, int j, WrDepthTile *tile)
 {
     size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i, next = at + (size_t)mesh->mu + 1;
     if (mesh->out[at] | mesh->out[at + 1] | mesh->out[next] | mesh->out[next + 1]) {
@@ -218,7 +218,7 @@ static void raster_cell(const WrMesh *mesh, const WrView *view, int i, int j, Wr
     wr_raster_triangle(view, a, d, c, tile);
 }
 
-void wr_mesh_raster(const WrMesh *mesh, const WrView *view, WrDepthTile *tile)
+void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile)
 {
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
     for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++) {

@@ -8,26 +8,26 @@
 
 #define WR_MESH_BLOCK 8 /* cells along a block's side */
 
-typedef struct WrMeshBlock { /* bounds of a block's vertices, 1/256 samples */
+typedef struct WrViewMeshBlock { /* bounds of a block's vertices, 1/256 samples */
     int32_t x0, y0, x1, y1;
     bool clipped; /* some vertex is near, behind or far outside: bounds say nothing */
-} WrMeshBlock;
+} WrViewMeshBlock;
 
 /* Zero-initialise; fini frees. */
-typedef struct WrMesh {
+typedef struct WrViewMesh {
     WrShape source; /* what the second derivatives were measured on */
     bool measured;
     double uu, uv, vv;  /* largest |Puu|, |Puv|, |Pvv| */
     WrSurfaceKind kind; /* what the points were made for */
     WrShapef shape;
-    int mu, mv;          /* cells along u and v; 0: nothing yet */
-    float *x, *y, *z;    /* [(mv + 1)(mu + 1)] kernel units, owned */
-    int32_t *sx, *sy;    /* projected, 1/256 samples; this frame's */
-    float *close;        /* 1/depth (perspective) or -depth: larger is nearer */
-    unsigned char *out;  /* vertex needs clipping */
-    WrMeshBlock *blocks; /* [blocks_v][blocks_u] */
+    int mu, mv;              /* cells along u and v; 0: nothing yet */
+    float *x, *y, *z;        /* [(mv + 1)(mu + 1)] kernel units, owned */
+    int32_t *sx, *sy;        /* projected, 1/256 samples; this frame's */
+    float *close;            /* 1/depth (perspective) or -depth: larger is nearer */
+    unsigned char *out;      /* vertex needs clipping */
+    WrViewMeshBlock *blocks; /* [blocks_v][blocks_u] */
     int blocks_u, blocks_v;
-} WrMesh;
+} WrViewMesh;
 
 /* A rectangle of samples: nearest depth so far and the parameters there. */
 typedef struct WrDepthTile {
@@ -37,11 +37,11 @@ typedef struct WrDepthTile {
 } WrDepthTile;
 
 /* Make or keep the points and project them for this view. */
-void wr_mesh_prepare(WrMesh *mesh, const WrShape *shape, const WrView *view, int samples,
-                     const WrKernels *kernels, WrPool *pool);
-void wr_mesh_fini(WrMesh *mesh);
+void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view, int samples,
+                          const WrKernels *kernels, WrPool *pool);
+void wr_view_mesh_fini(WrViewMesh *mesh);
 /* Rasterise what falls on the tile. Watertight: neighbouring cells share edges in whole numbers with a
    top-left rule (HC85); of equal depths the first cell stays. */
-void wr_mesh_raster(const WrMesh *mesh, const WrView *view, WrDepthTile *tile);
+void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile);
 /* True if the tile can hold something: cheaper than rasterising it. */
-bool wr_mesh_touches(const WrMesh *mesh, const WrDepthTile *tile);
+bool wr_view_mesh_touches(const WrViewMesh *mesh, const WrDepthTile *tile);

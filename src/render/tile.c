@@ -264,10 +264,10 @@ void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, int index, WrT
     const int64_t before = scratch->shaded;
     scratch->seen = job->seen ? &job->seen[index] : NULL;
     clear(job, &tile, scratch);
-    if (!job->mesh || wr_mesh_touches(job->mesh, &tile)) {
+    if (!job->mesh || wr_view_mesh_touches(job->mesh, &tile)) {
         if (job->mesh) {
             double start = wr_clock_seconds();
-            wr_mesh_raster(job->mesh, job->view, &tile);
+            wr_view_mesh_raster(job->mesh, job->view, &tile);
             scratch->seconds[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
         }
         for (int y = 0; y < tile.h; y++) render_row(job, &tile, y, scratch);
@@ -288,7 +288,7 @@ bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, 
     strip->count = 0;
     *face = 0;
     if (job->mesh) {
-        wr_mesh_raster(job->mesh, job->view, &tile);
+        wr_view_mesh_raster(job->mesh, job->view, &tile);
         locate_mesh(job, &tile, 0, strip, &watch);
     } else if (hit) {
         hit(&job->view->rays, &job->view->shape, (float)gx, (float)gy, 1, strip);

@@ -29,7 +29,7 @@ typedef struct WrTileJob {
     const WrPlan *plan;
     const WrScene *scene;
     const WrKernels *kernels;
-    const WrMesh *mesh; /* NULL: closed form */
+    const WrViewMesh *mesh; /* NULL: closed form */
     WrLook look;
     WrColourLook colour; /* rgba NULL: none */
     int samples;         /* K */

@@ -1,0 +1,318 @@
+/* What is made at once rather than painted: generators and operations of whole tables, beside GEGL and
+ * oiiotool doing the same where these are installed.
+ *
+ * Ours is the time of the command in a running program, the composite brought up to date. A peer's is that
+ * of its whole process less that of the same process that only loads the picture and saves it again. */
+#include "base/clock.h"
+#include "base/memory.h"
+#include "cli/bench.h"
+#include "image/image.h"
+
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define TABLE 4096
+#define CROP 1024 /* of the table, for oiiotool, which is slow */
+#define ROUNDS_MAX 9
+#define MESH_SIDE 708 /* squares of two triangles each way: 1 002 528 of them */
+#define TEXT_LINES 60
+#define TEXT_GLYPHS 50 /* a line */
+
+typedef enum Kind { NOISE, BLUR, NORMALS, TEXT, ROUND_TEXT, RIVETS, MESH, KIND_COUNT } Kind;
+
+/* A row: a command of ours, and what GEGL does instead, if it can. */
+typedef struct Row {
+    const char *name, *label;
+    const char *line; /* NULL: made for the occasion */
+    const char *gegl; /* arguments; run in the bench's folder */
+    const char *bare; /* the same without the operation */
+} Row;
+
+static const Row rows[KIND_COUNT] = {
+    [NOISE] = { "noise", "gradient noise, 8 octaves", "noise gradient cells=8 octaves=8",
+                "-o out.tif -- gegl:perlin-noise alpha=1.2 scale=1.8 n=8 gegl:crop width=4096 "
+                "height=4096",
+                "in.tif -o out.tif" },
+    [BLUR] = { "blur", "Gaussian blur, sigma 10.67", "adjust blur sigma=10.67",
+               "in.tif -o out.tif -- gegl:gaussian-blur std-dev-x=10.67 std-dev-y=10.67 "
+               "abyss-policy=none",
+               "in.tif -o out.tif" },
+    [NORMALS] = { "normals", "normal map", NULL,
+                  "in.tif -o out.tif -- gegl:normal-map scale=10 tileable=true",
+                  "in.tif -o out.tif -- gegl:convert-format format='RGB float'" },
+    [TEXT] = { "text", "text, 3000 letters", NULL, NULL, NULL },
+    [ROUND_TEXT] = { "text-round", "the same, rounded", NULL, NULL, NULL },
+    [RIVETS] = { "rivets", "10000 spheres", "solid sphere radius=16 across=100 rows=100", NULL,
+                 NULL },
+    [MESH] = { "mesh", "mesh, 1002528 triangles", NULL, NULL, NULL },
+};
+
+typedef struct Bench {
+    const WrCli *cli;
+    WrSession *session;
+    char folder[40];
+    WrText lines[KIND_COUNT]; /* what is run */
+    bool gegl, oiiotool;      /* whether they are there */
+    int rounds;
+    double ours[KIND_COUNT][ROUNDS_MAX], peer[KIND_COUNT][ROUNDS_MAX], bare[KIND_COUNT][ROUNDS_MAX];
+    double oiiotool_ms; /* of the blur, a whole table's; 0: unknown */
+} Bench;
+
+/* Run a command of the shell in the bench's folder; milliseconds, or an error that names it. */
+static bool shell(const Bench *b, const char *command, double *ms, WrError *err)
+{
+    WrText line = { 0 };
+    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    wr_text_addf(&line,
+                 "cd '%s' && GEGL_USE_OPENCL=no GEGL_SWAP=RAM GEGL_CACHE_SIZE=4096 GEGL_THREADS=%d "
+                 "%s >/dev/null 2>&1",
+                 b->folder, threads, command);
+    double start = wr_clock_seconds();
+    bool good = system(wr_text_get(&line)) == 0;
+    *ms = 1e3 * (wr_clock_seconds() - start);
+    wr_text_fini(&line);
+    if (!good && b->cli->cancel && *b->cli->cancel) return wr_fail(err, "interrupted");
+    return good || wr_fail(err, "bench: this failed: %.180s", command);
+}
+
+static bool gegl(const Bench *b, const char *arguments, double *ms, WrError *err)
+{
+    WrText command = { 0 };
+    wr_text_addf(&command, "gegl %s", arguments);
+    bool good = shell(b, wr_text_get(&command), ms, err);
+    wr_text_fini(&command);
+    return good;
+}
+
+/* A wavy sheet of triangles as a PLY file. */
+static bool write_mesh(const char *path, WrError *err)
+{
+    FILE *file = fopen(path, "wb");
+    if (!file) return wr_fail(err, "%s: cannot be written", path);
+    int n = MESH_SIDE + 1;
+    fprintf(file,
+            "ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty float x\nproperty "
+            "float y\nproperty float z\nelement face %d\nproperty list uchar int "
+            "vertex_indices\nend_header\n",
+            n * n, 2 * MESH_SIDE * MESH_SIDE);
+    for (int k = 0; k < n * n; k++) {
+        double x = (double)(k % n) / MESH_SIDE, y = (double)(k / n) / MESH_SIDE;
+        const float p[3] = { (float)x, (float)y,
+                             (float)(0.02 * sin(40 * x + 3 * sin(9 * y)) * cos(31 * y)) };
+        fwrite(p, sizeof p, 1, file);
+    }
+    for (int k = 0; k < 2 * MESH_SIDE * MESH_SIDE; k++) {
+        int a = k / 2 / MESH_SIDE * n + k / 2 % MESH_SIDE;
+        const int32_t face[3] = { k % 2 ? a + 1 : a, k % 2 ? a + n + 1 : a + 1, a + n };
+        fputc(3, file);
+        fwrite(face, sizeof face, 1, file);
+    }
+    bool good = !ferror(file);
+    return (fclose(file) == 0 && good) || wr_fail(err, "%s: cannot be written", path);
+}
+
+static void add_text_line(WrText *line, const char *profile)
+{
+    uint32_t seed = 1;
+    wr_text_add(line, "text \"");
+    for (int i = 0; i < TEXT_LINES; i++) {
+        if (i > 0) wr_text_add(line, "\\\\n");
+        for (int k = 0; k < TEXT_GLYPHS; k++) {
+            seed = seed * 1664525u + 1013904223u;
+            wr_text_addf(line, "%s%c", k > 0 && k % 6 == 0 ? " " : "",
+                         (int)('a' + (seed >> 16) % 26));
+        }
+    }
+    wr_text_addf(line, "\" font=serif size=56 %s", profile);
+}
+
+static void write_lines(Bench *b)
+{
+    for (int i = 0; i < KIND_COUNT; i++)
+        if (rows[i].line) wr_text_add(&b->lines[i], rows[i].line);
+    wr_text_addf(&b->lines[NORMALS], "export normal+y \"%s/out.ppm\" depth=8", b->folder);
+    add_text_line(&b->lines[TEXT], "");
+    add_text_line(&b->lines[ROUND_TEXT], "profile=round bevel=6");
+    wr_text_addf(&b->lines[MESH], "solid mesh \"%s/mesh.ply\" size=4000", b->folder);
+}
+
+/* The table that operations work on, as a picture for the peers in the form that GEGL itself saves. */
+static bool write_pictures(const Bench *b, WrError *err)
+{
+    char line[96];
+    double ms;
+    if (!b->gegl && !b->oiiotool) return true;
+    snprintf(line, sizeof line, "export height \"%s/table.tif\"", b->folder);
+    if (!wr_session_run(b->session, line, err)) return false;
+    if (b->gegl && !gegl(b, "table.tif -o in.tif", &ms, err)) return false;
+    return !b->oiiotool ||
+           shell(b, "oiiotool table.tif --cut 1024x1024 --compression none -o crop.tif", &ms, err);
+}
+
+static bool present(const char *program)
+{
+    char command[64];
+    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1", program);
+    return system(command) == 0;
+}
+
+static bool begin(Bench *b, WrError *err)
+{
+    const WrSessionOptions options = { .pool = b->cli->pool,
+                                       .outputs = true,
+                                       .cancel = b->cli->cancel };
+    strcpy(b->folder, "/tmp/wrinkle-bench-XXXXXX");
+    if (!mkdtemp(b->folder)) {
+        wr_fail(err, "%s: no folder can be made there", b->folder);
+        b->folder[0] = 0;
+        return false;
+    }
+    char path[64], line[32];
+    snprintf(path, sizeof path, "%s/mesh.ply", b->folder);
+    snprintf(line, sizeof line, "table %dx%d", TABLE, TABLE);
+    b->gegl = present("gegl");
+    b->oiiotool = present("oiiotool");
+    write_lines(b);
+    b->session = wr_session_new(&options);
+    return write_mesh(path, err) && wr_session_run(b->session, line, err) &&
+           wr_session_run(b->session, rows[NOISE].line, err) && write_pictures(b, err);
+}
+
+static void end(Bench *b)
+{
+    static const char *const files[] = { "mesh.ply", "table.tif", "in.tif",
+                                         "crop.tif", "out.tif",   "out.ppm" };
+    char path[64];
+    for (size_t i = 0; i < sizeof files / sizeof *files && b->folder[0]; i++) {
+        snprintf(path, sizeof path, "%s/%s", b->folder, files[i]);
+        unlink(path);
+    }
+    if (b->folder[0]) rmdir(b->folder);
+    for (int i = 0; i < KIND_COUNT; i++) wr_text_fini(&b->lines[i]);
+    wr_session_free(b->session);
+}
+
+/* What writing as large a picture of codes takes by itself; the exported one is written over. */
+static bool time_write(const Bench *b, double *ms, WrError *err)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s/out.ppm", b->folder);
+    unsigned char *codes = wr_try_alloc((size_t)TABLE * TABLE, 3, "a picture", err);
+    if (!codes) return false;
+    memset(codes, 128, (size_t)TABLE * TABLE * 3);
+    double start = wr_clock_seconds();
+    bool good = wr_image_write_pixels(path, TABLE, TABLE, 3, WR_PIXEL_U8, true, codes, err);
+    *ms = 1e3 * (wr_clock_seconds() - start);
+    wr_free(codes);
+    return good;
+}
+
+/* One of ours. What changed the table is undone, so that all rounds are alike. */
+static bool time_ours(const Bench *b, Kind kind, double *ms, WrError *err)
+{
+    double start = wr_clock_seconds(), bare = 0;
+    if (!wr_session_run(b->session, wr_text_get(&b->lines[kind]), err)) return false;
+    wr_document_composite(wr_session_document(b->session), b->cli->pool);
+    *ms = 1e3 * (wr_clock_seconds() - start);
+    if (kind != NORMALS) return wr_session_run(b->session, "undo", err);
+    if (!time_write(b, &bare, err)) return false;
+    *ms -= bare;
+    return true;
+}
+
+static bool round_of(Bench *b, int round, WrError *err)
+{
+    for (int kind = 0; kind < KIND_COUNT; kind++) {
+        const Row *row = &rows[kind];
+        if (!time_ours(b, (Kind)kind, &b->ours[kind][round], err)) return false;
+        if (b->gegl && row->gegl &&
+            (!gegl(b, row->bare, &b->bare[kind][round], err) ||
+             !gegl(b, row->gegl, &b->peer[kind][round], err)))
+            return false;
+        if (b->cli->cancel && *b->cli->cancel) return wr_fail(err, "interrupted");
+    }
+    return true;
+}
+
+/* Once, on a part of the table. */
+static bool time_oiiotool(Bench *b, WrError *err)
+{
+    char command[96];
+    double bare, whole;
+    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    if (!b->oiiotool) return true;
+    snprintf(command, sizeof command, "oiiotool --threads %d crop.tif -o out.tif", threads);
+    if (!shell(b, command, &bare, err)) return false;
+    snprintf(command, sizeof command, "oiiotool --threads %d crop.tif --blur 65x65 -o out.tif",
+             threads);
+    if (!shell(b, command, &whole, err)) return false;
+    b->oiiotool_ms = (whole - bare) * ((double)TABLE / CROP) * ((double)TABLE / CROP);
+    return true;
+}
+
+/* A net of 0 or less is lost in the noise of two processes; it is told as 0. */
+static double net(Bench *b, int kind)
+{
+    double ms =
+        wr_bench_median(b->peer[kind], b->rounds) - wr_bench_median(b->bare[kind], b->rounds);
+    return ms > 0 ? ms : 0;
+}
+
+static void add_row(WrText *text, const char *label, double ours, const char *who, double peer)
+{
+    wr_text_addf(text, "  %-28s %10.1f", label, ours);
+    if (who && peer > 0 && ours > 0)
+        wr_text_addf(text, "  %-9s %10.1f %8.2f\n", who, peer, peer / ours);
+    else if (who) wr_text_addf(text, "  %-9s %10s\n", who, "too short");
+    else wr_text_add(text, "\n");
+}
+
+static void print_table(Bench *b, WrText *text)
+{
+    wr_text_addf(text, "\n%-30s %10s  %-9s %10s %8s\n", "made at once, table 4096x4096", "ms",
+                 "peer", "ms", "ratio");
+    for (int kind = 0; kind < KIND_COUNT; kind++) {
+        double ours = wr_bench_median(b->ours[kind], b->rounds);
+        bool raced = rows[kind].gegl && b->gegl;
+        add_row(text, rows[kind].label, ours, raced ? "gegl" : NULL, raced ? net(b, kind) : 0);
+        if (kind == BLUR && b->oiiotool) add_row(text, "", ours, "oiiotool", b->oiiotool_ms);
+    }
+    if (b->oiiotool)
+        wr_text_addf(text, "  oiiotool's blur is 65x65, timed on %dx%d and counted %d times\n",
+                     CROP, CROP, TABLE / CROP * (TABLE / CROP));
+    if (!b->gegl) wr_text_add(text, "  gegl is not installed: left out\n");
+    if (!b->oiiotool) wr_text_add(text, "  oiiotool is not installed: left out\n");
+}
+
+static void print_lines(Bench *b, WrText *text)
+{
+    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    for (int kind = 0; kind < KIND_COUNT; kind++) {
+        wr_text_addf(text, "make %s wrinkle %d %d %.4f\n", rows[kind].name, TABLE, threads,
+                     wr_bench_median(b->ours[kind], b->rounds));
+        if (rows[kind].gegl && b->gegl)
+            wr_text_addf(text, "make %s gegl %d %d %.4f\n", rows[kind].name, TABLE, threads,
+                         net(b, kind));
+        if (kind == BLUR && b->oiiotool)
+            wr_text_addf(text, "make %s oiiotool %d %d %.4f\n", rows[kind].name, TABLE, threads,
+                         b->oiiotool_ms);
+    }
+}
+
+bool wr_bench_generate(const WrCli *cli, bool quick, bool lines, WrText *text, WrError *err)
+{
+    Bench *b = wr_alloc(1, sizeof *b);
+    b->cli = cli;
+    b->rounds = quick ? 1 : 5;
+    bool good = begin(b, err);
+    for (int round = -1; round < b->rounds && good; round++) /* the first fills caches */
+        good = round_of(b, round < 0 ? 0 : round, err);
+    good = good && time_oiiotool(b, err);
+    if (good && lines) print_lines(b, text);
+    if (good && !lines) print_table(b, text);
+    end(b);
+    wr_free(b);
+    return good;
+}

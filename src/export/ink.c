@@ -1,0 +1,235 @@
+#include "export/ink.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "image/image.h"
+#include "image/label.h"
+
+#include <math.h>
+#include <string.h>
+
+struct WrInk {
+    char *path;
+    int width, height;
+    double breadth, darkness;
+    bool vectors, drawing; /* drawing: a path element is open */
+    WrText text;           /* vectors */
+    float *ink;            /* pictures: [height][width] darkness 0..1 */
+};
+
+WrInk *wr_ink_new(const char *path, int width, int height, WrError *err)
+{
+    char buffer[16];
+    bool vectors = strcmp(wr_path_ending(path, buffer), "svg") == 0;
+    float *pixels = NULL;
+    if (!vectors) {
+        if (!wr_image_can_write(path, WR_PIXEL_U8, 1, false, err)) return NULL;
+        pixels = wr_try_alloc((size_t)width * (size_t)height, sizeof *pixels, "a drawing", err);
+        if (!pixels) return NULL;
+    }
+    WrInk *ink = wr_alloc(1, sizeof *ink);
+    *ink = (WrInk){ .path = wr_strdup(path),
+                    .width = width,
+                    .height = height,
+                    .breadth = 1.0,
+                    .darkness = 1.0,
+                    .vectors = vectors,
+                    .ink = pixels };
+    if (vectors)
+        wr_text_addf(&ink->text,
+                     "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
+                     "viewBox=\"0 0 %d %d\">\n<rect width=\"100%%\" height=\"100%%\" "
+                     "fill=\"#fff\"/>\n",
+                     width, height, width, height);
+    return ink;
+}
+
+void wr_ink_free(WrInk *ink)
+{
+    if (!ink) return;
+    wr_free(ink->path);
+    wr_free(ink->ink);
+    wr_text_fini(&ink->text);
+    wr_free(ink);
+}
+
+/* ---- vectors ---- */
+
+static void end_path(WrInk *ink)
+{
+    if (ink->drawing) wr_text_add(&ink->text, "\"/>\n");
+    ink->drawing = false;
+}
+
+static int grey_of(const WrInk *ink)
+{
+    return (int)rint(255.0 * (double)wr_srgb_encode((float)(1.0 - ink->darkness)));
+}
+
+static void begin_path(WrInk *ink)
+{
+    if (ink->drawing) return;
+    int grey = grey_of(ink);
+    wr_text_addf(&ink->text,
+                 "<path fill=\"none\" stroke=\"#%02x%02x%02x\" stroke-linecap=\"round\" "
+                 "stroke-linejoin=\"round\" stroke-width=\"",
+                 grey, grey, grey);
+    wr_text_add_number(&ink->text, ink->breadth);
+    wr_text_add(&ink->text, "\" d=\"");
+    ink->drawing = true;
+}
+
+static void add_number(WrText *text, double x)
+{
+    char buffer[WR_NUMBER_SIZE];
+    wr_text_add(text, wr_number_print_float((float)(rint(100.0 * x) / 100.0), buffer));
+}
+
+static void add_place(WrText *text, const char *command, const WrInkPoint *p)
+{
+    wr_text_add(text, command);
+    add_number(text, p->x);
+    wr_text_add(text, " ");
+    add_number(text, p->y);
+}
+
+/* Does b lie on the straight line from a to c, to a fiftieth of a pixel? */
+static bool is_straight(const WrInkPoint *a, const WrInkPoint *b, const WrInkPoint *c)
+{
+    double dx = c->x - a->x, dy = c->y - a->y, ex = b->x - a->x, ey = b->y - a->y;
+    double length2 = dx * dx + dy * dy, across = dx * ey - dy * ex, along = dx * ex + dy * ey;
+    return across * across <= 0.0004 * length2 && along >= 0.0 && along <= length2;
+}
+
+static void vector_line(WrInk *ink, const WrInkPoint *p, int count)
+{
+    begin_path(ink);
+    add_place(&ink->text, "M", p);
+    for (int i = 1, from = 0; i < count; i++) {
+        if (i + 1 < count && is_straight(p + from, p + i, p + i + 1)) continue;
+        add_place(&ink->text, "L", p + i);
+        from = i;
+    }
+    wr_text_add(&ink->text, "\n");
+}
+
+static void vector_word(WrInk *ink, const char *word, double x, double y, double size,
+                        double anchor)
+{
+    end_path(ink);
+    wr_text_add(&ink->text, "<text font-family=\"Inter, sans-serif\" font-size=\"");
+    add_number(&ink->text, size);
+    wr_text_add(&ink->text, "\" x=\"");
+    add_number(&ink->text, x);
+    wr_text_add(&ink->text, "\" y=\"");
+    add_number(&ink->text, y);
+    wr_text_addf(&ink->text, "\" text-anchor=\"%s\">",
+                 anchor > 0.75   ? "end"
+                 : anchor > 0.25 ? "middle"
+                                 : "start");
+    for (; *word; word++) {
+        const char *escape = *word == '<'   ? "&lt;"
+                             : *word == '>' ? "&gt;"
+                             : *word == '&' ? "&amp;"
+                                            : NULL;
+        if (escape) wr_text_add(&ink->text, escape);
+        else wr_text_add_n(&ink->text, word, 1);
+    }
+    wr_text_add(&ink->text, "</text>\n");
+}
+
+/* ---- pictures ---- */
+
+static double to_segment(double x, double y, const WrInkPoint *a, const WrInkPoint *b)
+{
+    double dx = b->x - a->x, dy = b->y - a->y, ex = x - a->x, ey = y - a->y;
+    double length2 = dx * dx + dy * dy;
+    double t = length2 > 0.0 ? (ex * dx + ey * dy) / length2 : 0.0;
+    t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+    ex -= t * dx;
+    ey -= t * dy;
+    return sqrt(ex * ex + ey * ey);
+}
+
+static int clip(double x, int most)
+{
+    return x < 0.0 ? 0 : x > most ? most : (int)x;
+}
+
+/* Darkness of a line of that breadth with an edge a pixel wide; the darkest line wins. */
+static void ink_segment(WrInk *ink, const WrInkPoint *a, const WrInkPoint *b)
+{
+    double reach = 0.5 * ink->breadth + 0.5;
+    double most = ink->darkness * (ink->breadth < 1.0 ? ink->breadth : 1.0);
+    int x0 = clip(floor((a->x < b->x ? a->x : b->x) - reach), ink->width - 1);
+    int x1 = clip(ceil((a->x < b->x ? b->x : a->x) + reach), ink->width - 1);
+    int y0 = clip(floor((a->y < b->y ? a->y : b->y) - reach), ink->height - 1);
+    int y1 = clip(ceil((a->y < b->y ? b->y : a->y) + reach), ink->height - 1);
+    for (int y = y0; y <= y1; y++)
+        for (int x = x0; x <= x1; x++) {
+            double d = reach - to_segment(x + 0.5, y + 0.5, a, b);
+            float dark = (float)(most * (d < 0.0 ? 0.0 : d > 1.0 ? 1.0 : d));
+            float *at = &ink->ink[(size_t)y * (size_t)ink->width + (size_t)x];
+            if (dark > *at) *at = dark;
+        }
+}
+
+static void ink_word(WrInk *ink, const char *word, double x, double y, double size, double anchor)
+{
+    WrLabel *label = wr_label_new((int)rint(size), NULL);
+    if (!label) return;
+    size_t pixels = (size_t)ink->width * (size_t)ink->height;
+    uint8_t *grey = wr_alloc(pixels, 1);
+    int from = (int)rint(x - anchor * wr_label_width(label, word));
+    wr_label_draw(label, word, from, (int)rint(y), ink->width, 255, grey, ink->width, ink->height);
+    for (size_t i = 0; i < pixels; i++) {
+        float dark = (float)(ink->darkness * grey[i] / 255.0);
+        if (dark > ink->ink[i]) ink->ink[i] = dark;
+    }
+    wr_free(grey);
+    wr_label_free(label);
+}
+
+static bool write_picture(WrInk *ink, WrError *err)
+{
+    size_t pixels = (size_t)ink->width * (size_t)ink->height;
+    uint8_t *codes = wr_alloc(pixels, 1);
+    for (size_t i = 0; i < pixels; i++) ink->ink[i] = wr_srgb_encode(1.0f - ink->ink[i]);
+    wr_image_codes(WR_PIXEL_U8, ink->ink, pixels, codes, NULL);
+    bool good = wr_image_write_pixels(ink->path, ink->width, ink->height, 1, WR_PIXEL_U8, false,
+                                      codes, err);
+    wr_free(codes);
+    return good;
+}
+
+/* ---- either ---- */
+
+void wr_ink_pen(WrInk *ink, double breadth, double darkness)
+{
+    if (breadth != ink->breadth || darkness != ink->darkness) end_path(ink);
+    ink->breadth = breadth;
+    ink->darkness = darkness;
+}
+
+void wr_ink_line(WrInk *ink, const WrInkPoint *points, int count)
+{
+    if (ink->vectors) {
+        vector_line(ink, points, count);
+        return;
+    }
+    for (int i = 1; i < count; i++) ink_segment(ink, points + i - 1, points + i);
+}
+
+void wr_ink_word(WrInk *ink, const char *word, double x, double y, double size, double anchor)
+{
+    if (ink->vectors) vector_word(ink, word, x, y, size, anchor);
+    else ink_word(ink, word, x, y, size, anchor);
+}
+
+bool wr_ink_write(WrInk *ink, WrError *err)
+{
+    if (!ink->vectors) return write_picture(ink, err);
+    end_path(ink);
+    wr_text_add(&ink->text, "</svg>\n");
+    return wr_file_write(ink->path, wr_text_get(&ink->text), ink->text.length, err);
+}

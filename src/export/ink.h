@@ -1,0 +1,27 @@
+/* ink.h - black lines and words on white, as an SVG file or as a picture of antialiased lines.
+   Layer 6. Private to this room. */
+#pragma once
+#include "base/text.h"
+
+/* Pixels from the top left. */
+typedef struct WrInkPoint {
+    float x, y;
+} WrInkPoint;
+
+typedef struct WrInk WrInk;
+
+/* A sheet of width x height pixels; vectors if `path` ends in svg, else a picture, whose format must hold
+ * grey of 8 bits. NULL and an error otherwise, or without memory. The caller owns it. */
+WrInk *wr_ink_new(const char *path, int width, int height, WrError *err);
+void wr_ink_free(WrInk *ink); /* NULL is fine */
+
+/* Lines of that breadth, pixels, and darkness 0..1 from now on. */
+void wr_ink_pen(WrInk *ink, double breadth, double darkness);
+/* A line through count >= 1 points. */
+void wr_ink_line(WrInk *ink, const WrInkPoint *points, int count);
+/* A word of that size (em, pixels) with the baseline at y; anchor 0 begins at x, 1 ends there. Pictures go
+ * without words where no typeface is installed. */
+void wr_ink_word(WrInk *ink, const char *word, double x, double y, double size, double anchor);
+
+/* Write the file as a whole replacement. */
+bool wr_ink_write(WrInk *ink, WrError *err);

@@ -1,0 +1,48 @@
+/* normals.h - heights out of normal maps, by least squares: Frankot and Chellappa's (1988) on a ring, the
+   same with free edges on a sheet.
+   Layer 4, private to this room. */
+#pragma once
+#include "generate/fft.h"
+#include "generate/terrain.h"
+#include "image/image.h"
+
+typedef enum WrNormalCodes {
+    WR_NORMALS_AUTO,
+    WR_NORMALS_UNSIGNED, /* 0..1 stands for -1..1 */
+    WR_NORMALS_SIGNED    /* as they are; files of floats alone */
+} WrNormalCodes;
+
+/* A map as slopes: scene units of height for each of width; y up is taken for granted. */
+typedef struct WrNormals {
+    int width, height;
+    double *p, *q;   /* [height][width], owned: to the right, and DOWN the rows */
+    int64_t unknown; /* texels whose normal does not face up: slope 0 */
+    int64_t steep;   /* slopes that were brought down to 100 */
+} WrNormals;
+
+/* Decode a map of 2 (z follows) to 4 channels. In integer files the two codes beside the middle stand for 0
+ * both, so that a flat map is flat. Errors: one channel, no memory. */
+bool wr_normals_decode(const WrImage *image, WrNormalCodes codes, WrNormals *out, WrError *err);
+void wr_normals_fini(WrNormals *normals);
+
+/* Whether the green axis points up: heights have dp/dy = dq/dx, so
+ *   r = sum(p_y q_x) / sqrt(sum(p_y^2) sum(q_x^2)),   differences over two texels
+ * (whatever the texels' shape) is 1 where it does, -1 where it points down, and near 0 where the map does
+ * not tell: it is flat, or every slope runs along an axis. */
+double wr_normals_upward(const WrNormals *normals);
+/* Turn the green axis round. */
+void wr_normals_flip(WrNormals *normals);
+
+typedef struct WrIntegral {
+    WrEnds ends[2]; /* u, v */
+    bool central;   /* on a ring: slopes are central differences; else of the smoothest function */
+    double unit[2]; /* slopes times this are table units a texel */
+    double residual_deg; /* out: root mean square angle from the map to the heights' own normals */
+    double tilt_deg[2];  /* out: on a ring, the mean slope, which it cannot have */
+} WrIntegral;
+
+/* The heights whose slopes are nearest to the map's in the sense of least squares; mean 0. On a free axis
+ * slopes are summed from texel to texel to fourth order (third at the ends). sheet: made, of the map's
+ * size. Errors: no memory, "cancelled". */
+bool wr_normals_integrate(const WrNormals *normals, WrIntegral *how, const WrGenerateJob *job,
+                          WrSheet *sheet, WrError *err);

@@ -1,0 +1,55 @@
+/* picture.h - heights out of pictures.
+   Layer 4, private to this room. */
+#pragma once
+#include "generate/terrain.h"
+#include "image/image.h"
+
+/* Fill texels that are not numbers (NaN) from their neighbours, smoothly: means of ever coarser levels,
+ * evened out on the way back. Texels that are there keep their bits. Returns how many were filled; -1 where
+ * there is nothing to fill from, and a picture of NaN stays as it was; -2 where memory is gone, with err. */
+int64_t wr_picture_fill(WrSheet *sheet, WrError *err);
+
+/* How a picture is made to meet itself on the axes where the sheet is periodic. */
+typedef enum WrSeamless {
+    WR_SEAMLESS_OFF,
+    WR_SEAMLESS_BLEND, /* take away the smoothest function that has all of the jump at the edges: the
+                          periodic component of Moisan (J. Math. Imaging Vis. 39, 2011). Texels stay in
+                          their places; a slope across the whole picture goes */
+    WR_SEAMLESS_CUT /* overlap its ends, cut along the way of least difference, and even out what is left
+                          by the slopes on both sides (Poisson). Detail stays sharp */
+} WrSeamless;
+extern const char *const wr_seamless_words[];
+
+/* The sheet's size stays for OFF and BLEND. CUT wants a picture that is larger by the overlap
+ * (wr_seamless_overlap) on each periodic axis and gives one of width x height. The mean stays for BLEND.
+ * Errors: no memory, "cancelled". */
+bool wr_picture_blend(WrSheet *sheet, const WrGenerateJob *job, WrError *err);
+bool wr_picture_cut(WrSheet *sheet, int width, int height, const WrGenerateJob *job, WrError *err);
+/* Texels that overlap on an axis of n: an eighth, 1 at least; 0 where it is too short to cut. */
+int wr_seamless_overlap(int n);
+
+/* Bring a picture (whose wraps are those of the table) to the job's size, seamless in that way. */
+bool wr_picture_fit(WrSheet *sheet, WrSeamless seamless, const WrGenerateJob *job, WrError *err);
+
+/* Linear light of a code of an sRGB picture (IEC 61966-2-1), 0..1 and beyond; the same on every
+ * processor. */
+double wr_picture_light(double code);
+
+#define WR_P_FILE(h)                                                                               \
+    {                                                                                              \
+        .name = "file", .label = "File", .help = (h), .unit = "", .kind = WR_PARAM_FILE,           \
+        .positional = true                                                                         \
+    }
+#define WR_P_SEAMLESS(value)                                                                       \
+    WR_P_CHOICE("seamless", "Seamless", value, wr_seamless_words,                                  \
+                "how its edges are made to meet: blend evens out, cut overlaps and cuts")
+
+/* ---- rows ---- */
+
+#define WR_PICTURE(name)                                                                           \
+    extern const WrParam wr_params_##name[];                                                       \
+    bool wr_picture_##name(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,    \
+                           WrError *err)
+WR_PICTURE(photo);   /* picture_photo.c */
+WR_PICTURE(normals); /* normals_row.c */
+#undef WR_PICTURE

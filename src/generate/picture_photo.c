@@ -1,0 +1,150 @@
+/* Heights by how bright a picture is: in linear light, since the codes of pictures are not in proportion to
+   it. */
+#include "base/exactmath.h"
+#include "base/memory.h"
+#include "field/ops.h"
+#include "generate/picture.h"
+
+#include <math.h>
+
+enum { LUMINANCE, RED, GREEN, BLUE, ALPHA, LARGEST };
+static const char *const channels[] = { "luminance", "red", "green", "blue", "alpha", "max", NULL };
+static const char *const lights[] = { "linear", "code", NULL };
+
+const WrParam wr_params_photo[] = {
+    WR_P_FILE("of the picture"),
+    WR_P_CHOICE("channel", "Channel", LUMINANCE, channels, "what counts as height"),
+    WR_P_CHOICE("light", "Light", 0, lights,
+                "linear: codes of 8 and 16 bits are sRGB; code: they are numbers"),
+    WR_P_SEAMLESS(WR_SEAMLESS_BLEND),
+    WR_P_NUMBER("highpass", "High pass", 0, 0, 1000, 200, "texels",
+                "take away what is wider: shadows, uneven light; 0: nothing"),
+    WR_P_SWITCH("stretch", "Stretch", 0, "bring the darkest to 0 and the lightest to 1 first"),
+    WR_P_NUMBER("low", "Low", 0, -1e6, 1e6, 1, "", "what is as dark is lowest"),
+    WR_P_NUMBER("high", "High", 1, -1e6, 1e6, 1, "", "what is as light is highest"),
+    WR_P_NUMBER("gamma", "Gamma", 1, 0.01, 100, 5, "",
+                "what is between, to the power 1/gamma: above 1 lifts it"),
+    WR_P_SWITCH("invert", "Invert", 0, "dark is high"),
+    WR_P_HEIGHT,
+    WR_P_NUMBER("level", "Level", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
+                "of the lowest"),
+    WR_P_END
+};
+
+double wr_picture_light(double code)
+{
+    return code <= 0.04045 ? code / 12.92 : wr_pow((code + 0.055) / 1.055, 2.4);
+}
+
+/* What each code of a picture of 8 or 16 bits stands for; NULL for floats. Caller frees. */
+static double *light_of_codes(const WrImage *image, bool linear, double *most)
+{
+    *most = image->type == WR_PIXEL_U8 ? 255.0 : image->type == WR_PIXEL_U16 ? 65535.0 : 0.0;
+    if (*most == 0.0) return NULL;
+    double *light = wr_alloc((size_t)*most + 1, sizeof *light);
+    for (int k = 0; k <= (int)*most; k++)
+        light[k] = linear ? wr_picture_light(k / *most) : k / *most;
+    return light;
+}
+
+/* c[4]: red, green, blue, alpha */
+static double pick(int channel, const double *c)
+{
+    if (channel >= RED && channel <= ALPHA) return c[channel - RED];
+    if (channel == LARGEST) {
+        double most = c[0] > c[1] ? c[0] : c[1];
+        return most > c[2] ? most : c[2];
+    }
+    return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; /* Rec. 709 */
+}
+
+static void read_light(const WrImage *image, int channel, bool linear, WrSheet *sheet)
+{
+    double most, *light = light_of_codes(image, linear, &most);
+    int n = image->channels, alpha = n == 2 ? 1 : n == 4 ? 3 : -1;
+    size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t k = 0; k < count; k++) {
+        const float *pixel = image->data + k * (size_t)n;
+        double c[4] = { 0.0, 0.0, 0.0, 1.0 };
+        for (int a = 0; a < 3; a++) {
+            double code = (double)pixel[n < 3 ? 0 : a];
+            c[a] = light ? light[(int)rint(code * most)] : code;
+        }
+        if (alpha >= 0) c[3] = (double)pixel[alpha];
+        sheet->z[k] = n < 3 && channel != ALPHA ? c[0] : pick(channel, c);
+    }
+    wr_free(light);
+}
+
+/* Less a Gaussian blur of that width, about the same mean. */
+static bool high_pass(WrSheet *sheet, double sigma, const WrGenerateJob *job, WrError *err)
+{
+    const WrOpOptions options = { .pool = job->pool };
+    size_t count = (size_t)sheet->width * (size_t)sheet->height;
+    double mean = 0.0;
+    WrSheet wide = { .z = NULL };
+    WrField *field = wr_sheet_field(sheet, err);
+    WrField *blurred = field ? wr_op_run(wr_op_find("blur"), field, &sigma, &options, err) : NULL;
+    bool good = blurred && wr_sheet_read(&wide, blurred, err);
+    for (size_t k = 0; good && k < count; k++) mean += sheet->z[k] / (double)count;
+    for (size_t k = 0; good && k < count; k++) sheet->z[k] += mean - wide.z[k];
+    wr_sheet_fini(&wide);
+    wr_field_free(field);
+    wr_field_free(blurred);
+    return good;
+}
+
+static void bring_to_heights(const WrParams *p, WrSheet *sheet)
+{
+    double low = wr_param_number(p, "low"), high = wr_param_number(p, "high");
+    double power = 1.0 / wr_param_number(p, "gamma"), darkest = 0.0, lightest = 1.0;
+    double height = wr_param_number(p, "height"), level = wr_param_number(p, "level");
+    bool invert = wr_param_whole(p, "invert") == 1;
+    if (wr_param_whole(p, "stretch") == 1) wr_sheet_range(sheet, &darkest, &lightest);
+    double span = lightest > darkest ? lightest - darkest : 1.0;
+    size_t count = (size_t)sheet->width * (size_t)sheet->height;
+    for (size_t k = 0; k < count; k++) {
+        double t = ((sheet->z[k] - darkest) / span - low) / (high - low);
+        t = t > 0.0 ? t < 1.0 ? t : 1.0 : 0.0;
+        if (power != 1.0) t = wr_pow(t, power);
+        sheet->z[k] = level + height * (invert ? 1.0 - t : t);
+    }
+}
+
+static bool check(const WrParams *p, const WrImage *image, const char *path, WrError *err)
+{
+    double low = wr_param_number(p, "low"), high = wr_param_number(p, "high");
+    if (!(low < high))
+        return wr_fail(err, "low=%g: must be below high=%g; invert=on makes dark high", low, high);
+    if (wr_param_whole(p, "channel") == ALPHA && image->channels % 2 == 1)
+        return wr_fail(err, "%s: channel=alpha: it has none", path);
+    return true;
+}
+
+bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+                      WrError *err)
+{
+    const WrParams p = { wr_params_photo, values };
+    const WrWrap wrap[] = { wr_field_wrap_u(job->like), wr_field_wrap_v(job->like) };
+    const char *path = wr_param_value(&p, "file")->text;
+    double sigma = wr_param_number(&p, "highpass");
+    WrSheet sheet = { .z = NULL };
+    WrImage *image = wr_image_read(path, err);
+    bool good = image && check(&p, image, path, err) &&
+                wr_sheet_new(&sheet, image->width, image->height, wrap, err);
+    if (good) {
+        read_light(image, wr_param_whole(&p, "channel"), wr_param_whole(&p, "light") == 0, &sheet);
+        if (image->replaced > 0)
+            wr_generate_note(job, "%s: %lld numbers that are none count as 0", path,
+                             (long long)image->replaced);
+    }
+    wr_image_free(image);
+    good = good && wr_picture_fit(&sheet, (WrSeamless)wr_param_whole(&p, "seamless"), job, err) &&
+           (!(sigma > 0.0) || high_pass(&sheet, sigma, job, err));
+    if (good) {
+        bring_to_heights(&p, &sheet);
+        good = wr_sheet_relief(&sheet, job, out, err);
+    }
+    wr_sheet_fini(&sheet);
+    return good;
+}

@@ -1,0 +1,147 @@
+#include "generate/terrain.h"
+
+#include "base/memory.h"
+#include "field/ops.h"
+
+#include <float.h>
+#include <string.h>
+
+#define ROWS 16  /* of a piece of work */
+#define BATCH 64 /* pieces between two reports */
+
+bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], WrError *err)
+{
+    double *z = wr_try_alloc((size_t)width * (size_t)height, sizeof *z, "a table of heights", err);
+    if (!z) return false;
+    *sheet = (WrSheet){ .width = width, .height = height, .wrap = { wrap[0], wrap[1] }, .z = z };
+    return true;
+}
+
+bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err)
+{
+    const WrWrap wrap[2] = { wr_field_wrap_u(field), wr_field_wrap_v(field) };
+    int width = wr_field_width(field), height = wr_field_height(field);
+    float *row = wr_alloc((size_t)width, sizeof *row);
+    bool good = wr_sheet_new(sheet, width, height, wrap, err);
+    for (int j = 0; good && j < height; j++) {
+        wr_field_read(field, 0, j, width, 1, row, (size_t)width);
+        for (int i = 0; i < width; i++)
+            sheet->z[(size_t)j * (size_t)width + (size_t)i] = (double)row[i];
+    }
+    wr_free(row);
+    return good;
+}
+
+bool wr_sheet_copy(WrSheet *sheet, const WrSheet *from, WrError *err)
+{
+    if (!wr_sheet_new(sheet, from->width, from->height, from->wrap, err)) return false;
+    memcpy(sheet->z, from->z, (size_t)from->width * (size_t)from->height * sizeof *from->z);
+    return true;
+}
+
+void wr_sheet_fini(WrSheet *sheet)
+{
+    wr_free(sheet->z);
+    *sheet = (WrSheet){ .z = NULL };
+}
+
+void wr_sheet_range(const WrSheet *sheet, double *low, double *high)
+{
+    size_t count = (size_t)sheet->width * (size_t)sheet->height;
+    *low = *high = sheet->z[0];
+    for (size_t k = 1; k < count; k++) {
+        if (sheet->z[k] < *low) *low = sheet->z[k];
+        if (sheet->z[k] > *high) *high = sheet->z[k];
+    }
+}
+
+static float to_float(double z)
+{
+    if (!(z == z)) return 0.0f;
+    return z > (double)FLT_MAX ? FLT_MAX : z < -(double)FLT_MAX ? -FLT_MAX : (float)z;
+}
+
+WrField *wr_sheet_field(const WrSheet *sheet, WrError *err)
+{
+    int width = sheet->width;
+    WrField *field = wr_field_new(width, sheet->height, sheet->wrap[0], sheet->wrap[1], 0.0f, err);
+    if (!field) return NULL;
+    float *row = wr_alloc((size_t)width, sizeof *row);
+    for (int j = 0; j < sheet->height; j++) {
+        for (int i = 0; i < width; i++)
+            row[i] = to_float(sheet->z[(size_t)j * (size_t)width + (size_t)i]);
+        wr_field_write(field, 0, j, width, 1, row, (size_t)width);
+    }
+    wr_free(row);
+    return field;
+}
+
+/* One axis after the other, since the filter goes by the axis. */
+static WrField *resized(const WrField *field, int width, int height, const WrGenerateJob *job,
+                        WrError *err)
+{
+    enum { BOX = 0, CATMULL = 2 };
+    bool fewer = width < wr_field_width(field) || height < wr_field_height(field);
+    const double param[] = { width, height, fewer ? BOX : CATMULL };
+    const WrOpOptions options = { .pool = job->pool, .progress = NULL };
+    return wr_op_run(wr_op_find("resize"), field, param, &options, err);
+}
+
+bool wr_sheet_resize(WrSheet *sheet, int width, int height, const WrGenerateJob *job, WrError *err)
+{
+    if (width == sheet->width && height == sheet->height) return true;
+    WrField *field = wr_sheet_field(sheet, err);
+    WrField *across = field ? resized(field, width, sheet->height, job, err) : NULL;
+    WrField *whole = across ? resized(across, width, height, job, err) : NULL;
+    WrSheet made = { .z = NULL };
+    bool good = whole && wr_sheet_read(&made, whole, err);
+    if (good) {
+        wr_sheet_fini(sheet);
+        *sheet = made;
+    }
+    wr_field_free(field);
+    wr_field_free(across);
+    wr_field_free(whole);
+    return good;
+}
+
+bool wr_sheet_relief(const WrSheet *sheet, const WrGenerateJob *job, WrRelief *out, WrError *err)
+{
+    const WrWrap wrap[2] = { wr_field_wrap_u(job->like), wr_field_wrap_v(job->like) };
+    WrSheet same = *sheet;
+    same.wrap[0] = wrap[0];
+    same.wrap[1] = wrap[1];
+    WrField *heights = wr_sheet_field(&same, err);
+    if (!heights) return false;
+    *out = (WrRelief){ .heights = heights };
+    return true;
+}
+
+typedef struct Run {
+    int height, from; /* rows; pieces done before */
+    const WrProgress *progress;
+    WrSheetRows rows;
+    const void *ctx;
+} Run;
+
+static void run_rows(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Run *run = ctx;
+    int first = (run->from + index) * ROWS;
+    int end = first + ROWS < run->height ? first + ROWS : run->height;
+    if (!wr_progress_cancelled(run->progress)) run->rows(run->ctx, first, end);
+}
+
+bool wr_sheet_run(int height, const WrGenerateJob *job, bool report, WrSheetRows rows,
+                  const void *ctx, WrError *err)
+{
+    int pieces = (height + ROWS - 1) / ROWS;
+    Run run = { height, 0, job->progress, rows, ctx };
+    for (; run.from < pieces; run.from += BATCH) {
+        int count = pieces - run.from < BATCH ? pieces - run.from : BATCH;
+        if (report && !wr_progress_step(job->progress, (double)run.from / pieces)) break;
+        wr_pool_run(job->pool, count, run_rows, &run);
+    }
+    return wr_progress_cancelled(job->progress) ? wr_fail(err, "cancelled") : true;
+}

@@ -1,0 +1,23 @@
+/* terrain_raw.h - elevations in files without a header: nothing but numbers, row by row from the north
+   (.r16, .raw, .r32).
+   Layer 4, private to this room. */
+#pragma once
+#include "base/error.h"
+
+#include <stddef.h>
+
+typedef enum WrRawKind { WR_RAW_U16, WR_RAW_I16, WR_RAW_F32, WR_RAW_KINDS } WrRawKind;
+
+typedef struct WrRaw {
+    WrRawKind kind;
+    bool big;          /* the high byte first */
+    int width, height; /* 1..WR_FIELD_MAX */
+} WrRaw;
+
+size_t wr_raw_bytes(WrRawKind kind); /* of one number */
+
+/* Find the size: "WxH", or "" for a square of as many numbers as there are bytes for. Errors: not a size,
+ * out of range, another number of bytes; they tell what would fit. */
+bool wr_raw_size(const char *size, size_t length, WrRaw *raw, WrError *err);
+/* z: [height][width] the numbers as they are, NaN and infinity too. length: exactly what the size says. */
+void wr_raw_decode(const WrRaw *raw, const void *bytes, double *z);

@@ -1,0 +1,225 @@
+/* Solids met by lines straight down: q(z) = a + b z in the unit solid's own space. */
+#include "generate/zbuffer.h"
+
+#include "base/exactmath.h"
+#include "generate/zbuffer_shapes.h"
+
+static const WrZSpan nothing = { 1.0, -1.0 }, everything = { -INFINITY, INFINITY };
+
+WrZSpan wr_zspan_slab(double a, double b, double r)
+{
+    if (b == 0.0) return fabs(a) <= r ? everything : nothing;
+    double p = (-r - a) / b, q = (r - a) / b;
+    return p < q ? (WrZSpan){ p, q } : (WrZSpan){ q, p };
+}
+
+/* Where A z^2 + 2 B z + C <= 0 with A > 0. */
+static WrZSpan inside(double a, double b, double c)
+{
+    double root = b * b - a * c;
+    if (!(root >= 0.0)) return nothing;
+    root = sqrt(root);
+    /* each root by the form without cancellation */
+    double far = b > 0.0 ? -(b + root) : root - b, other = far != 0.0 ? c / far : 0.0;
+    double one = far / a;
+    return one < other ? (WrZSpan){ one, other } : (WrZSpan){ other, one };
+}
+
+WrZSpan wr_zspan_round(const double a[3], const double b[3], int axes, double shift, double r)
+{
+    double aa = 0.0, ab = 0.0, bb = 0.0;
+    for (int k = 0; k < axes; k++) {
+        double p = k == 2 ? a[k] - shift : a[k];
+        aa += p * p;
+        ab += p * b[k];
+        bb += b[k] * b[k];
+    }
+    if (bb == 0.0) return aa <= r * r ? everything : nothing;
+    return inside(bb, ab, aa - r * r);
+}
+
+static WrZSpan cone_span(const double a[3], const double b[3])
+{
+    WrZSpan s = wr_zspan_slab(a[2], b[2], 1.0);
+    if (!(s.low <= s.high)) return nothing;
+    /* |xy|^2 <= ((1 - z)/2)^2 */
+    double c0 = 0.5 * (1.0 - a[2]), c1 = -0.5 * b[2];
+    double qa = b[0] * b[0] + b[1] * b[1] - c1 * c1, qb = a[0] * b[0] + a[1] * b[1] - c0 * c1;
+    double qc = a[0] * a[0] + a[1] * a[1] - c0 * c0;
+    if (qa > 0.0) return wr_zspan_meet(s, inside(qa, qb, qc));
+    if (qa == 0.0) {
+        if (qb == 0.0) return qc <= 0.0 ? s : nothing;
+        double root = -qc / (2.0 * qb);
+        return wr_zspan_meet(s,
+                             qb > 0.0 ? (WrZSpan){ -INFINITY, root } : (WrZSpan){ root, INFINITY });
+    }
+    WrZSpan out = inside(-qa, -qb, -qc); /* outside of the cone is between the roots */
+    if (!(out.low <= out.high)) return s;
+    WrZSpan upper = wr_zspan_meet(s, (WrZSpan){ out.high, INFINITY });
+    return upper.low <= upper.high ? upper : wr_zspan_meet(s, (WrZSpan){ -INFINITY, out.low });
+}
+
+static WrZSpan capsule_span(const double a[3], const double b[3], double half)
+{
+    WrZSpan middle =
+        wr_zspan_meet(wr_zspan_round(a, b, 2, 0.0, 1.0), wr_zspan_slab(a[2], b[2], half));
+    WrZSpan ends[2] = { wr_zspan_round(a, b, 3, half, 1.0), wr_zspan_round(a, b, 3, -half, 1.0) };
+    for (int i = 0; i < 2; i++)
+        if (ends[i].low <= ends[i].high &&
+            (!(middle.low <= middle.high) || ends[i].high > middle.high))
+            middle = ends[i];
+    return middle;
+}
+
+/* ---- any of them ---- */
+
+static void ray(const WrZSolid *solid, double x, double y, double a[3], double b[3])
+{
+    const double *m = solid->inverse, dx = x - solid->at[0], dy = y - solid->at[1];
+    for (int k = 0; k < 3; k++) {
+        a[k] = m[3 * k] * dx + m[3 * k + 1] * dy;
+        b[k] = m[3 * k + 2];
+    }
+}
+
+bool wr_zsolid_top(const WrZSolid *solid, double x, double y, double *z)
+{
+    double a[3], b[3], top;
+    WrZSpan s = nothing;
+    ray(solid, x, y, a, b);
+    switch (solid->shape) {
+    case WR_Z_SPHERE: s = wr_zspan_round(a, b, 3, 0.0, 1.0); break;
+    case WR_Z_BOX:
+        s = wr_zspan_meet(
+            wr_zspan_slab(a[0], b[0], 1.0),
+            wr_zspan_meet(wr_zspan_slab(a[1], b[1], 1.0), wr_zspan_slab(a[2], b[2], 1.0)));
+        break;
+    case WR_Z_CYLINDER:
+        s = wr_zspan_meet(wr_zspan_round(a, b, 2, 0.0, 1.0), wr_zspan_slab(a[2], b[2], 1.0));
+        break;
+    case WR_Z_CONE: s = cone_span(a, b); break;
+    case WR_Z_CAPSULE: s = capsule_span(a, b, solid->param); break;
+    case WR_Z_TORUS:
+        if (wr_ztorus_top(a, b, solid->param, &top)) s = (WrZSpan){ top, top };
+        break;
+    case WR_Z_LETTERS:
+        if (wr_zletters_meet(solid->letters, a, b, &top)) s = (WrZSpan){ top, top };
+        break;
+    case WR_Z_SHAPES: break;
+    }
+    if (!(s.low <= s.high) || !isfinite(s.high)) return false;
+    *z = solid->at[2] + s.high;
+    return true;
+}
+
+/* Radius of a ball about the unit solid's origin that holds it. */
+static double ball(const WrZSolid *solid)
+{
+    switch (solid->shape) {
+    case WR_Z_SPHERE: return 1.0;
+    case WR_Z_BOX: return 1.7320508075688774;
+    case WR_Z_CYLINDER:
+    case WR_Z_CONE: return 1.4142135623730951;
+    default: return 1.0 + solid->param;
+    }
+}
+
+bool wr_zsolid_far(const WrZSolid *solid, double x, double y, double reach)
+{
+    double a[3], b[3];
+    const double *m = solid->inverse;
+    ray(solid, x, y, a, b);
+    /* a step of the place moves the line by so much at most in the unit solid's space */
+    double stretch = 0.0;
+    for (int k = 0; k < 3; k++) stretch += m[3 * k] * m[3 * k] + m[3 * k + 1] * m[3 * k + 1];
+    if (solid->shape == WR_Z_LETTERS)
+        return wr_zletters_clear(solid->letters, a, b, reach * sqrt(stretch));
+    double ab = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    double aa = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+    double most = ball(solid) + reach * sqrt(stretch);
+    return aa - ab * ab / bb > most * most * 1.000001;
+}
+
+/* ---- poses ---- */
+
+void wr_z_turn(const double rotate_deg[3], double out[9])
+{
+    double s[3], c[3];
+    for (int k = 0; k < 3; k++) wr_sincos_turns(rotate_deg[k] / 360.0, &s[k], &c[k]);
+    out[0] = c[2] * c[1];
+    out[1] = c[2] * s[1] * s[0] - s[2] * c[0];
+    out[2] = c[2] * s[1] * c[0] + s[2] * s[0];
+    out[3] = s[2] * c[1];
+    out[4] = s[2] * s[1] * s[0] + c[2] * c[0];
+    out[5] = s[2] * s[1] * c[0] - c[2] * s[0];
+    out[6] = -s[1];
+    out[7] = c[1] * s[0];
+    out[8] = c[1] * c[0];
+}
+
+/* Half extents of the posed solid about its origin, on axis `row` of the table. */
+static double reach_of(const WrZSolid *solid, int row)
+{
+    const double *m = &solid->pose[3 * row];
+    double flat = sqrt(m[0] * m[0] + m[1] * m[1]), all = sqrt(flat * flat + m[2] * m[2]);
+    switch (solid->shape) {
+    case WR_Z_SPHERE: return all;
+    case WR_Z_BOX: return fabs(m[0]) + fabs(m[1]) + fabs(m[2]);
+    case WR_Z_CAPSULE: return all + fabs(m[2]) * solid->param;
+    case WR_Z_TORUS: return flat + all * solid->param;
+    default: return flat + fabs(m[2]);
+    }
+}
+
+double wr_zsolid_rise(const WrZSolid *solid)
+{
+    const double *m = &solid->pose[6];
+    if (solid->shape != WR_Z_CONE) return reach_of(solid, 2);
+    double rim = sqrt(m[0] * m[0] + m[1] * m[1]) - m[2];
+    return m[2] > rim ? m[2] : rim;
+}
+
+static void set_box(WrZSolid *solid)
+{
+    double low[2], high[2], from[3], to[3];
+    for (int row = 0; row < 2; row++) {
+        high[row] = reach_of(solid, row);
+        low[row] = -high[row];
+    }
+    for (int row = 0; row < 2 && solid->shape == WR_Z_LETTERS; row++) {
+        wr_zletters_box(solid->letters, from, to);
+        low[row] = high[row] = 0.0;
+        for (int k = 0; k < 3; k++) {
+            double p = solid->pose[3 * row + k] * from[k], q = solid->pose[3 * row + k] * to[k];
+            low[row] += p < q ? p : q;
+            high[row] += p < q ? q : p;
+        }
+    }
+    /* rounding of the box must not lose a texel */
+    solid->left = low[0] - 1e-6 * (1.0 + fabs(low[0]));
+    solid->right = high[0] + 1e-6 * (1.0 + fabs(high[0]));
+    solid->top = low[1] - 1e-6 * (1.0 + fabs(low[1]));
+    solid->bottom = high[1] + 1e-6 * (1.0 + fabs(high[1]));
+}
+
+bool wr_zsolid_set(WrZSolid *solid, WrZShape shape, double param, const WrZLetters *letters,
+                   const double size[3], const double turn[9], const double at[3], WrError *err)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 9; k++) sum += turn[k];
+    for (int k = 0; k < 3; k++)
+        if (!(size[k] > 1e-9 && size[k] < 1e9) || !isfinite(at[k]) || !isfinite(sum))
+            return wr_fail(err, "size %g,%g,%g: must be above 1e-9 and below 1e9", size[0], size[1],
+                           size[2]);
+    *solid = (WrZSolid){ .shape = shape, .param = param, .letters = letters };
+    for (int k = 0; k < 3; k++) solid->at[k] = k < 2 ? wr_z_place(at[k]) : at[k];
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            double turned = row == 1 ? -turn[3 * row + column] : turn[3 * row + column];
+            solid->pose[3 * row + column] = turned * size[column];
+            solid->inverse[3 * column + row] = turned / size[column];
+        }
+    set_box(solid);
+    return true;
+}

@@ -1,0 +1,150 @@
+#include "image/mesh.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "image/mesh_make.h"
+#include "image/reader.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- what came back ---- */
+
+/* A stranger may have sent it. */
+static bool check_block(const char *block, size_t length, WrMesh *mesh)
+{
+    WrMeshHead head;
+    if (length < sizeof head) return false;
+    memcpy(&head, block, sizeof head);
+    if (head.points < 3 || head.points > WR_MESH_POINTS_MAX || head.triangles < 1 ||
+        head.triangles > WR_MESH_TRIANGLES_MAX ||
+        length != sizeof head + 12 * ((size_t)head.points + (size_t)head.triangles))
+        return false;
+    const char *points = block + sizeof head, *corners = points + 12 * (size_t)head.points;
+    mesh->points = (const float(*)[3])(const void *)points;
+    mesh->corners = (const int32_t(*)[3])(const void *)corners;
+    mesh->point_count = head.points;
+    mesh->triangle_count = head.triangles;
+    for (int32_t i = 0; i < head.points; i++)
+        for (int k = 0; k < 3; k++)
+            if (!(fabsf(mesh->points[i][k]) <= 1e30f)) return false;
+    for (int32_t i = 0; i < head.triangles; i++)
+        for (int k = 0; k < 3; k++)
+            if (mesh->corners[i][k] < 0 || mesh->corners[i][k] >= head.points) return false;
+    return true;
+}
+
+/* Takes the block over. */
+static bool take(const char *name, char *block, size_t length, WrMesh *out, WrError *err)
+{
+    WrMesh mesh = { .block = block };
+    if (check_block(block, length, &mesh)) {
+        *out = mesh;
+        return true;
+    }
+    wr_free(block);
+    return wr_fail(err, "%s: the reader's answer makes no sense; the file is damaged or hostile",
+                   name);
+}
+
+void wr_mesh_fini(WrMesh *mesh)
+{
+    wr_free(mesh->block);
+    *mesh = (WrMesh){ 0 };
+}
+
+/* ---- files ---- */
+
+/* Within this process, for debugging; see wr_image_warm. */
+static bool is_inside(void)
+{
+    const char *where = getenv("WRINKLE_READER");
+    return where && strcmp(where, "inside") == 0;
+}
+
+static bool read_inside(const char *name, const void *bytes, size_t length, WrMesh *out,
+                        WrError *err)
+{
+    WrText block = { 0 };
+    char ending[16];
+    if (wr_mesh_make(bytes, length, wr_path_ending(name, ending), &block, NULL, err))
+        return take(name, block.data, block.length, out, err);
+    wr_text_fini(&block);
+    wr_error_prefix(err, "%s: ", name);
+    return false;
+}
+
+static bool read_outside(const char *name, int fd, WrMesh *out, WrError *err)
+{
+    char *block;
+    size_t length;
+    return wr_reader_block(name, fd, WR_WIRE_MESH, "", 0, &block, &length, err) &&
+           take(name, block, length, out, err);
+}
+
+/* Never waits: a pipe is refused before it is read. */
+static int open_regular(const char *path, WrError *err)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat info;
+    if (fd < 0 || fstat(fd, &info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
+    else if (S_ISDIR(info.st_mode)) wr_fail(err, "%s: is a folder; a mesh file is needed", path);
+    else if (!S_ISREG(info.st_mode)) wr_fail(err, "%s: is not a regular file", path);
+    else if (info.st_size == 0) wr_fail(err, "%s: is empty", path);
+    else if ((size_t)info.st_size > WR_MESH_FILE_MAX)
+        wr_fail(err, "%s: %lld bytes: must be at most %zu", path, (long long)info.st_size,
+                WR_MESH_FILE_MAX);
+    else return fd;
+    if (fd >= 0) close(fd);
+    return -1;
+}
+
+bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
+{
+    int fd = open_regular(path, err);
+    if (fd < 0) return false;
+    bool good;
+    if (is_inside()) {
+        char *bytes;
+        size_t length;
+        good = wr_file_read(path, WR_MESH_FILE_MAX, &bytes, &length, err);
+        if (good) {
+            good = read_inside(path, bytes, length, out, err);
+            wr_free(bytes);
+        }
+    } else {
+        good = read_outside(path, fd, out, err);
+    }
+    close(fd);
+    return good;
+}
+
+bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
+                        WrError *err)
+{
+    if (length == 0 || length > WR_MESH_FILE_MAX)
+        return wr_fail(err, "%s: %zu bytes: must be 1..%zu", name, length, WR_MESH_FILE_MAX);
+    if (is_inside()) return read_inside(name, bytes, length, out, err);
+    int fd = memfd_create("wrinkle mesh", MFD_CLOEXEC);
+    const char *from = bytes;
+    for (size_t left = length; fd >= 0 && left > 0;) {
+        ssize_t n = write(fd, from, left);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) {
+            close(fd);
+            fd = -1;
+            break;
+        }
+        from += n;
+        left -= (size_t)n;
+    }
+    if (fd < 0) return wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
+    bool good = read_outside(name, fd, out, err);
+    close(fd);
+    return good;
+}

@@ -1,0 +1,28 @@
+/* mesh.h - files of triangles: OBJ, PLY, STL, glTF and what else the library reads.
+   Layer 1. Knows no tables. Files are strangers' and are read by the reader process, as pictures are. */
+#pragma once
+#include "base/error.h"
+
+#include <stdint.h>
+
+#define WR_MESH_FILE_MAX ((size_t)1 << 30) /* bytes */
+#define WR_MESH_POINTS_MAX 9000000
+#define WR_MESH_TRIANGLES_MAX 9000000
+
+/* All that a file holds, each part where the file puts it, in the file's own unit and axes. */
+typedef struct WrMesh {
+    const float (*points)[3];    /* [point_count] x, y, z; finite, within 1e30 of 0 */
+    const int32_t (*corners)[3]; /* [triangle_count] indices of points; polygons are cut up */
+    int32_t point_count, triangle_count;
+    char *block; /* owned: both */
+} WrMesh;
+
+/* Read a file. out: the caller's (fini); untouched on failure.
+ * Errors   name the file: it cannot be read, is of no known kind, is damaged or hostile; it holds no
+ *          triangle, or too many; a point is not finite (the first such one is named)
+ * Threads  any number at once */
+bool wr_mesh_read(const char *path, WrMesh *out, WrError *err);
+/* The same from bytes in memory; name stands in messages, and its ending counts as a path's. */
+bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
+                        WrError *err);
+void wr_mesh_fini(WrMesh *mesh);

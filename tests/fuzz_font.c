@@ -1,0 +1,116 @@
+/* fuzz_font.c - fonts from strangers: whatever the bytes, a font is refused with a message or gives a text
+   whose answer is sound, within which every outline can be drawn. The first byte chooses what goes before
+   the rest: nothing, or the beginnings of PSF 1, PSF 2 and BDF files and of a packed one, or a small true
+   font of each kind with the fuzzer's bytes laid over it. */
+#include "image/font_inner.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+#define MUST(condition)                                                                            \
+    do {                                                                                           \
+        if (!(condition)) abort();                                                                 \
+    } while (0)
+
+static const char bdf[] =
+    "STARTFONT 2.1\nFONT f\nSIZE 5 75 75\nFONTBOUNDINGBOX 4 5 0 -1\nCHARS 1\n"
+    "STARTCHAR A\nENCODING 65\nSWIDTH 800 0\nDWIDTH 4 0\nBBX 3 4 0 0\nBITMAP\n"
+    "40\nA0\nE0\nA0\nENDCHAR\nENDFONT\n";
+
+static void shape(const uint8_t *bytes, size_t length)
+{
+    WrError err = { "" };
+    WrText block = { 0 };
+    WrFontAsk ask = { .text = "A \xd8\xa8\xd9\x84\xd8\xa7 fi\n\xe0\xa4\x95\xe0\xa4\xbf" };
+    if (!wr_font_make(bytes, length, &ask, &block, &err)) {
+        MUST(err.text[0] != '\0');
+        wr_text_fini(&block);
+        return;
+    }
+    WrFontText text = { 0 };
+    WrFontOutline outline = { 0 };
+    WrFontSetting setting = { 20.0, 1.0, 1.0, WR_FONT_CENTRE };
+    MUST(wr_font_unpack(block.data, block.length, strlen(ask.text), &text));
+    MUST(text.line_count == 2);
+    if (!wr_font_outline(&text, &setting, 0.1, &outline, &err)) MUST(err.text[0] != '\0');
+    wr_font_outline_fini(&outline);
+    wr_font_text_fini(&text);
+}
+
+/* Pairs of a place (two bytes) and a value are laid over the file. */
+static void change(uint8_t *file, size_t length, const uint8_t *data, size_t size)
+{
+    for (; size >= 3; data += 3, size -= 3)
+        file[((size_t)data[0] << 8 | data[1]) % length] = data[2];
+}
+
+/* A true font that is there wherever the program is. */
+static const uint8_t *whole_font(const char *path, size_t *length)
+{
+    uint8_t *bytes = NULL;
+    FILE *file = fopen(path, "rb");
+    *length = 0;
+    if (!file) return NULL;
+    bytes = malloc(1 << 20);
+    *length = fread(bytes, 1, 1 << 20, file);
+    fclose(file);
+    return bytes;
+}
+
+/* The beginnings of tables hold what is most worth changing. */
+static void shape_changed(const char *path, const uint8_t *data, size_t size)
+{
+    size_t length;
+    uint8_t *file = (uint8_t *)(uintptr_t)whole_font(path, &length);
+    if (length > 0) {
+        change(file, length < 65536 ? length : 65536, data, size);
+        shape(file, length);
+    }
+    free(file);
+}
+
+static void shape_packed(const uint8_t *data, size_t size)
+{
+    uint8_t packed[8192];
+    z_stream z = { .next_in = (Bytef *)(uintptr_t)data, .avail_in = (uInt)size };
+    if (deflateInit2(&z, 1, Z_DEFLATED, 31, 8, Z_DEFAULT_STRATEGY) != Z_OK) return;
+    z.next_out = packed;
+    z.avail_out = sizeof packed;
+    if (deflate(&z, Z_FINISH) == Z_STREAM_END) shape(packed, z.total_out);
+    deflateEnd(&z);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const uint8_t psf1[] = { 0x36, 0x04, 2, 1 };
+    static const uint8_t psf2[] = { 0x72, 0xb5, 0x4a, 0x86, 0, 0, 0, 0, 32, 0, 0, 0, 1, 0, 0, 0,
+                                    8,    0,    0,    0,    4, 0, 0, 0, 4,  0, 0, 0, 7, 0, 0, 0 };
+    uint8_t file[8192];
+    size_t start = 0;
+    if (size < 1 || size > 4096) return 0;
+    int way = data[0] % 8;
+    data++;
+    size--;
+    if (way == 1) start = sizeof psf1, memcpy(file, psf1, start);
+    if (way == 2) start = sizeof psf2, memcpy(file, psf2, start);
+    if (way == 3) start = sizeof bdf - 1, memcpy(file, bdf, start);
+    memcpy(file + start, data, size);
+    if (way == 3) {
+        change(file, start, data, size);
+        shape(file, start);
+    } else if (way == 4) {
+        shape_packed(data, size);
+    } else if (way == 5) {
+        shape_changed("/usr/share/fonts/truetype/lohit-devanagari/Lohit-Devanagari.ttf", data,
+                      size);
+    } else if (way == 6) {
+        shape_changed("/usr/share/fonts/X11/misc/ter-u16n_unicode.pcf.gz", data, size);
+    } else {
+        shape(file, start + size);
+    }
+    return 0;
+}

@@ -1,0 +1,283 @@
+/* Mesh files of several kinds, and files that are none, are broken, or mean harm. */
+#include "test.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "image/mesh.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+static WrMesh read_text(const char *name, const char *text)
+{
+    WrMesh mesh = { 0 };
+    WrError err = { "" };
+    if (!wr_mesh_read_bytes(name, text, strlen(text), &mesh, &err)) fail_msg("%s", err.text);
+    return mesh;
+}
+
+static void refuse(const char *name, const void *bytes, size_t length, const char *words)
+{
+    WrMesh mesh = { 0 };
+    WrError err = { "" };
+    if (wr_mesh_read_bytes(name, bytes, length, &mesh, &err)) fail_msg("%s is taken", name);
+    if (!strstr(err.text, words)) fail_msg("\"%s\" has not \"%s\"", err.text, words);
+    if (!strstr(err.text, name)) fail_msg("\"%s\" does not name %s", err.text, name);
+    assert_null(mesh.block);
+}
+
+/* Sum of areas, and the signed volume, which for a closed surface does not depend on the origin. */
+static void measures(const WrMesh *mesh, double *area, double *volume)
+{
+    *area = *volume = 0.0;
+    for (int t = 0; t < mesh->triangle_count; t++) {
+        double p[3][3], e[2][3], n[3];
+        for (int k = 0; k < 3; k++)
+            for (int c = 0; c < 3; c++)
+                p[k][c] = (double)mesh->points[mesh->corners[t][k]][c] + 5.0;
+        for (int c = 0; c < 3; c++) {
+            e[0][c] = p[1][c] - p[0][c];
+            e[1][c] = p[2][c] - p[0][c];
+        }
+        for (int c = 0; c < 3; c++)
+            n[c] = e[0][(c + 1) % 3] * e[1][(c + 2) % 3] - e[0][(c + 2) % 3] * e[1][(c + 1) % 3];
+        *area += 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        *volume += (p[0][0] * n[0] + p[0][1] * n[1] + p[0][2] * n[2]) / 6.0;
+    }
+}
+
+static void expect_box(WrMesh *mesh, double x, double y, double z)
+{
+    double area, volume;
+    measures(mesh, &area, &volume);
+    assert_near(area, 2.0 * (x * y + y * z + z * x), 1e-4);
+    assert_near(volume, x * y * z, 1e-4);
+    wr_mesh_fini(mesh);
+    assert_null(mesh->block);
+}
+
+/* ---- kinds ---- */
+
+static const char box_obj[] =
+    "# a box of 2 x 3 x 4\nmtllib /etc/passwd\nv 0 0 0\nv 2 0 0\nv 2 3 0\n"
+    "v 0 3 0\nv 0 0 4\nv 2 0 4\nv 2 3 4\nv 0 3 4\nusemtl none\n"
+    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+static void an_obj_file_of_quadrilaterals_becomes_triangles(void **state)
+{
+    (void)state;
+    WrMesh mesh = read_text("box.obj", box_obj);
+    assert_int_equal(mesh.triangle_count, 12);
+    expect_box(&mesh, 2, 3, 4);
+}
+
+static const char box_ply[] = "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty "
+                              "float y\nproperty float z\n"
+                              "element face 6\nproperty list uchar int "
+                              "vertex_indices\nend_header\n0 0 0\n2 0 0\n2 3 0\n0 3 0\n"
+                              "0 0 4\n2 0 4\n2 3 4\n0 3 4\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 "
+                              "6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+
+static void a_ply_file_is_read(void **state)
+{
+    (void)state;
+    WrMesh mesh = read_text("box.ply", box_ply);
+    expect_box(&mesh, 2, 3, 4);
+}
+
+/* A tetrahedron, binary: 80 bytes of title, a count, records of 50 bytes. */
+static size_t tetrahedron_stl(char *out)
+{
+    static const float p[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    static const int faces[4][3] = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
+    const uint32_t count = 4;
+    memset(out, 0, 84 + 4 * 50);
+    memcpy(out + 80, &count, 4);
+    for (int f = 0; f < 4; f++)
+        for (int k = 0; k < 3; k++) memcpy(out + 84 + 50 * f + 12 + 12 * k, p[faces[f][k]], 12);
+    return 84 + 4 * 50;
+}
+
+static void a_binary_stl_file_is_read(void **state)
+{
+    (void)state;
+    char bytes[512];
+    WrMesh mesh = { 0 };
+    WrError err = { "" };
+    double area, volume;
+    if (!wr_mesh_read_bytes("t.stl", bytes, tetrahedron_stl(bytes), &mesh, &err))
+        fail_msg("%s", err.text);
+    measures(&mesh, &area, &volume);
+    assert_near(volume, 1.0 / 6.0, 1e-6);
+    assert_near(area, 1.5 + sqrt(3.0) / 2.0, 1e-6);
+    wr_mesh_fini(&mesh);
+}
+
+/* One triangle of area 1/2, its buffer inside; two nodes, one twice as large and turned on its side. */
+static const char triangle_gltf[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
+    "\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"scale\":[2,2,2],\"rotation\":[0.7071067811865476,0,0,"
+    "0.7071067811865476],\"translation\":[0,0,7]}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+    "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+    "\"min\":[0,0,0],\"max\":[1,1,0]}]}";
+
+static void the_nodes_of_a_gltf_file_are_put_where_they_belong(void **state)
+{
+    (void)state;
+    WrMesh mesh = read_text("two.gltf", triangle_gltf);
+    double area, volume, high = 0.0;
+    assert_int_equal(mesh.triangle_count, 2);
+    measures(&mesh, &area, &volume);
+    assert_near(area, 0.5 + 2.0, 1e-5);
+    for (int i = 0; i < mesh.point_count; i++) high = fmax(high, (double)mesh.points[i][2]);
+    assert_near(high, 9.0, 1e-5); /* its y, doubled, stands up from 7 */
+    wr_mesh_fini(&mesh);
+}
+
+static void a_mesh_is_the_same_from_memory_from_a_file_and_inside(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/wrinkle-mesh-XXXXXX.obj";
+    int fd = mkstemps(path, 4);
+    assert_int_equal(write(fd, box_obj, sizeof box_obj - 1), (ssize_t)sizeof box_obj - 1);
+    close(fd);
+    WrMesh a = read_text("box.obj", box_obj), b = { 0 }, c = { 0 };
+    WrError err = { "" };
+    if (!wr_mesh_read(path, &b, &err)) fail_msg("%s", err.text);
+    setenv("WRINKLE_READER", "inside", 1);
+    bool good = wr_mesh_read(path, &c, &err);
+    unsetenv("WRINKLE_READER");
+    if (!good) fail_msg("%s", err.text);
+    size_t points = (size_t)a.point_count * 12, corners = (size_t)a.triangle_count * 12;
+    assert_int_equal(a.point_count, b.point_count);
+    assert_int_equal(a.point_count, c.point_count);
+    assert_memory_equal(a.points, b.points, points);
+    assert_memory_equal(a.points, c.points, points);
+    assert_memory_equal(a.corners, b.corners, corners);
+    assert_memory_equal(a.corners, c.corners, corners);
+    wr_mesh_fini(&a);
+    wr_mesh_fini(&b);
+    wr_mesh_fini(&c);
+    unlink(path);
+}
+
+/* ---- what is wrong ---- */
+
+static void a_point_that_is_not_finite_is_named(void **state)
+{
+    (void)state;
+    static const char nan_ply[] =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 nan 0\n0 0 inf\n3 0 1 2\n";
+    refuse("odd.ply", nan_ply, sizeof nan_ply - 1, "point 3 is 0,nan,0: must be finite");
+    char stl[512];
+    const float far = 3e38f;
+    size_t length = tetrahedron_stl(stl);
+    memcpy(stl + 84 + 12 + 4, &far, 4);
+    refuse("far.stl", stl, length, "within 1e30");
+}
+
+static void files_that_are_no_meshes_are_refused_with_a_reason(void **state)
+{
+    (void)state;
+    static const char points[] = "v 0 0 0\nv 1 1 1\nv 2 0 0\nl 1 2 3\n";
+    refuse("points.obj", points, sizeof points - 1, "points.obj: ");
+    refuse("a.png", "\x89PNG\r\n\x1a\n", 8, "of a kind that can be read (.png)");
+    refuse("a.ply", "hello", 5, "cannot be read");
+    refuse("a.obj", "", 0, "0 bytes: must be");
+    WrMesh mesh = { 0 };
+    WrError err = { "" };
+    assert_false(wr_mesh_read("/nowhere/a.obj", &mesh, &err));
+    assert_non_null(strstr(err.text, "/nowhere/a.obj: No such file"));
+    assert_false(wr_mesh_read("/tmp", &mesh, &err));
+    assert_non_null(strstr(err.text, "is a folder"));
+    assert_false(wr_mesh_read("/dev/zero", &mesh, &err));
+    assert_non_null(strstr(err.text, "not a regular file"));
+}
+
+/* A buffer in another file, which is there: it must not be looked at. */
+static void what_a_file_points_to_is_not_opened(void **state)
+{
+    (void)state;
+    char other[] = "/tmp/wrinkle-mesh-XXXXXX.bin", gltf[2048], *uri;
+    int fd = mkstemps(other, 4);
+    const float points[9] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+    assert_int_equal(write(fd, points, sizeof points), (ssize_t)sizeof points);
+    close(fd);
+    strcpy(gltf, triangle_gltf);
+    uri = strstr(gltf, "data:");
+    char *rest = strdup(strchr(uri, '"'));
+    strcpy(uri, other);
+    strcat(gltf, rest);
+    refuse("thief.gltf", gltf, strlen(gltf), "cannot be read");
+    setenv("WRINKLE_READER", "inside", 1);
+    refuse("thief.gltf", gltf, strlen(gltf), "cannot be read");
+    unsetenv("WRINKLE_READER");
+    free(rest);
+    unlink(other);
+}
+
+/* Every length up to the whole: a mesh or one sentence. Indices beyond the points likewise. */
+static void truncated_files_and_wild_indices_are_harmless(void **state)
+{
+    (void)state;
+    char stl[512], text[sizeof box_ply];
+    size_t length = tetrahedron_stl(stl);
+    WrError err = { "" };
+    WrMesh mesh;
+    for (size_t n = 1; n < length; n += 17) {
+        if (wr_mesh_read_bytes("cut.stl", stl, n, &mesh, &err)) wr_mesh_fini(&mesh);
+        else assert_non_null(strstr(err.text, "cut.stl: "));
+    }
+    for (size_t n = 1; n < sizeof box_ply; n += 71) {
+        if (wr_mesh_read_bytes("cut.ply", box_ply, n, &mesh, &err)) wr_mesh_fini(&mesh);
+        else assert_non_null(strstr(err.text, "cut.ply: "));
+    }
+    strcpy(text, box_ply);
+    memcpy(strstr(text, "4 3 2 1 0"), "4 3 2 1 9", 9);
+    if (wr_mesh_read_bytes("wild.ply", text, strlen(text), &mesh, &err)) {
+        for (int i = 0; i < mesh.triangle_count * 3; i++)
+            assert_true(mesh.corners[i / 3][i % 3] < mesh.point_count);
+        wr_mesh_fini(&mesh);
+    }
+}
+
+/* A header that promises more than memory holds ends in one sentence, and the next file is read. */
+static void a_file_that_promises_too_much_is_refused(void **state)
+{
+    (void)state;
+    static const char huge[] =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
+        "property float y\nproperty float z\nelement face 4000000000\n"
+        "property list uchar int vertex_indices\nend_header\nabc";
+    refuse("huge.ply", huge, sizeof huge - 1, "huge.ply: ");
+    char stl[512];
+    size_t length = tetrahedron_stl(stl);
+    memset(stl + 80, 0xff, 4);
+    refuse("huge.stl", stl, length, "huge.stl: ");
+    WrMesh mesh = read_text("box.obj", box_obj);
+    expect_box(&mesh, 2, 3, 4);
+}
+
+int main(void)
+{
+    setenv("WRINKLE_READER_SECONDS", "1", 1); /* some broken files are read for ever */
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_obj_file_of_quadrilaterals_becomes_triangles),
+        cmocka_unit_test(a_ply_file_is_read),
+        cmocka_unit_test(a_binary_stl_file_is_read),
+        cmocka_unit_test(the_nodes_of_a_gltf_file_are_put_where_they_belong),
+        cmocka_unit_test(a_mesh_is_the_same_from_memory_from_a_file_and_inside),
+        cmocka_unit_test(a_point_that_is_not_finite_is_named),
+        cmocka_unit_test(files_that_are_no_meshes_are_refused_with_a_reason),
+        cmocka_unit_test(what_a_file_points_to_is_not_opened),
+        cmocka_unit_test(truncated_files_and_wild_indices_are_harmless),
+        cmocka_unit_test(a_file_that_promises_too_much_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
