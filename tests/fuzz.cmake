@@ -53,7 +53,7 @@ wr_fuzz(gbr ${tip_sources} LIBRARIES -lsleef)
 wr_fuzz(gih ${tip_sources} LIBRARIES -lsleef)
 
 set(font_reading image/font_free.c image/font_gzip.c image/font_lines.c image/font_make.c image/font_pack.c
-    image/font_psf.c)
+    image/font_parts.c image/font_psf.c)
 wr_fuzz(font ${font_reading} image/font_outline.c base/error.c base/memory.c base/text.c
         LIBRARIES ${SHAPING_CFLAGS} -lfreetype -lharfbuzz -lfribidi -lz)
 
@@ -62,12 +62,12 @@ wr_fuzz(raw generate/terrain_raw.c base/error.c base/memory.c base/text.c)
 # Under sanitizers of gcc the rooms cannot be linked with clang's.
 if(NOT WR_SANITIZE)
     # Through the reader process, whose library may crash where the program must not.
-    wr_fuzz(mesh ROOMS image base LIBRARIES -lfreetype -lharfbuzz -lfribidi -lz -lsleef -ldl -lpthread)
+    wr_fuzz(mesh ROOMS image base LIBRARIES -lfreetype -lharfbuzz -lfribidi -lfontconfig -lz -lsleef -ldl -lpthread)
     wr_fuzz(commands command/parse.c command/value.c command/scene_text.c
-            ROOMS command export render document generate brush scene shade surface noise image field
+            ROOMS command export accuracy render document generate brush scene shade surface noise image field
                   base
-            LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lz -lsleef -lzip -lexpat -ldl -lpthread)
+            LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lz -lsleef -lzip -lexpat -ldl -lpthread)
     wr_fuzz(myb brush/engine.c brush/engine_path.c brush/preset.c brush/preset_parse.c brush/preset_print.c
             brush/settings.c
-            ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lz -lsleef -lfreetype -ldl -lpthread)
+            ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lz -lsleef -lfreetype -ldl -lpthread)
 endif()

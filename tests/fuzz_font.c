@@ -21,12 +21,18 @@ static const char bdf[] =
     "STARTCHAR A\nENCODING 65\nSWIDTH 800 0\nDWIDTH 4 0\nBBX 3 4 0 0\nBITMAP\n"
     "40\nA0\nE0\nA0\nENDCHAR\nENDFONT\n";
 
-static void shape(const uint8_t *bytes, size_t length)
+/* By its length the font stands alone, borrows from a sound one, or lends to it. */
+static void shape_varied(const uint8_t *bytes, size_t length, const char *axes)
 {
+    const WrFontFile own = { bytes, length };
+    const WrFontFile sound = { (const uint8_t *)bdf, sizeof bdf - 1 };
+    const WrFontFile first = length % 3 == 2 ? sound : own;
+    const WrFontFile files[] = { first, length % 3 == 2 ? own : sound };
     WrError err = { "" };
     WrText block = { 0 };
-    WrFontAsk ask = { .text = "A \xd8\xa8\xd9\x84\xd8\xa7 fi\n\xe0\xa4\x95\xe0\xa4\xbf" };
-    if (!wr_font_make(bytes, length, &ask, &block, &err)) {
+    WrFontAsk ask = { .text = "A \xd8\xa8\xd9\x84\xd8\xa7 fi\n\xe0\xa4\x95\xe0\xa4\xbf",
+                      .axes = axes };
+    if (!wr_font_make(files, length % 3 == 0 ? 1 : 2, &ask, &block, &err)) {
         MUST(err.text[0] != '\0');
         wr_text_fini(&block);
         return;
@@ -39,6 +45,11 @@ static void shape(const uint8_t *bytes, size_t length)
     if (!wr_font_outline(&text, &setting, 0.1, &outline, &err)) MUST(err.text[0] != '\0');
     wr_font_outline_fini(&outline);
     wr_font_text_fini(&text);
+}
+
+static void shape(const uint8_t *bytes, size_t length)
+{
+    shape_varied(bytes, length, NULL);
 }
 
 /* Pairs of a place (two bytes) and a value are laid over the file. */
@@ -62,13 +73,13 @@ static const uint8_t *whole_font(const char *path, size_t *length)
 }
 
 /* The beginnings of tables hold what is most worth changing. */
-static void shape_changed(const char *path, const uint8_t *data, size_t size)
+static void shape_changed(const char *path, const char *axes, const uint8_t *data, size_t size)
 {
     size_t length;
     uint8_t *file = (uint8_t *)(uintptr_t)whole_font(path, &length);
     if (length > 0) {
         change(file, length < 65536 ? length : 65536, data, size);
-        shape(file, length);
+        shape_varied(file, length - size % 3, axes);
     }
     free(file);
 }
@@ -105,10 +116,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     } else if (way == 4) {
         shape_packed(data, size);
     } else if (way == 5) {
-        shape_changed("/usr/share/fonts/truetype/lohit-devanagari/Lohit-Devanagari.ttf", data,
+        shape_changed("/usr/share/fonts/truetype/lohit-devanagari/Lohit-Devanagari.ttf", NULL, data,
                       size);
     } else if (way == 6) {
-        shape_changed("/usr/share/fonts/X11/misc/ter-u16n_unicode.pcf.gz", data, size);
+        shape_changed("/usr/share/fonts/X11/misc/ter-u16n_unicode.pcf.gz", NULL, data, size);
+    } else if (way == 7) {
+        shape_changed("/usr/share/fonts/truetype/inter-vf/Inter-roman.var.ttf", "wght=650,slnt=-3",
+                      data, size);
     } else {
         shape(file, start + size);
     }

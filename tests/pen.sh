@@ -253,4 +253,39 @@ settle
 xdotool key d
 ends 0
 
+# ---- a window that is late does what pens and keys did in their order ----
+settings
+start flat.wrinkle
+kill -STOP "$pid"
+stroke front 160 420 380 420 0.5 0.5 30 4
+sleep 0.2
+xdotool key e
+sleep 0.2
+stroke front 160 460 380 460 0.5 0.5 30 4
+sleep 0.2
+xdotool key e
+kill -CONT "$pid"
+expect_strokes 2 'after strokes and keys that came at once'
+modes=$(sed -n 's/^stroke .*mode=\([a-z]*\).*/\1/p' history.wrinkle | tr '\n' ' ')
+[[ $modes == 'raise erase ' ]] || complain "strokes before and after the key for erasing: $modes"
+
+# ---- a mouse that holds its button is let go, also while a pen hovers ----
+xdotool mousemove $((X + 160)) $((Y + 520))
+sleep 0.5
+xdotool mousedown 1
+for i in 1 2 3 4 5 6; do xdotool mousemove $((X + 160 + 30 * i)) $((Y + 520)); done
+sleep 0.3
+awk -v x0="$X" -v y0="$Y" "$device_units"'
+    BEGIN { for (i = 0; i < 100; i++) print "m", X(340 + i % 2), Y(520), 0, 0, 0 "\nw 10" }' | ./play front &
+sleep 0.5
+xdotool mouseup 1
+wait $!
+sleep 0.3
+stroke front 160 560 380 560 0.5 0.5 30 4
+expect_strokes 4 'after a mouse beside a pen that hovers'
+xdotool key ctrl+q
+settle
+xdotool key d
+ends 0
+
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

@@ -8,6 +8,8 @@ folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
 ln -s "$source/samples" samples
+ln -s "$source/brushes" brushes
+export WRINKLE_DATA=$source # its brushes, wherever it was built
 mkdir bin && ln -s "$program" bin/wrinkle
 PATH=$folder/bin:$PATH
 

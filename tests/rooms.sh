@@ -17,7 +17,7 @@ BEGIN {
     may["brush"] = base "field image "
     may["scene"] = base "field surface shade image "
     may["render"] = base "field surface shade scene "
-    may["accuracy"] = base "field noise image surface shade scene render "
+    may["accuracy"] = base "field noise image surface shade generate brush scene render document "
     may["document"] = base "field scene image "
     may["export"] = base "field noise image surface shade scene render document "
     may["command"] = may["export"] "generate brush accuracy export "
@@ -27,7 +27,7 @@ BEGIN {
     library["SDL"] = library["imgui"] = library["X11/"] = "ui"
     library["OpenImageIO/"] = library["assimp/"] = "image"
     library["ft2build"] = library["freetype/"] = "image ui" # the type of the window is drawn with it too
-    library["hb"] = library["fribidi"] = library["zlib"] = "image"
+    library["hb"] = library["fribidi"] = library["fontconfig/"] = library["zlib"] = "image"
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
     library["libmypaint"] = library["mypaint"] = library["json-c/"] = "brush"
 }

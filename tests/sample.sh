@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
 # A sample runs without a word of complaint, writes the files that its lines name and no others, and gives
-# the same document and the same files whatever the number of threads.  sample.sh SCRIPT PROGRAM
+# the same document and the same files whatever the number of threads. What is kept of it in
+# samples/figures comes out of it again: the picture of its name, and files that its lines write, pixel by
+# pixel.  sample.sh SCRIPT PROGRAM
+# WR_BLESS=1 in the environment replaces these pictures, to be looked at before they are kept.
 set -uo pipefail
 script=$1 program=$2
+figures=$(dirname "$script")/figures name=$(basename "$script" .wrinkle)
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
@@ -10,6 +14,24 @@ cd "$folder" || exit 1
 fail() {
     printf '%s: %s\n' "$script" "$*"
     exit 1
+}
+# kept FILE: if a file of that name is kept, it shows the same.
+kept() {
+    local name different old
+    name=$(basename "$1")
+    old=$figures/$name
+    [[ -f $old ]] || return 0
+    if [[ -n ${WR_BLESS:-} && $1 == *.png ]]; then
+        convert "$1" -strip -define png:compression-level=9 -define png:compression-filter=5 "$old"
+    elif [[ -n ${WR_BLESS:-} ]]; then
+        cp "$1" "$old"
+    fi
+    if [[ $1 == *.png ]]; then
+        different=$(compare -metric AE "$1" "$old" null: 2>&1)
+        [[ $different == 0 ]] || fail "$old is not what comes out: $different pixels differ"
+    else
+        cmp -s "$1" "$old" || fail "$old is not what comes out"
+    fi
 }
 # What its output lines name: the third word of an export, the second of the others.
 sed -nE 's/^export +[^ ]+ +([^ ]+).*/\1/p; s/^(save|render|script) +([^ ]+).*/\2/p' "$script" |
@@ -34,6 +56,14 @@ run 1
 if [[ -s $folder.named ]]; then
     run 3
     diff -r 1 3 || fail "not the same files on 1 and 3 threads"
+fi
+while read -r file; do
+    kept "1/$file"
+done <"$folder.named"
+if [[ -f $figures/$name.png ]]; then
+    size=$(identify -format %wx%h "$figures/$name.png") || fail "$figures/$name.png cannot be read"
+    "$program" render "$script" -o "$name.png" --size "$size" 2>err || fail "render failed: $(cat err)"
+    kept "$name.png"
 fi
 rm -rf 1 3
 for threads in 1 2 7; do

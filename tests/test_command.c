@@ -123,7 +123,7 @@ static void mistakes_are_named_with_what_would_be_right(void **state)
         { "surface tors", { "did you mean torus", "sphere" } },
         { "surface bezier points=0,0,0;1,1,1", { "points" } },
         { "light point to=1,1,1", { "to", "at=" } },
-        { "dials aa=moments", { "aa=moments", "point", "supersample" } },
+        { "dials aa=blurred", { "aa=blurred", "point", "supersample" } },
         { "image \"open", { "image", "not closed" } },
         { "image a\"b", { "quote" } },
         { "image \"a\"b", { "closing quote" } },

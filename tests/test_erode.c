@@ -107,6 +107,60 @@ static void any_number_of_threads_makes_the_same_weather(void **state)
     wr_field_free(f);
 }
 
+/* 4 x 2 tiles of drops on the finest of three grids; an odd number of texels, edges of both kinds. */
+static void drops_in_tiles_fall_alike_on_1_2_and_7_threads_and_lose_nothing(void **state)
+{
+    (void)state;
+    static const int threads[] = { 1, 2, 7 };
+    WrField *f = hills(563, 287, WR_WRAP_PERIODIC);
+    const WrGenerator *g = wr_generator_find("terrain", "hydraulic");
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    WrField *first = NULL;
+    wr_generator_defaults(g, values);
+    value_of(g, values, "life")->number[0] = 250;
+    value_of(g, values, "rain")->number[0] = 0.3;
+    for (int k = 0; k < 3; k++) {
+        WrPool *pool = wr_pool_new(threads[k]);
+        WrField *now = made(g, values, f, pool, false);
+        assert_near(sum_of(now), sum_of(f), 563 * 287 * 3e-8);
+        if (first) assert_true(is_rolled(first, now, 0, 0));
+        if (first) wr_field_free(now);
+        else first = now;
+        wr_pool_free(pool);
+    }
+    assert_true(largest_difference(f, first) > 0.02);
+    wr_field_free(first);
+    wr_field_free(f);
+}
+
+/* Rain shapes the edge between tiles as it does their middle: the mean change along rows of a slope that is
+ * the same everywhere does not tell where tiles end. */
+static void tiles_of_drops_cannot_be_seen(void **state)
+{
+    (void)state;
+    enum { W = 560, H = 140 };
+    WrField *f = table_of(W, H);
+    double change[W] = { 0 }, mean = 0.0, spread = 0.0;
+    for (int j = 0; j < H; j++)
+        for (int i = 0; i < W; i++)
+            wr_field_set(f, i, j, (float)(0.5 + 0.5 * cos(6.283185307179586 * j / H)));
+    WrField *g = made_with("terrain", "hydraulic", NULL, f);
+    for (int j = 0; j < H; j++)
+        for (int i = 0; i < W; i++)
+            change[i] += fabs((double)wr_field_get(g, i, j) - (double)wr_field_get(f, i, j)) / H;
+    for (int i = 0; i < W; i++) mean += change[i] / W;
+    for (int i = 0; i < W; i++) spread += pow(change[i] - mean, 2) / W;
+    spread = sqrt(spread);
+    for (int k = 0; k < 4; k++) { /* four tiles: about each edge a strip of 20 texels */
+        double strip = 0.0;
+        for (int i = -10; i < 10; i++) strip += change[(k * W / 4 + i + W) % W] / 20.0;
+        assert_near(strip, mean, spread);
+    }
+    assert_true(mean > 0.003);
+    wr_field_free(f);
+    wr_field_free(g);
+}
+
 static void stones_slide_alike_wherever_the_table_begins(void **state)
 {
     (void)state;
@@ -281,6 +335,8 @@ int main(void)
         cmocka_unit_test(the_sum_of_heights_stays_to_rounding),
         cmocka_unit_test(flat_ground_stays_as_it_is_bit_for_bit),
         cmocka_unit_test(any_number_of_threads_makes_the_same_weather),
+        cmocka_unit_test(drops_in_tiles_fall_alike_on_1_2_and_7_threads_and_lose_nothing),
+        cmocka_unit_test(tiles_of_drops_cannot_be_seen),
         cmocka_unit_test(stones_slide_alike_wherever_the_table_begins),
         cmocka_unit_test(slopes_come_down_to_the_angle_of_rest),
         cmocka_unit_test(gentle_slopes_do_not_slide),

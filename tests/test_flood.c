@@ -54,8 +54,8 @@ static void a_flood_reaches_what_a_search_by_neighbours_reaches(void **state)
         bool diagonal = round >> 2 & 1;
         double tolerance = round % 11 ? 0.5 : 0.75; /* the larger takes all */
         WrError err;
-        WrField *s =
-            wr_select_flood(f, (x + 0.5) / w, 1 - (y + 0.5) / h, tolerance, diagonal, NULL, &err);
+        WrField *s = wr_select_flood(f, (x + 0.5) / w, 1 - (y + 0.5) / h, tolerance, diagonal, NULL,
+                                     NULL, &err);
         if (!s) fail_msg("%s", err.text);
         grow_reached(f, x, y, tolerance, diagonal, in);
         for (int j = 0; j < h; j++)
@@ -83,9 +83,9 @@ static void a_flood_over_edges_is_the_rolled_table_s_flood_rolled(void **state)
             wr_field_set(b, (i + DX) % W, (j + DY) % H, wr_field_get(a, i, j));
     int x = 0, y = 0;
     while (wr_field_get(a, x, y) != 0.25f) x++;
-    WrField *fa = wr_select_flood(a, (x + 0.5) / W, 1 - (y + 0.5) / H, 0, false, NULL, &err);
+    WrField *fa = wr_select_flood(a, (x + 0.5) / W, 1 - (y + 0.5) / H, 0, false, NULL, NULL, &err);
     WrField *fb = wr_select_flood(b, (x + DX + 0.5) / W, 1 - (y + DY + 0.5) / H, 0, false, NULL,
-                                  &err); /* a place beyond the table is its image in it */
+                                  NULL, &err); /* a place beyond the table is its image in it */
     int reached = 0;
     for (int j = 0; j < H; j++)
         for (int i = 0; i < W; i++) {
@@ -106,17 +106,18 @@ static void the_tolerance_counts_from_where_it_begins_both_ends_included(void **
     WrError err;
     WrField *f = wr_field_new(64, 1, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0, &err);
     for (int i = 0; i < 64; i++) wr_field_set(f, i, 0, (float)i);
-    WrField *s = wr_select_flood(f, 20.5 / 64, 0.5, 7, false, NULL, &err);
+    WrField *s = wr_select_flood(f, 20.5 / 64, 0.5, 7, false, NULL, NULL, &err);
     for (int i = 0; i < 64; i++)
         assert_true(wr_field_get(s, i, 0) == (i >= 13 && i <= 27 ? 1.0f : 0.0f));
     wr_field_free(s);
-    s = wr_select_flood(f, -3, 7, 2, false, NULL, &err); /* off the ends the nearest texel counts */
+    s = wr_select_flood(f, -3, 7, 2, false, NULL, NULL,
+                        &err); /* off the ends the nearest texel counts */
     for (int i = 0; i < 64; i++) assert_true(wr_field_get(s, i, 0) == (i <= 2 ? 1.0f : 0.0f));
     wr_field_free(s);
-    assert_null(wr_select_flood(f, NAN, 0, 1, false, NULL, &err));
-    assert_null(wr_select_flood(f, 0, INFINITY, 1, false, NULL, &err));
-    assert_null(wr_select_flood(f, 0, 0, -1, false, NULL, &err));
-    assert_null(wr_select_flood(f, 0, 0, NAN, false, NULL, &err));
+    assert_null(wr_select_flood(f, NAN, 0, 1, false, NULL, NULL, &err));
+    assert_null(wr_select_flood(f, 0, INFINITY, 1, false, NULL, NULL, &err));
+    assert_null(wr_select_flood(f, 0, 0, -1, false, NULL, NULL, &err));
+    assert_null(wr_select_flood(f, 0, 0, NAN, false, NULL, NULL, &err));
     wr_field_free(f);
 }
 
@@ -130,7 +131,7 @@ static void a_maze_is_followed_to_its_end(void **state)
     for (int j = 1; j < N; j += 2)
         for (int i = 0; i < N; i++)
             if (i != (j / 2 % 2 ? 0 : N - 1)) wr_field_set(f, i, j, 9);
-    WrField *s = wr_select_flood(f, 0.5 / N, 1 - 0.5 / N, 1, false, NULL, &err);
+    WrField *s = wr_select_flood(f, 0.5 / N, 1 - 0.5 / N, 1, false, NULL, NULL, &err);
     for (int j = 0; j < N; j++)
         for (int i = 0; i < N; i++)
             assert_true(wr_field_get(s, i, j) == (wr_field_get(f, i, j) == 9 ? 0.0f : 1.0f));
@@ -145,7 +146,7 @@ static void a_flat_table_of_the_largest_size_is_reached_wholly(void **state)
     int side = full && *full == '1' ? WR_FIELD_MAX : 2048;
     WrError err;
     WrField *f = wr_field_new(side, side, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 2, &err);
-    WrField *s = wr_select_flood(f, 0.3, 0.3, 0, false, NULL, &err);
+    WrField *s = wr_select_flood(f, 0.3, 0.3, 0, false, NULL, NULL, &err);
     float low, high;
     assert_non_null(s);
     wr_field_range(s, &low, &high);

@@ -282,16 +282,17 @@ static void random_line(TestRandom *random, WrText *line)
 
 typedef struct Walk {
     WrSession *session;
-    WrHash *hashes; /* [steps + 1] of the states */
+    WrHash *hashes; /* [steps + 2] of the states; 0 is the empty beginning */
     int failed;
 } Walk;
 
 static Walk random_walk(int steps, uint64_t seed, WrPool *pool)
 {
     WrSessionOptions options = { .pool = pool };
-    Walk walk = { wr_session_new(&options), wr_alloc((size_t)steps + 1, sizeof(WrHash)), 0 };
+    Walk walk = { wr_session_new(&options), wr_alloc((size_t)steps + 2, sizeof(WrHash)), 0 };
     TestRandom random = { seed };
     WrText line = { 0 };
+    walk.hashes[0] = wr_session_hash(walk.session);
     must_run(walk.session, "table 120x90");
     walk.hashes[1] = wr_session_hash(walk.session);
     for (int i = 0; i < steps; i++) {
@@ -325,7 +326,7 @@ static void random_commands_undo_redo_and_replay_bit_for_bit(void **state)
     WrPool *first = wr_pool_new(3);
     Walk walk = random_walk(steps, seed, first);
     WrSession *s = walk.session;
-    assert_true(walk.failed < steps / 2);
+    assert_true(4 * walk.failed < 3 * steps); /* about two in five are out of place */
     WrHash end = wr_session_hash(s);
     int position = wr_session_history_position(s);
     if (!wr_session_save_history(s, "walk.wrinkle", &err)) fail_msg("%s", err.text);

@@ -125,6 +125,97 @@ static const char triangle_gltf[] =
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
     "\"min\":[0,0,0],\"max\":[1,1,0]}]}";
 
+static size_t put(char *out, size_t at, const void *from, size_t size, bool turned)
+{
+    for (size_t k = 0; k < size; k++) out[at + k] = ((const char *)from)[turned ? size - 1 - k : k];
+    return at + size;
+}
+
+/* The box of box_obj, in both orders of bytes (this machine's is taken for little). */
+static void a_binary_ply_file_of_either_order_is_read(void **state)
+{
+    (void)state;
+    static const int32_t faces[6][4] = { { 3, 2, 1, 0 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 },
+                                         { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 0, 4, 7 } };
+    for (int big = 0; big < 2; big++) {
+        char bytes[1024];
+        size_t at = (size_t)snprintf(bytes, sizeof bytes,
+                                     "ply\nformat binary_%s_endian 1.0\nelement vertex 8\n"
+                                     "property float x\nproperty float y\nproperty float z\n"
+                                     "element face 6\nproperty list uchar int vertex_indices\n"
+                                     "end_header\n",
+                                     big ? "big" : "little");
+        for (int k = 0; k < 8; k++) {
+            const float p[3] = { (k + 1) / 2 % 2 ? 2.0f : 0.0f, k / 2 % 2 ? 3.0f : 0.0f,
+                                 k > 3 ? 4.0f : 0.0f };
+            for (int c = 0; c < 3; c++) at = put(bytes, at, &p[c], 4, big);
+        }
+        for (int f = 0; f < 6; f++) {
+            bytes[at++] = 4;
+            for (int k = 0; k < 4; k++) at = put(bytes, at, &faces[f][k], 4, big);
+        }
+        WrMesh mesh = { 0 };
+        WrError err = { "" };
+        if (!wr_mesh_read_bytes("box.ply", bytes, at, &mesh, &err)) fail_msg("%s", err.text);
+        expect_box(&mesh, 2, 3, 4);
+    }
+}
+
+static void a_written_out_stl_file_is_read(void **state)
+{
+    (void)state;
+    static const int p[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    static const int faces[4][3] = { { 0, 2, 1 }, { 0, 1, 3 }, { 0, 3, 2 }, { 1, 2, 3 } };
+    WrText text = { 0 };
+    double area, volume;
+    wr_text_addf(&text, "solid t\n");
+    for (int f = 0; f < 4; f++) {
+        wr_text_addf(&text, "facet normal 0 0 0\nouter loop\n");
+        for (int k = 0; k < 3; k++)
+            wr_text_addf(&text, "vertex %d %d %d\n", p[faces[f][k]][0], p[faces[f][k]][1],
+                         p[faces[f][k]][2]);
+        wr_text_addf(&text, "endloop\nendfacet\n");
+    }
+    wr_text_addf(&text, "endsolid t\n");
+    WrMesh mesh = read_text("t.stl", wr_text_get(&text));
+    measures(&mesh, &area, &volume);
+    assert_near(area, 1.5 + 0.5 * sqrt(3.0), 1e-5);
+    assert_near(volume, 1.0 / 6.0, 1e-5);
+    wr_mesh_fini(&mesh);
+    wr_text_fini(&text);
+}
+
+/* One triangle: a piece of JSON and a piece of numbers, each of whole fours of bytes. */
+static void a_glb_file_is_read(void **state)
+{
+    (void)state;
+    static const float points[9] = { 0, 0, 0, 2, 0, 0, 0, 3, 0 };
+    char json[600], bytes[800];
+    int length = snprintf(
+        json, sizeof json,
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{"
+        "\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"buffers\":[{\"byteLength\":36}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+        "\"VEC3\",\"min\":[0,0,0],\"max\":[2,3,0]}]}");
+    while (length % 4) json[length++] = ' ';
+    const uint32_t head[3] = { 0x46546c67, 2, (uint32_t)length + 12 + 8 + 8 + 36 };
+    const uint32_t first[2] = { (uint32_t)length, 0x4e4f534a }, second[2] = { 36, 0x004e4942 };
+    size_t at = put(bytes, 0, head, sizeof head, false);
+    at = put(bytes, at, first, sizeof first, false);
+    at = put(bytes, at, json, (size_t)length, false);
+    at = put(bytes, at, second, sizeof second, false);
+    at = put(bytes, at, points, sizeof points, false);
+    WrMesh mesh = { 0 };
+    WrError err = { "" };
+    double area, volume;
+    if (!wr_mesh_read_bytes("t.glb", bytes, at, &mesh, &err)) fail_msg("%s", err.text);
+    measures(&mesh, &area, &volume);
+    assert_near(area, 3.0, 1e-6);
+    assert_int_equal(mesh.triangle_count, 1);
+    wr_mesh_fini(&mesh);
+}
+
 static void the_nodes_of_a_gltf_file_are_put_where_they_belong(void **state)
 {
     (void)state;
@@ -214,7 +305,7 @@ static void what_a_file_points_to_is_not_opened(void **state)
     char *rest = strdup(strchr(uri, '"'));
     strcpy(uri, other);
     strcat(gltf, rest);
-    refuse("thief.gltf", gltf, strlen(gltf), "cannot be read");
+    refuse("thief.gltf", gltf, strlen(gltf), "keeps a part in another file");
     setenv("WRINKLE_READER", "inside", 1);
     refuse("thief.gltf", gltf, strlen(gltf), "cannot be read");
     unsetenv("WRINKLE_READER");
@@ -271,6 +362,9 @@ int main(void)
         cmocka_unit_test(an_obj_file_of_quadrilaterals_becomes_triangles),
         cmocka_unit_test(a_ply_file_is_read),
         cmocka_unit_test(a_binary_stl_file_is_read),
+        cmocka_unit_test(a_binary_ply_file_of_either_order_is_read),
+        cmocka_unit_test(a_written_out_stl_file_is_read),
+        cmocka_unit_test(a_glb_file_is_read),
         cmocka_unit_test(the_nodes_of_a_gltf_file_are_put_where_they_belong),
         cmocka_unit_test(a_mesh_is_the_same_from_memory_from_a_file_and_inside),
         cmocka_unit_test(a_point_that_is_not_finite_is_named),

@@ -428,6 +428,52 @@ static void none_of_many_events_is_lost_however_late_they_are_taken(void **state
     wr_pen_free(pen);
 }
 
+static SDL_Event key_at(Uint32 type, Uint32 milliseconds)
+{
+    SDL_Event event = { .key = { .type = type, .timestamp = milliseconds } };
+    return event;
+}
+
+static int taken_before(WrPen *pen, const SDL_Event *event)
+{
+    WrPenEvent e;
+    int count = 0;
+    while (wr_pen_next_before(pen, event, &e)) count++;
+    return count;
+}
+
+static void what_pens_did_before_a_key_is_taken_before_it(void **state)
+{
+    (void)state;
+    WrPen *pen = wr_pen_new(NULL);
+    WrPenEvent e;
+    int stylus = add_pen(pen, "stylus", false, 0, 1);
+    SDL_Event first = key_at(SDL_KEYDOWN, 10), second = key_at(SDL_KEYUP, 10);
+    SDL_Event lost = key_at(SDL_KEYDOWN, 11), third = key_at(SDL_MOUSEBUTTONDOWN, 12);
+    SDL_Event never = key_at(SDL_KEYDOWN, 13);
+    wr_pen_mark(pen, &first); /* before the pen did anything */
+    for (int i = 0; i < 5; i++) feed(pen, stylus, i ? WR_PEN_MOTION : WR_PEN_DOWN, 0.5, i);
+    wr_pen_mark(pen, &second);
+    feed(pen, stylus, WR_PEN_UP, 0, 5);
+    wr_pen_mark(pen, &lost); /* which another loop swallowed */
+    feed(pen, stylus, WR_PEN_DOWN, 0.5, 6);
+    wr_pen_mark(pen, &third);
+    feed(pen, stylus, WR_PEN_UP, 0, 7);
+    assert_int_equal(taken_before(pen, &first), 0);
+    assert_int_equal(taken_before(pen, &second), 5);
+    assert_int_equal(taken_before(pen, &never), 0);
+    assert_int_equal(taken_before(pen, &third), 2);
+    assert_int_equal(taken_before(pen, &third), 0); /* asked about already */
+    assert_int_equal(wr_pen_waiting(pen), 1);
+    assert_true(wr_pen_next(pen, &e) && e.kind == WR_PEN_UP);
+    for (Uint32 i = 0; i < 100000; i++) { /* keys alone do not pile up */
+        SDL_Event key = key_at(SDL_KEYDOWN, 100 + i);
+        wr_pen_mark(pen, &key);
+    }
+    assert_true(pen->marks.count < 1000);
+    wr_pen_free(pen);
+}
+
 static void names_stay_on_one_line_and_whole_characters(void **state)
 {
     (void)state;
@@ -724,6 +770,7 @@ int main(void)
         cmocka_unit_test(a_lost_device_lets_go_once_and_with_its_last_pressure),
         cmocka_unit_test(server_times_go_on_where_their_32_bits_wrap),
         cmocka_unit_test(none_of_many_events_is_lost_however_late_they_are_taken),
+        cmocka_unit_test(what_pens_did_before_a_key_is_taken_before_it),
         cmocka_unit_test(names_stay_on_one_line_and_whole_characters),
         cmocka_unit_test(a_recorded_file_replayed_gives_the_same_events),
         cmocka_unit_test(a_replay_takes_the_place_of_devices),

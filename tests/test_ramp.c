@@ -10,7 +10,8 @@
 static WrField *made(WrWrap u, WrWrap v, WrRamp ramp)
 {
     WrError err;
-    WrField *like = wr_field_new(W, H, u, v, 0, NULL), *f = wr_ramp_make(like, &ramp, NULL, &err);
+    WrField *like = wr_field_new(W, H, u, v, 0, NULL),
+            *f = wr_ramp_make(like, &ramp, NULL, NULL, &err);
     if (!f) fail_msg("%s", err.text);
     wr_field_free(like);
     return f;
@@ -195,13 +196,14 @@ static void ramps_are_the_same_for_any_number_of_threads_and_roll_with_the_table
     WrField *like = wr_field_new(128, 256, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int k = 0; k < 6; k++) {
         WrRamp r = { (WrRampKind)(k / 2), 0.25, 0.375, 0.5, 0.875, 0, 1, k % 2 };
-        WrField *a = wr_ramp_make(like, &r, NULL, &err), *b = wr_ramp_make(like, &r, pool, &err);
+        WrField *a = wr_ramp_make(like, &r, NULL, NULL, &err),
+                *b = wr_ramp_make(like, &r, pool, NULL, &err);
         assert_true(wr_hash_equal(wr_field_hash(a), wr_field_hash(b)));
         r.from_u += 0.5;
         r.to_u += 0.5;
         r.from_v -= 0.25;
         r.to_v -= 0.25;
-        WrField *c = wr_ramp_make(like, &r, pool, &err);
+        WrField *c = wr_ramp_make(like, &r, pool, NULL, &err);
         for (int j = 0; j < 256; j++)
             for (int i = 0; i < 128; i++)
                 assert_true(wr_field_get(c, (i + 64) % 128, (j + 64) % 256) ==
@@ -220,13 +222,13 @@ static void ramps_that_lead_nowhere_are_refused(void **state)
     WrError err;
     WrField *like = wr_field_new(W, H, WR_WRAP_PERIODIC, WR_WRAP_CLAMP, 0, NULL);
     WrRamp r = { WR_RAMP_LINEAR, 0.5, 0.5, 0.5, 0.5, 0, 1, false };
-    assert_null(wr_ramp_make(like, &r, NULL, &err));
+    assert_null(wr_ramp_make(like, &r, NULL, NULL, &err));
     assert_non_null(strstr(err.text, "same place"));
     r = (WrRamp){ WR_RAMP_LINEAR, 0, 0, 1, 0, 0, 1, true };
-    assert_null(wr_ramp_make(like, &r, NULL, &err));
+    assert_null(wr_ramp_make(like, &r, NULL, NULL, &err));
     assert_non_null(strstr(err.text, "along u"));
     r = (WrRamp){ WR_RAMP_LINEAR, 0, 0, 0, 3, -3e38, 3e38, true }; /* v is clamped: no way round */
-    WrField *f = wr_ramp_make(like, &r, NULL, &err);
+    WrField *f = wr_ramp_make(like, &r, NULL, NULL, &err);
     float low, high;
     wr_field_range(f, &low, &high);
     assert_true(low >= -3e38f && high <= 3e38f && high > low);

@@ -187,6 +187,36 @@ static void a_ramp_joins_what_is_there_as_its_blend_says(void **state)
     wr_session_free(s);
 }
 
+static void what_is_cancelled_leaves_everything_as_it_was(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "flood 0.1,0.1",
+        "select flood 0.1,0.1",
+        "ramp cone from=0.5,0.5 to=0.5,1",
+        "ramp linear from=0,0 to=1,0 blend=add",
+        "shape ellipse middle=0.5,0.5 radii=0.3,0.2 paint=fill",
+        "shape ellipse middle=0.5,0.5 radii=0.3,0.2 paint=outline",
+    };
+    int stop = 0;
+    WrSessionOptions options = { .cancel = &stop };
+    WrSession *s = wr_session_new(&options);
+    must_run(s, "grid cells=4x4");
+    WrHash before = wr_session_hash(s);
+    int steps = wr_session_history_position(s);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        stop = 1;
+        must_fail(s, lines[i], "cancelled");
+        assert_true(wr_hash_equal(wr_session_hash(s), before));
+        assert_int_equal(wr_session_history_position(s), steps);
+        stop = 0;
+        must_run(s, lines[i]);
+        assert_false(wr_hash_equal(wr_session_hash(s), before));
+        must_run(s, "undo");
+    }
+    wr_session_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -197,6 +227,7 @@ int main(void)
         cmocka_unit_test(shapes_move_with_whole_texels_across_the_edges),
         cmocka_unit_test(a_flood_fills_one_part_of_the_composite_on_the_active_layer),
         cmocka_unit_test(a_ramp_joins_what_is_there_as_its_blend_says),
+        cmocka_unit_test(what_is_cancelled_leaves_everything_as_it_was),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,9 @@
 #include "generate_help.h"
 #include "image/font.h"
 
+#include <ft2build.h>
+#include FT_FREETYPE_H
+
 #define SANS 2
 #define SERIF_BOLD 5
 #define SANS_FILE "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
@@ -199,6 +202,100 @@ static void dots_of_a_whole_scale_are_squares_of_texels_exactly(void **state)
         wr_field_free(like);
     }
     wr_font_text_fini(&font);
+}
+
+static FT_Face face_of(FT_Library *library, const char *path)
+{
+    FT_Face face;
+    assert_int_equal(FT_Init_FreeType(library), 0);
+    assert_int_equal(FT_New_Face(*library, path, 0, &face), 0);
+    return face;
+}
+
+static void a_bitmap_text_is_freetypes_own_bitmap_bit_for_bit(void **state)
+{
+    (void)state;
+    static const char path[] = "/usr/share/fonts/X11/misc/ter-u16n_unicode.pcf.gz";
+    static const FT_ULong codes[] = { 'W', 'r', 0xe4, 0x20ac, 'k' };
+    static float want[64][128];
+    FT_Library library;
+    FT_Face face = face_of(&library, path);
+    for (int c = 0, pen = 20; c < 5; c++) {
+        assert_int_equal(FT_Load_Char(face, codes[c], FT_LOAD_RENDER | FT_LOAD_TARGET_MONO), 0);
+        const FT_GlyphSlot g = face->glyph;
+        assert_int_equal(g->bitmap.pixel_mode, FT_PIXEL_MODE_MONO);
+        for (unsigned y = 0; y < g->bitmap.rows; y++)
+            for (unsigned x = 0; x < g->bitmap.width; x++)
+                if (g->bitmap.buffer[(int)y * g->bitmap.pitch + (int)x / 8] & (0x80 >> (x & 7)))
+                    want[40 - g->bitmap_top + (int)y][pen + g->bitmap_left + (int)x] = 1.0f;
+        pen += (int)(g->advance.x / 64);
+    }
+    FT_Done_Face(face);
+    FT_Done_FreeType(library);
+    WrField *like = table_of(128, 64);
+    const Setting more[] = { { "align", 0 }, { "anchor", 1 }, { NULL, 0 } };
+    Text t = {
+        "Wr\xc3\xa4\xe2\x82\xack", 0, 16.0, 20.0 / 128.0, 24.0 / 64.0, more, NULL, 0, { 0 }
+    };
+    WrRelief r = relief_of(&t, like, NULL);
+    double set = 0.0;
+    for (int j = 0; j < 64; j++)
+        for (int i = 0; i < 128; i++) {
+            assert_true(same_bits((double)wr_field_get(r.cover, i, j), (double)want[j][i]));
+            set += (double)want[j][i];
+        }
+    assert_true(set > 100.0);
+    wr_relief_fini(&r);
+    wr_field_free(like);
+}
+
+#define FINE 8
+
+/* The mean of FreeType's coverage in one of our texels: that of FINE x FINE of its pixels. */
+static double mean_of(const FT_GlyphSlot g, int i, int j)
+{
+    double sum = 0.0;
+    for (int k = 0; k < FINE * FINE; k++) {
+        int x = FINE * (i - 64) + k % FINE - g->bitmap_left;
+        int y = FINE * (j - 192) + k / FINE + g->bitmap_top;
+        if (x >= 0 && y >= 0 && x < (int)g->bitmap.width && y < (int)g->bitmap.rows)
+            sum += g->bitmap.buffer[y * g->bitmap.pitch + x] / 255.0;
+    }
+    return sum / (FINE * FINE);
+}
+
+/* Our chords stay within 1/64 texel of a curve, FreeType's within 1/11 of its pixels, which are an eighth of
+ * a texel; a slanted rim is up to 1.42 long in a texel. */
+static void coverage_is_that_of_freetypes_own_rasterizer(void **state)
+{
+    (void)state;
+    FT_Library library;
+    FT_Face face = face_of(&library, SANS_FILE);
+    WrField *like = table_of(256, 256);
+    static const char *const letters[] = { "S", "g", "&", "8" };
+    assert_int_equal(FT_Set_Pixel_Sizes(face, 0, 170 * FINE), 0);
+    for (int k = 0; k < 4; k++) {
+        const Setting more[] = { { "align", 0 }, { "anchor", 1 }, { NULL, 0 } };
+        Text t = { letters[k], SANS, 170.0, 0.25, 0.25, more, NULL, 0, { 0 } };
+        WrRelief r = relief_of(&t, like, NULL);
+        double sum = 0.0;
+        assert_int_equal(FT_Load_Char(face, (FT_ULong)letters[k][0],
+                                      FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP | FT_LOAD_RENDER),
+                         0);
+        for (int j = 0; j < 256; j++)
+            for (int i = 0; i < 256; i++) {
+                double want = mean_of(face->glyph, i, j);
+                assert_near((double)wr_field_get(r.cover, i, j), want,
+                            1.42 * (1.0 / 64.0 + 1.0 / (11.0 * FINE)));
+                sum += want;
+            }
+        assert_true(sum > 2000.0);
+        assert_near(sum_of(r.cover) / sum, 1.0, 1.0 / 512.0);
+        wr_relief_fini(&r);
+    }
+    wr_field_free(like);
+    FT_Done_Face(face);
+    FT_Done_FreeType(library);
 }
 
 /* ---- area and distance ---- */
@@ -514,19 +611,107 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
     wr_field_free(like);
 }
 
+typedef struct Kept {
+    char text[2000];
+} Kept;
+
+static bool keep(void *ctx, const char *param, const char *value, WrError *err)
+{
+    Kept *kept = ctx;
+    (void)err;
+    snprintf(kept->text + strlen(kept->text), sizeof kept->text - strlen(kept->text), "%s=%s\n",
+             param, value);
+    return true;
+}
+
+/* U+10FFFD is in no font, the Hindi word in none that is named sans. */
 static void hc78_missing_glyphs_are_told_and_drawn(void **state)
 {
     (void)state;
+    static const char hindi[] = "\xe0\xa4\xb9\xe0\xa4\xbf", nobodys[] = "\xf4\x8f\xbf\xbd";
     WrField *like = table_of(64, 64);
+    for (int borrow = 0; borrow < 2; borrow++) {
+        Said said = { "" };
+        Kept kept = { "" };
+        WrError err = { "" };
+        WrRelief out = { NULL, NULL };
+        WrGenerateJob job = {
+            .like = like, .note = hear, .note_ctx = &said, .chose = keep, .chose_ctx = &kept
+        };
+        const Setting more[] = { { "missing", borrow ? 0 : 1 }, { NULL, 0 } };
+        Text t = { borrow ? nobodys : hindi, SANS, 40.0, 0.5, 0.5, more, NULL, 0, { 0 } };
+        assert_true(try_text(&t, &job, &out, &err));
+        assert_non_null(strstr(said.text, borrow ? "U+10FFFD; no installed" : "U+0939, U+093F"));
+        assert_int_equal(strstr(kept.text, "missing=sign") != NULL, borrow);
+        assert_true(sum_of(out.cover) > 50.0);
+        wr_relief_fini(&out);
+    }
+    wr_field_free(like);
+}
+
+static void hc78_bytes_that_are_not_utf8_are_told_and_drawn(void **state)
+{
+    (void)state;
+    WrField *like = table_of(128, 64);
     Said said = { "" };
     WrError err = { "" };
-    WrRelief out = { NULL, NULL };
+    WrRelief bad = { NULL, NULL }, sign = { NULL, NULL };
     WrGenerateJob job = { .like = like, .note = hear, .note_ctx = &said };
-    Text t = { "\xe4\xb8\xad", SANS, 40.0, 0.5, 0.5, NULL, NULL, 0, { 0 } };
-    assert_true(try_text(&t, &job, &out, &err));
-    assert_non_null(strstr(said.text, "U+4E2D"));
-    assert_true(sum_of(out.cover) > 50.0);
-    wr_relief_fini(&out);
+    Text t = { "a\xff\xc0"
+               "b",
+               SANS,
+               30.0,
+               0.5,
+               0.5,
+               NULL,
+               NULL,
+               0,
+               { 0 } };
+    assert_true(try_text(&t, &job, &bad, &err));
+    assert_string_equal(said.text, "2 bytes of the text are not UTF-8: drawn as U+FFFD\n");
+    t.text = "a\xef\xbf\xbd\xef\xbf\xbd"
+             "b"; /* the very character is sound */
+    assert_true(try_text(&t, &job, &sign, &err));
+    assert_int_equal(strlen(said.text),
+                     strlen("2 bytes of the text are not UTF-8: drawn as U+FFFD\n"));
+    assert_true(same(&bad, &sign));
+    wr_relief_fini(&bad);
+    wr_relief_fini(&sign);
+    wr_field_free(like);
+}
+
+/* Letters that the font lacks are lent, and told from where; asked for by that name they are the same. */
+static void hc78_lent_letters_are_told_and_come_again_by_name(void **state)
+{
+    (void)state;
+    WrField *like = table_of(128, 64);
+    Said said = { "" };
+    Kept kept = { "" };
+    WrError err = { "" };
+    WrRelief lent = { NULL, NULL }, named = { NULL, NULL };
+    WrGenerateJob job = {
+        .like = like, .note = hear, .note_ctx = &said, .chose = keep, .chose_ctx = &kept
+    };
+    Text t = { "ab \xe0\xa4\xb9\xe0\xa4\xbf", SANS, 32.0, 0.5, 0.5, NULL, NULL, 0, { 0 } };
+    assert_true(try_text(&t, &job, &lent, &err));
+    assert_non_null(strstr(said.text, "2 glyphs are from /"));
+    assert_null(strstr(said.text, "sign"));
+    char *path = strstr(kept.text, "\nfallback=");
+    assert_non_null(path);
+    path += strlen("\nfallback=");
+    *strchr(path, '\n') = '\0';
+    assert_true(strncmp(kept.text, "font=" SANS_FILE "\n", 5 + strlen(SANS_FILE) + 1) == 0);
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    const WrGenerator *g = wr_generator_find("text", NULL);
+    wr_generator_defaults(g, values);
+    value_of(g, values, "text")->text = t.text;
+    value_of(g, values, "file")->text = SANS_FILE;
+    value_of(g, values, "size")->number[0] = 32.0;
+    value_of(g, values, "fallback2")->text = path; /* the place in the list does not matter */
+    assert_true(wr_generator_make(g, values, &job, &named, &err));
+    assert_true(same(&lent, &named));
+    wr_relief_fini(&lent);
+    wr_relief_fini(&named);
     wr_field_free(like);
 }
 
@@ -576,6 +761,8 @@ int main(void)
         cmocka_unit_test(one_texel_is_cut_in_closed_form),
         cmocka_unit_test(sides_that_cross_are_taken_apart),
         cmocka_unit_test(dots_of_a_whole_scale_are_squares_of_texels_exactly),
+        cmocka_unit_test(a_bitmap_text_is_freetypes_own_bitmap_bit_for_bit),
+        cmocka_unit_test(coverage_is_that_of_freetypes_own_rasterizer),
         cmocka_unit_test(coverage_adds_up_to_the_outlines_area_at_any_angle),
         cmocka_unit_test(slopes_follow_the_exact_distance_from_the_outline),
         cmocka_unit_test(each_profile_has_its_formula_on_a_straight_stem),
@@ -590,6 +777,8 @@ int main(void)
         cmocka_unit_test(a_straight_path_is_a_turned_line),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
         cmocka_unit_test(hc78_missing_glyphs_are_told_and_drawn),
+        cmocka_unit_test(hc78_bytes_that_are_not_utf8_are_told_and_drawn),
+        cmocka_unit_test(hc78_lent_letters_are_told_and_come_again_by_name),
         cmocka_unit_test(hc78_endless_texts_meet_a_limit_or_are_cancelled),
         cmocka_unit_test(around_wants_a_periodic_table),
     };

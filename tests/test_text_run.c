@@ -62,6 +62,39 @@ static void a_font_file_is_kept_with_its_checksum(void **state)
     wr_session_free(s);
 }
 
+/* What a line leaves to the machine is in the line that is kept: the content of the named font, the fonts that
+ * lent letters. So it gives the same whatever is installed, or says that it cannot. */
+static void the_kept_line_names_the_fonts_that_wrote_it(void **state)
+{
+    (void)state;
+    static const char hindi[] = "text \"a \xe0\xa4\x95\xe0\xa4\xbf\" font=sans size=30";
+    WrError err = { "" };
+    WrSession *s = wr_session_new(NULL), *again = wr_session_new(NULL);
+    must_run(s, "table 64x64");
+    must_run(again, "table 64x64");
+    must_run(s, hindi);
+    char *kept = wr_strdup(wr_session_last_command(s));
+    assert_non_null(strstr(kept, " fallback=/"));
+    assert_non_null(strstr(kept, " fallback_sha256="));
+    assert_non_null(strstr(kept, " sha256="));
+    must_run(again, kept);
+    assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(again)));
+    assert_string_equal(kept, wr_session_last_command(again));
+    static const char *const sums[] = { " fallback_sha256=", " sha256=" };
+    for (int i = 0; i < 2; i++) { /* another content than then */
+        char *digit = strstr(kept, sums[i]) + strlen(sums[i]), was = *digit;
+        *digit = was == '0' ? '1' : '0';
+        assert_false(wr_session_run(again, kept, &err));
+        assert_non_null(strstr(err.text, "another content"));
+        *digit = was;
+    }
+    must_run(s, "text \xf4\x8f\xbf\xbd font=sans size=30"); /* in no font, now or ever */
+    assert_non_null(strstr(wr_session_last_command(s), " missing=sign"));
+    wr_free(kept);
+    wr_session_free(s);
+    wr_session_free(again);
+}
+
 static void mistakes_are_told_and_change_nothing(void **state)
 {
     (void)state;
@@ -69,6 +102,9 @@ static void mistakes_are_told_and_change_nothing(void **state)
                                               "no font" },
                                             { "text a file=/nonexistent", "/nonexistent" },
                                             { "text a size=0", "above 0" },
+                                            { "text a axes=wght=900", "not variable" },
+                                            { "text a fallback=/nonexistent", "/nonexistent" },
+                                            { "text a missing=perhaps", "borrow" },
                                             { "text a font=gothic", "terminus" },
                                             { "text a points=0.5,0.5", "two different places" },
                                             { "text a around=lattice lattice=0,0", "not both 0" } };
@@ -85,6 +121,7 @@ int main(void)
         cmocka_unit_test(hc78_an_empty_text_leaves_every_bit_as_it_was),
         cmocka_unit_test(hc78_new_lines_survive_being_kept),
         cmocka_unit_test(a_font_file_is_kept_with_its_checksum),
+        cmocka_unit_test(the_kept_line_names_the_fonts_that_wrote_it),
         cmocka_unit_test(mistakes_are_told_and_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

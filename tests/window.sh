@@ -8,24 +8,10 @@ folder=$(mktemp -d) || exit 1
 # shellcheck source=tests/window_help.sh
 source "$source/tests/window_help.sh"
 
-for tool in Xvfb xdotool import compare convert; do
-    command -v "$tool" >/dev/null && continue
-    printf '%s is missing: apt-get install xvfb xdotool imagemagick\n' "$tool"
-    exit 1
-done
-
-# ---- the server, on whatever display is free ----
-mkfifo "$folder/display"
-Xvfb -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
-server=$!
-read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
-export DISPLAY=:$number
-quiet_environment
-mkdir -p "$folder/config/wrinkle"
+serve
 # The patch and the outline of a selection stand still, so that the picture changes only when it has a
 # reason to.
 printf 'width 1200\nheight 800\nturning 0\nants 0\nradius 24\nstrength 0.4\nmode 1\n' >"$folder/config/wrinkle/window.conf"
-cd "$folder" || exit 1
 
 canvas=380x500+60+120
 patch=380x500+500+120

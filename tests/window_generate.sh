@@ -9,42 +9,11 @@ folder=$(mktemp -d) || exit 1
 # shellcheck source=tests/window_help.sh
 source "$source/tests/window_help.sh"
 
-for tool in Xvfb xdotool import compare convert jq; do
-    command -v "$tool" >/dev/null && continue
-    printf '%s is missing: apt-get install xvfb xdotool imagemagick jq\n' "$tool"
-    exit 1
-done
-
-# ---- the server, on whatever display is free ----
-mkfifo "$folder/display"
-Xvfb -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
-server=$!
-read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
-export DISPLAY=:$number
-quiet_environment
-export XDG_DATA_HOME=$folder/data
-mkdir -p "$folder/config/wrinkle"
-cd "$folder" || exit 1
+serve
 printf 'table 256x256\nbump height=0.1\n' >flat.wrinkle
 
 configure() {
     printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'tab 0' 'lower 0.42' >config/wrinkle/window.conf
-}
-newest() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1; }
-# shellcheck disable=SC2053 # a pattern
-newest_is() { [[ $(newest) == $1 ]]; }
-becomes() {
-    until_true 10 "$2" newest_is "$1" || complain "the newest command is: $(newest)"
-}
-key() {
-    xdotool key "$1"
-    sleep 0.15
-}
-click() {
-    xdotool mousemove $((X + $1)) $((Y + $2))
-    sleep 0.2
-    xdotool click 1
-    sleep 0.3
 }
 # search WORDS: run the action that is found first.
 search() {
@@ -53,7 +22,7 @@ search() {
     xdotool type --delay 30 "$1"
     sleep 0.3
     key Return
-    settle
+    sleep 0.5
 }
 # slide X Y DX: drag slowly, so that no two events come into one picture of the window.
 slide() {
@@ -66,7 +35,7 @@ slide() {
     done
     sleep 0.2
     xdotool mouseup 1
-    settle
+    sleep 0.5
 }
 save_as() { answer_file "$1" ctrl+shift+s; }
 quit() {
@@ -87,8 +56,9 @@ differs_much() {
     [[ ${changed%.*} -gt 5000 ]] || complain "$3: only $changed pixels differ"
 }
 
-# The second slider of the panel, the list of presets, and the glyph that saves one, at this size.
-slider_x=1100 slider_y=237 presets_x=1090 presets_y=159 save_x=1145
+# The second slider of the panel, the list of presets, the glyph that saves one, and that which shows pictures
+# of all generators, at this size.
+slider_x=1100 slider_y=237 presets_x=1090 presets_y=161 save_x=1145 gallery_x=1175 gallery_y=128
 
 # ---- found by its name, shown at once; a slider changes what is shown; Escape leaves no trace ----
 configure
@@ -135,14 +105,65 @@ read -r u v < <(newest | sed -E 's/.*origin=([0-9.]+),([0-9.]+).*/\1 \2/')
 awk -v u="$u" -v v="$v" 'BEGIN { d = u / (1 - v) - 1.5; exit !(u > 0.1 && d < 0.05 && d > -0.05) }' ||
     complain "dragged by 60, 40 pixels the origin is at $u,$v"
 
+quit
+
+# ---- handles: one thing is moved by itself, sized by its corner, turned by its ring ----
+# The cell's middle and a texel's size, pixels, by its outline as it is drawn.
+read -r wide high left top < <(convert before.ppm -crop 440x700+48+72 +repage -fill black +opaque '#e8a25c' \
+    -format '%@' info: | tr 'x+' '  ')
+cx=$((48 + left + wide / 2)) cy=$((72 + top + high / 2))
+corner=$(awk -v w="$wide" 'BEGIN { r = 32 * w / 256; if (r < 26) r = 26; print int(r * 0.7071 + 0.5) }')
+ring=$(awk -v w="$wide" 'BEGIN { r = 32 * w / 256; if (r < 26) r = 26; print int(r + 22.5) }')
+# pull X Y X2 Y2: from the cell's middle to there, by way of the middle between the two.
+pull() {
+    xdotool mousemove $((X + cx + $1)) $((Y + cy + $2))
+    sleep 0.2
+    xdotool mousedown 1
+    sleep 0.1
+    xdotool mousemove $((X + cx + ($1 + $3) / 2)) $((Y + cy + ($2 + $4) / 2))
+    sleep 0.1
+    xdotool mousemove $((X + cx + $3)) $((Y + cy + $4))
+    sleep 0.2
+    xdotool mouseup 1
+    sleep 0.3
+}
+start flat.wrinkle
+search "solids sphere"
+pull "$ring" 0 0 "-$ring"
+pull "$corner" "$corner" $((corner * 3 / 2)) $((corner * 3 / 2))
+pull 0 0 40 -60
+home
+shot ghost
+differs_much before ghost "a solid is seen while it is posed"
+[[ -z $(newest) ]] || complain "a pose became the command $(newest)"
+key Return
+becomes 'solid sphere radius=* at=*,* rotate=0,0,*' "a solid posed by hand"
+newest | sed -E 's/.*radius=([0-9.]+) at=([0-9.]+),([0-9.]+) rotate=0,0,([0-9.-]+).*/\1 \2 \3 \4/' |
+    awk -v w="$wide" -v h="$high" 'function off(a, b) { return a > b ? a - b : b - a }
+        { exit !(off($1, 48) < 2 && off($2, 0.5 + 40 / w) < 0.01 && off($3, 0.5 + 60 / h) < 0.01 && off($4, 90) < 3) }' ||
+    complain "made half as large again, turned by 90 degrees and moved by 40, -60 of $wide x $high pixels it is $(newest)"
+
+# ---- pictures of all of them, to choose by words ----
+search "patterns dots"
+click $gallery_x $gallery_y
+sleep 0.5
+xdotool type --delay 30 'basket'
+key Return
+sleep 0.5
+home
+key Return
+becomes 'pattern weave*' "what was chosen among the pictures"
+
 # ---- a preset of its own: saved, kept, taken again ----
 search "patterns dots"
 slide $slider_x $slider_y 6
 click $save_x $presets_y
+sleep 0.3
 xdotool type --delay 30 'many dots'
 key Return
 until_true 10 "the file of presets" file_is_there config/wrinkle/presets.wrinkle
-grep -q '^# many dots$' config/wrinkle/presets.wrinkle || complain "the preset has no name"
+grep -q '^# many dots$' config/wrinkle/presets.wrinkle ||
+    complain "the preset has another name: $(cat config/wrinkle/presets.wrinkle)"
 line=$(grep '^pattern dots ' config/wrinkle/presets.wrinkle)
 [[ $line == *rows=* ]] || complain "the preset's line is: $line"
 home
@@ -157,8 +178,19 @@ key Return
 becomes "$line" "the preset's own command"
 quit
 
-# ---- what cannot be made says why, and changes nothing ----
+# ---- what cannot be made says why, and changes nothing; what was shown before it goes ----
 start flat.wrinkle
+home
+shot before
+search "patterns knurl"
+search "pictures photo"
+home
+shot missing
+changed=$(differs before missing 400x500+60+150) # the brush's outline at the pointer
+[[ ${changed%.*} -lt 1000 ]] || complain "without its file what was shown before still is: $changed pixels"
+key Return
+sleep 0.5
+[[ -z $(newest) ]] || complain "without its file it became the command $(newest)"
 search "formulas polynomial"
 click $slider_x $((slider_y - 28))
 key ctrl+a
@@ -171,27 +203,25 @@ key Escape
 quit
 
 # ---- text is typed into what is shown ----
-if "$program" help text >help 2>/dev/null && grep -q '^  text' help; then
-    start flat.wrinkle
-    home
-    shot before
-    key t
-    sleep 0.5
-    key ctrl+a
-    xdotool type --delay 30 'Blinn "78"'
-    sleep 1
-    shot written
-    differs_much before written "letters are shown as they are typed"
-    xdotool mousemove $((X + 330)) $((Y + 400))
-    key ctrl+Return
-    becomes 'text "Blinn *' "the text as a command"
-    home
-    save_as written.exr
-    "$program" run - <<<"$(printf '%s\n' 'table 256x256' 'bump height=0.1' 'text "Blinn \"78\""' 'save said.exr')" >/dev/null ||
-        complain "no said.exr"
-    [[ $(hash_of written.exr) == "$(hash_of said.exr)" ]] || complain "what was typed is not what the command writes"
-    quit
-fi
+start flat.wrinkle
+home
+shot before
+key t
+sleep 0.5
+key ctrl+a
+xdotool type --delay 30 'Blinn "78"'
+sleep 1
+shot written
+differs_much before written "letters are shown as they are typed"
+xdotool mousemove $((X + 330)) $((Y + 400))
+key ctrl+Return
+becomes 'text "Blinn *' "the text as a command"
+home
+save_as written.exr
+"$program" run - <<<"$(printf '%s\n' 'table 256x256' 'bump height=0.1' 'text "Blinn \"78\""' 'save said.exr')" >/dev/null ||
+    complain "no said.exr"
+[[ $(hash_of written.exr) == "$(hash_of said.exr)" ]] || complain "what was typed is not what the command writes"
+quit
 
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }
 printf 'ok\n'

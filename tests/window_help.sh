@@ -40,6 +40,25 @@ quiet_environment() {
     export WRINKLE_RENDERER=software WRINKLE_TIMING=1
 }
 
+# serve: an X server on whatever display is free, and the test's own folder as the current one.
+serve() {
+    local tool number
+    for tool in Xvfb xdotool import compare convert jq; do
+        command -v "$tool" >/dev/null && continue
+        printf '%s is missing: apt-get install xvfb xdotool imagemagick jq\n' "$tool"
+        exit 1
+    done
+    mkfifo "$folder/display"
+    Xvfb -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
+    server=$!
+    read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
+    export DISPLAY=:$number
+    quiet_environment
+    export XDG_DATA_HOME=$folder/data
+    mkdir -p "$folder/config/wrinkle"
+    cd "$folder" || exit 1
+}
+
 has_window() {
     window=$(xdotool search --name ' - Wrinkle$' 2>/dev/null | head -n 1)
     [[ -n $window ]]
@@ -131,4 +150,24 @@ answer_file() {
 save_as() {
     answer_file "$1" "${2:-ctrl+shift+s}" || return
     until_true 10 "the title of $1" title_is "$1"
+}
+
+# ---- one key, one click, and the command that comes of them ----
+key() {
+    xdotool key "$1"
+    sleep 0.15
+}
+click() {
+    xdotool mousemove $((X + $1)) $((Y + $2))
+    sleep 0.2
+    xdotool click 1
+    sleep 0.3
+}
+# The newest command that the journal holds, a stroke by its beginning.
+newest() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1; }
+# shellcheck disable=SC2053 # a pattern
+newest_is() { [[ $(newest) == $1 ]]; }
+# becomes PATTERN WHAT: the newest command comes to look like that.
+becomes() {
+    until_true 10 "$2" newest_is "$1" || complain "the newest command is: $(newest)"
 }

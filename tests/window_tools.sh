@@ -8,22 +8,7 @@ folder=$(mktemp -d) || exit 1
 # shellcheck source=tests/window_help.sh
 source "$source/tests/window_help.sh"
 
-for tool in Xvfb xdotool import compare convert jq; do
-    command -v "$tool" >/dev/null && continue
-    printf '%s is missing: apt-get install xvfb xdotool imagemagick jq\n' "$tool"
-    exit 1
-done
-
-# ---- the server, on whatever display is free ----
-mkfifo "$folder/display"
-Xvfb -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
-server=$!
-read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
-export DISPLAY=:$number
-quiet_environment
-export XDG_DATA_HOME=$folder/data
-mkdir -p "$folder/config/wrinkle"
-cd "$folder" || exit 1
+serve
 printf 'table 512x512\nbump height=1\n' >flat.wrinkle
 
 # configure LINE...: what the window remembers from the last time.
@@ -32,25 +17,7 @@ configure() {
         'lower 0.42' "$@" >config/wrinkle/window.conf
 }
 
-# The newest command that the journal holds, a stroke by its beginning.
-newest() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1; }
-# shellcheck disable=SC2053 # a pattern
-newest_is() { [[ $(newest) == $1 ]]; }
-# becomes PATTERN WHAT: the newest command comes to look like that.
-becomes() {
-    until_true 10 "$2" newest_is "$1" || complain "the newest command is: $(newest)"
-}
-key() {
-    xdotool key "$1"
-    sleep 0.15
-}
 press() { xdotool mousemove $((X + $1)) $((Y + $2)) mousedown 1; }
-click() {
-    xdotool mousemove $((X + $1)) $((Y + $2))
-    sleep 0.2
-    xdotool click 1
-    sleep 0.2
-}
 # height FILE U V: of the saved table.
 height() { "$program" inspect "$1" --at "$2,$3" --json | jq -r .F; }
 # near A B: the same to 1e-4.
@@ -225,6 +192,44 @@ becomes 'stroke *mode=smooth*' "a stroke with Shift, for sculptors"
 xdotool key ctrl+q
 settle
 xdotool key d
+ends 0
+
+# ---- Shift and a click: a straight line from the last stroke, the long way where it is drawn so ----
+configure 'mode 0'
+start flat.wrinkle
+drag $((cx - 100)) $((cy - 50)) 0 2 5
+becomes 'stroke *mode=raise*' "a stroke to begin a line at"
+sleep 0.3
+xdotool keydown shift
+click $((cx + 100)) $((cy - 40))
+xdotool keyup shift
+sleep 0.5
+samples=$(sed -nE 's/^[0-9a-f]+ [0-9]+ ([bs]) /\1 /p' state/wrinkle/journals/*.wj |
+    awk '$1 == "b" { n++ } $1 == "s" && n == 2 { for (i = 2; i <= NF; i++) print $i }' | tr ';' '\n')
+read -r u0 v0 < <(head -n 1 <<<"$samples" | tr ',' ' ')
+read -r u1 v1 < <(tail -n 1 <<<"$samples" | tr ',' ' ')
+home
+save_as lined.exr
+awk -v a="${u0:-0}" -v b="${u1:-0}" 'BEGIN { exit !(b - a > 0.5 && b - a < 1) }' ||
+    complain "the line is not over half of the table: $samples"
+for k in 0.25 0.5 0.75; do
+    read -r u v < <(awk -v a="$u0" -v b="$u1" -v c="$v0" -v d="$v1" -v k="$k" \
+        'BEGIN { print a + k * (b - a), c + k * (d - c) }')
+    near "$(height lined.exr "$u" "$v")" 0.5 || complain "on the line the height is $(height lined.exr "$u" "$v")"
+done
+beyond=$(awk -v a="$u0" -v b="$u1" 'BEGIN { u = (a + b) / 2 + 0.5; print u - int(u) }')
+near "$(height lined.exr "$beyond" "$v0")" 0 || complain "the line also goes the short way, over the edge"
+
+# ---- the tablet tester says why there is nothing to test ----
+shot untested
+xdotool key ctrl+shift+t
+settle
+shot tested
+changed=$(differs untested tested 500x300+350+200)
+[[ ${changed%.*} -gt 20000 ]] || complain "the tablet tester changes only $changed pixels"
+xdotool key Escape
+settle
+xdotool key ctrl+q
 ends 0
 
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

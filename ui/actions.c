@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The one table of actions: menus, keys and buttons all go by it. */
 #include "ui/actions.h"
+#include "ui/accuracy.h"
 #include "ui/generate_hand.h"
 #include "ui/line.h"
 
@@ -46,90 +47,29 @@ static void choose_tool(WrApp *app, const char *name)
     wr_tool_choose(app, wr_tool_find(name));
 }
 
-static void tool_brush(WrApp *app)
-{
-    choose_tool(app, "brush");
-}
-
-static void tool_smooth(WrApp *app)
-{
-    choose_tool(app, "smooth");
-}
-
-static void tool_smear(WrApp *app)
-{
-    choose_tool(app, "smear");
-}
-
-static void tool_clone(WrApp *app)
-{
-    choose_tool(app, "clone");
-}
-
-static void tool_flood(WrApp *app)
-{
-    choose_tool(app, "flood");
-}
-
-static void tool_ramp(WrApp *app)
-{
-    choose_tool(app, "ramp");
-}
-
-static void tool_shape_rect(WrApp *app)
-{
-    choose_tool(app, "shape_rect");
-}
-
-static void tool_shape_ellipse(WrApp *app)
-{
-    choose_tool(app, "shape_ellipse");
-}
-
-static void tool_shape_polygon(WrApp *app)
-{
-    choose_tool(app, "shape_polygon");
-}
-
-static void tool_shape_path(WrApp *app)
-{
-    choose_tool(app, "shape_path");
-}
-
-static void tool_stamp(WrApp *app)
-{
-    choose_tool(app, "stamp");
-}
-
-static void tool_pick(WrApp *app)
-{
-    choose_tool(app, "pick");
-}
-
-static void tool_select_rect(WrApp *app)
-{
-    choose_tool(app, "select_rect");
-}
-
-static void tool_select_ellipse(WrApp *app)
-{
-    choose_tool(app, "select_ellipse");
-}
-
-static void tool_select_lasso(WrApp *app)
-{
-    choose_tool(app, "select_lasso");
-}
-
-static void tool_pan(WrApp *app)
-{
-    choose_tool(app, "pan");
-}
-
-static void tool_zoom(WrApp *app)
-{
-    choose_tool(app, "zoom");
-}
+#define TOOL(name)                                                                                 \
+    static void tool_##name(WrApp *app)                                                            \
+    {                                                                                              \
+        choose_tool(app, #name);                                                                   \
+    }
+TOOL(brush)
+TOOL(smooth)
+TOOL(smear)
+TOOL(clone)
+TOOL(flood)
+TOOL(ramp)
+TOOL(shape_rect)
+TOOL(shape_ellipse)
+TOOL(shape_polygon)
+TOOL(shape_path)
+TOOL(stamp)
+TOOL(pick)
+TOOL(select_rect)
+TOOL(select_ellipse)
+TOOL(select_lasso)
+TOOL(pan)
+TOOL(zoom)
+#undef TOOL
 
 /* ---- table ---- */
 
@@ -460,6 +400,23 @@ const WrAction wr_actions[] = {
     { "look_signed", "Blue below zero, orange above", look_signed, NULL, is_signed },
     { "range_auto", "Range follows the table", range_auto, NULL, is_auto },
     { "ants", "Selection's outline moves", ants, NULL, is_ants },
+    { "accuracy", "Accuracy", wr_act_accuracy, NULL, wr_is_accuracy },
+    { "accuracy_measure", "Measure what accuracy costs", wr_act_accuracy_measure, NULL, NULL },
+    { "inspector", "Inspector", wr_act_inspector, NULL, wr_is_inspector },
+    { "inspector_pin", "Pin the inspector", wr_act_inspector_pin, NULL, wr_is_inspector_pinned },
+    { "inspector_copy", "Copy what the inspector shows", wr_act_inspector_copy, NULL, NULL },
+    { "hard_cases", "Hard cases...", wr_dialog_cases_open, NULL, NULL },
+    { "look_plain", "Patch as it is", wr_act_look_plain, NULL, wr_is_look_plain },
+    { "look_split", "Compare A and B, split", wr_act_look_split, NULL, wr_is_look_split },
+    { "look_flicker", "Compare A and B, flickering", wr_act_look_flicker, NULL,
+      wr_is_look_flicker },
+    { "compare_hold", "Show B while held", wr_act_compare_hold, NULL, wr_is_compare_hold },
+    { "compare_take", "B takes A's dials", wr_act_compare_take, NULL, NULL },
+    { "compare_swap", "Swap A and B", wr_act_compare_swap, NULL, NULL },
+    { "look_error", "Map of the error", wr_act_look_error, NULL, wr_is_look_error },
+    { "look_dropped", "Map of the dropped term", wr_act_look_dropped, NULL, wr_is_look_dropped },
+    { "look_tilt", "Map of the tilt", wr_act_look_tilt, NULL, wr_is_look_tilt },
+    { "look_level", "Map of the mip level", wr_act_look_level, NULL, wr_is_look_level },
     { "turn", "Turning patch", turn, NULL, is_turning },
     { "camera_reset", "Reset the camera", camera_reset, NULL, NULL },
     { "pose_reset", "Reset the patch's pose", pose_reset, NULL, NULL },

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
    The window: SDL, the event loop, what is drawn when. */
+#include "ui/accuracy.h"
 #include "ui/generate_hand.h"
 
 #include "base/clock.h"
@@ -151,6 +152,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_app_read_keys(app);
     wr_shelf_start(app);
     wr_generate_new(app);
+    wr_accuracy_new(app);
     wr_app_start(app);
     wr_app_title(app);
     if (!app->latency) wr_dialog_recover_open(app);
@@ -163,6 +165,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
 void wr_app_end(WrApp *app)
 {
     wr_preview_free(app->preview);
+    wr_accuracy_free(app);
     wr_trial_free(app->trial);
     wr_marks_free(app);
     wr_recovery_free(app->recovery);
@@ -226,8 +229,10 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
 
 static void handle(WrApp *app, const SDL_Event *event)
 {
+    WrPenEvent pen;
     if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
-    if (event->type == app->job_event) {         /* what the result is needed for takes it */
+    while (wr_pen_next_before(app->pen, event, &pen)) wr_hand_pen(app, &pen);
+    if (event->type == app->job_event) { /* what the result is needed for takes it */
         wr_app_redraw(app);
         return;
     }
@@ -246,6 +251,8 @@ static void handle(WrApp *app, const SDL_Event *event)
         wr_canvas_forget(app->canvas);
         wr_panel_layers_forget(app);
         wr_thumbs_forget(app);
+        wr_gallery_forget(app);
+        wr_accuracy_forget(app);
         app->patch.serial = 0;
     } else if (event->type == app->file_event) {
         WrFilePurpose purpose;
@@ -281,6 +288,9 @@ static SDL_SystemCursor cursor_for(const WrApp *app)
         (hand->grab == WR_GRAB_NONE &&
          wr_layout_inside(&app->layout.divider, (int)hand->at.x, (int)hand->at.y)))
         return app->layout.stacked ? SDL_SYSTEM_CURSOR_SIZENS : SDL_SYSTEM_CURSOR_SIZEWE;
+    if (hand->grab == WR_GRAB_SPLIT || (hand->grab == WR_GRAB_NONE && hand->on_patch &&
+                                        wr_accuracy_on_line(app, hand->at.x, hand->at.y)))
+        return SDL_SYSTEM_CURSOR_SIZEWE;
     if (hand->grab == WR_GRAB_PANELS ||
         (hand->grab == WR_GRAB_NONE &&
          wr_layout_inside(&app->layout.panel_divider, (int)hand->at.x, (int)hand->at.y)))
@@ -376,10 +386,10 @@ static void tell_timing(const WrApp *app)
 /* ---- the loop ---- */
 
 /* Something is being computed in the background: its bar moves. */
-static bool works(const WrApp *app)
+static bool works(WrApp *app)
 {
     return wr_trial_busy(app->trial, NULL, NULL) ||
-           wr_outliner_busy(app->marks.outliner, NULL, NULL);
+           wr_outliner_busy(app->marks.outliner, NULL, NULL) || wr_accuracy_works(app);
 }
 
 static double frame_seconds(const WrApp *app)
@@ -388,7 +398,7 @@ static double frame_seconds(const WrApp *app)
 }
 
 /* Milliseconds until something is due without an event; -1: never. */
-static int wait_time(const WrApp *app, double now)
+static int wait_time(WrApp *app, double now)
 {
     double next = 1e300;
     if (wr_strokes_waits(app)) return 0;
@@ -396,6 +406,8 @@ static int wait_time(const WrApp *app, double now)
     if (app->redraw > 0 && app->visible) next = app->drawn_at + frame_seconds(app);
     double patch = wr_patch_next_time(app);
     if (patch > 0.0 && patch < next) next = patch;
+    double measured = wr_accuracy_next_time(app);
+    if (measured > 0.0 && measured < next) next = measured;
     double march = wr_marks_next_time(app);
     if (march > 0.0 && march < next) next = march;
     if (works(app) && app->drawn_at + BAR_SECONDS < next) next = app->drawn_at + BAR_SECONDS;
@@ -453,6 +465,7 @@ void wr_app_step(WrApp *app)
     wr_stamp_update(app);
     wr_generate_update(app);
     wr_patch_update(app);
+    wr_accuracy_update(app);
     now = wr_clock_seconds();
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
         app->redraw--;

@@ -34,6 +34,8 @@ void wr_app_start(WrApp *app); /* the starter, or what was asked for */
 void wr_app_new(WrApp *app);
 void wr_app_open(WrApp *app);
 void wr_app_open_path(WrApp *app, const char *path); /* asks first if work is unsaved */
+/* The same for a new document that command lines make. */
+void wr_app_open_lines(WrApp *app, const char *lines);
 bool wr_app_save(WrApp *app); /* false: not saved yet (a dialog is open, or it failed) */
 void wr_app_save_as(WrApp *app);
 void wr_app_save_history(WrApp *app); /* asks for the file */

@@ -198,6 +198,25 @@ void wr_app_start(WrApp *app)
 
 /* ---- asking first ---- */
 
+/* Of a line that fails the rest still runs, so that there is something to be seen. */
+static void run_lines(WrApp *app, const char *lines)
+{
+    WrError err;
+    wr_hand_let_go(app);
+    wr_session_reset(app->session);
+    app->starter = false;
+    for (const char *at = lines; *at;) {
+        size_t length = strcspn(at, "\n");
+        char *line = wr_strndup(at, length);
+        if (!wr_session_run(app->session, line, &err)) wr_app_fail(app, &err);
+        wr_free(line);
+        at += length + (at[length] != '\0');
+    }
+    wr_app_changed_document(app);
+    app->clean_revision = wr_session_revision(app->session); /* it can be opened again */
+    wr_app_title(app);
+}
+
 void wr_app_go_on(WrApp *app)
 {
     WrAfter after = app->after;
@@ -216,6 +235,7 @@ void wr_app_go_on(WrApp *app)
         if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
         break;
     case WR_AFTER_PATH: open_now(app, path); break;
+    case WR_AFTER_LINES: run_lines(app, path); break;
     case WR_AFTER_QUIT: app->quit = true; break;
     }
     wr_free(path);
@@ -244,6 +264,11 @@ void wr_app_open(WrApp *app)
 void wr_app_open_path(WrApp *app, const char *path)
 {
     ask_first(app, WR_AFTER_PATH, path);
+}
+
+void wr_app_open_lines(WrApp *app, const char *lines)
+{
+    ask_first(app, WR_AFTER_LINES, lines);
 }
 
 void wr_app_quit(WrApp *app)

@@ -20,7 +20,8 @@ void wr_generate_new(WrApp *app)
 {
     app->generate = wr_alloc(1, sizeof *app->generate);
     app->generate->preset = -2;
-    app->generate->point = -1;
+    app->generate->point = app->generate->blamed = -1;
+    app->generate->blame = "";
 }
 
 static void free_values(WrGenerateHand *hand)
@@ -33,6 +34,7 @@ void wr_generate_free(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     if (!hand) return;
+    wr_gallery_free(app);
     free_values(hand);
     for (int i = 0; i < hand->kept.count; i++) wr_free(hand->kept.data[i]);
     for (int i = 0; i < hand->presets.count; i++) {
@@ -233,6 +235,11 @@ static bool is_default(const WrParam *p, const WrGenerateValue *value)
     return true;
 }
 
+bool wr_generate_is_default(const WrGenerateHand *hand, int param)
+{
+    return is_default(&hand->generator->params[param], &hand->value[param]);
+}
+
 void wr_generate_line(const WrGenerateHand *hand, WrText *line)
 {
     const WrGenerator *g = hand->generator;
@@ -251,6 +258,50 @@ void wr_generate_line(const WrGenerateHand *hand, WrText *line)
     if (wr_blends[hand->blend].uses_radius && hand->radius != 0.1)
         wr_line_number(line, wr_generator_argument(g, "radius"), hand->radius);
     if (hand->offset != 0.0) wr_line_number(line, wr_generator_argument(g, "offset"), hand->offset);
+}
+
+void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line)
+{
+    WrGenerateHand hand = { .generator = generator,
+                            .blend = wr_blend_find(generator->blend),
+                            .radius = 0.1 };
+    int text = wr_generate_written(generator);
+    for (int i = 0; generator->params[i].name; i++) set_default(&hand, i);
+    if (text >= 0 && !generator->params[text].fallback_text) set_text(&hand.value[text], written);
+    wr_generate_line(&hand, line);
+    free_values(&hand);
+}
+
+/* ---- what is wrong ---- */
+
+/* What follows the value in "NAME=VALUE: what is right", or in "NAME: what is right". */
+static const char *rest_of(const char *said, size_t name)
+{
+    const char *colon = strstr(said + name, ": ");
+    return said[name] == '=' && colon ? colon + 2 : said[name] == ':' ? said + name + 2 : said;
+}
+
+/* Messages are "GENERATOR: NAME=VALUE: what is right", "GENERATOR: NAME is missing ..." or "GENERATOR: FILE:
+   what is wrong with it". */
+void wr_generate_blame(WrGenerateHand *hand)
+{
+    const char *said = hand->err.text, *colon = strstr(said, ": ");
+    size_t family = hand->generator ? strlen(hand->generator->family) : 0;
+    hand->blamed = -1;
+    hand->blame = said;
+    if (!colon || strncmp(said, hand->generator->family, family) != 0) return;
+    hand->blame = said = colon + 2;
+    for (int i = 0; hand->generator->params[i].name; i++) {
+        const WrParam *p = &hand->generator->params[i];
+        const char *file = p->kind == WR_PARAM_FILE ? hand->value[i].text : "";
+        size_t name = strlen(p->name), length = strlen(file);
+        bool named = strncmp(said, p->name, name) == 0 && strchr("=: ", said[name]);
+        bool held = length > 0 && strncmp(said, file, length) == 0 && said[length] == ':';
+        if (!named && !held) continue;
+        hand->blamed = i;
+        hand->blame = named ? rest_of(said, name) : said + length + 2;
+        return;
+    }
 }
 
 /* ---- taking it in hand ---- */
@@ -300,9 +351,8 @@ void wr_generate_take(WrApp *app, const WrGenerator *generator)
 
 void wr_generate_focus_text(WrApp *app)
 {
-    app->generate->focus_text =
-        8; /* a panel that was not there takes some pictures to come to life */
-    app->redraw = 8;
+    app->generate->focus_text = WR_GENERATE_WAKE; /* the panel may not have been there */
+    app->redraw = WR_GENERATE_WAKE;
 }
 
 void wr_generate_open(WrApp *app, const WrGenerator *generator)
@@ -362,6 +412,7 @@ static void ask(WrApp *app, const char *line)
     char *copy = wr_strdup(line);
     wr_free(hand->asked);
     hand->asked = copy;
+    hand->asked_of = hand->generator;
     hand->asked_at = wr_session_revision(app->session);
     wr_app_try(app, &(WrTrialAsk){ .line = line, .rough = slow });
 }
@@ -381,8 +432,11 @@ static void look(WrApp *app)
     WrError err;
     if (wr_trial_error(app->trial, &err)) {
         hand->err = err;
+        /* What another one made is not what would come of this one. */
+        if (hand->seconds == 0.0) wr_trial_end(app->trial);
         wr_app_redraw(app);
-    } else if (!wr_trial_busy(app->trial, NULL, NULL) && wr_trial_field(app->trial)) {
+    } else if (hand->asked_of == hand->generator && !wr_trial_busy(app->trial, NULL, NULL) &&
+               wr_trial_field(app->trial)) {
         hand->seconds = wr_trial_seconds(app->trial);
     }
 }

@@ -4,8 +4,9 @@
 #pragma once
 #include "base/array.h"
 #include "generate/generator.h"
-#include "ui/state.h"
+#include "ui/generate_gallery.h"
 
+#define WR_GENERATE_WAKE 8      /* pictures that a new field takes to get the keyboard, at most */
 #define WR_GENERATE_TEXT 4096   /* bytes of a text, a file's name, a list of points */
 #define WR_GENERATE_PRESETS 500 /* of the user's own, at most */
 #define WR_GENERATE_NAME 64     /* bytes of a preset's name */
@@ -37,11 +38,15 @@ typedef struct WrGenerateHand {
     double radius, offset;
     WR_ARRAY(char *) kept; /* lines of generators that were in hand before, owned */
 
-    bool active;       /* the views show what it would make */
-    char *asked;       /* line that the trial was asked for, owned; NULL: none */
-    uint64_t asked_at; /* the document's revision then */
-    double seconds;    /* that its last exact result took; 0: not known */
-    WrError err;       /* why there is nothing to be seen; "": there is */
+    bool active;                 /* the views show what it would make */
+    char *asked;                 /* line that the trial was asked for, owned; NULL: none */
+    uint64_t asked_at;           /* the document's revision then */
+    double seconds;              /* that its last exact result took; 0: not known */
+    const WrGenerator *asked_of; /* whose line that was */
+    WrError err;                 /* why there is nothing to be seen; "": there is */
+    int blamed; /* the parameter that err is about, by wr_generate_blame; -1: none of them alone */
+    const char *blame; /* what err says of it, in err */
+    bool blame_seen;   /* the panel said so beside it, in the last picture */
     int focus_text;    /* the text gets the keyboard: for how many pictures that is still tried */
     int asking_file;   /* parameter that a file is being chosen for */
 
@@ -49,6 +54,8 @@ typedef struct WrGenerateHand {
     bool presets_known;
     char name[WR_GENERATE_NAME]; /* of a preset to be saved */
     int preset;                  /* chosen, index; -1: the defaults, -2: none of them */
+
+    WrGallery *gallery; /* owned; NULL until it is opened */
 
     WrPosePart held; /* by the pointer */
     double first[3], first_number[3];
@@ -81,6 +88,11 @@ void wr_generate_line(const WrGenerateHand *hand, WrText *line);
 int wr_generate_find(const WrGenerateHand *hand, const char *const *names, WrParamKind kind);
 /* The index of what is written: its first text. -1: it writes nothing. */
 int wr_generate_written(const WrGenerator *generator);
+/* The line of its defaults; what it writes, if anything, is `written`. */
+void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line);
+bool wr_generate_is_default(const WrGenerateHand *hand, int param);
+/* Which parameter err is about, and what it says: sets blamed and blame. */
+void wr_generate_blame(WrGenerateHand *hand);
 /* A value was changed. */
 void wr_generate_changed(WrApp *app);
 void wr_generate_focus_text(WrApp *app);             /* what is written gets the keyboard */
@@ -99,6 +111,7 @@ bool wr_generate_preset_delete(WrApp *app, int index);
 
 /* ---- panel_generate.c ---- */
 void wr_panel_generate(WrApp *app, SDL_Rect room);
+void wr_panel_generate_values(WrApp *app); /* panel_generate_values.c */
 
 /* ---- tool_pose.c ---- */
 void wr_pose_press(WrApp *app, const WrPointer *at);
@@ -112,4 +125,5 @@ bool wr_pose_key(WrApp *app, SDL_Keycode key);
 bool wr_pose_points_press(WrApp *app,
                           const WrPointer *at); /* it took the press: there are some now */
 void wr_pose_points_drag(WrApp *app, const WrPointer *at);
-bool wr_pose_points_marks(const WrApp *app); /* there are some */
+bool wr_pose_points_marks(const WrApp *app);           /* there are some */
+bool wr_pose_points_taken(const WrGenerateHand *hand); /* there may be some */

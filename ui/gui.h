@@ -92,6 +92,8 @@ int wr_gui_px(double units); /* units as whole pixels */
 #define WR_ICON_BACK "\xef\x91\xa5"     /* f465 rotate-left */
 #define WR_ICON_DOTS "\xef\x87\x98"     /* f1d8 dots-horizontal */
 #define WR_ICON_WAND "\xef\x81\xa8"     /* f068 auto-fix */
+#define WR_ICON_DICE "\xef\x87\x8e"     /* f1ce dice-5 */
+#define WR_ICON_GRID "\xef\x95\xb3"     /* f573 view-module */
 
 /* ---- areas: fixed rectangles that hold widgets ---- */
 typedef enum WrAreaKind {
@@ -161,8 +163,10 @@ bool wr_gui_choice(const char *id, double width, const char *const *items, int c
 /* Buttons in a row, one of them chosen; colours[i] (may be NULL) shows while i is the chosen one. */
 bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours, int count,
                      int *index);
-/* Tabs across the area; in a smaller face where they would touch. */
+/* Tabs across the area, each row 32 units high; in a smaller face where they would touch, then in two rows. */
 bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index);
+/* How many rows that takes, 1 or 2. */
+int wr_gui_tab_rows(const char *const *items, int count, double width);
 WrEdit wr_gui_colour(const char *id, double width, double linear_rgb[3]);
 bool wr_gui_check(const char *label, bool *value);
 bool wr_gui_button(const char *label, bool primary);
@@ -259,6 +263,8 @@ typedef struct WrPad {
 /* w x h pixels; w <= 0: what is left of the row. Until pad_end the drawing below goes to it, clipped. */
 WrPad wr_gui_pad_begin(const char *id, double w, double h);
 void wr_gui_pad_end(void);
+/* A disc of that radius, pixels, in the middle of a line so many pixels high. */
+void wr_gui_swatch(WrColour colour, double radius, double tall);
 /* Widgets that stand together beside what was before: after wr_gui_same_line. */
 void wr_gui_group_begin(void);
 void wr_gui_group_end(void);

@@ -29,6 +29,16 @@ extern "C" void wr_gui_pad_end(void)
     gui->pad = NULL;
 }
 
+extern "C" void wr_gui_swatch(WrColour colour, double radius, double tall)
+try {
+    const float r = (float)radius, frame = ImGui::GetFrameHeight();
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::Dummy(ImVec2(2 * r, tall > (double)frame ? (float)tall : frame));
+    ImGui::GetWindowDrawList()->AddCircleFilled(ImVec2(at.x + r, at.y + frame / 2), r,
+                                                wr_gui_colour_of(colour));
+}
+WR_CAUGHT()
+
 extern "C" void wr_gui_group_begin(void)
 {
     ImGui::BeginGroup();

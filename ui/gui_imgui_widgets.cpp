@@ -284,6 +284,35 @@ static float tabs_wide(const char *const *items, int count)
     return wide;
 }
 
+/* Where even the small face leaves them hardly apart they stand in two rows. */
+extern "C" int wr_gui_tab_rows(const char *const *items, int count, double width)
+try {
+    ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    bool tight = tabs_wide(items, count) + px(8) * (float)count > (float)width;
+    ImGui::PopFont();
+    return tight && count > 2 ? 2 : 1;
+}
+WR_CAUGHT(1)
+
+static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
+{
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImGui::SetCursorPos(place);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    bool pressed = ImGui::InvisibleButton(label, size);
+    if (on) {
+        ImVec2 end(at.x + size.x, at.y + size.y);
+        list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_PANEL));
+        list->AddRectFilled(at, ImVec2(end.x, at.y + px(2)), wr_gui_colour_of(WR_COLOUR_ACCENT));
+    }
+    ImVec2 text = ImGui::CalcTextSize(label);
+    bool bright = on || ImGui::IsItemHovered();
+    list->AddText(
+        ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
+        wr_gui_colour_of(bright ? WR_COLOUR_STRONG : WR_COLOUR_LABEL), label);
+    return pressed;
+}
+
 extern "C" bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index)
 try {
     bool changed = false;
@@ -291,35 +320,27 @@ try {
     ImDrawList *list = ImGui::GetWindowDrawList();
     ImVec2 origin = ImGui::GetWindowPos();
     float width = ImGui::GetWindowWidth(), h = px(32);
-    list->PushClipRect(origin, ImVec2(origin.x + width, origin.y + h)); /* over the padding */
-    bool small = tabs_wide(items, count) + px(6) * (float)count > width;
+    int rows = wr_gui_tab_rows(items, count, (double)width), each = (count + rows - 1) / rows;
+    list->PushClipRect(origin,
+                       ImVec2(origin.x + width, origin.y + h * (float)rows)); /* over the padding */
+    bool small = rows > 1 || tabs_wide(items, count) + px(6) * (float)count > width;
     if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
-    float gap = (width - tabs_wide(items, count)) / (float)count, end = 0;
-    for (int i = 0; i < count; i++) {
-        float x0 = roundf(end);
-        end += ImGui::CalcTextSize(items[i]).x + gap;
-        float w = roundf(end) - x0;
-        ImGui::SetCursorPos(ImVec2(x0, 0));
-        ImVec2 at = ImGui::GetCursorScreenPos();
-        if (ImGui::InvisibleButton(items[i], ImVec2(w, h))) {
-            changed = i != *index;
-            *index = i;
+    for (int row = 0; row < rows; row++) {
+        const char *const *first = items + row * each;
+        int n = count - row * each < each ? count - row * each : each;
+        float gap = (width - tabs_wide(first, n)) / (float)n, end = 0;
+        for (int i = 0; i < n; i++) {
+            float x0 = roundf(end);
+            end += ImGui::CalcTextSize(first[i]).x + gap;
+            ImVec2 place(x0, h * (float)row), size(roundf(end) - x0, h);
+            if (!tab(first[i], place, size, row * each + i == *index)) continue;
+            changed = row * each + i != *index;
+            *index = row * each + i;
         }
-        bool on = i == *index;
-        if (on) {
-            list->AddRectFilled(at, ImVec2(at.x + w, at.y + h), wr_gui_colour_of(WR_COLOUR_PANEL));
-            list->AddRectFilled(at, ImVec2(at.x + w, at.y + px(2)),
-                                wr_gui_colour_of(WR_COLOUR_ACCENT));
-        }
-        ImVec2 text = ImGui::CalcTextSize(items[i]);
-        list->AddText(
-            ImVec2(at.x + roundf((w - text.x) / 2), at.y + roundf((h - text.y) / 2)),
-            wr_gui_colour_of(on || ImGui::IsItemHovered() ? WR_COLOUR_STRONG : WR_COLOUR_LABEL),
-            items[i]);
     }
     if (small) ImGui::PopFont();
     list->PopClipRect();
-    ImGui::SetCursorPosY(h + px(12));
+    ImGui::SetCursorPosY(h * (float)rows + px(12));
     ImGui::PopID();
     return changed;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
    Pointer and keys: who gets an event, and what the pointer holds meanwhile. */
-#include "ui/state.h"
+#include "ui/accuracy.h"
 
 #include "base/clock.h"
 
@@ -76,7 +76,9 @@ static void press_canvas(WrApp *app, const WrPointer *at)
 
 static void press_patch(WrApp *app, const WrPointer *at)
 {
-    if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app)) {
+    if (at->button == SDL_BUTTON_LEFT && wr_accuracy_on_line(app, at->x, at->y)) {
+        app->hand.grab = WR_GRAB_SPLIT;
+    } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app)) {
         app->hand.grab = WR_GRAB_PATCH_PAINT;
         wr_patch_paint_press(app, at);
     } else {
@@ -189,6 +191,7 @@ static void drag(WrApp *app, const WrPointer *at)
     case WR_GRAB_DIVIDER:
         app->settings.divider = wr_layout_divider_at(&app->layout, (int)at->x, (int)at->y);
         break;
+    case WR_GRAB_SPLIT: wr_accuracy_drag_line(app, at->x); break;
     case WR_GRAB_PANELS: app->settings.lower = wr_layout_lower_at(&app->layout, (int)at->y); break;
     case WR_GRAB_ORBIT:
     case WR_GRAB_LIGHT: wr_patch_drag(app, at); break;
@@ -335,6 +338,12 @@ static bool hold(WrApp *app, const char *action, const SDL_KeyboardEvent *event)
         hand->line_key = event->keysym.sym;
         return true;
     }
+    if (strcmp(action, "compare_hold") == 0) {
+        app->accuracy->hold_key = event->keysym.sym;
+        app->accuracy->hold_b = true;
+        wr_app_redraw(app);
+        return true;
+    }
     if (strcmp(action, "paint_patch") == 0) {
         if (event->repeat) return true;
         hand->quick_key = event->keysym.sym;
@@ -355,6 +364,7 @@ static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
     SDL_Keycode key = event->keysym.sym;
     if (key == SDLK_SPACE) space(app, false);
     if (hand->line && key == hand->line_key) hand->line = false;
+    if (key == app->accuracy->hold_key) app->accuracy->hold_b = false;
     if (hand->quick_at > 0.0 && key == hand->quick_key) {
         bool was_held = wr_clock_seconds() - hand->quick_at > TAP_SECONDS ||
                         app->brush.strokes != hand->quick_events;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
    Dialogs: only where a decision is needed. */
+#include "ui/accuracy.h"
 #include "ui/line.h"
-#include "ui/state.h"
 
 #include "base/memory.h"
 #include "export/export.h"
@@ -210,6 +210,7 @@ void wr_panel_dialogs(WrApp *app)
     case WR_DIALOG_SEARCH: wr_dialog_search(app); break;
     case WR_DIALOG_RECOVER: wr_dialog_recover(app); break;
     case WR_DIALOG_TABLET: wr_dialog_tablet(app); break;
+    case WR_DIALOG_CASES: wr_dialog_cases(app); break;
     case WR_DIALOG_PRESET: wr_dialog_preset(app); break;
     case WR_DIALOG_HELP:
     case WR_DIALOG_ABOUT: wr_dialog_help(app); break;

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT
-   The Generate tab, made from the generators' table: which one, its values, how it joins what is there. */
+   The Generate tab, made from the generators' table: which one, its presets, what it has to say. */
 #include "ui/generate_hand.h"
 
 #include "base/memory.h"
 #include "command/generate.h"
-#include "ui/line.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -46,9 +44,13 @@ static void choose_generator(WrApp *app, const WrFamily *family)
         labels[count++] = g->label;
     }
     if (index < 0) index = 0;
-    if (wr_gui_choice("generator", 0, labels, count, &index))
+    if (wr_gui_choice("generator", wr_gui_available() - wr_gui_px(30), labels, count, &index))
         wr_generate_open(app, &family->rows[index]);
     wr_gui_tip(family->rows[index].help);
+    wr_gui_same_line(4);
+    if (wr_gui_glyph("all", WR_ICON_GRID, 24, WR_COLOUR_LABEL)) wr_gallery_open(app);
+    wr_gui_tip("Pictures of all that can be made");
+    wr_gallery_list(app);
 }
 
 /* ---- presets ---- */
@@ -111,6 +113,7 @@ static void presets(WrApp *app)
     if (wr_gui_glyph("save", WR_ICON_SAVE, 24, WR_COLOUR_LABEL)) {
         snprintf(hand->name, sizeof hand->name, "\n");
         wr_gui_popup_open("preset_name");
+        app->redraw = WR_GENERATE_WAKE;
     }
     wr_gui_tip("Save these values as a preset");
     wr_gui_same_line(4);
@@ -123,178 +126,16 @@ static void presets(WrApp *app)
     save_popup(app);
 }
 
-/* ---- parameters ---- */
+/* ---- what is said ---- */
 
-static const char *unit_of(const WrParam *p)
-{
-    if (strcmp(p->unit, "degrees") == 0) return "\xc2\xb0";
-    return p->unit[0] && strlen(p->unit) < 8 ? p->unit : NULL;
-}
-
-static WrNumber spec_of(const WrParam *p, int component)
-{
-    bool whole = p->kind == WR_PARAM_WHOLE, degrees = strcmp(p->unit, "degrees") == 0;
-    bool fine = strcmp(p->unit, "texels") != 0 && p->soft_high <= 20.0;
-    WrNumber spec = { .low = p->soft_low,
-                      .high = p->soft_high,
-                      .hard_low = p->low,
-                      .hard_high = p->high,
-                      .reset = p->fallback[component],
-                      .decimals = whole     ? 0
-                                  : degrees ? 1
-                                  : fine    ? 3
-                                            : 2,
-                      .unit = unit_of(p),
-                      .tip = p->help };
-    if (spec.low < -100.0 * fabs(spec.high)) spec.low = -spec.high; /* as wide to either side */
-    if (!(spec.low < spec.high)) spec.high = spec.low + 1.0;
-    if (p->above && spec.low <= p->low) spec.low = p->low + (spec.high - p->low) / 1000.0;
-    return spec;
-}
-
-static bool numbers(const WrParam *p, WrGenerateValue *value)
-{
-    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
-    double wide = (wr_gui_available() - (count - 1) * wr_gui_px(4)) / count;
-    bool changed = false;
-    for (int k = 0; k < count; k++) {
-        char id[16];
-        WrNumber spec = spec_of(p, k);
-        if (count > 1) spec.unit = NULL;
-        snprintf(id, sizeof id, "n%d", k);
-        if (k > 0) wr_gui_same_line(4);
-        if (wr_gui_number(id, k == count - 1 ? 0 : floor(wide), &spec, &value->number[k]) !=
-            WR_EDIT_NONE) {
-            value->number[k] = wr_line_round(value->number[k], 7);
-            changed = true;
-        }
-    }
-    return changed;
-}
-
-static bool choice(const WrParam *p, WrGenerateValue *value)
-{
-    int count = 0, index = (int)value->number[0];
-    while (p->words[count]) count++;
-    bool changed = wr_gui_choice("choice", 0, p->words, count, &index);
-    value->number[0] = index;
-    return changed;
-}
-
-static bool turn_switch(WrGenerateValue *value)
-{
-    bool on = value->number[0] != 0.0;
-    bool changed = wr_gui_check("##switch", &on);
-    value->number[0] = on ? 1.0 : 0.0;
-    return changed;
-}
-
-static bool file(WrApp *app, int i, const WrParam *p, WrGenerateValue *value)
-{
-    bool changed =
-        wr_gui_hint_field("##file", p->fallback_text ? "none" : "a file",
-                          wr_gui_available() - wr_gui_px(30), value->text, WR_GENERATE_TEXT);
-    wr_gui_tip(value->text[0] ? value->text : p->help);
-    wr_gui_same_line(4);
-    if (wr_gui_glyph("choose", WR_ICON_FOLDER, 24, WR_COLOUR_LABEL)) {
-        app->generate->asking_file = i;
-        if (!wr_files_ask(app->files, WR_FILE_GENERATE, NULL, ""))
-            wr_dialog_open(app, WR_DIALOG_FILE);
-    }
-    wr_gui_tip("Choose a file");
-    return changed;
-}
-
-static bool text(WrApp *app, WrGenerateValue *value)
-{
-    int *tries = &app->generate->focus_text;
-    if (wr_gui_wants_text(app->gui)) *tries = 0;
-    bool focus = *tries > 0;
-    if (focus) (*tries)--;
-    char typed[WR_GENERATE_TEXT];
-    memcpy(typed, value->text, sizeof typed);
-    bool changed = wr_gui_text_area("##text", 3, value->text, WR_GENERATE_TEXT, focus);
-    bool done = wr_gui_field_left() && wr_gui_key_pressed(SDL_SCANCODE_RETURN); /* with Ctrl */
-    if (wr_gui_field_left() && wr_gui_escape_pressed()) { /* only leaves it: what was typed stays */
-        memcpy(value->text, typed, sizeof typed);
-        changed = false;
-    }
-    if (done && !app->generate->err.text[0]) wr_generate_commit(app);
-    return changed && !done;
-}
-
-static bool parameter(WrApp *app, int i)
-{
-    WrGenerateHand *hand = app->generate;
-    const WrParam *p = &hand->generator->params[i];
-    WrGenerateValue *value = &hand->value[i];
-    bool changed = false;
-    wr_gui_push_id(i);
-    wr_gui_label(p->label);
-    switch (p->kind) {
-    case WR_PARAM_NUMBER:
-    case WR_PARAM_WHOLE:
-    case WR_PARAM_TUPLE: changed = numbers(p, value); break;
-    case WR_PARAM_CHOICE: changed = choice(p, value); break;
-    case WR_PARAM_SWITCH: changed = turn_switch(value); break;
-    case WR_PARAM_TEXT:
-        changed = i == wr_generate_written(hand->generator)
-                      ? text(app, value)
-                      : wr_gui_hint_field("##text", "none", 0, value->text, WR_GENERATE_TEXT);
-        break;
-    case WR_PARAM_FILE: changed = file(app, i, p, value); break;
-    case WR_PARAM_POINTS:
-    case WR_PARAM_TERMS:
-        changed = wr_gui_hint_field("##list", p->shape ? p->shape : "u,v;u,v;...", 0, value->text,
-                                    WR_GENERATE_TEXT);
-        break;
-    }
-    if (p->kind != WR_PARAM_NUMBER && p->kind != WR_PARAM_WHOLE && p->kind != WR_PARAM_FILE)
-        wr_gui_tip(p->help);
-    wr_gui_pop_id();
-    return changed;
-}
-
-static bool joining(WrGenerateHand *hand)
-{
-    const char *labels[WR_BLEND_COUNT];
-    bool changed = false;
-    WrNumber radius = { .low = 0,
-                        .high = 1,
-                        .hard_high = 1e30,
-                        .reset = 0.1,
-                        .decimals = 3,
-                        .tip = "How far from each other heights flow together" };
-    WrNumber offset = { .low = -1,
-                        .high = 1,
-                        .hard_low = -1e30,
-                        .hard_high = 1e30,
-                        .decimals = 3,
-                        .tip = "Added to its heights first" };
-    for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
-    wr_gui_space(4);
-    wr_gui_heading("HOW IT JOINS THE LAYER");
-    wr_gui_label("Blend");
-    changed |= wr_gui_choice("blend", 0, labels, WR_BLEND_COUNT, &hand->blend);
-    wr_gui_tip(wr_blends[hand->blend].help);
-    if (wr_blends[hand->blend].uses_radius) {
-        wr_gui_label("Radius");
-        changed |= wr_gui_number("join_radius", 0, &radius, &hand->radius) != WR_EDIT_NONE;
-    }
-    wr_gui_label("Offset");
-    changed |= wr_gui_number("join_offset", 0, &offset, &hand->offset) != WR_EDIT_NONE;
-    return changed;
-}
-
-/* What it has to say; "" if nothing. */
+/* What it has to say that is not said beside a value; "" if nothing. */
 static const char *notes(const WrApp *app)
 {
     const WrGenerateHand *hand = app->generate;
-    if (hand->err.text[0]) return hand->err.text;
+    if (hand->err.text[0]) return hand->blamed >= 0 && hand->blame_seen ? "" : hand->blame;
     return hand->active && app->trying ? wr_trial_notes(app->trial) : "";
 }
 
-/* One line each, the whole where the pointer rests. */
 static void tell(const WrApp *app, const char *text)
 {
     bool bad = app->generate->err.text[0] != '\0';
@@ -302,33 +143,17 @@ static void tell(const WrApp *app, const char *text)
         char line[260];
         size_t length = strcspn(at, "\n");
         snprintf(line, sizeof line, "%.*s", (int)length, at);
-        wr_gui_text_cut(WR_FONT_SMALL, bad ? WR_COLOUR_BAD : WR_COLOUR_CELL, line,
-                        wr_gui_available());
-        wr_gui_tip(line);
+        wr_gui_text_wrapped(WR_FONT_SMALL, bad ? WR_COLOUR_BAD : WR_COLOUR_CELL, line);
         wr_gui_space(-4);
         at += length + (at[length] != '\0');
     }
-}
-
-static void body(WrApp *app)
-{
-    WrGenerateHand *hand = app->generate;
-    bool changed = false;
-    const WrDocument *document = wr_app_document(app);
-    for (int i = 0; hand->generator->params[i].name; i++) changed |= parameter(app, i);
-    changed |= joining(hand);
-    if (document->selection)
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, "Only what is selected changes.");
-    if (!changed) return;
-    hand->preset = -2;
-    wr_generate_changed(app);
 }
 
 /* ---- the tab ---- */
 
 static void head(WrApp *app)
 {
-    double half = floor(wr_gui_available() * 0.42);
+    double half = floor(wr_gui_available() * 0.38);
     const WrFamily *family = choose_family(app, half);
     if (!family) return;
     wr_gui_same_line(6);
@@ -374,8 +199,9 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     WrGenerateHand *hand = app->generate;
     SDL_Rect top = cut(&room, wr_gui_px(82), true);
     SDL_Rect low = cut(&room, wr_gui_px(44), false);
-    const char *said = notes(app);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));
+    wr_generate_blame(hand);
+    const char *said = notes(app);
     if (*said) {
         SDL_Rect told = cut(&room, wr_gui_px(42), false);
         wr_gui_area_begin("##generate_notes", WR_AREA_PANEL, told, WR_COLOUR_BAR);
@@ -387,7 +213,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     wr_gui_area_end();
     if (room.h > wr_gui_px(20)) {
         wr_gui_area_begin("##generate_values", WR_AREA_PANEL, room, 0xff292929u);
-        body(app);
+        wr_panel_generate_values(app);
         wr_gui_area_end();
     }
     wr_gui_area_begin("##generate_foot", WR_AREA_BAR, low, WR_COLOUR_BAR);

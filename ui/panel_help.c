@@ -93,6 +93,11 @@ static void guide(WrApp *app)
     keys(app, "zoom_100", "100 %");
     keys(app, "fit", "the whole cell");
     keys(app, "panels", "hide and show the panels");
+    keys(app, "accuracy", "error and time of the picture, and what other dials would cost");
+    keys(app, "look_split", "two settings of the dials side by side");
+    keys(app, "compare_hold", "held: the other setting");
+    keys(app, "look_error", "where the picture is off");
+    keys(app, "inspector", "every quantity under the pointer");
     wr_gui_space(12);
     wr_gui_heading("SELECTING AND LAYERS");
     keys(app, "select_rect", "select a rectangle; Shift adds, Alt subtracts");

@@ -92,11 +92,13 @@ static const char *const select_menu[] = { "select_all",
                                            NULL };
 static const char *const table_menu[] = { "table_size", "fill",        "grid",       "import",
                                           "-",          "offset_half", "operations", NULL };
-static const char *const view_menu[] = { "look_grey", "look_signed", "range_auto",  "-",
-                                         "zoom_in",   "zoom_out",    "zoom_100",    "fit",
-                                         "-",         "turn",        "pose_reset",  "camera_reset",
-                                         "-",         "view_both",   "view_canvas", "view_patch",
-                                         "panels",    "fullscreen",  "scale",       NULL };
+static const char *const view_menu[] = {
+    "look_grey", "look_signed", "range_auto",  "-",          "zoom_in",       "zoom_out",
+    "zoom_100",  "fit",         "-",           "turn",       "pose_reset",    "camera_reset",
+    "-",         "accuracy",    "compare",     "inspector",  "inspector_pin", "hard_cases",
+    "-",         "view_both",   "view_canvas", "view_patch", "panels",        "fullscreen",
+    "scale",     NULL
+};
 static const char *const help_menu[] = { "help", "tablet", "about", NULL };
 
 static void recent(WrApp *app)
@@ -187,6 +189,20 @@ static void generators(WrApp *app)
     wr_gui_menu_end();
 }
 
+/* What the patch shows besides its picture. */
+static void compare(WrApp *app)
+{
+    static const char *const names[] = {
+        "look_plain", "look_split", "look_flicker", "compare_hold", "compare_take", "compare_swap",
+        "-",          "look_error", "look_dropped", "look_tilt",    "look_level"
+    };
+    if (!wr_gui_menu_begin("Patch shows")) return;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();
+        else item(app, names[i]);
+    wr_gui_menu_end();
+}
+
 static void menu(WrApp *app, const char *label, const char *const *names)
 {
     if (!wr_gui_menu_begin(label)) return;
@@ -195,6 +211,7 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         else if (strcmp(*names, "recent") == 0) recent(app);
         else if (strcmp(*names, "scale") == 0) scale(app);
         else if (strcmp(*names, "operations") == 0) operations(app);
+        else if (strcmp(*names, "compare") == 0) compare(app);
         else item(app, *names);
     }
     wr_gui_menu_end();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
    The patch's view: what is wished of the preview and when, turning, the light, the camera. */
-#include "ui/state.h"
+#include "ui/accuracy.h"
 
 #include "base/clock.h"
 #include "ui/line.h"
@@ -9,7 +9,7 @@
 
 #define TURN_DEG_PER_SECOND 14.0
 #define PICTURE_SECONDS (1.0 / 40.0) /* between moving pictures */
-#define QUICK_SECONDS (1.0 / 60.0)   /* the same while it is painted on */
+#define QUICK_SECONDS (1.0 / 100.0)  /* the same while it is painted on: soon, not often */
 #define REST_SECONDS 0.12            /* without change before the picture is made sharp */
 #define ZOOM_COMMIT_SECONDS 0.4
 
@@ -410,6 +410,7 @@ void wr_patch_draw(WrApp *app)
     if (picture->serial != p->serial) take_picture(app);
     SDL_RenderCopy(app->renderer, p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
                    room);
+    wr_accuracy_draw(app);
 }
 
 static void draw_lights(const WrApp *app)
@@ -449,6 +450,7 @@ void wr_patch_overlay(WrApp *app)
     draw_ring(app, wr_preview_picture(app->preview));
     wr_patch_paint_overlay(app);
     wr_gui_draw_unclip();
+    wr_accuracy_overlay(app);
     int gap = wr_gui_px(12);
     if (room->w <= wr_gui_px(140)) return;
     wr_gui_overlay_begin("##turn", room->x + room->w - gap, room->y + gap, 1, 0);

@@ -10,12 +10,13 @@
 
 #define ECHO_SECONDS 0.1  /* mouse events this long after a pen's are its echo */
 #define RANGE_SECONDS 1.0 /* a pen that was heard of so lately is near */
+#define MARKS_MOST 512    /* keys and buttons that nobody asked about */
 #define STILL_EVENTS 8    /* with the tip down and the same pressure: it does not work */
 
 /* ---- life ---- */
 
 /* Seen by SDL in the thread that asks the server for events, which is the window's. Others push events
-   too, but none of these kinds. */
+   too: of these kinds only keys and buttons, which are not the hand's then. */
 static int SDLCALL watch(void *data, SDL_Event *event)
 {
     WrPen *pen = data;
@@ -31,6 +32,12 @@ static int SDLCALL watch(void *data, SDL_Event *event)
             event->window.event == SDL_WINDOWEVENT_MINIMIZED)
             for (int i = 0; i < pen->units.count; i++) wr_pen_lose(pen, i);
         break;
+    case SDL_KEYDOWN:
+    case SDL_KEYUP:
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP:
+        if (SDL_ThreadID() == pen->thread) wr_pen_mark(pen, event);
+        break;
     default: break;
     }
     return 1;
@@ -40,6 +47,7 @@ WrPen *wr_pen_new(SDL_Window *window)
 {
     WrPen *pen = wr_alloc(1, sizeof *pen);
     pen->window = window;
+    pen->thread = SDL_ThreadID();
     pen->came_at = pen->taken_at = pen->pen_at = -1e9;
     pen->why_not = "There is no window.";
     if (window) {
@@ -60,6 +68,7 @@ void wr_pen_free(WrPen *pen)
     wr_array_free(&pen->units);
     wr_array_free(&pen->kept);
     wr_array_free(&pen->queue);
+    wr_array_free(&pen->marks);
     wr_array_free(&pen->recorded);
     wr_text_fini(&pen->words);
     wr_free(pen);
@@ -274,6 +283,34 @@ bool wr_pen_next(WrPen *pen, WrPenEvent *event)
     *event = pen->queue.data[pen->taken++];
     pen->taken_at = wr_clock_seconds();
     return true;
+}
+
+static void drop_marks(WrPen *pen, int count)
+{
+    pen->marks.count -= count;
+    if (count > 0 && pen->marks.count > 0)
+        memmove(pen->marks.data, pen->marks.data + count,
+                (size_t)pen->marks.count * sizeof *pen->marks.data);
+}
+
+void wr_pen_mark(WrPen *pen, const SDL_Event *event)
+{
+    WrPenMark mark = { event->type, event->common.timestamp, wr_pen_total(pen) };
+    if (pen->marks.count >= MARKS_MOST) drop_marks(pen, MARKS_MOST / 2); /* nobody asked for them */
+    wr_array_push(&pen->marks, mark);
+}
+
+bool wr_pen_next_before(WrPen *pen, const SDL_Event *before, WrPenEvent *event)
+{
+    for (int i = 0; i < pen->marks.count; i++) {
+        WrPenMark mark = pen->marks.data[i];
+        if (mark.type != before->type || mark.timestamp != before->common.timestamp) continue;
+        drop_marks(pen, i); /* others took the events of these */
+        if (pen->first + pen->taken < mark.total) return wr_pen_next(pen, event);
+        drop_marks(pen, 1);
+        break;
+    }
+    return false;
 }
 
 bool wr_pen_newest(const WrPen *pen, WrPenEvent *event)

@@ -51,6 +51,9 @@ void wr_pen_free(WrPen *pen); /* NULL is fine */
 
 /* The oldest event that was not taken yet; false if there is none. */
 bool wr_pen_next(WrPen *pen, WrPenEvent *event);
+/* The same of those that came before `before`, an event of SDL's keyboard or of a mouse button: what hands did
+ * one after another is done so, however many events one picture was late. Ask until it is false. */
+bool wr_pen_next_before(WrPen *pen, const SDL_Event *before, WrPenEvent *event);
 /* SDL's mouse events for the canvas are only the echo of a pen: leave them out (widgets keep them). True
    while a pen is down, and for 0.1 s after its last event. */
 bool wr_pen_moves_mouse(const WrPen *pen);

@@ -55,6 +55,12 @@ typedef struct WrPenUnit {
 
 typedef struct WrPenX11 WrPenX11;
 
+/* A key or button of SDL's, and how many events of pens had come before it. */
+typedef struct WrPenMark {
+    Uint32 type, timestamp;
+    int64_t total;
+} WrPenMark;
+
 typedef struct WrPenKept { /* a curve for whatever is called so */
     char name[96];
     WrPenCurve curve;
@@ -70,14 +76,16 @@ typedef struct WrPenReplay {
 } WrPenReplay;
 
 struct WrPen {
-    SDL_Window *window; /* borrowed; NULL in tests */
-    WrPenX11 *x11;      /* owned; NULL: no pens */
+    SDL_Window *window;  /* borrowed; NULL in tests */
+    SDL_threadID thread; /* the window's */
+    WrPenX11 *x11;       /* owned; NULL: no pens */
     const char *why_not;
     WR_ARRAY(WrPenUnit) units;
     WR_ARRAY(WrPenKept) kept;
     WR_ARRAY(WrPenEvent) queue; /* from some that were taken to the newest */
     int taken;                  /* of the queue */
     int64_t first;              /* number of queue.data[0] among all that ever came */
+    WR_ARRAY(WrPenMark) marks;  /* in the order in which they came */
     double came_at, taken_at;   /* clock, of the last event */
     double pen_at;              /* clock, of the last event of a pen, not a finger */
     FILE *record;               /* NULL: none */
@@ -100,6 +108,8 @@ void wr_pen_watch(WrPenUnit *unit, double raw, bool down);
 void wr_pen_lose(WrPen *pen, int index);
 /* An event as it is, into the queue. */
 void wr_pen_push(WrPen *pen, const WrPenEvent *event);
+/* A key or button of SDL's came. */
+void wr_pen_mark(WrPen *pen, const SDL_Event *event);
 
 /* ---- pen_x11.c ---- */
 /* NULL: there are no pens, and *why is a sentence that says why not. */

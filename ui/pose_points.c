@@ -22,6 +22,11 @@ static int points_param(const WrGenerateHand *hand)
     return -1;
 }
 
+bool wr_pose_points_taken(const WrGenerateHand *hand)
+{
+    return points_param(hand) >= 0;
+}
+
 /* False: not understood, or too many. */
 static bool read_points(const char *text, Points *points)
 {

@@ -10,7 +10,7 @@
 #include <sys/resource.h>
 
 #define MOVING_SECONDS 0.020 /* that a picture may take while something moves */
-#define QUICK_SECONDS 0.011  /* and while it is painted on besides */
+#define QUICK_SECONDS 0.005  /* and while it is painted on besides: seen within 1/60 s */
 #define EDIT_SECONDS                                                                               \
     0.012              /* that a refresh after an edit may take before finer samples are given up */
 #define COARSEST 0.125 /* of the view's width and height */
@@ -167,6 +167,26 @@ static bool make_room(WrPreviewPicture *picture, int width, int height, WrError 
     return true;
 }
 
+static bool has_tolerance(const Wish *wish)
+{
+    return wish->scene->tolerance.kind != WR_TOLERANCE_NONE;
+}
+
+/* Block by block with the dials that keep to the scene's tolerance. */
+static bool by_tolerance(WrRenderer *renderer, const WrFrameRequest *wanted, WrChosen *chosen,
+                         WrFrame *frame, WrError *err)
+{
+    WrChoice choice = { 0 };
+    WrFrameRequest request = *wanted;
+    request.dials = NULL;
+    request.keep = false;
+    bool good = wr_tolerance_choose(renderer, &request, &choice, err) &&
+                wr_choice_frame(renderer, &request, &choice, frame, err);
+    if (good) wr_chosen_from(&choice, chosen);
+    wr_choice_fini(&choice);
+    return good;
+}
+
 static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level,
                    WrError *err)
 {
@@ -185,8 +205,12 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .keep = level > WR_PREVIEW_MOVING,
                                .cancel = &preview->cancel };
     WrFrame frame;
-    if (!wr_renderer_frame(renderer, &request, &frame, err)) return false;
     WrPreviewPicture *out = preview->work;
+    out->chosen.any = false;
+    bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
+                    ? by_tolerance(renderer, &request, &out->chosen, &frame, err)
+                    : wr_renderer_frame(renderer, &request, &frame, err);
+    if (!good) return false;
     if (!make_room(out, frame.width, frame.height, err)) return false;
     wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
     out->level = level;
@@ -239,7 +263,8 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
         __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
         preview->edited = edited && preview->level > WR_PREVIEW_FULL;
         if (edited) {
-            bool slow = preview->now.painting && preview->edit_seconds > EDIT_SECONDS;
+            bool slow = preview->now.painting &&
+                        (preview->edit_seconds > EDIT_SECONDS || has_tolerance(&preview->now));
             *level = slow ? WR_PREVIEW_FULL : preview->level;
             preview->edited = preview->edited && !slow;
             return true;

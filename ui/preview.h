@@ -4,6 +4,7 @@
    All calls but those of the thread itself come from the window's thread. */
 #pragma once
 #include "render/frame.h"
+#include "ui/accuracy_choice.h"
 
 #include <SDL.h>
 
@@ -15,7 +16,7 @@ typedef enum WrPreviewLevel {
     WR_PREVIEW_MOVING, /* as coarse as it takes for 40 pictures a second, fast arithmetic */
     WR_PREVIEW_FULL,   /* every pixel once, the scene's arithmetic */
     WR_PREVIEW_SMOOTH, /* 2 x 2 samples a pixel */
-    WR_PREVIEW_FINAL   /* 4 x 4, or more if the scene's dials say so */
+    WR_PREVIEW_FINAL /* 4 x 4, or more if the scene's dials say so; with a tolerance, what it chooses */
 } WrPreviewLevel;
 
 /* threads: as in wr_pool_new. isa: as in wr_renderer_new. ready_event: an SDL event type, pushed
@@ -52,6 +53,7 @@ typedef struct WrPreviewPicture {
     double seconds; /* wall time, conversion included */
     WrStageTimes times;
     WrPlan plan;
+    WrChosen chosen; /* what the scene's tolerance chose for it */
     int64_t tag;     /* of the wish that it shows */
     uint64_t serial; /* counts pictures; 0: none yet */
 } WrPreviewPicture;

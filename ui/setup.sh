@@ -4,18 +4,18 @@
 # The program: compiler and build tools, then the libraries that it links with, then its fonts.
 wr_program_packages=(
     build-essential cmake ninja-build pkg-config
-    libassimp-dev libexpat1-dev libfreetype-dev libfribidi-dev libharfbuzz-dev libimgui-dev libjson-c-dev
+    libassimp-dev libexpat1-dev libfontconfig-dev libfreetype-dev libfribidi-dev libharfbuzz-dev libimgui-dev libjson-c-dev
     libmd-dev libmypaint-dev libopenimageio-dev
     libsdl2-dev libsleef-dev libstb-dev libx11-dev libxi-dev libxxhash-dev libzip-dev mypaint-brushes
     zlib1g-dev
-    fonts-dejavu-core fonts-inter fonts-materialdesignicons-webfont xfonts-terminus
+    fonts-dejavu-core fonts-inter fonts-materialdesignicons-webfont gnuplot-nox xfonts-terminus
 )
 # The tests besides: the framework, checkers, an X server and hands for the window, readers of what
 # the program writes.
 # shellcheck disable=SC2034  # used by tests/run.sh
 wr_test_packages=(
     libcmocka-dev clang clang-format libclang-rt-14-dev
-    fonts-lohit-deva
+    console-setup-linux fonts-inter-variable fonts-lohit-deva
     xvfb xauth xdotool x11-utils
     xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools

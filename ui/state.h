@@ -22,6 +22,7 @@
 
 typedef struct WrApp WrApp;
 typedef struct WrGenerateHand WrGenerateHand; /* generate_hand.h */
+typedef struct WrAccuracy WrAccuracy;         /* accuracy.h */
 typedef struct WrLatency WrLatency;           /* latency.c */
 
 /* ---- pointer ---- */
@@ -83,6 +84,7 @@ typedef enum WrGrab { /* what the pointer holds outside the widgets */
                       WR_GRAB_PAN,
                       WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
                       WR_GRAB_DIVIDER,
+                      WR_GRAB_SPLIT,    /* the line between two pictures of the patch */
                       WR_GRAB_PANELS,   /* the line between the panels on the right */
                       WR_GRAB_SYMMETRY, /* its centre */
                       WR_GRAB_ORBIT,
@@ -303,6 +305,7 @@ typedef enum WrDialog {
     WR_DIALOG_RECOVER,
     WR_DIALOG_PRESET, /* the name of a preset to be saved */
     WR_DIALOG_TABLET,
+    WR_DIALOG_CASES,
     WR_DIALOG_HELP,
     WR_DIALOG_ABOUT
 } WrDialog;
@@ -313,6 +316,7 @@ typedef enum WrAfter {
     WR_AFTER_NEW,
     WR_AFTER_OPEN,
     WR_AFTER_PATH,
+    WR_AFTER_LINES, /* after_path holds commands, a line each */
     WR_AFTER_QUIT
 } WrAfter;
 
@@ -366,6 +370,7 @@ struct WrApp {
     WrShelf shelf;
     WrDrawHand draw;
     WrGenerateHand *generate; /* owned */
+    WrAccuracy *accuracy;     /* owned */
     WrPatch patch;
     WrPatchPaint paint;
     WrLatency *latency; /* while it is being measured; borrowed */

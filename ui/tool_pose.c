@@ -15,7 +15,7 @@
 
 static const char *const place_names[] = { "at", "origin", "centre", NULL };
 static const char *const size_names[] = { "size", "radius", NULL };
-static const char *const turn_names[] = { "angle", "rotate", "turn", NULL };
+static const char *const turn_names[] = { "angle", "rotate", NULL };
 
 /* Which parameters say where, how large, how turned; -1: none. */
 typedef struct Pose {
@@ -31,7 +31,7 @@ static bool has_unit(const WrGenerateHand *hand, int i, const char *unit)
 static int number_or_tuple(const WrGenerateHand *hand, const char *const *names)
 {
     int i = wr_generate_find(hand, names, WR_PARAM_NUMBER);
-    return i >= 0 ? i : wr_generate_find(hand, names, WR_PARAM_TUPLE);
+    return i >= 0 ? i : wr_generate_find(hand, names, WR_PARAM_TUPLE); /* by axes */
 }
 
 static Pose pose_of(const WrGenerateHand *hand)
@@ -337,4 +337,8 @@ void wr_pose_options(WrApp *app)
                 pose.turn >= 0   ? "Drag it on the table; the corner sizes it, the ring turns it"
                 : pose.size >= 0 ? "Drag it on the table; the corner sizes it"
                                  : "Drag it on the table");
+    bool path = wr_pose_points_taken(hand);
+    if (!path || app->width < wr_gui_px(1400)) return;
+    wr_gui_same_line(0);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "; Ctrl and a click begins a path");
 }

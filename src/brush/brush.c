@@ -122,9 +122,14 @@ bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrFi
     for (int k = 0; k < WR_TILE * WR_TILE; k++) flat[k] = wr_field_level(coverage);
     Filling *filling = wr_alloc(1, sizeof *filling);
     filling->maker = &maker;
-    for (int ty = 0; ty < wr_field_tiles_v(coverage); ty++) fill_row(filling, coverage, ty, flat);
+    bool good = true;
+    int rows = wr_field_tiles_v(coverage);
+    for (int ty = 0; good && ty < rows; ty++) {
+        good = wr_progress_step(ground->progress, (double)ty / rows);
+        if (good) fill_row(filling, coverage, ty, flat);
+    }
     wr_free(filling);
     wr_free(flat);
     wr_maker_fini(&maker);
-    return true;
+    return good || wr_fail(err, "cancelled");
 }

@@ -31,6 +31,7 @@
    there. */
 #pragma once
 #include "base/pool.h"
+#include "base/progress.h"
 #include "brush/symmetry.h"
 
 typedef enum WrBrushMode {
@@ -140,6 +141,7 @@ typedef struct WrBrushGround {
     const WrField *below;
     float neutral;
     WrPool *pool; /* for large dabs; the bits do not depend on it; NULL: this thread */
+    const WrProgress *progress; /* of wr_brush_fill alone; NULL: it is not stopped */
 } WrBrushGround;
 
 /* The same as wr_brush_dab with neither mark nor selection. */
@@ -172,7 +174,8 @@ void wr_stroke_free(WrStroke *stroke);
 void wr_stroke_abandon(WrStroke *stroke);
 
 /* Texels of a shape covered by `coverage` (0..1, the table's size): what a covering mode does with A =
-   coverage opacity, at once and everywhere. False and an error for a moving mode. first_u, first_v: where
-   flatten takes its height. Symmetry does not apply. */
+   coverage opacity, at once and everywhere. False and an error for a moving mode, and, with a part filled,
+   where the ground's progress says stop. first_u, first_v: where flatten takes its height. Symmetry does
+   not apply. */
 bool wr_brush_fill(const WrBrushGround *ground, const WrBrush *brush, const WrField *coverage,
                    double first_u, double first_v, WrError *err);

@@ -132,7 +132,7 @@ static void write_lines(Bench *b)
 {
     for (int i = 0; i < KIND_COUNT; i++)
         if (rows[i].line) wr_text_add(&b->lines[i], rows[i].line);
-    wr_text_addf(&b->lines[NORMALS], "export normal+y \"%s/out.ppm\" depth=8", b->folder);
+    wr_text_addf(&b->lines[NORMALS], "export normal+y \"%s/out.bmp\" depth=8", b->folder);
     add_text_line(&b->lines[TEXT], "");
     add_text_line(&b->lines[ROUND_TEXT], "profile=round bevel=6");
     wr_text_addf(&b->lines[MESH], "solid mesh \"%s/mesh.ply\" size=4000", b->folder);
@@ -183,7 +183,7 @@ static bool begin(Bench *b, WrError *err)
 static void end(Bench *b)
 {
     static const char *const files[] = { "mesh.ply", "table.tif", "in.tif",
-                                         "crop.tif", "out.tif",   "out.ppm" };
+                                         "crop.tif", "out.tif",   "out.bmp" };
     char path[64];
     for (size_t i = 0; i < sizeof files / sizeof *files && b->folder[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", b->folder, files[i]);
@@ -198,7 +198,7 @@ static void end(Bench *b)
 static bool time_write(const Bench *b, double *ms, WrError *err)
 {
     char path[64];
-    snprintf(path, sizeof path, "%s/out.ppm", b->folder);
+    snprintf(path, sizeof path, "%s/out.bmp", b->folder);
     unsigned char *codes = wr_try_alloc((size_t)TABLE * TABLE, 3, "a picture", err);
     if (!codes) return false;
     memset(codes, 128, (size_t)TABLE * TABLE * 3);

@@ -42,7 +42,8 @@ struct WrCli {
     const char *isa;   /* NULL: auto */
     const char *out;   /* -o */
     const char *kind;  /* --as */
-    int width, height; /* --size; 512x512 */
+    bool sized;        /* --size was given */
+    int width, height; /* of it; 512x512 */
     bool framed;       /* --frames was given */
     int first, last;   /* of --frames */
     bool turned;       /* --turn was given */
@@ -53,6 +54,16 @@ struct WrCli {
     const char *thumbnails; /* --thumbnails */
     const char *collection; /* --collection */
     bool settings;          /* --settings */
+    const char *axis;       /* --axis */
+    int runs;               /* --runs; 0: not given */
+    double budget;          /* --budget, seconds; 0: none */
+    const char *csv;        /* --csv */
+    const char **plots;     /* --plot, in order */
+    int plot_count;
+    const char *differences; /* --differences */
+    const char **tolerances; /* --tolerance, in order */
+    int tolerance_count;
+    bool hard_cases; /* --hard-cases */
 
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
@@ -68,6 +79,8 @@ typedef enum WrOption {
     WR_OPTION_NOISE,
     WR_OPTION_FACE,
     WR_OPTION_JSON,
+    WR_OPTION_ACCURACY,  /* --axis, --runs, --budget, --csv, --plot, --differences,
+                            --tolerance, --hard-cases */
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */
@@ -103,6 +116,7 @@ int wr_cli_render(const WrCli *cli);
 int wr_cli_export(const WrCli *cli);
 int wr_cli_inspect(const WrCli *cli);
 int wr_cli_explain(const WrCli *cli);
+int wr_cli_accuracy(const WrCli *cli);
 int wr_cli_recover(const WrCli *cli);
 int wr_cli_brushes(const WrCli *cli);
 int wr_cli_bench(const WrCli *cli); /* reads its own options from words */

@@ -17,10 +17,10 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
         if (strcmp(word, "--lines") == 0) options->lines = true;
         else if (strcmp(word, "--exact") == 0) options->exact = true;
         else if (strcmp(word, "--quick") == 0) options->quick = true;
-        else if (strcmp(word, "--made") == 0) options->made = true;
+        else if (strcmp(word, "generate") == 0) options->made = true;
         else
             return wr_fail(
-                err, "bench: unknown option %s: must be --lines, --exact, --quick or --made", word);
+                err, "bench: unknown word %s: must be generate, --lines, --exact or --quick", word);
     }
     return true;
 }

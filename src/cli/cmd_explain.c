@@ -1,6 +1,28 @@
 #include "cli/cli.h"
 
-static void add_json(WrText *text, const WrPlan *plan)
+static void add_json_choice(WrText *text, const WrChoice *choice)
+{
+    WrText lines = { 0 };
+    wr_text_addf(text, ",\"tolerance\":{\"met\":%s,\"rms\":", choice->met ? "true" : "false");
+    wr_text_add_json_number(text, choice->rms);
+    wr_text_add(text, ",\"max\":");
+    wr_text_add_json_number(text, choice->max);
+    wr_text_add(text, ",\"seconds\":");
+    wr_text_add_json_number(text, choice->seconds);
+    wr_text_add(text, ",\"top_seconds\":");
+    wr_text_add_json_number(text, choice->top_seconds);
+    wr_text_add(text, ",\"choosing_seconds\":");
+    wr_text_add_json_number(text, choice->spent);
+    wr_text_add(text, ",\"reason\":");
+    wr_text_add_json_string(text, choice->reason);
+    wr_choice_print(choice, &lines);
+    wr_text_add(text, ",\"chosen\":");
+    wr_text_add_json_string(text, wr_text_get(&lines));
+    wr_text_add(text, "}");
+    wr_text_fini(&lines);
+}
+
+static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice)
 {
     wr_text_add(text, "{\"effects\":[");
     for (int i = 0; i < WR_EFFECT_COUNT; i++) {
@@ -17,10 +39,13 @@ static void add_json(WrText *text, const WrPlan *plan)
         wr_text_add_json_number(text, e->ns_per_pixel);
         wr_text_add(text, "}");
     }
-    wr_text_add(text, "]}\n");
+    wr_text_add(text, "]");
+    if (choice->kinds > 0) add_json_choice(text, choice);
+    wr_text_add(text, "}\n");
 }
 
-static void add_table(WrText *text, const WrPlan *plan, const WrFrame *frame)
+static void add_table(WrText *text, const WrPlan *plan, const WrChoice *choice,
+                      const WrFrame *frame)
 {
     wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", "rule", "effect", "run", "class",
                  "ns/pixel", "reason");
@@ -30,6 +55,10 @@ static void add_table(WrText *text, const WrPlan *plan, const WrFrame *frame)
         if (e->run && e->ns_per_pixel > 0) snprintf(price, sizeof price, "%.1f", e->ns_per_pixel);
         wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", e->rule, e->name,
                      e->run ? "yes" : "no", wr_proof_letter(e->proof), price, e->reason);
+    }
+    if (choice->kinds > 0) {
+        wr_text_addf(text, "\n%s\n", choice->reason);
+        wr_choice_print(choice, text);
     }
     wr_text_addf(text, "\n%dx%d pixels, %lld covered, %lld samples shaded, %.2f ms\n", frame->width,
                  frame->height, (long long)frame->covered, (long long)frame->shaded,
@@ -45,8 +74,8 @@ int wr_cli_explain(const WrCli *cli)
     bool good = session && wr_session_frame(session, cli->width, cli->height, 0, &frame, &err);
     int status;
     if (good) {
-        if (cli->json) add_json(&text, frame.plan);
-        else add_table(&text, frame.plan, &frame);
+        if (cli->json) add_json(&text, frame.plan, wr_session_choice(session));
+        else add_table(&text, frame.plan, wr_session_choice(session), &frame);
         status = wr_cli_print(cli, &text);
     } else {
         status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);

@@ -58,6 +58,7 @@ static bool set_kind(WrCli *cli, const char *value, WrError *err)
 static bool set_size(WrCli *cli, const char *value, WrError *err)
 {
     const char *x = strchr(value, 'x');
+    cli->sized = true;
     if (x && parse_whole(value, (size_t)(x - value), 1, 16384, &cli->width) &&
         parse_whole(x + 1, strlen(x + 1), 1, 16384, &cli->height))
         return true;
@@ -140,6 +141,62 @@ static bool set_settings(WrCli *cli, const char *value, WrError *err)
     return cli->settings = true;
 }
 
+static bool set_axis(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->axis = value;
+    return true;
+}
+
+static bool set_runs(WrCli *cli, const char *value, WrError *err)
+{
+    if (parse_whole(value, strlen(value), 3, 64, &cli->runs)) return true;
+    return wr_fail(err, "--runs %.40s: must be a whole number, 3..64", value);
+}
+
+static bool set_budget(WrCli *cli, const char *value, WrError *err)
+{
+    if (wr_number_parse(value, strlen(value), &cli->budget) && cli->budget > 0 &&
+        cli->budget <= 86400)
+        return true;
+    return wr_fail(err, "--budget %.40s: must be seconds, above 0, at most 86400", value);
+}
+
+static bool set_csv(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "--csv: the file name is empty");
+    cli->csv = value;
+    return true;
+}
+
+static bool set_plot(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "--plot: the file name is empty");
+    cli->plots[cli->plot_count++] = value;
+    return true;
+}
+
+static bool set_differences(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "--differences: the folder's name is empty");
+    cli->differences = value;
+    return true;
+}
+
+static bool set_tolerance(WrCli *cli, const char *value, WrError *err)
+{
+    (void)err;
+    cli->tolerances[cli->tolerance_count++] = value;
+    return true;
+}
+
+static bool set_hard_cases(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->hard_cases = true;
+}
+
 static bool set_help(WrCli *cli, const char *value, WrError *err)
 {
     (void)value;
@@ -186,6 +243,21 @@ static const struct Option {
       set_thumbnails },
     { "--settings", NULL, NULL, WR_OPTION_SHEET,
       "what each setting of MyPaint's presets means for heights, as a table", set_settings },
+    { "--axis", NULL, "NAME", WR_OPTION_ACCURACY,
+      "only this one: derivative, normal, antialiasing, visibility or arithmetic", set_axis },
+    { "--runs", NULL, "N", WR_OPTION_ACCURACY, "timed runs of each rung, 3..64 (9)", set_runs },
+    { "--budget", NULL, "SECONDS", WR_OPTION_ACCURACY,
+      "for all timed runs; they become fewer, never under 3", set_budget },
+    { "--csv", NULL, "FILE", WR_OPTION_ACCURACY, "write the table for spreadsheets", set_csv },
+    { "--plot", NULL, "FILE", WR_OPTION_ACCURACY,
+      "write error against time as a .png or .svg; repeatable; needs gnuplot", set_plot },
+    { "--differences", NULL, "FOLDER", WR_OPTION_ACCURACY,
+      "write a picture of each rung's error into the folder", set_differences },
+    { "--tolerance", NULL, "KIND=VALUE", WR_OPTION_ACCURACY,
+      "instead: what rms=VALUE or max=VALUE chooses, beside the best of trying all; repeatable",
+      set_tolerance },
+    { "--hard-cases", NULL, NULL, WR_OPTION_ACCURACY,
+      "instead: every hard case, what must hold, and the worst that was measured", set_hard_cases },
     { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", set_json },
     { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
       "run a command after FILE is loaded; repeatable, in order", set_do },
@@ -305,6 +377,8 @@ bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err)
     cli->words = wr_alloc(room, sizeof *cli->words);
     cli->dos = wr_alloc(room, sizeof *cli->dos);
     cli->ats = wr_alloc(room, sizeof *cli->ats);
+    cli->plots = wr_alloc(room, sizeof *cli->plots);
+    cli->tolerances = wr_alloc(room, sizeof *cli->tolerances);
     for (int i = 1; i < argc && good; i++) {
         *status = WR_EXIT_USAGE;
         if (i == verb) continue;
@@ -326,6 +400,8 @@ void wr_cli_fini(WrCli *cli)
     wr_free(cli->words);
     wr_free(cli->dos);
     wr_free(cli->ats);
+    wr_free(cli->plots);
+    wr_free(cli->tolerances);
 }
 
 /* ---- help ---- */

@@ -33,6 +33,15 @@ const WrSubcommand wr_subcommands[] = {
       "gives\n"
       "the same bits; B: within a stated bound; P: a choice that changes the picture.",
       wr_cli_explain },
+    { "accuracy", "accuracy [FILE] [--size WxH] [--plot FILE]... [--csv FILE] [--json]",
+      "what each approximation costs: error against time",
+      BIT(JSON) | BIT(SIZE) | BIT(TURN) | BIT(ACCURACY),
+      "Renders the document with each rung of each dial, one at a time and in the combinations "
+      "that\n"
+      "matter; times them interleaved, on one processor unless --threads says otherwise; measures "
+      "each\n"
+      "against a reference in double precision.",
+      wr_cli_accuracy },
     { "recover", "recover [N|JOURNAL -o OUT] [discard N|JOURNAL] [--json]",
       "work that a crash left behind", BIT(OUT) | BIT(JSON) | BIT(ALL_WORDS),
       "Without words: what there is. With a number of that list, or a journal's path: brings its "
@@ -49,7 +58,13 @@ const WrSubcommand wr_subcommands[] = {
       "--sheet paints the same stroke with each and shows them lit, with their names.",
       wr_cli_brushes },
 #ifdef WR_HAVE_BENCH
-    { "bench", "bench [options]", "the program's own benchmark", BIT(ALL_WORDS), NULL,
+    { "bench", "bench [generate] [--quick] [--exact] [--lines]", "the program's own benchmark",
+      BIT(ALL_WORDS),
+      "Pictures, documents, brushes and the window; with generate: what fills a table, beside gegl "
+      "and\n"
+      "oiiotool where they are installed. --quick: fewer and smaller; --exact: exact arithmetic in "
+      "place of\n"
+      "fast; --lines: one line a measurement, for programs.",
       wr_cli_bench },
 #endif
     { "help", "help [VERB] [--json]", "the commands of scripts and --do",

@@ -21,7 +21,7 @@ extern const WrArgSpec wr_args_table[], wr_args_fill[], wr_args_grid[], wr_args_
     wr_args_open[];
 extern const WrArgSpec wr_args_brush[], wr_args_dab[], wr_args_stroke[], wr_args_flood[];
 extern const WrArgSpec wr_args_rotate[], wr_args_bump[], wr_args_replicate[], wr_args_material[],
-    wr_args_colour[], wr_args_dials[];
+    wr_args_colour[], wr_args_tolerance[];
 extern const WrArgSpec wr_args_save[], wr_args_export[], wr_args_render[];
 extern const WrArgSpec wr_args_undo[], wr_args_redo[], wr_args_history[], wr_args_script[];
 
@@ -33,3 +33,4 @@ WrFormRow wr_form_layer, wr_form_select, wr_form_adjust, wr_form_surface, wr_for
 WrFormRow wr_form_pattern, wr_form_noise, wr_form_formula, wr_form_solid, wr_form_terrain,
     wr_form_picture;
 bool wr_row_text(WrForm *out);
+bool wr_row_dials(WrForm *out); /* of the table of dials: args_scene.c */

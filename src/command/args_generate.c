@@ -77,6 +77,30 @@ static WrArgSpec argument(const WrParam *p)
     return spec;
 }
 
+/* The first file's is sha256, those of others have their names and come before it (wr_call_hash_name). */
+static int add_checksums(const WrGenerator *g, WrArgSpec *out)
+{
+    static const char *const others[][2] = { { "fallback", "fallback_sha256" },
+                                             { "fallback2", "fallback2_sha256" },
+                                             { "fallback3", "fallback3_sha256" } };
+    int count = 0;
+    bool any = false;
+    for (int i = 0; g->params[i].name; i++) {
+        if (g->params[i].kind != WR_PARAM_FILE) continue;
+        any = true;
+        for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+            if (strcmp(g->params[i].name, others[k][0]) == 0)
+                out[count++] = (WrArgSpec){ .name = others[k][1],
+                                            .type = WR_ARG_SHA256,
+                                            .help = "of that file" };
+    }
+    if (any)
+        out[count++] = (WrArgSpec){ .name = "sha256",
+                                    .type = WR_ARG_SHA256,
+                                    .help = "of the file: another content is then an error" };
+    return count;
+}
+
 static int add_shared(const WrGenerator *g, WrArgSpec *out)
 {
     static const double radius[] = { 0.1 }, offset[] = { 0.0 };
@@ -100,14 +124,7 @@ static int add_shared(const WrGenerator *g, WrArgSpec *out)
                                 .fallback = offset,
                                 .unit = "table units",
                                 .help = "added to its heights first" };
-    for (int i = 0; g->params[i].name; i++)
-        if (g->params[i].kind == WR_PARAM_FILE) {
-            out[count++] = (WrArgSpec){ .name = "sha256",
-                                        .type = WR_ARG_SHA256,
-                                        .help = "of the file: another content is then an error" };
-            break;
-        }
-    return count;
+    return count + add_checksums(g, out + count);
 }
 
 /* One form a row of the family. */

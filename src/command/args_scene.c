@@ -1,6 +1,8 @@
 /* Arguments of the scene commands. */
 #include "command/args.h"
 
+#include <string.h>
+
 static const char *off_on(int i)
 {
     return i == 0 ? "off" : i == 1 ? "on" : NULL;
@@ -14,16 +16,6 @@ static const char *bump_name(int i)
 static const char *scheme_name(int i)
 {
     return i < WR_SCHEME_COUNT ? wr_schemes[i].name : NULL;
-}
-
-static const char *antialias_name(int i)
-{
-    return i == WR_AA_POINT ? "point" : i == WR_AA_SUPERSAMPLE ? "supersample" : NULL;
-}
-
-static const char *arithmetic_name(int i)
-{
-    return i == WR_ARITHMETIC_EXACT ? "exact" : i == WR_ARITHMETIC_FAST ? "fast" : NULL;
 }
 
 static const WrComponent poly_parts[] = { { "i", 0, 64, true },
@@ -269,20 +261,54 @@ bool wr_form_camera(int i, WrForm *out)
     return true;
 }
 
-const WrArgSpec wr_args_dials[] = {
-    { .name = "aa",
+static const char *tolerance_off(int i)
+{
+    return i == 0 ? "off" : NULL;
+}
+
+const WrArgSpec wr_args_tolerance[] = {
+    { .name = "off",
       .type = WR_ARG_CHOICE,
-      .choice = antialias_name,
-      .help = "one sample at the pixel's centre, or samples x samples of them" },
-    { .name = "samples",
+      .positional = true,
+      .choice = tolerance_off,
+      .help = "the dials hold as they are set" },
+    { .name = "rms",
       .type = WR_ARG_NUMBER,
-      .low = 1,
-      .high = 64,
-      .whole = true,
-      .help = "along each side of a pixel, for aa=supersample" },
-    { .name = "arithmetic",
-      .type = WR_ARG_CHOICE,
-      .choice = arithmetic_name,
-      .help = "the same bits on every processor, or faster" },
+      .low = 0,
+      .above = true,
+      .high = 1e6,
+      .unit = "linear intensity",
+      .help = "root mean square error over the object's pixels, at most" },
+    { .name = "max",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .above = true,
+      .high = 1e6,
+      .unit = "linear intensity",
+      .help = "error of any channel of any pixel, at most" },
+    { .name = "time",
+      .type = WR_ARG_TEXT,
+      .shape = "8ms or 0.5s",
+      .check = wr_check_duration,
+      .help = "of a frame: the least error that it buys; 0.1ms to 3600s" },
     { 0 }
 };
+
+/* One argument a dial: the table's rows that this command sets. */
+bool wr_row_dials(WrForm *out)
+{
+    int count = 0;
+    *out = (WrForm){ 0 };
+    for (int i = 0; i < WR_DIAL_COUNT; i++) {
+        const WrDial *dial = &wr_dials[i];
+        if (strcmp(dial->command, "dials") != 0) continue;
+        out->args[count++] = (WrArgSpec){ .name = dial->name,
+                                          .type = dial->choices > 0 ? WR_ARG_CHOICE : WR_ARG_NUMBER,
+                                          .choice = dial->choice,
+                                          .low = dial->low,
+                                          .high = dial->high,
+                                          .whole = dial->whole,
+                                          .help = dial->help };
+    }
+    return true;
+}

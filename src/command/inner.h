@@ -50,6 +50,7 @@ struct WrSession {
     int journal_base, journal_top; /* history positions that a replay of it can reach */
     WrImage *embedded;    /* while loading: the document's colour picture; borrowed; NULL: none */
     WrRenderer *renderer; /* made on first use; owned */
+    WrChoice choice;      /* of the last picture under a tolerance */
 
     WrStroke *stroke;    /* open stroke, or NULL; owned */
     WrCall *stroke_call; /* its line so far; owned */
@@ -175,16 +176,20 @@ WrHandler wr_run_generate;                                                   /* 
 WrHandler wr_run_adjust;                                                     /* run_adjust.c */
 WrHandler wr_run_analytic, wr_run_surface, wr_run_bump, wr_run_replicate,
     wr_run_rotate; /* run_shape.c */
-WrHandler wr_run_material, wr_run_colour, wr_run_light, wr_run_camera,
-    wr_run_dials;                                                  /* run_look.c */
+WrHandler wr_run_material, wr_run_colour, wr_run_light, wr_run_camera, wr_run_dials,
+    wr_run_tolerance;                                              /* run_look.c */
 WrHandler wr_run_save, wr_run_export, wr_run_render;               /* run_output.c */
 WrHandler wr_run_undo, wr_run_redo, wr_run_history, wr_run_script; /* run_history.c */
+
+/* "8ms", "0.5s", "2": a duration of 1e-4..3600 seconds. run_look.c. */
+bool wr_duration_parse(const char *text, double *seconds);
+bool wr_check_duration(const void *ctx, const char *name, const char *value, WrError *err);
 
 /* The scene's canonical lines, by subject: scene_text.c. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
 WrScenePrinter wr_print_analytic, wr_print_surface, wr_print_bump, wr_print_replicate,
     wr_print_rotate, wr_print_material, wr_print_colour, wr_print_light, wr_print_camera,
-    wr_print_dials;
+    wr_print_dials, wr_print_tolerance;
 
 /* Words of choices, index past the last gives NULL. */
 const char *wr_camera_kind_name(int i);

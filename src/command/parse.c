@@ -1,6 +1,7 @@
 #include "command/call.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -77,29 +78,6 @@ static bool check_bytes(const char *line, WrError *err)
 
 /* ---- did you mean ---- */
 
-#define NEAR_MAX 31
-
-/* Edits between two short words: insertions, deletions, changes, swaps of neighbours. */
-static int edit_distance(const char *a, const char *b)
-{
-    size_t n = strlen(a), m = strlen(b);
-    if (n > NEAR_MAX || m > NEAR_MAX) return NEAR_MAX;
-    int d[NEAR_MAX + 1][NEAR_MAX + 1];
-    for (size_t i = 0; i <= n; i++) d[i][0] = (int)i;
-    for (size_t j = 0; j <= m; j++) d[0][j] = (int)j;
-    for (size_t i = 1; i <= n; i++)
-        for (size_t j = 1; j <= m; j++) {
-            int best = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-            if (d[i - 1][j] + 1 < best) best = d[i - 1][j] + 1;
-            if (d[i][j - 1] + 1 < best) best = d[i][j - 1] + 1;
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-                d[i - 2][j - 2] + 1 < best)
-                best = d[i - 2][j - 2] + 1;
-            d[i][j] = best;
-        }
-    return d[n][m];
-}
-
 const char *wr_nearest_word(const char *word, const char *(*list)(const void *ctx, int i),
                             const void *ctx)
 {
@@ -107,7 +85,7 @@ const char *wr_nearest_word(const char *word, const char *(*list)(const void *ct
     int limit = length < 3 ? 1 : length < 6 ? 2 : 3, best = limit + 1;
     const char *nearest = NULL;
     for (int i = 0; list(ctx, i); i++) {
-        int d = edit_distance(word, list(ctx, i));
+        int d = wr_text_distance(word, list(ctx, i));
         if (d < best && d < (int)strlen(list(ctx, i))) {
             best = d;
             nearest = list(ctx, i);

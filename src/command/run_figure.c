@@ -253,8 +253,11 @@ static bool fill_inside(WrSession *session, const WrPainting *painting, const Wr
     int count = wr_symmetry_copies(&brush->symmetry, field, copies);
     WrField *cover = count > 1 ? cover_copies(session, field, figure, copies, count, err)
                                : cover_plain(session, field, call, figure, err);
-    bool good = cover && wr_brush_fill(&painting->ground, brush, cover, figure->points[0].u,
-                                       figure->points[0].v, err);
+    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
+    WrBrushGround ground = painting->ground;
+    ground.progress = &progress;
+    bool good = cover &&
+                wr_brush_fill(&ground, brush, cover, figure->points[0].u, figure->points[0].v, err);
     wr_field_free(cover);
     wr_free(copies);
     return good;

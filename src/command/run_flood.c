@@ -10,10 +10,12 @@ bool wr_run_flood(WrSession *session, WrCall *call, WrError *err)
     const double *at = wr_call_arg(call, "u,v")->numbers;
     WrPainting painting;
     if (!wr_painting_begin(session, call, &painting, err)) return false;
+    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
+    painting.ground.progress = &progress;
     WrField *cover =
         wr_select_flood(wr_document_composite(document, session->options.pool), at[0], at[1],
                         wr_call_number(call, "tolerance"), wr_call_choice(call, "diagonal") == 1,
-                        session->options.pool, err);
+                        session->options.pool, &progress, err);
     bool good =
         cover && wr_brush_fill(&painting.ground, &painting.held.brush, cover, at[0], at[1], err);
     wr_field_free(cover);
@@ -24,9 +26,11 @@ bool wr_run_flood(WrSession *session, WrCall *call, WrError *err)
 /* ---- ramp ---- */
 
 /* heights = the blend of the ramp onto them. */
-static void join(WrField *heights, const WrField *ramp, WrBlend blend)
+static bool join(WrField *heights, const WrField *ramp, WrBlend blend, const WrProgress *progress,
+                 WrError *err)
 {
-    for (int ty = 0; ty < wr_field_tiles_v(heights); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(heights); ty++) {
+        if (wr_progress_cancelled(progress)) return wr_fail(err, "cancelled");
         for (int tx = 0; tx < wr_field_tiles_u(heights); tx++) {
             WrBlendTile tile = { .heights = wr_field_tile(ramp, tx, ty),
                                  .level = wr_field_level(ramp),
@@ -41,6 +45,8 @@ static void join(WrField *heights, const WrField *ramp, WrBlend blend)
                 if (tile.heights) tile.heights += WR_TILE;
             }
         }
+    }
+    return true;
 }
 
 bool wr_run_ramp(WrSession *session, WrCall *call, WrError *err)
@@ -58,13 +64,18 @@ bool wr_run_ramp(WrSession *session, WrCall *call, WrError *err)
                     .low = wr_call_number(call, "low"),
                     .high = wr_call_number(call, "high"),
                     .fold = wr_call_choice(call, "fold") == 1 };
-    WrField *made = wr_ramp_make(layer->heights, &ramp, session->options.pool, err);
+    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
+    WrField *made = wr_ramp_make(layer->heights, &ramp, session->options.pool, &progress, err);
     if (!made) return false;
     WrBlend blend = blends[wr_call_choice(call, "blend")];
     if (blend != WR_BLEND_REPLACE) {
         WrField *joined = wr_field_share(layer->heights);
-        join(joined, made, blend);
+        bool good = join(joined, made, blend, &progress, err);
         wr_field_free(made);
+        if (!good) {
+            wr_field_free(joined);
+            return false;
+        }
         made = joined;
     }
     wr_session_put_heights(session, layer, made);

@@ -2,6 +2,7 @@
 #include "command/generate.h"
 #include "command/inner.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "document/edit.h"
 
@@ -51,6 +52,34 @@ char *wr_generator_text(const char *text)
     return made;
 }
 
+/* Check the checksum that the line has for a parameter's file, or set it. */
+static bool check_file(WrCall *call, const char *param, const char *path, WrError *err)
+{
+    char hex[65];
+    const char *name = wr_call_hash_name(call, (int)(wr_call_arg(call, param) - call->args));
+    return wr_sha256_file(path, hex, err) &&
+           wr_call_check_sha256(call, name ? name : "sha256", path, hex, err);
+}
+
+/* Make the line say what its generator chose. */
+static bool keep_choice(void *ctx, const char *param, const char *value, WrError *err)
+{
+    WrCall *call = ctx;
+    WrArg *arg = wr_call_arg(call, param);
+    const WrArgSpec *spec = &call->specs[arg - call->args];
+    if (spec->type == WR_ARG_CHOICE) {
+        for (int i = 0; spec->words && spec->words[i]; i++) {
+            if (strcmp(spec->words[i], value) != 0) continue;
+            arg->choice = i;
+            arg->given = true;
+            return true;
+        }
+    } else {
+        wr_call_set_text(call, param, value);
+    }
+    return check_file(call, param, value, err);
+}
+
 /* Put what texts say and the paths that files have in their values' place: owned[i] where not NULL. */
 static bool resolve(WrSession *session, WrCall *call, const WrGenerator *generator,
                     WrParamValue *values, char **owned, WrError *err)
@@ -61,7 +90,7 @@ static bool resolve(WrSession *session, WrCall *call, const WrGenerator *generat
             values[i].text = owned[i] = wr_generator_text(values[i].text);
         } else if (kind == WR_PARAM_FILE && values[i].text && *values[i].text) {
             values[i].text = owned[i] = wr_session_input_path(session, values[i].text);
-            if (!wr_session_check_sha256(call, owned[i], err)) return false;
+            if (!check_file(call, generator->params[i].name, owned[i], err)) return false;
         }
     }
     return true;
@@ -191,7 +220,9 @@ bool wr_run_generate(WrSession *session, WrCall *call, WrError *err)
                           .pool = session->options.pool,
                           .progress = &progress,
                           .note = note,
-                          .note_ctx = session };
+                          .note_ctx = session,
+                          .chose = keep_choice,
+                          .chose_ctx = call };
     WrParamValue values[WR_GENERATOR_PARAMS];
     char *owned[WR_GENERATOR_PARAMS] = { NULL };
     WrRelief relief = { NULL, NULL };

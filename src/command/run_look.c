@@ -1,4 +1,4 @@
-/* material, colour, light, camera, dials. */
+/* material, colour, light, camera, dials, tolerance. */
 #include "command/inner.h"
 
 #include "base/memory.h"
@@ -161,11 +161,58 @@ bool wr_run_dials(WrSession *session, WrCall *call, WrError *err)
 {
     (void)err;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    WrDials *dials = &scene->dials;
-    if (wr_call_given(call, "aa")) dials->aa = (WrAntialias)wr_call_choice(call, "aa");
-    if (wr_call_given(call, "samples")) dials->samples = (int)wr_call_number(call, "samples");
-    if (wr_call_given(call, "arithmetic"))
-        dials->arithmetic = (WrArithmetic)wr_call_choice(call, "arithmetic");
+    for (int i = 0; i < WR_DIAL_COUNT; i++) {
+        const WrDial *dial = &wr_dials[i];
+        if (strcmp(dial->command, "dials") != 0 || !wr_call_given(call, dial->name)) continue;
+        dial->set(scene, dial->choices > 0 ? wr_call_choice(call, dial->name)
+                                           : wr_call_number(call, dial->name));
+    }
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+/* ---- tolerance ---- */
+
+bool wr_duration_parse(const char *text, double *seconds)
+{
+    const size_t length = strlen(text);
+    const bool ms = length > 2 && strcmp(text + length - 2, "ms") == 0;
+    const bool s = !ms && length > 1 && text[length - 1] == 's';
+    double value;
+    if (!wr_number_parse(text, length - (ms ? 2 : s ? 1 : 0), &value)) return false;
+    value *= ms ? 1e-3 : 1;
+    if (!(value >= 1e-4 && value <= 3600)) return false;
+    *seconds = value;
+    return true;
+}
+
+bool wr_check_duration(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    double seconds;
+    if (wr_duration_parse(value, &seconds)) return true;
+    return wr_fail(err, "%s=%.40s: must be a time such as 8ms or 0.5s, 0.1ms to 3600s", name,
+                   value);
+}
+
+bool wr_run_tolerance(WrSession *session, WrCall *call, WrError *err)
+{
+    static const char *const names[] = { "off", "rms", "max", "time" };
+    WrTolerance tolerance = { WR_TOLERANCE_NONE, 0 };
+    int given = 0;
+    for (int i = 0; i < WR_TOLERANCE_COUNT; i++) {
+        if (!wr_call_given(call, names[i])) continue;
+        given++;
+        tolerance.kind = (WrToleranceKind)i;
+        if (i == WR_TOLERANCE_TIME)
+            wr_duration_parse(wr_call_arg(call, "time")->text, &tolerance.value);
+        else if (i != WR_TOLERANCE_NONE) tolerance.value = wr_call_number(call, names[i]);
+    }
+    if (given != 1)
+        return wr_fail(err, "tolerance: needs one of off, rms=, max= and time=, %s given",
+                       given == 0 ? "none is" : "several are");
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->tolerance = tolerance;
     wr_session_replace_scene(session, scene);
     return true;
 }

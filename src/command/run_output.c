@@ -25,7 +25,15 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
                                .height = height,
                                .turn_deg = turn_deg,
                                .cancel = session->options.cancel };
-    return wr_renderer_frame(session->renderer, &request, frame, err);
+    if (request.scene->tolerance.kind == WR_TOLERANCE_NONE)
+        return wr_renderer_frame(session->renderer, &request, frame, err);
+    return wr_tolerance_choose(session->renderer, &request, &session->choice, err) &&
+           wr_choice_frame(session->renderer, &request, &session->choice, frame, err);
+}
+
+const WrChoice *wr_session_choice(const WrSession *session)
+{
+    return &session->choice;
 }
 
 /* 8-bit sRGB over the scene's background. */

@@ -140,8 +140,17 @@ void wr_print_camera(const WrScene *scene, WrText *text)
 
 void wr_print_dials(const WrScene *scene, WrText *text)
 {
-    const WrDials *dials = &scene->dials;
-    wr_text_addf(text, "dials aa=%s samples=%d arithmetic=%s\n",
-                 dials->aa == WR_AA_POINT ? "point" : "supersample", dials->samples,
-                 dials->arithmetic == WR_ARITHMETIC_EXACT ? "exact" : "fast");
+    WrText dials = { 0 };
+    wr_dials_print(scene, "dials", true, &dials);
+    wr_text_addf(text, "dials %s\n", wr_text_get(&dials));
+    wr_text_fini(&dials);
+}
+
+void wr_print_tolerance(const WrScene *scene, WrText *text)
+{
+    static const char *const names[WR_TOLERANCE_COUNT] = { " off", " rms=", " max=", " time=" };
+    const WrTolerance *tolerance = &scene->tolerance;
+    wr_text_addf(text, "tolerance%s", names[tolerance->kind]);
+    if (tolerance->kind != WR_TOLERANCE_NONE) wr_text_add_number(text, tolerance->value);
+    wr_text_add(text, tolerance->kind == WR_TOLERANCE_TIME ? "s\n" : "\n");
 }

@@ -36,6 +36,7 @@ void wr_session_free(WrSession *session)
     wr_session_journal_drop(session);
     state_fini(&session->state);
     wr_renderer_free(session->renderer);
+    wr_choice_fini(&session->choice);
     wr_brush_files_free(session->brush_files);
     wr_free((char *)session->options.isa);
     wr_free(session);

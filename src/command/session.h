@@ -3,6 +3,7 @@
    Layer 6. A session belongs to one thread; snapshots of it may be read by any. */
 #pragma once
 #include "base/pool.h"
+#include "accuracy/tolerance.h"
 #include "brush/brush.h"
 #include "document/document.h"
 #include "render/frame.h"
@@ -130,6 +131,8 @@ WrHash wr_session_hash(const WrSession *session);
    y axis. *frame is borrowed until the session's next picture. */
 bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
                       WrError *err);
+/* What the last picture chose under the scene's tolerance; kinds is 0 if it had none. */
+const WrChoice *wr_session_choice(const WrSession *session);
 /* The same to a file: linear float R, G, B, A (premultiplied, background 0) for exr, tif and tiff, else
    8-bit sRGB over the scene's background. Works whatever options.outputs says. */
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,

@@ -38,18 +38,16 @@ static void table_slope(const float *at, ptrdiff_t pitch, WrScheme scheme, doubl
     }
 }
 
-/* normalise(-height Fu / cell_w, -height Fv / cell_h, 1); straight up and counted where a slope is not
- * finite. */
-static WrVec3 normal_of(const WrExportJob *job, double fu, double fv, int64_t *replaced)
+/* normalise(x, y, 1) of x = -height Fu / cell_w, y = -height Fv / cell_h; straight up and counted where
+ * one is not finite. */
+static WrVec3 normal_of(double x, double y, int64_t *replaced)
 {
-    double height = job->scene->height;
-    WrVec3 n = { -height * fu / job->options.cell_w, -height * fv / job->options.cell_h, 1.0 };
-    WrVec3 up = { 0.0, 0.0, 1.0 };
-    if (!isfinite(n.x) || !isfinite(n.y)) {
+    WrVec3 n = { x, y, 1.0 }, up = { 0.0, 0.0, 1.0 };
+    if (!isfinite(x) || !isfinite(y)) {
         ++*replaced;
         return up;
     }
-    if (n.x == 0.0 && n.y == 0.0) return up;
+    if (x == 0.0 && y == 0.0) return up;
     return v3_unit(n, up);
 }
 
@@ -70,23 +68,96 @@ typedef struct Strip {
     void *out;
 } Strip;
 
+/* Whether a row's slopes are such that plain products give the bits of v3_unit, which scales by powers of
+ * two against overflow. What is not finite is not. */
+#define PLAIN 1e100
+
+/* -height Fu / cell_w and -height Fv / cell_h of a row of texels. */
+static bool row_tilts(const WrExportJob *job, const float *at, ptrdiff_t pitch, double *restrict tx,
+                      double *restrict ty)
+{
+    WrScheme scheme = (WrScheme)job->options.scheme;
+    double height = job->scene->height, cell_w = job->options.cell_w, cell_h = job->options.cell_h;
+    double width = job->width, rows = job->height, largest = 0.0;
+    for (int i = 0; i < job->width; i++) {
+        double right, down;
+        table_slope(at + i, pitch, scheme, &right, &down);
+        tx[i] = -height * (width * right) / cell_w;
+        ty[i] = -height * (-rows * down) / cell_h;
+    }
+    bool plain = true;
+#pragma omp simd reduction(max : largest)
+    for (int i = 0; i < job->width; i++) {
+        double far = fabs(tx[i]) > fabs(ty[i]) ? fabs(tx[i]) : fabs(ty[i]);
+        largest = far > largest ? far : largest;
+    }
+    for (int i = 0; i < job->width; i++) plain &= tx[i] == tx[i] && ty[i] == ty[i];
+    return plain && largest < PLAIN;
+}
+
+/* round(last (n/2 + 1/2)) of what is not negative. */
+static inline int32_t code_of(double last, double n)
+{
+    double x = last * (n / 2.0 + 0.5);
+    int32_t whole = (int32_t)x;
+    return whole + (x - whole >= 0.5 ? 1 : 0);
+}
+
+/* Whole codes of a row without dither: what normal_of and store do. */
+static void plain_row(const WrExportJob *job, const double *restrict tx, const double *restrict ty,
+                      int32_t *restrict codes)
+{
+    double last = wr_export_last_code(job), green = job->kind->green;
+    int width = job->width;
+    int32_t *x = codes, *y = codes + width, *z = codes + 2 * (size_t)width;
+#pragma omp simd
+    for (int i = 0; i < width; i++) {
+        double inverse = 1.0 / sqrt(tx[i] * tx[i] + ty[i] * ty[i] + 1.0);
+        x[i] = code_of(last, tx[i] * inverse);
+        y[i] = code_of(last, green * (ty[i] * inverse));
+        z[i] = code_of(last, inverse);
+    }
+}
+
+static void store_row(const WrExportJob *job, const int32_t *codes, void *out, size_t texel)
+{
+    size_t width = (size_t)job->width;
+    if (job->options.depth == 8) {
+        uint8_t *to = (uint8_t *)out + 3 * texel;
+        for (size_t i = 0; i < width; i++)
+            for (size_t c = 0; c < 3; c++) to[3 * i + c] = (uint8_t)codes[c * width + i];
+        return;
+    }
+    uint16_t *to = (uint16_t *)out + 3 * texel;
+    for (size_t i = 0; i < width; i++)
+        for (size_t c = 0; c < 3; c++) to[3 * i + c] = (uint16_t)codes[c * width + i];
+}
+
 static void table_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
 {
     WrScheme scheme = (WrScheme)job->options.scheme;
     size_t pitch = (size_t)job->width + 2 * APRON, width = (size_t)job->width;
+    bool whole = job->options.depth < 32 && !job->options.dither;
     float *texels = wr_alloc(pitch * ((size_t)rows + 2 * APRON), sizeof *texels);
+    double *tx = wr_alloc(2 * width, sizeof *tx), *ty = tx + width;
+    int32_t *codes = wr_alloc(3 * width, sizeof *codes);
     if (scheme == WR_SCHEME_BSPLINE_FIT)
         wr_field_read_fitted(job->field, -APRON, y - APRON, (int)pitch, rows + 2 * APRON, texels,
                              pitch);
     else wr_field_read(job->field, -APRON, y - APRON, (int)pitch, rows + 2 * APRON, texels, pitch);
-    for (int j = 0; j < rows; j++)
-        for (int i = 0; i < job->width; i++) {
-            double right, down;
-            table_slope(texels + (size_t)(j + APRON) * pitch + (size_t)(i + APRON),
-                        (ptrdiff_t)pitch, scheme, &right, &down);
-            WrVec3 n = normal_of(job, job->width * right, -job->height * down, replaced);
-            store(job, strip->out, (size_t)(y - strip->y + j) * width + (size_t)i, n, i, y + j);
+    for (int j = 0; j < rows; j++) {
+        const float *at = texels + (size_t)(j + APRON) * pitch + APRON;
+        size_t texel = (size_t)(y - strip->y + j) * width;
+        if (row_tilts(job, at, (ptrdiff_t)pitch, tx, ty) && whole) {
+            plain_row(job, tx, ty, codes);
+            store_row(job, codes, strip->out, texel);
+            continue;
         }
+        for (int i = 0; i < job->width; i++)
+            store(job, strip->out, texel + (size_t)i, normal_of(tx[i], ty[i], replaced), i, y + j);
+    }
+    wr_free(codes);
+    wr_free(tx);
     wr_free(texels);
 }
 
@@ -97,7 +168,9 @@ static void formula_rows(WrExportJob *job, int y, int rows, const Strip *strip, 
         for (int i = 0; i < job->width; i++) {
             double fu, fv;
             wr_analytic_sample(&job->scene->analytic, job->u[i], v, NULL, &fu, &fv);
-            WrVec3 n = normal_of(job, fu, fv, replaced);
+            double height = job->scene->height;
+            WrVec3 n = normal_of(-height * fu / job->options.cell_w,
+                                 -height * fv / job->options.cell_h, replaced);
             store(job, strip->out, (size_t)(y - strip->y + j) * (size_t)job->width + (size_t)i, n,
                   i, y + j);
         }

@@ -12,9 +12,9 @@
 #include <math.h>
 
 #include "base/exactmath.h"
+#include "field/taps.h"
 
 #define REACH WR_OP_NARROW_REACH
-#define AT_ONCE 4                     /* taps on either side in one pass over a row */
 #define WIDE (WR_OP_SIDE + 2 * REACH) /* a block with its apron */
 #define READ_PITCH (WIDE + 16)
 #define MID_PITCH (WR_OP_SIDE + 16)
@@ -41,39 +41,22 @@ typedef struct Blur {
     float amount; /* how much of the blurred difference is added to the height: 1 a blur */
 } Blur;
 
-/* sum[i] += four taps' w ((below + above) - twice), nearest first */
-static void add_taps(const float *w, const float *const below[AT_ONCE],
-                     const float *const above[AT_ONCE], const float *restrict centre, int count,
-                     float *restrict sum)
+/* A strip of the block's rows, filtered along v. */
+static void finish_strip(const Blur *blur, const WrOpBlock *b, int x, const float *in,
+                         const float *mid, float *out, size_t pitch)
 {
-    const float *b0 = below[0], *b1 = below[1], *b2 = below[2], *b3 = below[3];
-    const float *a0 = above[0], *a1 = above[1], *a2 = above[2], *a3 = above[3];
-    float w0 = w[0], w1 = w[1], w2 = w[2], w3 = w[3];
-#pragma omp simd
-    for (int i = 0; i < count; i++) {
-        float twice = centre[i] + centre[i];
-        float s = sum[i] + w0 * ((b0[i] + a0[i]) - twice);
-        s += w1 * ((b1[i] + a1[i]) - twice);
-        s += w2 * ((b2[i] + a2[i]) - twice);
-        sum[i] = s + w3 * ((b3[i] + a3[i]) - twice);
-    }
-}
-
-/* sum[i] = what the blur along one axis adds to centre[i]; tap k is centre + k * step. */
-static void blur_row(const Blur *blur, const float *centre, ptrdiff_t step, int count,
-                     float *restrict sum)
-{
-    for (int i = 0; i < count; i++) sum[i] = 0.0f;
-    for (int k = 1; k <= blur->reach; k += AT_ONCE) {
-        const float *below[AT_ONCE], *above[AT_ONCE];
-        float weight[AT_ONCE];
-        for (int t = 0; t < AT_ONCE; t++) { /* past the last tap: the centre, which adds 0 */
-            ptrdiff_t at = k + t <= blur->reach ? (k + t) * step : 0;
-            below[t] = centre - at;
-            above[t] = centre + at;
-            weight[t] = at ? blur->weight[k + t] : 0.0f;
-        }
-        add_taps(weight, below, above, centre, count, sum);
+    const WrTaps *taps = wr_taps();
+    int count = b->count_i - x < WR_TAPS_STRIP ? b->count_i - x : WR_TAPS_STRIP, r = blur->reach;
+    for (int y = 0; y < b->count_j; y++) {
+        const float *centre = mid + (y + r) * MID_PITCH + x;
+        const float *was = in + (y + r) * READ_PITCH + r + x;
+        float *row = out + (size_t)y * pitch + x, sum[WR_TAPS_STRIP];
+        taps->add(blur->weight, r, centre, MID_PITCH, count, sum);
+        if (blur->amount == 1.0f)
+            for (int k = 0; k < count; k++) row[k] = centre[k] + sum[k];
+        else
+            for (int k = 0; k < count; k++)
+                row[k] = was[k] + blur->amount * ((centre[k] - was[k]) + sum[k]);
     }
 }
 
@@ -81,24 +64,17 @@ static void make_blurred(const WrOpJob *job, const void *ctx, WrOpBlock b, float
                          void *scratch)
 {
     const Blur *blur = ctx;
+    const WrTaps *taps = wr_taps();
     int r = blur->reach, rows = b.count_j + 2 * r;
     float *in = scratch, *mid = in + READ_PITCH * WIDE, *sum = mid + MID_PITCH * WIDE;
     wr_op_read(job->in, b.i - r, b.j - r, b.count_i + 2 * r, rows, in, READ_PITCH);
     for (int y = 0; y < rows; y++) {
         const float *centre = in + y * READ_PITCH + r;
-        blur_row(blur, centre, 1, b.count_i, sum);
+        taps->add(blur->weight, r, centre, 1, b.count_i, sum);
         for (int x = 0; x < b.count_i; x++) mid[y * MID_PITCH + x] = centre[x] + sum[x];
     }
-    for (int y = 0; y < b.count_j; y++) {
-        const float *centre = mid + (y + r) * MID_PITCH, *was = in + (y + r) * READ_PITCH + r;
-        float *row = out + (size_t)y * pitch;
-        blur_row(blur, centre, MID_PITCH, b.count_i, sum);
-        if (blur->amount == 1.0f)
-            for (int x = 0; x < b.count_i; x++) row[x] = centre[x] + sum[x];
-        else
-            for (int x = 0; x < b.count_i; x++)
-                row[x] = was[x] + blur->amount * ((centre[x] - was[x]) + sum[x]);
-    }
+    for (int x = 0; x < b.count_i; x += WR_TAPS_STRIP)
+        finish_strip(blur, &b, x, in, mid, out, pitch);
 }
 
 typedef struct Wide {

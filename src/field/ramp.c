@@ -115,7 +115,8 @@ static bool check_fold(const Axis *axis, const char *name, WrError *err)
         fabs(axis->way) / axis->size, name);
 }
 
-WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool, WrError *err)
+WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool,
+                      const WrProgress *progress, WrError *err)
 {
     double width = wr_field_width(like), height = wr_field_height(like);
     Ramping r = { .ramp = *ramp, .width = wr_field_width(like) };
@@ -132,5 +133,5 @@ WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool, WrE
     if (ramp->fold && ramp->kind == WR_RAMP_LINEAR &&
         (!check_fold(&r.u, "u", err) || !check_fold(&r.v, "v", err)))
         return NULL;
-    return wr_select_build(like, 0.0f, make_rows, &r, pool, err);
+    return wr_select_build(like, 0.0f, make_rows, &r, pool, progress, err);
 }

@@ -21,6 +21,7 @@
    Double arithmetic with base/exactmath.h: the same bits on every processor, for any number of threads. */
 #pragma once
 #include "base/pool.h"
+#include "base/progress.h"
 #include "field/field.h"
 
 typedef enum WrRampKind { WR_RAMP_LINEAR, WR_RAMP_RADIAL, WR_RAMP_CONE, WR_RAMP_KINDS } WrRampKind;
@@ -33,5 +34,6 @@ typedef struct WrRamp {
 } WrRamp;
 
 /* A table of the size and wrap of `like`, the caller's. NULL and an error where from and to are one place,
-   for a fold's way that is as long as the table, or without memory. */
-WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool, WrError *err);
+   for a fold's way that is as long as the table, without memory, or where progress (NULL: none) says so. */
+WrField *wr_ramp_make(const WrField *like, const WrRamp *ramp, WrPool *pool,
+                      const WrProgress *progress, WrError *err);

@@ -56,7 +56,7 @@ static bool build_group(Build *build, int count, WrField *field, WrPool *pool, W
 }
 
 WrField *wr_select_build(const WrField *like, float level, WrSelectRows make, void *ctx,
-                         WrPool *pool, WrError *err)
+                         WrPool *pool, const WrProgress *progress, WrError *err)
 {
     Build build = { .make = make,
                     .ctx = ctx,
@@ -73,7 +73,11 @@ WrField *wr_select_build(const WrField *like, float level, WrSelectRows make, vo
     bool good = true;
     for (int ty = 0; good && ty < wr_field_tiles_v(like); ty += group) {
         build.first = ty * WR_TILE;
-        good = build_group(&build, min_int(group, wr_field_tiles_v(like) - ty), field, pool, err);
+        if (!wr_progress_step(progress, (double)ty / wr_field_tiles_v(like)))
+            good = wr_fail(err, "cancelled");
+        else
+            good =
+                build_group(&build, min_int(group, wr_field_tiles_v(like) - ty), field, pool, err);
     }
     wr_free(build.rows);
     wr_free(build.failed);
@@ -127,7 +131,7 @@ WrField *wr_select_height(const WrField *field, double low, double high, double 
     Band band = { .field = field, .low = low, .high = high, .soft = soft };
     if (!check_band(&band, "height", err)) return NULL;
     float level = in_band(&band, wr_field_level(field));
-    return wr_select_build(field, level, height_rows, &band, pool, err);
+    return wr_select_build(field, level, height_rows, &band, pool, NULL, err);
 }
 
 static bool slope_rows(void *ctx, int worker, int j, int rows, float *out)
@@ -170,7 +174,8 @@ WrField *wr_select_slope(const WrField *field, double relief, double low, double
     band.scratch = wr_try_alloc(threads * (WR_TILE + 2) * band.pitch, sizeof *band.scratch,
                                 "selection by slope", err);
     if (!band.scratch) return NULL;
-    WrField *result = wr_select_build(field, in_band(&band, 0.0), slope_rows, &band, pool, err);
+    WrField *result =
+        wr_select_build(field, in_band(&band, 0.0), slope_rows, &band, pool, NULL, err);
     wr_free(band.scratch);
     return result;
 }

@@ -13,6 +13,7 @@
    is rolled by whole texels, so is the selection, bit for bit. */
 #pragma once
 #include "base/pool.h"
+#include "base/progress.h"
 #include "field/field.h"
 
 /* How far from the origin the points of a shape may lie, in cells. */
@@ -55,9 +56,10 @@ WrField *wr_select_slope(const WrField *field, double relief, double low, double
  * more) of the height of the texel that holds (u, v): 1 there, 0 elsewhere, without soft edges. Texels are
  * connected where they share a side, with `diagonal` also where they share a corner. Off the ends of a
  * clamped axis the nearest texel counts.
- * Memory   one bit a texel and the edge of what was reached, besides the result */
+ * Memory   one bit a texel and the edge of what was reached, besides the result
+ * Errors   "cancelled" too, where progress (NULL: none) says so */
 WrField *wr_select_flood(const WrField *field, double u, double v, double tolerance, bool diagonal,
-                         WrPool *pool, WrError *err);
+                         WrPool *pool, const WrProgress *progress, WrError *err);
 
 typedef enum WrSelectMode {
     WR_SELECT_REPLACE,

@@ -112,13 +112,14 @@ static bool take_row(Flood *f, Run run, int y, WrError *err)
 }
 
 /* In waves, so that no more is remembered than the runs at the edge of what was reached. */
-static bool spread(Flood *f, WrError *err)
+static bool spread(Flood *f, const WrProgress *progress, WrError *err)
 {
     while (f->next.count > 0) {
         RunList done = f->now;
         f->now = f->next;
         f->next = done;
         f->next.count = 0;
+        if (wr_progress_cancelled(progress)) return wr_fail(err, "cancelled");
         for (size_t i = 0; i < f->now.count; i++) {
             Run run = f->now.runs[i];
             if (!take_row(f, run, run.y - 1, err) || !take_row(f, run, run.y + 1, err))
@@ -170,7 +171,7 @@ static bool fetch(Flood *f, const WrField *field, WrError *err)
 }
 
 WrField *wr_select_flood(const WrField *field, double u, double v, double tolerance, bool diagonal,
-                         WrPool *pool, WrError *err)
+                         WrPool *pool, const WrProgress *progress, WrError *err)
 {
     if (!isfinite(u) || !isfinite(v) || !(tolerance >= 0.0)) {
         wr_fail(err, "flood from %.9g,%.9g within %.9g: must be a place and a height of 0 or more",
@@ -189,8 +190,8 @@ WrField *wr_select_flood(const WrField *field, double u, double v, double tolera
     f.low = start - tolerance;
     f.high = start + tolerance;
     WrField *made = NULL;
-    if (fetch(&f, field, err) && take_run(&f, x, y, err) && spread(&f, err))
-        made = wr_select_build(field, most(&f), mark_rows, &f, pool, err);
+    if (fetch(&f, field, err) && take_run(&f, x, y, err) && spread(&f, progress, err))
+        made = wr_select_build(field, most(&f), mark_rows, &f, pool, progress, err);
     wr_free(f.marks);
     wr_free(f.tiles);
     wr_free(f.now.runs);

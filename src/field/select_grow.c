@@ -172,7 +172,7 @@ static WrField *change(const WrField *a, double r, bool grow, WrPool *pool, WrEr
         wr_pool_run(pool, wr_field_tiles_u(a), column_piece, &d);
         bool any = false;
         for (int tx = 0; tx < wr_field_tiles_u(a); tx++) any |= d.some[tx];
-        result = any ? wr_select_build(a, wr_field_level(a), distance_rows, &d, pool, err)
+        result = any ? wr_select_build(a, wr_field_level(a), distance_rows, &d, pool, NULL, err)
                      : wr_field_share(a);
     }
     free_room(&d, threads);

@@ -8,9 +8,10 @@
 typedef bool (*WrSelectRows)(void *ctx, int worker, int j, int rows, float *out);
 
 /* A table like `like`, at `level`, with rows by `make`, which runs on the pool's threads with at most
- * WR_TILE rows at a time. Tiles that come out at the level stay NULL. */
+ * WR_TILE rows at a time. Tiles that come out at the level stay NULL. NULL and "cancelled" where progress,
+ * which may be NULL, says so. */
 WrField *wr_select_build(const WrField *like, float level, WrSelectRows make, void *ctx,
-                         WrPool *pool, WrError *err);
+                         WrPool *pool, const WrProgress *progress, WrError *err);
 
 /* Coordinates of shapes are whole numbers of 1/65536 texel, x to the right, y down, from the table's
    top left corner: sums and differences are exact, so a roll by whole texels changes no bit. */

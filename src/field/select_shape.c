@@ -91,7 +91,7 @@ WrField *wr_select_rectangle(const WrField *like, WrSelectPoint a, WrSelectPoint
                     wr_alloc((size_t)height, sizeof *r.down) };
     cover_axis(width, wr_field_wrap_u(like), low.x, high.x, r.across);
     cover_axis(height, wr_field_wrap_v(like), low.y, high.y, r.down);
-    WrField *field = wr_select_build(like, 0.0f, rectangle_rows, &r, pool, err);
+    WrField *field = wr_select_build(like, 0.0f, rectangle_rows, &r, pool, NULL, err);
     wr_free(r.across);
     wr_free(r.down);
     return field;

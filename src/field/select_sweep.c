@@ -403,7 +403,7 @@ WrField *wr_select_polygon(const WrField *like, const WrSelectVertex *vertices, 
         sweep.work[i].area = wr_alloc((size_t)sweep.width, sizeof *sweep.work[i].area);
         sweep.work[i].whole = wr_alloc((size_t)sweep.width + 1, sizeof *sweep.work[i].whole);
     }
-    WrField *field = wr_select_build(like, 0.0f, polygon_rows, &sweep, pool, err);
+    WrField *field = wr_select_build(like, 0.0f, polygon_rows, &sweep, pool, NULL, err);
     for (int i = 0; i < threads; i++) free_work(&sweep.work[i]);
     wr_free(sweep.work);
     wr_free(sweep.sides);

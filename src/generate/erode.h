@@ -19,10 +19,14 @@ typedef struct WrThermal {
 } WrThermal;
 bool wr_erode_thermal(WrSheet *sheet, const WrThermal *how, const WrGenerateJob *job, WrError *err);
 
-/* Drops of rain, one after another, so that the order is always the same; one thread. Each runs downhill,
- * takes up ground while it can carry more, lays it down where it slows, and leaves what it still carries
- * where it dries up. Slopes are measured against the table's whole relief over 1/256 of its width, so
- * neither units nor the number of texels matter much. */
+/* Drops of rain. Each runs downhill, takes up ground while it can carry more, lays it down where it slows,
+ * and has laid down all that it carries when it dries up. Slopes are measured against the table's whole
+ * relief over 1/256 of its width, so neither units nor the number of texels matter much.
+ *
+ * A drop runs at most 64 texels. Water that lives longer falls on grids of half and quarter the texels and
+ * so on first, in smaller numbers; what it has changed there is added, drawn by a cubic. On each grid the
+ * rain falls in tiles that no drop of another tile of the same time reaches: the same bits on any number of
+ * threads. Places are those of the table, so a rolled one weathers otherwise. */
 typedef struct WrRain {
     double drops;               /* per texel */
     double inertia;             /* 0..1, how hard it is to turn a drop */
@@ -30,7 +34,7 @@ typedef struct WrRain {
     double erosion, deposition; /* 0..1 of what it could take up or lay down, each texel */
     double evaporation;         /* of its water, each texel */
     int radius;                 /* texels, of the ground that it takes from */
-    int life;                   /* texels that it runs at most */
+    int life;                   /* texels that water runs at most */
     uint32_t seed;
 } WrRain;
 bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job, WrError *err);

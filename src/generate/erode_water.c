@@ -8,7 +8,12 @@
 #define RADIUS_MOST 16
 #define GRAVITY 4.0
 #define LEAST_SLOPE 0.01 /* by which a drop on flat ground carries something */
-#define REPORT 4096      /* drops */
+#define RUN 64           /* texels of a grid that a drop runs at most */
+#define LEAST_SIDE 48    /* texels; smaller grids are not made */
+#define LEVELS_MAX 10
+#define COARSE                                                                                     \
+    0.15         /* rain on the first coarser grid, as a part; half of it on each grid after that */
+#define ROUNDS 8 /* in which all of the table gets its share of the rain */
 
 const WrParam wr_params_hydraulic[] = {
     WR_P_NUMBER("rain", "Rain", 1, 0, 100, 4, "", "drops for each texel"),
@@ -19,7 +24,7 @@ const WrParam wr_params_hydraulic[] = {
     WR_P_PART("evaporation", "Evaporation", 0.01, "of a drop, each texel"),
     WR_P_WHOLE("radius", "Radius", 2, 1, RADIUS_MOST, 8,
                "of the ground that a drop takes from, texels"),
-    WR_P_WHOLE("life", "Life", 128, 1, 4096, 200, "of a drop, texels"),
+    WR_P_WHOLE("life", "Life", 128, 1, 4096, 512, "how far water runs, texels"),
     WR_P_SEED,
     WR_P_END
 };
@@ -33,7 +38,11 @@ typedef struct Weather {
     WrSheet *sheet;
     const WrRain *rain;
     Brush brush;
-    double scale; /* slopes: table units a texel -> parts of the relief in 1/256 of the width */
+    double scale;     /* slopes: table units a texel -> parts of the relief in 1/256 of the width */
+    double fade[RUN]; /* what is left of its water by how far it has run, besides evaporation */
+    double capacity;  /* table units */
+    double drops;     /* for each of its texels */
+    int life, level;
 } Weather;
 
 typedef struct Drop {
@@ -69,48 +78,58 @@ static bool within(const WrSheet *s, int i, int j, int size)
     return i >= 0 && j >= 0 && i <= s->width - size && j <= s->height - size;
 }
 
-/* The four texels about a place, and how far it is from the first. */
+static int floor_of(double x)
+{
+    int i = (int)x;
+    return i - ((double)i > x);
+}
+
+/* The four texels about a place: left, right; the same below; and how far it is from the first. */
 typedef struct Corners {
-    double *p, *q, *r, *t; /* left, right; the same below */
+    double *at[4];
     double a, b;
 } Corners;
 
-static Corners corners(const WrSheet *s, double x, double y)
+static inline Corners corners(const WrSheet *s, double x, double y)
 {
-    int i = (int)floor(x), j = (int)floor(y);
+    int i = floor_of(x), j = floor_of(y);
     Corners c = { .a = x - i, .b = y - j };
     if (within(s, i, j, 2)) {
-        c.p = s->z + (size_t)j * (size_t)s->width + (size_t)i;
-        c.q = c.p + 1;
-        c.r = c.p + s->width;
-        c.t = c.r + 1;
+        double *first = s->z + (size_t)j * (size_t)s->width + (size_t)i;
+        c.at[0] = first;
+        c.at[1] = first + 1;
+        c.at[2] = first + s->width;
+        c.at[3] = first + s->width + 1;
     } else {
-        c.p = texel(s, i, j);
-        c.q = texel(s, i + 1, j);
-        c.r = texel(s, i, j + 1);
-        c.t = texel(s, i + 1, j + 1);
+        for (int k = 0; k < 4; k++) c.at[k] = texel(s, i + k % 2, j + k / 2);
     }
     return c;
 }
 
-/* The height at a place, bilinear, and its slopes. */
-static double ground(const WrSheet *s, double x, double y, double *zx, double *zy)
+/* The height at a place, bilinear. */
+static inline double ground(const Corners *c)
 {
-    const Corners c = corners(s, x, y);
-    double p = *c.p, q = *c.q, r = *c.r, t = *c.t;
-    *zx = (q - p) * (1.0 - c.b) + (t - r) * c.b;
-    *zy = (r - p) * (1.0 - c.a) + (t - q) * c.a;
-    return (p * (1.0 - c.a) + q * c.a) * (1.0 - c.b) + (r * (1.0 - c.a) + t * c.a) * c.b;
+    double above = *c->at[0] * (1.0 - c->a) + *c->at[1] * c->a;
+    return above * (1.0 - c->b) + (*c->at[2] * (1.0 - c->a) + *c->at[3] * c->a) * c->b;
 }
 
 /* One after the other, since on small tables they may be the same texel. */
-static void lay_down(const WrSheet *s, double x, double y, double amount)
+static void lay_down(const Corners *c, double amount)
 {
-    const Corners c = corners(s, x, y);
-    *c.p += amount * (1.0 - c.a) * (1.0 - c.b);
-    *c.q += amount * c.a * (1.0 - c.b);
-    *c.r += amount * (1.0 - c.a) * c.b;
-    *c.t += amount * c.a * c.b;
+    *c->at[0] += amount * (1.0 - c->a) * (1.0 - c->b);
+    *c->at[1] += amount * c->a * (1.0 - c->b);
+    *c->at[2] += amount * (1.0 - c->a) * c->b;
+    *c->at[3] += amount * c->a * c->b;
+}
+
+static void take_up_direct(const Brush *brush, double *corner, size_t width, double amount)
+{
+    for (int b = 0; b < brush->side; b++) {
+        const double *weight = brush->weight + b * brush->side;
+        double *z = corner + (size_t)b * width;
+#pragma omp simd
+        for (int a = 0; a < brush->side; a++) z[a] -= amount * weight[a];
+    }
 }
 
 /* Below 0: lay it down, softly. */
@@ -118,17 +137,15 @@ static void take_up(const Weather *w, double x, double y, double amount)
 {
     const Brush *brush = &w->brush;
     const WrSheet *s = w->sheet;
-    int r = brush->radius, i = (int)floor(x + 0.5) - r, j = (int)floor(y + 0.5) - r;
-    bool direct = within(s, i, j, brush->side);
+    int r = brush->radius, i = floor_of(x + 0.5) - r, j = floor_of(y + 0.5) - r;
+    if (within(s, i, j, brush->side)) {
+        size_t width = (size_t)s->width;
+        take_up_direct(brush, s->z + (size_t)j * width + (size_t)i, width, amount);
+        return;
+    }
     for (int b = 0; b < brush->side; b++)
-        for (int a = 0; a < brush->side; a++) {
-            double part = brush->weight[b * brush->side + a];
-            if (part > 0.0) {
-                double *z = direct ? s->z + (size_t)(j + b) * (size_t)s->width + (size_t)(i + a)
-                                   : texel(s, i + a, j + b);
-                *z -= amount * part;
-            }
-        }
+        for (int a = 0; a < brush->side; a++)
+            *texel(s, i + a, j + b) -= amount * brush->weight[b * brush->side + a];
 }
 
 /* Back onto the table round a ring; false beyond a clamped edge. */
@@ -141,57 +158,205 @@ static bool bring_back(double *x, int n, WrWrap wrap)
     return true;
 }
 
-/* One texel on. False when the drop has come to its end. */
-static bool step(const Weather *w, Drop *d)
+/* Which way the ground falls, and the drop runs: of length 1. False where it has nowhere to go. */
+static inline bool turn(const Weather *w, const Corners *c, Drop *d)
 {
-    const WrRain *rain = w->rain;
-    const WrSheet *s = w->sheet;
-    double zx, zy, unused, x = d->x, y = d->y, z = ground(s, x, y, &zx, &zy);
-    d->dx = d->dx * rain->inertia - zx * w->scale * (1.0 - rain->inertia);
-    d->dy = d->dy * rain->inertia - zy * w->scale * (1.0 - rain->inertia);
+    double p = *c->at[0], q = *c->at[1], r = *c->at[2], t = *c->at[3];
+    double zx = (q - p) * (1.0 - c->b) + (t - r) * c->b;
+    double zy = (r - p) * (1.0 - c->a) + (t - q) * c->a;
+    double inertia = w->rain->inertia;
+    d->dx = d->dx * inertia - zx * w->scale * (1.0 - inertia);
+    d->dy = d->dy * inertia - zy * w->scale * (1.0 - inertia);
     double length = sqrt(d->dx * d->dx + d->dy * d->dy);
     if (!(length > 1e-12)) return false;
-    d->dx /= length;
-    d->dy /= length;
-    double to_x = x + d->dx, to_y = y + d->dy;
-    if (!bring_back(&to_x, s->width, s->wrap[0]) || !bring_back(&to_y, s->height, s->wrap[1]))
-        return false;
-    double rise = ground(s, to_x, to_y, &unused, &unused) - z, fall = -rise * w->scale;
+    double unit = 1.0 / length;
+    d->dx *= unit;
+    d->dy *= unit;
+    return true;
+}
+
+/* Take up or lay down at its place, before it goes to where the ground is higher by `rise`. */
+static inline void carry(const Weather *w, const Corners *c, double rise, double fade, Drop *d)
+{
+    const WrRain *rain = w->rain;
+    double fall = -rise * w->scale;
     double can =
-        (fall > LEAST_SLOPE ? fall : LEAST_SLOPE) * d->speed * d->water * rain->capacity / w->scale;
+        (fall > LEAST_SLOPE ? fall : LEAST_SLOPE) * d->speed * d->water * fade * w->capacity;
     if (rise > 0.0 || d->load > can) {
         double amount = (d->load - can) * rain->deposition;
         if (rise > 0.0) amount = rise < d->load ? rise : d->load; /* fill the hollow */
-        lay_down(s, x, y, amount);
+        lay_down(c, amount);
         d->load -= amount;
     } else {
         double amount = (can - d->load) * rain->erosion;
         if (amount > -rise) amount = -rise; /* no deeper than where it goes */
-        take_up(w, x, y, amount);
+        take_up(w, d->x, d->y, amount);
         d->load += amount;
     }
     double speed = d->speed * d->speed + fall * GRAVITY;
     d->speed = speed > 0.0 ? sqrt(speed) : 0.0;
     d->water *= 1.0 - rain->evaporation;
-    d->x = to_x;
-    d->y = to_y;
+}
+
+/* One texel on. False when the drop has come to its end. */
+static inline bool step(const Weather *w, Drop *d, double fade)
+{
+    const WrSheet *s = w->sheet;
+    const Corners from = corners(s, d->x, d->y);
+    if (!turn(w, &from, d)) return false;
+    double x = d->x + d->dx, y = d->y + d->dy;
+    if (!bring_back(&x, s->width, s->wrap[0]) || !bring_back(&y, s->height, s->wrap[1]))
+        return false;
+    const Corners to = corners(s, x, y);
+    carry(w, &from, ground(&to) - ground(&from), fade, d);
+    d->x = x;
+    d->y = y;
     return d->speed > 0.0 && d->water > 0.01;
 }
 
-static double chance(uint32_t seed, uint32_t drop, uint32_t use)
+static double chance(const Weather *w, uint32_t tile, uint32_t drop, uint32_t use)
 {
-    return wr_mix32(wr_mix32(drop * 2 + use) ^ wr_mix32(seed + 0x68e31da4U)) / 4294967296.0;
+    uint32_t place = wr_mix32(tile * 64U + (uint32_t)w->level) ^ (drop * 2U + use);
+    return wr_mix32(wr_mix32(place) ^ wr_mix32(w->rain->seed + 0x68e31da4U)) / 4294967296.0;
 }
 
-static void run_drop(const Weather *w, uint32_t number)
+static void run_drop(const Weather *w, double x, double y)
 {
-    const WrSheet *s = w->sheet;
-    Drop d = { .x = floor(s->width * chance(w->rain->seed, number, 0)),
-               .y = floor(s->height * chance(w->rain->seed, number, 1)),
-               .speed = 1.0,
-               .water = 1.0 };
-    for (int k = 0; k < w->rain->life && step(w, &d);) k++;
+    Drop d = { .x = x, .y = y, .speed = 1.0, .water = 1.0 };
+    for (int k = 0; k < w->life && step(w, &d, w->fade[k]);) k++;
     if (d.load > 0.0) take_up(w, d.x, d.y, -d.load);
+}
+
+/* ---- tiles ----
+ *
+ * A drop touches nothing farther than `reach` from where it falls. So in tiles of more than twice that,
+ * every other one along each axis, drops do not meet: four sorts of tiles one after another, those of a sort
+ * at once, and drops in a tile in their order make the same ground on any number of threads. */
+
+typedef struct Storm {
+    const Weather *w;
+    int tiles[2]; /* along each axis; even, or 1 */
+    int sort[2];  /* which are rained on */
+    int round;
+    const WrProgress *progress;
+} Storm;
+
+static int tiles_of(int n, int reach)
+{
+    int tiles = n / (2 * reach + 2);
+    return tiles < 2 ? 1 : tiles - tiles % 2;
+}
+
+static int sorts(int tiles)
+{
+    return tiles > 1 ? 2 : 1;
+}
+
+static double edge(int n, int tiles, int k)
+{
+    return (double)((int64_t)n * k / tiles);
+}
+
+static void rain_on_tile(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Storm *storm = ctx;
+    const WrSheet *s = storm->w->sheet;
+    int across = storm->tiles[0] / sorts(storm->tiles[0]);
+    int i = index % across * sorts(storm->tiles[0]) + storm->sort[0];
+    int j = index / across * sorts(storm->tiles[1]) + storm->sort[1];
+    double x = edge(s->width, storm->tiles[0], i), y = edge(s->height, storm->tiles[1], j);
+    double wide = edge(s->width, storm->tiles[0], i + 1) - x;
+    double high = edge(s->height, storm->tiles[1], j + 1) - y;
+    double all = storm->w->drops * wide * high / ROUNDS;
+    uint32_t tile = (uint32_t)(j * storm->tiles[0] + i);
+    uint32_t end = (uint32_t)floor(all * (storm->round + 1));
+    for (uint32_t k = (uint32_t)floor(all * storm->round); k < end; k++) {
+        if (k % 256 == 0 && wr_progress_cancelled(storm->progress)) return;
+        run_drop(storm->w, x + floor(wide * chance(storm->w, tile, k, 0)),
+                 y + floor(high * chance(storm->w, tile, k, 1)));
+    }
+}
+
+/* done, share: of all the work. */
+static bool rain_on_sheet(const Weather *w, double done, double share, const WrGenerateJob *job)
+{
+    int reach = w->life + w->brush.radius + 2;
+    Storm storm = { .w = w, .progress = job->progress };
+    storm.tiles[0] = tiles_of(w->sheet->width, reach);
+    storm.tiles[1] = tiles_of(w->sheet->height, reach);
+    int u = sorts(storm.tiles[0]), v = sorts(storm.tiles[1]), phases = ROUNDS * u * v;
+    for (int k = 0; k < phases; k++) {
+        storm.round = k / (u * v);
+        storm.sort[0] = k % u;
+        storm.sort[1] = k / u % v;
+        wr_pool_run(job->pool, storm.tiles[0] / u * (storm.tiles[1] / v), rain_on_tile, &storm);
+        if (!wr_progress_step(job->progress, done + share * (k + 1) / phases)) return false;
+    }
+    return true;
+}
+
+/* ---- grids ---- */
+
+static void set_weather(Weather *w, WrSheet *sheet, const WrRain *rain, int level, double relief)
+{
+    int life = rain->life >> level;
+    *w = (Weather){ .sheet = sheet, .rain = rain, .level = level };
+    w->life = life < 1 ? 1 : life < RUN ? life : RUN;
+    w->scale = sheet->width / 256.0 / relief;
+    w->capacity = rain->capacity / w->scale;
+    w->drops = rain->drops;
+    for (int k = 0; k < level; k++) w->drops *= k == 0 ? COARSE : 0.5;
+    for (int k = 0; k < w->life; k++) {
+        double t = (double)k / w->life;
+        w->fade[k] = 1.0 - t * t * t;
+    }
+    make_brush(&w->brush, rain->radius);
+}
+
+/* What `small` has become more than `before`, added to sheet; the sum of heights stays. */
+static bool add_change(WrSheet *sheet, WrSheet *small, const WrSheet *before,
+                       const WrGenerateJob *job, WrError *err)
+{
+    size_t count = (size_t)small->width * (size_t)small->height;
+    double sum = 0.0;
+    for (size_t k = 0; k < count; k++) small->z[k] -= before->z[k];
+    if (!wr_sheet_resize(small, sheet->width, sheet->height, job, err)) return false;
+    count = (size_t)small->width * (size_t)small->height;
+    for (size_t k = 0; k < count; k++) sum += small->z[k];
+    for (size_t k = 0; k < count; k++) sheet->z[k] += small->z[k] - sum / (double)count;
+    return true;
+}
+
+typedef struct Rainfall {
+    const WrRain *rain;
+    const WrGenerateJob *job;
+    double relief;
+    int levels;
+} Rainfall;
+
+/* Rain on coarser grids first, then on this one. */
+static bool rain_on_level(WrSheet *sheet, const Rainfall *all, int level, WrError *err)
+{
+    double share = 0.75; /* of the work, each grid has a quarter of the finer one's */
+    for (int k = 0; k < level; k++) share *= 0.25;
+    if (level + 1 < all->levels) {
+        WrSheet small = { .z = NULL }, before = { .z = NULL };
+        bool good = wr_sheet_copy(&small, sheet, err) &&
+                    wr_sheet_resize(&small, (sheet->width + 1) / 2, (sheet->height + 1) / 2,
+                                    all->job, err) &&
+                    wr_sheet_copy(&before, &small, err) &&
+                    rain_on_level(&small, all, level + 1, err) &&
+                    add_change(sheet, &small, &before, all->job, err);
+        wr_sheet_fini(&small);
+        wr_sheet_fini(&before);
+        if (!good) return false;
+    }
+    Weather *w = wr_alloc(1, sizeof *w);
+    set_weather(w, sheet, all->rain, level, all->relief);
+    bool good = rain_on_sheet(w, share / 3.0, share, all->job);
+    wr_free(w);
+    return good || wr_fail(err, "cancelled");
 }
 
 bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job, WrError *err)
@@ -199,17 +364,13 @@ bool wr_erode_rain(WrSheet *sheet, const WrRain *rain, const WrGenerateJob *job,
     double low, high;
     wr_sheet_range(sheet, &low, &high);
     if (!(high - low > 1e-30)) return true; /* nothing runs */
-    Weather w = { .sheet = sheet, .rain = rain };
-    w.scale = sheet->width / 256.0 / (high - low);
-    make_brush(&w.brush, rain->radius);
-    double drops = floor(rain->drops * sheet->width * sheet->height);
-    if (drops > 4294967295.0) drops = 4294967295.0;
-    for (double k = 0.0; k < drops; k += 1.0) {
-        if (fmod(k, REPORT) == 0.0 && !wr_progress_step(job->progress, k / drops))
-            return wr_fail(err, "cancelled");
-        run_drop(&w, (uint32_t)k);
-    }
-    return true;
+    Rainfall all = { rain, job, high - low, 1 };
+    int side = sheet->width < sheet->height ? sheet->width : sheet->height;
+    while (all.levels < LEVELS_MAX && rain->life >> (all.levels - 1) > RUN &&
+           side >> all.levels >= LEAST_SIDE)
+        all.levels++;
+    return rain_on_level(sheet, &all, 0, err) &&
+           (wr_progress_step(job->progress, 1.0) || wr_fail(err, "cancelled"));
 }
 
 bool wr_terrain_hydraulic(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,

@@ -79,6 +79,12 @@ typedef struct WrGenerateJob {
                  const char *text); /* what there is to say besides: dropped octaves, missing
                                                   glyphs, the sign of a normal map; NULL: nobody listens */
     void *note_ctx;
+    /* Told of what was chosen where a parameter leaves it open, before it is used, so that the same can be
+       asked for again whatever is installed then: the path of a FILE; of a CHOICE another word of it, or
+       the path of the file that its word stands for. False, with an error: it must not be used. NULL:
+       nobody listens */
+    bool (*chose)(void *ctx, const char *param, const char *value, WrError *err);
+    void *chose_ctx;
 } WrGenerateJob;
 
 typedef struct WrGenerator {

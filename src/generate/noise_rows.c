@@ -20,9 +20,9 @@ static const char *const sources[] = { "hash", "lecture", NULL };
                    "and up; 0: cells as square as can be"),                                        \
         WR_P_WHOLE("octaves", "Octaves", 5, 1, WR_OCTAVES_MOST, 12,                                \
                    "at most; those finer than two texels a cell are left out"),                    \
-        WR_P_ABOVE("ratio", "Fall of heights", 2, 1, 64, 4, "",                                    \
+        WR_P_ABOVE("ratio", "Fall", 2, 1, 64, 4, "",                                               \
                    "each octave is so many times lower than the one before"),                      \
-        WR_P_ABOVE("step", "Step of frequency", 2, 1, 64, 4, "",                                   \
+        WR_P_ABOVE("step", "Step", 2, 1, 64, 4, "",                                                \
                    "each octave has so many times more cells; rounded to whole cells"),            \
         WR_P_CHOICE("mode", "Sum", 0, modes, "how octaves are summed"), WR_P_SEED,                 \
         WR_P_SWITCH("scatter", "Scattered", 1, "each octave is moved by an amount of its own"),    \

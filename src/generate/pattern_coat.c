@@ -175,5 +175,5 @@ bool wr_pattern_scales(const WrParamValue *values, const WrGenerateJob *job, WrR
     c.ridge = wr_param_number(&params, "ridge");
     c.radius = 0.5 * wr_param_number(&params, "size") * c.cells.cell_width;
     wr_note_rows(job, c.cells.rows, 2, "the bond");
-    return wr_pattern_make(&params, job, scale_at, &c, 1, out, err);
+    return wr_pattern_make(&params, job, scale_at, &c, 2, out, err);
 }

@@ -11,6 +11,7 @@
 
 #define MOST 2000   /* scratches */
 #define PIECES 16   /* of a bent scratch */
+#define BLUR 0.5    /* half a texel */
 #define BUCKETS 128 /* along an axis, at most */
 
 const WrParam wr_params_scratches[] = {
@@ -126,7 +127,8 @@ static double nearest_image(double d, double about, double size)
     return d - size * floor((d - about) / size + 0.5);
 }
 
-/* A groove with rims: 1 - t^2 inside, a rim from 1 to 2 half widths, thin and shallow towards both ends. */
+/* A groove with rims: 1 - t^2 inside, a rim from 1 to 2 half widths, thin and shallow towards both ends. What a
+ * texel blurs makes it wider, and as much shallower. */
 static double groove(const Scratches *s, const Piece *p, double x, double y)
 {
     double ex = nearest_image(x - p->x, 0.5 * p->dx, s->width);
@@ -136,10 +138,10 @@ static double groove(const Scratches *s, const Piece *p, double x, double y)
     t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
     double rx = ex - t * p->dx, ry = ey - t * p->dy, distance = sqrt(rx * rx + ry * ry);
     double place = p->from + t * (p->to - p->from), taper = 4.0 * place * (1.0 - place);
-    double half = 0.5 * p->width * (0.3 + 0.7 * taper) + 0.75;
+    double real = 0.5 * p->width * (0.3 + 0.7 * taper), half = sqrt(real * real + BLUR * BLUR);
     double r = distance / half;
     if (r >= 2.0) return 0.0;
-    double depth = p->depth * taper * (p->width < 1.0 ? p->width : 1.0);
+    double depth = p->depth * taper * (real / half);
     if (r < 1.0) return -depth * (1.0 - r * r);
     double rim = (r - 1.0) * (2.0 - r);
     return s->ridge * depth * 16.0 * rim * rim;

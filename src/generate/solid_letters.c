@@ -5,7 +5,8 @@
 #include "generate/solid.h"
 #include "image/font.h"
 
-#define CHORD 0.02 /* texels that straight pieces may differ from the outlines' curves */
+#define SANS_BOLD 3 /* of wr_font_names: outlines, not blocks */
+#define CHORD 0.02  /* texels that straight pieces may differ from the outlines' curves */
 
 static const char *const bevels[] = { "round", "chamfer", NULL };
 
@@ -21,6 +22,7 @@ const WrParam wr_params_solid_letters[] = {
       .help = "an installed font, where no file is named",
       .unit = "",
       .kind = WR_PARAM_CHOICE,
+      .fallback = { SANS_BOLD },
       .words = wr_font_names },
     { .name = "file",
       .label = "Font file",

@@ -8,9 +8,8 @@ const WrGenerator wr_terrains[] = {
       "real heights from a picture of 16 bits or floats, or from bare numbers", "replace",
       wr_params_elevation, wr_terrain_elevation },
     { "terrain", "hydraulic", "Rain",
-      "rain runs over what lies there, cuts valleys and fills hollows; no ground is lost. Drops "
-      "fall "
-      "in places of the table, one after another: a rolled table weathers otherwise",
+      "rain runs over what lies there, cuts valleys and fills hollows; no ground is lost. It falls "
+      "in places of the table: a rolled table weathers otherwise",
       "replace", wr_params_hydraulic, wr_terrain_hydraulic },
     { "terrain", "thermal", "Scree",
       "what lies there slides where it is steeper than the angle of rest; no ground is lost",

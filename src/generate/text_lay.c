@@ -27,7 +27,7 @@ typedef struct Lay {
     WrFontOutline *outlines; /* [glyph_count], made when first needed */
     bool *made;              /* [glyph_count] */
     double (*place)[2];      /* [placed_count] */
-    double scale;            /* texels a unit */
+    double scale;            /* texels a unit of the first font */
     double width, height;    /* of the table */
     bool on_texels;
     WR_ARRAY(double) turned;
@@ -104,12 +104,18 @@ static Stand path_at(const Path *path, double s)
 
 /* ---- letters ---- */
 
+static double scale_of(const Lay *lay, const WrFontPlaced *placed)
+{
+    return wr_font_scale(lay->text, placed, lay->wish->setting.size);
+}
+
 static bool make_outline(Lay *lay, int glyph, WrError *err)
 {
     if (lay->made[glyph]) return true;
     lay->made[glyph] = true;
-    if (!wr_font_glyph_outline(lay->text, glyph, lay->scale, 0.0, 0.0, TOLERANCE,
-                               &lay->outlines[glyph], err))
+    double scale = lay->wish->setting.size / lay->text->glyphs[glyph].units;
+    if (!wr_font_glyph_outline(lay->text, glyph, scale, 0.0, 0.0, TOLERANCE, &lay->outlines[glyph],
+                               err))
         return false;
     lay->points += lay->outlines[glyph].xy.count / 2;
     if (lay->points <= WR_FONT_FLAT_MAX) return true;
@@ -193,7 +199,7 @@ static bool lay_path(Lay *lay, WrError *err)
     double from = good ? part * path_length(&path) : 0.0, up = rise(lay);
     for (int32_t i = 0; i < lay->text->placed_count && good; i++) {
         const WrFontPlaced *p = &lay->text->placed[i];
-        double half = 0.5 * p->advance * lay->scale, own = p->dx * lay->scale;
+        double scale = scale_of(lay, p), half = 0.5 * p->advance * scale, own = p->dx * scale;
         Stand stand = path_at(&path, from + lay->place[i][0] - own + half);
         good = draw(lay, i, &stand, own - half, lay->place[i][1] + up, err);
     }
@@ -212,8 +218,9 @@ static bool lay_round(Lay *lay, int32_t index, const Stand *stand, double length
     double width = 0.0, spacing = lay->wish->setting.letter_spacing;
     int gaps = 0;
     for (int32_t i = line->first; i < line->first + line->count; i++) {
-        width += text->placed[i].advance * lay->scale + (text->placed[i].spaced ? spacing : 0.0);
-        gaps += text->placed[i].spaced;
+        const WrFontPlaced *p = &text->placed[i];
+        width += p->advance * scale_of(lay, p) + (p->spaced ? spacing : 0.0);
+        gaps += p->spaced;
     }
     if (gaps == 0) return true;
     double fit = width > 0.0 ? floor(length / width + 0.5) : 1.0;
@@ -228,9 +235,9 @@ static bool lay_round(Lay *lay, int32_t index, const Stand *stand, double length
         double x = length * r / repeats;
         for (int32_t i = line->first; i < line->first + line->count; i++) {
             const WrFontPlaced *p = &text->placed[i];
-            if (!draw(lay, i, stand, x + p->dx * lay->scale, lay->place[i][1] + up, err))
+            if (!draw(lay, i, stand, x + p->dx * scale_of(lay, p), lay->place[i][1] + up, err))
                 return false;
-            x += p->advance * lay->scale + (p->spaced ? spacing + more : 0.0);
+            x += p->advance * scale_of(lay, p) + (p->spaced ? spacing + more : 0.0);
         }
     }
     return true;

@@ -1,6 +1,7 @@
 /* text_lay.h - where a text's letters stand on the table: in lines, turned, on a path, around the table.
    Layer 4, private to this room. */
 #pragma once
+#include "generate/param.h"
 #include "generate/text.h"
 #include "image/font.h"
 
@@ -24,6 +25,22 @@ typedef struct WrTextWish {
     int repeats;       /* 0: as many as fit best */
     bool clip;
 } WrTextWish;
+
+/* Shape a text by the fonts that the parameters name: `font`, `file`, `missing`, `fallback`, `fallback2`,
+ * `fallback3`. Where the first one lacks letters, none is named to lend them and missing=borrow, those are
+ * lent by installed fonts, and the job is told which. Notes say what came from where, and what no font has.
+ * ask: all but its fonts. */
+bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
+                   const WrGenerateJob *job, WrFontText *out, WrError *err);
+/* Rows of those parameters but `font` and `file`. */
+#define WR_P_MISSING(n, words)                                                                     \
+    WR_P_CHOICE(n, "Missing letters", 0, words,                                                    \
+                "what the font lacks: from other installed fonts, or drawn as its sign for that")
+#define WR_P_FALLBACK(n, l, h)                                                                     \
+    {                                                                                              \
+        .name = (n), .label = (l), .help = (h), .unit = "", .kind = WR_PARAM_FILE,                 \
+        .fallback_text = ""                                                                        \
+    }
 
 /* Add all letters' outlines to a shape. Curves are kept within 1/64 texel. Dots of bitmap fonts at a whole
  * number of texels each, unturned, stand exactly on texels.

@@ -1,5 +1,4 @@
 /* The text generator: from parameters to placed outlines. */
-#include "base/text.h"
 #include "generate/param.h"
 #include "generate/text_lay.h"
 
@@ -9,6 +8,7 @@ static const char *const align_words[] = { "left", "centre", "right", NULL };
 static const char *const anchor_words[] = { "middle", "baseline", "top", "bottom", NULL };
 static const char *const direction_words[] = { "auto", "left-to-right", "right-to-left", NULL };
 static const char *const around_words[] = { "off", "u", "v", "lattice", NULL };
+static const char *const missing_words[] = { "borrow", "sign", NULL };
 static const char *const edge_words[] = { "wrap", "clip", NULL };
 static const char *const profile_words[] = { "flat", "round", "chisel", "ridge", "engraved", NULL };
 
@@ -32,6 +32,16 @@ static const WrParam params[] = {
       .kind = WR_PARAM_FILE,
       .fallback_text = "" },
     WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "which of a collection of fonts in one file"),
+    { .name = "axes",
+      .label = "Axes",
+      .help = "of a variable font, as in wght=650,wdth=80",
+      .unit = "",
+      .kind = WR_PARAM_TEXT,
+      .fallback_text = "" },
+    WR_P_MISSING("missing", missing_words),
+    WR_P_FALLBACK("fallback", "Other font", "a font file for letters that the font lacks"),
+    WR_P_FALLBACK("fallback2", "Second other font", "for what that one lacks too"),
+    WR_P_FALLBACK("fallback3", "Third other font", "and for what both lack"),
     WR_P_ABOVE("size", "Size", 64, 0, WR_FONT_SIZE_MAX, 512, "texels",
                "of the font's em; of a bitmap font its dots' height"),
     { .name = "at",
@@ -100,6 +110,7 @@ static WrTextWish wish_of(const WrParams *p)
     const WrParamValue *at = wr_param_value(p, "at"), *lattice = wr_param_value(p, "lattice");
     const WrParamValue *path = wr_param_value(p, "points");
     const char *language = wr_param_value(p, "language")->text;
+    const char *axes = wr_param_value(p, "axes")->text;
     WrTextWish wish = {
         .setting = { .size = wr_param_number(p, "size"),
                      .letter_spacing = wr_param_number(p, "letters"),
@@ -117,24 +128,13 @@ static WrTextWish wish_of(const WrParams *p)
     wish.ask = (WrFontAsk){ .text = wr_param_value(p, "text")->text,
                             .face = wr_param_whole(p, "face"),
                             .direction = (WrFontDirection)wr_param_whole(p, "direction"),
-                            .language = language && *language ? language : NULL };
+                            .language = language && *language ? language : NULL,
+                            .axes = axes && *axes ? axes : NULL };
     wish.lattice[0] = wr_param_whole(p, "around") == 1 ? 1.0 : 0.0;
     wish.lattice[1] = wr_param_whole(p, "around") == 2 ? 1.0 : 0.0;
     for (int k = 0; k < 2 && wr_param_whole(p, "around") == 3; k++)
         wish.lattice[k] = lattice->number[k];
     return wish;
-}
-
-static void note_missing(const WrFontText *text, const WrGenerateJob *job)
-{
-    WrText line = { 0 };
-    for (int i = 0; i < text->missing_count && i < 16; i++)
-        wr_text_addf(&line, "%s U+%04X", i ? "," : "", text->missing[i]);
-    if (text->missing_count > 16) wr_text_add(&line, " and others");
-    if (text->missing_count > 0)
-        wr_generate_note(job, "the font has no glyph for%s: drawn as its sign for that",
-                         wr_text_get(&line));
-    wr_text_fini(&line);
 }
 
 static bool make_shaped(const WrTextWish *wish, const WrFontText *text, const WrTextFinish *finish,
@@ -156,18 +156,8 @@ static bool make_text(const WrParamValue *values, const WrGenerateJob *job, WrRe
     WrTextFinish finish = { (WrTextProfile)wr_param_whole(&p, "profile"),
                             wr_param_number(&p, "bevel"), wr_param_number(&p, "height") };
     WrFontText text = { 0 };
-    const char *file = wr_param_value(&p, "file")->text;
-    char *found = NULL;
-    if (!file || !*file) {
-        found = wr_font_find(wr_param_whole(&p, "font"), wish.setting.size, err);
-        if (!found) return false;
-        file = found;
-    }
-    bool good = wr_font_shape(file, &wish.ask, &text, err);
-    wr_free(found);
-    if (!good) return false;
-    note_missing(&text, job);
-    good = make_shaped(&wish, &text, &finish, job, out, err);
+    if (!wr_text_shape(&p, &wish.ask, wish.setting.size, job, &text, err)) return false;
+    bool good = make_shaped(&wish, &text, &finish, job, out, err);
     wr_font_text_fini(&text);
     return good;
 }

@@ -53,6 +53,9 @@ typedef struct WrZSolid {
     double pose[9];                  /* row-major: unit solid -> texels (turn and scale), y down */
     double inverse[9];               /* of pose */
     double left, right, top, bottom; /* texels from `at`: its bounding box */
+    double
+        dome[6]; /* of a sphere, (x, y) from `at`: its top is d0 x + d1 y + d2 sqrt(rest) over `at`,
+                       rest = 1 - d3 x x - d4 (y - d5 x)^2 */
 } WrZSolid;
 
 /* A turn by angles about X, then Y, then Z, in degrees, right-handed with y up: rows of Rz Ry Rx. */
@@ -67,6 +70,8 @@ bool wr_zsolid_set(WrZSolid *solid, WrZShape shape, double param, const WrZLette
 double wr_zsolid_rise(const WrZSolid *solid);
 /* The largest z of the solid over (x, y), texels; false beside it. */
 bool wr_zsolid_top(const WrZSolid *solid, double x, double y, double *z);
+/* The same over many places; -inf beside it. */
+void wr_zsolid_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z);
 /* Whether it is certainly nowhere within `reach` texels of (x, y); false may mean anything. */
 bool wr_zsolid_far(const WrZSolid *solid, double x, double y, double reach);
 static inline bool wr_zsolid_convex(const WrZSolid *solid)

@@ -11,9 +11,28 @@ typedef struct Body {
     int x0, x1, y0, y1;
 } Body;
 
-static bool body_top(const WrZSheet *sheet, const Body *body, double x, double y, double *z)
+/* Heights over places of the tile; -inf: bare, or below the floor. At most WR_Z_SAMPLES + 1. */
+static void body_tops(const WrZSheet *sheet, const Body *body, int count, double *x, double *y,
+                      double *z)
 {
-    return wr_zsolid_top(body->solid, x + body->dx, y + body->dy, z) && *z >= sheet->floor;
+    for (int i = 0; i < count; i++) {
+        x[i] += body->dx;
+        y[i] += body->dy;
+    }
+    wr_zsolid_tops(body->solid, count, x, y, z);
+    for (int i = 0; i < count; i++) z[i] = z[i] >= sheet->floor ? z[i] : -INFINITY;
+}
+
+/* The same along a row: from x on, a texel apart. */
+static void row_tops(const WrZSheet *sheet, const Body *body, int count, double x, double y,
+                     double *z)
+{
+    double at_x[SQUARE + 1], at_y[SQUARE + 1];
+    for (int i = 0; i < count; i++) {
+        at_x[i] = x + i;
+        at_y[i] = y;
+    }
+    body_tops(sheet, body, count, at_x, at_y, z);
 }
 
 static WrZBlock *block_of(WrZSheet *sheet, int at)
@@ -37,72 +56,71 @@ static void draw_part(WrZSheet *sheet, const Body *body, int x, int y)
 {
     int at = y * WR_TILE + x;
     unsigned seen = 0;
-    double z[WR_Z_SAMPLES], centre;
-    for (int s = 0; s < WR_Z_SAMPLES; s++)
-        seen |= (unsigned)body_top(sheet, body, x + wr_z_samples[s][0] / 16.0,
-                                   y + wr_z_samples[s][1] / 16.0, &z[s])
-                << s;
-    if (body_top(sheet, body, x, y, &centre)) wr_z_raise(&sheet->depth[at], centre);
+    double at_x[WR_Z_SAMPLES + 1], at_y[WR_Z_SAMPLES + 1], z[WR_Z_SAMPLES + 1];
+    for (int s = 0; s < WR_Z_SAMPLES; s++) {
+        at_x[s] = x + wr_z_samples[s][0] / 16.0;
+        at_y[s] = y + wr_z_samples[s][1] / 16.0;
+    }
+    at_x[WR_Z_SAMPLES] = x;
+    at_y[WR_Z_SAMPLES] = y;
+    body_tops(sheet, body, WR_Z_SAMPLES + 1, at_x, at_y, z);
+    for (int s = 0; s < WR_Z_SAMPLES; s++) seen |= (unsigned)(z[s] > -INFINITY) << s;
+    double centre = z[WR_Z_SAMPLES];
+    if (centre > -INFINITY) wr_z_raise(&sheet->depth[at], centre);
     else if (seen) wr_z_raise(&sheet->edge[at], z[__builtin_ctz(seen)]);
     if (!seen) return;
     WrZBlock *block = block_of(sheet, at);
-    for (unsigned left = seen; left; left &= left - 1) {
-        int s = __builtin_ctz(left);
-        wr_z_raise(&block->z[s], z[s]);
-    }
+    for (int s = 0; s < WR_Z_SAMPLES; s++) wr_z_raise(&block->z[s], z[s]);
     meet(sheet, at, seen);
 }
 
-/* False where its centre is bare. */
-static bool draw_whole(WrZSheet *sheet, const Body *body, int x, int y)
+/* z: over its centre, not bare. */
+static void draw_whole(WrZSheet *sheet, int at, double z)
 {
-    int at = y * WR_TILE + x;
-    double z;
-    if (!body_top(sheet, body, x, y, &z)) return false;
     wr_z_raise(&sheet->depth[at], z);
     wr_z_raise(&sheet->whole[at], z);
     meet(sheet, at, WR_Z_FULL);
-    return true;
-}
-
-/* Height at the upper left corner of a texel; -inf: bare. */
-static double corner(const WrZSheet *sheet, const Body *body, int x, int y)
-{
-    double z;
-    return body_top(sheet, body, x - 0.5, y - 0.5, &z) ? z : -INFINITY;
-}
-
-static bool is_covered(const WrZSheet *sheet, const Body *body, int x, int y)
-{
-    return corner(sheet, body, x, y) > -INFINITY;
 }
 
 /* Whether an edge of a solid crosses the texel that hides a lower part of itself. */
-static bool hides_itself(const WrZSheet *sheet, const Body *body, int x, int y, double corners)
+static bool hides_itself(const Body *body, double z, double corners)
 {
-    double z;
-    return !wr_zsolid_convex(body->solid) && body_top(sheet, body, x, y, &z) &&
-           fabs(0.25 * corners - z) > STEP;
+    return !wr_zsolid_convex(body->solid) && z > -INFINITY && fabs(0.25 * corners - z) > STEP;
 }
 
 /* Texels one by one: one whose four corners are covered counts as covered. Of a convex solid that is so;
  * of others a gap narrower than a texel may close. */
 static void draw_texels(WrZSheet *sheet, const Body *body, int x0, int x1, int y0, int y1)
 {
-    double corners[2][SQUARE + 1];
+    double corners[2][SQUARE + 1], middles[SQUARE];
     for (int y = y0; y <= y1 + 1; y++) {
         double *row = corners[y & 1], *above = corners[(y + 1) & 1];
-        for (int x = x0; x <= x1 + 1; x++) row[x - x0] = corner(sheet, body, x, y);
+        row_tops(sheet, body, x1 - x0 + 2, x0 - 0.5, y - 0.5, row);
+        if (y > y0) row_tops(sheet, body, x1 - x0 + 1, x0, y - 1, middles);
         for (int x = x0; y > y0 && x <= x1; x++) {
             int k = x - x0, at = (y - 1) * WR_TILE + x;
             double sum = row[k] + row[k + 1] + above[k] + above[k + 1];
-            bool all = sum > -INFINITY, edge = all && hides_itself(sheet, body, x, y - 1, sum);
-            if (all && !edge && draw_whole(sheet, body, x, y - 1)) continue;
+            bool all = sum > -INFINITY, edge = all && hides_itself(body, middles[k], sum);
+            if (all && !edge && middles[k] > -INFINITY) {
+                draw_whole(sheet, at, middles[k]);
+                continue;
+            }
             if (!all && wr_zsolid_far(body->solid, x + body->dx, y - 1 + body->dy, 0.75)) continue;
             draw_part(sheet, body, x, y - 1);
             if (edge) sheet->bodies[at] = 2;
         }
     }
+}
+
+/* Whether its corners are covered, and so all of it where the solid is convex: what is above the floor is
+ * convex where it was, and so are shadows. */
+static bool is_all_covered(const WrZSheet *sheet, const Body *body, int x0, int x1, int y0, int y1)
+{
+    double x[4] = { x0 - 0.5, x1 + 0.5, x0 - 0.5, x1 + 0.5 };
+    double y[4] = { y0 - 0.5, y0 - 0.5, y1 + 0.5, y1 + 0.5 }, z[4];
+    if (!wr_zsolid_convex(body->solid)) return false;
+    body_tops(sheet, body, 4, x, y, z);
+    return z[0] > -INFINITY && z[1] > -INFINITY && z[2] > -INFINITY && z[3] > -INFINITY;
 }
 
 static void draw_square(WrZSheet *sheet, const Body *body, int x0, int y0)
@@ -111,17 +129,18 @@ static void draw_square(WrZSheet *sheet, const Body *body, int x0, int y0)
     int y1 = (y0 | (SQUARE - 1)) < body->y1 ? y0 | (SQUARE - 1) : body->y1;
     double mid_x = 0.5 * (x0 + x1) + body->dx, mid_y = 0.5 * (y0 + y1) + body->dy;
     if (wr_zsolid_far(body->solid, mid_x, mid_y, 0.75 * SQUARE)) return;
-    /* Solids above the floor are convex where they were, and so are their shadows. */
-    bool all = wr_zsolid_convex(body->solid) && is_covered(sheet, body, x0, y0) &&
-               is_covered(sheet, body, x1 + 1, y0) && is_covered(sheet, body, x0, y1 + 1) &&
-               is_covered(sheet, body, x1 + 1, y1 + 1);
-    if (!all) {
+    if (!is_all_covered(sheet, body, x0, x1, y0, y1)) {
         draw_texels(sheet, body, x0, x1, y0, y1);
         return;
     }
-    for (int y = y0; y <= y1; y++)
-        for (int x = x0; x <= x1; x++)
-            if (!draw_whole(sheet, body, x, y)) draw_part(sheet, body, x, y);
+    for (int y = y0; y <= y1; y++) {
+        double row[SQUARE];
+        row_tops(sheet, body, x1 - x0 + 1, x0, y, row);
+        for (int x = x0; x <= x1; x++) {
+            if (row[x - x0] > -INFINITY) draw_whole(sheet, y * WR_TILE + x, row[x - x0]);
+            else draw_part(sheet, body, x, y);
+        }
+    }
 }
 
 void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy)

@@ -1,4 +1,4 @@
-/* Rays and tori: a quartic, by the roots of its derivatives. */
+/* Rays and tori: a quartic, piece by piece between the places where its curvature turns. */
 #include "generate/zbuffer_shapes.h"
 
 static double horner(const double *c, int degree, double t)
@@ -31,57 +31,44 @@ static double root_between(const double *c, const double *slope, int degree, dou
     return t;
 }
 
-/* Where c0 + c1 t + c2 t^2 changes its sign within (low, high), rising. Returns how many. */
-static int quadratic_roots(const double c[3], double low, double high, double roots[2])
+/* The largest root in [low, high], where the curve bends upwards all over and is above 0 at its high end.
+ * Tangents lie below the curve, so Newton's steps come down to the root and never pass it; where there is
+ * none, they pass the lowest place. */
+static bool bowl_top(const double *c, const double *slope, double low, double high, double *t)
 {
-    double found[2];
-    int count = 0, kept = 0;
-    double rest = c[1] * c[1] - 4.0 * c[2] * c[0];
-    if (c[2] == 0.0) {
-        if (c[1] != 0.0) found[count++] = -c[0] / c[1];
-    } else if (rest > 0.0) {
-        double far = c[1] > 0.0 ? -0.5 * (c[1] + sqrt(rest)) : 0.5 * (sqrt(rest) - c[1]);
-        double one = far / c[2], other = c[0] / far;
-        found[count++] = one < other ? one : other;
-        found[count++] = one < other ? other : one;
+    double at = high;
+    for (int i = 0; i < 100; i++) {
+        double value = horner(c, 4, at), rise = horner(slope, 3, at);
+        if (!(value > 0.0)) break;
+        if (!(rise > 0.0)) return false;
+        double next = at - value / rise;
+        if (!(next >= low)) return false;
+        if (at - next <= 2e-16) break;
+        at = next;
     }
-    for (int i = 0; i < count; i++)
-        if (found[i] > low && found[i] < high) roots[kept++] = found[i];
-    return kept;
+    *t = at;
+    return true;
 }
 
-/* The same of a cubic: between the roots of its derivative there is at most one each. */
-static int cubic_roots(const double c[4], double low, double high, double roots[3])
-{
-    const double slope[3] = { c[1], 2.0 * c[2], 3.0 * c[3] };
-    double turns[3];
-    int turn_count = quadratic_roots(slope, low, high, turns), count = 0;
-    double from = low, at_from = horner(c, 3, low);
-    for (int i = 0; i <= turn_count; i++) {
-        double to = i < turn_count ? turns[i] : high, at_to = horner(c, 3, to);
-        if ((at_from > 0.0) != (at_to > 0.0)) roots[count++] = root_between(c, slope, 3, from, to);
-        from = to;
-        at_from = at_to;
-    }
-    return count;
-}
-
-/* The largest t in [low, high] where a quartic is not above 0. */
-static bool quartic_top(const double c[5], double low, double high, double *t)
+/* The largest t in [-1, 1] where a quartic that goes up at both its ends is not above 0. */
+static bool quartic_top(const double c[5], double *t)
 {
     const double slope[4] = { c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4] };
-    double turns[3], to = high;
-    *t = high;
-    if (!(horner(c, 4, high) > 0.0)) return true;
-    for (int i = cubic_roots(slope, low, high, turns); i >= 0; i--) {
-        double from = i > 0 ? turns[i - 1] : low;
-        if (!(horner(c, 4, from) > 0.0)) {
-            *t = root_between(c, slope, 4, from, to);
-            return true;
-        }
-        to = from;
+    *t = 1.0;
+    if (!(horner(c, 4, 1.0) > 0.0)) return true;
+    double rest = 9.0 * c[3] * c[3] - 24.0 * c[4] * c[2];
+    if (!(rest > 0.0)) return bowl_top(c, slope, -1.0, 1.0, t);
+    double left = (-3.0 * c[3] - sqrt(rest)) / (12.0 * c[4]);
+    double right = (-3.0 * c[3] + sqrt(rest)) / (12.0 * c[4]);
+    /* between left and right it bends downwards: it is above 0 there if it is so at both ends */
+    left = left < -1.0 ? -1.0 : left > 1.0 ? 1.0 : left;
+    right = right < -1.0 ? -1.0 : right > 1.0 ? 1.0 : right;
+    if (right < 1.0 && bowl_top(c, slope, right, 1.0, t)) return true;
+    if (!(horner(c, 4, left) > 0.0)) {
+        *t = root_between(c, slope, 4, left, right);
+        return true;
     }
-    return false;
+    return left > -1.0 && bowl_top(c, slope, -1.0, left, t);
 }
 
 /* Straight down on a torus that lies flat. */
@@ -117,7 +104,7 @@ bool wr_ztorus_top(const double a[3], const double b[3], double tube, double *t)
                     4.0 * pd * pd + 2.0 * pp * dd - 4.0 * (d[0] * d[0] + d[1] * d[1]),
                     4.0 * pd * dd, dd * dd };
     double top;
-    if (!quartic_top(c, -1.0, 1.0, &top)) return false;
+    if (!quartic_top(c, &top)) return false;
     *t = mid + half * top;
     return true;
 }

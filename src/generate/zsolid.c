@@ -82,13 +82,38 @@ static void ray(const WrZSolid *solid, double x, double y, double a[3], double b
     }
 }
 
+static inline double dome_top(const WrZSolid *solid, double x, double y)
+{
+    const double *d = solid->dome;
+    double dx = x - solid->at[0], dy = y - solid->at[1], across = dy - d[5] * dx;
+    double rest = 1.0 - d[3] * (dx * dx) - d[4] * (across * across);
+    double z = solid->at[2] + (d[0] * dx + d[1] * dy + d[2] * sqrt(rest > 0.0 ? rest : 0.0));
+    return rest >= 0.0 ? z : -INFINITY;
+}
+
+void wr_zsolid_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z)
+{
+    if (solid->shape == WR_Z_SPHERE) {
+#pragma omp simd
+        for (int i = 0; i < count; i++) z[i] = dome_top(solid, x[i], y[i]);
+        return;
+    }
+    for (int i = 0; i < count; i++)
+        if (!wr_zsolid_top(solid, x[i], y[i], &z[i])) z[i] = -INFINITY;
+}
+
 bool wr_zsolid_top(const WrZSolid *solid, double x, double y, double *z)
 {
     double a[3], b[3], top;
     WrZSpan s = nothing;
+    if (solid->shape == WR_Z_SPHERE) {
+        top = dome_top(solid, x, y);
+        if (!isfinite(top)) return false;
+        *z = top;
+        return true;
+    }
     ray(solid, x, y, a, b);
     switch (solid->shape) {
-    case WR_Z_SPHERE: s = wr_zspan_round(a, b, 3, 0.0, 1.0); break;
     case WR_Z_BOX:
         s = wr_zspan_meet(
             wr_zspan_slab(a[0], b[0], 1.0),
@@ -105,6 +130,7 @@ bool wr_zsolid_top(const WrZSolid *solid, double x, double y, double *z)
     case WR_Z_LETTERS:
         if (wr_zletters_meet(solid->letters, a, b, &top)) s = (WrZSpan){ top, top };
         break;
+    case WR_Z_SPHERE:
     case WR_Z_SHAPES: break;
     }
     if (!(s.low <= s.high) || !isfinite(s.high)) return false;
@@ -203,6 +229,35 @@ static void set_box(WrZSolid *solid)
     solid->bottom = high[1] + 1e-6 * (1.0 + fabs(high[1]));
 }
 
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* An ellipsoid's shadow is where (x, y) S^-1 (x, y) <= 1, S = P P^T with P the pose's first two rows p, q;
+ * det S = |p x q|^2 and the like keep the thin ones exact. r is the third row. */
+static void set_dome(WrZSolid *solid)
+{
+    const double *p = solid->pose, *q = p + 3, *r = p + 6;
+    double n[3], rq[3], pr[3];
+    cross(p, q, n);
+    cross(r, q, rq);
+    cross(p, r, pr);
+    double det = dot(n, n), xx = dot(p, p);
+    solid->dome[0] = dot(rq, n) / det;
+    solid->dome[1] = dot(pr, n) / det;
+    solid->dome[2] = fabs(dot(r, n)) / sqrt(det);
+    solid->dome[3] = 1.0 / xx;
+    solid->dome[4] = xx / det;
+    solid->dome[5] = dot(p, q) / xx;
+}
+
 bool wr_zsolid_set(WrZSolid *solid, WrZShape shape, double param, const WrZLetters *letters,
                    const double size[3], const double turn[9], const double at[3], WrError *err)
 {
@@ -221,5 +276,6 @@ bool wr_zsolid_set(WrZSolid *solid, WrZShape shape, double param, const WrZLette
             solid->inverse[3 * column + row] = turned / size[column];
         }
     set_box(solid);
+    set_dome(solid);
     return true;
 }

@@ -103,6 +103,7 @@ class MemoryFiles : public Assimp::IOSystem
     }
     Assimp::IOStream *Open(const char *file, const char *mode) override
     {
+        if (name != file && missed.empty()) missed = file;
         if (name != file || std::strchr(mode, 'w')) return nullptr;
         return new MemoryStream(bytes, length);
     }
@@ -110,6 +111,7 @@ class MemoryFiles : public Assimp::IOSystem
     {
         delete stream;
     }
+    std::string missed; /* the first other file that was asked for */
 
   private:
     std::string name;
@@ -208,9 +210,17 @@ static bool read_file(WrAssimpMesh &out, const void *bytes, size_t length, const
     if (*ending && !importer.IsExtensionSupported(std::string(".") + ending))
         return fail(reason,
                     std::string("is not a mesh file of a kind that can be read (.") + ending + ")");
-    importer.SetIOHandler(new MemoryFiles(name, static_cast<const char *>(bytes), length));
+    auto *files = new MemoryFiles(name, static_cast<const char *>(bytes), length);
+    importer.SetIOHandler(files); /* which owns it */
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     const aiScene *scene = importer.ReadFile(name, aiProcess_Triangulate);
+    if (!scene && std::strstr(importer.GetErrorString(), "bad_alloc"))
+        return fail(reason, "says that it holds more than there is memory for; it is damaged");
+    if (!scene && !files->missed.empty() &&
+        std::strstr(importer.GetErrorString(), files->missed.c_str()))
+        return fail(reason, "cannot be read by itself: it keeps a part in another file, \"" +
+                                files->missed.substr(0, 80) +
+                                "\"; save it as one file (.glb, .obj, .ply, .stl)");
     if (!scene)
         return fail(reason, std::string("cannot be read, truncated or damaged (") +
                                 importer.GetErrorString() + ")");

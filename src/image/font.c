@@ -70,37 +70,69 @@ static bool read_inside(void)
     return where && strcmp(where, "inside") == 0;
 }
 
-static bool shape_inside(const char *name, int fd, size_t length, const WrFontAsk *ask,
-                         WrText *block, WrError *err)
+/* The fonts' files, the first one's descriptor borrowed. */
+typedef struct Files {
+    const char *name; /* the first one's */
+    int fd;           /* all of them, one after the other */
+    int count;
+    uint64_t lengths[WR_FONT_FILES], total;
+} Files;
+
+static bool shape_inside(const Files *files, const WrFontAsk *ask, WrText *block, WrError *err)
 {
-    void *map = mmap(NULL, length, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (map == MAP_FAILED) return wr_fail(err, "%s: %s", name, strerror(errno));
-    bool good = wr_font_make(map, length, ask, block, err);
-    munmap(map, length);
-    if (!good) wr_error_prefix(err, "%s: ", name);
+    WrFontFile parts[WR_FONT_FILES];
+    void *map = mmap(NULL, (size_t)files->total, PROT_READ, MAP_PRIVATE, files->fd, 0);
+    if (map == MAP_FAILED) return wr_fail(err, "%s: %s", files->name, strerror(errno));
+    const uint8_t *at = map;
+    for (int i = 0; i < files->count; i++) {
+        parts[i] = (WrFontFile){ at, (size_t)files->lengths[i] };
+        at += files->lengths[i];
+    }
+    bool good = wr_font_make(parts, files->count, ask, block, err);
+    munmap(map, (size_t)files->total);
+    if (!good) wr_error_prefix(err, "%s: ", files->name);
     return good;
 }
 
-static bool shape_outside(const char *name, int fd, const WrFontAsk *ask, WrText *block,
-                          WrError *err)
+static bool shape_outside(const Files *files, const WrFontAsk *ask, WrText *block, WrError *err)
 {
-    const char *language = ask->language ? ask->language : "";
-    WrFontOrder order = { ask->face, (int32_t)ask->direction, (int32_t)strlen(ask->text),
-                          (int32_t)strlen(language) };
+    const char *language = ask->language ? ask->language : "", *axes = ask->axes ? ask->axes : "";
+    WrFontOrder order = { .face = ask->face,
+                          .direction = (int32_t)ask->direction,
+                          .text_length = (int32_t)strlen(ask->text),
+                          .language_length = (int32_t)strlen(language),
+                          .axes_length = (int32_t)strlen(axes),
+                          .file_count = files->count };
+    memcpy(order.lengths, files->lengths, sizeof order.lengths);
     WrText want = { 0 };
     wr_text_add_n(&want, (const char *)&order, sizeof order);
     wr_text_add_n(&want, ask->text, (size_t)order.text_length + 1);
     wr_text_add_n(&want, language, (size_t)order.language_length + 1);
-    bool good = wr_reader_block(name, fd, WR_WIRE_FONT, want.data, want.length, &block->data,
-                                &block->length, err);
+    wr_text_add_n(&want, axes, (size_t)order.axes_length + 1);
+    bool good = wr_reader_block(files->name, files->fd, WR_WIRE_FONT, want.data, want.length,
+                                &block->data, &block->length, err);
     wr_text_fini(&want);
     return good;
 }
 
-static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *out, WrError *err)
+/* Count a file in, after checking what kind of file it is. */
+static bool take_file(Files *files, const char *name, int fd, WrError *err)
 {
     struct stat info;
-    WrText block = { 0 };
+    if (fstat(fd, &info) != 0) return wr_fail(err, "%s: %s", name, strerror(errno));
+    if (S_ISDIR(info.st_mode)) return wr_fail(err, "%s: is a folder; a font is needed", name);
+    if (!S_ISREG(info.st_mode)) return wr_fail(err, "%s: is not a regular file", name);
+    if (info.st_size == 0) return wr_fail(err, "%s: is empty", name);
+    if (info.st_size > WR_FONT_FILE_MAX)
+        return wr_fail(err, "%s: has %.0f MB: fonts of up to %d MB are read", name,
+                       (double)info.st_size / 1048576.0, WR_FONT_FILE_MAX >> 20);
+    files->lengths[files->count++] = (uint64_t)info.st_size;
+    files->total += (uint64_t)info.st_size;
+    return true;
+}
+
+static bool check_ask(const char *name, const WrFontAsk *ask, WrError *err)
+{
     size_t length = strlen(ask->text);
     if (length > WR_FONT_TEXT_MAX)
         return wr_fail(err, "a text of %zu bytes: must be up to %d", length, WR_FONT_TEXT_MAX);
@@ -109,17 +141,61 @@ static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *ou
     if (ask->language && strlen(ask->language) > 64)
         return wr_fail(err, "a language of %zu letters: must be one as in \"ar\"",
                        strlen(ask->language));
-    if (fstat(fd, &info) != 0) return wr_fail(err, "%s: %s", name, strerror(errno));
-    if (S_ISDIR(info.st_mode)) return wr_fail(err, "%s: is a folder; a font is needed", name);
-    if (!S_ISREG(info.st_mode)) return wr_fail(err, "%s: is not a regular file", name);
-    if (info.st_size == 0) return wr_fail(err, "%s: is empty", name);
-    if (info.st_size > WR_FONT_FILE_MAX)
-        return wr_fail(err, "%s: has %.0f MB: fonts of up to %d MB are read", name,
-                       (double)info.st_size / 1048576.0, WR_FONT_FILE_MAX >> 20);
-    bool good = read_inside() ? shape_inside(name, fd, (size_t)info.st_size, ask, &block, err)
-                              : shape_outside(name, fd, ask, &block, err);
+    if (ask->axes && strlen(ask->axes) > 1024)
+        return wr_fail(err, "axes of %zu letters: must be up to 1024", strlen(ask->axes));
+    return true;
+}
+
+static bool write_all(int fd, const char *from, size_t length)
+{
+    while (length > 0) {
+        ssize_t n = write(fd, from, length);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) return false;
+        from += n;
+        length -= (size_t)n;
+    }
+    return true;
+}
+
+static bool append_file(Files *files, const char *name, int fd, WrError *err)
+{
+    if (!take_file(files, name, fd, err)) return false;
+    size_t length = (size_t)files->lengths[files->count - 1];
+    void *map = mmap(NULL, length, PROT_READ, MAP_PRIVATE, fd, 0);
+    bool good = map != MAP_FAILED && write_all(files->fd, map, length);
+    if (map != MAP_FAILED) munmap(map, length);
+    return good || wr_fail(err, "%s: no memory to read it from", name);
+}
+
+/* The first file and the others as one memory file. */
+static bool gather(Files *files, int fd, const WrFontAsk *ask, WrError *err)
+{
+    files->fd = memfd_create("wrinkle fonts", MFD_CLOEXEC);
+    if (files->fd < 0) return wr_fail(err, "%s: no memory to read it from", files->name);
+    bool good = append_file(files, files->name, fd, err);
+    for (int i = 0; good && i < WR_FONT_OTHERS && ask->others[i]; i++) {
+        int other = open(ask->others[i], O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+        good = other >= 0 ? append_file(files, ask->others[i], other, err)
+                          : wr_fail(err, "%s: %s", ask->others[i], strerror(errno));
+        if (other >= 0) close(other);
+    }
+    if (!good) close(files->fd);
+    return good;
+}
+
+static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *out, WrError *err)
+{
+    WrText block = { 0 };
+    Files files = { .name = name, .fd = fd };
+    bool several = ask->others[0] != NULL;
+    if (!check_ask(name, ask, err)) return false;
+    if (!(several ? gather(&files, fd, ask, err) : take_file(&files, name, fd, err))) return false;
+    bool good = read_inside() ? shape_inside(&files, ask, &block, err)
+                              : shape_outside(&files, ask, &block, err);
+    if (several) close(files.fd);
     if (!good) return false;
-    if (wr_font_unpack(block.data, block.length, length, out)) return true;
+    if (wr_font_unpack(block.data, block.length, strlen(ask->text), out)) return true;
     wr_text_fini(&block);
     return wr_fail(err, "%s: what was read of it makes no sense; the font is damaged or hostile",
                    name);
@@ -138,14 +214,7 @@ bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length, con
                          WrFontText *out, WrError *err)
 {
     int fd = memfd_create("wrinkle font", MFD_CLOEXEC);
-    const char *from = bytes;
-    bool good = fd >= 0;
-    for (size_t left = length; good && left > 0;) {
-        ssize_t n = write(fd, from, left);
-        if (n < 0 && errno == EINTR) continue;
-        good = n > 0;
-        if (good) from += n, left -= (size_t)n;
-    }
+    bool good = fd >= 0 && write_all(fd, bytes, length);
     if (good) good = shape(name, fd, ask, out, err);
     else wr_fail(err, "%s: no memory to read it from", name);
     if (fd >= 0) close(fd);

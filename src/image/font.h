@@ -19,6 +19,7 @@
 #define WR_FONT_POINTS_MAX (1 << 22) /* of all outlines of a text's different glyphs */
 #define WR_FONT_FLAT_MAX (1 << 23)   /* points of a whole text's outlines, made straight */
 #define WR_FONT_SIZE_MAX 65536.0     /* texels */
+#define WR_FONT_OTHERS 3             /* fonts besides that lend what one lacks */
 
 /* ---- fonts by name ---- */
 
@@ -30,7 +31,18 @@ extern const char *const wr_font_names[];
  * and in which package it is. The caller frees with wr_free. */
 char *wr_font_find(int index, double size, WrError *err);
 
+/* Installed fonts with outlines that have as much as possible of these characters: each the one that has
+ * most of what those before it lack, by fontconfig's order for the language (NULL: any) and for a kind of
+ * letters ("sans", "serif-bold", any of wr_font_names). Which ones depends on the machine: what is to be
+ * replayed must keep their names. paths: up to `most`; the caller frees each with wr_free. Returns how
+ * many; 0 also where fontconfig does not work. Any thread. */
+int wr_font_lenders(const uint32_t *characters, int count, const char *kind, const char *language,
+                    int most, char *paths[]);
+
 /* ---- shaping ---- */
+
+/* How many places of a text are not UTF-8. */
+int wr_font_strange_bytes(const char *text);
 
 typedef enum WrFontDirection {
     WR_FONT_AUTO, /* of each line by its first letter that has one */
@@ -45,9 +57,15 @@ typedef struct WrFontAsk {
     int face;         /* of a collection of fonts, from 0 */
     WrFontDirection direction;
     const char *language; /* as in "ar", "hi"; NULL: unsaid */
+    const char *axes; /* of a variable font, as in "wght=650,wdth=80"; NULL: as it is. Other fonts
+                             take those of these axes that they have */
+    /* Fonts whose glyphs take the place of those that the font lacks, the first that has them; face 0 of
+       each. A mark stays with what it stands on. */
+    const char *others[WR_FONT_OTHERS]; /* files; the first NULL ends the list */
 } WrFontAsk;
 
-/* Units: the font's, y up, the origin on the baseline; of bitmaps one unit is a dot. */
+/* In halves of the glyph's units, since curves may meet half way between two points; y up, the origin on the
+   baseline. */
 typedef struct WrFontPoint {
     int32_t x, y;
 } WrFontPoint;
@@ -59,15 +77,18 @@ typedef enum WrFontVerb {
     WR_FONT_CUBIC  /* three */
 } WrFontVerb;
 
-/* One of a text's different glyphs. */
+/* One of a text's different glyphs. Of bitmaps a unit is a dot. */
 typedef struct WrFontGlyph {
-    uint32_t id; /* the font's number of it */
+    uint32_t id;   /* the font's number of it */
+    int32_t font;  /* which: 0, or 1 + the place in WrFontAsk.others */
+    int32_t units; /* of an em of that font; bitmaps: dots of height; 1..16384 */
     int32_t first_verb, verb_count, first_point, point_count;
     int32_t left, top, width, height; /* bitmaps: left edge, upper edge above the baseline, dots */
     int32_t first_byte;               /* bitmaps: rows from the top, bit 7 leftmost, each row whole
                                          bytes */
 } WrFontGlyph;
 
+/* In its glyph's units, y up. */
 typedef struct WrFontPlaced {
     int32_t glyph;   /* which of the text's glyphs */
     int32_t advance; /* to the next one, to the right */
@@ -83,8 +104,8 @@ typedef struct WrFontLine {
 
 /* A shaped text. Zeroed is empty; fini frees. */
 typedef struct WrFontText {
-    bool bitmap;
-    int32_t units;           /* of an em; bitmaps: dots of height; 1..16384 */
+    bool bitmap;             /* the first font is one */
+    int32_t units;           /* of the first font, and so are the measures */
     int32_t ascent, descent; /* above and below the baseline, usually > 0 both */
     int32_t line;            /* from baseline to baseline */
     int32_t line_count, placed_count, glyph_count, verb_count, point_count, byte_count,
@@ -93,23 +114,28 @@ typedef struct WrFontText {
     const WrFontPlaced *placed;
     const WrFontGlyph *glyphs;
     const WrFontPoint *points;
-    const uint32_t
-        *missing;         /* characters that the font has no glyph for, each once, at most 64; they
-                                are drawn as its .notdef, or as a box if it has none */
-    const uint8_t *verbs; /* WrFontVerb */
+    const uint32_t *missing; /* characters that no font has a glyph for, each once, at most 64; they
+                                are drawn as the first one's .notdef, or as a box if it has none */
+    const uint8_t *verbs;    /* WrFontVerb */
     const uint8_t *bytes;
     char *block; /* owned: all of these */
 } WrFontText;
 
 /* Shape a text by a font file. out: untouched on failure; the caller's.
- * Errors   name the file: it cannot be read, is no font, is damaged or hostile, too large; the text is
- *          too long
+ * Errors   name the file: it cannot be read, is no font, is damaged or hostile, too large, has none of the
+ *          axes; the text is too long
  * Threads  any number at once */
 bool wr_font_shape(const char *path, const WrFontAsk *ask, WrFontText *out, WrError *err);
 /* The same from bytes in memory; `name` is for messages. */
 bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length, const WrFontAsk *ask,
                          WrFontText *out, WrError *err);
 void wr_font_text_fini(WrFontText *text);
+
+/* Texels of one of the glyph's units. */
+static inline double wr_font_scale(const WrFontText *text, const WrFontPlaced *placed, double size)
+{
+    return size / text->glyphs[placed->glyph].units;
+}
 
 /* Is that dot of a bitmap glyph set? Outside of it: no. */
 bool wr_font_dot(const WrFontText *text, const WrFontGlyph *glyph, int column, int row);

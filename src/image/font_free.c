@@ -4,6 +4,7 @@
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_MULTIPLE_MASTERS_H
 #include FT_OUTLINE_H
 #include <hb-ft.h>
 #include <hb-ot.h>
@@ -17,11 +18,11 @@
 #define ADVANCE_MAX (1 << 18)
 
 typedef struct Free {
+    WrFontFace *own;
     FT_Library library;
     FT_Face face;
     hb_font_t *shaper; /* NULL: a character, a glyph */
     hb_buffer_t *buffer;
-    const WrFontAsk *ask;
     WrFontMaking *making;
     bool too_many; /* points */
 } Free;
@@ -36,7 +37,7 @@ static int add_point(Free *f, WrFontVerb verb, int count, const FT_Vector *const
     wr_array_push(&m->verbs, (uint8_t)verb);
     for (int i = 0; i < count; i++) {
         FT_Pos x = points[i]->x, y = points[i]->y;
-        if (x < -REACH || x > REACH || y < -REACH || y > REACH) return 1;
+        if (x < -2 * REACH || x > 2 * REACH || y < -2 * REACH || y > 2 * REACH) return 1;
         wr_array_push(&m->points, ((WrFontPoint){ (int32_t)x, (int32_t)y }));
     }
     return 0;
@@ -65,21 +66,22 @@ static int cubic_to(const FT_Vector *a, const FT_Vector *b, const FT_Vector *to,
 /* Two rectangles, one in the other, turned against each other. */
 static void add_box(Free *f)
 {
-    int32_t em = f->making->head.units, w = em / 2, h = em * 7 / 10, t = em / 20 + 1, l = em / 20;
+    int32_t em = f->own->head.units, w = em / 2, h = em * 7 / 10, t = em / 20 + 1, l = em / 20;
     const WrFontPoint corners[] = {
         { l, 0 },     { w, 0 },         { w, h },         { l, h },
         { l + t, t }, { l + t, h - t }, { w - t, h - t }, { w - t, t }
     };
     for (int i = 0; i < 8; i++) {
         wr_array_push(&f->making->verbs, (uint8_t)(i % 4 ? WR_FONT_LINE : WR_FONT_MOVE));
-        wr_array_push(&f->making->points, corners[i]);
+        wr_array_push(&f->making->points, ((WrFontPoint){ 2 * corners[i].x, 2 * corners[i].y }));
     }
 }
 
 /* The outline of glyph id, which may be empty. A glyph that cannot be read is left empty. */
 static void add_outline(Free *f, uint32_t id, WrFontGlyph *g)
 {
-    static const FT_Outline_Funcs funcs = { move_to, line_to, conic_to, cubic_to, 0, 0 };
+    /* Doubled, since TrueType's curves meet half way between points that are given. */
+    static const FT_Outline_Funcs funcs = { move_to, line_to, conic_to, cubic_to, 1, 0 };
     WrFontMaking *m = f->making;
     g->first_verb = m->verbs.count;
     g->first_point = m->points.count;
@@ -129,16 +131,16 @@ static bool add_dots(Free *f, uint32_t id, WrFontGlyph *g)
 static int32_t take(Free *f, uint32_t id)
 {
     WrFontMaking *m = f->making;
-    if (id >= (uint32_t)m->known.count) id = 0;
-    if (m->known.data[id]) return m->known.data[id] - 1;
-    WrFontGlyph g = { .id = id };
-    if (m->head.bitmap) {
+    if (id >= (uint32_t)f->own->known.count) id = 0;
+    if (f->own->known.data[id]) return f->own->known.data[id] - 1;
+    WrFontGlyph g = { .id = id, .font = f->own->font, .units = f->own->head.units };
+    if (f->own->head.bitmap) {
         if (!add_dots(f, id, &g)) return -1;
     } else {
         add_outline(f, id, &g);
     }
     wr_array_push(&m->glyphs, g);
-    m->known.data[id] = m->glyphs.count;
+    f->own->known.data[id] = m->glyphs.count;
     return m->glyphs.count - 1;
 }
 
@@ -149,22 +151,45 @@ static int32_t bounded(long x, int32_t most)
 
 /* ---- a character, a glyph ---- */
 
-static int32_t map(void *ctx, uint32_t character, int32_t *advance)
+static int32_t map(WrFontFace *face, uint32_t character, int32_t *advance)
 {
-    Free *f = ctx;
+    Free *f = face->ctx;
     FT_UInt id = FT_Get_Char_Index(f->face, character);
     if (id == 0) wr_font_add_missing(f->making, character);
     int32_t glyph = take(f, id);
-    FT_Int32 flags =
-        f->making->head.bitmap ? FT_LOAD_DEFAULT : FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP;
+    FT_Int32 flags = face->head.bitmap ? FT_LOAD_DEFAULT : FT_LOAD_NO_SCALE | FT_LOAD_NO_BITMAP;
     if (glyph >= 0 && FT_Load_Glyph(f->face, id, flags) == 0) {
         FT_Pos step = f->face->glyph->advance.x;
-        *advance = bounded(f->making->head.bitmap ? (step + 32) >> 6 : step, ADVANCE_MAX);
+        *advance = bounded(face->head.bitmap ? (step + 32) >> 6 : step, ADVANCE_MAX);
     }
     return glyph;
 }
 
+/* Also what HarfBuzz puts together from two characters. */
+static bool has(const WrFontFace *face, uint32_t character)
+{
+    const Free *f = face->ctx;
+    hb_codepoint_t a, b;
+    if (FT_Get_Char_Index(f->face, character) != 0) return true;
+    return f->shaper && hb_unicode_decompose(hb_unicode_funcs_get_default(), character, &a, &b) &&
+           FT_Get_Char_Index(f->face, a) != 0 && (b == 0 || FT_Get_Char_Index(f->face, b) != 0);
+}
+
 /* ---- shaping ---- */
+
+/* What the glyph of a missing character stands for: it and the marks on it. */
+static void add_missing(Free *f, const WrFontChars *chars, int first)
+{
+    hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
+    wr_font_add_missing(f->making, chars->code[first]);
+    for (int i = first + 1; i < chars->count; i++) {
+        hb_unicode_general_category_t is = hb_unicode_general_category(unicode, chars->code[i]);
+        if (is != HB_UNICODE_GENERAL_CATEGORY_NON_SPACING_MARK &&
+            is != HB_UNICODE_GENERAL_CATEGORY_SPACING_MARK)
+            break;
+        if (!has(f->own, chars->code[i])) wr_font_add_missing(f->making, chars->code[i]);
+    }
+}
 
 static bool keep_shaped(Free *f, const WrFontChars *chars, WrError *err)
 {
@@ -176,7 +201,7 @@ static bool keep_shaped(Free *f, const WrFontChars *chars, WrError *err)
         return wr_fail(err, "shaping gives more glyphs than there can be: is the font damaged?");
     for (unsigned i = 0; i < count; i++) {
         uint32_t character = info[i].cluster < (unsigned)chars->count ? info[i].cluster : 0;
-        if (info[i].codepoint == 0) wr_font_add_missing(f->making, chars->code[character]);
+        if (info[i].codepoint == 0) add_missing(f, chars, (int)character);
         int32_t glyph = take(f, info[i].codepoint);
         if (f->too_many)
             return wr_fail(err, "its outlines have more than %d points", WR_FONT_POINTS_MAX);
@@ -191,78 +216,24 @@ static bool keep_shaped(Free *f, const WrFontChars *chars, WrError *err)
     return true;
 }
 
-/* The characters from .. from + count - 1, all of one script and direction. */
-static bool shape_part(Free *f, const WrFontChars *chars, int from, int count, bool leftwards,
-                       hb_script_t script, WrError *err)
+static bool shape(WrFontFace *face, const WrFontChars *chars, int from, int count, bool leftwards,
+                  uint32_t script, WrError *err)
 {
-    hb_buffer_clear_contents(f->buffer);
-    hb_buffer_add_codepoints(f->buffer, chars->code, chars->count, (unsigned)from, count);
-    hb_buffer_set_direction(f->buffer, leftwards ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
-    hb_buffer_set_script(f->buffer, script);
-    if (f->ask->language)
-        hb_buffer_set_language(f->buffer, hb_language_from_string(f->ask->language, -1));
-    hb_shape(f->shaper, f->buffer, NULL, 0);
-    return keep_shaped(f, chars, err);
-}
-
-static bool is_plain_script(hb_script_t script)
-{
-    return script == HB_SCRIPT_COMMON || script == HB_SCRIPT_INHERITED ||
-           script == HB_SCRIPT_UNKNOWN;
-}
-
-/* The first script from `i` on, or common. */
-static hb_script_t script_from(const WrFontChars *chars, int i, int end)
-{
-    hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
-    for (; i < end; i++) {
-        hb_script_t script = hb_unicode_script(unicode, chars->code[i]);
-        if (!is_plain_script(script)) return script;
+    Free *f = face->ctx;
+    if (!f->shaper) {
+        wr_font_shape_plain(face, chars, from, count, leftwards, map);
+    } else {
+        hb_buffer_clear_contents(f->buffer);
+        hb_buffer_add_codepoints(f->buffer, chars->code, chars->count, (unsigned)from, count);
+        hb_buffer_set_direction(f->buffer, leftwards ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
+        hb_buffer_set_script(f->buffer, (hb_script_t)script);
+        if (face->ask->language)
+            hb_buffer_set_language(f->buffer, hb_language_from_string(face->ask->language, -1));
+        hb_shape(f->shaper, f->buffer, NULL, 0);
+        if (!keep_shaped(f, chars, err)) return false;
     }
-    return HB_SCRIPT_COMMON;
-}
-
-/* Where the part that begins at `i` ends: before the first character of another script. */
-static int script_end(const WrFontChars *chars, int i, int end, hb_script_t script)
-{
-    hb_unicode_funcs_t *unicode = hb_unicode_funcs_get_default();
-    for (; i < end; i++) {
-        hb_script_t is = hb_unicode_script(unicode, chars->code[i]);
-        if (!is_plain_script(is) && is != script) return i;
-    }
-    return end;
-}
-
-/* A run's parts by script stand from right to left where it is leftwards. */
-static bool shape_run(Free *f, const WrFontChars *chars, const WrFontRun *run, WrError *err)
-{
-    typedef struct Part {
-        int from, count;
-        hb_script_t script;
-    } Part;
-    WR_ARRAY(Part) parts = { 0 };
-    int end = run->first + run->count;
-    bool good = true;
-    for (int i = run->first; i < end;) {
-        hb_script_t script = script_from(chars, i, end);
-        int stop = script_end(chars, i, end, script);
-        wr_array_push(&parts, ((Part){ i, stop - i, script }));
-        i = stop;
-    }
-    for (int k = 0; k < parts.count && good; k++) {
-        Part p = parts.data[run->leftwards ? parts.count - 1 - k : k];
-        good = shape_part(f, chars, p.from, p.count, run->leftwards, p.script, err);
-    }
-    wr_array_free(&parts);
-    return good;
-}
-
-static bool shape_line(void *ctx, const WrFontChars *chars, const WrFontRun *runs, int run_count,
-                       WrError *err)
-{
-    for (int i = 0; i < run_count; i++)
-        if (!shape_run(ctx, chars, &runs[i], err)) return false;
-    return true;
+    if (!f->too_many) return true;
+    return wr_fail(err, "its outlines have more than %d points", WR_FONT_POINTS_MAX);
 }
 
 /* ---- the font ---- */
@@ -273,11 +244,11 @@ static bool open_face(Free *f, const uint8_t *bytes, size_t length, WrError *err
         f->library = NULL;
         return wr_fail(err, "FreeType does not start");
     }
-    if (FT_New_Memory_Face(f->library, bytes, (FT_Long)length, f->ask->face, &f->face) != 0) {
+    int face = f->own->font == 0 ? f->own->ask->face : 0;
+    if (FT_New_Memory_Face(f->library, bytes, (FT_Long)length, face, &f->face) != 0) {
         f->face = NULL;
         return wr_fail(
-            err, f->ask->face > 0 ? "is no font, or has no face %d" : "is no font that can be read",
-            f->ask->face);
+            err, face > 0 ? "is no font, or has no face %d" : "is no font that can be read", face);
     }
     if (f->face->num_glyphs < 1 || f->face->num_glyphs > GLYPHS_MAX)
         return wr_fail(err, "has %ld glyphs: must be 1..%d", f->face->num_glyphs, GLYPHS_MAX);
@@ -288,7 +259,7 @@ static bool open_face(Free *f, const uint8_t *bytes, size_t length, WrError *err
 
 static bool measure(Free *f, WrError *err)
 {
-    WrFontHead *head = &f->making->head;
+    WrFontHead *head = &f->own->head;
     FT_Face face = f->face;
     long ascent = face->ascender, descent = -(long)face->descender, line = face->height;
     long units = face->units_per_EM;
@@ -311,45 +282,105 @@ static bool measure(Free *f, WrError *err)
     return true;
 }
 
+/* ---- axes of variable fonts ---- */
+
+#define AXES_MAX 64
+
+/* Set one axis in design units of 1/65536. False: the font has none of that tag. */
+static bool set_axis(const FT_MM_Var *axes, const hb_variation_t *wish, FT_Fixed *at)
+{
+    for (FT_UInt i = 0; i < axes->num_axis && i < AXES_MAX; i++) {
+        if (axes->axis[i].tag != wish->tag) continue;
+        double low = (double)axes->axis[i].minimum / 65536.0;
+        double high = (double)axes->axis[i].maximum / 65536.0;
+        double value = (double)wish->value;
+        value = value < low ? low : value > high ? high : value;
+        at[i] = (FT_Fixed)(value * 65536.0);
+        return true;
+    }
+    return false;
+}
+
+/* Words tag=value between commas. */
+static bool take_axes(const Free *f, const FT_MM_Var *axes, FT_Fixed *at, WrError *err)
+{
+    for (const char *p = f->own->ask->axes; *p;) {
+        size_t length = strcspn(p, ",");
+        hb_variation_t wish;
+        if (!hb_variation_from_string(p, (int)length, &wish) || !memchr(p, '=', length) ||
+            !(wish.value >= -32000.0f && wish.value <= 32000.0f))
+            return wr_fail(err, "axes: \"%.*s\" must be as in wght=650",
+                           length < 40 ? (int)length : 40, p);
+        if (!set_axis(axes, &wish, at) && f->own->font == 0)
+            return wr_fail(err, "axes: the font has no axis %.4s", p);
+        p += length;
+        if (*p) p++;
+    }
+    return true;
+}
+
+static bool vary(Free *f, WrError *err)
+{
+    const char *wish = f->own->ask->axes;
+    FT_MM_Var *axes = NULL;
+    FT_Fixed at[AXES_MAX];
+    if (!wish || !*wish) return true;
+    if (FT_Get_MM_Var(f->face, &axes) != 0) {
+        if (f->own->font > 0) return true;
+        return wr_fail(err, "axes: the font is not variable");
+    }
+    FT_UInt count = axes->num_axis < AXES_MAX ? axes->num_axis : AXES_MAX;
+    for (FT_UInt i = 0; i < count; i++) at[i] = axes->axis[i].def;
+    bool good = take_axes(f, axes, at, err);
+    if (good && FT_Set_Var_Design_Coordinates(f->face, count, at) != 0)
+        good = wr_fail(err, "axes: its variations are damaged");
+    if (good && f->shaper) {
+        hb_variation_t all[AXES_MAX];
+        for (FT_UInt i = 0; i < count; i++)
+            all[i] = (hb_variation_t){ (hb_tag_t)axes->axis[i].tag, (float)at[i] / 65536.0f };
+        hb_font_set_variations(f->shaper, all, count);
+    }
+    FT_Done_MM_Var(f->library, axes);
+    return good;
+}
+
+/* ---- open and close ---- */
+
 static void start_shaper(Free *f)
 {
-    if (!FT_IS_SFNT(f->face) || f->making->head.bitmap) return;
+    if (!FT_IS_SFNT(f->face) || f->own->head.bitmap) return;
     hb_face_t *face = hb_ft_face_create_referenced(f->face);
     f->buffer = hb_buffer_create();
     f->shaper = hb_font_create(face); /* reads the tables itself, in font units */
     hb_face_destroy(face);
-    hb_font_set_scale(f->shaper, f->making->head.units, f->making->head.units);
+    hb_font_set_scale(f->shaper, f->own->head.units, f->own->head.units);
 }
 
-/* A damaged glyph, of which nothing is known. */
-static bool check_placed(const WrFontMaking *making, WrError *err)
+static void close(WrFontFace *face)
 {
-    for (int i = 0; i < making->placed.count; i++)
-        if (making->placed.data[i].glyph < 0)
-            return wr_fail(err, "has coloured dots or dots of a wrong size, which cannot be used");
-    return true;
+    Free *f = face->ctx;
+    if (f->shaper) hb_font_destroy(f->shaper);
+    if (f->buffer) hb_buffer_destroy(f->buffer);
+    if (f->face) FT_Done_Face(f->face);
+    if (f->library) FT_Done_FreeType(f->library);
+    wr_array_free(&face->known);
+    wr_free(f);
 }
 
-bool wr_font_make_free(const uint8_t *bytes, size_t length, const WrFontAsk *ask, WrFontMaking *out,
-                       WrError *err)
+bool wr_font_open_free(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err)
 {
-    Free f = { .ask = ask, .making = out };
-    bool good = open_face(&f, bytes, length, err) && measure(&f, err);
+    Free *f = wr_alloc(1, sizeof *f);
+    *f = (Free){ .own = face, .making = face->making };
+    face->ctx = f;
+    face->has = has;
+    face->shape = shape;
+    face->close = close;
+    bool good = open_face(f, bytes, length, err) && measure(f, err);
     if (good) {
-        int count = (int)f.face->num_glyphs;
-        wr_array_reserve(&out->known, count);
-        out->known.count = count;
-        memset(out->known.data, 0, (size_t)count * sizeof *out->known.data);
-        start_shaper(&f);
-        good = f.shaper ? wr_font_lines(out, ask, shape_line, &f, err)
-                        : wr_font_lay_plain(out, ask, map, &f, err);
-        if (good && f.too_many)
-            good = wr_fail(err, "its outlines have more than %d points", WR_FONT_POINTS_MAX);
-        good = good && check_placed(out, err);
+        wr_font_face_expect(face, (int)f->face->num_glyphs);
+        start_shaper(f);
+        good = vary(f, err);
     }
-    if (f.shaper) hb_font_destroy(f.shaper);
-    if (f.buffer) hb_buffer_destroy(f.buffer);
-    if (f.face) FT_Done_Face(f.face);
-    if (f.library) FT_Done_FreeType(f.library);
+    if (!good) close(face);
     return good;
 }

@@ -23,6 +23,17 @@ uint32_t wr_font_character(const char *text, size_t length, size_t *at)
     return good ? code : 0xfffd;
 }
 
+int wr_font_strange_bytes(const char *text)
+{
+    size_t length = strlen(text);
+    int count = 0;
+    for (size_t at = 0; at < length;) {
+        size_t before = at;
+        count += wr_font_character(text, length, &at) == 0xfffd && at == before + 1;
+    }
+    return count;
+}
+
 void wr_font_add_missing(WrFontMaking *making, uint32_t character)
 {
     for (int i = 0; i < making->missing.count; i++)
@@ -152,36 +163,17 @@ bool wr_font_lines(WrFontMaking *making, const WrFontAsk *ask, WrFontLineMake ma
 
 /* ---- without shaping ---- */
 
-typedef struct Plain {
-    WrFontMaking *making;
-    WrFontMap map;
-    void *ctx;
-} Plain;
-
-static void lay_character(Plain *plain, uint32_t code, int32_t byte, bool leftwards)
+void wr_font_shape_plain(WrFontFace *face, const WrFontChars *chars, int from, int count,
+                         bool leftwards, WrFontMap map)
 {
-    FriBidiChar mirrored;
-    int32_t advance = 0;
-    if (leftwards && fribidi_get_mirror_char(code, &mirrored)) code = mirrored;
-    int32_t glyph = plain->map(plain->ctx, code, &advance);
-    wr_array_push(&plain->making->placed, ((WrFontPlaced){ glyph, advance, 0, 0, byte, 1 }));
-}
-
-static bool lay_line(void *ctx, const WrFontChars *chars, const WrFontRun *runs, int run_count,
-                     WrError *err)
-{
-    (void)err;
-    for (int r = 0; r < run_count; r++)
-        for (int k = 0; k < runs[r].count; k++) {
-            int i = runs[r].first + (runs[r].leftwards ? runs[r].count - 1 - k : k);
-            lay_character(ctx, chars->code[i], chars->byte[i], runs[r].leftwards);
-        }
-    return true;
-}
-
-bool wr_font_lay_plain(WrFontMaking *making, const WrFontAsk *ask, WrFontMap map, void *ctx,
-                       WrError *err)
-{
-    Plain plain = { making, map, ctx };
-    return wr_font_lines(making, ask, lay_line, &plain, err);
+    for (int k = 0; k < count; k++) {
+        int i = from + (leftwards ? count - 1 - k : k);
+        uint32_t code = chars->code[i];
+        FriBidiChar mirrored;
+        int32_t advance = 0;
+        if (leftwards && fribidi_get_mirror_char(code, &mirrored)) code = mirrored;
+        int32_t glyph = map(face, code, &advance);
+        wr_array_push(&face->making->placed,
+                      ((WrFontPlaced){ glyph, advance, 0, 0, chars->byte[i], 1 }));
+    }
 }

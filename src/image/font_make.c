@@ -1,29 +1,67 @@
-/* Reading a font, in whichever process: unpacked, then by its kind. */
+/* Reading fonts, in whichever process: unpacked, then by their kind. */
 #include "image/font_inner.h"
 
 #include <string.h>
 
-static bool make(const uint8_t *bytes, size_t length, const WrFontAsk *ask, WrText *block,
-                 WrError *err)
+typedef struct Opened {
+    WrFontFace faces[WR_FONT_FILES];
+    uint8_t *unpacked[WR_FONT_FILES]; /* owned */
+    int count;
+} Opened;
+
+void wr_font_face_expect(WrFontFace *face, int count)
 {
-    WrFontMaking making = { 0 };
-    bool good = wr_psf_is(bytes, length) ? wr_psf_make(bytes, length, ask, &making, err)
-                                         : wr_font_make_free(bytes, length, ask, &making, err);
-    if (good) wr_font_pack(&making, block);
-    wr_font_making_fini(&making);
+    wr_array_reserve(&face->known, count);
+    face->known.count = count;
+    memset(face->known.data, 0, (size_t)count * sizeof *face->known.data);
+}
+
+/* Open the next one. */
+static bool open_file(Opened *all, const WrFontFile *file, WrFontMaking *making,
+                      const WrFontAsk *ask, WrError *err)
+{
+    WrFontFace *face = &all->faces[all->count];
+    WrFontFile in = *file;
+    *face = (WrFontFace){ .making = making, .ask = ask, .font = all->count };
+    if (in.length >= 4 && in.bytes[0] == 0x1f && in.bytes[1] == 0x8b) {
+        uint8_t **unpacked = &all->unpacked[all->count];
+        if (!wr_font_gunzip(file->bytes, file->length, WR_FONT_FILE_MAX, unpacked, &in.length, err))
+            return false;
+        in.bytes = *unpacked;
+    }
+    if (in.length < 4) return wr_fail(err, "is no font that can be read");
+    bool good = wr_psf_is(in.bytes, in.length) ? wr_font_open_psf(face, in.bytes, in.length, err)
+                                               : wr_font_open_free(face, in.bytes, in.length, err);
+    if (good) all->count++;
     return good;
 }
 
-bool wr_font_make(const void *bytes, size_t length, const WrFontAsk *ask, WrText *block,
+/* A damaged glyph, of which nothing is known. */
+static bool check_placed(const WrFontMaking *making, WrError *err)
+{
+    for (int i = 0; i < making->placed.count; i++)
+        if (making->placed.data[i].glyph < 0)
+            return wr_fail(err, "has coloured dots or dots of a wrong size, which cannot be used");
+    return true;
+}
+
+bool wr_font_make(const WrFontFile *files, int count, const WrFontAsk *ask, WrText *block,
                   WrError *err)
 {
-    const uint8_t *from = bytes;
-    if (length < 4) return wr_fail(err, "is no font that can be read");
-    if (from[0] != 0x1f || from[1] != 0x8b) return make(from, length, ask, block, err);
-    uint8_t *unpacked;
-    if (!wr_font_gunzip(from, length, WR_FONT_FILE_MAX, &unpacked, &length, err)) return false;
-    bool good = length >= 4 ? make(unpacked, length, ask, block, err)
-                            : wr_fail(err, "is no font that can be read");
-    wr_free(unpacked);
+    WrFontMaking making = { 0 };
+    Opened all = { .count = 0 };
+    bool good = true;
+    for (int i = 0; i < count && good; i++) {
+        good = open_file(&all, &files[i], &making, ask, err);
+        if (!good && i > 0) wr_error_prefix(err, "the font number %d to take letters from ", i);
+    }
+    if (good) {
+        making.head = all.faces[0].head;
+        good = wr_font_parts(all.faces, all.count, err) && check_placed(&making, err);
+    }
+    if (good) wr_font_pack(&making, block);
+    for (int i = 0; i < all.count; i++) all.faces[i].close(&all.faces[i]);
+    for (int i = 0; i < WR_FONT_FILES; i++) wr_free(all.unpacked[i]);
+    wr_font_making_fini(&making);
     return good;
 }

@@ -86,8 +86,8 @@ static void draw_verbs(Pen *pen, const WrFontText *text, const WrFontGlyph *g)
         WrFontVerb verb = (WrFontVerb)text->verbs[g->first_verb + i];
         double x[3], y[3];
         for (int k = 0; k < takes[verb]; k++) {
-            x[k] = pen->x + p[k].x * pen->scale;
-            y[k] = pen->y + p[k].y * pen->scale;
+            x[k] = pen->x + p[k].x * (0.5 * pen->scale);
+            y[k] = pen->y + p[k].y * (0.5 * pen->scale);
         }
         if (verb == WR_FONT_MOVE) begin(pen, x[0], y[0]);
         else if (verb == WR_FONT_LINE) line(pen, x[0], y[0]);
@@ -175,7 +175,7 @@ bool wr_font_glyph_outline(const WrFontText *text, int glyph, double scale, doub
 {
     const WrFontGlyph *g = &text->glyphs[glyph];
     Pen pen = { out, scale, x, y, tolerance, 0.0, 0.0 };
-    if (text->bitmap) {
+    if (g->width > 0) {
         if (!draw_dots(&pen, text, g, err)) return false;
     } else {
         draw_verbs(&pen, text, g);
@@ -195,9 +195,10 @@ double wr_font_place(const WrFontText *text, const WrFontSetting *setting, doubl
         int32_t last = line_is->first + line_is->count;
         for (int32_t i = line_is->first; i < last; i++) {
             const WrFontPlaced *p = &text->placed[i];
-            place[i][0] = x + p->dx * scale;
-            place[i][1] = y + p->dy * scale;
-            x += p->advance * scale;
+            double own = wr_font_scale(text, p, setting->size);
+            place[i][0] = x + p->dx * own;
+            place[i][1] = y + p->dy * own;
+            x += p->advance * own;
             end = x;
             if (p->spaced) x += setting->letter_spacing;
         }
@@ -218,7 +219,8 @@ bool wr_font_outline(const WrFontText *text, const WrFontSetting *setting, doubl
     wr_font_place(text, setting, place);
     bool good = true;
     for (int32_t i = 0; i < text->placed_count && good; i++)
-        good = wr_font_glyph_outline(text, text->placed[i].glyph, setting->size / text->units,
+        good = wr_font_glyph_outline(text, text->placed[i].glyph,
+                                     wr_font_scale(text, &text->placed[i], setting->size),
                                      place[i][0], place[i][1], tolerance, out, err);
     wr_free(place);
     return good;

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define COORDINATE_MAX (1 << 22) /* font units */
+#define COORDINATE_MAX (1 << 23) /* half units */
 #define DOTS_MAX 4096            /* of a bitmap glyph's sides */
 #define PLACED_MAX (1 << 22)
 
@@ -16,7 +16,6 @@ void wr_font_making_fini(WrFontMaking *making)
     wr_array_free(&making->missing);
     wr_array_free(&making->verbs);
     wr_array_free(&making->bytes);
-    wr_array_free(&making->known);
 }
 
 void wr_font_text_fini(WrFontText *text)
@@ -102,6 +101,7 @@ static bool check_glyph(const WrFontText *text, const WrFontGlyph *g)
     if (!part_of(g->first_verb, g->verb_count, text->verb_count) ||
         !part_of(g->first_point, g->point_count, text->point_count) || !check_verbs(text, g))
         return false;
+    if (g->units < 1 || g->units > 16384 || g->font < 0 || g->font >= WR_FONT_FILES) return false;
     if (!within(g->left, 1 << 16) || !within(g->top, 1 << 16) || g->width < 0 || g->height < 0 ||
         g->width > DOTS_MAX || g->height > DOTS_MAX)
         return false;

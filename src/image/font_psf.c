@@ -12,7 +12,7 @@
 #define CHARACTERS 0x110000
 
 typedef struct Psf {
-    WrFontMaking *making;
+    WrFontFace *face;
     const uint8_t *dots; /* [count][size] */
     const uint8_t *table, *end;
     int count, size, width, height;
@@ -107,35 +107,39 @@ static int find(const Psf *psf, uint32_t character)
     return psf->of[character] - 1;
 }
 
-/* A glyph's place among those of the text. */
-static int32_t take(Psf *psf, int glyph)
+/* Its place among those of the text; size bytes of dots follow. */
+static int32_t add_glyph(Psf *psf, int id)
 {
-    WrFontMaking *m = psf->making;
-    if (m->known.data[glyph]) return m->known.data[glyph] - 1;
-    WrFontGlyph g = { .id = (uint32_t)glyph,
-                      .top = psf->height,
+    WrFontMaking *m = psf->face->making;
+    WrFontGlyph g = { .id = (uint32_t)id,
+                      .font = psf->face->font,
+                      .units = psf->height,
+                      .top = psf->height - psf->face->head.descent,
                       .width = psf->width,
                       .height = psf->height,
                       .first_byte = m->bytes.count };
-    for (int i = 0; i < psf->size; i++)
-        wr_array_push(&m->bytes, psf->dots[(size_t)glyph * (size_t)psf->size + (size_t)i]);
     wr_array_push(&m->glyphs, g);
-    m->known.data[glyph] = m->glyphs.count;
+    psf->face->known.data[id] = m->glyphs.count;
     return m->glyphs.count - 1;
+}
+
+static int32_t take(Psf *psf, int glyph)
+{
+    if (psf->face->known.data[glyph]) return psf->face->known.data[glyph] - 1;
+    int32_t place = add_glyph(psf, glyph);
+    for (int i = 0; i < psf->size; i++)
+        wr_array_push(&psf->face->making->bytes,
+                      psf->dots[(size_t)glyph * (size_t)psf->size + (size_t)i]);
+    return place;
 }
 
 /* What no character of the font shows: a frame one dot wide, one dot smaller than a glyph on each side, or
  * nothing at all. */
 static int32_t take_own(Psf *psf, bool frame)
 {
-    WrFontMaking *m = psf->making;
     int own = psf->count + frame;
-    if (m->known.data[own]) return m->known.data[own] - 1;
-    WrFontGlyph g = { .id = (uint32_t)own,
-                      .top = psf->height,
-                      .width = psf->width,
-                      .height = psf->height,
-                      .first_byte = m->bytes.count };
+    if (psf->face->known.data[own]) return psf->face->known.data[own] - 1;
+    int32_t place = add_glyph(psf, own);
     int pitch = (psf->width + 7) / 8, right = psf->width - 2, low = psf->height - 2;
     for (int y = 0; y < psf->height; y++)
         for (int b = 0; b < pitch; b++) {
@@ -144,42 +148,69 @@ static int32_t take_own(Psf *psf, bool frame)
                 bool in = x >= 1 && x <= right && y >= 1 && y <= low;
                 if (in && (x == 1 || x == right || y == 1 || y == low)) byte |= 0x80U >> (x & 7);
             }
-            wr_array_push(&m->bytes, (uint8_t)byte);
+            wr_array_push(&psf->face->making->bytes, (uint8_t)byte);
         }
-    wr_array_push(&m->glyphs, g);
-    m->known.data[own] = m->glyphs.count;
-    return m->glyphs.count - 1;
+    return place;
 }
 
-static int32_t map(void *ctx, uint32_t character, int32_t *advance)
+static bool is_space(uint32_t character)
 {
-    Psf *psf = ctx;
+    return character == ' ' || character == 0xa0;
+}
+
+static int32_t map(WrFontFace *face, uint32_t character, int32_t *advance)
+{
+    Psf *psf = face->ctx;
     int glyph = find(psf, character);
     *advance = psf->width;
     if (glyph >= 0) return take(psf, glyph);
-    if (character == ' ' || character == 0xa0) return take_own(psf, false);
-    wr_font_add_missing(psf->making, character);
+    if (is_space(character)) return take_own(psf, false);
+    wr_font_add_missing(face->making, character);
     return take_own(psf, true);
 }
 
-bool wr_psf_make(const uint8_t *bytes, size_t length, const WrFontAsk *ask, WrFontMaking *out,
-                 WrError *err)
+/* ---- the font ---- */
+
+static bool has(const WrFontFace *face, uint32_t character)
 {
-    Psf psf = { .making = out };
-    if (!read_header(&psf, bytes, length, err)) return false;
-    if (psf.table) psf.of = wr_alloc(CHARACTERS, sizeof *psf.of);
-    read_table(&psf);
-    wr_array_reserve(&out->known, psf.count + 2);
-    out->known.count = psf.count + 2;
-    memset(out->known.data, 0, (size_t)out->known.count * sizeof *out->known.data);
-    int descent = psf.height / 5;
-    out->head = (WrFontHead){ .bitmap = 1,
-                              .units = psf.height,
-                              .ascent = psf.height - descent,
-                              .descent = descent,
-                              .line = psf.height };
-    bool good = wr_font_lay_plain(out, ask, map, &psf, err);
-    for (int i = 0; i < out->glyphs.count; i++) out->glyphs.data[i].top -= descent;
-    wr_free(psf.of);
-    return good;
+    return find(face->ctx, character) >= 0 || is_space(character);
+}
+
+static bool shape(WrFontFace *face, const WrFontChars *chars, int from, int count, bool leftwards,
+                  uint32_t script, WrError *err)
+{
+    (void)script;
+    (void)err;
+    wr_font_shape_plain(face, chars, from, count, leftwards, map);
+    return true;
+}
+
+static void close(WrFontFace *face)
+{
+    Psf *psf = face->ctx;
+    wr_array_free(&face->known);
+    wr_free(psf->of);
+    wr_free(psf);
+}
+
+bool wr_font_open_psf(WrFontFace *face, const uint8_t *bytes, size_t length, WrError *err)
+{
+    Psf read = { .face = face };
+    if (!read_header(&read, bytes, length, err)) return false;
+    Psf *psf = wr_alloc(1, sizeof *psf);
+    *psf = read;
+    if (psf->table) psf->of = wr_alloc(CHARACTERS, sizeof *psf->of);
+    read_table(psf);
+    wr_font_face_expect(face, psf->count + 2);
+    int descent = psf->height / 5;
+    face->head = (WrFontHead){ .bitmap = 1,
+                               .units = psf->height,
+                               .ascent = psf->height - descent,
+                               .descent = descent,
+                               .line = psf->height };
+    face->ctx = psf;
+    face->has = has;
+    face->shape = shape;
+    face->close = close;
+    return true;
 }

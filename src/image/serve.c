@@ -134,17 +134,27 @@ static char *read_file(size_t *length, WrError *err)
     return bytes;
 }
 
+/* The program is trusted, but a file may have become shorter since it asked. */
 static bool make_font(const char *bytes, size_t length, const char *want, size_t want_length,
                       WrText *block, WrError *err)
 {
     WrFontOrder order;
+    WrFontFile files[WR_FONT_FILES];
     if (want_length < sizeof order) return wr_fail(err, "no text to shape");
     memcpy(&order, want, sizeof order);
     WrFontAsk ask = { .text = want + sizeof order,
                       .face = order.face,
                       .direction = (WrFontDirection)order.direction };
-    if (order.language_length) ask.language = ask.text + order.text_length + 1;
-    return wr_font_make(bytes, length, &ask, block, err);
+    const char *language = ask.text + order.text_length + 1;
+    if (order.language_length) ask.language = language;
+    if (order.axes_length) ask.axes = language + order.language_length + 1;
+    for (int i = 0; i < order.file_count; i++) {
+        if (order.lengths[i] > length) return wr_fail(err, "has become shorter meanwhile");
+        files[i] = (WrFontFile){ (const uint8_t *)bytes, (size_t)order.lengths[i] };
+        bytes += files[i].length;
+        length -= files[i].length;
+    }
+    return wr_font_make(files, order.file_count, &ask, block, err);
 }
 
 static char *receive_ask(uint32_t *length)

@@ -25,7 +25,7 @@
 
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 2
+#define WR_WIRE_VERSION 3
 #define WR_WIRE_MAX (256U << 20) /* bytes of a message */
 
 /* What kind of file. */

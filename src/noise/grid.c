@@ -1,6 +1,6 @@
 #include "noise/grid.h"
 
-#include "noise/inner.h"
+#include "noise/kern.h"
 
 #include <math.h>
 
@@ -23,19 +23,13 @@ static inline float sign(float f)
 
 /* The modes other than ridged are factor f - below, with the factor's sign that of f where |f| is what
  * is added. */
-static void add_heights(WrOctavesMode mode, float amplitude, const float *restrict f,
-                        const Row *row)
+static void add_heights(WrOctavesMode mode, float amplitude, const float *f, const Row *row)
 {
-    float *restrict n = row->n;
-    float factor = mode == WR_OCTAVES_BILLOW ? 2.0f * amplitude : amplitude;
-    float below = mode == WR_OCTAVES_BILLOW ? amplitude : 0.0f;
-    if (mode == WR_OCTAVES_FBM) {
-#pragma omp simd
-        for (int i = 0; i < row->count; i++) n[i] += factor * f[i];
-        return;
-    }
-#pragma omp simd
-    for (int i = 0; i < row->count; i++) n[i] += factor * fabsf(f[i]) - below;
+    const WrNoiseKernels *kern = wr_noise_kernels();
+    if (mode == WR_OCTAVES_FBM) kern->add(amplitude, f, row->count, row->n);
+    else if (mode == WR_OCTAVES_BILLOW)
+        kern->add_magnitude(2.0f * amplitude, amplitude, f, row->count, row->n);
+    else kern->add_magnitude(amplitude, 0.0f, f, row->count, row->n);
 }
 
 static void add_slopes(WrOctavesMode mode, float amplitude, float frequency,

@@ -9,7 +9,7 @@
    of a LatticeRow at x = first + m (+ 1/2), which is u0 = x + v/2 in the sheared coordinate. So corner
    (u0, v) is point u0 - ceil(v/2) - first of its row. */
 
-/* At most one cell a texel: 256 cells, and on either side what the shear and the corners reach. */
+/* At most one cell a texel: a cell for each, and on either side what the shear and the corners reach. */
 #define POINTS (WR_NOISE_STRIP + 16)
 #define MARGIN 2 /* cells to the left of the first texel's */
 

@@ -13,8 +13,8 @@ double wr_noise_torus(const WrNoise *noise, const double *t, double *slope);
 double wr_noise_perlin_scale(int dim);
 
 /* A grid is filled in pieces of this size, whose intermediate values stay in a core's caches. */
-#define WR_NOISE_STRIP 256 /* texels of a row */
-#define WR_NOISE_BAND 32   /* rows */
+#define WR_NOISE_STRIP 64 /* texels of a row, a tile's */
+#define WR_NOISE_BAND 64  /* rows */
 
 /* One octave over a piece: f and df/dt (per cell), [row][column]. */
 typedef struct WrNoiseBand {

@@ -8,23 +8,34 @@
 
 typedef struct WrRenderer WrRenderer;
 
+#define WR_FRAME_BLOCK 16 /* pixels */
+
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */
     const WrScene *scene;
     int width, height;    /* pixels, 1..16384 each */
     double turn_deg;      /* turntable angle about the world's y axis */
     const WrDials *dials; /* NULL: the scene's */
-    bool keep;     /* the view rests: remember what each tile of the picture looks at, so that the
+    bool keep; /* the view rests: remember what each tile of the picture looks at, so that the
                              next frame of the same scene, turn, size and dials renders only the tiles
                              that an edit of the table reaches (E29); the bits are the same. Such a
                              frame does not look at `cancel` */
-    bool plan_off; /* run the full path whatever the plan could leave out (tests) */
+    /* Blocks of WR_FRAME_BLOCK x WR_FRAME_BLOCK pixels, [ceil(height / block)][ceil(width / block)]:
+       those with 0 are not rendered, their pixels stay as this renderer's last picture of that size
+       had them (0 in the first). NULL: all. */
+    const unsigned char *only;
+    /* n' at each pixel's centre, object space, towards the viewer's side, 0,0,0 where the object is not;
+       [height][width][3], the caller's; NULL: not wanted. One sample a pixel is taken, whatever the
+       dials say of supersampling. */
+    float *normals;
+    bool plan_off;              /* run the full path whatever the plan could leave out (tests) */
     const volatile int *cancel; /* may be NULL; non-zero: return early, false, err "cancelled" */
 } WrFrameRequest;
 
 typedef struct
     WrStageTimes { /* seconds, summed over threads, but for `total`, which is wall time */
     double prepare, visibility, geometry, bump, shade, resolve, total;
+    double pyramid; /* the part of `prepare` that pyramids of slopes took; wall time, as prepare */
 } WrStageTimes;
 
 typedef struct WrFrame {

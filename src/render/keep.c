@@ -1,6 +1,7 @@
 #include "render/keep.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 void wr_keep_fini(WrKeep *keep)
@@ -17,14 +18,43 @@ void wr_keep_start(WrKeep *keep, int tiles)
     keep->tiles = tiles;
 }
 
-void wr_keep_note(WrBlocks *seen, const WrStrip *strip)
+static void note(WrBlocks *seen, int u, int v)
 {
-    for (int i = 0; i < strip->count; i++) {
-        int u = (int)(strip->tu[i] * WR_KEEP_SIDE), v = (int)(strip->tv[i] * WR_KEEP_SIDE);
-        u = u < WR_KEEP_SIDE ? u : WR_KEEP_SIDE - 1; /* 1 itself, on clamped axes */
-        v = v < WR_KEEP_SIDE ? v : WR_KEEP_SIDE - 1;
-        seen->row[v] |= 1ULL << u;
+    u = u < WR_KEEP_SIDE ? u : WR_KEEP_SIDE - 1; /* 1 itself, on clamped axes */
+    v = v < WR_KEEP_SIDE ? v : WR_KEEP_SIDE - 1;
+    seen->row[v] |= 1ULL << u;
+}
+
+void wr_keep_note_places(WrBlocks *seen, int count, size_t size, const void *tu, const void *tv)
+{
+    if (size == sizeof(float)) {
+        const float *u = tu, *v = tv;
+        for (int i = 0; i < count; i++)
+            note(seen, (int)(u[i] * WR_KEEP_SIDE), (int)(v[i] * WR_KEEP_SIDE));
+    } else {
+        const double *u = tu, *v = tv;
+        for (int i = 0; i < count; i++)
+            note(seen, (int)(u[i] * WR_KEEP_SIDE), (int)(v[i] * WR_KEEP_SIDE));
     }
+}
+
+/* The blocks from a to b as a mask, round the ends: what is too much on a clamped axis does no harm. */
+static uint64_t span(double a, double b)
+{
+    if (!(b - a < 1.0)) return ~0ULL;
+    int first = (int)floor(a * WR_KEEP_SIDE), last = (int)floor(b * WR_KEEP_SIDE);
+    uint64_t mask = 0;
+    for (int k = first; k <= last; k++)
+        mask |= 1ULL << ((k % WR_KEEP_SIDE + WR_KEEP_SIDE) % WR_KEEP_SIDE);
+    return mask;
+}
+
+void wr_keep_note_box(WrBlocks *seen, double tu, double tv, double reach_u, double reach_v)
+{
+    const uint64_t columns = span(tu - reach_u, tu + reach_u);
+    const uint64_t rows = span(tv - reach_v, tv + reach_v);
+    for (int v = 0; v < WR_KEEP_SIDE; v++)
+        if (rows >> v & 1) seen->row[v] |= columns;
 }
 
 /* Texels that differ, columns [i0, i1) and rows [j0, j1) from the top. */

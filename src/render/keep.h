@@ -26,8 +26,10 @@ typedef struct WrKeep {
 void wr_keep_fini(WrKeep *keep);
 /* Forget the picture and make room for a new one's tiles. */
 void wr_keep_start(WrKeep *keep, int tiles);
-/* The strip's samples, whose places in the table are known (after a look-up). */
-void wr_keep_note(WrBlocks *seen, const WrStrip *strip);
+/* Places in the table, 0..1, where samples looked: float or double, by the size of one. */
+void wr_keep_note_places(WrBlocks *seen, int count, size_t size, const void *tu, const void *tv);
+/* A place and all within reach of it, round the table's ends; reach in 0..1. */
+void wr_keep_note_box(WrBlocks *seen, double tu, double tv, double reach_u, double reach_v);
 /* Mark what differs between the kept field and this one, of equal size and wrap: exact texels of the
  * tiles that differ, grown by `reach` texels. False: cannot be compared, or nothing is kept. */
 bool wr_keep_compare(WrKeep *keep, const WrField *field, int reach);

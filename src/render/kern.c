@@ -30,26 +30,41 @@ static const struct {
     const char *name;
     bool (*here)(void);
     const WrKernels *exact, *fast;
+    const WrKernelsd *wide;
 } levels[] = {
-    { "ref", has_any, &wr_kern_ref, &wr_kern_ref },
-    { "v1", has_any, &wr_kern_v1, &wr_kern_v1 },
-    { "v2", has_v2, &wr_kern_v2, &wr_kern_v2 },
-    { "v3", has_v3, &wr_kern_v3, &wr_kern_fast_v3 },
-    { "v4", has_v4, &wr_kern_v4, &wr_kern_fast_v4 },
+    { "ref", has_any, &wr_kern_ref, &wr_kern_ref, &wr_kern_double_ref },
+    { "v1", has_any, &wr_kern_v1, &wr_kern_v1, &wr_kern_double_v1 },
+    { "v2", has_v2, &wr_kern_v2, &wr_kern_v2, &wr_kern_double_v1 },
+    { "v3", has_v3, &wr_kern_v3, &wr_kern_fast_v3, &wr_kern_double_v3 },
+    { "v4", has_v4, &wr_kern_v4, &wr_kern_fast_v4, &wr_kern_double_v4 },
 };
 
-const WrKernels *wr_kernels_get(const char *isa, bool fast, WrError *err)
+/* The row of that name, or -1 and an error. */
+static int find_level(const char *isa, WrError *err)
 {
     const int count = (int)(sizeof levels / sizeof *levels);
     bool best = !isa || strcmp(isa, "auto") == 0;
     for (int i = count - 1; i >= 0; i--) {
         if (!best && strcmp(isa, levels[i].name) != 0) continue;
-        if (levels[i].here()) return fast ? levels[i].fast : levels[i].exact;
+        if (levels[i].here()) return i;
         if (best) continue;
         wr_fail(err, "isa %s: this processor does not have it; auto picks the best that it has",
                 isa);
-        return NULL;
+        return -1;
     }
     wr_fail(err, "isa %s: must be ref, v1, v2, v3, v4 or auto", isa);
-    return NULL;
+    return -1;
+}
+
+const WrKernels *wr_kernels_get(const char *isa, bool fast, WrError *err)
+{
+    int level = find_level(isa, err);
+    if (level < 0) return NULL;
+    return fast ? levels[level].fast : levels[level].exact;
+}
+
+const WrKernelsd *wr_kernels_double(const char *isa, WrError *err)
+{
+    int level = find_level(isa, err);
+    return level < 0 ? NULL : levels[level].wide;
 }

@@ -1,16 +1,47 @@
 /* kern_body.h - the bodies of all span kernels. Included once by each kern_*.c, which defines
-   WR_KERN_TABLE, WR_KERN_NAME and WR_KERN_EXACT for the table at its end. Plain loops over structure-of-arrays strips; no
-   branch inside but ?: on scalars, no library call that does not vectorise.
+   WR_KERN_TABLE, WR_KERN_NAME and WR_KERN_EXACT for the table at its end, and WR_KERN_DOUBLE where the
+   kernels shall work in double. Plain loops over structure-of-arrays strips; no branch inside but ?: on
+   scalars, no library call that does not vectorise.
    A header without a guard, by intention. */
-#include "base/kernmath.h"
 #include "render/kern.h"
+#include "render/kern_double_math.h"
+#include "render/pyramid.h"
 
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
 
+#ifdef WR_KERN_DOUBLE
+#include "surface/formula.h"
+#undef r_sincos_turns
+#define r_sincos_turns wr_sincos_turns_r
+#define r_atan2_turns wr_atan2_turns_r
+#define r_pow01 wr_pow01_r
+#define r_floor floor
+#define STRIP WrStripd
+#define RAYS WrRaysd
+#define QUAD WrQuadd
+#define LOOK WrLookd
+#define LIGHT WrKernLightd
+#define SHINE WrKernShined
+#define NEWTON WrNewtond
+#define KERNELS WrKernelsd
+#define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
+#else
 #define WR_FORMULA_FLOAT
 #include "surface/formula.h"
+#define r_atan2_turns wr_atan2_turns_f
+#define r_pow01 wr_pow01_f
+#define r_floor floorf
+#define STRIP WrStrip
+#define RAYS WrRays
+#define QUAD WrQuad
+#define LOOK WrLook
+#define LIGHT WrKernLight
+#define SHINE WrKernShine
+#define NEWTON WrNewton
+#define KERNELS WrKernels
+#endif
 #define WR_SURFACE_FORMULAS
 #include "surface/surface_list.h"
 #undef WR_SURFACE_FORMULAS
@@ -24,65 +55,62 @@
 #define MISS FLT_MAX
 #define STEEP 1e12f /* slopes beyond this are scaled down together with N: the direction stays */
 
-#define LOAD3(strip, name, i) ((WrVec3f){ strip->name##x[i], strip->name##y[i], strip->name##z[i] })
+#define LOAD3(strip, name, i) ((VEC){ strip->name##x[i], strip->name##y[i], strip->name##z[i] })
 #define STORE3(strip, name, i, vec)                                                                \
     (strip->name##x[i] = (vec).x, strip->name##y[i] = (vec).y, strip->name##z[i] = (vec).z)
 
-static inline WrVec3f affine(const float o[3], const float x[3], float gx)
+#define ALWAYS static inline __attribute__((always_inline))
+
+/* o + y gy + x gx: of a ray, at (gx, gy) of the grid. Scalars alone: an array in the body of a loop stays in
+   memory and keeps it from vectorising. */
+ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, REAL gx)
 {
-    return (WrVec3f){ o[0] + gx * x[0], o[1] + gx * x[1], o[2] + gx * x[2] };
+    return (VEC){ o[0] + gy * y[0] + gx * x[0], o[1] + gy * y[1] + gx * x[1],
+                  o[2] + gy * y[2] + gx * x[2] };
 }
 
-/* The start of a row: q and d at (0, gy). */
-typedef struct Row {
-    float q[3], d[3];
-} Row;
+#define RAY_Q(rays, gy, gx) affine((rays)->q0, (rays)->qy, (rays)->qx, gy, gx)
+#define RAY_D(rays, gy, gx) affine((rays)->d0, (rays)->dy, (rays)->dx, gy, gx)
 
-static inline Row row_at(const WrRays *rays, float gy)
-{
-    Row row;
-    for (int k = 0; k < 3; k++) {
-        row.q[k] = rays->q0[k] + gy * rays->qy[k];
-        row.d[k] = rays->d0[k] + gy * rays->dy[k];
-    }
-    return row;
-}
-
-/* Keep the samples that hit, in order; s moves along. */
-static inline int compact(int count, WrStrip *strip)
+/* Keep the samples that hit, in order; s moves along, and with `spread` their places too. */
+ALWAYS int compact(int count, const bool spread, STRIP *strip)
 {
     int hits = 0;
     for (int i = 0; i < count; i++) {
         strip->index[hits] = i;
         strip->s[hits] = strip->s[i];
+        if (spread) {
+            strip->x[hits] = strip->x[i];
+            strip->y[hits] = strip->y[i];
+        }
         hits += strip->s[i] < MISS;
     }
     strip->count = hits;
     return hits;
 }
 
-static inline float clamp01(float x)
+static inline REAL clamp01(REAL x)
 {
     x = x > 0.0f ? x : 0.0f;
     return x < 1.0f ? x : 1.0f;
 }
 
-static inline float max3(float a, float b, float c)
+static inline REAL max3(REAL a, REAL b, REAL c)
 {
     a = a > b ? a : b;
     return a > c ? a : c;
 }
 
 /* a / |a|, `otherwise` where a is 0: scaled by its largest component first, so no square overflows. */
-static inline WrVec3f unit_or(WrVec3f a, WrVec3f otherwise)
+static inline VEC unit_or(VEC a, VEC otherwise)
 {
-    float m = max3(fabsf(a.x), fabsf(a.y), fabsf(a.z));
-    float k = m > 0.0f ? m : 1.0f;
-    float x = a.x / k, y = a.y / k, z = a.z / k;
-    float len = sqrtf(x * x + y * y + z * z);
-    float inv = 1.0f / (m > 0.0f ? len : 1.0f);
-    return (WrVec3f){ m > 0.0f ? x * inv : otherwise.x, m > 0.0f ? y * inv : otherwise.y,
-                      m > 0.0f ? z * inv : otherwise.z };
+    REAL m = max3(r_abs(a.x), r_abs(a.y), r_abs(a.z));
+    REAL k = m > 0.0f ? m : 1.0f;
+    REAL x = a.x / k, y = a.y / k, z = a.z / k;
+    REAL len = r_sqrt(x * x + y * y + z * z);
+    REAL inv = 1.0f / (m > 0.0f ? len : 1.0f);
+    return (VEC){ m > 0.0f ? x * inv : otherwise.x, m > 0.0f ? y * inv : otherwise.y,
+                  m > 0.0f ? z * inv : otherwise.z };
 }
 
 #include "render/kern_hit_body.h"
@@ -90,14 +118,21 @@ static inline WrVec3f unit_or(WrVec3f a, WrVec3f otherwise)
 #include "render/kern_look_body.h"
 #include "render/kern_bump_body.h"
 #include "render/kern_light_body.h"
+#include "render/kern_filter_body.h"
+#include "render/kern_moments_body.h"
+#include "render/kern_bound_body.h"
 
-const WrKernels WR_KERN_TABLE = {
+const KERNELS WR_KERN_TABLE = {
     .name = WR_KERN_NAME,
     .exact = WR_KERN_EXACT,
     .hit_sphere = kern_hit_sphere,
     .hit_cylinder = kern_hit_cylinder,
     .hit_cone = kern_hit_cone,
     .hit_quad = kern_hit_quad,
+    .hit_sphere_at = kern_hit_sphere_at,
+    .hit_cylinder_at = kern_hit_cylinder_at,
+    .hit_cone_at = kern_hit_cone_at,
+    .hit_quad_at = kern_hit_quad_at,
 #define WR_X(name) [WR_SURFACE_##name] = kern_polish_##name,
     .polish = {
 #include "surface/surface_list.h"
@@ -122,17 +157,28 @@ const WrKernels WR_KERN_TABLE = {
         [WR_SCHEME_BSPLINE_FIT] = kern_look_bspline,
         [WR_SCHEME_CATMULL] = kern_look_catmull,
     },
+    .footprint = kern_footprint,
+    .spread = kern_spread,
+    .look_pyramid = kern_look_pyramid,
     .bump = {
         [WR_BUMP_NONE] = kern_bump_none,
         [WR_BUMP_BLINN] = kern_bump_blinn,
         [WR_BUMP_INVARIANT] = kern_bump_invariant,
         [WR_BUMP_EXACT] = kern_bump_exact,
     },
+    .widen = kern_widen,
     .colour = kern_colour,
     .view = kern_view,
     .begin = kern_begin,
     .light = kern_light,
     .diffuse = kern_diffuse,
     .specular = kern_specular,
+    .specular_lean = kern_specular_lean,
+    .specular_toksvig = kern_specular_toksvig,
     .finish = kern_finish,
+    .bound_sphere = kern_bound_sphere,
+    .bound_quad = kern_bound_quad,
+    .bound_slopes = kern_bound_slopes,
+    .bound_normal = kern_bound_normal,
+    .bound_light = kern_bound_light,
 };

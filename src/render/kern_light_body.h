@@ -1,27 +1,27 @@
 /* kern_light_body.h - ambient, diffuse and highlight over strips. A part of kern_body.h. */
 
-FLAT static void kern_view(const WrRays *rays, WrStrip *strip)
+FLAT static void kern_view(const RAYS *rays, STRIP *strip)
 {
     const int count = strip->count;
     if (!rays->perspective) {
-        const WrVec3f toward = { rays->toward[0], rays->toward[1], rays->toward[2] };
+        const VEC toward = { rays->toward[0], rays->toward[1], rays->toward[2] };
         SIMD for (int i = 0; i < count; i++)
         {
             STORE3(strip, v, i, toward);
         }
         return;
     }
-    const WrVec3f eye = { rays->eye[0], rays->eye[1], rays->eye[2] };
+    const VEC eye = { rays->eye[0], rays->eye[1], rays->eye[2] };
     SIMD for (int i = 0; i < count; i++)
     {
-        WrVec3f w = v3f_sub(eye, LOAD3(strip, p, i));
-        float ww = v3f_dot(w, w), inv = 1.0f / sqrtf(ww > 1e-30f ? ww : 1.0f);
-        STORE3(strip, v, i, v3f_scale(w, inv));
+        VEC w = v_sub(eye, LOAD3(strip, p, i));
+        REAL ww = v_dot(w, w), inv = 1.0f / r_sqrt(ww > 1e-30f ? ww : 1.0f);
+        STORE3(strip, v, i, v_scale(w, inv));
     }
 }
 
 /* The sums start at the ambient light; C(u,v) is 1 unless a picture follows. */
-FLAT static void kern_begin(float ambient, WrStrip *strip)
+FLAT static void kern_begin(REAL ambient, STRIP *strip)
 {
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
@@ -32,9 +32,9 @@ FLAT static void kern_begin(float ambient, WrStrip *strip)
     }
 }
 
-FLAT static void kern_light(const WrKernLight *light, WrStrip *strip)
+FLAT static void kern_light(const LIGHT *light, STRIP *strip)
 {
-    const WrVec3f where = { light->where[0], light->where[1], light->where[2] };
+    const VEC where = { light->where[0], light->where[1], light->where[2] };
     const int count = strip->count;
     if (!light->point) {
         SIMD for (int i = 0; i < count; i++)
@@ -44,9 +44,9 @@ FLAT static void kern_light(const WrKernLight *light, WrStrip *strip)
     } else {
         SIMD for (int i = 0; i < count; i++)
         {
-            WrVec3f w = v3f_sub(where, LOAD3(strip, p, i));
-            float ww = v3f_dot(w, w), inv = 1.0f / sqrtf(ww > 1e-30f ? ww : 1.0f);
-            STORE3(strip, l, i, v3f_scale(w, inv));
+            VEC w = v_sub(where, LOAD3(strip, p, i));
+            REAL ww = v_dot(w, w), inv = 1.0f / r_sqrt(ww > 1e-30f ? ww : 1.0f);
+            STORE3(strip, l, i, v_scale(w, inv));
         }
     }
     SIMD for (int i = 0; i < count; i++)
@@ -56,13 +56,13 @@ FLAT static void kern_light(const WrKernLight *light, WrStrip *strip)
     }
 }
 
-FLAT static void kern_diffuse(const WrKernLight *light, float kd, WrStrip *strip)
+FLAT static void kern_diffuse(const LIGHT *light, REAL kd, STRIP *strip)
 {
-    const float r = kd * light->rgb[0], g = kd * light->rgb[1], b = kd * light->rgb[2];
+    const REAL r = kd * light->rgb[0], g = kd * light->rgb[1], b = kd * light->rgb[2];
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        float lit = strip->n_dot_l[i] > 0.0f ? strip->n_dot_l[i] : 0.0f;
+        REAL lit = strip->n_dot_l[i] > 0.0f ? strip->n_dot_l[i] : 0.0f;
         strip->dr[i] += r * lit;
         strip->dg[i] += g * lit;
         strip->db[i] += b * lit;
@@ -70,18 +70,17 @@ FLAT static void kern_diffuse(const WrKernLight *light, float kd, WrStrip *strip
 }
 
 /* max(0, n'.h)^s with h = (l + v) / |l + v|; 0 where l and v are opposite (HC91). */
-FLAT static void kern_specular(const WrKernLight *light, float ks, float shininess, bool gate,
-                               WrStrip *strip)
+FLAT static void kern_specular(const LIGHT *light, REAL ks, REAL shininess, bool gate, STRIP *strip)
 {
-    const float r = ks * light->rgb[0], g = ks * light->rgb[1], b = ks * light->rgb[2];
+    const REAL r = ks * light->rgb[0], g = ks * light->rgb[1], b = ks * light->rgb[2];
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        float hx = strip->lx[i] + strip->vx[i], hy = strip->ly[i] + strip->vy[i];
-        float hz = strip->lz[i] + strip->vz[i], hh = hx * hx + hy * hy + hz * hz;
-        float nh = strip->bx[i] * hx + strip->by[i] * hy + strip->bz[i] * hz;
-        float c = hh > 1e-24f ? nh / sqrtf(hh > 1e-24f ? hh : 1.0f) : 0.0f;
-        float shine = wr_pow01_f(c > 0.0f ? c : 0.0f, shininess);
+        REAL hx = strip->lx[i] + strip->vx[i], hy = strip->ly[i] + strip->vy[i];
+        REAL hz = strip->lz[i] + strip->vz[i], hh = hx * hx + hy * hy + hz * hz;
+        REAL nh = strip->bx[i] * hx + strip->by[i] * hy + strip->bz[i] * hz;
+        REAL c = hh > 1e-24f ? nh / r_sqrt(hh > 1e-24f ? hh : 1.0f) : 0.0f;
+        REAL shine = r_pow01(c > 0.0f ? c : 0.0f, shininess);
         shine = (!gate || strip->n_dot_l[i] > 0.0f) && hh > 1e-24f ? shine : 0.0f;
         strip->sr[i] += r * shine;
         strip->sg[i] += g * shine;
@@ -90,9 +89,9 @@ FLAT static void kern_specular(const WrKernLight *light, float ks, float shinine
 }
 
 /* I = C (ambient + diffuse) + specular */
-FLAT static void kern_finish(const float colour[3], WrStrip *strip)
+FLAT static void kern_finish(const REAL colour[3], STRIP *strip)
 {
-    const float r = colour[0], g = colour[1], b = colour[2];
+    const REAL r = colour[0], g = colour[1], b = colour[2];
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {

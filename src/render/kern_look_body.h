@@ -3,15 +3,15 @@
 
 /* r t brought to the table: tu in 0..1, and 1 inside or 0 outside (a clamped axis is level there). One
    loop a case: a choice that is the same for all samples keeps a loop from vectorising. */
-static inline void reduce_axis(int count, const float *restrict t, double r, bool wide,
-                               bool periodic, float *restrict out, float *restrict inside)
+static inline void reduce_axis(int count, const REAL *restrict t, double r, bool wide,
+                               bool periodic, REAL *restrict out, REAL *restrict inside)
 {
-    const float narrow = (float)r;
+    const REAL narrow = (REAL)r;
     if (wide) {
         SIMD for (int i = 0; i < count; i++)
         {
             double x = r * (double)t[i], whole = periodic ? __builtin_floor(x) : 0.0;
-            out[i] = (float)(x - whole);
+            out[i] = (REAL)(x - whole);
         }
     } else {
         SIMD for (int i = 0; i < count; i++)
@@ -22,21 +22,21 @@ static inline void reduce_axis(int count, const float *restrict t, double r, boo
     if (periodic) {
         SIMD for (int i = 0; i < count; i++)
         {
-            float turn = out[i] - floorf(out[i]);
+            REAL turn = out[i] - r_floor(out[i]);
             out[i] = turn < 1.0f ? turn : 0.0f;
             inside[i] = 1.0f;
         }
     } else {
         SIMD for (int i = 0; i < count; i++)
         {
-            float x = out[i];
+            REAL x = out[i];
             inside[i] = x >= 0.0f ? (x <= 1.0f ? 1.0f : 0.0f) : 0.0f;
             out[i] = clamp01(x);
         }
     }
 }
 
-FLAT static void kern_reduce(const WrLook *look, WrStrip *strip)
+FLAT static void kern_reduce(const LOOK *look, STRIP *strip)
 {
     reduce_axis(strip->count, strip->u, look->ru, look->wide, look->periodic_u, strip->tu,
                 strip->inside_u);
@@ -47,22 +47,22 @@ FLAT static void kern_reduce(const WrLook *look, WrStrip *strip)
 /* Where the taps of each sample begin: at[k] is the texel up and left of it, ta and tb the fractions past
    that texel. A look-up is three loops: places (vectors), copies of the taps into rows of the strip
    (scalar: hardware gathers are no faster and compilers do not agree on them), arithmetic (vectors). */
-static inline void place_taps(const WrLook *look, WrStrip *strip)
+static inline void place_taps(const LOOK *look, STRIP *strip)
 {
     const int pitch = look->pitch, count = strip->count;
-    const float W = (float)look->width, H = (float)look->height;
+    const REAL W = (REAL)look->width, H = (REAL)look->height;
     kern_reduce(look, strip);
     SIMD for (int k = 0; k < count; k++)
     {
-        float x = W * strip->tu[k] - 0.5f, y = H * (1.0f - strip->tv[k]) - 0.5f;
-        float i = floorf(x), j = floorf(y);
+        REAL x = W * strip->tu[k] - 0.5f, y = H * (1.0f - strip->tv[k]) - 0.5f;
+        REAL i = r_floor(x), j = r_floor(y);
         strip->at[k] = ((int)j + WR_APRON) * pitch + (int)i + WR_APRON;
         strip->ta[k] = x - i;
         strip->tb[k] = y - j;
     }
 }
 
-static inline float bounded(float x)
+static inline REAL bounded(REAL x)
 {
     x = x < FLT_MAX ? x : FLT_MAX;
     return x > -FLT_MAX ? x : -FLT_MAX;
@@ -75,56 +75,62 @@ static inline float bounded(float x)
 
 #define LOOK_CONSTANTS                                                                             \
     const int pitch = look->pitch, count = strip->count;                                           \
-    const float W = (float)look->width, H = (float)look->height;                                   \
-    const float scale_f = look->scale_f, scale_u = look->scale_u, scale_v = look->scale_v
+    const REAL W = (REAL)look->width, H = (REAL)look->height;                                      \
+    const REAL scale_f = look->scale_f, scale_u = look->scale_u, scale_v = look->scale_v
 
 /* Four neighbouring texels at once. */
-typedef float Four __attribute__((vector_size(16)));
+typedef REAL Four __attribute__((vector_size(4 * sizeof(REAL))));
 
-static inline Four load_four(const float *from)
+static inline Four load_four(const REAL *from)
 {
     Four four;
     memcpy(&four, from, sizeof four);
     return four;
 }
 
+/* The same from a single-precision picture or pyramid. */
+static inline Four load_floats(const float *from)
+{
+    return (Four){ (REAL)from[0], (REAL)from[1], (REAL)from[2], (REAL)from[3] };
+}
+
 /* Two neighbouring texels of the upper and the lower row, beside each other. */
-static inline void copy_pairs(const float *table, int pitch, int texel, WrStrip *strip)
+static inline void copy_pairs(const REAL *table, int pitch, int texel, STRIP *strip)
 {
     const int count = strip->count;
     for (int k = 0; k < count; k++) {
-        const float *top = table + (size_t)texel * (size_t)strip->at[k];
-        const float *low = top + (size_t)texel * (size_t)pitch;
+        const REAL *top = table + (size_t)texel * (size_t)strip->at[k];
+        const REAL *low = top + (size_t)texel * (size_t)pitch;
         memcpy(strip->top + 2 * texel * k, top, 2 * (size_t)texel * sizeof *top);
         memcpy(strip->low + 2 * texel * k, low, 2 * (size_t)texel * sizeof *low);
     }
 }
 
-FLAT static void kern_look_bilinear(const WrLook *look, WrStrip *strip)
+FLAT static void kern_look_bilinear(const LOOK *look, STRIP *strip)
 {
     LOOK_CONSTANTS;
     place_taps(look, strip);
     copy_pairs(look->heights, pitch, 1, strip);
     SIMD for (int k = 0; k < count; k++)
     {
-        float f00 = strip->top[2 * k], f10 = strip->top[2 * k + 1], a = strip->ta[k];
-        float f01 = strip->low[2 * k], f11 = strip->low[2 * k + 1], b = strip->tb[k];
-        float d0 = f10 - f00, d1 = f11 - f01, e0 = f01 - f00, e1 = f11 - f10;
-        float upper = f00 + a * d0, lower = f01 + a * d1;
-        float fu = W * (d0 + b * (d1 - d0)), fv = -H * (e0 + a * (e1 - e0));
+        REAL f00 = strip->top[2 * k], f10 = strip->top[2 * k + 1], a = strip->ta[k];
+        REAL f01 = strip->low[2 * k], f11 = strip->low[2 * k + 1], b = strip->tb[k];
+        REAL d0 = f10 - f00, d1 = f11 - f01, e0 = f01 - f00, e1 = f11 - f10;
+        REAL upper = f00 + a * d0, lower = f01 + a * d1;
+        REAL fu = W * (d0 + b * (d1 - d0)), fv = -H * (e0 + a * (e1 - e0));
         STORE_LOOK(upper + b * (lower - upper), fu, fv);
     }
 }
 
 /* Theorem: with E = one texel the paper's FU is the bilinear interpolation of the table of central
    differences: one look-up in the gradient table instead of four FVALs. */
-static inline void slopes_central(const WrLook *look, WrStrip *strip)
+static inline void slopes_central(const LOOK *look, STRIP *strip)
 {
     LOOK_CONSTANTS;
     (void)W, (void)H;
     place_taps(look, strip);
     for (int k = 0; k < count; k++) {
-        const float *at = look->gradient + 2 * (size_t)strip->at[k];
+        const REAL *at = look->gradient + 2 * (size_t)strip->at[k];
         Four top = load_four(at), low = load_four(at + 2 * (size_t)pitch);
         Four c = top + strip->tb[k] * (low - top); /* Fu, Fv of the left texel, then of the right */
         strip->top[k] = c[0] + strip->ta[k] * (c[2] - c[0]);
@@ -137,30 +143,30 @@ static inline void slopes_central(const WrLook *look, WrStrip *strip)
 }
 
 /* The heights themselves where they are wanted too (exact mode). */
-FLAT static void kern_look_central(const WrLook *look, WrStrip *strip)
+FLAT static void kern_look_central(const LOOK *look, STRIP *strip)
 {
     slopes_central(look, strip);
     if (!look->heights) return;
     const int count = strip->count;
-    const float scale_f = look->scale_f;
+    const REAL scale_f = look->scale_f;
     copy_pairs(look->heights, look->pitch, 1, strip);
     SIMD for (int k = 0; k < count; k++)
     {
-        float a = strip->ta[k], f00 = strip->top[2 * k], f01 = strip->low[2 * k];
-        float upper = f00 + a * (strip->top[2 * k + 1] - f00);
-        float lower = f01 + a * (strip->low[2 * k + 1] - f01);
+        REAL a = strip->ta[k], f00 = strip->top[2 * k], f01 = strip->low[2 * k];
+        REAL upper = f00 + a * (strip->top[2 * k + 1] - f00);
+        REAL lower = f01 + a * (strip->low[2 * k + 1] - f01);
         strip->f[k] = bounded((upper + strip->tb[k] * (lower - upper)) * scale_f);
     }
 }
 
 /* The texel that holds the point, and the central difference there. */
-FLAT static void kern_look_nearest(const WrLook *look, WrStrip *strip)
+FLAT static void kern_look_nearest(const LOOK *look, STRIP *strip)
 {
     LOOK_CONSTANTS;
     kern_reduce(look, strip);
     SIMD for (int k = 0; k < count; k++)
     {
-        float i = floorf(W * strip->tu[k]), j = floorf(H * (1.0f - strip->tv[k]));
+        REAL i = r_floor(W * strip->tu[k]), j = r_floor(H * (1.0f - strip->tv[k]));
         strip->at[k] = ((int)j + WR_APRON) * pitch + (int)i + WR_APRON;
     }
     /* Beyond a clamped end the last texel goes on: there inside is 0 but for the end itself. */
@@ -183,25 +189,25 @@ FLAT static void kern_look_nearest(const WrLook *look, WrStrip *strip)
 /* Weights of the taps for the value and, for slopes in difference form, of the differences between
    neighbouring taps. */
 typedef struct Weights {
-    float w0, w1, w2, w3;
-    float d0, d1, d2;
+    REAL w0, w1, w2, w3;
+    REAL d0, d1, d2;
 } Weights;
 
-static inline Weights bspline_weights(float t)
+static inline Weights bspline_weights(REAL t)
 {
-    float s = 1.0f - t, t2 = t * t, t3 = t2 * t;
-    return (Weights){ s * s * s * (1.0f / 6.0f),
-                      (4.0f - 6.0f * t2 + 3.0f * t3) * (1.0f / 6.0f),
-                      (1.0f + 3.0f * t + 3.0f * t2 - 3.0f * t3) * (1.0f / 6.0f),
-                      t3 * (1.0f / 6.0f),
+    REAL s = 1.0f - t, t2 = t * t, t3 = t2 * t;
+    return (Weights){ s * s * s * (K_(1) / K_(6)),
+                      (4.0f - 6.0f * t2 + 3.0f * t3) * (K_(1) / K_(6)),
+                      (1.0f + 3.0f * t + 3.0f * t2 - 3.0f * t3) * (K_(1) / K_(6)),
+                      t3 * (K_(1) / K_(6)),
                       0.5f * s * s,
                       0.5f + t - t2,
                       0.5f * t2 };
 }
 
-static inline Weights catmull_weights(float t)
+static inline Weights catmull_weights(REAL t)
 {
-    float t2 = t * t, t3 = t2 * t;
+    REAL t2 = t * t, t3 = t2 * t;
     return (Weights){ 0.5f * (-t3 + 2.0f * t2 - t),         0.5f * (3.0f * t3 - 5.0f * t2 + 2.0f),
                       0.5f * (-3.0f * t3 + 4.0f * t2 + t),  0.5f * (t3 - t2),
                       0.5f * (3.0f * t2 - 4.0f * t + 1.0f), 0.5f * (-6.0f * t2 + 6.0f * t + 1.0f),
@@ -212,21 +218,21 @@ static inline Weights catmull_weights(float t)
    plus weighted differences (the weights sum to 1), so that a flat table gives its own height and
    slopes of exactly 0 (HC47). Slopes are in texels. */
 #define CUBIC_LOOK(name, weights)                                                                  \
-    FLAT static void kern_look_##name(const WrLook *look, WrStrip *strip)                          \
+    FLAT static void kern_look_##name(const LOOK *look, STRIP *strip)                              \
     {                                                                                              \
         LOOK_CONSTANTS;                                                                            \
         place_taps(look, strip);                                                                   \
         for (int k = 0; k < count; k++) {                                                          \
-            const float *at = look->heights + strip->at[k] - 1;                                    \
+            const REAL *at = look->heights + strip->at[k] - 1;                                     \
             Four r0 = load_four(at - pitch), r1 = load_four(at);                                   \
             Four r2 = load_four(at + pitch), r3 = load_four(at + 2 * (ptrdiff_t)pitch);            \
             Weights a = weights(strip->ta[k]), b = weights(strip->tb[k]);                          \
             Four c = r1 + (b.w0 * (r0 - r1) + (b.w2 * (r2 - r1) + b.w3 * (r3 - r1)));              \
             Four e = b.d0 * (r1 - r0) + (b.d1 * (r2 - r1) + b.d2 * (r3 - r2));                     \
-            float f =                                                                              \
+            REAL f =                                                                               \
                 c[1] + (a.w0 * (c[0] - c[1]) + (a.w2 * (c[2] - c[1]) + a.w3 * (c[3] - c[1])));     \
-            float fu = a.d0 * (c[1] - c[0]) + (a.d1 * (c[2] - c[1]) + a.d2 * (c[3] - c[2]));       \
-            float fv = a.w0 * e[0] + a.w1 * e[1] + a.w2 * e[2] + a.w3 * e[3];                      \
+            REAL fu = a.d0 * (c[1] - c[0]) + (a.d1 * (c[2] - c[1]) + a.d2 * (c[3] - c[2]));        \
+            REAL fv = a.w0 * e[0] + a.w1 * e[1] + a.w2 * e[2] + a.w3 * e[3];                       \
             STORE_LOOK(f, fu *W, fv * -H);                                                         \
         }                                                                                          \
     }
@@ -235,20 +241,20 @@ CUBIC_LOOK(bspline, bspline_weights)
 CUBIC_LOOK(catmull, catmull_weights)
 
 /* Bilinear C(u,v): Catmull's texturing, with the table's replication. */
-FLAT static void kern_colour(const WrColourLook *look, WrStrip *strip)
+FLAT static void kern_colour(const WrColourLook *look, STRIP *strip)
 {
     const float *restrict const rgba = look->rgba;
     const int pitch = look->pitch, count = strip->count;
-    const float W = (float)look->width, H = (float)look->height;
+    const REAL W = (REAL)look->width, H = (REAL)look->height;
     reduce_axis(count, strip->u, look->ru, false, look->periodic_u, strip->tu, strip->inside_u);
     reduce_axis(count, strip->v, look->rv, false, look->periodic_v, strip->tv, strip->inside_v);
     for (int k = 0; k < count; k++) {
-        float x = W * strip->tu[k] - 0.5f, y = H * (1.0f - strip->tv[k]) - 0.5f;
-        float i = floorf(x), j = floorf(y), a = x - i, b = y - j;
+        REAL x = W * strip->tu[k] - 0.5f, y = H * (1.0f - strip->tv[k]) - 0.5f;
+        REAL i = r_floor(x), j = r_floor(y), a = x - i, b = y - j;
         const float *top = rgba + 4 * (((ptrdiff_t)j + 1) * pitch + (ptrdiff_t)i + 1);
         const float *low = top + 4 * (ptrdiff_t)pitch;
-        Four t0 = load_four(top), t1 = load_four(top + 4);
-        Four l0 = load_four(low), l1 = load_four(low + 4);
+        Four t0 = load_floats(top), t1 = load_floats(top + 4);
+        Four l0 = load_floats(low), l1 = load_floats(low + 4);
         Four upper = t0 + a * (t1 - t0), lower = l0 + a * (l1 - l0);
         Four c = upper + b * (lower - upper);
         strip->cr[k] = c[0], strip->cg[k] = c[1], strip->cb[k] = c[2];

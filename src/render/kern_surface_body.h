@@ -1,63 +1,67 @@
 /* kern_surface_body.h - points, frames and Newton's method of every surface. A part of kern_body.h. */
 
 /* Into 0..1: round a closed parameter, stop at the edge of an open one. */
-static inline float settle(float t, float closed)
+static inline REAL settle(REAL t, REAL closed)
 {
-    float turn = t - floorf(t);
+    REAL turn = t - r_floor(t);
     turn = turn < 1.0f ? turn : 0.0f;
     return closed * turn + (1.0f - closed) * clamp01(t); /* closed is 0 or 1 */
 }
 
-static inline float limit(float x, float reach)
+static inline REAL limit(REAL x, REAL reach)
 {
     x = x < reach ? x : reach;
     return x > -reach ? x : -reach;
 }
 
 /* Squared distance of p from the ray. */
-static inline float miss2(WrVec3f p, WrVec3f q, WrVec3f d)
+static inline REAL miss2(VEC p, VEC q, VEC d)
 {
-    WrVec3f w = v3f_sub(p, q);
-    WrVec3f r = v3f_mad(w, d, -v3f_dot(w, d) / v3f_dot(d, d));
-    return v3f_dot(r, r);
+    VEC w = v_sub(p, q);
+    VEC r = v_mad(w, d, -v_dot(w, d) / v_dot(d, d));
+    return v_dot(r, r);
 }
 
-/* Newton on w(u,v,s) = P - q - s d: with N = Pu x Pv, du = -(w . (Pv x d)) / (d . N) and
-   dv = -(w . (d x Pu)) / (d . N). Quadratic where d . N is not small; at silhouettes the step is
-   limited and, if it does not bring P nearer to the ray, not taken. */
 typedef struct Param2 {
-    float u, v;
+    REAL u, v;
 } Param2;
 
-/* One sample of each kernel is a function of its own: a WrSurfacePointf declared inside a simd loop
+static inline bool all_stand(int count, const REAL *moves)
+{
+    REAL any = K_(0);
+    for (int i = 0; i < count; i++) any = moves[i] > any ? moves[i] : any;
+    return !(any > K_(0));
+}
+
+/* One sample of each kernel is a function of its own: a POINT declared inside a simd loop
    would be kept in memory for all lanes, and the loop would not vectorise. */
 #define SURFACE_KERNELS(name)                                                                      \
-    static inline WrVec3f point_##name(const WrShapef *shape, float u, float v)                    \
+    static inline VEC point_##name(const SHAPE *shape, REAL u, REAL v)                             \
     {                                                                                              \
-        WrSurfacePointf at;                                                                        \
-        name##_at_f(shape, 0, u, v, &at);                                                          \
+        POINT at;                                                                                  \
+        FN(name##_at)(shape, 0, u, v, &at);                                                        \
         return at.p;                                                                               \
     }                                                                                              \
-    FLAT static void kern_points_##name(const WrShapef *shape, int count, const float *u,          \
-                                        const float *v, float *x, float *y, float *z)              \
+    FLAT static void kern_points_##name(const SHAPE *shape, int count, const REAL *u,              \
+                                        const REAL *v, REAL *x, REAL *y, REAL *z)                  \
     {                                                                                              \
         SIMD for (int i = 0; i < count; i++)                                                       \
         {                                                                                          \
-            WrVec3f p = point_##name(shape, u[i], v[i]);                                           \
+            VEC p = point_##name(shape, u[i], v[i]);                                               \
             x[i] = p.x, y[i] = p.y, z[i] = p.z;                                                    \
         }                                                                                          \
     }                                                                                              \
-    static inline void frame_##name(const WrShapef *shape, int face, WrStrip *strip, int i)        \
+    static inline void frame_##name(const SHAPE *shape, int face, STRIP *strip, int i)             \
     {                                                                                              \
-        WrSurfacePointf at;                                                                        \
-        name##_at_f(shape, face, strip->u[i], strip->v[i], &at);                                   \
+        POINT at;                                                                                  \
+        FN(name##_at)(shape, face, strip->u[i], strip->v[i], &at);                                 \
         STORE3(strip, p, i, at.p);                                                                 \
         STORE3(strip, pu, i, at.pu);                                                               \
         STORE3(strip, pv, i, at.pv);                                                               \
         STORE3(strip, n, i, at.n_unit);                                                            \
         strip->n_len[i] = at.n_len;                                                                \
     }                                                                                              \
-    FLAT static void kern_geometry_##name(const WrShapef *shape, int face, WrStrip *strip)         \
+    FLAT static void kern_geometry_##name(const SHAPE *shape, int face, STRIP *strip)              \
     {                                                                                              \
         const int count = strip->count;                                                            \
         SIMD for (int i = 0; i < count; i++)                                                       \
@@ -65,14 +69,14 @@ typedef struct Param2 {
             frame_##name(shape, face, strip, i);                                                   \
         }                                                                                          \
     }                                                                                              \
-    static inline void turn_##name(const WrShapef *shape, int face, WrStrip *strip, int i)         \
+    static inline void turn_##name(const SHAPE *shape, int face, STRIP *strip, int i)              \
     {                                                                                              \
-        WrSurfacePointf at;                                                                        \
-        name##_at_f(shape, face, strip->u[i], strip->v[i], &at);                                   \
+        POINT at;                                                                                  \
+        FN(name##_at)(shape, face, strip->u[i], strip->v[i], &at);                                 \
         STORE3(strip, nu, i, at.n_u);                                                              \
         STORE3(strip, nv, i, at.n_v);                                                              \
     }                                                                                              \
-    FLAT static void kern_curvature_##name(const WrShapef *shape, int face, WrStrip *strip)        \
+    FLAT static void kern_curvature_##name(const SHAPE *shape, int face, STRIP *strip)             \
     {                                                                                              \
         const int count = strip->count;                                                            \
         SIMD for (int i = 0; i < count; i++)                                                       \
@@ -86,38 +90,48 @@ typedef struct Param2 {
    dv = -(w . (d x Pu)) / (d . N). Quadratic where d . N is not small; at silhouettes the step is
    limited and, if it does not bring P nearer to the ray, not taken. */
 #define POLISH(name)                                                                               \
-    static inline Param2 newton_##name(const WrShapef *shape, WrVec3f q, WrVec3f d, Param2 at,     \
-                                       Param2 reach, Param2 closed)                                \
+    static inline Param2 newton_##name(const SHAPE *shape, VEC q, VEC d, Param2 at, Param2 reach,  \
+                                       Param2 closed)                                              \
     {                                                                                              \
-        WrSurfacePointf here;                                                                      \
-        name##_at_f(shape, 0, at.u, at.v, &here);                                                  \
-        WrVec3f w = v3f_sub(here.p, q), n = v3f_cross(here.pu, here.pv);                           \
-        float dn = v3f_dot(d, n), inv = 1.0f / (dn != 0.0f ? dn : 1.0f);                           \
-        float du = limit(-v3f_dot(w, v3f_cross(here.pv, d)) * inv, reach.u);                       \
-        float dv = limit(-v3f_dot(w, v3f_cross(d, here.pu)) * inv, reach.v);                       \
-        float u = settle(at.u + du, closed.u), v = settle(at.v + dv, closed.v);                    \
-        float before = miss2(here.p, q, d), after = miss2(point_##name(shape, u, v), q, d);        \
+        POINT here;                                                                                \
+        FN(name##_at)(shape, 0, at.u, at.v, &here);                                                \
+        VEC w = v_sub(here.p, q), n = v_cross(here.pu, here.pv);                                   \
+        REAL dn = v_dot(d, n), inv = 1.0f / (dn != 0.0f ? dn : 1.0f);                              \
+        REAL du = limit(-v_dot(w, v_cross(here.pv, d)) * inv, reach.u);                            \
+        REAL dv = limit(-v_dot(w, v_cross(d, here.pu)) * inv, reach.v);                            \
+        REAL u = settle(at.u + du, closed.u), v = settle(at.v + dv, closed.v);                     \
+        REAL before = miss2(here.p, q, d), after = miss2(point_##name(shape, u, v), q, d);         \
         bool better = dn != 0.0f && after <= before;                                               \
         return (Param2){ better ? u : at.u, better ? v : at.v };                                   \
     }                                                                                              \
-    FLAT static void kern_polish_##name(const WrRays *rays, const WrShapef *shape, float gx,       \
-                                        float gy, float reach_u, float reach_v, bool closed_u,     \
-                                        bool closed_v, int steps, WrStrip *strip)                  \
+    FLAT static void kern_polish_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,   \
+                                        STRIP *strip)                                              \
     {                                                                                              \
-        const Row row = row_at(rays, gy);                                                          \
-        const Param2 reach = { reach_u, reach_v };                                                 \
-        const Param2 closed = { closed_u ? 1.0f : 0.0f, closed_v ? 1.0f : 0.0f };                  \
+        const Param2 reach = { how->reach_u, how->reach_v };                                       \
+        const Param2 closed = { how->closed_u ? K_(1) : K_(0), how->closed_v ? K_(1) : K_(0) };    \
+        const REAL enough_u = how->enough_u, enough_v = how->enough_v;                             \
         const int count = strip->count;                                                            \
-        for (int step = 0; step < steps; step++) {                                                 \
+        const bool watched = (enough_u > K_(0)) | (enough_v > K_(0));                              \
+        SIMD for (int i = 0; i < count; i++)                                                       \
+        {                                                                                          \
+            strip->s[i] = K_(1); /* while the sample moves */                                      \
+        }                                                                                          \
+        for (int step = 0; step < how->steps; step++) {                                            \
             SIMD for (int i = 0; i < count; i++)                                                   \
             {                                                                                      \
-                float g = gx + (float)strip->index[i];                                             \
-                WrVec3f q = affine(row.q, rays->qx, g), d = affine(row.d, rays->dx, g);            \
+                REAL gx = strip->x[i], gy = strip->y[i], moves = strip->s[i];                      \
+                VEC q = RAY_Q(rays, gy, gx), d = RAY_D(rays, gy, gx);                              \
                 Param2 at = { strip->u[i], strip->v[i] };                                          \
-                at = newton_##name(shape, q, d, at, reach, closed);                                \
-                strip->u[i] = at.u;                                                                \
-                strip->v[i] = at.v;                                                                \
+                Param2 to = newton_##name(shape, q, d, at, reach, closed);                         \
+                REAL du = r_abs(to.u - at.u), dv = r_abs(to.v - at.v);                             \
+                du = du > K_(0.5) ? K_(1) - du : du; /* across the seam */                         \
+                dv = dv > K_(0.5) ? K_(1) - dv : dv;                                               \
+                REAL far_u = du > enough_u ? K_(1) : K_(0), far_v = dv > enough_v ? K_(1) : K_(0); \
+                strip->u[i] = moves > K_(0) ? to.u : at.u;                                         \
+                strip->v[i] = moves > K_(0) ? to.v : at.v;                                         \
+                strip->s[i] = moves * (far_u > far_v ? far_u : far_v);                             \
             }                                                                                      \
+            if (watched && all_stand(count, strip->s)) break;                                      \
         }                                                                                          \
     }
 

@@ -36,12 +36,13 @@ static double samples_per_unit(const WrView *view, const WrShape *shape)
 }
 
 /* The smallest of these that is enough: a few fixed sizes, so that a moving view seldom changes them. */
-static int round_cells(double want)
+static int round_cells(double want, int most)
 {
-    static const int sizes[] = { 8, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512 };
+    static const int sizes[] = { 8,   16,  24,  32,  48,  64,   96,   128,
+                                 192, 256, 384, 512, 768, 1024, 1536, 2048 };
     const int count = (int)(sizeof sizes / sizeof *sizes);
     for (int i = 0; i < count; i++)
-        if (want <= sizes[i]) return sizes[i];
+        if (want <= sizes[i] || sizes[i] == most) return sizes[i];
     return sizes[count - 1];
 }
 
@@ -64,12 +65,15 @@ static void measure_bend(WrViewMesh *mesh, const WrShape *shape)
 
 /* A cell's chord is off by at most (|Puu| du^2 + 2 |Puv| du dv + |Pvv| dv^2) / 8 (Taylor). */
 static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrView *view,
-                         int samples, int *mu, int *mv)
+                         int finer, int *mu, int *mv)
 {
-    const double tolerance = 0.25 * samples; /* a quarter of a pixel, in samples */
+    const double tolerance = 0.25 * view->samples; /* a quarter of a pixel, in samples */
     double k = view->scale * samples_per_unit(view, shape) / (8.0 * tolerance);
-    *mu = round_cells(sqrt(2.0 * k * (mesh->uu + mesh->uv)));
-    *mv = round_cells(sqrt(2.0 * k * (mesh->vv + mesh->uv)));
+    const int most = finer > 0 ? 2048 : 512;
+    *mu = round_cells(sqrt(2.0 * k * (mesh->uu + mesh->uv)), 512);
+    *mv = round_cells(sqrt(2.0 * k * (mesh->vv + mesh->uv)), 512);
+    *mu = round_cells(scalbn(*mu, finer), most);
+    *mv = round_cells(scalbn(*mv, finer), most);
 }
 
 typedef struct MeshJob {
@@ -151,13 +155,26 @@ static void allocate(WrViewMesh *mesh, int mu, int mv)
     mesh->blocks = wr_alloc((size_t)(mesh->blocks_u * mesh->blocks_v), sizeof *mesh->blocks);
 }
 
-void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view, int samples,
-                          const WrKernels *kernels, WrPool *pool)
+static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info,
+                              const WrMeshAsk *ask)
+{
+    const int enough = mesh->mu < 64 || mesh->mv < 64 ? 3 : 2;
+    return (WrNewton){ .reach_u = 1.0f / (float)mesh->mu,
+                       .reach_v = 1.0f / (float)mesh->mv,
+                       .enough_u = (float)fmin(ask->texels / fmax(ask->table_w, 1e-9), 1.0),
+                       .enough_v = (float)fmin(ask->texels / fmax(ask->table_h, 1e-9), 1.0),
+                       .closed_u = info->closed_u,
+                       .closed_v = info->closed_v,
+                       .steps = ask->newton < 0 ? enough : ask->newton };
+}
+
+void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
+                          const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool)
 {
     MeshJob job = { mesh, view, kernels };
     int mu, mv;
     measure_bend(mesh, shape);
-    choose_cells(mesh, shape, view, samples, &mu, &mv);
+    choose_cells(mesh, shape, view, ask->mesh, &mu, &mv);
     bool same = mesh->mu == mu && mesh->mv == mv && mesh->kind == shape->kind &&
                 memcmp(&mesh->shape, &view->shape, sizeof view->shape) == 0;
     if (!same) {
@@ -166,20 +183,37 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
         mesh->shape = view->shape;
         wr_pool_run(pool, mv + 1, make_row, &job);
     }
+    mesh->newton = choose_newton(mesh, wr_surfaces[shape->kind], ask);
     wr_pool_run(pool, mv + 1, project_row, &job);
     wr_pool_run(pool, mesh->blocks_v, bound_row, &job);
 }
 
-static bool block_meets(const WrViewMeshBlock *b, const WrDepthTile *tile)
+/* A tile's rectangle in 1/256 samples of the view's grid, as far as a triangle may reach into it. */
+typedef struct Bounds {
+    int64_t x0, y0, x1, y1;
+} Bounds;
+
+static Bounds bounds_of(const WrDepthTile *tile, int samples)
 {
-    return b->clipped || (b->x1 >= tile->x * 256 && b->x0 <= (tile->x + tile->w) * 256 &&
-                          b->y1 >= tile->y * 256 && b->y0 <= (tile->y + tile->h) * 256);
+    const int k = tile->k > 0 ? tile->k : samples;
+    const int more = tile->shift || k != samples ? 1 : 0; /* samples */
+    return (Bounds){ (int64_t)(tile->x - more) * 256 * samples / k,
+                     (int64_t)(tile->y - more) * 256 * samples / k,
+                     (int64_t)(tile->x + tile->w + more) * 256 * samples / k,
+                     (int64_t)(tile->y + tile->h + more) * 256 * samples / k };
 }
 
-bool wr_view_mesh_touches(const WrViewMesh *mesh, const WrDepthTile *tile)
+static bool block_meets(const WrViewMeshBlock *b, const Bounds *tile)
 {
+    return b->clipped ||
+           (b->x1 >= tile->x0 && b->x0 <= tile->x1 && b->y1 >= tile->y0 && b->y0 <= tile->y1);
+}
+
+bool wr_view_mesh_touches(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile)
+{
+    const Bounds bounds = bounds_of(tile, view->samples);
     for (int i = 0; i < mesh->blocks_u * mesh->blocks_v; i++)
-        if (block_meets(&mesh->blocks[i], tile)) return true;
+        if (block_meets(&mesh->blocks[i], &bounds)) return true;
     return false;
 }
 
@@ -220,9 +254,10 @@ static void raster_cell(const WrViewMesh *mesh, const WrView *view, int i, int j
 
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile)
 {
+    const Bounds bounds = bounds_of(tile, view->samples);
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
     for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++) {
-        if (!block_meets(&mesh->blocks[b], tile)) continue;
+        if (!block_meets(&mesh->blocks[b], &bounds)) continue;
         int i0 = b % mesh->blocks_u * WR_MESH_BLOCK, j0 = b / mesh->blocks_u * WR_MESH_BLOCK;
         for (int j = j0; j < j0 + WR_MESH_BLOCK; j++)
             for (int i = i0; i < i0 + WR_MESH_BLOCK; i++) raster_cell(mesh, view, i, j, tile);

@@ -27,6 +27,7 @@ typedef struct WrViewMesh {
     unsigned char *out;      /* vertex needs clipping */
     WrViewMeshBlock *blocks; /* [blocks_v][blocks_u] */
     int blocks_u, blocks_v;
+    WrNewton newton; /* how its guesses are made exact */
 } WrViewMesh;
 
 /* A rectangle of samples: nearest depth so far and the parameters there. */
@@ -34,14 +35,25 @@ typedef struct WrDepthTile {
     int x, y, w, h; /* samples; w h <= capacity */
     float *close;   /* [h][w]; -FLT_MAX where nothing is */
     float *u, *v;
+    /* The grid's samples a pixel; 0: the view's K. Vertices are brought to it from K's, rounded. */
+    int k;
+    const signed char *shift; /* [h][w][2], x and y in 1/256 samples; NULL: none is shifted */
 } WrDepthTile;
 
+/* What the scene asks of the mesh. */
+typedef struct WrMeshAsk {
+    int mesh; /* WrDials: 2^mesh times as fine */
+    int newton; /* steps, or -1: two, or three from a coarse mesh: Newton doubles the digits at each */
+    double texels;           /* 0, or the step that is short enough; of a table of ... */
+    double table_w, table_h; /* ... so many texels along u and v, replication included */
+} WrMeshAsk;
+
 /* Make or keep the points and project them for this view. */
-void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view, int samples,
-                          const WrKernels *kernels, WrPool *pool);
+void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
+                          const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool);
 void wr_view_mesh_fini(WrViewMesh *mesh);
 /* Rasterise what falls on the tile. Watertight: neighbouring cells share edges in whole numbers with a
    top-left rule (HC85); of equal depths the first cell stays. */
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile);
 /* True if the tile can hold something: cheaper than rasterising it. */
-bool wr_view_mesh_touches(const WrViewMesh *mesh, const WrDepthTile *tile);
+bool wr_view_mesh_touches(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile);

@@ -20,11 +20,16 @@ static const struct {
     [WR_EFFECT_EXACT] = { "E12", "exact normal", WR_PROOF_BOUNDED },
     [WR_EFFECT_CURVATURE] = { "E13", "second derivatives", WR_PROOF_IDENTICAL },
     [WR_EFFECT_SAMPLES] = { "E15", "supersampling", WR_PROOF_POLICY },
+    [WR_EFFECT_BOUND] = { "E16", "refinement by bound", WR_PROOF_BOUNDED },
+    [WR_EFFECT_FILTER] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL },
     [WR_EFFECT_BACK] = { "E25", "back faces", WR_PROOF_IDENTICAL },
     [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL },
     [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED },
     [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL },
     [WR_EFFECT_AGAIN] = { "E29", "re-rendering", WR_PROOF_IDENTICAL },
+    [WR_EFFECT_SPREAD] = { "E31", "spread of slopes", WR_PROOF_POLICY },
+    [WR_EFFECT_ROUNDED] = { "E32", "rounded heights", WR_PROOF_POLICY },
+    [WR_EFFECT_DOUBLE] = { "E33", "double precision", WR_PROOF_POLICY },
 };
 
 const char *wr_proof_letter(WrProof proof)
@@ -85,6 +90,7 @@ static void plan_light(WrPlan *plan, const WrScene *scene, bool everything)
         !lit               ? "no light shines"
         : m->specular == 0 ? "specular is 0"
                            : "a light shines and specular is not 0");
+    plan->normals = plan->diffuse || plan->specular;
     plan->colour = scene->colour && (everything || !colour_constant(scene->colour));
     say(plan, WR_EFFECT_COLOUR, plan->colour,
         !scene->colour  ? "the scene has no colour picture"
@@ -100,7 +106,7 @@ static const char *no_bump(const WrPlan *plan, const WrScene *scene, const WrTab
     const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
     const bool offset = scene->bump == WR_BUMP_EXACT && !wr_surfaces[scene->shape.kind]->flat;
     if (scene->bump == WR_BUMP_NONE) return "bump mode is none";
-    if (!plan->diffuse && !plan->specular) return "no light depends on the normal";
+    if (!plan->normals) return "no light depends on the normal";
     if (scene->height == 0) return "height is 0";
     if (table && facts->zero) return "the table is 0 everywhere";
     if (offset) return NULL;
@@ -162,15 +168,10 @@ static void plan_look(WrPlan *plan, const WrScene *scene)
                          : "replication is under 1024: single precision is right to 1e-3 texel");
 }
 
-static void plan_visibility(WrPlan *plan, const WrScene *scene, const WrDials *dials)
+static void plan_visibility(WrPlan *plan, const WrScene *scene)
 {
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     plan->mesh = info->inversion == WR_INVERT_MESH;
-    plan->samples = dials->aa == WR_AA_SUPERSAMPLE ? dials->samples : 1;
-    say(plan, WR_EFFECT_SAMPLES, plan->samples > 1,
-        dials->aa != WR_AA_SUPERSAMPLE ? "the dial says one sample at the pixel's centre"
-        : plan->samples == 1           ? "one sample a pixel was asked for"
-                                       : "the dial asks for the mean of K x K intensities");
     const bool closed = info->convex_closed || (info->closed_u && info->closed_v);
     say(plan, WR_EFFECT_BACK, !closed,
         closed ? "a closed body seen from outside hides its own back"
@@ -185,13 +186,91 @@ static void plan_visibility(WrPlan *plan, const WrScene *scene, const WrDials *d
         scene->camera.orthographic ? "the camera is orthographic" : "the camera is in perspective");
 }
 
+/* Why no bound on the intensity's change over a pixel is known, or NULL if one is. */
+static const char *no_bound(const WrPlan *plan, const WrScene *scene)
+{
+    const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
+    if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
+        return "no bound is known on this surface: K x K everywhere";
+    if (plan->colour) return "no bound is known for a colour picture: K x K everywhere";
+    if (plan->bump == WR_BUMP_NONE) return NULL;
+    if (plan->bump != WR_BUMP_BLINN)
+        return "no bound is known for this normal formula: K x K everywhere";
+    if (!plan->gradient_table)
+        return "a bound needs slopes from a table, central or nearest: K x K everywhere";
+    return NULL;
+}
+
+static void plan_samples(WrPlan *plan, const WrScene *scene, const WrDials *dials)
+{
+    const bool adaptive = dials->aa == WR_AA_ADAPTIVE, all = dials->aa == WR_AA_SUPERSAMPLE;
+    plan->samples = adaptive || all ? dials->samples : 1;
+    plan->sampling = plan->samples == 1 ? WR_SAMPLING_ONE
+                     : all              ? WR_SAMPLING_ALL
+                                        : WR_SAMPLING_ADAPTIVE;
+    say(plan, WR_EFFECT_SAMPLES, plan->samples > 1,
+        !adaptive && !all    ? "the dial says one sample at the pixel's centre"
+        : plan->samples == 1 ? "one sample a pixel was asked for"
+        : all                ? "the dial asks for the mean of K x K intensities"
+                             : "the dial asks for up to K x K where one is not enough");
+    const bool wanted = plan->sampling == WR_SAMPLING_ADAPTIVE && dials->refine == WR_REFINE_BOUND;
+    const char *why = no_bound(plan, scene);
+    plan->bounded = wanted && !why;
+    say(plan, WR_EFFECT_BOUND, plan->bounded,
+        !wanted ? "the dials do not ask for a bound"
+        : why   ? why
+                : "K x K only where the intensity may change by more than `contrast`");
+}
+
+static void plan_filter(WrPlan *plan, const WrScene *scene, const WrDials *dials)
+{
+    const bool wanted = dials->aa == WR_AA_FILTER || dials->aa == WR_AA_MOMENTS;
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF && plan->bump != WR_BUMP_NONE;
+    const bool still = scene->replicate_u == 0 && scene->replicate_v == 0;
+    plan->pyramid = wanted && table && !still;
+    plan->anisotropic = plan->pyramid && dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
+    plan->moments = plan->pyramid && dials->aa == WR_AA_MOMENTS && plan->specular;
+    plan->lean = plan->moments && dials->moments == WR_MOMENTS_LEAN;
+    say(plan, WR_EFFECT_FILTER, plan->pyramid,
+        !wanted  ? "the dials ask for no filtering"
+        : !table ? "no table is looked up"
+        : still  ? "replication is 0,0: F is constant"
+                 : "footprints over a texel look up a pyramid; smaller ones level 0");
+    say(plan, WR_EFFECT_SPREAD, plan->moments,
+        dials->aa != WR_AA_MOMENTS ? "the dials do not ask for moments"
+        : !plan->pyramid           ? "nothing is filtered"
+        : !plan->specular          ? "there is no highlight to widen"
+        : plan->lean               ? "the covariance of the slopes widens the highlight"
+                                   : "the variance of the slopes widens the highlight");
+}
+
+static void plan_arithmetic(WrPlan *plan, const WrScene *scene, const WrDials *dials)
+{
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF && plan->bump != WR_BUMP_NONE;
+    const bool fewer = dials->heights != WR_HEIGHTS_DOUBLE && dials->heights != WR_HEIGHTS_FLOAT;
+    const bool wide = table && dials->heights == WR_HEIGHTS_DOUBLE;
+    plan->shading_double = dials->shading == WR_SHADING_DOUBLE;
+    say(plan, WR_EFFECT_ROUNDED, table && fewer,
+        !table   ? "no table is looked up"
+        : !fewer ? "the dial keeps heights as they are"
+                 : "the dial asks for heights of fewer bits");
+    say(plan, WR_EFFECT_DOUBLE, plan->shading_double || wide,
+        plan->shading_double ? "the dial asks for shading in double precision"
+        : wide               ? "the dial asks for look-ups in double precision"
+                             : "single precision was asked for");
+}
+
 void wr_plan_build(WrPlan *plan, const WrScene *scene, const WrDials *dials,
                    const WrTableFacts *facts, bool everything)
 {
     memset(plan, 0, sizeof *plan);
     plan_light(plan, scene, everything);
+    plan->normals |= facts->normals;
     plan_bump(plan, scene, facts, everything);
     plan_look(plan, scene);
-    plan_visibility(plan, scene, dials);
+    plan_visibility(plan, scene);
+    plan_samples(plan, scene, dials);
+    plan_filter(plan, scene, dials);
+    plan_arithmetic(plan, scene, dials);
     wr_plan_again(plan, false, "a new picture: every tile is rendered");
 }

@@ -23,11 +23,16 @@ typedef enum WrEffect {
     WR_EFFECT_EXACT,
     WR_EFFECT_CURVATURE,
     WR_EFFECT_SAMPLES,
+    WR_EFFECT_BOUND,
+    WR_EFFECT_FILTER,
     WR_EFFECT_BACK,
     WR_EFFECT_DEPTH,
     WR_EFFECT_NEWTON,
     WR_EFFECT_PERSPECTIVE,
     WR_EFFECT_AGAIN,
+    WR_EFFECT_SPREAD,
+    WR_EFFECT_ROUNDED,
+    WR_EFFECT_DOUBLE,
     WR_EFFECT_COUNT
 } WrEffect;
 
@@ -42,6 +47,13 @@ typedef struct WrPlanRow {
     double ns_per_pixel; /* measured in the last frame, over its samples; 0 if it did not run */
 } WrPlanRow;
 
+/* How many samples a pixel takes. */
+typedef enum WrSampling {
+    WR_SAMPLING_ONE,     /* one at its centre */
+    WR_SAMPLING_ALL,     /* K x K */
+    WR_SAMPLING_ADAPTIVE /* one, then more up to K x K where they are called for */
+} WrSampling;
+
 /* The decision, read by the renderer. */
 typedef struct WrPlan {
     WrPlanRow rows[WR_EFFECT_COUNT];
@@ -53,7 +65,15 @@ typedef struct WrPlan {
     bool gradient_table; /* central, nearest: slopes come from the table of central differences */
     bool wide;           /* reduce r u in double */
     bool mesh;           /* no closed form: mesh, depth buffer, Newton */
-    int samples;         /* K of K x K */
+    int samples;         /* K of K x K; 1 where one sample is taken */
+    WrSampling sampling;
+    bool normals;     /* n' is worked out: a light depends on it, or the caller wants it */
+    bool pyramid;     /* slopes are filtered over the pixel's footprint */
+    bool anisotropic; /* of several look-ups */
+    bool moments;     /* and their spread widens the highlight */
+    bool lean;        /* by the whole covariance; else by its trace */
+    bool bounded;     /* adaptive: a bound on the intensity's change is known here */
+    bool shading_double;
 } WrPlan;
 
 /* The row about rendering tiles again (E29), which the renderer decides: it alone knows the last frame. */
@@ -64,6 +84,7 @@ typedef struct WrTableFacts {
     bool flat;       /* every texel equal */
     bool zero;       /* every texel 0 */
     bool slope_free; /* the gradient table is 0 everywhere, though the table is not flat */
+    bool normals;    /* the caller wants n' itself */
 } WrTableFacts;
 
 /* everything: leave nothing out that could be left out without changing a bit (class I); for comparing. */

@@ -73,10 +73,85 @@ static Plane plane_of(float a, float b, float c)
     return (Plane){ a, b - a, c - a };
 }
 
+/* A triangle ready to be walked over: what rises from sample to sample, and what is interpolated. */
+typedef struct Walk {
+    Edge a, b, c;
+    Plane close, u, v;
+    float inv;
+    bool perspective;
+    int32_t x0, y0, x1, y1; /* samples of the tile */
+} Walk;
+
+/* Sample `cell`, at which the edges are fa, fb, fc. */
+static inline void take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, size_t cell,
+                        WrDepthTile *tile)
+{
+    if ((fa | fb | fc) < 0) return;
+    float l1 = (float)fb * walk->inv, l2 = (float)fc * walk->inv;
+    float near = walk->close.base + l1 * walk->close.d1 + l2 * walk->close.d2;
+    if (!(near > tile->close[cell])) return;
+    float w = walk->perspective ? 1.0f / near : 1.0f;
+    tile->close[cell] = near;
+    tile->u[cell] = (walk->u.base + l1 * walk->u.d1 + l2 * walk->u.d2) * w;
+    tile->v[cell] = (walk->v.base + l1 * walk->v.d1 + l2 * walk->v.d2) * w;
+}
+
+static void cover(Walk *walk, WrDepthTile *tile)
+{
+    for (int32_t y = walk->y0; y < walk->y1; y++) {
+        int64_t fa = walk->a.at, fb = walk->b.at, fc = walk->c.at;
+        size_t row = (size_t)y * (size_t)tile->w;
+        for (int32_t x = walk->x0; x < walk->x1; x++) {
+            take(walk, fa, fb, fc, row + (size_t)x, tile);
+            fa += walk->a.step_x, fb += walk->b.step_x, fc += walk->c.step_x;
+        }
+        walk->a.at += walk->a.step_y, walk->b.at += walk->b.step_y, walk->c.at += walk->c.step_y;
+    }
+}
+
+static int64_t shifted(const Edge *edge, int64_t at, const signed char *shift)
+{
+    return at + edge->step_x / 256 * shift[0] + edge->step_y / 256 * shift[1];
+}
+
+/* The same where each sample stands a little beside its place. */
+static void cover_shifted(Walk *walk, WrDepthTile *tile)
+{
+    for (int32_t y = walk->y0; y < walk->y1; y++) {
+        int64_t fa = walk->a.at, fb = walk->b.at, fc = walk->c.at;
+        size_t row = (size_t)y * (size_t)tile->w;
+        for (int32_t x = walk->x0; x < walk->x1; x++) {
+            const signed char *shift = tile->shift + 2 * (row + (size_t)x);
+            take(walk, shifted(&walk->a, fa, shift), shifted(&walk->b, fb, shift),
+                 shifted(&walk->c, fc, shift), row + (size_t)x, tile);
+            fa += walk->a.step_x, fb += walk->b.step_x, fc += walk->c.step_x;
+        }
+        walk->a.at += walk->a.step_y, walk->b.at += walk->b.step_y, walk->c.at += walk->c.step_y;
+    }
+}
+
+/* From the grid of `of` samples a pixel to that of k: a vertex is rounded alone, so that triangles that
+   share it go on to share it. */
+static int32_t to_grid(int32_t x, int k, int of)
+{
+    int64_t twice = 2 * (int64_t)x * k + of;
+    int64_t down = twice / (2 * of);
+    return (int32_t)(down - (twice % (2 * of) < 0));
+}
+
+static void bring_to_grid(const WrView *view, const WrDepthTile *tile, WrRasterVertex *vertex)
+{
+    if (tile->k <= 0 || tile->k == view->samples) return;
+    vertex->x = to_grid(vertex->x, tile->k, view->samples);
+    vertex->y = to_grid(vertex->y, tile->k, view->samples);
+}
+
 void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
                         WrDepthTile *tile)
 {
-    const bool perspective = view->perspective;
+    bring_to_grid(view, tile, &a);
+    bring_to_grid(view, tile, &b);
+    bring_to_grid(view, tile, &c);
     int64_t area =
         ((int64_t)b.x - a.x) * ((int64_t)c.y - a.y) - ((int64_t)b.y - a.y) * ((int64_t)c.x - a.x);
     if (area == 0 || (area > 0 && view->cull)) return; /* rows run down: fronts have area < 0 */
@@ -84,41 +159,28 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
         WrRasterVertex t = b;
         b = c, c = t, area = -area;
     }
-    int32_t x0 = floor_sample(min3(a.x, b.x, c.x) - 128) - tile->x;
-    int32_t x1 = floor_sample(max3(a.x, b.x, c.x) - 128) + 1 - tile->x;
-    int32_t y0 = floor_sample(min3(a.y, b.y, c.y) - 128) - tile->y;
-    int32_t y1 = floor_sample(max3(a.y, b.y, c.y) - 128) + 1 - tile->y;
-    x0 = x0 < 0 ? 0 : x0, y0 = y0 < 0 ? 0 : y0;
-    x1 = x1 > tile->w ? tile->w : x1, y1 = y1 > tile->h ? tile->h : y1;
-    if (x0 >= x1 || y0 >= y1) return;
+    const int more = tile->shift ? 128 : 0;
+    Walk walk = { .perspective = view->perspective, .inv = 1.0f / (float)area };
+    int32_t x0 = floor_sample(min3(a.x, b.x, c.x) - 128 - more) - tile->x;
+    int32_t x1 = floor_sample(max3(a.x, b.x, c.x) - 128 + more) + 1 - tile->x;
+    int32_t y0 = floor_sample(min3(a.y, b.y, c.y) - 128 - more) - tile->y;
+    int32_t y1 = floor_sample(max3(a.y, b.y, c.y) - 128 + more) + 1 - tile->y;
+    walk.x0 = x0 < 0 ? 0 : x0, walk.y0 = y0 < 0 ? 0 : y0;
+    walk.x1 = x1 > tile->w ? tile->w : x1, walk.y1 = y1 > tile->h ? tile->h : y1;
+    if (walk.x0 >= walk.x1 || walk.y0 >= walk.y1) return;
 
-    int64_t px = ((int64_t)tile->x + x0) * 256 + 128, py = ((int64_t)tile->y + y0) * 256 + 128;
-    Edge ea = edge_of(b.x, b.y, c.x, c.y, px, py);
-    Edge eb = edge_of(c.x, c.y, a.x, a.y, px, py);
-    Edge ec = edge_of(a.x, a.y, b.x, b.y, px, py);
-    float inv = 1.0f / (float)area;
-    float wa = perspective ? a.close : 1, wb = perspective ? b.close : 1,
-          wc = perspective ? c.close : 1;
-    Plane close = plane_of(a.close, b.close, c.close);
-    Plane u = plane_of(a.u * wa, b.u * wb, c.u * wc), v = plane_of(a.v * wa, b.v * wb, c.v * wc);
-    for (int32_t y = y0; y < y1; y++) {
-        int64_t fa = ea.at, fb = eb.at, fc = ec.at;
-        size_t row = (size_t)y * (size_t)tile->w;
-        for (int32_t x = x0; x < x1; x++) {
-            if ((fa | fb | fc) >= 0) {
-                float l1 = (float)fb * inv, l2 = (float)fc * inv;
-                float near = close.base + l1 * close.d1 + l2 * close.d2;
-                if (near > tile->close[row + (size_t)x]) {
-                    float w = perspective ? 1.0f / near : 1.0f;
-                    tile->close[row + (size_t)x] = near;
-                    tile->u[row + (size_t)x] = (u.base + l1 * u.d1 + l2 * u.d2) * w;
-                    tile->v[row + (size_t)x] = (v.base + l1 * v.d1 + l2 * v.d2) * w;
-                }
-            }
-            fa += ea.step_x, fb += eb.step_x, fc += ec.step_x;
-        }
-        ea.at += ea.step_y, eb.at += eb.step_y, ec.at += ec.step_y;
-    }
+    int64_t px = ((int64_t)tile->x + walk.x0) * 256 + 128;
+    int64_t py = ((int64_t)tile->y + walk.y0) * 256 + 128;
+    walk.a = edge_of(b.x, b.y, c.x, c.y, px, py);
+    walk.b = edge_of(c.x, c.y, a.x, a.y, px, py);
+    walk.c = edge_of(a.x, a.y, b.x, b.y, px, py);
+    float wa = view->perspective ? a.close : 1, wb = view->perspective ? b.close : 1,
+          wc = view->perspective ? c.close : 1;
+    walk.close = plane_of(a.close, b.close, c.close);
+    walk.u = plane_of(a.u * wa, b.u * wb, c.u * wc);
+    walk.v = plane_of(a.v * wa, b.v * wb, c.v * wc);
+    if (tile->shift) cover_shifted(&walk, tile);
+    else cover(&walk, tile);
 }
 
 /* Signed distance of a vertex from clip plane k: near, left, right, bottom, top. */

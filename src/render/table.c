@@ -33,15 +33,67 @@ static void fill_gradient(const WrField *field, int i, int j, int w, int h, floa
     wr_free(t);
 }
 
+/* The same in double. */
+typedef void (*FillFine)(const WrField *field, int i, int j, int w, int h, double *out,
+                         size_t pitch);
+
+static void fine_gradient(const WrField *field, int i, int j, int w, int h, double *out,
+                          size_t pitch)
+{
+    const double half_w = 0.5 * wr_field_width(field), half_h = 0.5 * wr_field_height(field);
+    const size_t ring = (size_t)w + 2;
+    float *t = wr_alloc(ring * ((size_t)h + 2), sizeof *t);
+    wr_field_read(field, i - 1, j - 1, w + 2, h + 2, t, ring);
+    for (int y = 0; y < h; y++) {
+        const float *up = t + (size_t)y * ring + 1, *mid = up + ring, *down = mid + ring;
+        double *row = out + (size_t)y * pitch * 2;
+        for (int x = 0; x < w; x++) {
+            row[2 * x] = ((double)mid[x + 1] - mid[x - 1]) * half_w;
+            row[2 * x + 1] = ((double)up[x] - down[x]) * half_h;
+        }
+    }
+    wr_free(t);
+}
+
+/* The coefficients of wr_field_read_fitted, not rounded: along rows, then down columns. */
+static void fine_fitted(const WrField *field, int i, int j, int w, int h, double *out, size_t pitch)
+{
+    enum { R = WR_PREFILTER_REACH };
+    double weight[R + 1] = { 1.7320508075688772 }; /* sqrt(3) (sqrt(3) - 2)^k */
+    for (int k = 1; k <= R; k++) weight[k] = weight[k - 1] * -0.26794919243112270;
+    const int tall = h + 2 * R, wide = w + 2 * R;
+    float *t = wr_alloc((size_t)wide * (size_t)tall, sizeof *t);
+    double *rows = wr_alloc((size_t)w * (size_t)tall, sizeof *rows);
+    wr_field_read(field, i - R, j - R, wide, tall, t, (size_t)wide);
+    for (int y = 0; y < tall; y++)
+        for (int x = 0; x < w; x++) {
+            const float *mid = t + (size_t)y * (size_t)wide + (size_t)(x + R);
+            double sum = weight[0] * (double)mid[0];
+            for (int k = 1; k <= R; k++) sum += weight[k] * ((double)mid[-k] + (double)mid[k]);
+            rows[(size_t)y * (size_t)w + (size_t)x] = sum;
+        }
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++) {
+            const double *mid = rows + (size_t)(y + R) * (size_t)w + (size_t)x;
+            double sum = weight[0] * mid[0];
+            for (int k = 1; k <= R; k++) sum += weight[k] * (mid[-k * w] + mid[k * w]);
+            out[(size_t)y * pitch + (size_t)x] = sum;
+        }
+    wr_free(t);
+    wr_free(rows);
+}
+
 static const struct {
     FillRect fill;
-    int floats; /* a texel */
-    int reach;  /* a texel of F changes the copy this far away */
+    FillFine fine; /* NULL: heights, which are single-precision numbers */
+    int floats;    /* a texel */
+    int reach;     /* a texel of F changes the copy this far away */
     const char *what;
 } kinds[WR_COPY_COUNT] = {
-    [WR_COPY_HEIGHTS] = { wr_field_read, 1, 0, "heights for the picture" },
-    [WR_COPY_FITTED] = { wr_field_read_fitted, 1, WR_PREFILTER_REACH, "spline coefficients" },
-    [WR_COPY_GRADIENT] = { fill_gradient, 2, 1, "gradient table" },
+    [WR_COPY_HEIGHTS] = { wr_field_read, NULL, 1, 0, "heights for the picture" },
+    [WR_COPY_FITTED] = { wr_field_read_fitted, fine_fitted, 1, WR_PREFILTER_REACH,
+                         "spline coefficients" },
+    [WR_COPY_GRADIENT] = { fill_gradient, fine_gradient, 2, 1, "gradient table" },
 };
 
 static int tile_count(const WrField *field)
@@ -66,6 +118,7 @@ void wr_table_drop(WrTable *table, WrCopyKind kind)
     WrCopy *copy = &table->copies[kind];
     wr_field_free(copy->seen);
     wr_free(copy->data);
+    wr_free(copy->fine);
     *copy = (WrCopy){ 0 };
     if (kind != WR_COPY_GRADIENT) return;
     wr_free(table->sloped);
@@ -130,6 +183,15 @@ bool wr_table_flat(WrTable *table, const WrField *field)
     return true;
 }
 
+void wr_table_range(const WrTable *table, float *low, float *high)
+{
+    *low = table->low[0], *high = table->high[0];
+    for (int i = 1; i < tile_count(table->ranged); i++) {
+        *low = table->low[i] < *low ? table->low[i] : *low;
+        *high = table->high[i] > *high ? table->high[i] : *high;
+    }
+}
+
 /* ---- copies ------------------------------------------------------------------------------------ */
 
 typedef struct CopyJob {
@@ -141,16 +203,36 @@ typedef struct CopyJob {
     int changed; /* tiles */
 } CopyJob;
 
-static float *texel(const CopyJob *job, int i, int j)
+static size_t place(const CopyJob *job, int i, int j)
 {
     size_t at = (size_t)(j + WR_APRON) * (size_t)job->copy->pitch + (size_t)(i + WR_APRON);
-    return job->copy->data + at * (size_t)kinds[job->kind].floats;
+    return at * (size_t)kinds[job->kind].floats;
+}
+
+/* Fill a rectangle of a copy in double from the numbers in single precision. */
+static void widen(CopyJob *job, int i, int j, int w, int h)
+{
+    const size_t row = (size_t)w * (size_t)kinds[job->kind].floats;
+    float *t = wr_alloc(row * (size_t)h, sizeof *t);
+    kinds[job->kind].fill(job->field, i, j, w, h, t, (size_t)w);
+    for (int y = 0; y < h; y++) {
+        double *out = job->copy->fine + place(job, i, j + y);
+        for (size_t x = 0; x < row; x++) out[x] = (double)t[(size_t)y * row + x];
+    }
+    wr_free(t);
 }
 
 static void refresh(CopyJob *job, int i, int j, int w, int h)
 {
+    const WrCopy *copy = job->copy;
     if (w <= 0 || h <= 0) return;
-    kinds[job->kind].fill(job->field, i, j, w, h, texel(job, i, j), (size_t)job->copy->pitch);
+    if (copy->data)
+        kinds[job->kind].fill(job->field, i, j, w, h, copy->data + place(job, i, j),
+                              (size_t)copy->pitch);
+    else if (copy->precision == WR_PRECISION_DOUBLE && kinds[job->kind].fine)
+        kinds[job->kind].fine(job->field, i, j, w, h, copy->fine + place(job, i, j),
+                              (size_t)copy->pitch);
+    else widen(job, i, j, w, h);
     __atomic_fetch_add(&job->table->texels_refreshed, (int64_t)w * h, __ATOMIC_RELAXED);
 }
 
@@ -160,8 +242,10 @@ static void mark_sloped(CopyJob *job, int tx, int ty)
     int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
     bool any = false;
     for (int y = 0; y < h && y < WR_TILE && !any; y++) {
-        const float *row = texel(job, tx * WR_TILE, ty * WR_TILE + y);
-        for (int x = 0; x < 2 * w && x < 2 * WR_TILE; x++) any |= row[x] != 0.0f;
+        const size_t row = place(job, tx * WR_TILE, ty * WR_TILE + y);
+        const float *data = job->copy->data;
+        for (size_t x = row; x < row + 2 * (size_t)w && x < row + 2 * WR_TILE; x++)
+            any |= data ? data[x] != 0.0f : job->copy->fine[x] != 0.0;
     }
     job->table->sloped[ty * wr_field_tiles_u(field) + tx] = any;
 }
@@ -247,10 +331,15 @@ static bool allocate(CopyJob *job, WrError *err)
     int pitch = (w + 2 * WR_APRON + 15) / 16 * 16;
     if (pitch % 512 == 0) pitch += 16; /* rows on the same cache sets would fight */
     wr_table_drop(job->table, job->kind);
-    job->copy->data =
+    const bool single = job->table->precision == WR_PRECISION_SINGLE;
+    void *data =
         wr_try_alloc((size_t)pitch * (size_t)(h + 2 * WR_APRON),
-                     (size_t)kinds[job->kind].floats * sizeof(float), kinds[job->kind].what, err);
-    if (!job->copy->data) return false;
+                     (size_t)kinds[job->kind].floats * (single ? sizeof(float) : sizeof(double)),
+                     kinds[job->kind].what, err);
+    if (!data) return false;
+    if (single) job->copy->data = data;
+    else job->copy->fine = data;
+    job->copy->precision = job->table->precision;
     job->copy->pitch = pitch;
     if (job->kind == WR_COPY_GRADIENT)
         job->table->sloped = wr_alloc((size_t)tile_count(job->field), 1);
@@ -263,6 +352,7 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
     CopyJob job = { .table = table, .copy = &table->copies[kind], .kind = kind, .field = field };
     WrCopy *copy = job.copy;
     table->texels_refreshed = 0;
+    if (copy->precision != table->precision) wr_table_drop(table, kind);
     if (same_layout(copy->seen, field)) {
         wr_field_changes(copy->seen, field, count_tile, &job);
         if (job.changed == 0) return true;

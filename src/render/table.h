@@ -14,13 +14,23 @@ typedef enum WrCopyKind {
     WR_COPY_COUNT
 } WrCopyKind;
 
+/* What look-ups in double read. */
+typedef enum WrPrecision {
+    WR_PRECISION_SINGLE,  /* nothing: look-ups are in single precision */
+    WR_PRECISION_WIDENED, /* the single-precision numbers, as doubles */
+    WR_PRECISION_DOUBLE   /* numbers that were never rounded to single precision */
+} WrPrecision;
+
 typedef struct WrCopy {
     WrField *seen; /* snapshot that data was made from; NULL: none */
-    float *data;   /* owned */
-    int pitch;     /* texels a row */
+    WrPrecision precision;
+    float *data;  /* owned; SINGLE only */
+    double *fine; /* owned; the others */
+    int pitch;    /* texels a row */
 } WrCopy;
 
 typedef struct WrTable {
+    WrPrecision precision; /* of the copies to be brought; the caller's to set */
     WrCopy copies[WR_COPY_COUNT];
     WrField *ranged;          /* snapshot that low and high were made from */
     float *low, *high;        /* [tiles] of each field tile */
@@ -33,6 +43,8 @@ void wr_table_fini(WrTable *table);
 
 /* True if every texel of the table is equal; costs what changed since the last call. */
 bool wr_table_flat(WrTable *table, const WrField *field);
+/* Least and largest height of the table last asked about. */
+void wr_table_range(const WrTable *table, float *low, float *high);
 
 /* Bring one copy up to date with field. */
 bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPool *pool,

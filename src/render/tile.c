@@ -1,197 +1,62 @@
 #include "render/tile.h"
 #include "base/clock.h"
+#include "base/hash.h"
+#include "render/frame.h"
+#include "render/pipe.h"
 
-#include <float.h>
 #include <string.h>
 
-void wr_tile_size(int samples, int *tile_w, int *tile_h)
+/* The largest power of two up to x. */
+static int power_below(int x)
+{
+    int p = 1;
+    while (2 * p <= x) p *= 2;
+    return p;
+}
+
+void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *tile_h)
 {
     *tile_w = WR_TILE_SAMPLES_W / samples;
     *tile_h = samples < 32 ? 32 / samples : 1;
+    if (adaptive) *tile_w = WR_REFINE_W, *tile_h = WR_REFINE_H;
+    if (!blocks) return;
+    const int tall = samples < WR_TILE_SAMPLES_H ? WR_TILE_SAMPLES_H / samples : 1;
+    *tile_w = *tile_w < WR_FRAME_BLOCK ? power_below(*tile_w) : WR_FRAME_BLOCK;
+    *tile_h = tall < WR_FRAME_BLOCK ? power_below(tall) : WR_FRAME_BLOCK;
 }
 
-/* Clock readings cost as much as a short stage, so one strip in eight is timed and counts for eight. */
-#define TIMED 8
-
-typedef struct Watch {
-    WrTileScratch *scratch;
-    bool on;
-    double last;
-} Watch;
-
-static Watch watch_start(WrTileScratch *scratch)
+void wr_tile_jitter(WrDepthTile *tile, int k, signed char *shift)
 {
-    bool on = scratch->strips++ % TIMED == 0;
-    return (Watch){ scratch, on, on ? wr_clock_seconds() : 0 };
-}
-
-static void watch_lap(Watch *watch, WrStage stage)
-{
-    if (!watch->on) return;
-    double now = wr_clock_seconds();
-    watch->scratch->seconds[stage] += TIMED * (now - watch->last);
-    watch->last = now;
-}
-
-/* F as a formula: one point at a time, in double. */
-static void look_analytic(const WrTileJob *job, WrStrip *strip)
-{
-    for (int i = 0; i < strip->count; i++) {
-        double f, fu, fv;
-        wr_scene_height(job->scene, NULL, (double)strip->u[i], (double)strip->v[i], &f, &fu, &fv);
-        strip->f[i] = (float)(f * job->view->scale);
-        strip->fu[i] = (float)(fu * job->view->scale);
-        strip->fv[i] = (float)(fv * job->view->scale);
-    }
-}
-
-static void light_strip(const WrTileJob *job, WrStrip *strip, Watch *watch)
-{
-    const WrKernels *k = job->kernels;
-    const WrPlan *plan = job->plan;
-    const WrMaterial *material = &job->scene->material;
-    k->begin((float)material->ambient, strip);
-    if (plan->colour) {
-        k->colour(&job->colour, strip);
-        watch_lap(watch, WR_STAGE_COLOUR);
-    }
-    if (plan->specular) k->view(&job->view->rays, strip);
-    watch_lap(watch, plan->specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
-    if (!plan->diffuse && !plan->specular) return;
-    for (int i = 0; i < job->view->light_count; i++) {
-        const WrKernLight *light = &job->view->lights[i];
-        k->light(light, strip);
-        if (plan->diffuse) k->diffuse(light, (float)material->diffuse, strip);
-        watch_lap(watch, WR_STAGE_DIFFUSE);
-        if (!plan->specular) continue;
-        k->specular(light, (float)material->specular, (float)material->shininess, material->gate,
-                    strip);
-        watch_lap(watch, WR_STAGE_SPECULAR);
-    }
-}
-
-/* All stages of the plan from (u, v) to the colour. */
-static void shade_strip(const WrTileJob *job, int face, WrStrip *strip, WrBlocks *seen,
-                        Watch *watch)
-{
-    const WrKernels *k = job->kernels;
-    const WrPlan *plan = job->plan;
-    const WrSurfaceKind kind = job->scene->shape.kind;
-    if (plan->diffuse || plan->specular) {
-        k->geometry[kind](&job->view->shape, face, strip);
-        watch_lap(watch, WR_STAGE_GEOMETRY);
-        if (plan->curvature) {
-            k->curvature[kind](&job->view->shape, face, strip);
-            watch_lap(watch, WR_STAGE_CURVATURE);
+    for (int y = 0; y < tile->h; y++)
+        for (int x = 0; x < tile->w; x++) {
+            const uint32_t gx = (uint32_t)(tile->x + x), gy = (uint32_t)(tile->y + y);
+            uint32_t h = wr_mix32(gx + 0x9e3779b9U * (uint32_t)k);
+            h = wr_mix32(h + gy);
+            signed char *at = shift + 2 * (y * tile->w + x);
+            at[0] = (signed char)((int)((h & 0xffffU) % 255U) - 127);
+            at[1] = (signed char)((int)((h >> 16) % 255U) - 127);
         }
-        if (plan->bump != WR_BUMP_NONE) {
-            if (job->scene->analytic.kind != WR_ANALYTIC_OFF) look_analytic(job, strip);
-            else k->look[job->scene->scheme](&job->look, strip);
-            if (seen && job->scene->analytic.kind == WR_ANALYTIC_OFF) wr_keep_note(seen, strip);
-            watch_lap(watch, WR_STAGE_LOOK);
-        }
-        k->bump[plan->bump](&job->view->rays, strip);
-        watch_lap(watch, WR_STAGE_BUMP);
-    }
-    light_strip(job, strip, watch);
-    const WrVec3 c = job->scene->material.colour;
-    k->finish((const float[3]){ (float)c.x, (float)c.y, (float)c.z }, strip);
+    tile->shift = shift;
 }
 
-/* Finished strip -> its samples' places in row y: straight into the picture where a sample is a pixel. */
-static void scatter(const WrTileJob *job, const WrDepthTile *tile, int y, WrTileScratch *scratch)
+WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int h,
+                          WrTileScratch *scratch)
 {
-    const WrStrip *strip = &scratch->strip;
-    if (job->samples == 1) {
-        float *row = job->rgba + ((size_t)(tile->y + y) * (size_t)job->width + (size_t)tile->x) * 4;
-        for (int i = 0; i < strip->count; i++) {
-            float *out = row + 4 * strip->index[i];
-            out[0] = strip->cr[i];
-            out[1] = strip->cg[i];
-            out[2] = strip->cb[i];
-            scratch->covered += out[3] == 0.0f;
-            out[3] = 1.0f;
-        }
-        return;
-    }
-    for (int i = 0; i < strip->count; i++) {
-        int x = strip->index[i];
-        scratch->plane[0][y][x] = strip->cr[i];
-        scratch->plane[1][y][x] = strip->cg[i];
-        scratch->plane[2][y][x] = strip->cb[i];
-        scratch->plane[3][y][x] = 1.0f;
-    }
-}
-
-static void finish_strip(const WrTileJob *job, const WrDepthTile *tile, int face, int y,
-                         WrTileScratch *scratch, Watch *watch)
-{
-    WrStrip *strip = &scratch->strip;
-    if (strip->count == 0) return;
-    shade_strip(job, face, strip, scratch->seen, watch);
-    scatter(job, tile, y, scratch);
-    watch_lap(watch, WR_STAGE_RESOLVE);
-    scratch->shaded += strip->count;
-}
-
-/* Samples of row y that the mesh covers, with their parameters made exact. */
-static void locate_mesh(const WrTileJob *job, const WrDepthTile *tile, int y, WrStrip *strip,
-                        Watch *watch)
-{
-    const size_t row = (size_t)y * (size_t)tile->w;
-    const WrSurfaceInfo *info = wr_surfaces[job->scene->shape.kind];
-    int count = 0;
-    for (int x = 0; x < tile->w; x++) {
-        if (tile->close[row + (size_t)x] == -FLT_MAX) continue;
-        strip->index[count] = x;
-        strip->u[count] = tile->u[row + (size_t)x];
-        strip->v[count++] = tile->v[row + (size_t)x];
-    }
-    strip->count = count;
-    watch_lap(watch, WR_STAGE_VISIBILITY);
-    if (count == 0) return;
-    /* Newton doubles the digits at each step; a coarse mesh starts with fewer. */
-    const int steps = job->mesh->mu < 64 || job->mesh->mv < 64 ? 3 : 2;
-    job->kernels->polish[job->scene->shape.kind](
-        &job->view->rays, &job->view->shape, (float)tile->x, (float)(tile->y + y),
-        1.0f / (float)job->mesh->mu, 1.0f / (float)job->mesh->mv, info->closed_u, info->closed_v,
-        steps, strip);
-    watch_lap(watch, WR_STAGE_NEWTON);
-}
-
-static WrHitKernel closed_form(const WrKernels *kernels, WrInversion inversion)
-{
-    switch (inversion) {
-    case WR_INVERT_SPHERE: return kernels->hit_sphere;
-    case WR_INVERT_CYLINDER: return kernels->hit_cylinder;
-    case WR_INVERT_CONE: return kernels->hit_cone;
-    default: return NULL;
-    }
-}
-
-static void render_row(const WrTileJob *job, const WrDepthTile *tile, int y, WrTileScratch *scratch)
-{
-    const WrView *view = job->view;
-    WrStrip *strip = &scratch->strip;
-    Watch watch = watch_start(scratch);
-    const float gx = (float)tile->x, gy = (float)(tile->y + y);
+    WrDepthTile tile = { .x = x,
+                         .y = y,
+                         .w = w,
+                         .h = h,
+                         .close = scratch->close,
+                         .u = scratch->u,
+                         .v = scratch->v,
+                         .k = k };
+    if (k > 1 && job->dials->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
     if (job->mesh) {
-        locate_mesh(job, tile, y, strip, &watch);
-        finish_strip(job, tile, 0, y, scratch, &watch);
-        return;
+        double start = wr_clock_seconds();
+        wr_view_mesh_raster(job->mesh, job->view, &tile);
+        scratch->seconds[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }
-    WrHitKernel hit = closed_form(job->kernels, wr_surfaces[job->scene->shape.kind]->inversion);
-    if (hit) {
-        hit(&view->rays, &view->shape, gx, gy, tile->w, strip);
-        watch_lap(&watch, WR_STAGE_VISIBILITY);
-        finish_strip(job, tile, 0, y, scratch, &watch);
-        return;
-    }
-    for (int i = 0; i < view->quad_count; i++) {
-        job->kernels->hit_quad(&view->rays, &view->quads[i], gx, gy, tile->w, strip);
-        watch_lap(&watch, WR_STAGE_VISIBILITY);
-        finish_strip(job, tile, view->quad_face[i], y, scratch, &watch);
-    }
+    return tile;
 }
 
 /* Add the K samples of each pixel of a row in pairs: x0+x1, x2+x3, ... until one is left, so that the
@@ -201,105 +66,172 @@ static void fold_row(float *row, int pixels, int samples)
     for (int k = samples; k > 1; k = (k + 1) / 2) {
         const int half = (k + 1) / 2;
         for (int p = 0; p < pixels; p++) {
-            const float *in = row + p * k;
-            float *out = row + p * half;
-            for (int j = 0; j < k / 2; j++) out[j] = in[2 * j] + in[2 * j + 1];
-            if (k & 1) out[half - 1] = in[k - 1];
+            const float *in = row + 4 * p * k;
+            float *out = row + 4 * p * half;
+            for (int j = 0; j < k / 2; j++)
+                for (int c = 0; c < 4; c++) out[4 * j + c] = in[8 * j + c] + in[8 * j + 4 + c];
+            if (!(k & 1)) continue;
+            for (int c = 0; c < 4; c++) out[4 * (half - 1) + c] = in[4 * (k - 1) + c];
         }
     }
 }
 
-static void fold_tile(const WrDepthTile *tile, int samples, float plane[][WR_TILE_SAMPLES_W])
+/* The sums of `pixels` pixels beside each other into the first row. */
+static void fold(float *sample, int pixels, int k, size_t step)
 {
-    const int pixels = tile->w / samples;
-    for (int y = 0; y < tile->h; y++) fold_row(plane[y], pixels, samples);
-    for (int top = 0; top < tile->h; top += samples)
-        for (int step = 1; step < samples; step *= 2)
-            for (int y = top; y + step < top + samples; y += 2 * step)
-                for (int p = 0; p < pixels; p++) plane[y][p] += plane[y + step][p];
+    for (int y = 0; y < k; y++) fold_row(sample + (size_t)y * step, pixels, k);
+    for (int gap = 1; gap < k; gap *= 2)
+        for (int y = 0; y + gap < k; y += 2 * gap)
+            for (int i = 0; i < 4 * pixels; i++)
+                sample[(size_t)y * step + (size_t)i] +=
+                    sample[(size_t)(y + gap) * step + (size_t)i];
+}
+
+void wr_tile_mean(float *sample, int k, size_t step, float out[4])
+{
+    const float share = 1.0f / (float)(k * k);
+    fold(sample, 1, k, step);
+    for (int c = 0; c < 4; c++) out[c] = sample[c] * share;
+}
+
+static float *pixel_at(const WrTileJob *job, int x, int y)
+{
+    return job->rgba + ((size_t)y * (size_t)job->width + (size_t)x) * 4;
+}
+
+/* Pixels of the picture that a tile is made of. */
+typedef struct Part {
+    int x, y, w, h;
+} Part;
+
+/* Where the rows of a tile go. */
+typedef struct Rows {
+    float *rgba, *normals;          /* of the first row; NULL: not wanted */
+    size_t rgba_step, normals_step; /* floats a row */
+} Rows;
+
+/* Several short rows in one strip. */
+static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, const Rows *out,
+                       WrTileScratch *scratch)
+{
+    WrScatter *places = &scratch->scatter;
+    const int many = WR_SPAN / tile->w;
+    float rgba[WR_SPAN][4], normals[WR_SPAN][3];
+    for (int top = 0; top < tile->h; top += many) {
+        const int rows = tile->h - top < many ? tile->h - top : many;
+        places->count = 0;
+        for (int i = 0; i < rows * tile->w; i++) {
+            const int x = i % tile->w, y = top + i / tile->w;
+            const signed char *shift = tile->shift ? tile->shift + 2 * (y * tile->w + x) : NULL;
+            places->x[places->count] = tile->x + x + (shift ? shift[0] / 256.0 : 0);
+            places->y[places->count] = tile->y + y + (shift ? shift[1] / 256.0 : 0);
+            places->cell[places->count++] = y * tile->w + x;
+        }
+        memset(rgba, 0, sizeof rgba);
+        memset(normals, 0, sizeof normals);
+        WrSink sink = { .rgba = out->rgba ? rgba[0] : NULL,
+                        .normals = out->normals ? normals[0] : NULL };
+        job->pipe->points(job, k, tile, &sink, scratch);
+        for (int y = 0; y < rows; y++) {
+            const size_t from = (size_t)(y * tile->w), w = (size_t)tile->w, to = (size_t)(top + y);
+            if (out->rgba) memcpy(out->rgba + to * out->rgba_step, rgba[from], w * sizeof rgba[0]);
+            if (out->normals)
+                memcpy(out->normals + to * out->normals_step, normals[from], w * sizeof normals[0]);
+        }
+    }
+}
+
+/* All samples of a tile. */
+static void run_rows(const WrTileJob *job, int k, const WrDepthTile *tile, const Rows *out,
+                     WrTileScratch *scratch)
+{
+    if (tile->w <= WR_SPAN / 2 && tile->h > 1) {
+        run_packed(job, k, tile, out, scratch);
+        return;
+    }
+    for (int y = 0; y < tile->h; y++) {
+        WrSink sink = { .rgba = out->rgba ? out->rgba + (size_t)y * out->rgba_step : NULL,
+                        .normals =
+                            out->normals ? out->normals + (size_t)y * out->normals_step : NULL };
+        job->pipe->row(job, k, tile, y, &sink, scratch);
+    }
+}
+
+/* One sample a pixel, straight into the picture. rgba false: n' alone. */
+static void render_point(const WrTileJob *job, Part part, bool rgba, WrTileScratch *scratch)
+{
+    WrDepthTile tile = wr_tile_depth(job, 1, part.x, part.y, part.w, part.h, scratch);
+    const size_t wide = (size_t)job->width;
+    Rows out = { .rgba = rgba ? pixel_at(job, part.x, part.y) : NULL,
+                 .rgba_step = 4 * wide,
+                 .normals_step = 3 * wide };
+    if (job->normals) out.normals = job->normals + ((size_t)part.y * wide + (size_t)part.x) * 3;
+    run_rows(job, 1, &tile, &out, scratch);
+}
+
+/* The mean of K x K. */
+static void render_samples(const WrTileJob *job, Part part, WrTileScratch *scratch)
+{
+    const int k = job->samples, w = part.w * k, h = part.h * k;
+    const size_t step = sizeof scratch->sample[0] / sizeof(float);
+    WrDepthTile tile = wr_tile_depth(job, k, part.x * k, part.y * k, w, h, scratch);
+    const int64_t covered = scratch->covered;
+    const Rows out = { .rgba = scratch->sample[0][0], .rgba_step = step };
+    for (int y = 0; y < h; y++) memset(scratch->sample[y], 0, (size_t)w * sizeof(float[4]));
+    run_rows(job, k, &tile, &out, scratch);
+    scratch->covered = covered; /* that was samples */
+    double start = wr_clock_seconds();
+    const float share = 1.0f / (float)(k * k);
+    for (int y = 0; y < part.h; y++) {
+        float *pixel = pixel_at(job, part.x, part.y + y);
+        fold(scratch->sample[y * k][0], part.w, k, step);
+        const float *folded = scratch->sample[y * k][0];
+        for (int i = 0; i < 4 * part.w; i++) pixel[i] = folded[i] * share;
+        for (int p = 0; p < part.w; p++) scratch->covered += pixel[4 * p + 3] > 0.0f;
+    }
+    scratch->seconds[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
 /* Nothing anywhere on the tile yet. */
-static void clear(const WrTileJob *job, const WrDepthTile *tile, WrTileScratch *scratch)
+static void clear(const WrTileJob *job, Part part)
 {
-    for (int y = 0; y < tile->h; y++) {
-        if (job->samples > 1) {
-            for (int c = 0; c < 4; c++)
-                memset(scratch->plane[c][y], 0, (size_t)tile->w * sizeof(float));
-        } else {
-            size_t at = ((size_t)(tile->y + y) * (size_t)job->width + (size_t)tile->x) * 4;
-            memset(job->rgba + at, 0, (size_t)tile->w * 4 * sizeof(float));
-        }
+    for (int y = part.y; y < part.y + part.h; y++) {
+        memset(pixel_at(job, part.x, y), 0, (size_t)part.w * 4 * sizeof(float));
+        if (job->normals)
+            memset(job->normals + ((size_t)y * (size_t)job->width + (size_t)part.x) * 3, 0,
+                   (size_t)part.w * 3 * sizeof(float));
     }
 }
 
-/* The mean of each pixel's samples. */
-static void store_pixels(const WrTileJob *job, const WrDepthTile *tile, WrTileScratch *scratch)
+/* Can anything of the mesh be on the tile? */
+static bool touches(const WrTileJob *job, Part part)
 {
-    const int k = job->samples;
-    const float share = 1.0f / (float)(k * k);
-    if (k == 1) return;
-    for (int c = 0; c < 4; c++) fold_tile(tile, k, scratch->plane[c]);
-    for (int y = 0; y < tile->h / k; y++) {
-        size_t at = ((size_t)(tile->y / k + y) * (size_t)job->width + (size_t)(tile->x / k)) * 4;
-        float *out = job->rgba + at;
-        for (int p = 0; p < tile->w / k; p++) {
-            for (int c = 0; c < 4; c++) out[4 * p + c] = scratch->plane[c][y * k][p] * share;
-            scratch->covered += out[4 * p + 3] > 0.0f;
-        }
-    }
-}
-
-static WrDepthTile depth_tile(const WrTileJob *job, int tile_x, int tile_y, WrTileScratch *scratch)
-{
-    int x = tile_x * job->tile_w, y = tile_y * job->tile_h, k = job->samples;
-    int w = job->width - x < job->tile_w ? job->width - x : job->tile_w;
-    int h = job->height - y < job->tile_h ? job->height - y : job->tile_h;
-    return (WrDepthTile){ x * k, y * k, w * k, h * k, scratch->close, scratch->u, scratch->v };
+    const int K = job->samples;
+    WrDepthTile tile = {
+        .x = part.x * K - K, .y = part.y * K - K, .w = (part.w + 2) * K, .h = (part.h + 2) * K
+    };
+    return !job->mesh || wr_view_mesh_touches(job->mesh, job->view, &tile);
 }
 
 void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, int index, WrTileScratch *scratch)
 {
-    WrDepthTile tile = depth_tile(job, tile_x, tile_y, scratch);
+    Part part = { tile_x * job->tile_w, tile_y * job->tile_h, job->tile_w, job->tile_h };
+    part.w = job->width - part.x < part.w ? job->width - part.x : part.w;
+    part.h = job->height - part.y < part.h ? job->height - part.y : part.h;
     const int64_t before = scratch->shaded;
     scratch->seen = job->seen ? &job->seen[index] : NULL;
-    clear(job, &tile, scratch);
-    if (!job->mesh || wr_view_mesh_touches(job->mesh, &tile)) {
-        if (job->mesh) {
-            double start = wr_clock_seconds();
-            wr_view_mesh_raster(job->mesh, job->view, &tile);
-            scratch->seconds[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
-        }
-        for (int y = 0; y < tile.h; y++) render_row(job, &tile, y, scratch);
-    }
-    double start = wr_clock_seconds();
-    store_pixels(job, &tile, scratch);
-    scratch->seconds[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+    clear(job, part);
+    if (!touches(job, part)) return;
+    const WrSampling how = job->plan->sampling;
+    if (how == WR_SAMPLING_ONE) render_point(job, part, true, scratch);
+    else if (job->normals) render_point(job, part, false, scratch);
+    if (how == WR_SAMPLING_ALL) render_samples(job, part, scratch);
+    if (how == WR_SAMPLING_ADAPTIVE) wr_refine_tile(job, part.x, part.y, part.w, part.h, scratch);
     scratch->tiles += scratch->shaded > before;
 }
 
 bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u,
                   double *v, int *face)
 {
-    WrDepthTile tile = { gx, gy, 1, 1, scratch->close, scratch->u, scratch->v };
-    WrStrip *strip = &scratch->strip;
-    Watch watch = { scratch, false, 0 };
-    WrHitKernel hit = closed_form(job->kernels, wr_surfaces[job->scene->shape.kind]->inversion);
-    strip->count = 0;
-    *face = 0;
-    if (job->mesh) {
-        wr_view_mesh_raster(job->mesh, job->view, &tile);
-        locate_mesh(job, &tile, 0, strip, &watch);
-    } else if (hit) {
-        hit(&job->view->rays, &job->view->shape, (float)gx, (float)gy, 1, strip);
-    }
-    for (int i = 0; !hit && i < job->view->quad_count && strip->count == 0; i++) {
-        job->kernels->hit_quad(&job->view->rays, &job->view->quads[i], (float)gx, (float)gy, 1,
-                               strip);
-        *face = job->view->quad_face[i];
-    }
-    if (strip->count == 0) return false;
-    *u = (double)strip->u[0];
-    *v = (double)strip->v[0];
-    return true;
+    return job->pipe->pick(job, gx, gy, scratch, u, v, face);
 }

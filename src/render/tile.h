@@ -14,46 +14,85 @@ typedef enum WrStage {
     WR_STAGE_NEWTON,
     WR_STAGE_GEOMETRY,
     WR_STAGE_CURVATURE,
-    WR_STAGE_LOOK, /* F, Fu, Fv */
+    WR_STAGE_FOOTPRINT,
+    WR_STAGE_LOOK,    /* F, Fu, Fv */
+    WR_STAGE_PYRAMID, /* the same from the pyramid */
     WR_STAGE_BUMP,
     WR_STAGE_COLOUR,
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
+    WR_STAGE_BOUND,
     WR_STAGE_RESOLVE,
     WR_STAGE_COUNT
 } WrStage;
+
+typedef struct WrPipe WrPipe;
 
 /* What all tiles of a frame share; read only while they run. */
 typedef struct WrTileJob {
     const WrView *view;
     const WrPlan *plan;
     const WrScene *scene;
+    const WrDials *dials;
+    const WrPipe *pipe; /* in single or in double precision */
     const WrKernels *kernels;
-    const WrViewMesh *mesh; /* NULL: closed form */
+    const WrKernelsd *kernels_double; /* shading or heights in double; else NULL */
+    const WrViewMesh *mesh;           /* NULL: closed form */
     WrLook look;
+    WrLookd look_double; /* where kernels_double looks */
+    bool double_look;    /* heights in double */
     WrColourLook colour; /* rgba NULL: none */
     int samples;         /* K */
     int width, height;   /* pixels */
     int tile_w, tile_h;  /* pixels */
-    float *rgba;         /* the picture */
-    WrBlocks *seen;      /* [tiles] to fill with what each tile looks at; NULL: not wanted */
+    int tiles_u;
+    float *rgba;    /* the picture */
+    float *normals; /* WrFrameRequest's; or NULL */
+    WrBlocks *seen; /* [tiles] to fill with what each tile looks at; NULL: not wanted */
 } WrTileJob;
+
+/* Where a strip's results go, by the samples' index; members that are not wanted are NULL. */
+typedef struct WrSink {
+    float *rgba;    /* 4 a sample; NULL: no light is worked out */
+    float *normals; /* 3 a sample: n' */
+    float *bound;   /* how far the intensity may change over the pixel */
+    double pixel;   /* of the bound, samples a side */
+} WrSink;
+
+/* Samples anywhere in a grid, by their places. */
+typedef struct WrScatter {
+    int count;
+    double x[WR_SPAN], y[WR_SPAN]; /* grid samples */
+    int cell[WR_SPAN];             /* place in the depth tile (mesh) */
+} WrScatter;
+
+#define WR_REFINE_W 64 /* pixels of a tile of `adaptive` */
+#define WR_REFINE_H 32
 
 /* One thread's memory and counts. */
 typedef struct WrTileScratch {
-    WrStrip strip;
+    WrStrip strip, near, far; /* near, far: look-ups of filtered slopes */
+    WrStripd *wide;           /* [3], the same in double; made on first use */
+    WrScatter scatter;
     float close[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H];
     float u[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H], v[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H];
-    float plane[4][WR_TILE_SAMPLES_H][WR_TILE_SAMPLES_W]; /* R, G, B, A of the samples */
+    signed char shift[2 * WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H]; /* jittered */
+    float sample[WR_TILE_SAMPLES_H][WR_TILE_SAMPLES_W][4];        /* R, G, B, A */
+    float centre[WR_REFINE_H + 2][WR_REFINE_W + 2]
+                [4]; /* adaptive: first samples, one pixel round */
+    float bound[WR_REFINE_H + 2][WR_REFINE_W + 2];
+    unsigned char open[WR_REFINE_H][WR_REFINE_W]; /* adaptive: the pixel needs more */
     double seconds[WR_STAGE_COUNT];
     int64_t covered, shaded; /* pixels, samples */
     int64_t tiles;           /* that held anything */
+    int64_t wide_samples;    /* filter, moments: that looked above level 0 */
     WrBlocks *seen;          /* of the tile at hand; NULL: not wanted */
     unsigned strips;         /* counts strips: one in eight is timed */
 } WrTileScratch;
 
-/* Tile sizes for K x K samples: about 256 x 32 samples whatever K. */
-void wr_tile_size(int samples, int *tile_w, int *tile_h);
+/* Tile sizes for K x K samples: about 256 x 32 samples whatever K. blocks: a power of two that divides a
+   block of WR_FRAME_BLOCK pixels. */
+void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *tile_h);
 /* index: of the tile in job->seen. */
 void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, int index,
                     WrTileScratch *scratch);

@@ -17,19 +17,33 @@ static WrVec3 bring_in(const WrPlacement *place, double scale, WrVec3 w)
     return v3_scale(v3_add(turn_back(place, w), place->centre), scale);
 }
 
-static void store(float out[3], WrVec3 a)
+static void store(double out[3], WrVec3 a)
 {
-    out[0] = (float)a.x, out[1] = (float)a.y, out[2] = (float)a.z;
+    out[0] = a.x, out[1] = a.y, out[2] = a.z;
+}
+
+static void narrow(float out[3], const double in[3])
+{
+    for (int k = 0; k < 3; k++) out[k] = (float)in[k];
+}
+
+static void narrow_rays(const WrRaysd *in, WrRays *out)
+{
+    narrow(out->q0, in->q0), narrow(out->qx, in->qx), narrow(out->qy, in->qy);
+    narrow(out->d0, in->d0), narrow(out->dx, in->dx), narrow(out->dy, in->dy);
+    narrow(out->eye, in->eye), narrow(out->toward, in->toward);
+    out->s_min = (float)in->s_min;
+    out->perspective = in->perspective;
 }
 
 /* Rays as affine functions of the sample's grid position (i, j), whose centre is (i + 1/2, j + 1/2). */
-static void make_rays(WrView *view, WrVec3 centre)
+static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double grid_h,
+                      WrRaysd *rays)
 {
-    WrRays *rays = &view->rays;
     double depth = v3_dot(v3_sub(centre, view->eye), view->forward); /* of the reference plane */
     WrVec3 middle = v3_mad(view->eye, view->forward, depth);
-    WrVec3 x = v3_scale(view->right, 2.0 * view->half_w / view->grid_w);
-    WrVec3 y = v3_scale(view->up, -2.0 * view->half_h / view->grid_h);
+    WrVec3 x = v3_scale(view->right, 2.0 * view->half_w / grid_w);
+    WrVec3 y = v3_scale(view->up, -2.0 * view->half_h / grid_h);
     WrVec3 corner = v3_add(v3_scale(view->right, -view->half_w), v3_scale(view->up, view->half_h));
     corner = v3_add(corner, v3_add(v3_scale(x, 0.5), v3_scale(y, 0.5)));
     const WrVec3 zero = { 0, 0, 0 };
@@ -40,10 +54,31 @@ static void make_rays(WrView *view, WrVec3 centre)
     store(rays->d0, view->perspective ? v3_add(view->forward, corner) : view->forward);
     store(rays->dx, view->perspective ? x : zero);
     store(rays->dy, view->perspective ? y : zero);
-    rays->s_min = (float)(view->near - depth);
+    rays->s_min = view->near - depth;
     rays->perspective = view->perspective;
     store(rays->eye, view->eye);
     store(rays->toward, v3_neg(view->forward));
+}
+
+/* The grids of 1, 2, 4, ... below K samples a side, and of K. */
+static void make_grids(WrView *view, WrVec3 centre)
+{
+    const int K = view->samples;
+    for (int k = 1; view->grid_count == 0 || k <= K; k = k == K ? K + 1 : 2 * k < K ? 2 * k : K) {
+        WrViewGrid *grid = &view->grids[view->grid_count++];
+        grid->k = k;
+        make_rays(view, centre, (double)(view->grid_w / K * k), (double)(view->grid_h / K * k),
+                  &grid->rays_d);
+        narrow_rays(&grid->rays_d, &grid->rays);
+    }
+}
+
+const WrViewGrid *wr_view_grid(const WrView *view, int k)
+{
+    int i = 0;
+    while (i + 1 < view->grid_count && view->grids[i].k != k) i++;
+    WR_ASSERT(view->grids[i].k == k);
+    return &view->grids[i];
 }
 
 /* Planar faces; of a closed box seen from outside, only those that face the viewer. */
@@ -61,12 +96,15 @@ static void make_quads(WrView *view, const WrShape *shape)
     }
     for (int face = 0; face < info->faces; face++) {
         if (info->convex_closed && outside && !facing[face]) continue;
-        WrQuad *quad = &view->quads[view->quad_count];
+        WrQuadd *quad = &view->quads_d[view->quad_count];
+        WrQuad *single = &view->quads[view->quad_count];
         WrVec3 pu = v3_scale(at[face].pu, view->scale), pv = v3_scale(at[face].pv, view->scale);
         store(quad->origin, v3_scale(at[face].p, view->scale));
         store(quad->normal, at[face].n_unit);
         store(quad->eu, v3_scale(pu, 1.0 / v3_dot(pu, pu)));
         store(quad->ev, v3_scale(pv, 1.0 / v3_dot(pv, pv)));
+        narrow(single->origin, quad->origin), narrow(single->normal, quad->normal);
+        narrow(single->eu, quad->eu), narrow(single->ev, quad->ev);
         view->quad_face[view->quad_count++] = face;
     }
 }
@@ -75,22 +113,37 @@ static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *p
 {
     const WrVec3 ahead = { 0, 0, 1 };
     view->lights = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights);
+    view->lights_d = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights_d);
     view->light_count = scene->light_count;
     for (int i = 0; i < scene->light_count; i++) {
         const WrLight *light = &scene->lights[i];
-        WrKernLight *out = &view->lights[i];
+        WrKernLightd *out = &view->lights_d[i];
         out->point = light->kind == WR_LIGHT_POINT;
         WrVec3 where = out->point ? bring_in(place, view->scale, light->where)
                                   : v3_unit(turn_back(place, light->where), ahead);
         store(out->where, where);
         store(out->rgb, v3_scale(light->colour, light->strength));
+        view->lights[i].point = out->point;
+        narrow(view->lights[i].where, out->where);
+        narrow(view->lights[i].rgb, out->rgb);
     }
+}
+
+/* wr_shape_scaled in double. */
+static void scale_shape(const WrShape *shape, double scale, WrShape *out)
+{
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    *out = *shape;
+    int at = 0;
+    for (int p = 0; p < WR_SURFACE_PARAMS && info->params[p].name; p++)
+        for (int i = 0; i < info->params[p].components; i++, at++)
+            out->value[at] = shape->value[at] * (info->params[p].length ? scale : 1.0);
 }
 
 bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width, int height,
                   int samples, WrError *err)
 {
-    *view = (WrView){ .grid_w = width * samples, .grid_h = height * samples };
+    *view = (WrView){ .samples = samples, .grid_w = width * samples, .grid_h = height * samples };
     WrPlacement place;
     double aspect = (double)width / height;
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
@@ -109,7 +162,8 @@ bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width
                   v3_len(v3_sub(view->eye, v3_scale(place.centre, view->scale))) > view->radius);
     view->near = 1e-5 * view->radius;
     wr_shape_scaled(&scene->shape, view->scale, &view->shape);
-    make_rays(view, v3_scale(place.centre, view->scale));
+    scale_shape(&scene->shape, view->scale, &view->shape_d);
+    make_grids(view, v3_scale(place.centre, view->scale));
     if (info->inversion == WR_INVERT_PLANE || info->inversion == WR_INVERT_CUBE)
         make_quads(view, &scene->shape);
     make_lights(view, scene, &place);
@@ -119,5 +173,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width
 void wr_view_fini(WrView *view)
 {
     wr_free(view->lights);
+    wr_free(view->lights_d);
     view->lights = NULL;
+    view->lights_d = NULL;
 }

@@ -4,21 +4,35 @@
 #include "render/kern.h"
 #include "scene/scene.h"
 
+/* The rays of a grid of k x k samples a pixel. */
+typedef struct WrViewGrid {
+    int k;
+    WrRays rays;
+    WrRaysd rays_d;
+} WrViewGrid;
+
+#define WR_VIEW_GRIDS 8 /* 1, 2, 4 .. 64, and K */
+
 typedef struct WrView {
+    int samples;        /* K */
     int grid_w, grid_h; /* samples: picture size times K */
     double scale;       /* object units -> kernel units; a power of two */
     double radius;      /* of the object, kernel units */
     WrShapef shape;
-    WrRays rays;
+    WrShape shape_d;
+    WrViewGrid grids[WR_VIEW_GRIDS]; /* K and its powers of two below, 1 first */
+    int grid_count;
     WrVec3 eye, right, up, forward; /* kernel units, object space; double for the mesh */
     double half_w, half_h;          /* of the view: at depth 1, or the whole, orthographic */
     double near;                    /* depth of the near plane */
     bool perspective;
     bool cull;       /* a closed surface seen from outside: back faces are hidden (E25) */
     WrQuad quads[6]; /* planar surfaces: those that can be seen */
+    WrQuadd quads_d[6];
     int quad_face[6];
     int quad_count;
     WrKernLight *lights; /* [light_count], owned */
+    WrKernLightd *lights_d;
     int light_count;
 } WrView;
 
@@ -27,3 +41,5 @@ typedef struct WrView {
 bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width, int height,
                   int samples, WrError *err);
 void wr_view_fini(WrView *view);
+/* The grid of k x k samples a pixel; k is 1, K or a power of two below K. */
+const WrViewGrid *wr_view_grid(const WrView *view, int k);

@@ -32,7 +32,7 @@ WrScene *wr_scene_new(void)
     scene->lights[0] = default_light;
     scene->light_count = 1;
     scene->camera = (WrCamera){ .fit = true, .eye = { 0, 0, 1 }, .up = { 0, 1, 0 }, .fov_deg = 35 };
-    scene->dials = (WrDials){ WR_AA_POINT, 4, WR_ARITHMETIC_EXACT };
+    scene->dials = wr_dials_default();
     for (int i = 0; i < 3; i++) scene->background[i] = 0.032;
     return scene;
 }
@@ -70,6 +70,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->light_count = scene->light_count;
     clone->camera = scene->camera;
     clone->dials = scene->dials;
+    clone->tolerance = scene->tolerance;
     memcpy(clone->background, scene->background, sizeof clone->background);
     return clone;
 }

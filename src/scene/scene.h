@@ -9,6 +9,7 @@
 #include "field/analytic.h"
 #include "field/scheme.h"
 #include "image/image.h"
+#include "scene/dials.h"
 #include "shade/bump.h"
 #include "surface/surface.h"
 
@@ -38,17 +39,21 @@ typedef struct WrCamera {
     double size; /* height of the view in scene units, orthographic; <= 0: the object just fits */
 } WrCamera;
 
-typedef enum WrAntialias { WR_AA_POINT, WR_AA_SUPERSAMPLE } WrAntialias;
-typedef enum WrArithmetic { WR_ARITHMETIC_EXACT, WR_ARITHMETIC_FAST } WrArithmetic;
+/* What the picture must keep to; the dials that meet it are chosen by measuring (accuracy/tolerance.h). */
+typedef enum WrToleranceKind {
+    WR_TOLERANCE_NONE, /* the dials hold as they are set */
+    WR_TOLERANCE_RMS,  /* of linear intensity over the covered pixels, at most */
+    WR_TOLERANCE_MAX,  /* of any channel of any pixel */
+    WR_TOLERANCE_TIME, /* seconds a frame: the least error that it buys */
+    WR_TOLERANCE_COUNT
+} WrToleranceKind;
 
-/* The rungs of the accuracy ladder that are settings of the scene. */
-typedef struct WrDials {
-    WrAntialias aa;
-    int samples; /* supersample: K x K a pixel, 1..64 */
-    WrArithmetic arithmetic;
-} WrDials;
+typedef struct WrTolerance {
+    WrToleranceKind kind;
+    double value; /* linear intensity 0..1e6, or seconds 1e-4..3600 */
+} WrTolerance;
 
-typedef struct WrScene {
+struct WrScene {
     int refs; /* atomic; private to scene.c */
     WrShape shape;
     bool posed;        /* rotate was given; else the surface's own pose holds */
@@ -67,8 +72,9 @@ typedef struct WrScene {
     int light_count;
     WrCamera camera;
     WrDials dials;
+    WrTolerance tolerance;
     double background[3]; /* linear RGB behind 8-bit pictures */
-} WrScene;
+};
 
 /* The scene of an empty document: the unit plane facing the viewer, blinn / central, one light from
    the upper left. The caller owns it. */

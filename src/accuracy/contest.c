@@ -1,0 +1,366 @@
+/* What a tolerance chooses, beside the best that trying everything finds. */
+#include "accuracy/contest.h"
+
+#include "accuracy/ladder_inner.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define RUNS 3
+#define TOP_SAMPLES 16 /* a side, of the best setting */
+
+/* ---- everything ---- */
+
+typedef struct Tried {
+    WrSetting setting;
+    int way;         /* of ways */
+    double expected; /* seconds, by its slopes and normal with one sample */
+    bool known;      /* the errors */
+    bool timed;      /* seconds */
+    double seconds, rms, max;
+} Tried;
+
+/* Ways against aliasing: how many dials, which, and where. */
+static const WrSetting ways[] = {
+    { 1, { WR_DIAL_AA }, { WR_AA_POINT } },
+    { 2, { WR_DIAL_AA, WR_DIAL_FOOTPRINT }, { WR_AA_FILTER, WR_FOOTPRINT_ANISOTROPIC } },
+    { 3,
+      { WR_DIAL_AA, WR_DIAL_FOOTPRINT, WR_DIAL_MOMENTS },
+      { WR_AA_MOMENTS, WR_FOOTPRINT_ANISOTROPIC, WR_MOMENTS_LEAN } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 2 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 3 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 4 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 6 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 8 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 12 } },
+    { 2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, 16 } },
+    { 3, { WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_CONTRAST }, { WR_AA_ADAPTIVE, 8, 0.05 } },
+    { 3, { WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_CONTRAST }, { WR_AA_ADAPTIVE, 8, 0.01 } },
+    { 3, { WR_DIAL_AA, WR_DIAL_SAMPLES, WR_DIAL_CONTRAST }, { WR_AA_ADAPTIVE, 16, 0.005 } },
+};
+#define WAY_COUNT ((int)(sizeof ways / sizeof *ways))
+
+static void put(WrSetting *setting, int dial, double value)
+{
+    setting->dial[setting->count] = dial;
+    setting->value[setting->count++] = value;
+}
+
+/* All schemes with all normals with all ways, in the caller's memory; models that are no approximation of
+   the scene's are left out. */
+static int list_all(const WrScene *scene, Tried *out)
+{
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    const bool invariant = scene->bump == WR_BUMP_INVARIANT;
+    int count = 0;
+    for (int scheme = 0; scheme < (table ? WR_SCHEME_COUNT : 1); scheme++)
+        for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
+            if ((mode == WR_BUMP_INVARIANT) != invariant) continue;
+            for (int way = 0; way < WAY_COUNT; way++) {
+                Tried tried = { .setting = ways[way], .way = way };
+                if (table) put(&tried.setting, WR_DIAL_SCHEME, scheme);
+                put(&tried.setting, WR_DIAL_NORMAL, mode);
+                if (out) out[count] = tried;
+                count++;
+            }
+        }
+    return count;
+}
+
+static double median(double *times, int count)
+{
+    wr_bench_sort(times, count);
+    return wr_bench_quantile(times, count, 0.5);
+}
+
+static bool time_one(const WrBench *bench, Tried *tried, WrError *err)
+{
+    double times[RUNS];
+    int64_t shaded;
+    bool good = true;
+    if (tried->timed) return true;
+    WrScene *scene = wr_setting_apply(&tried->setting, bench->request->scene);
+    for (int run = 0; good && run < RUNS; run++)
+        good = wr_bench_time(bench, scene, &times[run], &shaded, err);
+    wr_scene_free(scene);
+    if (good) tried->seconds = median(times, RUNS);
+    return tried->timed = good;
+}
+
+static bool measure_one(const WrBench *bench, const WrReference *reference, Tried *tried,
+                        WrError *err)
+{
+    WrFrame frame;
+    WrErrors errors;
+    if (tried->known) return true;
+    WrScene *scene = wr_setting_apply(&tried->setting, bench->request->scene);
+    const bool good = wr_bench_frame(bench, scene, NULL, &frame, err);
+    wr_scene_free(scene);
+    if (!good) return false;
+    wr_errors_measure(frame.rgba, NULL, reference, NULL, &errors);
+    tried->rms = errors.rms;
+    tried->max = errors.max;
+    return tried->known = true;
+}
+
+/* Samples a pixel that a way takes at least, as the time goes. */
+static double samples_of(const WrSetting *way)
+{
+    double grid = 1;
+    bool adaptive = false;
+    for (int i = 0; i < way->count; i++) {
+        if (way->dial[i] == WR_DIAL_SAMPLES) grid = way->value[i];
+        if (way->dial[i] == WR_DIAL_AA) adaptive = way->value[i] == WR_AA_ADAPTIVE;
+    }
+    return adaptive ? 1 : grid * grid;
+}
+
+/* What each will take, from the time of one sample a pixel. */
+static bool expect(const WrBench *bench, Tried *tried, int count, WrError *err)
+{
+    double one = 0;
+    for (int i = 0; i < count; i++) {
+        if (tried[i].way == 0) {
+            if (!time_one(bench, &tried[i], err)) return false;
+            one = tried[i].seconds;
+        }
+        tried[i].expected = one * samples_of(&ways[tried[i].way]);
+    }
+    return true;
+}
+
+static int by_expected(const void *a, const void *b)
+{
+    const Tried *x = a, *y = b;
+    if (x->expected != y->expected) return x->expected < y->expected ? -1 : 1;
+    return (x->way > y->way) - (x->way < y->way);
+}
+
+/* ---- one tolerance ---- */
+
+static bool within(const WrTolerance *tolerance, double rms, double max)
+{
+    return tolerance->kind == WR_TOLERANCE_RMS ? rms <= tolerance->value : max <= tolerance->value;
+}
+
+static bool find_cheapest(const Tried *tried, int count, WrContestRow *row)
+{
+    row->found = false;
+    for (int i = 0; i < count; i++) {
+        if (!tried[i].timed || !tried[i].known) continue;
+        if (!within(&row->tolerance, tried[i].rms, tried[i].max)) continue;
+        if (row->found && tried[i].seconds >= row->best_seconds) continue;
+        row->found = true;
+        row->cheapest = tried[i].setting;
+        row->best_seconds = tried[i].seconds;
+        row->best_rms = tried[i].rms;
+        row->best_max = tried[i].max;
+    }
+    return row->found;
+}
+
+#define SLACK 1.5 /* an expected time may be so many times too long */
+
+/* From cheap to dear, until every tolerance is met by something and what is left is expected to take longer
+   than that: none of those can be the cheapest. */
+static bool try_all(const WrBench *bench, const WrReference *reference, Tried *tried, int count,
+                    WrContest *contest, WrError *err)
+{
+    bool good = expect(bench, tried, count, err);
+    if (good) qsort(tried, (size_t)count, sizeof *tried, by_expected);
+    for (int i = 0; good && i < count; i++) {
+        bool open = false, meets = false;
+        for (int r = 0; r < contest->count; r++) {
+            WrContestRow *row = &contest->rows[r];
+            const bool found = find_cheapest(tried, i, row);
+            open |= !found || tried[i].expected < SLACK * row->best_seconds;
+        }
+        if (!open) break;
+        good = wr_progress_step(bench->request->progress, 0.1 + 0.8 * i / count) ||
+               wr_fail(err, "cancelled");
+        good = good && measure_one(bench, reference, &tried[i], err);
+        for (int r = 0; good && r < contest->count; r++)
+            meets |= within(&contest->rows[r].tolerance, tried[i].rms, tried[i].max);
+        if (good && meets) good = time_one(bench, &tried[i], err);
+        contest->tried = i + 1;
+    }
+    for (int r = 0; r < contest->count; r++) find_cheapest(tried, count, &contest->rows[r]);
+    return good;
+}
+
+/* The best of all, which a time is saved from. */
+static bool time_top(const WrBench *bench, WrContest *contest, WrError *err)
+{
+    const WrScene *scene = bench->request->scene;
+    Tried top = { .setting = {
+                      2, { WR_DIAL_AA, WR_DIAL_SAMPLES }, { WR_AA_SUPERSAMPLE, TOP_SAMPLES } } };
+    put(&top.setting, WR_DIAL_SCHEME, WR_SCHEME_BSPLINE_FIT);
+    if (scene->bump != WR_BUMP_INVARIANT) put(&top.setting, WR_DIAL_NORMAL, WR_BUMP_EXACT);
+    if (!time_one(bench, &top, err)) return false;
+    for (int r = 0; r < contest->count; r++) contest->rows[r].top_seconds = top.seconds;
+    return true;
+}
+
+static bool measure_choice(const WrBench *bench, const WrReference *reference, WrContestRow *row,
+                           WrError *err)
+{
+    const WrLadderRequest *request = bench->request;
+    WrScene *scene = wr_scene_clone(request->scene);
+    scene->tolerance = row->tolerance;
+    WrFrameRequest wanted = { .field = request->field,
+                              .scene = scene,
+                              .width = request->width,
+                              .height = request->height,
+                              .turn_deg = request->turn_deg };
+    WrChoice choice = { 0 };
+    WrFrame frame;
+    double times[RUNS];
+    const double start = wr_bench_now(bench);
+    bool good = wr_tolerance_choose(bench->renderer, &wanted, &choice, err);
+    row->choosing = wr_bench_now(bench) - start;
+    for (int run = 0; good && run < RUNS; run++) {
+        const double from = wr_bench_now(bench);
+        good = wr_choice_frame(bench->renderer, &wanted, &choice, &frame, err);
+        /* Tables made anew for another setting are paid once, as for the others. */
+        times[run] = wr_bench_now(bench) - from;
+    }
+    if (good) {
+        WrErrors errors;
+        wr_errors_measure(frame.rgba, NULL, reference, NULL, &errors);
+        row->rms = errors.rms;
+        row->max = errors.max;
+        row->held = within(&row->tolerance, errors.rms, errors.max);
+        row->claimed = choice.met;
+        row->seconds = median(times, RUNS);
+    }
+    wr_choice_fini(&choice);
+    wr_scene_free(scene);
+    return good;
+}
+
+/* ---- all of it ---- */
+
+static bool run(const WrBench *bench, WrContest *contest, WrError *err)
+{
+    const WrScene *scene = bench->request->scene;
+    const int count = list_all(scene, NULL);
+    Tried *tried = wr_alloc((size_t)count, sizeof *tried);
+    list_all(scene, tried);
+    contest->settings = count;
+    bool good = try_all(bench, &contest->reference, tried, count, contest, err) &&
+                time_top(bench, contest, err);
+    for (int i = 0; good && i < contest->count; i++)
+        good = measure_choice(bench, &contest->reference, &contest->rows[i], err);
+    wr_free(tried);
+    return good;
+}
+
+bool wr_contest_run(const WrLadderRequest *request, const WrTolerance *tolerances, int count,
+                    WrContest *out, WrError *err)
+{
+    WrContest contest = { .count = count };
+    WrPool *all = wr_pool_new(0), *one = wr_pool_new(1);
+    WrBench bench = { .request = request, .pool = request->threads == 1 ? one : all };
+    cpu_set_t before;
+    contest.rows = wr_alloc((size_t)count + 1, sizeof *contest.rows);
+    for (int i = 0; i < count; i++) contest.rows[i].tolerance = tolerances[i];
+    bool good = wr_bench_reference(request, all, &contest.reference, err);
+    bench.renderer = good ? wr_renderer_new(bench.pool, NULL, err) : NULL;
+    good = bench.renderer != NULL;
+    const bool pinned = good && request->threads == 1 && wr_bench_pin(&before);
+    good = good && run(&bench, &contest, err);
+    if (pinned) sched_setaffinity(0, sizeof before, &before);
+    wr_renderer_free(bench.renderer);
+    wr_pool_free(one);
+    wr_pool_free(all);
+    if (!good) {
+        wr_contest_fini(&contest);
+        return false;
+    }
+    wr_contest_fini(out);
+    *out = contest;
+    return true;
+}
+
+void wr_contest_fini(WrContest *contest)
+{
+    wr_reference_fini(&contest->reference);
+    wr_free(contest->rows);
+    *contest = (WrContest){ 0 };
+}
+
+/* ---- telling ---- */
+
+static const char *const kind_names[WR_TOLERANCE_COUNT] = { "off", "rms", "max", "time" };
+
+static const char *verdict(const WrContestRow *row)
+{
+    if (row->held) return "held";
+    return row->claimed ? "BROKEN" : row->found ? "gave up" : "cannot be met";
+}
+
+void wr_contest_text(const WrContest *contest, const char *name, WrText *text)
+{
+    WrText setting = { 0 };
+    wr_text_addf(text,
+                 "%s: %d of %d settings tried, from cheap to dear\n%-10s %9s %9s %-13s %8s %8s %6s "
+                 "%8s %8s  %s\n",
+                 name, contest->tried, contest->settings, "tolerance", "rms", "max", "verdict",
+                 "ms", "best ms", "ratio", "choosing", "top ms",
+                 "the cheapest single setting that meets it");
+    for (int i = 0; i < contest->count; i++) {
+        const WrContestRow *row = &contest->rows[i];
+        char number[WR_NUMBER_SIZE];
+        wr_text_clear(&setting);
+        if (row->found) wr_setting_print(&row->cheapest, &setting);
+        wr_text_addf(text, "%s=%-6s %9.2e %9.2e %-13s %8.2f ", kind_names[row->tolerance.kind],
+                     wr_number_print(row->tolerance.value, number), row->rms, row->max,
+                     verdict(row), 1e3 * row->seconds);
+        if (row->found)
+            wr_text_addf(text, "%8.2f %6.2f", 1e3 * row->best_seconds,
+                         row->seconds / row->best_seconds);
+        else wr_text_addf(text, "%8s %6s", "-", "-");
+        wr_text_addf(text, " %8.2f %8.2f  %s\n", 1e3 * row->choosing, 1e3 * row->top_seconds,
+                     row->found ? wr_text_get(&setting) : "none");
+    }
+    wr_text_fini(&setting);
+}
+
+void wr_contest_json(const WrContest *contest, const char *name, WrText *text)
+{
+    WrText setting = { 0 };
+    wr_text_add(text, "{\"document\":");
+    wr_text_add_json_string(text, name);
+    wr_text_addf(text, ",\"settings\":%d,\"tried\":%d,\"rows\":[", contest->settings,
+                 contest->tried);
+    for (int i = 0; i < contest->count; i++) {
+        const WrContestRow *row = &contest->rows[i];
+        const struct {
+            const char *name;
+            double value;
+        } numbers[] = { { "value", row->tolerance.value },
+                        { "rms", row->rms },
+                        { "max", row->max },
+                        { "seconds", row->seconds },
+                        { "choosing_seconds", row->choosing },
+                        { "top_seconds", row->top_seconds },
+                        { "best_seconds", row->found ? row->best_seconds : NAN },
+                        { "best_rms", row->found ? row->best_rms : NAN },
+                        { "best_max", row->found ? row->best_max : NAN } };
+        wr_text_addf(text, "%s{\"kind\":\"%s\",\"claimed\":%s,\"held\":%s,\"verdict\":\"%s\"",
+                     i > 0 ? ",\n" : "", kind_names[row->tolerance.kind],
+                     row->claimed ? "true" : "false", row->held ? "true" : "false", verdict(row));
+        for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
+            wr_text_addf(text, ",\"%s\":", numbers[n].name);
+            wr_text_add_json_number(text, numbers[n].value);
+        }
+        wr_text_clear(&setting);
+        if (row->found) wr_setting_print(&row->cheapest, &setting);
+        wr_text_add(text, ",\"cheapest\":");
+        wr_text_add_json_string(text, wr_text_get(&setting));
+        wr_text_add(text, "}");
+    }
+    wr_text_add(text, "]}\n");
+    wr_text_fini(&setting);
+}

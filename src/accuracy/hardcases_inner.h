@@ -1,0 +1,135 @@
+/* hardcases_inner.h - what the measurements of the hard cases share.
+   Layer 6, private to this room. */
+#pragma once
+#include "accuracy/hardcases.h"
+#include "base/vec.h"
+#include "render/frame.h"
+#include "render/kern.h"
+#include "render/reference.h"
+
+#include <math.h>
+
+#define WR_HARD_SETS 2 /* kernel sets that float is measured with: "ref" and another */
+
+struct WrHardGauge {
+    const WrKernels *kernels[WR_HARD_SETS]; /* both exact */
+    int sets;                               /* 1 if they are the same */
+    const char *isa;
+    WrPool *pool;
+    WrStrip *strip; /* scratch */
+    uint64_t random;
+    double nudge[WR_HARD_PRECISIONS];
+    double worst[WR_HARD_PRECISIONS];
+    int64_t checks[WR_HARD_PRECISIONS];
+};
+
+/* A deviation, 0 or more; NaN counts as infinite. */
+void wr_hard_off(WrHardGauge *gauge, WrHardPrecision precision, double deviation);
+/* |got - want| */
+void wr_hard_near(WrHardGauge *gauge, WrHardPrecision precision, double got, double want);
+/* One violation unless ok. */
+void wr_hard_holds(WrHardGauge *gauge, WrHardPrecision precision, bool ok);
+
+/* 0 <= x < 1, repeatable: splitmix64, begun anew for each case. */
+double wr_hard_random(WrHardGauge *gauge);
+double wr_hard_between(WrHardGauge *gauge, double low, double high);
+float wr_hard_float(WrHardGauge *gauge); /* as wr_hard_random, exact in float */
+
+/* ---- points of surfaces ---- */
+
+static inline WrVec3 wr_hard_vec(WrVec3f a)
+{
+    return (WrVec3){ (double)a.x, (double)a.y, (double)a.z };
+}
+static inline bool wr_hard_finite(WrVec3 a)
+{
+    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+static inline bool wr_hard_same(WrVec3 a, WrVec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+WrShape wr_hard_shape(WrSurfaceKind kind);
+/* The bicubic patch of the points f(i, j), i along u. */
+WrShape wr_hard_patch(WrVec3 (*point)(int i, int j));
+/* By a kernel: P, Pu, Pv, n, |N|, n_u, n_v; the others 0. N is n |N|. The shape is scaled by `scale`, a
+ * power of two. */
+WrSurfacePointf wr_hard_point(WrHardGauge *gauge, int set, const WrShape *shape, double scale,
+                              int face, float u, float v);
+
+/* Slopes and height at a point. */
+typedef struct WrHardSlope {
+    double f, fu, fv;
+} WrHardSlope;
+/* n' in double, made unit. */
+WrVec3 wr_hard_bent(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope);
+/* n' by a kernel, seen from the side of n (behind: from the other side). */
+WrVec3 wr_hard_bent_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
+                      WrHardSlope slope, bool behind);
+/* The same point in double, for formulas on float's own numbers. */
+WrSurfacePoint wr_hard_widen(const WrSurfacePointf *at);
+/* The float point as it would come out without rounding: doubles rounded once. */
+WrSurfacePointf wr_hard_narrow(const WrSurfacePoint *at);
+
+/* ---- tables ---- */
+
+/* A table of heights in -0.5..0.5 at random. Never NULL. */
+WrField *wr_hard_rough(WrHardGauge *gauge, int width, int height, WrWrap wrap);
+/* A smooth one: a few waves of height about 1. */
+WrField *wr_hard_waves(int width, int height);
+bool wr_hard_equal(const WrField *a, const WrField *b);
+/* Texel (i, j) of the result is texel (i + di, j + dj). The caller's. */
+WrField *wr_hard_rolled(const WrField *field, int di, int dj);
+
+/* The same by wr_field_sample. */
+WrHardSlope wr_hard_sample(const WrField *field, WrScheme scheme, double u, double v);
+bool wr_hard_same_slope(WrHardSlope a, WrHardSlope b); /* every bit */
+
+/* ---- pictures ---- */
+
+typedef struct WrHardShot {
+    WrRenderer *renderer;
+    WrFrame frame;
+} WrHardShot;
+bool wr_hard_shoot(WrHardGauge *gauge, const WrFrameRequest *request, WrHardShot *shot,
+                   WrError *err);
+void wr_hard_put_away(WrHardShot *shot);
+/* Values of the picture that are not finite. */
+int64_t wr_hard_wild(const WrHardShot *shot);
+
+/* The same in double, by the reference: samples x samples a pixel. Zero-initialise *out; fini it. */
+bool wr_hard_refer(WrHardGauge *gauge, const WrFrameRequest *request, int samples, WrReference *out,
+                   WrError *err);
+int64_t wr_hard_wild_reference(const WrReference *reference);
+
+/* One light of strength 1 on one place of a plane whose n is (0, 0, 1). */
+typedef struct WrHardLit {
+    WrVec3 bent, light, view; /* unit; for the reference bent.z and view.z are above 0 */
+    double diffuse, specular, shininess;
+    bool gate;
+} WrHardLit;
+/* Its diffuse and specular parts by the reference; ambient 0. */
+bool wr_hard_shine(const WrHardLit *lit, double part[2], WrError *err);
+
+/* ---- the rows, by file; each list in order of ids ---- */
+
+/* clang-format off */
+#define WR_HARD_ROWS(X)                                                                            \
+    X(surface) X(bump) X(side) X(mesh)                                                             \
+    X(table) X(flat) X(limits) X(pyramid)                                                          \
+    X(noise) X(octaves) X(faces) X(tiling)                                                         \
+    X(dab) X(stroke) X(stamp) X(undo)                                                              \
+    X(sight) X(turn) X(light)
+/* clang-format on */
+
+typedef struct WrHardList {
+    const WrHardCase *rows;
+    int count;
+} WrHardList;
+#define WR_HARD_DECLARE(name) extern const WrHardList wr_hard_##name;
+WR_HARD_ROWS(WR_HARD_DECLARE)
+#undef WR_HARD_DECLARE
+
+#define WR_HARD_LIST(name, list)                                                                   \
+    const WrHardList wr_hard_##name = { (list), (int)(sizeof(list) / sizeof *(list)) }

@@ -1,0 +1,70 @@
+/* Hard cases of frames: triangles with texture coordinates, sheared tangents, scaled objects. */
+#include "accuracy/hardcases_inner.h"
+
+#include "shade/bump.h"
+
+/* n - grad F, grad F = [(G Fu - F1 Fv) Pu + (E Fv - F1 Fu) Pv] / (E G - F1^2): does not name the frame's
+   angle anywhere. */
+static WrVec3 by_gradient(const WrSurfacePoint *at, double fu, double fv)
+{
+    const double e = v3_dot(at->pu, at->pu), g = v3_dot(at->pv, at->pv);
+    const double f1 = v3_dot(at->pu, at->pv), det = e * g - f1 * f1;
+    const WrVec3 slope = v3_add(v3_scale(at->pu, (g * fu - f1 * fv) / det),
+                                v3_scale(at->pv, (e * fv - f1 * fu) / det));
+    const WrVec3 n = v3_unit(v3_cross(at->pu, at->pv), at->n_unit);
+    return v3_sub(n, slope);
+}
+
+static bool hc32(WrHardGauge *g, WrError *err)
+{
+    (void)err;
+    static const double degrees[] = { 90, 80, 60, 45, 20 };
+    for (int i = 0; i < 200; i++) {
+        const double turn = degrees[i % 5] * (acos(-1.0) / 180.0);
+        const double fu = wr_hard_between(g, -1, 1), fv = wr_hard_between(g, -1, 1);
+        WrSurfacePoint at = { .pu = { 1, 0, 0 },
+                              .pv = { cos(turn), sin(turn), 0 },
+                              .n_unit = { 0, 0, 1 } };
+        at.n = v3_cross(at.pu, at.pv);
+        at.n_len = v3_len(at.n);
+        const WrVec3 want = by_gradient(&at, fu, fv);
+        const WrSurfacePointf single = wr_hard_narrow(&at);
+        const WrHardSlope slope = { 0, fu, fv };
+        wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_bent(WR_BUMP_BLINN, &at, slope), want));
+        for (int set = 0; set < g->sets; set++)
+            wr_hard_off(
+                g, WR_HARD_FLOAT,
+                v3_angle_rad(wr_hard_bent_f(g, set, WR_BUMP_BLINN, &single, slope, false), want));
+    }
+    return true;
+}
+
+#define LATER(number, situation, rule, effect)                                                     \
+    {                                                                                              \
+        .id = "HC" #number, .subject = WR_HARD_GEOMETRY, .what = situation, .holds = rule,         \
+        .unit = "violations", .bound = { 0, 0 }, .waits = effect                                   \
+    }
+#define MESHES "triangle meshes as surfaces, with tangent frames"
+#define SCALED "objects scaled and mirrored by a matrix"
+static const WrHardCase rows[] = {
+    LATER(28, "a triangle whose texture coordinates span no area",
+          "an orthonormal frame from n alone, and it is reported", MESHES),
+    LATER(29, "a triangle without area", "it is left out", MESHES),
+    LATER(30, "texture coordinates that span 1e-30, of either sign",
+          "tangents of length 1 or the frame from n; handedness follows the sign", MESHES),
+    LATER(31, "a vertex shared by mirrored texture coordinates",
+          "its frame is split by handedness; no NaN", MESHES),
+    { .id = "HC32",
+      .subject = WR_HARD_GEOMETRY,
+      .what = "tangents at 20 to 90 degrees",
+      .holds = "n' is that of the surface gradient, which knows no frame",
+      .unit = "rad",
+      .bound = { 1e-6, 1e-14 },
+      .measure = hc32,
+      .scene = "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\nsurface bent c=1,0.5,0\n"
+               "bump height=0.03" },
+    LATER(33, "an object stretched a hundredfold along one axis",
+          "normals go by the inverse transpose and stay upright on tangents", SCALED),
+    LATER(34, "an object mirrored by its matrix", "n still points outward", SCALED),
+};
+WR_HARD_LIST(mesh, rows);

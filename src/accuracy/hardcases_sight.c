@@ -1,0 +1,279 @@
+/* Hard cases of what is in the picture: near planes, insides, shared edges, tiny patches; and of turning. */
+#include "accuracy/hardcases_inner.h"
+
+#include "base/exactmath.h"
+
+static WrScene *scene_of(WrSurfaceKind kind)
+{
+    WrScene *scene = wr_scene_new();
+    scene->shape = wr_hard_shape(kind);
+    scene->posed = true;
+    scene->height = 0.02;
+    scene->replicate_u = 3;
+    scene->replicate_v = 2;
+    return scene;
+}
+
+/* The plane, as a curved patch that happens to be flat: it goes by mesh and Newton's method. */
+static void curve(WrScene *scene)
+{
+    scene->shape = wr_hard_shape(WR_SURFACE_bent);
+    scene->shape.value[2] = scene->shape.value[3] = scene->shape.value[4] = 0.0;
+}
+
+static double mean_coverage(const WrFrame *frame)
+{
+    const int count = frame->width * frame->height;
+    double sum = 0.0;
+    for (int i = 0; i < count; i++) sum += (double)frame->rgba[4 * i + 3];
+    return sum / count;
+}
+
+/* An eye inside the patch's extent. The part of pixels in which closed form and mesh differ. */
+static bool hc82(WrHardGauge *g, WrError *err)
+{
+    enum { W = 120, H = 100 };
+    WrField *field = wr_hard_waves(32, 32);
+    WrScene *scene = scene_of(WR_SURFACE_plane);
+    WrHardShot shots[2] = { { .renderer = NULL }, { .renderer = NULL } };
+    WrReference references[2] = { { 0 }, { 0 } };
+    scene->camera = (WrCamera){
+        .eye = { 0, 0, 0.05 }, .target = { 0, 1, 0 }, .up = { 0, 0, 1 }, .fov_deg = 90
+    };
+    bool good = true;
+    for (int k = 0; k < 2 && good; k++) {
+        if (k == 1) curve(scene);
+        WrFrameRequest request = { .field = field, .scene = scene, .width = W, .height = H };
+        good = wr_hard_shoot(g, &request, &shots[k], err) &&
+               wr_hard_refer(g, &request, 1, &references[k], err);
+    }
+    if (good) {
+        int differ = 0, differ_double = 0;
+        for (int i = 0; i < W * H; i++)
+            differ += !(fabsf(shots[0].frame.rgba[4 * i] - shots[1].frame.rgba[4 * i]) <= 2e-3f);
+        for (int i = 0; i < W * H; i++)
+            differ_double += !(fabs(references[0].rgba[4 * i] - references[1].rgba[4 * i]) <= 2e-3);
+        wr_hard_off(g, WR_HARD_FLOAT, (double)differ / (W * H));
+        wr_hard_off(g, WR_HARD_DOUBLE, (double)differ_double / (W * H));
+        wr_hard_off(g, WR_HARD_FLOAT, shots[0].frame.covered > 2000 ? 0.0 : 1.0);
+    }
+    for (int k = 0; k < 2; k++) {
+        wr_hard_put_away(&shots[k]);
+        wr_reference_fini(&references[k]);
+    }
+    wr_field_free(field);
+    wr_scene_free(scene);
+    return good;
+}
+
+/* Eyes in the patch's own plane, on it, and a hair above: corners at and behind depth 0. */
+static bool hc83(WrHardGauge *g, WrError *err)
+{
+    static const double heights[] = { 0, 1e-300, 1e-30, 1e-9, 1e-3 };
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    for (int k = 0; k < 10 && good; k++) {
+        WrScene *scene = scene_of(WR_SURFACE_plane);
+        if (k % 2) curve(scene);
+        scene->camera = (WrCamera){ .eye = { 0.5, -0.5, heights[k / 2] },
+                                    .target = { -0.5, 0.5, heights[k / 2] },
+                                    .up = { 0, 0, 1 },
+                                    .fov_deg = 100 };
+        WrFrameRequest request = { .field = field, .scene = scene, .width = 48, .height = 48 };
+        WrHardShot shot;
+        good = wr_hard_shoot(g, &request, &shot, err);
+        if (good) {
+            WrReference reference = { 0 };
+            wr_hard_holds(g, WR_HARD_FLOAT, wr_hard_wild(&shot) == 0);
+            wr_hard_put_away(&shot);
+            good = wr_hard_refer(g, &request, 1, &reference, err);
+            if (good) wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_wild_reference(&reference) == 0);
+            wr_reference_fini(&reference);
+        }
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+static bool hc84(WrHardGauge *g, WrError *err)
+{
+    static const WrSurfaceKind bodies[] = { WR_SURFACE_sphere, WR_SURFACE_cube, WR_SURFACE_torus };
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    for (int k = 0; k < 3 && good; k++) {
+        WrScene *scene = scene_of(bodies[k]);
+        const double x = bodies[k] == WR_SURFACE_torus ? 1 : 0; /* inside its tube */
+        scene->camera = (WrCamera){
+            .eye = { x, 0, 0.1 }, .target = { x + 0.2, 1, 0.15 }, .up = { 0, 0, 1 }, .fov_deg = 80
+        };
+        WrFrameRequest request = { .field = field, .scene = scene, .width = 48, .height = 48 };
+        WrHardShot shot = { .renderer = NULL };
+        WrReference reference = { 0 };
+        good = wr_hard_shoot(g, &request, &shot, err) &&
+               wr_hard_refer(g, &request, 1, &reference, err);
+        for (int i = 0; i < 48 * 48 && good; i++) {
+            const float *p = shot.frame.rgba + 4 * (size_t)i;
+            const double *q = reference.rgba + 4 * (size_t)i;
+            wr_hard_holds(g, WR_HARD_FLOAT, p[3] == 1.0f && p[0] >= 0.0f);
+            wr_hard_holds(g, WR_HARD_DOUBLE, q[3] == 1.0 && q[0] >= 0.0);
+        }
+        wr_hard_put_away(&shot);
+        wr_reference_fini(&reference);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+/* A patch that fills the picture and more: every pixel is covered, on any number of threads alike. */
+static bool hc85(WrHardGauge *g, WrError *err)
+{
+    WrField *field = wr_hard_waves(32, 32);
+    WrScene *scene = scene_of(WR_SURFACE_bent);
+    scene->shape.value[2] = scene->shape.value[3] = 0.0;
+    scene->shape.value[4] = 0.3;
+    scene->camera = (WrCamera){ .eye = { 0, 0, 1.2 }, .up = { 0, 1, 0 }, .fov_deg = 20 };
+    WrPool *pool = wr_pool_new(3), *own = g->pool;
+    bool good = true;
+    for (int size = 97; size < 120 && good; size += 11) {
+        WrFrameRequest request = { .field = field, .scene = scene, .width = size, .height = size };
+        WrHardShot one = { .renderer = NULL }, three = { .renderer = NULL };
+        WrReference reference = { 0 };
+        g->pool = NULL;
+        good = wr_hard_shoot(g, &request, &one, err);
+        g->pool = pool;
+        good = good && wr_hard_shoot(g, &request, &three, err) &&
+               wr_hard_refer(g, &request, 1, &reference, err);
+        for (int i = 0; i < size * size && good; i++) {
+            const float *a = one.frame.rgba + 4 * (size_t)i, *b = three.frame.rgba + 4 * (size_t)i;
+            wr_hard_holds(g, WR_HARD_FLOAT, a[3] == 1.0f && a[0] == b[0] && a[3] == b[3]);
+            wr_hard_holds(g, WR_HARD_DOUBLE, reference.rgba[4 * i + 3] == 1.0);
+        }
+        wr_reference_fini(&reference);
+        wr_hard_put_away(&one);
+        wr_hard_put_away(&three);
+    }
+    g->pool = own;
+    wr_pool_free(pool);
+    wr_scene_free(scene);
+    wr_field_free(field);
+    return good;
+}
+
+/* Pixels of 2 x 2 units about objects of 1 to 2: coverage against the area, known for all three; a row
+   of samples more or less on each side is 6 in a hundred. */
+static bool hc86(WrHardGauge *g, WrError *err)
+{
+    const double sphere = wr_hard_shape(WR_SURFACE_sphere).value[0];
+    const double areas[] = { WR_PI * sphere * sphere, 1.0, 1.0 };
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    for (int k = 0; k < 3 && good; k++) {
+        WrScene *scene = scene_of(k == 0 ? WR_SURFACE_sphere : WR_SURFACE_plane);
+        if (k == 2) curve(scene);
+        scene->camera =
+            (WrCamera){ .orthographic = true, .eye = { 0, 0, 9 }, .up = { 0, 1, 0 }, .size = 8 };
+        scene->dials.aa = WR_AA_SUPERSAMPLE;
+        scene->dials.samples = 64;
+        WrFrameRequest request = { .field = field, .scene = scene, .width = 4, .height = 4 };
+        WrHardShot shot;
+        good = wr_hard_shoot(g, &request, &shot, err);
+        if (good) {
+            WrReference reference = { 0 };
+            wr_hard_near(g, WR_HARD_FLOAT, mean_coverage(&shot.frame) * 64.0 / areas[k], 1.0);
+            wr_hard_put_away(&shot);
+            good = wr_hard_refer(g, &request, 64, &reference, err);
+            double sum = 0.0;
+            for (int i = 0; i < 16 && good; i++) sum += reference.rgba[4 * i + 3];
+            if (good) wr_hard_near(g, WR_HARD_DOUBLE, sum * 4.0 / areas[k], 1.0);
+            wr_reference_fini(&reference);
+        }
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
+/* ---- turning ---- */
+
+/* 0.01 rad a frame at 60 Hz, the last ticks of a day, against the same turn reduced in whole degrees: tick t
+   is t 0.01 rad; 36000 ticks of 0.01 degree are a turn. */
+static bool hc87(WrHardGauge *g, WrError *err)
+{
+    WrScene *scene = wr_scene_new();
+    scene->posed = true;
+    bool good = true;
+    for (int64_t tick = 60 * 86400 - 999; tick <= 60 * 86400 && good; tick++) {
+        WrPlacement day, here;
+        good = wr_scene_place(scene, (double)tick * 0.01, 1, &day, err) &&
+               wr_scene_place(scene, (double)(tick % 36000) * 0.01, 1, &here, err);
+        if (!good) break;
+        const double *a = day.rotation, *b = here.rotation;
+        wr_hard_off(g, WR_HARD_DOUBLE,
+                    fabs(atan2(a[2] * b[0] - a[0] * b[2], a[0] * b[0] + a[2] * b[2])));
+    }
+    wr_scene_free(scene);
+    return good;
+}
+
+static bool hc88(WrHardGauge *g, WrError *err)
+{
+    WrScene *scene = wr_scene_new();
+    bool good = true;
+    scene->posed = true;
+    for (int i = 0; i < 1000 && good; i++) {
+        WrPlacement p;
+        scene->rotate_deg = (WrVec3){ wr_hard_between(g, -1e6, 1e6), wr_hard_between(g, -400, 400),
+                                      wr_hard_between(g, -400, 400) };
+        good = wr_scene_place(scene, wr_hard_between(g, -1e9, 1e9), 1.5, &p, err);
+        if (!good) break;
+        const double *r = p.rotation;
+        const WrVec3 rows[3] = { { r[0], r[1], r[2] }, { r[3], r[4], r[5] }, { r[6], r[7], r[8] } };
+        wr_hard_near(g, WR_HARD_DOUBLE, v3_dot(rows[0], v3_cross(rows[1], rows[2])), 1.0);
+        for (int k = 0; k < 3; k++) {
+            wr_hard_near(g, WR_HARD_DOUBLE, v3_dot(rows[k], rows[k]), 1.0);
+            wr_hard_near(g, WR_HARD_DOUBLE, v3_dot(rows[k], rows[(k + 1) % 3]), 0.0);
+        }
+    }
+    wr_scene_free(scene);
+    return good;
+}
+
+#define ROW(number, situation, rule, u, in_float, in_double, script)                               \
+    {                                                                                              \
+        .id = "HC" #number, .subject = WR_HARD_RENDER, .what = situation, .holds = rule,           \
+        .unit = u, .bound = { in_float, in_double }, .measure = hc##number, .scene = script        \
+    }
+#define WAVES "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\n"
+static const WrHardCase seen[] = {
+    ROW(82, "a patch that reaches behind the eye", "the mesh gives what the closed form gives",
+        "of pixels", 0.005, 0.005,
+        WAVES "surface bent c=0,0,0\nrotate 0,0,0\nbump height=0.02\n"
+              "camera perspective eye=0,0,0.05 target=0,1,0 up=0,0,1 fov=90"),
+    ROW(83, "an eye on the patch and in its plane", "a picture without a NaN", "violations", 0, 0,
+        WAVES "surface plane\nrotate 0,0,0\nbump height=0.02\n"
+              "camera perspective eye=0.5,-0.5,0.001 target=-0.5,0.5,0.001 up=0,0,1 fov=100"),
+    ROW(84, "an eye inside sphere, cube and torus", "the inside is seen in every pixel",
+        "violations", 0, 0,
+        WAVES "surface sphere\nrotate 0,0,0\nbump height=0.1\nlight point at=0.2,-0.4,0.3\n"
+              "camera perspective eye=0,0,0.1 target=0.2,1,0.15 up=0,0,1 fov=80"),
+    ROW(85, "edges that triangles share",
+        "no background shows through, and any number of threads gives the same pixels",
+        "violations", 0, 0,
+        WAVES "surface bent c=0,0,0.3\nrotate 0,0,0\nbump height=0.02\n"
+              "camera perspective eye=0,0,1.2 target=0,0,0 up=0,1,0 fov=20"),
+    ROW(86, "an object smaller than a pixel", "under supersampling its coverage is its area",
+        "relative", 0.1, 0.1,
+        WAVES "surface sphere\ncamera orthographic eye=0,0,9 target=0,0,0 up=0,1,0 size=60\n"
+              "dials aa=supersample samples=16"),
+};
+WR_HARD_LIST(sight, seen);
+
+static const WrHardCase turned[] = {
+    ROW(87, "a day of turning at 60 Hz", "the angle is that of the tick's number", "rad", NAN, 1e-9,
+        NULL),
+    ROW(88, "any number of turns", "the rotation's determinant is 1 and its rows are orthonormal",
+        "relative", NAN, 1e-6, NULL),
+};
+WR_HARD_LIST(turn, turned);

@@ -1,0 +1,243 @@
+/* Error against time as a picture, drawn by gnuplot. */
+#include "accuracy/report.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+/* ---- the script ---- */
+
+/* A string in gnuplot's single quotes: only the quote itself needs care. */
+static void add_quoted(WrText *text, const char *bytes)
+{
+    wr_text_add(text, "'");
+    for (; *bytes; bytes++) {
+        if (*bytes == '\'') wr_text_add(text, "'");
+        if ((unsigned char)*bytes >= ' ') wr_text_add_n(text, bytes, 1);
+    }
+    wr_text_add(text, "'");
+}
+
+/* A rung that has a place in a plot with logarithmic axes. */
+static bool placed(const WrRung *rung)
+{
+    return !rung->note.text[0] && !rung->model && rung->errors.rms > 0 && rung->seconds > 0;
+}
+
+static void add_points(const WrLadder *ladder, int axis, WrText *text)
+{
+    for (int i = 0; i < ladder->count; i++) {
+        const WrRung *rung = &ladder->rungs[i];
+        if (placed(rung) && (int)rung->axis == axis && !rung->current)
+            wr_text_addf(text, "%.6g %.6g %.6g\n", 1e3 * rung->seconds, rung->errors.rms,
+                         1e3 * rung->spread);
+    }
+}
+
+static int by_time(const void *a, const void *b)
+{
+    const WrRung *const *x = a, *const *y = b;
+    return ((*x)->seconds > (*y)->seconds) - ((*x)->seconds < (*y)->seconds);
+}
+
+/* The front from fast to near. The caller frees. */
+static const WrRung **front_of(const WrLadder *ladder, int *count)
+{
+    const WrRung **front = wr_alloc((size_t)ladder->count + 1, sizeof *front);
+    *count = 0;
+    for (int i = 0; i < ladder->count; i++)
+        if (ladder->rungs[i].front && placed(&ladder->rungs[i]))
+            front[(*count)++] = &ladder->rungs[i];
+    qsort(front, (size_t)*count, sizeof *front, by_time);
+    return front;
+}
+
+static void add_data(const WrLadder *ladder, const WrRung **front, int fronts, WrText *text)
+{
+    for (int axis = 0; axis <= WR_AXIS_COUNT; axis++) {
+        wr_text_addf(text, "$axis%d << EOD\n", axis);
+        add_points(ladder, axis, text);
+        wr_text_add(text, "EOD\n");
+    }
+    wr_text_add(text, "$front << EOD\n");
+    for (int i = 0; i < fronts; i++)
+        wr_text_addf(text, "%.6g %.6g %d\n", 1e3 * front[i]->seconds, front[i]->errors.rms, i + 1);
+    wr_text_add(text, "EOD\n$now << EOD\n");
+    for (int i = 0; i < ladder->count; i++)
+        if (ladder->rungs[i].current && placed(&ladder->rungs[i]))
+            wr_text_addf(text, "%.6g %.6g\n", 1e3 * ladder->rungs[i].seconds,
+                         ladder->rungs[i].errors.rms);
+    wr_text_add(text, "EOD\n");
+}
+
+/* The front's numbers and settings, down the right margin. */
+static void add_names(const WrRung **front, int fronts, WrText *text)
+{
+    WrText setting = { 0 };
+    wr_text_add(text, "set label 1000 'the front, fast to near' noenhanced at screen 0.70, screen "
+                      "0.60 font ',11'\n");
+    for (int i = 0; i < fronts && i < 24; i++) {
+        wr_text_clear(&setting);
+        wr_text_addf(&setting, "%2d  ", i + 1);
+        wr_setting_print(&front[i]->setting, &setting);
+        wr_text_addf(text, "set label %d ", 1001 + i);
+        add_quoted(text, wr_text_get(&setting));
+        wr_text_addf(text, " noenhanced at screen 0.70, screen %.4f font ',9'\n",
+                     0.565 - 0.0225 * i);
+    }
+    wr_text_fini(&setting);
+}
+
+/* One colour and one mark an axis, from a palette that the colour-blind can tell apart. */
+static void add_series(WrText *text)
+{
+    static const struct {
+        const char *colour;
+        int mark;
+    } looks[WR_AXIS_COUNT + 1] = { { "#0072b2", 7 },  { "#d55e00", 5 },  { "#009e73", 9 },
+                                   { "#cc79a7", 11 }, { "#e69f00", 13 }, { "#56b4e9", 15 } };
+    wr_text_add(text, "plot $front using 1:2 with steps lw 2 lc rgb '#303030' title 'front', \\\n");
+    for (int axis = 0; axis <= WR_AXIS_COUNT; axis++) {
+        wr_text_addf(text,
+                     "  $axis%d using 1:2 with points pt %d ps 1.2 lc rgb '%s' title '%s', "
+                     "\\\n",
+                     axis, looks[axis].mark, looks[axis].colour,
+                     axis < WR_AXIS_COUNT ? wr_axis_labels[axis] : "combinations");
+    }
+    wr_text_add(text, "  $now using 1:2 with points pt 6 ps 2.6 lw 2.5 lc rgb '#000000' title 'as "
+                      "it stands', \\\n"
+                      "  $front using 1:2:(sprintf('%d', $3)) with labels offset 0.9,0.7 font "
+                      "',9' notitle\n");
+}
+
+void wr_report_plot_script(const WrLadder *ladder, const char *name, const char *terminal,
+                           const char *out, WrText *text)
+{
+    int fronts;
+    const WrRung **front = front_of(ladder, &fronts);
+    WrText title = { 0 };
+    wr_text_addf(&title, "%s%sError against time, %d x %d pixels, %d %s", name, name[0] ? ": " : "",
+                 ladder->width, ladder->height, ladder->threads,
+                 ladder->threads == 1 ? "thread" : "threads");
+    add_data(ladder, front, fronts, text);
+    wr_text_addf(text,
+                 "set terminal %s size 1280,800 font 'DejaVu Sans,11' background rgb "
+                 "'#ffffff'\nset output ",
+                 terminal);
+    add_quoted(text, out);
+    wr_text_add(text, "\nset title ");
+    add_quoted(text, wr_text_get(&title));
+    wr_text_add(text, " noenhanced font ',14'\n"
+                      "set logscale xy\n"
+                      "set xlabel 'time of a frame, ms'\n"
+                      "set ylabel 'RMS error of linear intensity'\n"
+                      "set format y '10^{%T}'\n"
+                      "set grid xtics ytics mxtics mytics lc rgb '#c8c8c8', lc rgb '#ececec'\n"
+                      "set lmargin at screen 0.085\nset rmargin at screen 0.68\n"
+                      "set key at screen 0.985, screen 0.90 right top Left reverse samplen 1.5 "
+                      "spacing 1.15\n"
+                      "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n");
+    if (ladder->reference.last_rms > 0)
+        wr_text_addf(text,
+                     "set arrow 1 from graph 0, first %.6g to graph 1, first %.6g nohead dt 2 "
+                     "lc rgb '#909090'\nset label 1 'the reference, at its last doubling' at "
+                     "graph 0.01, first %.6g offset 0,0.6 font ',9' tc rgb '#606060'\n",
+                     ladder->reference.last_rms, ladder->reference.last_rms,
+                     ladder->reference.last_rms);
+    add_names(front, fronts, text);
+    add_series(text);
+    wr_text_fini(&title);
+    wr_free(front);
+}
+
+/* ---- the program ---- */
+
+/* gnuplot with its standard input and its complaints on pipes. */
+static bool spawn(int in, int complaints, pid_t *pid, WrError *err)
+{
+    posix_spawn_file_actions_t actions;
+    char *const arguments[] = { "gnuplot", "-d", "-", NULL }; /* -d: no start-up file */
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
+    const int trouble = posix_spawnp(pid, "gnuplot", &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (trouble == ENOENT)
+        return wr_fail(err, "plots are drawn by the program gnuplot, which is not installed "
+                            "(Debian's package gnuplot-nox)");
+    return trouble == 0 || wr_fail(err, "gnuplot cannot be started: %s", strerror(trouble));
+}
+
+/* The script through an anonymous file, so that neither side waits for the other. */
+static int open_script(const WrText *script)
+{
+    const int file = memfd_create("plot", MFD_CLOEXEC);
+    if (file < 0) return -1;
+    const char *bytes = wr_text_get(script);
+    for (size_t done = 0; done < script->length;) {
+        const ssize_t n = write(file, bytes + done, script->length - done);
+        if (n <= 0) {
+            close(file);
+            return -1;
+        }
+        done += (size_t)n;
+    }
+    lseek(file, 0, SEEK_SET);
+    return file;
+}
+
+static bool wait_for(pid_t pid, int complaints, WrError *err)
+{
+    char words[300];
+    int status;
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
+    const ssize_t n = pread(complaints, words, sizeof words - 1, 0);
+    words[n > 0 ? n : 0] = '\0';
+    for (char *c = words; *c; c++)
+        if ((unsigned char)*c < ' ') *c = ' ';
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+    return wr_fail(err, "gnuplot failed: %s", words[0] ? words : "it says nothing");
+}
+
+static bool run(const WrText *script, WrError *err)
+{
+    pid_t pid;
+    const int in = open_script(script), complaints = memfd_create("complaints", MFD_CLOEXEC);
+    bool good = (in >= 0 && complaints >= 0) ||
+                wr_fail(err, "gnuplot cannot be started: %s", strerror(errno));
+    good = good && spawn(in, complaints, &pid, err) && wait_for(pid, complaints, err);
+    if (in >= 0) close(in);
+    if (complaints >= 0) close(complaints);
+    return good;
+}
+
+bool wr_report_plot(const WrLadder *ladder, const char *name, const char *path, WrError *err)
+{
+    char ending[16];
+    WrText script = { 0 };
+    WrFileTarget target = { 0 };
+    wr_path_ending(path, ending);
+    const bool png = strcmp(ending, "png") == 0;
+    if (!png && strcmp(ending, "svg") != 0)
+        return wr_fail(err, "plot %s: the name must end in .png or .svg", path);
+    if (!wr_file_begin(&target, path, err)) return false;
+    wr_report_plot_script(ladder, name, png ? "pngcairo" : "svg", target.temporary, &script);
+    bool good = run(&script, err);
+    if (good) good = wr_file_commit(&target, err);
+    else wr_file_abort(&target);
+    wr_text_fini(&script);
+    return good;
+}

@@ -1,0 +1,213 @@
+#include "accuracy/contest.h"
+#include "accuracy/hardcases.h"
+#include "accuracy/report.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "cli/cli.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define SIDE 256       /* pixels, without --size: there the reference takes seconds, not minutes */
+#define FULL_SCALE 0.1 /* linear intensity that is white in a difference picture: the same in all */
+#define LARGEST 4096   /* pixels along a side of the reference */
+
+/* The axis that a word begins ("antialiasing", "derivative"); WR_AXIS_COUNT without a word; -1. */
+static int find_axis(const char *word)
+{
+    if (!word) return WR_AXIS_COUNT;
+    const size_t length = strlen(word);
+    for (int i = 0; i < WR_AXIS_COUNT; i++)
+        if (length > 0 && strncmp(wr_axis_labels[i], word, length) == 0) return i;
+    return -1;
+}
+
+/* ---- pictures of the differences ---- */
+
+typedef struct Differences {
+    const char *folder;
+    int count;
+    uint8_t *rgb; /* [height][width][3] */
+} Differences;
+
+/* FOLDER/07-aa-filter.png: the setting with everything but letters and digits as a dash. */
+static void difference_name(const Differences *to, const WrRung *rung, WrText *path)
+{
+    WrText setting = { 0 };
+    wr_setting_print(&rung->setting, &setting);
+    for (char *c = setting.data; *c; c++)
+        if (!strchr("abcdefghijklmnopqrstuvwxyz0123456789.", *c)) *c = '-';
+    wr_text_addf(path, "%s/%02d-%s.png", to->folder, to->count, wr_text_get(&setting));
+    wr_text_fini(&setting);
+}
+
+static bool write_difference(void *ctx, const WrRung *rung, const float *rgba,
+                             const WrReference *reference, WrError *err)
+{
+    Differences *to = ctx;
+    WrText path = { 0 };
+    if (!to->rgb) to->rgb = wr_alloc((size_t)reference->width * (size_t)reference->height, 3);
+    difference_name(to, rung, &path);
+    wr_errors_picture(rgba, reference, FULL_SCALE, to->rgb);
+    const bool good = wr_image_write_pixels(wr_text_get(&path), reference->width, reference->height,
+                                            3, WR_PIXEL_U8, false, to->rgb, err);
+    to->count++;
+    wr_text_fini(&path);
+    return good;
+}
+
+/* ---- the subcommand ---- */
+
+static void report_progress(void *ctx, double fraction)
+{
+    const bool *terminal = ctx;
+    if (*terminal) fprintf(stderr, "\rmeasuring, %3.0f %% ", 100 * fraction);
+}
+
+static bool check_line(const WrCli *cli, WrError *err)
+{
+    struct stat info;
+    if (find_axis(cli->axis) < 0)
+        return wr_fail(err,
+                       "--axis %.40s: must be derivative, normal, antialiasing, visibility or "
+                       "arithmetic",
+                       cli->axis);
+    if (cli->sized && (cli->width > LARGEST || cli->height > LARGEST))
+        return wr_fail(err, "--size %dx%d: the reference takes at most %d along a side", cli->width,
+                       cli->height, LARGEST);
+    if (cli->differences && (stat(cli->differences, &info) != 0 || !S_ISDIR(info.st_mode)))
+        return wr_fail(err, "--differences %.200s: is no folder", cli->differences);
+    return true;
+}
+
+static const char *name_of(const WrCli *cli)
+{
+    const char *slash = cli->file ? strrchr(cli->file, '/') : NULL;
+    return slash ? slash + 1 : cli->file ? cli->file : "";
+}
+
+static bool write_files(const WrCli *cli, const WrLadder *ladder, WrError *err)
+{
+    WrText csv = { 0 };
+    bool good = true;
+    if (cli->csv) {
+        wr_report_csv(ladder, &csv);
+        good = wr_file_write(cli->csv, wr_text_get(&csv), csv.length, err);
+    }
+    for (int i = 0; good && i < cli->plot_count; i++)
+        good = wr_report_plot(ladder, name_of(cli), cli->plots[i], err);
+    wr_text_fini(&csv);
+    return good;
+}
+
+/* ---- the measurements ---- */
+
+typedef struct Work {
+    WrLadderRequest request;
+    WrProgress progress;
+    Differences differences;
+    bool terminal;
+    WrText text; /* the answer */
+} Work;
+
+static void prepare(const WrCli *cli, WrSession *session, Work *work)
+{
+    const WrDocument *document = wr_session_document(session);
+    work->terminal = isatty(STDERR_FILENO);
+    work->differences.folder = cli->differences;
+    work->progress = (WrProgress){ (volatile int *)cli->cancel, report_progress, &work->terminal };
+    work->request = (WrLadderRequest){ .field = wr_document_composite(document, cli->pool),
+                                       .scene = document->scene,
+                                       .width = cli->sized ? cli->width : SIDE,
+                                       .height = cli->sized ? cli->height : SIDE,
+                                       .turn_deg = cli->turned ? cli->turn_deg : 0,
+                                       .threads = cli->threads > 0 ? cli->threads : 1,
+                                       .runs = cli->runs,
+                                       .budget = cli->budget,
+                                       .axis = (WrAxis)find_axis(cli->axis),
+                                       .progress = &work->progress,
+                                       .seen = cli->differences ? write_difference : NULL,
+                                       .ctx = &work->differences };
+}
+
+static bool climb(const WrCli *cli, Work *work, WrError *err)
+{
+    WrLadder ladder = { 0 };
+    const bool good =
+        wr_ladder_measure(&work->request, &ladder, err) && write_files(cli, &ladder, err);
+    if (good && cli->json) wr_report_json(&ladder, name_of(cli), &work->text);
+    else if (good) wr_report_text(&ladder, name_of(cli), &work->text);
+    wr_ladder_fini(&ladder);
+    return good;
+}
+
+/* "rms=0.004" */
+static bool parse_tolerance(const char *word, WrTolerance *out, WrError *err)
+{
+    const bool rms = strncmp(word, "rms=", 4) == 0, max = strncmp(word, "max=", 4) == 0;
+    out->kind = rms ? WR_TOLERANCE_RMS : WR_TOLERANCE_MAX;
+    if ((rms || max) && wr_number_parse(word + 4, strlen(word + 4), &out->value) &&
+        out->value > 0 && out->value <= 1e6)
+        return true;
+    return wr_fail(err, "--tolerance %.40s: must be rms=VALUE or max=VALUE, above 0", word);
+}
+
+static bool compete(const WrCli *cli, Work *work, WrError *err)
+{
+    WrContest contest = { 0 };
+    WrTolerance *tolerances = wr_alloc((size_t)cli->tolerance_count, sizeof *tolerances);
+    bool good = true;
+    for (int i = 0; good && i < cli->tolerance_count; i++)
+        good = parse_tolerance(cli->tolerances[i], &tolerances[i], err);
+    good = good && wr_contest_run(&work->request, tolerances, cli->tolerance_count, &contest, err);
+    if (good && cli->json) wr_contest_json(&contest, name_of(cli), &work->text);
+    else if (good) wr_contest_text(&contest, name_of(cli), &work->text);
+    wr_contest_fini(&contest);
+    wr_free(tolerances);
+    return good;
+}
+
+/* The hard cases need no document. A case that fails makes the program's status 1. */
+static int hard_cases(const WrCli *cli)
+{
+    WrError err;
+    WrText text = { 0 };
+    WrHardReport *report = wr_alloc(1, sizeof *report);
+    const WrProgress progress = { .cancel = (volatile int *)cli->cancel };
+    const WrHardRequest request = { .isa = cli->isa, .pool = cli->pool, .progress = &progress };
+    int status;
+    if (wr_hardcases_run(&request, report, &err)) {
+        if (cli->json) wr_hardcases_print_json(report, &text);
+        else wr_hardcases_print(report, &text);
+        status = wr_cli_print(cli, &text);
+        if (report->count[WR_HARD_FAIL] > 0) status = WR_EXIT_FAILED;
+    } else {
+        status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    }
+    wr_text_fini(&text);
+    wr_free(report);
+    return status;
+}
+
+int wr_cli_accuracy(const WrCli *cli)
+{
+    WrError err;
+    Work work = { 0 };
+    if (!check_line(cli, &err)) return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    if (cli->hard_cases) return hard_cases(cli);
+    WrSession *session = wr_cli_load(cli, false, &err);
+    bool good = session != NULL;
+    if (good) {
+        prepare(cli, session, &work);
+        good = cli->tolerance_count > 0 ? compete(cli, &work, &err) : climb(cli, &work, &err);
+        if (work.terminal) fprintf(stderr, "\r                 \r");
+    }
+    const int status =
+        good ? wr_cli_print(cli, &work.text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    wr_free(work.differences.rgb);
+    wr_text_fini(&work.text);
+    wr_session_free(session);
+    return status;
+}

@@ -1,0 +1,55 @@
+/* frame_inner.h - what a renderer holds from frame to frame.
+   Layer 5, private to frame.c, frame_table.c, frame_account.c. */
+#pragma once
+#include "render/frame.h"
+#include "render/keep.h"
+#include "render/pyramid.h"
+#include "render/rounded.h"
+#include "render/table.h"
+#include "render/tile.h"
+
+/* The colour picture as the kernels want it. */
+typedef struct ColourCopy {
+    const WrImage *source; /* shared; what rgba was made from */
+    WrWrap wrap_u, wrap_v;
+    float *rgba; /* apron of one texel */
+    int pitch;
+} ColourCopy;
+
+struct WrRenderer {
+    WrPool *pool;
+    char isa[8];
+    WrTable table;
+    WrPyramid pyramid, range; /* of slopes; of their least and largest values */
+    WrRounded rounded;
+    const WrField *looked; /* what this frame looks up: the request's field, or its rounded form */
+    WrViewMesh mesh;
+    ColourCopy colour;
+    WrTileScratch **scratch; /* [threads], made on first use */
+    int threads;
+    float *rgba; /* the last picture */
+    int width, height;
+    WrPlan plan;
+    WrView view; /* of the last frame, for picking */
+    WrScene *scene;
+    WrDials dials;          /* of the last frame */
+    double pyramid_seconds; /* that it spent on pyramids */
+    int samples;
+    bool seen; /* view and scene are set */
+    WrKeep keep;
+    WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
+    const WrKernels *kernels; /* that it was made with */
+    int64_t covered;
+};
+
+/* Decide, make what the decision needs, and decide again once the gradient table is known. */
+bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+void wr_frame_drop_tables(WrRenderer *renderer);
+/* What tiles look up; scale: object units -> kernel units. */
+void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
+                         WrTileJob *job);
+/* Start each thread's counts at 0; then what they came to, into the frame and the plan's rows. */
+void wr_frame_start_counts(WrRenderer *renderer);
+void wr_frame_account(WrRenderer *renderer, bool refreshed, double prepared, double started,
+                      WrFrame *frame);

@@ -1,0 +1,186 @@
+/* Tables that a renderer keeps up to date: copies of heights, pyramids, the colour picture. */
+#include "base/clock.h"
+#include "base/memory.h"
+#include "render/frame_inner.h"
+
+static void drop_colour(ColourCopy *copy)
+{
+    wr_image_free((WrImage *)copy->source);
+    wr_free(copy->rgba);
+    *copy = (ColourCopy){ 0 };
+}
+
+/* Index of a texel of the apron: round, or the edge. */
+static int wrap(int i, int n, WrWrap how)
+{
+    if (how == WR_WRAP_PERIODIC) return (i % n + n) % n;
+    return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
+static bool bring_colour(ColourCopy *copy, const WrImage *image, const WrField *field, WrError *err)
+{
+    WrWrap wrap_u = wr_field_wrap_u(field), wrap_v = wr_field_wrap_v(field);
+    if (copy->source == image && copy->wrap_u == wrap_u && copy->wrap_v == wrap_v) return true;
+    drop_colour(copy);
+    const int w = image->width, h = image->height, c = image->channels;
+    copy->rgba =
+        wr_try_alloc((size_t)(w + 2) * (size_t)(h + 2), 4 * sizeof(float), "colour picture", err);
+    if (!copy->rgba) return false;
+    copy->source = wr_image_share(image);
+    copy->wrap_u = wrap_u, copy->wrap_v = wrap_v;
+    copy->pitch = w + 2;
+    for (int j = -1; j <= h; j++)
+        for (int i = -1; i <= w; i++) {
+            const float *in =
+                image->data +
+                ((size_t)wrap(j, h, wrap_v) * (size_t)w + (size_t)wrap(i, w, wrap_u)) * (size_t)c;
+            float *out = copy->rgba + ((size_t)(j + 1) * (size_t)copy->pitch + (size_t)(i + 1)) * 4;
+            out[0] = in[0];
+            out[1] = c >= 3 ? in[1] : in[0];
+            out[2] = c >= 3 ? in[2] : in[0];
+        }
+    return true;
+}
+
+void wr_frame_drop_tables(WrRenderer *renderer)
+{
+    wr_table_fini(&renderer->table);
+    wr_pyramid_drop(&renderer->pyramid);
+    wr_pyramid_drop(&renderer->range);
+    wr_rounded_drop(&renderer->rounded);
+    drop_colour(&renderer->colour);
+}
+
+/* The copies of heights that the plan calls for, and none else. */
+static bool bring_copies(WrRenderer *renderer, const WrScene *scene, bool slope_free, WrError *err)
+{
+    WrTable *table = &renderer->table;
+    const WrPlan *plan = &renderer->plan;
+    const WrField *field = renderer->looked;
+    const bool looked = plan->bump != WR_BUMP_NONE && scene->analytic.kind == WR_ANALYTIC_OFF;
+    const bool fitted = looked && scene->scheme == WR_SCHEME_BSPLINE_FIT;
+    const bool heights = looked && !fitted && (!plan->gradient_table || plan->need_heights);
+    if (!plan->gradient_table && !slope_free) wr_table_drop(table, WR_COPY_GRADIENT);
+    if (!fitted) wr_table_drop(table, WR_COPY_FITTED);
+    if (!heights) wr_table_drop(table, WR_COPY_HEIGHTS);
+    if (fitted && !wr_table_bring(table, WR_COPY_FITTED, field, renderer->pool, err)) return false;
+    return !heights || wr_table_bring(table, WR_COPY_HEIGHTS, field, renderer->pool, err);
+}
+
+static bool bring_pyramids(WrRenderer *renderer, WrError *err)
+{
+    const WrPlan *plan = &renderer->plan;
+    const bool range = plan->bounded && plan->bump != WR_BUMP_NONE;
+    const WrPyramidKind kind = plan->moments ? WR_PYRAMID_MOMENTS : WR_PYRAMID_SLOPES;
+    if (!plan->pyramid) wr_pyramid_drop(&renderer->pyramid);
+    if (!range) wr_pyramid_drop(&renderer->range);
+    if (plan->pyramid &&
+        !wr_pyramid_bring(&renderer->pyramid, kind, renderer->looked, renderer->pool, err))
+        return false;
+    return !range || wr_pyramid_bring(&renderer->range, WR_PYRAMID_RANGE, renderer->looked,
+                                      renderer->pool, err);
+}
+
+static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const WrDials *dials = &renderer->dials;
+    float low, high;
+    wr_table_range(&renderer->table, &low, &high);
+    renderer->looked =
+        wr_rounded_bring(&renderer->rounded, request->field, dials->heights, low, high, err);
+    renderer->table.precision = dials->heights == WR_HEIGHTS_DOUBLE   ? WR_PRECISION_DOUBLE
+                                : dials->shading == WR_SHADING_DOUBLE ? WR_PRECISION_WIDENED
+                                                                      : WR_PRECISION_SINGLE;
+    return renderer->looked != NULL;
+}
+
+bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const WrScene *scene = request->scene;
+    const WrField *field = request->field;
+    WrTable *table = &renderer->table;
+    WrPlan *plan = &renderer->plan;
+    WrTableFacts facts = { .flat = wr_table_flat(table, field), .normals = request->normals };
+    facts.zero = facts.flat && wr_field_get(field, 0, 0) == 0.0f;
+    wr_plan_build(plan, scene, &renderer->dials, &facts, request->plan_off);
+    if (!round_heights(renderer, request, err)) return false;
+    if (plan->gradient_table) {
+        if (!wr_table_bring(table, WR_COPY_GRADIENT, renderer->looked, renderer->pool, err))
+            return false;
+        facts.slope_free = wr_table_slope_free(table);
+        wr_plan_build(plan, scene, &renderer->dials, &facts, request->plan_off);
+    }
+    if (!bring_copies(renderer, scene, facts.slope_free, err)) return false;
+    const double started = wr_clock_seconds();
+    if (!bring_pyramids(renderer, err)) return false;
+    renderer->pyramid_seconds = wr_clock_seconds() - started;
+    return true;
+}
+
+bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    if (renderer->plan.colour)
+        return bring_colour(&renderer->colour, request->scene->colour, request->field, err);
+    drop_colour(&renderer->colour);
+    return true;
+}
+
+static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *request, double scale)
+{
+    const WrScene *scene = request->scene;
+    const double height = scene->height * scale;
+    /* The scale-invariant tilt is the slope itself, in the scene's units whatever the object's size. */
+    const double slope = renderer->plan.bump == WR_BUMP_INVARIANT ? scene->height : height;
+    return (WrLookd){ .width = wr_field_width(request->field),
+                      .height = wr_field_height(request->field),
+                      .ru = scene->replicate_u,
+                      .rv = scene->replicate_v,
+                      .periodic_u = wr_field_wrap_u(request->field) == WR_WRAP_PERIODIC,
+                      .periodic_v = wr_field_wrap_v(request->field) == WR_WRAP_PERIODIC,
+                      .wide = renderer->plan.wide,
+                      .scale_f = height,
+                      .scale_u = slope * scene->replicate_u,
+                      .scale_v = slope * scene->replicate_v,
+                      .pyramid = renderer->plan.pyramid ? &renderer->pyramid : NULL,
+                      .range = renderer->range.seen ? &renderer->range : NULL };
+}
+
+void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
+                         WrTileJob *job)
+{
+    const WrCopy *copies = renderer->table.copies;
+    const bool fitted = request->scene->scheme == WR_SCHEME_BSPLINE_FIT;
+    const WrCopy *heights = &copies[fitted ? WR_COPY_FITTED : WR_COPY_HEIGHTS];
+    const WrCopy *gradient = &copies[WR_COPY_GRADIENT];
+    WrLookd look = make_look(renderer, request, scale);
+    look.heights = heights->fine;
+    look.gradient = gradient->fine;
+    look.pitch = heights->seen ? heights->pitch : gradient->pitch;
+    job->look_double = look;
+    job->look = (WrLook){ .heights = heights->data,
+                          .gradient = gradient->data,
+                          .pitch = look.pitch,
+                          .width = look.width,
+                          .height = look.height,
+                          .ru = look.ru,
+                          .rv = look.rv,
+                          .periodic_u = look.periodic_u,
+                          .periodic_v = look.periodic_v,
+                          .wide = look.wide,
+                          .scale_f = (float)look.scale_f,
+                          .scale_u = (float)look.scale_u,
+                          .scale_v = (float)look.scale_v,
+                          .pyramid = look.pyramid,
+                          .range = look.range };
+    job->double_look = renderer->table.precision != WR_PRECISION_SINGLE;
+    if (!renderer->plan.colour) return;
+    const WrImage *image = request->scene->colour;
+    job->colour = (WrColourLook){ .rgba = renderer->colour.rgba,
+                                  .pitch = renderer->colour.pitch,
+                                  .width = image->width,
+                                  .height = image->height,
+                                  .ru = request->scene->replicate_u,
+                                  .rv = request->scene->replicate_v,
+                                  .periodic_u = renderer->colour.wrap_u == WR_WRAP_PERIODIC,
+                                  .periodic_v = renderer->colour.wrap_v == WR_WRAP_PERIODIC };
+}

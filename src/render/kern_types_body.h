@@ -1,0 +1,164 @@
+/* kern_types_body.h - strips, rays, look-ups and the table of kernels, written once for single precision and
+   once for double. Part of kern.h, which defines REAL, SHAPE and WR_T(name) (WrStrip, WrStripd) before
+   each turn. A header without a guard, by intention. */
+
+/* The samples of one strip. Members are filled stage by stage; count is how many are in use. */
+typedef struct WR_T(WrStrip) {
+    int count;
+    _Alignas(64) int index[WR_SPAN];            /* which sample of the row this is, ascending */
+    _Alignas(64) REAL s[WR_SPAN];               /* ray parameter (closed forms) */
+    REAL u[WR_SPAN], v[WR_SPAN];                /* patch parameters, 0..1 */
+    REAL px[WR_SPAN], py[WR_SPAN], pz[WR_SPAN]; /* P */
+    REAL pux[WR_SPAN], puy[WR_SPAN], puz[WR_SPAN];
+    REAL pvx[WR_SPAN], pvy[WR_SPAN], pvz[WR_SPAN];
+    REAL nx[WR_SPAN], ny[WR_SPAN], nz[WR_SPAN];    /* n, unit */
+    REAL n_len[WR_SPAN];                           /* |N| */
+    REAL nux[WR_SPAN], nuy[WR_SPAN], nuz[WR_SPAN]; /* dn/du; only where curvature ran */
+    REAL nvx[WR_SPAN], nvy[WR_SPAN], nvz[WR_SPAN];
+    REAL tu[WR_SPAN], tv[WR_SPAN];              /* place in the table, 0..1 */
+    REAL inside_u[WR_SPAN], inside_v[WR_SPAN];  /* 1; 0 beyond the end of a clamped axis */
+    int at[WR_SPAN];                            /* first tap in the copies */
+    REAL ta[WR_SPAN], tb[WR_SPAN];              /* fractions past it */
+    REAL top[4 * WR_SPAN], low[4 * WR_SPAN];    /* taps of the upper and the lower row */
+    REAL f[WR_SPAN], fu[WR_SPAN], fv[WR_SPAN];  /* height and replication included */
+    REAL bx[WR_SPAN], by[WR_SPAN], bz[WR_SPAN]; /* n', unit, towards the viewer's side */
+    REAL vx[WR_SPAN], vy[WR_SPAN], vz[WR_SPAN]; /* unit, towards the viewer */
+    REAL lx[WR_SPAN], ly[WR_SPAN], lz[WR_SPAN]; /* unit, towards the light at hand */
+    REAL n_dot_l[WR_SPAN];
+    REAL dr[WR_SPAN], dg[WR_SPAN], db[WR_SPAN]; /* ambient and diffuse sums */
+    REAL sr[WR_SPAN], sg[WR_SPAN], sb[WR_SPAN]; /* specular sums */
+    REAL cr[WR_SPAN], cg[WR_SPAN], cb[WR_SPAN]; /* C(u,v), then the finished colour */
+    /* Place in the sample grid; given to the scattered hits and to polish, kept with what hit. */
+    REAL x[WR_SPAN], y[WR_SPAN];
+    /* The footprint: the step in the table, texels, of one pixel to the right and of one down. */
+    REAL rx[WR_SPAN], ry[WR_SPAN], wx[WR_SPAN], wy[WR_SPAN];
+    REAL level[WR_SPAN];                   /* of the pyramid: 0 .. its last, fractions between */
+    REAL long_u[WR_SPAN], long_v[WR_SPAN]; /* the longer side of the footprint, in u and v */
+    int taps[WR_SPAN];                     /* along it; 1..WR_TAPS_MOST */
+    /* Covariance of the slopes within the footprint, as fu, fv are measured. */
+    REAL suu[WR_SPAN], suv[WR_SPAN], svv[WR_SPAN];
+    /* The same in the plane across n', as tangents of angles: along e, across, and mixed. */
+    REAL ex[WR_SPAN], ey[WR_SPAN], ez[WR_SPAN];
+    REAL see[WR_SPAN], sef[WR_SPAN], sff[WR_SPAN];
+    /* Over the pixel: bounds of u, v; of |P - P at the centre|; of the change of n, of the slopes' vector,
+       of n'; and of the intensity. Infinite: none is known. */
+    REAL u_low[WR_SPAN], u_high[WR_SPAN], v_low[WR_SPAN], v_high[WR_SPAN];
+    REAL reach[WR_SPAN], turn[WR_SPAN];
+    REAL fu_low[WR_SPAN], fu_high[WR_SPAN], fv_low[WR_SPAN], fv_high[WR_SPAN];
+    REAL swing[WR_SPAN], bound[WR_SPAN];
+} WR_T(WrStrip);
+
+/* The ray of sample (gx, gy) of the frame's sample grid: q + s d, with q = q0 + gx qx + gy qy and d
+   alike. q lies in the plane through the object's centre that faces the camera, so that its size is
+   the object's and nothing cancels however far the eye is. */
+typedef struct WR_T(WrRays) {
+    REAL q0[3], qx[3], qy[3];
+    REAL d0[3], dx[3], dy[3];
+    REAL s_min; /* nearer than this is behind the near plane */
+    bool perspective;
+    REAL eye[3];    /* perspective */
+    REAL toward[3]; /* orthographic: unit vector towards the viewer */
+} WR_T(WrRays);
+
+/* A flat parallelogram with orthogonal edges: plane, or a face of the cube. */
+typedef struct WR_T(WrQuad) {
+    REAL origin[3], normal[3];
+    REAL eu[3], ev[3]; /* Pu / |Pu|^2, Pv / |Pv|^2: dot products give u, v */
+} WR_T(WrQuad);
+
+/* Where and how heights are looked up. Contiguous copies with an apron (table.h). */
+typedef struct WR_T(WrLook) {
+    const REAL *heights;  /* F, or spline coefficients; texel (i,j) at [(j + A) pitch + i + A] */
+    const REAL *gradient; /* central differences dF/du, dF/dv interleaved, same layout */
+    int pitch;            /* texels a row */
+    int width, height;
+    double ru, rv; /* replication */
+    bool periodic_u, periodic_v;
+    bool wide;                      /* reduce r u in double (E10) */
+    REAL scale_f, scale_u, scale_v; /* height; height * ru; height * rv */
+    const WrPyramid *pyramid;       /* means and covariances of the slopes (pyramid.h); or NULL */
+    const WrPyramid *range;         /* least and largest slopes; or NULL */
+} WR_T(WrLook);
+
+typedef struct WR_T(WrKernLight) {
+    bool point;
+    REAL where[3]; /* unit direction towards it, or position */
+    REAL rgb[3];   /* colour * strength */
+} WR_T(WrKernLight);
+
+/* ks, s and the gate of a highlight. */
+typedef struct WR_T(WrKernShine) {
+    REAL ks, shininess;
+    bool gate;
+} WR_T(WrKernShine);
+
+typedef int (*WR_T(WrHitKernel))(const WR_T(WrRays) * rays, const SHAPE *shape, REAL gx, REAL gy,
+                                 int count, WR_T(WrStrip) * strip);
+/* The same for samples anywhere: strip->x, y [count], which move with the hits. */
+typedef int (*WR_T(WrHitAtKernel))(const WR_T(WrRays) * rays, const SHAPE *shape, int count,
+                                   WR_T(WrStrip) * strip);
+
+typedef struct WR_T(WrKernels) {
+    const char *name; /* "v3" */
+    bool exact;       /* same bits as "ref" */
+
+    /* Visibility in closed form for `count` neighbouring samples from (gx, gy): fills index, u, v of
+       those that hit and returns how many. */
+    WR_T(WrHitKernel) hit_sphere, hit_cylinder, hit_cone;
+    int (*hit_quad)(const WR_T(WrRays) * rays, const WR_T(WrQuad) * quad, REAL gx, REAL gy,
+                    int count, WR_T(WrStrip) * strip);
+    WR_T(WrHitAtKernel) hit_sphere_at, hit_cylinder_at, hit_cone_at;
+    int (*hit_quad_at)(const WR_T(WrRays) * rays, const WR_T(WrQuad) * quad, int count,
+                       WR_T(WrStrip) * strip);
+    /* Newton's method from the guesses in u, v of the samples at x, y: solves P(u,v) = q + s d by
+       3 x 3 steps, no longer than `reach` in u and v, until a step is shorter than `enough` in u and v
+       (0: never); keeps the guess where it does not improve. */
+    void (*polish[WR_SURFACE_COUNT])(const WR_T(WrRays) * rays, const SHAPE *shape,
+                                     const WR_T(WrNewton) * how, WR_T(WrStrip) * strip);
+    /* Points only, for meshes. */
+    void (*points[WR_SURFACE_COUNT])(const SHAPE *shape, int count, const REAL *u, const REAL *v,
+                                     REAL *x, REAL *y, REAL *z);
+    /* P, Pu, Pv, n, |N|; and n_u, n_v. */
+    void (*geometry[WR_SURFACE_COUNT])(const SHAPE *shape, int face, WR_T(WrStrip) * strip);
+    void (*curvature[WR_SURFACE_COUNT])(const SHAPE *shape, int face, WR_T(WrStrip) * strip);
+
+    /* F, Fu, Fv of the table. */
+    void (*look[WR_SCHEME_COUNT])(const WR_T(WrLook) * look, WR_T(WrStrip) * strip);
+    /* The footprint of one pixel, `pixel` samples wide, at x, y; after geometry. */
+    void (*footprint)(const WR_T(WrRays) * rays, const WR_T(WrLook) * look, REAL pixel,
+                      WR_T(WrStrip) * strip);
+    /* Level, longer side and taps from the footprint. */
+    void (*spread)(const WR_T(WrLook) * look, bool anisotropic, WR_T(WrStrip) * strip);
+    /* F, Fu, Fv and, with moments, suu, suv, svv from the pyramid at u, v and level. */
+    void (*look_pyramid)(const WR_T(WrLook) * look, bool moments, WR_T(WrStrip) * strip);
+    /* n' from n and the slopes, turned to the viewer's side. */
+    void (*bump[WR_BUMP_COUNT])(const WR_T(WrRays) * rays, WR_T(WrStrip) * strip);
+    /* see, sef, sff from suu, suv, svv; after bump. unit_tangents: slopes are angles whatever |Pu|, |Pv|
+       are (invariant). */
+    void (*widen)(bool unit_tangents, WR_T(WrStrip) * strip);
+
+    void (*view)(const WR_T(WrRays) * rays, WR_T(WrStrip) * strip);
+    void (*begin)(REAL ambient, WR_T(WrStrip) * strip);
+    void (*colour)(const WrColourLook *look, WR_T(WrStrip) * strip); /* after begin */
+    void (*light)(const WR_T(WrKernLight) * light, WR_T(WrStrip) * strip);
+    void (*diffuse)(const WR_T(WrKernLight) * light, REAL kd, WR_T(WrStrip) * strip);
+    void (*specular)(const WR_T(WrKernLight) * light, REAL ks, REAL shininess, bool gate,
+                     WR_T(WrStrip) * strip);
+    /* The highlight widened by see, sef, sff: along every direction, or by their mean. */
+    void (*specular_lean)(const WR_T(WrKernLight) * light, const WR_T(WrKernShine) * shine,
+                          WR_T(WrStrip) * strip);
+    void (*specular_toksvig)(const WR_T(WrKernLight) * light, const WR_T(WrKernShine) * shine,
+                             WR_T(WrStrip) * strip);
+    void (*finish)(const REAL colour[3], WR_T(WrStrip) * strip);
+
+    /* Bounds over the pixel of side `pixel` samples about x, y (dials.h, refine=bound): where the pixel
+       lies on the surface; how far its slopes and its normal move; what a light adds. */
+    void (*bound_sphere)(const WR_T(WrRays) * rays, const SHAPE *shape, REAL pixel,
+                         WR_T(WrStrip) * strip);
+    void (*bound_quad)(const WR_T(WrRays) * rays, const WR_T(WrQuad) * quad, REAL pixel,
+                       WR_T(WrStrip) * strip);
+    void (*bound_slopes)(const WR_T(WrLook) * look, WR_T(WrStrip) * strip);
+    void (*bound_normal)(bool sphere, bool bumped, WR_T(WrStrip) * strip);
+    void (*bound_light)(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
+                        const WR_T(WrKernShine) * shine, REAL kd, WR_T(WrStrip) * strip);
+} WR_T(WrKernels);

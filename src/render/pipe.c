@@ -1,0 +1,18 @@
+/* The stages in single precision. */
+#include "render/pipe.h"
+#include "base/clock.h"
+#include "render/pyramid.h"
+
+#include <float.h>
+
+#define REAL float
+#define WR_T(name) name
+#define PIPE wr_pipe
+#define KERNELS_OF(job) ((job)->kernels)
+#define STRIP_OF(scratch) (&(scratch)->strip)
+#define NEAR_OF(scratch) (&(scratch)->near)
+#define FAR_OF(scratch) (&(scratch)->far)
+#define LOOK_OF(job) (&(job)->look)
+#define VIEWED(view, member) ((view)->member)
+#define MORE_STEPS 0 /* more steps of Newton's method than single precision needs */
+#include "render/pipe_body.h"

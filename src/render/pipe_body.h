@@ -1,0 +1,355 @@
+/* pipe_body.h - the stages of the plan over one strip. Included by pipe.c and pipe_double.c, which define
+   REAL and where things of that precision are. A header without a guard, by intention. */
+
+typedef WR_T(WrStrip) Strip;
+typedef WR_T(WrKernels) Kernels;
+typedef WR_T(WrRays) Rays;
+
+typedef struct Watch {
+    WrTileScratch *scratch;
+    bool on;
+    double last;
+} Watch;
+
+static Watch watch_start(WrTileScratch *scratch)
+{
+    bool on = scratch->strips++ % WR_TIMED == 0;
+    return (Watch){ scratch, on, on ? wr_clock_seconds() : 0 };
+}
+
+static void watch_lap(Watch *watch, WrStage stage)
+{
+    if (!watch->on) return;
+    double now = wr_clock_seconds();
+    watch->scratch->seconds[stage] += WR_TIMED * (now - watch->last);
+    watch->last = now;
+}
+
+#include "render/pipe_look_body.h"
+
+/* ---- light -------------------------------------------------------------------------------------- */
+
+static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const WrMaterial *m = &job->scene->material;
+    const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
+    if (!job->plan->moments) k->specular(light, shine.ks, shine.shininess, shine.gate, strip);
+    else if (job->plan->lean) k->specular_lean(light, &shine, strip);
+    else k->specular_toksvig(light, &shine, strip);
+}
+
+static void bound_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
+                        Strip *strip)
+{
+    const WrMaterial *m = &job->scene->material;
+    const WR_T(WrKernShine)
+        shine = { job->plan->specular ? (REAL)m->specular : (REAL)0, (REAL)m->shininess, m->gate };
+    double most = fmax(m->colour.x, fmax(m->colour.y, m->colour.z));
+    KERNELS_OF(job)->bound_light(rays, light, &shine, (REAL)(m->diffuse * most), strip);
+}
+
+static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink, Strip *strip,
+                        Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const WrPlan *plan = job->plan;
+    const WrMaterial *material = &job->scene->material;
+    k->begin((REAL)material->ambient, strip);
+    if (plan->colour) {
+        k->colour(&job->colour, strip);
+        watch_lap(watch, WR_STAGE_COLOUR);
+    }
+    if (plan->specular || sink->bound) k->view(rays, strip);
+    watch_lap(watch, plan->specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
+    if (!plan->diffuse && !plan->specular) return;
+    for (int i = 0; i < job->view->light_count; i++) {
+        const WR_T(WrKernLight) *light = &VIEWED(job->view, lights)[i];
+        k->light(light, strip);
+        if (plan->diffuse) k->diffuse(light, (REAL)material->diffuse, strip);
+        watch_lap(watch, WR_STAGE_DIFFUSE);
+        if (plan->specular) shine_strip(job, light, strip);
+        watch_lap(watch, WR_STAGE_SPECULAR);
+        if (sink->bound) bound_strip(job, rays, light, strip);
+        watch_lap(watch, WR_STAGE_BOUND);
+    }
+}
+
+/* Where on the surface each pixel lies, and how far its normal turns there. */
+static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
+                           Strip *strip)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const bool sphere = quad < 0, bumped = job->plan->bump != WR_BUMP_NONE;
+    if (sphere) k->bound_sphere(rays, &VIEWED(job->view, shape), (REAL)sink->pixel, strip);
+    else k->bound_quad(rays, &VIEWED(job->view, quads)[quad], (REAL)sink->pixel, strip);
+    if (bumped) k->bound_slopes(LOOK_OF(job), strip);
+    k->bound_normal(sphere, bumped, strip);
+}
+
+/* All stages of the plan from (u, v) to the colour. quad: of a planar surface, or -1. */
+static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
+                        Strip *strip, WrTileScratch *scratch, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const WrPlan *plan = job->plan;
+    const WrSurfaceKind kind = job->scene->shape.kind;
+    const int face = quad >= 0 ? job->view->quad_face[quad] : 0;
+    if (plan->normals) {
+        k->geometry[kind](&VIEWED(job->view, shape), face, strip);
+        watch_lap(watch, WR_STAGE_GEOMETRY);
+        if (plan->curvature) {
+            k->curvature[kind](&VIEWED(job->view, shape), face, strip);
+            watch_lap(watch, WR_STAGE_CURVATURE);
+        }
+        if (plan->bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
+        k->bump[plan->bump](rays, strip);
+        if (plan->moments && sink->rgba) k->widen(plan->bump == WR_BUMP_INVARIANT, strip);
+        watch_lap(watch, WR_STAGE_BUMP);
+    }
+    if (sink->bound) bound_geometry(job, rays, quad, sink, strip);
+    watch_lap(watch, WR_STAGE_BOUND);
+    if (!sink->rgba) return;
+    light_strip(job, rays, sink, strip, watch);
+    const WrVec3 c = job->scene->material.colour;
+    k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
+}
+
+/* Finished strip -> its samples' places. */
+static void store(const WrSink *sink, const Strip *strip, WrTileScratch *scratch)
+{
+    for (int i = 0; i < strip->count && sink->rgba; i++) {
+        float *out = sink->rgba + 4 * strip->index[i];
+        out[0] = (float)strip->cr[i];
+        out[1] = (float)strip->cg[i];
+        out[2] = (float)strip->cb[i];
+        scratch->covered += out[3] == 0.0f;
+        out[3] = 1.0f;
+    }
+    for (int i = 0; i < strip->count && sink->normals; i++) {
+        float *out = sink->normals + 3 * strip->index[i];
+        out[0] = (float)strip->bx[i];
+        out[1] = (float)strip->by[i];
+        out[2] = (float)strip->bz[i];
+    }
+    for (int i = 0; i < strip->count && sink->bound; i++)
+        sink->bound[strip->index[i]] = (float)strip->bound[i];
+}
+
+static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
+                         WrTileScratch *scratch, Watch *watch)
+{
+    Strip *strip = STRIP_OF(scratch);
+    if (strip->count == 0) return;
+    shade_strip(job, rays, quad, sink, strip, scratch, watch);
+    store(sink, strip, scratch);
+    watch_lap(watch, WR_STAGE_RESOLVE);
+    if (sink->rgba) scratch->shaded += strip->count;
+}
+
+/* ---- visibility ---------------------------------------------------------------------------------- */
+
+static WR_T(WrHitKernel) closed_form(const Kernels *kernels, WrInversion inversion)
+{
+    switch (inversion) {
+    case WR_INVERT_SPHERE: return kernels->hit_sphere;
+    case WR_INVERT_CYLINDER: return kernels->hit_cylinder;
+    case WR_INVERT_CONE: return kernels->hit_cone;
+    default: return NULL;
+    }
+}
+
+static WR_T(WrHitAtKernel) closed_form_at(const Kernels *kernels, WrInversion inversion)
+{
+    switch (inversion) {
+    case WR_INVERT_SPHERE: return kernels->hit_sphere_at;
+    case WR_INVERT_CYLINDER: return kernels->hit_cylinder_at;
+    case WR_INVERT_CONE: return kernels->hit_cone_at;
+    default: return NULL;
+    }
+}
+
+/* Make the parameters of what the mesh covers exact. */
+static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
+{
+    watch_lap(watch, WR_STAGE_VISIBILITY);
+    if (strip->count == 0) return;
+    WR_T(WrNewton) how = job->mesh->newton;
+    if (job->dials->newton < 0) how.steps += MORE_STEPS;
+    KERNELS_OF(job)->polish[job->scene->shape.kind](rays, &VIEWED(job->view, shape), &how, strip);
+    watch_lap(watch, WR_STAGE_NEWTON);
+}
+
+/* The samples of the scatter that the mesh covers. */
+static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile,
+                        const WrScatter *places, Strip *strip, Watch *watch)
+{
+    int count = 0;
+    for (int i = 0; i < places->count; i++) {
+        int cell = places->cell[i];
+        if (tile->close[cell] == -FLT_MAX) continue;
+        strip->index[count] = i;
+        strip->x[count] = (REAL)places->x[i];
+        strip->y[count] = (REAL)places->y[i];
+        strip->u[count] = (REAL)tile->u[cell];
+        strip->v[count++] = (REAL)tile->v[cell];
+    }
+    strip->count = count;
+    polish(job, rays, strip, watch);
+}
+
+/* The same for the whole row y. */
+static void locate_row(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile, int y,
+                       Strip *strip, Watch *watch)
+{
+    const size_t at = (size_t)y * (size_t)tile->w;
+    const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
+    int count = 0;
+    for (int x = 0; x < tile->w; x++) {
+        if (tile->close[at + (size_t)x] == -FLT_MAX) continue;
+        strip->index[count] = x;
+        strip->x[count] = gx + (REAL)x;
+        strip->y[count] = gy;
+        strip->u[count] = (REAL)tile->u[at + (size_t)x];
+        strip->v[count++] = (REAL)tile->v[at + (size_t)x];
+    }
+    strip->count = count;
+    polish(job, rays, strip, watch);
+}
+
+static void pour(const WrScatter *places, Strip *strip)
+{
+    for (int i = 0; i < places->count; i++) {
+        strip->x[i] = (REAL)places->x[i];
+        strip->y[i] = (REAL)places->y[i];
+    }
+}
+
+static const Rays *rays_of(const WrTileJob *job, int k)
+{
+    return &VIEWED(wr_view_grid(job->view, k), rays);
+}
+
+static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const WrSink *sink,
+                   WrTileScratch *scratch)
+{
+    const Rays *rays = rays_of(job, k);
+    const WrView *view = job->view;
+    const WrScatter *places = &scratch->scatter;
+    const Kernels *kernels = KERNELS_OF(job);
+    Strip *strip = STRIP_OF(scratch);
+    Watch watch = watch_start(scratch);
+    if (places->count == 0) return;
+    if (job->mesh) {
+        locate_mesh(job, rays, tile, places, strip, &watch);
+        finish_strip(job, rays, -1, sink, scratch, &watch);
+        return;
+    }
+    WR_T(WrHitAtKernel)
+    hit = closed_form_at(kernels, wr_surfaces[job->scene->shape.kind]->inversion);
+    if (hit) {
+        pour(places, strip);
+        hit(rays, &VIEWED(view, shape), places->count, strip);
+        watch_lap(&watch, WR_STAGE_VISIBILITY);
+        finish_strip(job, rays, -1, sink, scratch, &watch);
+        return;
+    }
+    for (int i = 0; i < view->quad_count; i++) {
+        pour(places, strip);
+        kernels->hit_quad_at(rays, &VIEWED(view, quads)[i], places->count, strip);
+        watch_lap(&watch, WR_STAGE_VISIBILITY);
+        finish_strip(job, rays, i, sink, scratch, &watch);
+    }
+}
+
+/* Row y of the tile as a scatter. */
+static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
+{
+    places->count = tile->w;
+    for (int x = 0; x < tile->w; x++) {
+        int cell = y * tile->w + x;
+        const signed char *shift = tile->shift ? tile->shift + 2 * cell : NULL;
+        places->x[x] = tile->x + x + (shift ? shift[0] / 256.0 : 0);
+        places->y[x] = tile->y + y + (shift ? shift[1] / 256.0 : 0);
+        places->cell[x] = cell;
+    }
+}
+
+/* Places of what hit, where a later stage asks for them. */
+static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
+{
+    if (!job->plan->pyramid && !sink->bound) return;
+    for (int i = 0; i < strip->count; i++) {
+        strip->x[i] = gx + (REAL)strip->index[i];
+        strip->y[i] = gy;
+    }
+}
+
+static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, const WrSink *sink,
+                WrTileScratch *scratch)
+{
+    const WrView *view = job->view;
+    const Kernels *kernels = KERNELS_OF(job);
+    if (tile->shift) {
+        row_places(tile, y, &scratch->scatter);
+        points(job, k, tile, sink, scratch);
+        return;
+    }
+    const Rays *rays = rays_of(job, k);
+    Strip *strip = STRIP_OF(scratch);
+    Watch watch = watch_start(scratch);
+    const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
+    if (job->mesh) {
+        locate_row(job, rays, tile, y, strip, &watch);
+        finish_strip(job, rays, -1, sink, scratch, &watch);
+        return;
+    }
+    WR_T(WrHitKernel)
+    hit = closed_form(kernels, wr_surfaces[job->scene->shape.kind]->inversion);
+    if (hit) {
+        hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
+        note_places(job, sink, gx, gy, strip);
+        watch_lap(&watch, WR_STAGE_VISIBILITY);
+        finish_strip(job, rays, -1, sink, scratch, &watch);
+        return;
+    }
+    for (int i = 0; i < view->quad_count; i++) {
+        kernels->hit_quad(rays, &VIEWED(view, quads)[i], gx, gy, tile->w, strip);
+        note_places(job, sink, gx, gy, strip);
+        watch_lap(&watch, WR_STAGE_VISIBILITY);
+        finish_strip(job, rays, i, sink, scratch, &watch);
+    }
+}
+
+static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u, double *v,
+                 int *face)
+{
+    const Rays *rays = rays_of(job, job->samples);
+    Strip *strip = STRIP_OF(scratch);
+    WrScatter *places = &scratch->scatter;
+    Watch watch = { scratch, false, 0 };
+    WR_T(WrHitAtKernel)
+    hit = closed_form_at(KERNELS_OF(job), wr_surfaces[job->scene->shape.kind]->inversion);
+    places->count = 1;
+    places->x[0] = gx, places->y[0] = gy, places->cell[0] = 0;
+    strip->count = 0;
+    *face = 0;
+    if (job->mesh) {
+        WrDepthTile tile = wr_tile_depth(job, job->samples, gx, gy, 1, 1, scratch);
+        locate_mesh(job, rays, &tile, places, strip, &watch);
+    } else if (hit) {
+        pour(places, strip);
+        hit(rays, &VIEWED(job->view, shape), 1, strip);
+    }
+    for (int i = 0; !hit && !job->mesh && i < job->view->quad_count && strip->count == 0; i++) {
+        pour(places, strip);
+        KERNELS_OF(job)->hit_quad_at(rays, &VIEWED(job->view, quads)[i], 1, strip);
+        *face = job->view->quad_face[i];
+    }
+    if (strip->count == 0) return false;
+    *u = (double)strip->u[0];
+    *v = (double)strip->v[0];
+    return true;
+}
+
+const WrPipe PIPE = { row, points, pick };

@@ -1,0 +1,19 @@
+/* The stages in double precision. */
+#include "render/pipe.h"
+#include "base/clock.h"
+#include "render/pyramid.h"
+
+#include <float.h>
+
+#define WR_PIPE_DOUBLE
+#define REAL double
+#define WR_T(name) name##d
+#define PIPE wr_pipe_double
+#define KERNELS_OF(job) ((job)->kernels_double)
+#define STRIP_OF(scratch) (&(scratch)->wide[0])
+#define NEAR_OF(scratch) (&(scratch)->wide[1])
+#define FAR_OF(scratch) (&(scratch)->wide[2])
+#define LOOK_OF(job) (&(job)->look_double)
+#define VIEWED(view, member) ((view)->member##_d)
+#define MORE_STEPS 1 /* one step of Newton's method more: twice the digits */
+#include "render/pipe_body.h"

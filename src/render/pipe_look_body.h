@@ -1,0 +1,187 @@
+/* pipe_look_body.h - heights and slopes of a strip: from the formula, from the table, or filtered over each
+   pixel's footprint. A part of pipe_body.h. */
+
+/* F as a formula: one point at a time, in double. */
+static void look_analytic(const WrTileJob *job, Strip *strip)
+{
+    const double slope = job->plan->bump == WR_BUMP_INVARIANT ? 1.0 : job->view->scale;
+    for (int i = 0; i < strip->count; i++) {
+        double f, fu, fv;
+        wr_scene_height(job->scene, NULL, (double)strip->u[i], (double)strip->v[i], &f, &fu, &fv);
+        strip->f[i] = (REAL)(f * job->view->scale);
+        strip->fu[i] = (REAL)(fu * slope);
+        strip->fv[i] = (REAL)(fv * slope);
+    }
+}
+
+#ifndef WR_PIPE_DOUBLE
+/* Heights in double under shading in single precision: the look-up alone is done by the other set. */
+static void look_in_double(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
+{
+    WrStripd *wide = &scratch->wide[0];
+    wide->count = strip->count;
+    for (int i = 0; i < strip->count; i++) {
+        wide->u[i] = (double)strip->u[i];
+        wide->v[i] = (double)strip->v[i];
+    }
+    job->kernels_double->look[job->scene->scheme](&job->look_double, wide);
+    for (int i = 0; i < strip->count; i++) {
+        strip->tu[i] = (float)wide->tu[i];
+        strip->tv[i] = (float)wide->tv[i];
+        strip->f[i] = (float)wide->f[i];
+        strip->fu[i] = (float)wide->fu[i];
+        strip->fv[i] = (float)wide->fv[i];
+    }
+}
+#endif
+
+static void look_level0(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
+{
+#ifndef WR_PIPE_DOUBLE
+    if (job->double_look) {
+        look_in_double(job, strip, scratch);
+        return;
+    }
+#endif
+    (void)scratch;
+    KERNELS_OF(job)->look[job->scene->scheme](LOOK_OF(job), strip);
+}
+
+/* The k-th look-up of a sample lies this far along its longer side, -1/2 .. 1/2. */
+static REAL along(int tap, int taps)
+{
+    return ((REAL)tap + (REAL)0.5) / (REAL)taps - (REAL)0.5;
+}
+
+static void tap_into(Strip *to, const Strip *from, int sample, REAL t)
+{
+    int k = to->count++;
+    to->u[k] = from->u[sample] + t * from->long_u[sample];
+    to->v[k] = from->v[sample] + t * from->long_v[sample];
+    to->level[k] = from->level[sample];
+}
+
+/* What the look-ups of a sample have come to: mean and covariance of n of them. */
+typedef struct Sum {
+    REAL f, fu, fv, suu, suv, svv;
+} Sum;
+
+/* a with b's part r: the spread of the two means belongs to the whole. */
+static Sum sum_mix(Sum a, Sum b, REAL r)
+{
+    REAL du = b.fu - a.fu, dv = b.fv - a.fv, k = r * ((REAL)1 - r);
+    return (Sum){ a.f + r * (b.f - a.f),
+                  a.fu + r * du,
+                  a.fv + r * dv,
+                  a.suu + r * (b.suu - a.suu) + k * du * du,
+                  a.suv + r * (b.suv - a.suv) + k * du * dv,
+                  a.svv + r * (b.svv - a.svv) + k * dv * dv };
+}
+
+/* A batch of look-ups: each is in `near` (the table itself), in `far` (the pyramid) or, under level 1, in
+   both, in order. */
+typedef struct Batch {
+    int count;
+    int sample[WR_SPAN], tap[WR_SPAN];
+} Batch;
+
+static void note_far(const WrTileJob *job, const Strip *far, WrBlocks *seen)
+{
+    const WrPyramid *pyramid = LOOK_OF(job)->pyramid;
+    for (int i = 0; i < far->count; i++) {
+        int level = (int)far->level[i] + 1;
+        level = level < pyramid->levels ? level : pyramid->levels - 1;
+        double reach_u = 1.5 / pyramid->level[level].width + 2.0 / LOOK_OF(job)->width;
+        double reach_v = 1.5 / pyramid->level[level].height + 2.0 / LOOK_OF(job)->height;
+        wr_keep_note_box(seen, (double)far->tu[i], (double)far->tv[i], reach_u, reach_v);
+    }
+}
+
+static void flush(const WrTileJob *job, const Batch *batch, Strip *strip, WrTileScratch *scratch,
+                  Watch *watch)
+{
+    Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
+    const bool moments = job->plan->moments;
+    if (near->count > 0) look_level0(job, near, scratch);
+    watch_lap(watch, WR_STAGE_LOOK);
+    if (far->count > 0) KERNELS_OF(job)->look_pyramid(LOOK_OF(job), moments, far);
+    if (scratch->seen) {
+        wr_keep_note_places(scratch->seen, near->count, sizeof(REAL), near->tu, near->tv);
+        note_far(job, far, scratch->seen);
+    }
+    int a = 0, b = 0;
+    for (int k = 0; k < batch->count; k++) {
+        int i = batch->sample[k];
+        REAL level = strip->level[i];
+        Sum at = { 0 };
+        if (level < (REAL)1) at = (Sum){ near->f[a], near->fu[a], near->fv[a], 0, 0, 0 }, a++;
+        if (level > (REAL)0) {
+            Sum up = { far->f[b], far->fu[b], far->fv[b], far->suu[b], far->suv[b], far->svv[b] };
+            at = level < (REAL)1 ? sum_mix(at, up, level) : up;
+            b++;
+        }
+        if (batch->tap[k] > 0) {
+            Sum so_far = { strip->f[i],   strip->fu[i],  strip->fv[i],
+                           strip->suu[i], strip->suv[i], strip->svv[i] };
+            at = sum_mix(so_far, at, (REAL)1 / (REAL)(batch->tap[k] + 1));
+        }
+        strip->f[i] = at.f, strip->fu[i] = at.fu, strip->fv[i] = at.fv;
+        strip->suu[i] = at.suu, strip->suv[i] = at.suv, strip->svv[i] = at.svv;
+    }
+    near->count = far->count = 0;
+    watch_lap(watch, WR_STAGE_PYRAMID);
+}
+
+/* Slopes over the footprint. Where no sample of the strip is larger than a texel: the table's own (E17). */
+static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
+                          WrTileScratch *scratch, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
+    Batch batch;
+    int wide = 0;
+    k->footprint(rays, LOOK_OF(job), 1, strip);
+    k->spread(LOOK_OF(job), job->plan->anisotropic, strip);
+    for (int i = 0; i < strip->count; i++) {
+        strip->suu[i] = strip->suv[i] = strip->svv[i] = 0;
+        wide += strip->level[i] > (REAL)0 || strip->taps[i] > 1;
+    }
+    watch_lap(watch, WR_STAGE_FOOTPRINT);
+    scratch->wide_samples += wide;
+    if (wide == 0) {
+        look_level0(job, strip, scratch);
+        if (scratch->seen)
+            wr_keep_note_places(scratch->seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
+        watch_lap(watch, WR_STAGE_LOOK);
+        return;
+    }
+    batch.count = near->count = far->count = 0;
+    for (int i = 0; i < strip->count; i++)
+        for (int tap = 0; tap < strip->taps[i]; tap++) {
+            REAL t = strip->taps[i] > 1 ? along(tap, strip->taps[i]) : (REAL)0;
+            if (strip->level[i] < (REAL)1) tap_into(near, strip, i, t);
+            if (strip->level[i] > (REAL)0) tap_into(far, strip, i, t);
+            batch.sample[batch.count] = i;
+            batch.tap[batch.count++] = tap;
+            if (batch.count < WR_SPAN) continue;
+            flush(job, &batch, strip, scratch, watch);
+            batch.count = 0;
+        }
+    if (batch.count > 0) flush(job, &batch, strip, scratch, watch);
+}
+
+static void look(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
+                 Watch *watch)
+{
+    if (job->scene->analytic.kind != WR_ANALYTIC_OFF) {
+        look_analytic(job, strip);
+    } else if (job->plan->pyramid) {
+        look_filtered(job, rays, strip, scratch, watch);
+        return;
+    } else {
+        look_level0(job, strip, scratch);
+        if (scratch->seen)
+            wr_keep_note_places(scratch->seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
+    }
+    watch_lap(watch, WR_STAGE_LOOK);
+}

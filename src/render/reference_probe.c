@@ -1,0 +1,177 @@
+/* What the formulas hold at one place of a picture, by the scene's own scheme and bump mode, in double. */
+#include "render/reference.h"
+
+#include <math.h>
+
+#include "render/reference_shade.h"
+
+#define FOOTPRINT_MAX 1e9 /* texels a pixel: at outlines and poles there is no end to it */
+#define PICTURE_MAX 16384
+
+/* A scene's picture as probes see it. */
+typedef struct Looker {
+    WrReferenceStage stage;
+    const WrField *field;
+    double texels_u, texels_v; /* of the table to 1 of u, v: the slope of texels by the patch */
+    WrReferenceRay per_x, per_y;
+} Looker;
+
+static bool looker_init(Looker *looker, const WrField *field, const WrScene *scene, int width,
+                        int height, double turn_deg, bool table, WrPool *pool, WrError *err)
+{
+    if (width < 1 || height < 1 || width > PICTURE_MAX || height > PICTURE_MAX)
+        return wr_fail(err, "picture size %dx%d: each side must be 1..%d", width, height,
+                       PICTURE_MAX);
+    *looker = (Looker){ .field = field };
+    if (!wr_reference_stage_init(&looker->stage, field, scene, turn_deg, width, height, table, pool,
+                                 err))
+        return false;
+    looker->texels_u = scene->replicate_u * (field ? wr_field_width(field) : 1);
+    looker->texels_v = -scene->replicate_v * (field ? wr_field_height(field) : 1);
+    wr_reference_view_spread(&looker->stage.view, &looker->per_x, &looker->per_y);
+    return true;
+}
+
+static double within_reach(double x)
+{
+    return x > FOOTPRINT_MAX ? FOOTPRINT_MAX : x >= -FOOTPRINT_MAX ? x : -FOOTPRINT_MAX;
+}
+
+/* How the point under the ray moves over the table, texels, when the ray moves by (w.q, w.d): to first
+ * order P + Pu du + Pv dv stays on it, Pu du + Pv dv - d ds = w.q + s w.d. Along the outline and where a
+ * tangent vanishes it is FOOTPRINT_MAX with the sign, 0 where it moves nowhere. */
+static void footprint(const Looker *looker, const WrSurfacePoint *at, const WrReferenceRay *ray,
+                      double s, const WrReferenceRay *w, double out[2])
+{
+    const WrVec3 move = v3_mad(w->q, w->d, s);
+    const WrVec3 a = v3_cross(at->pv, ray->d), b = v3_cross(ray->d, at->pu);
+    const double det = v3_dot(at->pu, a);
+    const double across = looker->texels_u * v3_dot(move, a);
+    const double down = looker->texels_v * v3_dot(move, b);
+    out[0] = across == 0 ? 0 : within_reach(across / det);
+    out[1] = down == 0 ? 0 : within_reach(down / det);
+}
+
+static double level_of(const double footprint[4])
+{
+    const double x = hypot(footprint[0], footprint[1]), y = hypot(footprint[2], footprint[3]);
+    const double longer = x > y ? x : y;
+    return longer > 1 ? log2(longer) : 0;
+}
+
+static double dropped_deg(const WrSurfacePoint *at, double f, double fu, double fv,
+                          WrVec3 *bent_exact)
+{
+    *bent_exact = wr_reference_normal(WR_BUMP_EXACT, at, f, fu, fv);
+    return wr_bump_tilt_deg(*bent_exact, wr_reference_normal(WR_BUMP_BLINN, at, f, fu, fv));
+}
+
+static int samples_of(const WrDials *dials)
+{
+    return dials->aa == WR_AA_SUPERSAMPLE || dials->aa == WR_AA_ADAPTIVE ? dials->samples : 1;
+}
+
+bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, int height,
+                        double turn_deg, double x, double y, WrProbe *out, WrError *err)
+{
+    Looker looker = { 0 };
+    if (!looker_init(&looker, field, scene, width, height, turn_deg, false, NULL, err)) {
+        wr_reference_stage_fini(&looker.stage);
+        return false;
+    }
+    const WrReferenceView *view = &looker.stage.view;
+    const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
+    WrReferenceHit hit;
+    WrProbe probe = { .hit = wr_reference_view_hit(view, &ray, &hit) };
+    if (probe.hit) {
+        WrSurfacePoint *at = &probe.at;
+        probe.u = hit.u, probe.v = hit.v, probe.face = hit.face;
+        wr_surface_at(view->shape, hit.face, hit.u, hit.v, at);
+        wr_scene_height(scene, field, hit.u, hit.v, &probe.f, &probe.fu, &probe.fv);
+        probe.d = wr_bump_d(at->n_unit, at->pu, at->pv, probe.fu, probe.fv);
+        probe.a = wr_bump_axis(at->pu, at->pv, probe.fu, probe.fv);
+        probe.bent = wr_reference_normal(scene->bump, at, probe.f, probe.fu, probe.fv);
+        probe.tilt_deg = wr_bump_tilt_deg(at->n_unit, probe.bent);
+        probe.dropped_deg = dropped_deg(at, probe.f, probe.fu, probe.fv, &probe.bent_exact);
+        footprint(&looker, at, &ray, hit.s, &looker.per_x, probe.footprint);
+        footprint(&looker, at, &ray, hit.s, &looker.per_y, probe.footprint + 2);
+        probe.level = level_of(probe.footprint);
+        probe.samples = samples_of(&scene->dials);
+        const WrVec3 seen = v3_scale(probe.bent, wr_reference_side(view, at));
+        wr_reference_light(&looker.stage, at->p, hit.u, hit.v, seen, probe.rgb);
+    }
+    wr_reference_stage_fini(&looker.stage);
+    *out = probe;
+    return true;
+}
+
+typedef struct MapJob {
+    Looker looker;
+    WrProbeMap map;
+    int width;
+    const volatile int *cancel;
+    float *out;
+} MapJob;
+
+/* By the scene's scheme; bspline-fit from coefficients in double, found once for all. */
+static void look_up(const Looker *looker, double u, double v, double *f, double *fu, double *fv)
+{
+    if (looker->stage.table.c) wr_reference_height(&looker->stage, u, v, f, fu, fv);
+    else wr_scene_height(looker->stage.scene, looker->field, u, v, f, fu, fv);
+}
+
+static float quantity(const MapJob *job, const WrSurfacePoint *at, double f, double fu, double fv)
+{
+    WrVec3 exact;
+    if (job->map == WR_MAP_DROPPED) return (float)dropped_deg(at, f, fu, fv, &exact);
+    const WrBumpMode mode = job->looker.stage.scene->bump;
+    return (float)wr_bump_tilt_deg(at->n_unit, wr_reference_normal(mode, at, f, fu, fv));
+}
+
+static float level_at(const Looker *looker, const WrSurfacePoint *at, const WrReferenceRay *ray,
+                      double s)
+{
+    double pixel[4];
+    footprint(looker, at, ray, s, &looker->per_x, pixel);
+    footprint(looker, at, ray, s, &looker->per_y, pixel + 2);
+    return (float)level_of(pixel);
+}
+
+static void map_row(int y, int worker, void *ctx)
+{
+    (void)worker;
+    const MapJob *job = ctx;
+    const Looker *looker = &job->looker;
+    const WrReferenceView *view = &looker->stage.view;
+    float *out = job->out + (size_t)y * (size_t)job->width;
+    if (job->cancel && *job->cancel) return;
+    for (int x = 0; x < job->width; x++) {
+        const WrReferenceRay ray = wr_reference_view_ray(view, x + 0.5, y + 0.5);
+        WrReferenceHit hit;
+        out[x] = NAN;
+        if (!wr_reference_view_hit(view, &ray, &hit)) continue;
+        WrSurfacePoint at;
+        view->info->at(view->shape, hit.face, hit.u, hit.v, &at);
+        if (job->map == WR_MAP_LEVEL) {
+            out[x] = level_at(looker, &at, &ray, hit.s);
+            continue;
+        }
+        double f, fu, fv;
+        look_up(looker, hit.u, hit.v, &f, &fu, &fv);
+        out[x] = quantity(job, &at, f, fu, fv);
+    }
+}
+
+bool wr_reference_map(const WrField *field, const WrScene *scene, int width, int height,
+                      double turn_deg, WrProbeMap map, WrPool *pool, const volatile int *cancel,
+                      float *out, WrError *err)
+{
+    MapJob job = { .map = map, .width = width, .cancel = cancel, .out = out };
+    /* A single look-up by the scheme would find that texel's coefficients each time. */
+    const bool table = scene->scheme == WR_SCHEME_BSPLINE_FIT && map != WR_MAP_LEVEL;
+    bool good = looker_init(&job.looker, field, scene, width, height, turn_deg, table, pool, err);
+    if (good) wr_pool_run(pool, height, map_row, &job);
+    wr_reference_stage_fini(&job.looker.stage);
+    if (good && cancel && *cancel) return wr_fail(err, "cancelled");
+    return good;
+}

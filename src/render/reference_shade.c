@@ -1,0 +1,162 @@
+#include "render/reference_shade.h"
+
+#include <math.h>
+
+bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
+                             double turn_deg, int width, int height, bool table, WrPool *pool,
+                             WrError *err)
+{
+    const bool formula = scene->analytic.kind != WR_ANALYTIC_OFF;
+    *stage = (WrReferenceStage){ .scene = scene, .periodic_u = true, .periodic_v = true };
+    if (!field && !formula) return wr_fail(err, "a picture of a table: there is no table");
+    if (field) {
+        stage->periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
+        stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
+    }
+    stage->bump = scene->height == 0                 ? WR_BUMP_NONE
+                  : scene->bump == WR_BUMP_INVARIANT ? WR_BUMP_INVARIANT
+                                                     : WR_BUMP_EXACT;
+    if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
+    if (!table || formula || scene->height == 0) return true;
+    return wr_reference_table_init(&stage->table, field, pool, err);
+}
+
+void wr_reference_stage_fini(WrReferenceStage *stage)
+{
+    wr_reference_view_fini(&stage->view);
+    wr_reference_table_fini(&stage->table);
+}
+
+void wr_reference_height(const WrReferenceStage *stage, double u, double v, double *f, double *fu,
+                         double *fv)
+{
+    if (stage->scene->analytic.kind != WR_ANALYTIC_OFF)
+        wr_scene_height(stage->scene, NULL, u, v, f, fu, fv);
+    else wr_reference_table_at(&stage->table, stage->scene, u, v, f, fu, fv);
+}
+
+/* |a|^2 that neither overflows nor loses digits to underflow when multiplied by another like it. */
+static bool ordinary(double squared)
+{
+    return squared > 1e-60 && squared < 1e60;
+}
+
+WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, double fu,
+                           double fv)
+{
+    if (mode == WR_BUMP_NONE || (fu == 0 && fv == 0 && f == 0)) return at->n_unit;
+    const WrVec3 n = at->n_unit;
+    WrVec3 qu = at->pu, qv = at->pv;
+    if (mode == WR_BUMP_EXACT) qu = v3_mad(qu, at->n_u, f), qv = v3_mad(qv, at->n_v, f);
+    const WrVec3 tip = v3_cross(n, v3_sub(v3_scale(qv, fu), v3_scale(qu, fv)));
+    WrVec3 sum;
+    double terms; /* the square of what is added up: a sum that cancels is left to shade/bump.h */
+    const double uu = v3_dot(qu, qu), vv = v3_dot(qv, qv);
+    if (mode == WR_BUMP_INVARIANT) {
+        const double d = sqrt(v3_dot(tip, tip)), a = sqrt(fu * fu + fv * fv);
+        sum = v3_mad(n, tip, a / d);
+        terms = ordinary(d * d) && ordinary(uu) && ordinary(vv) && a > 1e-30 && a < 1e30 ? 1 : 0;
+    } else {
+        const WrVec3 flat = mode == WR_BUMP_EXACT ? v3_cross(qu, qv) : at->n;
+        sum = v3_add(flat, tip);
+        terms = uu * vv + fu * fu * vv + fv * fv * uu;
+        if (!(fabs(fu) < 1e30 && fabs(fv) < 1e30 && ordinary(uu) && ordinary(vv))) terms = 0;
+    }
+    const double squared = v3_dot(sum, sum);
+    if (terms > 0 && squared > 1e-16 * terms) return v3_scale(sum, 1 / sqrt(squared));
+    return wr_bump_unit_normal(mode, at->n, n, at->pu, at->pv, at->n_u, at->n_v, f, fu, fv);
+}
+
+double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at)
+{
+    const WrVec3 to = view->perspective ? v3_sub(view->eye, at->p) : view->toward;
+    return v3_dot(at->n_unit, to) < 0 ? -1 : 1;
+}
+
+/* a / |a|; 0 where it is 0. */
+static WrVec3 unit(WrVec3 a)
+{
+    const double squared = v3_dot(a, a);
+    const WrVec3 zero = { 0, 0, 0 };
+    return ordinary(squared) ? v3_scale(a, 1 / sqrt(squared)) : v3_unit(a, zero);
+}
+
+/* Where texel i of n is on an axis that goes round or ends. */
+static int colour_texel(int i, int n, bool periodic)
+{
+    if (periodic) return (i % n + n) % n;
+    return i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
+static double colour_place(double u, double replicate, bool periodic)
+{
+    if (periodic) return wr_field_reduce(u, replicate);
+    const double x = replicate * u;
+    return x > 0 ? x < 1 ? x : 1 : 0;
+}
+
+/* C(u,v) of the picture, bilinear. */
+static void picture_colour(const WrReferenceStage *stage, double u, double v, double rgb[3])
+{
+    const WrScene *scene = stage->scene;
+    const WrImage *image = scene->colour;
+    const int w = image->width, h = image->height, channels = image->channels;
+    const double x = w * colour_place(u, scene->replicate_u, stage->periodic_u) - 0.5;
+    const double y = h * (1 - colour_place(v, scene->replicate_v, stage->periodic_v)) - 0.5;
+    const int i = (int)floor(x), j = (int)floor(y);
+    const double a = x - i, b = y - j;
+    const double weight[4] = { (1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b };
+    rgb[0] = rgb[1] = rgb[2] = 0;
+    for (int k = 0; k < 4; k++) {
+        const size_t column = (size_t)colour_texel(i + k % 2, w, stage->periodic_u);
+        const size_t row = (size_t)colour_texel(j + k / 2, h, stage->periodic_v);
+        const float *texel = image->data + (row * (size_t)w + column) * (size_t)channels;
+        for (int c = 0; c < 3; c++) rgb[c] += weight[k] * (double)texel[channels >= 3 ? c : 0];
+    }
+}
+
+void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v, WrVec3 bent,
+                        double rgb[3])
+{
+    const WrMaterial *m = &stage->scene->material;
+    const WrReferenceView *view = &stage->view;
+    const WrVec3 to = view->perspective ? unit(v3_sub(view->eye, p)) : view->toward;
+    double diffuse[3] = { m->ambient, m->ambient, m->ambient }, shine[3] = { 0, 0, 0 };
+    for (int i = 0; i < view->light_count; i++) {
+        const WrReferenceLight *light = &view->lights[i];
+        const WrVec3 l = light->point ? unit(v3_sub(light->where, p)) : light->where;
+        const WrVec3 h = v3_add(l, to);
+        const double nl = v3_dot(bent, l), hh = v3_dot(h, h);
+        double highlight = 0;
+        if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24) {
+            double nh = v3_dot(bent, h) / sqrt(hh);
+            nh = nh > 0 ? nh < 1 ? nh : 1 : 0;
+            highlight = m->specular * (m->shininess > 0 ? pow(nh, m->shininess) : 1);
+        }
+        for (int c = 0; c < 3; c++) {
+            diffuse[c] += m->diffuse * light->rgb[c] * (nl > 0 ? nl : 0);
+            shine[c] += light->rgb[c] * highlight;
+        }
+    }
+    double colour[3] = { 1, 1, 1 };
+    if (stage->scene->colour) picture_colour(stage, u, v, colour);
+    const double own[3] = { m->colour.x, m->colour.y, m->colour.z };
+    for (int c = 0; c < 3; c++) rgb[c] = own[c] * colour[c] * diffuse[c] + shine[c];
+}
+
+bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out)
+{
+    const WrReferenceView *view = &stage->view;
+    const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
+    WrReferenceHit hit;
+    if (!wr_reference_view_hit(view, &ray, &hit)) return false;
+    WrSurfacePoint at;
+    double f = 0, fu = 0, fv = 0;
+    view->info->at(view->shape, hit.face, hit.u, hit.v, &at);
+    if (stage->bump != WR_BUMP_NONE) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
+    const WrVec3 bent = wr_reference_normal(stage->bump, &at, f, fu, fv);
+    out->normal = v3_scale(bent, wr_reference_side(view, &at));
+    out->lost = hit.lost;
+    wr_reference_light(stage, at.p, hit.u, hit.v, out->normal, out->rgb);
+    return true;
+}

@@ -1,0 +1,43 @@
+/* reference_shade.h - from a place on the surface to its normal and its light, for the reference.
+   Layer 5, private to the reference. */
+#pragma once
+#include "render/reference_table.h"
+#include "render/reference_view.h"
+
+/* All that samples of one picture share; read only while they are taken. */
+typedef struct WrReferenceStage {
+    const WrScene *scene; /* borrowed */
+    WrReferenceView view;
+    WrReferenceTable table;      /* empty where F is a formula or has no height */
+    WrBumpMode bump;             /* what the reference takes for the truth */
+    bool periodic_u, periodic_v; /* of the colour picture, as of the table */
+} WrReferenceStage;
+
+/* field may be NULL where the scene's F is a formula. table: also find its coefficients.
+ * Errors: no field; a camera that cannot look; no memory. Call fini even then. */
+bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
+                             double turn_deg, int width, int height, bool table, WrPool *pool,
+                             WrError *err);
+void wr_reference_stage_fini(WrReferenceStage *stage); /* fine on a zeroed one */
+
+/* F with height and replication: the formula, or the spline of the stage's table. */
+void wr_reference_height(const WrReferenceStage *stage, double u, double v, double *f, double *fu,
+                         double *fv);
+/* n', unit, by the formulas of shade/bump.h written out where their numbers are of ordinary size, by that
+ * module's own where they are not. */
+WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, double fu,
+                           double fv);
+/* +1 where n points to the viewer's side of the surface, -1 where its back is seen. */
+double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at);
+/* I = C (ka + sum kd L max(0, n'.l)) + sum ks L max(0, n'.h)^s, the highlight gated as the material says.
+ * bent: n' towards the viewer's side. */
+void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v, WrVec3 bent,
+                        double rgb[3]);
+
+typedef struct WrReferenceSample {
+    double rgb[3];
+    WrVec3 normal; /* n' towards the viewer's side */
+    bool lost;
+} WrReferenceSample;
+/* The reference's intensity at (x, y), pixels from the top left corner; false where the object is not. */
+bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out);

@@ -1,0 +1,221 @@
+#include "render/reference_view.h"
+
+#include <math.h>
+
+#include "base/exactmath.h"
+#include "base/memory.h"
+
+#define NEAR 1e-5 /* of the near plane, in radii of the object, as the picture has it */
+
+static WrVec3 world_to_object(const WrPlacement *place, WrVec3 w)
+{
+    const double *m = place->rotation;
+    return (WrVec3){ m[0] * w.x + m[3] * w.y + m[6] * w.z, m[1] * w.x + m[4] * w.y + m[7] * w.z,
+                     m[2] * w.x + m[5] * w.y + m[8] * w.z };
+}
+
+static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPlacement *place)
+{
+    view->lights = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights);
+    view->light_count = scene->light_count;
+    for (int i = 0; i < scene->light_count; i++) {
+        const WrLight *light = &scene->lights[i];
+        WrReferenceLight *out = &view->lights[i];
+        const WrVec3 turned = world_to_object(place, light->where), ahead = { 0, 0, 1 };
+        out->point = light->kind == WR_LIGHT_POINT;
+        out->where = out->point ? v3_add(turned, place->centre) : v3_unit(turned, ahead);
+        out->rgb[0] = light->colour.x * light->strength;
+        out->rgb[1] = light->colour.y * light->strength;
+        out->rgb[2] = light->colour.z * light->strength;
+    }
+}
+
+/* Of a closed box seen from outside, the faces that look away. */
+static void hide_faces(WrReferenceView *view)
+{
+    bool away[6] = { false }, outside = false;
+    for (int face = 0; face < view->info->faces; face++) {
+        WrSurfacePoint at;
+        wr_surface_at(view->shape, face, 0.5, 0.5, &at);
+        WrVec3 to = view->perspective ? v3_sub(view->eye, at.p) : view->toward;
+        away[face] = !(v3_dot(to, at.n_unit) > 0);
+        outside = outside || !away[face];
+    }
+    for (int face = 0; face < view->info->faces; face++)
+        view->hidden[face] = view->info->convex_closed && outside && away[face];
+}
+
+bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double turn_deg, int width,
+                            int height, WrError *err)
+{
+    *view = (WrReferenceView){ .shape = &scene->shape,
+                               .info = wr_surfaces[scene->shape.kind],
+                               .width = width,
+                               .height = height };
+    WrPlacement place;
+    const double aspect = (double)width / height;
+    if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
+    view->perspective = !place.orthographic;
+    view->eye = v3_add(world_to_object(&place, place.eye), place.centre);
+    view->right = world_to_object(&place, place.right);
+    view->up = world_to_object(&place, place.up);
+    view->forward = world_to_object(&place, place.forward);
+    view->toward = v3_neg(view->forward);
+    view->half_h = place.half_height;
+    view->half_w = place.half_height * aspect;
+    const WrVec3 from_eye = v3_sub(place.centre, view->eye);
+    view->depth = v3_dot(from_eye, view->forward);
+    view->middle = v3_mad(view->eye, view->forward, view->depth);
+    view->s_min = NEAR * place.radius - view->depth;
+    view->cull = view->info->closed_u && view->info->closed_v &&
+                 (!view->perspective || v3_len(from_eye) > place.radius);
+    hide_faces(view);
+    take_lights(view, scene, &place);
+    return view->info->inversion != WR_INVERT_MESH ||
+           wr_reference_patches_init(&view->patches, view->shape, err);
+}
+
+void wr_reference_view_fini(WrReferenceView *view)
+{
+    wr_free(view->lights);
+    wr_reference_patches_fini(&view->patches);
+    *view = (WrReferenceView){ 0 };
+}
+
+WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, double y)
+{
+    const double across = (2 * x / view->width - 1) * view->half_w;
+    const double above = (1 - 2 * y / view->height) * view->half_h;
+    const WrVec3 aside = v3_mad(v3_scale(view->right, across), view->up, above);
+    if (!view->perspective)
+        return (WrReferenceRay){ v3_add(view->middle, aside), view->forward, view->s_min };
+    return (WrReferenceRay){ v3_mad(view->middle, aside, view->depth), v3_add(view->forward, aside),
+                             view->s_min };
+}
+
+void wr_reference_view_spread(const WrReferenceView *view, WrReferenceRay *per_x,
+                              WrReferenceRay *per_y)
+{
+    const WrVec3 x = v3_scale(view->right, 2 * view->half_w / view->width);
+    const WrVec3 y = v3_scale(view->up, -2 * view->half_h / view->height), none = { 0, 0, 0 };
+    const double far = view->perspective ? view->depth : 1;
+    *per_x = (WrReferenceRay){ v3_scale(x, far), view->perspective ? x : none, 0 };
+    *per_y = (WrReferenceRay){ v3_scale(y, far), view->perspective ? y : none, 0 };
+}
+
+/* The angle of (x, y) in turns, 0 <= u < 1. */
+static double turns(double y, double x)
+{
+    const double u = wr_atan2(y, x) / (2 * WR_PI), up = u < 0 ? u + 1 : u;
+    return up < 1 ? up : 0;
+}
+
+static double within(double t)
+{
+    return t > 0 ? t < 1 ? t : 1 : 0;
+}
+
+static bool hit_sphere(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
+{
+    const double R = view->shape->value[0], dd = v3_dot(ray->d, ray->d);
+    const double foot = -v3_dot(ray->q, ray->d) / dd;
+    const WrVec3 nearest = v3_mad(ray->q, ray->d, foot);
+    const double left = R * R - v3_dot(nearest, nearest);
+    if (!(left >= 0)) return false;
+    double half = sqrt(left / dd);
+    if (foot - half > ray->s_min) half = -half;
+    if (!(foot + half > ray->s_min)) return false;
+    const WrVec3 p = v3_mad(nearest, ray->d, half);
+    *hit = (WrReferenceHit){
+        .s = foot + half,
+        .u = turns(p.y, p.x),
+        .v = within(0.5 + wr_atan2(p.z, sqrt(p.x * p.x + p.y * p.y)) / WR_PI),
+    };
+    return true;
+}
+
+/* A tube or a cone, from a root. */
+static void stand_round(const WrReferenceView *view, const WrReferenceRay *ray, double s,
+                        WrReferenceHit *hit)
+{
+    const WrVec3 p = v3_mad(ray->q, ray->d, s);
+    *hit = (WrReferenceHit){ .s = s,
+                             .u = turns(p.y, p.x),
+                             .v = within(0.5 + p.z / view->shape->value[1]) };
+}
+
+/* The nearer of two roots that lies between the rims and beyond the near plane. */
+static bool hit_between(const WrReferenceView *view, const WrReferenceRay *ray, double s0,
+                        double s1, WrReferenceHit *hit)
+{
+    const double top = view->shape->value[1] / 2, roots[2] = { fmin(s0, s1), fmax(s0, s1) };
+    for (int k = 0; k < 2; k++) {
+        const double z = ray->q.z + roots[k] * ray->d.z;
+        if (!(roots[k] > ray->s_min && fabs(z) <= top)) continue;
+        stand_round(view, ray, roots[k], hit);
+        return true;
+    }
+    return false;
+}
+
+static bool hit_cylinder(const WrReferenceView *view, const WrReferenceRay *ray,
+                         WrReferenceHit *hit)
+{
+    const double R = view->shape->value[0];
+    const double dd = ray->d.x * ray->d.x + ray->d.y * ray->d.y;
+    if (!(dd > 1e-30)) return false;
+    const double foot = -(ray->q.x * ray->d.x + ray->q.y * ray->d.y) / dd;
+    const double x = ray->q.x + foot * ray->d.x, y = ray->q.y + foot * ray->d.y;
+    const double left = R * R - (x * x + y * y);
+    if (!(left >= 0)) return false;
+    const double half = sqrt(left / dd);
+    return hit_between(view, ray, foot - half, foot + half, hit);
+}
+
+/* x^2 + y^2 = (R/H)^2 w^2, w = H/2 - z; the roots by t / a and c / t, neither of them a difference. */
+static bool hit_cone(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
+{
+    const double H = view->shape->value[1], slope = view->shape->value[0] / H;
+    const WrVec3 q = ray->q, d = ray->d;
+    const double w = slope * (H / 2 - q.z), dw = -slope * d.z;
+    const double a = d.x * d.x + d.y * d.y - dw * dw, b = q.x * d.x + q.y * d.y - w * dw;
+    const double c = q.x * q.x + q.y * q.y - w * w, disc = b * b - a * c;
+    if (!(disc >= 0)) return false;
+    const double t = b > 0 ? -b - sqrt(disc) : -b + sqrt(disc);
+    const double s0 = a != 0 ? t / a : INFINITY, s1 = t != 0 ? c / t : 0;
+    return hit_between(view, ray, s0, s1, hit);
+}
+
+static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
+{
+    bool found = false;
+    for (int face = 0; face < view->info->faces; face++) {
+        if (view->hidden[face]) continue;
+        WrSurfacePoint at;
+        wr_surface_at(view->shape, face, 0, 0, &at);
+        const double dn = v3_dot(ray->d, at.n_unit);
+        const double s = v3_dot(v3_sub(at.p, ray->q), at.n_unit) / dn;
+        if (!(dn != 0 && s > ray->s_min && isfinite(s)) || (found && s >= hit->s)) continue;
+        const WrVec3 w = v3_sub(v3_mad(ray->q, ray->d, s), at.p);
+        const double u = v3_dot(w, at.pu) / v3_dot(at.pu, at.pu);
+        const double v = v3_dot(w, at.pv) / v3_dot(at.pv, at.pv);
+        if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) continue;
+        *hit = (WrReferenceHit){ .s = s, .u = u, .v = v, .face = face };
+        found = true;
+    }
+    return found;
+}
+
+bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ray,
+                           WrReferenceHit *hit)
+{
+    switch (view->info->inversion) {
+    case WR_INVERT_SPHERE: return hit_sphere(view, ray, hit);
+    case WR_INVERT_CYLINDER: return hit_cylinder(view, ray, hit);
+    case WR_INVERT_CONE: return hit_cone(view, ray, hit);
+    case WR_INVERT_PLANE:
+    case WR_INVERT_CUBE: return hit_faces(view, ray, hit);
+    case WR_INVERT_MESH: break;
+    }
+    return wr_reference_patches_hit(&view->patches, view->shape, view->cull, ray, hit);
+}

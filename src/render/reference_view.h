@@ -1,0 +1,42 @@
+/* reference_view.h - camera, rays and the inverse of the surfaces for the reference, in object space and
+   double precision: closed forms where there are any, else a tree of patches and Newton's method.
+   Layer 5, private to the reference. */
+#pragma once
+#include "render/reference_patch.h"
+#include "scene/scene.h"
+
+typedef struct WrReferenceLight {
+    bool point;
+    WrVec3 where; /* object space: unit direction to the light, or its place */
+    double rgb[3];
+} WrReferenceLight;
+
+typedef struct WrReferenceView {
+    const WrShape *shape; /* the scene's */
+    const WrSurfaceInfo *info;
+    double width, height;                   /* pixels */
+    WrVec3 eye, right, up, forward, middle; /* middle: where the axis of view passes the object */
+    WrVec3 toward;                          /* -forward */
+    double half_w, half_h, depth;           /* of the view, at depth 1 or whole; of `middle` */
+    double s_min;                           /* of rays: where the near plane stands */
+    bool perspective;
+    bool cull; /* a closed surface seen from outside hides its back */
+    bool hidden[6];
+    WrReferenceLight *lights; /* [light_count], owned */
+    int light_count;
+    WrReferencePatches patches; /* of surfaces without a closed inverse */
+} WrReferenceView;
+
+/* Errors: a camera that cannot look; no memory. Call fini even then. */
+bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double turn_deg, int width,
+                            int height, WrError *err);
+void wr_reference_view_fini(WrReferenceView *view); /* fine on a zeroed one */
+
+/* The ray through (x, y), pixels from the top left corner. */
+WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, double y);
+/* How that ray's q and d change from pixel to pixel. */
+void wr_reference_view_spread(const WrReferenceView *view, WrReferenceRay *per_x,
+                              WrReferenceRay *per_y);
+/* The nearest point of the surface on the ray, in front of the near plane, as the program shows it. */
+bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ray,
+                           WrReferenceHit *hit);

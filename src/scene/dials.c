@@ -1,0 +1,196 @@
+/* The table of dials. */
+#include "scene/dials.h"
+
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *const wr_axis_labels[WR_AXIS_COUNT] = {
+    [WR_AXIS_DERIVATIVE] = "derivative of F", [WR_AXIS_NORMAL] = "normal",
+    [WR_AXIS_ANTIALIASING] = "antialiasing",  [WR_AXIS_VISIBILITY] = "visibility",
+    [WR_AXIS_ARITHMETIC] = "arithmetic",
+};
+
+WrDials wr_dials_default(void)
+{
+    return (WrDials){ .samples = 4, .contrast = 0.02, .newton = -1, .heights = WR_HEIGHTS_FLOAT };
+}
+
+/* ---- names of rungs ---- */
+
+#define NAMES(function, count, ...)                                                                \
+    static const char *function(int rung)                                                          \
+    {                                                                                              \
+        static const char *const names[count] = { __VA_ARGS__ };                                   \
+        return rung >= 0 && rung < (count) ? names[rung] : NULL;                                   \
+    }
+
+NAMES(aa_name, WR_AA_COUNT, "point", "filter", "moments", "supersample", "adaptive")
+NAMES(spread_name, WR_SPREAD_COUNT, "regular", "jittered")
+NAMES(footprint_name, WR_FOOTPRINT_COUNT, "isotropic", "anisotropic")
+NAMES(moments_name, WR_MOMENTS_COUNT, "toksvig", "lean")
+NAMES(refine_name, WR_REFINE_COUNT, "contrast", "bound")
+NAMES(heights_name, WR_HEIGHTS_COUNT, "double", "float", "half", "16bit", "8bit")
+NAMES(shading_name, WR_SHADING_COUNT, "float", "double")
+NAMES(arithmetic_name, WR_ARITHMETIC_COUNT, "exact", "fast")
+
+static const char *scheme_name(int rung)
+{
+    return rung >= 0 && rung < WR_SCHEME_COUNT ? wr_schemes[rung].name : NULL;
+}
+
+static const char *normal_name(int rung)
+{
+    return rung >= 0 && rung < WR_BUMP_COUNT ? wr_bump_names[rung] : NULL;
+}
+
+/* ---- where they live ---- */
+
+#define MEMBER(name, type, member)                                                                 \
+    static double get_##name(const WrScene *scene)                                                 \
+    {                                                                                              \
+        return (double)scene->member;                                                              \
+    }                                                                                              \
+    static void set_##name(WrScene *scene, double value)                                           \
+    {                                                                                              \
+        scene->member = (type)value;                                                               \
+    }
+
+MEMBER(scheme, WrScheme, scheme)
+MEMBER(normal, WrBumpMode, bump)
+MEMBER(aa, WrAntialias, dials.aa)
+MEMBER(samples, int, dials.samples)
+MEMBER(spread, WrSpread, dials.spread)
+MEMBER(footprint, WrFootprint, dials.footprint)
+MEMBER(moments, WrMoments, dials.moments)
+MEMBER(refine, WrRefine, dials.refine)
+MEMBER(contrast, double, dials.contrast)
+MEMBER(mesh, int, dials.mesh)
+MEMBER(newton, int, dials.newton)
+MEMBER(texels, double, dials.texels)
+MEMBER(heights, WrHeights, dials.heights)
+MEMBER(shading, WrShading, dials.shading)
+MEMBER(arithmetic, WrArithmetic, dials.arithmetic)
+
+/* ---- when they matter ---- */
+
+static bool with_table(const WrScene *scene)
+{
+    return scene->analytic.kind == WR_ANALYTIC_OFF && scene->bump != WR_BUMP_NONE;
+}
+
+static bool with_samples(const WrScene *scene)
+{
+    return scene->dials.aa == WR_AA_SUPERSAMPLE || scene->dials.aa == WR_AA_ADAPTIVE;
+}
+
+static bool with_footprint(const WrScene *scene)
+{
+    return scene->dials.aa == WR_AA_FILTER || scene->dials.aa == WR_AA_MOMENTS;
+}
+
+static bool with_moments(const WrScene *scene)
+{
+    return scene->dials.aa == WR_AA_MOMENTS;
+}
+
+static bool with_adaptive(const WrScene *scene)
+{
+    return scene->dials.aa == WR_AA_ADAPTIVE;
+}
+
+static bool with_mesh(const WrScene *scene)
+{
+    return wr_surfaces[scene->shape.kind]->inversion == WR_INVERT_MESH;
+}
+
+/* ---- the table ---- */
+
+static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
+static const double contrast_rungs[] = { 0.1, 0.05, 0.02, 0.01, 0.005, NAN };
+static const double mesh_rungs[] = { -2, -1, 0, 1, NAN };
+static const double newton_rungs[] = { 0, 1, 2, 3, NAN };
+static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
+
+#define CHOICES(name, count_) .choices = (count_), .choice = name##_name
+#define MEMBERS(name) .get = get_##name, .set = set_##name
+
+const WrDial wr_dials[WR_DIAL_COUNT] = {
+    [WR_DIAL_SCHEME] = { "scheme", "bump", WR_AXIS_DERIVATIVE, "Slopes of F",
+                         "how F and its slopes come from the table",
+                         CHOICES(scheme, WR_SCHEME_COUNT), MEMBERS(scheme), .matters = with_table },
+    [WR_DIAL_NORMAL] = { "mode", "bump", WR_AXIS_NORMAL, "Normal", "which formula turns the normal",
+                         CHOICES(normal, WR_BUMP_COUNT), MEMBERS(normal) },
+    [WR_DIAL_AA] = { "aa", "dials", WR_AXIS_ANTIALIASING, "Antialiasing",
+                     "how a pixel's samples become one intensity", CHOICES(aa, WR_AA_COUNT),
+                     MEMBERS(aa) },
+    [WR_DIAL_SAMPLES] = { "samples", "dials", WR_AXIS_ANTIALIASING, "Samples",
+                          "along each side of a pixel: supersample takes them all, adaptive at "
+                          "most",
+                          .low = 1, .high = 64, .whole = true, MEMBERS(samples),
+                          .matters = with_samples, .rungs = sample_rungs },
+    [WR_DIAL_SPREAD] = { "spread", "dials", WR_AXIS_ANTIALIASING, "Sample places",
+                         "where in the pixel the samples stand", CHOICES(spread, WR_SPREAD_COUNT),
+                         MEMBERS(spread), .matters = with_samples },
+    [WR_DIAL_FOOTPRINT] = { "footprint", "dials", WR_AXIS_ANTIALIASING, "Footprint",
+                            "shape of a pixel in the table, for filter and moments",
+                            CHOICES(footprint, WR_FOOTPRINT_COUNT), MEMBERS(footprint),
+                            .matters = with_footprint },
+    [WR_DIAL_MOMENTS] = { "moments", "dials", WR_AXIS_ANTIALIASING, "Spread of slopes",
+                          "one variance, or the whole covariance",
+                          CHOICES(moments, WR_MOMENTS_COUNT), MEMBERS(moments),
+                          .matters = with_moments },
+    [WR_DIAL_REFINE] = { "refine", "dials", WR_AXIS_ANTIALIASING, "Refine where",
+                         "neighbours disagree, or a bound on the error says so",
+                         CHOICES(refine, WR_REFINE_COUNT), MEMBERS(refine),
+                         .matters = with_adaptive },
+    [WR_DIAL_CONTRAST] = { "contrast", "dials", WR_AXIS_ANTIALIASING, "Contrast",
+                           "linear intensity that adaptive lets pass", .low = 0, .high = 1,
+                           MEMBERS(contrast), .matters = with_adaptive, .rungs = contrast_rungs },
+    [WR_DIAL_MESH] = { "mesh", "dials", WR_AXIS_VISIBILITY, "Mesh",
+                       "curved surfaces' grid is 2^mesh times as fine each way", .low = -4,
+                       .high = 4, .whole = true, MEMBERS(mesh), .matters = with_mesh,
+                       .rungs = mesh_rungs },
+    [WR_DIAL_NEWTON] = { "newton", "dials", WR_AXIS_VISIBILITY, "Newton steps",
+                         "most steps of the inversion; -1: as many as the mesh calls for",
+                         .low = -1, .high = 8, .whole = true, MEMBERS(newton), .matters = with_mesh,
+                         .rungs = newton_rungs },
+    [WR_DIAL_TEXELS] = { "texels", "dials", WR_AXIS_VISIBILITY, "Inversion stops at",
+                         "a step shorter than so many texels; 0: never before its last", .low = 0,
+                         .high = 16, MEMBERS(texels), .matters = with_mesh, .rungs = texel_rungs },
+    [WR_DIAL_HEIGHTS] = { "heights", "dials", WR_AXIS_ARITHMETIC, "Heights",
+                          "what a height is stored as when it is looked up",
+                          CHOICES(heights, WR_HEIGHTS_COUNT), MEMBERS(heights),
+                          .matters = with_table },
+    [WR_DIAL_SHADING] = { "shading", "dials", WR_AXIS_ARITHMETIC, "Shading",
+                          "precision of everything from the ray to the intensity",
+                          CHOICES(shading, WR_SHADING_COUNT), MEMBERS(shading) },
+    [WR_DIAL_ARITHMETIC] = { "arithmetic", "dials", WR_AXIS_ARITHMETIC, "Arithmetic",
+                             "the same bits on every processor, or faster",
+                             CHOICES(arithmetic, WR_ARITHMETIC_COUNT), MEMBERS(arithmetic) },
+};
+
+int wr_dial_find(const char *name)
+{
+    for (int i = 0; i < WR_DIAL_COUNT; i++)
+        if (strcmp(wr_dials[i].name, name) == 0) return i;
+    return -1;
+}
+
+void wr_dials_print(const WrScene *scene, const char *command, bool all, WrText *text)
+{
+    WrScene fallback = { .dials = wr_dials_default() };
+    fallback.bump = WR_BUMP_BLINN;
+    fallback.scheme = WR_SCHEME_CENTRAL;
+    for (int i = 0; i < WR_DIAL_COUNT; i++) {
+        const WrDial *dial = &wr_dials[i];
+        const double value = dial->get(scene);
+        if (strcmp(dial->command, command) != 0 || (!all && value == dial->get(&fallback)))
+            continue;
+        if (text->length > 0) wr_text_add(text, " ");
+        wr_text_addf(text, "%s=", dial->name);
+        if (dial->choices > 0) wr_text_add(text, dial->choice((int)value));
+        else wr_text_add_number(text, value);
+    }
+}

@@ -1,0 +1,142 @@
+/* dials.h - the dials of accuracy: every approximation that a picture may make, as a setting of the scene.
+   Layer 4. One table, wr_dials: the command's arguments, the scene's lines, the ladder that
+   `wrinkle accuracy` climbs and the window's Accuracy panel are all made from it. A new dial is one
+   member of WrDials (or of the scene) and one row. */
+#pragma once
+#include "base/text.h"
+
+#include <stdbool.h>
+
+typedef struct WrScene WrScene;
+
+/* How a pixel's samples become one intensity. */
+typedef enum WrAntialias {
+    WR_AA_POINT,       /* one sample at the pixel's centre */
+    WR_AA_FILTER,      /* one sample of F filtered over the pixel's footprint: Blinn 1978 section 5.
+                          Right mean slope, wrong intensity: it does not converge */
+    WR_AA_MOMENTS,     /* mean slope and its variance widen the highlight: Toksvig, LEAN */
+    WR_AA_SUPERSAMPLE, /* mean of K x K intensities: the paper's correct solution */
+    WR_AA_ADAPTIVE,    /* K x K only where needed */
+    WR_AA_COUNT
+} WrAntialias;
+
+/* filter, moments: the shape of a pixel's footprint in the table. */
+typedef enum WrFootprint {
+    WR_FOOTPRINT_ISOTROPIC,   /* a square of the longer side: one look-up between two mip levels */
+    WR_FOOTPRINT_ANISOTROPIC, /* several look-ups of the shorter side along the longer */
+    WR_FOOTPRINT_COUNT
+} WrFootprint;
+
+/* moments: the model of how slopes spread inside the footprint. */
+typedef enum WrMoments {
+    WR_MOMENTS_TOKSVIG, /* the isotropic form: one variance, (Sigma_uu + Sigma_vv) / 2 */
+    WR_MOMENTS_LEAN,    /* mean and covariance, Olano and Baker 2010, Sigma = M - B B^T (+ 1/s) */
+    WR_MOMENTS_COUNT
+} WrMoments;
+
+/* supersample, adaptive: where in the pixel the samples stand. */
+typedef enum WrSpread {
+    WR_SPREAD_REGULAR, /* centres of K x K cells */
+    WR_SPREAD_JITTERED, /* one anywhere in each cell, from an integer hash of the pixel and the cell */
+    WR_SPREAD_COUNT
+} WrSpread;
+
+/* adaptive: what decides that a pixel needs more. */
+typedef enum WrRefine {
+    WR_REFINE_CONTRAST, /* neighbouring samples differ by more than `contrast`: may miss features */
+    WR_REFINE_BOUND,    /* until a bound on the intensity's change over the pixel is under
+                           `contrast`: the error is within it wherever the bound exists */
+    WR_REFINE_COUNT
+} WrRefine;
+
+/* What a height is stored as when it is looked up. */
+typedef enum WrHeights {
+    WR_HEIGHTS_DOUBLE,
+    WR_HEIGHTS_FLOAT,
+    WR_HEIGHTS_HALF, /* IEEE binary16 */
+    WR_HEIGHTS_16,   /* integers over the table's own range, as in a 16-bit file */
+    WR_HEIGHTS_8,
+    WR_HEIGHTS_COUNT
+} WrHeights;
+
+typedef enum WrShading { WR_SHADING_FLOAT, WR_SHADING_DOUBLE, WR_SHADING_COUNT } WrShading;
+
+typedef enum WrArithmetic {
+    WR_ARITHMETIC_EXACT, /* the same bits on every processor */
+    WR_ARITHMETIC_FAST,  /* contraction, reciprocal estimates: within a stated bound */
+    WR_ARITHMETIC_COUNT
+} WrArithmetic;
+
+/* Zero but for samples, newton, heights is not the default: see wr_dials_default. */
+typedef struct WrDials {
+    WrAntialias aa;
+    int samples; /* supersample: K of K x K; adaptive: the most; 1..64 */
+    WrSpread spread;
+    WrFootprint footprint;
+    WrMoments moments;
+    WrRefine refine;
+    double contrast; /* adaptive: linear intensity, 0..1 */
+    int mesh;        /* -4..4: curved surfaces' grid is 2^mesh times as fine each way */
+    int newton;      /* most steps of the inversion, 0..8; -1: as many as the mesh calls for */
+    double texels; /* the inversion stops where its step is shorter than so many texels; 0: never */
+    WrHeights heights;
+    WrShading shading;
+    WrArithmetic arithmetic;
+} WrDials;
+
+WrDials wr_dials_default(void);
+
+typedef enum WrDialId {
+    WR_DIAL_SCHEME, /* the scene's scheme and bump mode are dials as well, set by `bump` */
+    WR_DIAL_NORMAL,
+    WR_DIAL_AA,
+    WR_DIAL_SAMPLES,
+    WR_DIAL_SPREAD,
+    WR_DIAL_FOOTPRINT,
+    WR_DIAL_MOMENTS,
+    WR_DIAL_REFINE,
+    WR_DIAL_CONTRAST,
+    WR_DIAL_MESH,
+    WR_DIAL_NEWTON,
+    WR_DIAL_TEXELS,
+    WR_DIAL_HEIGHTS,
+    WR_DIAL_SHADING,
+    WR_DIAL_ARITHMETIC,
+    WR_DIAL_COUNT
+} WrDialId;
+
+/* The ladder's axes. */
+typedef enum WrAxis {
+    WR_AXIS_DERIVATIVE,
+    WR_AXIS_NORMAL,
+    WR_AXIS_ANTIALIASING,
+    WR_AXIS_VISIBILITY,
+    WR_AXIS_ARITHMETIC,
+    WR_AXIS_COUNT
+} WrAxis;
+extern const char *const wr_axis_labels[WR_AXIS_COUNT]; /* "derivative of F", ... */
+
+typedef struct WrDial {
+    const char *name;    /* as the argument's: "footprint" */
+    const char *command; /* that sets it: "bump" or "dials" */
+    WrAxis axis;
+    const char *label, *help; /* for people; help is a few words, with the unit */
+    int choices;              /* how many rungs by name; 0: a number */
+    const char *(*choice)(int rung);
+    double low, high; /* of a number */
+    bool whole;
+    double (*get)(const WrScene *scene); /* the rung's index, or the number */
+    void (*set)(WrScene *scene, double value);
+    /* Whether the dial can change the scene's picture as its other dials stand (footprint: only with filter
+       or moments); NULL: always. */
+    bool (*matters)(const WrScene *scene);
+    /* The rungs that the ladder tries, of a number; ends with NAN; NULL: every choice. */
+    const double *rungs;
+} WrDial;
+
+extern const WrDial wr_dials[WR_DIAL_COUNT];
+int wr_dial_find(const char *name); /* WrDialId, or -1 */
+
+/* "aa=supersample samples=4 ...", the members of one command that differ from the default, in the
+   table's order; all of them when `all`. */
+void wr_dials_print(const WrScene *scene, const char *command, bool all, WrText *text);

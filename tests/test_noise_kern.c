@@ -1,0 +1,99 @@
+/* The noise's inner loops: every instruction set that this processor has gives the bits of the plain one. */
+#include "test.h"
+
+#include "noise/kern.h"
+
+#include <math.h>
+#include <string.h>
+
+static WrOctave octave_of(WrNoiseKind kind, WrFade fade, double cells)
+{
+    WrOctave octave = { .noise = { .kind = kind, .fade = fade, .dim = 2 } };
+    octave.noise.lattice = (WrLattice){ .seed = 5, .period = { (int)cells, (int)cells } };
+    octave.frequency[0] = octave.frequency[1] = cells;
+    octave.offset[0] = 0.37;
+    return octave;
+}
+
+/* All that a row of texels goes through, with one set. */
+typedef struct Made {
+    WrNoiseColumns columns;
+    WrNoiseLattice near, far;
+    WrNoiseBlended blended;
+    float f[WR_NOISE_STRIP], fx[WR_NOISE_STRIP], fy[WR_NOISE_STRIP];
+    float sum[WR_NOISE_STRIP], magnitudes[WR_NOISE_STRIP];
+} Made;
+
+static void make(const WrNoiseKernels *kern, const WrOctave *octave, int i, int width, int count,
+                 Made *made)
+{
+    memset(made, 0, sizeof *made);
+    WrNoiseColumns *columns = &made->columns;
+    columns->count = count;
+    columns->narrow = 2.0 * octave->frequency[0] <= width;
+    kern->place(&wr_fades[octave->noise.fade], octave->frequency[0], octave->offset[0], i, width,
+                columns);
+    columns->points = columns->cell[count - 1] + 2;
+    for (int k = 0; k < columns->points; k++)
+        columns->chain[k] = wr_mix32((uint32_t)k + (uint32_t)(int)columns->first);
+    for (int k = 0; k < 16; k++) {
+        columns->set[0][k] = 0.1f * (float)k - 0.7f;
+        columns->set[1][k] = 0.9f - 0.13f * (float)k;
+    }
+    kern->prescribe(octave->noise.kind, columns, 12345, &made->near);
+    kern->prescribe(octave->noise.kind, columns, 99, &made->far);
+    kern->blend(columns->points, &made->near, &made->far, 0.3f, 0.22f, 1.4f, &made->blended);
+    kern->heights(columns, &made->blended, made->f);
+    kern->slopes(columns, &made->blended, made->fx, made->fy);
+    kern->add(0.25f, made->f, count, made->sum);
+    kern->add_magnitude(0.5f, 0.25f, made->f, count, made->magnitudes);
+}
+
+static void assert_same_row(const Made *a, const Made *b)
+{
+    size_t bytes = sizeof *a->f * (size_t)a->columns.count;
+    assert_int_equal(a->columns.points, b->columns.points);
+    assert_memory_equal(a->f, b->f, bytes);
+    assert_memory_equal(a->fx, b->fx, bytes);
+    assert_memory_equal(a->fy, b->fy, bytes);
+    assert_memory_equal(a->sum, b->sum, sizeof a->sum);
+    assert_memory_equal(a->magnitudes, b->magnitudes, sizeof a->magnitudes);
+}
+
+/* From cells that span the strip to one cell a texel, where vectors must not be dealt out of few. */
+static void all_instruction_sets_give_the_same_bits(void **state)
+{
+    (void)state;
+    static const WrNoiseKind kinds[] = { WR_NOISE_VALUE, WR_NOISE_GRADIENT, WR_NOISE_PERLIN };
+    static const int cells[] = { 1, 2, 7, 64, 127, 255, 256, 257, 511, 512 };
+    static Made plain, other;
+    for (int index = 1; wr_noise_kernels_at(index); index++)
+        for (int k = 0; k < 3; k++)
+            for (int c = 0; c < 10; c++)
+                for (int count = 1; count <= WR_NOISE_STRIP; count++) {
+                    WrOctave octave = octave_of(kinds[k], (WrFade)(count % 3), cells[c]);
+                    int i = count * 7 % (512 - WR_NOISE_STRIP);
+                    make(&wr_noise_kernels_v1, &octave, i, 512, count, &plain);
+                    make(wr_noise_kernels_at(index), &octave, i, 512, count, &other);
+                    assert_same_row(&plain, &other);
+                }
+}
+
+static void the_plain_set_is_always_there_and_the_best_one_is_among_them(void **state)
+{
+    (void)state;
+    bool found = false;
+    assert_ptr_equal(wr_noise_kernels_at(0), &wr_noise_kernels_v1);
+    for (int index = 0; wr_noise_kernels_at(index); index++)
+        found |= wr_noise_kernels_at(index) == wr_noise_kernels();
+    assert_true(found);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_instruction_sets_give_the_same_bits),
+        cmocka_unit_test(the_plain_set_is_always_there_and_the_best_one_is_among_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
