@@ -19,6 +19,8 @@ endif()
 if(TARGET wrinkle)
     wr_check(readme readme.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
     wr_check(install install.sh ${CMAKE_BINARY_DIR})
+    wr_check(accuracy accuracy.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
+    set_tests_properties(accuracy PROPERTIES TIMEOUT 300)
 
     add_executable(golden golden.c)
     target_link_libraries(golden PRIVATE wr_image)

@@ -9,6 +9,8 @@
 #include "base/text.h"
 #include "base/vec.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -159,6 +161,25 @@ static void each_piece_of_a_job_runs_once(void **state)
     }
 }
 
+static void bytes_become_a_file_in_memory(void **state)
+{
+    (void)state;
+    WrError err;
+    static char many[200000], back[200001];
+    for (size_t i = 0; i < sizeof many; i++) many[i] = (char)(i * 31 >> 3);
+    int fd = wr_fd_in_memory("many", many, sizeof many, &err);
+    assert_true(fd >= 0);
+    size_t have = 0;
+    for (ssize_t n; (n = read(fd, back + have, sizeof back - have)) > 0;) have += (size_t)n;
+    assert_int_equal(have, sizeof many);
+    assert_memory_equal(back, many, sizeof many);
+    close(fd);
+    fd = open("/dev/full", O_WRONLY);
+    assert_false(wr_fd_write(fd, many, 10));
+    assert_int_equal(errno, ENOSPC);
+    close(fd);
+}
+
 static void a_failed_write_leaves_the_old_file_whole(void **state)
 {
     (void)state;
@@ -207,6 +228,7 @@ int main(void)
         cmocka_unit_test(length_and_unit_survive_any_scale),
         cmocka_unit_test(hc20_angle_between_equal_directions_is_zero),
         cmocka_unit_test(each_piece_of_a_job_runs_once),
+        cmocka_unit_test(bytes_become_a_file_in_memory),
         cmocka_unit_test(a_failed_write_leaves_the_old_file_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

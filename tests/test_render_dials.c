@@ -209,6 +209,42 @@ static void blocks_that_are_asked_for_have_the_bits_of_the_whole_picture(void **
     wr_field_free(field);
 }
 
+/* Copies that are held from settings before, while the table is edited between: the bits of a new renderer. */
+static void copies_that_are_held_are_kept_up_to_date(void **state)
+{
+    (void)state;
+    static const WrScheme schemes[] = { WR_SCHEME_BSPLINE_FIT, WR_SCHEME_CENTRAL,
+                                        WR_SCHEME_BILINEAR, WR_SCHEME_CENTRAL,
+                                        WR_SCHEME_BSPLINE_FIT };
+    static const WrAntialias aas[] = { WR_AA_POINT, WR_AA_MOMENTS, WR_AA_FILTER, WR_AA_POINT,
+                                       WR_AA_MOMENTS };
+    WrField *field = bumpy_field(50, 70);
+    WrError err = { "" };
+    WrScene *scene = scene_of("cylinder");
+    WrRenderer *renderer = wr_renderer_new(NULL, NULL, &err);
+    assert_non_null(renderer);
+    for (int i = 0; i < 5; i++) {
+        WrFrame held;
+        scene->scheme = schemes[i];
+        scene->dials.aa = aas[i];
+        scene->bump = i % 2 ? WR_BUMP_BLINN : WR_BUMP_EXACT;
+        wr_field_set(field, 10 + i, 20, 1.0f - 0.1f * (float)i);
+        WrFrameRequest request = { .field = field,
+                                   .scene = scene,
+                                   .width = SIDE,
+                                   .height = SIDE,
+                                   .turn_deg = 15,
+                                   .hold = true };
+        if (!wr_renderer_frame(renderer, &request, &held, &err)) fail_msg("%s", err.text);
+        Shot fresh = picture(scene, field, NULL, SIDE, 1, "auto", NULL);
+        assert_memory_equal(held.rgba, fresh.frame.rgba, SIDE * SIDE * 4 * sizeof(float));
+        put_away(&fresh);
+    }
+    wr_renderer_free(renderer);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 /* The plane's n' in closed form: (-Fu, -Fv, 1) made unit. */
 static void normals_are_those_of_the_formula_at_pixel_centres(void **state)
 {
@@ -441,6 +477,7 @@ int main(void)
         cmocka_unit_test(hc27_grazing_views_are_finite_under_every_rung),
         cmocka_unit_test(every_rung_has_the_same_bits_on_any_threads_and_instruction_set),
         cmocka_unit_test(blocks_that_are_asked_for_have_the_bits_of_the_whole_picture),
+        cmocka_unit_test(copies_that_are_held_are_kept_up_to_date),
         cmocka_unit_test(normals_are_those_of_the_formula_at_pixel_centres),
         cmocka_unit_test(hc51_hc52_fewer_bits_err_by_half_a_step_times_the_slopes_gain),
         cmocka_unit_test(halves_are_the_nearest_halves),

@@ -154,11 +154,11 @@ static void the_finest_of_each_axis_is_kept_of_kinds_that_are_there(void **state
     (void)state;
     WrChoice choice = { .kinds = 4, .met = true, .reason = "because" };
     WrChosen chosen;
-    choice.scenes[0] = with(WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, 16); /* empty blocks */
+    choice.scenes[0] = with(WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, 16); /* no empty blocks */
     choice.scenes[1] = with(WR_SCHEME_CENTRAL, WR_BUMP_BLINN, 6);
     choice.scenes[2] = with(WR_SCHEME_CATMULL, WR_BUMP_BLINN, 1);
     choice.scenes[3] = with(WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, 12); /* there are none */
-    choice.blocks[0] = choice.blocks[1] = choice.blocks[2] = 10;
+    choice.blocks[1] = choice.blocks[2] = 10;
     wr_chosen_from(&choice, &chosen);
     assert_true(chosen.any && chosen.met);
     assert_string_equal(chosen.reason, "because");
@@ -166,7 +166,10 @@ static void the_finest_of_each_axis_is_kept_of_kinds_that_are_there(void **state
     assert_true(chosen.finest[WR_DIAL_NORMAL] == WR_BUMP_BLINN);
     assert_true(chosen.finest[WR_DIAL_AA] == WR_AA_SUPERSAMPLE);
     assert_true(chosen.finest[WR_DIAL_SAMPLES] == 6);
-    assert_non_null(strstr(chosen.lines, "catmull"));
+    assert_non_null(strstr(chosen.lines, "50.0 %: blinn central 6\xc3\x97"
+                                         "6\n"));
+    assert_non_null(strstr(chosen.lines, "%: blinn catmull 1\xc3\x97"
+                                         "1"));
     choice.blocks[1] = choice.blocks[2] = 0; /* nothing is seen */
     wr_chosen_from(&choice, &chosen);
     assert_false(chosen.any);
@@ -200,7 +203,7 @@ static void a_cancelled_piece_of_work_is_not_done(void **state)
     wr_field_free(field);
 }
 
-/* A scene without bump has no slopes to be wrong about: what is left is sampling, whose error falls with the
+/* A scene without height has no slopes to be wrong about: what is left is sampling, whose error falls with the
    samples; and the map of errors has its largest where the numbers say. */
 static void the_measured_error_falls_with_the_samples(void **state)
 {
@@ -212,7 +215,7 @@ static void the_measured_error_falls_with_the_samples(void **state)
     for (int k = 0; k < 2; k++) {
         WrWorkTools tools = { 0 };
         WrScene *scene = scene_of("sphere");
-        scene->bump = WR_BUMP_NONE;
+        scene->height = 0;
         scene->dials.aa = WR_AA_SUPERSAMPLE;
         scene->dials.samples = k ? 5 : 1;
         WrWork *work = wr_work_new(WR_WORK_ERROR, &tools, field, scene, 0, 90, 60);

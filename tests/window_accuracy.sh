@@ -12,11 +12,12 @@ source "$source/tests/window_help.sh"
 
 serve
 printf '%s\n' 'table 64x64' 'grid cells=4x4 width=6' 'surface sphere' 'replicate 4,2' \
-    'bump mode=blinn scheme=nearest height=0.1' 'dials aa=supersample samples=4' >small.wrinkle
+    'bump mode=blinn scheme=nearest height=0.1' >small.wrinkle
 printf '%s\n' 'width 1280' 'height 800' 'turning 0' 'ants 0' 'tab 5' 'lower 0.42' >config/wrinkle/window.conf
 
 patch=360x500+600+160 # the sphere, without the chips above and the labels below
 panel=250x330+1016+140
+plot=180x140+1064+265 # three steps of the wheel down
 # search WORDS: run the action that is found first.
 search() {
     key ctrl+Return
@@ -63,11 +64,12 @@ scroll() {
 
 "$program" accuracy --hard-cases --json >cases.json & cases=$!
 start small.wrinkle
+scroll 3 5
+shot empty
+until_true 60 "the plot of what accuracy costs" alters empty $plot
 until_true 20 "rest after error and plot were measured" rests
 
 # ---- a click on a point of the plot becomes commands, which undo takes back ----
-scroll 3 5
-shot measured
 picked() { [[ $(newest) == bump\ * || $(newest) == dials\ * ]]; }
 for x in 1075 1090 1105 1125 1150; do
     for y in 285 300 315 335 355 375; do
@@ -86,14 +88,15 @@ home
 shot plain
 key alt+6
 until_true 10 "two pictures side by side" alters plain $patch
-home
+sleep 0.3
 shot split
-much plain split $patch "the second setting is another picture"
-same plain split 150x300+600+250 "left of the line is the scene"
+much plain split $patch "two settings are another picture than the preview's"
 drag 774 422 -20 0 8
-home
+xdotool mousemove $((X + 330)) $((Y + 400))
+sleep 0.5
 shot dragged
-much split dragged $patch "the line moves"
+much split dragged 140x400+624+200 "between the line's old place and its new one"
+same split dragged 130x400+800+200 "right of the line nothing changes"
 key alt+5
 until_true 5 "the picture alone" shows plain $patch
 xdotool keydown w

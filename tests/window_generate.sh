@@ -58,7 +58,7 @@ differs_much() {
 
 # The second slider of the panel, the list of presets, the glyph that saves one, and that which shows pictures
 # of all generators, at this size.
-slider_x=1100 slider_y=237 presets_x=1090 presets_y=161 save_x=1145 gallery_x=1175 gallery_y=128
+slider_x=1100 slider_y=269 presets_x=1090 presets_y=193 save_x=1145 gallery_x=1175 gallery_y=160
 
 # ---- found by its name, shown at once; a slider changes what is shown; Escape leaves no trace ----
 configure

@@ -161,10 +161,10 @@ near "$left" "$right" || complain "at the left the height is $left, at the right
 key u
 
 # ---- a preset is found by its name, chosen by a click, and named in the stroke ----
-click 1000 157
+click 1000 189
 xdotool type --delay 30 rivet
 sleep 1
-click 987 223
+click 987 255
 xdotool mousemove $((X + cx)) $((Y + cy))
 sleep 0.3
 drag $((cx - 80)) $((cy + 30)) 5 0 30

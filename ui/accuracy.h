@@ -72,6 +72,9 @@ struct WrAccuracy {
     uint64_t plot_key; /* of the table; and the picture's turn */
     double plot_turn;
     uint64_t plot_failed; /* state for which there is none */
+    uint64_t fits_of;     /* state that the next two are known for; 0: none */
+    bool fits;            /* the plot is of this table and this scene, but for its dials */
+    int rung;             /* of it with the scene's dials, -1: none */
     bool plot_asked;
     int plot_hot; /* point under the pointer, -1: none */
 
@@ -105,8 +108,8 @@ void wr_accuracy_forget(WrApp *app);            /* textures were lost */
 bool wr_accuracy_rests(const WrApp *app);       /* nothing is held or drawn, nothing turns */
 /* Is a ladder there, for the table and the scene but for its dials? */
 bool wr_accuracy_plot_fits(const WrApp *app);
-/* The rung of the ladder with these dials, or -1. */
-int wr_accuracy_rung_of(const WrAccuracy *accuracy, const WrScene *scene);
+/* The rung of a ladder that fits with the scene's dials, or -1. */
+int wr_accuracy_rung(const WrApp *app);
 bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction);
 
 /* ---- accuracy_set.c: dials of A, by commands, and of B ---- */

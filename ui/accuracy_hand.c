@@ -121,7 +121,7 @@ static bool same_dials(const WrScene *a, const WrScene *b)
     return true;
 }
 
-int wr_accuracy_rung_of(const WrAccuracy *a, const WrScene *scene)
+static int rung_of(const WrAccuracy *a, const WrScene *scene)
 {
     int found = -1;
     for (int i = 0; a->plot && found < 0 && i < a->plot->ladder.count; i++) {
@@ -132,15 +132,29 @@ int wr_accuracy_rung_of(const WrAccuracy *a, const WrScene *scene)
     return found;
 }
 
+static void look_for_fit(WrAccuracy *a)
+{
+    if (a->fits_of == a->state) return;
+    a->fits_of = a->state;
+    a->fits = a->plot && a->plot_key == wr_field_key(a->field) && a->plot_turn == a->turn_deg;
+    a->rung = -1;
+    if (!a->fits) return;
+    char *base = base_of(a->scene);
+    a->fits = strcmp(base, a->plot_base) == 0;
+    wr_free(base);
+    if (a->fits) a->rung = rung_of(a, a->scene);
+}
+
 bool wr_accuracy_plot_fits(const WrApp *app)
 {
-    const WrAccuracy *a = app->accuracy;
-    if (!a->plot || a->plot_key != wr_field_key(a->field) || a->plot_turn != a->turn_deg)
-        return false;
-    char *base = base_of(a->scene);
-    bool same = strcmp(base, a->plot_base) == 0;
-    wr_free(base);
-    return same;
+    look_for_fit(app->accuracy);
+    return app->accuracy->fits;
+}
+
+int wr_accuracy_rung(const WrApp *app)
+{
+    look_for_fit(app->accuracy);
+    return app->accuracy->rung;
 }
 
 /* ---- results ---- */
@@ -154,6 +168,7 @@ static void take_ladder(WrAccuracy *a, WrWork *work)
     a->plot_key = wr_field_key(work->field);
     a->plot_turn = work->turn_deg;
     a->plot_hot = -1;
+    a->fits_of = 0;
 }
 
 static void take_measured(WrApp *app)
@@ -238,8 +253,7 @@ static WrAccuracyMoment moment(const WrApp *app)
                            .error_known = a->error_of == a->state,
                            .busy = a->measuring };
     if (m.rests && !m.busy && m.plot_open)
-        m.plot_known = a->plot_failed == a->state ||
-                       (wr_accuracy_plot_fits(app) && wr_accuracy_rung_of(a, a->scene) >= 0);
+        m.plot_known = a->plot_failed == a->state || wr_accuracy_rung(app) >= 0;
     return m;
 }
 
@@ -322,7 +336,8 @@ static void begin_probing(WrApp *app)
 static void note_times(WrApp *app)
 {
     const WrPreviewPicture *picture = wr_preview_picture(app->preview);
-    if (picture->serial == 0 || picture->level < WR_PREVIEW_FULL) return;
+    if (picture->serial == app->accuracy->full_times.serial || picture->level < WR_PREVIEW_FULL)
+        return;
     app->accuracy->full_times = *picture;
     app->accuracy->full_times.bgra = NULL;
 }
@@ -331,6 +346,8 @@ void wr_accuracy_update(WrApp *app)
 {
     WrAccuracy *a = app->accuracy;
     if (app->drawn_at == 0.0) return;
+    if (a->hold_key != SDLK_UNKNOWN && SDL_GetKeyboardFocus() != app->window)
+        a->hold_b = false; /* nobody would tell that it was let go */
     note_view(app);
     note_times(app);
     take_measured(app);

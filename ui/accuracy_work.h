@@ -8,8 +8,8 @@
 
 #define WR_ERROR_SIDE                                                                              \
     256 /* pixels of the longer side of the picture that the error is measured on, at most */
-#define WR_LADDER_SIDE 128 /* and of the ladder's */
-#define WR_MAP_SIDE 512    /* and of a map over the patch */
+#define WR_LADDER_SIDE 96 /* and of the ladder's */
+#define WR_MAP_SIDE 512   /* and of a map over the patch */
 
 typedef enum WrWorkKind {
     WR_WORK_ERROR,  /* the scene's own picture against the reference */

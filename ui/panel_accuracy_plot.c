@@ -234,7 +234,7 @@ static void field(WrApp *app)
     Plot plot = { 0 };
     const bool axes = a->plot && make_axes(&a->plot->ladder, &plot);
     const bool old = axes && !wr_accuracy_plot_fits(app);
-    const int present = axes && !old ? wr_accuracy_rung_of(a, wr_app_scene(app)) : -1;
+    const int present = axes && !old ? wr_accuracy_rung(app) : -1;
     WrPad pad = wr_gui_pad_begin("pareto", 0, wr_gui_px(PLOT_UNITS));
     int clicked = -1;
     a->plot_hot = -1;

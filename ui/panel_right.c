@@ -66,7 +66,10 @@ void wr_panel_right(WrApp *app)
     labels[TABS] = "Layers";
     if (*tab < 0 || *tab >= count) *tab = 0;
     SDL_Rect head, whole = app->layout.panel, low = app->layout.lower;
-    bool covers = split && tabs[*tab].is_long && whole.h < wr_gui_px(LONG_UNITS);
+    bool inspects =
+        tabs[*tab < TABS ? *tab : 0].draw == wr_panel_accuracy && app->accuracy->inspector.shown;
+    bool covers =
+        split && *tab < TABS && tabs[*tab].is_long && !inspects && whole.h < wr_gui_px(LONG_UNITS);
     if (covers) whole.h = low.y + low.h - whole.y;
     SDL_Rect room = below_head(whole, labels, count, &head);
     wr_gui_area_begin("##tabs", WR_AREA_BAR, head, WR_COLOUR_BAR);

@@ -126,11 +126,18 @@ static void notify(WrPreview *preview)
 static WrDials dials_for(const Wish *wish, WrPreviewLevel level)
 {
     WrDials dials = wish->scene->dials;
-    int own = dials.aa == WR_AA_SUPERSAMPLE ? dials.samples : 1;
+    const WrAntialias aa = dials.aa;
+    int own = aa == WR_AA_SUPERSAMPLE ? dials.samples : 1;
+    bool rests = level == WR_PREVIEW_SMOOTH || level == WR_PREVIEW_FINAL;
+    /* Filtered and adaptive pictures are as the scene has them once the view rests. */
+    if (rests && aa != WR_AA_POINT && aa != WR_AA_SUPERSAMPLE) return dials;
     dials.aa = WR_AA_POINT;
     dials.samples = 1;
-    if (level == WR_PREVIEW_MOVING) dials.arithmetic = WR_ARITHMETIC_FAST;
-    if (level == WR_PREVIEW_SMOOTH || level == WR_PREVIEW_FINAL) {
+    if (level == WR_PREVIEW_MOVING) {
+        dials.arithmetic = WR_ARITHMETIC_FAST;
+        dials.shading = WR_SHADING_FLOAT;
+    }
+    if (rests) {
         dials.aa = WR_AA_SUPERSAMPLE;
         dials.samples = level == WR_PREVIEW_SMOOTH ? 2 : own > 4 ? own : 4;
     }

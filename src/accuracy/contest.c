@@ -7,7 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define RUNS 3
+#define RUNS 3       /* of a setting, at least ... */
+#define RUNS_SHORT 9 /* ... and of one that takes less than SHORT seconds */
+#define SHORT 0.02
 #define TOP_SAMPLES 16 /* a side, of the best setting */
 
 /* ---- everything ---- */
@@ -74,17 +76,24 @@ static double median(double *times, int count)
     return wr_bench_quantile(times, count, 0.5);
 }
 
+/* Does a measurement that has done so many runs want one more? */
+static bool wanted(const double *times, int done)
+{
+    return done < RUNS || (done < RUNS_SHORT && times[0] < SHORT);
+}
+
 static bool time_one(const WrBench *bench, Tried *tried, WrError *err)
 {
-    double times[RUNS];
+    double times[RUNS_SHORT];
     int64_t shaded;
+    int run = 0;
     bool good = true;
     if (tried->timed) return true;
     WrScene *scene = wr_setting_apply(&tried->setting, bench->request->scene);
-    for (int run = 0; good && run < RUNS; run++)
+    for (; good && wanted(times, run); run++)
         good = wr_bench_time(bench, scene, &times[run], &shaded, err);
     wr_scene_free(scene);
-    if (good) tried->seconds = median(times, RUNS);
+    if (good) tried->seconds = median(times, run);
     return tried->timed = good;
 }
 
@@ -104,28 +113,37 @@ static bool measure_one(const WrBench *bench, const WrReference *reference, Trie
     return tried->known = true;
 }
 
-/* Samples a pixel that a way takes at least, as the time goes. */
+/* Samples a pixel of plain supersampling; 0 for other ways. */
 static double samples_of(const WrSetting *way)
 {
     double grid = 1;
-    bool adaptive = false;
+    bool plain = true;
     for (int i = 0; i < way->count; i++) {
         if (way->dial[i] == WR_DIAL_SAMPLES) grid = way->value[i];
-        if (way->dial[i] == WR_DIAL_AA) adaptive = way->value[i] == WR_AA_ADAPTIVE;
+        if (way->dial[i] == WR_DIAL_AA)
+            plain = way->value[i] == WR_AA_POINT || way->value[i] == WR_AA_SUPERSAMPLE;
     }
-    return adaptive ? 1 : grid * grid;
+    return plain ? grid * grid : 0;
 }
 
-/* What each will take, from the time of one sample a pixel. */
+/* What each will take: so many times one sample a pixel with its slopes and normal; how many, of the ways
+   that are not plain supersampling, the last scheme and normal tell. */
 static bool expect(const WrBench *bench, Tried *tried, int count, WrError *err)
 {
-    double one = 0;
+    double factor[WAY_COUNT], one = 0;
+    const int last = count - WAY_COUNT;
+    for (int way = 0; way < WAY_COUNT; way++) {
+        factor[way] = samples_of(&ways[way]);
+        if (way > 0 && factor[way] > 0) continue;
+        if (!time_one(bench, &tried[last + way], err)) return false;
+        factor[way] = tried[last + way].seconds / tried[last].seconds;
+    }
     for (int i = 0; i < count; i++) {
         if (tried[i].way == 0) {
             if (!time_one(bench, &tried[i], err)) return false;
             one = tried[i].seconds;
         }
-        tried[i].expected = one * samples_of(&ways[tried[i].way]);
+        tried[i].expected = one * factor[tried[i].way];
     }
     return true;
 }
@@ -160,7 +178,13 @@ static bool find_cheapest(const Tried *tried, int count, WrContestRow *row)
     return row->found;
 }
 
-#define SLACK 1.5 /* an expected time may be so many times too long */
+#define SLACK 1.3 /* an expected time may be so many times too long */
+
+/* Is the setting `at` expected to be cheaper than what was found before it, or was nothing? */
+static bool may_win(const Tried *tried, int at, WrContestRow *row)
+{
+    return !find_cheapest(tried, at, row) || tried[at].expected < SLACK * row->best_seconds;
+}
 
 /* From cheap to dear, until every tolerance is met by something and what is left is expected to take longer
    than that: none of those can be the cheapest. */
@@ -170,19 +194,16 @@ static bool try_all(const WrBench *bench, const WrReference *reference, Tried *t
     bool good = expect(bench, tried, count, err);
     if (good) qsort(tried, (size_t)count, sizeof *tried, by_expected);
     for (int i = 0; good && i < count; i++) {
-        bool open = false, meets = false;
-        for (int r = 0; r < contest->count; r++) {
-            WrContestRow *row = &contest->rows[r];
-            const bool found = find_cheapest(tried, i, row);
-            open |= !found || tried[i].expected < SLACK * row->best_seconds;
-        }
+        bool open = false, contends = false;
+        for (int r = 0; r < contest->count; r++) open |= may_win(tried, i, &contest->rows[r]);
         if (!open) break;
         good = wr_progress_step(bench->request->progress, 0.1 + 0.8 * i / count) ||
                wr_fail(err, "cancelled");
         good = good && measure_one(bench, reference, &tried[i], err);
         for (int r = 0; good && r < contest->count; r++)
-            meets |= within(&contest->rows[r].tolerance, tried[i].rms, tried[i].max);
-        if (good && meets) good = time_one(bench, &tried[i], err);
+            contends |= within(&contest->rows[r].tolerance, tried[i].rms, tried[i].max) &&
+                        may_win(tried, i, &contest->rows[r]);
+        if (good && contends) good = time_one(bench, &tried[i], err);
         contest->tried = i + 1;
     }
     for (int r = 0; r < contest->count; r++) find_cheapest(tried, count, &contest->rows[r]);
@@ -208,21 +229,23 @@ static bool measure_choice(const WrBench *bench, const WrReference *reference, W
     const WrLadderRequest *request = bench->request;
     WrScene *scene = wr_scene_clone(request->scene);
     scene->tolerance = row->tolerance;
-    WrFrameRequest wanted = { .field = request->field,
-                              .scene = scene,
-                              .width = request->width,
-                              .height = request->height,
-                              .turn_deg = request->turn_deg };
+    WrFrameRequest wish = { .field = request->field,
+                            .scene = scene,
+                            .width = request->width,
+                            .height = request->height,
+                            .turn_deg = request->turn_deg };
     WrChoice choice = { 0 };
     WrFrame frame;
-    double times[RUNS];
+    double times[RUNS_SHORT];
+    int run = 0;
     const double start = wr_bench_now(bench);
-    bool good = wr_tolerance_choose(bench->renderer, &wanted, &choice, err);
+    bool good = wr_tolerance_choose(bench->renderer, &wish, &choice, err);
     row->choosing = wr_bench_now(bench) - start;
-    for (int run = 0; good && run < RUNS; run++) {
+    /* Tables made anew for the setting are paid once, as for the others. */
+    if (good) good = wr_choice_frame(bench->renderer, &wish, &choice, &frame, err);
+    for (; good && wanted(times, run); run++) {
         const double from = wr_bench_now(bench);
-        good = wr_choice_frame(bench->renderer, &wanted, &choice, &frame, err);
-        /* Tables made anew for another setting are paid once, as for the others. */
+        good = wr_choice_frame(bench->renderer, &wish, &choice, &frame, err);
         times[run] = wr_bench_now(bench) - from;
     }
     if (good) {
@@ -232,7 +255,7 @@ static bool measure_choice(const WrBench *bench, const WrReference *reference, W
         row->max = errors.max;
         row->held = within(&row->tolerance, errors.rms, errors.max);
         row->claimed = choice.met;
-        row->seconds = median(times, RUNS);
+        row->seconds = median(times, run);
     }
     wr_choice_fini(&choice);
     wr_scene_free(scene);

@@ -148,27 +148,34 @@ static bool own_error(const WrBench *bench, const WrLadder *ladder, WrRung *rung
 
 /* The error of the rung's own picture, and of its normals where one sample a pixel has any. */
 static bool error_of(const WrBench *bench, const WrScene *scene, WrLadder *ladder, WrRung *rung,
-                     WrError *err)
+                     WrFrame *frame, WrError *err)
 {
-    const WrLadderRequest *request = bench->request;
-    WrFrame frame;
-    if (!wr_bench_frame(bench, scene, bench->normals, &frame, err) ||
-        !wr_bench_frame(bench, scene, NULL, &frame, err))
+    if (!wr_bench_frame(bench, scene, bench->normals, frame, err) ||
+        !wr_bench_frame(bench, scene, NULL, frame, err))
         return false;
-    wr_errors_measure(frame.rgba, bench->normals, &ladder->reference, NULL, &rung->errors);
-    return !request->seen || request->seen(request->ctx, rung, frame.rgba, &ladder->reference, err);
+    wr_errors_measure(frame->rgba, bench->normals, &ladder->reference, NULL, &rung->errors);
+    return true;
 }
 
-/* A rung that cannot be rendered says why and keeps its place. */
+/* A rung that cannot be rendered says why and keeps its place; the first is the scene itself, without which
+   there is nothing to tell. */
 static bool measure_errors(const WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
 {
+    const WrLadderRequest *request = bench->request;
     for (int i = 0; i < ladder->count; i++) {
         WrRung *rung = &ladder->rungs[i];
-        if (!tell(bench->request, 0.3 + 0.1 * i / ladder->count, err)) return false;
-        WrError why = { "" };
-        if (!error_of(bench, scenes[i], ladder, rung, &why) ||
-            !own_error(bench, ladder, rung, &why))
-            rung->note = why;
+        if (!tell(request, 0.3 + 0.1 * i / ladder->count, err)) return false;
+        WrFrame frame;
+        WrError *why = &rung->note;
+        bool good = error_of(bench, scenes[i], ladder, rung, &frame, why);
+        if (good && request->seen &&
+            !request->seen(request->ctx, rung, frame.rgba, &ladder->reference, err))
+            return false;
+        good = good && own_error(bench, ladder, rung, why);
+        if (!good && i == 0) {
+            *err = *why;
+            return false;
+        }
     }
     return true;
 }

@@ -82,6 +82,58 @@ static void add_data(const WrLadder *ladder, const WrRung **front, int fronts, W
     wr_text_add(text, "EOD\n");
 }
 
+/* ---- the frame ---- */
+
+typedef struct Range {
+    double low, high;
+} Range;
+
+static void widen(Range *range, double value)
+{
+    if (!(value > 0)) return;
+    range->low = range->low > 0 ? fmin(range->low, value) : value;
+    range->high = fmax(range->high, value);
+}
+
+/* All that is shown, and a little air. The reference's own line belongs to it where it is not far below. */
+static void ranges_of(const WrLadder *ladder, Range *time, Range *error)
+{
+    *time = *error = (Range){ 0, 0 };
+    for (int i = 0; i < ladder->count; i++) {
+        if (!placed(&ladder->rungs[i])) continue;
+        widen(time, 1e3 * ladder->rungs[i].seconds);
+        widen(error, ladder->rungs[i].errors.rms);
+    }
+    if (!(time->low > 0)) *time = *error = (Range){ 1, 1 }; /* nothing is shown */
+    if (ladder->reference.last_rms > error->low / 10) widen(error, ladder->reference.last_rms);
+    *time = (Range){ time->low / 1.4, time->high * 1.4 };
+    *error = (Range){ error->low / 1.6, error->high * 1.6 };
+}
+
+/* How far along the axis, 0..1. */
+static double along(Range range, double value)
+{
+    return log(value / range.low) / log(range.high / range.low);
+}
+
+/* The numbers on the front, each above and to the right of its mark; where that would meet the one before, a
+   line higher. */
+static void add_numbers(const WrLadder *ladder, const WrRung **front, int fronts, WrText *text)
+{
+    Range time, error;
+    double x = -1, y = -1, lift = 0;
+    ranges_of(ladder, &time, &error);
+    for (int i = 0; i < fronts; i++) {
+        const double here_x = along(time, 1e3 * front[i]->seconds);
+        const double here_y = along(error, front[i]->errors.rms);
+        const bool close = fabs(here_x - x) < 0.025 && fabs(here_y - y) < 0.03;
+        lift = close ? lift + 1.2 : 0;
+        x = here_x, y = here_y;
+        wr_text_addf(text, "set label %d '%d' at %.6g,%.6g offset 0.9,%.1f font ',9' front\n",
+                     500 + i, i + 1, 1e3 * front[i]->seconds, front[i]->errors.rms, 0.7 + lift);
+    }
+}
+
 /* The front's numbers and settings, down the right margin. */
 static void add_names(const WrRung **front, int fronts, WrText *text)
 {
@@ -90,7 +142,7 @@ static void add_names(const WrRung **front, int fronts, WrText *text)
                       "0.60 font ',11'\n");
     for (int i = 0; i < fronts && i < 24; i++) {
         wr_text_clear(&setting);
-        wr_text_addf(&setting, "%2d  ", i + 1);
+        wr_text_addf(&setting, "%s%d  ", i < 9 ? "\xe2\x80\x87" : "", i + 1); /* figure space */
         wr_setting_print(&front[i]->setting, &setting);
         wr_text_addf(text, "set label %d ", 1001 + i);
         add_quoted(text, wr_text_get(&setting));
@@ -98,6 +150,22 @@ static void add_names(const WrRung **front, int fronts, WrText *text)
                      0.565 - 0.0225 * i);
     }
     wr_text_fini(&setting);
+}
+
+/* 1, 2 and 5 of each power of ten, written out. */
+static void add_ticks(const char *axis, Range range, WrText *text)
+{
+    static const double numbers[] = { 1, 2, 5 };
+    const char *comma = "";
+    wr_text_addf(text, "set %stics (", axis);
+    for (int power = (int)floor(log10(range.low)); power <= (int)ceil(log10(range.high)); power++)
+        for (int i = 0; i < 3; i++) {
+            const double at = numbers[i] * pow(10, power);
+            if (at < range.low || at > range.high) continue;
+            wr_text_addf(text, "%s'%.6g' %.6g", comma, at, at);
+            comma = ", ";
+        }
+    wr_text_add(text, ")\n");
 }
 
 /* One colour and one mark an axis, from a palette that the colour-blind can tell apart. */
@@ -117,9 +185,7 @@ static void add_series(WrText *text)
                      axis < WR_AXIS_COUNT ? wr_axis_labels[axis] : "combinations");
     }
     wr_text_add(text, "  $now using 1:2 with points pt 6 ps 2.6 lw 2.5 lc rgb '#000000' title 'as "
-                      "it stands', \\\n"
-                      "  $front using 1:2:(sprintf('%d', $3)) with labels offset 0.9,0.7 font "
-                      "',9' notitle\n");
+                      "it stands'\n");
 }
 
 void wr_report_plot_script(const WrLadder *ladder, const char *name, const char *terminal,
@@ -139,17 +205,24 @@ void wr_report_plot_script(const WrLadder *ladder, const char *name, const char 
     add_quoted(text, out);
     wr_text_add(text, "\nset title ");
     add_quoted(text, wr_text_get(&title));
-    wr_text_add(text, " noenhanced font ',14'\n"
-                      "set logscale xy\n"
-                      "set xlabel 'time of a frame, ms'\n"
-                      "set ylabel 'RMS error of linear intensity'\n"
-                      "set format y '10^{%T}'\n"
-                      "set grid xtics ytics mxtics mytics lc rgb '#c8c8c8', lc rgb '#ececec'\n"
-                      "set lmargin at screen 0.085\nset rmargin at screen 0.68\n"
-                      "set key at screen 0.985, screen 0.90 right top Left reverse samplen 1.5 "
-                      "spacing 1.15\n"
-                      "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n");
-    if (ladder->reference.last_rms > 0)
+    wr_text_add(
+        text, " noenhanced font ',14'\n"
+              "set logscale xy\n"
+              "set xlabel 'time of a frame, ms'\n"
+              "set ylabel 'RMS error of linear intensity'\n"
+              "set grid xtics ytics mxtics mytics lc rgb '#b4b4b4' lw 1, lc rgb '#dedede' lw 0.7\n"
+              "set lmargin at screen 0.085\nset rmargin at screen 0.68\n"
+              "set key at screen 0.695, screen 0.90 left top Left reverse samplen 1.5 "
+              "spacing 1.15\n"
+              "");
+    Range time, error;
+    ranges_of(ladder, &time, &error);
+    wr_text_addf(text, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n", time.low, time.high,
+                 error.low, error.high);
+    add_ticks("x", time, text);
+    add_ticks("y", error, text);
+    add_numbers(ladder, front, fronts, text);
+    if (ladder->reference.last_rms > error.low)
         wr_text_addf(text,
                      "set arrow 1 from graph 0, first %.6g to graph 1, first %.6g nohead dt 2 "
                      "lc rgb '#909090'\nset label 1 'the reference, at its last doubling' at "
@@ -181,24 +254,6 @@ static bool spawn(int in, int complaints, pid_t *pid, WrError *err)
     return trouble == 0 || wr_fail(err, "gnuplot cannot be started: %s", strerror(trouble));
 }
 
-/* The script through an anonymous file, so that neither side waits for the other. */
-static int open_script(const WrText *script)
-{
-    const int file = memfd_create("plot", MFD_CLOEXEC);
-    if (file < 0) return -1;
-    const char *bytes = wr_text_get(script);
-    for (size_t done = 0; done < script->length;) {
-        const ssize_t n = write(file, bytes + done, script->length - done);
-        if (n <= 0) {
-            close(file);
-            return -1;
-        }
-        done += (size_t)n;
-    }
-    lseek(file, 0, SEEK_SET);
-    return file;
-}
-
 static bool wait_for(pid_t pid, int complaints, WrError *err)
 {
     char words[300];
@@ -215,11 +270,13 @@ static bool wait_for(pid_t pid, int complaints, WrError *err)
 static bool run(const WrText *script, WrError *err)
 {
     pid_t pid;
-    const int in = open_script(script), complaints = memfd_create("complaints", MFD_CLOEXEC);
-    bool good = (in >= 0 && complaints >= 0) ||
-                wr_fail(err, "gnuplot cannot be started: %s", strerror(errno));
+    /* The script through a file in memory, so that neither side waits for the other. */
+    const int in = wr_fd_in_memory("plot", wr_text_get(script), script->length, err);
+    if (in < 0) return false;
+    const int complaints = memfd_create("complaints", MFD_CLOEXEC);
+    bool good = complaints >= 0 || wr_fail(err, "gnuplot cannot be started: %s", strerror(errno));
     good = good && spawn(in, complaints, &pid, err) && wait_for(pid, complaints, err);
-    if (in >= 0) close(in);
+    close(in);
     if (complaints >= 0) close(complaints);
     return good;
 }

@@ -7,8 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#define MARGIN_RMS 0.95 /* of the tolerance: the sample is a small part of the picture */
+#define MARGIN_RMS 0.94 /* of the tolerance: the sample is a small part of the picture */
 #define MARGIN_MAX 0.6  /* the worst pixel of all is worse than the worst of the sample */
+#define PASS 0.15       /* of the time of one sample a pixel: what one more pass takes */
 #define ROUNDS 3        /* of raising what did not hold on the sample */
 #define BEST 16         /* samples a side of the best setting */
 
@@ -25,57 +26,102 @@ typedef struct Weighed {
     double weight[WR_CHOICE_KINDS];
 } Weighed;
 
+/* The first kind that has blocks and the same place: one pass renders them all. */
+static bool begins_pass(const Study *study, const Place places[WR_CHOICE_KINDS], int kind)
+{
+    for (int k = 1; k < kind; k++)
+        if (study->blocks[k] > 0 && wr_same_place(places[k], places[kind])) return false;
+    return study->blocks[kind] > 0;
+}
+
 static double seconds_of(const Weighed *weighed, const Place places[WR_CHOICE_KINDS])
 {
-    double sum = 0;
-    for (int k = 1; k < WR_CHOICE_KINDS; k++)
-        if (weighed->study->blocks[k] > 0) sum += wr_study_seconds(weighed->study, k, places[k]);
-    return sum;
+    const Study *study = weighed->study;
+    double sum = 0, one = 0;
+    int passes = 0;
+    for (int k = 1; k < WR_CHOICE_KINDS; k++) {
+        if (study->blocks[k] == 0) continue;
+        const Place least = { study->scheme_count - 1, study->mode_count - 1, WAY_POINT };
+        sum += wr_study_seconds(study, k, places[k]);
+        one += wr_study_seconds(study, k, least);
+        passes += begins_pass(study, places, k);
+    }
+    return sum + PASS * one * (passes - 1);
 }
 
-static double squares_at(const Weighed *weighed, int kind, Place place)
+static void predict(const Weighed *weighed, int kind, Place place, Measure *out)
 {
-    return weighed->weight[kind] * wr_study_squares(weighed->study, kind, place);
+    wr_study_predict(weighed->study, kind, place, out);
+    out->sum[kind] *= weighed->weight[kind];
 }
 
+static void predict_all(const Weighed *weighed, const Place places[WR_CHOICE_KINDS], Measure *out)
+{
+    *out = (Measure){ 0 };
+    for (int k = 1; k < WR_CHOICE_KINDS; k++)
+        if (weighed->study->blocks[k] > 0) predict(weighed, k, places[k], out);
+}
+
+/* Of all kinds, cautiously. */
 static double squares_of(const Weighed *weighed, const Place places[WR_CHOICE_KINDS])
 {
-    double sum = 0;
-    for (int k = 1; k < WR_CHOICE_KINDS; k++)
-        if (weighed->study->blocks[k] > 0) sum += squares_at(weighed, k, places[k]);
-    return sum;
+    Measure all;
+    predict_all(weighed, places, &all);
+    return wr_study_cautious(weighed->study, &all);
+}
+
+/* The same with one kind elsewhere; *all as it stands is left as it was. */
+static double squares_with(const Weighed *weighed, const Measure *all, int kind, Place place)
+{
+    Measure with = *all;
+    predict(weighed, kind, place, &with);
+    return wr_study_cautious(weighed->study, &with);
+}
+
+static double most_at(const Weighed *weighed, int kind, Place place)
+{
+    Measure at;
+    wr_study_predict(weighed->study, kind, place, &at);
+    return sqrt(weighed->weight[kind]) * at.most[kind];
 }
 
 static double most_of(const Weighed *weighed, const Place places[WR_CHOICE_KINDS])
 {
     double most = 0;
     for (int k = 1; k < WR_CHOICE_KINDS; k++)
-        if (weighed->study->blocks[k] > 0)
-            most =
-                fmax(most, sqrt(weighed->weight[k]) * wr_study_most(weighed->study, k, places[k]));
+        if (weighed->study->blocks[k] > 0) most = fmax(most, most_at(weighed, k, places[k]));
     return most;
 }
 
-static bool usable(const Study *study, int way)
+/* ---- what there is to choose from ----
+
+   Every kind has a place of its own; one more pass over the picture is the price of each that differs. */
+
+typedef struct Offer {
+    int count;
+    Place place[SCHEMES_MAX * MODES_MAX * WAY_COUNT];
+} Offer;
+
+/* All places with that scheme and that normal; -1: with any. */
+static void list_places(const Study *study, int scheme, int mode, Offer *out)
 {
-    return study->of_way[way].tried;
+    out->count = 0;
+    for (int s = study->scheme_count - 1; s >= 0; s--)
+        for (int m = study->mode_count - 1; m >= 0; m--)
+            for (int way = 0; way < WAY_COUNT; way++)
+                if (study->pair[s][m].tried && study->tried[way] && (scheme < 0 || s == scheme) &&
+                    (mode < 0 || m == mode))
+                    out->place[out->count++] = (Place){ s, m, way };
 }
 
-/* ---- ways for one scheme and one normal ----
-
-   All kinds of blocks share these two: the tables that they need would be made anew for every pass. */
-
-static void start_cheap(const Weighed *weighed, int scheme, int mode, Place places[WR_CHOICE_KINDS])
+static void start_cheap(const Weighed *weighed, const Offer *offer, Place places[WR_CHOICE_KINDS])
 {
     const Study *study = weighed->study;
     for (int k = 0; k < WR_CHOICE_KINDS; k++) {
-        places[k] = (Place){ scheme, mode, 0 };
-        for (int way = 1; k > 0 && way < WR_STUDY_WAYS; way++) {
-            const Place to = { scheme, mode, way };
-            if (usable(study, way) &&
-                wr_study_seconds(study, k, to) < wr_study_seconds(study, k, places[k]))
-                places[k] = to;
-        }
+        places[k] = offer->place[0];
+        for (int i = 1; k > 0 && i < offer->count; i++)
+            if (wr_study_seconds(study, k, offer->place[i]) < wr_study_seconds(study, k, places[k]))
+                places[k] = offer->place[i];
     }
 }
 
@@ -86,18 +132,20 @@ typedef struct Step {
 } Step;
 
 /* `room`: seconds that a step may add. */
-static Step best_step(const Weighed *weighed, const Place places[WR_CHOICE_KINDS], double room)
+static Step best_step(const Weighed *weighed, const Offer *offer,
+                      const Place places[WR_CHOICE_KINDS], double room)
 {
     const Study *study = weighed->study;
     Step best = { -1, { 0, 0, 0 }, 0 };
+    Measure all;
+    predict_all(weighed, places, &all);
+    const double squares = wr_study_cautious(study, &all);
     for (int k = 1; k < WR_CHOICE_KINDS; k++) {
         if (study->blocks[k] == 0) continue;
         const double seconds = wr_study_seconds(study, k, places[k]);
-        const double squares = squares_at(weighed, k, places[k]);
-        for (int way = 0; way < WR_STUDY_WAYS; way++) {
-            const Place to = { places[k].scheme, places[k].mode, way };
-            if (!usable(study, way)) continue;
-            const double less = squares - squares_at(weighed, k, to);
+        for (int i = 0; i < offer->count; i++) {
+            const Place to = offer->place[i];
+            const double less = squares - squares_with(weighed, &all, k, to);
             const double more = wr_study_seconds(study, k, to) - seconds;
             if (!(less > 0) || more > room) continue;
             const double gain = more > 0 ? less / more : INFINITY;
@@ -108,68 +156,68 @@ static Step best_step(const Weighed *weighed, const Place places[WR_CHOICE_KINDS
 }
 
 /* The last step may have been a large one: take back what the limit does not need. */
-static void trim(const Weighed *weighed, Place places[WR_CHOICE_KINDS], double squares,
+static void trim(const Weighed *weighed, const Offer *offer, Place places[WR_CHOICE_KINDS],
                  double limit)
 {
     const Study *study = weighed->study;
     for (;;) {
-        double best = 0, lost = 0;
-        int kind = -1, to = 0;
+        double best = 0;
+        int kind = -1;
+        Place to = places[0];
+        Measure all;
+        predict_all(weighed, places, &all);
         for (int k = 1; k < WR_CHOICE_KINDS; k++)
-            for (int way = 0; study->blocks[k] > 0 && way < WR_STUDY_WAYS; way++) {
-                const Place p = { places[k].scheme, places[k].mode, way };
-                if (!usable(study, way)) continue;
-                const double more = squares_at(weighed, k, p) - squares_at(weighed, k, places[k]);
+            for (int i = 0; study->blocks[k] > 0 && i < offer->count; i++) {
+                const Place p = offer->place[i];
                 const double less =
                     wr_study_seconds(study, k, places[k]) - wr_study_seconds(study, k, p);
-                if (less > best && squares + more <= limit)
-                    best = less, kind = k, to = way, lost = more;
+                if (less > best && squares_with(weighed, &all, k, p) <= limit)
+                    best = less, kind = k, to = p;
             }
         if (kind < 0) return;
-        places[kind].way = to;
-        squares += lost;
+        places[kind] = to;
     }
 }
 
 /* Root mean square: raise where the gain for the time is best. */
-static bool raise_rms(const Weighed *weighed, double limit, Place places[WR_CHOICE_KINDS])
+static bool raise_rms(const Weighed *weighed, const Offer *offer, double limit,
+                      Place places[WR_CHOICE_KINDS])
 {
-    double squares = squares_of(weighed, places);
-    while (squares > limit) {
-        const Step step = best_step(weighed, places, INFINITY);
+    while (squares_of(weighed, places) > limit) {
+        const Step step = best_step(weighed, offer, places, INFINITY);
         if (step.kind < 0) return false;
         places[step.kind] = step.to;
-        squares = squares_of(weighed, places);
     }
-    trim(weighed, places, squares, limit);
+    trim(weighed, offer, places, limit);
     return true;
 }
 
-/* The worst pixel: every kind for itself. */
-static bool raise_max(const Weighed *weighed, double limit, Place places[WR_CHOICE_KINDS])
+/* The worst pixel: every kind for itself. The best that there is, and what is cheaper and will do. */
+static bool raise_max(const Weighed *weighed, const Offer *offer, double limit,
+                      Place places[WR_CHOICE_KINDS])
 {
     const Study *study = weighed->study;
     for (int k = 1; k < WR_CHOICE_KINDS; k++) {
         if (study->blocks[k] == 0) continue;
-        int best = study->top;
-        for (int way = 0; way < WR_STUDY_WAYS; way++) {
-            const Place p = { places[k].scheme, places[k].mode, way };
-            const Place than = { places[k].scheme, places[k].mode, best };
-            if (usable(study, way) &&
-                sqrt(weighed->weight[k]) * wr_study_most(study, k, p) <= limit &&
-                wr_study_seconds(study, k, p) < wr_study_seconds(study, k, than))
-                best = way;
-        }
-        places[k].way = best;
+        for (int i = 0; i < offer->count; i++)
+            if (offer->place[i].way == study->top) {
+                places[k] = offer->place[i]; /* the first: the best scheme and normal */
+                break;
+            }
+        for (int i = 0; i < offer->count; i++)
+            if (most_at(weighed, k, offer->place[i]) <= limit &&
+                wr_study_seconds(study, k, offer->place[i]) < wr_study_seconds(study, k, places[k]))
+                places[k] = offer->place[i];
     }
     return most_of(weighed, places) <= limit;
 }
 
 /* A time: the best gains that it buys. */
-static void spend(const Weighed *weighed, double seconds, Place places[WR_CHOICE_KINDS])
+static void spend(const Weighed *weighed, const Offer *offer, double seconds,
+                  Place places[WR_CHOICE_KINDS])
 {
     for (;;) {
-        const Step step = best_step(weighed, places, seconds - seconds_of(weighed, places));
+        const Step step = best_step(weighed, offer, places, seconds - seconds_of(weighed, places));
         if (step.kind < 0) return;
         places[step.kind] = step.to;
     }
@@ -194,58 +242,70 @@ static bool better(const Result *a, const Result *b, bool timed)
     return timed || !a->holds ? a->squares < b->squares : a->seconds < b->seconds;
 }
 
-/* The best places for each pair of scheme and normal; the best of those. */
+typedef struct Best {
+    bool any;
+    Result result;
+    Place places[WR_CHOICE_KINDS];
+} Best;
+
+static void pick_from(const Weighed *weighed, const Offer *offer, const WrTolerance *tolerance,
+                      Best *best)
+{
+    Place here[WR_CHOICE_KINDS];
+    Result result = { 0 };
+    const Study *study = weighed->study;
+    const bool timed = tolerance->kind == WR_TOLERANCE_TIME;
+    start_cheap(weighed, offer, here);
+    if (tolerance->kind == WR_TOLERANCE_RMS)
+        result.holds =
+            raise_rms(weighed, offer, limit_of(study, MARGIN_RMS * tolerance->value), here);
+    if (tolerance->kind == WR_TOLERANCE_MAX)
+        result.holds = raise_max(weighed, offer, MARGIN_MAX * tolerance->value, here);
+    if (timed) spend(weighed, offer, tolerance->value, here);
+    result.seconds = seconds_of(weighed, here);
+    result.squares = squares_of(weighed, here);
+    if (timed) result.holds = result.seconds <= tolerance->value;
+    if (best->any && !better(&result, &best->result, timed)) return;
+    best->any = true;
+    best->result = result;
+    memcpy(best->places, here, sizeof here);
+}
+
+/* The best places with one scheme and one normal for all kinds, for each pair of those; and from all
+   together: what is best step by step need not be best in the end. */
 static void pick(const Weighed *weighed, const WrTolerance *tolerance,
                  Place places[WR_CHOICE_KINDS])
 {
     const Study *study = weighed->study;
-    const bool timed = tolerance->kind == WR_TOLERANCE_TIME;
-    Result best = { 0 };
-    bool any = false;
+    Best best = { 0 };
+    Offer offer;
     for (int scheme = study->scheme_count - 1; scheme >= 0; scheme--)
         for (int mode = study->mode_count - 1; mode >= 0; mode--) {
-            Place here[WR_CHOICE_KINDS];
-            Result result = { 0 };
-            if (!study->of_mode[mode].tried || !study->of_scheme[scheme].tried) continue;
-            start_cheap(weighed, scheme, mode, here);
-            if (tolerance->kind == WR_TOLERANCE_RMS)
-                result.holds =
-                    raise_rms(weighed, limit_of(study, MARGIN_RMS * tolerance->value), here);
-            if (tolerance->kind == WR_TOLERANCE_MAX)
-                result.holds = raise_max(weighed, MARGIN_MAX * tolerance->value, here);
-            if (timed) spend(weighed, tolerance->value, here);
-            result.seconds = seconds_of(weighed, here);
-            result.squares = squares_of(weighed, here);
-            if (timed) result.holds = result.seconds <= tolerance->value;
-            if (any && !better(&result, &best, timed)) continue;
-            any = true;
-            best = result;
-            memcpy(places, here, sizeof here);
+            list_places(study, scheme, mode, &offer);
+            if (offer.count > 0) pick_from(weighed, &offer, tolerance, &best);
         }
+    list_places(study, -1, -1, &offer);
+    pick_from(weighed, &offer, tolerance, &best);
+    memcpy(places, best.places, sizeof best.places);
 }
 
 /* How far the sample's own measure is above the prediction: what to reckon with in the next round. */
-static void learn(Weighed *weighed, const Place places[WR_CHOICE_KINDS],
-                  const double squares[WR_CHOICE_KINDS])
+static void learn(Weighed *weighed, const Place places[WR_CHOICE_KINDS], const Measure *seen)
 {
     for (int k = 1; k < WR_CHOICE_KINDS; k++) {
-        const double predicted = wr_study_squares(weighed->study, k, places[k]);
-        if (predicted > 0 && squares[k] > weighed->weight[k] * predicted)
-            weighed->weight[k] = squares[k] / predicted;
+        Measure predicted;
+        wr_study_predict(weighed->study, k, places[k], &predicted);
+        if (predicted.sum[k] > 0 && seen->sum[k] > weighed->weight[k] * predicted.sum[k])
+            weighed->weight[k] = seen->sum[k] / predicted.sum[k];
     }
 }
 
-static void judge(const Study *study, const double squares[WR_CHOICE_KINDS],
-                  const double most[WR_CHOICE_KINDS], WrChoice *out)
+static void judge(const Study *study, const Measure *seen, WrChoice *out)
 {
-    double sum = 0;
+    out->rms = wr_study_rms(study, seen);
     out->max = 0;
-    for (int k = 1; k < WR_CHOICE_KINDS; k++) {
-        if (study->blocks[k] == 0) continue;
-        sum += squares[k];
-        out->max = fmax(out->max, most[k]);
-    }
-    out->rms = sqrt(sum / (3 * fmax(study->pixels, 1)));
+    for (int k = 1; k < WR_CHOICE_KINDS; k++)
+        if (study->blocks[k] > 0) out->max = fmax(out->max, seen->most[k]);
 }
 
 /* margin_rms, margin_max: of the tolerance. */
@@ -264,16 +324,16 @@ static bool choose(Study *study, const WrTolerance *tolerance, Place places[WR_C
                    WrChoice *out, WrError *err)
 {
     Weighed weighed = { .study = study };
-    double squares[WR_CHOICE_KINDS], most[WR_CHOICE_KINDS];
+    Measure seen;
     for (int k = 0; k < WR_CHOICE_KINDS; k++) weighed.weight[k] = 1;
     for (int round = 0; round < ROUNDS; round++) {
         pick(&weighed, tolerance, places);
-        if (!wr_study_check(study, places, squares, most, err)) return false;
-        judge(study, squares, most, out);
+        if (!wr_study_check(study, places, &seen, err)) return false;
+        judge(study, &seen, out);
         out->seconds = seconds_of(&weighed, places);
         if (tolerance->kind == WR_TOLERANCE_TIME || holds(tolerance, out, MARGIN_RMS, MARGIN_MAX))
             return true;
-        learn(&weighed, places, squares);
+        learn(&weighed, places, &seen);
     }
     return true;
 }
@@ -396,6 +456,7 @@ bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const 
         pass.dials = NULL;
         pass.only = passes > 1 ? only : NULL; /* larger tiles are faster */
         pass.keep = false;
+        pass.hold = passes > 1;
         good = wr_renderer_frame(renderer, &pass, frame, err);
         sum.covered += frame->covered;
         sum.shaded += frame->shaded;

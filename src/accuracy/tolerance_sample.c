@@ -9,12 +9,13 @@
 
 #define BLOCK WR_FRAME_BLOCK
 #define PACKED ((size_t)4 * BLOCK * BLOCK) /* floats a block */
-#define LEAST 3                            /* blocks of a kind */
-#define CAUTION 2.0                        /* standard errors that are added to a sum */
+#define EVENLY 0.35 /* of the sample: what slopes and normals are off is everywhere */
+#define FEW 0.04    /* of the blocks: not a kind of its own */
+#define LEAST 4     /* blocks of a kind */
 
-/* How much neighbouring pixels differ, root mean square of linear intensity, where one kind ends. */
-static const double lively_edge = 0.12;
-static const double lively_inside[] = { 0.003, 0.012, 0.04, 0.11 };
+/* What 2 x 2 samples change, root mean square of linear intensity, where one kind ends. */
+static const double lively_edge = 0.08;
+static const double lively_inside[] = { 0.0015, 0.006, 0.02, 0.06 };
 
 typedef struct Corner {
     int x, y, w, h; /* of a block, pixels */
@@ -45,23 +46,22 @@ static double difference(const float *p, const float *q)
     return sum;
 }
 
-/* A pixel and its right and lower neighbours. Is one of the block's pixels, or one next to it, on the other
-   side of the outline? The sample in the middle of a pixel does not see an edge that passes beside it, its
-   neighbour does. */
-static bool survey(const WrFrame *frame, Corner at, Block *block)
+/* What changed in the block. Is one of its pixels, or one next to it, on the other side of the outline? The
+   sample in the middle of a pixel does not see an edge that passes beside it, its neighbour does. */
+static bool survey(const float *one, const WrFrame *two, Corner at, Block *block)
 {
     int inside = 0, outside = 0;
     for (int y = at.y - 1; y <= at.y + at.h; y++)
         for (int x = at.x - 1; x <= at.x + at.w; x++) {
-            if (x < 0 || y < 0 || x >= frame->width || y >= frame->height) continue;
-            const float *p = pixel(frame, x, y);
+            if (x < 0 || y < 0 || x >= two->width || y >= two->height) continue;
+            const size_t n = 4 * ((size_t)y * (size_t)two->width + (size_t)x);
             const bool own = x >= at.x && y >= at.y && x < at.x + at.w && y < at.y + at.h;
-            if (p[3] > 0) inside++;
-            else outside++;
-            block->covered += own && p[3] > 0;
+            const float covered = two->rgba[n + 3];
+            inside += one[n + 3] > 0 || covered > 0;
+            outside += one[n + 3] <= 0 || covered < 1;
             if (!own) continue;
-            if (x + 1 < frame->width) block->energy += difference(p, pixel(frame, x + 1, y));
-            if (y + 1 < frame->height) block->energy += difference(p, pixel(frame, x, y + 1));
+            block->covered += one[n + 3] > 0;
+            block->change += difference(one + n, two->rgba + n);
         }
     return inside > 0 && outside > 0;
 }
@@ -69,8 +69,7 @@ static bool survey(const WrFrame *frame, Corner at, Block *block)
 static int kind_of(const Block *block, bool edge, Corner at)
 {
     if (!edge && block->covered == 0) return KIND_EMPTY;
-    const double pairs = 6.0 * at.w * at.h; /* of channels */
-    const double lively = sqrt(block->energy / pairs);
+    const double lively = sqrt(block->change / (3.0 * at.w * at.h));
     if (edge) return KIND_EDGE + (lively > lively_edge);
     int kind = KIND_INSIDE;
     for (size_t i = 0; i < sizeof lively_inside / sizeof *lively_inside; i++)
@@ -78,24 +77,59 @@ static int kind_of(const Block *block, bool edge, Corner at)
     return kind;
 }
 
-void wr_study_sort(Study *study, const WrFrame *frame)
+/* Kinds of few blocks join their livelier neighbours: each costs a least number of drawn ones. The last
+   joins the one before. */
+static void merge(const int64_t blocks[WR_CHOICE_KINDS], int first, int last,
+                  int to[WR_CHOICE_KINDS])
 {
-    double energy[WR_CHOICE_KINDS] = { 0 };
+    int64_t all = 0, held = 0;
+    int kept = -1;
+    for (int k = 1; k < WR_CHOICE_KINDS; k++) all += blocks[k];
+    const double few = FEW * (double)all;
+    for (int k = first; k <= last; k++) {
+        held += blocks[k];
+        to[k] = k;
+        if ((double)held <= few) continue;
+        for (int i = kept < 0 ? first : kept + 1; i <= k; i++) to[i] = k;
+        kept = k;
+        held = 0;
+    }
+    for (int i = kept < 0 ? first : kept + 1; i <= last; i++) to[i] = kept < 0 ? last : kept;
+}
+
+static void merge_kinds(Study *study)
+{
+    int to[WR_CHOICE_KINDS] = { 0 };
+    merge(study->blocks, KIND_EDGE, KIND_INSIDE - 1, to);
+    merge(study->blocks, KIND_INSIDE, WR_CHOICE_KINDS - 1, to);
+    memset(study->blocks, 0, sizeof study->blocks);
+    for (int64_t b = 0; b < study->block_count; b++) {
+        Block *block = &study->block[b];
+        block->kind = (unsigned char)to[block->kind];
+        study->blocks[block->kind]++;
+    }
+}
+
+void wr_study_sort(Study *study, const WrFrame *two)
+{
+    double change[WR_CHOICE_KINDS] = { 0 };
     for (int64_t b = 0; b < study->block_count; b++) {
         Block *block = &study->block[b];
         const Corner at = corner_of(study, b);
         *block = (Block){ 0 };
-        const bool edge = survey(frame, at, block);
+        const bool edge = survey(study->one, two, at, block);
         block->kind = (unsigned char)kind_of(block, edge, at);
         study->blocks[block->kind]++;
         study->pixels += block->covered;
-        energy[block->kind] += block->energy;
     }
-    /* Calm blocks are drawn too: some of what one sample a pixel shows as calm is not. */
+    merge_kinds(study);
+    for (int64_t b = 0; b < study->block_count; b++)
+        change[study->block[b].kind] += study->block[b].change;
+    /* Calm blocks are drawn too: some of what 2 x 2 samples show as calm is not. */
     for (int64_t b = 0; b < study->block_count; b++) {
         Block *block = &study->block[b];
-        const double mean = energy[block->kind] / (double)study->blocks[block->kind];
-        block->size = (float)(block->energy + 0.25 * mean + 1e-12);
+        const double mean = change[block->kind] / (double)study->blocks[block->kind];
+        block->size = (float)(block->change + 0.5 * mean + 1e-12);
     }
 }
 
@@ -140,17 +174,17 @@ static void draw_kind(Study *study, int kind, int64_t wanted)
 
 void wr_study_draw(Study *study, double share)
 {
-    double energy[WR_CHOICE_KINDS] = { 0 }, weight[WR_CHOICE_KINDS], sum = 0;
+    double change[WR_CHOICE_KINDS] = { 0 }, weight[WR_CHOICE_KINDS], sum = 0;
     int64_t all = 0;
     for (int64_t b = 0; b < study->block_count; b++) {
         Block *block = &study->block[b];
         block->sampled = false;
         block->weight = 0;
-        energy[block->kind] += (double)block->size;
+        change[block->kind] += (double)block->size;
     }
-    /* Between as many blocks as there are and as much energy as there is. */
+    /* Between as many blocks as there are and as much change as there is. */
     for (int k = 1; k < WR_CHOICE_KINDS; k++) {
-        weight[k] = sqrt((double)study->blocks[k] * energy[k]);
+        weight[k] = sqrt((double)study->blocks[k] * change[k]);
         sum += weight[k];
         all += study->blocks[k];
     }
@@ -158,7 +192,8 @@ void wr_study_draw(Study *study, double share)
     memset(study->chosen, 0, sizeof study->chosen);
     for (int k = 1; k < WR_CHOICE_KINDS; k++) {
         if (study->blocks[k] == 0) continue;
-        int64_t wanted = (int64_t)rint(share * (double)all * weight[k] / sum);
+        int64_t wanted = (int64_t)rint(share * (EVENLY * (double)study->blocks[k] +
+                                                (1 - EVENLY) * (double)all * weight[k] / sum));
         wanted = wanted < LEAST ? LEAST : wanted;
         draw_kind(study, k, wanted < study->blocks[k] ? wanted : study->blocks[k]);
     }
@@ -192,19 +227,17 @@ typedef struct Sum {
     int64_t count;
 } Sum;
 
-static double cautious(const Sum *sum)
+static double variance_of(const Sum *sum)
 {
-    if (sum->count < 2) return sum->sum;
-    const double n = (double)sum->count, mean = sum->sum; /* of the n estimates n * part */
-    const double spread = fmax(0, n * sum->squares - mean * mean) / (n - 1);
-    return mean + CAUTION * sqrt(spread);
+    if (sum->count < 2) return 0;
+    const double n = (double)sum->count; /* the n estimates are n * part */
+    return fmax(0, n * sum->squares - sum->sum * sum->sum) / (n - 1);
 }
 
-void wr_study_compare(const Study *study, const float *a, const float *b, double *squares,
-                      double *most)
+void wr_study_compare(const Study *study, const float *a, const float *b, Measure *out)
 {
     Sum sums[WR_CHOICE_KINDS] = { { 0 } };
-    memset(most, 0, WR_CHOICE_KINDS * sizeof *most);
+    *out = (Measure){ 0 };
     for (int64_t i = 0; i < study->block_count; i++) {
         const Block *block = &study->block[i];
         if (!block->sampled) continue;
@@ -214,7 +247,7 @@ void wr_study_compare(const Study *study, const float *a, const float *b, double
             if (n % 4 == 3) continue;
             const double d = (double)a[n] - (double)b[n];
             sum += d * d;
-            most[block->kind] = fmax(most[block->kind], fabs(d));
+            out->most[block->kind] = fmax(out->most[block->kind], fabs(d));
         }
         sum *= (double)block->weight;
         of_kind->sum += sum;
@@ -223,8 +256,23 @@ void wr_study_compare(const Study *study, const float *a, const float *b, double
         a += PACKED;
         b += PACKED;
     }
-    for (int k = 0; k < WR_CHOICE_KINDS; k++)
-        squares[k] = study->chosen[k] < study->blocks[k] ? cautious(&sums[k]) : sums[k].sum;
+    for (int k = 0; k < WR_CHOICE_KINDS; k++) {
+        out->sum[k] = sums[k].sum;
+        out->variance[k] = study->chosen[k] < study->blocks[k] ? variance_of(&sums[k]) : 0;
+    }
+}
+
+void wr_study_whole(const Study *study, const WrFrame *frame, double squares[WR_CHOICE_KINDS])
+{
+    memset(squares, 0, WR_CHOICE_KINDS * sizeof *squares);
+    for (int64_t b = 0; b < study->block_count; b++) {
+        const Corner at = corner_of(study, b);
+        for (int y = at.y; y < at.y + at.h; y++)
+            for (int x = at.x; x < at.x + at.w; x++) {
+                const size_t n = 4 * ((size_t)y * (size_t)frame->width + (size_t)x);
+                squares[study->block[b].kind] += difference(study->one + n, frame->rgba + n);
+            }
+    }
 }
 
 /* Is this pixel half covered, exactly as the one before it? */

@@ -7,6 +7,7 @@
 #include <limits.h>
 #include <stdint.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -177,16 +178,27 @@ void wr_file_abort(WrFileTarget *target)
     release(target);
 }
 
-static bool write_all(int fd, const char *bytes, size_t length)
+bool wr_fd_write(int fd, const void *bytes, size_t length)
 {
+    const char *from = bytes;
     while (length > 0) {
-        ssize_t n = write(fd, bytes, length);
+        ssize_t n = write(fd, from, length);
         if (n < 0 && errno == EINTR) continue;
+        if (n == 0) errno = ENOSPC;
         if (n <= 0) return false;
-        bytes += n;
+        from += n;
         length -= (size_t)n;
     }
     return true;
+}
+
+int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError *err)
+{
+    int fd = memfd_create("wrinkle", MFD_CLOEXEC);
+    if (fd >= 0 && wr_fd_write(fd, bytes, length) && lseek(fd, 0, SEEK_SET) == 0) return fd;
+    wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
+    if (fd >= 0) close(fd);
+    return -1;
 }
 
 bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *err)
@@ -194,7 +206,7 @@ bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *
     WrFileTarget target;
     if (!wr_file_begin(&target, path, err)) return false;
     int fd = open(target.temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    bool ok = fd >= 0 && write_all(fd, bytes, length);
+    bool ok = fd >= 0 && wr_fd_write(fd, bytes, length);
     int saved = errno;
     if (fd >= 0 && close(fd) != 0) ok = false;
     if (!ok) {

@@ -27,6 +27,12 @@ void wr_file_abort(WrFileTarget *target);
 /* Write bytes to path as one whole replacement. */
 bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *err);
 
+/* Write all bytes to an open file, whatever interrupts it. False with errno on failure. */
+bool wr_fd_write(int fd, const void *bytes, size_t length);
+/* The bytes as an open file that lies in memory, at its beginning; -1 on failure. name: for the error. The
+ * caller closes it. */
+int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError *err);
+
 /* The folder part of a path: "a/b.c" -> "a", "b.c" -> ".". Caller frees with wr_free. */
 char *wr_path_folder(const char *path);
 /* `path` as seen from `folder`; absolute paths stay. Caller frees. */

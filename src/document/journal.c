@@ -65,8 +65,7 @@ static void mark_gap(WrJournal *journal)
     WrHash chain = journal->chain;
     wr_text_clear(&journal->line);
     wr_journal_print_line(&journal->line, journal->sequence, 'g', journal->reason, &chain);
-    journal->gap_marked =
-        wr_journal_write_all(journal->fd, journal->line.data, journal->line.length);
+    journal->gap_marked = wr_fd_write(journal->fd, journal->line.data, journal->line.length);
     if (!journal->gap_marked && ftruncate(journal->fd, journal->bytes) != 0)
         return; /* the reader drops torn bytes */
 }
@@ -93,7 +92,7 @@ static bool probe(const WrJournal *journal)
     int fd = open(journal->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (fd < 0) return false;
     char *block = wr_alloc(PROBE_BYTES, 1);
-    bool ok = wr_journal_write_all(fd, block, PROBE_BYTES) && fsync(fd) == 0;
+    bool ok = wr_fd_write(fd, block, PROBE_BYTES) && fsync(fd) == 0;
     wr_free(block);
     close(fd);
     unlink(journal->temporary);
@@ -122,7 +121,7 @@ static bool write_line(WrJournal *journal, WrError *err)
         return wr_fail(err, "%s: over %.0f MB", journal->path, (double)WR_JOURNAL_FILE_MAX / 1e6);
     if (fstat(journal->fd, &info) != 0 || info.st_nlink == 0)
         return wr_fail(err, "%s: was removed", journal->path);
-    if (wr_journal_write_all(journal->fd, journal->line.data, (size_t)length)) return true;
+    if (wr_fd_write(journal->fd, journal->line.data, (size_t)length)) return true;
     return wr_fail(err, "%s: %s", journal->path, strerror(errno));
 }
 
@@ -287,7 +286,7 @@ static int create_file(const WrJournal *journal, WrError *err)
         return -1;
     }
     if (flock(fd, LOCK_EX | LOCK_NB) == 0 &&
-        wr_journal_write_all(fd, journal->line.data, journal->line.length) && fsync(fd) == 0 &&
+        wr_fd_write(fd, journal->line.data, journal->line.length) && fsync(fd) == 0 &&
         rename(journal->temporary, journal->path) == 0)
         return fd;
     wr_fail(err, "%s: cannot be written (%s)", journal->path, strerror(errno));

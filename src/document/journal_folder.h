@@ -14,8 +14,6 @@ char *wr_journal_files_folder(const char *journal_path);
 /* Sync a file, or a folder so that the names in it are on the disk. Some file systems cannot sync
    folders; that is no failure. */
 bool wr_journal_sync_path(const char *path, WrError *err);
-/* Write all bytes, in one call unless interrupted or the disk is full. Sets errno on failure. */
-bool wr_journal_write_all(int fd, const char *bytes, size_t length);
 
 /* Open a journal without following a link or waiting for a pipe: -1 with an error unless it is a
    regular file. */

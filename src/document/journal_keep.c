@@ -74,7 +74,7 @@ static bool copy_bytes(int from, int to)
         ssize_t n = read(from, block, sizeof block);
         if (n < 0 && errno == EINTR) continue;
         if (n <= 0) return n == 0;
-        if (!wr_journal_write_all(to, block, (size_t)n)) return false;
+        if (!wr_fd_write(to, block, (size_t)n)) return false;
     }
 }
 

@@ -11,6 +11,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 
@@ -48,32 +49,63 @@ static double *ring_row(Fit *fit, int j)
     return fit->ring + (size_t)(j % TAPS) * (size_t)fit->width;
 }
 
-/* sum[i] = sum over k, from the centre outwards, of weight[k] (below[k][i] + above[k][i]) */
-static void add_pair(double weight, const double *restrict below, const double *restrict above,
-                     int count, double *restrict sum)
+/* Two sums side by side, on every processor with the bits of one after the other. */
+typedef double Two __attribute__((vector_size(2 * sizeof(double))));
+#define SIDE 8 /* sums at a time, which stay in registers */
+
+static inline Two load(const double *from)
 {
-#pragma omp simd
-    for (int i = 0; i < count; i++) sum[i] += weight * (below[i] + above[i]);
+    Two two;
+    memcpy(&two, from, sizeof two);
+    return two;
+}
+
+/* sum[i] = weight[0] centre[i] + sum over k, from 1 outwards, of weight[k] (below[k][i] + above[k][i]) */
+static void fold(const Fit *fit, const double *const below[REACH + 1],
+                 const double *const above[REACH + 1], int count, double *restrict sum)
+{
+    const double *weight = fit->weight;
+    int i = 0;
+    for (; i + SIDE <= count; i += SIDE) {
+        Two part[SIDE / 2];
+        for (int n = 0; n < SIDE / 2; n++) part[n] = weight[0] * load(below[0] + i + 2 * n);
+        for (int k = 1; k <= REACH; k++) {
+            const double *low = below[k] + i, *high = above[k] + i;
+            part[0] += weight[k] * (load(low) + load(high));
+            part[1] += weight[k] * (load(low + 2) + load(high + 2));
+            part[2] += weight[k] * (load(low + 4) + load(high + 4));
+            part[3] += weight[k] * (load(low + 6) + load(high + 6));
+        }
+        memcpy(sum + i, part, sizeof part);
+    }
+    for (; i < count; i++) {
+        sum[i] = weight[0] * below[0][i];
+        for (int k = 1; k <= REACH; k++) sum[i] += weight[k] * (below[k][i] + above[k][i]);
+    }
 }
 
 /* Filter table row j, columns i .. i + count - 1, along u. */
 static void fit_row(Fit *fit, const WrField *field, int i, int j, int count, double *out)
 {
+    const double *below[REACH + 1], *above[REACH + 1];
     wr_field_read(field, i - REACH, j, count + 2 * REACH, 1, fit->texels, 0);
     for (int k = 0; k < count + 2 * REACH; k++) fit->wide[k] = fit->texels[k];
-    const double *centre = fit->wide + REACH;
-    for (int k = 0; k < count; k++) out[k] = fit->weight[0] * centre[k];
-    for (int k = 1; k <= REACH; k++) add_pair(fit->weight[k], centre - k, centre + k, count, out);
+    for (int k = 0; k <= REACH; k++) {
+        below[k] = fit->wide + REACH - k;
+        above[k] = fit->wide + REACH + k;
+    }
+    fold(fit, below, above, count, out);
 }
 
 /* Filter across the ring, rows middle - REACH .. middle + REACH. */
 static void fit_columns(Fit *fit, int middle, int count, float *out)
 {
-    const double *centre = ring_row(fit, middle);
-    for (int k = 0; k < count; k++) fit->sum[k] = fit->weight[0] * centre[k];
-    for (int k = 1; k <= REACH; k++)
-        add_pair(fit->weight[k], ring_row(fit, middle - k), ring_row(fit, middle + k), count,
-                 fit->sum);
+    const double *below[REACH + 1], *above[REACH + 1];
+    for (int k = 0; k <= REACH; k++) {
+        below[k] = ring_row(fit, middle - k);
+        above[k] = ring_row(fit, middle + k);
+    }
+    fold(fit, below, above, count, fit->sum);
     for (int k = 0; k < count; k++) {
         double c = fit->sum[k];
         c = c > FLT_MAX ? FLT_MAX : c;

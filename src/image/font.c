@@ -146,24 +146,12 @@ static bool check_ask(const char *name, const WrFontAsk *ask, WrError *err)
     return true;
 }
 
-static bool write_all(int fd, const char *from, size_t length)
-{
-    while (length > 0) {
-        ssize_t n = write(fd, from, length);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return false;
-        from += n;
-        length -= (size_t)n;
-    }
-    return true;
-}
-
 static bool append_file(Files *files, const char *name, int fd, WrError *err)
 {
     if (!take_file(files, name, fd, err)) return false;
     size_t length = (size_t)files->lengths[files->count - 1];
     void *map = mmap(NULL, length, PROT_READ, MAP_PRIVATE, fd, 0);
-    bool good = map != MAP_FAILED && write_all(files->fd, map, length);
+    bool good = map != MAP_FAILED && wr_fd_write(files->fd, map, length);
     if (map != MAP_FAILED) munmap(map, length);
     return good || wr_fail(err, "%s: no memory to read it from", name);
 }
@@ -213,10 +201,9 @@ bool wr_font_shape(const char *path, const WrFontAsk *ask, WrFontText *out, WrEr
 bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length, const WrFontAsk *ask,
                          WrFontText *out, WrError *err)
 {
-    int fd = memfd_create("wrinkle font", MFD_CLOEXEC);
-    bool good = fd >= 0 && write_all(fd, bytes, length);
-    if (good) good = shape(name, fd, ask, out, err);
-    else wr_fail(err, "%s: no memory to read it from", name);
-    if (fd >= 0) close(fd);
+    int fd = wr_fd_in_memory(name, bytes, length, err);
+    if (fd < 0) return false;
+    bool good = shape(name, fd, ask, out, err);
+    close(fd);
     return good;
 }

@@ -130,20 +130,8 @@ bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMe
     if (length == 0 || length > WR_MESH_FILE_MAX)
         return wr_fail(err, "%s: %zu bytes: must be 1..%zu", name, length, WR_MESH_FILE_MAX);
     if (is_inside()) return read_inside(name, bytes, length, out, err);
-    int fd = memfd_create("wrinkle mesh", MFD_CLOEXEC);
-    const char *from = bytes;
-    for (size_t left = length; fd >= 0 && left > 0;) {
-        ssize_t n = write(fd, from, left);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) {
-            close(fd);
-            fd = -1;
-            break;
-        }
-        from += n;
-        left -= (size_t)n;
-    }
-    if (fd < 0) return wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
+    int fd = wr_fd_in_memory(name, bytes, length, err);
+    if (fd < 0) return false;
     bool good = read_outside(name, fd, out, err);
     close(fd);
     return good;

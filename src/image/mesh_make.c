@@ -4,53 +4,14 @@
 #include "image/assimp.h"
 #include "image/module.h"
 
-#include <dlfcn.h>
 #include <math.h>
-#include <pthread.h>
 #include <string.h>
-#include <unistd.h>
 
-#define MODULE_FILE "wrinkle_assimp.so"
-
-static const WrAssimpTable *load(WrError *err)
-{
-    const WrAssimpTable *table = NULL;
-    WrText path = { 0 }, looked = { 0 };
-    for (int place = 0; place < WR_MODULE_PLACES && !table; place++) {
-        if (!wr_module_path(place, MODULE_FILE, &path)) continue;
-        wr_text_addf(&looked, "%s%s", looked.length ? ", " : "", wr_text_get(&path));
-        if (access(wr_text_get(&path), F_OK) != 0) continue;
-        void *module = dlopen(wr_text_get(&path), RTLD_NOW | RTLD_LOCAL);
-        if (!module) {
-            wr_text_addf(&looked, " (%s)", dlerror());
-            continue;
-        }
-        const WrAssimpTable *found = dlsym(module, WR_ASSIMP_SYMBOL);
-        if (found && found->version == WR_ASSIMP_VERSION) {
-            table = found; /* stays loaded */
-        } else {
-            wr_text_addf(&looked, " (of another version of the program)");
-            dlclose(module);
-        }
-    }
-    if (!table)
-        wr_fail(err, "mesh files need the module " MODULE_FILE ", looked for at: %s",
-                wr_text_get(&looked));
-    wr_text_fini(&path);
-    wr_text_fini(&looked);
-    return table;
-}
-
-/* Which module is loaded is a fact of the process, as in module.c. A failure is not kept. */
 static const WrAssimpTable *library(WrError *err)
 {
-    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    static const WrAssimpTable *loaded;
-    pthread_mutex_lock(&lock);
-    if (!loaded) loaded = load(err);
-    const WrAssimpTable *table = loaded;
-    pthread_mutex_unlock(&lock);
-    return table;
+    static WrModule module = { "wrinkle_assimp.so", "mesh files", WR_ASSIMP_SYMBOL,
+                               WR_ASSIMP_VERSION, NULL };
+    return wr_module_table(&module, err);
 }
 
 bool wr_mesh_load(WrError *err)

@@ -8,8 +8,6 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#define MODULE_FILE "wrinkle_oiio.so"
-
 /* Where the installed module lies, seen from the program's folder; the build sets it. */
 #ifndef WR_MODULE_FOLDER
 #define WR_MODULE_FOLDER "../lib/wrinkle"
@@ -27,44 +25,49 @@ bool wr_module_path(int place, const char *file, WrText *path)
     return path->length > 0;
 }
 
-static const WrOiioTable *load(WrError *err)
+/* The table of a module, NULL where there is none of that version. It stays loaded: OpenImageIO does not like
+   to be unloaded. */
+static const void *load(const WrModule *module, WrError *err)
 {
-    const WrOiioTable *table = NULL;
+    const int *table = NULL;
     WrText path = { 0 }, looked = { 0 };
     for (int place = 0; place < WR_MODULE_PLACES && !table; place++) {
-        if (!wr_module_path(place, MODULE_FILE, &path)) continue;
+        if (!wr_module_path(place, module->file, &path)) continue;
         wr_text_addf(&looked, "%s%s", looked.length ? ", " : "", wr_text_get(&path));
         if (access(wr_text_get(&path), F_OK) != 0) continue;
-        void *module = dlopen(wr_text_get(&path), RTLD_NOW | RTLD_LOCAL);
-        if (!module) {
+        void *library = dlopen(wr_text_get(&path), RTLD_NOW | RTLD_LOCAL);
+        if (!library) {
             wr_text_addf(&looked, " (%s)", dlerror());
             continue;
         }
-        const WrOiioTable *found = dlsym(module, WR_OIIO_SYMBOL);
-        if (found && found->version == WR_OIIO_VERSION) {
-            table = found; /* stays loaded: OpenImageIO does not like to be unloaded */
-        } else {
+        table = dlsym(library, module->symbol);
+        if (!table || *table != module->version) {
+            table = NULL;
             wr_text_addf(&looked, " (of another version of the program)");
-            dlclose(module);
+            dlclose(library);
         }
     }
     if (!table)
-        wr_fail(err, "picture files need the module " MODULE_FILE ", looked for at: %s",
+        wr_fail(err, "%s need the module %s, looked for at: %s", module->serves, module->file,
                 wr_text_get(&looked));
     wr_text_fini(&path);
     wr_text_fini(&looked);
     return table;
 }
 
-/* The one thing here that outlives a call: which module is loaded is a fact of the process. A failure
-   is not kept, so that a later call may succeed. */
-const WrOiioTable *wr_oiio(WrError *err)
+const void *wr_module_table(WrModule *module, WrError *err)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    static const WrOiioTable *loaded;
     pthread_mutex_lock(&lock);
-    if (!loaded) loaded = load(err);
-    const WrOiioTable *table = loaded;
+    if (!module->table) module->table = load(module, err);
+    const void *table = module->table;
     pthread_mutex_unlock(&lock);
     return table;
+}
+
+const WrOiioTable *wr_oiio(WrError *err)
+{
+    static WrModule module = { "wrinkle_oiio.so", "picture files", WR_OIIO_SYMBOL, WR_OIIO_VERSION,
+                               NULL };
+    return wr_module_table(&module, err);
 }

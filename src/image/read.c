@@ -47,25 +47,6 @@ static int open_regular(const char *path, WrError *err)
 }
 
 /* A file that is nowhere but in memory. */
-static int open_bytes(const char *name, const void *bytes, size_t length, WrError *err)
-{
-    int fd = memfd_create("wrinkle picture", MFD_CLOEXEC);
-    const char *from = bytes;
-    while (fd >= 0 && length > 0) {
-        ssize_t n = write(fd, from, length);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) {
-            close(fd);
-            fd = -1;
-            break;
-        }
-        from += n;
-        length -= (size_t)n;
-    }
-    if (fd < 0) wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
-    return fd;
-}
-
 /* Takes the descriptor over; -1 passes a failure on. */
 static WrImageFile *open_file(const char *name, int fd, int most, WrError *err)
 {
@@ -204,5 +185,5 @@ WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length,
         wr_fail(err, "%s: is empty", name);
         return NULL;
     }
-    return read_whole(name, open_bytes(name, bytes, length, err), err);
+    return read_whole(name, wr_fd_in_memory(name, bytes, length, err), err);
 }

@@ -20,6 +20,8 @@ typedef struct WrFrameRequest {
                              next frame of the same scene, turn, size and dials renders only the tiles
                              that an edit of the table reaches (E29); the bits are the same. Such a
                              frame does not look at `cancel` */
+    bool hold; /* copies of the table that this frame does without are kept for the next, which is
+                             known to want them: memory for time */
     /* Blocks of WR_FRAME_BLOCK x WR_FRAME_BLOCK pixels, [ceil(height / block)][ceil(width / block)]:
        those with 0 are not rendered, their pixels stay as this renderer's last picture of that size
        had them (0 in the first). NULL: all. */

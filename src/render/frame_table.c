@@ -52,27 +52,30 @@ void wr_frame_drop_tables(WrRenderer *renderer)
 }
 
 /* The copies of heights that the plan calls for, and none else. */
-static bool bring_copies(WrRenderer *renderer, const WrScene *scene, bool slope_free, WrError *err)
+static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
+                         WrError *err)
 {
+    const WrScene *scene = request->scene;
+    const bool hold = request->hold;
     WrTable *table = &renderer->table;
     const WrPlan *plan = &renderer->plan;
     const WrField *field = renderer->looked;
     const bool looked = plan->bump != WR_BUMP_NONE && scene->analytic.kind == WR_ANALYTIC_OFF;
     const bool fitted = looked && scene->scheme == WR_SCHEME_BSPLINE_FIT;
     const bool heights = looked && !fitted && (!plan->gradient_table || plan->need_heights);
-    if (!plan->gradient_table && !slope_free) wr_table_drop(table, WR_COPY_GRADIENT);
-    if (!fitted) wr_table_drop(table, WR_COPY_FITTED);
-    if (!heights) wr_table_drop(table, WR_COPY_HEIGHTS);
+    if (!plan->gradient_table && !slope_free && !hold) wr_table_drop(table, WR_COPY_GRADIENT);
+    if (!fitted && !hold) wr_table_drop(table, WR_COPY_FITTED);
+    if (!heights && !hold) wr_table_drop(table, WR_COPY_HEIGHTS);
     if (fitted && !wr_table_bring(table, WR_COPY_FITTED, field, renderer->pool, err)) return false;
     return !heights || wr_table_bring(table, WR_COPY_HEIGHTS, field, renderer->pool, err);
 }
 
-static bool bring_pyramids(WrRenderer *renderer, WrError *err)
+static bool bring_pyramids(WrRenderer *renderer, bool hold, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
     const bool range = plan->bounded && plan->bump != WR_BUMP_NONE;
     const WrPyramidKind kind = plan->moments ? WR_PYRAMID_MOMENTS : WR_PYRAMID_SLOPES;
-    if (!plan->pyramid) wr_pyramid_drop(&renderer->pyramid);
+    if (!plan->pyramid && !hold) wr_pyramid_drop(&renderer->pyramid);
     if (!range) wr_pyramid_drop(&renderer->range);
     if (plan->pyramid &&
         !wr_pyramid_bring(&renderer->pyramid, kind, renderer->looked, renderer->pool, err))
@@ -110,9 +113,9 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
         facts.slope_free = wr_table_slope_free(table);
         wr_plan_build(plan, scene, &renderer->dials, &facts, request->plan_off);
     }
-    if (!bring_copies(renderer, scene, facts.slope_free, err)) return false;
+    if (!bring_copies(renderer, request, facts.slope_free, err)) return false;
     const double started = wr_clock_seconds();
-    if (!bring_pyramids(renderer, err)) return false;
+    if (!bring_pyramids(renderer, request->hold, err)) return false;
     renderer->pyramid_seconds = wr_clock_seconds() - started;
     return true;
 }

@@ -1,42 +1,21 @@
 #include "render/kern.h"
+
+#include "base/cpu.h"
 #include "render/kern_tables.h"
 
 #include <string.h>
 
-/* The levels of x86-64; GCC and clang agree on single features only, so those are asked for. */
-static bool has_v2(void)
-{
-    return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
-}
-
-static bool has_v3(void)
-{
-    return has_v2() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-           __builtin_cpu_supports("bmi2");
-}
-
-static bool has_v4(void)
-{
-    return has_v3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-}
-
-static bool has_any(void)
-{
-    return true;
-}
-
 static const struct {
     const char *name;
-    bool (*here)(void);
+    int level; /* of the processor, at least (cpu.h) */
     const WrKernels *exact, *fast;
     const WrKernelsd *wide;
 } levels[] = {
-    { "ref", has_any, &wr_kern_ref, &wr_kern_ref, &wr_kern_double_ref },
-    { "v1", has_any, &wr_kern_v1, &wr_kern_v1, &wr_kern_double_v1 },
-    { "v2", has_v2, &wr_kern_v2, &wr_kern_v2, &wr_kern_double_v1 },
-    { "v3", has_v3, &wr_kern_v3, &wr_kern_fast_v3, &wr_kern_double_v3 },
-    { "v4", has_v4, &wr_kern_v4, &wr_kern_fast_v4, &wr_kern_double_v4 },
+    { "ref", 1, &wr_kern_ref, &wr_kern_ref, &wr_kern_double_ref },
+    { "v1", 1, &wr_kern_v1, &wr_kern_v1, &wr_kern_double_v1 },
+    { "v2", 2, &wr_kern_v2, &wr_kern_v2, &wr_kern_double_v1 },
+    { "v3", 3, &wr_kern_v3, &wr_kern_fast_v3, &wr_kern_double_v3 },
+    { "v4", 4, &wr_kern_v4, &wr_kern_fast_v4, &wr_kern_double_v4 },
 };
 
 /* The row of that name, or -1 and an error. */
@@ -46,7 +25,7 @@ static int find_level(const char *isa, WrError *err)
     bool best = !isa || strcmp(isa, "auto") == 0;
     for (int i = count - 1; i >= 0; i--) {
         if (!best && strcmp(isa, levels[i].name) != 0) continue;
-        if (levels[i].here()) return i;
+        if (levels[i].level <= wr_cpu_level()) return i;
         if (best) continue;
         wr_fail(err, "isa %s: this processor does not have it; auto picks the best that it has",
                 isa);

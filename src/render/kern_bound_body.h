@@ -114,9 +114,9 @@ FLAT static void kern_bound_sphere(const RAYS *rays, const SHAPE *shape, REAL pi
     }
 }
 
-/* The texels of one axis that an interval of the parameter reads, as places to look in the RANGE pyramid. */
+/* The texels of one axis that an interval of the parameter reads: one run of them, or two round the end. */
 typedef struct Reach {
-    int probe[4], count;
+    int first[2], last[2], runs;
     int span; /* texels; 0: not known */
 } Reach;
 
@@ -124,37 +124,36 @@ static inline Reach reach_of(double low, double high, int n, bool periodic)
 {
     const double slack = 0.02; /* texels */
     double from = n * low - 0.5 - slack, to = n * high - 0.5 + slack;
-    Reach reach = { { 0, n - 1 }, 2, n };
-    if (!(to - from < n - 2.0) || !(from > -1e9) || !(to < 1e9)) {
-        if (!periodic) reach.span = 0;
-        return reach;
-    }
-    if (!periodic && !(from >= 0.0 && to <= n - 1.0)) return (Reach){ { 0 }, 0, 0 };
+    Reach reach = { { 0 }, { n - 1 }, 1, n };
+    if (!periodic && !(from >= 0.0 && to <= n - 1.0)) return (Reach){ { 0 }, { 0 }, 0, 0 };
+    if (!(to - from < n - 2.0) || !(from > -1e9) || !(to < 1e9)) return reach;
     int first = (int)__builtin_floor(from), last = (int)__builtin_floor(to) + 1;
     int i0 = (first % n + n) % n, i1 = (last % n + n) % n;
     reach.span = last - first + 1;
-    reach.probe[0] = i0, reach.probe[1] = i1;
-    if (i1 < i0) reach.probe[2] = 0, reach.probe[3] = n - 1, reach.count = 4;
+    reach.first[0] = i0, reach.last[0] = i1;
+    if (i1 < i0) reach.runs = 2, reach.last[0] = n - 1, reach.last[1] = i1;
     return reach;
 }
 
-/* Least and largest slopes of the texels between the probes: blocks so large that two of them hold all. */
+/* Least and largest slopes of those texels, by blocks so large that few are looked at. */
 static inline void look_range(const WrPyramid *range, Reach u, Reach v, float out[4])
 {
     const int span = u.span > v.span ? u.span : v.span;
     int level = 0;
-    while (level + 1 < range->levels && 1 << level < span) level++;
+    while (level + 1 < range->levels && span >> level > 4) level++;
     const WrPyramidLevel *at = &range->level[level];
     out[0] = out[2] = FLT_MAX, out[1] = out[3] = -FLT_MAX;
-    for (int b = 0; b < v.count; b++)
-        for (int a = 0; a < u.count; a++) {
-            int i = u.probe[a] >> level, j = v.probe[b] >> level;
-            const float *t = at->data + 4 * ((size_t)(j + 1) * (size_t)at->pitch + (size_t)(i + 1));
-            out[0] = t[0] < out[0] ? t[0] : out[0];
-            out[1] = t[1] > out[1] ? t[1] : out[1];
-            out[2] = t[2] < out[2] ? t[2] : out[2];
-            out[3] = t[3] > out[3] ? t[3] : out[3];
-        }
+    for (int b = 0; b < v.runs; b++)
+        for (int j = v.first[b] >> level; j <= v.last[b] >> level; j++)
+            for (int a = 0; a < u.runs; a++)
+                for (int i = u.first[a] >> level; i <= u.last[a] >> level; i++) {
+                    const float *t =
+                        at->data + 4 * ((size_t)(j + 1) * (size_t)at->pitch + (size_t)(i + 1));
+                    out[0] = t[0] < out[0] ? t[0] : out[0];
+                    out[1] = t[1] > out[1] ? t[1] : out[1];
+                    out[2] = t[2] < out[2] ? t[2] : out[2];
+                    out[3] = t[3] > out[3] ? t[3] : out[3];
+                }
 }
 
 FLAT static void kern_bound_slopes(const LOOK *look, STRIP *strip)

@@ -11,26 +11,35 @@ typedef struct WrScene WrScene;
 
 /* How a pixel's samples become one intensity. */
 typedef enum WrAntialias {
-    WR_AA_POINT,       /* one sample at the pixel's centre */
-    WR_AA_FILTER,      /* one sample of F filtered over the pixel's footprint: Blinn 1978 section 5.
+    WR_AA_POINT,   /* one sample at the pixel's centre */
+    WR_AA_FILTER,  /* one sample of F filtered over the pixel's footprint: Blinn 1978 section 5.
                           Right mean slope, wrong intensity: it does not converge */
-    WR_AA_MOMENTS,     /* mean slope and its variance widen the highlight: Toksvig, LEAN */
+    WR_AA_MOMENTS, /* mean slope turns n'; the spread of slopes widens the highlight: Toksvig, LEAN.
+                          Diffuse light is that of the mean slope */
     WR_AA_SUPERSAMPLE, /* mean of K x K intensities: the paper's correct solution */
     WR_AA_ADAPTIVE,    /* K x K only where needed */
     WR_AA_COUNT
 } WrAntialias;
 
-/* filter, moments: the shape of a pixel's footprint in the table. */
+/* filter, moments: the shape of a pixel's footprint in the table: the parallelogram of one pixel's steps to
+   the right and down. Up to one texel the table itself is looked up, by the scene's scheme, with the bits of
+   `point`; above, box means of central differences, whatever the scheme (render/pyramid.h). */
 typedef enum WrFootprint {
     WR_FOOTPRINT_ISOTROPIC,   /* a square of the longer side: one look-up between two mip levels */
-    WR_FOOTPRINT_ANISOTROPIC, /* several look-ups of the shorter side along the longer */
+    WR_FOOTPRINT_ANISOTROPIC, /* up to 16 look-ups of the shorter side along the longer */
     WR_FOOTPRINT_COUNT
 } WrFootprint;
 
-/* moments: the model of how slopes spread inside the footprint. */
+/* moments: the model of how slopes spread inside the footprint. C is their covariance as tangents of angles
+   about n'. The program's lobe cos^s is taken for the Gaussian exp(-s tan^2 / 2), whose mean over Gaussian
+   slopes is again one; the result is written as a cosine's power, so that C = 0 gives the bits of `point`:
+     lean      (det(I + s C))^(-1/2) cos^s',  s' = t^T (C + I/s)^-1 t for the direction t from n' to h
+     toksvig   (1 + s c)^-1 cos^(s / (1 + s c)),  c = trace(C) / 2
+   Within 8 % of the peak for Gaussian slopes; slopes that are not Gaussian (bricks) may come out worse than
+   with `filter`. */
 typedef enum WrMoments {
-    WR_MOMENTS_TOKSVIG, /* the isotropic form: one variance, (Sigma_uu + Sigma_vv) / 2 */
-    WR_MOMENTS_LEAN,    /* mean and covariance, Olano and Baker 2010, Sigma = M - B B^T (+ 1/s) */
+    WR_MOMENTS_TOKSVIG, /* the isotropic form: one variance */
+    WR_MOMENTS_LEAN, /* mean and covariance, Olano and Baker 2010, Sigma = M - B B^T, kept centred */
     WR_MOMENTS_COUNT
 } WrMoments;
 
@@ -43,17 +52,23 @@ typedef enum WrSpread {
 
 /* adaptive: what decides that a pixel needs more. */
 typedef enum WrRefine {
-    WR_REFINE_CONTRAST, /* neighbouring samples differ by more than `contrast`: may miss features */
-    WR_REFINE_BOUND,    /* until a bound on the intensity's change over the pixel is under
-                           `contrast`: the error is within it wherever the bound exists */
+    /* Neighbouring pixels, then neighbouring samples, differ by more than `contrast`: 2 x 2, 4 x 4, .. K x K.
+       May miss features. */
+    WR_REFINE_CONTRAST,
+    /* K x K but where a bound on the intensity's change over the pixel is within `contrast`: then no pixel is
+       farther from that of K x K than `contrast`. A bound is known on plane, cube and sphere with slopes by
+       central or nearest, normal none or blinn, without a colour picture; elsewhere all take K x K. */
+    WR_REFINE_BOUND,
     WR_REFINE_COUNT
 } WrRefine;
 
-/* What a height is stored as when it is looked up. */
+/* What a height is stored as when it is looked up; slopes and spline coefficients are made from that. The
+   rungs of fewer bits are looked up as rounded numbers in single precision: their error is measured, not a
+   store's price. Pyramids hold single precision. */
 typedef enum WrHeights {
-    WR_HEIGHTS_DOUBLE,
+    WR_HEIGHTS_DOUBLE, /* look-ups in double; slopes and coefficients not rounded to single precision */
     WR_HEIGHTS_FLOAT,
-    WR_HEIGHTS_HALF, /* IEEE binary16 */
+    WR_HEIGHTS_HALF, /* IEEE binary16, ties to even, at most 65504 */
     WR_HEIGHTS_16,   /* integers over the table's own range, as in a 16-bit file */
     WR_HEIGHTS_8,
     WR_HEIGHTS_COUNT
@@ -63,7 +78,9 @@ typedef enum WrShading { WR_SHADING_FLOAT, WR_SHADING_DOUBLE, WR_SHADING_COUNT }
 
 typedef enum WrArithmetic {
     WR_ARITHMETIC_EXACT, /* the same bits on every processor */
-    WR_ARITHMETIC_FAST,  /* contraction, reciprocal estimates: within a stated bound */
+    WR_ARITHMETIC_FAST, /* contraction, reciprocal square roots by estimate and a step, on AVX2 and AVX-512:
+                            each stage within 2e-4 of the exact one, of 1 or of the value if that is larger;
+                            not of `double` shading */
     WR_ARITHMETIC_COUNT
 } WrArithmetic;
 

@@ -1,0 +1,217 @@
+#!/usr/bin/env bash
+# What accuracy costs, as a page: measures the eight scenes of this folder and what a tolerance chooses on those
+# and on the twelve of contest/, and writes README.md, the plots and the pictures.
+#
+#   make.sh [--quick] [--out FOLDER] [--keep FOLDER] [PROGRAM]
+#
+# PROGRAM      wrinkle, where it is not in the PATH or in build/
+# --out        where to write (this folder)
+# --keep       measurements are kept there, and those that are there already are not made again
+# --quick      tiny pictures and few runs: the page is made, its numbers mean nothing
+#
+# Every sentence of the page that says what follows is made from the numbers. Needs jq, gnuplot and
+# ImageMagick's convert. Takes about an hour on one processor; --quick, half a minute.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+out=$here keep='' program='' size=256x256 runs=9 contest_size=512x512 quick=''
+while [[ $# -gt 0 ]]; do
+    case $1 in
+    --quick) quick=yes size=16x16 runs=3 contest_size=32x32 ;;
+    --out) out=$2 && shift ;;
+    --keep) keep=$2 && shift ;;
+    -*) printf 'make.sh: unknown option %s\n' "$1" >&2 && exit 2 ;;
+    *) program=$1 ;;
+    esac
+    shift
+done
+if [[ -z $program ]]; then
+    program=$here/../../build/wrinkle
+    [[ -x $program ]] || program=wrinkle
+fi
+temporary=$(mktemp -d)
+trap 'rm -rf "$temporary"' EXIT
+[[ -n $keep ]] || keep=$temporary
+mkdir -p "$out" "$keep"
+
+scenes=(ribbon bricks-far sphere-poles terrain-grazing bits displacement scratches painted)
+others=(flat weave formula cells cube cone point-light grain letters small close invariant)
+if [[ -n $quick ]]; then
+    contestants=(painted flat)
+else
+    contestants=("${scenes[@]}" "${others[@]}")
+fi
+
+say() { printf '%s\n' "$*" >>"$temporary/page"; }
+script() { if [[ -f $here/$1.wrinkle ]]; then echo "$here/$1.wrinkle"; else echo "$here/contest/$1.wrinkle"; fi; }
+
+# The tolerances of a scene, RMS of linear intensity. Where a texel or a brick is far smaller than a pixel,
+# 16 x 16 samples are themselves off by a few thousandths: there they are coarser.
+tolerances() {
+    case $1 in
+    bricks-far | scratches | grain | weave) echo 0.06 0.04 0.025 0.015 ;;
+    *) echo 0.03 0.01 0.005 0.0025 ;;
+    esac
+}
+
+# ---- measuring ----
+
+# A picture as small as can be.
+shrink() { convert "$1" -strip -define png:compression-level=9 "${@:3}" "$2"; }
+
+measure() {
+    local name=$1 pictures=$keep/$1-differences
+    if [[ ! -f $keep/$name.json ]]; then
+        mkdir -p "$pictures"
+        "$program" accuracy "$(script "$name")" --size $size --runs $runs --plot "$keep/$name-plot.png" \
+            --differences "$pictures" --json >"$keep/$name.new"
+        mv "$keep/$name.new" "$keep/$name.json"
+    fi
+    "$program" render "$(script "$name")" -o "$temporary/picture.png" --size 256x256
+    shrink "$temporary/picture.png" "$out/$name.png" -colors 192
+    shrink "$keep/$name-plot.png" "$out/$name-plot.png" -colors 48
+    # Errors of one sample, of the filtered table, of moments, side by side.
+    local strip=() rung file
+    for rung in aa-point aa-filter-footprint-anisotropic aa-moments-moments-lean-footprint-anisotropic; do
+        file=$(find "$pictures" -name "[0-9]*-$rung.png" | sort | head -n 1)
+        [[ -z $file ]] || strip+=("$file")
+    done
+    convert "${strip[@]}" +append "$temporary/strip.png"
+    shrink "$temporary/strip.png" "$out/$name-errors.png" -resize 576x192 -colors 64
+}
+
+compete() {
+    local name=$1 tolerance words=()
+    [[ -f $keep/contest-$name.json ]] && return
+    for tolerance in $(tolerances "$name"); do words+=(--tolerance "rms=$tolerance"); done
+    "$program" accuracy "$(script "$name")" --size $contest_size "${words[@]}" --json >"$keep/contest-$name.new"
+    mv "$keep/contest-$name.new" "$keep/contest-$name.json"
+}
+
+# ---- telling ----
+
+# jq's side: numbers as people write them.
+# shellcheck disable=SC2016
+functions='
+def short: if . == null then "-" elif . == 0 then "0" else
+    (. as $x | ($x | fabs | log10 | floor) as $e | pow(10; 1 - $e) as $f |
+    (($x * $f | round) / $f) as $r | if $e < -3 then "\(($x / pow(10; $e) * 10 | round) / 10)e\($e)"
+    else "\($r)" end) end;
+def ms: "\(. * 1e3 | short) ms";
+def kb: "`\(.)`";
+def measured: .rungs | map(select(.model == false and .note == null and .rms != null));
+def named($s): measured | map(select(.setting == $s)) | first;
+def cheapest($e): measured | map(select(.rms <= $e)) | min_by(.seconds);
+def front: measured | map(select(.front)) | sort_by(.seconds);
+'
+
+
+# The front, fast to near.
+tell_front() {
+    say ''
+    jq -r '"Pictures of \(.width) x \(.height) pixels."' "$keep/$1.json" >>"$temporary/page"
+    say ''
+    say '| on the front | ms | RMS error | 99.9 % | largest |'
+    say '| --- | ---: | ---: | ---: | ---: |'
+    jq -r "$functions"' front[] | "| \(.setting | kb) | \(.seconds * 1e3 | short) | \(.rms | short) | \(.p999 | short) | \(.max | short) |"' \
+        "$keep/$1.json" >>"$temporary/page"
+    say ''
+}
+
+# What follows from the numbers of one scene.
+tell_conclusions() {
+    jq -r "$functions"'
+    # The cheapest for each error.
+    (0.03, 0.01, 0.004 | . as $e | $e) as $e | cheapest($e) as $r |
+        if $r == null then "- No setting here comes within \($e)."
+        else "- For an error of at most \($e) choose \($r.setting | kb): \($r.seconds | ms), \($r.rms | short) measured." end
+    ' "$keep/$1.json" >>"$temporary/page"
+    jq -r "$functions"'
+    named("aa=point") as $p | named("aa=filter footprint=anisotropic") as $f |
+    named("aa=moments moments=lean footprint=anisotropic") as $m |
+    named("heights=8bit") as $h8 | named("heights=16bit") as $h16 |
+    (if $p and $f then if $f.rms > $p.rms and $f.seconds > $p.seconds then
+        "- **Costlier and worse:** filtered F is worse than point sampling here, \($f.rms | short) against \($p.rms | short), and takes \($f.seconds / $p.seconds | short) times as long."
+        else "- Filtered F is nearer than point sampling, \($f.rms | short) against \($p.rms | short), for \($f.seconds / $p.seconds | short) times its time." end else empty end),
+    (if $m and $f then if $m.rms > $f.rms and $m.seconds > $f.seconds then
+        "- **Costlier and worse:** moments are worse than filtering here, \($m.rms | short) against \($f.rms | short), and take \($m.seconds / $f.seconds | short) times as long."
+        else "- Moments are \(if $m.rms < $f.rms then "nearer" else "no nearer" end) than filtering, \($m.rms | short) against \($f.rms | short), for \($m.seconds / $f.seconds | short) times its time." end else empty end),
+    (if $m and $p then if $m.rms > $p.rms and $m.seconds > $p.seconds then
+        "- **Costlier and worse:** moments are worse than one plain sample, \($m.rms | short) against \($p.rms | short)."
+        else empty end else empty end),
+    (if $h8 and $h16 and $h8.own_rms and $h16.own_rms then
+        "- Heights of 8 bits alone leave an error of \($h8.own_rms | short), of 16 bits \($h16.own_rms | short)\(if $h16.own_rms > 0 and $h8.own_rms / $h16.own_rms > 1.5 then ": \($h8.own_rms / $h16.own_rms | short) times less" else ": here the bits do not matter" end)." else empty end),
+    ((measured | map(select(.setting == "mode=exact")) | first) as $x | (measured | map(select(.setting == "as it stands")) | first) as $now |
+        if $x and $now then "- The exact normal in place of the paper'"'"'s: \($x.rms | short) against \($now.rms | short), for \($x.seconds / $now.seconds | short) times the time." else empty end),
+    (measured as $all | [$all[] | . as $r | select([$all[] | select(.seconds < 0.5 * $r.seconds and .rms < $r.rms)] | length > 0)] |
+        "- \(length) of \($all | length) settings are beaten in error by one that takes less than half their time."),
+    "- Reference: \(.reference.samples) x \(.reference.samples) samples a pixel; the last doubling changed \(.reference.last_rms | short) (RMS)\(if .reference.converged then ", under a tenth of the smallest error told" else ", more than a tenth of the smallest error told: errors near it are partly its own" end).",
+    "- The paper: bump takes 4 times Phong and 2 times a colour picture. Here \(.claim.bump_over_phong | short) and \(.claim.bump_over_colour | short)."
+    ' "$keep/$1.json" >>"$temporary/page"
+}
+
+tell_scene() {
+    local title
+    title=$(sed -n '1s/^# [^ ]* - //p' "$(script "$1")")
+    say "## $1"
+    say ''
+    sed -n '1{s/^# [^ ]* - //;s/^./\U&/};1,/^$/s/^# //;/^$/q;p' "$(script "$1")" >>"$temporary/page"
+    say ''
+    say "| ![${title%%[:.,]*}]($1.png) | ![error against time]($1-plot.png) |"
+    say '| --- | --- |'
+    say ''
+    say "Errors of one sample a pixel, of filtered F, of moments (white: 0.1): ![errors]($1-errors.png)"
+    tell_front "$1"
+    tell_conclusions "$1"
+    say ''
+}
+
+tell_contest() {
+    local name files=()
+    for name in "${contestants[@]}"; do files+=("$keep/contest-$name.json"); done
+    say '## What a tolerance chooses'
+    say ''
+    say "Pictures of ${contest_size/x/ x } pixels on one thread. For each scene and tolerance (RMS of linear intensity): the error"
+    say 'of the whole picture against the reference; whether it keeps to the tolerance; the time of a frame; that of'
+    say 'the cheapest single setting that meets the tolerance, found by trying slopes, normals and ways against'
+    say 'aliasing in all combinations; and the time of choosing as a part of what is saved from the best setting.'
+    say ''
+    say '| scene | tolerance | error | | ms | cheapest ms | ratio | choosing |'
+    say '| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: |'
+    jq -r "$functions"'(.document | sub("\\.wrinkle$"; "")) as $name | .rows[] |
+        "| \($name) | \(.value) | \(.rms | short) | \(.verdict) | \(.seconds * 1e3 | short) | \(if .best_seconds then .best_seconds * 1e3 | short else "-" end) | \(if .best_seconds then .seconds / .best_seconds | short else "-" end) | \(if .top_seconds > .seconds then "\(100 * .choosing_seconds / (.top_seconds - .seconds) | short) %" else "nothing to save" end) |"' \
+        "${files[@]}" >>"$temporary/page"
+    say ''
+    jq -rs '[.[].rows[]] as $rows | ($rows | length) as $n |
+        ($rows | map(select(.held)) | length) as $held | ($rows | map(select(.verdict == "BROKEN")) | length) as $broken |
+        ($rows | map(select(.best_seconds != null)) | length) as $able |
+        ($rows | map(select(.best_seconds != null and .seconds <= 1.2 * .best_seconds)) | length) as $quick |
+        ($rows | map(select(.top_seconds > .seconds and .choosing_seconds <= 0.1 * (.top_seconds - .seconds))) | length) as $frugal |
+        "Of \($n) rows, \($held) hold the tolerance, \($broken) break it unsaid, \($n - $held - $broken) say that they cannot meet it. Of the \($able) that a single setting meets, \($quick) take at most 1.2 times its time. Choosing takes at most 10 % of the time saved in \($frugal) of \($n)."' \
+        "${files[@]}" >>"$temporary/page"
+    say ''
+}
+
+tell_hard_cases() {
+    say '## Hard cases'
+    say ''
+    [[ -f $keep/hard.json ]] || "$program" accuracy --hard-cases --json >"$keep/hard.json"
+    jq -r '"`wrinkle accuracy --hard-cases` measures \(.cases | length) cases: \(.pass) pass, \(.fail) fail, \(.waits) are of effects still to come.",
+        (.cases[] | select(.verdict == "fail") | "- \(.id), \(.what): fails.")' "$keep/hard.json" >>"$temporary/page"
+}
+
+# ---- the page ----
+
+for name in "${scenes[@]}"; do measure "$name"; done
+for name in "${contestants[@]}"; do compete "$name"; done
+say '# What accuracy costs'
+say ''
+say 'Made by `make.sh` from measurements; the sentences follow from the numbers. Each setting is what differs'
+say 'from the scene as it stands in its script (`scheme=central mode=blinn aa=supersample samples=4`). Errors are of'
+say 'linear intensity against the reference in double precision; times are of one thread.'
+say ''
+say "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) threads."
+say ''
+for name in "${scenes[@]}"; do tell_scene "$name"; done
+tell_contest
+tell_hard_cases
+mv "$temporary/page" "$out/README.md"

@@ -1,0 +1,201 @@
+/* test_render_adaptive.c - jittered and adaptive sampling, and the bound that one of its rules keeps. */
+#include "test.h"
+
+#include "test_render_scenes.h"
+
+#define SIDE 80
+
+static Shot with_dials(WrScene *scene, const WrField *field, WrAntialias aa, WrRefine refine, int k,
+                       double contrast)
+{
+    scene->dials.aa = aa;
+    scene->dials.refine = refine;
+    scene->dials.samples = k;
+    scene->dials.contrast = contrast;
+    return shoot(scene, field, SIDE, SIDE, 2, "auto", false);
+}
+
+static WrField *gentle_field(int w, int h)
+{
+    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++)
+            wr_field_set(field, i, j,
+                         (float)(sin(2 * WR_PI * (i + 0.5) / w) * cos(2 * WR_PI * (j + 0.5) / h)));
+    return field;
+}
+
+/* Scenes in which a bound is known. */
+static WrScene *bounded_scene(int which)
+{
+    static const char *const surfaces[] = { "plane", "sphere", "cube" };
+    WrScene *scene = scene_of(surfaces[which % 3]);
+    scene->replicate_u = 1, scene->replicate_v = which % 3 == 1 ? 1 : -1;
+    scene->height = which % 3 == 1 ? 0.03 : 0.02;
+    scene->camera.orthographic = which / 3 % 2;
+    scene->material.shininess = which / 3 % 2 ? 30 : 8;
+    scene->material.gate = which % 2;
+    if (which >= 6) {
+        scene->lights[0].kind = WR_LIGHT_POINT;
+        scene->lights[0].where = (WrVec3){ -1.5, 2, 2.5 };
+    }
+    if (which == 9) scene->scheme = WR_SCHEME_NEAREST;
+    if (which == 10) scene->bump = WR_BUMP_NONE;
+    return scene;
+}
+
+/* The promise of refine=bound: no pixel is off from K x K by more than `contrast`. */
+static void bounded_refinement_keeps_within_its_contrast(void **state)
+{
+    (void)state;
+    WrField *field = gentle_field(32, 24), *rough = bumpy_field(90, 70);
+    for (int which = 0; which < 12; which++)
+        for (int e = 0; e < 3; e++) {
+            const double contrast = e == 0 ? 0.2 : e == 1 ? 0.05 : 0.01;
+            const WrField *table = which == 5 || which == 11 ? rough : field;
+            WrScene *scene = bounded_scene(which);
+            if (which == 8) scene->dials.spread = WR_SPREAD_JITTERED;
+            Shot all = with_dials(scene, table, WR_AA_SUPERSAMPLE, WR_REFINE_BOUND, 8, contrast);
+            Shot some = with_dials(scene, table, WR_AA_ADAPTIVE, WR_REFINE_BOUND, 8, contrast);
+            assert_true(some.frame.plan->bounded);
+            float worst = worst_difference(&all, &some);
+            if (!((double)worst <= contrast + 2e-6))
+                fail_msg("scene %d, contrast %g: off by %g", which, contrast, (double)worst);
+            if (e == 0 && table == field && !(2 * some.frame.shaded < all.frame.shaded))
+                fail_msg("scene %d: %g of %g samples: nothing is gained", which,
+                         (double)some.frame.shaded, (double)all.frame.shaded);
+            put_away(&all);
+            put_away(&some);
+            wr_scene_free(scene);
+        }
+    wr_field_free(field);
+    wr_field_free(rough);
+}
+
+/* With contrast 0 no bound is small enough: every pixel holds what supersampling makes of it. */
+static void refined_pixels_have_the_bits_of_supersampling(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(40, 30);
+    const char *const surfaces[] = { "plane", "sphere", "cube", "torus", "cylinder" };
+    for (int s = 0; s < 5; s++)
+        for (int k = 2; k <= 5; k++) {
+            WrScene *scene = scene_of(surfaces[s]);
+            scene->dials.spread = k & 1 ? WR_SPREAD_JITTERED : WR_SPREAD_REGULAR;
+            Shot all = with_dials(scene, field, WR_AA_SUPERSAMPLE, WR_REFINE_BOUND, k, 0);
+            Shot some = with_dials(scene, field, WR_AA_ADAPTIVE, WR_REFINE_BOUND, k, 0);
+            if (!same_picture(&all, &some)) fail_msg("%s, K = %d", surfaces[s], k);
+            put_away(&all);
+            put_away(&some);
+            wr_scene_free(scene);
+        }
+    wr_field_free(field);
+}
+
+/* HC92: the mean of equal samples is that sample, to (K^2 - 1) units in the last place; exactly where K is a
+   power of two. */
+static void hc92_equal_samples_keep_their_value_jittered_and_adaptive(void **state)
+{
+    (void)state;
+    WrField *flat = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    const int counts[] = { 1, 2, 3, 16, 64 };
+    for (int c = 0; c < 5; c++)
+        for (int how = 0; how < 4; how++) {
+            WrScene *scene = scene_of("plane");
+            scene->camera.orthographic = true;
+            scene->dials.spread = how & 1 ? WR_SPREAD_JITTERED : WR_SPREAD_REGULAR;
+            Shot one = with_dials(scene, flat, WR_AA_POINT, WR_REFINE_CONTRAST, 1, 0);
+            Shot many = with_dials(scene, flat, how & 2 ? WR_AA_ADAPTIVE : WR_AA_SUPERSAMPLE,
+                                   WR_REFINE_BOUND, counts[c], 0);
+            const size_t at = 4 * (SIDE / 2 * SIDE + SIDE / 2);
+            float a = one.frame.rgba[at], b = many.frame.rgba[at];
+            int k = counts[c];
+            bool power = (k & (k - 1)) == 0;
+            if (!(fabsf(a - b) <= (power ? 0 : (float)(k * k - 1) * 0x1p-24f)))
+                fail_msg("K = %d, how %d: %.9g, %.9g", k, how, (double)a, (double)b);
+            put_away(&one);
+            put_away(&many);
+            wr_scene_free(scene);
+        }
+    wr_field_free(flat);
+}
+
+/* A pixel that differs from no neighbour keeps its one sample; at an edge K x K are taken. */
+static void contrast_refines_edges_and_leaves_the_rest(void **state)
+{
+    (void)state;
+    WrField *flat = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    WrScene *scene = scene_of("plane");
+    scene->camera.orthographic = true;
+    Shot all = with_dials(scene, flat, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, 8, 0.01);
+    Shot some = with_dials(scene, flat, WR_AA_ADAPTIVE, WR_REFINE_CONTRAST, 8, 0.01);
+    int edge = 0;
+    for (size_t i = 0; i < SIDE * SIDE; i++) {
+        const float *a = all.frame.rgba + 4 * i, *b = some.frame.rgba + 4 * i;
+        if (a[3] > 0 && a[3] < 1 && b[3] > 0 && b[3] < 1) { /* a pixel of the edge: all of K x K */
+            assert_memory_equal(a, b, 4 * sizeof *a);
+            edge++;
+        } else if (a[3] == 1) assert_true(fabsf(a[0] - b[0]) < 0.01f);
+    }
+    assert_true(edge > 100);
+    assert_true(some.frame.shaded < all.frame.shaded / 4);
+    put_away(&all);
+    put_away(&some);
+    wr_scene_free(scene);
+    wr_field_free(flat);
+}
+
+/* Places are even over each cell: the mean over many pixels of a ramp's jittered samples is its middle, and
+   one sample a cell makes the mean of K x K better than that of K x K anywhere (its error is that of K^2
+   strata, each 1/K wide: variance K^-4 / 12 in the ramp's units). */
+static void jittered_samples_are_even_and_stratified(void **state)
+{
+    (void)state;
+    const int K = 4;
+    WrField *field = wr_field_new(8, 8, WR_WRAP_CLAMP, WR_WRAP_CLAMP, 0, NULL);
+    WrScene *scene = scene_of("plane");
+    scene->bump = WR_BUMP_NONE;
+    scene->replicate_u = scene->replicate_v = 1;
+    scene->camera.orthographic = true;
+    scene->material.specular = 0;
+    scene->lights[0].kind = WR_LIGHT_POINT;
+    scene->lights[0].where = (WrVec3){ 1, 0.4, 0.3 };
+    scene->dials.spread = WR_SPREAD_JITTERED;
+    Shot fine = with_dials(scene, field, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, 16, 0);
+    Shot jitter = with_dials(scene, field, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, K, 0);
+    scene->dials.spread = WR_SPREAD_REGULAR;
+    Shot regular = with_dials(scene, field, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, 64, 0);
+    double mean = 0, square = 0, square_fine = 0, ramp = 0;
+    int count = 0;
+    for (int y = 20; y < 60; y++)
+        for (int x = 20; x < 60; x++) {
+            size_t at = 4 * (size_t)(y * SIDE + x);
+            double d = (double)(jitter.frame.rgba[at] - regular.frame.rgba[at]);
+            double f = (double)(fine.frame.rgba[at] - regular.frame.rgba[at]);
+            double gx = (double)(regular.frame.rgba[at + 4] - regular.frame.rgba[at]);
+            double gy = (double)(regular.frame.rgba[at + 4 * SIDE] - regular.frame.rgba[at]);
+            mean += d, square += d * d, square_fine += f * f;
+            ramp += (gx * gx + gy * gy) / (12.0 * K * K * K * K);
+            count++;
+        }
+    assert_true(fabs(mean / count) < 4 * sqrt(ramp) / count);
+    assert_true(square > 0.5 * ramp && square < 2 * ramp);
+    assert_true(square_fine < square / 100); /* K^-4: 256 times less */
+    put_away(&fine);
+    put_away(&jitter);
+    put_away(&regular);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bounded_refinement_keeps_within_its_contrast),
+        cmocka_unit_test(refined_pixels_have_the_bits_of_supersampling),
+        cmocka_unit_test(hc92_equal_samples_keep_their_value_jittered_and_adaptive),
+        cmocka_unit_test(contrast_refines_edges_and_leaves_the_rest),
+        cmocka_unit_test(jittered_samples_are_even_and_stratified),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,330 @@
+/* What a tolerance chooses: it holds on the whole picture, it says when it cannot, its frame is what its
+   settings give. */
+#include "test.h"
+
+#include "accuracy/metrics.h"
+#include "accuracy/tolerance.h"
+#include "base/memory.h"
+#include "test_session_help.h"
+
+#define SIDE 112
+
+typedef struct Bench {
+    WrSession *session;
+    WrRenderer *renderer;
+    WrFrameRequest request;
+    WrScene *scene; /* the session's, to set a tolerance in */
+} Bench;
+
+static Bench bench_of(const char *const *lines)
+{
+    WrError err;
+    Bench bench = { .session = session_of(lines), .renderer = wr_renderer_new(NULL, NULL, &err) };
+    assert_non_null(bench.renderer);
+    bench.scene = wr_scene_clone(doc(bench.session)->scene);
+    bench.request = (WrFrameRequest){ .field = wr_document_composite(doc(bench.session), NULL),
+                                      .scene = bench.scene,
+                                      .width = SIDE,
+                                      .height = SIDE };
+    return bench;
+}
+
+static void bench_fini(Bench *bench)
+{
+    wr_renderer_free(bench->renderer);
+    wr_scene_free(bench->scene);
+    wr_session_free(bench->session);
+}
+
+static WrChoice choose(Bench *bench, WrToleranceKind kind, double value)
+{
+    WrError err;
+    WrChoice choice = { 0 };
+    bench->scene->tolerance = (WrTolerance){ kind, value };
+    if (!wr_tolerance_choose(bench->renderer, &bench->request, &choice, &err))
+        fail_msg("%s", err.text);
+    return choice;
+}
+
+static WrFrame frame_of(Bench *bench, const WrChoice *choice)
+{
+    WrError err;
+    WrFrame frame;
+    if (!wr_choice_frame(bench->renderer, &bench->request, choice, &frame, &err))
+        fail_msg("%s", err.text);
+    return frame;
+}
+
+static const char *const ball[] = { "table 64x64",
+                                    "noise gradient cells=4 octaves=2 amplitude=0.6 level=0 seed=3",
+                                    "surface sphere R=1",
+                                    "replicate 2,1",
+                                    "bump mode=blinn height=0.06",
+                                    "material specular=0.3 shininess=25",
+                                    NULL };
+static const char *const sheet[] = { "table 64x64", "grid cells=8x8 width=2", "surface plane",
+                                     "bump mode=blinn height=0.02", NULL };
+static const char *const band[] = { "table 128x64", "pattern bricks across=4 rows=4",
+                                    "surface ribbon", "bump mode=blinn height=0.02", NULL };
+static const char *const formula[] = { "analytic fourier terms=3,0,0.5,0,0;0,4,0.4,30,60",
+                                       "surface cylinder", "bump mode=blinn height=0.03", NULL };
+
+/* ---- the promise ---- */
+
+static void the_measured_error_keeps_to_the_tolerance_or_it_says_so(void **state)
+{
+    (void)state;
+    static const char *const *const scenes[] = { ball, sheet, band, formula };
+    static const double tolerances[] = { 0.05, 0.015, 0.006 };
+    int met = 0;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        WrError err;
+        Bench bench = bench_of(scenes[i]);
+        WrReference reference = { 0 };
+        const WrReferenceRequest wanted = { .field = bench.request.field,
+                                            .scene = bench.scene,
+                                            .width = SIDE,
+                                            .height = SIDE,
+                                            .most = 16 };
+        assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+        for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+            WrErrors errors;
+            WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, tolerances[t]);
+            const WrFrame frame = frame_of(&bench, &choice);
+            wr_errors_measure(frame.rgba, NULL, &reference, NULL, &errors);
+            if (choice.met && errors.rms > tolerances[t])
+                fail_msg("scene %d: %g, not %g: %s", (int)i, errors.rms, tolerances[t],
+                         choice.reason);
+            met += choice.met;
+            wr_choice_fini(&choice);
+        }
+        wr_reference_fini(&reference);
+        bench_fini(&bench);
+    }
+    /* All but the finest on the most broken scene is within what 16 x 16 samples do. */
+    assert_in_range(met, 10, 12);
+}
+
+static void a_tolerance_that_nothing_meets_is_said_to_be_so(void **state)
+{
+    (void)state;
+    Bench bench = bench_of(ball);
+    WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, 1e-7);
+    assert_false(choice.met);
+    assert_true(choice.rms > 1e-7);
+    assert_non_null(strstr(choice.reason, "CANNOT be met"));
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
+static void a_coarser_tolerance_takes_no_more_samples(void **state)
+{
+    (void)state;
+    Bench bench = bench_of(ball);
+    int64_t shaded[3];
+    static const double tolerances[3] = { 0.1, 0.01, 0.003 };
+    for (int t = 0; t < 3; t++) {
+        WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, tolerances[t]);
+        shaded[t] = frame_of(&bench, &choice).shaded;
+        wr_choice_fini(&choice);
+    }
+    assert_true(shaded[0] <= shaded[1] && shaded[1] < shaded[2]);
+    bench_fini(&bench);
+}
+
+static void a_table_without_relief_needs_one_sample_inside(void **state)
+{
+    (void)state;
+    static const char *const flat[] = { "table 64x64", "surface sphere R=1", NULL };
+    Bench bench = bench_of(flat);
+    WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, 0.05);
+    assert_true(choice.met);
+    for (int k = 1; k < choice.kinds; k++)
+        if (choice.blocks[k] > 0) assert_int_equal(choice.scenes[k]->dials.aa, WR_AA_POINT);
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
+static void a_time_is_spent_and_not_passed(void **state)
+{
+    (void)state;
+    Bench bench = bench_of(ball);
+    WrChoice little = choose(&bench, WR_TOLERANCE_TIME, 1e-4);
+    WrChoice plenty = choose(&bench, WR_TOLERANCE_TIME, 60);
+    const int64_t few = frame_of(&bench, &little).shaded;
+    const int64_t many = frame_of(&bench, &plenty).shaded;
+    assert_true(plenty.met);
+    assert_true(many > 20 * few); /* towards 16 x 16 where it helps */
+    assert_true(plenty.rms < little.rms);
+    wr_choice_fini(&little);
+    wr_choice_fini(&plenty);
+    bench_fini(&bench);
+}
+
+static void the_worst_pixel_has_a_tolerance_too(void **state)
+{
+    (void)state;
+    Bench bench = bench_of(ball);
+    WrChoice fine = choose(&bench, WR_TOLERANCE_MAX, 0.1);
+    WrChoice coarse = choose(&bench, WR_TOLERANCE_MAX, 1.5);
+    assert_true(coarse.met && coarse.max <= 1.5);
+    assert_true(!fine.met || fine.max <= 0.1);
+    assert_true(frame_of(&bench, &coarse).shaded <= frame_of(&bench, &fine).shaded);
+    wr_choice_fini(&fine);
+    wr_choice_fini(&coarse);
+    bench_fini(&bench);
+}
+
+/* ---- the frame ---- */
+
+static void each_block_has_the_bits_of_its_setting_alone(void **state)
+{
+    (void)state;
+    WrError err;
+    Bench bench = bench_of(ball);
+    WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, 0.008);
+    const size_t floats = (size_t)4 * SIDE * SIDE;
+    const int blocks = (SIDE + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
+    float *got = wr_alloc(floats, sizeof *got);
+    memcpy(got, frame_of(&bench, &choice).rgba, floats * sizeof *got);
+    for (int k = 0; k < choice.kinds; k++) {
+        WrFrame alone;
+        WrFrameRequest request = bench.request;
+        request.scene = choice.scenes[k];
+        assert_true(wr_renderer_frame(bench.renderer, &request, &alone, &err));
+        for (int y = 0; y < SIDE; y++)
+            for (int x = 0; x < SIDE; x++) {
+                const size_t at = (size_t)4 * (size_t)(y * SIDE + x);
+                if (choice.kind_of[y / WR_FRAME_BLOCK * blocks + x / WR_FRAME_BLOCK] == k)
+                    assert_memory_equal(got + at, alone.rgba + at, 4 * sizeof *got);
+            }
+    }
+    wr_free(got);
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
+static void another_size_is_refused(void **state)
+{
+    (void)state;
+    WrError err;
+    WrFrame frame;
+    Bench bench = bench_of(sheet);
+    WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, 0.05);
+    bench.request.width = SIDE / 2;
+    assert_false(wr_choice_frame(bench.renderer, &bench.request, &choice, &frame, &err));
+    assert_non_null(strstr(err.text, "112x112"));
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
+static void an_empty_picture_takes_no_samples(void **state)
+{
+    (void)state;
+    static const char *const away[] = { "table 16x16", "surface sphere R=1",
+                                        "camera perspective eye=0,0,9 target=0,0,20 fov=30", NULL };
+    Bench bench = bench_of(away);
+    WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, 0.01);
+    assert_true(choice.met);
+    assert_int_equal(frame_of(&bench, &choice).shaded, 0);
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
+static void a_scene_without_a_tolerance_has_no_choice(void **state)
+{
+    (void)state;
+    WrError err;
+    WrChoice choice = { 0 };
+    Bench bench = bench_of(sheet);
+    assert_false(wr_tolerance_choose(bench.renderer, &bench.request, &choice, &err));
+    assert_non_null(strstr(err.text, "tolerance rms=0.004"));
+    assert_int_equal(choice.kinds, 0);
+    bench_fini(&bench);
+}
+
+/* ---- the command ---- */
+
+static void a_tolerance_goes_into_the_scenes_lines_and_comes_back(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line;
+        WrToleranceKind kind;
+        double value;
+    } cases[] = { { "tolerance rms=0.004", WR_TOLERANCE_RMS, 0.004 },
+                  { "tolerance max=0.05", WR_TOLERANCE_MAX, 0.05 },
+                  { "tolerance time=8ms", WR_TOLERANCE_TIME, 0.008 },
+                  { "tolerance time=0.5s", WR_TOLERANCE_TIME, 0.5 },
+                  { "tolerance off", WR_TOLERANCE_NONE, 0 } };
+    WrSession *session = wr_session_new(NULL), *again = wr_session_new(NULL);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        must_run(session, cases[i].line);
+        const WrTolerance *tolerance = &doc(session)->scene->tolerance;
+        assert_int_equal(tolerance->kind, cases[i].kind);
+        assert_true(tolerance->value == cases[i].value);
+    }
+    must_run(session, "tolerance rms=0.004");
+    must_run(again, "tolerance rms=0.004");
+    assert_true(wr_hash_equal(wr_session_hash(session), wr_session_hash(again)));
+    must_run(session, "undo");
+    assert_int_equal(doc(session)->scene->tolerance.kind, WR_TOLERANCE_NONE);
+    wr_session_free(session);
+    wr_session_free(again);
+}
+
+static void a_tolerance_is_one_thing_with_a_sensible_value(void **state)
+{
+    (void)state;
+    WrSession *session = wr_session_new(NULL);
+    must_fail(session, "tolerance", "none is given");
+    must_fail(session, "tolerance rms=0.1 max=0.2", "several are given");
+    must_fail(session, "tolerance rms=0", "rms");
+    must_fail(session, "tolerance rms=-1", "rms");
+    must_fail(session, "tolerance rms=nan", "rms");
+    must_fail(session, "tolerance max=1e9", "max");
+    must_fail(session, "tolerance time=8min", "8ms or 0.5s");
+    must_fail(session, "tolerance time=0ms", "8ms or 0.5s");
+    must_fail(session, "tolerance time=8000", "8ms or 0.5s");
+    wr_session_free(session);
+}
+
+static void a_session_renders_under_the_tolerance_and_tells_its_choice(void **state)
+{
+    (void)state;
+    WrError err;
+    WrFrame frame;
+    WrText text = { 0 };
+    WrSession *session = session_of(ball);
+    assert_int_equal(wr_session_choice(session)->kinds, 0);
+    must_run(session, "tolerance rms=0.02");
+    assert_true(wr_session_frame(session, SIDE, SIDE, 0, &frame, &err));
+    const WrChoice *choice = wr_session_choice(session);
+    assert_true(choice->kinds > 0 && choice->met);
+    wr_choice_print(choice, &text);
+    assert_non_null(strstr(wr_text_get(&text), "% of the blocks: "));
+    assert_non_null(strstr(wr_text_get(&text), "scheme="));
+    assert_non_null(strstr(choice->reason, "tolerance rms=0.02: met"));
+    wr_text_fini(&text);
+    wr_session_free(session);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_measured_error_keeps_to_the_tolerance_or_it_says_so),
+        cmocka_unit_test(a_tolerance_that_nothing_meets_is_said_to_be_so),
+        cmocka_unit_test(a_coarser_tolerance_takes_no_more_samples),
+        cmocka_unit_test(a_table_without_relief_needs_one_sample_inside),
+        cmocka_unit_test(a_time_is_spent_and_not_passed),
+        cmocka_unit_test(the_worst_pixel_has_a_tolerance_too),
+        cmocka_unit_test(each_block_has_the_bits_of_its_setting_alone),
+        cmocka_unit_test(another_size_is_refused),
+        cmocka_unit_test(an_empty_picture_takes_no_samples),
+        cmocka_unit_test(a_scene_without_a_tolerance_has_no_choice),
+        cmocka_unit_test(a_tolerance_goes_into_the_scenes_lines_and_comes_back),
+        cmocka_unit_test(a_tolerance_is_one_thing_with_a_sensible_value),
+        cmocka_unit_test(a_session_renders_under_the_tolerance_and_tells_its_choice),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
