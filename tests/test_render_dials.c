@@ -369,7 +369,7 @@ static void rounded_tables_are_refreshed_to_the_bits_of_new_ones(void **state)
         WrRounded kept = { 0 };
         for (int step = 0; step < 6; step++) {
             float low, high, value = step == 3 ? 9.0f : 0.1f * (float)step;
-            wr_field_set(field, 40 * step, 20 * step, value);
+            wr_field_set(field, 39 * step, 20 * step, value);
             wr_field_range(field, &low, &high);
             WrRounded fresh = { 0 };
             const WrField *a = wr_rounded_bring(&kept, field, (WrHeights)h, low, high, NULL);
