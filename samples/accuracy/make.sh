@@ -10,7 +10,7 @@
 # --quick      tiny pictures and few runs: the page is made, its numbers mean nothing
 #
 # Every sentence of the page that says what follows is made from the numbers. Needs jq, gnuplot and
-# ImageMagick's convert. Takes about an hour on one processor; --quick, half a minute.
+# ImageMagick's convert. Takes about half an hour; --quick, half a minute.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 out=$here keep='' program='' size=256x256 runs=9 contest_size=512x512 quick=''

@@ -15,8 +15,8 @@
    is rendered on the sample once more, and raised again if it does not hold there.
 
    What it cannot know. It is a sample: an error in a place that no drawn block resembles is not seen, and
-   a worst pixel (max=) least of all. `met` is therefore an estimate, on the safe side in the scenes that
-   it was tried on (samples/accuracy). Where a cheap setting keeps to the tolerance by a few hundredths
+   a worst pixel (max=) least of all. `met` is therefore an estimate: of the 80
+   pictures of samples/accuracy one was off by a hundredth more than its tolerance. Where a cheap setting keeps to the tolerance by a few hundredths
    only, the sample cannot tell, and a dearer one is taken. The true picture is taken to be what 16 x 16
    samples tend to: what the surface's mesh, the arithmetic or the stored heights lose is kept as the
    scene has it and is not counted. Choosing costs two whole pictures, of 1 and 2 x 2 samples, one to two

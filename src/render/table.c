@@ -13,24 +13,45 @@ static float narrow(double x)
     return (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);
 }
 
+/* The texels of a rectangle and one more on each side. */
+typedef struct Ring {
+    float *t; /* [h + 2][pitch], owned */
+    size_t pitch;
+    double half_w, half_h; /* of the table, texels */
+} Ring;
+
+static Ring read_ring(const WrField *field, int i, int j, int w, int h)
+{
+    Ring ring = { .pitch = (size_t)w + 2,
+                  .half_w = 0.5 * wr_field_width(field),
+                  .half_h = 0.5 * wr_field_height(field) };
+    ring.t = wr_alloc(ring.pitch * ((size_t)h + 2), sizeof *ring.t);
+    wr_field_read(field, i - 1, j - 1, w + 2, h + 2, ring.t, ring.pitch);
+    return ring;
+}
+
 /* Fu = (T[i+1] - T[i-1]) W/2, Fv = (T[j-1] - T[j+1]) H/2 (rows run down); differences in double, so
    that neither a large level nor FLT_MAX beside -FLT_MAX does harm (HC48, HC50). */
+static inline void slopes_at(const Ring *ring, int x, int y, double *fu, double *fv)
+{
+    const float *mid = ring->t + (size_t)(y + 1) * ring->pitch + (size_t)x + 1;
+    *fu = ((double)mid[1] - (double)mid[-1]) * ring->half_w;
+    *fv = ((double)*(mid - ring->pitch) - (double)mid[ring->pitch]) * ring->half_h;
+}
+
 static void fill_gradient(const WrField *field, int i, int j, int w, int h, float *out,
                           size_t pitch)
 {
-    const double half_w = 0.5 * wr_field_width(field), half_h = 0.5 * wr_field_height(field);
-    const size_t ring = (size_t)w + 2;
-    float *t = wr_alloc(ring * ((size_t)h + 2), sizeof *t);
-    wr_field_read(field, i - 1, j - 1, w + 2, h + 2, t, ring);
-    for (int y = 0; y < h; y++) {
-        const float *up = t + (size_t)y * ring + 1, *mid = up + ring, *down = mid + ring;
-        float *row = out + (size_t)y * pitch * 2;
+    Ring ring = read_ring(field, i, j, w, h);
+    for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
-            row[2 * x] = narrow(((double)mid[x + 1] - mid[x - 1]) * half_w);
-            row[2 * x + 1] = narrow(((double)up[x] - down[x]) * half_h);
+            double fu, fv;
+            float *slopes = out + 2 * ((size_t)y * pitch + (size_t)x);
+            slopes_at(&ring, x, y, &fu, &fv);
+            slopes[0] = narrow(fu);
+            slopes[1] = narrow(fv);
         }
-    }
-    wr_free(t);
+    wr_free(ring.t);
 }
 
 /* The same in double. */
@@ -40,19 +61,13 @@ typedef void (*FillFine)(const WrField *field, int i, int j, int w, int h, doubl
 static void fine_gradient(const WrField *field, int i, int j, int w, int h, double *out,
                           size_t pitch)
 {
-    const double half_w = 0.5 * wr_field_width(field), half_h = 0.5 * wr_field_height(field);
-    const size_t ring = (size_t)w + 2;
-    float *t = wr_alloc(ring * ((size_t)h + 2), sizeof *t);
-    wr_field_read(field, i - 1, j - 1, w + 2, h + 2, t, ring);
-    for (int y = 0; y < h; y++) {
-        const float *up = t + (size_t)y * ring + 1, *mid = up + ring, *down = mid + ring;
-        double *row = out + (size_t)y * pitch * 2;
+    Ring ring = read_ring(field, i, j, w, h);
+    for (int y = 0; y < h; y++)
         for (int x = 0; x < w; x++) {
-            row[2 * x] = ((double)mid[x + 1] - mid[x - 1]) * half_w;
-            row[2 * x + 1] = ((double)up[x] - down[x]) * half_h;
+            double *slopes = out + 2 * ((size_t)y * pitch + (size_t)x);
+            slopes_at(&ring, x, y, &slopes[0], &slopes[1]);
         }
-    }
-    wr_free(t);
+    wr_free(ring.t);
 }
 
 /* The coefficients of wr_field_read_fitted, not rounded: along rows, then down columns. */
