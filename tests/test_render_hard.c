@@ -328,6 +328,49 @@ static void what_lies_under_a_pixel_is_found(void **state)
     wr_field_free(field);
 }
 
+/* Tiles outside what the object can cover are left out: whether a ray meets it is asked without them. */
+static void no_pixel_is_lost_wherever_the_camera_stands(void **state)
+{
+    (void)state;
+    enum { W = 70, H = 53 };
+    TestRandom random = { 11 };
+    WrField *field = bumpy_field(8, 8);
+    int covered = 0, clipped = 0;
+    for (int n = 0; n < 60; n++) {
+        WrScene *scene = scene_of(wr_surfaces[n % WR_SURFACE_COUNT]->name);
+        WrCamera *camera = &scene->camera;
+        const double far = n % 4 == 0 ? 0.6 : 1 + 4 * test_random(&random);
+        double *eye[] = { &camera->eye.x, &camera->eye.y, &camera->eye.z };
+        double *target[] = { &camera->target.x, &camera->target.y, &camera->target.z };
+        for (int i = 0; i < 3; i++) {
+            *eye[i] = far * (2 * test_random(&random) - 1);
+            *target[i] = 1.2 * (2 * test_random(&random) - 1);
+        }
+        camera->fit = false;
+        camera->orthographic = n % 3 == 0;
+        camera->size = 0.5 + 3 * test_random(&random);
+        camera->fov_deg = 20 + 100 * test_random(&random);
+        Shot shot = shoot(scene, field, W, H, 1, "auto", false);
+        int seen = 0;
+        for (int y = 0; y < H; y++)
+            for (int x = 0; x < W; x++) {
+                double u, v;
+                int face;
+                const bool hit = wr_renderer_pick(shot.renderer, x, y, &u, &v, &face);
+                if (hit != (shot.frame.rgba[4 * (y * W + x) + 3] > 0))
+                    fail_msg("%s, camera %d: pixel %d,%d %s", wr_surfaces[scene->shape.kind]->name,
+                             n, x, y, hit ? "is lost" : "comes from nowhere");
+                seen += hit;
+            }
+        covered += seen > 0;
+        clipped += seen > 0 && seen < W * H;
+        put_away(&shot);
+        wr_scene_free(scene);
+    }
+    assert_true(covered > 20 && clipped > 10);
+    wr_field_free(field);
+}
+
 static void a_cancelled_frame_says_so(void **state)
 {
     (void)state;
@@ -386,6 +429,7 @@ int main(void)
         cmocka_unit_test(scales_of_20_decades_give_the_same_picture),
         cmocka_unit_test(poles_are_finite_whatever_the_table),
         cmocka_unit_test(what_lies_under_a_pixel_is_found),
+        cmocka_unit_test(no_pixel_is_lost_wherever_the_camera_stands),
         cmocka_unit_test(a_cancelled_frame_says_so),
         cmocka_unit_test(a_white_picture_changes_nothing_and_a_grey_one_scales),
     };

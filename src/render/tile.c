@@ -21,7 +21,7 @@ void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *til
     if (adaptive) *tile_w = WR_REFINE_W, *tile_h = WR_REFINE_H;
     if (!blocks) return;
     const int tall = samples < WR_TILE_SAMPLES_H ? WR_TILE_SAMPLES_H / samples : 1;
-    *tile_w = *tile_w < WR_FRAME_BLOCK ? power_below(*tile_w) : WR_FRAME_BLOCK;
+    *tile_w = *tile_w < WR_FRAME_BLOCK ? power_below(*tile_w) : *tile_w - *tile_w % WR_FRAME_BLOCK;
     *tile_h = tall < WR_FRAME_BLOCK ? power_below(tall) : WR_FRAME_BLOCK;
 }
 
@@ -99,11 +99,6 @@ static float *pixel_at(const WrTileJob *job, int x, int y)
     return job->rgba + ((size_t)y * (size_t)job->width + (size_t)x) * 4;
 }
 
-/* Pixels of the picture that a tile is made of. */
-typedef struct Part {
-    int x, y, w, h;
-} Part;
-
 /* Where the rows of a tile go. */
 typedef struct Rows {
     float *rgba, *normals;          /* of the first row; NULL: not wanted */
@@ -158,7 +153,7 @@ static void run_rows(const WrTileJob *job, int k, const WrDepthTile *tile, const
 }
 
 /* One sample a pixel, straight into the picture. rgba false: n' alone. */
-static void render_point(const WrTileJob *job, Part part, bool rgba, WrTileScratch *scratch)
+static void render_point(const WrTileJob *job, WrTilePart part, bool rgba, WrTileScratch *scratch)
 {
     WrDepthTile tile = wr_tile_depth(job, 1, part.x, part.y, part.w, part.h, scratch);
     const size_t wide = (size_t)job->width;
@@ -170,7 +165,7 @@ static void render_point(const WrTileJob *job, Part part, bool rgba, WrTileScrat
 }
 
 /* The mean of K x K. */
-static void render_samples(const WrTileJob *job, Part part, WrTileScratch *scratch)
+static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
     const int k = job->samples, w = part.w * k, h = part.h * k;
     const size_t step = sizeof scratch->sample[0] / sizeof(float);
@@ -193,7 +188,7 @@ static void render_samples(const WrTileJob *job, Part part, WrTileScratch *scrat
 }
 
 /* Nothing anywhere on the tile yet. */
-static void clear(const WrTileJob *job, Part part)
+static void clear(const WrTileJob *job, WrTilePart part)
 {
     for (int y = part.y; y < part.y + part.h; y++) {
         memset(pixel_at(job, part.x, y), 0, (size_t)part.w * 4 * sizeof(float));
@@ -203,25 +198,30 @@ static void clear(const WrTileJob *job, Part part)
     }
 }
 
-/* Can anything of the mesh be on the tile? */
-static bool touches(const WrTileJob *job, Part part)
+/* The part of it that the object may be on; w or h 0: none. */
+static WrTilePart touched(const WrTileJob *job, WrTilePart part)
 {
-    const int K = job->samples;
-    WrDepthTile tile = {
+    const WrView *view = job->view;
+    const int K = job->samples, x1 = part.x + part.w, y1 = part.y + part.h;
+    const WrDepthTile tile = {
         .x = part.x * K - K, .y = part.y * K - K, .w = (part.w + 2) * K, .h = (part.h + 2) * K
     };
-    return !job->mesh || wr_view_mesh_touches(job->mesh, job->view, &tile);
+    if (job->mesh)
+        return wr_view_mesh_touches(job->mesh, view, &tile) ? part : (WrTilePart){ 0, 0, 0, 0 };
+    part.x = part.x > view->x0 ? part.x : view->x0;
+    part.y = part.y > view->y0 ? part.y : view->y0;
+    part.w = (x1 < view->x1 ? x1 : view->x1) - part.x;
+    part.h = (y1 < view->y1 ? y1 : view->y1) - part.y;
+    return part;
 }
 
-void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, int index, WrTileScratch *scratch)
+void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch)
 {
-    Part part = { tile_x * job->tile_w, tile_y * job->tile_h, job->tile_w, job->tile_h };
-    part.w = job->width - part.x < part.w ? job->width - part.x : part.w;
-    part.h = job->height - part.y < part.h ? job->height - part.y : part.h;
     const int64_t before = scratch->shaded;
     scratch->seen = job->seen ? &job->seen[index] : NULL;
     clear(job, part);
-    if (!touches(job, part)) return;
+    part = touched(job, part);
+    if (part.w <= 0 || part.h <= 0) return;
     const WrSampling how = job->plan->sampling;
     if (how == WR_SAMPLING_ONE) render_point(job, part, true, scratch);
     else if (job->normals) render_point(job, part, false, scratch);

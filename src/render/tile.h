@@ -90,12 +90,16 @@ typedef struct WrTileScratch {
     unsigned strips;         /* counts strips: one in eight is timed */
 } WrTileScratch;
 
-/* Tile sizes for K x K samples: about 256 x 32 samples whatever K. blocks: a power of two that divides a
-   block of WR_FRAME_BLOCK pixels. */
+/* Pixels of the picture that a tile is made of. */
+typedef struct WrTilePart {
+    int x, y, w, h;
+} WrTilePart;
+
+/* Tile sizes for K x K samples: about 256 x 32 samples whatever K. blocks: as many blocks of WR_FRAME_BLOCK
+   pixels beside each other, or a power of two that divides one, and no taller than one. */
 void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *tile_h);
-/* index: of the tile in job->seen. */
-void wr_tile_render(const WrTileJob *job, int tile_x, int tile_y, int index,
-                    WrTileScratch *scratch);
+/* A tile or a part of one, within the picture; index: of the tile in job->seen. */
+void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch);
 /* (u,v) and face at one sample of the grid; false where nothing is. Uses scratch. */
 bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u,
                   double *v, int *face);

@@ -81,6 +81,72 @@ const WrViewGrid *wr_view_grid(const WrView *view, int k)
     return &view->grids[i];
 }
 
+/* ---- where the object lies in the picture ----
+
+   x/depth and y/depth, or x and y, orthographic, over camera axes. */
+
+typedef struct Extent {
+    double x0, y0, x1, y1;
+} Extent;
+
+static const Extent everything = { -INFINITY, -INFINITY, INFINITY, INFINITY };
+
+/* Of x/z on the ball of radius r whose centre is at (x, z), z > r: where its tangents through the eye lie. */
+static void tangents(double x, double z, double r, double *least, double *most)
+{
+    const double half = r * sqrt(fmax(0, x * x + (z - r) * (z + r))), dd = (z - r) * (z + r);
+    *least = (x * z - half) / dd;
+    *most = (x * z + half) / dd;
+}
+
+static Extent extent_of_ball(const WrView *view, WrVec3 centre, double r)
+{
+    const WrVec3 to = v3_sub(centre, view->eye);
+    const double x = v3_dot(to, view->right), y = v3_dot(to, view->up);
+    const double z = v3_dot(to, view->forward);
+    Extent e = { x - r, y - r, x + r, y + r };
+    if (!view->perspective) return e;
+    if (!(z > 1.001 * r)) return everything;
+    tangents(x, z, r, &e.x0, &e.x1);
+    tangents(y, z, r, &e.y0, &e.y1);
+    return e;
+}
+
+/* Of planar faces: of all their corners, if those lie before the eye. */
+static Extent extent_of_quads(const WrView *view)
+{
+    Extent e = { INFINITY, INFINITY, -INFINITY, -INFINITY };
+    for (int i = 0; i < 4 * view->quad_count; i++) {
+        const WrQuadd *quad = &view->quads_d[i / 4];
+        WrVec3 p = { quad->origin[0], quad->origin[1], quad->origin[2] };
+        const WrVec3 eu = { quad->eu[0], quad->eu[1], quad->eu[2] };
+        const WrVec3 ev = { quad->ev[0], quad->ev[1], quad->ev[2] };
+        p = v3_mad(p, eu, (i & 1) / v3_dot(eu, eu));
+        p = v3_sub(v3_mad(p, ev, (i >> 1 & 1) / v3_dot(ev, ev)), view->eye);
+        const double z = view->perspective ? v3_dot(p, view->forward) : 1;
+        if (!(z > view->near)) return everything;
+        const double x = v3_dot(p, view->right) / z, y = v3_dot(p, view->up) / z;
+        e = (Extent){ fmin(e.x0, x), fmin(e.y0, y), fmax(e.x1, x), fmax(e.y1, y) };
+    }
+    return e;
+}
+
+/* A pixel within 0 .. size. */
+static int pixel_at(double x, int size)
+{
+    return x > 0 ? x < size ? (int)x : size : 0;
+}
+
+static void find_bounds(WrView *view, WrVec3 centre, int width, int height)
+{
+    const Extent e =
+        view->quad_count > 0 ? extent_of_quads(view) : extent_of_ball(view, centre, view->radius);
+    view->x0 = pixel_at((e.x0 / view->half_w + 1) / 2 * width - 2, width);
+    view->x1 = pixel_at((e.x1 / view->half_w + 1) / 2 * width + 3, width);
+    view->y0 = pixel_at((1 - e.y1 / view->half_h) / 2 * height - 2, height);
+    view->y1 = pixel_at((1 - e.y0 / view->half_h) / 2 * height + 3, height);
+}
+
 /* Planar faces; of a closed box seen from outside, only those that face the viewer. */
 static void make_quads(WrView *view, const WrShape *shape)
 {
@@ -166,6 +232,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width
     make_grids(view, v3_scale(place.centre, view->scale));
     if (info->inversion == WR_INVERT_PLANE || info->inversion == WR_INVERT_CUBE)
         make_quads(view, &scene->shape);
+    find_bounds(view, v3_scale(place.centre, view->scale), width, height);
     make_lights(view, scene, &place);
     return true;
 }
