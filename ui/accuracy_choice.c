@@ -22,33 +22,28 @@ static int grid(const WrScene *scene)
     return scene->dials.aa == WR_AA_SUPERSAMPLE ? scene->dials.samples : 1;
 }
 
-/* "edges, 6.3 %: exact bspline-fit 8x8", a line a kind: the kinds are named as in wr_choice_print, whose dials
-   are too many words for a panel. */
-static void say_kinds(const WrChoice *choice, WrText *text)
+/* "6.3 %: exact bspline-fit 8x8, edges", a line a part: all dials are too many words for a panel. */
+static void say_parts(const WrChoice *choice, WrText *text)
 {
-    WrText full = { 0 };
-    wr_choice_print(choice, &full);
-    const char *line = wr_text_get(&full);
-    for (int k = 1; k < choice->kinds && *line; k++) {
-        const WrScene *s = choice->scenes[k];
-        if (choice->blocks[k] == 0) continue;
-        const size_t length = strcspn(line, "\n"), name = strcspn(line, "%\n");
-        wr_text_add(text, text->length > 0 ? "\n" : "");
-        wr_text_add_n(text, line, name < length ? name + 1 : length);
-        wr_text_addf(text, ": %s %s %d\xc3\x97%d", wr_bump_names[s->bump],
-                     wr_schemes[s->scheme].name, grid(s), grid(s));
-        line += length + (line[length] != '\0');
+    int64_t all = 0;
+    for (int i = 0; i < choice->count; i++) all += choice->parts[i].blocks;
+    for (int i = 0; i < choice->count; i++) {
+        const WrChoicePart *part = &choice->parts[i];
+        const WrScene *s = part->scene;
+        if (part->blocks == 0) continue;
+        wr_text_addf(text, "%s%.1f %%: %s %s %d\xc3\x97%d, %s", text->length > 0 ? "\n" : "",
+                     100.0 * (double)part->blocks / (double)all, wr_bump_names[s->bump],
+                     wr_schemes[s->scheme].name, grid(s), grid(s), part->where);
     }
-    wr_text_fini(&full);
 }
 
 void wr_chosen_from(const WrChoice *choice, WrChosen *out)
 {
     const WrScene *slopes = NULL, *normal = NULL, *samples = NULL;
-    *out = (WrChosen){ .any = choice->kinds > 0, .met = choice->met };
-    for (int k = 1; k < choice->kinds; k++) { /* 0 is empty */
-        const WrScene *s = choice->scenes[k];
-        if (choice->blocks[k] == 0) continue;
+    *out = (WrChosen){ .any = choice->count > 0, .met = choice->met };
+    for (int i = 0; i < choice->count; i++) {
+        const WrScene *s = choice->parts[i].scene;
+        if (choice->parts[i].blocks == 0) continue;
         if (!slopes || scheme_rank(s->scheme) > scheme_rank(slopes->scheme)) slopes = s;
         if (!normal || s->bump > normal->bump) normal = s;
         if (!samples || grid(s) > grid(samples)) samples = s;
@@ -61,7 +56,7 @@ void wr_chosen_from(const WrChoice *choice, WrChosen *out)
     out->finest[WR_DIAL_SCHEME] = slopes->scheme;
     out->finest[WR_DIAL_NORMAL] = normal->bump;
     WrText lines = { 0 };
-    say_kinds(choice, &lines);
+    say_parts(choice, &lines);
     snprintf(out->reason, sizeof out->reason, "%s", choice->reason);
     snprintf(out->lines, sizeof out->lines, "%s", wr_text_get(&lines));
     wr_text_fini(&lines);

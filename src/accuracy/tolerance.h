@@ -27,13 +27,17 @@
 #pragma once
 #include "render/frame.h"
 
-#define WR_CHOICE_KINDS 8 /* kinds of blocks */
+/* Blocks that have the same setting. */
+typedef struct WrChoicePart {
+    WrScene *scene;  /* the scene with their dials; owned */
+    int64_t blocks;  /* how many there are; those without any of the object are not counted */
+    char where[160]; /* "edges, the liveliest relief" */
+} WrChoicePart;
 
 typedef struct WrChoice {
-    int kinds;                        /* 0: nothing was chosen */
-    WrScene *scenes[WR_CHOICE_KINDS]; /* the scene with the dials for blocks of that kind; owned */
-    int64_t blocks[WR_CHOICE_KINDS];  /* how many blocks there are of each */
-    unsigned char *kind_of;           /* [blocks_v][blocks_u]; owned */
+    int count;              /* 0: nothing was chosen */
+    WrChoicePart *parts;    /* [count]; owned */
+    unsigned char *part_of; /* [blocks_v][blocks_u]; owned */
     int width, height;
     bool met;           /* the estimate is within the tolerance (time: within the time) */
     double rms, max;    /* estimated error of the whole picture */
@@ -52,9 +56,9 @@ bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, Wr
                          WrError *err);
 void wr_choice_fini(WrChoice *choice);
 
-/* The picture with chosen dials: each kind's blocks with its own setting, in one frame.rgba. Bit for bit
-   what each setting alone gives there. */
+/* The picture with chosen dials: each part's blocks with its setting, in one frame.rgba. Bit for bit what
+   each setting alone gives there. */
 bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
                      WrFrame *frame, WrError *err);
-/* "edges, 12 % of the blocks: mode=exact ... aa=supersample samples=4", a line a kind that has blocks. */
+/* "12 % of the blocks, edges: mode=exact ... aa=supersample samples=4", a line a part that has blocks. */
 void wr_choice_print(const WrChoice *choice, WrText *text);

@@ -1,11 +1,33 @@
 /* tolerance_inner.h - what choosing knows of a picture: its kinds of blocks, a sample of them, and what
    each rung does there.
-   Layer 6, private to tolerance*.c. */
+   Layer 6, private to tolerance*.c.
+
+   Blocks are sorted twice. Strata, by what a second row of samples changes and whether an outline passes, are
+   what is drawn from and measured. Grades cut each stratum by how much that is: a stratum and a grade are a
+   kind, and each kind may have a setting of its own. What a kind has of its stratum's error tells a control,
+   a number known of every block from whole pictures that are cheap: the error is the stratum's ratio, of
+   the sample, times the kind's sum of the control. */
 #pragma once
 #include "accuracy/tolerance.h"
 
-#define SCHEMES_MAX 2
+#define SCHEMES_MAX 3
 #define MODES_MAX 3
+#define STRATA 8 /* 0 is empty, then 2 of edges and 5 of insides */
+#define GRADES 6
+#define KINDS (1 + (STRATA - 1) * GRADES)
+
+enum { STRATUM_EMPTY, STRATUM_EDGE, STRATUM_INSIDE = STRATUM_EDGE + 2 };
+
+/* Grade 0 is the liveliest. */
+static inline int wr_kind(int stratum, int grade)
+{
+    return stratum == STRATUM_EMPTY ? 0 : 1 + (stratum - 1) * GRADES + grade;
+}
+
+static inline int wr_stratum(int kind)
+{
+    return kind == 0 ? STRATUM_EMPTY : 1 + (kind - 1) / GRADES;
+}
 
 /* Ways against aliasing, cheap to good. */
 enum {
@@ -29,31 +51,37 @@ typedef struct Way {
 } Way;
 extern const Way wr_study_ways[WAY_COUNT];
 
-/* KIND_EDGE + 0..1 and KIND_INSIDE + 0..4: by what a second row of samples changes. */
-enum { KIND_EMPTY, KIND_EDGE, KIND_INSIDE = KIND_EDGE + 2 };
+/* A number of every block, and its sums. */
+typedef struct Control {
+    float *of; /* [block_count] */
+    double sum[KINDS];
+} Control;
 
-/* What the sample says of an error, by kind of block: the squares, summed over the pixels and channels of ALL
-   blocks of the kind, how uncertain that sum is, and the largest difference of a channel on the sample. */
-typedef struct Measure {
-    double sum[WR_CHOICE_KINDS], variance[WR_CHOICE_KINDS], most[WR_CHOICE_KINDS];
-} Measure;
+/* What the sample says of an error, by stratum: how large it is beside a control, how uncertain that is (a
+   standard error), the largest difference of a channel on the sample, and what the sample makes of the
+   control's sum. */
+typedef struct Rate {
+    double ratio[STRATA], spread[STRATA], most[STRATA], weighed[STRATA];
+} Rate;
 
 /* Slopes and normal together, with all that is known of them. */
 typedef struct Pair {
     bool tried;
-    Measure point, two;          /* of one sample and of 2 x 2, against the reference */
-    Measure own;                 /* of 2 x 2, against the best pair's 2 x 2 */
-    double point_pace, two_pace; /* time, beside the best pair's */
+    Control change;  /* one sample, against the best pair's 2 x 2 */
+    Control formula; /* one sample, against the best pair's one */
+    Rate point;      /* of one sample, by `change` */
+    Rate own;        /* of 2 x 2, against the best pair's 2 x 2, by `formula` */
+    Rate
+        two; /* of 2 x 2, against the reference, by what the best pair's 2 x 2 and `own` make of it */
+    double pace; /* time, beside the best pair's */
 } Pair;
 
 /* One block of the picture. */
 typedef struct Block {
-    unsigned char kind;
+    unsigned char stratum, kind;
     bool sampled;
-    float size;    /* what it is drawn by: its change, and a little */
-    float weight;  /* of its squared error, for the sum over all blocks of its kind */
-    double change; /* squared difference between one sample and 2 x 2 */
-    int covered;   /* pixels with coverage in the first picture */
+    float weight; /* of its squared error, for the sum over all blocks of its stratum */
+    int covered;  /* pixels with coverage in the first picture */
 } Block;
 
 typedef struct Study {
@@ -61,27 +89,33 @@ typedef struct Study {
     const WrFrameRequest *request;
     int blocks_u, blocks_v;
     int64_t block_count;
-    Block *block;                    /* [blocks_v][blocks_u] */
-    unsigned char *mask;             /* [blocks_v][blocks_u] for WrFrameRequest.only */
-    int64_t blocks[WR_CHOICE_KINDS]; /* of the picture */
-    int64_t chosen[WR_CHOICE_KINDS]; /* of the sample */
-    double pixels;                   /* of the object, half of each edge's included */
-    int64_t sample_count;            /* blocks */
-    float *one;                      /* [height][width][4], the best pair's, one sample a pixel */
-    float *best;                     /* [sample_count][block][block][4]: the reference */
-    float *middle;                   /* the same, of 8 x 8 samples; of the small sample */
-    float *other;                    /* the same, of the setting at hand */
-    WrScheme schemes[SCHEMES_MAX];   /* cheap to good; the last is the best */
+    Block *block;           /* [blocks_v][blocks_u] */
+    unsigned char *mask;    /* [blocks_v][blocks_u] for WrFrameRequest.only */
+    int64_t blocks[KINDS];  /* of the picture */
+    int64_t all[STRATA];    /* the same by stratum */
+    int64_t chosen[STRATA]; /* of the sample */
+    int64_t covered[KINDS]; /* pixels */
+    double pixels;          /* of the object, half of each edge's included */
+    Control
+        size; /* of the best pair: squared change by 2 x 2, and a little; blocks are drawn by it */
+    int64_t sample_count; /* blocks */
+    float *one, *two;     /* [height][width][4], the best pair's, of one and of 2 x 2 samples */
+    float *best;          /* [sample_count][block][block][4]: the reference */
+    float *middle;        /* the same, of 8 x 8 samples; NULL: they are the reference */
+    float *other;         /* the same, of the setting at hand */
+    WrScheme schemes[SCHEMES_MAX]; /* cheap to good; the last is the best */
     WrBumpMode modes[MODES_MAX];
     int scheme_count, mode_count;
     int top; /* the way that the others are measured against */
     /* Processor seconds and seconds of all frames so far: threads, and what others do on the machine, part
        them. */
     double work, wall;
+    double pass; /* processor seconds of a frame of nothing */
     Pair pair[SCHEMES_MAX][MODES_MAX];
+    bool aligned[STRATA]; /* the reference is off along outlines that run with the pixels' rows */
     bool tried[WAY_COUNT];
-    Measure way[WAY_COUNT];                         /* with the best pair */
-    double way_seconds[WAY_COUNT][WR_CHOICE_KINDS]; /* processor time of all blocks of a kind */
+    Rate way[WAY_COUNT];    /* with the best pair, by size */
+    double each[WAY_COUNT]; /* processor seconds of a covered pixel */
 } Study;
 
 /* A setting of all three axes, as indices. */
@@ -94,6 +128,12 @@ static inline bool wr_same_place(Place a, Place b)
     return a.scheme == b.scheme && a.mode == b.mode && a.way == b.way;
 }
 
+/* The squared error of a kind, summed over pixels and channels; how uncertain that is, a standard error; the
+   largest difference of a channel. */
+typedef struct Error {
+    double sum, spread, most;
+} Error;
+
 /* Sort the blocks, draw the sample and measure every rung on it. fine: the error that matters, RMS: what
    is far below it need not be known. */
 bool wr_study_begin(Study *study, WrRenderer *renderer, const WrFrameRequest *request, double fine,
@@ -101,38 +141,65 @@ bool wr_study_begin(Study *study, WrRenderer *renderer, const WrFrameRequest *re
 void wr_study_fini(Study *study);
 /* The scene with a place's dials; the caller frees it. */
 WrScene *wr_study_scene(const Study *study, Place place);
-/* The errors measured with each kind at its place, all axes together; the reference's own among them. */
-bool wr_study_check(Study *study, const Place places[WR_CHOICE_KINDS], Measure *out, WrError *err);
+/* Each stratum's error with each kind at its place, all axes together, by a picture of the sample. foretold:
+   what wr_study_predict says of the same. */
+bool wr_study_check(Study *study, const Place places[KINDS], Error seen[STRATA],
+                    double foretold[STRATA], WrError *err);
 
 /* ---- tolerance_predict.c ---- */
 
 /* Seconds that all blocks of a kind take with a setting. */
 double wr_study_seconds(const Study *study, int kind, Place place);
-/* Its squared error there, and the largest. */
-void wr_study_predict(const Study *study, int kind, Place place, Measure *out);
-/* From what was measured against the reference to what it would be against the truth. The reference
-   itself was not off at all: what it is off comes to that. */
-void wr_study_mend(const Study *study, int kind, int way, Measure *out);
-/* A sum of squares over all kinds that is hardly ever too small: two standard errors above. */
-double wr_study_cautious(const Study *study, const Measure *measure);
-/* Root mean square of linear intensity over the whole picture. */
-double wr_study_rms(const Study *study, const Measure *measure);
+/* Seconds of a picture of so many passes whose kinds take that long. */
+double wr_study_passes(const Study *study, double seconds, int passes);
+Error wr_study_predict(const Study *study, int kind, Place place);
+/* The sum alone, of one block. */
+double wr_study_predict_block(const Study *study, int64_t block, Place place);
+/* A sum of squares that is hardly ever too small, from errors by stratum: some standard errors above. */
+double wr_study_cautious(const Error strata[STRATA]);
+/* Root mean square of linear intensity over the whole picture, of a sum of squares. */
+double wr_study_rms(const Study *study, double squares);
+/* The same of a rate over the whole picture, cautiously. */
+double wr_study_rate_rms(const Study *study, const Rate *rate, const Control *control);
 
 /* ---- tolerance_sample.c ---- */
 
-/* What kinds of blocks the picture has: study->one and the frame of 2 x 2. */
-void wr_study_sort(Study *study, const WrFrame *two);
-/* A sample of about that share of the blocks. */
+/* What kinds of blocks the picture has, by study->one and study->two. Returns the root mean square change. */
+double wr_study_sort(Study *study);
+/* The controls of slopes and normal from their picture of one sample, [height][width][4]. */
+void wr_study_control(Study *study, const float *rgba, Pair *pair);
+/* What a pair's formulas are off, root mean square over the whole picture of one sample. */
+double wr_study_formula_rms(const Study *study, const Pair *pair);
+/* A sample of about that share of the blocks. Three times the share holds all blocks that the share holds,
+   but for strata that have too few. */
 void wr_study_draw(Study *study, double share);
-/* The sample's blocks of a frame, one after the other; what lies beyond the picture is 0. */
-void wr_study_gather(const Study *study, const WrFrame *frame, float *out);
-void wr_study_compare(const Study *study, const float *a, const float *b, Measure *out);
-/* Squared differences between that frame and study->one, by kind, of the whole picture. */
-void wr_study_whole(const Study *study, const WrFrame *frame, double squares[WR_CHOICE_KINDS]);
-/* What k x k samples are off along outlines that run with the pixels' rows or columns, by kind, scaled to all
+/* The sample's blocks of a picture, one after the other; what lies beyond the picture is 0. */
+void wr_study_gather(const Study *study, const float *rgba, float *out);
+/* a, b: of the sample, as gathered. */
+void wr_study_compare(const Study *study, const float *a, const float *b, const float *control,
+                      Rate *out);
+/* What k x k samples are off along outlines that run with the pixels' rows or columns, by stratum, scaled to all
    blocks. rgba: of the sample, with those k x k samples. Every pixel there has the same coverage, a multiple
    of 1/k, whatever the true one: off by up to 1/(2k), and k and 2k may agree on the same wrong one. */
-void wr_study_aligned(const Study *study, const float *rgba, int k,
-                      double squares[WR_CHOICE_KINDS]);
+void wr_study_aligned(const Study *study, const float *rgba, int k, double squares[STRATA]);
 /* Floats of the sample. */
 size_t wr_study_floats(const Study *study);
+void wr_control_fini(Control *control);
+
+/* ---- tolerance_pick.c ---- */
+
+/* The cheapest places that keep to the tolerance by the study's word, weighed by stratum; places of kinds
+   without blocks mean nothing. The margins are parts of the tolerance to keep to. */
+typedef struct Wish {
+    WrTolerance tolerance;
+    double margin_rms, margin_max;
+    double weight[STRATA]; /* how far errors are above the prediction */
+} Wish;
+void wr_study_pick(const Study *study, const Wish *wish, Place places[KINDS]);
+/* Seconds of the whole picture. */
+double wr_study_places_seconds(const Study *study, const Place places[KINDS]);
+
+/* ---- tolerance_choice.c ---- */
+
+/* The study's findings become the caller's choice: its parts. */
+void wr_study_settle(const Study *study, const Place places[KINDS], WrChoice *out);

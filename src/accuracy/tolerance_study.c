@@ -7,12 +7,23 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the blocks: 8 x 8 samples on the larger sample cost about as much as 16 x 16 on the smaller. */
-#define SHARE_SMALL 0.018
-#define SHARE_LARGE 0.055
-#define SPARE 0.6 /* 8 x 8 is a reference where it is off by less than so much of the tolerance */
+/* Of the blocks: 8 x 8 samples on three times as many cost about as much as 16 x 16. */
+#define SHARE 0.018
+#define LARGER 3
+#define SPARE 0.6   /* 8 x 8 is a reference where it is off by less than so much of the tolerance */
+#define HOPE 0.12   /* of the change by 2 x 2 samples: finer than that, 8 x 8 will not serve */
+#define TIGHT 0.15  /* of the same: finer than that, a third choice of slopes gains little */
+#define FINEST 0.06 /* finer than that, the best setting is nearly all that will do */
+#define SLIGHT 0.3  /* of the tolerance: what formulas are off matters little */
+#define FAR 3       /* the same: they will not do but where there is little relief */
 
-#define HOPE 0.12 /* of the change by 2 x 2 samples: finer than that, 8 x 8 will not serve */
+/* Of what the last doubling says of the reference: as much along outlines with the rows is that they are off. Of
+   outlines that do not run with them 0.4 at most was seen, by chance, of those that do 0.5 at least. */
+#define ALIGNED 0.45
+
+#define DOUBT 0.1 /* of what formulas change on the whole picture */
+
+#define PASS 0.02 /* of one sample a pixel: what a pass takes beyond a frame of nothing */
 
 #define MOMENTS_TEXELS 4   /* a pixel of the object: more of them take longer than they may save */
 #define MOMENTS_FROM 0.008 /* RMS: their model of the slopes is seldom nearer */
@@ -69,6 +80,16 @@ WrScene *wr_study_scene(const Study *study, Place place)
     return scene;
 }
 
+/* A frame of one setting; mask NULL: whole. */
+static bool render_place(Study *study, Place place, const unsigned char *only, WrFrame *frame,
+                         double *work, WrError *err)
+{
+    WrScene *scene = wr_study_scene(study, place);
+    const bool good = render(study, scene, only, frame, work, err);
+    wr_scene_free(scene);
+    return good;
+}
+
 static void mask_sample(Study *study)
 {
     for (int64_t b = 0; b < study->block_count; b++) study->mask[b] = study->block[b].sampled;
@@ -76,16 +97,17 @@ static void mask_sample(Study *study)
 
 /* ---- the rungs ---- */
 
-static void list_rungs(Study *study)
+/* few: where nearly all will be the best setting, others are hardly worth a look. */
+static void list_rungs(Study *study, bool few)
 {
     const WrScene *scene = study->request->scene;
     const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
-    if (table) {
+    study->scheme_count = study->mode_count = 0;
+    if (table && !few) {
         study->schemes[study->scheme_count++] = WR_SCHEME_BILINEAR;
-        study->schemes[study->scheme_count++] = WR_SCHEME_BSPLINE_FIT;
-    } else {
-        study->schemes[study->scheme_count++] = scene->scheme;
+        study->schemes[study->scheme_count++] = WR_SCHEME_CENTRAL;
     }
+    study->schemes[study->scheme_count++] = table ? WR_SCHEME_BSPLINE_FIT : scene->scheme;
     if (scene->bump == WR_BUMP_INVARIANT) {
         study->modes[study->mode_count++] = WR_BUMP_INVARIANT;
     } else {
@@ -101,131 +123,186 @@ static Place best_with(const Study *study, int way)
     return (Place){ study->scheme_count - 1, study->mode_count - 1, way };
 }
 
-/* One setting on the whole sample, into *out. seconds: of it, processor time. */
-static bool try_place(Study *study, Place place, float *out, double *seconds, WrError *err)
+/* One setting on the whole sample, into *out. work: of it, processor seconds a covered sample. */
+static bool try_place(Study *study, Place place, float *out, double *work, WrError *err)
 {
     WrFrame frame;
-    WrScene *scene = wr_study_scene(study, place);
+    double all;
     mask_sample(study);
-    const bool good = render(study, scene, study->mask, &frame, seconds, err);
-    if (good) wr_study_gather(study, &frame, out);
-    wr_scene_free(scene);
-    return good;
-}
-
-/* One sample and 2 x 2 with a pair of slopes and normal, against the reference and the best pair's own.
-   two: those of the best pair, of the sample. */
-static bool study_pair(Study *study, int scheme, int mode, const float *two, const double paces[2],
-                       WrError *err)
-{
-    Pair *pair = &study->pair[scheme][mode];
-    double seconds[2];
-    if (!try_place(study, (Place){ scheme, mode, WAY_POINT }, study->other, &seconds[0], err))
-        return false;
-    wr_study_compare(study, study->best, study->other, &pair->point);
-    if (!try_place(study, (Place){ scheme, mode, WAY_TWO }, study->other, &seconds[1], err))
-        return false;
-    wr_study_compare(study, study->best, study->other, &pair->two);
-    wr_study_compare(study, two, study->other, &pair->own);
-    pair->point_pace = paces[0] > 0 ? fmin(1, seconds[0] / paces[0]) : 1;
-    pair->two_pace = paces[1] > 0 ? fmin(1, seconds[1] / paces[1]) : 1;
-    return pair->tried = true;
-}
-
-/* Relief may lie in blocks that were not drawn. What the bump does to one sample a pixel is known for the
-   whole picture when it was rendered without; how much of that the sample has seen. */
-static bool weigh_relief(Study *study, const float *one, WrError *err)
-{
-    Measure seen;
-    double whole[WR_CHOICE_KINDS];
-    WrFrame frame;
-    WrScene *scene = wr_study_scene(study, (Place){ study->scheme_count - 1, 0, WAY_POINT });
-    const bool good = render(study, scene, NULL, &frame, NULL, err);
-    wr_scene_free(scene);
-    if (!good) return false;
-    wr_study_whole(study, &frame, whole);
-    wr_study_gather(study, &frame, study->other);
-    wr_study_compare(study, one, study->other, &seen);
-    for (int i = 0; i < study->scheme_count; i++)
-        for (int j = 0; j < study->mode_count; j++) {
-            Pair *pair = &study->pair[i][j];
-            for (int k = 1; pair->tried && k < WR_CHOICE_KINDS; k++) {
-                const double missed = fmax(0, whole[k] - seen.sum[k]);
-                const double own = pair->own.sum[k];
-                const double more = seen.sum[k] > 0 ? missed * fmin(1, own / seen.sum[k]) : missed;
-                pair->point.sum[k] += more;
-                pair->two.sum[k] += more;
-                pair->own.sum[k] += more;
-            }
-        }
+    if (!render_place(study, place, study->mask, &frame, &all, err)) return false;
+    if (work) *work = frame.shaded > 0 ? all / (double)frame.shaded : 0;
+    wr_study_gather(study, frame.rgba, out);
     return true;
 }
 
-/* Slopes and normals, all with all; without a normal slopes do not matter. Never taken for dearer than
-   the best. */
-static bool study_pairs(Study *study, WrError *err)
+/* ---- against the truth ---- */
+
+/* The reference's own error from the last doubling, by the usual order 3/2 at edges:
+   e(2k) = d(k, 2k) / (2^(3/2) - 1). Not where outlines run along the rows: both may be off alike. */
+static void judge_top(Study *study, const Rate *half)
+{
+    Rate *top = &study->way[study->top];
+    const double share = 1 / (sqrt(8.0) - 1), squared = share * share;
+    double along[STRATA], size[STRATA] = { 0 };
+    wr_study_aligned(study, study->best, wr_study_ways[study->top].samples, along);
+    for (int k = 1; k < KINDS; k++) size[wr_stratum(k)] += study->size.sum[k];
+    for (int s = 1; s < STRATA; s++) {
+        const double least = size[s] > 0 ? along[s] / size[s] : 0;
+        study->aligned[s] = least > ALIGNED * squared * half->ratio[s];
+        top->ratio[s] = fmax(squared * half->ratio[s], least);
+        top->spread[s] = squared * half->spread[s];
+        top->most[s] = share * half->most[s];
+    }
+}
+
+/* From a sum of squares that was measured against the reference to what it would be against the truth. The
+   errors of the two are mostly independent: then the reference's own is a part of the difference, half of it
+   at most. Along aligned outlines both have the same sign. */
+static double mended(bool aligned, double measured, double own)
+{
+    const double both = sqrt(measured) + sqrt(own);
+    return aligned ? both * both : fmax(0.5 * measured, measured - own);
+}
+
+/* control: that the rate is by. */
+static void mend(const Study *study, const double control[STRATA], Rate *rate)
+{
+    double size[STRATA] = { 0 };
+    for (int k = 1; k < KINDS; k++) size[wr_stratum(k)] += study->size.sum[k];
+    for (int s = 1; s < STRATA; s++) {
+        if (!(control[s] > 0)) continue;
+        const double own = study->way[study->top].ratio[s] * size[s];
+        rate->ratio[s] = mended(study->aligned[s], rate->ratio[s] * control[s], own) / control[s];
+    }
+}
+
+static void mend_by(const Study *study, const Control *control, Rate *rate)
+{
+    double sum[STRATA] = { 0 };
+    for (int k = 1; k < KINDS; k++) sum[wr_stratum(k)] += control->sum[k];
+    mend(study, sum, rate);
+}
+
+/* ---- slopes and normals ---- */
+
+/* What 2 x 2 are foretold to be off with a pair: the best pair's own, and what its formulas add. The caller
+   frees. sum: of it, by stratum. */
+static float *foretell_two(const Study *study, const Pair *pair, double sum[STRATA])
+{
+    float *out = wr_alloc((size_t)study->block_count, sizeof *out);
+    for (int64_t b = 0; b < study->block_count; b++) {
+        const int s = study->block[b].stratum;
+        if (s == STRATUM_EMPTY) continue;
+        out[b] = (float)(study->way[WAY_TWO].ratio[s] * (double)study->size.of[b] +
+                         pair->own.ratio[s] * (double)pair->formula.of[b] +
+                         1e-9 * (double)study->size.of[b]);
+        sum[s] += (double)out[b];
+    }
+    return out;
+}
+
+/* Relief may lie in blocks that were not drawn. Where the sample has seen little of what a pair's formulas change,
+   they are taken to be off with 2 x 2 samples as much as with one. */
+static void doubt_unseen(Pair *pair)
+{
+    double all[STRATA] = { 0 };
+    for (int k = 1; k < KINDS; k++) all[wr_stratum(k)] += pair->formula.sum[k];
+    for (int s = 1; s < STRATA; s++) {
+        if (!(all[s] > 0)) continue;
+        const double seen = pair->own.weighed[s] / all[s], part = DOUBT / (seen + DOUBT);
+        pair->own.ratio[s] += part * (1 - pair->own.ratio[s]);
+        pair->own.spread[s] = hypot((1 - part) * pair->own.spread[s], 0.5 * part);
+    }
+}
+
+/* A pair of slopes and normal: the whole picture with one sample a pixel, the sample with 2 x 2, against the
+   reference and the best pair's own. two: those of the best pair, of the sample; one_work: processor seconds of
+   its whole picture, than which none is taken to be dearer. */
+static bool study_pair(Study *study, Place place, const float *two, double one_work, WrError *err)
+{
+    Pair *pair = &study->pair[place.scheme][place.mode];
+    WrFrame frame;
+    double work = 0;
+    place.way = WAY_POINT;
+    if (!render_place(study, place, NULL, &frame, &work, err)) return false;
+    wr_study_control(study, frame.rgba, pair);
+    wr_study_gather(study, frame.rgba, study->other);
+    wr_study_compare(study, study->best, study->other, pair->change.of, &pair->point);
+    mend_by(study, &pair->change, &pair->point);
+    place.way = WAY_TWO;
+    if (!try_place(study, place, study->other, NULL, err)) return false;
+    wr_study_compare(study, two, study->other, pair->formula.of, &pair->own);
+    doubt_unseen(pair);
+    double sum[STRATA] = { 0 };
+    float *control = foretell_two(study, pair, sum);
+    wr_study_compare(study, study->best, study->other, control, &pair->two);
+    mend(study, sum, &pair->two);
+    wr_free(control);
+    pair->pace = one_work > 0 ? fmin(1, work / one_work) : 1;
+    return pair->tried = true;
+}
+
+static void study_best_pair(Study *study, float *two)
+{
+    Pair *best = &study->pair[study->scheme_count - 1][study->mode_count - 1];
+    wr_study_control(study, study->one, best);
+    wr_study_gather(study, study->one, two);
+    wr_study_compare(study, study->best, two, best->change.of, &best->point);
+    mend_by(study, &best->change, &best->point);
+    best->pace = 1;
+    best->tried = true;
+    wr_study_gather(study, study->two, two);
+}
+
+/* Slopes and normals, all with all; without a normal slopes do not matter. Left out is what can gain little: the
+   exact normal with cheaper slopes where the paper's is hardly off, the paper's where it is far off, and central
+   slopes where bilinear ones are hardly off or nearly all that the best slopes give is needed. */
+static bool study_pairs(Study *study, double fine, double change, double one_work, WrError *err)
 {
     const int s = study->scheme_count - 1, m = study->mode_count - 1;
-    double paces[2];
-    const size_t floats = wr_study_floats(study);
-    float *one = wr_alloc(floats, sizeof *one), *two = wr_alloc(floats, sizeof *two);
-    bool good = try_place(study, best_with(study, WAY_POINT), one, &paces[0], err) &&
-                try_place(study, best_with(study, WAY_TWO), two, &paces[1], err);
-    for (int i = s; i >= 0; i--)
-        for (int j = m; good && j >= 0; j--) {
-            const bool none = study->modes[j] == WR_BUMP_NONE;
-            if ((i < s || j < m) && (!none || i == s))
-                good = study_pair(study, i, j, two, paces, err);
-        }
-    if (good && m > 0 && study->modes[0] == WR_BUMP_NONE) good = weigh_relief(study, one, err);
-    study->pair[s][m] = (Pair){ .tried = true,
-                                .point = study->way[WAY_POINT],
-                                .two = study->way[WAY_TWO],
-                                .point_pace = 1,
-                                .two_pace = 1 };
-    wr_free(one);
+    float *two = wr_alloc(wr_study_floats(study), sizeof *two);
+    int first = m < 1 ? m : 1, last = m;
+    bool good = true;
+    study_best_pair(study, two);
+    for (int j = m - 1; good && j >= 0; j--)
+        good = study_pair(study, (Place){ s, j, WAY_POINT }, two, one_work, err);
+    if (good && m > 1 && fine > 0) {
+        const double off = wr_study_formula_rms(study, &study->pair[s][m - 1]);
+        if (off < SLIGHT * fine) last = m - 1;
+        if (off > FAR * fine) first = m;
+    }
+    for (int i = 0; i < s; i++) {
+        if (i > 0 && fine > 0 &&
+            (wr_study_formula_rms(study, &study->pair[0][last]) < SLIGHT * fine ||
+             fine < TIGHT * change))
+            break;
+        for (int j = last; good && j >= first; j--)
+            good = study_pair(study, (Place){ i, j, WAY_POINT }, two, one_work, err);
+    }
     wr_free(two);
     return good;
 }
 
-/* One way on the sample. A sample takes as long everywhere, so its time by kind follows from the pixels. */
+/* ---- ways ---- */
+
+/* One way on the sample. A sample takes as long everywhere. */
 static bool run_way(Study *study, int way, float *out, WrError *err)
 {
-    WrFrame frame;
-    WrScene *scene = wr_study_scene(study, best_with(study, way));
-    double work = 0, *seconds = study->way_seconds[way];
-    mask_sample(study);
-    const bool good = render(study, scene, study->mask, &frame, &work, err);
-    wr_scene_free(scene);
-    if (!good) return false;
     const double grid = wr_study_ways[way].samples;
-    const double each = frame.shaded > 0 ? work * grid * grid / (double)frame.shaded : 0;
-    memset(seconds, 0, sizeof study->way_seconds[way]);
-    for (int64_t b = 0; b < study->block_count; b++)
-        seconds[study->block[b].kind] += each * study->block[b].covered;
-    wr_study_gather(study, &frame, out);
+    if (!try_place(study, best_with(study, way), out, &study->each[way], err)) return false;
+    study->each[way] *= grid * grid;
     return study->tried[way] = true;
 }
 
-/* The reference's own error from the last doubling, by the usual order 3/2 at edges:
-   e(2k) = d(k, 2k) / (2^(3/2) - 1). Not where outlines run along the rows: there both may be off alike. */
-static void judge_top(Study *study, const Measure *half)
+static void compare_way(Study *study, int way, const float *with)
 {
-    Measure *top = &study->way[study->top];
-    const double share = 1 / (sqrt(8.0) - 1), squared = share * share;
-    double aligned[WR_CHOICE_KINDS];
-    wr_study_aligned(study, study->best, wr_study_ways[study->top].samples, aligned);
-    for (int k = 0; k < WR_CHOICE_KINDS; k++) {
-        top->sum[k] = fmax(squared * half->sum[k], aligned[k]);
-        top->variance[k] = squared * squared * half->variance[k];
-        top->most[k] = share * half->most[k];
-    }
+    wr_study_compare(study, study->best, with, study->size.of, &study->way[way]);
 }
 
-static bool compare_way(Study *study, int way, WrError *err)
+static bool measure_way(Study *study, int way, WrError *err)
 {
     if (!run_way(study, way, study->other, err)) return false;
-    wr_study_compare(study, study->best, study->other, &study->way[way]);
+    compare_way(study, way, study->other);
     return true;
 }
 
@@ -238,16 +315,15 @@ static double between(double a, double b, double part)
 static void interpolate(Study *study, int way)
 {
     const Way *at = &wr_study_ways[way];
-    const Measure *low = &study->way[at->low], *high = &study->way[at->high];
+    const Rate *low = &study->way[at->low], *high = &study->way[at->high];
     const double from = wr_study_ways[at->low].samples, to = wr_study_ways[at->high].samples;
     const double part = log(at->samples / from) / log(to / from);
-    for (int k = 0; k < WR_CHOICE_KINDS; k++) {
-        study->way[way].sum[k] = between(low->sum[k], high->sum[k], part);
-        study->way[way].variance[k] = between(low->variance[k], high->variance[k], part);
-        study->way[way].most[k] = between(low->most[k], high->most[k], part);
-        study->way_seconds[way][k] =
-            between(study->way_seconds[at->low][k], study->way_seconds[at->high][k], part);
+    for (int s = 1; s < STRATA; s++) {
+        study->way[way].ratio[s] = between(low->ratio[s], high->ratio[s], part);
+        study->way[way].spread[s] = between(low->spread[s], high->spread[s], part);
+        study->way[way].most[s] = between(low->most[s], high->most[s], part);
     }
+    study->each[way] = between(study->each[at->low], study->each[at->high], part);
     study->tried[way] = true;
 }
 
@@ -256,31 +332,34 @@ static void interpolate(Study *study, int way)
 static bool study_ways(Study *study, double fine, WrError *err)
 {
     bool good = study->tried[study->top] || run_way(study, study->top, study->best, err);
+    study->tried[WAY_POINT] = true; /* by pair, from whole pictures */
     for (int i = 0; good && i < study->top; i++)
-        if (i == WAY_EIGHT) /* there already, on this very sample */
-            wr_study_compare(study, study->best, study->middle, &study->way[i]);
+        if (i == WAY_EIGHT) compare_way(study, i, study->middle); /* there already */
         else if (i != WAY_MOMENTS && wr_study_ways[i].high == 0 && !study->tried[i])
-            good = compare_way(study, i, err);
+            good = measure_way(study, i, err);
     if (!good) return false;
     judge_top(study, &study->way[study->top == WAY_SIXTEEN ? WAY_EIGHT : WAY_FOUR]);
+    for (int i = WAY_TWO; i < study->top; i++)
+        if (wr_study_ways[i].high == 0) mend_by(study, &study->size, &study->way[i]);
     for (int i = 0; i < study->top; i++)
         if (wr_study_ways[i].high > 0) interpolate(study, i);
-    const bool rough = fine >= MOMENTS_FROM && wr_study_rms(study, &study->way[WAY_TWO]) > fine;
+    const bool rough =
+        fine >= MOMENTS_FROM && wr_study_rate_rms(study, &study->way[WAY_TWO], &study->size) > fine;
     const bool bump = study->modes[study->mode_count - 1] != WR_BUMP_NONE;
     const WrField *field = study->request->field;
     const double texels = (double)wr_field_width(field) * wr_field_height(field);
     return !rough || !bump || texels > MOMENTS_TEXELS * study->pixels ||
            study->request->scene->analytic.kind != WR_ANALYTIC_OFF ||
-           compare_way(study, WAY_MOMENTS, err);
+           measure_way(study, WAY_MOMENTS, err);
 }
+
+/* ---- the sample ---- */
 
 static void draw(Study *study, double share)
 {
     wr_study_draw(study, share);
-    wr_free(study->middle);
     wr_free(study->best);
     wr_free(study->other);
-    study->middle = wr_alloc(wr_study_floats(study), sizeof *study->middle);
     study->best = wr_alloc(wr_study_floats(study), sizeof *study->best);
     study->other = wr_alloc(wr_study_floats(study), sizeof *study->other);
     memset(study->tried, 0, sizeof study->tried);
@@ -290,41 +369,84 @@ static void draw(Study *study, double share)
 static bool try_middle(Study *study, double fine, bool *serves, WrError *err)
 {
     study->top = WAY_EIGHT;
-    draw(study, SHARE_LARGE);
-    if (!run_way(study, WAY_EIGHT, study->best, err) || !compare_way(study, WAY_FOUR, err))
+    draw(study, LARGER * SHARE);
+    if (!run_way(study, WAY_EIGHT, study->best, err) || !measure_way(study, WAY_FOUR, err))
         return false;
     judge_top(study, &study->way[WAY_FOUR]);
-    *serves = wr_study_rms(study, &study->way[WAY_EIGHT]) <= SPARE * fine;
+    *serves = wr_study_rate_rms(study, &study->way[WAY_EIGHT], &study->size) <= SPARE * fine;
     return true;
+}
+
+/* 8 x 8 samples of the blocks of this sample, taken from those of the one before where it holds them all. */
+static bool keep_middle(Study *study, const float *before, const unsigned char *was, WrError *err)
+{
+    const size_t packed = wr_study_floats(study) / (size_t)study->sample_count;
+    float *out = study->middle;
+    for (int64_t b = 0; b < study->block_count; b++) {
+        if (study->block[b].sampled && !was[b])
+            return run_way(study, WAY_EIGHT, study->middle, err);
+        if (study->block[b].sampled) {
+            memcpy(out, before, packed * sizeof *out);
+            out += packed;
+        }
+        if (was[b]) before += packed;
+    }
+    return study->tried[WAY_EIGHT] = true;
 }
 
 static bool take_top(Study *study, WrError *err)
 {
+    float *before = study->best;
+    unsigned char *was = wr_alloc((size_t)study->block_count, 1);
+    for (int64_t b = 0; b < study->block_count; b++) was[b] = study->block[b].sampled;
+    study->best = NULL;
     study->top = WAY_SIXTEEN;
-    draw(study, SHARE_SMALL);
-    return run_way(study, WAY_EIGHT, study->middle, err);
+    draw(study, SHARE);
+    study->middle = wr_alloc(wr_study_floats(study), sizeof *study->middle);
+    const bool good = before ? keep_middle(study, before, was, err)
+                             : run_way(study, WAY_EIGHT, study->middle, err);
+    wr_free(before);
+    wr_free(was);
+    return good;
 }
 
+/* ---- the whole picture ---- */
+
 /* The whole picture with one sample a pixel and with 2 x 2: what that changes is most of what one sample
-   is off, and blocks are sorted and drawn by it. *change: root mean square. */
-static bool survey(Study *study, double *change, WrError *err)
+   is off, and blocks are sorted and drawn by it. work: processor seconds of each. */
+static bool survey(Study *study, double work[2], WrError *err)
 {
     const WrFrameRequest *request = study->request;
     const size_t floats = (size_t)request->width * (size_t)request->height * 4;
     WrFrame frame;
     study->one = wr_try_alloc(floats, sizeof *study->one, "picture", err);
-    bool good = study->one != NULL;
-    for (int way = WAY_POINT; good && way <= WAY_TWO; way += WAY_TWO - WAY_POINT) {
-        WrScene *scene = wr_study_scene(study, best_with(study, way));
-        good = render(study, scene, NULL, &frame, NULL, err);
-        wr_scene_free(scene);
-        if (good && way == WAY_POINT) memcpy(study->one, frame.rgba, floats * sizeof *study->one);
-    }
-    if (good) wr_study_sort(study, &frame);
-    double sum = 0;
-    for (int64_t b = 0; good && b < study->block_count; b++) sum += study->block[b].change;
-    *change = sqrt(sum / (3 * fmax(study->pixels, 1)));
-    return good;
+    study->two = study->one ? wr_try_alloc(floats, sizeof *study->two, "picture", err) : NULL;
+    if (!study->two ||
+        !render_place(study, best_with(study, WAY_POINT), NULL, &frame, &work[0], err))
+        return false;
+    memcpy(study->one, frame.rgba, floats * sizeof *study->one);
+    if (!render_place(study, best_with(study, WAY_TWO), NULL, &frame, &work[1], err)) return false;
+    memcpy(study->two, frame.rgba, floats * sizeof *study->two);
+    return true;
+}
+
+/* What a covered pixel takes, from the whole pictures of one and of 2 x 2 samples; single blocks are a little
+   slower, all ways alike. And what one more pass over the picture takes. */
+static bool find_times(Study *study, const double work[2], WrError *err)
+{
+    WrFrame frame;
+    double covered = 0;
+    memset(study->mask, 0, (size_t)study->block_count);
+    const double before = study->work;
+    if (!render_place(study, best_with(study, WAY_POINT), study->mask, &frame, NULL, err))
+        return false;
+    study->pass = study->work - before + PASS * work[0];
+    for (int k = 1; k < KINDS; k++) covered += (double)study->covered[k];
+    const double two = covered > 0 ? work[1] / covered : 0;
+    const double tempo = study->each[WAY_TWO] > 0 && two > 0 ? two / study->each[WAY_TWO] : 1;
+    for (int way = 0; way < WAY_COUNT; way++) study->each[way] *= fmax(0.5, fmin(1, tempo));
+    study->each[WAY_POINT] = covered > 0 ? work[0] / covered : 0;
+    return true;
 }
 
 bool wr_study_begin(Study *study, WrRenderer *renderer, const WrFrameRequest *request, double fine,
@@ -334,17 +456,20 @@ bool wr_study_begin(Study *study, WrRenderer *renderer, const WrFrameRequest *re
                       .request = request,
                       .blocks_u = (request->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK,
                       .blocks_v = (request->height + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK };
-    double change;
+    double work[2];
     study->block_count = (int64_t)study->blocks_u * study->blocks_v;
     study->block = wr_alloc((size_t)study->block_count, sizeof *study->block);
     study->mask = wr_alloc((size_t)study->block_count, 1);
-    list_rungs(study);
-    if (!survey(study, &change, err)) return false;
-    if (study->blocks[KIND_EMPTY] == study->block_count) return true;
+    list_rungs(study, false);
+    if (!survey(study, work, err)) return false;
+    const double change = wr_study_sort(study);
+    if (study->all[STRATUM_EMPTY] == study->block_count) return true;
+    list_rungs(study, fine < FINEST * change);
     bool serves = change * HOPE <= fine;
     if (serves && !try_middle(study, fine, &serves, err)) return false;
     if (!serves && !take_top(study, err)) return false;
-    return study_ways(study, fine, err) && study_pairs(study, err);
+    return study_ways(study, fine, err) && study_pairs(study, fine, change, work[0], err) &&
+           find_times(study, work, err);
 }
 
 void wr_study_fini(Study *study)
@@ -352,31 +477,73 @@ void wr_study_fini(Study *study)
     wr_free(study->block);
     wr_free(study->mask);
     wr_free(study->one);
+    wr_free(study->two);
     wr_free(study->middle);
     wr_free(study->best);
     wr_free(study->other);
+    wr_control_fini(&study->size);
+    for (int i = 0; i < SCHEMES_MAX; i++)
+        for (int j = 0; j < MODES_MAX; j++) {
+            wr_control_fini(&study->pair[i][j].change);
+            wr_control_fini(&study->pair[i][j].formula);
+        }
     *study = (Study){ 0 };
 }
 
-bool wr_study_check(Study *study, const Place places[WR_CHOICE_KINDS], Measure *out, WrError *err)
+/* ---- the outcome ---- */
+
+/* The sample with each kind at its place, into study->other. */
+static bool render_places(Study *study, const Place places[KINDS], WrError *err)
 {
     WrFrame frame;
-    bool done[WR_CHOICE_KINDS] = { [KIND_EMPTY] = true }, good = true;
-    for (int k = 1; good && k < WR_CHOICE_KINDS; k++) {
-        if (done[k] || study->chosen[k] == 0) continue;
+    bool done[KINDS] = { true };
+    for (int k = 1; k < KINDS; k++) {
+        if (done[k] || study->blocks[k] == 0) continue;
         for (int64_t b = 0; b < study->block_count; b++)
             study->mask[b] =
                 study->block[b].sampled && wr_same_place(places[study->block[b].kind], places[k]);
-        for (int other = k; other < WR_CHOICE_KINDS; other++)
+        for (int other = k; other < KINDS; other++)
             done[other] = done[other] || wr_same_place(places[other], places[k]);
-        WrScene *scene = wr_study_scene(study, places[k]);
-        good = render(study, scene, study->mask, &frame, NULL, err);
-        wr_scene_free(scene);
+        if (!render_place(study, places[k], study->mask, &frame, NULL, err)) return false;
     }
-    if (!good) return false;
-    wr_study_gather(study, &frame, study->other);
-    wr_study_compare(study, study->best, study->other, out);
-    for (int k = 1; k < WR_CHOICE_KINDS; k++)
-        if (study->blocks[k] > 0) wr_study_mend(study, k, places[k].way, out);
+    wr_study_gather(study, frame.rgba, study->other);
+    return true;
+}
+
+/* To the truth: what differs from the reference, and what is the reference. */
+static void add_reference(const Study *study, const Place places[KINDS], Error seen[STRATA])
+{
+    const Rate *top = &study->way[study->top];
+    double within[STRATA] = { 0 }, itself[STRATA] = { 0 };
+    for (int k = 1; k < KINDS; k++) {
+        if (study->blocks[k] == 0) continue;
+        const double own = top->ratio[wr_stratum(k)] * study->size.sum[k];
+        if (places[k].way == study->top) itself[wr_stratum(k)] += own;
+        else within[wr_stratum(k)] += own;
+    }
+    for (int s = 1; s < STRATA; s++)
+        seen[s].sum = mended(study->aligned[s], seen[s].sum, within[s]) + itself[s];
+}
+
+bool wr_study_check(Study *study, const Place places[KINDS], Error seen[STRATA],
+                    double foretold[STRATA], WrError *err)
+{
+    Rate rate;
+    if (!render_places(study, places, err)) return false;
+    float *control = wr_alloc((size_t)study->block_count, sizeof *control);
+    memset(foretold, 0, STRATA * sizeof *foretold);
+    for (int64_t b = 0; b < study->block_count; b++) {
+        const Block *block = &study->block[b];
+        if (block->stratum == STRATUM_EMPTY) continue;
+        control[b] = (float)(wr_study_predict_block(study, b, places[block->kind]) +
+                             1e-9 * (double)study->size.of[b]);
+        foretold[block->stratum] += (double)control[b];
+    }
+    wr_study_compare(study, study->best, study->other, control, &rate);
+    wr_free(control);
+    for (int s = 1; s < STRATA; s++)
+        seen[s] =
+            (Error){ rate.ratio[s] * foretold[s], rate.spread[s] * foretold[s], rate.most[s] };
+    add_reference(study, places, seen);
     return true;
 }

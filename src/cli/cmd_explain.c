@@ -40,7 +40,7 @@ static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice)
         wr_text_add(text, "}");
     }
     wr_text_add(text, "]");
-    if (choice->kinds > 0) add_json_choice(text, choice);
+    if (choice->count > 0) add_json_choice(text, choice);
     wr_text_add(text, "}\n");
 }
 
@@ -56,7 +56,7 @@ static void add_table(WrText *text, const WrPlan *plan, const WrChoice *choice,
         wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", e->rule, e->name,
                      e->run ? "yes" : "no", wr_proof_letter(e->proof), price, e->reason);
     }
-    if (choice->kinds > 0) {
+    if (choice->count > 0) {
         wr_text_addf(text, "\n%s\n", choice->reason);
         wr_choice_print(choice, text);
     }
