@@ -84,6 +84,14 @@ typedef struct Block {
     int covered;  /* pixels with coverage in the first picture */
 } Block;
 
+#define BLOCK_FLOATS ((size_t)4 * WR_FRAME_BLOCK * WR_FRAME_BLOCK)
+
+/* The blocks of a picture that show anything. */
+typedef struct Packed {
+    float *rgba;    /* [those][block][block][4]; beyond the picture 0 */
+    int64_t *place; /* [block_count], where it is among those; -1: it shows nothing */
+} Packed;
+
 typedef struct Study {
     WrRenderer *renderer;
     const WrFrameRequest *request;
@@ -98,11 +106,11 @@ typedef struct Study {
     double pixels;          /* of the object, half of each edge's included */
     Control
         size; /* of the best pair: squared change by 2 x 2, and a little; blocks are drawn by it */
-    int64_t sample_count; /* blocks */
-    float *one, *two;     /* [height][width][4], the best pair's, of one and of 2 x 2 samples */
-    float *best;          /* [sample_count][block][block][4]: the reference */
-    float *middle;        /* the same, of 8 x 8 samples; NULL: they are the reference */
-    float *other;         /* the same, of the setting at hand */
+    int64_t sample_count;          /* blocks */
+    Packed one, two;               /* the best pair's picture, of one and of 2 x 2 samples */
+    float *best;                   /* [sample_count][block][block][4]: the reference */
+    float *middle;                 /* the same, of 8 x 8 samples; NULL: they are the reference */
+    float *other;                  /* the same, of the setting at hand */
     WrScheme schemes[SCHEMES_MAX]; /* cheap to good; the last is the best */
     WrBumpMode modes[MODES_MAX];
     int scheme_count, mode_count;
@@ -162,11 +170,29 @@ double wr_study_rms(const Study *study, double squares);
 /* The same of a rate over the whole picture, cautiously. */
 double wr_study_rate_rms(const Study *study, const Rate *rate, const Control *control);
 
-/* ---- tolerance_sample.c ---- */
+/* ---- tolerance_blocks.c ---- */
 
+/* Pack a picture, [height][width][4]. */
+bool wr_packed_make(const Study *study, const float *rgba, Packed *out, WrError *err);
+void wr_packed_fini(Packed *packed);
+/* A block's BLOCK_FLOATS: zeros where it shows nothing. */
+const float *wr_packed_block(const Packed *packed, int64_t block);
+/* The same of a picture, into *out. */
+void wr_block_take(const Study *study, const float *rgba, int64_t block, float *out);
+/* Squared differences of R, G, B between two blocks. */
+double wr_block_change(const float *a, const float *b);
 /* What kinds of blocks the picture has, by study->one and study->two. Returns the root mean square change. */
 double wr_study_sort(Study *study);
-/* The controls of slopes and normal from their picture of one sample, [height][width][4]. */
+typedef struct Ranked {
+    float size;
+    int64_t block;
+} Ranked;
+/* A stratum's blocks by size, small to large; the caller frees. */
+Ranked *wr_study_rank(const Study *study, int stratum);
+
+/* ---- tolerance_sample.c ---- */
+
+/* The controls of slopes and normal from their picture of one sample, [height][width][4]; NULL: of the best. */
 void wr_study_control(Study *study, const float *rgba, Pair *pair);
 /* What a pair's formulas are off, root mean square over the whole picture of one sample. */
 double wr_study_formula_rms(const Study *study, const Pair *pair);
@@ -175,6 +201,7 @@ double wr_study_formula_rms(const Study *study, const Pair *pair);
 void wr_study_draw(Study *study, double share);
 /* The sample's blocks of a picture, one after the other; what lies beyond the picture is 0. */
 void wr_study_gather(const Study *study, const float *rgba, float *out);
+void wr_study_gather_packed(const Study *study, const Packed *packed, float *out);
 /* a, b: of the sample, as gathered. */
 void wr_study_compare(const Study *study, const float *a, const float *b, const float *control,
                       Rate *out);
@@ -184,6 +211,8 @@ void wr_study_compare(const Study *study, const float *a, const float *b, const 
 void wr_study_aligned(const Study *study, const float *rgba, int k, double squares[STRATA]);
 /* Floats of the sample. */
 size_t wr_study_floats(const Study *study);
+/* Its sums, from its blocks. */
+void wr_control_add_up(const Study *study, Control *control);
 void wr_control_fini(Control *control);
 
 /* ---- tolerance_pick.c ---- */

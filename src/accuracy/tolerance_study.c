@@ -215,6 +215,13 @@ static void doubt_unseen(Pair *pair)
     }
 }
 
+/* One sample a pixel with a pair: of the whole picture, and what the sample says of it. */
+static void study_point(Study *study, const float *point, Pair *pair)
+{
+    wr_study_compare(study, study->best, point, pair->change.of, &pair->point);
+    mend_by(study, &pair->change, &pair->point);
+}
+
 /* A pair of slopes and normal: the whole picture with one sample a pixel, the sample with 2 x 2, against the
    reference and the best pair's own. two: those of the best pair, of the sample; one_work: processor seconds of
    its whole picture, than which none is taken to be dearer. */
@@ -227,8 +234,7 @@ static bool study_pair(Study *study, Place place, const float *two, double one_w
     if (!render_place(study, place, NULL, &frame, &work, err)) return false;
     wr_study_control(study, frame.rgba, pair);
     wr_study_gather(study, frame.rgba, study->other);
-    wr_study_compare(study, study->best, study->other, pair->change.of, &pair->point);
-    mend_by(study, &pair->change, &pair->point);
+    study_point(study, study->other, pair);
     place.way = WAY_TWO;
     if (!try_place(study, place, study->other, NULL, err)) return false;
     wr_study_compare(study, two, study->other, pair->formula.of, &pair->own);
@@ -245,13 +251,12 @@ static bool study_pair(Study *study, Place place, const float *two, double one_w
 static void study_best_pair(Study *study, float *two)
 {
     Pair *best = &study->pair[study->scheme_count - 1][study->mode_count - 1];
-    wr_study_control(study, study->one, best);
-    wr_study_gather(study, study->one, two);
-    wr_study_compare(study, study->best, two, best->change.of, &best->point);
-    mend_by(study, &best->change, &best->point);
+    wr_study_control(study, NULL, best);
+    wr_study_gather_packed(study, &study->one, two);
+    study_point(study, two, best);
     best->pace = 1;
     best->tried = true;
-    wr_study_gather(study, study->two, two);
+    wr_study_gather_packed(study, &study->two, two);
 }
 
 /* Slopes and normals, all with all; without a normal slopes do not matter. Left out is what can gain little: the
@@ -416,18 +421,11 @@ static bool take_top(Study *study, WrError *err)
    is off, and blocks are sorted and drawn by it. work: processor seconds of each. */
 static bool survey(Study *study, double work[2], WrError *err)
 {
-    const WrFrameRequest *request = study->request;
-    const size_t floats = (size_t)request->width * (size_t)request->height * 4;
     WrFrame frame;
-    study->one = wr_try_alloc(floats, sizeof *study->one, "picture", err);
-    study->two = study->one ? wr_try_alloc(floats, sizeof *study->two, "picture", err) : NULL;
-    if (!study->two ||
-        !render_place(study, best_with(study, WAY_POINT), NULL, &frame, &work[0], err))
-        return false;
-    memcpy(study->one, frame.rgba, floats * sizeof *study->one);
-    if (!render_place(study, best_with(study, WAY_TWO), NULL, &frame, &work[1], err)) return false;
-    memcpy(study->two, frame.rgba, floats * sizeof *study->two);
-    return true;
+    return render_place(study, best_with(study, WAY_POINT), NULL, &frame, &work[0], err) &&
+           wr_packed_make(study, frame.rgba, &study->one, err) &&
+           render_place(study, best_with(study, WAY_TWO), NULL, &frame, &work[1], err) &&
+           wr_packed_make(study, frame.rgba, &study->two, err);
 }
 
 /* What a covered pixel takes, from the whole pictures of one and of 2 x 2 samples; single blocks are a little
@@ -476,8 +474,8 @@ void wr_study_fini(Study *study)
 {
     wr_free(study->block);
     wr_free(study->mask);
-    wr_free(study->one);
-    wr_free(study->two);
+    wr_packed_fini(&study->one);
+    wr_packed_fini(&study->two);
     wr_free(study->middle);
     wr_free(study->best);
     wr_free(study->other);
