@@ -196,9 +196,9 @@ Ranked *wr_study_rank(const Study *study, int stratum);
 void wr_study_control(Study *study, const float *rgba, Pair *pair);
 /* What a pair's formulas are off, root mean square over the whole picture of one sample. */
 double wr_study_formula_rms(const Study *study, const Pair *pair);
-/* A sample of about that share of the blocks. Three times the share holds all blocks that the share holds,
-   but for strata that have too few. */
-void wr_study_draw(Study *study, double share);
+/* A sample of about that share of the blocks, of each stratum `least` if it has them. Three times the share holds
+   most blocks that the share holds. */
+void wr_study_draw(Study *study, double share, int64_t least);
 /* The sample's blocks of a picture, one after the other; what lies beyond the picture is 0. */
 void wr_study_gather(const Study *study, const float *rgba, float *out);
 void wr_study_gather_packed(const Study *study, const Packed *packed, float *out);

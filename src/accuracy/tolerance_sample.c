@@ -8,7 +8,6 @@
 
 #define BLOCK WR_FRAME_BLOCK
 #define EVENLY 0.35 /* of the sample: what slopes and normals are off is everywhere */
-#define LEAST 4     /* blocks of a stratum */
 #define FLOOR 0.02  /* of the size, in the change: nothing is known to be exact */
 
 void wr_control_add_up(const Study *study, Control *control)
@@ -71,7 +70,7 @@ static void draw_stratum(Study *study, int stratum, int64_t wanted)
     wr_free(ranked);
 }
 
-void wr_study_draw(Study *study, double share)
+void wr_study_draw(Study *study, double share, int64_t least)
 {
     double change[STRATA] = { 0 }, weight[STRATA], sum = 0;
     int64_t all = 0;
@@ -93,7 +92,7 @@ void wr_study_draw(Study *study, double share)
         if (study->all[s] == 0) continue;
         int64_t wanted = (int64_t)rint(share * (EVENLY * (double)study->all[s] +
                                                 (1 - EVENLY) * (double)all * weight[s] / sum));
-        wanted = wanted < LEAST ? LEAST : wanted;
+        wanted = wanted < least ? least : wanted;
         draw_stratum(study, s, wanted < study->all[s] ? wanted : study->all[s]);
     }
     for (int64_t b = 0; b < study->block_count; b++) {

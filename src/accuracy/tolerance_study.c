@@ -10,12 +10,13 @@
 /* Of the blocks: 8 x 8 samples on three times as many cost about as much as 16 x 16. */
 #define SHARE 0.018
 #define LARGER 3
-#define SPARE 0.6   /* 8 x 8 is a reference where it is off by less than so much of the tolerance */
-#define HOPE 0.12   /* of the change by 2 x 2 samples: finer than that, 8 x 8 will not serve */
-#define TIGHT 0.15  /* of the same: finer than that, a third choice of slopes gains little */
-#define FINEST 0.06 /* finer than that, the best setting is nearly all that will do */
-#define SLIGHT 0.3  /* of the tolerance: what formulas are off matters little */
-#define FAR 3       /* the same: they will not do but where there is little relief */
+#define LEAST 4    /* blocks of a stratum */
+#define SPARE 0.75 /* 8 x 8 is a reference where it is off by less than so much of the tolerance */
+#define HOPE 0.12  /* of the change by 2 x 2 samples: finer than that, 8 x 8 will not serve */
+#define TIGHT 0.15 /* of the same: finer than that, a third choice of slopes gains little */
+#define FINEST 0.1 /* finer than that, the best setting is nearly all that will do */
+#define SLIGHT 0.3 /* of the tolerance: what formulas are off matters little */
+#define FAR 3      /* the same: they will not do but where there is little relief */
 
 /* Of what the last doubling says of the reference: as much along outlines with the rows is that they are off. Of
    outlines that do not run with them 0.4 at most was seen, by chance, of those that do 0.5 at least. */
@@ -360,9 +361,9 @@ static bool study_ways(Study *study, double fine, WrError *err)
 
 /* ---- the sample ---- */
 
-static void draw(Study *study, double share)
+static void draw(Study *study, double share, int64_t least)
 {
-    wr_study_draw(study, share);
+    wr_study_draw(study, share, least);
     wr_free(study->best);
     wr_free(study->other);
     study->best = wr_alloc(wr_study_floats(study), sizeof *study->best);
@@ -374,7 +375,7 @@ static void draw(Study *study, double share)
 static bool try_middle(Study *study, double fine, bool *serves, WrError *err)
 {
     study->top = WAY_EIGHT;
-    draw(study, LARGER * SHARE);
+    draw(study, LARGER * SHARE, LEAST);
     if (!run_way(study, WAY_EIGHT, study->best, err) || !measure_way(study, WAY_FOUR, err))
         return false;
     judge_top(study, &study->way[WAY_FOUR]);
@@ -406,7 +407,7 @@ static bool take_top(Study *study, WrError *err)
     for (int64_t b = 0; b < study->block_count; b++) was[b] = study->block[b].sampled;
     study->best = NULL;
     study->top = WAY_SIXTEEN;
-    draw(study, SHARE);
+    draw(study, SHARE, LEAST);
     study->middle = wr_alloc(wr_study_floats(study), sizeof *study->middle);
     const bool good = before ? keep_middle(study, before, was, err)
                              : run_way(study, WAY_EIGHT, study->middle, err);

@@ -24,6 +24,17 @@ static inline int32_t wr_float_bits(float value)
     return u.i;
 }
 
+/* The nearest IEEE binary16, ties to even; at most 65504, which infinities and no numbers become too. */
+static inline float wr_round_half(float x)
+{
+    const int32_t bits = wr_float_bits(x), sign = bits & INT32_MIN, all = bits & INT32_MAX;
+    const int32_t most = 0x477fe000, size = all < most ? all : most; /* 65504 */
+    const int32_t near = (size + 0xfff + (size >> 13 & 1)) & ~0x1fff;
+    /* Below 2^-14 steps are 2^-24, the last place of 1/2. */
+    const int32_t low = wr_float_bits((wr_bits_float(size) + 0.5f) - 0.5f);
+    return wr_bits_float(sign | (size < 0x38800000 ? low : near));
+}
+
 /* sin and cos of 2 pi u, u in turns, |u| < 2^21. Absolute error under 1.2e-7; exactly 0, 1 or -1 at
    whole, half and quarter turns. */
 static inline void wr_sincos_turns_f(float u, float *sine, float *cosine)

@@ -27,6 +27,23 @@ static void watch_lap(Watch *watch, WrStage stage)
 
 #include "render/pipe_look_body.h"
 
+/* ---- half precision ------------------------------------------------------------------------------ */
+
+static void keep_half(REAL *x, int count)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) x[i] = (REAL)wr_round_half((float)x[i]);
+}
+
+static void keep_half3(const WrTileJob *job, REAL *x, REAL *y, REAL *z, int count, Watch *watch)
+{
+    if (!job->plan->shading_half) return;
+    keep_half(x, count);
+    keep_half(y, count);
+    keep_half(z, count);
+    watch_lap(watch, WR_STAGE_HALF);
+}
+
 /* ---- light -------------------------------------------------------------------------------------- */
 
 static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip)
@@ -62,14 +79,20 @@ static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *si
     }
     if (plan->specular || sink->bound) k->view(rays, strip);
     watch_lap(watch, plan->specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
+    if (plan->specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
     if (!plan->diffuse && !plan->specular) return;
     for (int i = 0; i < job->view->light_count; i++) {
         const WR_T(WrKernLight) *light = &VIEWED(job->view, lights)[i];
         k->light(light, strip);
+        watch_lap(watch, WR_STAGE_DIFFUSE);
+        keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
+        if (plan->shading_half) keep_half(strip->n_dot_l, strip->count);
         if (plan->diffuse) k->diffuse(light, (REAL)material->diffuse, strip);
         watch_lap(watch, WR_STAGE_DIFFUSE);
+        keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
         if (plan->specular) shine_strip(job, light, strip);
         watch_lap(watch, WR_STAGE_SPECULAR);
+        if (plan->specular) keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
         if (sink->bound) bound_strip(job, rays, light, strip);
         watch_lap(watch, WR_STAGE_BOUND);
     }
@@ -106,6 +129,7 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
         k->bump[plan->bump](rays, strip);
         if (plan->moments && sink->rgba) k->widen(plan->bump == WR_BUMP_INVARIANT, strip);
         watch_lap(watch, WR_STAGE_BUMP);
+        keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
     }
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip);
     watch_lap(watch, WR_STAGE_BOUND);
@@ -113,6 +137,7 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
     light_strip(job, rays, sink, strip, watch);
     const WrVec3 c = job->scene->material.colour;
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
+    keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
 }
 
 /* Finished strip -> its samples' places. */

@@ -1,6 +1,7 @@
 /* The stages in double precision. */
 #include "render/pipe.h"
 #include "base/clock.h"
+#include "base/kernmath.h"
 #include "render/pyramid.h"
 
 #include <float.h>

@@ -30,6 +30,7 @@ static const struct {
     [WR_EFFECT_SPREAD] = { "E31", "spread of slopes", WR_PROOF_POLICY },
     [WR_EFFECT_ROUNDED] = { "E32", "rounded heights", WR_PROOF_POLICY },
     [WR_EFFECT_DOUBLE] = { "E33", "double precision", WR_PROOF_POLICY },
+    [WR_EFFECT_HALF] = { "E34", "half precision", WR_PROOF_POLICY },
 };
 
 const char *wr_proof_letter(WrProof proof)
@@ -187,8 +188,10 @@ static void plan_visibility(WrPlan *plan, const WrScene *scene)
 }
 
 /* Why no bound on the intensity's change over a pixel is known, or NULL if one is. */
-static const char *no_bound(const WrPlan *plan, const WrScene *scene)
+static const char *no_bound(const WrPlan *plan, const WrScene *scene, const WrDials *dials)
 {
+    if (dials->shading == WR_SHADING_HALF)
+        return "no bound is known of rounding to half precision: K x K everywhere";
     const WrInversion how = wr_surfaces[scene->shape.kind]->inversion;
     if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
         return "no bound is known on this surface: K x K everywhere";
@@ -214,7 +217,7 @@ static void plan_samples(WrPlan *plan, const WrScene *scene, const WrDials *dial
         : all                ? "the dial asks for the mean of K x K intensities"
                              : "the dial asks for up to K x K where one is not enough");
     const bool wanted = plan->sampling == WR_SAMPLING_ADAPTIVE && dials->refine == WR_REFINE_BOUND;
-    const char *why = no_bound(plan, scene);
+    const char *why = no_bound(plan, scene, dials);
     plan->bounded = wanted && !why;
     say(plan, WR_EFFECT_BOUND, plan->bounded,
         !wanted ? "the dials do not ask for a bound"
@@ -258,6 +261,10 @@ static void plan_arithmetic(WrPlan *plan, const WrScene *scene, const WrDials *d
         plan->shading_double ? "the dial asks for shading in double precision"
         : wide               ? "the dial asks for look-ups in double precision"
                              : "single precision was asked for");
+    plan->shading_half = dials->shading == WR_SHADING_HALF;
+    say(plan, WR_EFFECT_HALF, plan->shading_half,
+        plan->shading_half ? "the dial asks for normals and light in half precision"
+                           : "the dial does not ask for it");
 }
 
 void wr_plan_build(WrPlan *plan, const WrScene *scene, const WrDials *dials,

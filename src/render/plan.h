@@ -33,6 +33,7 @@ typedef enum WrEffect {
     WR_EFFECT_SPREAD,
     WR_EFFECT_ROUNDED,
     WR_EFFECT_DOUBLE,
+    WR_EFFECT_HALF,
     WR_EFFECT_COUNT
 } WrEffect;
 
@@ -73,7 +74,7 @@ typedef struct WrPlan {
     bool moments;     /* and their spread widens the highlight */
     bool lean;        /* by the whole covariance; else by its trace */
     bool bounded;     /* adaptive: a bound on the intensity's change is known here */
-    bool shading_double;
+    bool shading_double, shading_half;
 } WrPlan;
 
 /* The row about rendering tiles again (E29), which the renderer decides: it alone knows the last frame. */

@@ -11,17 +11,6 @@ void wr_rounded_drop(WrRounded *rounded)
     *rounded = (WrRounded){ 0 };
 }
 
-float wr_round_half(float x)
-{
-    float a = fabsf(x);
-    if (!(a < 65520.0f)) return copysignf(65504.0f, x); /* not a number too: tables hold none */
-    /* Adding and taking away 1.5 x 2^23 steps of the result's last place rounds to it, ties to even.
-       The last place of numbers from 2^e is 2^(e-10), of the smallest 2^-24. */
-    int e = a > 0.0f ? ilogbf(a) : -14;
-    float last = scalbnf(1.0f, (e < -14 ? -14 : e) - 10);
-    return copysignf((float)(rint((double)a / (double)last) * (double)last), x);
-}
-
 typedef struct Rounding {
     WrRounded *rounded;
     const WrField *source;

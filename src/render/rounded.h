@@ -3,6 +3,7 @@
    Layer 5, private to the renderer. The rounded heights are kept as single precision again: what is
    measured on this rung is the error; its memory and its time are those of single precision. */
 #pragma once
+#include "base/kernmath.h"
 #include "base/pool.h"
 #include "field/field.h"
 #include "scene/dials.h"
@@ -24,5 +25,3 @@ typedef struct WrRounded {
 const WrField *wr_rounded_bring(WrRounded *rounded, const WrField *field, WrHeights format,
                                 float low, float high, WrError *err);
 void wr_rounded_drop(WrRounded *rounded);
-/* The nearest half-precision number, as above. */
-float wr_round_half(float x);

@@ -22,6 +22,7 @@ typedef enum WrStage {
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
     WR_STAGE_BOUND,
+    WR_STAGE_HALF, /* rounding to half precision */
     WR_STAGE_RESOLVE,
     WR_STAGE_COUNT
 } WrStage;

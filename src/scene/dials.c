@@ -32,7 +32,7 @@ NAMES(footprint_name, WR_FOOTPRINT_COUNT, "isotropic", "anisotropic")
 NAMES(moments_name, WR_MOMENTS_COUNT, "toksvig", "lean")
 NAMES(refine_name, WR_REFINE_COUNT, "contrast", "bound")
 NAMES(heights_name, WR_HEIGHTS_COUNT, "double", "float", "half", "16bit", "8bit")
-NAMES(shading_name, WR_SHADING_COUNT, "float", "double")
+NAMES(shading_name, WR_SHADING_COUNT, "float", "double", "half")
 NAMES(arithmetic_name, WR_ARITHMETIC_COUNT, "exact", "fast")
 
 static const char *scheme_name(int rung)
@@ -164,7 +164,7 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                           CHOICES(heights, WR_HEIGHTS_COUNT), MEMBERS(heights),
                           .matters = with_table },
     [WR_DIAL_SHADING] = { "shading", "dials", WR_AXIS_ARITHMETIC, "Shading",
-                          "precision of everything from the ray to the intensity",
+                          "precision from the ray to the intensity; half: of normals and light",
                           CHOICES(shading, WR_SHADING_COUNT), MEMBERS(shading) },
     [WR_DIAL_ARITHMETIC] = { "arithmetic", "dials", WR_AXIS_ARITHMETIC, "Arithmetic",
                              "the same bits on every processor, or faster",

@@ -74,7 +74,12 @@ typedef enum WrHeights {
     WR_HEIGHTS_COUNT
 } WrHeights;
 
-typedef enum WrShading { WR_SHADING_FLOAT, WR_SHADING_DOUBLE, WR_SHADING_COUNT } WrShading;
+typedef enum WrShading {
+    WR_SHADING_FLOAT,
+    WR_SHADING_DOUBLE,
+    WR_SHADING_HALF, /* n', v, l, n'.l, the sums of light and the colour are kept as binary16 between stages */
+    WR_SHADING_COUNT
+} WrShading;
 
 typedef enum WrArithmetic {
     WR_ARITHMETIC_EXACT, /* the same bits on every processor */
