@@ -1,29 +1,35 @@
-/* tolerance.h - the cheapest dials that keep to a stated error: chosen by measuring samples of this very
+/* tolerance.h - the cheapest dials that keep to a stated error: chosen by measuring a sample of this very
    picture, for each kind of block that it has.
    Layer 6.
 
-   One picture with a sample a pixel and one with 2 x 2 sort its blocks of WR_FRAME_BLOCK pixels: empty,
-   edges, and insides, by how much the second differs from the first; kinds of few blocks join others. A
-   few hundredths of the blocks are drawn, each kind for itself, with a chance as that difference is
-   large, since it foretells where errors are. They are rendered with 1 to 8 samples a side against 8 x 8,
-   or to 12 against 16 x 16 where 8 x 8 is itself too far off; 5, 6, 10 and 12 are interpolated; moments
-   are tried where 2 x 2 samples are not enough and the table is not large. Bilinear slopes, the paper's
-   normal and none at all are tried with 1 and with 2 x 2 samples; with more, what errors of formulas and
-   of sampling have in common is taken from 2 x 2. The sum of squares is taken two and a half of its
-   standard errors too high. The kinds are raised one at a time, best gain for its time first, until the
-   tolerance holds, for every pair of slopes and normal and for all pairs together; the cheapest outcome
-   is rendered on the sample once more, and raised again if it does not hold there.
+   The whole picture with one sample a pixel and with 2 x 2 sorts its blocks of WR_FRAME_BLOCK pixels into
+   strata: empty, edges, insides, by how much the second differs from the first; and each stratum into
+   grades, by the same. A few hundredths of the blocks are drawn, each stratum for itself, with a chance as
+   that difference is large, since it foretells where errors are. They are rendered with 2 to 8 samples a
+   side against 8 x 8, or to 12 against 16 x 16 where 8 x 8 is itself too far off; 5, 6, 10 and 12 are
+   interpolated; moments are tried where 2 x 2 samples are not enough and the table is not large. Other
+   slopes and normals (bilinear, central; the paper's, none) are rendered whole with one sample, and the
+   sample with 2 x 2; with more, what errors of formulas and of sampling have in common is taken from 2 x 2.
+
+   So an error is estimated by ratio: what the sample says of a stratum's error beside a number that is known
+   of every block (the change by 2 x 2; what slopes and normal change) times that number's sum. The sum
+   of squares is taken two and a half of its standard errors too high. Stratum by stratum and grade by grade
+   the settings are raised, best gain for its time first, until the tolerance holds; what is not needed
+   is taken back; settings that are cheaper together are put together; one setting for all is taken
+   where that is no dearer. The outcome is rendered on the sample once more, and raised again if it does
+   not hold there.
 
    What it cannot know. It is a sample: an error in a place that no drawn block resembles is not seen, and
-   a worst pixel (max=) least of all. `met` is therefore an estimate: of the 80
-   pictures of samples/accuracy one was off by a hundredth more than its tolerance. Where a cheap setting keeps to the tolerance by a few hundredths
-   only, the sample cannot tell, and a dearer one is taken. The true picture is taken to be what 16 x 16
-   samples tend to: what the surface's mesh, the arithmetic or the stored heights lose is kept as the
-   scene has it and is not counted. Choosing costs two whole pictures, of 1 and 2 x 2 samples, one to two
-   per cent of the blocks at 16 x 16, some 20 small frames and the tables that they need: about a
-   fifteenth of the best setting's frame. Where the tolerance is so fine that nearly all of that frame is
-   needed, or the table has many more texels than the picture has pixels, less than ten times that is
-   saved. */
+   a worst pixel (max=) least of all. `met` is therefore an estimate; samples/accuracy tells how often
+   it held. Where a cheap setting keeps to the tolerance by a few hundredths only, the sample cannot tell, and
+   some blocks get a dearer one. The true picture is taken to be what 16 x 16 samples tend to: what the
+   surface's mesh, the arithmetic or the stored heights lose is kept as the scene has it and is not
+   counted. Along outlines that run with the pixels' rows all counts of samples may be off alike: there the
+   reference's error is taken to add to theirs. Choosing costs the whole picture with 2 x 2 samples and some
+   three to six times with one, two hundredths of the blocks at 16 x 16, some 20 small frames and the tables
+   that they need: about a fifteenth of the best setting's frame. Where the tolerance is so fine that a
+   third of that frame is needed, or the table has many more texels than the picture has pixels, less than
+   ten times that is saved. */
 #pragma once
 #include "render/frame.h"
 
