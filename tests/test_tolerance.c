@@ -105,6 +105,63 @@ static void the_measured_error_keeps_to_the_tolerance_or_it_says_so(void **state
     assert_in_range(met, 10, 12);
 }
 
+static void expect_to_hold(const char *const *scene, double tolerance, int most)
+{
+    WrError err;
+    WrErrors errors;
+    Bench bench = bench_of(scene);
+    WrReference reference = { 0 };
+    const WrReferenceRequest wanted = { .field = bench.request.field,
+                                        .scene = bench.scene,
+                                        .width = SIDE,
+                                        .height = SIDE,
+                                        .most = most };
+    assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+    WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, tolerance);
+    const WrFrame frame = frame_of(&bench, &choice);
+    wr_errors_measure(frame.rgba, NULL, &reference, NULL, &errors);
+    if (choice.met && errors.rms > tolerance)
+        fail_msg("%s: %g, not %g: %s", scene[1], errors.rms, tolerance, choice.reason);
+    wr_choice_fini(&choice);
+    wr_reference_fini(&reference);
+    bench_fini(&bench);
+}
+
+/* Along such outlines 2 x 2, 4 x 4 and 8 x 8 samples may agree on the same wrong coverage. */
+static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 8; n++) {
+        char camera[80];
+        snprintf(camera, sizeof camera, "camera orthographic size=%g", 1.2 + 0.0137 * n);
+        const char *const square[] = { "table 32x32",
+                                       "fill 0",
+                                       "surface plane",
+                                       camera,
+                                       "material diffuse=0.9 specular=0",
+                                       "light clear",
+                                       "light directional to=0,0,1",
+                                       NULL };
+        expect_to_hold(square, 0.02, 32);
+        expect_to_hold(square, 0.006, 32);
+    }
+}
+
+/* A spot in one corner of a flat table: no drawn block of its kind need have any. */
+static void relief_that_the_sample_has_not_seen_is_reckoned_with(void **state)
+{
+    (void)state;
+    static const char *const places[] = { "0.03,0.04", "0.5,0.02", "0.52,0.47", "0.96,0.93" };
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        char dab[80];
+        snprintf(dab, sizeof dab, "dab %s radius=5 strength=1", places[i]);
+        const char *const spot[] = { "table 128x128", dab, "surface plane", "replicate 1,1",
+                                     "bump mode=blinn height=0.05", NULL };
+        expect_to_hold(spot, 0.02, 16);
+        expect_to_hold(spot, 0.005, 16);
+    }
+}
+
 static void a_tolerance_that_nothing_meets_is_said_to_be_so(void **state)
 {
     (void)state;
@@ -189,6 +246,7 @@ static void each_block_has_the_bits_of_its_setting_alone(void **state)
     memcpy(got, frame_of(&bench, &choice).rgba, floats * sizeof *got);
     assert_true(choice.count > 1);
     for (int i = 0; i < choice.count; i++) {
+        assert_true(choice.parts[i].blocks > 0 && choice.parts[i].where[0] != '\0');
         WrFrame alone;
         WrFrameRequest request = bench.request;
         request.scene = choice.parts[i].scene;
@@ -314,6 +372,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_measured_error_keeps_to_the_tolerance_or_it_says_so),
+        cmocka_unit_test(outlines_that_run_with_the_pixels_rows_do_not_deceive),
+        cmocka_unit_test(relief_that_the_sample_has_not_seen_is_reckoned_with),
         cmocka_unit_test(a_tolerance_that_nothing_meets_is_said_to_be_so),
         cmocka_unit_test(a_coarser_tolerance_takes_no_more_samples),
         cmocka_unit_test(a_table_without_relief_needs_one_sample_inside),

@@ -154,6 +154,26 @@ WrScene *wr_study_scene(const Study *study, Place place);
 bool wr_study_check(Study *study, const Place places[KINDS], Error seen[STRATA],
                     double foretold[STRATA], WrError *err);
 
+/* A frame of one setting; only NULL: whole. work: processor seconds, but for what had to be made first; may be
+   NULL. */
+bool wr_study_render(Study *study, Place place, const unsigned char *only, WrFrame *frame,
+                     double *work, WrError *err);
+/* One setting on the whole sample, into *out. work: processor seconds of one sample; may be NULL. */
+bool wr_study_try(Study *study, Place place, float *out, double *work, WrError *err);
+
+/* ---- tolerance_pairs.c ---- */
+
+/* What the reference is off, from the way with half as many samples a side. */
+void wr_study_judge_top(Study *study, const Rate *half);
+/* From a sum of squares against the reference to what it would be against the truth, of which the reference
+   is `own` off. */
+double wr_study_mended(bool aligned, double measured, double own);
+/* The same of a rate by that control. */
+void wr_study_mend(const Study *study, const Control *control, Rate *rate);
+/* All pairs of slopes and normal that may be worth it. fine: as above; change: root mean square, by 2 x 2 samples;
+   one_work: processor seconds of the best pair's whole picture of one sample. */
+bool wr_study_pairs(Study *study, double fine, double change, double one_work, WrError *err);
+
 /* ---- tolerance_predict.c ---- */
 
 /* Seconds that all blocks of a kind take with a setting. */

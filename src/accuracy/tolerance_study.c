@@ -13,16 +13,7 @@
 #define LEAST 4    /* blocks of a stratum */
 #define SPARE 0.75 /* 8 x 8 is a reference where it is off by less than so much of the tolerance */
 #define HOPE 0.12  /* of the change by 2 x 2 samples: finer than that, 8 x 8 will not serve */
-#define TIGHT 0.15 /* of the same: finer than that, a third choice of slopes gains little */
 #define FINEST 0.1 /* finer than that, the best setting is nearly all that will do */
-#define SLIGHT 0.3 /* of the tolerance: what formulas are off matters little */
-#define FAR 3      /* the same: they will not do but where there is little relief */
-
-/* Of what the last doubling says of the reference: as much along outlines with the rows is that they are off. Of
-   outlines that do not run with them 0.4 at most was seen, by chance, of those that do 0.5 at least. */
-#define ALIGNED 0.45
-
-#define DOUBT 0.1 /* of what formulas change on the whole picture */
 
 #define PASS 0.02 /* of one sample a pixel: what a pass takes beyond a frame of nothing */
 
@@ -82,8 +73,8 @@ WrScene *wr_study_scene(const Study *study, Place place)
 }
 
 /* A frame of one setting; mask NULL: whole. */
-static bool render_place(Study *study, Place place, const unsigned char *only, WrFrame *frame,
-                         double *work, WrError *err)
+bool wr_study_render(Study *study, Place place, const unsigned char *only, WrFrame *frame,
+                     double *work, WrError *err)
 {
     WrScene *scene = wr_study_scene(study, place);
     const bool good = render(study, scene, only, frame, work, err);
@@ -125,168 +116,15 @@ static Place best_with(const Study *study, int way)
 }
 
 /* One setting on the whole sample, into *out. work: of it, processor seconds a covered sample. */
-static bool try_place(Study *study, Place place, float *out, double *work, WrError *err)
+bool wr_study_try(Study *study, Place place, float *out, double *work, WrError *err)
 {
     WrFrame frame;
     double all;
     mask_sample(study);
-    if (!render_place(study, place, study->mask, &frame, &all, err)) return false;
+    if (!wr_study_render(study, place, study->mask, &frame, &all, err)) return false;
     if (work) *work = frame.shaded > 0 ? all / (double)frame.shaded : 0;
     wr_study_gather(study, frame.rgba, out);
     return true;
-}
-
-/* ---- against the truth ---- */
-
-/* The reference's own error from the last doubling, by the usual order 3/2 at edges:
-   e(2k) = d(k, 2k) / (2^(3/2) - 1). Not where outlines run along the rows: both may be off alike. */
-static void judge_top(Study *study, const Rate *half)
-{
-    Rate *top = &study->way[study->top];
-    const double share = 1 / (sqrt(8.0) - 1), squared = share * share;
-    double along[STRATA], size[STRATA] = { 0 };
-    wr_study_aligned(study, study->best, wr_study_ways[study->top].samples, along);
-    for (int k = 1; k < KINDS; k++) size[wr_stratum(k)] += study->size.sum[k];
-    for (int s = 1; s < STRATA; s++) {
-        const double least = size[s] > 0 ? along[s] / size[s] : 0;
-        study->aligned[s] = least > ALIGNED * squared * half->ratio[s];
-        top->ratio[s] = fmax(squared * half->ratio[s], least);
-        top->spread[s] = squared * half->spread[s];
-        top->most[s] = share * half->most[s];
-    }
-}
-
-/* From a sum of squares that was measured against the reference to what it would be against the truth. The
-   errors of the two are mostly independent: then the reference's own is a part of the difference, half of it
-   at most. Along aligned outlines both have the same sign. */
-static double mended(bool aligned, double measured, double own)
-{
-    const double both = sqrt(measured) + sqrt(own);
-    return aligned ? both * both : fmax(0.5 * measured, measured - own);
-}
-
-/* control: that the rate is by. */
-static void mend(const Study *study, const double control[STRATA], Rate *rate)
-{
-    double size[STRATA] = { 0 };
-    for (int k = 1; k < KINDS; k++) size[wr_stratum(k)] += study->size.sum[k];
-    for (int s = 1; s < STRATA; s++) {
-        if (!(control[s] > 0)) continue;
-        const double own = study->way[study->top].ratio[s] * size[s];
-        rate->ratio[s] = mended(study->aligned[s], rate->ratio[s] * control[s], own) / control[s];
-    }
-}
-
-static void mend_by(const Study *study, const Control *control, Rate *rate)
-{
-    double sum[STRATA] = { 0 };
-    for (int k = 1; k < KINDS; k++) sum[wr_stratum(k)] += control->sum[k];
-    mend(study, sum, rate);
-}
-
-/* ---- slopes and normals ---- */
-
-/* What 2 x 2 are foretold to be off with a pair: the best pair's own, and what its formulas add. The caller
-   frees. sum: of it, by stratum. */
-static float *foretell_two(const Study *study, const Pair *pair, double sum[STRATA])
-{
-    float *out = wr_alloc((size_t)study->block_count, sizeof *out);
-    for (int64_t b = 0; b < study->block_count; b++) {
-        const int s = study->block[b].stratum;
-        if (s == STRATUM_EMPTY) continue;
-        out[b] = (float)(study->way[WAY_TWO].ratio[s] * (double)study->size.of[b] +
-                         pair->own.ratio[s] * (double)pair->formula.of[b] +
-                         1e-9 * (double)study->size.of[b]);
-        sum[s] += (double)out[b];
-    }
-    return out;
-}
-
-/* Relief may lie in blocks that were not drawn. Where the sample has seen little of what a pair's formulas change,
-   they are taken to be off with 2 x 2 samples as much as with one. */
-static void doubt_unseen(Pair *pair)
-{
-    double all[STRATA] = { 0 };
-    for (int k = 1; k < KINDS; k++) all[wr_stratum(k)] += pair->formula.sum[k];
-    for (int s = 1; s < STRATA; s++) {
-        if (!(all[s] > 0)) continue;
-        const double seen = pair->own.weighed[s] / all[s], part = DOUBT / (seen + DOUBT);
-        pair->own.ratio[s] += part * (1 - pair->own.ratio[s]);
-        pair->own.spread[s] = hypot((1 - part) * pair->own.spread[s], 0.5 * part);
-    }
-}
-
-/* One sample a pixel with a pair: of the whole picture, and what the sample says of it. */
-static void study_point(Study *study, const float *point, Pair *pair)
-{
-    wr_study_compare(study, study->best, point, pair->change.of, &pair->point);
-    mend_by(study, &pair->change, &pair->point);
-}
-
-/* A pair of slopes and normal: the whole picture with one sample a pixel, the sample with 2 x 2, against the
-   reference and the best pair's own. two: those of the best pair, of the sample; one_work: processor seconds of
-   its whole picture, than which none is taken to be dearer. */
-static bool study_pair(Study *study, Place place, const float *two, double one_work, WrError *err)
-{
-    Pair *pair = &study->pair[place.scheme][place.mode];
-    WrFrame frame;
-    double work = 0;
-    place.way = WAY_POINT;
-    if (!render_place(study, place, NULL, &frame, &work, err)) return false;
-    wr_study_control(study, frame.rgba, pair);
-    wr_study_gather(study, frame.rgba, study->other);
-    study_point(study, study->other, pair);
-    place.way = WAY_TWO;
-    if (!try_place(study, place, study->other, NULL, err)) return false;
-    wr_study_compare(study, two, study->other, pair->formula.of, &pair->own);
-    doubt_unseen(pair);
-    double sum[STRATA] = { 0 };
-    float *control = foretell_two(study, pair, sum);
-    wr_study_compare(study, study->best, study->other, control, &pair->two);
-    mend(study, sum, &pair->two);
-    wr_free(control);
-    pair->pace = one_work > 0 ? fmin(1, work / one_work) : 1;
-    return pair->tried = true;
-}
-
-static void study_best_pair(Study *study, float *two)
-{
-    Pair *best = &study->pair[study->scheme_count - 1][study->mode_count - 1];
-    wr_study_control(study, NULL, best);
-    wr_study_gather_packed(study, &study->one, two);
-    study_point(study, two, best);
-    best->pace = 1;
-    best->tried = true;
-    wr_study_gather_packed(study, &study->two, two);
-}
-
-/* Slopes and normals, all with all; without a normal slopes do not matter. Left out is what can gain little: the
-   exact normal with cheaper slopes where the paper's is hardly off, the paper's where it is far off, and central
-   slopes where bilinear ones are hardly off or nearly all that the best slopes give is needed. */
-static bool study_pairs(Study *study, double fine, double change, double one_work, WrError *err)
-{
-    const int s = study->scheme_count - 1, m = study->mode_count - 1;
-    float *two = wr_alloc(wr_study_floats(study), sizeof *two);
-    int first = m < 1 ? m : 1, last = m;
-    bool good = true;
-    study_best_pair(study, two);
-    for (int j = m - 1; good && j >= 0; j--)
-        good = study_pair(study, (Place){ s, j, WAY_POINT }, two, one_work, err);
-    if (good && m > 1 && fine > 0) {
-        const double off = wr_study_formula_rms(study, &study->pair[s][m - 1]);
-        if (off < SLIGHT * fine) last = m - 1;
-        if (off > FAR * fine) first = m;
-    }
-    for (int i = 0; i < s; i++) {
-        if (i > 0 && fine > 0 &&
-            (wr_study_formula_rms(study, &study->pair[0][last]) < SLIGHT * fine ||
-             fine < TIGHT * change))
-            break;
-        for (int j = last; good && j >= first; j--)
-            good = study_pair(study, (Place){ i, j, WAY_POINT }, two, one_work, err);
-    }
-    wr_free(two);
-    return good;
 }
 
 /* ---- ways ---- */
@@ -295,7 +133,7 @@ static bool study_pairs(Study *study, double fine, double change, double one_wor
 static bool run_way(Study *study, int way, float *out, WrError *err)
 {
     const double grid = wr_study_ways[way].samples;
-    if (!try_place(study, best_with(study, way), out, &study->each[way], err)) return false;
+    if (!wr_study_try(study, best_with(study, way), out, &study->each[way], err)) return false;
     study->each[way] *= grid * grid;
     return study->tried[way] = true;
 }
@@ -344,9 +182,9 @@ static bool study_ways(Study *study, double fine, WrError *err)
         else if (i != WAY_MOMENTS && wr_study_ways[i].high == 0 && !study->tried[i])
             good = measure_way(study, i, err);
     if (!good) return false;
-    judge_top(study, &study->way[study->top == WAY_SIXTEEN ? WAY_EIGHT : WAY_FOUR]);
+    wr_study_judge_top(study, &study->way[study->top == WAY_SIXTEEN ? WAY_EIGHT : WAY_FOUR]);
     for (int i = WAY_TWO; i < study->top; i++)
-        if (wr_study_ways[i].high == 0) mend_by(study, &study->size, &study->way[i]);
+        if (wr_study_ways[i].high == 0) wr_study_mend(study, &study->size, &study->way[i]);
     for (int i = 0; i < study->top; i++)
         if (wr_study_ways[i].high > 0) interpolate(study, i);
     const bool rough =
@@ -378,7 +216,7 @@ static bool try_middle(Study *study, double fine, bool *serves, WrError *err)
     draw(study, LARGER * SHARE, LEAST);
     if (!run_way(study, WAY_EIGHT, study->best, err) || !measure_way(study, WAY_FOUR, err))
         return false;
-    judge_top(study, &study->way[WAY_FOUR]);
+    wr_study_judge_top(study, &study->way[WAY_FOUR]);
     *serves = wr_study_rate_rms(study, &study->way[WAY_EIGHT], &study->size) <= SPARE * fine;
     return true;
 }
@@ -423,9 +261,9 @@ static bool take_top(Study *study, WrError *err)
 static bool survey(Study *study, double work[2], WrError *err)
 {
     WrFrame frame;
-    return render_place(study, best_with(study, WAY_POINT), NULL, &frame, &work[0], err) &&
+    return wr_study_render(study, best_with(study, WAY_POINT), NULL, &frame, &work[0], err) &&
            wr_packed_make(study, frame.rgba, &study->one, err) &&
-           render_place(study, best_with(study, WAY_TWO), NULL, &frame, &work[1], err) &&
+           wr_study_render(study, best_with(study, WAY_TWO), NULL, &frame, &work[1], err) &&
            wr_packed_make(study, frame.rgba, &study->two, err);
 }
 
@@ -437,7 +275,7 @@ static bool find_times(Study *study, const double work[2], WrError *err)
     double covered = 0;
     memset(study->mask, 0, (size_t)study->block_count);
     const double before = study->work;
-    if (!render_place(study, best_with(study, WAY_POINT), study->mask, &frame, NULL, err))
+    if (!wr_study_render(study, best_with(study, WAY_POINT), study->mask, &frame, NULL, err))
         return false;
     study->pass = study->work - before + PASS * work[0];
     for (int k = 1; k < KINDS; k++) covered += (double)study->covered[k];
@@ -467,7 +305,7 @@ bool wr_study_begin(Study *study, WrRenderer *renderer, const WrFrameRequest *re
     bool serves = change * HOPE <= fine;
     if (serves && !try_middle(study, fine, &serves, err)) return false;
     if (!serves && !take_top(study, err)) return false;
-    return study_ways(study, fine, err) && study_pairs(study, fine, change, work[0], err) &&
+    return study_ways(study, fine, err) && wr_study_pairs(study, fine, change, work[0], err) &&
            find_times(study, work, err);
 }
 
@@ -503,7 +341,7 @@ static bool render_places(Study *study, const Place places[KINDS], WrError *err)
                 study->block[b].sampled && wr_same_place(places[study->block[b].kind], places[k]);
         for (int other = k; other < KINDS; other++)
             done[other] = done[other] || wr_same_place(places[other], places[k]);
-        if (!render_place(study, places[k], study->mask, &frame, NULL, err)) return false;
+        if (!wr_study_render(study, places[k], study->mask, &frame, NULL, err)) return false;
     }
     wr_study_gather(study, frame.rgba, study->other);
     return true;
@@ -521,7 +359,7 @@ static void add_reference(const Study *study, const Place places[KINDS], Error s
         else within[wr_stratum(k)] += own;
     }
     for (int s = 1; s < STRATA; s++)
-        seen[s].sum = mended(study->aligned[s], seen[s].sum, within[s]) + itself[s];
+        seen[s].sum = wr_study_mended(study->aligned[s], seen[s].sum, within[s]) + itself[s];
 }
 
 bool wr_study_check(Study *study, const Place places[KINDS], Error seen[STRATA],
