@@ -6,7 +6,7 @@
    strata: empty, edges, insides, by how much the second differs from the first; and each stratum into
    grades, by the same. A few hundredths of the blocks are drawn, each stratum for itself, with a chance as
    that difference is large, since it foretells where errors are. They are rendered with 2 to 8 samples a
-   side against 8 x 8, or to 12 against 16 x 16 where 8 x 8 is itself too far off; 5, 6, 10 and 12 are
+   side against 8 x 8, or where that is itself too far off against 12 x 12 or 16 x 16; 5, 6, 10 and 12 are
    interpolated; moments are tried where 2 x 2 samples are not enough and the table is not large. Other
    slopes and normals (bilinear, central; the paper's, none) are rendered whole with one sample, and the
    sample with 2 x 2; with more, what errors of formulas and of sampling have in common is taken from 2 x 2.

@@ -163,8 +163,8 @@ bool wr_study_try(Study *study, Place place, float *out, double *work, WrError *
 
 /* ---- tolerance_pairs.c ---- */
 
-/* What the reference is off, from the way with half as many samples a side. */
-void wr_study_judge_top(Study *study, const Rate *half);
+/* What the reference is off, from what a way with fewer samples differs from it. */
+void wr_study_judge_top(Study *study, int half_way);
 /* From a sum of squares against the reference to what it would be against the truth, of which the reference
    is `own` off. */
 double wr_study_mended(bool aligned, double measured, double own);

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #define TIGHT                                                                                      \
-    0.15 /* of the change by 2 x 2 samples: finer than that, a third choice of slopes gains little */
+    0.4 /* of the change by 2 x 2: finer than that, a third choice of slopes gains little */
 #define SLIGHT 0.3 /* of the tolerance: what formulas are off matters little */
 #define FAR 3      /* the same: they will not do but where there is little relief */
 
@@ -18,12 +18,23 @@
 
 /* ---- against the truth ---- */
 
-/* The reference's own error from the last doubling, by the usual order 3/2 at edges:
-   e(2k) = d(k, 2k) / (2^(3/2) - 1). Not where outlines run along the rows: both may be off alike. */
-void wr_study_judge_top(Study *study, const Rate *half)
+/* The reference's own error from what `half` differs from it, squared, as errors fall by the usual order 3/2 at
+   edges: from k to 2k samples a side both of the same sign, e(2k) = d(k, 2k) / (2^(3/2) - 1). For less than a
+   doubling that would say more than d itself: there independent, e^2 = r^2 / (1 + r^2) d^2, and half as
+   much again. Not where outlines run along the rows: there both may be off alike. */
+static double own_share(int half, int top)
 {
+    const double r = pow((double)half / top, 1.5);
+    return top >= 2 * half ? r * r / ((1 - r) * (1 - r)) : 1.5 * r * r / (1 + r * r);
+}
+
+void wr_study_judge_top(Study *study, int half_way)
+{
+    const Rate *half = &study->way[half_way];
     Rate *top = &study->way[study->top];
-    const double share = 1 / (sqrt(8.0) - 1), squared = share * share;
+    const double squared =
+        own_share(wr_study_ways[half_way].samples, wr_study_ways[study->top].samples);
+    const double share = sqrt(squared);
     double along[STRATA], size[STRATA] = { 0 };
     wr_study_aligned(study, study->best, wr_study_ways[study->top].samples, along);
     for (int k = 1; k < KINDS; k++) size[wr_stratum(k)] += study->size.sum[k];

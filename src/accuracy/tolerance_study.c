@@ -12,7 +12,7 @@
 #define LARGER 3
 #define LEAST 4    /* blocks of a stratum */
 #define SPARE 0.75 /* 8 x 8 is a reference where it is off by less than so much of the tolerance */
-#define HOPE 0.12  /* of the change by 2 x 2 samples: finer than that, 8 x 8 will not serve */
+#define HOPE 0.075 /* of the change by 2 x 2 samples: finer than that, 16 x 16 are needed */
 #define FINEST 0.1 /* finer than that, the best setting is nearly all that will do */
 
 #define PASS 0.02 /* of one sample a pixel: what a pass takes beyond a frame of nothing */
@@ -159,15 +159,16 @@ static double between(double a, double b, double part)
 static void interpolate(Study *study, int way)
 {
     const Way *at = &wr_study_ways[way];
-    const Rate *low = &study->way[at->low], *high = &study->way[at->high];
-    const double from = wr_study_ways[at->low].samples, to = wr_study_ways[at->high].samples;
+    const int below = at->low, above = at->high < study->top ? at->high : study->top;
+    const Rate *low = &study->way[below], *high = &study->way[above];
+    const double from = wr_study_ways[below].samples, to = wr_study_ways[above].samples;
     const double part = log(at->samples / from) / log(to / from);
     for (int s = 1; s < STRATA; s++) {
         study->way[way].ratio[s] = between(low->ratio[s], high->ratio[s], part);
         study->way[way].spread[s] = between(low->spread[s], high->spread[s], part);
         study->way[way].most[s] = between(low->most[s], high->most[s], part);
     }
-    study->each[way] = between(study->each[at->low], study->each[at->high], part);
+    study->each[way] = between(study->each[below], study->each[above], part);
     study->tried[way] = true;
 }
 
@@ -182,7 +183,7 @@ static bool study_ways(Study *study, double fine, WrError *err)
         else if (i != WAY_MOMENTS && wr_study_ways[i].high == 0 && !study->tried[i])
             good = measure_way(study, i, err);
     if (!good) return false;
-    wr_study_judge_top(study, &study->way[study->top == WAY_SIXTEEN ? WAY_EIGHT : WAY_FOUR]);
+    wr_study_judge_top(study, study->top == WAY_EIGHT ? WAY_FOUR : WAY_EIGHT);
     for (int i = WAY_TWO; i < study->top; i++)
         if (wr_study_ways[i].high == 0) wr_study_mend(study, &study->size, &study->way[i]);
     for (int i = 0; i < study->top; i++)
@@ -209,15 +210,15 @@ static void draw(Study *study, double share, int64_t least)
     memset(study->tried, 0, sizeof study->tried);
 }
 
-/* Take 8 x 8 samples for the reference, if they are near enough, by what 4 x 4 differ from them. */
-static bool try_middle(Study *study, double fine, bool *serves, WrError *err)
+/* Take 8 x 8 samples for the reference. *off: what they are off, by what 4 x 4 differ from them. */
+static bool try_middle(Study *study, double *off, WrError *err)
 {
     study->top = WAY_EIGHT;
     draw(study, LARGER * SHARE, LEAST);
     if (!run_way(study, WAY_EIGHT, study->best, err) || !measure_way(study, WAY_FOUR, err))
         return false;
-    wr_study_judge_top(study, &study->way[WAY_FOUR]);
-    *serves = wr_study_rate_rms(study, &study->way[WAY_EIGHT], &study->size) <= SPARE * fine;
+    wr_study_judge_top(study, WAY_FOUR);
+    *off = wr_study_rate_rms(study, &study->way[WAY_EIGHT], &study->size);
     return true;
 }
 
@@ -238,13 +239,13 @@ static bool keep_middle(Study *study, const float *before, const unsigned char *
     return study->tried[WAY_EIGHT] = true;
 }
 
-static bool take_top(Study *study, WrError *err)
+static bool take_top(Study *study, int top, WrError *err)
 {
     float *before = study->best;
     unsigned char *was = wr_alloc((size_t)study->block_count, 1);
     for (int64_t b = 0; b < study->block_count; b++) was[b] = study->block[b].sampled;
     study->best = NULL;
-    study->top = WAY_SIXTEEN;
+    study->top = top;
     draw(study, SHARE, LEAST);
     study->middle = wr_alloc(wr_study_floats(study), sizeof *study->middle);
     const bool good = before ? keep_middle(study, before, was, err)
@@ -252,6 +253,16 @@ static bool take_top(Study *study, WrError *err)
     wr_free(before);
     wr_free(was);
     return good;
+}
+
+/* 8 x 8 samples if they are near enough; else 12 x 12, if those will be, or 16 x 16. */
+static bool find_reference(Study *study, double fine, double change, WrError *err)
+{
+    double off = INFINITY;
+    if (change * HOPE <= fine && !try_middle(study, &off, err)) return false;
+    if (off <= SPARE * fine) return true;
+    const bool twelve = off * pow(8.0 / 12, 1.5) <= SPARE * fine;
+    return take_top(study, twelve ? WAY_TWELVE : WAY_SIXTEEN, err);
 }
 
 /* ---- the whole picture ---- */
@@ -302,9 +313,7 @@ bool wr_study_begin(Study *study, WrRenderer *renderer, const WrFrameRequest *re
     const double change = wr_study_sort(study);
     if (study->all[STRATUM_EMPTY] == study->block_count) return true;
     list_rungs(study, fine < FINEST * change);
-    bool serves = change * HOPE <= fine;
-    if (serves && !try_middle(study, fine, &serves, err)) return false;
-    if (!serves && !take_top(study, err)) return false;
+    if (!find_reference(study, fine, change, err)) return false;
     return study_ways(study, fine, err) && wr_study_pairs(study, fine, change, work[0], err) &&
            find_times(study, work, err);
 }
