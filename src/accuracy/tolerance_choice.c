@@ -126,7 +126,7 @@ bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const 
         for (int64_t b = 0; b < blocks; b++) only[b] = choice->part_of[b] == i;
         pass.scene = choice->parts[i].scene;
         pass.dials = NULL;
-        pass.only = choice->count > 1 ? only : NULL; /* larger tiles are faster */
+        pass.only = choice->count > 1 ? only : NULL;
         pass.keep = false;
         pass.hold = true; /* the next picture's choosing wants them all */
         good = wr_renderer_frame(renderer, &pass, frame, err);
