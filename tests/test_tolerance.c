@@ -155,8 +155,12 @@ static void relief_that_the_sample_has_not_seen_is_reckoned_with(void **state)
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         char dab[80];
         snprintf(dab, sizeof dab, "dab %s radius=5 strength=1", places[i]);
-        const char *const spot[] = { "table 128x128", dab, "surface plane", "replicate 1,1",
-                                     "bump mode=blinn height=0.05", NULL };
+        const char *const spot[] = { "table 128x128",
+                                     dab,
+                                     "surface plane",
+                                     "replicate 1,1",
+                                     "bump mode=blinn height=0.05",
+                                     NULL };
         expect_to_hold(spot, 0.02, 16);
         expect_to_hold(spot, 0.005, 16);
     }
