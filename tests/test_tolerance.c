@@ -105,10 +105,9 @@ static void the_measured_error_keeps_to_the_tolerance_or_it_says_so(void **state
     assert_in_range(met, 10, 12);
 }
 
-static void expect_to_hold(const char *const *scene, double tolerance, int most)
+static void expect_to_hold(const char *const *scene, const double tolerances[2], int most)
 {
     WrError err;
-    WrErrors errors;
     Bench bench = bench_of(scene);
     WrReference reference = { 0 };
     const WrReferenceRequest wanted = { .field = bench.request.field,
@@ -117,12 +116,15 @@ static void expect_to_hold(const char *const *scene, double tolerance, int most)
                                         .height = SIDE,
                                         .most = most };
     assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
-    WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, tolerance);
-    const WrFrame frame = frame_of(&bench, &choice);
-    wr_errors_measure(frame.rgba, NULL, &reference, NULL, &errors);
-    if (choice.met && errors.rms > tolerance)
-        fail_msg("%s: %g, not %g: %s", scene[1], errors.rms, tolerance, choice.reason);
-    wr_choice_fini(&choice);
+    for (int t = 0; t < 2; t++) {
+        WrErrors errors;
+        WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, tolerances[t]);
+        const WrFrame frame = frame_of(&bench, &choice);
+        wr_errors_measure(frame.rgba, NULL, &reference, NULL, &errors);
+        if (choice.met && errors.rms > tolerances[t])
+            fail_msg("%s: %g, not %g: %s", scene[1], errors.rms, tolerances[t], choice.reason);
+        wr_choice_fini(&choice);
+    }
     wr_reference_fini(&reference);
     bench_fini(&bench);
 }
@@ -131,9 +133,9 @@ static void expect_to_hold(const char *const *scene, double tolerance, int most)
 static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
 {
     (void)state;
-    for (int n = 0; n < 8; n++) {
+    for (int n = 0; n < 5; n++) {
         char camera[80];
-        snprintf(camera, sizeof camera, "camera orthographic size=%g", 1.2 + 0.0137 * n);
+        snprintf(camera, sizeof camera, "camera orthographic size=%g", 1.2 + 0.0219 * n);
         const char *const square[] = { "table 32x32",
                                        "fill 0",
                                        "surface plane",
@@ -142,8 +144,7 @@ static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
                                        "light clear",
                                        "light directional to=0,0,1",
                                        NULL };
-        expect_to_hold(square, 0.02, 32);
-        expect_to_hold(square, 0.006, 32);
+        expect_to_hold(square, (const double[2]){ 0.02, 0.006 }, 32);
     }
 }
 
@@ -161,8 +162,7 @@ static void relief_that_the_sample_has_not_seen_is_reckoned_with(void **state)
                                      "replicate 1,1",
                                      "bump mode=blinn height=0.05",
                                      NULL };
-        expect_to_hold(spot, 0.02, 16);
-        expect_to_hold(spot, 0.005, 16);
+        expect_to_hold(spot, (const double[2]){ 0.02, 0.005 }, 16);
     }
 }
 
