@@ -45,10 +45,9 @@ static bool choose(Study *study, const WrTolerance *tolerance, Place places[KIND
     for (int round = 0; round < ROUNDS; round++) {
         Error seen[STRATA];
         double foretold[STRATA];
-        wr_study_pick(study, &wish, places);
+        out->seconds = wr_study_pick(study, &wish, places);
         if (!wr_study_check(study, places, seen, foretold, err)) return false;
         judge(study, seen, out);
-        out->seconds = wr_study_places_seconds(study, places);
         if (tolerance->kind == WR_TOLERANCE_TIME || holds(tolerance, out, MARGIN_RMS, MARGIN_MAX))
             return true;
         learn(&wish, seen, foretold);

@@ -43,7 +43,7 @@ typedef struct WrChoicePart {
 typedef struct WrChoice {
     int count;              /* 0: nothing was chosen */
     WrChoicePart *parts;    /* [count]; owned */
-    unsigned char *part_of; /* [blocks_v][blocks_u]; owned */
+    unsigned char *part_of; /* [blocks_v][blocks_u] of parts' indices; owned */
     int width, height;
     bool met;           /* the estimate is within the tolerance (time: within the time) */
     double rms, max;    /* estimated error of the whole picture */

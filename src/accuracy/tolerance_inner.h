@@ -71,9 +71,8 @@ typedef struct Pair {
     Control formula; /* one sample, against the best pair's one */
     Rate point;      /* of one sample, by `change` */
     Rate own;        /* of 2 x 2, against the best pair's 2 x 2, by `formula` */
-    Rate
-        two; /* of 2 x 2, against the reference, by what the best pair's 2 x 2 and `own` make of it */
-    double pace; /* time, beside the best pair's */
+    Rate two;        /* of 2 x 2, by what the best pair's 2 x 2 and `own` make of it */
+    double pace;     /* time, beside the best pair's */
 } Pair;
 
 /* One block of the picture. */
@@ -105,7 +104,7 @@ typedef struct Study {
     int64_t covered[KINDS]; /* pixels */
     double pixels;          /* of the object, half of each edge's included */
     Control
-        size; /* of the best pair: squared change by 2 x 2, and a little; blocks are drawn by it */
+        size; /* squared change of the best pair by 2 x 2, and a little: what blocks are drawn by */
     int64_t sample_count;          /* blocks */
     Packed one, two;               /* the best pair's picture, of one and of 2 x 2 samples */
     float *best;                   /* [sample_count][block][block][4]: the reference */
@@ -136,6 +135,12 @@ static inline bool wr_same_place(Place a, Place b)
     return a.scheme == b.scheme && a.mode == b.mode && a.way == b.way;
 }
 
+/* The best slopes and normal. */
+static inline Place wr_best_place(const Study *study, int way)
+{
+    return (Place){ study->scheme_count - 1, study->mode_count - 1, way };
+}
+
 /* The squared error of a kind, summed over pixels and channels; how uncertain that is, a standard error; the
    largest difference of a channel. */
 typedef struct Error {
@@ -154,8 +159,8 @@ WrScene *wr_study_scene(const Study *study, Place place);
 bool wr_study_check(Study *study, const Place places[KINDS], Error seen[STRATA],
                     double foretold[STRATA], WrError *err);
 
-/* A frame of one setting; only NULL: whole. work: processor seconds, but for what had to be made first; may be
-   NULL. */
+/* A frame of one setting; only NULL: whole. *work: processor seconds, but for what the setting needed to be made
+   first; may be NULL. */
 bool wr_study_render(Study *study, Place place, const unsigned char *only, WrFrame *frame,
                      double *work, WrError *err);
 /* One setting on the whole sample, into *out. work: processor seconds of one sample; may be NULL. */
@@ -178,8 +183,9 @@ bool wr_study_pairs(Study *study, double fine, double change, double one_work, W
 
 /* Seconds that all blocks of a kind take with a setting. */
 double wr_study_seconds(const Study *study, int kind, Place place);
-/* Seconds of a picture of so many passes whose kinds take that long. */
+/* Seconds of a picture of so many passes whose kinds take `seconds` together. */
 double wr_study_passes(const Study *study, double seconds, int passes);
+/* What a kind is off with a setting. */
 Error wr_study_predict(const Study *study, int kind, Place place);
 /* The sum alone, of one block. */
 double wr_study_predict_block(const Study *study, int64_t block, Place place);
@@ -229,24 +235,24 @@ void wr_study_compare(const Study *study, const float *a, const float *b, const 
    blocks. rgba: of the sample, with those k x k samples. Every pixel there has the same coverage, a multiple
    of 1/k, whatever the true one: off by up to 1/(2k), and k and 2k may agree on the same wrong one. */
 void wr_study_aligned(const Study *study, const float *rgba, int k, double squares[STRATA]);
-/* Floats of the sample. */
+/* Floats of the sample's blocks. */
 size_t wr_study_floats(const Study *study);
-/* Its sums, from its blocks. */
+/* Its sums by stratum. */
+void wr_control_strata(const Control *control, double out[STRATA]);
+/* Its sums by kind, from its blocks. */
 void wr_control_add_up(const Study *study, Control *control);
 void wr_control_fini(Control *control);
 
 /* ---- tolerance_pick.c ---- */
 
-/* The cheapest places that keep to the tolerance by the study's word, weighed by stratum; places of kinds
-   without blocks mean nothing. The margins are parts of the tolerance to keep to. */
 typedef struct Wish {
     WrTolerance tolerance;
-    double margin_rms, margin_max;
-    double weight[STRATA]; /* how far errors are above the prediction */
+    double margin_rms, margin_max; /* parts of the tolerance to keep to, 0..1 */
+    double weight[STRATA];         /* times that errors are above the prediction, 1 or more */
 } Wish;
-void wr_study_pick(const Study *study, const Wish *wish, Place places[KINDS]);
-/* Seconds of the whole picture. */
-double wr_study_places_seconds(const Study *study, const Place places[KINDS]);
+/* The cheapest places that keep to the tolerance by the study's word; of kinds without blocks they mean nothing. */
+/* Returns the seconds of the whole picture with those. */
+double wr_study_pick(const Study *study, const Wish *wish, Place places[KINDS]);
 
 /* ---- tolerance_choice.c ---- */
 

@@ -5,10 +5,11 @@
 
 #include <math.h>
 
-#define TIGHT                                                                                      \
-    0.4 /* of the change by 2 x 2: finer than that, a third choice of slopes gains little */
-#define SLIGHT 0.3 /* of the tolerance: what formulas are off matters little */
-#define FAR 3      /* the same: they will not do but where there is little relief */
+/* Of the change by 2 x 2 samples: for less a third choice of slopes gains little. */
+#define TIGHT 0.4
+/* Of the tolerance: what formulas are off hardly matters, or is too much but where there is little relief. */
+#define SLIGHT 0.3
+#define FAR 3
 
 /* Of what the last doubling says of the reference: as much along outlines with the rows is that they are off. Of
    outlines that do not run with them 0.4 at most was seen, by chance, of those that do 0.5 at least. */
@@ -35,9 +36,9 @@ void wr_study_judge_top(Study *study, int half_way)
     const double squared =
         own_share(wr_study_ways[half_way].samples, wr_study_ways[study->top].samples);
     const double share = sqrt(squared);
-    double along[STRATA], size[STRATA] = { 0 };
+    double along[STRATA], size[STRATA];
     wr_study_aligned(study, study->best, wr_study_ways[study->top].samples, along);
-    for (int k = 1; k < KINDS; k++) size[wr_stratum(k)] += study->size.sum[k];
+    wr_control_strata(&study->size, size);
     for (int s = 1; s < STRATA; s++) {
         const double least = size[s] > 0 ? along[s] / size[s] : 0;
         study->aligned[s] = least > ALIGNED * squared * half->ratio[s];
@@ -59,8 +60,8 @@ double wr_study_mended(bool aligned, double measured, double own)
 /* control: that the rate is by. */
 static void mend(const Study *study, const double control[STRATA], Rate *rate)
 {
-    double size[STRATA] = { 0 };
-    for (int k = 1; k < KINDS; k++) size[wr_stratum(k)] += study->size.sum[k];
+    double size[STRATA];
+    wr_control_strata(&study->size, size);
     for (int s = 1; s < STRATA; s++) {
         if (!(control[s] > 0)) continue;
         const double own = study->way[study->top].ratio[s] * size[s];
@@ -71,8 +72,8 @@ static void mend(const Study *study, const double control[STRATA], Rate *rate)
 
 void wr_study_mend(const Study *study, const Control *control, Rate *rate)
 {
-    double sum[STRATA] = { 0 };
-    for (int k = 1; k < KINDS; k++) sum[wr_stratum(k)] += control->sum[k];
+    double sum[STRATA];
+    wr_control_strata(control, sum);
     mend(study, sum, rate);
 }
 
@@ -98,8 +99,8 @@ static float *foretell_two(const Study *study, const Pair *pair, double sum[STRA
    they are taken to be off with 2 x 2 samples as much as with one. */
 static void doubt_unseen(Pair *pair)
 {
-    double all[STRATA] = { 0 };
-    for (int k = 1; k < KINDS; k++) all[wr_stratum(k)] += pair->formula.sum[k];
+    double all[STRATA];
+    wr_control_strata(&pair->formula, all);
     for (int s = 1; s < STRATA; s++) {
         if (!(all[s] > 0)) continue;
         const double seen = pair->own.weighed[s] / all[s], part = DOUBT / (seen + DOUBT);
@@ -143,7 +144,8 @@ static bool study_pair(Study *study, Place place, const float *two, double one_w
 
 static void study_best_pair(Study *study, float *two)
 {
-    Pair *best = &study->pair[study->scheme_count - 1][study->mode_count - 1];
+    const Place at = wr_best_place(study, WAY_POINT);
+    Pair *best = &study->pair[at.scheme][at.mode];
     wr_study_control(study, NULL, best);
     wr_study_gather_packed(study, &study->one, two);
     study_point(study, two, best);

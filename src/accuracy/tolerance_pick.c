@@ -4,7 +4,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <string.h>
 
 #define PLACES (SCHEMES_MAX * MODES_MAX * WAY_COUNT)
 
@@ -134,9 +133,9 @@ static Step best_step(const Offer *offer, int kind, int at)
     const Option *here = &offer->option[kind][at];
     Step best = { -1, 0 };
     for (int i = 0; i < offer->count; i++) {
-        const Option *there_ = &offer->option[kind][i];
-        const double less = value_of(here) - value_of(there_);
-        const double more = there_->seconds - here->seconds;
+        const Option *next = &offer->option[kind][i];
+        const double less = value_of(here) - value_of(next);
+        const double more = next->seconds - here->seconds;
         if (!(less > 0)) continue;
         const double gain = more > 0 ? less / more : INFINITY;
         if (gain > best.gain) best = (Step){ i, gain };
@@ -154,7 +153,7 @@ static void start_cheap(const Offer *offer, State *state)
 }
 
 /* Raise where the gain for the time is best: until it fits, or, for a time, while it does. */
-static void raise(const Offer *offer, State *state)
+static void raise_sum(const Offer *offer, State *state)
 {
     const bool timed = offer->wish->tolerance.kind == WR_TOLERANCE_TIME;
     Step step[KINDS];
@@ -265,7 +264,7 @@ static void choose(const Offer *offer, State *state)
     const WrToleranceKind kind = offer->wish->tolerance.kind;
     start_cheap(offer, state);
     if (kind == WR_TOLERANCE_MAX) raise_most(offer, state);
-    else raise(offer, state);
+    else raise_sum(offer, state);
     if (kind == WR_TOLERANCE_RMS && fits(offer, state)) trim(offer, state);
     if (kind != WR_TOLERANCE_TIME) put_together(offer, state);
     for (int i = 0; i < offer->count; i++) {
@@ -277,7 +276,7 @@ static void choose(const Offer *offer, State *state)
     }
 }
 
-void wr_study_pick(const Study *study, const Wish *wish, Place places[KINDS])
+double wr_study_pick(const Study *study, const Wish *wish, Place places[KINDS])
 {
     State state;
     Offer *offer = wr_alloc(1, sizeof *offer);
@@ -287,20 +286,7 @@ void wr_study_pick(const Study *study, const Wish *wish, Place places[KINDS])
     fill(offer);
     choose(offer, &state);
     for (int k = 0; k < KINDS; k++) places[k] = offer->place[state.at[k]];
+    const double seconds = seconds_of(offer, &state);
     wr_free(offer);
-}
-
-double wr_study_places_seconds(const Study *study, const Place places[KINDS])
-{
-    double sum = 0;
-    int passes = 0;
-    for (int k = 1; k < KINDS; k++) {
-        if (study->blocks[k] == 0) continue;
-        bool first = true;
-        for (int other = 1; other < k; other++)
-            first = first && !(study->blocks[other] > 0 && wr_same_place(places[other], places[k]));
-        sum += wr_study_seconds(study, k, places[k]);
-        passes += first;
-    }
-    return wr_study_passes(study, sum, passes);
+    return seconds;
 }

@@ -64,7 +64,7 @@ static double in_common(double both, double a, double b)
 /* The controls of a kind or of a block. */
 typedef struct Known {
     int stratum;
-    double size, change, formula;
+    double size, change, formula; /* of Study, of Pair */
 } Known;
 
 /* A pair that is not the best with more than one sample. */
@@ -85,8 +85,7 @@ static Error with_formulas(const Study *study, const Pair *pair, int way, Known 
 static Error predict(const Study *study, Place place, Known known)
 {
     const Pair *pair = &study->pair[place.scheme][place.mode];
-    const bool best =
-        place.scheme == study->scheme_count - 1 && place.mode == study->mode_count - 1;
+    const bool best = wr_same_place(place, wr_best_place(study, place.way));
     if (place.way == WAY_POINT) return rated(&pair->point, known.stratum, known.change);
     if (best) return rated(&study->way[place.way], known.stratum, known.size);
     return with_formulas(study, pair, place.way, known);

@@ -17,6 +17,12 @@ void wr_control_add_up(const Study *study, Control *control)
         control->sum[study->block[b].kind] += (double)control->of[b];
 }
 
+void wr_control_strata(const Control *control, double out[STRATA])
+{
+    memset(out, 0, STRATA * sizeof *out);
+    for (int k = 1; k < KINDS; k++) out[wr_stratum(k)] += control->sum[k];
+}
+
 void wr_control_fini(Control *control)
 {
     wr_free(control->of);

@@ -36,27 +36,6 @@ const Way wr_study_ways[WAY_COUNT] = {
 
 /* ---- frames ---- */
 
-/* *work: processor seconds, but for what the setting needed to be made first; may be NULL. */
-static bool render(Study *study, const WrScene *scene, const unsigned char *only, WrFrame *frame,
-                   double *work, WrError *err)
-{
-    WrFrameRequest request = *study->request;
-    request.scene = scene;
-    request.dials = NULL;
-    request.only = only;
-    request.keep = false;
-    request.hold = true;
-    request.normals = NULL;
-    const double start = wr_clock_seconds(), worked = wr_clock_process_seconds();
-    if (!wr_renderer_frame(study->renderer, &request, frame, err)) return false;
-    const double wall = wr_clock_seconds() - start, spent = wr_clock_process_seconds() - worked;
-    const double made = frame->times.prepare < wall ? frame->times.prepare : wall;
-    study->wall += wall;
-    study->work += spent;
-    if (work) *work = wall > 0 ? spent * (wall - made) / wall : 0;
-    return true;
-}
-
 WrScene *wr_study_scene(const Study *study, Place place)
 {
     WrScene *scene = wr_scene_clone(study->request->scene);
@@ -72,14 +51,27 @@ WrScene *wr_study_scene(const Study *study, Place place)
     return scene;
 }
 
-/* A frame of one setting; mask NULL: whole. */
 bool wr_study_render(Study *study, Place place, const unsigned char *only, WrFrame *frame,
                      double *work, WrError *err)
 {
     WrScene *scene = wr_study_scene(study, place);
-    const bool good = render(study, scene, only, frame, work, err);
+    WrFrameRequest request = *study->request;
+    request.scene = scene;
+    request.dials = NULL;
+    request.only = only;
+    request.keep = false;
+    request.hold = true;
+    request.normals = NULL;
+    const double start = wr_clock_seconds(), worked = wr_clock_process_seconds();
+    const bool good = wr_renderer_frame(study->renderer, &request, frame, err);
+    const double wall = wr_clock_seconds() - start, spent = wr_clock_process_seconds() - worked;
     wr_scene_free(scene);
-    return good;
+    if (!good) return false;
+    const double made = frame->times.prepare < wall ? frame->times.prepare : wall;
+    study->wall += wall;
+    study->work += spent;
+    if (work) *work = wall > 0 ? spent * (wall - made) / wall : 0;
+    return true;
 }
 
 static void mask_sample(Study *study)
@@ -110,12 +102,6 @@ static void list_rungs(Study *study, bool few)
     }
 }
 
-static Place best_with(const Study *study, int way)
-{
-    return (Place){ study->scheme_count - 1, study->mode_count - 1, way };
-}
-
-/* One setting on the whole sample, into *out. work: of it, processor seconds a covered sample. */
 bool wr_study_try(Study *study, Place place, float *out, double *work, WrError *err)
 {
     WrFrame frame;
@@ -133,7 +119,7 @@ bool wr_study_try(Study *study, Place place, float *out, double *work, WrError *
 static bool run_way(Study *study, int way, float *out, WrError *err)
 {
     const double grid = wr_study_ways[way].samples;
-    if (!wr_study_try(study, best_with(study, way), out, &study->each[way], err)) return false;
+    if (!wr_study_try(study, wr_best_place(study, way), out, &study->each[way], err)) return false;
     study->each[way] *= grid * grid;
     return study->tried[way] = true;
 }
@@ -272,9 +258,9 @@ static bool find_reference(Study *study, double fine, double change, WrError *er
 static bool survey(Study *study, double work[2], WrError *err)
 {
     WrFrame frame;
-    return wr_study_render(study, best_with(study, WAY_POINT), NULL, &frame, &work[0], err) &&
+    return wr_study_render(study, wr_best_place(study, WAY_POINT), NULL, &frame, &work[0], err) &&
            wr_packed_make(study, frame.rgba, &study->one, err) &&
-           wr_study_render(study, best_with(study, WAY_TWO), NULL, &frame, &work[1], err) &&
+           wr_study_render(study, wr_best_place(study, WAY_TWO), NULL, &frame, &work[1], err) &&
            wr_packed_make(study, frame.rgba, &study->two, err);
 }
 
@@ -286,7 +272,7 @@ static bool find_times(Study *study, const double work[2], WrError *err)
     double covered = 0;
     memset(study->mask, 0, (size_t)study->block_count);
     const double before = study->work;
-    if (!wr_study_render(study, best_with(study, WAY_POINT), study->mask, &frame, NULL, err))
+    if (!wr_study_render(study, wr_best_place(study, WAY_POINT), study->mask, &frame, NULL, err))
         return false;
     study->pass = study->work - before + PASS * work[0];
     for (int k = 1; k < KINDS; k++) covered += (double)study->covered[k];

@@ -85,8 +85,8 @@ static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *si
         const WR_T(WrKernLight) *light = &VIEWED(job->view, lights)[i];
         k->light(light, strip);
         watch_lap(watch, WR_STAGE_DIFFUSE);
-        keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
         if (plan->shading_half) keep_half(strip->n_dot_l, strip->count);
+        keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
         if (plan->diffuse) k->diffuse(light, (REAL)material->diffuse, strip);
         watch_lap(watch, WR_STAGE_DIFFUSE);
         keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);

@@ -6,15 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Pixels of the picture at hand. */
-typedef struct Part {
-    int x, y, w, h;
-} Part;
-
 typedef struct Refiner {
     const WrTileJob *job;
     WrTileScratch *scratch;
-    Part part;
+    WrTilePart part;
     float contrast;
     bool by_bound;
 } Refiner;
@@ -181,7 +176,7 @@ static void empty_queue(Queue *queue)
 }
 
 /* The samples of all open pixels of the part. */
-static void sample_rows(const Refiner *r, Part part, int k, const WrDepthTile *tile)
+static void sample_rows(const Refiner *r, WrTilePart part, int k, const WrDepthTile *tile)
 {
     WrTileScratch *s = r->scratch;
     Queue queue = { .r = r, .tile = tile, .k = k };
@@ -198,7 +193,7 @@ static void sample_rows(const Refiner *r, Part part, int k, const WrDepthTile *t
 }
 
 /* k x k samples for the open pixels of a part of the tile; those that need no more are closed. */
-static void sample_part(Refiner *r, Part part, int k, bool last)
+static void sample_part(Refiner *r, WrTilePart part, int k, bool last)
 {
     WrTileScratch *s = r->scratch;
     const size_t step = sizeof s->sample[0] / sizeof(float);
@@ -225,7 +220,7 @@ static void sample_level(Refiner *r, int k, bool last)
     const int most_w = WR_TILE_SAMPLES_W / k, most_h = k < 32 ? 32 / k : 1;
     for (int y = 0; y < r->part.h; y += most_h)
         for (int x = 0; x < r->part.w; x += most_w) {
-            Part part = { x, y, most_w, most_h };
+            WrTilePart part = { x, y, most_w, most_h };
             part.w = r->part.w - x < part.w ? r->part.w - x : part.w;
             part.h = r->part.h - y < part.h ? r->part.h - y : part.h;
             sample_part(r, part, k, last);

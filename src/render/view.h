@@ -26,10 +26,9 @@ typedef struct WrView {
     double half_w, half_h;          /* of the view: at depth 1, or the whole, orthographic */
     double near;                    /* depth of the near plane */
     bool perspective;
-    int x0, y0, x1,
-        y1;          /* pixels that the object lies in, x0 <= x < x1, and two more on each side */
-    bool cull;       /* a closed surface seen from outside: back faces are hidden (E25) */
-    WrQuad quads[6]; /* planar surfaces: those that can be seen */
+    int x0, y0, x1, y1; /* pixels x0 <= x < x1 that the object can cover, two more on each side */
+    bool cull;          /* a closed surface seen from outside: back faces are hidden (E25) */
+    WrQuad quads[6];    /* planar surfaces: those that can be seen */
     WrQuadd quads_d[6];
     int quad_face[6];
     int quad_count;
