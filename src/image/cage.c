@@ -2,13 +2,11 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
+#include <linux/capability.h>
 #include <linux/landlock.h>
-#include <linux/seccomp.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <signal.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -22,12 +20,6 @@
 #define SANITIZED 0
 #endif
 
-#if defined(__x86_64__)
-#define ARCH AUDIT_ARCH_X86_64
-#elif defined(__aarch64__)
-#define ARCH AUDIT_ARCH_AARCH64
-#endif
-
 static void limit(int what, uint64_t most)
 {
     struct rlimit now;
@@ -35,6 +27,16 @@ static void limit(int what, uint64_t most)
     if (now.rlim_max > most) now.rlim_max = most;
     if (now.rlim_cur > now.rlim_max) now.rlim_cur = now.rlim_max;
     setrlimit((__rlimit_resource_t)what, &now);
+}
+
+/* At the soft limit a signal says why; at the hard one, which may not be caught, the process ends. */
+static void limit_time(unsigned seconds)
+{
+    limit(RLIMIT_CPU, seconds + 1);
+    struct rlimit now;
+    if (getrlimit(RLIMIT_CPU, &now) != 0 || now.rlim_cur <= seconds) return;
+    now.rlim_cur = seconds;
+    setrlimit(RLIMIT_CPU, &now);
 }
 
 uint64_t wr_cage_space(void)
@@ -52,166 +54,139 @@ void wr_cage_memory(uint64_t space, uint64_t memory)
     if (memory > 0 && !SANITIZED) limit(RLIMIT_AS, space + memory);
 }
 
-/* No file can be opened but this one. Older kernels lack this; the filter holds in any case. */
-static void close_file_system(int file)
+/* Root's rights go first: with them a limit could be raised again. */
+static void drop_rights(void)
+{
+    struct __user_cap_header_struct whose = { _LINUX_CAPABILITY_VERSION_3, 0 };
+    struct __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3] = { { 0 } };
+    syscall(SYS_capset, &whose, none);
+}
+
+void wr_cage_limit(uint64_t memory, unsigned seconds)
+{
+    uint64_t space = wr_cage_space();
+    drop_rights();
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_FSIZE, 0);
+    limit(RLIMIT_NOFILE, 64);
+    if (seconds > 0) limit_time(seconds);
+    wr_cage_memory(space, memory);
+}
+
+/* Nothing can be opened by a path. Older kernels lack this; the filter holds in any case. */
+void wr_cage_close_files(void)
 {
     struct landlock_ruleset_attr rules = { .handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1) -
                                                                 1 }; /* all of the first version */
-    struct landlock_path_beneath_attr one = { .allowed_access = LANDLOCK_ACCESS_FS_READ_FILE,
-                                              .parent_fd = file };
     int ruleset = (int)syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0);
     if (ruleset < 0) return;
-    /* A memory file takes no rule and needs none. */
-    syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &one, 0);
     syscall(SYS_landlock_restrict_self, ruleset, 0);
     close(ruleset);
 }
 
-#ifdef ARCH
-
-/* What allocation, threads of the decoders, reading files and talking on a socket need. */
-static const unsigned allowed[] = {
-    SYS_brk,
-    SYS_clock_gettime,
-    SYS_clock_nanosleep,
-    SYS_close,
-    SYS_dup,
-    SYS_exit,
-    SYS_exit_group,
-    SYS_faccessat,
-    SYS_fcntl,
-    SYS_fstat,
-    SYS_futex,
-    SYS_getcwd,
-    SYS_getpid,
-    SYS_getrandom,
-    SYS_gettid,
-    SYS_gettimeofday,
-    SYS_getuid,
-    SYS_geteuid,
-    SYS_getgid,
-    SYS_getegid,
-    SYS_lseek,
-    SYS_madvise,
-    SYS_membarrier,
-    SYS_mremap,
-    SYS_munmap,
-    SYS_nanosleep,
-    SYS_newfstatat,
-    SYS_ppoll,
-    SYS_pread64,
-    SYS_prlimit64,
-    SYS_read,
-    SYS_readlinkat,
-    SYS_readv,
-    SYS_recvmsg,
-    SYS_rseq,
-    SYS_rt_sigaction,
-    SYS_rt_sigprocmask,
-    SYS_rt_sigreturn,
-    SYS_sched_getaffinity,
-    SYS_sched_yield,
-    SYS_sendmsg,
-    SYS_sendto,
-    SYS_set_robust_list,
-    SYS_set_tid_address,
-    SYS_statx,
-    SYS_sysinfo,
-    SYS_uname,
-    SYS_write,
-#ifdef SYS_access
-    SYS_access,
-    SYS_poll,
-    SYS_readlink,
-    SYS_stat,
-    SYS_lstat,
-    SYS_getrlimit,
-    SYS_arch_prctl,
-#endif
+/* What allocation, threads of the decoders, reading open files and talking on an open socket need. Nothing
+ * that takes a path, and nothing that takes the number of a process. */
+static const int allowed[] = {
+    SCMP_SYS(brk),
+    SCMP_SYS(clock_gettime),
+    SCMP_SYS(clock_nanosleep),
+    SCMP_SYS(close),
+    SCMP_SYS(dup),
+    SCMP_SYS(exit),
+    SCMP_SYS(exit_group),
+    SCMP_SYS(fstat),
+    SCMP_SYS(futex),
+    SCMP_SYS(getegid),
+    SCMP_SYS(geteuid),
+    SCMP_SYS(getgid),
+    SCMP_SYS(getpid),
+    SCMP_SYS(getrandom),
+    SCMP_SYS(gettid),
+    SCMP_SYS(gettimeofday),
+    SCMP_SYS(getuid),
+    SCMP_SYS(lseek),
+    SCMP_SYS(madvise),
+    SCMP_SYS(membarrier),
+    SCMP_SYS(mremap),
+    SCMP_SYS(munmap),
+    SCMP_SYS(nanosleep),
+    SCMP_SYS(poll),
+    SCMP_SYS(ppoll),
+    SCMP_SYS(pread64),
+    SCMP_SYS(read),
+    SCMP_SYS(readv),
+    SCMP_SYS(recvmsg),
+    SCMP_SYS(rseq),
+    SCMP_SYS(rt_sigaction),
+    SCMP_SYS(rt_sigprocmask),
+    SCMP_SYS(rt_sigreturn),
+    SCMP_SYS(sched_yield),
+    SCMP_SYS(sendmsg),
+    SCMP_SYS(sendto),
+    SCMP_SYS(set_robust_list),
+    SCMP_SYS(sysinfo),
+    SCMP_SYS(uname),
+    SCMP_SYS(write),
 };
-#define ALLOWED (sizeof allowed / sizeof *allowed)
 
-/* Calls that are allowed while certain bits of one argument are all 0 (zero) or all 1 (one). */
-static const struct {
-    unsigned call, argument, zero, one;
-} bounded[] = {
-    { SYS_openat, 2, O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND, 0 },
-#ifdef SYS_open
-    { SYS_open, 1, O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND, 0 },
-#endif
-    { SYS_mmap, 2, PROT_EXEC, 0 },
-    { SYS_mprotect, 2, PROT_EXEC, 0 },
-    { SYS_clone, 0, 0, CLONE_THREAD | CLONE_VM }, /* threads, not processes */
+/* Calls that are allowed where one argument, seen through a mask, has a certain value. A call may stand
+ * several times; one line that fits is enough. */
+typedef struct Bound {
+    int call;
+    unsigned argument;
+    uint64_t mask, value;
+} Bound;
+
+#define INT 0xffffffffU /* an argument that the system takes as an int */
+
+static const Bound bounds[] = {
+    /* Of the file that is open: its flags and copies of it, but no signals when something happens on it. */
+    { SCMP_SYS(fcntl), 1, INT, F_GETFD },
+    { SCMP_SYS(fcntl), 1, INT, F_SETFD },
+    { SCMP_SYS(fcntl), 1, INT, F_GETFL },
+    { SCMP_SYS(fcntl), 1, INT, F_DUPFD },
+    { SCMP_SYS(fcntl), 1, INT, F_DUPFD_CLOEXEC },
+    { SCMP_SYS(mmap), 2, PROT_EXEC, 0 },
+    { SCMP_SYS(mprotect), 2, PROT_EXEC, 0 },
+    { SCMP_SYS(clone), 0, CLONE_THREAD | CLONE_VM, CLONE_THREAD | CLONE_VM }, /* no processes */
+    { SCMP_SYS(prlimit64), 0, INT, 0 },                                       /* its own */
+    { SCMP_SYS(sched_getaffinity), 0, INT, 0 },
 };
-#define BOUNDED (sizeof bounded / sizeof *bounded)
 
-#define FIELD(name) (unsigned)offsetof(struct seccomp_data, name)
-/* The low half of an argument; both processors have it first. */
-#define ARGUMENT(n) (FIELD(args) + 8 * (n))
-
-static size_t add(struct sock_filter *program, size_t at, struct sock_filter line)
+static bool allow_calls(scmp_filter_ctx filter)
 {
-    program[at] = line;
-    return at + 1;
-}
-
-static size_t add_bounded(struct sock_filter *program, size_t n, size_t i)
-{
-    const struct sock_filter yes = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
-    const struct sock_filter no = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM);
-    unsigned both = bounded[i].zero | bounded[i].one;
-    n = add(program, n,
-            (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, bounded[i].call, 0, 5));
-    n = add(program, n,
-            (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, ARGUMENT(bounded[i].argument)));
-    n = add(program, n, (struct sock_filter)BPF_STMT(BPF_ALU | BPF_AND | BPF_K, both));
-    n = add(program, n,
-            (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, bounded[i].one, 0, 1));
-    n = add(program, n, yes);
-    return add(program, n, no);
-}
-
-static bool filter_calls(void)
-{
-    const struct sock_filter yes = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
-    const struct sock_filter no = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EPERM);
-    struct sock_filter program[2 * ALLOWED + 6 * BOUNDED + 8];
-    size_t n = 0;
-    n = add(program, n, (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, FIELD(arch)));
-    n = add(program, n, (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCH, 1, 0));
-    n = add(program, n, (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS));
-    n = add(program, n, (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, FIELD(nr)));
-    for (size_t i = 0; i < ALLOWED; i++) {
-        n = add(program, n,
-                (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, allowed[i], 0, 1));
-        n = add(program, n, yes);
+    const uint32_t yes = SCMP_ACT_ALLOW;
+    bool good = true;
+    for (size_t i = 0; i < sizeof allowed / sizeof *allowed; i++)
+        good = good && seccomp_rule_add(filter, yes, allowed[i], 0) == 0;
+    for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
+        const Bound *b = &bounds[i];
+        struct scmp_arg_cmp fits = SCMP_CMP(b->argument, SCMP_CMP_MASKED_EQ, b->mask, b->value);
+        good = good && seccomp_rule_add_array(filter, yes, b->call, 1, &fits) == 0;
     }
-    for (size_t i = 0; i < BOUNDED; i++) n = add_bounded(program, n, i);
+    /* abort() tells its own process, and so the program learns how it ended. */
+    good = good && seccomp_rule_add(filter, yes, SCMP_SYS(tgkill), 1,
+                                    SCMP_A0(SCMP_CMP_MASKED_EQ, INT, (uint32_t)getpid())) == 0;
+    good = good && seccomp_rule_add(filter, yes, SCMP_SYS(fcntl), 2,
+                                    SCMP_A1(SCMP_CMP_MASKED_EQ, INT, F_SETFL),
+                                    SCMP_A2(SCMP_CMP_MASKED_EQ, O_ASYNC, 0)) == 0;
     /* The C library turns to clone, whose flags can be looked at. */
-    n = add(program, n, (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_clone3, 0, 1));
-    n = add(program, n, (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS));
-    n = add(program, n, no);
-    struct sock_fprog all = { (unsigned short)n, program };
-    return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &all, 0, 0) == 0;
+    return good && seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0) == 0;
 }
 
-#else
-static bool filter_calls(void)
+bool wr_cage_filter_calls(void)
 {
-    return true; /* processors whose calls are not listed here go without */
+    scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
+    bool good = filter && allow_calls(filter) && seccomp_load(filter) == 0;
+    if (filter) seccomp_release(filter);
+    return good;
 }
-#endif
 
-bool wr_cage_enter(int file, uint64_t memory, unsigned seconds)
+bool wr_cage_enter(uint64_t memory, unsigned seconds)
 {
-    uint64_t space = wr_cage_space();
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_NOFILE, 64);
-    if (seconds > 0) limit(RLIMIT_CPU, seconds);
-    wr_cage_memory(space, memory);
+    wr_cage_limit(memory, seconds);
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
     if (SANITIZED) return true;
-    close_file_system(file);
-    return filter_calls();
+    wr_cage_close_files();
+    return wr_cage_filter_calls();
 }

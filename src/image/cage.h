@@ -6,15 +6,21 @@
 
 /* Limit this process for good:
  *
- *   no files but those already open and, for reading, `file` itself by its path under /proc/self/fd
- *   (Landlock where the kernel has it); nothing written to files, no core;
- *   no sockets, no programs, no memory that can be executed, no signals to others: all system calls that
- *   decoding does not need fail with EPERM (seccomp);
- *   processor time at most `seconds`; memory at most `memory` bytes more than now (0: no limit)
+ *   no files but those already open: no path is opened, asked about or changed (seccomp, and Landlock
+ *   where the kernel has it); nothing written to files, no core;
+ *   no sockets, no programs, no memory that can be executed, nothing done to other processes: all system
+ *   calls that decoding does not need fail with EPERM (seccomp);
+ *   processor time at most `seconds`; memory at most `memory` bytes more than now (0: no limit);
+ *   no rights of root's
  *
  * With sanitizers, whose own needs are others, there is no limit on memory and no filter. False if the
  * filter cannot be set up: then the file must not be read. */
-bool wr_cage_enter(int file, uint64_t memory, unsigned seconds);
+bool wr_cage_enter(uint64_t memory, unsigned seconds);
+
+/* The parts of it, in this order; each must hold without the one before. */
+void wr_cage_limit(uint64_t memory, unsigned seconds);
+void wr_cage_close_files(void);
+bool wr_cage_filter_calls(void);
 
 /* Bytes of address space that this process has; to be asked before the cage is entered. */
 uint64_t wr_cage_space(void);

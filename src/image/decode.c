@@ -41,13 +41,12 @@ static bool is_memory(const char *reason)
 
 WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, WrError *err)
 {
-    char path[32], reason[WR_OIIO_REASON] = "";
+    char reason[WR_OIIO_REASON] = "";
     const char *format = find_format(fd, ending, err);
     if (!format) return NULL;
     const WrOiioTable *library = wr_oiio(err);
     if (!library) return NULL;
-    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-    WrOiioReader *reader = library->open(path, format, most, reason);
+    WrOiioReader *reader = library->open(fd, format, most, reason);
     if (!reader) {
         if (memory) *memory = is_memory(reason);
         wr_fail(err, "%s", reason);

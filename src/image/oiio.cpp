@@ -13,8 +13,13 @@ extern "C" {
 
 #include "image/oiio_disk.hpp"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <fcntl.h>
+
+#include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -63,7 +68,10 @@ static void settle_library()
 /* ---- reading ---- */
 
 struct WrOiioReader {
-    std::string path;
+    int fd;
+    std::string path; /* of fd, for formats that insist on one (reopen.c) and for messages */
+    std::unique_ptr<FILE, int (*)(FILE *)> file{ nullptr, std::fclose }; /* a copy of fd */
+    std::unique_ptr<Filesystem::IOFile> proxy;                           /* outlives `in` */
     std::unique_ptr<ImageInput> in;
     std::vector<ImageSpec> specs;
     std::vector<std::vector<const char *>> names;
@@ -146,6 +154,19 @@ static void name_parts(WrOiioReader &reader)
         reader.parts[i].part.channel_names = reader.names[i].data();
 }
 
+/* Where the reader may open nothing, most formats read from what is open. */
+static bool give_file(WrOiioReader &reader, char *reason)
+{
+    int copy = fcntl(reader.fd, F_DUPFD_CLOEXEC, 0);
+    reader.file.reset(copy < 0 ? nullptr : fdopen(copy, "rb"));
+    if (!reader.file || fseeko(reader.file.get(), 0, SEEK_SET) != 0)
+        return fail(reason, std::strerror(errno));
+    reader.proxy =
+        std::make_unique<Filesystem::IOFile>(reader.file.get(), Filesystem::IOProxy::Read);
+    reader.in->set_ioproxy(reader.proxy.get());
+    return true;
+}
+
 static bool open_file(WrOiioReader &reader, const char *format, int most, char *reason)
 {
     settle_library();
@@ -156,6 +177,7 @@ static bool open_file(WrOiioReader &reader, const char *format, int most, char *
         return fail(reason, "is not a picture of a kind that can be read");
     ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);
+    if (reader.in->supports("ioproxy") && !give_file(reader, reason)) return false;
     if (!reader.in->open(reader.path, spec, config))
         return fail(reason,
                     "cannot be opened, truncated or damaged (" + reader.in->geterror() + ")",
@@ -172,12 +194,13 @@ static bool open_file(WrOiioReader &reader, const char *format, int most, char *
     return true;
 }
 
-static WrOiioReader *reader_open(const char *path, const char *format, int most, char *reason)
+static WrOiioReader *reader_open(int fd, const char *format, int most, char *reason)
 {
     WrOiioReader *opened = nullptr;
     guarded(reason, [&] {
         auto reader = std::make_unique<WrOiioReader>();
-        reader->path = path;
+        reader->fd = fd;
+        reader->path = "/proc/self/fd/" + std::to_string(fd);
         if (!open_file(*reader, format, most, reason)) return false;
         opened = reader.release();
         return true;

@@ -8,7 +8,7 @@
 #pragma once
 #include "image/image.h"
 
-#define WR_OIIO_VERSION 1
+#define WR_OIIO_VERSION 2
 #define WR_OIIO_REASON 320
 #define WR_OIIO_SYMBOL "wr_oiio_table"
 #define WR_OIIO_NO_MEMORY "not enough memory" /* a reason that callers look for */
@@ -25,8 +25,9 @@ typedef struct WrOiioPart {
 typedef struct WrOiioTable {
     int version; /* WR_OIIO_VERSION */
 
-    /* format: OpenImageIO's name or an ending. most: count parts up to this many; more is an error. */
-    WrOiioReader *(*open)(const char *path, const char *format, int most, char *reason);
+    /* fd: open for reading; borrowed until close. format: OpenImageIO's name or an ending. most: count parts
+       up to this many; more is an error. */
+    WrOiioReader *(*open)(int fd, const char *format, int most, char *reason);
     void (*close)(WrOiioReader *reader);
     int (*parts)(const WrOiioReader *reader);
     const WrOiioPart *(*part)(const WrOiioReader *reader, int part);

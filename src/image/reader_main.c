@@ -51,8 +51,10 @@ static void warm(void)
 {
     char reason[WR_OIIO_REASON];
     const WrOiioTable *library = wr_oiio(NULL);
-    WrOiioReader *none = library ? library->open("/dev/null", "png", 1, reason) : NULL;
+    int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    WrOiioReader *none = library ? library->open(nothing, "png", 1, reason) : NULL;
     if (none) library->close(none);
+    if (nothing >= 0) close(nothing);
 }
 
 /* Whether every other thread of this process sleeps. */

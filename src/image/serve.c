@@ -5,6 +5,7 @@
 #include "image/decode.h"
 #include "image/font_inner.h"
 #include "image/mesh_make.h"
+#include "image/reopen.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,7 +15,7 @@
 #include <unistd.h>
 
 #define CHANNEL 3
-#define PICTURE 4
+#define PICTURE WR_REOPEN_FILE
 /* What reading a small picture may take: tables and buffers of the libraries. */
 #define MEMORY_BASE ((uint64_t)512 << 20)
 
@@ -199,7 +200,7 @@ void wr_serve(const WrWireOrder *order, int file, int channel)
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
-    if (!wr_cage_enter(PICTURE, order->memory, order->seconds)) {
+    if (!wr_cage_enter(order->memory, order->seconds)) {
         wr_fail(&err, "cannot be read safely here: the system refuses to limit the reader process");
         answer_failure(false, &err);
         return;
