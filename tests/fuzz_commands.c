@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         WrCall *call = NULL;
         WrError err = { "" };
         if (!stable(line, &call)) continue;
-        bool scene = call->command && call->command->kind == WR_CLASS_SCENE && !reads_a_file(call);
+        bool scene = call->command && call->command->print && !reads_a_file(call);
         wr_call_free(call);
         if (scene && !wr_session_run(session, line, &err)) MUST(err.text[0] != '\0');
     }

@@ -213,7 +213,7 @@ static void every_row_is_complete_and_its_defaults_are_in_range(void **state)
     for (int i = 0; i < wr_command_count; i++) {
         const WrCommand *c = &wr_commands[i];
         assert_true(c->help && c->example && c->run);
-        assert_true((c->print != NULL) == (c->kind == WR_CLASS_SCENE));
+        assert_true((c->print != NULL) == (c->kind == WR_CLASS_SCENE || c->kind == WR_CLASS_VIEW));
         assert_ptr_equal(wr_command_find(c->name), c);
         char *text = canonical(c->example);
         assert_memory_equal(text, c->name, strlen(c->name));

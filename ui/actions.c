@@ -254,6 +254,29 @@ static void fullscreen(WrApp *app)
     SDL_SetWindowFullscreen(app->window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
 }
 
+static void view_back(WrApp *app)
+{
+    wr_patch_commit_zoom(app, true);
+    wr_app_run_line(app, "view back");
+}
+
+/* A zoom that is not a view yet can be gone back from too. */
+static bool can_view_back(const WrApp *app)
+{
+    return wr_session_views_back(app->session) > 0 || app->patch.zoom_commit_at > 0.0;
+}
+
+static bool can_view_forward(const WrApp *app)
+{
+    return wr_session_views_forward(app->session) > 0;
+}
+
+static void view_forward(WrApp *app)
+{
+    wr_patch_commit_zoom(app, true); /* which leaves none to go forward to */
+    if (can_view_forward(app)) wr_app_run_line(app, "view forward");
+}
+
 static void camera_reset(WrApp *app)
 {
     wr_patch_commit_zoom(app, false);
@@ -418,6 +441,8 @@ const WrAction wr_actions[] = {
     { "look_tilt", "Map of the tilt", wr_act_look_tilt, NULL, wr_is_look_tilt },
     { "look_level", "Map of the mip level", wr_act_look_level, NULL, wr_is_look_level },
     { "turn", "Turning patch", turn, NULL, is_turning },
+    { "view_back", "Patch as it was looked at before", view_back, can_view_back, NULL },
+    { "view_forward", "Patch as it was looked at after", view_forward, can_view_forward, NULL },
     { "camera_reset", "Reset the camera", camera_reset, NULL, NULL },
     { "pose_reset", "Reset the patch's pose", pose_reset, NULL, NULL },
     { "fullscreen", "Full screen", fullscreen, NULL, NULL },

@@ -28,7 +28,7 @@ extern const WrArgSpec wr_args_undo[], wr_args_redo[], wr_args_history[], wr_arg
 /* The rows of forms, as in WrCommand. */
 typedef bool WrFormRow(int index, WrForm *out);
 WrFormRow wr_form_layer, wr_form_select, wr_form_adjust, wr_form_surface, wr_form_analytic,
-    wr_form_light, wr_form_camera, wr_form_export, wr_form_shape, wr_form_ramp;
+    wr_form_light, wr_form_camera, wr_form_export, wr_form_shape, wr_form_ramp, wr_form_view;
 /* Of the families of generators: args_generate.c. */
 WrFormRow wr_form_pattern, wr_form_noise, wr_form_formula, wr_form_solid, wr_form_terrain,
     wr_form_picture;

@@ -10,6 +10,22 @@
 const WrArgSpec wr_args_undo[] = { STEPS("how many steps back"), { 0 } };
 const WrArgSpec wr_args_redo[] = { STEPS("how many steps forward"), { 0 } };
 
+static const WrForm view_forms[] = {
+    { .name = "back",
+      .help = "to views before this one",
+      .args = { STEPS("how many views back") } },
+    { .name = "forward",
+      .help = "to those that were gone back from",
+      .args = { STEPS("how many views forward") } },
+};
+
+bool wr_form_view(int i, WrForm *out)
+{
+    if (i >= (int)(sizeof view_forms / sizeof *view_forms)) return false;
+    *out = view_forms[i];
+    return true;
+}
+
 const WrArgSpec wr_args_history[] = {
     { .name = "budget",
       .type = WR_ARG_NUMBER,

@@ -111,10 +111,26 @@ const WrArgSpec wr_args_replicate[] = { { PLACE("ru,rv"), .type = WR_ARG_TUPLE, 
                                           .help = "how often the table repeats along u and v" },
                                         { 0 } };
 
-const WrArgSpec wr_args_rotate[] = { { PLACE("x,y,z"), .type = WR_ARG_TUPLE, .components = 3,
-                                       .low = -1e9, .high = 1e9, .unit = "degrees",
-                                       .help = "turns about the world's x, then y, then z axis" },
-                                     { 0 } };
+static const char *pose_word(int i)
+{
+    return i == 0 ? "own" : NULL;
+}
+
+const WrArgSpec wr_args_rotate[] = {
+    { .name = "x,y,z",
+      .type = WR_ARG_TUPLE,
+      .positional = true,
+      .components = 3,
+      .low = -1e9,
+      .high = 1e9,
+      .unit = "degrees",
+      .help = "turns about the world's x, then y, then z axis" },
+    { .name = "pose",
+      .type = WR_ARG_CHOICE,
+      .choice = pose_word,
+      .help = "instead: the pose in which each surface first shows itself" },
+    { 0 }
+};
 
 const WrArgSpec wr_args_material[] = {
     { .name = "ambient", .type = WR_ARG_NUMBER, .low = 0, .high = 1000, .help = "ka" },

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-const char *const wr_class_names[] = { "edit", "scene", "output", "history" };
+const char *const wr_class_names[] = { "edit", "scene", "view", "output", "history" };
 
 const WrCommand wr_commands[] = {
     { .name = "table",
@@ -211,14 +211,15 @@ const WrCommand wr_commands[] = {
       .details = "Parameters that are left out take their defaults.",
       .example = "surface torus R=1 r=0.35" },
     { .name = "rotate",
-      .kind = WR_CLASS_SCENE,
+      .kind = WR_CLASS_VIEW,
       .args = wr_args_rotate,
       .run = wr_run_rotate,
       .print = wr_print_rotate,
       .help = "the object's orientation",
       .details =
           "It replaces the pose in which the surface first shows itself, and turns about the "
-          "object's centre, which stands at the world's origin.",
+          "object's centre, which stands at the world's origin. A view is no edit: undo leaves it "
+          "as it is, `view back` goes back.",
       .example = "rotate -90,0,30" },
     { .name = "analytic",
       .kind = WR_CLASS_SCENE,
@@ -273,13 +274,14 @@ const WrCommand wr_commands[] = {
       .details = "The first light takes the place of the one that a new document has.",
       .example = "light directional to=-1,1,2 strength=0.9" },
     { .name = "camera",
-      .kind = WR_CLASS_SCENE,
+      .kind = WR_CLASS_VIEW,
       .form_word = "KIND",
       .form = wr_form_camera,
       .run = wr_run_camera,
       .print = wr_print_camera,
       .help = "where the picture is taken from",
-      .details = "Only what is given changes.",
+      .details = "Only what is given changes. A view is no edit: undo leaves it as it is, `view "
+                 "back` goes back.",
       .example = "camera perspective eye=0,1,4 fov=30" },
     { .name = "dials",
       .kind = WR_CLASS_SCENE,
@@ -324,14 +326,16 @@ const WrCommand wr_commands[] = {
       .args = wr_args_script,
       .run = wr_run_script,
       .help = "write what was done as a script",
-      .details = "The script makes the same document, bit for bit; undone steps are not in it.",
+      .details = "The script makes the same document, bit for bit; undone steps are not in it, "
+                 "and of the views only those that it takes.",
       .example = "script bricks.wrinkle" },
     { .name = "undo",
       .kind = WR_CLASS_HISTORY,
       .args = wr_args_undo,
       .run = wr_run_undo,
       .help = "go back to before the last commands",
-      .details = "Every edit and every scene command is one step.",
+      .details = "Every edit and every scene command is one step. How it is looked at stays, but "
+                 "for a step that opened a document.",
       .example = "undo 2" },
     { .name = "redo",
       .kind = WR_CLASS_HISTORY,
@@ -339,6 +343,15 @@ const WrCommand wr_commands[] = {
       .run = wr_run_redo,
       .help = "do again what was undone",
       .example = "redo" },
+    { .name = "view",
+      .kind = WR_CLASS_HISTORY,
+      .form_word = "WAY",
+      .form = wr_form_view,
+      .run = wr_run_view,
+      .help = "go back and forth through how it was looked at",
+      .details = "Every `camera` and every `rotate` that changes something is one view; the last "
+                 "thousand are kept. The edits stay as they are.",
+      .example = "view back 2" },
     { .name = "history",
       .kind = WR_CLASS_HISTORY,
       .args = wr_args_history,

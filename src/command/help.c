@@ -222,8 +222,8 @@ bool wr_help_command(const char *name, WrText *text, WrError *err)
 
 void wr_help_overview(WrText *text)
 {
-    static const char *const titles[] = { "Edits of the table", "The scene", "Files",
-                                          "What was done" };
+    static const char *const titles[] = { "Edits of the table", "The scene", "How it is looked at",
+                                          "Files", "What was done" };
     for (int kind = 0; kind < WR_CLASS_COUNT; kind++) {
         wr_text_addf(text, "%s%s\n", kind ? "\n" : "", titles[kind]);
         for (int i = 0; i < wr_command_count; i++)

@@ -6,6 +6,7 @@
 #include "command/session.h"
 #include "document/history.h"
 #include "document/journal.h"
+#include "document/views.h"
 
 typedef struct WrBrushFiles WrBrushFiles;
 
@@ -30,6 +31,7 @@ typedef struct WrPainting {
 typedef struct WrSessionState {
     WrDocument *document; /* owned; between commands, what the history's present state holds */
     WrHistory *history;   /* owned; its marks are revisions */
+    WrViews *views;       /* owned; the present one is the document's */
     uint64_t saved_revision;
     char *path;       /* of the document file; owned; NULL: none */
     char *origin;     /* the command line that makes the history's first state; owned; NULL: none */
@@ -48,6 +50,7 @@ struct WrSession {
     bool opening;      /* a script, a picture or a recovery is being opened: nothing is journaled */
     WrJournal *journal; /* of the document, from its first command on; owned; NULL: none yet */
     int journal_base, journal_top; /* history positions that a replay of it can reach */
+    int64_t view_base, view_top;   /* and numbers of views */
     WrImage *embedded;    /* while loading: the document's colour picture; borrowed; NULL: none */
     WrRenderer *renderer; /* made on first use; owned */
     WrChoice choice;      /* of the last picture under a tolerance */
@@ -70,6 +73,8 @@ bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err);
 
 /* ---- steps ---- */
 
+/* The document's hash with another scene in the place of its own. */
+WrHash wr_session_hash_with(const WrSession *session, const WrScene *scene);
 /* The command of that call is done: make it a step. */
 void wr_session_remember(WrSession *session, const WrCall *call);
 /* Go to a state of the history; only undo and redo do so, that the journal may know. */
@@ -84,9 +89,21 @@ WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document);
 void wr_session_keep_state(WrSession *session, WrSessionState *old);
 void wr_session_restore_state(WrSession *session, WrSessionState *old);
 
+/* ---- views: session_views.c ---- */
+
+/* The document may be looked at in another way now: then that is a view. */
+void wr_session_note_view(WrSession *session);
+/* The lines that lead from where the session's history began to the document as it is: the steps in force,
+   and the views where they are needed, oldest first. folder: as wr_history_folder. */
+typedef void WrLineSink(void *ctx, const char *line, const char *folder);
+void wr_session_lines(const WrSession *session, WrLineSink *sink, void *ctx);
+/* The scene as it was when the history began, in all that views change. The caller owns it. */
+WrScene *wr_session_scene_at_start(const WrSession *session);
+
 /* ---- the journal: session_journal.c ---- */
 
-/* Around an outermost command that changes the document. */
+/* Around an outermost command that changes the document. Views alone begin no journal: nothing would be
+   lost but how it is looked at. */
 void wr_session_journal_before(WrSession *session, const WrCall *call);
 /* pushed: it made a step, rather than going through them. */
 void wr_session_journal_after(WrSession *session, bool good, bool pushed);
@@ -180,6 +197,7 @@ WrHandler wr_run_material, wr_run_colour, wr_run_light, wr_run_camera, wr_run_di
     wr_run_tolerance;                                              /* run_look.c */
 WrHandler wr_run_save, wr_run_export, wr_run_render;               /* run_output.c */
 WrHandler wr_run_undo, wr_run_redo, wr_run_history, wr_run_script; /* run_history.c */
+WrHandler wr_run_view;                                             /* session_views.c */
 
 /* "8ms", "0.5s", "2": a duration of 1e-4..3600 seconds. run_look.c. */
 bool wr_duration_parse(const char *text, double *seconds);

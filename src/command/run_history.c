@@ -54,9 +54,16 @@ static const char *seen_from(const char *home, const char *path)
     return below ? path + length + 1 : path;
 }
 
+typedef struct Script {
+    WrText text;
+    const char *home; /* its folder */
+} Script;
+
 /* Files that were read carry a hash: name them so that the script finds them. */
-static void add_line(WrText *text, const char *line, const char *folder, const char *home)
+static void add_line(void *ctx, const char *line, const char *folder)
 {
+    Script *script = ctx;
+    WrText *text = &script->text;
     WrCall *call = NULL;
     if (!wr_call_parse(line, false, &call, NULL)) { /* cannot be: it ran */
         wr_text_addf(text, "%s\n", line);
@@ -66,7 +73,7 @@ static void add_line(WrText *text, const char *line, const char *folder, const c
         const char *hash = wr_call_hash_name(call, i);
         if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
         char *full = wr_path_join(folder ? folder : ".", call->args[i].text);
-        wr_call_set_text(call, call->specs[i].name, seen_from(home, full));
+        wr_call_set_text(call, call->specs[i].name, seen_from(script->home, full));
         wr_free(full);
     }
     wr_call_print(call, text);
@@ -76,17 +83,14 @@ static void add_line(WrText *text, const char *line, const char *folder, const c
 
 bool wr_session_save_history(WrSession *session, const char *path, WrError *err)
 {
-    const WrHistory *history = session->state.history;
-    WrText text = { 0 };
     char *folder = wr_path_folder(path), *real = realpath(folder, NULL);
-    const char *home = real ? real : "";
-    if (session->state.origin) add_line(&text, session->state.origin, NULL, home);
-    for (int i = 0; i < wr_history_position(history); i++)
-        add_line(&text, wr_history_line(history, i), wr_history_folder(history, i), home);
-    bool good = wr_file_write(path, wr_text_get(&text), text.length, err);
+    Script script = { .home = real ? real : "" };
+    if (session->state.origin) add_line(&script, session->state.origin, NULL);
+    wr_session_lines(session, add_line, &script);
+    bool good = wr_file_write(path, wr_text_get(&script.text), script.text.length, err);
     free(real);
     wr_free(folder);
-    wr_text_fini(&text);
+    wr_text_fini(&script.text);
     return good;
 }
 

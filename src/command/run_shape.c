@@ -39,10 +39,11 @@ bool wr_run_surface(WrSession *session, WrCall *call, WrError *err)
 
 bool wr_run_rotate(WrSession *session, WrCall *call, WrError *err)
 {
-    (void)err;
+    bool own = wr_call_given(call, "pose"), turned = wr_call_given(call, "x,y,z");
+    if (own == turned) return wr_fail(err, "needs one of x,y,z and pose=own");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    scene->posed = true;
-    scene->rotate_deg = wr_call_vec3(call, "x,y,z");
+    scene->posed = turned;
+    scene->rotate_deg = turned ? wr_call_vec3(call, "x,y,z") : (WrVec3){ 0 };
     wr_session_replace_scene(session, scene);
     return true;
 }

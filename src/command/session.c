@@ -12,6 +12,7 @@ static void state_fini(WrSessionState *state)
 {
     wr_document_free(state->document);
     wr_history_free(state->history);
+    wr_views_free(state->views);
     wr_free(state->path);
     wr_free(state->origin);
     wr_free(state->newer_path);
@@ -25,7 +26,9 @@ WrSession *wr_session_new(const WrSessionOptions *options)
     session->options.isa = wr_strdup(session->options.isa);
     session->budget = WR_HISTORY_BUDGET;
     session->state.document = wr_document_new();
+    WrSceneView view = wr_scene_view(session->state.document->scene);
     session->state.history = wr_history_new(session->state.document, 0, session->budget);
+    session->state.views = wr_views_new(&view);
     return session;
 }
 
@@ -108,15 +111,17 @@ static bool run_output(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* Only the outermost command is a step, and only its failure puts the old state back. */
+/* Only the outermost command is a step, and only its failure puts the old state back. A view is no step: the
+   present state is looked at in another way. */
 static bool run_call(WrSession *session, WrCall *call, WrError *err)
 {
     if (!call->command) return true;
     if (call->command->kind == WR_CLASS_OUTPUT) return run_output(session, call, err);
-    bool good;
+    bool good, view = call->command->kind == WR_CLASS_VIEW;
     wr_session_journal_before(session, call);
     if (call->command->kind == WR_CLASS_HISTORY) {
         good = call->command->run(session, call, err);
+        if (good) wr_session_note_view(session);
         wr_session_journal_after(session, good, false);
         return good;
     }
@@ -124,9 +129,11 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
     good = call->command->run(session, call, err);
     session->depth--;
     if (session->depth > 0) return good;
-    if (good) wr_session_remember(session, call);
-    else wr_session_restore(session);
-    wr_session_journal_after(session, good, true);
+    if (!good) wr_session_restore(session);
+    else if (view) wr_history_look(session->state.history, session->state.document);
+    else wr_session_remember(session, call);
+    if (good) wr_session_note_view(session);
+    wr_session_journal_after(session, good, !view);
     return good;
 }
 
@@ -266,10 +273,9 @@ static void add_colour(const WrScene *scene, WrText *text)
     else wr_print_colour(scene, text);
 }
 
-WrHash wr_session_hash(const WrSession *session)
+WrHash wr_session_hash_with(const WrSession *session, const WrScene *scene)
 {
     WrText text = { 0 };
-    const WrScene *scene = session->state.document->scene;
     for (int i = 0; i < wr_command_count; i++) {
         if (wr_commands[i].print == wr_print_colour) add_colour(scene, &text);
         else if (wr_commands[i].print) wr_commands[i].print(scene, &text);
@@ -279,13 +285,21 @@ WrHash wr_session_hash(const WrSession *session)
     return hash;
 }
 
+WrHash wr_session_hash(const WrSession *session)
+{
+    return wr_session_hash_with(session, session->state.document->scene);
+}
+
 /* ---- replacing the document as a whole ---- */
 
 void wr_session_rebase(WrSession *session)
 {
+    WrSceneView view = wr_scene_view(session->state.document->scene);
     wr_history_free(session->state.history);
+    wr_views_free(session->state.views);
     session->state.history =
         wr_history_new(session->state.document, ++session->last_revision, session->budget);
+    session->state.views = wr_views_new(&view);
 }
 
 WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document)

@@ -97,17 +97,22 @@ void wr_session_journal_leave(WrSession *session);
 /* ---- what was done ---- */
 
 /* Steps: the canonical lines of the edits and scene commands since the document was made or opened,
-   oldest first, those that were undone and can be redone included. Output and history commands are not
-   among them. */
+   oldest first, those that were undone and can be redone included. Views, output and history commands are
+   not among them. */
 int wr_session_history_count(const WrSession *session);
 const char *wr_session_history_line(const WrSession *session, int index); /* "" out of range */
 /* How many of them are in force: steps 0 .. position - 1. */
 int wr_session_history_position(const WrSession *session);
 /* The lowest position that can be gone back to: older states were given up for the budget. */
 int wr_session_history_oldest(const WrSession *session);
-/* Go to the state after `position` steps, oldest .. count, bit for bit as it was. The next command drops the
-   steps after it. Fails in a stroke. */
+/* Go to the state after `position` steps, oldest .. count, bit for bit as it was; how it is looked at stays
+   (document/history.h). The next edit drops the steps after it. Fails in a stroke. */
 bool wr_session_go(WrSession *session, int position, WrError *err);
+
+/* Views are no edits: they have a history of their own (the commands `camera`, `rotate` and `view`), and a
+   document is not unsaved for them. How many can be gone back to, and forward. */
+int wr_session_views_back(const WrSession *session);
+int wr_session_views_forward(const WrSession *session);
 
 /* Memory: what all kept steps cost, what one does (0 for those given up), and how much it may be: 1 GiB unless
    set. Oldest states go first; the last step can always be undone. */

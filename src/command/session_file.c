@@ -92,7 +92,7 @@ static bool run_scene_lines(WrSession *session, const char *text, bool lenient, 
         char *line = wr_strndup(p, length);
         WrCall *call = NULL;
         bool good = wr_call_parse(line, false, &call, err);
-        if (good && call->command && call->command->kind != WR_CLASS_SCENE)
+        if (good && call->command && !call->command->print)
             good = wr_fail(err, "%s is no command of a scene", call->command->name);
         if (good) good = wr_session_run(session, line, err);
         wr_call_free(call);

@@ -96,6 +96,25 @@ static void journal_line(WrSession *session, const char *line, const char *folde
     wr_call_free(call);
 }
 
+/* A line that led to where the journal begins. */
+static void put_line(void *ctx, const char *line, const char *folder)
+{
+    WrSession *session = ctx;
+    WrText text = { 0 };
+    journal_line(session, line, folder, &text);
+    wr_journal_command(session->journal, wr_text_get(&text), NULL);
+    wr_journal_done(session->journal, WR_JOURNAL_OK, NULL, NULL);
+    wr_text_fini(&text);
+}
+
+static WrHash hash_at_start(const WrSession *session)
+{
+    WrScene *scene = wr_session_scene_at_start(session);
+    WrHash hash = wr_session_hash_with(session, scene);
+    wr_scene_free(scene);
+    return hash;
+}
+
 /* What the document was before the first command, as a journal's start. */
 static void begin(WrSession *session)
 {
@@ -106,20 +125,15 @@ static void begin(WrSession *session)
     char hex[65] = "";
     if (state->origin && state->path && wr_sha256_file(state->path, hex, NULL))
         start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT, .path = state->path, .sha256 = hex };
-    if (wr_history_position(history) == 0) start.hash = wr_session_hash(session);
+    if (wr_history_position(history) == 0) start.hash = hash_at_start(session);
     session->journal = wr_journal_begin(&options, &start);
     forget_kept(session);
     if (*hex) keep(session, state->path, hex);
     session->journal_base = 0;
     session->journal_top = wr_history_position(history);
-    /* What was done since: the lines of a script or picture that was opened. */
-    for (int i = 0; i < wr_history_position(history); i++) {
-        WrText text = { 0 };
-        journal_line(session, wr_history_line(history, i), wr_history_folder(history, i), &text);
-        wr_journal_command(session->journal, wr_text_get(&text), NULL);
-        wr_journal_done(session->journal, WR_JOURNAL_OK, NULL, NULL);
-        wr_text_fini(&text);
-    }
+    session->view_base = session->view_top = wr_views_number(state->views);
+    /* What was done since: the lines of a script or picture that was opened, and views. */
+    wr_session_lines(session, put_line, session);
 }
 
 static bool journaled(const WrSession *session)
@@ -131,6 +145,8 @@ static bool journaled(const WrSession *session)
 void wr_session_journal_before(WrSession *session, const WrCall *call)
 {
     if (!journaled(session)) return;
+    bool view = call->command->kind == WR_CLASS_VIEW || call->command->run == wr_run_view;
+    if (!session->journal && view) return;
     if (!session->journal) begin(session);
     WrText canonical = { 0 }, text = { 0 };
     wr_call_print(call, &canonical);
@@ -142,13 +158,16 @@ void wr_session_journal_before(WrSession *session, const WrCall *call)
 
 static bool restart(WrSession *session, WrError *err);
 
-/* A replay knows the steps from the journal's start on: an undo or a redo that leaves these cannot be
-   replayed, so the journal then begins anew from what it led to. */
+/* A replay knows the steps and views from the journal's start on: an undo, a redo or a view that leaves these
+   cannot be replayed, so the journal then begins anew from what it led to. */
 static void follow(WrSession *session, bool pushed)
 {
     int position = wr_session_history_position(session);
     if (pushed) session->journal_top = position;
-    if (position < session->journal_base || position > session->journal_top) restart(session, NULL);
+    int64_t view = wr_views_number(session->state.views);
+    bool known = position >= session->journal_base && position <= session->journal_top;
+    bool seen = view >= session->view_base && view <= session->view_top;
+    if (!known || !seen) restart(session, NULL);
 }
 
 void wr_session_journal_after(WrSession *session, bool good, bool pushed)
@@ -235,6 +254,7 @@ static bool restart(WrSession *session, WrError *err)
     good = good && wr_journal_restart(session->journal, &start, err);
     if (good) forget_kept(session);
     if (good) session->journal_base = session->journal_top = wr_session_history_position(session);
+    if (good) session->view_base = session->view_top = wr_views_number(session->state.views);
     else wr_journal_put_off(session->journal);
     wr_text_fini(&path);
     wr_text_fini(&scene);

@@ -19,12 +19,14 @@ typedef struct WrCall WrCall;
 typedef enum WrCommandClass {
     WR_CLASS_EDIT,   /* changes heights, layers or the selection: undoable, journaled */
     WR_CLASS_SCENE,  /* what pictures show: undoable, journaled, saved with the document */
+    WR_CLASS_VIEW,   /* how pictures look at it: no step of the edits, but of a history of its own;
+                        journaled, saved with the document */
     WR_CLASS_OUTPUT, /* writes files: never in a journal, never in a document */
     WR_CLASS_HISTORY /* goes through what was done: no step of its own, journaled as itself */
 } WrCommandClass;
-#define WR_CLASS_COUNT 4
+#define WR_CLASS_COUNT 5
 
-extern const char *const wr_class_names[]; /* "edit", "scene", "output", "history" */
+extern const char *const wr_class_names[]; /* "edit", "scene", "view", "output", "history" */
 
 typedef enum WrArgType {
     WR_ARG_NUMBER, /* 0.5 */
@@ -98,7 +100,7 @@ typedef struct WrCommand {
     /* Carry out a call whose values are checked against this row. On failure the session may be left
        half changed: the caller puts its snapshot back. */
     bool (*run)(WrSession *session, WrCall *call, WrError *err);
-    /* Scene commands: the canonical lines that restore this part of a scene, each with its line end. */
+    /* Scene commands and views: the canonical lines that restore this part of a scene, each with its line end. */
     void (*print)(const WrScene *scene, WrText *text);
 } WrCommand;
 

@@ -7,6 +7,7 @@ typedef struct Step {
     size_t bytes;        /* of what its two states do not share */
     WrDocument *after;   /* NULL: given up */
     uint64_t mark;
+    bool brings_view; /* its two states were looked at in different ways */
 } Step;
 
 struct WrHistory {
@@ -74,11 +75,14 @@ void wr_history_push(WrHistory *history, const WrDocument *document, const char 
                      const char *folder, uint64_t mark)
 {
     while (history->steps.count > history->position) drop_last(history);
+    const WrDocument *before = *state_at(history, history->position);
+    WrSceneView old = wr_scene_view(before->scene), now = wr_scene_view(document->scene);
     Step step = { .line = wr_strdup(line),
                   .folder = wr_strdup(folder),
-                  .bytes = wr_document_difference(*state_at(history, history->position), document),
+                  .bytes = wr_document_difference(before, document),
                   .after = wr_document_snapshot(document),
-                  .mark = mark };
+                  .mark = mark,
+                  .brings_view = !wr_scene_view_equal(&old, &now) };
     wr_array_push(&history->steps, step);
     history->position++;
     history->bytes += step.bytes;
@@ -129,11 +133,60 @@ uint64_t wr_history_mark(const WrHistory *history)
                                   : history->steps.data[history->position - 1].mark;
 }
 
+/* ---- views ---- */
+
+void wr_history_look(WrHistory *history, const WrDocument *document)
+{
+    WrDocument **present = state_at(history, history->position);
+    wr_document_free(*present);
+    *present = wr_document_snapshot(document);
+}
+
+bool wr_history_view(const WrHistory *history, int state, WrSceneView *view)
+{
+    WR_ASSERT(state >= 0 && state <= history->steps.count);
+    const WrDocument *document = *state_at((WrHistory *)history, state); /* only looked at */
+    if (document) *view = wr_scene_view(document->scene);
+    return document != NULL;
+}
+
+bool wr_history_brings_view(const WrHistory *history, int step)
+{
+    WR_ASSERT(step >= 0 && step < history->steps.count);
+    return history->steps.data[step].brings_view;
+}
+
+/* The view after going to `state`: of the near side of the last step on the way that brought one, else the
+   present one. */
+static WrSceneView view_there(const WrHistory *history, int state)
+{
+    const Step *steps = history->steps.data;
+    int side = history->position;
+    for (int k = history->position - 1; k >= state; k--)
+        if (steps[k].brings_view) side = k;
+    for (int k = history->position; k < state; k++)
+        if (steps[k].brings_view) side = k + 1;
+    return wr_scene_view((*state_at((WrHistory *)history, side))->scene); /* only looked at */
+}
+
+static void look(WrDocument *document, const WrSceneView *view)
+{
+    WrSceneView old = wr_scene_view(document->scene);
+    if (wr_scene_view_equal(&old, view)) return;
+    WrScene *scene = wr_scene_clone(document->scene);
+    wr_scene_set_view(scene, view);
+    wr_scene_free(document->scene);
+    document->scene = scene;
+}
+
 WrDocument *wr_history_go(WrHistory *history, int state)
 {
     WR_ASSERT(state >= history->oldest && state <= history->steps.count);
+    WrSceneView view = view_there(history, state);
     history->position = state;
-    return wr_document_snapshot(*state_at(history, state));
+    WrDocument *present = *state_at(history, state);
+    look(present, &view);
+    return wr_document_snapshot(present);
 }
 
 size_t wr_history_budget(const WrHistory *history)

@@ -5,7 +5,11 @@
    back and forth restores every bit. What a step costs is what its two states do not share
    (wr_document_difference); where the sum passes the budget, the oldest states are given up, their lines
    stay. The step before the present state is kept whatever it costs, so that the last command can always
-   be undone. */
+   be undone.
+
+   How the scene is looked at is no part of a state: going back and forth leaves the present view, but over a
+   step that brought a view of its own (a document that was opened) the view goes along: to what it was on
+   the other side of that step. */
 #pragma once
 #include "document/document.h"
 
@@ -33,6 +37,13 @@ const char *wr_history_folder(const WrHistory *history, int step); /* NULL: none
 size_t wr_history_step_bytes(const WrHistory *history, int step);  /* 0 if its state was given up */
 size_t wr_history_bytes(const WrHistory *history);                 /* of all steps that are kept */
 uint64_t wr_history_mark(const WrHistory *history);                /* of the present state */
+
+/* The present state is looked at in another way: `document` differs from it in nothing else. */
+void wr_history_look(WrHistory *history, const WrDocument *document);
+/* The view that a state had when it was the present one last; false if the state was given up. */
+bool wr_history_view(const WrHistory *history, int state, WrSceneView *view);
+/* Did step k bring a view of its own? */
+bool wr_history_brings_view(const WrHistory *history, int step);
 
 /* Make `state` (oldest..count) the present one. Its document, a snapshot that is the caller's. */
 WrDocument *wr_history_go(WrHistory *history, int state);

@@ -92,6 +92,32 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene);
 }
 
+WrSceneView wr_scene_view(const WrScene *scene)
+{
+    return (WrSceneView){ scene->posed, scene->rotate_deg, scene->camera };
+}
+
+void wr_scene_set_view(WrScene *scene, const WrSceneView *view)
+{
+    scene->posed = view->posed;
+    scene->rotate_deg = view->rotate_deg;
+    scene->camera = view->camera;
+}
+
+static bool equal3(WrVec3 a, WrVec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+bool wr_scene_view_equal(const WrSceneView *a, const WrSceneView *b)
+{
+    const WrCamera *p = &a->camera, *q = &b->camera;
+    return a->posed == b->posed && (!a->posed || equal3(a->rotate_deg, b->rotate_deg)) &&
+           p->orthographic == q->orthographic && p->fit == q->fit && equal3(p->eye, q->eye) &&
+           equal3(p->target, q->target) && equal3(p->up, q->up) && p->fov_deg == q->fov_deg &&
+           p->size == q->size;
+}
+
 /* Where to look in the table: periodic axes are brought to 0..1; beyond the ends of a clamped one
  * F is constant, so that replicas there do not repeat. */
 static double table_parameter(double u, double replicate, bool clamped)

@@ -76,6 +76,19 @@ struct WrScene {
     double background[3]; /* linear RGB behind 8-bit pictures */
 };
 
+/* How a scene is looked at: the object's orientation and the camera. Not part of the work: it has a
+   history of its own (document/views.h). */
+typedef struct WrSceneView {
+    bool posed; /* as in WrScene */
+    WrVec3 rotate_deg;
+    WrCamera camera;
+} WrSceneView;
+
+WrSceneView wr_scene_view(const WrScene *scene);
+void wr_scene_set_view(WrScene *scene, const WrSceneView *view);
+/* Do both show the same? The numbers of the kind of camera that is not chosen count too: they are kept. */
+bool wr_scene_view_equal(const WrSceneView *a, const WrSceneView *b);
+
 /* The scene of an empty document: the unit plane facing the viewer, blinn / central, one light from
    the upper left. The caller owns it. */
 WrScene *wr_scene_new(void);
