@@ -9,9 +9,12 @@
 #include "base/text.h"
 #include "base/vec.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static void numbers_print_shortest_and_read_back(void **state)
@@ -216,6 +219,150 @@ static void a_failed_write_leaves_the_old_file_whole(void **state)
     wr_free(link);
 }
 
+/* The name of the one hidden file in a folder. */
+static bool hidden_file(const char *folder, char name[300])
+{
+    DIR *dir = opendir(folder);
+    int count = 0;
+    assert_non_null(dir);
+    for (struct dirent *entry; (entry = readdir(dir));) {
+        if (entry->d_name[0] != '.' || !entry->d_name[1] || entry->d_name[1] == '.') continue;
+        snprintf(name, 300, "%s/%s", folder, entry->d_name);
+        count++;
+    }
+    closedir(dir);
+    return count == 1;
+}
+
+static void what_is_half_written_is_nobody_elses_and_has_no_name_to_guess(void **state)
+{
+    (void)state;
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", first[300], second[300];
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.exr");
+    WrFileTarget target;
+    struct stat info, named;
+    mode_t mask = umask(0027);
+    assert_true(wr_file_begin(&target, path, &err));
+    assert_true(hidden_file(folder, first));
+    assert_int_equal(lstat(first, &named), 0);
+    assert_int_equal(fstat(target.fd, &info), 0);
+    assert_true(named.st_ino == info.st_ino && S_ISREG(named.st_mode));
+    assert_int_equal(named.st_mode & 07777, 0600);
+    assert_true(fcntl(target.fd, F_GETFD) & FD_CLOEXEC);
+    assert_true(wr_file_put(&target, "new", 3, &err));
+    wr_file_verified(&target);
+    assert_true(wr_file_commit(&target, &err));
+    assert_int_equal(stat(path, &info), 0);
+    assert_int_equal(info.st_mode & 07777, 0640); /* by the umask, which was left as it is */
+    assert_int_equal(umask(mask), 0027);
+    /* Sixty-four random bits: neither the process nor a count tells the next name. */
+    assert_true(wr_file_begin(&target, path, &err));
+    assert_true(hidden_file(folder, second));
+    wr_file_abort(&target);
+    const char *dash = strrchr(first, '-');
+    assert_true(dash && strspn(dash + 1, "0123456789abcdef") == 16);
+    assert_memory_not_equal(dash, strrchr(second, '-'), 17);
+    assert_int_equal(chmod(path, 0604), 0);
+    assert_true(wr_file_write(path, "newer", 5, &err));
+    assert_int_equal(stat(path, &info), 0);
+    assert_int_equal(info.st_mode & 07777, 0604);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+    wr_free(path);
+}
+
+/* A file NAME of the folder, as a killed program left it; whether it is there after a sweep. */
+static bool stays(const char *folder, const char *name)
+{
+    char *path = wr_path_join(folder, name);
+    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
+    assert_true(fd >= 0);
+    close(fd);
+    wr_file_sweep(folder);
+    bool there = access(path, F_OK) == 0;
+    unlink(path);
+    wr_free(path);
+    return there;
+}
+
+static void what_dead_processes_left_is_swept_and_nothing_else(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", name[200];
+    assert_non_null(mkdtemp(folder));
+    pid_t dead = fork();
+    if (dead == 0) _exit(0);
+    assert_int_equal(waitpid(dead, NULL, 0), dead);
+    const struct {
+        const char *form;
+        bool swept;
+    } names[] = {
+        { ".a.exr.%d-0123456789abcdef.part.exr", true },
+        { ".a.%d-f.part", true },
+        { ".a.part.exr.%d-17.part.exr", true }, /* as older versions named them */
+        { "a.exr.%d-0123456789abcdef.part.exr", false },
+        { ".a.exr.%d-.part.exr", false },
+        { ".a.exr.-12.part.exr", false },
+        { ".a.exr.%d-xyz.part.exr", false },
+        { ".a.exr.%d-12.parts", false },
+        { ".a.exr.x%d-12.part.exr", false },
+        { ".%d.part", false },
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(name, sizeof name, names[i].form, (int)dead);
+        if (stays(folder, name) == names[i].swept) fail_msg("%s", name);
+    }
+    snprintf(name, sizeof name, ".a.exr.%d-12.part.exr", (int)getppid()); /* lives */
+    assert_true(stays(folder, name));
+    /* Held by somebody, whatever the name says: a process of another container, say. */
+    snprintf(name, sizeof name, "%s/.a.exr.%d-12.part.exr", folder, (int)dead);
+    int fd = open(name, O_RDWR | O_CREAT | O_EXCL, 0600);
+    assert_int_equal(flock(fd, LOCK_EX), 0);
+    wr_file_sweep(folder);
+    assert_int_equal(access(name, F_OK), 0);
+    close(fd);
+    if (geteuid() == 0) { /* another user's */
+        assert_int_equal(chown(name, 12345, 12345), 0);
+        wr_file_sweep(folder);
+        assert_int_equal(access(name, F_OK), 0);
+    }
+    unlink(name);
+    assert_int_equal(symlink("nothing", name), 0); /* no file of ours is a link */
+    wr_file_sweep(folder);
+    struct stat info;
+    assert_int_equal(lstat(name, &info), 0);
+    unlink(name);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+/* The next file written in a folder removes what is left of the one before. */
+static void a_killed_write_is_cleared_away_by_the_next(void **state)
+{
+    (void)state;
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", left[300];
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.txt"), *other = wr_path_join(folder, "b.txt");
+    pid_t child = fork();
+    if (child == 0) {
+        WrFileTarget target;
+        if (wr_file_begin(&target, path, &err) && wr_file_put(&target, "half", 4, &err)) abort();
+        _exit(0);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status));
+    assert_true(hidden_file(folder, left));
+    assert_true(wr_file_write(other, "whole", 5, &err));
+    assert_int_not_equal(access(left, F_OK), 0);
+    unlink(other);
+    assert_int_equal(rmdir(folder), 0);
+    wr_free(path);
+    wr_free(other);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -230,6 +377,9 @@ int main(void)
         cmocka_unit_test(each_piece_of_a_job_runs_once),
         cmocka_unit_test(bytes_become_a_file_in_memory),
         cmocka_unit_test(a_failed_write_leaves_the_old_file_whole),
+        cmocka_unit_test(what_is_half_written_is_nobody_elses_and_has_no_name_to_guess),
+        cmocka_unit_test(what_dead_processes_left_is_swept_and_nothing_else),
+        cmocka_unit_test(a_killed_write_is_cleared_away_by_the_next),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "image/image.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,6 +15,8 @@
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#define DRAWING_MAX ((size_t)256 << 20) /* bytes */
 
 extern char **environ;
 
@@ -189,7 +192,7 @@ static void add_series(WrText *text)
 }
 
 void wr_report_plot_script(const WrLadder *ladder, const char *name, const char *terminal,
-                           const char *out, WrText *text)
+                           WrText *text)
 {
     int fronts;
     const WrRung **front = front_of(ladder, &fronts);
@@ -200,10 +203,8 @@ void wr_report_plot_script(const WrLadder *ladder, const char *name, const char 
     add_data(ladder, front, fronts, text);
     wr_text_addf(text,
                  "set terminal %s size 1280,800 font 'DejaVu Sans,11' background rgb "
-                 "'#ffffff'\nset output ",
+                 "'#ffffff'\nset title ",
                  terminal);
-    add_quoted(text, out);
-    wr_text_add(text, "\nset title ");
     add_quoted(text, wr_text_get(&title));
     wr_text_add(
         text, " noenhanced font ',14'\n"
@@ -237,14 +238,14 @@ void wr_report_plot_script(const WrLadder *ladder, const char *name, const char 
 
 /* ---- the program ---- */
 
-/* gnuplot with its standard input and its complaints on pipes. */
-static bool spawn(int in, int complaints, pid_t *pid, WrError *err)
+/* gnuplot, reading, drawing and complaining to open files. */
+static bool spawn(int in, int out, int complaints, pid_t *pid, WrError *err)
 {
     posix_spawn_file_actions_t actions;
     char *const arguments[] = { "gnuplot", "-d", "-", NULL }; /* -d: no start-up file */
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
     const int trouble = posix_spawnp(pid, "gnuplot", &actions, NULL, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -267,17 +268,49 @@ static bool wait_for(pid_t pid, int complaints, WrError *err)
     return wr_fail(err, "gnuplot failed: %s", words[0] ? words : "it says nothing");
 }
 
-static bool run(const WrText *script, WrError *err)
+/* The drawing, in a file in memory. Everything goes through such files, so that neither side waits for the
+   other. */
+static int run(const WrText *script, WrError *err)
 {
     pid_t pid;
-    /* The script through a file in memory, so that neither side waits for the other. */
     const int in = wr_fd_in_memory("plot", wr_text_get(script), script->length, err);
-    if (in < 0) return false;
+    if (in < 0) return -1;
     const int complaints = memfd_create("complaints", MFD_CLOEXEC);
-    bool good = complaints >= 0 || wr_fail(err, "gnuplot cannot be started: %s", strerror(errno));
-    good = good && spawn(in, complaints, &pid, err) && wait_for(pid, complaints, err);
+    int drawing = memfd_create("drawing", MFD_CLOEXEC);
+    bool good = (complaints >= 0 && drawing >= 0) ||
+                wr_fail(err, "gnuplot cannot be started: %s", strerror(errno));
+    good = good && spawn(in, drawing, complaints, &pid, err) && wait_for(pid, complaints, err);
     close(in);
     if (complaints >= 0) close(complaints);
+    if (good || drawing < 0) return drawing;
+    close(drawing);
+    return -1;
+}
+
+/* gnuplot does not tell whether it could write all of it. */
+static bool check_whole(const char *path, const char *bytes, size_t length, bool png, WrError *err)
+{
+    static const char end[] = "</svg>";
+    if (!png) {
+        const char *last = NULL;
+        for (const char *p = bytes; (p = strstr(p, end)); p++) last = p;
+        return last || wr_fail(err, "%s: gnuplot did not draw it to its end", path);
+    }
+    WrImage *image = wr_image_read_bytes(path, bytes, length, err);
+    wr_image_free(image);
+    return image != NULL;
+}
+
+static bool put_drawing(WrFileTarget *target, int drawing, bool png, WrError *err)
+{
+    char path[32], *bytes;
+    size_t length;
+    snprintf(path, sizeof path, "/proc/self/fd/%d", drawing);
+    if (!wr_file_read(path, DRAWING_MAX, &bytes, &length, err)) return false;
+    bool good = check_whole(target->path, bytes, length, png, err) &&
+                wr_file_put(target, bytes, length, err);
+    if (good) wr_file_verified(target);
+    wr_free(bytes);
     return good;
 }
 
@@ -291,8 +324,10 @@ bool wr_report_plot(const WrLadder *ladder, const char *name, const char *path, 
     if (!png && strcmp(ending, "svg") != 0)
         return wr_fail(err, "plot %s: the name must end in .png or .svg", path);
     if (!wr_file_begin(&target, path, err)) return false;
-    wr_report_plot_script(ladder, name, png ? "pngcairo" : "svg", target.temporary, &script);
-    bool good = run(&script, err);
+    wr_report_plot_script(ladder, name, png ? "pngcairo" : "svg", &script);
+    const int drawing = run(&script, err);
+    bool good = drawing >= 0 && put_drawing(&target, drawing, png, err);
+    if (drawing >= 0) close(drawing);
     if (good) good = wr_file_commit(&target, err);
     else wr_file_abort(&target);
     wr_text_fini(&script);

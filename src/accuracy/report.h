@@ -11,9 +11,9 @@ void wr_report_csv(const WrLadder *ladder, WrText *text);
 /* {"reference":{...},"claim":{...},"rungs":[{...}]}; null where nothing was measured. */
 void wr_report_json(const WrLadder *ladder, const char *name, WrText *text);
 /* The script of a plot of error against time with the front marked, for gnuplot; terminal: "pngcairo" or
-   "svg"; out: the file that it writes. */
+   "svg". It writes to standard output. */
 void wr_report_plot_script(const WrLadder *ladder, const char *name, const char *terminal,
-                           const char *out, WrText *text);
+                           WrText *text);
 /* The same plot to a .png or .svg file, drawn by gnuplot, as a whole replacement. Errors: another ending;
    gnuplot is not installed or fails, with its own words. */
 bool wr_report_plot(const WrLadder *ladder, const char *name, const char *path, WrError *err);

@@ -77,107 +77,6 @@ const char *wr_path_ending(const char *path, char buffer[16])
     return buffer;
 }
 
-/* Follow symbolic links by hand, so that a link to a file that does not exist yet works too. */
-static char *resolve_links(const char *path, WrError *err)
-{
-    char *now = wr_strdup(path);
-    for (int hops = 0; hops < 40; hops++) {
-        char link[PATH_MAX];
-        ssize_t n = readlink(now, link, sizeof link - 1);
-        if (n < 0) return now;
-        link[n] = '\0';
-        char *folder = wr_path_folder(now), *next = wr_path_join(folder, link);
-        wr_free(folder);
-        wr_free(now);
-        now = next;
-    }
-    wr_free(now);
-    wr_fail(err, "%s: too many symbolic links", path);
-    return NULL;
-}
-
-bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err)
-{
-    *target = (WrFileTarget){ 0 };
-    if (!*path) return wr_fail(err, "the name of the file to write is empty");
-    char *real = resolve_links(path, err);
-    if (!real) return false;
-    struct stat info;
-    bool exists = stat(real, &info) == 0;
-    char *folder = wr_path_folder(real);
-    WrText temporary = { 0 };
-    if (exists && S_ISDIR(info.st_mode)) {
-        wr_fail(err, "%s: is a folder; a file name is needed", path);
-    } else if (exists && !S_ISREG(info.st_mode)) {
-        wr_fail(err, "%s: is not a regular file", path);
-    } else if (access(folder, F_OK) != 0) {
-        wr_fail(err, "%s: its folder does not exist", path);
-    } else if (access(folder, W_OK | X_OK) != 0) {
-        wr_fail(err, "%s: its folder cannot be written (%s)", path, strerror(errno));
-    } else if (exists && access(real, W_OK) != 0) {
-        wr_fail(err, "%s: cannot be written (%s)", path, strerror(errno));
-    } else {
-        const char *slash = strrchr(real, '/'), *name = slash ? slash + 1 : real;
-        char ending[16];
-        wr_path_ending(real, ending);
-        static unsigned counter;
-        wr_text_addf(&temporary, "%s/.%.100s.%ld-%u.part%s%s", folder, name, (long)getpid(),
-                     __atomic_fetch_add(&counter, 1, __ATOMIC_RELAXED), *ending ? "." : "", ending);
-    }
-    wr_free(folder);
-    if (!temporary.data) {
-        wr_free(real);
-        return false;
-    }
-    *target = (WrFileTarget){ real, temporary.data };
-    return true;
-}
-
-static void release(WrFileTarget *target)
-{
-    wr_free(target->path);
-    wr_free(target->temporary);
-    *target = (WrFileTarget){ 0 };
-}
-
-static bool sync_path(const char *path, int flags)
-{
-    int fd = open(path, O_RDONLY | O_CLOEXEC | flags);
-    if (fd < 0) return false;
-    bool ok = fsync(fd) == 0;
-    return (close(fd) == 0) && ok;
-}
-
-bool wr_file_commit(WrFileTarget *target, WrError *err)
-{
-    struct stat old;
-    bool ok = true;
-    if (stat(target->path, &old) == 0) {
-        ok = chmod(target->temporary, old.st_mode & 07777) == 0;
-    } else {
-        mode_t mask = umask(0);
-        umask(mask);
-        ok = chmod(target->temporary, 0666 & ~mask) == 0;
-    }
-    ok = ok && sync_path(target->temporary, 0) && rename(target->temporary, target->path) == 0;
-    if (!ok) {
-        wr_fail(err, "%s: cannot be written (%s)", target->path, strerror(errno));
-        wr_file_abort(target);
-        return false;
-    }
-    char *folder = wr_path_folder(target->path);
-    sync_path(folder, O_DIRECTORY); /* some file systems cannot; the rename itself stands */
-    wr_free(folder);
-    release(target);
-    return true;
-}
-
-void wr_file_abort(WrFileTarget *target)
-{
-    if (target->temporary) unlink(target->temporary);
-    release(target);
-}
-
 bool wr_fd_write(int fd, const void *bytes, size_t length)
 {
     const char *from = bytes;
@@ -199,22 +98,6 @@ int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError 
     wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
     if (fd >= 0) close(fd);
     return -1;
-}
-
-bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *err)
-{
-    WrFileTarget target;
-    if (!wr_file_begin(&target, path, err)) return false;
-    int fd = open(target.temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    bool ok = fd >= 0 && wr_fd_write(fd, bytes, length);
-    int saved = errno;
-    if (fd >= 0 && close(fd) != 0) ok = false;
-    if (!ok) {
-        wr_fail(err, "%s: cannot be written (%s)", path, strerror(saved));
-        wr_file_abort(&target);
-        return false;
-    }
-    return wr_file_commit(&target, err);
 }
 
 char *wr_program_folder(void)

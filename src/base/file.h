@@ -7,25 +7,43 @@
    that `length` does not count. */
 bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, WrError *err);
 
-/* A file being replaced: write to `temporary` (same folder, same ending, so that libraries that go by
-   the name know the format), then commit. The target keeps its mode and, if it is a symbolic link,
-   stays one: the file behind it is replaced. */
+/* A file being replaced. What is written goes to `fd`, a file of its own in the same folder that nobody
+   else can read, guess or have put there; once it is whole and has been read back, commit gives it the
+   target's name. The target keeps its mode, owner and list of rights as far as we may give them; if it is
+   a symbolic link, it stays one: the file behind it is replaced. A kill leaves that file behind, under
+   a name that tells the process; wr_file_sweep removes it. */
 typedef struct WrFileTarget {
     char *path;      /* what the user named, links resolved */
-    char *temporary; /* does not exist before begin */
+    char *temporary; /* ".NAME.PID-RANDOM.part.ending" beside it */
+    int fd;        /* of the temporary file, to be written and read; libraries that take nothing but
+                        names get /proc/self/fd/N */
+    bool verified; /* wr_file_verified */
 } WrFileTarget;
 
 /* Refuses a target that is a folder, or whose folder does not exist or cannot be written, before any
-   work is done. */
+   work is done. Sweeps the folder. From the first call on a limit on file sizes is an error, no signal. */
 bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err);
-/* Sync the temporary file and its folder and rename it over the target. On failure the target is as
-   it was and the temporary file is gone. Releases the target either way. */
+/* Write bytes and read them back. */
+bool wr_file_put(WrFileTarget *target, const void *bytes, size_t length, WrError *err);
+/* The caller has read back what was written, and it is right. Nothing is committed without. */
+void wr_file_verified(WrFileTarget *target);
+/* Sync the temporary file, give it the target's rights and name, and sync the folder. On failure the target
+   is as it was and the temporary file is gone. Releases the target either way. */
 bool wr_file_commit(WrFileTarget *target, WrError *err);
 /* Remove the temporary file, if any; the target stays as it was. Fine on a zeroed target. */
 void wr_file_abort(WrFileTarget *target);
+/* "PATH: cannot be written (reason)". */
+bool wr_file_fail(const WrFileTarget *target, const char *reason, WrError *err);
+
+/* Remove what killed programs of this user left half-written in a folder: the name must tell a process that
+   is gone, and nobody may hold the file. */
+void wr_file_sweep(const char *folder);
 
 /* Write bytes to path as one whole replacement. */
 bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *err);
+
+/* Have a limit on file sizes be an error of write(), not the end of the program. */
+void wr_file_outlive_size_limit(void);
 
 /* Write all bytes to an open file, whatever interrupts it. False with errno on failure. */
 bool wr_fd_write(int fd, const void *bytes, size_t length);

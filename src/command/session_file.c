@@ -220,12 +220,21 @@ static bool look_at_file(const char *path, bool *exr, WrError *err)
     return true;
 }
 
+/* What a program that was killed while it wrote left beside the file. */
+static void sweep_beside(const char *path)
+{
+    char *folder = wr_path_folder(path);
+    wr_file_sweep(folder);
+    wr_free(folder);
+}
+
 bool wr_session_open(WrSession *session, const char *path, WrError *err)
 {
     char buffer[16];
     bool exr = false, good, script = strcmp(wr_path_ending(path, buffer), "wrinkle") == 0;
     if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!script && !look_at_file(path, &exr, err)) return false;
+    sweep_beside(path);
     WrSessionState old = wr_session_begin_state(session, wr_document_new());
     session->opening = true;
     if (script) good = open_script(session, path, err);

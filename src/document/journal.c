@@ -8,7 +8,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/random.h>
@@ -344,15 +343,6 @@ static void choose_paths(WrJournal *journal)
     journal->files = wr_journal_files_folder(journal->path);
 }
 
-/* A file-size limit is to be an error of write(), not the end of the program. */
-static void outlive_size_limit(void)
-{
-    struct sigaction now;
-    if (sigaction(SIGXFSZ, NULL, &now) != 0 || now.sa_handler != SIG_DFL) return;
-    now.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &now, NULL);
-}
-
 WrJournal *wr_journal_begin(const WrJournalOptions *options, const WrJournalStart *start)
 {
     WrJournal *journal = wr_alloc(1, sizeof *journal);
@@ -370,7 +360,7 @@ WrJournal *wr_journal_begin(const WrJournalOptions *options, const WrJournalStar
     else wr_journal_folder(&folder, &err);
     o->folder = folder.data ? absolute_path(folder.data) : NULL;
     wr_text_fini(&folder);
-    outlive_size_limit();
+    wr_file_outlive_size_limit();
     if (o->folder) {
         wr_journal_sweep(o->folder);
         choose_paths(journal);

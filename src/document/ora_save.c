@@ -2,10 +2,14 @@
 
 #include "base/array.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "document/ora_stack.h"
+#include "document/ora_zip.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <string.h>
-#include <zip.h>
+#include <unistd.h>
 
 #define THUMBNAIL 256 /* pixels along a side at most */
 #define DOS_DATE 0x21 /* 1 January 1980: no file tells when it was saved */
@@ -18,12 +22,15 @@ typedef struct Entry {
     const WrField *heights, *cover, *mask; /* what its rows are made of; the last two may be NULL */
     char *bytes;                           /* the finished file, while it is being read; owned */
     size_t length, at;
-    bool known; /* `length` is right */
+    bool known;     /* `length` is right, and */
+    WrHash content; /* of the file */
+    bool text;      /* `bytes` stay: nothing could make them again */
 } Entry;
 
 typedef struct Saving {
     const WrDocument *document;
     zip_t *archive;
+    WrOraSink sink;
     float low, high; /* heights that previews show as black and white */
     WR_ARRAY(Entry *) entries;
     WrText stack, scene;
@@ -107,6 +114,7 @@ static bool render(Entry *entry)
                               &entry->to->err))
         return false;
     entry->known = true;
+    entry->content = wr_hash_bytes(entry->bytes, entry->length, (WrHash){ 0 });
     return true;
 }
 
@@ -145,7 +153,7 @@ static zip_int64_t on_source(void *ctx, void *data, zip_uint64_t length, zip_sou
         entry->at += take;
         return (zip_int64_t)take;
     }
-    if (command == ZIP_SOURCE_CLOSE) {
+    if (command == ZIP_SOURCE_CLOSE && !entry->text) {
         wr_free(entry->bytes);
         entry->bytes = NULL;
     }
@@ -164,16 +172,6 @@ static bool add_source(Saving *to, const char *name, zip_source_t *source, WrErr
     return true;
 }
 
-/* The bytes live until the archive is closed. */
-static bool add_text(Saving *to, const char *name, const char *text, size_t length, WrError *err)
-{
-    zip_error_t trouble;
-    zip_error_init(&trouble);
-    zip_source_t *source = zip_source_buffer_create(text, length, 0, &trouble);
-    zip_error_fini(&trouble);
-    return add_source(to, name, source, err);
-}
-
 static bool add_entry(Saving *to, Entry made, WrError *err)
 {
     Entry *entry = wr_alloc(1, sizeof *entry);
@@ -186,6 +184,18 @@ static bool add_entry(Saving *to, Entry made, WrError *err)
     zip_source_t *source = zip_source_function_create(on_source, entry, &trouble);
     zip_error_fini(&trouble);
     return add_source(to, entry->name, source, err);
+}
+
+/* A file that is there already; the bytes are copied. */
+static bool add_text(Saving *to, const char *name, const char *text, size_t length, WrError *err)
+{
+    Entry entry = { .name = wr_strdup(name),
+                    .bytes = wr_strndup(text, length),
+                    .length = length,
+                    .known = true,
+                    .text = true,
+                    .content = wr_hash_bytes(text, length, (WrHash){ 0 }) };
+    return add_entry(to, entry, err);
 }
 
 /* Takes the name. */
@@ -392,22 +402,44 @@ static bool fill_archive(Saving *to, WrError *err)
            add_pictures_of_all(to, err);
 }
 
-static bool write_archive(Saving *to, const char *temporary, WrError *err)
+static bool write_archive(Saving *to, int fd, WrError *err)
 {
-    int trouble = 0;
-    to->archive = zip_open(temporary, ZIP_CREATE | ZIP_EXCL, &trouble);
-    if (!to->archive) {
-        zip_error_t error;
-        zip_error_init_with_code(&error, trouble);
-        wr_fail(err, "%s", zip_error_strerror(&error));
-        zip_error_fini(&error);
-        return false;
-    }
+    to->sink = (WrOraSink){ .fd = fd };
+    to->archive = wr_ora_sink_open(&to->sink, err);
+    if (!to->archive) return false;
     bool good = fill_archive(to, err);
     if (good && zip_close(to->archive) != 0)
-        good = wr_fail(err, "%s", to->err.text[0] ? to->err.text : zip_strerror(to->archive));
+        good = wr_fail(err, "%s",
+                       to->err.text[0]  ? to->err.text
+                       : to->sink.error ? strerror(to->sink.error)
+                                        : zip_strerror(to->archive));
     else if (good) to->archive = NULL;
     if (to->archive) zip_discard(to->archive);
+    return good;
+}
+
+/* Every file in the archive is what was put there; that the pictures were whole was seen when they were
+ * made. */
+static bool verify_archive(const Saving *to, const char *name, int fd, WrError *err)
+{
+    char path[32];
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    int again = open(path, O_RDONLY | O_CLOEXEC);
+    if (again < 0) return wr_fail(err, "%s", strerror(errno));
+    WrOraZip *zip = wr_ora_zip_take(name, again, err);
+    bool good = zip != NULL;
+    for (int i = 0; i < to->entries.count && good; i++) {
+        const Entry *entry = to->entries.data[i];
+        char *bytes;
+        size_t length;
+        good = wr_ora_zip_read(zip, entry->name, entry->length, &bytes, &length, err);
+        if (!good) break;
+        if (length != entry->length ||
+            !wr_hash_equal(wr_hash_bytes(bytes, length, (WrHash){ 0 }), entry->content))
+            good = wr_fail(err, "%s in it does not read back as it was written", entry->name);
+        wr_free(bytes);
+    }
+    wr_ora_zip_close(zip);
     return good;
 }
 
@@ -418,8 +450,9 @@ bool wr_ora_save(const WrDocument *document, const char *scene_text, const char 
     Saving *to = wr_alloc(1, sizeof *to);
     to->document = document;
     wr_text_add(&to->scene, scene_text);
-    bool good = write_archive(to, target.temporary, err);
-    if (!good) wr_error_prefix(err, "%s: cannot be written: ", path);
+    bool good = write_archive(to, target.fd, err) && verify_archive(to, path, target.fd, err);
+    if (good) wr_file_verified(&target);
+    else wr_error_prefix(err, "%s: cannot be written: ", path);
     for (int i = 0; i < to->entries.count; i++) {
         wr_free(to->entries.data[i]->name);
         wr_free(to->entries.data[i]->bytes);

@@ -22,15 +22,23 @@ struct WrOraZip {
 
 WrOraZip *wr_ora_zip_open(const char *path, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK), trouble = 0;
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd >= 0) return wr_ora_zip_take(path, fd, err);
+    wr_fail(err, "%s: %s", path, strerror(errno));
+    return NULL;
+}
+
+WrOraZip *wr_ora_zip_take(const char *path, int fd, WrError *err)
+{
+    int trouble = 0;
     struct stat info;
     zip_t *archive = NULL;
-    if (fd < 0 || fstat(fd, &info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
+    if (fstat(fd, &info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
     else if (!S_ISREG(info.st_mode)) wr_fail(err, "%s: is not a regular file", path);
     else if (!(archive = zip_fdopen(fd, 0, &trouble)))
         wr_fail(err, "%s: is not an OpenRaster file, truncated or damaged", path);
     if (!archive) {
-        if (fd >= 0) close(fd);
+        close(fd);
         return NULL;
     }
     zip_int64_t entries = zip_get_num_entries(archive, 0);

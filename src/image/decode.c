@@ -88,3 +88,20 @@ bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels
     return wr_fail(err, "cannot be read whole, truncated or damaged%s%s%s", *reason ? " (" : "",
                    reason, *reason ? ")" : "");
 }
+
+bool wr_decoder_digest(WrDecoder *decoder, int part, int y, int rows, int channels, WrHash *digest,
+                       bool *memory, WrError *err)
+{
+    size_t row = (size_t)wr_decoder_part(decoder, part).width * (size_t)channels;
+    int step = rows < WR_IMAGE_STRIP ? rows : WR_IMAGE_STRIP;
+    float *strip = wr_try_alloc(row * (size_t)step, sizeof *strip, "rows of a picture", err);
+    bool good = strip != NULL;
+    if (memory) *memory = !good;
+    for (int done = 0; done < rows && good; done += step) {
+        int take = rows - done < step ? rows - done : step;
+        good = wr_decoder_read(decoder, part, y + done, take, channels, strip, memory, err);
+        if (good) wr_digest_strip(digest, strip, row * (size_t)take);
+    }
+    wr_free(strip);
+    return good;
+}

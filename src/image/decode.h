@@ -2,6 +2,7 @@
    the reader process does for strangers' files, and what reading "inside" does without it.
    Private to this room. */
 #pragma once
+#include "base/hash.h"
 #include "image/image.h"
 
 typedef struct WrDecoder WrDecoder;
@@ -23,3 +24,12 @@ const char *wr_decoder_attribute(const WrDecoder *decoder, int part, const char 
 /* Rows [y, y + rows) and the first `channels` channels as WrImage has them, interleaved. */
 bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels, float *out,
                      bool *memory, WrError *err);
+
+/* The digest of a part: its values, WR_IMAGE_STRIP rows at a time, each strip's chained into the one above. */
+static inline void wr_digest_strip(WrHash *digest, const float *values, size_t count)
+{
+    *digest = wr_hash_bytes(values, count * sizeof *values, *digest);
+}
+/* Chain rows [y, y + rows) into *digest, y a multiple of WR_IMAGE_STRIP. Holds one strip. */
+bool wr_decoder_digest(WrDecoder *decoder, int part, int y, int rows, int channels, WrHash *digest,
+                       bool *memory, WrError *err);

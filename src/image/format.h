@@ -13,6 +13,7 @@ typedef struct WrImageFormat {
     unsigned channels;      /* bit c is set if c channels can be written; bit 0: any number up to
                                WR_IMAGE_CHANNELS_MAX */
     bool pictures_only;     /* keeps too little for numbers */
+    bool exact;             /* gives back every code or float as it was given */
 } WrImageFormat;
 
 /* By the ending of a file's name; NULL and an error if we do not write such files. */

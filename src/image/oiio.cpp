@@ -6,7 +6,9 @@
    - integer codes pass through float factors: they are read as they are and divided here;
    - alpha is multiplied into colours unless told otherwise;
    - libjpeg ends the whole program when it cannot write, and libpng talks on standard error: they never
-     get to see that a disk is full. */
+     get to see that a disk is full;
+   - EXR of several parts and TIFF are written to a file that the library opens, and it misses failures at
+     the end: the caller gives it a memory file, and reads back what was written. */
 extern "C" {
 #include "image/oiio.h"
 }
@@ -326,9 +328,7 @@ static bool reader_read(WrOiioReader *reader, int part, int y, int rows, int cha
 
 struct WrOiioWriter {
     std::string path;
-    /* Outlives `out`. NULL for TIFF, which reads back what it wrote, and for EXR of several parts, which
-       opens its file itself: both report failures well. */
-    std::unique_ptr<Disk> disk;
+    std::unique_ptr<Disk> disk; /* outlives `out`; NULL where the library opens the file itself */
     std::unique_ptr<ImageOutput> out;
     std::vector<ImageSpec> specs;
     std::vector<TypeDesc> types;
@@ -394,7 +394,7 @@ static bool check_write(WrOiioWriter &writer, bool ok, char *reason)
     return fail(reason, message, writer.path);
 }
 
-static bool create_file(WrOiioWriter &writer, const char *format, const WrImageOut *parts,
+static bool create_file(WrOiioWriter &writer, int file, const char *format, const WrImageOut *parts,
                         int count, char *reason)
 {
     static const TypeDesc types[] = { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::FLOAT };
@@ -412,9 +412,8 @@ static bool create_file(WrOiioWriter &writer, const char *format, const WrImageO
         writer.specs.push_back(spec);
         writer.types.push_back(types[parts[i].type]);
     }
-    if (count == 1 && std::strcmp(format, "tiff") != 0) {
-        writer.disk = std::make_unique<Disk>(writer.path);
-        if (writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
+    if (!wr_oiio_by_name(format, count)) {
+        writer.disk = std::make_unique<Disk>(file);
         if (!writer.out->set_ioproxy(writer.disk.get()))
             return fail(reason, "the format cannot be written to a file of ours");
     }
@@ -426,14 +425,14 @@ static bool create_file(WrOiioWriter &writer, const char *format, const WrImageO
     return true;
 }
 
-static WrOiioWriter *writer_create(const char *path, const char *format, const WrImageOut *parts,
-                                   int count, char *reason)
+static WrOiioWriter *writer_create(int file, const char *format, const WrImageOut *parts, int count,
+                                   char *reason)
 {
     WrOiioWriter *created = nullptr;
     guarded(reason, [&] {
         auto writer = std::make_unique<WrOiioWriter>();
-        writer->path = path;
-        if (!create_file(*writer, format, parts, count, reason)) return false;
+        writer->path = "/proc/self/fd/" + std::to_string(file);
+        if (!create_file(*writer, file, format, parts, count, reason)) return false;
         created = writer.release();
         return true;
     });
@@ -481,7 +480,7 @@ static bool writer_finish(WrOiioWriter *writer, bool keep, char *reason)
     bool ok = guarded(reason, [&] {
         if (!keep && writer->png) complete_png(*writer);
         bool closed = writer->out->close();
-        if (writer->disk) writer->disk->shut();
+        if (writer->disk) writer->disk->empty();
         return check_write(*writer, closed, reason);
     });
     char ignored[WR_OIIO_REASON];

@@ -8,7 +8,9 @@
 #pragma once
 #include "image/image.h"
 
-#define WR_OIIO_VERSION 2
+#include <string.h>
+
+#define WR_OIIO_VERSION 3
 #define WR_OIIO_REASON 320
 #define WR_OIIO_SYMBOL "wr_oiio_table"
 #define WR_OIIO_NO_MEMORY "not enough memory" /* a reason that callers look for */
@@ -37,8 +39,10 @@ typedef struct WrOiioTable {
     bool (*read)(WrOiioReader *reader, int part, int y, int rows, int channels, float *out,
                  char *reason);
 
-    WrOiioWriter *(*create)(const char *path, const char *format, const WrImageOut *parts,
-                            int count, char *reason);
+    /* file: open for writing, empty, the caller's; where wr_oiio_by_name, the library opens it again and not
+       all failures are told. */
+    WrOiioWriter *(*create)(int file, const char *format, const WrImageOut *parts, int count,
+                            char *reason);
     /* Rows of the present part, downwards. */
     bool (*write)(WrOiioWriter *writer, int y, int rows, const void *pixels, char *reason);
     /* Go on with the next part. */
@@ -47,6 +51,13 @@ typedef struct WrOiioTable {
        the file is given up. */
     bool (*finish)(WrOiioWriter *writer, bool keep, char *reason);
 } WrOiioTable;
+
+/* Whether the library does not write such a file through what we hand it, but opens it itself: EXR of several
+   parts, and TIFF, which reads back what it wrote. */
+static inline bool wr_oiio_by_name(const char *format, int count)
+{
+    return count > 1 || strcmp(format, "tiff") == 0;
+}
 
 /* The table, loaded on first use by any thread; NULL and an error that says where it was looked for. */
 const WrOiioTable *wr_oiio(WrError *err);

@@ -4,21 +4,17 @@
 #include <OpenImageIO/filesystem.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <string>
+#include <cstring>
+#include <unistd.h>
+#include <vector>
 
-/* A file for a library to write that takes everything and remembers the first failure. */
+/* An open file of the caller's for a library to write that takes everything and remembers the first
+   failure. */
 class Disk : public OIIO::Filesystem::IOProxy
 {
   public:
-    explicit Disk(const std::string &path)
-        : IOProxy(path, Write), file(std::fopen(path.c_str(), in_memory(path) ? "wb" : "wbx"))
+    explicit Disk(int to) : IOProxy("", Write), file(to), block(1 << 16)
     {
-        if (!file) error = errno;
-    }
-    ~Disk() override
-    {
-        shut();
     }
     const char *proxytype() const override
     {
@@ -27,7 +23,6 @@ class Disk : public OIIO::Filesystem::IOProxy
     bool seek(int64_t offset) override
     {
         m_pos = offset;
-        if (!error && fseeko(file, offset, SEEK_SET) != 0) error = errno;
         return true;
     }
     int64_t tell() override
@@ -40,8 +35,16 @@ class Disk : public OIIO::Filesystem::IOProxy
     }
     size_t write(const void *bytes, size_t count) override
     {
-        if (!error && count && std::fwrite(bytes, 1, count, file) != count) error = errno;
-        m_pos += static_cast<int64_t>(count);
+        const char *from = static_cast<const char *>(bytes);
+        for (size_t left = count; left > 0;) {
+            if (m_pos != at + static_cast<int64_t>(held) || held == block.size()) empty();
+            size_t take = std::min(left, block.size() - held);
+            std::memcpy(block.data() + held, from, take);
+            held += take;
+            from += take;
+            left -= take;
+            m_pos += static_cast<int64_t>(take);
+        }
         if (m_pos > end) end = m_pos;
         return count;
     }
@@ -49,19 +52,23 @@ class Disk : public OIIO::Filesystem::IOProxy
     {
         return static_cast<size_t>(end);
     }
-    void shut()
+    /* What is held back goes to the file; what comes next goes to where the library is now. */
+    void empty()
     {
-        if (file && std::fclose(file) != 0 && !error) error = errno;
-        file = nullptr;
+        for (size_t done = 0; done < held && !error;) {
+            ssize_t n = ::pwrite(file, block.data() + done, held - done, at + done);
+            if (n < 0 && errno == EINTR) continue;
+            if (n <= 0) error = n < 0 ? errno : ENOSPC;
+            else done += static_cast<size_t>(n);
+        }
+        held = 0;
+        at = m_pos;
     }
     int error = 0; /* errno of the first failure */
 
   private:
-    /* A memory file of the caller's is there already. */
-    static bool in_memory(const std::string &path)
-    {
-        return path.compare(0, 14, "/proc/self/fd/") == 0;
-    }
-    FILE *file;
-    int64_t end = 0;
+    int file;
+    std::vector<char> block; /* bytes that belong at `at` and were not written yet */
+    size_t held = 0;
+    int64_t at = 0, end = 0;
 };

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "image/decode.h"
 #include "image/process.h"
+#include "image/read_inner.h"
 #include "image/reader.h"
 
 #include <errno.h>
@@ -46,13 +47,12 @@ static int open_regular(const char *path, WrError *err)
     return -1;
 }
 
-/* A file that is nowhere but in memory. */
 /* Takes the descriptor over; -1 passes a failure on. */
-static WrImageFile *open_file(const char *name, int fd, int most, WrError *err)
+static WrImageFile *open_file(const char *name, int fd, int most, bool outside, WrError *err)
 {
     if (fd < 0) return NULL;
     WrImageFile file = { .fd = -1 };
-    if (read_inside()) {
+    if (!outside) {
         char ending[16];
         file.decoder = wr_decoder_open(fd, wr_path_ending(name, ending), most, NULL, err);
         if (file.decoder) file.fd = fd;
@@ -70,7 +70,13 @@ static WrImageFile *open_file(const char *name, int fd, int most, WrError *err)
 
 WrImageFile *wr_image_file_open(const char *path, WrError *err)
 {
-    return open_file(path, open_regular(path, err), WR_IMAGE_PARTS_MAX, err);
+    return open_file(path, open_regular(path, err), WR_IMAGE_PARTS_MAX, !read_inside(), err);
+}
+
+/* Our own file: where there is no reader process to be had, it is not lost for that. */
+WrImageFile *wr_image_file_take(const char *name, int fd, WrError *err)
+{
+    return open_file(name, fd, WR_IMAGE_PARTS_MAX, !read_inside() && wr_process_start(NULL), err);
 }
 
 void wr_image_file_close(WrImageFile *file)
@@ -124,6 +130,14 @@ bool wr_image_file_read(WrImageFile *file, int part, float *out, WrError *err)
     return true;
 }
 
+bool wr_image_file_digest(WrImageFile *file, int part, int y, int rows, WrHash *digest,
+                          WrError *err)
+{
+    int channels = wr_image_file_part(file, part).channels;
+    if (file->reader) return wr_reader_digest(file->reader, part, y, rows, channels, digest, err);
+    return wr_decoder_digest(file->decoder, part, y, rows, channels, digest, NULL, err);
+}
+
 /* ---- whole pictures ---- */
 
 /* Values that are not finite become 0; returns how many pixels had one. */
@@ -168,7 +182,7 @@ static WrImage *read_first_part(WrImageFile *file, WrError *err)
 
 static WrImage *read_whole(const char *name, int fd, WrError *err)
 {
-    WrImageFile *file = open_file(name, fd, 1, err);
+    WrImageFile *file = open_file(name, fd, 1, !read_inside(), err);
     WrImage *image = file ? read_first_part(file, err) : NULL;
     wr_image_file_close(file);
     return image;

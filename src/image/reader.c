@@ -392,6 +392,20 @@ bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, f
     return good;
 }
 
+bool wr_reader_digest(WrReader *reader, int part, int y, int rows, int channels, WrHash *digest,
+                      WrError *err)
+{
+    WrWireDigest want = { part, y, rows, channels, *digest };
+    Answer answer;
+    if (reader->dead) return wr_fail(err, "%s", reader->end.text);
+    wr_wire_send(reader->channel, WR_WIRE_DIGEST, &want, sizeof want, -1);
+    if (!receive(reader, WR_WIRE_DIGEST, &answer, err)) return false;
+    bool good = answer.head.length == sizeof *digest;
+    if (good) memcpy(digest, answer.bytes, sizeof *digest);
+    wr_free(answer.bytes);
+    return good || die_of_nonsense(reader) || wr_fail(err, "%s", reader->end.text);
+}
+
 /* ---- other files ---- */
 
 bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask, size_t ask_length,

@@ -28,6 +28,10 @@ const char *wr_reader_attribute(WrReader *reader, int part, const char *name);
 bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, float *out,
                     WrError *err);
 
+/* Chain rows of a part into *digest, as wr_image_digest does; no pixels travel. */
+bool wr_reader_digest(WrReader *reader, int part, int y, int rows, int channels, WrHash *digest,
+                      WrError *err);
+
 /* Have a file of another kind read in one go.
  *
  * task     what kind; ask: [ask_length] bytes that its reader in the process understands

@@ -93,6 +93,17 @@ static void read_rows(Serving *serving, const WrWireRead *want, int fd)
     else answer_failure(memory, &err);
 }
 
+static void digest_rows(const Serving *serving, const WrWireDigest *want)
+{
+    WrError err = { "" };
+    bool memory = false;
+    WrHash digest = want->digest;
+    if (wr_decoder_digest(serving->decoder, want->part, want->y, want->rows, want->channels,
+                          &digest, &memory, &err))
+        answer(WR_WIRE_DIGEST, &digest, sizeof digest);
+    else answer_failure(memory, &err);
+}
+
 static void find_text(const Serving *serving, const WrWireText *want)
 {
     const char *text = wr_decoder_attribute(serving->decoder, want->part, want->name);
@@ -106,6 +117,7 @@ static void serve_requests(Serving *serving)
         WrWireHead head;
         union {
             WrWireRead read;
+            WrWireDigest digest;
             WrWireText text;
         } want;
         int fd = -1, ignored;
@@ -114,6 +126,7 @@ static void serve_requests(Serving *serving)
             wr_wire_receive(CHANNEL, &want, head.length, 0.0, &ignored) != WR_WIRE_GOT)
             return;
         if (head.kind == WR_WIRE_READ) read_rows(serving, &want.read, fd);
+        if (head.kind == WR_WIRE_DIGEST) digest_rows(serving, &want.digest);
         if (head.kind == WR_WIRE_TEXT) find_text(serving, &want.text);
     }
 }

@@ -11,6 +11,7 @@
 
      child:    OPENED parts     FAILED sentence     MEMORY
      program:  READ WrWireRead  -> child: DONE, FAILED, MEMORY
+               DIGEST WrWireDigest -> child: DIGEST WrHash, FAILED, MEMORY
                TEXT WrWireText  -> child: TEXT (found: the text and a NUL; else nothing)
      process:  DIED int32 (a wait status)
 
@@ -21,11 +22,12 @@
    Pixels go through a memory file of the program's, sealed against change of size, that travels with the
    first READ that needs it. */
 #pragma once
+#include "base/hash.h"
 #include "base/text.h"
 
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 3
+#define WR_WIRE_VERSION 4
 #define WR_WIRE_MAX (256U << 20) /* bytes of a message */
 
 /* What kind of file. */
@@ -49,7 +51,8 @@ typedef enum WrWireKind {
     WR_WIRE_TEXT,
     WR_WIRE_DIED,
     WR_WIRE_ASK,
-    WR_WIRE_BLOCK
+    WR_WIRE_BLOCK,
+    WR_WIRE_DIGEST
 } WrWireKind;
 
 typedef struct WrWireHead {
@@ -61,6 +64,11 @@ typedef struct WrWireRead {
     uint64_t at;    /* bytes into the memory file */
     uint64_t bytes; /* of a memory file that comes with this message; 0: the one sent before */
 } WrWireRead;
+
+typedef struct WrWireDigest {
+    int32_t part, y, rows, channels;
+    WrHash digest; /* of the rows above */
+} WrWireDigest;
 
 typedef struct WrWireText {
     int32_t part;

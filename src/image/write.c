@@ -1,14 +1,19 @@
-#include "image/format.h"
+#include "image/decode.h"
 #include "image/oiio.h"
+#include "image/verify.h"
 
 #include "base/file.h"
 #include "base/memory.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#define SPOOL_MB 1024 /* files of more go to the disk at once (choose_spool) */
 
 static size_t type_bytes(WrPixelType type)
 {
@@ -44,43 +49,126 @@ typedef struct Writing {
     const char *path;
     const WrOiioTable *library;
     WrOiioWriter *writer;
+    float *values; /* scratch: a strip as a reader gives it */
 } Writing;
 
-static bool write_part(const Writing *to, const WrImageOut *part, WrError *err)
+/* What reading the strip back will give. */
+static void digest_strip(const Writing *to, WrPixelType type, const void *pixels, size_t count,
+                         WrHash *digest)
+{
+    const uint8_t *bytes = pixels;
+    const uint16_t *words = pixels;
+    const float *values = pixels;
+    if (type != WR_PIXEL_F32) values = to->values;
+    for (size_t i = 0; type == WR_PIXEL_U8 && i < count; i++)
+        to->values[i] = (float)bytes[i] / 255.0f;
+    for (size_t i = 0; type == WR_PIXEL_U16 && i < count; i++)
+        to->values[i] = (float)words[i] / 65535.0f;
+    wr_digest_strip(digest, values, count);
+}
+
+static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrError *err)
 {
     size_t row = (size_t)part->width * (size_t)part->channels;
     int strip = part->height < WR_IMAGE_STRIP ? part->height : WR_IMAGE_STRIP;
     void *pixels =
         wr_try_alloc(row * (size_t)strip, type_bytes(part->type), "rows of a picture", err);
-    if (!pixels) return false;
-    bool ok = true;
+    to->values = wr_try_alloc(row * (size_t)strip, sizeof(float), "rows of a picture", err);
+    bool ok = pixels && to->values;
     char reason[WR_OIIO_REASON] = "";
     for (int y = 0; y < part->height && ok; y += strip) {
         int rows = part->height - y < strip ? part->height - y : strip;
         ok = part->rows(part->ctx, y, rows, pixels, err);
+        if (ok) digest_strip(to, part->type, pixels, row * (size_t)rows, digest);
         if (ok && !to->library->write(to->writer, y, rows, pixels, reason))
             ok = fail_write(err, to->path, reason);
     }
     wr_free(pixels);
+    wr_free(to->values);
     return ok;
 }
 
-static bool write_file(const char *path, const char *temporary, const char *format,
-                       const WrImageOut *parts, int count, WrError *err)
+/* file: open for writing, empty. digests: [count], of what was written. */
+static bool write_file(const char *path, int file, const char *format, const WrImageOut *parts,
+                       int count, WrHash *digests, WrError *err)
 {
     char reason[WR_OIIO_REASON] = "";
     Writing to = { .path = path, .library = wr_oiio(err) };
     if (!to.library) return false;
-    to.writer = to.library->create(temporary, format, parts, count, reason);
+    to.writer = to.library->create(file, format, parts, count, reason);
     if (!to.writer) return fail_write(err, path, reason);
     bool ok = true;
     for (int i = 0; i < count && ok; i++) {
         if (i > 0 && !to.library->next(to.writer, reason)) ok = fail_write(err, path, reason);
-        ok = ok && write_part(&to, &parts[i], err);
+        ok = ok && write_part(&to, &parts[i], &digests[i], err);
     }
     bool whole = to.library->finish(to.writer, ok, reason);
     if (ok && !whole) ok = fail_write(err, path, reason);
     return ok;
+}
+
+/* Bytes that the parts' values take; a file is seldom larger. */
+static double raw_bytes(const WrImageOut *parts, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++)
+        sum += (double)parts[i].width * parts[i].height * parts[i].channels *
+               (double)type_bytes(parts[i].type);
+    return sum;
+}
+
+/* Where a library that opens its file itself writes to: a memory file, whose bytes then go to the disk where we
+   see every failure; what is too large for that goes there at once, and only reading it back tells. */
+static int choose_spool(const WrFileTarget *target, const char *format, const WrImageOut *parts,
+                        int count)
+{
+    const char *setting = getenv("WRINKLE_SPOOL_MB");
+    double most = SPOOL_MB;
+    if (setting && !wr_number_parse(setting, strlen(setting), &most)) most = SPOOL_MB;
+    if (!wr_oiio_by_name(format, count) || raw_bytes(parts, count) > most * 1e6) return target->fd;
+    int fd = memfd_create("wrinkle picture", MFD_CLOEXEC);
+    return fd >= 0 ? fd : target->fd;
+}
+
+static bool copy_file(int from, const WrFileTarget *target, WrError *err)
+{
+    static const size_t size = 1 << 18;
+    char *block = wr_alloc(size, 1);
+    bool good = true;
+    off_t at = 0;
+    for (ssize_t n = 1; good && n != 0; at += n > 0 ? n : 0) {
+        n = pread(from, block, size, at);
+        if (n < 0 && errno == EINTR) continue;
+        good = n >= 0 && (n == 0 || wr_fd_write(target->fd, block, (size_t)n));
+        if (!good) wr_file_fail(target, strerror(errno), err);
+    }
+    wr_free(block);
+    return good;
+}
+
+/* A limit on file sizes holds for memory files as well, where the library does not tell of it. */
+static bool is_cut(int fd)
+{
+    struct stat info;
+    struct rlimit limit;
+    return fstat(fd, &info) == 0 && getrlimit(RLIMIT_FSIZE, &limit) == 0 &&
+           (rlim_t)info.st_size >= limit.rlim_cur;
+}
+
+static bool write_target(WrFileTarget *target, const char *path, const WrImageFormat *format,
+                         const WrImageOut *parts, int count, WrHash *digests, WrError *err)
+{
+    WrError inner = { "" };
+    int spool = choose_spool(target, format->library, parts, count);
+    bool good = write_file(path, spool, format->library, parts, count, digests, err) &&
+                (spool == target->fd || copy_file(spool, target, err));
+    if (spool != target->fd) close(spool);
+    if (!good) return false;
+    if (wr_image_verify(path, target->fd, format, parts, count, digests, &inner)) {
+        wr_file_verified(target);
+        return true;
+    }
+    return fail_write(err, path, is_cut(target->fd) ? strerror(EFBIG) : inner.text);
 }
 
 bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrError *err)
@@ -88,12 +176,12 @@ bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrErro
     if (!check_parts(path, parts, count, err)) return false;
     WrFileTarget target;
     if (!wr_file_begin(&target, path, err)) return false;
-    if (!write_file(path, target.temporary, wr_image_format(path, err)->library, parts, count,
-                    err)) {
-        wr_file_abort(&target);
-        return false;
-    }
-    return wr_file_commit(&target, err);
+    WrHash *digests = wr_alloc((size_t)count, sizeof *digests);
+    bool good = write_target(&target, path, wr_image_format(path, err), parts, count, digests, err);
+    wr_free(digests);
+    if (good) return wr_file_commit(&target, err);
+    wr_file_abort(&target);
+    return false;
 }
 
 /* Everything that was written to a memory file. */
@@ -122,15 +210,17 @@ bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes
                           WrError *err)
 {
     if (!check_parts(name, part, 1, err)) return false;
-    const char *format = wr_image_format(name, err)->library;
-    if (strcmp(format, "tiff") == 0)
+    const WrImageFormat *format = wr_image_format(name, err);
+    if (strcmp(format->library, "tiff") == 0)
         return wr_fail(err, "%s: TIFF files cannot be written into memory", name);
     int fd = memfd_create("wrinkle picture", MFD_CLOEXEC);
     if (fd < 0) return wr_fail(err, "%s: %s", name, strerror(errno));
-    char path[32];
-    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-    bool ok =
-        write_file(name, path, format, part, 1, err) && take_bytes(name, fd, bytes, length, err);
+    WrError inner = { "" };
+    WrHash digest = { 0 };
+    bool ok = write_file(name, fd, format->library, part, 1, &digest, err);
+    if (ok && !wr_image_verify(name, fd, format, part, 1, &digest, &inner))
+        ok = fail_write(err, name, inner.text);
+    ok = ok && take_bytes(name, fd, bytes, length, err);
     close(fd);
     return ok;
 }

@@ -1,0 +1,72 @@
+#include "image/verify.h"
+
+#include "image/read_inner.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Another opening of the same file, so that neither moves the other's position. */
+static int open_again(int fd, WrError *err)
+{
+    char path[32];
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    int again = open(path, O_RDONLY | O_CLOEXEC);
+    if (again < 0) wr_fail(err, "%s", strerror(errno));
+    return again;
+}
+
+static bool verify_texts(WrImageFile *file, int index, const WrImageOut *part, WrError *err)
+{
+    for (int i = 0; i < part->attribute_count; i++) {
+        const char *want = part->attributes[i].text;
+        const char *have = wr_image_file_attribute(file, index, part->attributes[i].name);
+        if (strcmp(have ? have : "", want) != 0)
+            return wr_fail(err, "%.80s of part %d is not what was written",
+                           part->attributes[i].name, index + 1);
+    }
+    return true;
+}
+
+static bool verify_part(WrImageFile *file, int index, const WrImageFormat *format,
+                        const WrImageOut *part, WrHash want, WrError *err)
+{
+    WrImagePart is = wr_image_file_part(file, index);
+    WrHash have = { 0 };
+    /* EXR gives channels back in the order of their names. */
+    bool exact = format->exact && !(part->channel_names && part->channels > 1);
+    if (is.width != part->width || is.height != part->height)
+        return wr_fail(err, "part %d is %dx%d, not %dx%d", index + 1, is.width, is.height,
+                       part->width, part->height);
+    if (exact && is.channels != part->channels)
+        return wr_fail(err, "part %d has %d channels, not %d", index + 1, is.channels,
+                       part->channels);
+    for (int y = 0; y < is.height; y += WR_IMAGE_BAND) {
+        int rows = is.height - y < WR_IMAGE_BAND ? is.height - y : WR_IMAGE_BAND;
+        if (!wr_image_file_digest(file, index, y, rows, &have, err)) return false;
+    }
+    if (exact && !wr_hash_equal(have, want))
+        return wr_fail(err, "texels of part %d are not what was written", index + 1);
+    /* Other formats keep our texts as lines of one, if at all. */
+    return strcmp(format->library, "openexr") != 0 || verify_texts(file, index, part, err);
+}
+
+bool wr_image_verify(const char *name, int fd, const WrImageFormat *format, const WrImageOut *parts,
+                     int count, const WrHash *digests, WrError *err)
+{
+    WrError inner = { "" };
+    WrImageFile *file = wr_image_file_take(name, open_again(fd, &inner), &inner);
+    bool good = file != NULL;
+    if (good && wr_image_file_parts(file) != count)
+        good = wr_fail(&inner, "%d parts, not %d", wr_image_file_parts(file), count);
+    for (int i = 0; i < count && good; i++)
+        good = verify_part(file, i, format, &parts[i], digests[i], &inner);
+    wr_image_file_close(file);
+    if (good) return true;
+    size_t length = strlen(name);
+    bool named = strncmp(inner.text, name, length) == 0 && inner.text[length] == ':';
+    return wr_fail(err, "it does not read back as it was written: %s",
+                   inner.text + (named ? length + 2 : 0));
+}

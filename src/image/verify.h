@@ -1,0 +1,15 @@
+/* verify.h - reading back a picture file that was just written, by the reader process.
+   Private to this room. */
+#pragma once
+#include "base/hash.h"
+#include "image/format.h"
+
+/* Does a file hold what was written to it?
+ *
+ * name     of the file, for its ending
+ * fd       the file; borrowed, its position stays
+ * format   where it keeps numbers exactly, every texel is compared; else all rows must be readable
+ * digests  [count] of the parts' rows (decode.h) as they were given to the writer
+ * Errors   what is wrong with it, without its name */
+bool wr_image_verify(const char *name, int fd, const WrImageFormat *format, const WrImageOut *parts,
+                     int count, const WrHash *digests, WrError *err);
