@@ -187,6 +187,82 @@ static void write_parts(const char *path, const char *version, Part *parts, int 
     if (!wr_image_write(path, outs, count, &err)) fail_msg("%s", err.text);
 }
 
+/* The flag in the second word of an EXR file that says that it has several parts. */
+static bool has_parts(const char *path)
+{
+    char *bytes;
+    size_t length;
+    read_bytes(path, &bytes, &length);
+    assert_true(length > 8);
+    bool parts = ((unsigned char)bytes[5] & 0x10) != 0;
+    wr_free(bytes);
+    return parts;
+}
+
+static WrSession *open_saved(Notes *notes, const char *path)
+{
+    WrError err = { "" };
+    WrSession *s = new_session(notes);
+    if (!wr_session_open(s, path, &err)) fail_msg("%s", err.text);
+    return s;
+}
+
+/* Programs that open no EXR file of several parts open those. */
+static void one_layer_that_is_f_is_a_file_of_one_part(void **state)
+{
+    (void)state;
+    Notes notes = { 0 };
+    WrError err = { "" };
+    WrSession *s = new_session(&notes);
+    const char *const lines[] = { "table 100x70 wrap=clamp-v",
+                                  "grid cells=4x3",
+                                  "dab 0.3,0.3 radius=30",
+                                  "layer rename 1 \"B\xc3\xb6"
+                                  "den \\\"1\\\"\"",
+                                  "layer set 1 radius=0.25 lock=on",
+                                  "surface torus" };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) must_run(s, lines[i]);
+    assert_true(wr_session_save(s, "one.exr", &err));
+    assert_false(has_parts("one.exr"));
+    WrSession *t = open_saved(&notes, "one.exr");
+    const WrLayer *was = &doc(s)->layers[0], *is = &doc(t)->layers[0];
+    assert_int_equal(doc(t)->layer_count, 1);
+    assert_string_equal(is->name, was->name);
+    assert_true(is->blend == was->blend && is->opacity == was->opacity);
+    assert_true(is->radius == 0.25f && is->locked && is->visible);
+    assert_int_equal(wr_field_wrap_v(is->heights), WR_WRAP_CLAMP);
+    assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(t)));
+    for (int y = 0; y < 70; y++)
+        for (int x = 0; x < 100; x++)
+            assert_true(wr_field_get(is->heights, x, y) == wr_field_get(was->heights, x, y));
+    assert_true(wr_session_save(t, "again.exr", &err));
+    assert_same_files("one.exr", "again.exr");
+    assert_null(strstr(wr_text_get(&notes.text), "newer"));
+    wr_session_free(t);
+    /* What F alone cannot say needs parts; what was saved so is still version 2. */
+    const char *const further[] = { "layer set 1 lock=off opacity=0.5",
+                                    "layer set 1 opacity=1",
+                                    "select rect from=0.1,0.1 to=0.5,0.5",
+                                    "select none",
+                                    "layer add b",
+                                    "layer delete 2" };
+    for (size_t i = 0; i < sizeof further / sizeof *further; i++) {
+        must_run(s, further[i]);
+        assert_true(wr_session_save(s, "more.exr", &err));
+        if (has_parts("more.exr") != (i % 2 == 0)) fail_msg("after '%s'", further[i]);
+        t = open_saved(&notes, "more.exr");
+        assert_true(wr_hash_equal(wr_session_hash(s), wr_session_hash(t)));
+        WrImageFile *file = wr_image_file_open("more.exr", &err);
+        assert_non_null(file);
+        assert_string_equal(wr_image_file_attribute(file, 0, "wrinkle:version"),
+                            i % 2 == 0 ? "2" : "3");
+        wr_image_file_close(file);
+        wr_session_free(t);
+    }
+    wr_session_free(s);
+    wr_text_fini(&notes.text);
+}
+
 static void a_newer_version_opens_but_is_not_saved_over(void **state)
 {
     (void)state;
@@ -197,11 +273,11 @@ static void a_newer_version_opens_but_is_not_saved_over(void **state)
                                           { "wrinkle:opacity", "half" } };
     Notes notes = { 0 };
     WrError err = { "" };
-    write_parts("new.exr", "3", parts, 7, settings, 2);
+    write_parts("new.exr", "4", parts, 7, settings, 2);
     WrSession *s = new_session(&notes);
     if (!wr_session_open(s, "new.exr", &err)) fail_msg("%s", err.text);
     assert_non_null(
-        strstr(wr_text_get(&notes.text), "newer version of the program (document version 3"));
+        strstr(wr_text_get(&notes.text), "newer version of the program (document version 4"));
     assert_non_null(strstr(wr_text_get(&notes.text), "sparkle"));
     assert_int_equal(doc(s)->layer_count, 2);
     assert_int_equal(doc(s)->active, 1);
@@ -343,6 +419,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(save_load_save_gives_the_same_bytes_with_every_part),
         cmocka_unit_test(the_hash_covers_everything_that_is_saved),
+        cmocka_unit_test(one_layer_that_is_f_is_a_file_of_one_part),
         cmocka_unit_test(a_newer_version_opens_but_is_not_saved_over),
         cmocka_unit_test(what_a_newer_version_may_hold_is_damage_in_this_one),
         cmocka_unit_test(hostile_documents_load_or_say_why_not),

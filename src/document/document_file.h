@@ -1,4 +1,4 @@
-/* document_file.h - the document as one multi-part OpenEXR file.
+/* document_file.h - the document as one OpenEXR file.
    Layer 5.
 
    All parts float32, ZIP. Part 0 "F": the composited heights as they are shown, one channel Y, so that every
@@ -12,11 +12,17 @@
    layer that edits change), wrinkle:solo (of the layer shown alone, 0: none). Of a layer: wrinkle:layer,
    wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and wrinkle:locked ("on", "off").
 
-   Version 1 knew layers by name and heights alone, all added; it is still read. */
+   A document of one layer that is F bit for bit, with nothing that needs a part (coverage, mask, selection,
+   colour picture), is a file of that one part, with the layer's attributes beside the file's: many programs open
+   no file of several parts.
+
+   Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
+   several is still written as version 2. All are read. */
 #pragma once
 #include "document/document.h"
 
-#define WR_DOCUMENT_VERSION 2
+#define WR_DOCUMENT_VERSION 3
+#define WR_DOCUMENT_VERSION_PARTS 2 /* of a file of several parts */
 
 /* Names of parts. */
 #define WR_DOCUMENT_LAYER "layer:"

@@ -121,13 +121,18 @@ static bool check_part(const Loading *in, int index, WrError *err)
     return true;
 }
 
-/* F; for each layer its heights, cover and mask; selection; colour: in this order, and nothing else. */
+/* F, which may be the only layer; else for each layer its heights, cover and mask; selection; colour: in this order, and nothing else. */
 static bool find_parts(Loading *in, WrError *err)
 {
     int count = wr_image_file_parts(in->file);
     WrImagePart f = wr_image_file_part(in->file, 0);
     in->width = f.width;
     in->height = f.height;
+    if (count == 1 && wr_image_file_attribute(in->file, 0, "wrinkle:layer")) {
+        in->slots[in->layers++] = (Slot){ .heights = 0 }; /* F is the layer */
+        if (f.channels != 1)
+            return wr_fail(err, "%s: damaged: F has %d channels; must be 1", in->path, f.channels);
+    }
     for (int i = 1; i < count; i++) {
         WrImagePart part = wr_image_file_part(in->file, i);
         if (begins_with(part.name, WR_DOCUMENT_LAYER) && in->layers == WR_LAYERS_MAX)

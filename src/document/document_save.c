@@ -1,6 +1,7 @@
 #include "document/document_file.h"
 
 #include "base/array.h"
+#include "base/memory.h"
 
 #include <string.h>
 
@@ -72,7 +73,8 @@ typedef struct Saving {
     const WrDocument *document;
     WrImageOut parts[PARTS_MAX];
     int count;
-    WrImageAttribute of_file[FILE_ATTRIBUTES];
+    bool single; /* the one layer is F itself */
+    WrImageAttribute of_file[FILE_ATTRIBUTES + LAYER_ATTRIBUTES];
     WrImageAttribute of_layers[WR_LAYERS_MAX][LAYER_ATTRIBUTES];
     WR_ARRAY(char *) texts; /* names and values that were made for the file; owned */
 } Saving;
@@ -130,7 +132,8 @@ static void add_composite(Saving *to, const char *scene_text)
     const WrDocument *document = to->document;
     const WrField *f = wr_document_field(document);
     const WrImageAttribute attributes[FILE_ATTRIBUTES] = {
-        { "wrinkle:version", keep_whole(to, "", WR_DOCUMENT_VERSION) },
+        { "wrinkle:version",
+          keep_whole(to, "", to->single ? WR_DOCUMENT_VERSION : WR_DOCUMENT_VERSION_PARTS) },
         { "wrinkle:program", "Wrinkle " WR_VERSION },
         { "wrinkle:scene", scene_text },
         { "wrinkle:wrap", wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)) },
@@ -158,7 +161,7 @@ static const char *part_name(Saving *to, int layer)
     return keep(to, text);
 }
 
-static void add_layer(Saving *to, int index)
+static void describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATTRIBUTES])
 {
     const WrLayer *layer = &to->document->layers[index];
     const WrImageAttribute attributes[LAYER_ATTRIBUTES] = {
@@ -169,12 +172,49 @@ static void add_layer(Saving *to, int index)
         { "wrinkle:visible", layer->visible ? "on" : "off" },
         { "wrinkle:locked", layer->locked ? "on" : "off" },
     };
-    memcpy(to->of_layers[index], attributes, sizeof attributes);
+    memcpy(out, attributes, sizeof attributes);
+}
+
+static void add_layer(Saving *to, int index)
+{
+    const WrLayer *layer = &to->document->layers[index];
+    describe_layer(to, index, to->of_layers[index]);
     WrImageOut *part = add_field(to, layer->heights, part_name(to, index));
     part->attributes = to->of_layers[index];
     part->attribute_count = LAYER_ATTRIBUTES;
     if (layer->cover) add_field(to, layer->cover, keep_whole(to, WR_DOCUMENT_COVER, index + 1));
     if (layer->mask) add_field(to, layer->mask, keep_whole(to, WR_DOCUMENT_MASK, index + 1));
+}
+
+/* The only layer's settings go beside the file's. */
+static void add_layer_to_composite(Saving *to)
+{
+    describe_layer(to, 0, to->of_file + FILE_ATTRIBUTES);
+    to->parts[0].attribute_count = FILE_ATTRIBUTES + LAYER_ATTRIBUTES;
+}
+
+static bool same_bits(const WrField *a, const WrField *b)
+{
+    int width = wr_field_width(a), height = wr_field_height(a);
+    size_t row = (size_t)width;
+    if (a == b) return true;
+    float *rows = wr_alloc(2 * row, sizeof *rows);
+    bool same = true;
+    for (int y = 0; y < height && same; y++) {
+        wr_field_read(a, 0, y, width, 1, rows, row);
+        wr_field_read(b, 0, y, width, 1, rows + row, row);
+        same = memcmp(rows, rows + row, row * sizeof *rows) == 0;
+    }
+    wr_free(rows);
+    return same;
+}
+
+/* Programs that know nothing of parts open a file of one: so it is where F says all. */
+static bool fits_one_part(const WrDocument *document)
+{
+    const WrLayer *layer = &document->layers[0];
+    return document->layer_count == 1 && !layer->cover && !layer->mask && !document->selection &&
+           !document->scene->colour && same_bits(wr_document_field(document), layer->heights);
 }
 
 static void add_colour(Saving *to, WrImage *colour)
@@ -197,8 +237,10 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
                        colour->width, colour->height, WR_IMAGE_MAX);
     Saving *to = wr_alloc(1, sizeof *to);
     to->document = document;
+    to->single = fits_one_part(document);
     add_composite(to, scene_text);
-    for (int i = 0; i < document->layer_count; i++) add_layer(to, i);
+    if (to->single) add_layer_to_composite(to);
+    for (int i = 0; i < document->layer_count && !to->single; i++) add_layer(to, i);
     if (document->selection) add_field(to, document->selection, WR_DOCUMENT_SELECTION);
     if (colour) add_colour(to, colour);
     bool ok = wr_image_write(path, to->parts, to->count, err);
