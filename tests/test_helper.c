@@ -6,7 +6,9 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "image/font.h"
 #include "image/image.h"
+#include "image/mesh.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -303,6 +305,103 @@ static void a_reader_that_says_nothing_is_ended(void **state)
     expect_no_children();
 }
 
+/* Seconds of processor time that children of the reader process took which it has seen ending. */
+static double seconds_of_children(void)
+{
+    char path[64];
+    unsigned long user = 0, system = 0;
+    snprintf(path, sizeof path, "/proc/%d/stat", (int)the_process());
+    FILE *file = fopen(path, "r");
+    if (!file ||
+        fscanf(file, "%*d (%*[^)]) %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %*u %*u %lu %lu",
+               &user, &system) != 2)
+        fail_msg("%s cannot be read", path);
+    fclose(file);
+    return (double)(user + system) / (double)sysconf(_SC_CLK_TCK);
+}
+
+/* One face of so many corners that cutting it up takes minutes. */
+static void write_busy_mesh(WrText *text)
+{
+    wr_text_add(text, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf");
+    for (int i = 0; i < 200000; i++) wr_text_addf(text, " %d", i % 3 + 1);
+    wr_text_add(text, "\n");
+}
+
+static void a_mesh_gets_its_time_once(void **state)
+{
+    (void)state;
+    WrText text = { 0 };
+    WrMesh mesh;
+    WrError err = { "" };
+    write_busy_mesh(&text);
+    write_picture("a.png");
+    expect_good("a.png"); /* the process is there, with its libraries */
+    expect_no_children();
+    double before = seconds_of_children();
+    setenv("WRINKLE_READER_SECONDS", "2", 1);
+    assert_false(wr_mesh_read_bytes("busy.obj", text.data, text.length, &mesh, &err));
+    unsetenv("WRINKLE_READER_SECONDS");
+    expect_message(&err, "busy.obj: ", "gave nothing to read within 2 s");
+    expect_no_children();
+    assert_true(seconds_of_children() - before < 2.5);
+    wr_text_fini(&text);
+}
+
+/* ---- nothing comes at all ---- */
+
+typedef bool (*Reading)(WrError *err);
+
+static bool read_picture_file(WrError *err)
+{
+    return wr_image_read("a.png", err) != NULL;
+}
+
+static bool read_mesh_file(WrError *err)
+{
+    WrMesh mesh;
+    return wr_mesh_read("a.png", &mesh, err);
+}
+
+static bool read_font_file(WrError *err)
+{
+    WrFontText text;
+    WrFontAsk ask = { .text = "a" };
+    return wr_font_shape("a.png", &ask, &text, err);
+}
+
+static void *wait_for_nothing(void *reading)
+{
+    double begin = wr_clock_seconds();
+    WrError err = { "" };
+    assert_false((*(Reading *)reading)(&err));
+    expect_message(&err, "a.png: ", "gave nothing to read within 4 s");
+    double took = wr_clock_seconds() - begin;
+    return took >= 3.99 && took < 7.0 ? NULL : reading;
+}
+
+static void every_kind_of_file_waits_for_its_time_once(void **state)
+{
+    (void)state;
+    Reading readings[] = { read_picture_file, read_mesh_file, read_font_file };
+    pthread_t threads[3];
+    write_picture("a.png");
+    expect_good("a.png");
+    setenv("WRINKLE_READER_SECONDS", "4", 1);
+    pid_t process = the_process();
+    kill(process, SIGSTOP);
+    for (int i = 0; i < 3; i++) pthread_create(&threads[i], NULL, wait_for_nothing, &readings[i]);
+    for (int i = 0; i < 3; i++) {
+        void *wrong;
+        pthread_join(threads[i], &wrong);
+        assert_null(wrong);
+    }
+    kill(process, SIGCONT);
+    unsetenv("WRINKLE_READER_SECONDS");
+    expect_good("a.png");
+    expect_no_children();
+}
+
 static uint32_t crc_of(const unsigned char *bytes, size_t count)
 {
     uint32_t crc = 0xffffffffU;
@@ -570,6 +669,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(the_process_is_started_again_when_it_was_killed),
         cmocka_unit_test(killed_at_random_moments_gives_a_picture_or_a_sentence),
         cmocka_unit_test(a_reader_that_says_nothing_is_ended),
+        cmocka_unit_test(a_mesh_gets_its_time_once),
+        cmocka_unit_test(every_kind_of_file_waits_for_its_time_once),
         cmocka_unit_test(a_claim_of_gigabytes_is_one_sentence),
         cmocka_unit_test(many_readings_leave_no_process_and_no_descriptor),
         cmocka_unit_test(files_that_are_open_together_do_not_mix),

@@ -281,6 +281,13 @@ static void files_that_are_no_meshes_are_refused_with_a_reason(void **state)
     refuse("a.png", "\x89PNG\r\n\x1a\n", 8, "of a kind that can be read (.png)");
     refuse("a.ply", "hello", 5, "cannot be read");
     refuse("a.obj", "", 0, "0 bytes: must be");
+    /* What is counted off one by one, though nothing is there. */
+    static const char vertices[] = "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n";
+    refuse("much.ply", vertices, sizeof vertices - 1, "says that it holds 2147483647 elements");
+    static const char faces[] = "ply\r\nformat binary_little_endian 1.0\r\nelement vertex 1\r\n"
+                                "element face   4000000000 \r\nend_header\r\n1234";
+    refuse("much.obj", faces, sizeof faces - 1,
+           "says that it holds 4000000000 elements in 4 bytes");
     WrMesh mesh = { 0 };
     WrError err = { "" };
     assert_false(wr_mesh_read("/nowhere/a.obj", &mesh, &err));

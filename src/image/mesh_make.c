@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "image/assimp.h"
 #include "image/module.h"
+#include "image/ply.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,7 +36,7 @@ bool wr_mesh_make(const void *bytes, size_t length, const char *ending, WrText *
 {
     char reason[WR_ASSIMP_REASON] = "";
     const WrAssimpTable *table = library(err);
-    if (!table) return false;
+    if (!table || !wr_ply_check(bytes, length, err)) return false;
     WrAssimpMesh *mesh =
         table->read(bytes, length, ending, WR_MESH_POINTS_MAX, WR_MESH_TRIANGLES_MAX, reason);
     if (!mesh) {

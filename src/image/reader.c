@@ -108,9 +108,14 @@ static bool fail_memory(const WrReader *reader, WrError *err)
                    reader->megabytes);
 }
 
-static bool receive_whole(WrReader *reader, Answer *answer)
+/* When an answer that is waited for from now on must be there. */
+static double deadline_of(const WrReader *reader)
 {
-    double deadline = wr_clock_seconds() + reader->seconds;
+    return wr_clock_seconds() + reader->seconds;
+}
+
+static bool receive_whole(WrReader *reader, double deadline, Answer *answer)
+{
     *answer = (Answer){ 0 };
     WrWireGot got =
         wr_wire_receive(reader->channel, &answer->head, sizeof answer->head, deadline, NULL);
@@ -128,9 +133,10 @@ static bool receive_whole(WrReader *reader, Answer *answer)
 }
 
 /* Wait for an answer of this kind. On success the caller frees answer->bytes. */
-static bool receive(WrReader *reader, WrWireKind kind, Answer *answer, WrError *err)
+static bool receive_by(WrReader *reader, double deadline, WrWireKind kind, Answer *answer,
+                       WrError *err)
 {
-    bool good = receive_whole(reader, answer);
+    bool good = receive_whole(reader, deadline, answer);
     if (good && answer->head.kind == kind) return true;
     if (good && answer->head.kind == WR_WIRE_FAILED) fail_sentence(reader, answer, err);
     else if (good && answer->head.kind == WR_WIRE_MEMORY) fail_memory(reader, err);
@@ -141,6 +147,11 @@ static bool receive(WrReader *reader, WrWireKind kind, Answer *answer, WrError *
     wr_free(answer->bytes);
     answer->bytes = NULL;
     return false;
+}
+
+static bool receive(WrReader *reader, WrWireKind kind, Answer *answer, WrError *err)
+{
+    return receive_by(reader, deadline_of(reader), kind, answer, err);
 }
 
 /* ---- opening ---- */
@@ -213,14 +224,16 @@ static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrErr
     return sent;
 }
 
-/* One try. *gone: nothing came back, not even how the reader died: perhaps the process itself is gone. */
-static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, bool *gone, WrError *err)
+/* One try of those that have time until the deadline together. *gone: nothing came back, not even how the
+ * reader died: perhaps the process itself is gone. */
+static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, double deadline,
+                      bool *gone, WrError *err)
 {
     Answer answer;
     *gone = false;
     if (!send_order(reader, order, fd, err)) return false;
-    *gone = wr_wire_wait(reader->channel, wr_clock_seconds() + reader->seconds) == WR_WIRE_GONE;
-    if (!receive(reader, WR_WIRE_OPENED, &answer, err)) return false;
+    *gone = wr_wire_wait(reader->channel, deadline) == WR_WIRE_GONE;
+    if (!receive_by(reader, deadline, WR_WIRE_OPENED, &answer, err)) return false;
     if (take_parts(reader, &answer, order->most)) return true;
     die_of_nonsense(reader);
     return wr_fail(err, "%s", reader->end.text);
@@ -233,14 +246,15 @@ static WrReader *new_reader(const char *name, int fd, WrWireTask task, int most,
     WrReader *reader = wr_alloc(1, sizeof *reader);
     reader->name = wr_strdup(name);
     reader->channel = -1;
-    unsigned patience = task == WR_WIRE_PICTURE ? SECONDS : BLOCK_SECONDS;
+    bool picture = task == WR_WIRE_PICTURE;
+    unsigned patience = picture ? SECONDS : BLOCK_SECONDS;
     reader->seconds = setting("WRINKLE_READER_SECONDS", patience + (unsigned)(size / 1e6));
     reader->megabytes = setting("WRINKLE_READER_MB", MEGABYTES);
     *order = (WrWireOrder){ .version = WR_WIRE_VERSION,
                             .task = task,
                             .most = most,
                             .memory = (uint64_t)reader->megabytes << 20,
-                            .seconds = 10 * reader->seconds };
+                            .seconds = (picture ? 10 : 1) * reader->seconds };
     wr_path_ending(name, order->ending);
     return reader;
 }
@@ -249,10 +263,11 @@ WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
 {
     WrWireOrder order;
     WrReader *reader = new_reader(name, fd, WR_WIRE_PICTURE, most, &order);
-    bool gone, good = open_once(reader, &order, fd, &gone, err);
+    double deadline = deadline_of(reader);
+    bool gone, good = open_once(reader, &order, fd, deadline, &gone, err);
     if (!good && gone) {
         if (reader->channel >= 0) close(reader->channel);
-        good = open_once(reader, &order, fd, &gone, err);
+        good = open_once(reader, &order, fd, deadline, &gone, err);
     }
     if (good) return reader;
     wr_reader_close(reader);
@@ -386,7 +401,7 @@ bool wr_reader_read(WrReader *reader, int part, int y, int rows, int channels, f
     /* The answer that is still under way belongs to nobody. */
     if (!good && asked - done > 1 && !reader->dead) {
         Answer ignored;
-        receive_whole(reader, &ignored);
+        receive_whole(reader, deadline_of(reader), &ignored);
         wr_free(ignored.bytes);
     }
     return good;
@@ -414,6 +429,7 @@ bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask,
     WrWireOrder order;
     WrReader *reader = new_reader(name, fd, task, 1, &order);
     Answer answer = { 0 };
+    double deadline = deadline_of(reader);
     bool good = false, gone = true;
     for (int attempt = 0; attempt < 2 && gone && !good; attempt++) {
         if (reader->channel >= 0) close(reader->channel);
@@ -422,8 +438,8 @@ bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask,
         if (!send_order(reader, &order, fd, err)) break;
         /* If the child is gone, its last words are still to be read. */
         wr_wire_send(reader->channel, WR_WIRE_ASK, ask, ask_length, -1);
-        gone = wr_wire_wait(reader->channel, wr_clock_seconds() + reader->seconds) == WR_WIRE_GONE;
-        good = receive(reader, WR_WIRE_BLOCK, &answer, err);
+        gone = wr_wire_wait(reader->channel, deadline) == WR_WIRE_GONE;
+        good = receive_by(reader, deadline, WR_WIRE_BLOCK, &answer, err);
     }
     if (good) {
         *block = answer.bytes ? answer.bytes : wr_alloc(1, 1);
