@@ -210,6 +210,10 @@ static void a_failed_write_leaves_the_old_file_whole(void **state)
     assert_int_equal(info.st_mode & 0777, 0640);
     assert_false(wr_file_write(folder, "x", 1, &err));
     assert_non_null(strstr(err.text, "is a folder"));
+    assert_false(wr_file_read(folder, 100, &bytes, &length, &err));
+    assert_non_null(strstr(err.text, "is a folder"));
+    assert_false(wr_file_read("/dev/zero", 100, &bytes, &length, &err));
+    assert_non_null(strstr(err.text, "is a device"));
     assert_false(wr_file_write("/nonexistent/x", "x", 1, &err));
     assert_non_null(strstr(err.text, "does not exist"));
     unlink(path);

@@ -480,7 +480,7 @@ static void what_is_no_picture_is_refused_with_a_reason(void **state)
     assert_int_equal(mkdir("folder.png", 0777), 0);
     check_refused("folder.png", "is a folder");
     assert_int_equal(mkfifo("pipe.png", 0666), 0);
-    check_refused("pipe.png", "not a regular file"); /* and does not wait for a writer */
+    check_refused("pipe.png", "is a pipe"); /* and does not wait for a writer */
     TestRandom random = { 4 };
     unsigned char noise[4096];
     for (size_t i = 0; i < sizeof noise; i++) noise[i] = (unsigned char)test_random_u64(&random);

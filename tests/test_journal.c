@@ -360,7 +360,7 @@ static void files_that_are_no_journals_are_refused(void **state)
     assert_false(wr_journal_read(path, &read, &err));
     assert_non_null(strstr(err.text, "No such file"));
     assert_false(wr_journal_read(*state, &read, &err));
-    assert_non_null(strstr(err.text, "not a regular file"));
+    assert_non_null(strstr(err.text, "is a folder"));
     write_bytes(path, "dab 0,0\n", 8);
     assert_false(wr_journal_read(path, &read, &err));
     assert_non_null(strstr(err.text, "not a journal"));

@@ -498,9 +498,9 @@ static void what_is_no_archive_is_refused(void **state)
     expect_refused("empty.ora", "");
     expect_refused("missing.ora", "No such file");
     mkdir("folder.ora", 0777);
-    expect_refused("folder.ora", "not a regular file");
+    expect_refused("folder.ora", "is a folder");
     assert_int_equal(mkfifo("pipe.ora", 0666), 0);
-    expect_refused("pipe.ora", "not a regular file"); /* and does not wait for a writer */
+    expect_refused("pipe.ora", "is a pipe"); /* and does not wait for a writer */
     const char *paths[] = { "text.ora", "empty.ora", "missing.ora", "folder.ora", "pipe.ora" };
     for (int i = 0; i < 5; i++) assert_false(wr_ora_recognise(paths[i]));
 }

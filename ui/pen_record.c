@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FIRST_LINE "wrinkle-pen 1"
 #define FILE_MOST ((size_t)256 << 20) /* bytes */
@@ -30,8 +31,13 @@ bool wr_pen_record(WrPen *pen, const char *path, WrError *err)
             return wr_fail(err, "the recording of the pen is not whole: it could not be written");
     }
     if (path[0] == '\0') return true;
-    FILE *file = fopen(path, "we");
-    if (!file) return wr_fail(err, "%s: cannot be written: %s", path, strerror(errno));
+    int fd = wr_file_create(path, err);
+    if (fd < 0) return false;
+    FILE *file = fdopen(fd, "w");
+    if (!file) {
+        close(fd);
+        return wr_fail(err, "%s: cannot be written: %s", path, strerror(errno));
+    }
     setvbuf(file, NULL, _IOLBF, 1 << 14);
     pen->record_failed = fputs(FIRST_LINE "\n", file) < 0;
     pen->record = file;

@@ -13,21 +13,11 @@
 
 bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0) return wr_fail(err, "%s: %s", path, strerror(errno));
-    struct stat info;
-    char *block = NULL;
-    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
-        wr_fail(err, "%s: not a regular file", path);
-        goto fail;
-    }
-    if ((uintmax_t)info.st_size > limit) {
-        wr_fail(err, "%s: %.1f MB is over the limit of %.1f MB", path, (double)info.st_size / 1e6,
-                (double)limit / 1e6);
-        goto fail;
-    }
-    size_t want = (size_t)info.st_size, have = 0;
-    block = wr_try_alloc(want + 1, 1, path, err);
+    uint64_t size;
+    int fd = wr_file_open(path, limit, &size, err);
+    if (fd < 0) return false;
+    size_t want = (size_t)size, have = 0;
+    char *block = wr_try_alloc(want + 1, 1, path, err);
     if (!block) goto fail;
     while (have < want) {
         ssize_t n = read(fd, block + have, want - have);

@@ -3,6 +3,22 @@
 #pragma once
 #include "base/text.h"
 
+/* ---- files that somebody else names: people, scripts, other files ---- */
+
+#define WR_FILE_MOST ((uint64_t)64 << 30) /* bytes of a file that nothing else limits */
+
+/* The one door to them: open a file, or what stands behind a link to one, for reading. Whatever else is
+ * there (a device, a pipe, a socket, a folder) is refused by what it is; nothing is ever waited for.
+ * *length, if wanted, is its size now, at most `limit`: whoever reads goes no further, so that what has no end
+ * (and says 0, as in /proc) gives nothing. -1 and an error that names the file. */
+int wr_file_open(const char *path, uint64_t limit, uint64_t *length, WrError *err);
+/* The same for files of our own, where a link was put there by somebody else. */
+int wr_file_open_no_link(const char *path, uint64_t limit, uint64_t *length, WrError *err);
+/* The first `count` bytes of such a file, to see what it is; returns how many there are. */
+size_t wr_file_peek(const char *path, void *bytes, size_t count);
+/* A file that is written bit by bit, emptied if it is there; a pipe that nobody reads is not waited for. */
+int wr_file_create(const char *path, WrError *err);
+
 /* Read a whole regular file, at most `limit` bytes. *bytes is the caller's (wr_free) and ends in a NUL
    that `length` does not count. */
 bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, WrError *err);

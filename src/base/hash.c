@@ -1,8 +1,11 @@
 #include "base/hash.h"
 
+#include "base/file.h"
+
 #include <errno.h>
 #include <sha256.h>
 #include <string.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed)
@@ -39,16 +42,22 @@ void wr_sha256_bytes(const void *bytes, size_t count, char hex[65])
 
 bool wr_sha256_file(const char *path, char hex[65], WrError *err)
 {
-    FILE *file = fopen(path, "rb");
-    if (!file) return wr_fail(err, "%s: %s", path, strerror(errno));
+    uint64_t left;
+    int fd = wr_file_open(path, WR_FILE_MOST, &left, err);
+    if (fd < 0) return false;
     uint8_t block[65536], digest[SHA256_DIGEST_LENGTH];
     SHA2_CTX ctx;
     SHA256Init(&ctx);
-    size_t n;
-    while ((n = fread(block, 1, sizeof block, file)) > 0) SHA256Update(&ctx, block, n);
-    bool bad = ferror(file) != 0;
-    fclose(file);
-    if (bad) return wr_fail(err, "%s: cannot be read", path);
+    ssize_t n = 1;
+    while (left > 0 && n != 0) {
+        n = read(fd, block, left < sizeof block ? (size_t)left : sizeof block);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) break;
+        SHA256Update(&ctx, block, (size_t)n);
+        left -= (uint64_t)n;
+    }
+    close(fd);
+    if (n < 0) return wr_fail(err, "%s: cannot be read (%s)", path, strerror(errno));
     SHA256Final(digest, &ctx);
     hex_of(digest, hex);
     return true;

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#define GRACE_SECONDS 5 /* for work to stop in order */
+
 /* The one thing that a signal handler can reach. */
 static volatile int interrupted;
 
@@ -12,19 +14,34 @@ static void on_interrupt(int number)
 {
     (void)number;
     interrupted = 1;
+    alarm(GRACE_SECONDS);
 }
 
-/* The first interrupt asks the work to stop; a second one ends the program at once. No restart of
-   system calls, so that reading a script from a terminal stops too. */
-static void catch_interrupts(void)
+/* Whatever hangs does not hear; the journal holds what was done. */
+static void on_alarm(int number)
+{
+    (void)number;
+    signal(SIGTERM, SIG_DFL);
+    kill(getpid(), SIGTERM);
+}
+
+static void catch_one(int number, void (*handler)(int))
 {
     struct sigaction action;
     memset(&action, 0, sizeof action);
-    action.sa_handler = on_interrupt;
+    action.sa_handler = handler;
     action.sa_flags = SA_RESETHAND;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    sigaction(number, &action, NULL);
+}
+
+/* The first interrupt asks the work to stop, and ends the program if it has not by then; a second one ends
+   it at once. No restart of system calls, so that reading a script from a terminal stops too. */
+static void catch_interrupts(void)
+{
+    catch_one(SIGINT, on_interrupt);
+    catch_one(SIGTERM, on_interrupt);
+    catch_one(SIGALRM, on_alarm);
 }
 
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err)

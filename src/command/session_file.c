@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #define LINE_MAX_BYTES (64 << 20) /* a stroke of a million samples is some 20 MB */
 
@@ -16,12 +17,22 @@
 
 typedef enum LineResult { LINE_READ, LINE_END, LINE_FAILED } LineResult;
 
+typedef struct Lines {
+    FILE *stream;
+    uint64_t left; /* bytes that there are, as far as known */
+} Lines;
+
+static int next_byte(Lines *lines)
+{
+    return lines->left > 0 ? lines->left--, getc_unlocked(lines->stream) : EOF;
+}
+
 /* The next line without its end (LF or CR LF). */
-static LineResult read_line(FILE *stream, WrText *line, WrError *err)
+static LineResult read_line(Lines *lines, WrText *line, WrError *err)
 {
     int c, count = 0;
     wr_text_clear(line);
-    while ((c = getc_unlocked(stream)) != EOF && c != '\n') {
+    while ((c = next_byte(lines)) != EOF && c != '\n') {
         char byte = (char)c;
         if (byte == '\0') {
             wr_fail(err, "a NUL byte: this is no text file");
@@ -33,7 +44,7 @@ static LineResult read_line(FILE *stream, WrText *line, WrError *err)
         }
         wr_text_add_n(line, &byte, 1);
     }
-    if (ferror(stream)) {
+    if (ferror(lines->stream)) {
         wr_fail(err, "%s", strerror(errno));
         return LINE_FAILED;
     }
@@ -47,12 +58,12 @@ static bool cancelled(const WrSession *session)
     return session->options.cancel && *session->options.cancel;
 }
 
-bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, WrError *err)
+static bool run_lines(WrSession *session, Lines lines, const char *name, WrError *err)
 {
     WrText line = { 0 };
     bool good = true;
     for (int64_t number = 1;; number++) {
-        LineResult result = read_line(stream, &line, err);
+        LineResult result = read_line(&lines, &line, err);
         if (result == LINE_END) break;
         const char *text = wr_text_get(&line);
         if (number == 1 && strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3; /* byte order mark */
@@ -68,16 +79,27 @@ bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, W
     return good;
 }
 
+bool wr_session_run_stream(WrSession *session, FILE *stream, const char *name, WrError *err)
+{
+    return run_lines(session, (Lines){ stream, UINT64_MAX }, name, err);
+}
+
 bool wr_session_run_script(WrSession *session, const char *path, WrError *err)
 {
-    FILE *stream = fopen(path, "re");
-    if (!stream) return wr_fail(err, "%s: %s", path, strerror(errno));
+    Lines lines;
+    int fd = wr_file_open(path, WR_FILE_MOST, &lines.left, err);
+    if (fd < 0) return false;
+    lines.stream = fdopen(fd, "r");
+    if (!lines.stream) {
+        close(fd);
+        return wr_fail(err, "%s: %s", path, strerror(errno));
+    }
     char *outer = session->folder;
     session->folder = wr_path_folder(path);
-    bool good = wr_session_run_stream(session, stream, path, err);
+    bool good = run_lines(session, lines, path, err);
     wr_free(session->folder);
     session->folder = outer;
-    fclose(stream);
+    fclose(lines.stream);
     return good;
 }
 
@@ -204,19 +226,17 @@ static bool open_picture(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
-/* Whether the file can be read at all, and whether it starts like an OpenEXR file: so that scripts and
+/* Whether the file can be read, and whether it starts like an OpenEXR file: so that scripts and
    mistakes never load the picture library. */
 static bool look_at_file(const char *path, bool *exr, WrError *err)
 {
     static const char magic[4] = { 0x76, 0x2f, 0x31, 0x01 };
-    char start[4] = { 0 };
-    FILE *file = fopen(path, "re");
-    if (!file) return wr_fail(err, "%s: %s", path, strerror(errno));
-    size_t n = fread(start, 1, sizeof start, file);
-    int trouble = ferror(file) ? errno : 0;
-    fclose(file);
-    if (trouble) return wr_fail(err, "%s: %s", path, strerror(trouble));
-    *exr = n == sizeof start && memcmp(start, magic, sizeof magic) == 0;
+    char start[4];
+    int fd = wr_file_open(path, WR_FILE_MOST, NULL, err);
+    if (fd < 0) return false;
+    close(fd);
+    *exr = wr_file_peek(path, start, sizeof start) == sizeof start &&
+           memcmp(start, magic, sizeof magic) == 0;
     return true;
 }
 

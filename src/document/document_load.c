@@ -1,23 +1,18 @@
 #include "document/document_file.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Never waits on a pipe, and does not wake the picture library for what is no EXR file. */
 static bool has_exr_magic(const char *path)
 {
     static const unsigned char magic[4] = { 0x76, 0x2f, 0x31, 0x01 };
-    unsigned char bytes[4] = { 0 };
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0) return false;
-    bool exr = read(fd, bytes, sizeof bytes) == (ssize_t)sizeof bytes &&
-               memcmp(bytes, magic, sizeof magic) == 0;
-    close(fd);
-    return exr;
+    unsigned char bytes[4];
+    return wr_file_peek(path, bytes, sizeof bytes) == sizeof bytes &&
+           memcmp(bytes, magic, sizeof magic) == 0;
 }
 
 bool wr_document_recognise(const char *path)

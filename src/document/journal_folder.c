@@ -85,16 +85,7 @@ bool wr_journal_sync_path(const char *path, WrError *err)
 
 int wr_journal_open(const char *path, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
-    struct stat info;
-    if (fd < 0) {
-        wr_fail(err, "%s: %s", path, strerror(errno));
-        return -1;
-    }
-    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) return fd;
-    wr_fail(err, "%s: not a regular file", path);
-    close(fd);
-    return -1;
+    return wr_file_open_no_link(path, WR_FILE_MOST, NULL, err);
 }
 
 bool wr_journal_lock(int fd, const char *path, int how)

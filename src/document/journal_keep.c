@@ -82,13 +82,8 @@ static bool copy_bytes(int from, int to)
    it its name. */
 static bool copy_file(const char *path, const char *target, const char *sha256, WrError *err)
 {
-    struct stat info;
-    int from = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (from < 0) return wr_fail(err, "%s: %s", path, strerror(errno));
-    if (fstat(from, &info) != 0 || !S_ISREG(info.st_mode)) {
-        close(from);
-        return wr_fail(err, "%s: not a regular file", path);
-    }
+    int from = wr_file_open(path, WR_FILE_MOST, NULL, err);
+    if (from < 0) return false;
     WrText half = { 0 };
     wr_text_addf(&half, "%s.new", target);
     const char *temporary = wr_text_get(&half);

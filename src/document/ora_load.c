@@ -1,13 +1,12 @@
 #include "document/ora.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
 
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #define STACK_MAX ((size_t)16 << 20)   /* bytes of stack.xml */
 #define SCENE_MAX ((size_t)64 << 20)   /* of the scene */
@@ -20,11 +19,8 @@ static const char type[] = "image/openraster";
 bool wr_ora_recognise(const char *path)
 {
     char bytes[30 + 8 + sizeof type - 1];
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0) return false;
-    ssize_t n = read(fd, bytes, sizeof bytes);
-    close(fd);
-    return n == (ssize_t)sizeof bytes && memcmp(bytes, "PK\3\4", 4) == 0 &&
+    size_t n = wr_file_peek(path, bytes, sizeof bytes);
+    return n == sizeof bytes && memcmp(bytes, "PK\3\4", 4) == 0 &&
            memcmp(bytes + 30, "mimetype", 8) == 0 && memcmp(bytes + 38, type, sizeof type - 1) == 0;
 }
 

@@ -1,11 +1,9 @@
 #include "document/ora_zip.h"
 
+#include "base/file.h"
 #include "base/memory.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <zip.h>
 
@@ -22,22 +20,16 @@ struct WrOraZip {
 
 WrOraZip *wr_ora_zip_open(const char *path, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd >= 0) return wr_ora_zip_take(path, fd, err);
-    wr_fail(err, "%s: %s", path, strerror(errno));
-    return NULL;
+    int fd = wr_file_open(path, WR_FILE_MOST, NULL, err);
+    return fd < 0 ? NULL : wr_ora_zip_take(path, fd, err);
 }
 
 WrOraZip *wr_ora_zip_take(const char *path, int fd, WrError *err)
 {
     int trouble = 0;
-    struct stat info;
-    zip_t *archive = NULL;
-    if (fstat(fd, &info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
-    else if (!S_ISREG(info.st_mode)) wr_fail(err, "%s: is not a regular file", path);
-    else if (!(archive = zip_fdopen(fd, 0, &trouble)))
-        wr_fail(err, "%s: is not an OpenRaster file, truncated or damaged", path);
+    zip_t *archive = zip_fdopen(fd, 0, &trouble);
     if (!archive) {
+        wr_fail(err, "%s: is not an OpenRaster file, truncated or damaged", path);
         close(fd);
         return NULL;
     }

@@ -115,13 +115,11 @@ static bool shape_outside(const Files *files, const WrFontAsk *ask, WrText *bloc
     return good;
 }
 
-/* Count a file in, after checking what kind of file it is. */
+/* Count a file in. */
 static bool take_file(Files *files, const char *name, int fd, WrError *err)
 {
     struct stat info;
     if (fstat(fd, &info) != 0) return wr_fail(err, "%s: %s", name, strerror(errno));
-    if (S_ISDIR(info.st_mode)) return wr_fail(err, "%s: is a folder; a font is needed", name);
-    if (!S_ISREG(info.st_mode)) return wr_fail(err, "%s: is not a regular file", name);
     if (info.st_size == 0) return wr_fail(err, "%s: is empty", name);
     if (info.st_size > WR_FONT_FILE_MAX)
         return wr_fail(err, "%s: has %.0f MB: fonts of up to %d MB are read", name,
@@ -163,9 +161,8 @@ static bool gather(Files *files, int fd, const WrFontAsk *ask, WrError *err)
     if (files->fd < 0) return wr_fail(err, "%s: no memory to read it from", files->name);
     bool good = append_file(files, files->name, fd, err);
     for (int i = 0; good && i < WR_FONT_OTHERS && ask->others[i]; i++) {
-        int other = open(ask->others[i], O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-        good = other >= 0 ? append_file(files, ask->others[i], other, err)
-                          : wr_fail(err, "%s: %s", ask->others[i], strerror(errno));
+        int other = wr_file_open(ask->others[i], WR_FONT_FILE_MAX, NULL, err);
+        good = other >= 0 && append_file(files, ask->others[i], other, err);
         if (other >= 0) close(other);
     }
     if (!good) close(files->fd);
@@ -191,8 +188,8 @@ static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *ou
 
 bool wr_font_shape(const char *path, const WrFontAsk *ask, WrFontText *out, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (fd < 0) return wr_fail(err, "%s: %s", path, strerror(errno));
+    int fd = wr_file_open(path, WR_FONT_FILE_MAX, NULL, err);
+    if (fd < 0) return false;
     bool good = shape(path, fd, ask, out, err);
     close(fd);
     return good;

@@ -5,12 +5,8 @@
 #include "image/mesh_make.h"
 #include "image/reader.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- what came back ---- */
@@ -87,26 +83,19 @@ static bool read_outside(const char *name, int fd, WrMesh *out, WrError *err)
            take(name, block, length, out, err);
 }
 
-/* Never waits: a pipe is refused before it is read. */
-static int open_regular(const char *path, WrError *err)
+static int open_mesh(const char *path, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    struct stat info;
-    if (fd < 0 || fstat(fd, &info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
-    else if (S_ISDIR(info.st_mode)) wr_fail(err, "%s: is a folder; a mesh file is needed", path);
-    else if (!S_ISREG(info.st_mode)) wr_fail(err, "%s: is not a regular file", path);
-    else if (info.st_size == 0) wr_fail(err, "%s: is empty", path);
-    else if ((size_t)info.st_size > WR_MESH_FILE_MAX)
-        wr_fail(err, "%s: %lld bytes: must be at most %zu", path, (long long)info.st_size,
-                WR_MESH_FILE_MAX);
-    else return fd;
-    if (fd >= 0) close(fd);
+    uint64_t length;
+    int fd = wr_file_open(path, WR_MESH_FILE_MAX, &length, err);
+    if (fd < 0 || length > 0) return fd;
+    wr_fail(err, "%s: is empty", path);
+    close(fd);
     return -1;
 }
 
 bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
 {
-    int fd = open_regular(path, err);
+    int fd = open_mesh(path, err);
     if (fd < 0) return false;
     bool good;
     if (is_inside()) {

@@ -5,12 +5,8 @@
 #include "image/read_inner.h"
 #include "image/reader.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* Strangers' files are read by the reader process; inside this one only where the environment says so. */
@@ -32,18 +28,14 @@ void wr_image_warm(void)
     if (!read_inside()) wr_process_start(NULL);
 }
 
-/* The file, open, if it can be a picture file at all; -1 if not. Never waits: a pipe is refused before it
- * is read. */
+/* The file, open, if it can be a picture file at all; -1 if not. */
 static int open_regular(const char *path, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    struct stat info;
-    if (fd < 0 || fstat(fd, &info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
-    else if (S_ISDIR(info.st_mode)) wr_fail(err, "%s: is a folder; a picture file is needed", path);
-    else if (!S_ISREG(info.st_mode)) wr_fail(err, "%s: is not a regular file", path);
-    else if (info.st_size == 0) wr_fail(err, "%s: is empty", path);
-    else return fd;
-    if (fd >= 0) close(fd);
+    uint64_t length;
+    int fd = wr_file_open(path, WR_FILE_MOST, &length, err);
+    if (fd < 0 || length > 0) return fd;
+    wr_fail(err, "%s: is empty", path);
+    close(fd);
     return -1;
 }
 
