@@ -295,6 +295,54 @@ is 'what a kill left' "$(cat got)" "$(cat want)"
 expect 0 recover
 has out 'nothing to recover'
 rm -rf pipe back.exr want got state
+
+# ---- what is damaged comes back in part, under its name, and nothing of it is removed ----
+mkfifo pipe
+"$program" run - <pipe >out 2>err &
+job=$!
+exec 9>pipe
+printf '%s\n' 'table 32x32' 'save mine.exr' 'dab 0.2,0.2' 'dab 0.4,0.4' 'dab 0.6,0.6' >&9
+for ((i = 0; i < 400; i++)); do
+    grep -q ' 9 d ok' state/journals/*.wj 2>/dev/null && break
+    sleep 0.05
+done
+kill -KILL "$job"
+wait "$job" 2>/dev/null
+exec 9>&-
+rm -f pipe
+sed -i 's/dab 0.4,0.4/dab 0.4,0.5/' state/journals/*.wj
+expect 0 recover
+has out "$PWD/mine.exr  1 commands"
+has out 'damaged: 2 lines lost, 1 commands behind it'
+expect 0 recover --json
+has out '"beyond":1,"lost":2,"headless":false,"damaged":true'
+expect 1 recover 1 -o part.exr
+has err '1 of 2 commands were brought back; the journal was kept'
+has err '`wrinkle recover 1 --beyond -o OUT` goes on'
+has err "went on from $PWD/mine.exr"
+expect 1 recover 1 --beyond -o rest.exr
+has err '2 of 2 commands were brought back; the journal was kept'
+"$program" inspect mine.exr --do 'dab 0.2,0.2' --json >want 2>err
+"$program" inspect part.exr --json >got 2>err
+is 'up to the damage' "$(cat got)" "$(cat want)"
+"$program" inspect mine.exr --do 'dab 0.2,0.2' --do 'dab 0.6,0.6' --json >want 2>err
+"$program" inspect rest.exr --json >got 2>err
+is 'with what follows' "$(cat got)" "$(cat want)"
+expect 0 recover 1 --script
+has out '# 2 lines of the journal are lost here'
+mv out shown
+expect 0 recover 1 --script -o all.wrinkle
+is 'the script' "$(cat all.wrinkle)" "$(cat shown)"
+expect 1 recover 1 --in-place -o both.exr
+has err 'only one of them'
+expect 1 recover 1 --in-place --beyond
+is 'saved in place' "$("$program" inspect mine.exr --json 2>err)" "$(cat want)"
+expect 1 recover 1 --in-place
+has err 'was changed since'
+expect 0 recover discard 1
+expect 0 recover
+has out 'nothing to recover'
+rm -rf mine.exr part.exr rest.exr all.wrinkle shown want got state
 empty 'a recovery'
 
 if [[ $failures != 0 ]]; then

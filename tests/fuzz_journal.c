@@ -33,16 +33,20 @@ static bool read_bytes(const void *bytes, size_t length, WrJournalRead *read)
 /* What holds for everything that is given back. */
 static void check(const WrJournalRead *read, size_t length)
 {
-    require(read->count >= 0 && (size_t)read->count <= length);
-    require(!read->unfinished || read->count > 0);
-    require(!read->in_stroke || (read->unfinished && read->lines[read->count - 1].stroke));
+    require(read->count >= 0 && read->count <= read->total && (size_t)read->total <= length);
+    require(!read->unfinished || read->total > 0);
+    require(!read->in_stroke || (read->unfinished && read->lines[read->total - 1].stroke));
+    require(read->lost >= read->lost_at_end && read->lost_at_end >= 0);
+    require(!read->saved.path || (read->saved.at >= 0 && read->saved.at <= read->total));
+    require(read->count == read->total || *read->damage);
     require(read->dropped_bytes >= 0 && (size_t)read->dropped_bytes <= length);
     require(!*read->damage || read->dropped_bytes > 0);
     require((read->start.kind == WR_JOURNAL_SNAPSHOT) == (read->start.snapshot != NULL));
     size_t texts = 0;
-    for (int i = 0; i < read->count; i++) {
+    for (int i = 0; i < read->total; i++) {
         texts += strlen(read->lines[i].text);
-        require(read->lines[i].done || (i == read->count - 1 && read->unfinished));
+        require(read->lines[i].done || (i == read->total - 1 && read->unfinished));
+        require(i >= read->count || (!read->lines[i].lost && !read->lines[i].holed));
     }
     require(texts <= length);
 }
@@ -50,14 +54,13 @@ static void check(const WrJournalRead *read, size_t length)
 static WrText seal(const uint8_t *data, size_t size)
 {
     WrText text = { 0 };
-    WrHash chain;
     WrJournalHeader header = { .program = "fuzz", .start.path = "/a b.exr" };
     char *copy = wr_strndup((const char *)data, size), *line = copy;
-    wr_journal_print_header(&text, &header, &chain);
+    wr_journal_print_header(&text, &header);
     for (uint64_t sequence = 1; line && *line; sequence++) {
         char *end = strchr(line, '\n');
         if (end) *end = '\0';
-        if (*line) wr_journal_print_line(&text, sequence, line[0], line + 1, &chain);
+        if (*line) wr_journal_print_line(&text, sequence, line[0], line + 1);
         line = end ? end + 1 : NULL;
     }
     wr_free(copy);

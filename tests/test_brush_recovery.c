@@ -60,17 +60,17 @@ static WrHash recovered(void)
     WrRecoverable *found;
     WrError err = { "" };
     int count;
-    WrText report = { 0 };
+    WrRecovered how;
     assert_true(wr_recovery_list(&found, &count, &err));
     assert_int_equal(count, 1);
     WrSessionOptions options = { .journal = true };
     WrSession *s = wr_session_new(&options);
-    if (!wr_session_recover(s, found[0].journal, &report, &err)) fail_msg("%s", err.text);
-    if (strstr(wr_text_get(&report), "failed")) fail_msg("%s", wr_text_get(&report));
+    if (!wr_session_recover(s, found[0].journal, false, &how, &err)) fail_msg("%s", err.text);
+    if (!how.whole || !how.removed) fail_msg("%s", wr_text_get(&how.report));
     WrHash hash = wr_session_hash(s);
     wr_session_free(s);
     wr_recovery_list_free(found, count);
-    wr_text_fini(&report);
+    wr_recovered_fini(&how);
     return hash;
 }
 

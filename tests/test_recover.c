@@ -120,13 +120,15 @@ static void a_listing_tells_what_there_is_to_recover_newest_first(void **state)
     WrJournalList list;
     WrJournalStart empty = { .kind = WR_JOURNAL_EMPTY };
     WrJournalStart document = { .kind = WR_JOURNAL_DOCUMENT, .path = "/home/x/a.exr" };
-    leave_at(*state, &empty, 0, false, 1000);
-    leave_at(*state, &document, 3, false, 3000);
-    leave_at(*state, &empty, 5, true, 2000);
+    int64_t then = (int64_t)time(NULL) - 80000; /* not a day ago */
+    leave_at(*state, &empty, 0, false, then + 1000);
+    leave_at(*state, &document, 3, false, then + 3000);
+    leave_at(*state, &empty, 5, true, then + 2000);
     assert_true(wr_journal_list(*state, &list, NULL));
     assert_int_equal(list.count, 3);
     const WrJournalEntry *e = list.entries;
-    assert_true(e[0].written == 3000 && e[1].written == 2000 && e[2].written == 1000);
+    assert_true(e[0].written == then + 3000 && e[1].written == then + 2000);
+    assert_true(e[2].written == then + 1000);
     assert_string_equal(e[0].document, "/home/x/a.exr");
     assert_string_equal(e[1].document, "");
     assert_true(e[0].kind == WR_JOURNAL_DOCUMENT && e[1].kind == WR_JOURNAL_EMPTY);
@@ -142,11 +144,38 @@ static void a_listing_tells_what_there_is_to_recover_newest_first(void **state)
     wr_journal_list_fini(&list);
 }
 
+static void old_journals_of_what_was_saved_are_removed_others_never(void **state)
+{
+    WrJournalStart empty = { .kind = WR_JOURNAL_EMPTY };
+    WrJournalList list;
+    int64_t now = (int64_t)time(NULL);
+    for (int i = 0; i < 3; i++) { /* saved and old; saved just now; old and not saved */
+        WrJournalOptions options = { .folder = *state, .sync_seconds = -1 };
+        WrJournal *journal = wr_journal_begin(&options, &empty);
+        char *path = wr_strdup(wr_journal_path(journal));
+        wr_journal_command(journal, "a", NULL);
+        wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL);
+        if (i < 2) wr_journal_saved(journal, "/home/x/b.exr", &(WrHash){ 1, 2 }, NULL);
+        wr_journal_leave(journal);
+        struct timespec times[2] = { { .tv_sec = now - (i == 1 ? 10 : 200000 + i) } };
+        times[1] = times[0];
+        assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+        wr_free(path);
+    }
+    assert_true(wr_journal_list(*state, &list, NULL));
+    assert_int_equal(list.count, 2);
+    assert_true(list.entries[0].nothing && !list.entries[1].nothing);
+    assert_string_equal(list.entries[0].document, "/home/x/b.exr");
+    assert_int_equal(list.entries[1].complete, 1);
+    assert_int_equal(count_entries(*state), 2);
+    wr_journal_list_fini(&list);
+}
+
 static void a_listing_shows_damage_and_passes_over_what_is_no_journal(void **state)
 {
     WrJournalList list;
     WrJournalStart empty = { .kind = WR_JOURNAL_EMPTY };
-    leave_at(*state, &empty, 2, false, 4000);
+    leave_at(*state, &empty, 2, false, 4000); /* old, but there is something in it */
     assert_true(wr_journal_list(*state, &list, NULL));
     FILE *file = fopen(list.entries[0].path, "a");
     assert_true(file && fputs("torn", file) >= 0 && fclose(file) == 0);
@@ -475,6 +504,7 @@ int main(void)
         PLACED(a_journal_is_claimed_by_one_of_several_programs),
         PLACED(a_journal_that_restarts_stays_held),
         PLACED(a_listing_tells_what_there_is_to_recover_newest_first),
+        PLACED(old_journals_of_what_was_saved_are_removed_others_never),
         PLACED(a_listing_shows_damage_and_passes_over_what_is_no_journal),
         PLACED(a_folder_that_does_not_exist_has_no_journals),
         PLACED(leftovers_of_killed_programs_are_removed_after_a_day),

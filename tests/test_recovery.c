@@ -142,7 +142,13 @@ static bool recovered(WrHash *hash, WrText *report)
     assert_true(count <= 1);
     if (count == 1) {
         WrSession *session = new_session(true);
-        if (!wr_session_recover(session, found[0].journal, report, &err)) fail_msg("%s", err.text);
+        WrRecovered how;
+        if (!wr_session_recover(session, found[0].journal, false, &how, &err))
+            fail_msg("%s", err.text);
+        wr_text_add(report, wr_text_get(&how.report));
+        assert_int_equal(how.removed, how.whole);
+        if (!how.removed) assert_true(wr_recovery_discard(found[0].journal, NULL));
+        wr_recovered_fini(&how);
         assert_true(wr_session_revision(session) != wr_session_saved_revision(session));
         *hash = wr_session_hash(session);
         wr_session_free(session);
@@ -216,16 +222,18 @@ static void write_file(const char *path, const char *bytes, size_t length)
 static bool any_state(const Plan *plan, const char *path, const char *bytes, size_t length)
 {
     write_file(path, bytes, length);
-    WrText report = { 0 };
+    WrRecovered how;
     WrError err = { "" };
     WrSession *session = new_session(false);
-    bool good = wr_session_recover(session, path, &report, &err), known = false;
+    bool good = wr_session_recover(session, path, false, &how, &err), known = false;
     WrHash hash = wr_session_hash(session);
     for (int k = 0; k <= COMMANDS; k++) known |= wr_hash_equal(plan->hashes[k], hash);
-    if (!known) fail_msg("%zu bytes: a state that never was (%s)", length, wr_text_get(&report));
+    if (!known)
+        fail_msg("%zu bytes: a state that never was (%s)", length, wr_text_get(&how.report));
     if (!good) assert_true(err.text[0] != '\0');
+    assert_int_equal(access(path, F_OK), 0); /* nobody has saved it yet */
     wr_session_free(session);
-    wr_text_fini(&report);
+    wr_recovered_fini(&how);
     return good;
 }
 
@@ -240,6 +248,7 @@ static void a_journal_cut_at_every_byte_of_its_end_gives_a_state_that_was(void *
     for (from = length; from > 0 && lines < 4; from--) lines += bytes[from - 1] == '\n';
     for (size_t cut = from; cut<length; cut += step> 1 ? 1 : 3)
         assert_true(any_state(plan, path, bytes, cut));
+    unlink(path);
     wr_free(bytes);
     wr_free(path);
     wr_free(plan);
@@ -323,16 +332,17 @@ static void a_file_that_a_command_read_may_change_or_vanish_afterwards(void **st
 
     WrRecoverable *found;
     int count;
-    WrText report = { 0 };
+    WrRecovered how;
     assert_true(wr_recovery_list(&found, &count, &err));
     assert_int_equal(count, 1);
     session = new_session(true);
-    if (!wr_session_recover(session, found[0].journal, &report, &err)) fail_msg("%s", err.text);
+    if (!wr_session_recover(session, found[0].journal, false, &how, &err)) fail_msg("%s", err.text);
+    assert_true(how.whole && how.removed);
     WrHash again = wr_field_hash(wr_document_field(wr_session_document(session)));
-    if (!wr_hash_equal(again, heights)) fail_msg("%s", wr_text_get(&report));
+    if (!wr_hash_equal(again, heights)) fail_msg("%s", wr_text_get(&how.report));
     wr_session_free(session);
     wr_recovery_list_free(found, count);
-    wr_text_fini(&report);
+    wr_recovered_fini(&how);
 }
 
 static void nothing_is_left_when_a_session_ends_in_order(void **state)

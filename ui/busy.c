@@ -180,8 +180,9 @@ void wr_later_action(WrApp *app, const char *name)
     put_off(app);
 }
 
-void wr_later_recover(WrApp *app, const char *journal)
+void wr_later_recover(WrApp *app, const char *journal, bool beyond)
 {
+    app->later.beyond = beyond;
     wr_free(app->later.journal);
     app->later.journal = wr_strdup(journal);
     put_off(app);
@@ -204,7 +205,7 @@ void wr_later_run(WrApp *app)
     if (later.line) wr_app_run_slow(app, later.line);
     if (later.action) wr_action_run(app, later.action->name);
     if (later.path) wr_app_file_chosen(app, later.purpose, later.path);
-    if (later.journal) wr_recover(app, later.journal);
+    if (later.journal) wr_recover(app, later.journal, later.beyond);
     wr_free(later.line);
     wr_free(later.path);
     wr_free(later.journal);

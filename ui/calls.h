@@ -58,7 +58,7 @@ void wr_app_run_slow(WrApp *app, const char *line);
 /* The same for a file that was chosen, and for an action. */
 void wr_later_file(WrApp *app, WrFilePurpose purpose, const char *path);
 void wr_later_action(WrApp *app, const char *name);
-void wr_later_recover(WrApp *app, const char *journal);
+void wr_later_recover(WrApp *app, const char *journal, bool beyond);
 void wr_later_run(WrApp *app); /* do what was put off */
 
 /* ---- marks.c: outlines of selections ---- */
@@ -266,7 +266,7 @@ void wr_dialog_select(WrApp *app);
 void wr_dialog_search(WrApp *app);
 void wr_dialog_recover_open(WrApp *app); /* if there is anything to recover */
 void wr_dialog_recover(WrApp *app);
-void wr_recover(WrApp *app, const char *journal);
+void wr_recover(WrApp *app, const char *journal, bool beyond);
 void wr_recovery_free(WrRecovery *recovery); /* NULL is fine */
 /* Where a dialog stands whose effect the views show. */
 SDL_Rect wr_dialog_side(const WrApp *app);

@@ -11,13 +11,16 @@
 struct WrRecovery {
     WrRecoverable *list; /* owned */
     int count, chosen;
-    bool sure; /* Discard was pressed once */
+    bool sure;  /* Discard was pressed once */
+    char *told; /* the chosen one was recovered but for a part: how that went; owned; else NULL */
+    bool more;  /* and going on behind what is missing could bring more */
 };
 
 void wr_recovery_free(WrRecovery *recovery)
 {
     if (!recovery) return;
     wr_recovery_list_free(recovery->list, recovery->count);
+    wr_free(recovery->told);
     wr_free(recovery);
 }
 
@@ -25,6 +28,14 @@ static void forget(WrApp *app)
 {
     wr_recovery_free(app->recovery);
     app->recovery = NULL;
+}
+
+/* Is there one that something can be had of? The others are shown beside it; `wrinkle recover` tells of all. */
+static bool any_good(const WrRecovery *recovery)
+{
+    for (int i = 0; i < recovery->count; i++)
+        if (!recovery->list[i].error) return true;
+    return false;
 }
 
 void wr_dialog_recover_open(WrApp *app)
@@ -35,7 +46,7 @@ void wr_dialog_recover_open(WrApp *app)
     if (!wr_recovery_list(&recovery->list, &recovery->count, &err)) {
         wr_app_fail(app, &err);
         wr_free(recovery);
-    } else if (recovery->count == 0) {
+    } else if (!any_good(recovery)) {
         wr_recovery_free(recovery);
     } else {
         app->recovery = recovery;
@@ -54,20 +65,23 @@ static void describe(const WrRecoverable *r, char *name, size_t name_size, char 
              r->document[0] == '\0' ? "never saved"
              : slash                ? slash + 1
                                     : r->document);
-    snprintf(what, size, "%s   \xc2\xb7   %d step%s%s", when, r->commands,
-             r->commands == 1 ? "" : "s", r->damaged ? "   \xc2\xb7   its end is damaged" : "");
+    if (r->error) snprintf(what, size, "%s   \xc2\xb7   cannot be read: %.160s", when, r->error);
+    else
+        snprintf(what, size, "%s   \xc2\xb7   %d step%s%s", when, r->commands,
+                 r->commands == 1 ? "" : "s", r->damaged ? "   \xc2\xb7   damaged" : "");
 }
 
 typedef struct Call {
     WrSession *session;
     const char *journal;
-    WrText report;
+    bool beyond;
+    WrRecovered recovered;
 } Call;
 
 static bool recover_work(void *ctx, WrError *err)
 {
     Call *call = ctx;
-    return wr_session_recover(call->session, call->journal, &call->report, err);
+    return wr_session_recover(call->session, call->journal, call->beyond, &call->recovered, err);
 }
 
 static void say_lines(WrApp *app, const char *text)
@@ -79,18 +93,32 @@ static void say_lines(WrApp *app, const char *text)
     }
 }
 
-void wr_recover(WrApp *app, const char *journal)
+/* The rest of it is still there: what now? */
+static void ask_about_rest(WrApp *app, const Call *call)
+{
+    wr_dialog_recover_open(app);
+    WrRecovery *recovery = app->recovery;
+    for (int i = 0; recovery && i < recovery->count; i++) {
+        if (strcmp(recovery->list[i].journal, call->journal) != 0) continue;
+        recovery->chosen = i;
+        recovery->told = wr_strdup(wr_text_get(&call->recovered.report));
+        recovery->more = call->recovered.more;
+    }
+}
+
+void wr_recover(WrApp *app, const char *journal, bool beyond)
 {
     WrError err;
-    Call call = { .session = app->session, .journal = journal };
+    Call call = { .session = app->session, .journal = journal, .beyond = beyond };
     if (wr_busy_run(app, "Recovering", recover_work, &call, &err)) {
         app->starter = false;
         wr_app_changed_document(app);
-        say_lines(app, wr_text_get(&call.report));
+        say_lines(app, wr_text_get(&call.recovered.report));
+        if (!call.recovered.removed) ask_about_rest(app, &call);
     } else {
         wr_app_fail(app, &err);
     }
-    wr_text_fini(&call.report);
+    wr_recovered_fini(&call.recovered);
 }
 
 static void rows(WrRecovery *recovery)
@@ -99,7 +127,7 @@ static void rows(WrRecovery *recovery)
     wr_gui_list_begin("recoverable", wr_gui_px(tall * 46) + wr_gui_px(4));
     wr_gui_space(-6);
     for (int i = 0; i < recovery->count; i++) {
-        char name[128], what[128];
+        char name[128], what[256];
         describe(&recovery->list[i], name, sizeof name, what, sizeof what);
         WrRow r = wr_gui_row_begin(i, 46, i == recovery->chosen);
         wr_gui_tip(recovery->list[i].document);
@@ -130,6 +158,53 @@ static void discard(WrApp *app)
     wr_dialog_recover_open(app); /* if there are others */
 }
 
+/* What the chosen one is, or how its recovery went. */
+static void tell(const WrRecovery *recovery)
+{
+    const WrRecoverable *r = &recovery->list[recovery->chosen];
+    if (recovery->told) {
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, recovery->told);
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                            "What is left of it stays until it is discarded.");
+        return;
+    }
+    rows((WrRecovery *)recovery);
+    char text[200];
+    if (r->error) snprintf(text, sizeof text, "It cannot be read; a newer program may be able to.");
+    else if (r->headless)
+        snprintf(text, sizeof text, "Its beginning is damaged: what it began with is a guess.");
+    else if (r->beyond > 0)
+        snprintf(text, sizeof text,
+                 "It is damaged after step %d; %d step%s behind that can be read.", r->commands,
+                 r->beyond, r->beyond == 1 ? "" : "s");
+    else
+        snprintf(text, sizeof text, "%s",
+                 r->unfinished ? "Its last command had not ended. It is tried apart first." : "");
+    if (*text) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+}
+
+/* The buttons that bring it back. */
+static void recover_buttons(WrApp *app, bool key)
+{
+    const WrRecovery *recovery = app->recovery;
+    const WrRecoverable *r = &recovery->list[recovery->chosen];
+    bool parts = r->headless || r->beyond > 0;
+    bool now = false, beyond = false;
+    if (!r->error && !recovery->told && !r->headless) {
+        now = wr_gui_button(parts ? "Up to the damage" : "Recover", true) ||
+              (key && wr_gui_return_pressed());
+        wr_gui_same_line(8);
+    }
+    if (!r->error && (recovery->told ? recovery->more : parts)) {
+        beyond = wr_gui_button("With what follows", recovery->told || r->headless);
+        wr_gui_tip("Steps that need what is missing are left out");
+        wr_gui_same_line(8);
+    }
+    if (!now && !beyond) return;
+    wr_later_recover(app, r->journal, beyond);
+    wr_dialog_close(app);
+}
+
 void wr_dialog_recover(WrApp *app)
 {
     WrRecovery *recovery = app->recovery;
@@ -137,29 +212,27 @@ void wr_dialog_recover(WrApp *app)
         wr_dialog_close(app);
         return;
     }
-    if (!wr_gui_dialog_begin("Work that was not saved", 500)) return;
+    const char *told = recovery->told;
+    if (!wr_gui_dialog_begin(told ? "Not everything came back" : "Work that was not saved", 500))
+        return;
     bool key = !app->dialog_fresh;
-    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
-                        "Wrinkle ended before this was saved. It can be brought back.");
-    rows(recovery);
-    if (recovery->list[recovery->chosen].unfinished)
-        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                            "Its last command had not ended. It is tried apart first.");
+    if (!told)
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
+                            "Wrinkle ended before this was saved. It can be brought back.");
+    tell(recovery);
     wr_gui_space(8);
-    bool now = wr_gui_button("Recover", true) || (key && wr_gui_return_pressed());
+    recover_buttons(app, key);
+    bool lose = wr_gui_button(recovery->sure ? "Discard for good"
+                              : told         ? "Discard the rest"
+                                             : "Discard",
+                              false);
     wr_gui_same_line(8);
-    bool lose = wr_gui_button(recovery->sure ? "Discard for good" : "Discard", false);
-    wr_gui_same_line(8);
-    bool later = wr_gui_button("Later", false) || (key && wr_gui_escape_pressed());
+    bool later = wr_gui_button(told ? "Keep it" : "Later", false) ||
+                 (key && (wr_gui_escape_pressed() || (told && wr_gui_return_pressed())));
     wr_gui_tip("It is offered again the next time");
-    if (now) {
-        wr_later_recover(app, recovery->list[recovery->chosen].journal);
-        wr_dialog_close(app);
-    } else if (lose) {
-        discard(app);
-    } else if (later) {
-        wr_dialog_close(app);
-    }
+    if (app->dialog != WR_DIALOG_RECOVER) lose = later = false;
+    if (lose) discard(app);
+    else if (later) wr_dialog_close(app);
     wr_gui_dialog_end();
     if (app->dialog != WR_DIALOG_RECOVER) forget(app);
 }

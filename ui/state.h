@@ -272,6 +272,7 @@ typedef struct WrLater {
     char *line;             /* a command; owned */
     char *path;             /* a file chosen; owned */
     char *journal;          /* to recover; owned */
+    bool beyond;            /* and go on behind what is missing in it */
     double since;           /* clock */
     WrFilePurpose purpose;
 } WrLater;

@@ -64,6 +64,9 @@ struct WrCli {
     const char **tolerances; /* --tolerance, in order */
     int tolerance_count;
     bool hard_cases; /* --hard-cases */
+    bool beyond;     /* --beyond */
+    bool script;     /* --script */
+    bool in_place;   /* --in-place */
 
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
@@ -81,6 +84,7 @@ typedef enum WrOption {
     WR_OPTION_JSON,
     WR_OPTION_ACCURACY,  /* --axis, --runs, --budget, --csv, --plot, --differences,
                             --tolerance, --hard-cases */
+    WR_OPTION_RECOVER,   /* --beyond, --script, --in-place */
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */

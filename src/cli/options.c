@@ -197,6 +197,27 @@ static bool set_hard_cases(WrCli *cli, const char *value, WrError *err)
     return cli->hard_cases = true;
 }
 
+static bool set_beyond(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->beyond = true;
+}
+
+static bool set_script(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->script = true;
+}
+
+static bool set_in_place(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->in_place = true;
+}
+
 static bool set_help(WrCli *cli, const char *value, WrError *err)
 {
     (void)value;
@@ -258,6 +279,12 @@ static const struct Option {
       set_tolerance },
     { "--hard-cases", NULL, NULL, WR_OPTION_ACCURACY,
       "instead: every hard case, what must hold, and the worst that was measured", set_hard_cases },
+    { "--beyond", NULL, NULL, WR_OPTION_RECOVER,
+      "go on behind what is damaged or fails; without it, the document up to there", set_beyond },
+    { "--script", NULL, NULL, WR_OPTION_RECOVER,
+      "instead: all commands that can be read, as text, to OUT or standard output", set_script },
+    { "--in-place", NULL, NULL, WR_OPTION_RECOVER,
+      "save to the document's own file, if that is still what it was", set_in_place },
     { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", set_json },
     { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
       "run a command after FILE is loaded; repeatable, in order", set_do },

@@ -42,12 +42,15 @@ const WrSubcommand wr_subcommands[] = {
       "each\n"
       "against a reference in double precision.",
       wr_cli_accuracy },
-    { "recover", "recover [N|JOURNAL -o OUT] [discard N|JOURNAL] [--json]",
-      "work that a crash left behind", BIT(OUT) | BIT(JSON) | BIT(ALL_WORDS),
+    { "recover", "recover [N|JOURNAL -o OUT|--in-place|--script] [discard N|JOURNAL]",
+      "work that a crash left behind", BIT(OUT) | BIT(JSON) | BIT(RECOVER) | BIT(ALL_WORDS),
       "Without words: what there is. With a number of that list, or a journal's path: brings its "
       "document\n"
       "back and saves it to OUT. A command that had not ended is tried in a process of its own "
-      "first.",
+      "first.\n"
+      "The journal is removed when everything came back and OUT was read back; where something is "
+      "missing it\n"
+      "is kept, the status is 1, and --beyond, --script and discard are what is left to do.",
       wr_cli_recover },
     { "brushes", "brushes [NAME...] [--sheet FILE] [--json]", "the brush presets, and what they do",
       BIT(SHEET) | BIT(JSON) | BIT(ALL_WORDS),

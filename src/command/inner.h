@@ -112,10 +112,15 @@ void wr_session_journal_stroke_begin(WrSession *session, const WrCall *call);
 void wr_session_journal_stroke_add(WrSession *session, const double rows[][6], const int *lengths,
                                    int count);
 void wr_session_journal_stroke_end(WrSession *session, bool kept);
-/* The document is saved or given up: its journal goes. */
+/* The document was saved as its path: the journal notes that and goes on, so that a recovery knows the name,
+   and has the lines still should the file not be there then. */
+void wr_session_journal_saved(WrSession *session);
+/* The document is given up, or the session ends: its journal goes. */
 void wr_session_journal_drop(WrSession *session);
-/* Begin a journal from a snapshot of the document as it is. */
+/* Begin a journal from a snapshot of the document as it is, which was read back. */
 bool wr_session_journal_anew(WrSession *session, WrError *err);
+/* Does the file hold what the session's document is? */
+bool wr_session_reads_back(WrSession *session, const char *path, WrError *err);
 
 /* ---- what commands change ---- */
 

@@ -2,29 +2,46 @@
 #include "command/inner.h"
 
 #include "base/memory.h"
-#include "document/document_file.h"
 #include "document/recover.h"
 
+#include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define TRIAL_SECONDS 60.0
+#define SENTENCES_MAX 20 /* about single commands; the rest is counted */
+
+/* How a saved document was looked at since is no work that was lost. */
+static bool changes_document(const char *line)
+{
+    WrCall *call = NULL;
+    if (!wr_call_parse(line, false, &call, NULL)) return true;
+    bool view = call->command &&
+                (call->command->kind == WR_CLASS_VIEW || call->command->run == wr_run_view);
+    wr_call_free(call);
+    return !view;
+}
 
 bool wr_recovery_list(WrRecoverable **list, int *count, WrError *err)
 {
     WrJournalList journals = { 0 };
-    if (!wr_journal_list(NULL, &journals, err)) return false;
+    if (!wr_journal_list_that(NULL, changes_document, &journals, err)) return false;
     WrRecoverable *out = wr_alloc((size_t)journals.count + 1, sizeof *out);
     int n = 0;
     for (int i = 0; i < journals.count; i++) {
         const WrJournalEntry *e = &journals.entries[i];
-        if (e->error[0] || e->nothing) continue;
+        if (e->nothing) continue;
         out[n++] = (WrRecoverable){ .journal = wr_strdup(e->path),
                                     .document = wr_strdup(e->document),
                                     .started = (double)e->started,
                                     .written = (double)e->written,
                                     .commands = e->complete,
-                                    .damaged = e->dropped_bytes > 0,
-                                    .unfinished = e->unfinished };
+                                    .beyond = e->beyond,
+                                    .lost = e->lost,
+                                    .headless = e->headless,
+                                    .damaged = e->dropped_bytes > 0 || e->error[0],
+                                    .unfinished = e->unfinished,
+                                    .error = e->error[0] ? wr_strdup(e->error) : NULL };
     }
     wr_journal_list_fini(&journals);
     *list = out;
@@ -37,6 +54,7 @@ void wr_recovery_list_free(WrRecoverable *list, int count)
     for (int i = 0; i < count; i++) {
         wr_free(list[i].journal);
         wr_free(list[i].document);
+        wr_free(list[i].error);
     }
     wr_free(list);
 }
@@ -47,26 +65,87 @@ bool wr_recovery_discard(const char *journal, WrError *err)
     return claim && wr_journal_claim_remove(claim, err);
 }
 
-/* The state that the journal's first command ran on. */
-static bool bring_start(WrSession *session, const char *journal, const WrJournalStart *start,
-                        WrError *err)
+/* ---- one replay ---- */
+
+typedef struct Replay {
+    WrSession *session;
+    const char *journal;
+    const WrJournalRead *read;
+    bool beyond;
+    bool saved;         /* it goes on from the file that was saved last */
+    int from, end;      /* lines[from..end) are to run */
+    int done;           /* of them */
+    bool cut;           /* the last command was left out though it may have run */
+    bool known;         /* what it began with is proved */
+    bool missing;       /* steps are missing: */
+    int floor, ceiling; /* history positions that undo and redo may reach all the same */
+    bool differs;       /* that was said */
+    int sentences;      /* about single commands */
+    WrText *report;
+} Replay;
+
+static void tell(Replay *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void tell(Replay *r, const char *format, ...)
 {
-    if (start->kind == WR_JOURNAL_EMPTY) return true;
+    char text[512];
+    va_list args;
+    if (r->sentences++ >= SENTENCES_MAX) return;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    wr_text_addf(r->report, "%s\n", text);
+}
+
+/* Where it may be that the history lacks steps: what lies before cannot be told from them. */
+static void note_missing(Replay *r)
+{
+    r->missing = true;
+    r->floor = r->ceiling = wr_session_history_position(r->session);
+}
+
+static bool check_hash(const WrSession *session, const WrHash *hash, const char *what, WrError *err)
+{
+    if (wr_hash_equal(*hash, wr_session_hash(session))) return true;
+    return wr_fail(err, "%s: is not what the journal began with: it was changed since", what);
+}
+
+/* The state that the journal's first command ran on. Where the first line is damaged it is a guess. */
+static bool bring_start(Replay *r, WrError *err)
+{
+    static const WrHash none;
+    const WrJournalStart *start = &r->read->start;
+    const char *what = start->path ? start->path : "the snapshot";
     if (start->kind == WR_JOURNAL_SNAPSHOT) {
-        if (!wr_session_load(session, start->snapshot, err)) return false;
-    } else {
+        if (!wr_session_load(r->session, start->snapshot, err)) return false;
+    } else if (start->kind == WR_JOURNAL_DOCUMENT) {
         WrText kept = { 0 };
-        bool copy =
-            start->sha256 && wr_journal_kept_file(journal, start->sha256, start->path, &kept, NULL);
-        bool good = wr_session_load(session, copy ? wr_text_get(&kept) : start->path, err);
+        bool copy = start->sha256 &&
+                    wr_journal_kept_file(r->journal, start->sha256, start->path, &kept, NULL);
+        bool good = wr_session_load(r->session, copy ? wr_text_get(&kept) : start->path, err);
         wr_text_fini(&kept);
         if (!good) return false;
     }
-    static const WrHash none;
-    if (!wr_hash_equal(start->hash, none) && !wr_hash_equal(start->hash, wr_session_hash(session)))
-        return wr_fail(err, "%s: is not what the journal began with: it was changed since",
-                       start->path ? start->path : "the snapshot");
+    bool hashed = !wr_hash_equal(start->hash, none);
+    bool fits = hashed && check_hash(r->session, &start->hash, what, err);
+    /* An empty document may have another hash in another version of the program. */
+    r->known = fits || !r->read->headless;
+    if (!r->read->headless) return fits || !hashed || start->kind == WR_JOURNAL_EMPTY;
+    if (fits) return true;
+    if (!r->beyond)
+        return wr_fail(err, "%s: its first line is damaged: what it began with is not known",
+                       r->journal);
+    tell(r, "the journal's first line is damaged: it may have begun with something else than %s",
+         start->kind == WR_JOURNAL_EMPTY ? "an empty table" : what);
+    note_missing(r);
     return true;
+}
+
+/* The file that was saved last, if it still holds that. */
+static bool bring_saved(Replay *r, WrError *err)
+{
+    const WrJournalSave *saved = &r->read->saved;
+    return wr_session_load(r->session, saved->path, err) &&
+           check_hash(r->session, &saved->hash, saved->path, err);
 }
 
 typedef struct Try {
@@ -82,19 +161,21 @@ static bool try_line(void *ctx, WrError *err)
 }
 
 /* The command that never ended: is it safe to run? */
-static bool last_is_safe(WrSession *session, const char *line, WrText *report)
+static bool last_is_safe(Replay *r, const char *line)
 {
     WrError why = { "" };
-    Try attempt = { session, line };
+    Try attempt = { r->session, line };
     switch (wr_journal_trial(try_line, &attempt, TRIAL_SECONDS, 0, &why)) {
     case WR_TRIAL_TRUE: return true;
     case WR_TRIAL_FALSE:
-        wr_text_addf(report, "the last command failed and was left out: %s\n", why.text);
+        wr_text_addf(r->report, "the last command failed and was left out: %s\n", why.text);
+        r->done++; /* it did so then, or would have: nothing of it was in the document */
         return false;
     default:
-        wr_text_addf(report,
+        wr_text_addf(r->report,
                      "stopped before the last command, which may be what crashed (%s): %.200s\n",
                      why.text, line);
+        r->cut = true;
         return false;
     }
 }
@@ -123,77 +204,272 @@ static char *with_copies(const char *journal, const char *line)
     return out;
 }
 
-static void run_lines(WrSession *session, const char *journal, const WrJournalRead *read,
-                      WrText *report)
+/* undo N or redo N: how far, negative for undo. 0 if it is neither. */
+static int travel(const char *line)
 {
-    WrError why = { "" };
-    int done = 0;
-    for (int i = 0; i < read->count; i++) {
-        const WrJournalLine *line = &read->lines[i];
-        bool last = read->unfinished && i == read->count - 1;
-        /* A stroke that was being drawn had already run as far as its samples go. */
-        char *text = with_copies(journal, line->text);
-        bool stop = last && !read->in_stroke && !last_is_safe(session, text, report);
-        bool good = stop || wr_session_run(session, text, &why);
-        wr_free(text);
-        if (stop) break;
-        if (!good) {
-            wr_text_addf(report, "command %d failed, and what came after it is lost: %s\n", i + 1,
-                         why.text);
-            break;
-        }
-        if (line->hashed && !wr_hash_equal(line->hash, wr_session_hash(session)))
-            wr_text_addf(report, "command %d gave another result than it did at first\n", i + 1);
-        done++;
-    }
-    wr_text_addf(report, "%d of %d commands were brought back\n", done, read->count);
-    if (read->dropped_bytes)
-        wr_text_addf(report, "the journal's end is damaged; %lld bytes were dropped (%s)\n",
-                     (long long)read->dropped_bytes, read->damage);
-    if (read->gap[0])
-        wr_text_addf(report, "what came after is not in the journal: %s\n", read->gap);
+    WrCall *call = NULL;
+    int steps = 0;
+    if (!wr_call_parse(line, false, &call, NULL)) return 0;
+    if (call->command && call->command->run == wr_run_undo) steps = -(int)wr_call_number(call, "N");
+    if (call->command && call->command->run == wr_run_redo) steps = (int)wr_call_number(call, "N");
+    wr_call_free(call);
+    return steps;
 }
 
-/* Replay into the session, whose old state is kept aside by the caller. */
-static bool replay(WrSession *session, const char *journal, const WrJournalRead *read,
-                   WrText *report, WrError *err)
+/* Go through the history with steps missing: what it undid may be just what is lost. */
+static bool go_carefully(Replay *r, int index, int steps, WrError *err)
 {
-    session->opening = true;
-    bool good = bring_start(session, journal, &read->start, err);
-    if (good) wr_session_rebase(session);
-    if (good) run_lines(session, journal, read, report);
-    session->opening = false;
+    int position = wr_session_history_position(r->session), to = position + steps;
+    if (to < r->floor) to = r->floor;
+    if (to > r->ceiling) to = r->ceiling;
+    if (to != position + steps)
+        tell(r, "command %d, %s %d, goes back to what is missing: %d of its steps were made",
+             index + 1, steps < 0 ? "undo" : "redo", abs(steps), abs(to - position));
+    return to == position || wr_session_go_to(r->session, to, err);
+}
+
+static bool run_one(Replay *r, int index, const char *text, WrError *err)
+{
+    int steps = r->missing ? travel(text) : 0, before = wr_session_history_position(r->session);
+    if (steps) return go_carefully(r, index, steps, err);
+    if (!wr_session_run(r->session, text, err)) return false;
+    int after = wr_session_history_position(r->session);
+    if (after > before) r->ceiling = after; /* a step; views are none */
+    return true;
+}
+
+/* False: it must end here. */
+static bool replay_line(Replay *r, int index)
+{
+    WrError why = { "" };
+    const WrJournalLine *line = &r->read->lines[index];
+    bool last = r->read->unfinished && index == r->read->total - 1;
+    if (line->lost) {
+        tell(r, "before command %d %d lines of the journal are lost", index + 1, line->lost);
+        note_missing(r);
+    }
+    if (line->holed) tell(r, "command %d is a stroke of which some points are lost", index + 1);
+    char *text = with_copies(r->journal, line->text);
+    /* A stroke that was being drawn had already run as far as its samples go. */
+    bool stop = last && !r->read->in_stroke && !last_is_safe(r, text);
+    bool good = stop || run_one(r, index, text, &why);
+    wr_free(text);
+    if (stop) return false;
+    if (!good) {
+        tell(r, "command %d failed%s: %s", index + 1,
+             r->beyond ? "" : ", and what came after it was left out", why.text);
+        note_missing(r);
+        return r->beyond;
+    }
+    r->done++;
+    if (line->hashed && !r->differs && !wr_hash_equal(line->hash, wr_session_hash(r->session))) {
+        r->differs = true;
+        tell(r, "from command %d on the document is not what it was", index + 1);
+    }
+    return true;
+}
+
+/* Into the session, whose state is fresh. */
+static bool replay(Replay *r, bool from_saved, WrError *err)
+{
+    const WrJournalRead *read = r->read;
+    r->saved = from_saved;
+    r->from = from_saved ? read->saved.at : 0;
+    r->known = from_saved;
+    r->session->opening = true;
+    bool good = from_saved ? bring_saved(r, err) : bring_start(r, err);
+    if (good) wr_session_rebase(r->session);
+    r->end = r->beyond ? read->total : wr_journal_sound_end(read, r->from, r->known);
+    for (int i = r->from; good && i < r->end && replay_line(r, i);) i++;
+    r->session->opening = false;
     return good;
 }
 
-bool wr_session_recover(WrSession *session, const char *journal, WrText *report, WrError *err)
+/* ---- the whole ---- */
+
+static bool nothing_is_missing(const Replay *r)
+{
+    const WrJournalRead *read = r->read;
+    return r->done == read->total - r->from && !r->cut && !r->missing && read->lost_at_end == 0 &&
+           !*read->gap && wr_journal_sound_end(read, r->from, r->known) == read->total;
+}
+
+static void sum_up(Replay *r, WrRecovered *out)
+{
+    const WrJournalRead *read = r->read;
+    out->commands = read->total - r->from;
+    out->done = r->done;
+    out->whole = nothing_is_missing(r);
+    out->more = !r->beyond && r->done < out->commands - (r->cut ? 1 : 0);
+    if (r->sentences > SENTENCES_MAX)
+        wr_text_addf(r->report, "and %d more of that kind\n", r->sentences - SENTENCES_MAX);
+    if (r->saved)
+        wr_text_addf(r->report, "went on from %s as it was saved last\n", read->saved.path);
+    wr_text_addf(r->report, "%d of %d commands were brought back\n", out->done, out->commands);
+    if (*read->damage && !out->whole)
+        wr_text_addf(r->report, "%d lines of the journal are damaged or missing (the first: %s)\n",
+                     read->lost, read->damage);
+    if (read->gap[0])
+        wr_text_addf(r->report, "what came after is not in the journal: %s\n", read->gap);
+}
+
+/* A replay into a fresh state; the session's own comes back where it cannot even begin. */
+static bool attempt(Replay *r, WrSessionState *old, bool from_saved, WrError *err)
+{
+    *old = wr_session_begin_state(r->session, wr_document_new());
+    if (replay(r, from_saved, err)) return true;
+    wr_session_restore_state(r->session, old);
+    return false;
+}
+
+/* From the file that was saved last; from the start where that file is gone or another, or where what was done
+   before the save was undone after it. */
+static bool bring_back(Replay *r, WrSessionState *old, WrError *err)
+{
+    const Replay fresh = *r;
+    const WrJournalRead *read = r->read;
+    bool could = read->saved.path && attempt(r, old, true, err);
+    bool all = could && (r->done == r->end - r->from || r->cut);
+    if (all || (could && wr_journal_sound_end(read, 0, false) < read->saved.at)) return true;
+    if (could) wr_session_restore_state(r->session, old);
+    wr_text_clear(r->report);
+    *r = fresh;
+    if (attempt(r, old, false, err)) return true;
+    wr_text_clear(r->report);
+    *r = fresh;
+    return could && attempt(r, old, true, err);
+}
+
+/* The session's own journal, if it keeps one, takes the old one's place. */
+static void change_journals(WrSession *session, WrRecovered *out)
+{
+    WrError trouble = { "" };
+    wr_session_journal_drop(session);
+    if (!session->options.journal) return;
+    bool safe = wr_session_journal_anew(session, &trouble);
+    if (!safe) wr_text_addf(&out->report, "the old journal was kept: %s\n", trouble.text);
+    if (safe && out->whole) out->removed = wr_journal_claim_remove(out->claim, NULL);
+    else wr_journal_claim_free(out->claim);
+    out->claim = NULL;
+}
+
+bool wr_session_recover(WrSession *session, const char *journal, bool beyond, WrRecovered *out,
+                        WrError *err)
 {
     WrJournalRead read = { 0 };
+    WrSessionState old;
+    *out = (WrRecovered){ 0 };
     if (!wr_session_refuse_in_stroke(session, err)) return false;
-    WrJournalClaim *claim = wr_journal_claim(journal, err);
-    if (!claim) return false;
-    if (!wr_journal_read(journal, &read, err)) {
-        wr_journal_claim_free(claim);
-        return false;
-    }
-    WrSessionState old = wr_session_begin_state(session, wr_document_new());
-    bool good = replay(session, journal, &read, report, err);
-    if (!good) {
-        wr_session_restore_state(session, &old);
-        wr_journal_claim_free(claim);
-    } else {
-        WrError trouble = { "" };
+    out->claim = wr_journal_claim(journal, err);
+    if (!out->claim || !wr_journal_read(journal, &read, err)) return false;
+    Replay r = { .session = session,
+                 .journal = journal,
+                 .read = &read,
+                 .beyond = beyond,
+                 .report = &out->report };
+    bool good = bring_back(&r, &old, err);
+    if (good) {
+        const char *path = read.saved.path ? read.saved.path : read.start.path;
         wr_session_keep_state(session, &old);
-        session->state.path = wr_strdup(read.start.path);
+        session->state.path = wr_strdup(path);
         session->state.saved_revision = UINT64_MAX; /* no state of it was ever saved */
-        wr_session_journal_drop(session);
-        /* The old journal goes only when the new one holds it all. */
-        if (wr_session_journal_anew(session, &trouble)) wr_journal_claim_remove(claim, NULL);
-        else {
-            wr_text_addf(report, "the old journal was kept: %s\n", trouble.text);
-            wr_journal_claim_free(claim);
-        }
+        sum_up(&r, out);
+        change_journals(session, out);
     }
+    wr_journal_read_fini(&read);
+    return good;
+}
+
+bool wr_recovered_saved(WrRecovered *recovered, WrSession *session, const char *path, WrError *err)
+{
+    if (!wr_session_reads_back(session, path, err)) return false;
+    if (recovered->whole && recovered->claim) {
+        WrJournalClaim *claim = recovered->claim;
+        recovered->claim = NULL;
+        recovered->removed = wr_journal_claim_remove(claim, err);
+        return recovered->removed;
+    }
+    return true;
+}
+
+void wr_recovered_fini(WrRecovered *recovered)
+{
+    wr_journal_claim_free(recovered->claim);
+    wr_text_fini(&recovered->report);
+    *recovered = (WrRecovered){ 0 };
+}
+
+/* ---- without a replay ---- */
+
+static void add_open(WrText *text, const char *path, const char *sha256)
+{
+    wr_text_add(text, "open ");
+    wr_text_add_word(text, path);
+    if (sha256) wr_text_addf(text, " sha256=%s", sha256);
+    wr_text_add(text, "\n");
+}
+
+static void add_start(const char *journal, const WrJournalRead *read, WrText *text)
+{
+    const WrJournalStart *start = &read->start;
+    WrText kept = { 0 };
+    if (read->headless)
+        wr_text_add(text, "# its first line is damaged: what it began with is a guess\n");
+    if (start->kind == WR_JOURNAL_SNAPSHOT) add_open(text, start->snapshot, NULL);
+    if (start->kind == WR_JOURNAL_DOCUMENT) {
+        bool copy =
+            start->sha256 && wr_journal_kept_file(journal, start->sha256, start->path, &kept, NULL);
+        if (copy) wr_text_addf(text, "# this was %s\n", start->path);
+        add_open(text, copy ? wr_text_get(&kept) : start->path, start->sha256);
+    }
+    wr_text_fini(&kept);
+}
+
+bool wr_recovery_script(const char *journal, WrText *text, WrError *err)
+{
+    WrJournalRead read = { 0 };
+    if (!wr_journal_read(journal, &read, err)) return false;
+    wr_text_addf(text, "# from %s\n", journal);
+    add_start(journal, &read, text);
+    for (int i = 0; i <= read.total; i++) {
+        if (read.saved.path && read.saved.at == i)
+            wr_text_addf(text, "# saved here as %s\n", read.saved.path);
+        if (i == read.total) break;
+        const WrJournalLine *line = &read.lines[i];
+        if (line->lost) wr_text_addf(text, "# %d lines of the journal are lost here\n", line->lost);
+        if (line->holed) wr_text_add(text, "# some points of this stroke are lost\n");
+        if (read.unfinished && i == read.total - 1) wr_text_add(text, "# this one had not ended\n");
+        char *whole = with_copies(journal, line->text);
+        wr_text_addf(text, "%s\n", whole);
+        wr_free(whole);
+    }
+    if (read.lost_at_end)
+        wr_text_addf(text, "# %d lines at the journal's end are lost\n", read.lost_at_end);
+    if (*read.gap) wr_text_addf(text, "# what came after is not in the journal: %s\n", read.gap);
+    wr_journal_read_fini(&read);
+    return true;
+}
+
+/* The file as a document has that hash. */
+static bool holds(const char *path, const WrHash *hash, WrError *err)
+{
+    WrSession *session = wr_session_new(NULL);
+    bool good = wr_session_load(session, path, err) && check_hash(session, hash, path, err);
+    wr_session_free(session);
+    return good;
+}
+
+bool wr_recovery_own_file(const char *journal, WrText *path, WrError *err)
+{
+    WrJournalRead read = { 0 };
+    if (!wr_journal_read(journal, &read, err)) return false;
+    const char *own = read.saved.path ? read.saved.path : read.start.path;
+    bool good = own || wr_fail(err, "it was never saved: it has no file of its own");
+    if (good && read.saved.path) good = holds(own, &read.saved.hash, err);
+    else if (good && read.start.kind == WR_JOURNAL_DOCUMENT)
+        good = holds(own, &read.start.hash, err);
+    else if (good) good = wr_fail(err, "%s: what it should hold is not on record", own);
+    if (good) wr_text_add(path, own);
     wr_journal_read_fini(&read);
     return good;
 }

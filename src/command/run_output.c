@@ -116,7 +116,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     wr_free(session->state.path);
     session->state.path = kept;
     session->state.saved_revision = wr_session_revision(session);
-    wr_session_journal_drop(session);
+    wr_session_journal_saved(session);
     return true;
 }
 

@@ -181,6 +181,17 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     return good;
 }
 
+bool wr_session_reads_back(WrSession *session, const char *path, WrError *err)
+{
+    WrSessionOptions options = { .pool = session->options.pool };
+    WrSession *other = wr_session_new(&options);
+    bool good = wr_session_load(other, path, err) &&
+                (wr_hash_equal(wr_session_hash(other), wr_session_hash(session)) ||
+                 wr_fail(err, "%s: reads back as something else than was written", path));
+    wr_session_free(other);
+    return good;
+}
+
 /* The command that opens the document again, for a script of what was done to it. */
 static bool note_origin(WrSession *session, const char *path, WrError *err)
 {

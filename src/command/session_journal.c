@@ -115,25 +115,51 @@ static WrHash hash_at_start(const WrSession *session)
     return hash;
 }
 
-/* What the document was before the first command, as a journal's start. */
+static bool restart(WrSession *session, bool checked, WrError *err);
+
+/* Nothing was done since it was saved or opened. */
+static bool is_saved(const WrSession *session)
+{
+    return session->state.path && wr_session_revision(session) == session->state.saved_revision;
+}
+
+void wr_session_journal_saved(WrSession *session)
+{
+    if (!session->journal) return;
+    WrHash hash = wr_session_hash(session);
+    wr_journal_saved(session->journal, session->state.path, &hash, NULL);
+}
+
+/* What was done before the journal: the lines of a script or picture that was opened, --do, and views. */
+static void add_history(WrSession *session)
+{
+    wr_session_lines(session, put_line, session);
+    if (wr_history_position(session->state.history) > 0 && is_saved(session))
+        wr_session_journal_saved(session);
+}
+
+/* What the document was before the first command, as a journal's start. The file that it was opened from
+   counts only as long as it is what was opened: it may have been saved over since. */
 static void begin(WrSession *session)
 {
     const WrSessionState *state = &session->state;
-    const WrHistory *history = state->history;
     WrJournalOptions options = { .report = report, .ctx = session };
     WrJournalStart start = { .kind = WR_JOURNAL_EMPTY };
     char hex[65] = "";
-    if (state->origin && state->path && wr_sha256_file(state->path, hex, NULL))
+    bool opened = state->origin && state->path && wr_sha256_file(state->path, hex, NULL) &&
+                  strstr(state->origin, hex);
+    if (opened)
         start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT, .path = state->path, .sha256 = hex };
-    if (wr_history_position(history) == 0) start.hash = hash_at_start(session);
+    if (wr_history_position(state->history) == 0) start.hash = hash_at_start(session);
     session->journal = wr_journal_begin(&options, &start);
     forget_kept(session);
-    if (*hex) keep(session, state->path, hex);
+    if (opened) keep(session, state->path, hex);
     session->journal_base = 0;
-    session->journal_top = wr_history_position(history);
+    session->journal_top = wr_history_position(state->history);
     session->view_base = session->view_top = wr_views_number(state->views);
-    /* What was done since: the lines of a script or picture that was opened, and views. */
-    wr_session_lines(session, put_line, session);
+    WrError why = { "" };
+    if (opened || !state->origin) add_history(session);
+    else if (!restart(session, false, &why)) wr_journal_break(session->journal, why.text);
 }
 
 static bool journaled(const WrSession *session)
@@ -156,8 +182,6 @@ void wr_session_journal_before(WrSession *session, const WrCall *call)
     wr_text_fini(&text);
 }
 
-static bool restart(WrSession *session, WrError *err);
-
 /* A replay knows the steps and views from the journal's start on: an undo, a redo or a view that leaves these
    cannot be replayed, so the journal then begins anew from what it led to. */
 static void follow(WrSession *session, bool pushed)
@@ -167,7 +191,7 @@ static void follow(WrSession *session, bool pushed)
     int64_t view = wr_views_number(session->state.views);
     bool known = position >= session->journal_base && position <= session->journal_top;
     bool seen = view >= session->view_base && view <= session->view_top;
-    if (!known || !seen) restart(session, NULL);
+    if (!known || !seen) restart(session, false, NULL);
 }
 
 void wr_session_journal_after(WrSession *session, bool good, bool pushed)
@@ -239,8 +263,8 @@ void wr_session_journal_drop(WrSession *session)
     forget_kept(session);
 }
 
-/* Begin the journal anew from the document as it is now. */
-static bool restart(WrSession *session, WrError *err)
+/* Begin the journal anew from the document as it is now. checked: from a snapshot that was read back. */
+static bool restart(WrSession *session, bool checked, WrError *err)
 {
     WrText path = { 0 }, scene = { 0 };
     wr_session_scene_text(session, &scene);
@@ -251,11 +275,13 @@ static bool restart(WrSession *session, WrError *err)
         wr_journal_snapshot_path(session->journal, &path, err) &&
         wr_document_save(session->state.document, wr_text_get(&scene), wr_text_get(&path), err);
     start.snapshot = wr_text_get(&path);
+    good = good && (!checked || wr_session_reads_back(session, start.snapshot, err));
     good = good && wr_journal_restart(session->journal, &start, err);
     if (good) forget_kept(session);
     if (good) session->journal_base = session->journal_top = wr_session_history_position(session);
     if (good) session->view_base = session->view_top = wr_views_number(session->state.views);
     else wr_journal_put_off(session->journal);
+    if (good && is_saved(session)) wr_session_journal_saved(session);
     wr_text_fini(&path);
     wr_text_fini(&scene);
     return good;
@@ -269,7 +295,7 @@ bool wr_session_journal_anew(WrSession *session, WrError *err)
         WrJournalStart start = { .kind = WR_JOURNAL_EMPTY };
         session->journal = wr_journal_begin(&options, &start);
     }
-    return restart(session, err);
+    return restart(session, true, err);
 }
 
 bool wr_session_journal_tend(WrSession *session)
@@ -277,7 +303,7 @@ bool wr_session_journal_tend(WrSession *session)
     if (!session->journal || session->stroke) return false;
     WrJournalState state = wr_journal_state(session->journal);
     if (state.busy || state.want == WR_JOURNAL_WANT_NOTHING) return false;
-    restart(session, NULL);
+    restart(session, false, NULL);
     return true;
 }
 

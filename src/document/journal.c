@@ -34,7 +34,6 @@ struct WrJournal {
     int64_t bytes; /* whole lines in the file: what a failed write is cut back to */
     int64_t lines, commands;
     uint64_t sequence; /* of the next record */
-    WrHash chain;
     Open open;
     WrText line;      /* scratch */
     bool unsynced;    /* lines were written since synced_at */
@@ -61,9 +60,8 @@ static void mark_gap(WrJournal *journal)
 {
     if (journal->fd < 0 || journal->gap_marked) return;
     if (ftruncate(journal->fd, journal->bytes) != 0) return; /* torn bytes: nothing may follow */
-    WrHash chain = journal->chain;
     wr_text_clear(&journal->line);
-    wr_journal_print_line(&journal->line, journal->sequence, 'g', journal->reason, &chain);
+    wr_journal_print_line(&journal->line, journal->sequence, 'g', journal->reason);
     journal->gap_marked = wr_fd_write(journal->fd, journal->line.data, journal->line.length);
     if (!journal->gap_marked && ftruncate(journal->fd, journal->bytes) != 0)
         return; /* the reader drops torn bytes */
@@ -81,6 +79,11 @@ static void become_unsafe(WrJournal *journal, const char *reason)
     wr_text_addf(&text, "the journal is not safe: %s", journal->reason);
     report(journal, wr_text_get(&text));
     wr_text_fini(&text);
+}
+
+void wr_journal_break(WrJournal *journal, const char *reason)
+{
+    if (!journal->broken) become_unsafe(journal, reason);
 }
 
 /* Would a new file have room? Writes one and removes it. */
@@ -132,15 +135,13 @@ static bool append(WrJournal *journal, char kind, const char *payload, WrError *
         retry(journal);
         return wr_fail(err, "the journal is not safe: %s", journal->reason);
     }
-    WrHash chain = journal->chain;
     wr_text_clear(&journal->line);
-    wr_journal_print_line(&journal->line, journal->sequence, kind, payload, &chain);
+    wr_journal_print_line(&journal->line, journal->sequence, kind, payload);
     if (!write_line(journal, err)) {
         become_unsafe(journal, err->text);
         return false;
     }
     journal->bytes += (int64_t)journal->line.length;
-    journal->chain = chain;
     journal->sequence++;
     journal->lines++;
     journal->unsynced = true;
@@ -193,6 +194,28 @@ bool wr_journal_note(WrJournal *journal, const char *text, WrError *err)
     return append(journal, 'n', text, err);
 }
 
+/* Wherever the program goes later. Caller frees. */
+static char *absolute_path(const char *path)
+{
+    char *here = getcwd(NULL, 0), *whole = wr_path_join(here ? here : "/", path);
+    free(here);
+    return whole;
+}
+
+bool wr_journal_saved(WrJournal *journal, const char *path, const WrHash *hash, WrError *err)
+{
+    if (journal->open != OPEN_NOTHING)
+        return wr_fail(err, "no save can be noted while a command is under way");
+    char digits[33], *absolute = absolute_path(path);
+    WrText text = { 0 };
+    wr_hash_print(*hash, digits);
+    wr_text_addf(&text, "%s %s", digits, absolute);
+    bool ok = append(journal, 'v', wr_text_get(&text), err) && wr_journal_sync(journal, err);
+    wr_text_fini(&text);
+    wr_free(absolute);
+    return ok;
+}
+
 bool wr_journal_sync(WrJournal *journal, WrError *err)
 {
     WrError local;
@@ -239,17 +262,9 @@ const char *wr_journal_path(const WrJournal *journal)
 
 /* ---- beginning and restarting ---- */
 
-/* Wherever the program goes later. Caller frees. */
-static char *absolute_path(const char *path)
-{
-    char *here = getcwd(NULL, 0), *whole = wr_path_join(here ? here : "/", path);
-    free(here);
-    return whole;
-}
-
 /* The header of a start state; the caller frees *absolute. */
 static bool print_start(WrJournal *journal, const WrJournalStart *start, char **absolute,
-                        WrHash *chain, WrError *err)
+                        WrError *err)
 {
     WrJournalHeader header = { .start = *start,
                                .program = journal->options.program,
@@ -271,7 +286,7 @@ static bool print_start(WrJournal *journal, const WrJournalStart *start, char **
     }
     if (start->path && *start->path) header.start.path = *absolute = absolute_path(start->path);
     wr_text_clear(&journal->line);
-    wr_journal_print_header(&journal->line, &header, chain);
+    wr_journal_print_header(&journal->line, &header);
     return true;
 }
 
@@ -298,10 +313,9 @@ static int create_file(const WrJournal *journal, WrError *err)
 static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError *err)
 {
     char *absolute = NULL;
-    WrHash chain;
     if (!journal->path) return wr_fail(err, "%s", journal->reason);
     if (!wr_journal_make_folder(journal->options.folder, err)) return false;
-    bool ok = print_start(journal, start, &absolute, &chain, err);
+    bool ok = print_start(journal, start, &absolute, err);
     int fd = ok ? create_file(journal, err) : -1;
     wr_free(absolute);
     if (fd < 0) return false;
@@ -312,7 +326,6 @@ static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError 
     journal->lines = 1;
     journal->commands = 0;
     journal->sequence = 1;
-    journal->chain = chain;
     journal->unsynced = false;
     journal->synced_at = wr_clock_seconds();
     journal->broken = journal->gap_marked = journal->writable = false;
@@ -408,7 +421,7 @@ bool wr_journal_snapshot_path(WrJournal *journal, WrText *path, WrError *err)
 {
     if (!journal->path) return wr_fail(err, "%s", journal->reason);
     if (!wr_journal_make_folder(journal->files, err)) return false;
-    wr_text_addf(path, "%s/snapshot-%d.exr", journal->files, ++journal->snapshot);
+    wr_text_addf(path, "%s/" WR_JOURNAL_SNAPSHOT_NAME, journal->files, ++journal->snapshot);
     return true;
 }
 

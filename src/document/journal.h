@@ -10,22 +10,23 @@
                   commands read; hard links to the copies of other journals where they have the
                   same, so that the file system counts the references and nobody has to
 
-   Format, version 1. Header:
-     wrinkle-journal 1 CHECKSUM PROGRAM TIME KIND HASH SHA256 SNAPSHOT PATH
+   Format, version 2. Header:
+     wrinkle-journal 2 CHECKSUM PROGRAM TIME KIND HASH SHA256 SNAPSHOT PATH
    then records:
      CHECKSUM SEQUENCE KIND PAYLOAD
-   CHECKSUM  32 hex digits over the rest of the line and the line before's checksum, so that no line
-             can change, vanish or change places unnoticed
-   SEQUENCE  counts from 1
+   CHECKSUM  32 hex digits over the rest of the line, so that damage costs the lines that it hits
+   SEQUENCE  counts from 1, so that no line can vanish or change places unnoticed
    PAYLOAD   runs to the line end, with \n, \r and \\ for line ends and backslashes; in the header
              also \s for a space and \e for an empty word
    KIND      c command, d it has run ("ok", "ok HASH", "dropped"), b, s, e a stroke's begin,
-             samples, end, n note, g lines are missing from here on */
+             samples, end, n note, v "HASH PATH": it was saved there, g lines are missing from here on
+   In version 1, which is still read, a CHECKSUM went over the line before's CHECKSUM too, and v was
+   not known. */
 #pragma once
 #include "base/hash.h"
 #include "base/text.h"
 
-#define WR_JOURNAL_FORMAT 1
+#define WR_JOURNAL_FORMAT 2
 #define WR_JOURNAL_LINE_MAX ((int64_t)64 << 20) /* bytes of one line, its end included */
 #define WR_JOURNAL_FILE_MAX ((int64_t)1 << 30)  /* bytes of a journal */
 
@@ -130,6 +131,12 @@ bool wr_journal_stroke_add(WrJournal *journal, const char *samples, WrError *err
 bool wr_journal_stroke_end(WrJournal *journal, WrError *err);
 /* For people who read the file; a replay passes over it. */
 bool wr_journal_note(WrJournal *journal, const char *text, WrError *err);
+/* The document as it is now, of that hash, was saved as that file: a recovery goes on from there, under that
+   name, where the file still holds it; else the lines before it make it again. Not while a command is open. */
+bool wr_journal_saved(WrJournal *journal, const char *path, const WrHash *hash, WrError *err);
+/* The start state is not what the header says, and could not be written: as if lines were missing, from the first
+   on. */
+void wr_journal_break(WrJournal *journal, const char *reason);
 /* Everything written so far is on the disk when this returns true: at a stroke's end, when idle.
    Also finds out whether the file was removed or moved away. */
 bool wr_journal_sync(WrJournal *journal, WrError *err);

@@ -13,8 +13,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#define DAY_SECONDS 86400
-
 bool wr_journal_folder(WrText *path, WrError *err)
 {
     const char *own = getenv("WRINKLE_STATE"), *state = getenv("XDG_STATE_HOME");
@@ -71,6 +69,23 @@ char *wr_journal_files_folder(const char *journal_path)
     wr_text_add_n(&text, journal_path, length);
     wr_text_add(&text, WR_JOURNAL_FILES_ENDING);
     return text.data;
+}
+
+char *wr_journal_newest_snapshot(const char *files)
+{
+    DIR *dir = opendir(files);
+    struct dirent *entry;
+    int newest = 0;
+    while (dir && (entry = readdir(dir))) {
+        int number = 0, end = 0;
+        if (sscanf(entry->d_name, WR_JOURNAL_SNAPSHOT_NAME "%n", &number, &end) == 1 && end > 0 &&
+            !entry->d_name[end] && number > newest)
+            newest = number;
+    }
+    if (dir) closedir(dir);
+    WrText name = { 0 };
+    if (newest > 0) wr_text_addf(&name, WR_JOURNAL_SNAPSHOT_NAME, newest);
+    return name.data;
 }
 
 bool wr_journal_sync_path(const char *path, WrError *err)
@@ -159,7 +174,7 @@ void wr_journal_sweep(const char *folder)
         struct stat info;
         if (!half && !files) continue;
         if (fstatat(dirfd(dir), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 ||
-            now - info.st_mtime < DAY_SECONDS)
+            now - info.st_mtime < WR_JOURNAL_LEFTOVER_SECONDS)
             continue;
         char *path = wr_path_join(folder, entry->d_name);
         if (half) sweep_new(path);

@@ -5,11 +5,16 @@
 
 #define WR_JOURNAL_ENDING ".wj"
 #define WR_JOURNAL_FILES_ENDING ".files"
+#define WR_JOURNAL_SNAPSHOT_NAME "snapshot-%d.exr"
+#define WR_JOURNAL_LEFTOVER_SECONDS 86400 /* a leftover that nobody needs stays that long */
 
 /* Make a folder and those above it, mode 0700 each; fine if it is there. */
 bool wr_journal_make_folder(const char *path, WrError *err);
 /* "X/NAME.wj" -> "X/NAME.files". Caller frees. */
 char *wr_journal_files_folder(const char *journal_path);
+
+/* The name of the last snapshot that was begun in NAME.files/. Caller frees; NULL if there is none. */
+char *wr_journal_newest_snapshot(const char *files);
 
 /* Sync a file, or a folder so that the names in it are on the disk. Some file systems cannot sync
    folders; that is no failure. */

@@ -98,30 +98,40 @@ static size_t begin_body(WrText *line)
     return line->length;
 }
 
-static void end_body(WrText *line, size_t body, WrHash *chain)
+/* Lines of one format never pass for those of another. */
+static const WrHash seed = { WR_JOURNAL_FORMAT, 0 };
+
+static void end_body(WrText *line, size_t body)
 {
     char digits[HASH_DIGITS + 1];
-    *chain = wr_hash_bytes(line->data + body, line->length - body, *chain);
-    wr_hash_print(*chain, digits);
+    wr_hash_print(wr_hash_bytes(line->data + body, line->length - body, seed), digits);
     memcpy(line->data + body - HASH_DIGITS - 1, digits, HASH_DIGITS);
     wr_text_add(line, "\n");
 }
 
-/* text = "CHECKSUM BODY": moves the chain on if the checksum is that of the body after it. */
-static bool check_body(const char *text, size_t length, WrHash *chain)
+static bool body_has(const char *text, size_t length, WrHash start, const WrHash *written)
 {
-    char digits[HASH_DIGITS + 1];
+    WrHash hash = wr_hash_bytes(text + HASH_DIGITS + 1, length - HASH_DIGITS - 1, start);
+    return wr_hash_equal(hash, *written);
+}
+
+/* text = "CHECKSUM BODY": is the checksum that of the body after it? In format 1 it depends on the line
+   before's, which is why what a damaged line has written as its own is kept for the one after it. */
+static bool check_body(const char *text, size_t length, WrJournalSeal *seal)
+{
+    WrHash before = seal->chain, written;
+    char digits[HASH_DIGITS + 1] = "";
     if (length < HASH_DIGITS + 1 || text[HASH_DIGITS] != ' ') return false;
-    WrHash hash = wr_hash_bytes(text + HASH_DIGITS + 1, length - HASH_DIGITS - 1, *chain);
-    wr_hash_print(hash, digits);
-    if (memcmp(digits, text, HASH_DIGITS) != 0) return false;
-    *chain = hash;
-    return true;
+    memcpy(digits, text, HASH_DIGITS);
+    if (!wr_journal_parse_hash(digits, &written)) return false;
+    seal->chain = written;
+    return (seal->format != 1 && body_has(text, length, seed, &written)) ||
+           (seal->format != 2 && body_has(text, length, before, &written));
 }
 
 /* ---- header ---- */
 
-void wr_journal_print_header(WrText *line, const WrJournalHeader *header, WrHash *chain)
+void wr_journal_print_header(WrText *line, const WrJournalHeader *header)
 {
     const WrJournalStart *start = &header->start;
     char hash[HASH_DIGITS + 1];
@@ -135,8 +145,7 @@ void wr_journal_print_header(WrText *line, const WrJournalHeader *header, WrHash
     add_escaped(line, start->snapshot ? start->snapshot : "", true);
     wr_text_add(line, " ");
     add_escaped(line, start->path ? start->path : "", true);
-    *chain = (WrHash){ 0, 0 };
-    end_body(line, body, chain);
+    end_body(line, body);
 }
 
 /* Cut "a b c" at its spaces into exactly `count` words, each unescaped. */
@@ -186,66 +195,95 @@ static bool header_from_words(char *const words[HEADER_WORDS], WrJournalHeader *
     return true;
 }
 
-bool wr_journal_parse_header(char *line, size_t length, WrJournalHeader *out, WrHash *chain,
+/* "MAGIC VERSION ": where what comes behind begins, 0 if it is not that. */
+static size_t parse_magic(const char *line, size_t length, int *version)
+{
+    size_t at = strlen(MAGIC " "), digits = 0;
+    *version = 0;
+    if (length < at || memcmp(line, MAGIC " ", at) != 0) return 0;
+    while (at < length && digits < 6 && line[at] >= '0' && line[at] <= '9') {
+        *version = *version * 10 + (line[at++] - '0');
+        digits++;
+    }
+    return digits > 0 && at < length && line[at] == ' ' ? at + 1 : 0;
+}
+
+static bool parse_words(char *body, size_t length, WrJournalHeader *out)
+{
+    char *words[HEADER_WORDS];
+    return split_words(body, length, words, HEADER_WORDS) && header_from_words(words, out);
+}
+
+bool wr_journal_parse_header(char *line, size_t length, WrJournalHeader *out, WrJournalSeal *seal,
                              WrError *err)
 {
-    size_t magic = strlen(MAGIC " ");
-    if (length < magic || memcmp(line, MAGIC " ", magic) != 0)
+    int version;
+    size_t rest = parse_magic(line, length, &version), body = HASH_DIGITS + 1;
+    if (length < strlen(MAGIC " ") || memcmp(line, MAGIC " ", strlen(MAGIC " ")) != 0)
         return wr_fail(err, "not a journal of this program");
-    size_t digits = 0;
-    int version = 0;
-    while (magic + digits < length && digits < 6 && line[magic + digits] >= '0' &&
-           line[magic + digits] <= '9')
-        version = version * 10 + (line[magic + digits++] - '0');
     if (version > WR_JOURNAL_FORMAT)
         return wr_fail(err,
                        "journal of format %d, which is newer than this program's (%d): use the "
                        "program that wrote it, or a newer one",
                        version, WR_JOURNAL_FORMAT);
-    char *rest = line + magic + digits + 1;
-    size_t skipped = magic + digits + 1;
-    WrHash after = { 0, 0 };
-    char *words[HEADER_WORDS];
-    if (version != WR_JOURNAL_FORMAT || digits != 1 || skipped > length || rest[-1] != ' ' ||
-        memchr(line, '\0', length) || !check_body(rest, length - skipped, &after))
+    WrJournalSeal made = { .format = version };
+    if (!rest || version < 1 || memchr(line, '\0', length) ||
+        !check_body(line + rest, length - rest, &made))
         return wr_fail(err, "the journal's first line is damaged");
-    size_t body = HASH_DIGITS + 1;
-    if (!split_words(rest + body, length - skipped - body, words, HEADER_WORDS) ||
-        !header_from_words(words, out))
+    if (!parse_words(line + rest + body, length - rest - body, out))
         return wr_fail(err, "the journal's first line makes no sense");
-    *chain = after;
+    *seal = made;
     return true;
+}
+
+bool wr_journal_guess_header(char *line, size_t length, WrJournalHeader *out)
+{
+    int version;
+    size_t rest = parse_magic(line, length, &version), body = HASH_DIGITS + 1;
+    return rest && !memchr(line, '\0', length) && length > rest + body &&
+           parse_words(line + rest + body, length - rest - body, out);
 }
 
 /* ---- records ---- */
 
-void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const char *payload,
-                           WrHash *chain)
+void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const char *payload)
 {
     size_t body = begin_body(line);
     wr_text_addf(line, "%" PRIu64 " %c ", sequence, kind);
     add_escaped(line, payload, false);
-    end_body(line, body, chain);
+    end_body(line, body);
 }
 
-bool wr_journal_parse_line(char *line, size_t length, uint64_t sequence, WrHash *chain, char *kind,
-                           char **payload, size_t *payload_length, WrError *err)
+/* "17 c ": where what comes behind begins, 0 if it is not that. */
+static size_t parse_sequence(const char *text, size_t length, uint64_t *sequence)
 {
-    WrHash after = *chain;
-    if (!check_body(line, length, &after))
+    size_t at = 0;
+    uint64_t number = 0;
+    while (at < length && at < 18 && text[at] >= '0' && text[at] <= '9')
+        number = number * 10 + (uint64_t)(text[at++] - '0');
+    if (at == 0 || text[0] == '0' || length < at + 3 || text[at] != ' ' || text[at + 2] != ' ')
+        return 0;
+    *sequence = number;
+    return at + 3;
+}
+
+bool wr_journal_parse_line(char *line, size_t length, WrJournalSeal *seal, uint64_t *sequence,
+                           char *kind, char **payload, size_t *payload_length, WrError *err)
+{
+    uint64_t number;
+    size_t body = HASH_DIGITS + 1;
+    if (!check_body(line, length, seal))
         return wr_fail(err, "its checksum does not fit: the line is damaged");
-    char number[24];
-    int digits = snprintf(number, sizeof number, "%" PRIu64 " ", sequence);
-    size_t at = HASH_DIGITS + 1, skip = at + (size_t)digits + 2; /* "17 c " */
-    if (length < skip || memcmp(line + at, number, (size_t)digits) != 0 || line[skip - 1] != ' ')
-        return wr_fail(err, "not line %" PRIu64 " of the journal", sequence);
-    if (!strchr("cdbseng", line[skip - 2]) || !line[skip - 2])
+    size_t skip = parse_sequence(line + body, length - body, &number);
+    if (!skip) return wr_fail(err, "a line without its number");
+    skip += body; /* "17 c " */
+    if (!strchr("cdbsengv", line[skip - 2]) || !line[skip - 2])
         return wr_fail(err, "a line of an unknown kind");
     if (memchr(line + skip, '\0', length - skip) || !escapes_are_good(line + skip, length - skip))
         return wr_fail(err, "a line that makes no sense");
+    *sequence = number;
     *kind = line[skip - 2];
     *payload = line + skip;
     *payload_length = unescape(line + skip, length - skip);
-    *chain = after;
     return true;
 }

@@ -10,20 +10,28 @@ typedef struct WrJournalHeader {
     int64_t time; /* seconds since 1970 */
 } WrJournalHeader;
 
-/* Append the header line with its line end. *chain becomes its checksum. */
-void wr_journal_print_header(WrText *line, const WrJournalHeader *header, WrHash *chain);
-/* Read a header line, without its line end; `line` is changed in place. No file in errors. */
-bool wr_journal_parse_header(char *line, size_t length, WrJournalHeader *out, WrHash *chain,
-                             WrError *err);
+/* How the lines of a journal prove that they are whole. Zeroed: not known, since the header is damaged; then
+   either way counts. */
+typedef struct WrJournalSeal {
+    int format;   /* of the header, 1..WR_JOURNAL_FORMAT; 0: not known */
+    WrHash chain; /* format 1: the checksum that the line before has written */
+} WrJournalSeal;
 
-/* Append a record with its line end. *chain: the line before's checksum, then this one's. */
-void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const char *payload,
-                           WrHash *chain);
-/* Read a record, without its line end. On success *chain moves on, and *payload is the unescaped
+/* Append the header line with its line end. */
+void wr_journal_print_header(WrText *line, const WrJournalHeader *header);
+/* Read a header line, without its line end; `line` is changed in place. No file in errors. */
+bool wr_journal_parse_header(char *line, size_t length, WrJournalHeader *out, WrJournalSeal *seal,
+                             WrError *err);
+/* What a damaged header may have said: it makes sense, but nothing proves it. `line` is changed. */
+bool wr_journal_guess_header(char *line, size_t length, WrJournalHeader *out);
+
+/* Append a record with its line end. */
+void wr_journal_print_line(WrText *line, uint64_t sequence, char kind, const char *payload);
+/* Read a record, without its line end. On success *sequence is its number, and *payload is the unescaped
    text, ended with a NUL, inside `line` (which has room for the NUL). On failure `line` is as it
-   was. */
-bool wr_journal_parse_line(char *line, size_t length, uint64_t sequence, WrHash *chain, char *kind,
-                           char **payload, size_t *payload_length, WrError *err);
+   was. Either way *seal is ready for the line after it. */
+bool wr_journal_parse_line(char *line, size_t length, WrJournalSeal *seal, uint64_t *sequence,
+                           char *kind, char **payload, size_t *payload_length, WrError *err);
 
 /* 32 hex digits as wr_hash_print writes them. */
 bool wr_journal_parse_hash(const char *text, WrHash *hash);

@@ -106,6 +106,12 @@ typedef struct Collector {
     bool pending; /* the last command has no end yet */
     bool drawing; /* and is a stroke that takes samples */
     size_t head;  /* bytes of its head: as long as there is no more, nothing happened */
+    int sound;    /* commands before the first damage; -1: none yet */
+    int gap;      /* lines that are lost right before the record that comes next */
+    bool orphans; /* what continues a command is lost with it, until the next begins */
+    int lost;     /* since the last command */
+    WrJournalSave saved;
+    char *saved_path; /* owned */
 } Collector;
 
 static bool add_bytes(Collector *c, const char *bytes, size_t length, WrError *err)
@@ -125,23 +131,53 @@ static bool add_bytes(Collector *c, const char *bytes, size_t length, WrError *e
     return true;
 }
 
+/* Forget the last command. */
+static void drop(Collector *c)
+{
+    c->used = c->commands[--c->count].text;
+    c->pending = c->drawing = false;
+    if (c->sound > c->count) c->sound = c->count;
+}
+
 /* The last command will not get more text, and may or may not have had an end. */
 static void settle(Collector *c, bool done)
 {
     if (!c->pending) return;
     Command *last = &c->commands[c->count - 1];
     if (last->line.stroke && c->used == last->text + c->head) { /* no samples */
-        c->used = last->text;
-        c->count--;
-    } else {
-        last->line.done = done;
-        c->used++; /* the NUL */
+        drop(c);
+        return;
     }
+    last->line.done = done;
+    c->used++; /* the NUL */
     c->pending = c->drawing = false;
+}
+
+static void note_damage(Collector *c, WrJournalRead *read, uint64_t line, const char *why)
+{
+    if (c->sound < 0) c->sound = c->count;
+    if (!*read->damage)
+        snprintf(read->damage, sizeof read->damage, "line %" PRIu64 ": %.200s", line, why);
+}
+
+/* `lost` lines are lost here. One of them alone cannot have begun another command while one is open: so what
+   comes next still belongs to that. */
+static void open_gap(Collector *c, WrJournalRead *read, int lost)
+{
+    if (lost <= 0) return;
+    read->lost += lost;
+    c->lost += lost;
+    c->gap = lost;
+    if (lost == 1 && c->pending) return;
+    settle(c, true);
+    c->orphans = true;
 }
 
 static bool add_command(Collector *c, const char *text, size_t length, bool stroke, WrError *err)
 {
+    if (c->gap && c->drawing)
+        drop(c); /* only a stroke that was cancelled has no end before its d */
+    c->orphans = false;
     settle(c, true); /* the program lived on */
     if (c->count >= WR_JOURNAL_COMMANDS_MAX)
         return wr_fail(err, "more than %d commands", WR_JOURNAL_COMMANDS_MAX);
@@ -157,18 +193,30 @@ static bool add_command(Collector *c, const char *text, size_t length, bool stro
     }
     size_t at = c->used;
     if (!add_bytes(c, text, length, err)) return false;
-    c->commands[c->count++] = (Command){ .text = at, .line.stroke = stroke };
+    c->commands[c->count++] =
+        (Command){ .text = at, .line = { .stroke = stroke, .lost = c->lost } };
+    c->lost = 0;
     c->pending = true;
     c->drawing = stroke;
     c->head = length;
     return true;
 }
 
+/* The line that is lost in front of this one held samples of the stroke. */
+static void note_hole(Collector *c)
+{
+    if (!c->gap) return;
+    c->commands[c->count - 1].line.holed = true;
+    if (c->sound >= c->count) c->sound = c->count - 1;
+}
+
 static bool add_samples(Collector *c, const char *text, size_t length, WrError *err)
 {
     if (!c->drawing) return wr_fail(err, "samples without a stroke");
     if (length == 0) return true;
-    bool first = c->used == c->commands[c->count - 1].text + c->head;
+    Command *last = &c->commands[c->count - 1];
+    bool first = c->used == last->text + c->head;
+    note_hole(c);
     return (first || add_bytes(c, ";", 1, err)) && add_bytes(c, text, length, err);
 }
 
@@ -182,8 +230,7 @@ static bool end_command(Collector *c, const char *text, WrError *err)
         return wr_fail(err, "an outcome without its hash");
     if (!c->pending) return true; /* a stroke without samples */
     if (dropped) {
-        c->used = c->commands[--c->count].text;
-        c->pending = c->drawing = false;
+        drop(c);
         return true;
     }
     WrJournalLine *line = &c->commands[c->count - 1].line;
@@ -196,8 +243,25 @@ static bool end_command(Collector *c, const char *text, WrError *err)
 static bool end_stroke(Collector *c, WrError *err)
 {
     if (!c->drawing) return wr_fail(err, "the end of a stroke without its begin");
+    note_hole(c);
     c->drawing = false;
     if (c->used == c->commands[c->count - 1].text + c->head) settle(c, true);
+    return true;
+}
+
+/* "HASH PATH" */
+static bool take_save(Collector *c, const char *text, WrError *err)
+{
+    char digits[33] = "";
+    WrHash hash;
+    strncpy(digits, text, 32);
+    if (!wr_journal_parse_hash(digits, &hash) || text[32] != ' ' || text[33] != '/')
+        return wr_fail(err, "a save without its hash or file");
+    settle(c, true);
+    c->lost = 0; /* all of it is in the file */
+    wr_free(c->saved_path);
+    c->saved_path = wr_strdup(text + 33);
+    c->saved = (WrJournalSave){ .path = c->saved_path, .hash = hash, .at = c->count };
     return true;
 }
 
@@ -205,12 +269,18 @@ static bool end_stroke(Collector *c, WrError *err)
 static bool take(Collector *c, char kind, const char *text, size_t length, WrJournalRead *read,
                  bool *ended, WrError *err)
 {
+    if (c->orphans && strchr("sed", kind)) {
+        read->lost++;
+        c->lost++;
+        return true;
+    }
     switch (kind) {
     case 'c': return add_command(c, text, length, false, err);
     case 'b': return add_command(c, text, length, true, err);
     case 's': return add_samples(c, text, length, err);
     case 'e': return end_stroke(c, err);
     case 'd': return end_command(c, text, err);
+    case 'v': return take_save(c, text, err);
     case 'g':
         snprintf(read->gap, sizeof read->gap, "%.250s", *text ? text : "for an unknown reason");
         settle(c, true);
@@ -222,61 +292,110 @@ static bool take(Collector *c, char kind, const char *text, size_t length, WrJou
 
 /* ---- the whole ---- */
 
-static bool read_header(Reader *reader, const char *path, WrJournalRead *read, WrHash *chain,
-                        WrError *err)
+static void set_start(WrJournalRead *read, const WrJournalHeader *header, const char *path)
+{
+    read->start = header->start;
+    read->program = header->program;
+    read->started = header->time;
+    if (!header->start.snapshot) return;
+    char *files = wr_journal_files_folder(path);
+    WrText whole = { 0 };
+    wr_text_addf(&whole, "%s/%s", files, header->start.snapshot);
+    wr_free(files);
+    read->start.snapshot = read->owned[1] = whole.data;
+}
+
+/* What the journal may have begun with, where its first line does not prove it: takes that line. */
+static void guess_start(WrJournalRead *read, char *line, size_t length, const char *path)
+{
+    WrJournalHeader header = { .program = "" };
+    char *files = wr_journal_files_folder(path), *name = NULL;
+    read->headless = true;
+    read->owned[0] = line;
+    if (!wr_journal_guess_header(line, length, &header)) {
+        header = (WrJournalHeader){ .program = "" };
+        name = wr_journal_newest_snapshot(files);
+        if (name) header.start = (WrJournalStart){ .kind = WR_JOURNAL_SNAPSHOT, .snapshot = name };
+    }
+    set_start(read, &header, path);
+    wr_free(name);
+    wr_free(files);
+}
+
+/* False if there is not even a damaged header. *why: "" or what is wrong with it, for when nothing behind it
+   is whole either. */
+static bool read_header(Reader *reader, const char *path, WrJournalRead *read, WrJournalSeal *seal,
+                        WrError *why, WrError *err)
 {
     char *line;
     size_t length;
-    WrError why = { "" };
     WrJournalHeader header;
-    Next next = next_line(reader, &line, &length, &why);
+    Next next = next_line(reader, &line, &length, why);
     if (next == NEXT_END) return wr_fail(err, "%s: empty: no journal", path);
     if (next == NEXT_BAD && reader->end - reader->start < HEADER_MAX)
-        return wr_fail(err, "%s: the journal's first line is %s", path, why.text);
-    if (next == NEXT_BAD || length > HEADER_MAX)
-        return wr_fail(err, "%s: not a journal of this program", path);
-    char *own = wr_strndup(line, length);
-    if (!wr_journal_parse_header(own, length, &header, chain, &why)) {
-        wr_free(own);
-        return wr_fail(err, "%s: %s", path, why.text);
+        return wr_fail(err, "%s: the journal's first line is %s", path, why->text);
+    if (next == NEXT_BAD) return wr_fail(err, "%s: not a journal of this program", path);
+    char *own = wr_strndup(line, length < HEADER_MAX ? length : HEADER_MAX);
+    why->text[0] = '\0';
+    if (length > HEADER_MAX) wr_fail(why, "not a journal of this program");
+    else wr_journal_parse_header(own, length, &header, seal, why);
+    if (why->text[0]) {
+        guess_start(read, own, strlen(own), path);
+        return true;
     }
     read->owned[0] = own;
-    read->start = header.start;
-    read->program = header.program;
-    read->started = header.time;
-    if (header.start.snapshot) {
-        char *files = wr_journal_files_folder(path);
-        WrText whole = { 0 };
-        wr_text_addf(&whole, "%s/%s", files, header.start.snapshot);
-        wr_free(files);
-        read->start.snapshot = read->owned[1] = whole.data;
-    }
+    set_start(read, &header, path);
     return true;
 }
 
-/* All records up to the first bad one; *good is the offset behind the last good one. */
-static void read_records(Reader *reader, Collector *collector, WrHash chain, WrJournalRead *read,
-                         int64_t *good)
+static int as_lines(uint64_t lines)
+{
+    return lines > INT32_MAX / 2 ? INT32_MAX / 2 : (int)lines;
+}
+
+/* All records that are whole; returns how many. *good is the offset behind the last one before any damage. */
+static int64_t read_records(Reader *reader, Collector *c, WrJournalSeal seal, WrJournalRead *read,
+                            int64_t *good)
 {
     WrError why = { "" };
-    bool ended = false;
-    uint64_t sequence = 1;
+    bool ended = false, torn = false;
+    uint64_t expected = 1, number, line_number = 1;
+    int64_t whole = 0;
+    int bad = 0; /* since the last whole one */
     *good = reader->offset;
-    while (!ended) {
+    while (!ended && !torn) {
         char *line, *text, kind;
         size_t length;
         Next next = next_line(reader, &line, &length, &why);
         if (next == NEXT_END) break;
-        if (next == NEXT_BAD ||
-            !wr_journal_parse_line(line, length, sequence, &chain, &kind, &text, &length, &why) ||
-            !take(collector, kind, text, length, read, &ended, &why)) {
-            snprintf(read->damage, sizeof read->damage, "line %" PRIu64 ": %.200s", sequence + 1,
-                     why.text);
-            break;
+        line_number++;
+        torn = next == NEXT_BAD;
+        if (torn ||
+            !wr_journal_parse_line(line, length, &seal, &number, &kind, &text, &length, &why) ||
+            (number < expected &&
+             !wr_fail(&why, "not line %" PRIu64 " of the journal", expected))) {
+            note_damage(c, read, line_number, why.text);
+            bad++;
+            continue;
         }
-        sequence++;
-        *good = reader->offset;
+        if (number > expected) {
+            note_damage(c, read, line_number, "lines before it are missing");
+            open_gap(c, read, as_lines(number - expected));
+        }
+        bad = 0;
+        expected = number + 1;
+        whole++;
+        if (!take(c, kind, text, length, read, &ended, &why)) {
+            note_damage(c, read, line_number, why.text);
+            open_gap(c, read, 1);
+            continue;
+        }
+        c->gap = 0;
+        if (c->sound < 0) *good = reader->offset;
     }
+    read->lost += bad;
+    read->lost_at_end = c->lost + bad;
+    return whole;
 }
 
 /* Hand the commands over, their texts where they lie. */
@@ -294,29 +413,37 @@ static bool hand_over(Collector *collector, WrJournalRead *read, WrError *err)
         read->lines[i] = collector->commands[i].line;
         read->lines[i].text = collector->texts + collector->commands[i].text;
     }
-    read->count = collector->count;
+    read->total = read->count = collector->count;
+    if (collector->sound >= 0 && collector->sound < read->total) read->count = collector->sound;
+    read->saved = collector->saved;
+    if (read->saved.at > read->total) read->saved.at = read->total;
     read->owned[2] = collector->texts;
-    collector->texts = NULL;
+    read->owned[3] = collector->saved_path;
+    collector->texts = collector->saved_path = NULL;
     return true;
 }
 
 bool wr_journal_read_fd(int fd, const char *path, WrJournalRead *out, WrError *err)
 {
     Reader reader = { .fd = fd };
-    Collector collector = { 0 };
+    Collector collector = { .sound = -1 };
     WrJournalRead read = { 0 };
-    WrHash chain;
+    WrJournalSeal seal = { 0 };
+    WrError why = { "" };
     struct stat info;
     int64_t good;
-    bool ok = read_header(&reader, path, &read, &chain, err);
+    bool ok = read_header(&reader, path, &read, &seal, &why, err);
+    if (ok && read.headless) note_damage(&collector, &read, 1, why.text);
     if (ok) {
-        read_records(&reader, &collector, chain, &read, &good);
+        int64_t whole = read_records(&reader, &collector, seal, &read, &good);
+        if (read.headless && whole == 0) ok = wr_fail(err, "%s: %s", path, why.text);
         if (fstat(fd, &info) == 0 && info.st_size > good) read.dropped_bytes = info.st_size - good;
-        ok = hand_over(&collector, &read, err);
+        ok = ok && hand_over(&collector, &read, err);
     }
     wr_free(reader.buffer);
     wr_free(collector.texts);
     wr_free(collector.commands);
+    wr_free(collector.saved_path);
     if (ok) *out = read;
     else wr_journal_read_fini(&read);
     return ok;
@@ -331,9 +458,17 @@ bool wr_journal_read(const char *path, WrJournalRead *out, WrError *err)
     return ok;
 }
 
+int wr_journal_sound_end(const WrJournalRead *read, int from, bool known)
+{
+    int end = from;
+    if (read->headless && !known) return from;
+    while (end < read->total && !read->lines[end].lost && !read->lines[end].holed) end++;
+    return end;
+}
+
 void wr_journal_read_fini(WrJournalRead *read)
 {
-    for (int i = 0; i < 3; i++) wr_free(read->owned[i]);
+    for (int i = 0; i < 4; i++) wr_free(read->owned[i]);
     wr_free(read->lines);
     *read = (WrJournalRead){ 0 };
 }

@@ -1,13 +1,13 @@
 /* recover.h - journals that were left behind: which there are, what is in them, and trying a
    command that may have crashed.
    Layer 5. Everything read here is checked: a torn, damaged or hostile journal gives the lines
-   before the first bad byte, or a clear error.
+   whose checksums hold, and says which of them stand behind damage, or a clear error.
 
    A recovery: wr_journal_list; wr_journal_claim the one chosen, so that no other program recovers
-   it too; wr_journal_read; bring the start state back and compare its hash; run the lines,
-   comparing hashes where they have one; if the last did not finish, wr_journal_trial it or ask;
-   give the session a journal of its own that starts from a snapshot of the result; then
-   wr_journal_claim_remove. */
+   it too; wr_journal_read; bring the start state back, or the file that was saved last, and compare
+   its hash; run the lines, comparing hashes where they have one; if the last did not finish,
+   wr_journal_trial it or ask; save the result, or give the session a journal of its own that starts
+   from a snapshot of it; read that back; and only where all was brought back, wr_journal_claim_remove. */
 #pragma once
 #include "document/journal.h"
 
@@ -19,28 +19,48 @@ typedef struct WrJournalLine {
     bool stroke;      /* it was drawn as a stroke */
     bool done;        /* its end is on record, or lines that came after it */
     bool hashed;      /* `hash` holds */
+    bool holed;       /* some samples of the stroke are lost */
     WrHash hash;      /* of the document after it ran */
+    int lost;         /* lines of the file between the command before and this one that are lost */
 } WrJournalLine;
+
+/* The last save on record. */
+typedef struct WrJournalSave {
+    const char *path; /* absolute; NULL: there was none */
+    WrHash hash;      /* of the document then */
+    int at;           /* lines[0..at) came before it */
+} WrJournalSave;
 
 typedef struct WrJournalRead {
     WrJournalStart start; /* snapshot is a whole path here; strings live as long as this struct */
     const char *program;  /* version that wrote it */
     int64_t started;      /* seconds since 1970, UTC */
-    WrJournalLine *lines; /* [count], owned; those that failed or were cancelled are left out */
-    int count;
-    bool unfinished;       /* the last line has no end on record: it may be the one that crashed */
-    bool in_stroke;        /* and it is a stroke that was still being drawn */
-    int64_t dropped_bytes; /* after the last good line; 0: the file is whole */
-    char damage[256];      /* why they were dropped: "line 7: ..."; "" */
+    /* The first line is damaged: all of the above is a guess (what of it makes sense, or the newest snapshot
+       beside the journal), and a hash of 0 stands for none. */
+    bool headless;
+    /* [total], owned; those that failed or were cancelled are left out. The first `count` stand before any
+       damage, the others behind it: what led to them may be missing. */
+    WrJournalLine *lines;
+    int count, total;
+    WrJournalSave saved;
+    bool unfinished; /* the last line of all has no end on record: it may be the one that crashed */
+    bool in_stroke;  /* and it is a stroke that was still being drawn */
+    int lost;        /* lines of the file that are damaged or missing, as far as is known */
+    int lost_at_end; /* of them, those after the last command and the last save */
+    int64_t dropped_bytes; /* after the last line before any damage; 0: the file is whole */
+    char damage[256];      /* the first: "line 7: ..."; "" */
     char gap[256];  /* the program itself said that lines are missing at the end, and why; "" */
-    char *owned[3]; /* header, snapshot path, texts */
+    char *owned[4]; /* header, snapshot path, texts, the saved file's path */
 } WrJournalRead;
 
-/* Read and verify a journal, in use or not. Stops at the first torn or damaged line (see damage).
- * Fails, with *out untouched, if it is no regular file, no journal, its header is damaged, or it
- * was written by a newer program (the message says so; the file stays). Memory: at most 1 GB of the
- * file is read, and up to three times what was read is needed meanwhile. */
+/* Read and verify a journal, in use or not. Damaged lines are stepped over.
+ * Fails, with *out untouched, if it is no regular file, no journal, its header is damaged and no line
+ * behind it is whole, or it was written by a newer program (the message says so; the file stays). Memory:
+ * at most 1 GB of the file is read, and up to three times what was read is needed meanwhile. */
 bool wr_journal_read(const char *path, WrJournalRead *out, WrError *err);
+/* How far the lines from `from` on can be run without a gap: the index of the first one that has lost lines in
+   front of it, or points. known: so is the state that `from` begins with; else only with the header whole. */
+int wr_journal_sound_end(const WrJournalRead *read, int from, bool known);
 void wr_journal_read_fini(WrJournalRead *read); /* fine on a zeroed one */
 
 /* A journal that no program holds. */
@@ -51,11 +71,14 @@ typedef struct WrJournalEntry {
     int64_t started;    /* seconds since 1970, UTC */
     int64_t written;    /* the same: when it last changed */
     int64_t bytes;      /* size of the file */
-    int complete;       /* commands to recover that finished */
+    int complete;       /* commands since the last save that finished, those before any damage */
+    int beyond;         /* the same behind damage */
     bool unfinished;    /* one more, that did not */
     bool nothing;       /* nothing to recover: no commands, and the start state is there anyway */
-    int64_t dropped_bytes; /* damaged tail */
-    char damage[256];      /* as in WrJournalRead */
+    bool headless;      /* as in WrJournalRead */
+    int lost;           /* the same */
+    int64_t dropped_bytes; /* the same */
+    char damage[256];      /* the same */
     /* It cannot be read at all, and why; else "". Then only path, written and bytes hold. */
     char error[256];
 } WrJournalEntry;
@@ -66,8 +89,12 @@ typedef struct WrJournalList {
 } WrJournalList;
 
 /* The journals of a folder (NULL: wr_journal_folder) that are not in use. A folder that does not
-   exist has none. */
+   exist has none. Those with nothing to recover are removed on the way when they are a day old. */
 bool wr_journal_list(const char *folder, WrJournalList *out, WrError *err);
+/* The same; what followed a save counts only from the first line on for which counts(line) holds. */
+typedef bool (*WrJournalCounts)(const char *line);
+bool wr_journal_list_that(const char *folder, WrJournalCounts counts, WrJournalList *out,
+                          WrError *err);
 void wr_journal_list_fini(WrJournalList *list); /* fine on a zeroed one */
 
 /* Hold a journal that was left behind, against all other programs. NULL and an error if one that

@@ -19,7 +19,15 @@ static void fini_entry(WrJournalEntry *entry)
     wr_free(entry->document);
 }
 
-static void describe(int fd, WrJournalEntry *entry)
+static bool all_is_saved(const WrJournalRead *read, WrJournalCounts counts)
+{
+    if (!read->saved.path) return false;
+    int i = read->saved.at;
+    while (counts && i < read->total && !counts(read->lines[i].text)) i++;
+    return i == read->total;
+}
+
+static void describe(int fd, WrJournalCounts counts, WrJournalEntry *entry)
 {
     WrJournalRead read;
     WrError err;
@@ -28,21 +36,29 @@ static void describe(int fd, WrJournalEntry *entry)
         snprintf(entry->error, sizeof entry->error, "%.250s", err.text);
         return;
     }
-    entry->document = wr_strdup(read.start.path ? read.start.path : "");
+    const char *name = read.saved.path ? read.saved.path : read.start.path;
+    int from = read.saved.path ? read.saved.at : 0; /* what came before is in that file */
+    bool all_saved = all_is_saved(&read, counts);
+    entry->document = wr_strdup(name ? name : "");
     entry->kind = read.start.kind;
     entry->started = read.started;
-    entry->complete = read.count - (read.unfinished ? 1 : 0);
+    entry->complete = wr_journal_sound_end(&read, from, read.saved.path) - from;
+    entry->beyond = read.total - from - entry->complete;
+    if (read.unfinished && entry->beyond > 0) entry->beyond--;
+    else if (read.unfinished) entry->complete--;
     entry->unfinished = read.unfinished;
+    entry->headless = read.headless;
+    entry->lost = read.lost;
     entry->dropped_bytes = read.dropped_bytes;
     memcpy(entry->damage, read.damage, sizeof entry->damage);
-    entry->nothing =
-        read.count == 0 && read.start.kind != WR_JOURNAL_SNAPSHOT && !*read.damage && !*read.gap;
+    entry->nothing = (all_saved || (read.total == 0 && read.start.kind != WR_JOURNAL_SNAPSHOT)) &&
+                     !(read.headless && !all_saved) && read.lost_at_end == 0 && !*read.gap;
     wr_journal_read_fini(&read);
 }
 
 /* False if a program holds it, or it is no journal file at all. The lock is held only to know that,
    and shared, so that two programs that look do not hide it from each other. */
-static bool look_at(const char *path, WrJournalEntry *entry)
+static bool look_at(const char *path, WrJournalCounts counts, WrJournalEntry *entry)
 {
     struct stat info;
     int fd = wr_journal_open(path, NULL);
@@ -53,10 +69,22 @@ static bool look_at(const char *path, WrJournalEntry *entry)
         *entry = (WrJournalEntry){ .path = wr_strdup(path),
                                    .written = (int64_t)info.st_mtime,
                                    .bytes = (int64_t)info.st_size };
-        describe(fd, entry);
+        describe(fd, counts, entry);
     }
     close(fd);
     return left;
+}
+
+/* Killed after all was saved: nobody needs it. */
+static bool is_old_and_empty(const WrJournalEntry *entry)
+{
+    return entry->nothing && time(NULL) - (time_t)entry->written >= WR_JOURNAL_LEFTOVER_SECONDS;
+}
+
+static void remove_old(const char *path)
+{
+    WrJournalClaim *claim = wr_journal_claim(path, NULL);
+    if (claim) wr_journal_claim_remove(claim, NULL);
 }
 
 static int newest_first(const void *a, const void *b)
@@ -67,6 +95,12 @@ static int newest_first(const void *a, const void *b)
 }
 
 bool wr_journal_list(const char *folder, WrJournalList *out, WrError *err)
+{
+    return wr_journal_list_that(folder, NULL, out, err);
+}
+
+bool wr_journal_list_that(const char *folder, WrJournalCounts counts, WrJournalList *out,
+                          WrError *err)
 {
     WrText usual = { 0 };
     if (!folder && !wr_journal_folder(&usual, err)) return false;
@@ -82,7 +116,13 @@ bool wr_journal_list(const char *folder, WrJournalList *out, WrError *err)
             continue;
         WrJournalEntry one;
         char *path = wr_path_join(place, entry->d_name);
-        if (look_at(path, &one)) wr_array_push(&found, one);
+        bool left = look_at(path, counts, &one), old = left && is_old_and_empty(&one);
+        if (old) {
+            fini_entry(&one);
+            remove_old(path);
+        } else if (left) {
+            wr_array_push(&found, one);
+        }
         wr_free(path);
     }
     if (dir) closedir(dir);
