@@ -235,7 +235,10 @@ static void previews_show_heights_over_the_stated_range(void **state)
         const WrField *heights = i < 0 ? wr_document_field(document) : document->layers[i].heights;
         for (int k = 0; k < 80 * 70; k++) {
             int x = k % 80, y = k / 80;
-            double want = ((double)wr_field_get(heights, x, y) - low) / ((double)high - low);
+            double height = wr_field_get(heights, x, y);
+            double want = (height - low) / ((double)high - low);
+            if (i >= 0 && document->layers[i].blend == WR_BLEND_MULTIPLY)
+                want = height > 0 ? height < 1 ? height : 1 : 0; /* the factor that others take */
             double alpha = 1.0;
             if (i >= 0 && document->layers[i].cover)
                 alpha *= wr_field_get(document->layers[i].cover, x, y);

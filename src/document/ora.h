@@ -3,14 +3,17 @@
 
    An OpenRaster file is a zip archive: first "mimetype", stored; "stack.xml", the layers, topmost first;
    a 16-bit PNG of each layer under data/; "mergedimage.png", the picture of them all;
-   "Thumbnails/thumbnail.png". Those are for others: grey from black to white over the range of heights
-   that wrinkle:range states, alpha = coverage times mask. Our own heights lie beside them as float32
+   "Thumbnails/thumbnail.png". Those are for others, so that their composite-ops give the picture that ours
+   give: grey from black to white over the range of heights that wrinkle:range states, alpha = coverage times
+   mask (what adds, subtracts and multiplies is scaled as its operation wants it). The lowest layer that is
+   shown is opaque, joined with the ground, and svg:src-over. Our own heights lie beside them as float32
    EXR files, named by attributes of the namespace WR_ORA_NAMESPACE, which others pass over:
 
      image   wrinkle:version  wrinkle:wrap  wrinkle:range  wrinkle:active  wrinkle:solo (layers counted from 1
              at the bottom; 0: none)  wrinkle:scene  wrinkle:selection  wrinkle:colour (names of entries)
      layer   wrinkle:heights  wrinkle:cover  wrinkle:mask (names of entries)  wrinkle:blend  wrinkle:radius
-             wrinkle:name (bytes in hex, where XML cannot hold the name)
+             wrinkle:name (bytes in hex, where XML cannot hold the name)  wrinkle:opacity  wrinkle:visible (of
+             the lowest one and beside a layer that is alone, where others are told otherwise)
 
    So what we save comes back bit for bit. The same document gives the same bytes.
    Source: OpenRaster baseline specification 0.0.5; PKWARE APPNOTE for the archive. */

@@ -198,9 +198,15 @@ static char *find_name(const WrOraLayer *from, int number)
 static bool read_settings(Loading *in, const WrOraLayer *from, WrLayer *layer, WrError *err)
 {
     bool exact;
-    double radius = 0.0;
-    layer->opacity = (float)from->opacity;
-    layer->visible = from->visible;
+    double radius = 0.0, opacity = from->opacity;
+    /* Ours hold as long as nobody has changed what others were told. */
+    if (from->own_opacity && opacity == 1.0 &&
+        (!wr_number_parse(from->own_opacity, strlen(from->own_opacity), &opacity) ||
+         !(opacity >= 0.0 && opacity <= 1.0)))
+        return wr_fail(err, "%s: damaged: opacity '%.40s' of layer '%.80s' must be 0..1", in->path,
+                       from->own_opacity, layer->name);
+    layer->opacity = (float)opacity;
+    layer->visible = from->own_visible ? strcmp(from->own_visible, "on") == 0 : from->visible;
     layer->locked = from->locked;
     layer->blend = wr_ora_blend(from->operation, &exact);
     if (!exact && !from->blend) note(in, layer->name, "its blend mode is not known here: replace");

@@ -3,15 +3,16 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "document/ora_show.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
+#include "image/profile.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
 #include <unistd.h>
 
-#define THUMBNAIL 256 /* pixels along a side at most */
 #define DOS_DATE 0x21 /* 1 January 1980: no file tells when it was saved */
 
 /* Pictures are made when the archive comes to them, so that only one is in memory at a time. */
@@ -20,7 +21,8 @@ typedef struct Entry {
     char *name; /* in the archive; owned */
     WrImageOut picture;
     const WrField *heights, *cover, *mask; /* what its rows are made of; the last two may be NULL */
-    char *bytes;                           /* the finished file, while it is being read; owned */
+    WrOraShowing showing;
+    char *bytes; /* the finished file, while it is being read; owned */
     size_t length, at;
     bool known;     /* `length` is right, and */
     WrHash content; /* of the file */
@@ -31,11 +33,14 @@ typedef struct Saving {
     const WrDocument *document;
     zip_t *archive;
     WrOraSink sink;
-    float low, high; /* heights that previews show as black and white */
+    WrOraRange range; /* of heights in previews */
     WR_ARRAY(Entry *) entries;
     WrText stack, scene;
+    int lowest;         /* index of the lowest layer that is shown, -1: none */
+    WrField *ground;    /* what that one makes of the empty ground; owned */
     uint8_t *thumbnail; /* RGBA */
-    WrError err;        /* of a picture, since the archive cannot pass it on */
+    uint8_t profile[WR_SRGB_PROFILE_SIZE];
+    WrError err; /* of a picture, since the archive cannot pass it on */
 } Saving;
 
 /* ---- rows of pictures ---- */
@@ -62,17 +67,7 @@ static bool colour_rows(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
-static double clamp01(double x)
-{
-    return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0;
-}
-
-static double grey_of(const Saving *to, float height)
-{
-    return clamp01(((double)height - to->low) / ((double)to->high - to->low));
-}
-
-/* Grey, grey, grey, coverage times mask; straight alpha. */
+/* Grey, grey, grey, alpha; straight. */
 static bool preview_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
     const Entry *entry = ctx;
@@ -86,10 +81,10 @@ static bool preview_rows(void *ctx, int y, int rows, void *out, WrError *err)
     if (entry->mask) wr_field_read(entry->mask, 0, y, width, rows, mask, pitch);
     uint16_t *codes = out;
     for (size_t i = 0; i < count; i++) {
-        double alpha = (entry->cover ? clamp01(cover[i]) : 1.0);
-        if (entry->mask) alpha *= clamp01(mask[i]);
-        uint16_t grey = (uint16_t)(65535.0 * grey_of(entry->to, values[i]) + 0.5);
-        codes[4 * i] = codes[4 * i + 1] = codes[4 * i + 2] = grey;
+        double grey, alpha;
+        wr_ora_show(entry->showing, &entry->to->range, values[i], entry->cover ? cover[i] : 1.0f,
+                    entry->mask ? mask[i] : 1.0f, &grey, &alpha);
+        codes[4 * i] = codes[4 * i + 1] = codes[4 * i + 2] = (uint16_t)(65535.0 * grey + 0.5);
         codes[4 * i + 3] = (uint16_t)(65535.0 * alpha + 0.5);
     }
     wr_free(values);
@@ -212,19 +207,34 @@ static bool add_floats(Saving *to, char *name, const WrField *field, WrError *er
     return add_entry(to, entry, err);
 }
 
-static bool add_preview(Saving *to, char *name, const WrField *heights, const WrField *cover,
-                        const WrField *mask, WrError *err)
+/* A picture for others, of heights alone or as a layer shows them. Of 16 bits without a profile some programs
+   ask which one is meant, once a layer. */
+static bool add_preview(Saving *to, Entry entry, WrError *err)
 {
-    Entry entry = { .name = name,
-                    .heights = heights,
-                    .cover = cover,
-                    .mask = mask,
-                    .picture = { .width = wr_field_width(heights),
-                                 .height = wr_field_height(heights),
-                                 .channels = 4,
-                                 .type = WR_PIXEL_U16,
-                                 .rows = preview_rows } };
+    entry.picture = (WrImageOut){ .width = wr_field_width(entry.heights),
+                                  .height = wr_field_height(entry.heights),
+                                  .channels = 4,
+                                  .type = WR_PIXEL_U16,
+                                  .profile = to->profile,
+                                  .profile_size = sizeof to->profile,
+                                  .rows = preview_rows };
     return add_entry(to, entry, err);
+}
+
+/* The picture of a layer. That of the lowest one that is shown is opaque and joined with the ground already:
+   other programs have no ground of heights 0, and what adds to nothing some of them do not show. */
+static bool add_layer_preview(Saving *to, char *name, int index, WrError *err)
+{
+    const WrLayer *layer = &to->document->layers[index];
+    if (index == to->lowest)
+        return add_preview(to, (Entry){ .name = name, .heights = to->ground }, err);
+    return add_preview(to,
+                       (Entry){ .name = name,
+                                .heights = layer->heights,
+                                .cover = layer->cover,
+                                .mask = layer->mask,
+                                .showing = wr_ora_showing(layer->blend) },
+                       err);
 }
 
 static bool add_colour(Saving *to, WrError *err)
@@ -253,53 +263,36 @@ static void widen(Saving *to, const WrField *field)
 {
     float low, high;
     wr_field_range(field, &low, &high);
-    if (low < to->low) to->low = low;
-    if (high > to->high) to->high = high;
+    if (low < to->range.low) to->range.low = low;
+    if (high > to->range.high) to->range.high = high;
 }
 
 /* 0..1 as long as all heights are in it, so that what came from pictures keeps its codes. */
 static void choose_range(Saving *to)
 {
-    to->low = 0.0f;
-    to->high = 1.0f;
+    to->range.low = 0.0f;
+    to->range.high = 1.0f;
     widen(to, wr_document_field(to->document));
     for (int i = 0; i < to->document->layer_count; i++) widen(to, to->document->layers[i].heights);
 }
 
-/* Each pixel is the mean of the greys below it. */
-static bool make_thumbnail(Saving *to, int *width, int *height, WrError *err)
+/* The lowest layer that is shown, and what it makes of the ground. */
+static void find_ground(Saving *to)
 {
-    const WrField *f = wr_document_field(to->document);
-    int w = wr_field_width(f), h = wr_field_height(f), most = w > h ? w : h;
-    int tw = most <= THUMBNAIL ? w : w * THUMBNAIL / most;
-    int th = most <= THUMBNAIL ? h : h * THUMBNAIL / most;
-    tw = tw < 1 ? 1 : tw;
-    th = th < 1 ? 1 : th;
-    float *row = wr_try_alloc((size_t)w, sizeof *row, "a thumbnail", err);
-    if (!row) return false;
-    to->thumbnail = wr_alloc((size_t)tw * (size_t)th, 4);
-    double sums[THUMBNAIL];
-    for (int y = 0; y < th; y++) {
-        int top = (int)((int64_t)y * h / th), bottom = (int)((int64_t)(y + 1) * h / th);
-        memset(sums, 0, sizeof sums);
-        for (int j = top; j < bottom; j++) {
-            wr_field_read(f, 0, j, w, 1, row, (size_t)w);
-            for (int x = 0; x < tw; x++)
-                for (int i = (int)((int64_t)x * w / tw); i < (int)((int64_t)(x + 1) * w / tw); i++)
-                    sums[x] += grey_of(to, row[i]);
-        }
-        for (int x = 0; x < tw; x++) {
-            int64_t columns = (int64_t)(x + 1) * w / tw - (int64_t)x * w / tw;
-            double mean = sums[x] / ((double)columns * (bottom - top));
-            uint8_t *pixel = to->thumbnail + 4 * ((size_t)y * (size_t)tw + (size_t)x);
-            pixel[0] = pixel[1] = pixel[2] = (uint8_t)(255.0 * clamp01(mean) + 0.5);
-            pixel[3] = 255;
-        }
+    int count = to->document->layer_count;
+    to->lowest = 0;
+    while (to->lowest < count && !wr_document_shows(to->document, to->lowest)) to->lowest++;
+    if (to->lowest == count) {
+        to->lowest = -1;
+        return;
     }
-    wr_free(row);
-    *width = tw;
-    *height = th;
-    return true;
+    WrDocument *alone = wr_document_snapshot(to->document);
+    for (int i = count - 1; i >= 0; i--)
+        if (i != to->lowest) wr_document_remove(alone, i);
+    alone->layers[0].visible = true;
+    alone->solo = -1;
+    to->ground = wr_field_share(wr_document_field(alone));
+    wr_document_free(alone);
 }
 
 static void add_float_attribute(WrText *xml, const char *name, float value)
@@ -323,6 +316,23 @@ static bool add_field(Saving *to, const char *attribute, char *name, const WrFie
     return add_floats(to, name, field, err);
 }
 
+/* What others go by, and ours beside it where that is not the same. */
+static void add_looks(Saving *to, int index)
+{
+    const WrLayer *layer = &to->document->layers[index];
+    WrText *xml = &to->stack;
+    bool lowest = index == to->lowest, shown = wr_document_shows(to->document, index);
+    add_float_attribute(xml, "opacity", lowest ? 1.0f : layer->opacity);
+    if (lowest && layer->opacity != 1.0f)
+        add_float_attribute(xml, "wrinkle:opacity", layer->opacity);
+    wr_ora_add_attribute(xml, "visibility", shown ? "visible" : "hidden");
+    if (shown != layer->visible)
+        wr_ora_add_attribute(xml, "wrinkle:visible", layer->visible ? "on" : "off");
+    wr_ora_add_attribute(xml, "composite-op",
+                         lowest ? wr_ora_operation(WR_BLEND_REPLACE)
+                                : wr_ora_operation(layer->blend));
+}
+
 /* The one place where a layer's settings become attributes; ora_load.c has the way back. */
 static bool add_layer(Saving *to, int index, WrError *err)
 {
@@ -334,15 +344,13 @@ static bool add_layer(Saving *to, int index, WrError *err)
     add_name(xml, layer->name);
     wr_ora_add_attribute(xml, "src", png);
     wr_text_add(xml, " x=\"0\" y=\"0\"");
-    add_float_attribute(xml, "opacity", layer->opacity);
-    wr_ora_add_attribute(xml, "visibility", layer->visible ? "visible" : "hidden");
-    wr_ora_add_attribute(xml, "composite-op", wr_ora_operation(layer->blend));
+    add_looks(to, index);
     if (layer->locked) wr_ora_add_attribute(xml, "edit-locked", "true");
     if (index == to->document->active) wr_ora_add_attribute(xml, "selected", "true");
     wr_ora_add_attribute(xml, "wrinkle:blend", wr_blends[layer->blend].name);
     add_float_attribute(xml, "wrinkle:radius", layer->radius);
     bool good =
-        add_preview(to, png, layer->heights, layer->cover, layer->mask, err) &&
+        add_layer_preview(to, png, index, err) &&
         add_field(to, "wrinkle:heights", numbered("data/layer", number, ".exr"), layer->heights,
                   err) &&
         (!layer->cover || add_field(to, "wrinkle:cover", numbered("data/cover", number, ".exr"),
@@ -365,8 +373,9 @@ static bool add_image_attributes(Saving *to, WrError *err)
                  "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
                  wr_field_width(f), wr_field_height(f), WR_ORA_VERSION,
                  wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
-                 wr_number_print_float(to->low, low), wr_number_print_float(to->high, high),
-                 document->active + 1, document->solo + 1);
+                 wr_number_print_float(to->range.low, low),
+                 wr_number_print_float(to->range.high, high), document->active + 1,
+                 document->solo + 1);
     if (document->selection && !add_field(to, "wrinkle:selection", wr_strdup("data/selection.exr"),
                                           document->selection, err))
         return false;
@@ -380,17 +389,21 @@ static bool add_pictures_of_all(Saving *to, WrError *err)
     const WrField *f = wr_document_field(to->document);
     Entry thumbnail = { .name = wr_strdup("Thumbnails/thumbnail.png"),
                         .picture = { .channels = 4, .type = WR_PIXEL_U8, .rows = thumbnail_rows } };
-    if (!make_thumbnail(to, &thumbnail.picture.width, &thumbnail.picture.height, err)) {
+    to->thumbnail =
+        wr_ora_thumbnail(f, &to->range, &thumbnail.picture.width, &thumbnail.picture.height, err);
+    if (!to->thumbnail) {
         wr_free(thumbnail.name);
         return false;
     }
-    return add_preview(to, wr_strdup("mergedimage.png"), f, NULL, NULL, err) &&
+    return add_preview(to, (Entry){ .name = wr_strdup("mergedimage.png"), .heights = f }, err) &&
            add_entry(to, thumbnail, err);
 }
 
 static bool fill_archive(Saving *to, WrError *err)
 {
     static const char type[] = "image/openraster";
+    wr_srgb_profile(to->profile);
+    find_ground(to);
     choose_range(to);
     if (!add_text(to, "mimetype", type, sizeof type - 1, err) || !add_image_attributes(to, err))
         return false;
@@ -461,6 +474,7 @@ bool wr_ora_save(const WrDocument *document, const char *scene_text, const char 
     wr_array_free(&to->entries);
     wr_text_fini(&to->stack);
     wr_text_fini(&to->scene);
+    wr_field_free(to->ground);
     wr_free(to->thumbnail);
     wr_free(to);
     if (good) return wr_file_commit(&target, err);

@@ -177,7 +177,9 @@ static void add_layer(Reading *reading, const char **attributes)
                          .mask = wr_strdup(find(attributes, OURS "mask")),
                          .blend = wr_strdup(find(attributes, OURS "blend")),
                          .radius = wr_strdup(find(attributes, OURS "radius")),
-                         .name_bytes = wr_strdup(find(attributes, OURS "name")) };
+                         .name_bytes = wr_strdup(find(attributes, OURS "name")),
+                         .own_opacity = wr_strdup(find(attributes, OURS "opacity")),
+                         .own_visible = wr_strdup(find(attributes, OURS "visible")) };
     wr_array_push(&reading->stack->layers, layer);
 }
 
@@ -266,9 +268,9 @@ void wr_ora_stack_fini(WrOraStack *stack)
 {
     for (int i = 0; i < stack->layers.count; i++) {
         WrOraLayer *layer = &stack->layers.data[i];
-        char *texts[] = { layer->name,    layer->src,    layer->operation,
-                          layer->heights, layer->cover,  layer->mask,
-                          layer->blend,   layer->radius, layer->name_bytes };
+        char *texts[] = { layer->name,       layer->src,         layer->operation,  layer->heights,
+                          layer->cover,      layer->mask,        layer->blend,      layer->radius,
+                          layer->name_bytes, layer->own_opacity, layer->own_visible };
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }
     wr_array_free(&stack->layers);

@@ -14,6 +14,7 @@ typedef struct WrOraLayer {
     bool locked, selected;
     char *operation;                                            /* composite-op */
     char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* ours */
+    char *own_opacity, *own_visible; /* ours, where others are told otherwise */
 } WrOraLayer;
 
 typedef struct WrOraStack {

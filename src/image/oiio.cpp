@@ -352,9 +352,8 @@ static void name_channels(ImageSpec &spec, const WrImageOut &part)
     }
 }
 
-/* The same picture must give the same bytes tomorrow. The EXR and TIFF writers add the present time
-   unless there is a DateTime; one of a type that they cannot write keeps them from it and stays out of
-   the file. */
+/* The same picture must give the same bytes tomorrow. Writers add the present time unless there is a
+   DateTime; one of a type that they cannot write keeps them from it and stays out of the file. */
 static void forbid_date(ImageSpec &spec)
 {
     long long nothing = 0;
@@ -377,6 +376,8 @@ static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *
     /* "Uncalibrated". The TIFF writer fails to write an empty Exif directory, so it gets an entry. */
     if (!std::strcmp(format, "tiff") && linear) spec.attribute("Exif:ColorSpace", 65535);
     if (exr && part.part_name) spec.attribute("oiio:subimagename", part.part_name);
+    TypeDesc bytes(TypeDesc::UINT8, int(part.profile_size));
+    if (part.profile) spec.attribute("ICCProfile", bytes, part.profile);
     std::string description;
     for (int i = 0; i < part.attribute_count; i++) {
         const WrImageAttribute &attribute = part.attributes[i];

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-#define WR_OIIO_VERSION 3
+#define WR_OIIO_VERSION 4
 #define WR_OIIO_REASON 320
 #define WR_OIIO_SYMBOL "wr_oiio_table"
 #define WR_OIIO_NO_MEMORY "not enough memory" /* a reason that callers look for */

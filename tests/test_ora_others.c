@@ -1,0 +1,282 @@
+/* What other programs make of an OpenRaster file of ours: a reader that knows the format alone, its list of
+   layers, their pictures and composite-ops, gets the picture that we have; and nobody asks for a profile. */
+#include "test.h"
+#include "test_folder.h"
+
+#include "base/memory.h"
+#include "document/ora.h"
+#include "image/profile.h"
+
+#include <zip.h>
+#include <zlib.h>
+
+#define WIDTH 90
+#define HEIGHT 70
+#define COUNT (WIDTH * HEIGHT)
+
+/* ---- the stranger ---- */
+
+static char *entry(zip_t *archive, const char *name, size_t *length)
+{
+    zip_stat_t is;
+    assert_int_equal(zip_stat(archive, name, 0, &is), 0);
+    char *bytes = calloc(1, is.size + 1);
+    zip_file_t *file = zip_fopen(archive, name, 0);
+    assert_int_equal(zip_fread(file, bytes, is.size), is.size);
+    zip_fclose(file);
+    *length = is.size;
+    return bytes;
+}
+
+static WrImage *picture(zip_t *archive, const char *name)
+{
+    size_t length;
+    WrError err = { "" };
+    char *bytes = entry(archive, name, &length);
+    WrImage *image = wr_image_read_bytes(name, bytes, length, &err);
+    if (!image) fail_msg("%s", err.text);
+    assert_int_equal(image->channels, 4);
+    free(bytes);
+    return image;
+}
+
+/* The value of ` name="..."` of an element. */
+static void attribute(const char *element, const char *name, char *value, size_t size)
+{
+    char head[40];
+    snprintf(head, sizeof head, " %s=\"", name);
+    const char *at = strstr(element, head), *end = strstr(element, "/>");
+    if (!at || at > end) fail_msg("no %s in %.60s", name, element);
+    at += strlen(head);
+    snprintf(value, size, "%.*s", (int)strcspn(at, "\""), at);
+}
+
+/* Compositing and Blending Level 1, grey; b premultiplied. */
+static void join(const char *operation, double s, double alpha, double *b, double *b_alpha)
+{
+    double under = *b_alpha > 0 ? *b / *b_alpha : 0, both = alpha * *b_alpha, mixed = s;
+    if (strcmp(operation, "svg:plus") == 0) {
+        *b = fmin(1, *b + alpha * s);
+        *b_alpha = fmin(1, *b_alpha + alpha);
+        return;
+    }
+    if (strcmp(operation, "svg:lighten") == 0) mixed = fmax(s, under);
+    else if (strcmp(operation, "svg:darken") == 0) mixed = fmin(s, under);
+    else if (strcmp(operation, "svg:multiply") == 0) mixed = s * under;
+    else if (strcmp(operation, "svg:difference") == 0) mixed = fabs(s - under);
+    else if (strcmp(operation, "svg:src-over") != 0) fail_msg("unknown: %s", operation);
+    *b = alpha * (1 - *b_alpha) * s + both * mixed + (1 - alpha) * *b;
+    *b_alpha = alpha + (1 - alpha) * *b_alpha;
+}
+
+/* Joins the layers below the topmost one first. Returns how many are shown. */
+static int compose(zip_t *archive, const char *layer, double *grey, double *alpha)
+{
+    char src[40], operation[40], opacity[40], visibility[40];
+    const char *next = strstr(layer + 1, "<layer ");
+    int shown = next ? compose(archive, next, grey, alpha) : 0;
+    attribute(layer, "src", src, sizeof src);
+    attribute(layer, "composite-op", operation, sizeof operation);
+    attribute(layer, "opacity", opacity, sizeof opacity);
+    attribute(layer, "visibility", visibility, sizeof visibility);
+    if (strcmp(visibility, "hidden") == 0) return shown;
+    if (shown == 0) { /* some programs show nothing of what is added to nothing */
+        assert_string_equal(operation, "svg:src-over");
+        assert_true(atof(opacity) == 1);
+    }
+    WrImage *image = picture(archive, src);
+    for (int i = 0; i < COUNT; i++)
+        join(operation, image->data[4 * i], image->data[4 * i + 3] * atof(opacity), &grey[i],
+             &alpha[i]);
+    wr_image_free(image);
+    return shown + 1;
+}
+
+/* ---- documents ---- */
+
+static WrField *random_field(double low, double high, TestRandom *random)
+{
+    WrField *field = wr_field_new(WIDTH, HEIGHT, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < HEIGHT; j++)
+        for (int i = 0; i < WIDTH; i++)
+            wr_field_set(field, i, j, (float)(low + (high - low) * test_random(random)));
+    return field;
+}
+
+/* Half of it is 0, half of the rest 1. */
+static WrField *random_cover(TestRandom *random)
+{
+    WrField *field = random_field(-1, 1, random);
+    for (int j = 0; j < HEIGHT; j++)
+        for (int i = 0; i < WIDTH; i++) {
+            float c = wr_field_get(field, i, j);
+            wr_field_set(field, i, j, c < 0 ? 0 : c > 0.5f ? 1 : 2 * c);
+        }
+    return field;
+}
+
+/* Heights that no sum takes out of the range; factors mean the same to others only where black is height 0. */
+static WrDocument *random_document(uint64_t seed, bool negative)
+{
+    static const WrBlend blends[] = { WR_BLEND_MULTIPLY, WR_BLEND_ADD,     WR_BLEND_MAX,
+                                      WR_BLEND_MIN,      WR_BLEND_MIX,     WR_BLEND_REPLACE,
+                                      WR_BLEND_ADD,      WR_BLEND_SUBTRACT };
+    TestRandom random = { seed };
+    double low = negative ? -0.3 : 0.0;
+    WrDocument *document = wr_document_new();
+    wr_document_start_over(document, random_field(low, 0.6, &random));
+    if (negative) wr_field_set(document->layers[0].heights, 5, 5, -0.5f);
+    int count = 1 + (int)(5 * test_random(&random));
+    for (int i = 1; i < count; i++) {
+        WrLayer layer = wr_layer_new("layer", document->layers[0].heights);
+        layer.blend = blends[negative + (int)(test_random(&random) * 7)];
+        bool sum = layer.blend == WR_BLEND_ADD || layer.blend == WR_BLEND_SUBTRACT;
+        wr_field_free(layer.heights);
+        wr_field_free(layer.cover);
+        layer.heights = random_field(sum ? 0 : low, sum ? 0.04 : 0.6, &random);
+        layer.cover = random_cover(&random);
+        if (test_random(&random) < 0.3) layer.mask = random_field(0, 1, &random);
+        if (test_random(&random) < 0.5) layer.opacity = (float)test_random(&random);
+        layer.visible = test_random(&random) > 0.2;
+        wr_document_insert(document, i, layer);
+    }
+    WrLayer *base = &document->layers[0];
+    if (test_random(&random) < 0.3) base->opacity = (float)test_random(&random);
+    if (test_random(&random) < 0.3) base->mask = random_field(0, 1, &random);
+    if (test_random(&random) < 0.3) base->blend = WR_BLEND_REPLACE;
+    base->visible = test_random(&random) > 0.2;
+    if (test_random(&random) < 0.2) document->solo = (int)(count * test_random(&random));
+    return document;
+}
+
+static bool shows_any(const WrDocument *document)
+{
+    for (int i = 0; i < document->layer_count; i++)
+        if (wr_document_shows(document, i)) return true;
+    return false;
+}
+
+/* ---- tests ---- */
+
+/* Grey and alpha of each layer are rounded to 16 bits. */
+static void check_picture(zip_t *archive, int layers)
+{
+    static double grey[COUNT], alpha[COUNT];
+    size_t length;
+    memset(grey, 0, sizeof grey);
+    memset(alpha, 0, sizeof alpha);
+    char *xml = entry(archive, "stack.xml", &length);
+    compose(archive, strstr(xml, "<layer "), grey, alpha);
+    WrImage *merged = picture(archive, "mergedimage.png");
+    for (int i = 0; i < COUNT; i++) {
+        assert_near(alpha[i], 1, 1e-12);
+        assert_near(grey[i], merged->data[4 * i], (1.5 * layers + 1) / 65535);
+    }
+    wr_image_free(merged);
+    free(xml);
+}
+
+static void others_see_the_picture_that_we_have(void **state)
+{
+    (void)state;
+    int seen = 0;
+    for (uint64_t seed = 1; seed <= 60; seed++) {
+        WrError err = { "" };
+        WrDocument *document = random_document(seed, seed % 2);
+        WrHash before = wr_document_hash(document, "");
+        if (!wr_ora_save(document, "", "a.ora", &err)) fail_msg("%s", err.text);
+        WrLoaded loaded = { 0 };
+        int64_t replaced;
+        if (!wr_ora_load("a.ora", &loaded, &replaced, NULL, &err)) fail_msg("%s", err.text);
+        assert_true(wr_hash_equal(before, wr_document_hash(loaded.document, "")));
+        zip_t *archive = zip_open("a.ora", ZIP_RDONLY, NULL);
+        if (shows_any(document)) {
+            check_picture(archive, document->layer_count);
+            seen++;
+        }
+        zip_discard(archive);
+        wr_document_free(loaded.document);
+        wr_free(loaded.scene_text);
+        wr_document_free(document);
+    }
+    assert_true(seen > 40);
+}
+
+static uint32_t number_at(const uint8_t *at)
+{
+    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+}
+
+/* Krita asks for the profile of each 16-bit picture that has no iCCP chunk; gAMA and sRGB do not help. */
+static void check_profile(zip_t *archive, const char *name)
+{
+    size_t length;
+    uint8_t want[WR_SRGB_PROFILE_SIZE], is[2 * WR_SRGB_PROFILE_SIZE];
+    uint8_t *png = (uint8_t *)entry(archive, name, &length), *at = png + 8;
+    while (memcmp(at + 4, "iCCP", 4) != 0) {
+        if (memcmp(at + 4, "IDAT", 4) == 0) fail_msg("%s: no profile before the picture", name);
+        at += 12 + number_at(at);
+    }
+    size_t title = strlen((char *)at + 8);
+    uLongf size = sizeof is;
+    assert_int_equal(uncompress(is, &size, at + 8 + title + 2, number_at(at) - title - 2), Z_OK);
+    wr_srgb_profile(want);
+    assert_int_equal(size, sizeof want);
+    assert_memory_equal(is, want, sizeof want);
+    free(png);
+}
+
+static void every_picture_of_16_bits_names_its_profile(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    WrDocument *document = random_document(3, false);
+    if (!wr_ora_save(document, "", "a.ora", &err)) fail_msg("%s", err.text);
+    zip_t *archive = zip_open("a.ora", ZIP_RDONLY, NULL);
+    check_profile(archive, "mergedimage.png");
+    for (int i = 0; i < document->layer_count; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "data/layer%d.png", i + 1);
+        check_profile(archive, name);
+    }
+    zip_discard(archive);
+    wr_document_free(document);
+}
+
+/* What libpng and colour engines look at; all numbers are big-endian. */
+static void the_profile_is_sound(void **state)
+{
+    (void)state;
+    uint8_t p[WR_SRGB_PROFILE_SIZE];
+    wr_srgb_profile(p);
+    assert_int_equal(number_at(p), sizeof p);
+    assert_memory_equal(p + 12, "mntrRGB XYZ ", 12);
+    assert_memory_equal(p + 36, "acsp", 4);
+    assert_int_equal(number_at(p + 68), 0xf6d6); /* D50, as the format has it */
+    assert_int_equal(number_at(p + 72), 0x10000);
+    assert_int_equal(number_at(p + 76), 0xd32d);
+    uint32_t tags = number_at(p + 128), end = 132 + 12 * tags;
+    double white[3] = { 0 };
+    for (uint32_t i = 0; i < tags; i++) {
+        const uint8_t *tag = p + 132 + 12 * i;
+        uint32_t from = number_at(tag + 4), size = number_at(tag + 8);
+        assert_true(from % 4 == 0 && from <= end && from + size <= sizeof p);
+        if (from == end) end += (size + 3) & ~3u; /* one after the other, nothing between */
+        for (int c = 0; c < 3 && memcmp(tag + 1, "XYZ", 3) == 0; c++)
+            white[c] += (int32_t)number_at(p + from + 8 + 4 * (uint32_t)c) / 65536.0;
+    }
+    assert_int_equal(end, sizeof p);
+    assert_near(white[0], 0.9642, 1e-4); /* the primaries make white */
+    assert_near(white[1], 1.0, 1e-4);
+    assert_near(white[2], 0.8249, 3e-4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(others_see_the_picture_that_we_have),
+        cmocka_unit_test(every_picture_of_16_bits_names_its_profile),
+        cmocka_unit_test(the_profile_is_sound),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}
