@@ -62,8 +62,13 @@ static bool set_up(WrHardGauge *gauge, const WrHardRequest *request, WrError *er
     gauge->kernels[0] = wr_kernels_get("ref", false, err);
     gauge->kernels[1] = wr_kernels_get(request->isa, false, err);
     if (!gauge->kernels[0] || !gauge->kernels[1]) return false;
-    gauge->sets = gauge->kernels[0] == gauge->kernels[1] ? 1 : WR_HARD_SETS;
+    gauge->sets = gauge->kernels[0] == gauge->kernels[1] ? 1 : 2;
+    gauge->kernels[gauge->sets] = wr_kernels_get(request->isa, true, err);
+    gauge->all = gauge->kernels[gauge->sets]->exact ? gauge->sets : gauge->sets + 1;
+    gauge->wide[0] = wr_kernels_double("ref", err);
+    gauge->wide[1] = wr_kernels_double(request->isa, err);
     gauge->strip = wr_alloc(1, sizeof *gauge->strip);
+    gauge->wide_strip = wr_alloc(1, sizeof *gauge->wide_strip);
     return true;
 }
 
@@ -85,6 +90,7 @@ bool wr_hardcase_run(const WrHardCase *row, const WrHardRequest *request, WrHard
         }
     }
     wr_free(gauge.strip);
+    wr_free(gauge.wide_strip);
     result.seconds = wr_clock_seconds() - start;
     *out = result;
     return true;

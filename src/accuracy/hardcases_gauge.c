@@ -124,6 +124,24 @@ WrVec3 wr_hard_bent_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurf
     return wr_hard_vec(GET3(strip, b));
 }
 
+WrVec3 wr_hard_bent_wide(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePoint *at,
+                         WrHardSlope slope)
+{
+    WrStripd *strip = gauge->wide_strip;
+    const WrRaysd rays = { .toward = { at->n_unit.x, at->n_unit.y, at->n_unit.z } };
+    strip->count = 1;
+    SET3(strip, p, at->p);
+    SET3(strip, pu, at->pu);
+    SET3(strip, pv, at->pv);
+    SET3(strip, n, at->n_unit);
+    SET3(strip, nu, at->n_u);
+    SET3(strip, nv, at->n_v);
+    strip->n_len[0] = at->n_len;
+    strip->f[0] = slope.f, strip->fu[0] = slope.fu, strip->fv[0] = slope.fv;
+    gauge->wide[set]->bump[mode](&rays, strip);
+    return (WrVec3){ strip->bx[0], strip->by[0], strip->bz[0] };
+}
+
 WrSurfacePoint wr_hard_widen(const WrSurfacePointf *at)
 {
     return (WrSurfacePoint){ .p = wr_hard_vec(at->p),
@@ -212,6 +230,29 @@ bool wr_hard_shoot(WrHardGauge *gauge, const WrFrameRequest *request, WrHardShot
     }
     *shot = made;
     return true;
+}
+
+bool wr_hard_shoot_by(WrHardGauge *gauge, const WrFrameRequest *request, WrHardWay way,
+                      WrHardShot *shot, WrError *err)
+{
+    WrScene *scene = wr_scene_clone(request->scene);
+    WrFrameRequest changed = *request;
+    changed.scene = scene;
+    scene->dials.arithmetic = way == WR_HARD_FAST ? WR_ARITHMETIC_FAST : WR_ARITHMETIC_EXACT;
+    scene->dials.shading = way == WR_HARD_WIDE ? WR_SHADING_DOUBLE : WR_SHADING_FLOAT;
+    scene->dials.heights = way == WR_HARD_WIDE ? WR_HEIGHTS_DOUBLE : WR_HEIGHTS_FLOAT;
+    const bool good = wr_hard_shoot(gauge, &changed, shot, err);
+    wr_scene_free(scene);
+    return good;
+}
+
+int64_t wr_hard_differ(const WrHardShot *a, const WrHardShot *b, double off)
+{
+    const int64_t count = (int64_t)a->frame.width * a->frame.height * 4;
+    int64_t differ = 0;
+    for (int64_t i = 0; i < count; i++)
+        differ += !(fabs((double)a->frame.rgba[i] - (double)b->frame.rgba[i]) <= off);
+    return differ;
 }
 
 void wr_hard_put_away(WrHardShot *shot)

@@ -9,14 +9,18 @@
 
 #include <math.h>
 
-#define WR_HARD_SETS 2 /* kernel sets that float is measured with: "ref" and another */
+/* Kernel sets that float is measured with: "ref" and another, both exact, and the other's fast form. */
+#define WR_HARD_SETS 3
 
 struct WrHardGauge {
-    const WrKernels *kernels[WR_HARD_SETS]; /* both exact */
-    int sets;                               /* 1 if they are the same */
+    const WrKernels *kernels[WR_HARD_SETS]; /* the exact ones, then the fast one */
+    int sets;                               /* exact ones: 1 if they are the same */
+    int all;                                /* with the fast one, if there is one */
+    const WrKernelsd *wide[2];              /* in double; the second may be the first */
     const char *isa;
     WrPool *pool;
     WrStrip *strip; /* scratch */
+    WrStripd *wide_strip;
     uint64_t random;
     double nudge[WR_HARD_PRECISIONS];
     double worst[WR_HARD_PRECISIONS];
@@ -67,6 +71,9 @@ WrVec3 wr_hard_bent(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope
 /* n' by a kernel, seen from the side of n (behind: from the other side). */
 WrVec3 wr_hard_bent_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
                       WrHardSlope slope, bool behind);
+/* The same by the renderer's kernels in double: set 0 or 1. */
+WrVec3 wr_hard_bent_wide(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePoint *at,
+                         WrHardSlope slope);
 /* The same point in double, for formulas on float's own numbers. */
 WrSurfacePoint wr_hard_widen(const WrSurfacePointf *at);
 /* The float point as it would come out without rounding: doubles rounded once. */
@@ -102,6 +109,13 @@ int64_t wr_hard_wild(const WrHardShot *shot);
 bool wr_hard_refer(WrHardGauge *gauge, const WrFrameRequest *request, int samples, WrReference *out,
                    WrError *err);
 int64_t wr_hard_wild_reference(const WrReference *reference);
+
+/* The picture with another arithmetic: the fast kernels', or that of doubles. */
+typedef enum WrHardWay { WR_HARD_EXACT, WR_HARD_FAST, WR_HARD_WIDE, WR_HARD_WAYS } WrHardWay;
+bool wr_hard_shoot_by(WrHardGauge *gauge, const WrFrameRequest *request, WrHardWay way,
+                      WrHardShot *shot, WrError *err);
+/* Values by which two pictures of one size differ by more than `off`, not a number included. */
+int64_t wr_hard_differ(const WrHardShot *a, const WrHardShot *b, double off);
 
 /* One light of strength 1 on one place of a plane whose n is (0, 0, 1). */
 typedef struct WrHardLit {

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* The highlight of n'.h = c by the kernels: n' = v = z, and l so that h has that cosine. */
+/* The highlight of n', l, v by the kernels. */
 static double highlight(WrHardGauge *g, int set, WrVec3f bent, WrVec3f light, WrVec3f view,
                         double shininess, bool gate)
 {
@@ -22,7 +22,120 @@ static double highlight(WrHardGauge *g, int set, WrVec3f bent, WrVec3f light, Wr
     return (double)s->sr[0];
 }
 
-/* The power itself against the C library's in double, at floats; and that no highlight leaves 0..1. */
+/* The same by those in double. */
+static double highlight_wide(WrHardGauge *g, int set, const WrHardLit *lit)
+{
+    WrStripd *s = g->wide_strip;
+    const WrVec3 l = lit->light;
+    const WrKernLightd kern = { .where = { l.x, l.y, l.z }, .rgb = { 1, 1, 1 } };
+    s->count = 1;
+    s->bx[0] = lit->bent.x, s->by[0] = lit->bent.y, s->bz[0] = lit->bent.z;
+    s->vx[0] = lit->view.x, s->vy[0] = lit->view.y, s->vz[0] = lit->view.z;
+    s->px[0] = s->py[0] = s->pz[0] = 0.0;
+    g->wide[set]->begin(0.0, s);
+    g->wide[set]->light(&kern, s);
+    g->wide[set]->specular(&kern, 1.0, lit->shininess, lit->gate, s);
+    return s->sr[0];
+}
+
+/* (n'.h)^s with sixty-four bits: from |n' - h|, so that no digit of it is lost near 1. */
+static double lobe_of(WrVec3 bent, WrVec3 light, WrVec3 view, double s)
+{
+    long double n[3] = { bent.x, bent.y, bent.z }, h[3] = { light.x, light.y, light.z };
+    h[0] += view.x, h[1] += view.y, h[2] += view.z;
+    long double nn = 0, hh = 0, off = 0;
+    for (int k = 0; k < 3; k++) nn += n[k] * n[k], hh += h[k] * h[k];
+    for (int k = 0; k < 3; k++) {
+        const long double d = n[k] / sqrtl(nn) - h[k] / sqrtl(hh);
+        off += d * d;
+    }
+    if (s == 0.0) return 1.0;
+    return off < 2 ? (double)expl((long double)s * log1pl(-off / 2)) : 0.0;
+}
+
+/* A unit vector of random direction, in the upper half. */
+static WrVec3 random_up(WrHardGauge *g)
+{
+    const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
+                       wr_hard_between(g, 0.2, 1) };
+    return v3_unit(a, a);
+}
+
+/* What rounding n', l and v leaves of a highlight's digits: directions are known to a last place or two, and
+   the lobe is as steep as sqrt(s). In those steps, so that one bound stands for all powers. */
+static double steps(double got, double want, double s, double ulp)
+{
+    return fabs(got - want) / (ulp * sqrt(1.0 + s));
+}
+
+/* n' near h, both of any direction: where a high power is not 0. */
+static bool generic_highlight(WrHardGauge *g, double s, WrError *err)
+{
+    const WrVec3 l = random_up(g), v = random_up(g), h = v3_unit(v3_add(l, v), l);
+    const double wide = wr_hard_between(g, 0, 2.5) / sqrt(1.0 + s);
+    const WrVec3 aside = v3_unit(v3_cross(h, random_up(g)), h);
+    const WrVec3 n = v3_unit(v3_mad(h, aside, wide), h);
+    const WrVec3f nf = v3f_from(n), lf = v3f_from(l), vf = v3f_from(v);
+    const double want = lobe_of(wr_hard_vec(nf), wr_hard_vec(lf), wr_hard_vec(vf), s);
+    for (int set = 0; set < g->all; set++)
+        wr_hard_off(g, WR_HARD_FLOAT,
+                    steps(highlight(g, set, nf, lf, vf, s, false), want, s, 0x1p-23));
+    const WrHardLit lit = { .bent = n, .light = l, .view = v, .specular = 1, .shininess = s };
+    for (int set = 0; set < 2; set++)
+        wr_hard_off(g, WR_HARD_DOUBLE,
+                    steps(highlight_wide(g, set, &lit), lobe_of(n, l, v, s), s, 0x1p-52));
+    if (!(n.z > 0.05)) return true;
+    double part[2];
+    if (!wr_hard_shine(&lit, part, err)) return false;
+    wr_hard_off(g, WR_HARD_DOUBLE, steps(part[1], lobe_of(n, l, v, s), s, 0x1p-52));
+    return true;
+}
+
+/* A dented plane under a light that shines from where the eye is, as pictures: float against double. */
+static bool shiny_pictures(WrHardGauge *g, WrError *err)
+{
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    int lit = 0;
+    for (int k = 0; k < 4 && good; k++) {
+        WrScene *scene = wr_scene_new();
+        const WrFrameRequest request = {
+            .field = field, .scene = scene, .width = 64, .height = 64
+        };
+        const double s = scene->material.shininess = k % 2 ? 1e6 : 1e5;
+        WrHardShot shots[WR_HARD_WAYS] = { { .renderer = NULL } };
+        scene->shape = wr_hard_shape(k / 2 ? WR_SURFACE_sphere : WR_SURFACE_plane);
+        const WrVec3 ahead = { k / 2 ? 1 : 0, 0, k / 2 ? 0 : 1 };
+        scene->posed = scene->lights_given = true;
+        scene->height = 1e-4;
+        scene->lights[0] = (WrLight){
+            .kind = WR_LIGHT_DIRECTIONAL, .where = ahead, .colour = { 1, 1, 1 }, .strength = 1
+        };
+        scene->camera = (WrCamera){ .orthographic = true,
+                                    .eye = v3_scale(ahead, 5.0),
+                                    .up = { 0, 1, 0.5 },
+                                    .size = k / 2 ? 0.02 : 0.7 };
+        scene->material.specular = 1.0;
+        scene->material.diffuse = scene->material.ambient = 0.0;
+        for (int way = 0; way < WR_HARD_WAYS && good; way++)
+            good = wr_hard_shoot_by(g, &request, (WrHardWay)way, &shots[way], err);
+        for (int i = 0; i < 4 * 64 * 64 && good; i++) {
+            const double want = (double)shots[WR_HARD_WIDE].frame.rgba[i];
+            lit += i % 4 == 0 && want > 0.3;
+            for (int way = 0; way < WR_HARD_WIDE; way++) /* n' itself is a few last places off */
+                wr_hard_off(g, WR_HARD_FLOAT,
+                            steps((double)shots[way].frame.rgba[i], want, s, 0x1p-23));
+        }
+        for (int way = 0; way < WR_HARD_WAYS; way++) wr_hard_put_away(&shots[way]);
+        wr_scene_free(scene);
+    }
+    if (good)
+        wr_hard_off(g, WR_HARD_FLOAT, lit > 100 ? 0.0 : 1e9); /* else there was nothing to see */
+    wr_field_free(field);
+    return good;
+}
+
+/* Directions at random, for each power; the power itself at floats; and that no highlight leaves 0..1. */
 static bool hc89(WrHardGauge *g, WrError *err)
 {
     static const double powers[] = { 0, 1, 0.5, 30, 1000, 1e5, 1e6 };
@@ -30,27 +143,17 @@ static bool hc89(WrHardGauge *g, WrError *err)
         const double s = powers[k % 7];
         float c = k < 14 ? (k < 7 ? 0.0f : 1.0f) : wr_hard_float(g);
         if (k % 2) c = 1.0f - c * 1e-4f; /* where a high power is not 0 */
-        wr_hard_near(g, WR_HARD_FLOAT, (double)wr_pow01_f(c, (float)s), pow((double)c, s));
+        wr_hard_off(g, WR_HARD_FLOAT,
+                    steps((double)wr_pow01_f(c, (float)s), pow((double)c, s), s, 0x1p-23));
         const WrVec3f z = { 0, 0, 1 };
         const WrVec3f light = { sqrtf(1.0f - c * c), 0, c };
-        for (int set = 0; set < g->sets; set++) {
+        for (int set = 0; set < g->all; set++) {
             const double shine = highlight(g, set, z, light, z, s, true);
-            wr_hard_off(g, WR_HARD_FLOAT, fmax(0.0, shine - 1.0) + fmax(0.0, -shine));
+            wr_hard_off(g, WR_HARD_FLOAT, 1e9 * (fmax(0.0, shine - 1.0) + fmax(0.0, -shine)));
         }
+        if (!generic_highlight(g, s, err)) return false;
     }
-    for (int k = 0; k < 7 * 30; k++) { /* n' and v straight up, l at twice the angle of h */
-        const double angle = ldexp(0.78, -(k / 7) / 2);
-        const WrHardLit lit = { .bent = { 0, 0, 1 },
-                                .light = { sin(2 * angle), 0, cos(2 * angle) },
-                                .view = { 0, 0, 1 },
-                                .specular = 1,
-                                .shininess = powers[k % 7] };
-        double part[2];
-        if (!wr_hard_shine(&lit, part, err)) return false;
-        wr_hard_near(g, WR_HARD_DOUBLE, part[1],
-                     (double)powl(cosl((long double)angle), (long double)powers[k % 7]));
-    }
-    return true;
+    return shiny_pictures(g, err);
 }
 
 /* n' and h alike but longer than 1 by some last places. */
@@ -275,9 +378,9 @@ static bool hc96(WrHardGauge *g, WrError *err)
     }
 #define WAVES "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\n"
 static const WrHardCase rows[] = {
-    ROW(89, "shininess from 0 to a million", "the power is right and the highlight within 0..1",
-        "intensity", 5e-7, 1e-9,
-        WAVES "surface sphere\nbump height=0.02\nmaterial specular=1 shininess=100000"),
+    ROW(89, "shininess from 0 to a million, directions at random",
+        "the highlight is within 0..1 and as right as its directions", "last places * sqrt(s)", 4,
+        4, WAVES "surface sphere\nbump height=0.02\nmaterial specular=1 shininess=100000"),
     ROW(90, "n'.h some last places above 1", "the highlight is at most 1", "intensity", 0, 0, NULL),
     ROW(91, "a light exactly behind, and none at all", "no highlight", "intensity", 0, 0,
         WAVES "surface plane\nbump height=0.02\nmaterial specular=1 gate=off\n"

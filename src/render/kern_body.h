@@ -16,8 +16,9 @@
 #undef r_sincos_turns
 #define r_sincos_turns wr_sincos_turns_r
 #define r_atan2_turns wr_atan2_turns_r
-#define r_pow01 wr_pow01_r
+#define r_pow_below wr_pow_below_r
 #define r_floor floor
+#define ROUNDED K_(0x1p-46)
 #define STRIP WrStripd
 #define RAYS WrRaysd
 #define QUAD WrQuadd
@@ -31,8 +32,9 @@
 #define WR_FORMULA_FLOAT
 #include "surface/formula.h"
 #define r_atan2_turns wr_atan2_turns_f
-#define r_pow01 wr_pow01_f
+#define r_pow_below wr_pow_below_f
 #define r_floor floorf
+#define ROUNDED K_(0x1p-18)
 #define STRIP WrStrip
 #define RAYS WrRays
 #define QUAD WrQuad
@@ -95,16 +97,25 @@ static inline REAL clamp01(REAL x)
     return x < 1.0f ? x : 1.0f;
 }
 
-static inline REAL max3(REAL a, REAL b, REAL c)
+ALWAYS REAL larger(REAL a, REAL b)
 {
-    a = a > b ? a : b;
-    return a > c ? a : c;
+    return a > b ? a : b;
+}
+
+ALWAYS REAL smaller(REAL a, REAL b)
+{
+    return a < b ? a : b;
+}
+
+ALWAYS REAL longest(VEC a)
+{
+    return larger(larger(r_abs(a.x), r_abs(a.y)), r_abs(a.z));
 }
 
 /* a / |a|, `otherwise` where a is 0: scaled by its largest component first, so no square overflows. */
 static inline VEC unit_or(VEC a, VEC otherwise)
 {
-    REAL m = max3(r_abs(a.x), r_abs(a.y), r_abs(a.z));
+    REAL m = longest(a);
     REAL k = m > 0.0f ? m : 1.0f;
     REAL x = a.x / k, y = a.y / k, z = a.z / k;
     REAL len = r_sqrt(x * x + y * y + z * z);

@@ -12,16 +12,6 @@
 #define NO_BOUND ((REAL)INFINITY)
 #define LOOSE K_(1.0001) /* bounds are found in rounded arithmetic */
 
-ALWAYS REAL larger(REAL a, REAL b)
-{
-    return a > b ? a : b;
-}
-
-ALWAYS REAL smaller(REAL a, REAL b)
-{
-    return a < b ? a : b;
-}
-
 /* A corner of the pixel on the quad's plane. */
 typedef struct Corner {
     REAL u, v;
@@ -237,7 +227,8 @@ FLAT static void kern_bound_light(const RAYS *rays, const LIGHT *light, const SH
         REAL dh = turn_of(dl + de, r_sqrt(v_dot(lv, lv)));
         REAL c = larger(half.c, K_(0)), dc = strip->swing[i] + dh;
         REAL c0 = larger(c - dc, K_(0)), c1 = smaller(c + dc, K_(1));
-        REAL low = r_pow01(c0, s), high = r_pow01(c1, s), now = r_pow01(smaller(c, K_(1)), s);
+        REAL low = r_pow_below(c0, half.below + dc, s), high = r_pow_below(c1, half.below - dc, s);
+        REAL now = r_pow_below(smaller(c, K_(1)), half.below, s);
         low = gate != K_(0) ? (d - dd > K_(0) ? low : K_(0)) : low;
         high = gate != K_(0) ? (d + dd > K_(0) ? high : K_(0)) : high;
         now = gate != K_(0) ? (d > K_(0) ? now : K_(0)) : now;

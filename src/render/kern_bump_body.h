@@ -70,25 +70,36 @@ VEC bent = unit_or(v_mad(v_scale(n, k), way, a), n);
 r = CHOOSE(level, n, bent);
 BUMP_END
 
+/* `a`, or 0 where it is nothing but what rounding left of terms of that size that cancel. */
+ALWAYS VEC above_rounding(VEC a, REAL size)
+{
+    const VEC zero = { 0, 0, 0 };
+    return CHOOSE(longest(a) < ROUNDED * size, zero, a);
+}
+
 /* N' = Pu' x Pv', Pu' = Pu + Fu n + F n_u, Pv' = Pv + Fv n + F n_v; parts along n and in the plane are
-   kept apart so that steep slopes do not swallow the tangents. */
+   kept apart so that steep slopes do not swallow the tangents. Where F carries the surface to a focal point
+   a tangent comes out as rounding: what is left of it is no direction (HC12). */
 BUMP_BEGIN(exact)
 VEC pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
 REAL f = strip->f[i], fu = strip->fu[i], fv = strip->fv[i];
 bool level = fu == 0.0f && fv == 0.0f && f == 0.0f;
-VEC tu = v_mad(pu, LOAD3(strip, nu, i), f), tv = v_mad(pv, LOAD3(strip, nv, i), f);
-REAL size = max3(r_abs(tu.x), r_abs(tu.y), r_abs(tu.z));
-REAL size_v = max3(r_abs(tv.x), r_abs(tv.y), r_abs(tv.z));
-size = size > size_v ? size : size_v;
-size = size > r_abs(fu) ? size : r_abs(fu);
-size = size > r_abs(fv) ? size : r_abs(fv);
+VEC fnu = v_scale(LOAD3(strip, nu, i), f), fnv = v_scale(LOAD3(strip, nv, i), f);
+VEC tu = v_add(pu, fnu), tv = v_add(pv, fnv);
+REAL turn_u = longest(fnu), turn_v = longest(fnv);
+REAL size_u = larger(longest(pu), turn_u), size_v = larger(longest(pv), turn_v);
+REAL size = larger(larger(size_u, size_v), larger(r_abs(fu), r_abs(fv)));
 REAL k = size > STEEP ? STEEP / size : 1.0f;
 tu = v_scale(tu, k);
 tv = v_scale(tv, k);
 fu *= k;
 fv *= k;
-VEC flat = v_cross(tu, tv);
+size_u *= k;
+size_v *= k;
+bool moved = turn_u > 0.0f || turn_v > 0.0f;
+VEC flat = above_rounding(v_cross(tu, tv), moved ? size_u *size_v : 0.0f);
 VEC tip = v_cross(n, v_sub(v_scale(tv, fu), v_scale(tu, fv)));
+tip = above_rounding(tip, larger(r_abs(fu) * size_v, r_abs(fv) * size_u));
 VEC bent = unit_or(v_add(flat, tip), n);
 r = CHOOSE(level, n, bent);
 BUMP_END

@@ -69,14 +69,14 @@ static inline double wr_atan2_turns_r(double y, double x)
     return a < 1.0 ? a : 0.0;
 }
 
-/* log2 of a positive normal number: 2 atanh((m - 1) / (m + 1)) / ln 2 of its mantissa m in sqrt(1/2) ..
-   sqrt(2). Relative error under 4e-16, also near 1. */
-static inline double wr_log2_r(double x)
+/* log2 of a positive normal number, whose 1 - x is `below` (wr_log2_below_f): 2 atanh((m - 1) / (m + 1)) /
+   ln 2 of its mantissa m in sqrt(1/2) .. sqrt(2). Relative error under 4e-16, also near 1. */
+static inline double wr_log2_below_r(double x, double below)
 {
     int64_t bits = wr_double_bits(x);
     int64_t e = (bits - 0x3fe6a09e667f3bcd) >> 52;
     double m = wr_bits_double(bits - (int64_t)((uint64_t)e << 52));
-    double f = (m - 1.0) / (m + 1.0), z = f * f;
+    double above = e == 0 ? -below : m - 1.0, f = above / (above + 2.0), z = f * f;
     double p = 0.1373995277037108 + z * 0.12545174268599682;
     p = 0.16972882833987804 + z * (0.15186263588304877 + z * p);
     p = 0.22195308321368667 + z * (0.19235933878519512 + z * p);
@@ -102,12 +102,13 @@ static inline double wr_exp2_r(double x)
     return wr_bits_double(wr_double_bits(p) + (int64_t)((uint64_t)(int64_t)(int32_t)n << 52));
 }
 
-/* x^s for 0 <= x <= 1 and s >= 0, as wr_pow01_f. Values below 2^-1022 become 0. */
-static inline double wr_pow01_r(double x, double s)
+/* x^s for 0 <= x <= 1 and s >= 0, as wr_pow_below_f. Values below 2^-1022 become 0. */
+static inline double wr_pow_below_r(double x, double below, double s)
 {
+    below = below > 0.0 ? below : 0.0;
     x = x > 1.0 ? 1.0 : x;
     double tiny = x > 2.3e-308 ? x : 2.3e-308;
-    double e = s * wr_log2_r(tiny);
+    double e = s * wr_log2_below_r(tiny, below);
     double p = wr_exp2_r(e);
     p = e < -1022.0 ? 0.0 : p;
     p = x > 2.3e-308 ? p : 0.0;

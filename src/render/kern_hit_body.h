@@ -37,21 +37,6 @@ ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, in
     return hits;
 }
 
-/* The samples that hit a body of revolution of height h: u goes round the axis, v up it. */
-ALWAYS int place_round(const RAYS *rays, REAL gx, REAL gy, int count, REAL h, const bool spread,
-                       STRIP *strip)
-{
-    int hits = compact(count, spread, strip);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        RAY(i, strip->index[i]);
-        VEC p = v_mad(q, d, strip->s[i]);
-        strip->u[i] = r_atan2_turns(p.y, p.x);
-        strip->v[i] = clamp01(0.5f + p.z / h);
-    }
-    return hits;
-}
-
 /* x^2 + y^2 = R^2, |z| <= H/2, open at both ends: the nearer root if it lies on the tube, else the other. */
 ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
                         const bool spread, STRIP *strip)
@@ -72,33 +57,69 @@ ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, 
         REAL s = z0 <= top && s0 > s_min ? s0 : second;
         strip->s[i] = left >= 0.0f && dd > 1e-30f ? s : MISS;
     }
-    return place_round(rays, gx, gy, count, h, spread, strip);
+    int hits = compact(count, spread, strip);
+    SIMD for (int i = 0; i < hits; i++)
+    {
+        RAY(i, strip->index[i]);
+        VEC p = v_mad(q, d, strip->s[i]);
+        strip->u[i] = r_atan2_turns(p.y, p.x);
+        strip->v[i] = clamp01(0.5f + p.z / h);
+    }
+    return hits;
 }
 
-/* x^2 + y^2 = (R/H)^2 w^2 with w = H/2 - z in 0..H: a s^2 + 2 b s + c = 0, roots in the stable form
-   t / a and c / t with t = -(b +- sqrt(b^2 - a c)). */
+/* A ray about the cone's tip: x^2 + y^2 = k^2 w^2, k = R/H, w the depth under the tip. `foot` is its point
+   nearest the tip and m = -s there: roots are kept relative to it, so that nothing cancels however near the
+   tip rays pass (no w^2 is taken from a w^2). */
+typedef struct TipRay {
+    VEC foot; /* from the tip; z up */
+    REAL m;
+} TipRay;
+
+ALWAYS TipRay ray_of_tip(VEC q, VEC d, REAL top)
+{
+    VEC from = { q.x, q.y, q.z - top };
+    REAL m = v_dot(from, d) / v_dot(d, d);
+    return (TipRay){ v_mad(from, d, -m), m };
+}
+
+/* a s^2 + 2 b s + c = 0, roots in the stable form t / a and c / t with t = -(b +- root); root^2 =
+   b^2 - a c = (x k dz - k z dx)^2 + (y k dz - k z dy)^2 - (x dy - y dx)^2, the same without the products
+   that cancel. */
 ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
                     const bool spread, STRIP *strip)
 {
-    const REAL h = shape->value[1], k = shape->value[0] / h, k2 = k * k, s_min = rays->s_min;
+    const REAL h = shape->value[1], k = shape->value[0] / h, k2 = k * k, top = K_(0.5) * h;
+    const REAL s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
         RAY(i, i);
-        REAL w = 0.5f * h - q.z;
-        REAL a = d.x * d.x + d.y * d.y - k2 * d.z * d.z;
-        REAL b = q.x * d.x + q.y * d.y + k2 * w * d.z;
-        REAL c = q.x * q.x + q.y * q.y - k2 * w * w;
-        REAL disc = b * b - a * c;
+        TipRay ray = ray_of_tip(q, d, top);
+        VEC f = ray.foot;
+        REAL a = d.x * d.x + d.y * d.y - k2 * (d.z * d.z);
+        REAL b = f.x * d.x + f.y * d.y - k2 * (f.z * d.z);
+        REAL c = f.x * f.x + f.y * f.y - k2 * (f.z * f.z);
+        REAL ex = k * (f.x * d.z - f.z * d.x), ey = k * (f.y * d.z - f.z * d.y);
+        REAL ez = f.x * d.y - f.y * d.x;
+        REAL disc = ex * ex + ey * ey - ez * ez;
         REAL root = r_sqrt(disc > 0.0f ? disc : 0.0f);
         REAL t = b > 0.0f ? -b - root : -b + root;
         REAL sa = a != 0.0f ? t / a : MISS, sc = t != 0.0f ? c / t : 0.0f;
         REAL s0 = sa < sc ? sa : sc, s1 = sa < sc ? sc : sa;
-        REAL w0 = w - s0 * d.z, w1 = w - s1 * d.z;
-        REAL second = w1 >= 0.0f && w1 <= h && s1 > s_min ? s1 : MISS;
-        REAL s = w0 >= 0.0f && w0 <= h && s0 > s_min ? s0 : second;
+        REAL z0 = f.z + s0 * d.z, z1 = f.z + s1 * d.z;
+        REAL second = z1 <= 0.0f && z1 >= -h && s1 - ray.m > s_min ? s1 : MISS;
+        REAL s = z0 <= 0.0f && z0 >= -h && s0 - ray.m > s_min ? s0 : second;
         strip->s[i] = disc >= 0.0f ? s : MISS;
     }
-    return place_round(rays, gx, gy, count, h, spread, strip);
+    int hits = compact(count, spread, strip);
+    SIMD for (int i = 0; i < hits; i++)
+    {
+        RAY(i, strip->index[i]);
+        VEC p = v_mad(ray_of_tip(q, d, top).foot, d, strip->s[i]);
+        strip->u[i] = r_atan2_turns(p.y, p.x);
+        strip->v[i] = clamp01(K_(1) + p.z / h);
+    }
+    return hits;
 }
 
 ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int count,

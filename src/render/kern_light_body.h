@@ -69,19 +69,35 @@ FLAT static void kern_diffuse(const LIGHT *light, REAL kd, STRIP *strip)
     }
 }
 
-/* max(0, n'.h)^s with h = (l + v) / |l + v|; 0 where l and v are opposite (HC91). */
+/* The half vector h = (l + v) / |l + v|. What a high power is taken of is 1 - n'.h: near 1 that is
+   |n' - h|^2 / 2, to which rounding of the lengths of n' and h does nothing (HC89). */
+typedef struct Half {
+    VEC h;         /* unit; 0 where l and v are opposite */
+    REAL c, below; /* n'.h; 1 - n'.h */
+    bool there;
+} Half;
+
+ALWAYS Half half_of(const STRIP *strip, int i)
+{
+    VEC h = v_add(LOAD3(strip, l, i), LOAD3(strip, v, i)), bent = LOAD3(strip, b, i);
+    REAL hh = v_dot(h, h);
+    bool there = hh > 1e-24f;
+    h = v_scale(h, there ? K_(1) / r_sqrt(there ? hh : K_(1)) : K_(0));
+    REAL c = v_dot(bent, h);
+    VEC off = v_sub(bent, h);
+    return (Half){ h, c, c > K_(0.5) ? K_(0.5) * v_dot(off, off) : K_(1) - c, there };
+}
+
+/* max(0, n'.h)^s; 0 where l and v are opposite (HC91). */
 FLAT static void kern_specular(const LIGHT *light, REAL ks, REAL shininess, bool gate, STRIP *strip)
 {
     const REAL r = ks * light->rgb[0], g = ks * light->rgb[1], b = ks * light->rgb[2];
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        REAL hx = strip->lx[i] + strip->vx[i], hy = strip->ly[i] + strip->vy[i];
-        REAL hz = strip->lz[i] + strip->vz[i], hh = hx * hx + hy * hy + hz * hz;
-        REAL nh = strip->bx[i] * hx + strip->by[i] * hy + strip->bz[i] * hz;
-        REAL c = hh > 1e-24f ? nh / r_sqrt(hh > 1e-24f ? hh : 1.0f) : 0.0f;
-        REAL shine = r_pow01(c > 0.0f ? c : 0.0f, shininess);
-        shine = (!gate || strip->n_dot_l[i] > 0.0f) && hh > 1e-24f ? shine : 0.0f;
+        Half half = half_of(strip, i);
+        REAL shine = r_pow_below(half.c > 0.0f ? half.c : 0.0f, half.below, shininess);
+        shine = (!gate || strip->n_dot_l[i] > 0.0f) && half.there ? shine : 0.0f;
         strip->sr[i] += r * shine;
         strip->sg[i] += g * shine;
         strip->sb[i] += b * shine;

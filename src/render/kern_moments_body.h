@@ -64,27 +64,10 @@ FLAT static void kern_widen(bool unit_tangents, STRIP *strip)
     }
 }
 
-/* The half vector, as kern_specular has it: n'.h, and h.h. */
-typedef struct Half {
-    VEC h; /* unit; 0 where l and v are opposite */
-    REAL c;
-    bool there;
-} Half;
-
-ALWAYS Half half_of(const STRIP *strip, int i)
-{
-    REAL hx = strip->lx[i] + strip->vx[i], hy = strip->ly[i] + strip->vy[i];
-    REAL hz = strip->lz[i] + strip->vz[i], hh = hx * hx + hy * hy + hz * hz;
-    REAL nh = strip->bx[i] * hx + strip->by[i] * hy + strip->bz[i] * hz;
-    bool there = hh > 1e-24f;
-    REAL len = r_sqrt(there ? hh : K_(1));
-    return (Half){ { hx / len, hy / len, hz / len }, there ? nh / len : K_(0), there };
-}
-
 ALWAYS void add_shine(const LIGHT *light, const SHINE *shine, REAL power, REAL factor, Half half,
                       STRIP *strip, int i)
 {
-    REAL lobe = r_pow01(half.c > 0.0f ? half.c : 0.0f, power) * factor;
+    REAL lobe = r_pow_below(half.c > 0.0f ? half.c : 0.0f, half.below, power) * factor;
     lobe = (!shine->gate || strip->n_dot_l[i] > 0.0f) && half.there ? lobe : 0.0f;
     strip->sr[i] += shine->ks * light->rgb[0] * lobe;
     strip->sg[i] += shine->ks * light->rgb[1] * lobe;

@@ -50,7 +50,7 @@ typedef struct WR_T(WrStrip) {
 
 /* The ray of sample (gx, gy) of the frame's sample grid: q + s d, with q = q0 + gx qx + gy qy and d
    alike. q lies in the plane through the object's centre that faces the camera, so that its size is
-   the object's and nothing cancels however far the eye is. */
+   the object's and nothing cancels however far the eye is; with the eye at the object it lies at the eye. */
 typedef struct WR_T(WrRays) {
     REAL q0[3], qx[3], qy[3];
     REAL d0[3], dx[3], dy[3];

@@ -146,6 +146,19 @@ static void bring_to_grid(const WrView *view, const WrDepthTile *tile, WrRasterV
     vertex->y = to_grid(vertex->y, tile->k, view->samples);
 }
 
+/* The farthest vertex first, where one is far closer than another: what is interpolated then starts at its
+   least value and only grows, so that nothing cancels however deep the triangle is. */
+static void farthest_first(WrRasterVertex *a, WrRasterVertex *b, WrRasterVertex *c)
+{
+    const float deep = 64.0f, ab = a->close < b->close ? a->close : b->close;
+    const float least = ab < c->close ? ab : c->close, limit = deep * least;
+    if (a->close <= limit && b->close <= limit && c->close <= limit) return;
+    for (int k = 0; k < 2 && a->close > least; k++) {
+        const WrRasterVertex first = *a;
+        *a = *b, *b = *c, *c = first;
+    }
+}
+
 void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
                         WrDepthTile *tile)
 {
@@ -159,6 +172,7 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
         WrRasterVertex t = b;
         b = c, c = t, area = -area;
     }
+    if (view->perspective) farthest_first(&a, &b, &c);
     const int more = tile->shift ? 128 : 0;
     Walk walk = { .perspective = view->perspective, .inv = 1.0f / (float)area };
     int32_t x0 = floor_sample(min3(a.x, b.x, c.x) - 128 - more) - tile->x;

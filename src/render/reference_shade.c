@@ -115,6 +115,17 @@ static void picture_colour(const WrReferenceStage *stage, double u, double v, do
     }
 }
 
+/* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, of which a high power loses no
+   digit. */
+static double lobe(WrVec3 bent, WrVec3 h, double s)
+{
+    const double nh = v3_dot(bent, h);
+    const WrVec3 off = v3_sub(bent, h);
+    if (!(s > 0)) return 1;
+    if (nh > 0.5) return exp(s * log1p(-v3_dot(off, off) / 2));
+    return nh > 0 ? pow(nh, s) : 0;
+}
+
 void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v, WrVec3 bent,
                         double rgb[3])
 {
@@ -129,9 +140,7 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
         const double nl = v3_dot(bent, l), hh = v3_dot(h, h);
         double highlight = 0;
         if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24) {
-            double nh = v3_dot(bent, h) / sqrt(hh);
-            nh = nh > 0 ? nh < 1 ? nh : 1 : 0;
-            highlight = m->specular * (m->shininess > 0 ? pow(nh, m->shininess) : 1);
+            highlight = m->specular * lobe(bent, v3_scale(h, 1 / sqrt(hh)), m->shininess);
         }
         for (int c = 0; c < 3; c++) {
             diffuse[c] += m->diffuse * light->rgb[c] * (nl > 0 ? nl : 0);

@@ -5,8 +5,6 @@
 #include "base/exactmath.h"
 #include "base/memory.h"
 
-#define NEAR 1e-5 /* of the near plane, in radii of the object, as the picture has it */
-
 static WrVec3 world_to_object(const WrPlacement *place, WrVec3 w)
 {
     const double *m = place->rotation;
@@ -66,7 +64,7 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     const WrVec3 from_eye = v3_sub(place.centre, view->eye);
     view->depth = v3_dot(from_eye, view->forward);
     view->middle = v3_mad(view->eye, view->forward, view->depth);
-    view->s_min = NEAR * place.radius - view->depth;
+    view->s_min = WR_NEAR_PLANE * place.radius - view->depth;
     view->cull = view->info->closed_u && view->info->closed_v &&
                  (!view->perspective || v3_len(from_eye) > place.radius);
     hide_faces(view);
@@ -134,30 +132,6 @@ static bool hit_sphere(const WrReferenceView *view, const WrReferenceRay *ray, W
     return true;
 }
 
-/* A tube or a cone, from a root. */
-static void stand_round(const WrReferenceView *view, const WrReferenceRay *ray, double s,
-                        WrReferenceHit *hit)
-{
-    const WrVec3 p = v3_mad(ray->q, ray->d, s);
-    *hit = (WrReferenceHit){ .s = s,
-                             .u = turns(p.y, p.x),
-                             .v = within(0.5 + p.z / view->shape->value[1]) };
-}
-
-/* The nearer of two roots that lies between the rims and beyond the near plane. */
-static bool hit_between(const WrReferenceView *view, const WrReferenceRay *ray, double s0,
-                        double s1, WrReferenceHit *hit)
-{
-    const double top = view->shape->value[1] / 2, roots[2] = { fmin(s0, s1), fmax(s0, s1) };
-    for (int k = 0; k < 2; k++) {
-        const double z = ray->q.z + roots[k] * ray->d.z;
-        if (!(roots[k] > ray->s_min && fabs(z) <= top)) continue;
-        stand_round(view, ray, roots[k], hit);
-        return true;
-    }
-    return false;
-}
-
 static bool hit_cylinder(const WrReferenceView *view, const WrReferenceRay *ray,
                          WrReferenceHit *hit)
 {
@@ -168,22 +142,43 @@ static bool hit_cylinder(const WrReferenceView *view, const WrReferenceRay *ray,
     const double x = ray->q.x + foot * ray->d.x, y = ray->q.y + foot * ray->d.y;
     const double left = R * R - (x * x + y * y);
     if (!(left >= 0)) return false;
-    const double half = sqrt(left / dd);
-    return hit_between(view, ray, foot - half, foot + half, hit);
+    const double half = sqrt(left / dd), H = view->shape->value[1];
+    for (int k = -1; k <= 1; k += 2) { /* the nearer of the roots between the rims */
+        const double s = foot + k * half;
+        const WrVec3 p = v3_mad(ray->q, ray->d, s);
+        if (!(s > ray->s_min && fabs(p.z) <= H / 2)) continue;
+        *hit = (WrReferenceHit){ .s = s, .u = turns(p.y, p.x), .v = within(0.5 + p.z / H) };
+        return true;
+    }
+    return false;
 }
 
-/* x^2 + y^2 = (R/H)^2 w^2, w = H/2 - z; the roots by t / a and c / t, neither of them a difference. */
+/* x^2 + y^2 = (R/H)^2 w^2, w = H/2 - z; the roots by t / a and c / t, and b^2 - a c by Lagrange's identity:
+   none is a difference of what the tip makes alike. Counted from the ray's point nearest the tip. */
 static bool hit_cone(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)
 {
     const double H = view->shape->value[1], slope = view->shape->value[0] / H;
-    const WrVec3 q = ray->q, d = ray->d;
-    const double w = slope * (H / 2 - q.z), dw = -slope * d.z;
+    const WrVec3 d = ray->d, from = { ray->q.x, ray->q.y, ray->q.z - H / 2 };
+    const double foot = -v3_dot(from, d) / v3_dot(d, d);
+    const WrVec3 q = v3_mad(from, d, foot);
+    const double w = -slope * q.z, dw = -slope * d.z;
     const double a = d.x * d.x + d.y * d.y - dw * dw, b = q.x * d.x + q.y * d.y - w * dw;
-    const double c = q.x * q.x + q.y * q.y - w * w, disc = b * b - a * c;
+    const double c = q.x * q.x + q.y * q.y - w * w;
+    const double x = q.x * dw - w * d.x, y = q.y * dw - w * d.y, z = q.x * d.y - q.y * d.x;
+    const double disc = x * x + y * y - z * z;
     if (!(disc >= 0)) return false;
     const double t = b > 0 ? -b - sqrt(disc) : -b + sqrt(disc);
     const double s0 = a != 0 ? t / a : INFINITY, s1 = t != 0 ? c / t : 0;
-    return hit_between(view, ray, s0, s1, hit);
+    const double roots[2] = { fmin(s0, s1), fmax(s0, s1) };
+    for (int k = 0; k < 2; k++) {
+        const WrVec3 p = v3_mad(q, d, roots[k]);
+        if (!(foot + roots[k] > ray->s_min && p.z <= 0 && p.z >= -H)) continue;
+        *hit = (WrReferenceHit){ .s = foot + roots[k],
+                                 .u = turns(p.y, p.x),
+                                 .v = within(1 + p.z / H) };
+        return true;
+    }
+    return false;
 }
 
 static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, WrReferenceHit *hit)

@@ -36,11 +36,17 @@ static void narrow_rays(const WrRaysd *in, WrRays *out)
     out->perspective = in->perspective;
 }
 
+/* An eye nearer than that, in radii: rays start at it and not at the object's centre, so that what lies a
+   hair before the eye is as exact as its distance. */
+#define CLOSE 1.5
+
 /* Rays as affine functions of the sample's grid position (i, j), whose centre is (i + 1/2, j + 1/2). */
 static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double grid_h,
                       WrRaysd *rays)
 {
-    double depth = v3_dot(v3_sub(centre, view->eye), view->forward); /* of the reference plane */
+    const WrVec3 ahead = v3_sub(centre, view->eye);
+    const bool close = v3_len(ahead) < CLOSE * view->radius;
+    double depth = close ? 0.0 : v3_dot(ahead, view->forward); /* of the reference plane */
     WrVec3 middle = v3_mad(view->eye, view->forward, depth);
     WrVec3 x = v3_scale(view->right, 2.0 * view->half_w / grid_w);
     WrVec3 y = v3_scale(view->up, -2.0 * view->half_h / grid_h);
@@ -226,7 +232,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width
     view->cull = info->closed_u && info->closed_v &&
                  (!view->perspective ||
                   v3_len(v3_sub(view->eye, v3_scale(place.centre, view->scale))) > view->radius);
-    view->near = 1e-5 * view->radius;
+    view->near = WR_NEAR_PLANE * view->radius;
     wr_shape_scaled(&scene->shape, view->scale, &view->shape);
     scale_shape(&scene->shape, view->scale, &view->shape_d);
     make_grids(view, v3_scale(place.centre, view->scale));

@@ -97,6 +97,9 @@ WrScene *wr_scene_clone(const WrScene *scene);
 WrScene *wr_scene_share(const WrScene *scene); /* constant time */
 void wr_scene_free(WrScene *scene);
 
+/* The near plane's depth before the eye, in radii of the object: what lies nearer is not seen. */
+#define WR_NEAR_PLANE 1e-10
+
 /* Where things are for a picture. A point of the object stands in the world at
  *   rotation * (P - centre),   rotation = Ry(turn_deg) Rz Ry Rx  (pose, then the turntable). */
 typedef struct WrPlacement {
