@@ -14,6 +14,8 @@ wr_check(shell shell.sh ${PROJECT_SOURCE_DIR})
 wr_check(start start.sh ${PROJECT_SOURCE_DIR})
 if(NOT WR_SANITIZE)
     wr_check(symbols symbols.sh ${CMAKE_BINARY_DIR})
+    string(COMPARE EQUAL "${WR_SANITIZE}${CMAKE_BUILD_TYPE}" "RelWithDebInfo" fortified)
+    wr_check(hardened hardened.sh ${CMAKE_BINARY_DIR} $<BOOL:${fortified}>)
 endif()
 
 if(TARGET wrinkle)
