@@ -1,5 +1,6 @@
 #include "image/verify.h"
 
+#include "image/exr_chunks.h"
 #include "image/read_inner.h"
 
 #include <errno.h>
@@ -59,6 +60,7 @@ bool wr_image_verify(const char *name, int fd, const WrImageFormat *format, cons
     WrError inner = { "" };
     WrImageFile *file = wr_image_file_take(name, open_again(fd, &inner), &inner);
     bool good = file != NULL;
+    if (good && strcmp(format->library, "openexr") == 0) good = wr_exr_check_chunks(fd, &inner);
     if (good && wr_image_file_parts(file) != count)
         good = wr_fail(&inner, "%d parts, not %d", wr_image_file_parts(file), count);
     for (int i = 0; i < count && good; i++)

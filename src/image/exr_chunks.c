@@ -1,0 +1,105 @@
+/* Source: OpenEXR File Layout, "Multi-Part and Deep Data". All numbers are little-endian. */
+#include "image/exr_chunks.h"
+
+#include "image/image.h"
+
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define MULTIPART 0x10 /* in the file's sixth byte */
+#define NAME_MAX_BYTES 255
+
+typedef struct Walk {
+    int fd;
+    off_t at, size;
+    char text[NAME_MAX_BYTES + 1];
+} Walk;
+
+static bool take(Walk *walk, void *bytes, size_t length)
+{
+    if (pread(walk->fd, bytes, length, walk->at) != (ssize_t)length) return false;
+    walk->at += (off_t)length;
+    return true;
+}
+
+static bool take_number(Walk *walk, int bytes, uint64_t *value)
+{
+    unsigned char raw[8];
+    if (!take(walk, raw, (size_t)bytes)) return false;
+    *value = 0;
+    for (int i = 0; i < bytes; i++) *value |= (uint64_t)raw[i] << 8 * i;
+    return true;
+}
+
+/* A text that ends in NUL, into walk->text. */
+static bool take_name(Walk *walk)
+{
+    ssize_t n = pread(walk->fd, walk->text, sizeof walk->text, walk->at);
+    const char *end = n > 0 ? memchr(walk->text, '\0', (size_t)n) : NULL;
+    if (!end) return false;
+    walk->at += end - walk->text + 1;
+    return true;
+}
+
+/* The attributes of one part; 0 chunks: there is no further part. */
+static bool take_header(Walk *walk, uint64_t *chunks)
+{
+    *chunks = 0;
+    for (bool first = true;; first = false) {
+        uint64_t length;
+        if (!take_name(walk)) return false;
+        if (!walk->text[0]) return first || *chunks > 0;
+        bool count = strcmp(walk->text, "chunkCount") == 0;
+        if (!take_name(walk) || !take_number(walk, 4, &length)) return false;
+        if (length > (uint64_t)(walk->size - walk->at)) return false;
+        off_t next = walk->at + (off_t)length;
+        if (count && (length != 4 || !take_number(walk, 4, chunks))) return false;
+        walk->at = next;
+    }
+}
+
+/* One entry of the table at *table; *end is where its chunk must begin, and then where that ends. */
+static bool follow_chunk(Walk *walk, off_t *table, uint64_t part, off_t *end)
+{
+    uint64_t place, number, y, length;
+    walk->at = *table;
+    if (!take_number(walk, 8, &place) || place != (uint64_t)*end) return false;
+    *table = walk->at;
+    walk->at = *end;
+    if (!take_number(walk, 4, &number) || number != part || !take_number(walk, 4, &y) ||
+        !take_number(walk, 4, &length) || length > (uint64_t)(walk->size - walk->at))
+        return false;
+    *end = walk->at + (off_t)length;
+    return true;
+}
+
+static bool check(Walk *walk)
+{
+    uint64_t counts[WR_IMAGE_PARTS_MAX], all = 0;
+    int parts = 0;
+    for (;; parts++) {
+        uint64_t chunks;
+        if (!take_header(walk, &chunks)) return false;
+        if (chunks == 0) break;
+        if (parts == WR_IMAGE_PARTS_MAX || chunks > WR_IMAGE_MAX) return false;
+        counts[parts] = chunks;
+        all += chunks;
+    }
+    off_t table = walk->at, end = table + (off_t)(8 * all);
+    for (int part = 0; part < parts; part++)
+        for (uint64_t i = 0; i < counts[part]; i++)
+            if (!follow_chunk(walk, &table, (uint64_t)part, &end)) return false;
+    return end == walk->size;
+}
+
+bool wr_exr_check_chunks(int fd, WrError *err)
+{
+    struct stat info;
+    unsigned char start[8];
+    if (fstat(fd, &info) != 0 || pread(fd, start, sizeof start, 0) != (ssize_t)sizeof start)
+        return wr_fail(err, "it is truncated");
+    if (!(start[5] & MULTIPART)) return true;
+    Walk walk = { .fd = fd, .at = sizeof start, .size = info.st_size };
+    return check(&walk) || wr_fail(err, "its tables are not whole");
+}

@@ -1,0 +1,75 @@
+/* fault_help.h - running something in a child while a call goes wrong, and counting how it ended. After test.h. */
+#pragma once
+#include "fault.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define FAULT_TENTH 10
+
+/* A tenth of the cases in every run, all with WR_FULL=1; `salt` has the runs of several tests differ. */
+static inline bool fault_is_wanted(int64_t index, int64_t salt)
+{
+    const char *full = getenv("WR_FULL");
+    return (full && full[0] == '1') || (index + salt) % FAULT_TENTH == 0;
+}
+
+/* Modes that mean something for a kind of call. */
+static inline bool fault_fits(FaultKind kind, FaultMode mode)
+{
+    if (mode == FAULT_ERROR || mode == FAULT_KILL) return true;
+    return kind == FAULT_WRITE && (mode == FAULT_SHORT || mode == FAULT_TORN);
+}
+
+/* How many of each. */
+typedef struct FaultTally {
+    long cases, errors, successes, killed_old, killed_new;
+    long kills[FAULT_PLACES][FAULT_STAGES];
+} FaultTally;
+
+static inline void fault_tell(const char *name, const FaultTally *t)
+{
+    printf("%-10s %5ld cases: %ld errors over a whole old file, %ld successes, %ld kills (%ld old, "
+           "%ld new)\n",
+           name, t->cases, t->errors, t->successes, t->killed_old + t->killed_new, t->killed_old,
+           t->killed_new);
+    for (int place = 0; place < FAULT_PLACES; place++)
+        for (int stage = 0; stage < FAULT_STAGES; stage++)
+            if (t->kills[place][stage])
+                printf("             kills at %s, %s: %ld\n", wr_fault_places[place],
+                       wr_fault_stages[stage], t->kills[place][stage]);
+    fflush(stdout);
+}
+
+static inline void fault_add(FaultTally *to, const FaultTally *t)
+{
+    to->cases += t->cases;
+    to->errors += t->errors;
+    to->successes += t->successes;
+    to->killed_old += t->killed_old;
+    to->killed_new += t->killed_new;
+    for (int i = 0; i < FAULT_PLACES * FAULT_STAGES; i++)
+        (&to->kills[0][0])[i] += (&t->kills[0][0])[i];
+}
+
+/* fork, but the child ends with its parent, and after two minutes. */
+static inline pid_t fault_fork(void)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        alarm(120);
+    }
+    return child;
+}
+
+static inline int fault_wait(pid_t child)
+{
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return status;
+}

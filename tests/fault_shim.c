@@ -1,0 +1,372 @@
+/* See fault.h. Calls of the system are made without the C library, which is what stands behind this. */
+#include "fault.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#define SHOWN __attribute__((visibility("default")))
+
+SHOWN const char *const wr_fault_kinds[FAULT_KINDS] = { "open",   "write", "truncate", "sync",
+                                                        "rename", "link",  "unlink",   "close" };
+SHOWN const char *const wr_fault_modes[FAULT_MODES] = { "count", "error", "short", "kill", "torn" };
+SHOWN const char *const wr_fault_places[FAULT_PLACES] = { "part", "journal", "memory", "folder",
+                                                          "other" };
+SHOWN const char *const wr_fault_stages[FAULT_STAGES] = { "before", "writing", "synced",
+                                                          "renamed" };
+
+static FaultState *state;
+
+/* ---- orders ---- */
+
+static int index_of(const char *word, size_t length, const char *const *words, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strlen(words[i]) == length && memcmp(words[i], word, length) == 0) return i;
+    return -1;
+}
+
+/* "write,3,error,28" */
+static void take_orders(const char *text)
+{
+    const char *comma = strchr(text, ',');
+    if (!comma) return;
+    int kind = index_of(text, (size_t)(comma - text), wr_fault_kinds, FAULT_KINDS);
+    char *rest;
+    long long n = strtoll(comma + 1, &rest, 10);
+    if (kind < 0 || *rest != ',') return;
+    const char *word = rest + 1;
+    size_t length = strcspn(word, ",");
+    int mode = index_of(word, length, wr_fault_modes, FAULT_MODES);
+    if (mode < 0) return;
+    wr_fault_arm((FaultKind)kind, n, (FaultMode)mode, word[length] ? atoi(word + length + 1) : 28);
+}
+
+__attribute__((constructor)) static void begin(void)
+{
+    const char *orders = getenv("WR_FAULT"), *report = getenv("WR_FAULT_REPORT");
+    char program[256];
+    ssize_t n = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[n > 0 ? n : 0] = '\0';
+    const char *slash = strrchr(program, '/');
+    bool reader = slash && strcmp(slash, "/wrinkle-reader") == 0;
+    int fd = report && !reader
+                 ? (int)syscall(SYS_openat, AT_FDCWD, report, O_RDWR | O_CREAT | O_CLOEXEC, 0600)
+                 : -1;
+    if (fd >= 0 && syscall(SYS_ftruncate, fd, (off_t)sizeof *state) != 0) {
+        syscall(SYS_close, fd);
+        fd = -1;
+    }
+    void *map = mmap(NULL, sizeof *state, PROT_READ | PROT_WRITE,
+                     MAP_SHARED | (fd < 0 ? MAP_ANONYMOUS : 0), fd, 0);
+    if (fd >= 0) syscall(SYS_close, fd);
+    state = map == MAP_FAILED ? NULL : map;
+    if (state && orders && !reader) take_orders(orders);
+}
+
+SHOWN FaultState *wr_fault_state(void)
+{
+    return state;
+}
+
+SHOWN void wr_fault_arm(FaultKind kind, int64_t n, FaultMode mode, int error)
+{
+    *state = (FaultState){ .kind = (int)kind, .mode = (int)mode, .error = error, .n = n };
+    state->armed = 1;
+}
+
+/* ---- which call that is ---- */
+
+static FaultPlace place_of_path(const char *path)
+{
+    if (strstr(path, ".part")) return FAULT_PART;
+    if (strstr(path, "/journals/") || strstr(path, ".wj")) return FAULT_JOURNAL;
+    return FAULT_OTHER;
+}
+
+/* False: nothing that keeps bytes. */
+static bool place_of(int fd, FaultPlace *place)
+{
+    struct stat info;
+    char link[64], path[4096];
+    if (syscall(SYS_newfstatat, fd, "", &info, AT_EMPTY_PATH) != 0) return false;
+    if (S_ISDIR(info.st_mode)) {
+        *place = FAULT_FOLDER;
+        return true;
+    }
+    if (!S_ISREG(info.st_mode)) return false;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+    ssize_t n = readlink(link, path, sizeof path - 1);
+    path[n > 0 ? n : 0] = '\0';
+    *place = strncmp(path, "/memfd:", 7) == 0 ? FAULT_MEMORY : place_of_path(path);
+    return true;
+}
+
+/* Count a call; true if it is the one, and the program is still there to see it fail. */
+static bool is_the_one(FaultKind kind, FaultPlace place)
+{
+    int64_t n = __atomic_add_fetch(&state->counts[kind], 1, __ATOMIC_RELAXED);
+    __atomic_add_fetch(&state->seen[kind][place], 1, __ATOMIC_RELAXED);
+    if (state->mode == FAULT_COUNT || (int)kind != state->kind) return false;
+    if (state->mode == FAULT_SHORT && n == state->n + 1 && state->fell) {
+        errno = state->error;
+        return true;
+    }
+    if (n != state->n) return false;
+    state->fell = 1;
+    state->fell_place = (int)place;
+    state->fell_stage = state->stage;
+    if (state->mode == FAULT_KILL) kill(getpid(), SIGKILL);
+    errno = state->error;
+    return true;
+}
+
+static bool fails(FaultKind kind, int fd)
+{
+    FaultPlace place;
+    int saved = errno;
+    if (!state || !state->armed || !place_of(fd, &place)) return false;
+    errno = saved;
+    return is_the_one(kind, place);
+}
+
+static bool fails_path(FaultKind kind, const char *path)
+{
+    return state && state->armed && is_the_one(kind, place_of_path(path));
+}
+
+static void reach(FaultStage stage)
+{
+    if (state && state->armed) state->stage = (int)stage;
+}
+
+/* Bytes that a failing write still writes; -1: it fails. */
+static ssize_t falls_short(size_t length)
+{
+    bool first = state->counts[FAULT_WRITE] == state->n;
+    return first && (state->mode == FAULT_SHORT || state->mode == FAULT_TORN) && length > 1
+               ? (ssize_t)(length / 2)
+               : -1;
+}
+
+static ssize_t torn(ssize_t written)
+{
+    if (state->mode == FAULT_TORN) kill(getpid(), SIGKILL);
+    return written;
+}
+
+/* ---- the calls ---- */
+
+SHOWN ssize_t write(int fd, const void *bytes, size_t length);
+SHOWN ssize_t write(int fd, const void *bytes, size_t length)
+{
+    if (!fails(FAULT_WRITE, fd)) return syscall(SYS_write, fd, bytes, length);
+    ssize_t half = falls_short(length);
+    return half < 0 ? half : torn(syscall(SYS_write, fd, bytes, half));
+}
+
+SHOWN ssize_t pwrite(int fd, const void *bytes, size_t length, off_t at);
+SHOWN ssize_t pwrite(int fd, const void *bytes, size_t length, off_t at)
+{
+    if (!fails(FAULT_WRITE, fd)) return syscall(SYS_pwrite64, fd, bytes, length, at);
+    ssize_t half = falls_short(length);
+    return half < 0 ? half : torn(syscall(SYS_pwrite64, fd, bytes, half, at));
+}
+
+SHOWN ssize_t pwrite64(int fd, const void *bytes, size_t length, off_t at);
+SHOWN ssize_t pwrite64(int fd, const void *bytes, size_t length, off_t at)
+{
+    return pwrite(fd, bytes, length, at);
+}
+
+SHOWN ssize_t writev(int fd, const struct iovec *parts, int count);
+SHOWN ssize_t writev(int fd, const struct iovec *parts, int count)
+{
+    if (!fails(FAULT_WRITE, fd)) return syscall(SYS_writev, fd, parts, count);
+    ssize_t half = count > 0 ? falls_short(parts[0].iov_len) : -1;
+    return half < 0 ? half : torn(syscall(SYS_write, fd, parts[0].iov_base, half));
+}
+
+SHOWN ssize_t copy_file_range(int from, off_t *from_at, int to, off_t *to_at, size_t length,
+                              unsigned flags);
+SHOWN ssize_t copy_file_range(int from, off_t *from_at, int to, off_t *to_at, size_t length,
+                              unsigned flags)
+{
+    if (fails(FAULT_WRITE, to)) return -1;
+    return syscall(SYS_copy_file_range, from, from_at, to, to_at, length, flags);
+}
+
+SHOWN size_t fwrite(const void *bytes, size_t size, size_t count, FILE *file);
+SHOWN size_t fwrite(const void *bytes, size_t size, size_t count, FILE *file)
+{
+    size_t (*real)(const void *, size_t, size_t, FILE *);
+    *(void **)&real = dlsym(RTLD_NEXT, "fwrite");
+    return fails(FAULT_WRITE, fileno(file)) ? 0 : real(bytes, size, count, file);
+}
+
+SHOWN int fputs(const char *text, FILE *file);
+SHOWN int fputs(const char *text, FILE *file)
+{
+    int (*real)(const char *, FILE *);
+    *(void **)&real = dlsym(RTLD_NEXT, "fputs");
+    return fails(FAULT_WRITE, fileno(file)) ? EOF : real(text, file);
+}
+
+SHOWN int ftruncate(int fd, off_t length);
+SHOWN int ftruncate(int fd, off_t length)
+{
+    return fails(FAULT_TRUNCATE, fd) ? -1 : (int)syscall(SYS_ftruncate, fd, length);
+}
+
+SHOWN int ftruncate64(int fd, off_t length);
+SHOWN int ftruncate64(int fd, off_t length)
+{
+    return ftruncate(fd, length);
+}
+
+static int sync_by(long call, int fd)
+{
+    FaultPlace place;
+    if (fails(FAULT_SYNC, fd)) return -1;
+    int done = (int)syscall(call, fd);
+    if (state && state->armed && place_of(fd, &place) && place == FAULT_PART) reach(FAULT_SYNCED);
+    return done;
+}
+
+SHOWN int fsync(int fd);
+SHOWN int fsync(int fd)
+{
+    return sync_by(SYS_fsync, fd);
+}
+
+SHOWN int fdatasync(int fd);
+SHOWN int fdatasync(int fd)
+{
+    return sync_by(SYS_fdatasync, fd);
+}
+
+SHOWN int rename(const char *from, const char *to);
+SHOWN int rename(const char *from, const char *to)
+{
+    if (fails_path(FAULT_RENAME, from)) return -1;
+    int done = (int)syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0);
+    if (place_of_path(from) == FAULT_PART) reach(FAULT_RENAMED);
+    return done;
+}
+
+SHOWN int renameat2(int a, const char *from, int b, const char *to, unsigned flags);
+SHOWN int renameat2(int a, const char *from, int b, const char *to, unsigned flags)
+{
+    if (fails_path(FAULT_RENAME, from)) return -1;
+    int done = (int)syscall(SYS_renameat2, a, from, b, to, flags);
+    if (place_of_path(from) == FAULT_PART) reach(FAULT_RENAMED);
+    return done;
+}
+
+SHOWN int renameat(int a, const char *from, int b, const char *to);
+SHOWN int renameat(int a, const char *from, int b, const char *to)
+{
+    return renameat2(a, from, b, to, 0);
+}
+
+SHOWN int linkat(int a, const char *from, int b, const char *to, int flags);
+SHOWN int linkat(int a, const char *from, int b, const char *to, int flags)
+{
+    return fails_path(FAULT_LINK, to) ? -1 : (int)syscall(SYS_linkat, a, from, b, to, flags);
+}
+
+SHOWN int link(const char *from, const char *to);
+SHOWN int link(const char *from, const char *to)
+{
+    return linkat(AT_FDCWD, from, AT_FDCWD, to, 0);
+}
+
+SHOWN int unlink(const char *path);
+SHOWN int unlink(const char *path)
+{
+    return fails_path(FAULT_UNLINK, path) ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
+}
+
+SHOWN int unlinkat(int folder, const char *path, int flags);
+SHOWN int unlinkat(int folder, const char *path, int flags)
+{
+    return fails_path(FAULT_UNLINK, path) ? -1 : (int)syscall(SYS_unlinkat, folder, path, flags);
+}
+
+/* A descriptor is closed whatever it says. */
+SHOWN int close(int fd);
+SHOWN int close(int fd)
+{
+    bool failed = fails(FAULT_CLOSE, fd);
+    int error = errno, done = (int)syscall(SYS_close, fd);
+    if (failed) errno = error;
+    return failed ? -1 : done;
+}
+
+SHOWN int fclose(FILE *file);
+SHOWN int fclose(FILE *file)
+{
+    int (*real)(FILE *);
+    *(void **)&real = dlsym(RTLD_NEXT, "fclose");
+    bool failed = fails(FAULT_CLOSE, fileno(file));
+    int error = errno, done = real(file);
+    if (failed) errno = error;
+    return failed ? EOF : done;
+}
+
+static int open_by(int folder, const char *path, int flags, mode_t mode)
+{
+    bool writes = (flags & O_ACCMODE) != O_RDONLY && strncmp(path, "/dev/", 5) != 0;
+    if (writes && fails_path(FAULT_OPEN, path)) return -1;
+    int fd = (int)syscall(SYS_openat, folder, path, flags, mode);
+    if (fd >= 0 && (flags & O_CREAT) && place_of_path(path) == FAULT_PART) reach(FAULT_WRITING);
+    return fd;
+}
+
+#define MODE_OF(mode, flags)                                                                       \
+    mode_t mode = 0;                                                                               \
+    if ((flags) & (O_CREAT | O_TMPFILE)) {                                                         \
+        va_list list;                                                                              \
+        va_start(list, flags);                                                                     \
+        mode = va_arg(list, mode_t);                                                               \
+        va_end(list);                                                                              \
+    }
+
+SHOWN int open(const char *path, int flags, ...);
+SHOWN int open(const char *path, int flags, ...)
+{
+    MODE_OF(mode, flags)
+    return open_by(AT_FDCWD, path, flags, mode);
+}
+
+SHOWN int open64(const char *path, int flags, ...);
+SHOWN int open64(const char *path, int flags, ...)
+{
+    MODE_OF(mode, flags)
+    return open_by(AT_FDCWD, path, flags, mode);
+}
+
+SHOWN int openat(int folder, const char *path, int flags, ...);
+SHOWN int openat(int folder, const char *path, int flags, ...)
+{
+    MODE_OF(mode, flags)
+    return open_by(folder, path, flags, mode);
+}
+
+SHOWN int openat64(int folder, const char *path, int flags, ...);
+SHOWN int openat64(int folder, const char *path, int flags, ...)
+{
+    MODE_OF(mode, flags)
+    return open_by(folder, path, flags, mode);
+}

@@ -1,0 +1,343 @@
+/* Everything that is written, while the disk fails, is full, or the program is killed: it ends in an error over a
+   whole old file or in success over the very bytes of a run without trouble; after a kill the file is the old or
+   the new one, and the next write leaves nothing else behind.
+
+   The calls of the C library are the shim's (fault.h), in children of this process, so that no case starts the
+   libraries anew. A tenth of the cases in every run, all with WR_FULL=1. */
+#include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
+
+#include "fault_help.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "image/oiio.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#define OLD "what was there before, and is worth keeping\n"
+
+/* What is written, one of each kind of file and each way to it. */
+typedef struct Job {
+    const char *file, *line;
+    bool plain; /* of the document of one layer */
+} Job;
+
+static const Job jobs[] = {
+    { "one.exr", "save one.exr", true },
+    { "many.exr", "save many.exr", false },
+    { "layers.ora", "save layers.ora", false },
+    { "float.exr", "export height float.exr", true },
+    { "deep.png", "export height deep.png depth=16", true },
+    { "float.tif", "export height float.tif", true },
+    { "deep.tif", "export normal+y deep.tif depth=16", true },
+    { "flat.jpg", "export normal-y flat.jpg", true },
+    { "flat.bmp", "export height flat.bmp", true },
+    { "flat.tga", "export normal+y flat.tga", true },
+    { "flat.ppm", "export normal+y flat.ppm", true },
+    { "flat.pgm", "export height flat.pgm", true },
+    { "look.png", "render look.png size=40x30", true },
+    { "look.tif", "render look.tif size=40x30", true },
+    { "lines.svg", "export lines lines.svg", true },
+    { "profile.svg", "export profile profile.svg", true },
+    { "lines.png", "export lines lines.png size=60x40", true },
+    { "done.wrinkle", "script done.wrinkle", false },
+};
+#define JOBS (int)(sizeof jobs / sizeof *jobs)
+
+typedef struct World {
+    char folder[64];
+    WrSession *plain, *rich;
+    char (*said)[256]; /* the child's error */
+    FaultTally all;
+} World;
+
+static World world;
+
+/* What every run would do first, done once: children inherit the library and go on using the same reader. */
+static void warm(void)
+{
+    wr_image_warm();
+    assert_non_null(wr_oiio(NULL));
+}
+
+static int make_world(void **state)
+{
+    static const char *const lines[] = { "table 64x48", "grid cells=4x3", "dab 0.3,0.3 radius=9",
+                                         NULL };
+    if (enter_folder(state) != 0) return -1;
+    world.plain = session_of(lines);
+    world.rich = session_of(lines);
+    must_run(world.rich, "layer add b");
+    must_run(world.rich, "dab 0.6,0.3 radius=12");
+    must_run(world.rich, "select rect from=0.1,0.1 to=0.5,0.5");
+    must_run(world.rich, "layer mask 2 from=selection");
+    warm();
+    wr_session_set_outputs(world.plain, true);
+    wr_session_set_outputs(world.rich, true);
+    world.said =
+        mmap(NULL, sizeof *world.said, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    return world.said == MAP_FAILED || !wr_fault_state() ? -1 : 0;
+}
+
+static int end_world(void **state)
+{
+    fault_tell("in all", &world.all);
+    wr_session_free(world.plain);
+    wr_session_free(world.rich);
+    return remove_folder(state);
+}
+
+/* ---- one run ---- */
+
+/* Run the job; the process ends with 0, or 1 and what was said. */
+static void run_job(const Job *job)
+{
+    WrError err = { "" };
+    bool good = wr_session_run(job->plain ? world.plain : world.rich, job->line, &err);
+    snprintf(*world.said, sizeof *world.said, "%.250s", err.text);
+    _exit(good ? 0 : 1);
+}
+
+static int run_clean(const Job *job)
+{
+    pid_t child = fault_fork();
+    if (child == 0) run_job(job);
+    return fault_wait(child);
+}
+
+static void read_whole(const char *path, char **bytes, size_t *length)
+{
+    WrError err;
+    if (!wr_file_read(path, 1 << 28, bytes, length, &err)) fail_msg("%s", err.text);
+}
+
+static bool is_old(const char *path)
+{
+    char *bytes;
+    size_t length;
+    read_whole(path, &bytes, &length);
+    bool old = length == sizeof OLD - 1 && memcmp(bytes, OLD, length) == 0;
+    wr_free(bytes);
+    return old;
+}
+
+/* The bytes of a run without trouble. */
+typedef struct Good {
+    char *bytes;
+    size_t length;
+} Good;
+
+static bool is_new(const char *path, const Good *good)
+{
+    char *bytes;
+    size_t length;
+    read_whole(path, &bytes, &length);
+    bool same = length == good->length && memcmp(bytes, good->bytes, length) == 0;
+    wr_free(bytes);
+    return same;
+}
+
+static int hidden_files(void)
+{
+    DIR *dir = opendir(".");
+    int count = -2; /* . and .. */
+    assert_non_null(dir);
+    for (struct dirent *entry; (entry = readdir(dir));) count += entry->d_name[0] == '.';
+    closedir(dir);
+    return count;
+}
+
+static void make_old(const Job *job)
+{
+    WrError err;
+    if (!wr_file_write(job->file, OLD, sizeof OLD - 1, &err)) fail_msg("%s", err.text);
+}
+
+static Good make_good(const Job *job)
+{
+    Good good;
+    *world.said[0] = '\0';
+    if (run_clean(job) != 0) fail_msg("%s: %s", job->line, *world.said);
+    read_whole(job->file, &good.bytes, &good.length);
+    return good;
+}
+
+/* What every run must have ended in. The old file is there again afterwards. */
+static void check_end(const Job *job, const Good *good, int status, FaultTally *tally,
+                      const char *what)
+{
+    tally->cases++;
+    bool old = is_old(job->file);
+    if (!old && !is_new(job->file, good))
+        fail_msg("%s: %s: the file is neither the old nor the new one (status %x)", job->line, what,
+                 status);
+    if (WIFSIGNALED(status)) {
+        if (WTERMSIG(status) != SIGKILL)
+            fail_msg("%s: %s: signal %d", job->line, what, WTERMSIG(status));
+        if (old) tally->killed_old++;
+        else tally->killed_new++;
+        if (run_clean(job) != 0) fail_msg("%s after %s: %s", job->line, what, *world.said);
+        if (!is_new(job->file, good)) fail_msg("%s after %s: another file", job->line, what);
+    } else if (WEXITSTATUS(status) == 0) {
+        tally->successes++;
+        if (old) fail_msg("%s: %s: success, and nothing was written", job->line, what);
+    } else {
+        tally->errors++;
+        if (WEXITSTATUS(status) != 1 || !old)
+            fail_msg("%s: %s: an error (%s), and the old file is gone", job->line, what,
+                     *world.said);
+        if (!strstr(*world.said, "cannot be written"))
+            fail_msg("%s: %s: the error is '%s'", job->line, what, *world.said);
+    }
+    if (hidden_files() != 0) fail_msg("%s: %s: something stays", job->line, what);
+    if (!is_old(job->file)) make_old(job);
+}
+
+/* ---- calls that fail, and kills ---- */
+
+static void run_fault(const Job *job, const Good *good, FaultKind kind, int64_t n, FaultMode mode,
+                      FaultTally *tally)
+{
+    static const int errors[] = { ENOSPC, EIO, EDQUOT };
+    char what[80];
+    snprintf(what, sizeof what, "%s %lld, %s", wr_fault_kinds[kind], (long long)n,
+             wr_fault_modes[mode]);
+    pid_t child = fault_fork();
+    if (child == 0) {
+        wr_fault_arm(kind, n, mode, errors[n % 3]);
+        run_job(job);
+    }
+    int status = fault_wait(child);
+    const FaultState *state = wr_fault_state();
+    if (!state->fell) fail_msg("%s: %s: there was no such call", job->line, what);
+    if (WIFSIGNALED(status)) tally->kills[state->fell_place][state->fell_stage]++;
+    wr_fault_state()->armed = 0;
+    check_end(job, good, status, tally, what);
+}
+
+static void every_call_may_fail(void **state)
+{
+    (void)state;
+    int64_t index = 0;
+    for (int i = 0; i < JOBS; i++) {
+        const Job *job = &jobs[i];
+        Good good = make_good(job);
+        FaultTally tally = { 0 };
+        make_old(job);
+        pid_t child = fault_fork();
+        if (child == 0) {
+            wr_fault_arm(FAULT_WRITE, 0, FAULT_COUNT, 0);
+            run_job(job);
+        }
+        assert_int_equal(fault_wait(child), 0);
+        FaultState counted = *wr_fault_state();
+        wr_fault_state()->armed = 0;
+        make_old(job);
+        assert_true(counted.counts[FAULT_WRITE] > 0 && counted.counts[FAULT_RENAME] == 1);
+        for (int kind = 0; kind < FAULT_KINDS; kind++)
+            for (int64_t n = 1; n <= counted.counts[kind]; n++)
+                for (int mode = 0; mode < FAULT_MODES; mode++)
+                    if (fault_fits((FaultKind)kind, (FaultMode)mode) && fault_is_wanted(index++, i))
+                        run_fault(job, &good, (FaultKind)kind, n, (FaultMode)mode, &tally);
+        fault_tell(job->file, &tally);
+        fault_add(&world.all, &tally);
+        wr_free(good.bytes);
+        unlink(job->file);
+    }
+}
+
+/* ---- too little room ---- */
+
+static void no_room_by_a_limit(void **state)
+{
+    (void)state;
+    static const size_t missing[] = { 0, 1, 2, 9, 65, 100, 513, 1000, 4096, 8192, 20000 };
+    FaultTally tally = { 0 };
+    int64_t index = 0;
+    for (int i = 0; i < JOBS; i++) {
+        const Job *job = &jobs[i];
+        Good good = make_good(job);
+        make_old(job);
+        for (size_t k = 0; k < sizeof missing / sizeof *missing; k++) {
+            if (missing[k] > good.length || (k > 1 && !fault_is_wanted(index++, i))) continue;
+            char what[80];
+            snprintf(what, sizeof what, "a limit %zu bytes below", missing[k]);
+            pid_t child = fault_fork();
+            if (child == 0) {
+                const struct rlimit limit = { good.length - missing[k], good.length - missing[k] };
+                setrlimit(RLIMIT_FSIZE, &limit);
+                run_job(job);
+            }
+            int status = fault_wait(child);
+            if ((missing[k] == 0) != (status == 0))
+                fail_msg("%s: %s: status %x (%s)", job->line, what, status, *world.said);
+            check_end(job, &good, status, &tally, what);
+        }
+        wr_free(good.bytes);
+        unlink(job->file);
+    }
+    fault_tell("limits", &tally);
+    fault_add(&world.all, &tally);
+}
+
+/* A disk of some pages. False where this system mounts none. */
+static bool mount_disk(size_t pages)
+{
+    char options[64];
+    snprintf(options, sizeof options, "size=%zu", pages * 4096);
+    return mount("tmpfs", "disk", "tmpfs", 0, options) == 0;
+}
+
+static void no_room_on_the_disk(void **state)
+{
+    (void)state;
+    FaultTally tally = { 0 };
+    int64_t index = 0;
+    assert_int_equal(mkdir("disk", 0700), 0);
+    for (int i = 0; i < JOBS; i++) {
+        const Job *job = &jobs[i];
+        Good good = make_good(job);
+        size_t pages = (good.length + 4095) / 4096;
+        unlink(job->file);
+        for (size_t room = 1; room <= pages + 1; room++) { /* one page holds the old file */
+            bool edge = room >= pages;
+            if (!edge && !fault_is_wanted(index++, i)) continue;
+            if (!mount_disk(room)) {
+                printf("skipped: no small disk can be mounted here (%s)\n", strerror(errno));
+                rmdir("disk");
+                wr_free(good.bytes);
+                return;
+            }
+            char what[80];
+            snprintf(what, sizeof what, "a disk of %zu pages for %zu and 1", room, pages);
+            assert_int_equal(chdir("disk"), 0);
+            if (room > 0) make_old(job);
+            int status = run_clean(job);
+            if ((room > pages) != (status == 0))
+                fail_msg("%s: %s: status %x (%s)", job->line, what, status, *world.said);
+            check_end(job, &good, status, &tally, what);
+            assert_int_equal(chdir(".."), 0);
+            assert_int_equal(umount2("disk", MNT_DETACH), 0); /* a reader may be about to end */
+        }
+        wr_free(good.bytes);
+    }
+    assert_int_equal(rmdir("disk"), 0);
+    fault_tell("disks", &tally);
+    fault_add(&world.all, &tally);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_call_may_fail),
+        cmocka_unit_test(no_room_by_a_limit),
+        cmocka_unit_test(no_room_on_the_disk),
+    };
+    return cmocka_run_group_tests(tests, make_world, end_world);
+}
