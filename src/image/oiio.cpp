@@ -8,12 +8,14 @@
    - libjpeg ends the whole program when it cannot write, and libpng talks on standard error: they never
      get to see that a disk is full;
    - EXR of several parts and TIFF are written to a file that the library opens, and it misses failures at
-     the end: the caller gives it a memory file, and reads back what was written. */
+     the end: the caller gives it a memory file, and reads back what was written; libtiff is listened to. */
 extern "C" {
 #include "image/oiio.h"
 }
 
 #include "image/oiio_disk.hpp"
+#include "image/oiio_fail.hpp"
+#include "image/oiio_tiff.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -30,38 +32,10 @@ extern "C" {
 
 using namespace OIIO;
 
-/* The message as one line that does not name the file: the caller does. */
-static bool fail(char *reason, std::string text, const std::string &path = std::string())
-{
-    for (size_t at; !path.empty() && (at = text.find(path)) != std::string::npos;)
-        text.replace(at, path.size(), "it");
-    std::string line;
-    for (char c : text) {
-        bool space = static_cast<unsigned char>(c) <= ' ';
-        if (!space) line += c;
-        else if (!line.empty() && line.back() != ' ') line += ' ';
-    }
-    while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
-    snprintf(reason, WR_OIIO_REASON, "%s", line.c_str());
-    return false;
-}
-
-/* Run a function that returns bool; an exception becomes a reason. */
-template <typename Body> static bool guarded(char *reason, Body body)
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return fail(reason, WR_OIIO_NO_MEMORY);
-    } catch (const std::exception &problem) {
-        return fail(reason, problem.what());
-    } catch (...) {
-        return fail(reason, "unknown exception in the library");
-    }
-}
-
 static void settle_library()
 {
+    listen_to_tiff();
+
     OIIO::attribute("threads", 1); /* ours is the work that is worth threads */
     OIIO::attribute("try_all_readers", 0);
     OIIO::attribute("debug", 0); /* else it talks on standard error */
@@ -391,6 +365,7 @@ static bool check_write(WrOiioWriter &writer, bool ok, char *reason)
 {
     std::string message = writer.out->geterror();
     if (writer.disk && writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
+    if (message.empty()) message = tiff_error;
     if (ok && message.empty()) return true;
     return fail(reason, message, writer.path);
 }
@@ -400,6 +375,7 @@ static bool create_file(WrOiioWriter &writer, int file, const char *format, cons
 {
     static const TypeDesc types[] = { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::FLOAT };
     settle_library();
+    tiff_error[0] = '\0';
     writer.out = ImageOutput::create(format);
     if (!writer.out) return fail(reason, OIIO::geterror(), writer.path);
     writer.png = !std::strcmp(format, "png");
