@@ -12,6 +12,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "document/recover.h"
 #include "image/oiio.h"
 
 #include <dirent.h>
@@ -256,6 +257,69 @@ static void every_call_may_fail(void **state)
     }
 }
 
+/* ---- the journal of what could not be saved ---- */
+
+/* How many journals hold the work. */
+static int journals(void)
+{
+    DIR *dir = opendir("state/journals");
+    int count = 0;
+    for (struct dirent *entry; dir && (entry = readdir(dir));) {
+        size_t length = strlen(entry->d_name);
+        if (length < 3 || strcmp(entry->d_name + length - 3, ".wj") != 0) continue;
+        char path[400];
+        WrJournalRead read;
+        WrError err;
+        snprintf(path, sizeof path, "state/journals/%s", entry->d_name);
+        if (!wr_journal_read(path, &read, &err)) fail_msg("%s", err.text);
+        count += read.count == 2;
+        wr_journal_read_fini(&read);
+    }
+    if (dir) closedir(dir);
+    return count;
+}
+
+/* Work in a journaled session, and save it while the n-th call goes wrong. */
+static void save_journaled(FaultKind kind, int64_t n, FaultMode mode)
+{
+    WrError err;
+    WrSessionOptions options = { .outputs = true, .journal = true };
+    WrSession *session = wr_session_new(&options);
+    if (!wr_session_run(session, "table 64x48", &err) || !wr_session_run(session, "fill 3", &err))
+        _exit(2);
+    wr_fault_arm(kind, n, mode, ENOSPC);
+    bool good = wr_session_save(session, "work.exr", &err);
+    wr_fault_state()->armed = 0;
+    _exit(good ? 0 : 1); /* as a crash would end it */
+}
+
+static void a_save_that_fails_keeps_the_journal(void **state)
+{
+    (void)state;
+    static const FaultKind kinds[] = { FAULT_WRITE, FAULT_SYNC, FAULT_RENAME, FAULT_CLOSE };
+    assert_int_equal(setenv("WRINKLE_STATE", "state", 1), 0);
+    for (int k = 0; k < 4; k++)
+        for (int mode = FAULT_ERROR; mode <= FAULT_KILL; mode += FAULT_KILL - FAULT_ERROR) {
+            pid_t child = fault_fork();
+            if (child == 0) save_journaled(kinds[k], 1, (FaultMode)mode);
+            int status = fault_wait(child);
+            bool there = access("work.exr", F_OK) == 0;
+            /* After a save it stays, and says so. */
+            if (there != (status == 0) || (!there && journals() != 1))
+                fail_msg("%s, %s: status %x, %d journals", wr_fault_kinds[kinds[k]],
+                         wr_fault_modes[mode], status, journals());
+            unlink("work.exr");
+            assert_int_equal(system("rm -rf state"), 0);
+        }
+    pid_t child = fault_fork();
+    if (child == 0) save_journaled(FAULT_WRITE, 0, FAULT_COUNT);
+    assert_int_equal(fault_wait(child), 0);
+    assert_int_equal(hidden_files(), 0);
+    unsetenv("WRINKLE_STATE");
+    unlink("work.exr");
+    assert_int_equal(system("rm -rf state"), 0);
+}
+
 /* ---- too little room ---- */
 
 static void no_room_by_a_limit(void **state)
@@ -340,6 +404,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_call_may_fail),
+        cmocka_unit_test(a_save_that_fails_keeps_the_journal),
         cmocka_unit_test(no_room_by_a_limit),
         cmocka_unit_test(no_room_on_the_disk),
     };
