@@ -130,8 +130,7 @@ void wr_app_read_keys(WrApp *app)
 
 bool wr_app_begin(WrApp *app, WrError *err)
 {
-    app->settings = wr_settings_default();
-    if (!app->latency) wr_settings_load(&app->settings);
+    wr_settings_begin(app);
     if (!make_window(app)) return wr_fail(err, "no window: %s", SDL_GetError());
     app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
     if (!app->gui) return false;
@@ -187,6 +186,7 @@ void wr_app_end(WrApp *app)
     wr_messages_free(&app->messages);
     wr_strokes_free(app);
     wr_settings_fini(&app->settings);
+    wr_settings_fini(&app->settings_known);
     wr_free(app->after_path);
     for (int i = 0; i < SDL_NUM_SYSTEM_CURSORS; i++)
         if (app->cursors[i]) SDL_FreeCursor(app->cursors[i]);
@@ -408,6 +408,8 @@ static int wait_time(WrApp *app, double now)
     if (patch > 0.0 && patch < next) next = patch;
     double measured = wr_accuracy_next_time(app);
     if (measured > 0.0 && measured < next) next = measured;
+    double settings = wr_settings_next_time(app);
+    if (settings > 0.0 && settings < next) next = settings;
     double march = wr_marks_next_time(app);
     if (march > 0.0 && march < next) next = march;
     if (works(app) && app->drawn_at + BAR_SECONDS < next) next = app->drawn_at + BAR_SECONDS;
@@ -472,6 +474,7 @@ void wr_app_step(WrApp *app)
         draw(app, now);
         note_timing(app, wr_clock_seconds() - now);
     }
+    wr_settings_tend(app);
 }
 
 int wr_app_run(const WrAppOptions *options)
@@ -484,10 +487,7 @@ int wr_app_run(const WrAppOptions *options)
     int status = 0;
     if (wr_app_begin(app, &err)) {
         while (!app->quit) wr_app_step(app);
-        if (!app->settings.maximized)
-            SDL_GetWindowSize(app->window, &app->settings.width, &app->settings.height);
-        wr_shelf_remember(app);
-        wr_settings_save(&app->settings);
+        wr_settings_end(app);
         tell_timing(app);
     } else {
         fprintf(stderr, "wrinkle: %s\n", err.text);

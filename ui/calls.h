@@ -273,3 +273,11 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 done, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
+
+/* ---- settings_hand.c ---- */
+
+void wr_settings_begin(WrApp *app); /* reads them */
+/* Writes them if they changed, between gestures and once a second at most; and when that is due, 0: never. */
+void wr_settings_tend(WrApp *app);
+double wr_settings_next_time(const WrApp *app);
+void wr_settings_end(WrApp *app); /* writes them at once */

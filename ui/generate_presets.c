@@ -75,7 +75,7 @@ static bool write_file(WrApp *app, WrError *err)
     for (int i = 0; i < hand->presets.count; i++)
         wr_text_addf(&text, "# %s\n%s\n", hand->presets.data[i].name, hand->presets.data[i].line);
     bool good = path ? true : wr_fail(err, "no folder for settings: HOME is not set");
-    if (good) wr_settings_save(&app->settings); /* makes the folder */
+    if (good) wr_settings_make_folder();
     good = good && wr_file_write(path, wr_text_get(&text), text.length, err);
     wr_text_fini(&text);
     wr_free(path);

@@ -196,7 +196,7 @@ static void recover_buttons(WrApp *app, bool key)
         wr_gui_same_line(8);
     }
     if (!r->error && (recovery->told ? recovery->more : parts)) {
-        beyond = wr_gui_button("With what follows", recovery->told || r->headless);
+        beyond = wr_gui_button("With what follows", r->headless && !recovery->told);
         wr_gui_tip("Steps that need what is missing are left out");
         wr_gui_same_line(8);
     }
@@ -227,7 +227,7 @@ void wr_dialog_recover(WrApp *app)
                                              : "Discard",
                               false);
     wr_gui_same_line(8);
-    bool later = wr_gui_button(told ? "Keep it" : "Later", false) ||
+    bool later = wr_gui_button(told ? "Keep it" : "Later", told) ||
                  (key && (wr_gui_escape_pressed() || (told && wr_gui_return_pressed())));
     wr_gui_tip("It is offered again the next time");
     if (app->dialog != WR_DIALOG_RECOVER) lose = later = false;

@@ -10,23 +10,10 @@
 
 /* ---- curves are kept with the settings, as lines "CURVE NAME" ---- */
 
-#define CURVE_NUMBERS 7
-
-/* Where the name begins in such a line, or NULL. */
-static const char *name_of(const char *line)
-{
-    for (int i = 0; i < CURVE_NUMBERS; i++) {
-        line = strchr(line, ' ');
-        if (!line) return NULL;
-        line++;
-    }
-    return line;
-}
-
 void wr_tablet_start(WrApp *app)
 {
     for (int i = 0; i < WR_PENS_MAX && app->settings.pens[i]; i++) {
-        const char *line = app->settings.pens[i], *name = name_of(line);
+        const char *line = app->settings.pens[i], *name = wr_settings_pen_name(line);
         char numbers[256];
         WrPenCurve curve;
         if (!name || (size_t)(name - line) > sizeof numbers) continue;
@@ -38,19 +25,11 @@ void wr_tablet_start(WrApp *app)
 
 static void keep(WrApp *app, const char *name, const WrPenCurve *curve)
 {
-    char numbers[256], **pens = app->settings.pens;
-    int at = 0;
-    while (at < WR_PENS_MAX && pens[at]) {
-        const char *other = name_of(pens[at]);
-        if (other && strcmp(other, name) == 0) break;
-        at++;
-    }
-    if (at == WR_PENS_MAX) at--; /* the newest goes before the oldest of so many */
+    char numbers[256];
     wr_pen_curve_print(curve, numbers, sizeof numbers);
     WrText line = { 0 };
     wr_text_addf(&line, "%s %s", numbers, name);
-    wr_free(pens[at]);
-    pens[at] = wr_strdup(wr_text_get(&line));
+    wr_settings_keep_pen(&app->settings, wr_text_get(&line));
     wr_text_fini(&line);
 }
 

@@ -253,7 +253,7 @@ void wr_settings_load(WrSettings *settings)
 {
     char *path = wr_config_path("window.conf"), *bytes = NULL;
     size_t length;
-    if (path && wr_file_read(path, 1 << 16, &bytes, &length, NULL))
+    if (path && wr_file_read(path, WR_SETTINGS_FILE_MAX, &bytes, &length, NULL))
         wr_settings_parse(settings, bytes);
     wr_free(bytes);
     wr_free(path);
@@ -273,18 +273,11 @@ static void make_folders(const char *path)
     wr_free(copy);
 }
 
-void wr_settings_save(const WrSettings *settings)
+void wr_settings_make_folder(void)
 {
-    char *folder = config_folder(), *path = wr_config_path("window.conf");
-    if (folder && path) {
-        WrText text = { 0 };
-        make_folders(folder);
-        wr_settings_print(settings, &text);
-        wr_file_write(path, wr_text_get(&text), text.length, NULL);
-        wr_text_fini(&text);
-    }
+    char *folder = config_folder();
+    if (folder) make_folders(folder);
     wr_free(folder);
-    wr_free(path);
 }
 
 /* Put a text first in a list; what it pushes out at the end goes. */
@@ -332,4 +325,31 @@ void wr_settings_set_favourite(WrSettings *settings, const char *id, bool favour
     wr_free(list[at]);
     memmove(list + at, list + at + 1, (size_t)(count - at - 1) * sizeof *list);
     list[count - 1] = NULL;
+}
+
+#define CURVE_NUMBERS 7
+
+const char *wr_settings_pen_name(const char *line)
+{
+    for (int i = 0; i < CURVE_NUMBERS; i++) {
+        line = strchr(line, ' ');
+        if (!line) return NULL;
+        line++;
+    }
+    return line;
+}
+
+void wr_settings_keep_pen(WrSettings *settings, const char *line)
+{
+    char **pens = settings->pens, *kept = wr_strdup(line);
+    const char *name = wr_settings_pen_name(kept);
+    int at = 0;
+    while (at < WR_PENS_MAX && pens[at]) {
+        const char *other = wr_settings_pen_name(pens[at]);
+        if (other && name && strcmp(other, name) == 0) break;
+        at++;
+    }
+    if (at == WR_PENS_MAX) at--; /* the newest goes before the oldest of so many */
+    wr_free(pens[at]);
+    pens[at] = kept;
 }

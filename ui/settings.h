@@ -12,6 +12,7 @@
 #define WR_FAVOURITES_MAX 64
 #define WR_USED_MAX 12
 #define WR_PENS_MAX 32
+#define WR_SETTINGS_FILE_MAX (1 << 16) /* bytes */
 
 /* What the tools that draw other things than strokes go by. */
 typedef struct WrDrawing {
@@ -68,8 +69,23 @@ void wr_settings_print(const WrSettings *settings, WrText *text);
 /* A file of ours in the user's configuration folder. Caller frees with wr_free; NULL if there is no home. */
 char *wr_config_path(const char *name);
 void wr_settings_load(WrSettings *settings);
-/* Creates the folder if need be; a failure is silent: nothing is lost but comfort. */
-void wr_settings_save(const WrSettings *settings);
+/* The folder of wr_config_path; a failure is silent: nothing is lost but comfort. */
+void wr_settings_make_folder(void);
+
+/* ---- settings_keep.c: the file while several windows are open ---- */
+
+/* All that is kept; the caller's (wr_settings_fini). Of the brush's preset and tip it has the names. */
+WrSettings wr_settings_copy(const WrSettings *settings);
+bool wr_settings_equal(const WrSettings *a, const WrSettings *b); /* in all that is kept */
+/* What changed from `base` to `mine` is changed in `theirs` too; what did not stays as it is there. */
+void wr_settings_merge(const WrSettings *base, const WrSettings *mine, WrSettings *theirs);
+/* Have the same recent files, brushes used, favourites and pens as another. */
+void wr_settings_take_lists(WrSettings *settings, const WrSettings *from);
+/* Write what changed since `known`, which is what this program read or wrote last and becomes what is known now:
+ * `now` with the lists as the file has them, another window's additions too. last: wait a little where
+ * another window is writing just then, and write in any case; else that is a failure. True if it is
+ * written; a failure is silent. */
+bool wr_settings_update(WrSettings *known, const WrSettings *now, bool last);
 
 /* Keep a text of the settings, NULL: none. */
 void wr_settings_set_text(char **text, const char *value);
@@ -79,6 +95,10 @@ void wr_settings_note_used(WrSettings *settings, const char *id);
  * taken. */
 int wr_settings_favourite(const WrSettings *settings, const char *id);
 void wr_settings_set_favourite(WrSettings *settings, const char *id, bool favourite);
+
+/* A line "CURVE NAME" of a pen, in the place of that pen's old one: where its name begins, NULL if it is none. */
+const char *wr_settings_pen_name(const char *line);
+void wr_settings_keep_pen(WrSettings *settings, const char *line);
 
 /* Put a path first in the list of recent files. */
 void wr_settings_note_recent(WrSettings *settings, const char *path);

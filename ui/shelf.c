@@ -298,13 +298,12 @@ void wr_shelf_start(WrApp *app)
     wr_symmetry_apply(app);
 }
 
-void wr_shelf_remember(WrApp *app)
+void wr_shelf_remember(const WrApp *app, WrSettings *settings)
 {
-    WrSettings *s = &app->settings;
-    if (wr_tools[app->tool].mode) s->brush.mode = app->shelf.kept;
-    wr_settings_set_text(&s->preset, app->brush_files.preset);
-    wr_settings_set_text(&s->tip, app->brush_files.tip);
-    wr_settings_set_text(&s->set, app->brush_files.set);
+    if (wr_tools[app->tool].mode) settings->brush.mode = app->shelf.kept;
+    settings->preset = app->brush_files.preset;
+    settings->tip = app->brush_files.tip;
+    settings->set = app->brush_files.set;
 }
 
 void wr_shelf_free(WrApp *app)

@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "brush/library.h"
 #include "brush/tip.h"
+#include "ui/settings.h"
 
 #include <SDL.h>
 
@@ -52,9 +53,9 @@ bool wr_shelf_delete(WrApp *app, const char *id);
 void wr_shelf_last(WrApp *app);
 void wr_shelf_step(WrApp *app, int by);
 
-/* What the settings remember, at the start; and put it into them, at the end. */
+/* What the settings remember, at the start; and put it into a copy of them, whose texts stay the shelf's. */
 void wr_shelf_start(WrApp *app);
-void wr_shelf_remember(WrApp *app);
+void wr_shelf_remember(const WrApp *app, WrSettings *settings);
 void wr_shelf_free(WrApp *app);
 
 /* ---- thumbs.c: pictures of presets ---- */

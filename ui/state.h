@@ -344,6 +344,9 @@ struct WrApp {
     WrPen *pen;
     WrTester *tester; /* of tablets; owned, NULL until it is opened */
     WrSettings settings;
+    WrSettings settings_known; /* as they were read or written last */
+    double settings_at;        /* clock when they were looked at last */
+    bool settings_failed;      /* and could not be written then */
     WrFiles *files;
     Uint32 ready_event; /* of the preview */
     Uint32 file_event;  /* of a native file dialog */
