@@ -7,17 +7,21 @@
 #include <json-c/json.h>
 
 static const char *const ids[] = {
-    "HC01", "HC02", "HC03", "HC04", "HC05", "HC06", "HC07", "HC08", "HC09", "HC10", "HC11", "HC12",
-    "HC13", "HC14", "HC15", "HC16", "HC17", "HC18", "HC19", "HC20", "HC21", "HC22", "HC23", "HC24",
-    "HC25", "HC26", "HC27", "HC28", "HC29", "HC30", "HC31", "HC32", "HC33", "HC34", "HC35", "HC36",
-    "HC37", "HC38", "HC39", "HC40", "HC41", "HC42", "HC43", "HC44", "HC45", "HC46", "HC47", "HC48",
-    "HC49", "HC50", "HC51", "HC52", "HC53", "HC54", "HC55", "HC56", "HC57", "HC58", "HC59", "HC60",
-    "HC61", "HC62", "HC63", "HC64", "HC65", "HC66", "HC67", "HC68", "HC69", "HC70", "HC71", "HC72",
-    "HC73", "HC74", "HC75", "HC76", "HC77", "HC78", "HC79", "HC80", "HC81", "HC82", "HC83", "HC84",
-    "HC85", "HC86", "HC87", "HC88", "HC89", "HC90", "HC91", "HC92", "HC93", "HC94", "HC95", "HC96",
+    "HC01",  "HC02",  "HC03",  "HC04",  "HC05",  "HC06",  "HC07",  "HC08",  "HC09",  "HC10",
+    "HC11",  "HC12",  "HC13",  "HC14",  "HC15",  "HC16",  "HC17",  "HC18",  "HC19",  "HC20",
+    "HC21",  "HC22",  "HC23",  "HC24",  "HC25",  "HC26",  "HC27",  "HC28",  "HC29",  "HC30",
+    "HC31",  "HC32",  "HC33",  "HC34",  "HC35",  "HC36",  "HC37",  "HC38",  "HC39",  "HC40",
+    "HC41",  "HC42",  "HC43",  "HC44",  "HC45",  "HC46",  "HC47",  "HC48",  "HC49",  "HC50",
+    "HC51",  "HC52",  "HC53",  "HC54",  "HC55",  "HC56",  "HC57",  "HC58",  "HC59",  "HC60",
+    "HC61",  "HC62",  "HC63",  "HC64",  "HC65",  "HC66",  "HC67",  "HC68",  "HC69",  "HC70",
+    "HC71",  "HC72",  "HC73",  "HC74",  "HC75",  "HC76",  "HC77",  "HC78",  "HC79",  "HC80",
+    "HC81",  "HC82",  "HC83",  "HC84",  "HC85",  "HC86",  "HC87",  "HC88",  "HC89",  "HC90",
+    "HC91",  "HC92",  "HC93",  "HC94",  "HC95",  "HC96",  "HC156", "HC157", "HC158", "HC159",
+    "HC160", "HC161", "HC162", "HC163", "HC164", "HC165", "HC166", "HC167", "HC168", "HC169",
+    "HC170", "HC171", "HC172", "HC173", "HC174", "HC175",
 };
 
-static void all_96_are_there_once_and_in_order(void **state)
+static void all_116_are_there_once_and_in_order(void **state)
 {
     (void)state;
     assert_int_equal(sizeof ids / sizeof *ids, WR_HARDCASES);
@@ -39,7 +43,9 @@ static void every_row_says_what_must_hold_and_is_measured_or_waits(void **state)
     for (int i = 0; i < WR_HARDCASES; i++) {
         const WrHardCase *row = wr_hardcase(i);
         assert_true(strlen(row->what) > 5 && strlen(row->holds) > 2 && strlen(row->unit) > 1);
-        assert_true((int)row->subject >= subject && row->subject < WR_HARD_SUBJECTS);
+        if (i == 96) subject = 0; /* those past the first go through the subjects in no order */
+        assert_true(row->subject < WR_HARD_SUBJECTS);
+        assert_true(i >= 96 || (int)row->subject >= subject);
         subject = (int)row->subject;
         if (!row->measure) assert_non_null(row->waits);
         int bounds = 0;
@@ -61,7 +67,9 @@ static void none_fails_and_what_is_to_come_never_passes(void **state)
     for (int i = 0; i < WR_HARDCASES; i++) {
         const WrHardResult *r = &report.results[i];
         assert_ptr_equal(r->row, wr_hardcase(i));
-        if (r->verdict != (r->row->measure ? WR_HARD_PASS : WR_HARD_WAITS))
+        const bool whole =
+            r->row->measure && !r->row->waits; /* and a part that waits does not pass */
+        if (r->verdict != (whole ? WR_HARD_PASS : WR_HARD_WAITS))
             fail_msg("%s: %s, float %g of %g, double %g of %g %s", ids[i],
                      wr_hard_verdicts[r->verdict], r->worst[0], r->row->bound[0], r->worst[1],
                      r->row->bound[1], r->note);
@@ -71,7 +79,7 @@ static void none_fails_and_what_is_to_come_never_passes(void **state)
         }
     }
     assert_int_equal(report.count[WR_HARD_PASS] + report.count[WR_HARD_WAITS], WR_HARDCASES);
-    assert_true(report.count[WR_HARD_PASS] >= 86 && report.count[WR_HARD_FAIL] == 0);
+    assert_true(report.count[WR_HARD_PASS] >= 109 && report.count[WR_HARD_FAIL] == 0);
 }
 
 /* Beyond the bound by half of it, or by one where it is 0: in one precision at a time. */
@@ -279,7 +287,7 @@ static void every_scene_can_be_built(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_96_are_there_once_and_in_order),
+        cmocka_unit_test(all_116_are_there_once_and_in_order),
         cmocka_unit_test(every_row_says_what_must_hold_and_is_measured_or_waits),
         cmocka_unit_test(none_fails_and_what_is_to_come_never_passes),
         cmocka_unit_test(every_measured_row_can_fail_in_every_precision),

@@ -52,7 +52,7 @@ static WrHardVerdict judge(const WrHardCase *row, const WrHardGauge *gauge)
         if (isnan(row->bound[p])) continue;
         if (gauge->checks[p] == 0 || !(gauge->worst[p] <= row->bound[p])) return WR_HARD_FAIL;
     }
-    return WR_HARD_PASS;
+    return row->waits ? WR_HARD_WAITS : WR_HARD_PASS;
 }
 
 static bool set_up(WrHardGauge *gauge, const WrHardRequest *request, WrError *err)

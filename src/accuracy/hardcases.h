@@ -1,4 +1,4 @@
-/* hardcases.h - the hard cases of bump mapping: 96 inputs at which a naive program divides by zero, loses
+/* hardcases.h - the hard cases of bump mapping: 116 inputs at which a naive program divides by zero, loses
    its digits, reads outside its table or shows a seam; for each what must hold here, and a measurement of
    how far the program's own code is from it, in float and in double.
    Layer 6.
@@ -18,7 +18,7 @@
 
 #include <stdint.h>
 
-#define WR_HARDCASES 96
+#define WR_HARDCASES 116
 
 typedef enum WrHardPrecision { WR_HARD_FLOAT, WR_HARD_DOUBLE, WR_HARD_PRECISIONS } WrHardPrecision;
 
@@ -35,7 +35,8 @@ extern const char *const wr_hard_subjects[WR_HARD_SUBJECTS]; /* for people */
 typedef struct WrHardGauge WrHardGauge; /* private to the room: what measurements write to */
 
 typedef struct WrHardCase {
-    const char *id; /* "HC01" .. "HC96" */
+    const char
+        *id; /* "HC01" .. "HC96", "HC156" .. "HC175": those between are kept for light and scenes */
     WrHardSubject subject;
     const char *what;                 /* the situation, a few words */
     const char *holds;                /* what must hold, a sentence */
@@ -45,13 +46,13 @@ typedef struct WrHardCase {
        lacking (an installed font, a place for files). */
     bool (*measure)(WrHardGauge *gauge, WrError *err);
     /* What the program does not have yet; NULL: nothing. With a measure: that part of the case is not
-       covered. */
+       covered, and the case never passes. */
     const char *waits;
     /* Command lines that build the case for looking at; NULL: there is nothing to be seen. */
     const char *scene;
 } WrHardCase;
 
-/* In order: index 0 is HC01. */
+/* In order: index 0 is HC01, 96 is HC156. */
 const WrHardCase *wr_hardcase(int index);
 /* The case of that id, or NULL. */
 const WrHardCase *wr_hardcase_find(const char *id);
@@ -89,8 +90,8 @@ typedef struct WrHardRequest {
     double nudge[WR_HARD_PRECISIONS];
 } WrHardRequest;
 
-/* Measure one case. A row passes if it made a comparison in each precision that has a bound and none
- * was beyond it. Errors: an isa that does not exist here. The same on any number of threads. */
+/* Measure one case. A row passes if it made a comparison in each precision that has a bound, none was
+ * beyond it, and no part of it waits. Errors: an isa that does not exist here. The same on any number of threads. */
 bool wr_hardcase_run(const WrHardCase *row, const WrHardRequest *request, WrHardResult *out,
                      WrError *err);
 /* All of them; a few seconds. Errors: as above, and "cancelled". */

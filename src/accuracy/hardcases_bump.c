@@ -318,6 +318,45 @@ static bool hc20(WrHardGauge *g, WrError *err)
     return true;
 }
 
+/* Kernels: without tangents, and with infinite ones, n; tangents at right angles of length 1e-40 to 1e37,
+   slope 1: what the formulas make of them. */
+static void kernels_make_unit(WrHardGauge *g)
+{
+    static const double sizes[] = { 0, 1e-40, 1e-30, 1e-20, 1, 1e10, INFINITY };
+    const WrVec3 z = { 0, 0, 1 }, halfway = { -1, 0, 1 }, across = { -1, 0, 0 };
+    for (int i = 0; i < 7 * (WR_BUMP_COUNT - 1); i++) {
+        const float t = (float)sizes[i % 7];
+        const WrBumpMode mode = (WrBumpMode)(WR_BUMP_BLINN + i / 7);
+        const WrSurfacePointf at = {
+            .pu = { t, 0, 0 }, .pv = { 0, t, 0 }, .n_unit = { 0, 0, 1 }, .n_len = t
+        };
+        /* |N| is said to be t, so that D has it too; exact counts it from the tangents: t^2 against t */
+        const double flat = (double)t * (double)t;
+        const bool none = !(t > 0.0f && isfinite(t));
+        WrVec3 want = none ? z : halfway;
+        if (mode == WR_BUMP_EXACT && !none) want = (WrVec3){ -1, 0, flat > 1e-12 ? (double)t : 0 };
+        if (mode == WR_BUMP_EXACT && !none && flat <= 1e-12) want = across;
+        /* fast arithmetic estimates reciprocals, which a denormal has none of */
+        const int sets = t > 0.0f && t < FLT_MIN ? g->sets : g->all;
+        for (int set = 0; set < sets; set++) {
+            WrVec3 bent = wr_hard_bent_f(g, set, mode, &at, (WrHardSlope){ 0, 1, 0 }, false);
+            wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0) < 1e-6);
+            wr_hard_holds(g, WR_HARD_FLOAT, v3_angle_rad(bent, want) < 1e-4);
+        }
+    }
+}
+
+/* Made unit by the formulas: tangents of any size, no two alike, against the same vector's direction. */
+static void formulas_make_unit(WrHardGauge *g, WrVec3 n)
+{
+    for (int i = 0; i < 600; i++) {
+        const WrVec3 a = { wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
+                           wr_hard_between(g, -1, 1) };
+        const WrVec3 far = v3_scale(a, ldexp(1.0, i - 300));
+        wr_hard_holds(g, WR_HARD_DOUBLE, v3_angle_rad(wr_bump_unit(far, n), a) < 1e-15 * 4);
+    }
+}
+
 static bool hc21(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -331,20 +370,8 @@ static bool hc21(WrHardGauge *g, WrError *err)
     wr_hard_holds(g, WR_HARD_DOUBLE, v3_angle_rad(tiny, (WrVec3){ 0.6, 0, -0.8 }) < 1e-12);
     const WrVec3 huge = wr_bump_unit((WrVec3){ DBL_MAX, DBL_MAX, 0 }, n);
     wr_hard_holds(g, WR_HARD_DOUBLE, v3_angle_rad(huge, (WrVec3){ 1, 1, 0 }) < 1e-15);
-    /* kernels: |N| = 0 without tangents; denormal tangents at 45 degrees; infinite ones */
-    const float sizes[] = { 0.0f, 1e-40f, INFINITY };
-    for (int i = 0; i < 3; i++)
-        for (int set = 0; set < g->sets; set++) {
-            const float t = sizes[i];
-            const WrSurfacePointf at = {
-                .pu = { t, 0, 0 }, .pv = { 0, t, 0 }, .n_unit = { 0, 0, 1 }, .n_len = t
-            };
-            for (int mode = WR_BUMP_BLINN; mode < WR_BUMP_COUNT; mode++) {
-                const WrHardSlope slope = { 0, 1, 0 };
-                WrVec3 bent = wr_hard_bent_f(g, set, (WrBumpMode)mode, &at, slope, false);
-                wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0) < 1e-6);
-            }
-        }
+    formulas_make_unit(g, n);
+    kernels_make_unit(g);
     return true;
 }
 

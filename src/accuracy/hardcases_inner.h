@@ -134,7 +134,8 @@ bool wr_hard_shine(const WrHardLit *lit, double part[2], WrError *err);
     X(table) X(flat) X(limits) X(pyramid)                                                          \
     X(noise) X(octaves) X(faces) X(tiling)                                                         \
     X(dab) X(stroke) X(stamp) X(undo)                                                              \
-    X(sight) X(turn) X(light)
+    X(sight) X(turn) X(light)                                                                      \
+    X(later)
 /* clang-format on */
 
 typedef struct WrHardList {

@@ -312,29 +312,56 @@ static bool hc10(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Multiples of 2^-22 up to 1, exact in either precision; about 2^-20 between them. */
-static const WrVec3 nearly_u = { 0.75, -0.5, 0.25 };
-static const WrVec3 nearly_v = { 0.75, -0.5 + 0x1p-20, 0.25 + 0x1p-21 };
-static WrVec3 nearly_point(int i, int j)
+/* A patch whose tangents are nearly one: sixteen points i a + j (a + 1e-6 b), a and b at random, of any
+   size, rounded to float, which is the patch that both precisions are asked about. */
+static WrShape nearly_shape(WrHardGauge *g, double size)
 {
-    return v3_add(v3_scale(nearly_u, i), v3_scale(nearly_v, j));
+    WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
+    WrVec3 a[2];
+    for (int k = 0; k < 2; k++)
+        a[k] = (WrVec3){ wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
+                         wr_hard_between(g, -1, 1) };
+    for (int k = 0; k < 16; k++) {
+        const WrVec3 p = v3_add(v3_scale(a[0], k % 4 + k / 4), v3_scale(a[1], 1e-6 * (k / 4)));
+        const double at[3] = { p.x, p.y, p.z };
+        for (int c = 0; c < 3; c++) shape.value[3 * k + c] = (double)(float)(size * at[c]);
+    }
+    return shape;
+}
+
+/* The tangents' own cross product in sixty-four bits. */
+static WrVec3 true_cross(WrVec3 a, WrVec3 b)
+{
+    const long double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
+    return (WrVec3){ (double)(ay * bz - az * by), (double)(az * bx - ax * bz),
+                     (double)(ax * by - ay * bx) };
+}
+
+/* How far n is from that, in last places over the sine; the tangents are as they came out. */
+static void leans(WrHardGauge *g, WrHardPrecision p, const WrSurfacePoint *at, double ulp)
+{
+    const WrVec3 normal = true_cross(at->pu, at->pv);
+    const double sine = v3_len(normal) / v3_len(at->pu) / v3_len(at->pv);
+    if (!(sine > 16.0 * ulp)) return; /* the patch is a line to this precision */
+    wr_hard_off(g, p, v3_angle_rad(at->n_unit, normal) * sine / ulp);
 }
 
 static bool hc11(WrHardGauge *g, WrError *err)
 {
     (void)err;
-    const WrShape shape = wr_hard_patch(nearly_point);
-    const WrVec3 normal = v3_cross(nearly_u, nearly_v); /* exact: 44 bits */
-    const double sine = v3_len(normal) / v3_len(nearly_u) / v3_len(nearly_v);
-    for (int corner = 0; corner < 4; corner++) {
-        const float u = (float)(corner % 2), v = (float)(corner / 2);
+    static const double sizes[] = { 1, 1.0 / 3.0, 1e-6, 1e6 };
+    for (int i = 0; i < 400; i++) {
+        const WrShape shape = nearly_shape(g, sizes[i % 4]);
+        const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&shape)));
+        const float u = i % 3 ? wr_hard_float(g) : (float)(i % 2);
+        const float v = i % 3 ? wr_hard_float(g) : (float)(i / 2 % 2);
         WrSurfacePoint at;
         wr_surface_at(&shape, 0, (double)u, (double)v, &at);
-        wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, normal) * sine / 0x1p-52);
-        for (int set = 0; set < g->sets; set++) {
-            WrSurfacePointf atf = wr_hard_point(g, set, &shape, 1.0, 0, u, v);
-            const double angle = v3_angle_rad(wr_hard_vec(atf.n_unit), normal);
-            wr_hard_off(g, WR_HARD_FLOAT, angle * sine / 0x1p-23);
+        leans(g, WR_HARD_DOUBLE, &at, 0x1p-52);
+        for (int set = 0; set < g->all; set++) {
+            const WrSurfacePointf atf = wr_hard_point(g, set, &shape, unit, 0, u, v);
+            at = wr_hard_widen(&atf);
+            leans(g, WR_HARD_FLOAT, &at, 0x1p-23);
         }
     }
     return true;

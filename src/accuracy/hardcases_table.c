@@ -172,10 +172,10 @@ static double reduced_off(double u, double r, double got)
 
 static bool hc40(WrHardGauge *g, WrError *err)
 {
-    static const double repeats[] = { 1e3, 1e5, 1e6 };
+    static const double repeats[] = { 1e3, 1e5, 1e6, 1e7, 1e7 / 3.0, -1e7, 12345.678 };
     WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
     bool good = true;
-    for (int k = 0; k < 3 && good; k++) {
+    for (int k = 0; k < 7 && good; k++) {
         WrHardLook look;
         good = wr_hard_look_init(g, &look, field, WR_SCHEME_BILINEAR, repeats[k], 1, err);
         for (int i = 0; i < 1000 && good; i++) {
@@ -195,32 +195,41 @@ static bool hc40(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* No repeats: F constant; -1: mirrored. Dyadic u, so that 1 - u is exact. */
+/* At k/128 with 0 repeats F is level, with -1 it is mirrored, with r broken ones it is F at the broken part
+   of r u, r times as steep. Dyadic u, so that 1 - u and r u are exact. */
+static void check_repeats(WrHardGauge *g, const WrField *field, const WrHardLook *plain,
+                          const WrHardLook *turned, double r)
+{
+    for (int k = 1; k < 100; k++) {
+        const float u = (float)k / 128;
+        const double want = r * (double)u - floor(r * (double)u);
+        wr_hard_holds(g, WR_HARD_DOUBLE, wr_field_reduce((double)u, r) == want);
+        for (int set = 0; set < g->sets; set++) {
+            const WrHardSlope a = wr_hard_look_at(g, set, turned, u, u);
+            const WrHardSlope b = wr_hard_look_at(g, set, plain, (float)want, (float)want);
+            const WrHardSlope c = wr_hard_sample(field, plain->scheme, want, want);
+            wr_hard_holds(g, WR_HARD_FLOAT, a.f == b.f && fabs(a.f - c.f) < 1e-6);
+            wr_hard_holds(g, WR_HARD_FLOAT, fabs(a.fu - r * b.fu) <= 1e-6 * fabs(r * b.fu));
+            wr_hard_holds(g, WR_HARD_FLOAT, fabs(a.fv - r * b.fv) <= 1e-6 * fabs(r * b.fv));
+            if (r == 0.0) wr_hard_holds(g, WR_HARD_FLOAT, a.fu == 0.0 && a.fv == 0.0);
+        }
+    }
+}
+
 static bool hc41(WrHardGauge *g, WrError *err)
 {
+    static const double repeats[] = { 0, -1, 0.5, 2.5, -2.25, 0.0078125, 77.125 };
     WrField *field = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC);
     bool good = true;
-    for (int scheme = 0; scheme < WR_SCHEME_COUNT && good; scheme++) {
-        WrHardLook none, back, plain;
-        good = wr_hard_look_init(g, &none, field, (WrScheme)scheme, 0, 0, err) &&
-               wr_hard_look_init(g, &back, field, (WrScheme)scheme, -1, -1, err) &&
-               wr_hard_look_init(g, &plain, field, (WrScheme)scheme, 1, 1, err);
-        for (int k = 1; k < 100 && good; k++) {
-            const float u = (float)k / 128;
-            wr_hard_holds(g, WR_HARD_DOUBLE,
-                          wr_field_reduce((double)u, 0) == 0.0 &&
-                              wr_field_reduce((double)u, -1) == 1.0 - (double)u);
-            for (int set = 0; set < g->sets; set++) {
-                const WrHardSlope still = wr_hard_look_at(g, set, &none, u, u);
-                wr_hard_holds(g, WR_HARD_FLOAT, still.fu == 0.0 && still.fv == 0.0);
-                const WrHardSlope a = wr_hard_look_at(g, set, &back, u, u);
-                const WrHardSlope b = wr_hard_look_at(g, set, &plain, 1 - u, 1 - u);
-                wr_hard_holds(g, WR_HARD_FLOAT, a.f == b.f && a.fu == -b.fu && a.fv == -b.fv);
-            }
-        }
+    for (int k = 0; k < WR_SCHEME_COUNT * 7 && good; k++) {
+        const WrScheme scheme = (WrScheme)(k / 7);
+        const double r = repeats[k % 7];
+        WrHardLook turned, plain;
+        good = wr_hard_look_init(g, &plain, field, scheme, 1, 1, err);
         if (!good) break;
-        wr_hard_look_fini(&none);
-        wr_hard_look_fini(&back);
+        good = wr_hard_look_init(g, &turned, field, scheme, r, r, err);
+        if (good) check_repeats(g, field, &plain, &turned, r);
+        if (good) wr_hard_look_fini(&turned);
         wr_hard_look_fini(&plain);
     }
     wr_field_free(field);
@@ -352,11 +361,12 @@ static const WrHardCase rows[] = {
         NULL),
     ROW(39, "the first and last cells", "those of the table rolled by half, to the bit",
         "violations", 0, 0, "table 32x64\nnoise perlin cells=8\nsurface cylinder"),
-    ROW(40, "a thousand to a million repeats", "the place in the table is right", "texels", 1e-3,
-        1e-3,
+    ROW(40, "a thousand to ten million repeats, whole and broken",
+        "the place in the table is right", "texels", 1e-3, 1e-3,
         "table 64x64\ngrid cells=8x8 width=2\nsurface plane\nreplicate 1e6,1e6\nbump height=1e-8"),
-    ROW(41, "repeats of 0 and of -1", "0 is level, -1 the mirror image", "violations", 0, 0,
-        "table 64x64\nnoise perlin cells=4\nsurface plane\nreplicate -1,0"),
+    ROW(41, "repeats of 0, of -1, and broken ones",
+        "0 is level, -1 the mirror image, r broken ones r times as steep at the broken part of r u",
+        "violations", 0, 0, "table 64x64\nnoise perlin cells=4\nsurface plane\nreplicate -1,0"),
     ROW(42, "a table of one texel", "no slope, to the bit", "violations", 0, 0,
         "table 1x1\nfill 1\nsurface sphere"),
     ROW(43, "a table of one row or column", "no slope across it, to the bit", "violations", 0, 0,

@@ -122,6 +122,7 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
     return hits;
 }
 
+/* Faces reach beyond their edges by what rounding makes of u and v: a ray along the edge of two meets one. */
 ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int count,
                     const bool spread, STRIP *strip)
 {
@@ -137,9 +138,9 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
         REAL s = v_dot(v_sub(o, q), n) / (dn != 0.0f ? dn : 1.0f);
         VEC p = v_sub(v_mad(q, d, s), o);
         REAL u = v_dot(p, eu), v = v_dot(p, ev);
-        bool in = u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f;
-        strip->px[i] = u;
-        strip->py[i] = v;
+        bool in = u >= -EDGE && u <= K_(1) + EDGE && v >= -EDGE && v <= K_(1) + EDGE;
+        strip->px[i] = clamp01(u);
+        strip->py[i] = clamp01(v);
         strip->s[i] = in && s > s_min && s < MISS && dn != 0.0f ? s : MISS;
     }
     int hits = compact(count, spread, strip);

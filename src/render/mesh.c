@@ -35,11 +35,12 @@ static double samples_per_unit(const WrView *view, const WrShape *shape)
     return per / (depth > least ? depth : least);
 }
 
-/* The smallest of these that is enough: a few fixed sizes, so that a moving view seldom changes them. */
+/* The smallest of these that is enough: a few fixed sizes, so that a moving view seldom changes them. Not
+   fewer than 16, of which a round outline keeps 0.97 of its area however small it is (HC86). */
 static int round_cells(double want, int most)
 {
-    static const int sizes[] = { 8,   16,  24,  32,  48,  64,   96,   128,
-                                 192, 256, 384, 512, 768, 1024, 1536, 2048 };
+    static const int sizes[] = { 16,  24,  32,  48,  64,   96,   128, 192,
+                                 256, 384, 512, 768, 1024, 1536, 2048 };
     const int count = (int)(sizeof sizes / sizeof *sizes);
     for (int i = 0; i < count; i++)
         if (want <= sizes[i] || sizes[i] == most) return sizes[i];
@@ -69,9 +70,12 @@ static void choose_cells(const WrViewMesh *mesh, const WrShape *shape, const WrV
 {
     const double tolerance = 0.25 * view->samples; /* a quarter of a pixel, in samples */
     double k = view->scale * samples_per_unit(view, shape) / (8.0 * tolerance);
-    const int most = finer > 0 ? 2048 : 512;
-    *mu = round_cells(sqrt(2.0 * k * (mesh->uu + mesh->uv)), 512);
-    *mv = round_cells(sqrt(2.0 * k * (mesh->vv + mesh->uv)), 512);
+    const int most = 2048; /* a ribbon of sixty turns takes 1500 along it (HC164) ... */
+    double u = fmin(sqrt(2.0 * k * (mesh->uu + mesh->uv)), most);
+    double v = fmin(sqrt(2.0 * k * (mesh->vv + mesh->uv)), most);
+    const double over = fmax(1.0, sqrt(u * v / (512.0 * 512.0))); /* ... but not both ways */
+    *mu = round_cells(u / over, most);
+    *mv = round_cells(v / over, most);
     *mu = round_cells(scalbn(*mu, finer), most);
     *mv = round_cells(scalbn(*mv, finer), most);
 }

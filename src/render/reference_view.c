@@ -194,8 +194,9 @@ static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, Wr
         const WrVec3 w = v3_sub(v3_mad(ray->q, ray->d, s), at.p);
         const double u = v3_dot(w, at.pu) / v3_dot(at.pu, at.pu);
         const double v = v3_dot(w, at.pv) / v3_dot(at.pv, at.pv);
-        if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) continue;
-        *hit = (WrReferenceHit){ .s = s, .u = u, .v = v, .face = face };
+        const double edge = 0x1p-48; /* a ray along the edge of two faces meets one */
+        if (!(u >= -edge && u <= 1 + edge && v >= -edge && v <= 1 + edge)) continue;
+        *hit = (WrReferenceHit){ .s = s, .u = within(u), .v = within(v), .face = face };
         found = true;
     }
     return found;

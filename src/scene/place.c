@@ -66,6 +66,10 @@ static void place_axes(const WrCamera *camera, WrVec3 forward, WrPlacement *out)
     if (v3_len(across) < 1e-9) across = v3_cross(forward, other_up(forward));
     out->forward = forward;
     out->right = v3_unit(across, none);
+    if (v3_len(across) < 1e-3) { /* of a short product a part is rounding, not across the view */
+        across = v3_mad(out->right, forward, -v3_dot(out->right, forward));
+        out->right = v3_unit(across, none);
+    }
     out->up = v3_unit(v3_cross(out->right, forward), none);
 }
 

@@ -1,0 +1,23 @@
+/* hardcases_later.h - the measurements of HC156 to HC175, in two files by what they are about, for the one
+   list of their rows.
+   Layer 6, private to this room. */
+#pragma once
+#include "accuracy/hardcases_inner.h"
+
+/* What a picture of that arithmetic (WrHardWay) tells about. */
+static inline WrHardPrecision wr_hard_precision(int way)
+{
+    return way == WR_HARD_WIDE ? WR_HARD_DOUBLE : WR_HARD_FLOAT;
+}
+
+/* Pictures in every arithmetic and by the reference: every value is a number. */
+bool wr_hard_tame(WrHardGauge *gauge, const WrField *field, const WrScene *scene, WrError *err);
+
+/* clang-format off */
+#define WR_HARD_LATER(X)                                                                           \
+    X(156) X(157) X(158) X(159) X(160) X(161) X(162) X(163) X(164) X(165)                          \
+    X(166) X(167) X(168) X(169) X(170) X(171) X(172) X(173) X(174) X(175)
+/* clang-format on */
+#define WR_HARD_DECLARE(number) bool wr_hard_hc##number(WrHardGauge *gauge, WrError *err);
+WR_HARD_LATER(WR_HARD_DECLARE)
+#undef WR_HARD_DECLARE
