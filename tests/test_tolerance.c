@@ -7,6 +7,9 @@
 #include "base/memory.h"
 #include "test_session_help.h"
 
+#include <stdlib.h>
+#include <unistd.h>
+
 #define SIDE 112
 
 typedef struct Bench {
@@ -39,9 +42,10 @@ static void bench_fini(Bench *bench)
 static WrChoice choose(Bench *bench, WrToleranceKind kind, double value)
 {
     WrError err;
+    WrFrame frame;
     WrChoice choice = { 0 };
     bench->scene->tolerance = (WrTolerance){ kind, value };
-    if (!wr_tolerance_choose(bench->renderer, &bench->request, &choice, &err))
+    if (!wr_tolerance_choose(bench->renderer, &bench->request, &choice, &frame, &err))
         fail_msg("%s", err.text);
     return choice;
 }
@@ -148,8 +152,8 @@ static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
     }
 }
 
-/* A spot in one corner of a flat table: no drawn block of its kind need have any. */
-static void relief_that_the_sample_has_not_seen_is_reckoned_with(void **state)
+/* A spot in one corner of a flat table. */
+static void relief_in_a_corner_of_the_picture_is_seen(void **state)
 {
     (void)state;
     static const char *const places[] = { "0.03,0.04", "0.5,0.02", "0.52,0.47", "0.96,0.93" };
@@ -173,7 +177,7 @@ static void a_tolerance_that_nothing_meets_is_said_to_be_so(void **state)
     WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, 1e-7);
     assert_false(choice.met);
     assert_true(choice.rms > 1e-7);
-    assert_non_null(strstr(choice.reason, "CANNOT be met"));
+    assert_non_null(strstr(choice.reason, "CANNOT be promised"));
     wr_choice_fini(&choice);
     bench_fini(&bench);
 }
@@ -267,6 +271,169 @@ static void each_block_has_the_bits_of_its_setting_alone(void **state)
     bench_fini(&bench);
 }
 
+/* The picture that comes with a choice is the one that its settings make. */
+static void choosing_gives_the_picture_that_the_choice_makes(void **state)
+{
+    (void)state;
+    static const WrTolerance tolerances[] = { { WR_TOLERANCE_RMS, 0.02 },
+                                              { WR_TOLERANCE_RMS, 0.004 },
+                                              { WR_TOLERANCE_MAX, 0.11 },
+                                              { WR_TOLERANCE_TIME, 0.003 } };
+    static const char *const *const scenes[] = { ball, band, formula };
+    const size_t floats = (size_t)4 * SIDE * SIDE;
+    float *got = wr_alloc(floats, sizeof *got);
+    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
+        Bench bench = bench_of(scenes[s]);
+        for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+            WrError err;
+            WrFrame frame;
+            WrChoice choice = { 0 };
+            bench.scene->tolerance = tolerances[t];
+            assert_true(wr_tolerance_choose(bench.renderer, &bench.request, &choice, &frame, &err));
+            const int64_t covered = frame.covered;
+            memcpy(got, frame.rgba, floats * sizeof *got);
+            const WrFrame again = frame_of(&bench, &choice);
+            assert_memory_equal(got, again.rgba, floats * sizeof *got);
+            assert_int_equal(again.covered, covered);
+            wr_choice_fini(&choice);
+        }
+        bench_fini(&bench);
+    }
+    wr_free(got);
+}
+
+static void expect_the_same(const WrChoice *a, const WrChoice *b)
+{
+    const size_t blocks = (SIDE + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
+    assert_int_equal(a->count, b->count);
+    assert_memory_equal(a->part_of, b->part_of, blocks * blocks);
+    for (int i = 0; i < a->count; i++) {
+        const WrScene *x = a->parts[i].scene, *y = b->parts[i].scene;
+        assert_int_equal(x->scheme, y->scheme);
+        assert_int_equal(x->bump, y->bump);
+        assert_int_equal(x->dials.aa, y->dials.aa);
+        assert_int_equal(x->dials.samples, y->dials.samples);
+    }
+    assert_true(a->rms == b->rms && a->max == b->max);
+}
+
+/* No clock decides: whatever else the machine does, however many threads it has, the dials are the same. */
+static void the_same_picture_gets_the_same_dials(void **state)
+{
+    (void)state;
+    static const WrTolerance tolerances[] = { { WR_TOLERANCE_RMS, 0.007 },
+                                              { WR_TOLERANCE_MAX, 0.09 } };
+    static const int threads[] = { 1, 2, 7 };
+    Bench bench = bench_of(ball);
+    for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+        WrChoice first = choose(&bench, tolerances[t].kind, tolerances[t].value);
+        for (size_t n = 0; n < sizeof threads / sizeof *threads; n++) {
+            WrError err;
+            WrPool *pool = wr_pool_new(threads[n]);
+            Bench other = bench;
+            other.renderer = wr_renderer_new(pool, NULL, &err);
+            assert_non_null(other.renderer);
+            for (int run = 0; run < 2; run++) {
+                WrChoice choice = choose(&other, tolerances[t].kind, tolerances[t].value);
+                expect_the_same(&first, &choice);
+                wr_choice_fini(&choice);
+            }
+            wr_renderer_free(other.renderer);
+            wr_pool_free(pool);
+        }
+        wr_choice_fini(&first);
+    }
+    bench_fini(&bench);
+}
+
+static void a_choice_is_kept_while_its_picture_stays(void **state)
+{
+    (void)state;
+    WrError err;
+    WrFrame frame;
+    WrChoice choice = { 0 };
+    Bench bench = bench_of(ball);
+    bench.scene->tolerance = (WrTolerance){ WR_TOLERANCE_RMS, 0.01 };
+    assert_true(wr_tolerance_frame(bench.renderer, &bench.request, &choice, &frame, &err));
+    const unsigned char *kept = choice.part_of;
+    const int64_t first = frame.shaded;
+    assert_true(wr_tolerance_frame(bench.renderer, &bench.request, &choice, &frame, &err));
+    assert_ptr_equal(choice.part_of, kept);
+    assert_true(frame.shaded < first);
+    bench.request.turn_deg = 10;
+    assert_true(wr_tolerance_frame(bench.renderer, &bench.request, &choice, &frame, &err));
+    assert_true(choice.turn_deg == 10);
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
+/* The largest error of any pixel against the reference, on scenes with outlines, corners and highlights. */
+static void the_worst_pixel_keeps_to_the_tolerance_or_it_says_so(void **state)
+{
+    (void)state;
+    static const char *const roll[] = {
+        "table 96x70",
+        "noise perlin cells=5 octaves=3 amplitude=0.5 level=0 seed=8",
+        "surface curl R=0.2 q=1.25",
+        "rotate -18,20,0",
+        "bump mode=blinn height=0.05",
+        "material specular=0.4 shininess=50",
+        NULL
+    };
+    static const char *const *const scenes[] = { ball, sheet, band, roll };
+    static const double tolerances[] = { 0.3, 0.1, 0.03, 0.01 };
+    int met = 0;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        WrError err;
+        Bench bench = bench_of(scenes[i]);
+        WrReference reference = { 0 };
+        const WrReferenceRequest wanted = { .field = bench.request.field,
+                                            .scene = bench.scene,
+                                            .width = SIDE,
+                                            .height = SIDE,
+                                            .most = 32 };
+        assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+        for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+            WrErrors errors;
+            WrChoice choice = choose(&bench, WR_TOLERANCE_MAX, tolerances[t]);
+            const WrFrame frame = frame_of(&bench, &choice);
+            wr_errors_measure(frame.rgba, NULL, &reference, NULL, &errors);
+            assert_true(choice.max > 0); /* nothing is measured by itself */
+            if (choice.met && errors.max > tolerances[t])
+                fail_msg("scene %d: %g, not %g: %s", (int)i, errors.max, tolerances[t],
+                         choice.reason);
+            met += choice.met;
+            wr_choice_fini(&choice);
+        }
+        wr_reference_fini(&reference);
+        bench_fini(&bench);
+    }
+    assert_in_range(met, 8, 15);
+}
+
+/* Seconds are turned into counted work by a speed that is measured once and kept. */
+static void a_time_buys_the_same_dials_again(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/wrinkle-speed-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    setenv("WRINKLE_STATE", folder, 1);
+    Bench bench = bench_of(ball);
+    WrChoice first = choose(&bench, WR_TOLERANCE_TIME, 0.004);
+    snprintf(path, sizeof path, "%s/speed", folder);
+    assert_int_equal(access(path, R_OK), 0);
+    for (int run = 0; run < 3; run++) {
+        WrChoice again = choose(&bench, WR_TOLERANCE_TIME, 0.004);
+        expect_the_same(&first, &again);
+        wr_choice_fini(&again);
+    }
+    wr_choice_fini(&first);
+    bench_fini(&bench);
+    unsetenv("WRINKLE_STATE");
+    unlink(path);
+    rmdir(folder);
+}
+
 static void another_size_is_refused(void **state)
 {
     (void)state;
@@ -298,9 +465,10 @@ static void a_scene_without_a_tolerance_has_no_choice(void **state)
 {
     (void)state;
     WrError err;
+    WrFrame frame;
     WrChoice choice = { 0 };
     Bench bench = bench_of(sheet);
-    assert_false(wr_tolerance_choose(bench.renderer, &bench.request, &choice, &err));
+    assert_false(wr_tolerance_choose(bench.renderer, &bench.request, &choice, &frame, &err));
     assert_non_null(strstr(err.text, "tolerance rms=0.004"));
     assert_int_equal(choice.count, 0);
     bench_fini(&bench);
@@ -377,13 +545,18 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_measured_error_keeps_to_the_tolerance_or_it_says_so),
         cmocka_unit_test(outlines_that_run_with_the_pixels_rows_do_not_deceive),
-        cmocka_unit_test(relief_that_the_sample_has_not_seen_is_reckoned_with),
+        cmocka_unit_test(relief_in_a_corner_of_the_picture_is_seen),
         cmocka_unit_test(a_tolerance_that_nothing_meets_is_said_to_be_so),
         cmocka_unit_test(a_coarser_tolerance_takes_no_more_samples),
         cmocka_unit_test(a_table_without_relief_needs_one_sample_inside),
         cmocka_unit_test(a_time_is_spent_and_not_passed),
         cmocka_unit_test(the_worst_pixel_has_a_tolerance_too),
         cmocka_unit_test(each_block_has_the_bits_of_its_setting_alone),
+        cmocka_unit_test(choosing_gives_the_picture_that_the_choice_makes),
+        cmocka_unit_test(the_same_picture_gets_the_same_dials),
+        cmocka_unit_test(a_choice_is_kept_while_its_picture_stays),
+        cmocka_unit_test(the_worst_pixel_keeps_to_the_tolerance_or_it_says_so),
+        cmocka_unit_test(a_time_buys_the_same_dials_again),
         cmocka_unit_test(another_size_is_refused),
         cmocka_unit_test(an_empty_picture_takes_no_samples),
         cmocka_unit_test(a_scene_without_a_tolerance_has_no_choice),

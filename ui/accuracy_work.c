@@ -64,8 +64,7 @@ static bool render(WrWork *work, int i, WrPool *pool, const WrFrameRequest *requ
     if (i == 1 || request->normals || request->scene->tolerance.kind == WR_TOLERANCE_NONE)
         return wr_renderer_frame(r, request, frame, &work->err);
     WrChoice choice = { 0 };
-    bool good = wr_tolerance_choose(r, request, &choice, &work->err) &&
-                wr_choice_frame(r, request, &choice, frame, &work->err);
+    bool good = wr_tolerance_choose(r, request, &choice, frame, &work->err);
     wr_choice_fini(&choice);
     return good;
 }

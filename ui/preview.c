@@ -187,8 +187,7 @@ static bool by_tolerance(WrRenderer *renderer, const WrFrameRequest *wanted, WrC
     WrFrameRequest request = *wanted;
     request.dials = NULL;
     request.keep = false;
-    bool good = wr_tolerance_choose(renderer, &request, &choice, err) &&
-                wr_choice_frame(renderer, &request, &choice, frame, err);
+    bool good = wr_tolerance_choose(renderer, &request, &choice, frame, err);
     if (good) wr_chosen_from(&choice, chosen);
     wr_choice_fini(&choice);
     return good;

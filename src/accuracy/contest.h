@@ -10,11 +10,12 @@ typedef struct WrContestRow {
     bool claimed;       /* the choice said that it meets the tolerance */
     double rms, max;    /* as measured on the whole picture */
     bool held;          /* the tolerance, by that measure */
-    double seconds;     /* of a frame as chosen */
-    double choosing;    /* seconds that choosing took */
-    double top_seconds; /* of the best setting's frame, measured: what choosing saves from */
-    bool found;         /* some setting that was tried meets the tolerance */
-    WrSetting cheapest; /* the cheapest of them ... */
+    double choosing;    /* seconds that choosing took, the first picture with it */
+    double seconds;     /* of one more such picture, as chosen */
+    double top_seconds; /* of the best setting's, measured */
+    int pays_from; /* pictures from which on choosing takes less than the cheapest single setting; 0: never */
+    bool found;                              /* some setting that was tried meets the tolerance */
+    WrSetting cheapest;                      /* the cheapest of them ... */
     double best_seconds, best_rms, best_max; /* ... its time and its errors */
 } WrContestRow;
 

@@ -1,108 +1,205 @@
-/* A tolerance: what keeps to it at the least cost, checked on the sample. */
+/* A tolerance: blocks climb until it holds. */
+#include "accuracy/tolerance.h"
 #include "accuracy/tolerance_inner.h"
 
 #include "base/clock.h"
+#include "base/memory.h"
 
 #include <math.h>
 
-#define MARGIN_RMS 0.95 /* of the tolerance: the sample is a small part of the picture */
-#define MARGIN_MAX 0.6  /* the worst pixel of all is worse than the worst of the sample */
-#define ROUNDS 5        /* of raising what did not hold on the sample */
+#define CLIMBS 16 /* rounds, each of one level for the blocks that want it */
+#define PROBINGS 3
+/* WrDials: the usual mesh leaves an outline a twentieth of a pixel off, which no number of samples mends. */
+#define FINE_MESH 2
+#define WORTH 2.0 /* a look at cheaper slopes may save so many times what it takes */
 
-/* How far the sample's own measure is above the prediction: what to reckon with in the next round. */
-static void learn(Wish *wish, const Error seen[STRATA], const double foretold[STRATA])
+/* ---- slopes and normals ---- */
+
+static void add_pair(Study *study, WrScheme scheme, WrBumpMode mode)
 {
-    for (int s = 1; s < STRATA; s++)
-        if (foretold[s] > 0 && seen[s].sum > wish->weight[s] * foretold[s])
-            wish->weight[s] = seen[s].sum / foretold[s];
+    const WrScene *scene = study->request->scene;
+    study->pair[study->pairs++] = (Pair){ scheme, mode, wr_price_sample(scene, scheme, mode) };
 }
 
-static void judge(const Study *study, const Error seen[STRATA], WrChoice *out)
+/* The best first. */
+static void add_best_pair(Study *study)
 {
-    out->rms = wr_study_rms(study, wr_study_cautious(seen));
-    out->max = 0;
-    for (int s = 1; s < STRATA; s++)
-        if (study->all[s] > 0) out->max = fmax(out->max, seen[s].most);
+    const WrScene *scene = study->request->scene;
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    const bool flat = wr_surfaces[scene->shape.kind]->flat;
+    add_pair(study, table ? WR_SCHEME_BSPLINE_FIT : scene->scheme,
+             scene->bump == WR_BUMP_INVARIANT ? WR_BUMP_INVARIANT
+             : flat                           ? WR_BUMP_BLINN
+                                              : WR_BUMP_EXACT);
 }
 
-/* The margins are parts of the tolerance. */
-static bool holds(const WrTolerance *tolerance, const WrChoice *choice, double margin_rms,
-                  double margin_max)
+/* Cheaper ones, where the look at them may be worth it: all shown blocks with one sample each. */
+static bool add_cheaper(Study *study, double expected, WrError *err)
+{
+    const WrScene *scene = study->request->scene;
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    const Pair best = study->pair[0];
+    const WrBumpMode mode = best.mode == WR_BUMP_EXACT ? WR_BUMP_BLINN : best.mode;
+    const Pair cheaper[] = { { best.scheme, WR_BUMP_NONE, 0 },
+                             { table ? WR_SCHEME_BILINEAR : best.scheme, mode, 0 },
+                             { best.scheme, mode, 0 } };
+    for (size_t i = 0; i < sizeof cheaper / sizeof *cheaper; i++) {
+        const Pair *pair = &cheaper[i];
+        if (pair->scheme == best.scheme && pair->mode == best.mode) continue;
+        const double price = wr_price_sample(scene, pair->scheme, pair->mode);
+        if ((1 - price / best.price) * expected < WORTH * price * study->pixels) continue;
+        add_pair(study, pair->scheme, pair->mode);
+        if (!wr_study_formula(study, study->pairs - 1, err)) return false;
+    }
+    return true;
+}
+
+/* ---- climbing ---- */
+
+/* Until no block wants a level that it has not seen. */
+static bool climb(Study *study, const WrTolerance *tolerance, WrError *err)
+{
+    unsigned char *wanted = wr_alloc((size_t)study->count, 1);
+    bool good = true;
+    for (int round = 0; good && round < CLIMBS; round++) {
+        int64_t climbers = 0;
+        for (int64_t b = 0; b < study->count; b++) {
+            const Block *block = &study->block[b];
+            wanted[b] = block->shown && block->pick > block->level;
+            climbers += wanted[b];
+        }
+        if (climbers == 0) break;
+        good = wr_study_climb(study, wanted, err);
+        if (good) wr_study_pick(study, tolerance, false);
+    }
+    wr_free(wanted);
+    return good;
+}
+
+static bool climb_and_probe(Study *study, const WrTolerance *tolerance, WrError *err)
+{
+    for (int probing = 0; probing <= PROBINGS; probing++) {
+        bool worse = false;
+        if (!climb(study, tolerance, err)) return false;
+        if (probing == PROBINGS || tolerance->kind == WR_TOLERANCE_TIME) break;
+        if (!wr_study_probe(study, &worse, err)) return false;
+        wr_study_pick(study, tolerance, false);
+        if (!worse) break;
+    }
+    return climb(study, tolerance, err);
+}
+
+static bool run(Study *study, const WrTolerance *tolerance, WrError *err)
+{
+    add_best_pair(study);
+    const WrDial *mesh = &wr_dials[WR_DIAL_MESH];
+    if (tolerance->kind == WR_TOLERANCE_MAX &&
+        (!mesh->matters || mesh->matters(study->request->scene)))
+        study->mesh = FINE_MESH;
+    for (int level = 0; level < LEVELS; level++) study->doubt[level] = (Doubt){ 1, 1, 0 };
+    if (!wr_study_survey(study, err)) return false;
+    wr_study_pick(study, tolerance, true);
+    /* One sample a pixel tells what they change on the whole, not what at most. */
+    if (tolerance->kind != WR_TOLERANCE_MAX && !add_cheaper(study, wr_study_cost(study), err))
+        return false;
+    wr_study_pick(study, tolerance, true);
+    return climb_and_probe(study, tolerance, err) && wr_study_compose(study, err);
+}
+
+/* ---- telling ---- */
+
+static bool holds(const WrTolerance *tolerance, const WrChoice *choice)
 {
     switch (tolerance->kind) {
-    case WR_TOLERANCE_RMS: return choice->rms <= margin_rms * tolerance->value * 1.0001;
-    case WR_TOLERANCE_MAX: return choice->max <= margin_max * tolerance->value * 1.0001;
+    case WR_TOLERANCE_RMS: return choice->rms <= tolerance->value;
+    case WR_TOLERANCE_MAX: return choice->max <= tolerance->value;
     case WR_TOLERANCE_TIME: return choice->seconds <= tolerance->value;
     default: return true;
     }
 }
 
-static bool choose(Study *study, const WrTolerance *tolerance, Place places[KINDS], WrChoice *out,
-                   WrError *err)
-{
-    Wish wish = { .tolerance = *tolerance, .margin_rms = MARGIN_RMS, .margin_max = MARGIN_MAX };
-    for (int s = 0; s < STRATA; s++) wish.weight[s] = 1;
-    for (int round = 0; round < ROUNDS; round++) {
-        Error seen[STRATA];
-        double foretold[STRATA];
-        out->seconds = wr_study_pick(study, &wish, places);
-        if (!wr_study_check(study, places, seen, foretold, err)) return false;
-        judge(study, seen, out);
-        if (tolerance->kind == WR_TOLERANCE_TIME || holds(tolerance, out, MARGIN_RMS, MARGIN_MAX))
-            return true;
-        learn(&wish, seen, foretold);
-        /* What looks cheapest is so in part because it was taken for better than it is. */
-        if (round > 0 && tolerance->kind == WR_TOLERANCE_RMS)
-            wish.margin_rms *= fmin(1, MARGIN_RMS * tolerance->value / out->rms);
-    }
-    return true;
-}
-
 static void say_reason(const WrTolerance *tolerance, WrChoice *out)
 {
-    static const char *const names[WR_TOLERANCE_COUNT] = { "", "rms", "max", "time" };
+    static const char *const names[] = { "", "rms", "max", "time" };
+    _Static_assert(sizeof names / sizeof *names == WR_TOLERANCE_COUNT, "every kind has a name");
     WrText text = { 0 };
     wr_text_addf(&text, "tolerance %s=", names[tolerance->kind]);
     wr_text_add_number(&text, tolerance->value);
     wr_text_addf(&text,
-                 "%s: %s; estimated rms %.2g, max %.2g, %.1f ms a frame in place of %.1f; choosing "
-                 "took %.1f ms on %.1f %% of the picture",
+                 "%s: %s; estimated rms %.2g, max %.2g; choosing and the picture took %.1f ms, one "
+                 "more such frame takes %.1f, 16 x 16 samples everywhere %.1f",
                  tolerance->kind == WR_TOLERANCE_TIME ? " s" : "",
-                 out->met ? "met" : "CANNOT be met by any setting: the nearest was taken", out->rms,
-                 out->max, 1e3 * out->seconds, 1e3 * out->top_seconds, 1e3 * out->spent,
-                 100 * out->share);
+                 out->met ? "met" : "CANNOT be promised by any setting: the nearest was taken",
+                 out->rms, out->max, 1e3 * out->spent, 1e3 * out->seconds, 1e3 * out->top_seconds);
     snprintf(out->reason, sizeof out->reason, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
 
-/* The RMS error that matters. The worst pixels are far above the mean; for a time nothing is too fine. */
-static double fine_of(const WrTolerance *tolerance)
+static double top_cost(const Study *study)
 {
-    return tolerance->kind == WR_TOLERANCE_RMS   ? tolerance->value
-           : tolerance->kind == WR_TOLERANCE_MAX ? 0.03 * tolerance->value
-                                                 : 0;
+    double sum = 0;
+    for (int64_t b = 0; b < study->count; b++)
+        if (study->block[b].shown) sum += fmax(1, study->block[b].covered);
+    return sum * study->pair[0].price * wr_level_side(TOP) * wr_level_side(TOP);
 }
 
-bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *out,
-                         WrError *err)
+static void tell(const Study *study, const WrTolerance *tolerance, double start, WrChoice *out)
 {
-    const WrTolerance *tolerance = &request->scene->tolerance;
+    const Change off = wr_study_picked_off(study);
+    const double pace = study->spent > 0 ? study->seconds / study->spent : 0;
+    wr_study_settle(study, out);
+    out->rms = wr_study_rms(study, off.squares);
+    out->max = off.most;
+    out->seconds = pace * wr_study_cost(study);
+    out->top_seconds = pace * top_cost(study);
+    out->spent = wr_clock_seconds() - start;
+    out->met = holds(tolerance, out);
+    say_reason(tolerance, out);
+}
+
+/* ---- all ---- */
+
+bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *out,
+                         WrFrame *frame, WrError *err)
+{
+    WrTolerance tolerance = request->scene->tolerance;
     const double start = wr_clock_seconds();
-    WrChoice choice = { 0 };
-    Place places[KINDS] = { { 0, 0, 0 } };
-    Study study;
-    if (tolerance->kind == WR_TOLERANCE_NONE)
+    double price = 1;
+    if (tolerance.kind == WR_TOLERANCE_NONE)
         return wr_fail(err, "the scene has no tolerance: set one with `tolerance rms=0.004`");
-    bool good = wr_study_begin(&study, renderer, request, fine_of(tolerance), err);
-    if (good && study.sample_count > 0) good = choose(&study, tolerance, places, &choice, err);
+    if (tolerance.kind == WR_TOLERANCE_TIME && !wr_price_seconds(renderer, &price, err))
+        return false;
+    Study study = { .renderer = renderer,
+                    .request = request,
+                    .frame = frame,
+                    .blocks_u = (request->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK,
+                    .blocks_v = (request->height + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK };
+    WrChoice choice = { 0 };
+    study.count = (int64_t)study.blocks_u * study.blocks_v;
+    study.block = wr_alloc((size_t)study.count, sizeof *study.block);
+    study.mask = wr_alloc((size_t)study.count, 1);
+    tolerance.value /= price;
+    const bool good = run(&study, &tolerance, err);
     if (good) {
-        wr_study_settle(&study, places, &choice);
-        choice.spent = wr_clock_seconds() - start;
-        choice.met = holds(tolerance, &choice, 1, 1);
-        say_reason(tolerance, &choice);
+        tell(&study, &request->scene->tolerance, start, &choice);
         wr_choice_fini(out);
         *out = choice;
     }
     wr_study_fini(&study);
     return good;
+}
+
+static bool is_of(const WrChoice *choice, const WrFrameRequest *request)
+{
+    return choice->count > 0 && choice->scene == request->scene &&
+           choice->field_key == wr_field_key(request->field) &&
+           choice->turn_deg == request->turn_deg && choice->width == request->width &&
+           choice->height == request->height;
+}
+
+bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *choice,
+                        WrFrame *frame, WrError *err)
+{
+    return is_of(choice, request) ? wr_choice_frame(renderer, request, choice, frame, err)
+                                  : wr_tolerance_choose(renderer, request, choice, frame, err);
 }

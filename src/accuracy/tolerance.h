@@ -1,35 +1,28 @@
-/* tolerance.h - the cheapest dials that keep to a stated error: chosen by measuring a sample of this very
-   picture, for each kind of block that it has.
+/* tolerance.h - the cheapest dials that keep to a stated error, for each block of this very picture, and the picture.
    Layer 6.
 
-   The whole picture with one sample a pixel and with 2 x 2 sorts its blocks of WR_FRAME_BLOCK pixels into
-   strata: empty, edges, insides, by how much the second differs from the first; and each stratum into
-   grades, by the same. A few hundredths of the blocks are drawn, each stratum for itself, with a chance as
-   that difference is large, since it foretells where errors are. They are rendered with 2 to 8 samples a
-   side against 8 x 8, or where that is itself too far off against 12 x 12 or 16 x 16; 5, 6, 10 and 12 are
-   interpolated; moments are tried where 2 x 2 samples are not enough and the table is not large. Other
-   slopes and normals (bilinear, central; the paper's, none) are rendered whole with one sample, and the
-   sample with 2 x 2; with more, what errors of formulas and of sampling have in common is taken from 2 x 2.
+   The whole picture is made with one sample a pixel and with 2 x 2. What that changes in each block of
+   WR_FRAME_BLOCK pixels tells what both are off, since errors fall by a known order as samples are added
+   (tolerance_estimate.c). Blocks that are off by too much get 4 x 4, then 8 x 8, then 16 x 16, until all together
+   keep to the tolerance (max=: until each does). Cheaper slopes and normals (none, bilinear, the paper's)
+   are looked at where they may save more than that look takes. Then a few blocks of each kind are rendered
+   far finer: where they are off by more than was estimated, all blocks of their kind climb.
 
-   So an error is estimated by ratio: what the sample says of a stratum's error beside a number that is known
-   of every block (the change by 2 x 2; what slopes and normal change) times that number's sum. The sum
-   of squares is taken two and a half of its standard errors too high. Stratum by stratum and grade by grade
-   the settings are raised, best gain for its time first, until the tolerance holds; what is not needed
-   is taken back; settings that are cheaper together are put together; one setting for all is taken
-   where that is no dearer. The outcome is rendered on the sample once more, and raised again if it does
-   not hold there.
+   So nothing is measured by itself: a setting is told by what the next finer changes, the finest by what it
+   changed in the one before. What is cheap is decided by counted work (tolerance_price.c), never by a clock: the
+   same table, scene, size and tolerance give the same dials, on any machine and any number of threads. Only
+   `time=` needs to know how fast the machine is; that is measured once and kept.
 
-   What it cannot know. It is a sample: an error in a place that no drawn block resembles is not seen, and
-   a worst pixel (max=) least of all. `met` is therefore an estimate; samples/accuracy tells how often
-   it held. Where a cheap setting keeps to the tolerance by a few hundredths only, the sample cannot tell, and
-   some blocks get a dearer one. The true picture is taken to be what 16 x 16 samples tend to: what the
-   surface's mesh, the arithmetic or the stored heights lose is kept as the scene has it and is not
-   counted. Along outlines that run with the pixels' rows all counts of samples may be off alike: there the
-   reference's error is taken to add to theirs. Choosing costs the whole picture with 2 x 2 samples and some
-   three to six times with one, two hundredths of the blocks at 16 x 16, some 20 small frames and the tables
-   that they need: about a fifteenth of the best setting's frame. Where the tolerance is so fine that a
-   third of that frame is needed, or the table has many more texels than the picture has pixels, less than
-   ten times that is saved. */
+   The blocks' pictures at their picks are the picture: choosing and making it are one, and take about a third more
+   than making it alone. Where only the cheap pictures are needed it takes more: to know that one sample will do
+   costs 2 x 2.
+
+   What it cannot know. `met` is an estimate: what all levels of a block agree on, and the probes do not meet, is
+   not seen. samples/accuracy tells how often it held. The true picture is taken to be what 16 x 16 samples tend
+   to: what the arithmetic or the stored heights lose is kept as the scene has it and is not counted, nor, but for
+   max=, which takes a finer one, what the surface's mesh loses at outlines. Where 16 x 16 samples themselves are off by more than the tolerance, it is said not to be met. Along
+   outlines that run with the pixels' rows all levels may be off alike: there the error is taken to be what such
+   an outline can hide. */
 #pragma once
 #include "render/frame.h"
 
@@ -37,8 +30,10 @@
 typedef struct WrChoicePart {
     WrScene *scene;  /* the scene with their dials; owned */
     int64_t blocks;  /* how many there are; those without any of the object are not counted */
-    char where[160]; /* "edges, the liveliest relief" */
+    char where[160]; /* "edges, some of the liveliest insides" */
 } WrChoicePart;
+
+#define WR_CHOICE_NOTHING 255 /* in part_of: a block that shows nothing of the object */
 
 typedef struct WrChoice {
     int count;              /* 0: nothing was chosen */
@@ -47,19 +42,25 @@ typedef struct WrChoice {
     int width, height;
     bool met;           /* the estimate is within the tolerance (time: within the time) */
     double rms, max;    /* estimated error of the whole picture */
-    double seconds;     /* estimated time of a frame */
-    double top_seconds; /* of the best setting that was tried, on the whole picture */
-    double spent;       /* seconds that choosing took */
-    double share;       /* of the picture's blocks that were sampled, 0..1 */
+    double seconds;     /* estimated time of one more such frame */
+    double top_seconds; /* the same of 16 x 16 samples everywhere */
+    double spent;       /* seconds that choosing took, the picture included */
     char reason[320];   /* one or two sentences */
+    /* Of what picture it is. */
+    const WrScene *scene; /* shared; owned */
+    uint64_t field_key;
+    double turn_deg;
 } WrChoice;
 
-/* Choose for the request's picture under its scene's tolerance. The renderer's caches are used; its last
- * picture is lost. The answer depends on measured times, so it may differ from run to run where two rungs
- * cost nearly the same; each answer meets the tolerance, or says that it does not (met).
+/* Choose for the request's picture under its scene's tolerance, and give the picture: *frame, its counts and times
+ * those of all that was rendered for it. The renderer's caches are used; its last picture is lost.
  * Zero-initialise *out. Errors: the scene has no tolerance; those of frames. */
 bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *out,
-                         WrError *err);
+                         WrFrame *frame, WrError *err);
+/* The request's picture under its scene's tolerance: as *choice has it if that was chosen for the same table, scene,
+ * turn and size, else chosen anew into *choice. */
+bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *choice,
+                        WrFrame *frame, WrError *err);
 void wr_choice_fini(WrChoice *choice);
 
 /* The picture with chosen dials: each part's blocks with its setting, in one frame.rgba. Bit for bit what

@@ -5,106 +5,101 @@
 
 #include <string.h>
 
-static const char *const names[STRATA] = {
-    "empty blocks", "soft edges",  "edges",  "still inside",
-    "calm inside",  "soft relief", "relief", "rough relief"
-};
-
 /* ---- making it ---- */
 
-/* Which grades of a stratum have that place: "edges", "the liveliest edges". */
-static void name_grades(const Study *study, const Place places[KINDS], Place place, int stratum,
-                        WrText *text)
+/* Kinds of blocks for people: outlines, and what is inside of them by how much 2 x 2 samples change it. */
+enum { KIND_EDGE, KIND_CALM, KIND_RELIEF, KIND_ROUGH, KIND_COUNT };
+static const char *const kind_names[KIND_COUNT] = { "edges", "calm insides", "relief",
+                                                    "rough relief" };
+static const double kind_ends[] = { 0.006, 0.03 }; /* root mean square of linear intensity */
+
+static int kind_of(const Block *block)
 {
-    int first = -1, last = -1, liveliest = -1, calmest = -1;
-    for (int g = 0; g < GRADES; g++) {
-        const int k = wr_kind(stratum, g);
-        if (study->blocks[k] == 0) continue;
-        if (liveliest < 0) liveliest = g;
-        calmest = g;
-        if (!wr_same_place(places[k], place)) continue;
-        if (first < 0) first = g;
-        last = g;
-    }
-    if (first < 0) return;
-    if (text->length > 0) wr_text_add(text, ", ");
-    if (first > liveliest) wr_text_add(text, last < calmest ? "middling " : "the calmest ");
-    else if (last < calmest) wr_text_add(text, "the liveliest ");
-    wr_text_add(text, names[stratum]);
+    const double per_value = block->change[1].squares / (3.0 * WR_FRAME_BLOCK * WR_FRAME_BLOCK);
+    int kind = KIND_CALM;
+    if (block->edge) return KIND_EDGE;
+    for (size_t i = 0; i < sizeof kind_ends / sizeof *kind_ends; i++)
+        kind += per_value > kind_ends[i] * kind_ends[i];
+    return kind;
 }
 
-static void name_part(const Study *study, const Place places[KINDS], Place place,
-                      WrChoicePart *part)
+static int setting_of(const Block *block)
 {
+    return block->pair * LEVELS + block->pick;
+}
+
+/* "edges, some of the relief": which blocks have that setting. */
+static void name_part(const Study *study, int setting, WrChoicePart *part)
+{
+    int64_t all[KIND_COUNT] = { 0 }, here[KIND_COUNT] = { 0 };
     WrText text = { 0 };
-    for (int s = 1; s < STRATA; s++) name_grades(study, places, place, s, &text);
+    for (int64_t b = 0; b < study->count; b++) {
+        const Block *block = &study->block[b];
+        if (!block->shown) continue;
+        all[kind_of(block)]++;
+        here[kind_of(block)] += setting_of(block) == setting;
+    }
+    for (int k = 0; k < KIND_COUNT; k++) {
+        if (here[k] == 0) continue;
+        wr_text_addf(&text, "%s%s%s", text.length > 0 ? ", " : "",
+                     here[k] == all[k]      ? ""
+                     : 2 * here[k] > all[k] ? "most of the "
+                                            : "some of the ",
+                     kind_names[k]);
+    }
     snprintf(part->where, sizeof part->where, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
 
-/* Seconds of the whole picture with 16 x 16 samples of the best slopes and normal. */
-static double best_seconds(const Study *study)
+void wr_study_settle(const Study *study, WrChoice *out)
 {
-    const double side =
-        (double)wr_study_ways[WAY_SIXTEEN].samples / wr_study_ways[study->top].samples;
-    double sum = 0;
-    for (int k = 1; k < KINDS; k++)
-        if (study->blocks[k] > 0)
-            sum += side * side * wr_study_seconds(study, k, wr_best_place(study, study->top));
-    return sum;
-}
-
-void wr_study_settle(const Study *study, const Place places[KINDS], WrChoice *out)
-{
-    int part_of[KINDS] = { 0 }, cheapest = 0;
+    int part_of[PAIRS_MAX * LEVELS];
     out->width = study->request->width;
     out->height = study->request->height;
-    out->share = (double)study->sample_count / (double)study->block_count;
-    out->top_seconds = best_seconds(study);
-    out->parts = wr_alloc(KINDS, sizeof *out->parts);
-    for (int k = 1; k < KINDS; k++) {
-        if (study->blocks[k] == 0) continue;
-        part_of[k] = -1;
-        for (int other = 1; other < k && part_of[k] < 0; other++)
-            if (study->blocks[other] > 0 && wr_same_place(places[other], places[k]))
-                part_of[k] = part_of[other];
-        if (part_of[k] < 0) {
-            WrChoicePart *part = &out->parts[part_of[k] = out->count++];
-            part->scene = wr_study_scene(study, places[k]);
-            name_part(study, places, places[k], part);
-            if (part->scene->dials.samples < out->parts[cheapest].scene->dials.samples)
-                cheapest = part_of[k];
+    out->scene = wr_scene_share(study->request->scene);
+    out->field_key = wr_field_key(study->request->field);
+    out->turn_deg = study->request->turn_deg;
+    out->parts = wr_alloc(PAIRS_MAX * LEVELS, sizeof *out->parts);
+    out->part_of = wr_alloc((size_t)study->count, 1);
+    for (int i = 0; i < PAIRS_MAX * LEVELS; i++) part_of[i] = -1;
+    for (int64_t b = 0; b < study->count; b++) {
+        const Block *block = &study->block[b];
+        out->part_of[b] = WR_CHOICE_NOTHING;
+        if (!block->shown) continue;
+        const int setting = setting_of(block);
+        if (part_of[setting] < 0) {
+            WrChoicePart *part = &out->parts[part_of[setting] = out->count++];
+            part->scene = wr_study_scene(study, block->pair, block->pick);
+            name_part(study, setting, part);
         }
-        out->parts[part_of[k]].blocks += study->blocks[k];
+        out->part_of[b] = (unsigned char)part_of[setting];
+        out->parts[part_of[setting]].blocks++;
     }
-    if (out->count == 0) out->parts[out->count++].scene = wr_study_scene(study, places[0]);
-    out->part_of = wr_alloc((size_t)study->block_count, 1);
-    for (int64_t b = 0; b < study->block_count; b++) {
-        const int k = study->block[b].kind;
-        out->part_of[b] = (unsigned char)(k > 0 ? part_of[k] : cheapest);
-    }
+    if (out->count == 0) out->parts[out->count++].scene = wr_study_scene(study, 0, 0);
 }
 
 void wr_choice_fini(WrChoice *choice)
 {
     for (int i = 0; i < choice->count; i++) wr_scene_free(choice->parts[i].scene);
+    wr_scene_free((WrScene *)choice->scene);
     wr_free(choice->parts);
     wr_free(choice->part_of);
     *choice = (WrChoice){ 0 };
 }
-
 /* ---- using it ---- */
 
-static void add_times(WrStageTimes *sum, const WrStageTimes *more)
+/* Blocks that show nothing are rendered by nobody. */
+static void clear_nothing(const WrChoice *choice, WrFrame *frame)
 {
-    sum->prepare += more->prepare;
-    sum->visibility += more->visibility;
-    sum->geometry += more->geometry;
-    sum->bump += more->bump;
-    sum->shade += more->shade;
-    sum->resolve += more->resolve;
-    sum->total += more->total;
-    sum->pyramid += more->pyramid;
+    const int blocks_u = (choice->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
+    for (int y = 0; y < choice->height; y++)
+        for (int u = 0; u < blocks_u; u++) {
+            const int x = u * WR_FRAME_BLOCK, left = choice->width - x;
+            const int w = left < WR_FRAME_BLOCK ? left : WR_FRAME_BLOCK;
+            if (choice->part_of[(int64_t)(y / WR_FRAME_BLOCK) * blocks_u + u] == WR_CHOICE_NOTHING)
+                memset(frame->rgba + 4 * ((size_t)y * (size_t)choice->width + (size_t)x), 0,
+                       4 * (size_t)w * sizeof(float));
+        }
 }
 
 bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
@@ -123,19 +118,20 @@ bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const 
         for (int64_t b = 0; b < blocks; b++) only[b] = choice->part_of[b] == i;
         pass.scene = choice->parts[i].scene;
         pass.dials = NULL;
-        pass.only = choice->count > 1 ? only : NULL;
+        pass.only = only;
         pass.keep = false;
         pass.hold = true; /* the next picture's choosing wants them all */
         good = wr_renderer_frame(renderer, &pass, frame, err);
-        sum.covered += frame->covered;
         sum.shaded += frame->shaded;
-        add_times(&sum.times, &frame->times);
+        wr_times_add(&sum.times, &frame->times);
     }
-    frame->covered = sum.covered;
+    wr_free(only);
+    if (!good) return false;
+    clear_nothing(choice, frame);
+    frame->covered = wr_frame_covered(frame);
     frame->shaded = sum.shaded;
     frame->times = sum.times;
-    wr_free(only);
-    return good;
+    return true;
 }
 
 void wr_choice_print(const WrChoice *choice, WrText *text)
@@ -154,4 +150,26 @@ void wr_choice_print(const WrChoice *choice, WrText *text)
         wr_text_fini(&bump);
         wr_text_fini(&dials);
     }
+}
+
+/* ---- frames of several passes ---- */
+
+void wr_times_add(WrStageTimes *sum, const WrStageTimes *more)
+{
+    sum->prepare += more->prepare;
+    sum->visibility += more->visibility;
+    sum->geometry += more->geometry;
+    sum->bump += more->bump;
+    sum->shade += more->shade;
+    sum->resolve += more->resolve;
+    sum->total += more->total;
+    sum->pyramid += more->pyramid;
+}
+
+int64_t wr_frame_covered(const WrFrame *frame)
+{
+    const size_t pixels = (size_t)frame->width * (size_t)frame->height;
+    int64_t covered = 0;
+    for (size_t i = 0; i < pixels; i++) covered += frame->rgba[4 * i + 3] > 0;
+    return covered;
 }

@@ -27,8 +27,7 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
                                .cancel = session->options.cancel };
     if (request.scene->tolerance.kind == WR_TOLERANCE_NONE)
         return wr_renderer_frame(session->renderer, &request, frame, err);
-    return wr_tolerance_choose(session->renderer, &request, &session->choice, err) &&
-           wr_choice_frame(session->renderer, &request, &session->choice, frame, err);
+    return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
 }
 
 const WrChoice *wr_session_choice(const WrSession *session)

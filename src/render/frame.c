@@ -18,6 +18,16 @@ WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
     return renderer;
 }
 
+int wr_renderer_threads(const WrRenderer *renderer)
+{
+    return renderer->threads;
+}
+
+const char *wr_renderer_isa(const WrRenderer *renderer)
+{
+    return renderer->isa;
+}
+
 static void forget_view(WrRenderer *renderer)
 {
     if (renderer->seen) wr_view_fini(&renderer->view);

@@ -54,6 +54,8 @@ typedef struct WrFrame {
    or that does not exist. pool is borrowed. The caller owns the renderer. */
 WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err);
 void wr_renderer_free(WrRenderer *renderer);
+int wr_renderer_threads(const WrRenderer *renderer);
+const char *wr_renderer_isa(const WrRenderer *renderer); /* as it was asked for */
 
 /* Render. The bits depend on the request alone: not on threads, nor (arithmetic exact) on the isa, nor
    on what was rendered before. */

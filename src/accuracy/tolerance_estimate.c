@@ -1,0 +1,242 @@
+/* What a block is off, from what one level changes in the one before; and a look at a few blocks far finer, lest two
+   levels agree on the same wrong thing. */
+#include "accuracy/tolerance_inner.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Of the square of what a step from k to 2k samples a side changes, c, where errors fall as k^-p:
+     outlines, p = 3/2   the finer is off by 1/9 of c if both are independent, by 0.3 if of the same sign;
+     noise finer than the samples, p = 1   by 1/5;   smooth, p = 2   by 1/9, and the coarser by 16/9.
+   How c falls from one step to the next tells them apart, roughly: by 8, by 4, by 16. */
+#define FINER 0.18
+#define COARSER_LEAST 1.0
+#define COARSER_MOST 1.8
+#define FALL 8.0 /* of c from one step to the next: what is reckoned with ahead ... */
+#define FALL_MOST                                                                                  \
+    2.0           /* ... and of the largest of many pixels, which falls more slowly than the mean */
+#define FELL 14.0 /* what may have happened: a smaller step than that is luck */
+#define FELL_MOST 3.0
+static const double finer_most[LEVELS] = { 0, 0.85, 0.85, 0.75, 0.7 };
+
+/* Probing: which picks, at which level; of what the picture takes such a part, for all of them. */
+#define PROBED 3
+#define PROBE_LEVEL 3
+#define PROBING 0.25
+#define GROWN 1.5   /* so many times as many blocks are probed anew */
+#define CAUTION 1.0 /* standard errors that are added to a ratio of the sample */
+#define FEW 4       /* probes that say little of a ratio: only what is far off is believed */
+#define FAR 2.0
+#define LEAST_WEIGHT 0.7
+#define MOST_WEIGHT 1000.0
+#define WORSE 1.15 /* more than that calls for picking anew */
+
+/* ---- what a block is off ---- */
+
+static Change larger(Change a, Change b)
+{
+    return (Change){ fmax(a.squares, b.squares), fmax(a.most, b.most) };
+}
+
+static Change times(Change a, double squares, double most)
+{
+    return (Change){ a.squares * squares, a.most * most };
+}
+
+/* At its own level: by the last step, and not by less than the steps before foretell. */
+static Change off_here(const Block *block)
+{
+    const int level = block->level;
+    Change off = block->step[level];
+    double fall = FINER, fall_most = finer_most[level];
+    for (int n = level; n >= 1; n--) {
+        off = larger(off, times(block->change[n], fall, fall_most));
+        fall /= FELL;
+        fall_most /= FELL_MOST;
+    }
+    return off;
+}
+
+/* Of the step from a level to the next. */
+static double coarser(const Block *block, int level)
+{
+    const double before = block->change[level].squares, after = block->change[level + 1].squares;
+    if (level == 0 || !(after > 0)) return COARSER_LEAST;
+    return fmax(COARSER_LEAST, fmin(COARSER_MOST, before / after / 9));
+}
+
+static Change off_samples(const Block *block, int level)
+{
+    const Change here = off_here(block);
+    if (level == block->level) return here;
+    if (level < block->level) {
+        const Change *next = &block->change[level + 1];
+        return larger(block->step[level],
+                      (Change){ coarser(block, level) * next->squares, next->most + here.most });
+    }
+    const int above = level - block->level;
+    const Change step = times(block->step[block->level], pow(0.25, above), pow(0.5, above));
+    return larger(step, times(here, pow(1 / FALL, above), pow(1 / FALL_MOST, above)));
+}
+
+Change wr_study_off(const Study *study, const Block *block, int pair, int level)
+{
+    const Doubt *doubt = &study->doubt[level];
+    const Change off = times(off_samples(block, level), doubt->weight, doubt->weight_most);
+    const Change formula = pair > 0 ? block->formula[pair] : (Change){ 0, 0 };
+    return (Change){ off.squares + formula.squares, off.most + formula.most };
+}
+
+double wr_study_rms(const Study *study, double squares)
+{
+    return sqrt(squares / (3 * fmax(study->pixels, 1)));
+}
+
+/* ---- probes ---- */
+
+typedef struct Probe {
+    int64_t block;
+    double off; /* as estimated, squares */
+} Probe;
+
+static int by_off(const void *a, const void *b)
+{
+    const Probe *x = a, *y = b;
+    if (x->off != y->off) return x->off < y->off ? -1 : 1;
+    return (x->block > y->block) - (x->block < y->block);
+}
+
+/* All blocks of a pick, small errors to large. The caller frees. */
+static Probe *list_picked(const Study *study, int pick, int64_t *count)
+{
+    Probe *list = wr_alloc((size_t)study->count + 1, sizeof *list);
+    *count = 0;
+    for (int64_t b = 0; b < study->count; b++) {
+        const Block *block = &study->block[b];
+        if (!block->shown || block->pick != pick) continue;
+        list[(*count)++] = (Probe){ b, wr_study_off(study, block, block->pair, pick).squares };
+    }
+    qsort(list, (size_t)*count, sizeof *list, by_off);
+    return list;
+}
+
+/* Blocks at equal steps of the errors' running sum, each raised by half the mean: what is estimated to be calm is
+   looked at too. Into the mask; how many. */
+static int64_t draw(Study *study, const Probe *list, int64_t count, int64_t wanted,
+                    double *floor_off)
+{
+    double sum = 0, passed = 0;
+    int64_t drawn = 0;
+    for (int64_t i = 0; i < count; i++) sum += list[i].off;
+    *floor_off = 0.5 * sum / (double)count + 1e-15;
+    sum += *floor_off * (double)count;
+    for (int64_t b = 0; b < study->count; b++) study->mask[b] = 0;
+    for (int64_t i = 0; i < count; i++) {
+        passed += list[i].off + *floor_off;
+        if (passed * (double)wanted < ((double)drawn + 0.5) * sum) continue;
+        while (passed * (double)wanted >= ((double)drawn + 0.5) * sum) drawn++;
+        study->mask[list[i].block] = 1;
+    }
+    drawn = 0;
+    for (int64_t b = 0; b < study->count; b++) drawn += study->mask[b];
+    return drawn;
+}
+
+/* What the drawn blocks are off beside the estimates: each counts for as much as it was drawn for. */
+typedef struct Ratio {
+    double sum, squares;
+    double most; /* largest errors, beside the estimates */
+    int64_t count;
+} Ratio;
+
+static void add_probe(const Study *study, const Block *block, const float *fine, double floor_off,
+                      Ratio *ratio)
+{
+    const Change off = wr_study_off(study, block, block->pair, block->pick);
+    const Change seen = wr_block_change(fine, block->rgba[block->pick]);
+    const double share = seen.squares / (off.squares + floor_off);
+    ratio->sum += share;
+    ratio->squares += share * share;
+    if (off.most > 0) ratio->most = fmax(ratio->most, seen.most / off.most);
+    ratio->count++;
+}
+
+/* From shares of estimate and floor to a factor of the estimate: the floors add up to half of the estimates. */
+static double cautious(const Ratio *ratio)
+{
+    const double n = (double)ratio->count, mean = ratio->sum / n;
+    if (n < FEW) return 1.5 * mean > FAR ? 1.5 * mean : 1;
+    const double variance = fmax(0, ratio->squares / n - mean * mean) / fmax(1, n - 1);
+    return 1.5 * (mean + CAUTION * sqrt(variance));
+}
+
+static bool render_picks(Study *study, int pick, WrError *err)
+{
+    unsigned char *chosen = wr_alloc((size_t)study->count, 1);
+    bool good = true;
+    for (int64_t b = 0; b < study->count; b++) chosen[b] = study->mask[b];
+    for (int pair = 0; good && pair < study->pairs; pair++) {
+        int64_t missing = 0;
+        for (int64_t b = 0; b < study->count; b++) {
+            const Block *block = &study->block[b];
+            study->mask[b] = chosen[b] && block->pair == pair &&
+                             !(block->rgba[pick] && block->pair_of[pick] == pair);
+            missing += study->mask[b];
+        }
+        good = missing == 0 || wr_study_render(study, pair, pick, true, NULL, err);
+    }
+    for (int64_t b = 0; b < study->count; b++) study->mask[b] = chosen[b];
+    wr_free(chosen);
+    return good;
+}
+
+/* At least one; together about PROBING of what the picture takes. */
+static int64_t probes_wanted(const Study *study, int64_t count)
+{
+    const double side = wr_level_side(PROBE_LEVEL);
+    const double one = study->pair[0].price * side * side * WR_FRAME_BLOCK * WR_FRAME_BLOCK;
+    const int64_t worth = (int64_t)(PROBING / PROBED * wr_study_cost(study) / one);
+    return worth < 1 ? 1 : worth < count ? worth : count;
+}
+
+static bool probe_pick(Study *study, int pick, bool *worse, WrError *err)
+{
+    int64_t count;
+    double floor_off;
+    Ratio ratio = { 0, 0, 0, 0 };
+    Probe *list = list_picked(study, pick, &count);
+    const int64_t wanted =
+        (double)count > GROWN * (double)study->doubt[pick].blocks ? probes_wanted(study, count) : 0;
+    const int64_t drawn = wanted > 0 ? draw(study, list, count, wanted, &floor_off) : 0;
+    wr_free(list);
+    if (drawn == 0) return true;
+    float *fine = wr_try_alloc((size_t)drawn * BLOCK_FLOATS, sizeof *fine, "blocks", err);
+    bool good = fine && render_picks(study, pick, err) &&
+                wr_study_render(study, 0, PROBE_LEVEL, false, fine, err);
+    const float *at = fine;
+    for (int64_t b = 0; good && b < study->count; b++) {
+        if (!study->mask[b]) continue;
+        add_probe(study, &study->block[b], at, floor_off, &ratio);
+        at += BLOCK_FLOATS;
+    }
+    wr_free(fine);
+    if (!good) return false;
+    Doubt *doubt = &study->doubt[pick];
+    doubt->blocks = count;
+    const double factor = cautious(&ratio), before = doubt->weight;
+    doubt->weight = fmax(LEAST_WEIGHT, fmin(MOST_WEIGHT, before * factor));
+    doubt->weight_most *= fmax(1, ratio.most);
+    *worse = *worse || factor > WORSE || ratio.most > WORSE;
+    return true;
+}
+
+bool wr_study_probe(Study *study, bool *worse, WrError *err)
+{
+
+    *worse = false;
+    for (int pick = 0; pick < PROBED; pick++)
+        if (!probe_pick(study, pick, worse, err)) return false;
+    return true;
+}
