@@ -280,6 +280,8 @@ static bool measure_choice(const WrBench *bench, const WrReference *reference, W
         row->rms = errors.rms;
         row->max = errors.max;
         row->held = within(&row->tolerance, errors.rms, errors.max);
+        row->resolved = within(&(WrTolerance){ row->tolerance.kind, 0.5 * row->tolerance.value },
+                               reference->last_rms, reference->last_max);
         row->claimed = choice.met;
         row->pays_from = pays_from(row);
     }
@@ -345,15 +347,16 @@ static const char *const kind_names[WR_TOLERANCE_COUNT] = { "off", "rms", "max",
 
 static const char *verdict(const WrContestRow *row)
 {
-    if (row->held) return "held";
-    return row->claimed ? "BROKEN" : row->found ? "gave up" : "cannot be met";
+    if (!row->claimed) return row->held ? "held, not promised" : "not promised";
+    if (!row->resolved) return "unresolved";
+    return row->held ? "held" : "BROKEN";
 }
 
 void wr_contest_text(const WrContest *contest, const char *name, WrText *text)
 {
     WrText setting = { 0 };
     wr_text_addf(text,
-                 "%s: %d of %d settings tried, from cheap to dear\n%-10s %9s %9s %-13s %8s %8s %8s "
+                 "%s: %d of %d settings tried, from cheap to dear\n%-10s %9s %9s %-18s %8s %8s %8s "
                  "%6s %9s %8s  %s\n",
                  name, contest->tried, contest->settings, "tolerance", "rms", "max", "verdict",
                  "first ms", "more ms", "best ms", "ratio", "pays from", "top ms",
@@ -363,7 +366,7 @@ void wr_contest_text(const WrContest *contest, const char *name, WrText *text)
         char number[WR_NUMBER_SIZE];
         wr_text_clear(&setting);
         if (row->found) wr_setting_print(&row->cheapest, &setting);
-        wr_text_addf(text, "%s=%-6s %9.2e %9.2e %-13s %8.2f %8.2f ",
+        wr_text_addf(text, "%s=%-6s %9.2e %9.2e %-18s %8.2f %8.2f ",
                      kind_names[row->tolerance.kind], wr_number_print(row->tolerance.value, number),
                      row->rms, row->max, verdict(row), 1e3 * row->choosing, 1e3 * row->seconds);
         if (row->found)
@@ -400,9 +403,11 @@ void wr_contest_json(const WrContest *contest, const char *name, WrText *text)
                         { "best_seconds", row->found ? row->best_seconds : NAN },
                         { "best_rms", row->found ? row->best_rms : NAN },
                         { "best_max", row->found ? row->best_max : NAN } };
-        wr_text_addf(text, "%s{\"kind\":\"%s\",\"claimed\":%s,\"held\":%s,\"verdict\":\"%s\"",
-                     i > 0 ? ",\n" : "", kind_names[row->tolerance.kind],
-                     row->claimed ? "true" : "false", row->held ? "true" : "false", verdict(row));
+        wr_text_addf(
+            text,
+            "%s{\"kind\":\"%s\",\"claimed\":%s,\"held\":%s,\"resolved\":%s,\"verdict\":\"%s\"",
+            i > 0 ? ",\n" : "", kind_names[row->tolerance.kind], row->claimed ? "true" : "false",
+            row->held ? "true" : "false", row->resolved ? "true" : "false", verdict(row));
         for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
             wr_text_addf(text, ",\"%s\":", numbers[n].name);
             wr_text_add_json_number(text, numbers[n].value);

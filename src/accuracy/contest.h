@@ -7,9 +7,12 @@
 
 typedef struct WrContestRow {
     WrTolerance tolerance;
-    bool claimed;       /* the choice said that it meets the tolerance */
-    double rms, max;    /* as measured on the whole picture */
-    bool held;          /* the tolerance, by that measure */
+    bool claimed;    /* the choice said that it meets the tolerance */
+    double rms, max; /* as measured on the whole picture */
+    bool held;       /* the tolerance, by that measure */
+    bool
+        resolved; /* the reference itself moved by less than half of the tolerance when its samples doubled last:
+                      else that says little */
     double choosing;    /* seconds that choosing took, the first picture with it */
     double seconds;     /* of one more such picture, as chosen */
     double top_seconds; /* of the best setting's, measured */
