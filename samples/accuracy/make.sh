@@ -75,6 +75,68 @@ measure() {
     shrink "$temporary/strip.png" "$out/$name-errors.png" -resize 576x192 -colors 64
 }
 
+# What each dial's value is in plain words.
+words=$temporary/words.json
+cat >"$words" <<'END'
+{ "scheme=nearest": "slopes that are one per texel, so that relief breaks into steps",
+  "scheme=bilinear": "slopes of flat facets between texels, with creases where they meet",
+  "scheme=central": "slopes by the difference of the neighbours, as the paper has it",
+  "scheme=bspline": "slopes of a smooth surface near the texels, a little rounded off",
+  "scheme=bspline-fit": "slopes of the smooth surface through all texels",
+  "scheme=catmull": "slopes of a surface through all texels whose bend has creases",
+  "mode=none": "no bump at all", "mode=blinn": "the paper's normal, which leaves a small term out",
+  "mode=exact": "the true normal of the displaced surface",
+  "mode=invariant": "the paper's other normal, which does not flatten where the surface is stretched",
+  "aa=point": "one look at the middle of each pixel: edges become stairs",
+  "aa=filter": "one look at a table that is blurred to the pixel's size",
+  "aa=moments": "one look at the blurred table and at how its slopes scatter",
+  "aa=supersample": "the mean of looks on a grid in each pixel",
+  "aa=adaptive": "more looks only where neighbours differ",
+  "spread=regular": "looks on an even grid", "spread=jittered": "looks at random places, so that stairs become grain",
+  "footprint=isotropic": "the pixel's shape in the table taken for a square",
+  "footprint=anisotropic": "the pixel's shape in the table followed, long and thin where it is",
+  "moments=toksvig": "the slopes' scatter as one number", "moments=lean": "the slopes' scatter in both directions",
+  "refine=contrast": "where neighbours differ", "refine=bound": "wherever nothing proves that it is not needed",
+  "newton=-1": "the point on the surface solved until it is right",
+  "newton=0": "the point on the surface taken from the grid, not solved",
+  "newton=1": "the point on the surface solved by one step", "newton=2": "the point on the surface solved by two steps",
+  "newton=3": "the point on the surface solved by three steps",
+  "heights=double": "heights and slopes in double precision", "heights=float": "heights in single precision",
+  "heights=half": "heights of 11 bits and an exponent", "heights=16bit": "heights in 65 536 steps",
+  "heights=8bit": "heights in 256 steps, which show as terraces",
+  "shading=float": "light in single precision", "shading=double": "light in double precision",
+  "shading=half": "light rounded to 11 bits on its way",
+  "arithmetic=exact": "the same bits on every processor", "arithmetic=fast": "the processor's own shortcuts",
+  "as it stands": "the scene as its script has it" }
+END
+
+# The front in pictures: a piece of the picture with each of its settings, and below how far it is off (white: 0.1),
+# numbered as in the table.
+show_front() {
+    local name=$1 pictures=$keep/$1-differences number=0 index setting word bump dials tops=() errors=()
+    while IFS=$'\t' read -r index setting; do
+        bump='' dials=''
+        for word in $setting; do
+            case $word in
+            scheme=* | mode=*) bump+=" $word" ;;
+            *=*) dials+=" $word" ;;
+            esac
+        done
+        number=$((number + 1))
+        [[ $number -le 12 ]] || break
+        "$program" render "$(script "$name")" ${bump:+--do "bump$bump"} ${dials:+--do "dials$dials"} --size $size \
+            -o "$temporary/piece.png"
+        convert "$temporary/piece.png" -gravity center -crop 76x76+0+0 +repage -fill white -undercolor '#00000080' \
+            -gravity southeast -annotate +2+1 "$number" "$temporary/top-$number.png"
+        convert "$(printf '%s/%02d' "$pictures" "$index")"-*.png -gravity center -crop 76x76+0+0 +repage \
+            "$temporary/off-$number.png"
+        tops+=("$temporary/top-$number.png") errors+=("$temporary/off-$number.png")
+    done < <(jq -r "$functions"'[.rungs | to_entries[] | select(.value.model == false and .value.note == null and .value.front)] |
+        sort_by(.value.seconds)[] | "\(.key)\t\(.value.setting)"' "$keep/$name.json")
+    convert \( "${tops[@]}" +append \) \( "${errors[@]}" +append \) -append "$temporary/front.png"
+    shrink "$temporary/front.png" "$out/$name-front.png" +dither -colors 128
+}
+
 compete() {
     local name=$1 tolerance words=()
     [[ -f $keep/contest-$name.json ]] && return
@@ -97,6 +159,7 @@ def ms: "\(. * 1e3 | short) ms";
 def kb: "`\(.)`";
 def measured: .rungs | map(select(.model == false and .note == null and .rms != null));
 def named($s): measured | map(select(.setting == $s)) | first;
+def more($a; $b): $a > 1.03 * $b;
 def cheapest($e): measured | map(select(.rms <= $e)) | min_by(.seconds);
 def front: measured | map(select(.front)) | sort_by(.seconds);
 '
@@ -107,10 +170,23 @@ tell_front() {
     say ''
     jq -r '"Pictures of \(.width) x \(.height) pixels."' "$keep/$1.json" >>"$temporary/page"
     say ''
-    say '| on the front | ms | RMS error | 99.9 % | largest |'
-    say '| --- | ---: | ---: | ---: | ---: |'
-    jq -r "$functions"' front[] | "| \(.setting | kb) | \(.seconds * 1e3 | short) | \(.rms | short) | \(.p999 | short) | \(.max | short) |"' \
+    say '| | on the front | ms | RMS error | 99.9 % | largest | in words, what differs |'
+    say '| ---: | --- | ---: | ---: | ---: | ---: | --- |'
+    jq -r --slurpfile words "$words" "$functions"'
+        def word: . as $w | $words[0][$w] // (if startswith("samples=") then "\($w[8:]) x \($w[8:]) looks a pixel"
+            elif startswith("contrast=") then "differences below \($w[9:]) let pass"
+            elif startswith("mesh=") then "the surface'"'"'s grid 2^\($w[5:]) times as fine"
+            elif startswith("texels=") then "the point on the surface solved to \($w[7:]) texels"
+            else error("no words for \($w)") end);
+        def plain: if . == "as it stands" then word else split(" ") | map(word) | join("; ") end;
+        .reference.last_rms as $own | front | to_entries[] | .key as $n | .value |
+        "| \($n + 1) | \(.full | kb) | \(.seconds * 1e3 | short) | \(.rms | short)\(if .rms < 3 * $own then " ~" else "" end) | \(.p999 | short) | \(.max | short) | \(.setting | plain) |"' \
         "$keep/$1.json" >>"$temporary/page"
+    say ''
+    say '`~`: within three times what the reference itself changed when its samples doubled last; as much of it may be'
+    say "the reference's."
+    say ''
+    say "A piece of each, and how far it is off (white: 0.1): ![the front in pictures]($1-front.png)"
     say ''
 }
 
@@ -120,19 +196,22 @@ tell_conclusions() {
     # The cheapest for each error.
     (0.03, 0.01, 0.004 | . as $e | $e) as $e | cheapest($e) as $r |
         if $r == null then "- No setting here comes within \($e)."
-        else "- For an error of at most \($e) choose \($r.setting | kb): \($r.seconds | ms), \($r.rms | short) measured." end
+        else "- For an error of at most \($e) choose \($r.full | kb): \($r.seconds | ms), \($r.rms | short) measured." end
     ' "$keep/$1.json" >>"$temporary/page"
     jq -r "$functions"'
     named("aa=point") as $p | named("aa=filter footprint=anisotropic") as $f |
     named("aa=moments moments=lean footprint=anisotropic") as $m |
     named("heights=8bit") as $h8 | named("heights=16bit") as $h16 |
-    (if $p and $f then if $f.rms > $p.rms and $f.seconds > $p.seconds then
-        "- **Costlier and worse:** filtered F is worse than point sampling here, \($f.rms | short) against \($p.rms | short), and takes \($f.seconds / $p.seconds | short) times as long."
-        else "- Filtered F is nearer than point sampling, \($f.rms | short) against \($p.rms | short), for \($f.seconds / $p.seconds | short) times its time." end else empty end),
-    (if $m and $f then if $m.rms > $f.rms and $m.seconds > $f.seconds then
+    (if $p and $f then if more($f.rms; $p.rms) and $f.seconds > $p.seconds then
+        "- **Costlier and worse:** filtered F (anisotropic: up to 16 look-ups a pixel) is worse than point sampling here, \($f.rms | short) against \($p.rms | short), and takes \($f.seconds / $p.seconds | short) times as long."
+        elif more($p.rms; $f.rms) then "- Filtered F (anisotropic: up to 16 look-ups a pixel) is nearer than point sampling, \($f.rms | short) against \($p.rms | short), for \($f.seconds / $p.seconds | short) times its time."
+        else "- Filtered F (anisotropic: up to 16 look-ups a pixel) is as near as point sampling, \($f.rms | short), and takes \($f.seconds / $p.seconds | short) times as long: nothing is gained." end else empty end),
+    (named("aa=filter footprint=isotropic") as $i | if $i and $p and $f then
+        "- Filtered with one look-up (isotropic): \($i.rms | short), for \($i.seconds / $p.seconds | short) times the time of one sample." else empty end),
+    (if $m and $f then if more($m.rms; $f.rms) and $m.seconds > $f.seconds then
         "- **Costlier and worse:** moments are worse than filtering here, \($m.rms | short) against \($f.rms | short), and take \($m.seconds / $f.seconds | short) times as long."
-        else "- Moments are \(if $m.rms < $f.rms then "nearer" else "no nearer" end) than filtering, \($m.rms | short) against \($f.rms | short), for \($m.seconds / $f.seconds | short) times its time." end else empty end),
-    (if $m and $p then if $m.rms > $p.rms and $m.seconds > $p.seconds then
+        else "- Moments are \(if more($f.rms; $m.rms) then "nearer" else "no nearer" end) than filtering, \($m.rms | short) against \($f.rms | short), for \($m.seconds / $f.seconds | short) times its time." end else empty end),
+    (if $m and $p then if more($m.rms; $p.rms) and $m.seconds > $p.seconds then
         "- **Costlier and worse:** moments are worse than one plain sample, \($m.rms | short) against \($p.rms | short)."
         else empty end else empty end),
     (if $h8 and $h16 and $h8.own_rms and $h16.own_rms then
@@ -210,13 +289,15 @@ tell_hard_cases() {
 
 # ---- the page ----
 
-for name in "${scenes[@]}"; do measure "$name"; done
+for name in "${scenes[@]}"; do
+    measure "$name"
+    show_front "$name"
+done
 for name in "${contestants[@]}"; do compete "$name"; done
 say '# What accuracy costs'
 say ''
-say 'Made by `make.sh` from measurements; the sentences follow from the numbers. Each setting is what differs'
-say 'from the scene as it stands in its script (`scheme=central mode=blinn aa=supersample samples=4`). Errors are of'
-say 'linear intensity against the reference in double precision; times are of one thread.'
+say 'Made by `make.sh` from measurements; the sentences follow from the numbers. Errors are of linear intensity'
+say 'against the reference in double precision; times are of one thread.'
 say ''
 say "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) threads."
 say ''

@@ -263,11 +263,22 @@ static bool measure_all(WrBench *bench, WrScene **scenes, WrLadder *ladder, WrEr
     return true;
 }
 
+static void name_whole(const WrScene *scene, WrRung *rung)
+{
+    WrText text = { 0 };
+    WrScene *with = wr_setting_apply(&rung->setting, scene);
+    wr_setting_present(with, &text);
+    snprintf(rung->full, sizeof rung->full, "%s", wr_text_get(&text));
+    wr_scene_free(with);
+    wr_text_fini(&text);
+}
+
 static void list_rungs(const WrLadderRequest *request, WrLadder *ladder)
 {
     ladder->count = wr_ladder_settings(request->scene, request->axis, NULL, 0);
     ladder->rungs = wr_alloc((size_t)ladder->count, sizeof *ladder->rungs);
     wr_ladder_settings(request->scene, request->axis, ladder->rungs, ladder->count);
+    for (int i = 0; i < ladder->count; i++) name_whole(request->scene, &ladder->rungs[i]);
     ladder->width = request->width;
     ladder->height = request->height;
 }

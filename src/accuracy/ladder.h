@@ -19,13 +19,16 @@ typedef struct WrSetting {
 
 /* The scene with that setting; the caller frees it. */
 WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene);
+/* The scene's own, all that matters of it: "scheme=central mode=blinn aa=supersample samples=4". */
+void wr_setting_present(const WrScene *scene, WrText *text);
 /* "scheme=bspline aa=supersample samples=4"; "as it stands" for none. */
 void wr_setting_print(const WrSetting *setting, WrText *text);
 
 typedef struct WrRung {
     WrSetting setting;
-    WrAxis axis;  /* that it stands on; WR_AXIS_COUNT: a combination, or the scene as it stands */
-    bool current; /* the scene as it stands */
+    char full[240]; /* all dials that matter with it, not only what differs */
+    WrAxis axis;    /* that it stands on; WR_AXIS_COUNT: a combination, or the scene as it stands */
+    bool current;   /* the scene as it stands */
     bool model; /* another model (invariant), not an approximation: never placed in an error plot */
     bool front; /* on the Pareto front of (seconds, errors.rms) */
     WrError note;    /* why a rung could not be measured; else empty, and the numbers below hold */

@@ -1,6 +1,7 @@
 /* Error against time as a picture, drawn by gnuplot. */
 #include "accuracy/report.h"
 
+#include "base/exactmath.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "image/image.h"
@@ -119,30 +120,66 @@ static double along(Range range, double value)
     return log(value / range.low) / log(range.high / range.low);
 }
 
-/* The numbers on the front, each above and to the right of its mark; where that would meet the one before, a
-   line higher. */
+/* A place on the plot, each 0..1 along its axis. */
+typedef struct Spot {
+    double x, y;
+} Spot;
+
+/* What a number takes, and how far it stands from its point. */
+#define NUMBER_W 0.028
+#define NUMBER_H 0.032
+#define NUMBER_OFF 0.02
+
+static bool taken(const Spot *spots, int count, Spot at)
+{
+    for (int i = 0; i < count; i++)
+        if (fabs(spots[i].x - at.x) < NUMBER_W && fabs(spots[i].y - at.y) < NUMBER_H) return true;
+    return false;
+}
+
+/* The nearest free place round a point: in rings about it, the first above and to the right. */
+static Spot place_number(const Spot *spots, int count, Spot point)
+{
+    for (int ring = 1; ring < 12; ring++)
+        for (int turn = 0; turn < 8; turn++) {
+            const double angle = WR_PI * (0.25 + (turn % 2 ? -1 : 1) * 0.25 * ((turn + 1) / 2));
+            const Spot at = { point.x + ring * NUMBER_OFF * cos(angle),
+                              point.y + ring * 1.4 * NUMBER_OFF * sin(angle) };
+            if (at.x > 0.01 && at.x < 0.99 && at.y > 0.02 && at.y < 0.98 &&
+                !taken(spots, count, at))
+                return at;
+        }
+    return (Spot){ point.x, point.y + NUMBER_OFF };
+}
+
+/* The numbers on the front, beside their points, none over another or over a point, each tied to its own by a
+   line. */
 static void add_numbers(const WrLadder *ladder, const WrRung **front, int fronts, WrText *text)
 {
     Range time, error;
-    double x = -1, y = -1, lift = 0;
+    Spot *spots = wr_alloc(2 * (size_t)fronts + 1, sizeof *spots);
     ranges_of(ladder, &time, &error);
+    for (int i = 0; i < fronts; i++)
+        spots[i] =
+            (Spot){ along(time, 1e3 * front[i]->seconds), along(error, front[i]->errors.rms) };
     for (int i = 0; i < fronts; i++) {
-        const double here_x = along(time, 1e3 * front[i]->seconds);
-        const double here_y = along(error, front[i]->errors.rms);
-        const bool close = fabs(here_x - x) < 0.025 && fabs(here_y - y) < 0.03;
-        lift = close ? lift + 1.2 : 0;
-        x = here_x, y = here_y;
-        wr_text_addf(text, "set label %d '%d' at %.6g,%.6g offset 0.9,%.1f font ',9' front\n",
-                     500 + i, i + 1, 1e3 * front[i]->seconds, front[i]->errors.rms, 0.7 + lift);
+        const Spot at = spots[fronts + i] = place_number(spots, fronts + i, spots[i]);
+        wr_text_addf(
+            text,
+            "set arrow %d from graph %.4f, graph %.4f to graph %.4f, graph %.4f nohead lw 0.7 "
+            "lc rgb '#808080' back\nset label %d '%d' at graph %.4f, graph %.4f center font "
+            "',9' front\n",
+            500 + i, at.x, at.y, spots[i].x, spots[i].y, 500 + i, i + 1, at.x, at.y);
     }
+    wr_free(spots);
 }
 
 /* The front's numbers and settings, down the right margin. */
 static void add_names(const WrRung **front, int fronts, WrText *text)
 {
     WrText setting = { 0 };
-    wr_text_add(text, "set label 1000 'the front, fast to near' noenhanced at screen 0.70, screen "
-                      "0.60 font ',11'\n");
+    wr_text_add(text, "set label 1000 'the front, fast to near: what differs from that' noenhanced "
+                      "at screen 0.70, screen 0.60 font ',11'\n");
     for (int i = 0; i < fronts && i < 24; i++) {
         wr_text_clear(&setting);
         wr_text_addf(&setting, "%s%d  ", i < 9 ? "\xe2\x80\x87" : "", i + 1); /* figure space */
@@ -153,6 +190,19 @@ static void add_names(const WrRung **front, int fronts, WrText *text)
                      0.565 - 0.0225 * i);
     }
     wr_text_fini(&setting);
+}
+
+/* The setting that the names differ from. */
+static void add_present(const WrLadder *ladder, WrText *text)
+{
+    WrText words = { 0 };
+    for (int i = 0; i < ladder->count; i++)
+        if (ladder->rungs[i].current)
+            wr_text_addf(&words, "as it stands: %s", ladder->rungs[i].full);
+    wr_text_add(text, "set label 999 ");
+    add_quoted(text, wr_text_get(&words));
+    wr_text_add(text, " noenhanced at screen 0.70, screen 0.635 font ',8'\n");
+    wr_text_fini(&words);
 }
 
 /* 1, 2 and 5 of each power of ten, written out. */
@@ -182,8 +232,8 @@ static void add_series(WrText *text)
     wr_text_add(text, "plot $front using 1:2 with steps lw 2 lc rgb '#303030' title 'front', \\\n");
     for (int axis = 0; axis <= WR_AXIS_COUNT; axis++) {
         wr_text_addf(text,
-                     "  $axis%d using 1:2 with points pt %d ps 1.2 lc rgb '%s' title '%s', "
-                     "\\\n",
+                     "  $axis%d using 1:2:3 with xerrorbars pt %d ps 1.2 lw 1.4 lc rgb '%s' title "
+                     "'%s', \\\n",
                      axis, looks[axis].mark, looks[axis].colour,
                      axis < WR_AXIS_COUNT ? wr_axis_labels[axis] : "combinations");
     }
@@ -231,6 +281,7 @@ void wr_report_plot_script(const WrLadder *ladder, const char *name, const char 
                      ladder->reference.last_rms, ladder->reference.last_rms,
                      ladder->reference.last_rms);
     add_names(front, fronts, text);
+    add_present(ladder, text);
     add_series(text);
     wr_text_fini(&title);
     wr_free(front);

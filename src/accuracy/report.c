@@ -184,6 +184,8 @@ static void add_json_rung(const WrRung *rung, WrText *text)
     wr_text_add_json_string(text, axis_name(rung));
     wr_text_add(text, ",\"setting\":");
     wr_text_add_json_string(text, wr_text_get(&setting));
+    wr_text_add(text, ",\"full\":");
+    wr_text_add_json_string(text, rung->full);
     wr_text_addf(text, ",\"front\":%s,\"model\":%s", rung->front ? "true" : "false",
                  rung->model ? "true" : "false");
     if (rung->note.text[0]) {

@@ -8,13 +8,30 @@ WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene)
     return out;
 }
 
+static void add_dial(const WrDial *dial, double value, WrText *text)
+{
+    wr_text_addf(text, "%s%s=", text->length > 0 ? " " : "", dial->name);
+    if (dial->choices > 0) wr_text_add(text, dial->choice((int)value));
+    else wr_text_add_number(text, value);
+}
+
+void wr_setting_present(const WrScene *scene, WrText *text)
+{
+    WrScene *usual = wr_scene_new();
+    for (int d = 0; d < WR_DIAL_COUNT; d++) {
+        const WrDial *dial = &wr_dials[d];
+        const double value = dial->get(scene);
+        const bool told = dial->axis < WR_AXIS_VISIBILITY || value != dial->get(usual);
+        if (told && (!dial->matters || dial->matters(scene))) add_dial(dial, value, text);
+    }
+    wr_scene_free(usual);
+}
+
 void wr_setting_print(const WrSetting *setting, WrText *text)
 {
-    if (setting->count == 0) wr_text_add(text, "as it stands");
-    for (int i = 0; i < setting->count; i++) {
-        const WrDial *dial = &wr_dials[setting->dial[i]];
-        wr_text_addf(text, "%s%s=", i > 0 ? " " : "", dial->name);
-        if (dial->choices > 0) wr_text_add(text, dial->choice((int)setting->value[i]));
-        else wr_text_add_number(text, setting->value[i]);
-    }
+    WrText words = { 0 };
+    for (int i = 0; i < setting->count; i++)
+        add_dial(&wr_dials[setting->dial[i]], setting->value[i], &words);
+    wr_text_add(text, setting->count > 0 ? wr_text_get(&words) : "as it stands");
+    wr_text_fini(&words);
 }
