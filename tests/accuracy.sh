@@ -57,7 +57,7 @@ grep -q '</svg>' a.svg || complain 'the SVG is not whole'
 
 "$program" accuracy "$scene" --size 48x48 --tolerance rms=0.05 --tolerance rms=1e-7 --json >b.json 2>err ||
     complain "accuracy --tolerance fails: $(cat err)"
-jq -e '.rows[0].held and .rows[0].pays_from >= 1 and .rows[0].rms <= 0.05 and .rows[0].best_seconds > 0 and
+jq -e '.rows[0].held and (.rows[0] | has("pays_from")) and .rows[0].rms <= 0.05 and .rows[0].best_seconds > 0 and
     (.rows[1].held | not) and (.rows[1].claimed | not)' b.json >/dev/null || complain "$(cat b.json)"
 "$program" explain "$scene" --size 64x64 --do 'tolerance rms=0.05' >c 2>err || complain "explain fails: $(cat err)"
 grep -q '^tolerance rms=0.05: met' c && grep -q ' of the blocks, .*: scheme=' c || complain 'explain does not tell the choice'
