@@ -135,6 +135,52 @@ static void equal_rungs_leave_one_on_the_front(void **state)
     assert_int_equal(rungs[0].front + rungs[1].front + rungs[2].front, 1);
 }
 
+/* ---- faults ---- */
+
+static WrRung arithmetic_rung(int dial, double value, double own_rms)
+{
+    return (WrRung){ .axis = WR_AXIS_ARITHMETIC,
+                     .setting = { 1, { dial }, { value } },
+                     .own_rms = own_rms };
+}
+
+/* Whether the rung of that index, of a scene of float heights and shading, is told as a fault. */
+static bool at_fault(WrRung *rungs, int count, double as_it_stands, int which)
+{
+    WrScene *scene = wr_scene_new();
+    WrLadder ladder = { .rungs = rungs, .count = count, .arithmetic_rms = as_it_stands };
+    WrText text = { 0 };
+    wr_ladder_faults(&ladder, scene);
+    wr_report_text(&ladder, "", &text);
+    const bool told = strstr(wr_text_get(&text), "a fault of the program") != NULL;
+    bool any = false;
+    for (int i = 0; i < count; i++) any |= rungs[i].fault;
+    assert_int_equal(told, any);
+    wr_text_fini(&text);
+    wr_scene_free(scene);
+    return rungs[which].fault;
+}
+
+static void more_bits_and_a_larger_error_are_told_as_a_fault(void **state)
+{
+    (void)state;
+    WrRung wide[] = { arithmetic_rung(WR_DIAL_HEIGHTS, WR_HEIGHTS_DOUBLE, 0.0312),
+                      arithmetic_rung(WR_DIAL_HEIGHTS, WR_HEIGHTS_8, 0.05) };
+    assert_true(at_fault(wide, 2, 0.0007, 0));
+    assert_false(at_fault(wide, 2, 0.03, 0)); /* within what roundings may do */
+    assert_false(at_fault(wide, 2, 0.0007, 1));
+    WrRung shades[] = { arithmetic_rung(WR_DIAL_SHADING, WR_SHADING_HALF, 0.001),
+                        arithmetic_rung(WR_DIAL_SHADING, WR_SHADING_DOUBLE, 0.02) };
+    assert_true(at_fault(shades, 2, NAN, 1)); /* than halves */
+    WrRung fast[] = { arithmetic_rung(WR_DIAL_ARITHMETIC, WR_ARITHMETIC_FAST, 0.3) };
+    assert_false(at_fault(fast, 1, 0.0007, 0)); /* a cheap rung may err */
+    fast[0].note.text[0] = 'x';
+    assert_false(at_fault(fast, 1, 0.5, 0));
+    WrRung other[] = { arithmetic_rung(WR_DIAL_SHADING, WR_SHADING_DOUBLE, 0.02),
+                       arithmetic_rung(WR_DIAL_HEIGHTS, WR_HEIGHTS_8, 0.001) };
+    assert_false(at_fault(other, 2, NAN, 0)); /* of two dials neither is the dearer */
+}
+
 /* ---- a small measurement ---- */
 
 static WrField *waves(int size)
@@ -218,6 +264,13 @@ static void more_samples_come_nearer_where_theory_says_so(void **state)
     assert_true(many->errors.coverage_rms < one->errors.coverage_rms / 4);
     assert_true(flat->own_rms > 4 * rung_named(&m->ladder, "mode=exact")->own_rms);
     assert_true(isnan(many->own_rms)); /* a combination is no axis' own */
+}
+
+static void no_rung_of_arithmetic_is_at_fault(void **state)
+{
+    const Measured *m = *state;
+    assert_true(m->ladder.arithmetic_rms > 0);
+    for (int i = 0; i < m->ladder.count; i++) assert_false(m->ladder.rungs[i].fault);
 }
 
 static void every_rung_is_timed_and_the_reference_tells_of_itself(void **state)
@@ -335,9 +388,11 @@ int main(void)
         cmocka_unit_test(settings_print_as_the_commands_arguments),
         cmocka_unit_test(the_front_holds_what_nothing_beats_in_both),
         cmocka_unit_test(equal_rungs_leave_one_on_the_front),
+        cmocka_unit_test(more_bits_and_a_larger_error_are_told_as_a_fault),
     };
     const struct CMUnitTest measured[] = {
         cmocka_unit_test(more_samples_come_nearer_where_theory_says_so),
+        cmocka_unit_test(no_rung_of_arithmetic_is_at_fault),
         cmocka_unit_test(every_rung_is_timed_and_the_reference_tells_of_itself),
         cmocka_unit_test(the_csv_has_the_same_columns_in_every_line),
         cmocka_unit_test(the_table_names_every_rung_and_the_papers_claim),

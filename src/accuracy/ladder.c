@@ -127,23 +127,40 @@ static bool time_rungs(const WrBench *bench, WrScene **scenes, WrLadder *ladder,
     return good;
 }
 
-/* The error with the other axes at their best: this axis' own share. */
-static bool own_error(const WrBench *bench, const WrLadder *ladder, WrRung *rung, WrError *err)
+/* The error with the axes but one at their best: that axis' own share. */
+static bool share_of(const WrBench *bench, const WrReference *reference, WrAxis axis,
+                     const WrSetting *setting, double *rms, WrError *err)
 {
     WrFrame frame;
     WrErrors errors;
-    rung->own_rms = NAN;
-    if (rung->axis == WR_AXIS_COUNT || rung->model) return true;
-    WrScene *best = wr_ladder_best_but(bench->request->scene, rung->axis);
-    WrScene *scene = wr_setting_apply(&rung->setting, best);
+    WrScene *best = wr_ladder_best_but(bench->request->scene, axis);
+    WrScene *scene = wr_setting_apply(setting, best);
     const bool good = wr_bench_frame(bench, scene, NULL, &frame, err);
     if (good) {
-        wr_errors_measure(frame.rgba, NULL, &ladder->reference, NULL, &errors);
-        rung->own_rms = errors.rms;
+        wr_errors_measure(frame.rgba, NULL, reference, NULL, &errors);
+        *rms = errors.rms;
     }
     wr_scene_free(scene);
     wr_scene_free(best);
     return good;
+}
+
+static bool own_error(const WrBench *bench, const WrLadder *ladder, WrRung *rung, WrError *err)
+{
+    rung->own_rms = NAN;
+    if (rung->axis == WR_AXIS_COUNT || rung->model) return true;
+    return share_of(bench, &ladder->reference, rung->axis, &rung->setting, &rung->own_rms, err);
+}
+
+/* What the scene's own arithmetic is held against. */
+static bool arithmetic_as_it_stands(const WrBench *bench, WrLadder *ladder, WrError *err)
+{
+    const WrSetting none = { 0 };
+    bool any = false;
+    for (int i = 0; i < ladder->count; i++) any |= ladder->rungs[i].axis == WR_AXIS_ARITHMETIC;
+    ladder->arithmetic_rms = NAN;
+    return !any || share_of(bench, &ladder->reference, WR_AXIS_ARITHMETIC, &none,
+                            &ladder->arithmetic_rms, err);
 }
 
 /* The error of the rung's own picture, and of its normals where one sample a pixel has any. */
@@ -255,11 +272,13 @@ static void judge_reference(WrLadder *ladder)
 
 static bool measure_all(WrBench *bench, WrScene **scenes, WrLadder *ladder, WrError *err)
 {
-    if (!measure_errors(bench, scenes, ladder, err) || !time_rungs(bench, scenes, ladder, err) ||
+    if (!measure_errors(bench, scenes, ladder, err) ||
+        !arithmetic_as_it_stands(bench, ladder, err) || !time_rungs(bench, scenes, ladder, err) ||
         !measure_claim(bench, ladder, err))
         return false;
     judge_reference(ladder);
     wr_ladder_front(ladder);
+    wr_ladder_faults(ladder, bench->request->scene);
     return true;
 }
 

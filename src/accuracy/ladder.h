@@ -40,6 +40,10 @@ typedef struct WrRung {
     /* RMS with the dials of the other axes at their best, so that this axis' approximation is left alone;
        NAN for combinations */
     double own_rms;
+    /* Of arithmetic, and dearer by its meaning than another value of the same dial, yet farther from the
+       reference (own_rms): the program is at fault. Then that value and its own_rms. */
+    bool fault;
+    double fault_than, fault_rms;
 } WrRung;
 
 typedef struct WrLadder {
@@ -47,6 +51,8 @@ typedef struct WrLadder {
     int count;
     WrReference reference;
     int width, height, threads;
+    double
+        arithmetic_rms; /* as own_rms: of the scene's own arithmetic; NAN where that axis was not measured */
     double blinn_phong,
         blinn_colour; /* measured ratios beside the paper's 4 and 2: frame time with bump
                                          over without, and over that with a colour picture; NAN where the
@@ -76,6 +82,11 @@ bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *e
 void wr_ladder_fini(WrLadder *ladder);
 /* Mark the rungs that no other beats in both time and error; models and unmeasured rungs are never on it. */
 void wr_ladder_front(WrLadder *ladder);
+
+/* Mark the rungs that are at fault; scene: that which was measured. */
+void wr_ladder_faults(WrLadder *ladder, const WrScene *scene);
+/* "heights=double is farther from the reference (1e-02) than heights=float (1e-05)"; false without a fault. */
+bool wr_ladder_fault_print(const WrRung *rung, WrText *text);
 
 /* The settings that wr_ladder_measure tries: the scene as it stands, each rung of each dial that matters,
  * one at a time, and the combinations that matter. Writes at most `room` rungs, of which only setting,

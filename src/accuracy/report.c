@@ -73,6 +73,16 @@ static void add_reference(const WrLadder *ladder, WrText *text)
                      (long long)reference->lost);
 }
 
+static void add_faults(const WrLadder *ladder, WrText *text)
+{
+    for (int i = 0; i < ladder->count; i++) {
+        if (!ladder->rungs[i].fault) continue;
+        wr_text_add(text, "a fault of the program: ");
+        wr_ladder_fault_print(&ladder->rungs[i], text);
+        wr_text_add(text, ", though it should be nearer; please report it with this document\n");
+    }
+}
+
 static void add_claim(const WrLadder *ladder, WrText *text)
 {
     wr_text_addf(
@@ -94,6 +104,7 @@ void wr_report_text(const WrLadder *ladder, const char *name, WrText *text)
     add_axis(ladder, WR_AXIS_COUNT, "as it stands, and combinations", text);
     add_reference(ladder, text);
     add_claim(ladder, text);
+    add_faults(ladder, text);
 }
 
 /* ---- numbers of a rung, for programs ---- */
@@ -191,6 +202,12 @@ static void add_json_rung(const WrRung *rung, WrText *text)
     if (rung->note.text[0]) {
         wr_text_add(text, ",\"note\":");
         wr_text_add_json_string(text, rung->note.text);
+    }
+    if (rung->fault) {
+        wr_text_clear(&setting);
+        wr_ladder_fault_print(rung, &setting);
+        wr_text_add(text, ",\"fault\":");
+        wr_text_add_json_string(text, wr_text_get(&setting));
     }
     const int count = numbers_of(rung, numbers);
     for (int n = 0; n < count; n++) {

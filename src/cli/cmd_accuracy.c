@@ -108,8 +108,8 @@ typedef struct Work {
     WrLadderRequest request;
     WrProgress progress;
     Differences differences;
-    bool terminal;
-    WrText text; /* the answer */
+    bool terminal, faulty; /* faulty: a rung told that the program is at fault */
+    WrText text;           /* the answer */
 } Work;
 
 static void prepare(const WrCli *cli, WrSession *session, Work *work)
@@ -139,6 +139,7 @@ static bool climb(const WrCli *cli, Work *work, WrError *err)
         wr_ladder_measure(&work->request, &ladder, err) && write_files(cli, &ladder, err);
     if (good && cli->json) wr_report_json(&ladder, name_of(cli), &work->text);
     else if (good) wr_report_text(&ladder, name_of(cli), &work->text);
+    for (int i = 0; i < ladder.count; i++) work->faulty |= ladder.rungs[i].fault;
     wr_ladder_fini(&ladder);
     return good;
 }
@@ -204,8 +205,8 @@ int wr_cli_accuracy(const WrCli *cli)
         good = cli->tolerance_count > 0 ? compete(cli, &work, &err) : climb(cli, &work, &err);
         if (work.terminal) fprintf(stderr, "\r                 \r");
     }
-    const int status =
-        good ? wr_cli_print(cli, &work.text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    int status = good ? wr_cli_print(cli, &work.text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    if (work.faulty) status = WR_EXIT_FAILED;
     wr_free(work.differences.rgb);
     wr_text_fini(&work.text);
     wr_session_free(session);

@@ -45,7 +45,7 @@
 #define POINT WrSurfacePoint
 #define SHAPE WrShape
 #define FN(name) name##_d
-#define K_(x) (x)
+#define K_(x) ((double)(x)) /* never an integer: K_(1) / K_(6) is a sixth */
 #define R_LEAST 0x1p-1021
 #define R_NOISE 0x1p-47
 #define r_sincos_turns wr_sincos_turns
