@@ -134,11 +134,11 @@ is 'objects' "$(wc -l <out)" 2
 first=$(head -n 1 out)
 want='{"u":0.5,"v":0.25,"P":[0.5,0.25,0],"Pu":[1,0,0],"Pv":[0,1,0],"Puu":[0,0,0],"Puv":[0,0,0],'
 want+='"Pvv":[0,0,0],"N":[0,0,1],"n":[0,0,1],"F":1.015625,"Fu":0.03125,"Fv":0.0625,'
-want+='"D":[-0.03125,-0.0625,0],"N_perturbed":[-0.03125,-0.0625,1],"n_perturbed":['
+want+='"A":[0.0625,-0.03125,0],"D":[-0.03125,-0.0625,0],"N_perturbed":[-0.03125,-0.0625,1],"n_perturbed":['
 [[ $first == "$want"* ]] || complain "inspect gave $first"
 keys=$(grep -o '"[A-Za-z_]*":' <<<"$first" | tr -d '":' | tr '\n' ' ')
 is 'the order of fields' "$keys" \
-    'u v P Pu Pv Puu Puv Pvv N n F Fu Fv D N_perturbed n_perturbed tilt_deg '
+    'u v P Pu Pv Puu Puv Pvv N n F Fu Fv A D N_perturbed n_perturbed tilt_deg '
 # tilt = atan |D| / |N| = atan(0.0625 sqrt(1.25))
 awk -v line="$first" 'BEGIN {
     sub(/.*tilt_deg":/, "", line); x = line + 0
@@ -154,6 +154,24 @@ printf '0.5,0.25\nx\n' | "$program" inspect --at - >out 2>err
 is 'a bad point' "$?" 1
 has err 'line 2'
 [[ ! -s out ]] || complain 'results in spite of a bad point'
+# D' = a D |N| / |D| of a 2 x 3 plane, |N| = 6: D = (-3 Fu, -2 Fv, 0), a = |(Fu, Fv)|.
+expect 0 inspect --json --at 0.3,0.7 --do 'surface plane a=2 b=3' --do 'bump mode=invariant height=1' \
+    --do 'analytic poly c=1,0,0.3;0,1,0.4'
+awk '{ gsub(/.*"D_prime":\[/, ""); split($0, d, /[],]/); s = 6 * 0.5 / sqrt(0.9 * 0.9 + 0.8 * 0.8)
+    x = d[1] + 0.9 * s; y = d[2] + 0.8 * s; exit !(x * x + y * y < 1e-28) }' out ||
+    complain "D' is $(cat out)"
+# Without slope n' is n to the bit, whatever the sizes.
+expect 0 inspect --json --at 0.3,0.7 --do 'surface plane a=1.2 b=1.2' --do 'bump mode=blinn'
+has out '"n_perturbed":[0,0,1],"tilt_deg":0}'
+for mode in blinn invariant exact; do
+    expect 0 inspect --json --at 0.3,0.7 --do 'surface sphere' --do "bump mode=$mode"
+    is "n' of a flat table, $mode" "$(grep -o '"n_perturbed":[^]]*' out | cut -d: -f2)" \
+        "$(grep -o '"n":[^]]*' out | cut -d: -f2)"
+done
+# In double to the end: the fitted spline passes through a texel that stands on a level of a million.
+expect 0 inspect --json --at 0.5,0.5 --do 'table 5x3' --do 'fill 1e6' --do 'bump scheme=bspline-fit height=1' \
+    --do 'dab 0.5,0.5 radius=0.6 hardness=1 strength=0.25'
+awk '{ gsub(/.*"F":/, ""); x = $0 + 0 - 1000000.25; exit !(x * x < 1e-16) }' out || complain "F in $(cat out)"
 expect 0 inspect --json --at 1e300,0.5 --do 'surface plane a=1e10'
 has out '"N":[0,0,10000000000]'
 noise='noise perlin cells=4 octaves=1 scatter=off level=2 amplitude=0.5'

@@ -32,10 +32,11 @@ static void assert_vec(WrVec3 a, double x, double y, double z, double tolerance)
     assert_near(a.z, z, tolerance);
 }
 
-/* Three vectors at right angles and of length 1, the third the cross product of the others. */
+/* Three vectors at right angles and of length 1, the third the cross product of the others: to a few roundings of
+   half of 2.2e-16, as many as make a component. */
 static void assert_orthonormal(WrVec3 x, WrVec3 y, WrVec3 z)
 {
-    const double t = 1e-15;
+    const double t = 2e-15;
     assert_near(v3_dot(x, x), 1, t);
     assert_near(v3_dot(y, y), 1, t);
     assert_near(v3_dot(x, y), 0, t);

@@ -75,7 +75,9 @@ static inline WrVec3 v3_unit(WrVec3 a, WrVec3 fallback)
     if (!(m > 0.0) || !isfinite(a.x) || !isfinite(a.y) || !isfinite(a.z)) return fallback;
     int e = ilogb(m);
     WrVec3 b = { scalbn(a.x, -e), scalbn(a.y, -e), scalbn(a.z, -e) };
-    return v3_scale(b, 1.0 / sqrt(v3_dot(b, b)));
+    /* Divided, not multiplied by a reciprocal: sqrt(x x) is |x|, so that a vector along an axis comes out 1. */
+    double len = sqrt(v3_dot(b, b));
+    return (WrVec3){ b.x / len, b.y / len, b.z / len };
 }
 
 /* The angle between a and b in radians, 0..pi; atan2(|a x b|, a.b) keeps small angles (HC20). */

@@ -7,6 +7,8 @@
 #include "shade/bump.h"
 
 #include <errno.h>
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/types.h>
@@ -15,8 +17,18 @@
 typedef struct Quantities {
     double u, v, f, fu, fv, tilt_deg;
     WrSurfacePoint point;
-    WrVec3 d, n_perturbed, n_perturbed_unit;
+    WrVec3 a, d, n_perturbed, n_perturbed_unit;
+    bool turned;    /* mode invariant: by D' instead of D */
+    WrVec3 d_prime; /* N_perturbed - N in that mode */
 } Quantities;
+
+/* D' = a D |N| / |D|, a = sqrt(Fu^2 + Fv^2); 0 where D or N is. */
+static WrVec3 scaled_d(const Quantities *q)
+{
+    const WrVec3 zero = { 0, 0, 0 };
+    const double slope = hypot(q->fu, q->fv), size = slope * v3_len(q->point.n);
+    return v3_scale(v3_unit(q->d, zero), size <= DBL_MAX ? size : DBL_MAX);
+}
 
 static void compute(const WrDocument *document, int face, double u, double v, Quantities *q)
 {
@@ -25,10 +37,15 @@ static void compute(const WrDocument *document, int face, double u, double v, Qu
     *q = (Quantities){ .u = u, .v = v };
     wr_surface_at(&scene->shape, face, u, v, p);
     wr_scene_height(scene, wr_document_field(document), u, v, &q->f, &q->fu, &q->fv);
+    q->a = wr_bump_axis(p->pu, p->pv, q->fu, q->fv);
     q->d = wr_bump_d(p->n_unit, p->pu, p->pv, q->fu, q->fv);
+    q->turned = scene->bump == WR_BUMP_INVARIANT;
+    q->d_prime = scaled_d(q);
     q->n_perturbed = wr_bump_normal(scene->bump, p->n, p->n_unit, p->pu, p->pv, p->n_u, p->n_v,
                                     q->f, q->fu, q->fv);
-    q->n_perturbed_unit = wr_bump_unit(q->n_perturbed, p->n_unit);
+    /* N as it was is n as it was, not N made unit anew, which may be off in the last digit. */
+    const bool still = memcmp(&q->n_perturbed, &p->n, sizeof p->n) == 0;
+    q->n_perturbed_unit = still ? p->n_unit : wr_bump_unit(q->n_perturbed, p->n_unit);
     q->tilt_deg = wr_bump_tilt_deg(p->n_unit, q->n_perturbed_unit);
 }
 
@@ -83,7 +100,9 @@ static void add_point(WrText *text, bool json, const Quantities *q)
     add_number(text, json, "F", q->f);
     add_number(text, json, "Fu", q->fu);
     add_number(text, json, "Fv", q->fv);
+    add_vector(text, json, "A", q->a);
     add_vector(text, json, "D", q->d);
+    if (q->turned) add_vector(text, json, "D_prime", q->d_prime);
     add_vector(text, json, "N_perturbed", q->n_perturbed);
     add_vector(text, json, "n_perturbed", q->n_perturbed_unit);
     add_number(text, json, "tilt_deg", q->tilt_deg);

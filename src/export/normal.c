@@ -15,13 +15,13 @@
 #define APRON 1
 
 /* Differences along x of the three rows about `at`, or along y of the three columns. */
-static double difference(const float *at, ptrdiff_t step, bool forward)
+static double difference(const double *at, ptrdiff_t step, bool forward)
 {
     double after = at[step];
     return forward ? after - at[0] : 0.5 * (after - at[-step]);
 }
 
-static void table_slope(const float *at, ptrdiff_t pitch, WrScheme scheme, double *right,
+static void table_slope(const double *at, ptrdiff_t pitch, WrScheme scheme, double *right,
                         double *down)
 {
     if (scheme == WR_SCHEME_BSPLINE || scheme == WR_SCHEME_BSPLINE_FIT) {
@@ -73,8 +73,8 @@ typedef struct Strip {
 #define PLAIN 1e100
 
 /* -height Fu / cell_w and -height Fv / cell_h of a row of texels. */
-static bool row_tilts(const WrExportJob *job, const float *at, ptrdiff_t pitch, double *restrict tx,
-                      double *restrict ty)
+static bool row_tilts(const WrExportJob *job, const double *at, ptrdiff_t pitch,
+                      double *restrict tx, double *restrict ty)
 {
     WrScheme scheme = (WrScheme)job->options.scheme;
     double height = job->scene->height, cell_w = job->options.cell_w, cell_h = job->options.cell_h;
@@ -133,20 +133,33 @@ static void store_row(const WrExportJob *job, const int32_t *codes, void *out, s
         for (size_t c = 0; c < 3; c++) to[3 * i + c] = (uint16_t)codes[c * width + i];
 }
 
+/* The taps of rows y .. and one texel around them: heights, or coefficients that are not rounded, which at a high
+   level would lose the slopes. */
+static double *read_taps(const WrExportJob *job, int y, int rows, size_t pitch)
+{
+    const int tall = rows + 2 * APRON, wide = (int)pitch;
+    const size_t count = pitch * (size_t)tall;
+    double *taps = wr_alloc(count, sizeof *taps);
+    if (job->options.scheme == WR_SCHEME_BSPLINE_FIT) {
+        wr_field_read_fitted_double(job->field, -APRON, y - APRON, wide, tall, taps, pitch);
+        return taps;
+    }
+    float *texels = wr_alloc(count, sizeof *texels);
+    wr_field_read(job->field, -APRON, y - APRON, wide, tall, texels, pitch);
+    for (size_t k = 0; k < count; k++) taps[k] = texels[k];
+    wr_free(texels);
+    return taps;
+}
+
 static void table_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
 {
-    WrScheme scheme = (WrScheme)job->options.scheme;
     size_t pitch = (size_t)job->width + 2 * APRON, width = (size_t)job->width;
     bool whole = job->options.depth < 32 && !job->options.dither;
-    float *texels = wr_alloc(pitch * ((size_t)rows + 2 * APRON), sizeof *texels);
+    double *taps = read_taps(job, y, rows, pitch);
     double *tx = wr_alloc(2 * width, sizeof *tx), *ty = tx + width;
     int32_t *codes = wr_alloc(3 * width, sizeof *codes);
-    if (scheme == WR_SCHEME_BSPLINE_FIT)
-        wr_field_read_fitted(job->field, -APRON, y - APRON, (int)pitch, rows + 2 * APRON, texels,
-                             pitch);
-    else wr_field_read(job->field, -APRON, y - APRON, (int)pitch, rows + 2 * APRON, texels, pitch);
     for (int j = 0; j < rows; j++) {
-        const float *at = texels + (size_t)(j + APRON) * pitch + APRON;
+        const double *at = taps + (size_t)(j + APRON) * pitch + APRON;
         size_t texel = (size_t)(y - strip->y + j) * width;
         if (row_tilts(job, at, (ptrdiff_t)pitch, tx, ty) && whole) {
             plain_row(job, tx, ty, codes);
@@ -158,7 +171,7 @@ static void table_rows(WrExportJob *job, int y, int rows, const Strip *strip, in
     }
     wr_free(codes);
     wr_free(tx);
-    wr_free(texels);
+    wr_free(taps);
 }
 
 static void formula_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)

@@ -60,27 +60,35 @@ static inline Two load(const double *from)
     return two;
 }
 
-/* sum[i] = weight[0] centre[i] + sum over k, from 1 outwards, of weight[k] (below[k][i] + above[k][i]) */
+/* sum[i] = centre[i] + sum over k, from 1 outwards, of weight[k] (below[k][i] + above[k][i] - 2 centre[i]), centre =
+   below[0]: the weights sum to 1, so that of a flat row each coefficient is its level to the bit (HC47), and a high
+   level takes no digits from what stands on it. */
 static void fold(const Fit *fit, const double *const below[REACH + 1],
                  const double *const above[REACH + 1], int count, double *restrict sum)
 {
     const double *weight = fit->weight;
     int i = 0;
     for (; i + SIDE <= count; i += SIDE) {
-        Two part[SIDE / 2];
-        for (int n = 0; n < SIDE / 2; n++) part[n] = weight[0] * load(below[0] + i + 2 * n);
+        Two part[SIDE / 2], twice[SIDE / 2];
+        for (int n = 0; n < SIDE / 2; n++) {
+            part[n] = load(below[0] + i + 2 * n);
+            twice[n] = part[n] + part[n];
+        }
         for (int k = 1; k <= REACH; k++) {
             const double *low = below[k] + i, *high = above[k] + i;
-            part[0] += weight[k] * (load(low) + load(high));
-            part[1] += weight[k] * (load(low + 2) + load(high + 2));
-            part[2] += weight[k] * (load(low + 4) + load(high + 4));
-            part[3] += weight[k] * (load(low + 6) + load(high + 6));
+            part[0] += weight[k] * (load(low) + load(high) - twice[0]);
+            part[1] += weight[k] * (load(low + 2) + load(high + 2) - twice[1]);
+            part[2] += weight[k] * (load(low + 4) + load(high + 4) - twice[2]);
+            part[3] += weight[k] * (load(low + 6) + load(high + 6) - twice[3]);
         }
         memcpy(sum + i, part, sizeof part);
     }
     for (; i < count; i++) {
-        sum[i] = weight[0] * below[0][i];
-        for (int k = 1; k <= REACH; k++) sum[i] += weight[k] * (below[k][i] + above[k][i]);
+        const double centre = below[0][i];
+        double part = centre;
+        for (int k = 1; k <= REACH; k++)
+            part += weight[k] * (below[k][i] + above[k][i] - (centre + centre));
+        sum[i] = part;
     }
 }
 
@@ -97,8 +105,8 @@ static void fit_row(Fit *fit, const WrField *field, int i, int j, int count, dou
     fold(fit, below, above, count, out);
 }
 
-/* Filter across the ring, rows middle - REACH .. middle + REACH. */
-static void fit_columns(Fit *fit, int middle, int count, float *out)
+/* Filter across the ring, rows middle - REACH .. middle + REACH, into fit->sum. */
+static void fit_columns(Fit *fit, int middle, int count)
 {
     const double *below[REACH + 1], *above[REACH + 1];
     for (int k = 0; k <= REACH; k++) {
@@ -106,15 +114,28 @@ static void fit_columns(Fit *fit, int middle, int count, float *out)
         above[k] = ring_row(fit, middle + k);
     }
     fold(fit, below, above, count, fit->sum);
+}
+
+/* Where coefficients go: one of the two. */
+typedef struct Out {
+    float *single;
+    double *wide;
+} Out;
+
+static void put(Out out, size_t at, const double *sum, int count)
+{
+    if (out.wide) {
+        memcpy(out.wide + at, sum, (size_t)count * sizeof *sum);
+        return;
+    }
     for (int k = 0; k < count; k++) {
-        double c = fit->sum[k];
-        c = c > FLT_MAX ? FLT_MAX : c;
-        out[k] = (float)(c < -FLT_MAX ? -FLT_MAX : c);
+        double c = sum[k] > FLT_MAX ? FLT_MAX : sum[k];
+        out.single[at + (size_t)k] = (float)(c < -FLT_MAX ? -FLT_MAX : c);
     }
 }
 
-void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
-                          size_t pitch)
+static void read_fitted(const WrField *field, int i, int j, int count_i, int count_j, Out out,
+                        size_t pitch)
 {
     if (count_i <= 0 || count_j <= 0) return;
     Fit *fit = fit_new(count_i < CHUNK ? count_i : CHUNK);
@@ -123,9 +144,22 @@ void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int c
         for (int row = 0; row < count_j + 2 * REACH; row++) {
             fit_row(fit, field, i + col, j - REACH + row, cols, ring_row(fit, row));
             int ready = row - 2 * REACH; /* this output row has all its rows in the ring */
-            if (ready >= 0)
-                fit_columns(fit, ready + REACH, cols, out + (size_t)ready * pitch + col);
+            if (ready < 0) continue;
+            fit_columns(fit, ready + REACH, cols);
+            put(out, (size_t)ready * pitch + (size_t)col, fit->sum, cols);
         }
     }
     wr_free(fit);
+}
+
+void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
+                          size_t pitch)
+{
+    read_fitted(field, i, j, count_i, count_j, (Out){ .single = out }, pitch);
+}
+
+void wr_field_read_fitted_double(const WrField *field, int i, int j, int count_i, int count_j,
+                                 double *out, size_t pitch)
+{
+    read_fitted(field, i, j, count_i, count_j, (Out){ .wide = out }, pitch);
 }

@@ -17,17 +17,17 @@ static double mix(double p, double q, double t)
 }
 
 /* Half the difference of the neighbours of tap (i, j), across and down. */
-static double central_across(const float *taps, int i, int j)
+static double central_across(const double *taps, int i, int j)
 {
-    return 0.5 * ((double)taps[4 * j + i + 1] - taps[4 * j + i - 1]);
+    return 0.5 * (taps[4 * j + i + 1] - taps[4 * j + i - 1]);
 }
 
-static double central_down(const float *taps, int i, int j)
+static double central_down(const double *taps, int i, int j)
 {
-    return 0.5 * ((double)taps[4 * j + 4 + i] - taps[4 * j - 4 + i]);
+    return 0.5 * (taps[4 * j + 4 + i] - taps[4 * j - 4 + i]);
 }
 
-static void eval_nearest(const float *taps, double a, double b, double out[3])
+static void eval_nearest(const double *taps, double a, double b, double out[3])
 {
     (void)a, (void)b;
     out[0] = taps[5];
@@ -35,7 +35,7 @@ static void eval_nearest(const float *taps, double a, double b, double out[3])
     out[2] = central_down(taps, 1, 1);
 }
 
-static void eval_bilinear(const float *taps, double a, double b, double out[3])
+static void eval_bilinear(const double *taps, double a, double b, double out[3])
 {
     double t00 = taps[5], t10 = taps[6], t01 = taps[9], t11 = taps[10];
     out[0] = mix(mix(t00, t10, a), mix(t01, t11, a), b);
@@ -45,7 +45,7 @@ static void eval_bilinear(const float *taps, double a, double b, double out[3])
 
 /* With E = one texel, the central difference of the bilinear interpolant is the bilinear interpolant
  * of the table of central differences. */
-static void eval_central(const float *taps, double a, double b, double out[3])
+static void eval_central(const double *taps, double a, double b, double out[3])
 {
     eval_bilinear(taps, a, b, out);
     out[1] = mix(mix(central_across(taps, 1, 1), central_across(taps, 2, 1), a),
@@ -89,7 +89,7 @@ static double catmull_slope(double p0, double p1, double p2, double p3, double t
  * tap is taken off all first, so that slopes do not see the table's level (HC48). */
 typedef double (*Cubic)(double p0, double p1, double p2, double p3, double t);
 
-static inline void eval_cubic(Cubic value, Cubic slope, const float *taps, double a, double b,
+static inline void eval_cubic(Cubic value, Cubic slope, const double *taps, double a, double b,
                               double out[3])
 {
     double base = taps[5], row[4], down[4]; /* of each column at b: value, slope */
@@ -102,12 +102,12 @@ static inline void eval_cubic(Cubic value, Cubic slope, const float *taps, doubl
     out[2] = value(down[0], down[1], down[2], down[3], a);
 }
 
-static void eval_bspline(const float *taps, double a, double b, double out[3])
+static void eval_bspline(const double *taps, double a, double b, double out[3])
 {
     eval_cubic(bspline_value, bspline_slope, taps, a, b, out);
 }
 
-static void eval_catmull(const float *taps, double a, double b, double out[3])
+static void eval_catmull(const double *taps, double a, double b, double out[3])
 {
     eval_cubic(catmull_value, catmull_slope, taps, a, b, out);
 }
@@ -167,21 +167,36 @@ static Place locate(double u, int n, WrWrap wrap, bool runs_down, WrSchemeTaps t
 
 /* Whole tables of fitted coefficients with two texels around; NULL where taking single ones is cheaper
  * (about 200 texels' worth each) or memory is gone. */
-static float *fit_whole(const WrField *field, size_t count)
+static double *fit_whole(const WrField *field, size_t count)
 {
     int width = wr_field_width(field) + 4, height = wr_field_height(field) + 4;
     size_t texels = (size_t)width * (size_t)height;
     if (count < texels / 200) return NULL;
-    float *whole = wr_try_alloc(texels, sizeof *whole, "fitted heights", NULL);
-    if (whole) wr_field_read_fitted(field, -2, -2, width, height, whole, (size_t)width);
+    double *whole = wr_try_alloc(texels, sizeof *whole, "fitted heights", NULL);
+    if (whole) wr_field_read_fitted_double(field, -2, -2, width, height, whole, (size_t)width);
     return whole;
 }
 
-static void copy_taps(const float *whole, const WrField *field, int i, int j, float taps[16])
+static void copy_taps(const double *whole, const WrField *field, int i, int j, double taps[16])
 {
     size_t pitch = (size_t)wr_field_width(field) + 4;
     for (int row = 0; row < 4; row++)
         memcpy(taps + 4 * row, whole + (size_t)(j + 2 + row) * pitch + (i + 2), 4 * sizeof *taps);
+}
+
+/* The 16 taps whose first is (i, j); whole: of fit_whole, or NULL. */
+static void read_taps(const WrField *field, WrSchemeTaps kind, const double *whole, int i, int j,
+                      double taps[16])
+{
+    float texels[16];
+    if (whole) {
+        copy_taps(whole, field, i, j, taps);
+    } else if (kind == WR_TAPS_FITTED) {
+        wr_field_read_fitted_double(field, i, j, 4, 4, taps, 4);
+    } else {
+        wr_field_read(field, i, j, 4, 4, texels, 4);
+        for (int k = 0; k < 16; k++) taps[k] = (double)texels[k];
+    }
 }
 
 void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
@@ -189,18 +204,14 @@ void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const 
 {
     const WrSchemeInfo *info = &wr_schemes[scheme];
     int width = wr_field_width(field), height = wr_field_height(field);
-    float *whole = info->taps == WR_TAPS_FITTED ? fit_whole(field, count) : NULL;
+    double *whole = info->taps == WR_TAPS_FITTED ? fit_whole(field, count) : NULL;
     Place last_x = { .cell = -2 }, last_y = last_x; /* no point is in cell -2 */
-    float taps[16];
+    double taps[16];
     for (size_t k = 0; k < count; k++) {
         Place x = locate(u[k], width, wr_field_wrap_u(field), false, info->taps);
         Place y = locate(v[k], height, wr_field_wrap_v(field), true, info->taps);
-        if (x.cell != last_x.cell || y.cell != last_y.cell) {
-            if (whole) copy_taps(whole, field, x.cell - 1, y.cell - 1, taps);
-            else if (info->taps == WR_TAPS_FITTED)
-                wr_field_read_fitted(field, x.cell - 1, y.cell - 1, 4, 4, taps, 4);
-            else wr_field_read(field, x.cell - 1, y.cell - 1, 4, 4, taps, 4);
-        }
+        if (x.cell != last_x.cell || y.cell != last_y.cell)
+            read_taps(field, info->taps, whole, x.cell - 1, y.cell - 1, taps);
         last_x = x, last_y = y;
         double out[3];
         info->eval(taps, x.fraction, y.fraction, out);

@@ -34,8 +34,9 @@ typedef enum WrSchemeTaps {
 } WrSchemeTaps;
 
 /* The scheme itself: taps[16], 4 rows of 4 from the top; a, b in 0..1 the place to the right of column 1
- * and below row 1; out: F and its slopes to the right and downwards, per texel. */
-typedef void (*WrSchemeEval)(const float *taps, double a, double b, double out[3]);
+ * and below row 1; out: F and its slopes to the right and downwards, per texel. In double, as spline
+ * coefficients are: rounded to single precision they would lose the slopes of a table at a high level. */
+typedef void (*WrSchemeEval)(const double *taps, double a, double b, double out[3]);
 
 typedef struct WrSchemeInfo {
     const char *name;      /* as in commands: "bspline-fit" */
@@ -80,3 +81,6 @@ void wr_field_sample_blinn(const WrField *field, double u, double v, double *fu,
 #define WR_PREFILTER_REACH 28
 void wr_field_read_fitted(const WrField *field, int i, int j, int count_i, int count_j, float *out,
                           size_t pitch);
+/* The same coefficients, not rounded to single precision. */
+void wr_field_read_fitted_double(const WrField *field, int i, int j, int count_i, int count_j,
+                                 double *out, size_t pitch);

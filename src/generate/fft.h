@@ -63,6 +63,7 @@ typedef enum WrSlopes {
 bool wr_plane_turned_slope(const WrPlane *plane, int axis, WrSlopes slopes, WrError *err);
 
 /* Solve (Du^T Du + Dv^T Dv) x = z in place, the slopes of each axis taken in the way given; what they do
- * not see, the mean first of all, comes out as 0. So z = Du^T p + Dv^T q gives the heights whose slopes
+ * not see comes out as 0: the mean, and what goes up and down from texel to texel of a ring of even length
+ * (WR_SLOPES_SMOOTH all of it, WR_SLOPES_CENTRAL where the other axis tells too little of it). So z = Du^T p + Dv^T q gives the heights whose slopes
  * are nearest to (p, q) in the sense of least squares. */
 bool wr_plane_solve(const WrPlane *plane, const WrSlopes slopes[2], WrError *err);

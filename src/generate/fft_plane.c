@@ -165,6 +165,19 @@ static double *stiffnesses(const WrPlane *plane, int axis, WrSlopes slopes, WrEr
     return all;
 }
 
+/* Whether a map does not determine the function of frequency k of this axis, for which `other` is the stiffness
+   along the other axis. It goes up and down from texel to texel of a ring of even length, so that its slopes are 0
+   at every texel; the other axis' slopes alone tell of it, and are divided by what is small for long waves:
+     smooth   never: no surface is so rough that such slopes were meant, and what a map has there is noise that
+              would stand a hundred times over its neighbours, a comb
+     central  where it is told of as well as its neighbours are: there a table may well have it, and the map has
+              its slopes as they are */
+static bool unseen(WrSlopes slopes, const double *stiffness, int k, double other)
+{
+    if (k == 0 || stiffness[k] > 1e-20) return false;
+    return slopes == WR_SLOPES_SMOOTH || other < stiffness[1];
+}
+
 bool wr_plane_solve(const WrPlane *plane, const WrSlopes slopes[2], WrError *err)
 {
     double *u = stiffnesses(plane, 0, slopes[0], err), *v = stiffnesses(plane, 1, slopes[1], err);
@@ -174,7 +187,8 @@ bool wr_plane_solve(const WrPlane *plane, const WrSlopes slopes[2], WrError *err
         for (int j = 0; j < plane->height; j++)
             for (int i = 0; i < plane->width; i++) {
                 double s = u[i] + v[j], *z = plane->z + (size_t)j * (size_t)plane->width + i;
-                *z = s > 1e-20 ? *z / s : 0.0;
+                const bool none = unseen(slopes[0], u, i, v[j]) || unseen(slopes[1], v, j, u[i]);
+                *z = s > 1e-20 && !none ? *z / s : 0.0;
             }
         good = wr_plane_lines(plane, 1, back, &plane->ends[1], err) &&
                wr_plane_lines(plane, 0, back, &plane->ends[0], err);

@@ -70,34 +70,6 @@ static void fine_gradient(const WrField *field, int i, int j, int w, int h, doub
     wr_free(ring.t);
 }
 
-/* The coefficients of wr_field_read_fitted, not rounded: along rows, then down columns. */
-static void fine_fitted(const WrField *field, int i, int j, int w, int h, double *out, size_t pitch)
-{
-    enum { R = WR_PREFILTER_REACH };
-    double weight[R + 1] = { 1.7320508075688772 }; /* sqrt(3) (sqrt(3) - 2)^k */
-    for (int k = 1; k <= R; k++) weight[k] = weight[k - 1] * -0.26794919243112270;
-    const int tall = h + 2 * R, wide = w + 2 * R;
-    float *t = wr_alloc((size_t)wide * (size_t)tall, sizeof *t);
-    double *rows = wr_alloc((size_t)w * (size_t)tall, sizeof *rows);
-    wr_field_read(field, i - R, j - R, wide, tall, t, (size_t)wide);
-    for (int y = 0; y < tall; y++)
-        for (int x = 0; x < w; x++) {
-            const float *mid = t + (size_t)y * (size_t)wide + (size_t)(x + R);
-            double sum = weight[0] * (double)mid[0];
-            for (int k = 1; k <= R; k++) sum += weight[k] * ((double)mid[-k] + (double)mid[k]);
-            rows[(size_t)y * (size_t)w + (size_t)x] = sum;
-        }
-    for (int y = 0; y < h; y++)
-        for (int x = 0; x < w; x++) {
-            const double *mid = rows + (size_t)(y + R) * (size_t)w + (size_t)x;
-            double sum = weight[0] * mid[0];
-            for (int k = 1; k <= R; k++) sum += weight[k] * (mid[-k * w] + mid[k * w]);
-            out[(size_t)y * pitch + (size_t)x] = sum;
-        }
-    wr_free(t);
-    wr_free(rows);
-}
-
 static const struct {
     FillRect fill;
     FillFine fine; /* NULL: heights, which are single-precision numbers */
@@ -106,7 +78,7 @@ static const struct {
     const char *what;
 } kinds[WR_COPY_COUNT] = {
     [WR_COPY_HEIGHTS] = { wr_field_read, NULL, 1, 0, "heights for the picture" },
-    [WR_COPY_FITTED] = { wr_field_read_fitted, fine_fitted, 1, WR_PREFILTER_REACH,
+    [WR_COPY_FITTED] = { wr_field_read_fitted, wr_field_read_fitted_double, 1, WR_PREFILTER_REACH,
                          "spline coefficients" },
     [WR_COPY_GRADIENT] = { fill_gradient, fine_gradient, 2, 1, "gradient table" },
 };
