@@ -506,7 +506,8 @@ static void hc57_both_sides_of_the_seam_are_the_same_bits(void **state)
     wr_field_free(field);
 }
 
-/* In double to the end: nothing of a float's rounding is left, whatever level the samples stand on. */
+/* In double to the end: nothing of a float's rounding is left, whatever level the samples stand on.
+   What is extrapolated beyond a clamped axis is up to 28^2 times as high as they are. */
 static void hc58_the_fitted_spline_passes_through_the_samples_of_any_size(void **state)
 {
     (void)state;
@@ -520,7 +521,7 @@ static void hc58_the_fitted_spline_passes_through_the_samples_of_any_size(void *
                 for (int i = 0; i < width; i += 1 + width / 10) {
                     Point p = sample(field, WR_SCHEME_BSPLINE_FIT, (i + 0.5) / width,
                                      1 - (j + 0.5) / height);
-                    assert_near(p.f, wr_field_get(field, i, j), 2e-14);
+                    assert_near(p.f, wr_field_get(field, i, j), 5e-13);
                 }
             for (int k = 0; k < width * height; k++)
                 wr_field_set(field, k % width, k / width,
