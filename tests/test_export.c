@@ -136,10 +136,38 @@ static void every_16_bit_code_survives_the_default_range(void **state)
     wr_document_free(document);
 }
 
+/* Heights far outside 0..1: the range is the table's own unless told, and the label tells it. */
+static void nothing_is_clipped_unless_it_is_asked_for(void **state)
+{
+    (void)state;
+    static const char *const files[] = { "own.png", "own.tif", "own.bmp" };
+    static const char *const depths[] = { "depth=16", "depth=8", "depth=8" };
+    for (int k = 0; k < 3; k++) {
+        WrDocument *document = document_of(random_field(37, 51, WR_WRAP_PERIODIC, -3.3f, 7.1f));
+        WrExportReport report = export_to(document, "height", SETTINGS(depths[k]), files[k]);
+        float low, high;
+        wr_field_range(wr_document_field(document), &low, &high);
+        assert_int_equal(report.clipped, 0);
+        assert_true(report.code_low == (double)low && report.code_high == (double)high);
+        WrImage *image = read_back(files[k]);
+        const double last = image->type == WR_PIXEL_U8 ? 255 : 65535;
+        if (k < 2) { /* BMP keeps no text */
+            assert_int_equal(image->label.kind, WR_LABEL_HEIGHT);
+            assert_true(wr_image_apply_range(image));
+            for (int t = 0; t < 37 * 51; t++)
+                assert_near(image->data[t],
+                            wr_field_get(wr_document_field(document), t % 37, t / 37),
+                            0.51 * (high - low) / last + 1e-6);
+        }
+        wr_image_free(image);
+        wr_document_free(document);
+    }
+}
+
 /* The table after a trip through an integer file of range 0,1. */
 static WrField *through_file(const WrDocument *document, const char *depth, const char *path)
 {
-    export_to(document, "height", SETTINGS(depth), path);
+    export_to(document, "height", SETTINGS(depth, "range=0,1"), path);
     WrImage *image = read_back(path);
     const WrField *f = wr_document_field(document);
     WrField *back = wr_import_heights(image, 0, 0, wr_field_wrap_u(f), wr_field_wrap_v(f), NULL);
@@ -571,7 +599,7 @@ static void dither_keeps_the_mean_and_whole_codes(void **state)
     for (int k = 0; k <= 10; k++) {
         double code = 100 + k / 10.0, sum = 0;
         wr_field_fill(field, (float)(code / 255));
-        export_to(document, "height", SETTINGS("depth=8", "dither=on"), "d.png");
+        export_to(document, "height", SETTINGS("depth=8", "dither=on", "range=0,1"), "d.png");
         WrImage *image = read_back("d.png");
         for (int i = 0; i < 128 * 128; i++) {
             int got = code_at(image, i % 128, i / 128, 0);
@@ -746,6 +774,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heights_in_a_range_become_the_codes_of_the_formula),
         cmocka_unit_test(every_16_bit_code_survives_the_default_range),
+        cmocka_unit_test(nothing_is_clipped_unless_it_is_asked_for),
         cmocka_unit_test(hc51_hc52_slopes_of_integer_heights_are_multiples_of_the_quantum),
         cmocka_unit_test(hc53_a_second_trip_through_an_integer_file_changes_nothing),
         cmocka_unit_test(signed_heights_keep_zero_exact_and_mirror),

@@ -286,6 +286,38 @@ static void voronoi_finds_the_nearest_of_all_scattered_points(void **state)
     wr_field_free(like);
 }
 
+/* What comes out is `height` at most, of pieces that lean and are rough as much more as the help says. */
+static void patterns_keep_to_the_height_that_they_promise(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = { { 256, 256 }, { 131, 97 } };
+    for (const WrGenerator *g = wr_patterns; g->family; g++)
+        for (int k = 0; k < 8; k++) {
+            if (strcmp(g->name, "scratches") == 0) continue; /* its height is a depth */
+            WrField *like = table_of(sizes[k % 2][0], sizes[k % 2][1]);
+            WrParamValue values[WR_GENERATOR_PARAMS];
+            usual_values(g, values);
+            int seed = wr_generator_param_find(g, "seed"),
+                tilt = wr_generator_param_find(g, "tilt");
+            int rough = wr_generator_param_find(g, "rough");
+            if (seed >= 0) values[seed].number[0] = k / 2 + 1;
+            double more = 0;
+            if (rough >= 0 && tilt >= 0) {
+                assert_non_null(
+                    strstr(g->params[wr_generator_param_find(g, "height")].help, "half of rough"));
+                more = values[tilt].number[0] + 0.5 * values[rough].number[0];
+            }
+            value_of(g, values, "height")->number[0] = 2;
+            WrField *f = made(g, values, like, NULL, false);
+            float low, high;
+            wr_field_range(f, &low, &high);
+            if (low < 0 || (double)high > 2 * (1 + more) + 1e-6)
+                fail_msg("%s: %g to %g of height=2, %g more", g->name, low, high, more);
+            wr_field_free(f);
+            wr_field_free(like);
+        }
+}
+
 static void scratches_only_lower_where_there_is_no_burr_and_height_scales_them(void **state)
 {
     (void)state;
@@ -327,6 +359,7 @@ static void a_chain_is_highest_along_its_upright_links(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(patterns_keep_to_the_height_that_they_promise),
         cmocka_unit_test(an_edge_is_the_profile_averaged_over_one_texel),
         cmocka_unit_test(a_rounded_box_is_measured_from_its_straight_and_round_sides),
         cmocka_unit_test(a_grid_of_steps_covers_the_area_of_its_lines),

@@ -370,7 +370,7 @@ static void import_now(WrApp *app, const char *path)
 
 static void export_now(WrApp *app, const char *path)
 {
-    static const char *const ranges[] = { "0,1", "auto", "signed" };
+    static const char *const ranges[] = { "auto", "0,1", "signed" };
     const WrForms *forms = &app->forms;
     const WrCommand *command = wr_command_find("export");
     WrForm form;

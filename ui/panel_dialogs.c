@@ -159,7 +159,7 @@ static void import(WrApp *app)
 
 static void export(WrApp *app)
 {
-    static const char *const ranges[] = { "0 to 1", "Lowest to highest",
+    static const char *const ranges[] = { "Lowest to highest", "0 to 1, others clipped",
                                           "Signed, 0 in the middle" };
     const char *kinds[WR_EXPORT_KIND_COUNT];
     WrForms *f = &app->forms;

@@ -7,6 +7,12 @@ static const char *wrap_name(int i)
     return i < 4 ? names[i] : NULL;
 }
 
+static const char *labels_name(int i)
+{
+    static const char *const names[] = { "use", "ignore" };
+    return i >= 0 && i < 2 ? names[i] : NULL;
+}
+
 static const char *fit_name(int i)
 {
     return i == 0 ? "table" : NULL;
@@ -62,6 +68,12 @@ const WrArgSpec wr_args_image[] = {
       .choice = fit_name,
       .help =
           "resample the picture to the table's size; without it the table takes the picture's" },
+    { .name = "labels",
+      .type = WR_ARG_CHOICE,
+      .choice = labels_name,
+      .fallback_text = "use",
+      .help =
+          "what export wrote into the file: the heights of its codes, or that it is a normal map" },
     { .name = "sha256",
       .type = WR_ARG_SHA256,
       .help = "of the file: another content is then an error" },

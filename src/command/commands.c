@@ -36,8 +36,10 @@ const WrCommand wr_commands[] = {
       .help = "take the heights from a picture",
       .details =
           "8-bit and 16-bit pictures read as 0..1, float ones as their values; of RGB the Rec. "
-          "709 luma of the codes is taken. The table keeps its wrap. In a script the file is "
-          "looked up beside the script.",
+          "709 luma of the codes is taken. A file that export wrote comes back as what it was: "
+          "codes "
+          "as the heights that its label tells, a normal map as the heights that have its normals. "
+          "The table keeps its wrap. In a script the file is looked up beside the script.",
       .example = "image bricks.png fit=table" },
     { .name = "dab",
       .kind = WR_CLASS_EDIT,

@@ -89,7 +89,7 @@ bool wr_run_grid(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* ---- image ---- */
+/* ---- files ---- */
 
 bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err)
 {
@@ -118,49 +118,6 @@ WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *nam
                         (long long)image->replaced);
     wr_free(path);
     return image;
-}
-
-static bool same_size(const WrField *a, const WrField *b)
-{
-    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
-}
-
-/* A picture of another size makes the table another; so it can only where there is nothing but one layer. */
-static bool replace_table(WrSession *session, WrLayer *layer, WrField *field, WrError *err)
-{
-    const WrDocument *document = session->state.document;
-    if (document->layer_count > 1 || document->selection || layer->mask) {
-        wr_fail(err,
-                "the picture is %dx%d, the table %dx%d: with more layers, a mask or a selection it "
-                "must be resampled (fit=table)",
-                wr_field_width(field), wr_field_height(field), wr_field_width(layer->heights),
-                wr_field_height(layer->heights));
-        wr_field_free(field);
-        return false;
-    }
-    wr_field_free(layer->heights);
-    wr_field_free(layer->cover);
-    layer->heights = field;
-    layer->cover = NULL;
-    return true;
-}
-
-bool wr_run_image(WrSession *session, WrCall *call, WrError *err)
-{
-    bool fit = wr_call_given(call, "fit");
-    WrLayer *layer = wr_session_layer(session, err);
-    if (!layer) return false;
-    const WrField *old = layer->heights;
-    WrImage *image = wr_session_read_image(session, call, wr_call_arg(call, "FILE")->text, err);
-    if (!image) return false;
-    WrField *field =
-        wr_import_heights(image, fit ? wr_field_width(old) : 0, fit ? wr_field_height(old) : 0,
-                          wr_field_wrap_u(old), wr_field_wrap_v(old), err);
-    wr_image_free(image);
-    if (!field) return false;
-    if (!same_size(field, old)) return replace_table(session, layer, field, err);
-    wr_session_put_heights(session, layer, field);
-    return true;
 }
 
 /* ---- open ---- */

@@ -8,7 +8,7 @@
 
 WrExportOptions wr_export_default(void)
 {
-    return (WrExportOptions){ .range = WR_EXPORT_RANGE_GIVEN,
+    return (WrExportOptions){ .range = WR_EXPORT_RANGE_AUTO,
                               .low = 0.0,
                               .high = 1.0,
                               .cell_w = 1.0,

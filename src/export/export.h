@@ -8,6 +8,7 @@
    the target is as it was. The bytes are the same on any number of threads.
 
    height, integer codes 0..M, M = 255 or 65535 (never 256 or 65536):
+   The range goes into the label (wrinkle:range), which `image` and opening read back (document/label.h).
      range lo,hi   code = round(M (F - lo) / (hi - lo)), clamped to 0..M; back: F = lo + code/M (hi - lo)
      range auto    lo, hi = the smallest and largest F; a flat table is code 0, with hi above lo
      range signed  code = Z + round((Z - 1) F / A), A = max |F|, Z = 128 or 32768: so 0 is exact
@@ -35,7 +36,7 @@ typedef enum WrExportRange {
 
 typedef struct WrExportOptions {
     int depth; /* bits a channel: 8, 16, 32 (float); 0 = the deepest that the ending holds */
-    WrExportRange range;   /* integer heights only */
+    WrExportRange range;   /* integer heights only; given is the only one that clips */
     double low, high;      /* range given: F of code 0 and of the last code, low < high */
     double cell_w, cell_h; /* normals: size of the unit cell in scene units, > 0 */
     int scheme;            /* normals: a WrScheme, or -1 for the scene's */
@@ -99,7 +100,7 @@ extern const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 
 WrExportOptions wr_export_default(
-    void); /* depth 0, range 0,1, cell 1,1, the scene's scheme, no dither; 64 lines each way
+    void); /* depth 0, range auto, cell 1,1, the scene's scheme, no dither; 64 lines each way
                             seen from 30,35 */
 
 /* Set one option from its text as in a command: ("range", "0,1"). Errors name the option, the value and

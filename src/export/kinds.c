@@ -182,9 +182,9 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
 #define RANGE                                                                                      \
     {                                                                                              \
         "range", "LOW,HIGH, auto or signed",                                                       \
-            "heights of the first and last code; auto: the table's own; signed: 0 in the middle, " \
-            "exactly; "                                                                            \
-            "left out: 0,1; float files hold heights as they are",                                 \
+            "heights of the first and last code, others are clipped; auto: the table's own; "      \
+            "signed: 0 in the middle, exactly; "                                                   \
+            "left out: auto; float files hold heights as they are",                                \
             set_range                                                                              \
     }
 #define CELL                                                                                       \

@@ -38,6 +38,11 @@
 #define WR_P_HEIGHT                                                                                \
     WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",        \
                 "from the lowest to the highest; below 0 turns it inside out")
+/* Of pieces that lean and are rough, which rise over a plain one. */
+#define WR_P_PIECE_HEIGHT                                                                          \
+    WR_P_NUMBER("height", "Height", 1, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",        \
+                "of a plain piece over the ground; leaning and rough ones rise over it, by tilt "  \
+                "and half of rough at most (as parts of it); below 0 turns it inside out")
 #define WR_P_SEED                                                                                  \
     WR_P_WHOLE("seed", "Seed", 1, 0, 4294967295.0, 999, "another number, another of its kind")
 #define WR_P_ORIGIN                                                                                \

@@ -264,7 +264,7 @@ const WrParam wr_params_cracks[] = {
     WR_P_PART("scatter", "Scatter", 0.85, "how irregular the cells are"),
     WR_P_TEXELS("jagged", "Jagged", 3, 32, "how far the cracks stray"),
     WR_P_PIECES(0.2, 0.3, 0.15, 0.15),
-    WR_P_HEIGHT,
+    WR_P_PIECE_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END
 };

@@ -44,7 +44,7 @@ const WrParam wr_params_shingles[] = {
     WR_P_TEXELS("corner", "Corners", 3, 64, "radius of the corners"),
     WR_P_PART("wood", "Grain", 0.15, "depth of the wood's grain, as a part of the height"),
     WR_P_PIECES(0.15, 0.2, 0.1, 0),
-    WR_P_HEIGHT,
+    WR_P_PIECE_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END
 };
@@ -122,7 +122,7 @@ const WrParam wr_params_scales[] = {
     WR_P_PROFILE,
     WR_P_PART("ridge", "Ridge", 0.3, "height of the bulge along the middle"),
     WR_P_PIECES(0.1, 0.15, 0, 0.02),
-    WR_P_HEIGHT,
+    WR_P_PIECE_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END
 };

@@ -20,7 +20,7 @@ const WrParam wr_params_bricks[] = {
     WR_P_TEXELS("corner", "Corners", 5, 64, "radius of the corners"),
     WR_P_TEXELS("wobble", "Wobble", 2, 16, "how far the edges stray"),
     WR_P_PIECES(0.2, 0.25, 0.08, 0.1),
-    WR_P_HEIGHT,
+    WR_P_PIECE_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END
 };
@@ -126,7 +126,7 @@ const WrParam wr_params_tiles[] = { WR_P_ACROSS(6),
                                     WR_P_TEXELS("corner", "Corners", 4, 64,
                                                 "shape=square: radius of the corners"),
                                     WR_P_PIECES(0.1, 0.15, 0.1, 0),
-                                    WR_P_HEIGHT,
+                                    WR_P_PIECE_HEIGHT,
                                     WR_P_ORIGIN,
                                     WR_P_END };
 
@@ -189,7 +189,7 @@ const WrParam wr_params_hexagons[] = { WR_P_ACROSS(7),
                                        WR_P_BEVEL(8),
                                        WR_P_PROFILE,
                                        WR_P_PIECES(0.1, 0.2, 0.1, 0.05),
-                                       WR_P_HEIGHT,
+                                       WR_P_PIECE_HEIGHT,
                                        WR_P_ORIGIN,
                                        WR_P_END };
 
@@ -282,7 +282,7 @@ const WrParam wr_params_planks[] = {
     WR_P_PART("wood", "Grain", 0.25, "depth of the wood's grain, as a part of the height"),
     WR_P_WHOLE("rings", "Rings", 6, 1, 64, 16, "of the wood across a plank"),
     WR_P_PIECES(0.15, 0.1, 0.05, 0),
-    WR_P_HEIGHT,
+    WR_P_PIECE_HEIGHT,
     WR_P_ORIGIN,
     WR_P_END
 };

@@ -9,6 +9,23 @@
 
 typedef enum WrPixelType { WR_PIXEL_U8, WR_PIXEL_U16, WR_PIXEL_F32 } WrPixelType;
 
+/* What this program wrote of an export of its own (export/export.h): checked, since a stranger may have. */
+typedef enum WrLabelKind {
+    WR_LABEL_NONE, /* no label, or of a kind that is not read */
+    WR_LABEL_HEIGHT,
+    WR_LABEL_NORMAL_UP, /* green up */
+    WR_LABEL_NORMAL_DOWN
+} WrLabelKind;
+
+typedef struct WrImageLabel {
+    WrLabelKind kind;
+    bool ranged; /* integer heights: F = low + step (code - zero) */
+    double low, step;
+    int zero;
+    double cell[2], height; /* normals: as export had them; height may be below 0 */
+    char refused[96];       /* "wrinkle:range=nan,1": what made no sense and was not used; "" */
+} WrImageLabel;
+
 /* A picture in memory: float, channels interleaved, row 0 on top. Integer files read as code / 255 or
    code / 65535, never colour-converted; float files as their values. (16-bit PNM, which OpenImageIO
    scales itself, can be one code off.) Shared by reference count. */
@@ -19,6 +36,7 @@ typedef struct WrImage {
     WrPixelType type;  /* what the file held (half counts as F32) */
     int64_t replaced;  /* texels that were NaN or infinite and became 0 */
     float *data;       /* [height][width][channels], owned */
+    WrImageLabel label;
 } WrImage;
 
 #define WR_IMAGE_MAX 16384        /* pixels along a side */
@@ -37,6 +55,9 @@ void wr_image_free(WrImage *image);
 WrImage *wr_image_read(const char *path, WrError *err);
 /* The same of a file that is in memory; name stands in messages, and its ending counts as a path's. */
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err);
+
+/* Codes become the heights that the picture's label tells; false where it tells none. Not for shared ones. */
+bool wr_image_apply_range(WrImage *image);
 
 /* Files are read by a process of its own, so that a hostile one can only end that: with one clear error
  * here. It is started when the first file is read, which takes a quarter of a second, and kept. This starts

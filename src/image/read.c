@@ -4,6 +4,7 @@
 #include "image/process.h"
 #include "image/read_inner.h"
 #include "image/reader.h"
+#include "image/told.h"
 
 #include <math.h>
 #include <string.h>
@@ -159,6 +160,7 @@ static WrImage *read_first_part(WrImageFile *file, WrError *err)
         return NULL;
     }
     image->type = part.type;
+    wr_image_label_read(file, 0, part.type, &image->label);
     size_t row = (size_t)image->width * (size_t)channels;
     for (int y = 0; y < image->height; y += WR_IMAGE_BAND) {
         int rows = image->height - y < WR_IMAGE_BAND ? image->height - y : WR_IMAGE_BAND;

@@ -1,0 +1,107 @@
+/* The label that this program writes into its exports (export/export.h), read back. A stranger may have written it:
+   what makes no sense is told and left alone. */
+#include "image/told.h"
+
+#include "base/text.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static bool number(const char *text, double *value)
+{
+    return wr_number_parse(text, strlen(text), value) && fabs(*value) <= FLT_MAX;
+}
+
+/* "A,B", both within a float's range. */
+static bool pair(const char *text, double *a, double *b)
+{
+    const char *comma = strchr(text, ',');
+    return comma && wr_number_parse(text, (size_t)(comma - text), a) && number(comma + 1, b) &&
+           fabs(*a) <= FLT_MAX;
+}
+
+static void refuse(WrImageLabel *label, const char *name, const char *text)
+{
+    if (label->refused[0]) return;
+    snprintf(label->refused, sizeof label->refused, "%s=%.60s", name, text);
+    for (char *c = label->refused; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
+}
+
+static void read_range(WrImageFile *file, int part, double last, WrImageLabel *label)
+{
+    const char *range = wr_image_file_attribute(file, part, "wrinkle:range");
+    if (!range) return;
+    double low, high, zero, amplitude;
+    if (!pair(range, &low, &high) || !(low < high)) {
+        refuse(label, "wrinkle:range", range);
+        return;
+    }
+    label->ranged = true;
+    label->low = low;
+    label->step = (high - low) / last;
+    label->zero = 0;
+    /* Where 0 is a code of its own, heights count from there: so it comes back as 0 exactly. */
+    const char *text = wr_image_file_attribute(file, part, "wrinkle:amplitude");
+    if (!text) return;
+    const char *code = wr_image_file_attribute(file, part, "wrinkle:zero");
+    if (!code || !number(text, &amplitude) || !number(code, &zero) || amplitude < 0 ||
+        zero != floor(zero) || zero < 2 || zero > last) {
+        label->ranged = false;
+        refuse(label, "wrinkle:amplitude", text);
+        return;
+    }
+    label->low = 0;
+    label->zero = (int)zero;
+    label->step = amplitude / (zero - 1);
+}
+
+static void read_normals(WrImageFile *file, int part, WrImageLabel *label)
+{
+    const char *cell = wr_image_file_attribute(file, part, "wrinkle:cell");
+    const char *height = wr_image_file_attribute(file, part, "wrinkle:height");
+    label->cell[0] = label->cell[1] = label->height = 1;
+    if (cell && (!pair(cell, &label->cell[0], &label->cell[1]) || !(label->cell[0] > 0) ||
+                 !(label->cell[1] > 0) || label->cell[0] > 1e9 || label->cell[1] > 1e9)) {
+        refuse(label, "wrinkle:cell", cell);
+        label->cell[0] = label->cell[1] = 1;
+    }
+    if (height && (!number(height, &label->height) || label->height == 0 ||
+                   fabs(label->height) > 1e9 || fabs(label->height) < 1e-9)) {
+        refuse(label, "wrinkle:height", height);
+        label->height = 1;
+    }
+}
+
+void wr_image_label_read(WrImageFile *file, int part, WrPixelType type, WrImageLabel *label)
+{
+    *label = (WrImageLabel){ .kind = WR_LABEL_NONE };
+    const char *kind = wr_image_file_attribute(file, part, "wrinkle:kind");
+    if (!kind) return;
+    if (strcmp(kind, "height") == 0) {
+        label->kind = WR_LABEL_HEIGHT;
+        if (type != WR_PIXEL_F32) read_range(file, part, type == WR_PIXEL_U8 ? 255 : 65535, label);
+    } else if (strcmp(kind, "normal+y") == 0 || strcmp(kind, "normal-y") == 0) {
+        label->kind = kind[6] == '+' ? WR_LABEL_NORMAL_UP : WR_LABEL_NORMAL_DOWN;
+        read_normals(file, part, label);
+    } else {
+        refuse(label, "wrinkle:kind", kind);
+    }
+}
+
+bool wr_image_apply_range(WrImage *image)
+{
+    const WrImageLabel *label = &image->label;
+    if (!label->ranged || image->type == WR_PIXEL_F32) return false;
+    const double last = image->type == WR_PIXEL_U8 ? 255 : 65535;
+    const int channels = image->channels, heights = channels % 2 ? channels : channels - 1;
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t k = 0; k < count; k++)
+        for (int c = 0; c < heights; c++) {
+            float *value = &image->data[k * (size_t)channels + (size_t)c];
+            const double code = rint((double)*value * last);
+            *value = (float)(label->low + label->step * (code - label->zero));
+        }
+    return true;
+}
