@@ -13,6 +13,17 @@
     }
 /* A required value without a name. */
 #define PLACE(x) .name = (x), .positional = true, .required = true
+/* What of a picture file is taken (WrImageWish). */
+#define WR_ARGS_OF_FILE                                                                            \
+    { .name = "channel",                                                                           \
+      .type = WR_ARG_TEXT,                                                                         \
+      .shape = "NAME",                                                                             \
+      .help = "of an EXR file: a channel (Depth.Z) or a layer of them (diffuse); left out, its "   \
+              "first colours or grey, else its first channel" },                                   \
+    {                                                                                              \
+        .name = "part", .type = WR_ARG_TEXT, .shape = "N or NAME",                                 \
+        .help = "of a file with several, or a frame of an animation; left out, the first"          \
+    }
 /* A tuple of a list may have n numbers. */
 #define TUPLE_OF(n) (1u << (n))
 

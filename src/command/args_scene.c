@@ -158,6 +158,7 @@ const WrArgSpec wr_args_material[] = {
 const WrArgSpec wr_args_colour[] = {
     { PLACE("FILE|off"), .type = WR_ARG_PATH,
       .help = "a picture that is laid over u and v once, or off (a file of that name is ./off)" },
+    WR_ARGS_OF_FILE,
     { .name = "sha256",
       .type = WR_ARG_SHA256,
       .help = "of the file: another content is then an error" },

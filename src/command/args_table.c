@@ -68,6 +68,7 @@ const WrArgSpec wr_args_image[] = {
       .choice = fit_name,
       .help =
           "resample the picture to the table's size; without it the table takes the picture's" },
+    WR_ARGS_OF_FILE,
     { .name = "labels",
       .type = WR_ARG_CHOICE,
       .choice = labels_name,

@@ -112,7 +112,12 @@ WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *nam
 {
     char *path = wr_session_input_path(session, name);
     WrImage *image = NULL;
-    if (wr_session_check_sha256(call, path, err)) image = wr_image_read(path, err);
+    const WrImageWish wish = { .channel = wr_call_arg(call, "channel")->text,
+                               .part = wr_call_arg(call, "part")->text };
+    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
+    if (image && image->taken[0])
+        wr_session_note(session, "%s: took %s (channel= and part= take others)", path,
+                        image->taken);
     if (image && image->replaced)
         wr_session_note(session, "%s: %lld values were not finite and became 0", path,
                         (long long)image->replaced);

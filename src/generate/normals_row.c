@@ -17,6 +17,7 @@ static const char *const codes[] = { "auto", "unsigned", "signed", NULL };
 
 const WrParam wr_params_normals[] = {
     WR_P_FILE("of the normal map"),
+    WR_P_CHANNELS("channel"),
     WR_P_CHOICE("y", "Green", Y_AUTO, ys,
                 "where green points: up (+Y), down (-Y), or as the map itself shows"),
     WR_P_CHOICE("edges", "Edges", EDGES_AUTO, edges,
@@ -146,7 +147,7 @@ bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, Wr
     const WrParams p = { wr_params_normals, values };
     const char *path = wr_param_value(&p, "file")->text;
     WrNormals normals = { .p = NULL };
-    WrImage *image = wr_image_read(path, err);
+    WrImage *image = wr_picture_read(&p, "channel", false, job, err);
     bool read = image != NULL;
     int code = wr_param_whole(&p, "codes");
     bool good = read && wr_normals_decode(image, (WrNormalCodes)code, &normals, err);

@@ -40,6 +40,22 @@ double wr_picture_light(double code);
         .name = "file", .label = "File", .help = (h), .unit = "", .kind = WR_PARAM_FILE,           \
         .positional = true                                                                         \
     }
+/* What of a file is taken. */
+#define WR_P_CHANNELS(name_)                                                                       \
+    { .name = name_,                                                                               \
+      .label = "Channels",                                                                         \
+      .help = "of an EXR file: a channel (Depth.Z) or a layer of them (diffuse)",                  \
+      .unit = "",                                                                                  \
+      .kind = WR_PARAM_TEXT,                                                                       \
+      .fallback_text = "" },                                                                       \
+    {                                                                                              \
+        .name = "part", .label = "Part",                                                           \
+        .help = "of a file with several: its number, from 1, or its name; a frame", .unit = "",    \
+        .kind = WR_PARAM_TEXT, .fallback_text = ""                                                 \
+    }
+/* The picture of a row that has `file`, `part` and channels by that name; says what was taken of it. */
+WrImage *wr_picture_read(const WrParams *params, const char *channels, bool keep_lost,
+                         const WrGenerateJob *job, WrError *err);
 #define WR_P_SEAMLESS(value)                                                                       \
     WR_P_CHOICE("seamless", "Seamless", value, wr_seamless_words,                                  \
                 "how its edges are made to meet: blend evens out, cut overlaps and cuts")

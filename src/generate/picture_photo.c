@@ -13,6 +13,7 @@ static const char *const lights[] = { "linear", "code", NULL };
 
 const WrParam wr_params_photo[] = {
     WR_P_FILE("of the picture"),
+    WR_P_CHANNELS("layer"),
     WR_P_CHOICE("channel", "Channel", LUMINANCE, channels, "what counts as height"),
     WR_P_CHOICE("light", "Light", 0, lights,
                 "linear: codes of 8 and 16 bits are sRGB; code: they are numbers"),
@@ -34,6 +35,20 @@ const WrParam wr_params_photo[] = {
 double wr_picture_light(double code)
 {
     return code <= 0.04045 ? code / 12.92 : wr_pow((code + 0.055) / 1.055, 2.4);
+}
+
+WrImage *wr_picture_read(const WrParams *params, const char *channels_, bool keep_lost,
+                         const WrGenerateJob *job, WrError *err)
+{
+    const char *path = wr_param_value(params, "file")->text;
+    const WrImageWish wish = { .channel = wr_param_value(params, channels_)->text,
+                               .part = wr_param_value(params, "part")->text,
+                               .keep_lost = keep_lost };
+    WrImage *image = wr_image_read_wish(path, &wish, err);
+    if (image && image->taken[0])
+        wr_generate_note(job, "%s: took %s (%s= and part= take others)", path, image->taken,
+                         channels_);
+    return image;
 }
 
 /* What each code of a picture of 8 or 16 bits stands for; NULL for floats. Caller frees. */
@@ -129,7 +144,7 @@ bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRe
     const char *path = wr_param_value(&p, "file")->text;
     double sigma = wr_param_number(&p, "highpass");
     WrSheet sheet = { .z = NULL };
-    WrImage *image = wr_image_read(path, err);
+    WrImage *image = wr_picture_read(&p, "layer", false, job, err);
     bool good = image && check(&p, image, path, err) &&
                 wr_sheet_new(&sheet, image->width, image->height, wrap, err);
     if (good) {

@@ -15,7 +15,8 @@ static const char *const orders[] = { "little", "big", NULL };
 static const char *const meanings[] = { "auto", "code", "range", "real", NULL };
 
 const WrParam wr_params_elevation[] = {
-    WR_P_FILE("a picture, or bare numbers (.r16, .raw, .r32)"),
+    WR_P_FILE("a picture, SRTM elevations (.hgt), or bare numbers (.r16, .raw, .r32)"),
+    WR_P_CHANNELS("channel"),
     { .name = "size",
       .label = "Size",
       .help = "columns x rows of bare numbers; left out, they are a square",
@@ -73,24 +74,11 @@ static bool read_raw(const WrParams *p, const char *path, const char *ending, co
     return good;
 }
 
-/* NaN is read as 0; where there are as many zeros as there were such values, they are these. */
-static void find_lost(const WrImage *image, WrSheet *sheet, const WrGenerateJob *job)
+/* What is not known comes as NaN and stays so. */
+static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[2],
+                         const WrGenerateJob *job, Elevation *out, WrError *err)
 {
-    size_t count = (size_t)sheet->width * (size_t)sheet->height;
-    int64_t zeros = 0;
-    for (size_t k = 0; k < count; k++) zeros += sheet->z[k] == 0.0;
-    bool certain = image->channels == 1 && zeros == image->replaced;
-    for (size_t k = 0; certain && k < count; k++)
-        if (sheet->z[k] == 0.0) sheet->z[k] = NAN;
-    if (!certain)
-        wr_generate_note(job, "%lld values that are no numbers count as 0",
-                         (long long)image->replaced);
-}
-
-static bool read_picture(const char *path, const WrWrap wrap[2], const WrGenerateJob *job,
-                         Elevation *out, WrError *err)
-{
-    WrImage *image = wr_image_read(path, err);
+    WrImage *image = wr_picture_read(p, "channel", true, job, err);
     if (!image) return false;
     bool good = wr_sheet_new(&out->sheet, image->width, image->height, wrap, err);
     static const double codes[] = { [WR_PIXEL_U8] = 255.0, [WR_PIXEL_U16] = 65535.0 };
@@ -102,8 +90,6 @@ static bool read_picture(const char *path, const WrWrap wrap[2], const WrGenerat
         double x = (double)image->data[k * (size_t)image->channels];
         out->sheet.z[k] = out->most > 0.0 ? rint(x * out->most) : x;
     }
-    if (good && image->type == WR_PIXEL_F32 && image->replaced > 0)
-        find_lost(image, &out->sheet, job);
     if (good && image->type == WR_PIXEL_U8)
         wr_generate_note(job, "%s has 8 bits: slopes will show steps", path);
     wr_image_free(image);
@@ -170,8 +156,8 @@ bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, 
                        "size=%s: a picture tells its own size; bare numbers end in .raw, .r16 "
                        "or .r32",
                        size);
-    bool good =
-        raw ? read_raw(&p, path, ending, wrap, &e, err) : read_picture(path, wrap, job, &e, err);
+    bool good = raw ? read_raw(&p, path, ending, wrap, &e, err)
+                    : read_picture(&p, path, wrap, job, &e, err);
     good = good && fill_holes(&p, &e, path, job, err);
     if (good) {
         bring_to_heights(&p, &e, job);

@@ -3,18 +3,21 @@
 #include "base/memory.h"
 #include "image/format.h"
 #include "image/oiio.h"
+#include "image/plain.h"
 #include "image/png.h"
 
 #include <errno.h>
 #include <string.h>
 #include <unistd.h>
 
+/* Of the library, or plain. */
 struct WrDecoder {
     const WrOiioTable *library;
     WrOiioReader *reader;
+    WrPlain *plain;
 };
 
-/* The format by the file's first bytes, else by its ending. */
+/* The format by the file's first bytes, else by its ending; "plain" for what plain.h reads. */
 static const char *find_format(int fd, const char *ending, WrError *err)
 {
     int copy = dup(fd);
@@ -28,6 +31,7 @@ static const char *find_format(int fd, const char *ending, WrError *err)
     rewind(file);
     size_t count = fread(bytes, 1, sizeof bytes, file);
     const char *format = wr_image_sniff(bytes, count);
+    if (wr_plain_knows(bytes, count, format ? "" : ending)) format = "plain";
     if (!format) format = ending;
     if (strcmp(format, "png") == 0 && !wr_png_check(file, err)) format = NULL;
     fclose(file);
@@ -44,6 +48,12 @@ WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, W
     char reason[WR_OIIO_REASON] = "";
     const char *format = find_format(fd, ending, err);
     if (!format) return NULL;
+    if (strcmp(format, "plain") == 0) {
+        WrPlain *plain = wr_plain_open(fd, memory, err);
+        WrDecoder *decoder = plain ? wr_alloc(1, sizeof *decoder) : NULL;
+        if (decoder) *decoder = (WrDecoder){ .plain = plain };
+        return decoder;
+    }
     const WrOiioTable *library = wr_oiio(err);
     if (!library) return NULL;
     WrOiioReader *reader = library->open(fd, format, most, reason);
@@ -53,29 +63,32 @@ WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, W
         return NULL;
     }
     WrDecoder *decoder = wr_alloc(1, sizeof *decoder);
-    *decoder = (WrDecoder){ library, reader };
+    *decoder = (WrDecoder){ .library = library, .reader = reader };
     return decoder;
 }
 
 void wr_decoder_close(WrDecoder *decoder)
 {
     if (!decoder) return;
-    decoder->library->close(decoder->reader);
+    if (decoder->library) decoder->library->close(decoder->reader);
+    wr_plain_close(decoder->plain);
     wr_free(decoder);
 }
 
 int wr_decoder_parts(const WrDecoder *decoder)
 {
-    return decoder->library->parts(decoder->reader);
+    return decoder->plain ? 1 : decoder->library->parts(decoder->reader);
 }
 
 WrImagePart wr_decoder_part(const WrDecoder *decoder, int part)
 {
-    return decoder->library->part(decoder->reader, part)->part;
+    return decoder->plain ? wr_plain_part(decoder->plain)
+                          : decoder->library->part(decoder->reader, part)->part;
 }
 
 const char *wr_decoder_attribute(const WrDecoder *decoder, int part, const char *name)
 {
+    if (decoder->plain) return NULL;
     return decoder->library->attribute(decoder->reader, part, name);
 }
 
@@ -83,6 +96,7 @@ bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels
                      bool *memory, WrError *err)
 {
     char reason[WR_OIIO_REASON] = "";
+    if (decoder->plain) return wr_plain_read(decoder->plain, y, rows, channels, out, err);
     if (decoder->library->read(decoder->reader, part, y, rows, channels, out, reason)) return true;
     if (memory) *memory = is_memory(reason);
     return wr_fail(err, "cannot be read whole, truncated or damaged%s%s%s", *reason ? " (" : "",

@@ -27,8 +27,8 @@ typedef struct WrImageLabel {
 } WrImageLabel;
 
 /* A picture in memory: float, channels interleaved, row 0 on top. Integer files read as code / 255 or
-   code / 65535, never colour-converted; float files as their values. (16-bit PNM, which OpenImageIO
-   scales itself, can be one code off.) Shared by reference count. */
+   code / 65535 (PNM: as its header's largest code), never colour-converted; float files as their values.
+   Shared by reference count. */
 typedef struct WrImage {
     int refs;          /* atomic; use wr_image_share, wr_image_free */
     int width, height; /* 1..WR_IMAGE_MAX */
@@ -37,6 +37,9 @@ typedef struct WrImage {
     int64_t replaced;  /* texels that were NaN or infinite and became 0 */
     float *data;       /* [height][width][channels], owned */
     WrImageLabel label;
+    char taken
+        [400]; /* "diffuse.R, diffuse.G, diffuse.B of its channels Z, ..., in part 1 of 2", where a file
+                        has more than was read; else "" */
 } WrImage;
 
 #define WR_IMAGE_MAX 16384        /* pixels along a side */
@@ -50,9 +53,18 @@ WrImage *wr_image_new(int width, int height, int channels, WrError *err);
 WrImage *wr_image_share(const WrImage *image);
 void wr_image_free(WrImage *image);
 
-/* Read the first part of a picture file; more than 4 channels keep the first 4. Errors name the file
-   and say what is wrong: missing, not a picture, truncated, over the limit. */
+/* Read a picture file: the first part; of channels in layers the first with R, G, B or Y, else the first channel;
+   turned as EXIF and TIFF tell. Errors name the file and say what is wrong: missing, not a picture, truncated,
+   over the limit. */
 WrImage *wr_image_read(const char *path, WrError *err);
+/* The same of what is wished for. */
+typedef struct WrImageWish {
+    const char *channel; /* "Depth.Z", or a layer of them, "diffuse"; NULL, "": as above */
+    const char
+        *part; /* its number, from 1, or its name; a frame of an animation; NULL, "": the first */
+    bool keep_lost; /* what is not finite stays so (`replaced` counts it none the less) */
+} WrImageWish;
+WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err);
 /* The same of a file that is in memory; name stands in messages, and its ending counts as a path's. */
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err);
 

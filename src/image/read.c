@@ -4,7 +4,6 @@
 #include "image/process.h"
 #include "image/read_inner.h"
 #include "image/reader.h"
-#include "image/told.h"
 
 #include <math.h>
 #include <string.h>
@@ -133,65 +132,49 @@ bool wr_image_file_digest(WrImageFile *file, int part, int y, int rows, WrHash *
 
 /* ---- whole pictures ---- */
 
-/* Values that are not finite become 0; returns how many pixels had one. */
-static int64_t replace_bad_pixels(float *values, size_t pixels, int channels)
+bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int channels,
+                              float *out, WrError *err)
 {
-    int64_t replaced = 0;
-    for (size_t i = 0; i < pixels; i++) {
-        bool bad = false;
-        for (int c = 0; c < channels; c++) {
-            float *value = &values[i * (size_t)channels + (size_t)c];
-            if (isfinite(*value)) continue;
-            *value = 0.0f;
-            bad = true;
-        }
-        replaced += bad;
-    }
-    return replaced;
+    return read_rows(file, part, y, rows, channels, out, err);
 }
 
-static WrImage *read_first_part(WrImageFile *file, WrError *err)
+/* More parts than the first are looked for where they are wanted, and where readers find them without harm. */
+static int most_parts(const char *name, const WrImageWish *wish)
 {
-    WrImagePart part = wr_image_file_part(file, 0);
-    int channels = part.channels < 4 ? part.channels : 4;
-    WrImage *image = wr_image_new(part.width, part.height, channels, err);
-    if (!image) {
-        wr_error_prefix(err, "%s: ", file->path);
-        return NULL;
-    }
-    image->type = part.type;
-    wr_image_label_read(file, 0, part.type, &image->label);
-    size_t row = (size_t)image->width * (size_t)channels;
-    for (int y = 0; y < image->height; y += WR_IMAGE_BAND) {
-        int rows = image->height - y < WR_IMAGE_BAND ? image->height - y : WR_IMAGE_BAND;
-        float *out = image->data + (size_t)y * row;
-        if (!read_rows(file, 0, y, rows, channels, out, err)) {
-            wr_image_free(image);
-            return NULL;
-        }
-        image->replaced += replace_bad_pixels(out, (size_t)image->width * (size_t)rows, channels);
-    }
-    return image;
+    char buffer[16];
+    const char *ending = wr_path_ending(name, buffer);
+    const bool several =
+        strcmp(ending, "exr") == 0 || strcmp(ending, "tif") == 0 || strcmp(ending, "tiff") == 0;
+    return several || (wish->part && *wish->part) ? WR_IMAGE_PARTS_MAX : 1;
 }
 
-static WrImage *read_whole(const char *name, int fd, WrError *err)
+static WrImage *read_whole(const char *name, int fd, const WrImageWish *wish, WrError *err)
 {
-    WrImageFile *file = open_file(name, fd, 1, !read_inside(), err);
-    WrImage *image = file ? read_first_part(file, err) : NULL;
+    WrImageFile *file = open_file(name, fd, most_parts(name, wish), !read_inside(), err);
+    WrImage *image = file ? wr_image_file_whole(file, wish, err) : NULL;
+    if (file && !image && strncmp(err->text, name, strlen(name)) != 0)
+        wr_error_prefix(err, "%s: ", name);
     wr_image_file_close(file);
     return image;
 }
 
 WrImage *wr_image_read(const char *path, WrError *err)
 {
-    return read_whole(path, open_regular(path, err), err);
+    const WrImageWish all = { .channel = NULL };
+    return wr_image_read_wish(path, &all, err);
+}
+
+WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err)
+{
+    return read_whole(path, open_regular(path, err), wish, err);
 }
 
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err)
 {
+    const WrImageWish all = { .channel = NULL };
     if (length == 0) {
         wr_fail(err, "%s: is empty", name);
         return NULL;
     }
-    return read_whole(name, wr_fd_in_memory(name, bytes, length, err), err);
+    return read_whole(name, wr_fd_in_memory(name, bytes, length, err), &all, err);
 }

@@ -1,0 +1,18 @@
+/* plain.h - pictures of formats so plain that they are read here, without a library: PNM of numbers (P2, P3, P5,
+   P6; OpenImageIO gives half of 16-bit codes one too low), GIMP's patterns (.pat) and SRTM elevations (.hgt).
+   Part of what reads strangers' files: the reader process, or reading "inside".
+   Private to this room. */
+#pragma once
+#include "image/image.h"
+
+typedef struct WrPlain WrPlain;
+
+/* Whether a file that begins so, or failing that whose name ends so, is one of these. */
+bool wr_plain_knows(const unsigned char *bytes, size_t count, const char *ending);
+/* fd: open for reading, borrowed for the call. Errors: one sentence that does not name the file. */
+WrPlain *wr_plain_open(int fd, bool *memory, WrError *err);
+void wr_plain_close(WrPlain *plain); /* NULL is fine */
+
+WrImagePart wr_plain_part(const WrPlain *plain);
+/* Rows and the first `channels` channels as WrImage has them. What an elevation does not know is NaN. */
+bool wr_plain_read(WrPlain *plain, int y, int rows, int channels, float *out, WrError *err);
