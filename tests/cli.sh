@@ -245,10 +245,18 @@ rm -f kept.png h.png
 
 # ---- explain ----
 expect 0 explain work.wrinkle --json --size 16x16
-[[ $(cat out) == '{"effects":[{"rule":"E'*'}]}' ]] || complain "explain: $(cat out)"
+[[ $(cat out) == '{"effects":[{"rule":"E'*'}],"width":16,"height":16,"covered":'*',"samples":'*',"seconds":'*'}' ]] ||
+    complain "explain: $(cat out)"
 has out '"run":true,"class":"'
 expect 0 explain work.wrinkle --size 16x16
 has out 'reason'
+expect 0 explain work.wrinkle --json --size 32x32 --do 'tolerance rms=0.05'
+grep -q '"chosen":\[{"blocks":[0-9]*,"share":[0-9.e-]*,"where":"[^"]*","bump":"[^"\\]*","dials":"[^"\\]*"}' out ||
+    complain "explain tells the choice as $(cat out)"
+# What cannot be kept to is told, by render as by explain.
+expect 0 render work.wrinkle --size 32x32 -o t.png --do 'tolerance rms=0.0000001'
+has err 'CANNOT be met'
+rm -f t.png
 
 # ---- help ----
 expect 0 help

@@ -1,8 +1,38 @@
 #include "cli/cli.h"
 
+/* {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
+static void add_json_part(WrText *text, const WrChoicePart *part, int64_t all)
+{
+    WrText bump = { 0 }, dials = { 0 };
+    wr_dials_print(part->scene, "bump", true, &bump);
+    wr_dials_print(part->scene, "dials", false, &dials);
+    wr_text_addf(text, "{\"blocks\":%lld,\"share\":", (long long)part->blocks);
+    wr_text_add_json_number(text, (double)part->blocks / (double)all);
+    wr_text_add(text, ",\"where\":");
+    wr_text_add_json_string(text, part->where);
+    wr_text_add(text, ",\"bump\":");
+    wr_text_add_json_string(text, wr_text_get(&bump));
+    wr_text_add(text, ",\"dials\":");
+    wr_text_add_json_string(text, wr_text_get(&dials));
+    wr_text_add(text, "}");
+    wr_text_fini(&bump);
+    wr_text_fini(&dials);
+}
+
+static void add_json_parts(WrText *text, const WrChoice *choice)
+{
+    int64_t all = 0;
+    int shown = 0;
+    for (int i = 0; i < choice->count; i++) all += choice->parts[i].blocks;
+    for (int i = 0; i < choice->count; i++) {
+        if (choice->parts[i].blocks == 0) continue;
+        if (shown++ > 0) wr_text_add(text, ",");
+        add_json_part(text, &choice->parts[i], all);
+    }
+}
+
 static void add_json_choice(WrText *text, const WrChoice *choice)
 {
-    WrText lines = { 0 };
     wr_text_addf(text, ",\"tolerance\":{\"met\":%s,\"rms\":", choice->met ? "true" : "false");
     wr_text_add_json_number(text, choice->rms);
     wr_text_add(text, ",\"max\":");
@@ -15,14 +45,12 @@ static void add_json_choice(WrText *text, const WrChoice *choice)
     wr_text_add_json_number(text, choice->spent);
     wr_text_add(text, ",\"reason\":");
     wr_text_add_json_string(text, choice->reason);
-    wr_choice_print(choice, &lines);
-    wr_text_add(text, ",\"chosen\":");
-    wr_text_add_json_string(text, wr_text_get(&lines));
-    wr_text_add(text, "}");
-    wr_text_fini(&lines);
+    wr_text_add(text, ",\"chosen\":[");
+    add_json_parts(text, choice);
+    wr_text_add(text, "]}");
 }
 
-static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice)
+static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice, const WrFrame *frame)
 {
     wr_text_add(text, "{\"effects\":[");
     for (int i = 0; i < WR_EFFECT_COUNT; i++) {
@@ -39,7 +67,10 @@ static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice)
         wr_text_add_json_number(text, e->ns_per_pixel);
         wr_text_add(text, "}");
     }
-    wr_text_add(text, "]");
+    wr_text_addf(text,
+                 "],\"width\":%d,\"height\":%d,\"covered\":%lld,\"samples\":%lld,\"seconds\":",
+                 frame->width, frame->height, (long long)frame->covered, (long long)frame->shaded);
+    wr_text_add_json_number(text, frame->times.total);
     if (choice->count > 0) add_json_choice(text, choice);
     wr_text_add(text, "}\n");
 }
@@ -74,7 +105,7 @@ int wr_cli_explain(const WrCli *cli)
     bool good = session && wr_session_frame(session, cli->width, cli->height, 0, &frame, &err);
     int status;
     if (good) {
-        if (cli->json) add_json(&text, frame.plan, wr_session_choice(session));
+        if (cli->json) add_json(&text, frame.plan, wr_session_choice(session), &frame);
         else add_table(&text, frame.plan, wr_session_choice(session), &frame);
         status = wr_cli_print(cli, &text);
     } else {

@@ -77,6 +77,16 @@ static bool set_frames(WrCli *cli, const char *value, WrError *err)
                    value);
 }
 
+/* Of one picture. */
+static bool set_angle(WrCli *cli, const char *value, WrError *err)
+{
+    cli->turned = true;
+    if (wr_number_parse(value, strlen(value), &cli->turn_deg) && cli->turn_deg >= -1e6 &&
+        cli->turn_deg <= 1e6)
+        return true;
+    return wr_fail(err, "--turn %.40s: must be degrees, -1e6..1e6", value);
+}
+
 static bool set_turn(WrCli *cli, const char *value, WrError *err)
 {
     cli->turned = true;
@@ -245,6 +255,9 @@ static const struct Option {
     { "--as", NULL, "KIND", WR_OPTION_AS, "what to export; `wrinkle help export` lists the kinds",
       set_kind },
     { "--size", NULL, "WxH", WR_OPTION_SIZE, "of the picture in pixels (512x512)", set_size },
+    { "--size", NULL, "WxH", WR_OPTION_ACCURACY, "of the pictures in pixels (256x256)", set_size },
+    { "--turn", NULL, "DEGREES", WR_OPTION_ACCURACY, "of the object about the world's y axis (0)",
+      set_angle },
     { "--frames", NULL, "A-B", WR_OPTION_FRAMES,
       "a turntable: #### in OUT becomes the frame's number", set_frames },
     { "--turn", NULL, "DEGREES", WR_OPTION_TURN,
@@ -296,13 +309,15 @@ static const struct Option {
 };
 #define OPTION_COUNT ((int)(sizeof options / sizeof *options))
 
-/* The option that a word names: "--size" or "--size=4x4", whose value is then at *value. */
-static const struct Option *find_option(const char *word, const char **value)
+/* The option that a word names: "--size" or "--size=4x4", whose value is then at *value. bits: those that are
+   taken; of one that several rows name, another thing to each subcommand, the row that is taken goes before. */
+static const struct Option *find_row(const char *word, unsigned bits, const char **value)
 {
     size_t length = strcspn(word, "=");
     *value = NULL;
     for (int i = 0; i < OPTION_COUNT; i++) {
         const struct Option *o = &options[i];
+        if (o->bit != WR_OPTION_COMMON && !(bits >> o->bit & 1)) continue;
         if (strcmp(word, o->name) == 0 || (o->other && strcmp(word, o->other) == 0)) return o;
         if (o->value && strncmp(word, "--", 2) == 0 && word[length] == '=' &&
             strlen(o->name) == length && strncmp(word, o->name, length) == 0) {
@@ -311,6 +326,12 @@ static const struct Option *find_option(const char *word, const char **value)
         }
     }
     return NULL;
+}
+
+static const struct Option *find_option(const char *word, unsigned bits, const char **value)
+{
+    const struct Option *row = find_row(word, bits, value);
+    return row ? row : find_row(word, ~0u, value);
 }
 
 static const char *option_name(const void *ctx, int i)
@@ -338,7 +359,7 @@ static int find_subcommand(int argc, char **argv)
         const char *value;
         if (argv[i][0] != '-' || !argv[i][1]) return wr_subcommand_find(argv[i]) ? i : 0;
         if (strcmp(argv[i], "--") == 0) return 0;
-        const struct Option *o = find_option(argv[i], &value);
+        const struct Option *o = find_option(argv[i], ~0u, &value);
         if (o && o->value && !value) i++;
     }
     return 0;
@@ -366,8 +387,8 @@ static bool take_word(WrCli *cli, const char *word, WrError *err)
 static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, WrError *err)
 {
     const char *word = argv[*i], *value;
-    const struct Option *o = find_option(word, &value);
     unsigned bits = cli->command->options;
+    const struct Option *o = find_option(word, bits, &value);
     bool taken = o && (o->bit == WR_OPTION_COMMON || bits >> o->bit & 1);
     if (!taken && bits >> WR_OPTION_ALL_WORDS & 1) return take_word(cli, word, err);
     if (!taken) {

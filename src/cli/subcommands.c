@@ -34,8 +34,7 @@ const WrSubcommand wr_subcommands[] = {
       "the same bits; B: within a stated bound; P: a choice that changes the picture.",
       wr_cli_explain },
     { "accuracy", "accuracy [FILE] [--size WxH] [--plot FILE]... [--csv FILE] [--json]",
-      "what each approximation costs: error against time",
-      BIT(JSON) | BIT(SIZE) | BIT(TURN) | BIT(ACCURACY),
+      "what each approximation costs: error against time", BIT(JSON) | BIT(ACCURACY),
       "Renders the document with each rung of each dial, one at a time and in the combinations "
       "that\n"
       "matter; times them interleaved, on one processor unless --threads says otherwise; measures "

@@ -157,7 +157,8 @@ const WrArgSpec wr_args_material[] = {
 
 const WrArgSpec wr_args_colour[] = {
     { PLACE("FILE|off"), .type = WR_ARG_PATH,
-      .help = "a picture that is laid over u and v once, or off (a file of that name is ./off)" },
+      .help = "a picture that is laid over u and v as often as replicate says, like the table, or "
+              "off (a file of that name is ./off)" },
     WR_ARGS_OF_FILE,
     { .name = "sha256",
       .type = WR_ARG_SHA256,

@@ -73,6 +73,9 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
         return false;
     if (!check_target(path, err)) return false;
     if (!wr_session_frame(session, width, height, turn_deg, &frame, err)) return false;
+    if (session->state.document->scene->tolerance.kind != WR_TOLERANCE_NONE &&
+        session->choice.count > 0 && !session->choice.met)
+        wr_session_note(session, "%s: %s", path, session->choice.reason);
     if (!linear) return write_codes(session, path, &frame, err);
     return wr_image_write_pixels(path, frame.width, frame.height, 4, WR_PIXEL_F32, true, frame.rgba,
                                  err);

@@ -95,9 +95,7 @@ static bool add_part(WrOiioReader &reader, ImageSpec spec, char *reason)
 {
     if (!check_spec(spec, reason)) return false;
     unpack_description(spec);
-    /* Numbers do not travel; this one is turned by (whole.c). */
-    int turned = spec.get_int_attribute("Orientation", 1);
-    spec.attribute("wrinkle:orientation", std::to_string(turned >= 1 && turned <= 8 ? turned : 1));
+    spec.attribute("wrinkle:orientation", std::to_string(spec.get_int_attribute("Orientation")));
     WrOiioPart part = {};
     part.part.width = spec.width;
     part.part.height = spec.height;
