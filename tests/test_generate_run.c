@@ -1,6 +1,7 @@
 /* The generators as commands: what they make joins the active layer. */
 #include "test.h"
 
+#include "base/progress.h"
 #include "command/generate.h"
 #include "document/blend.h"
 #include "test_session_help.h"
@@ -195,14 +196,14 @@ static volatile int stop = 1;
 static void a_cancelled_generator_leaves_everything_as_it_was(void **state)
 {
     (void)state;
-    WrSessionOptions options = { .cancel = &stop };
-    stop = 0;
-    WrSession *s = wr_session_new(&options);
+    const WrProgress progress = { .cancel = &stop };
+    WrSession *s = wr_session_new(NULL);
     must_run(s, "pattern dots");
     WrHash before = wr_session_hash(s);
-    stop = 1;
     WrError err = { "" };
+    wr_progress_set(&progress);
     assert_false(wr_session_run(s, "pattern bricks", &err));
+    wr_progress_set(NULL);
     assert_non_null(strstr(err.text, "cancelled"));
     assert_true(wr_hash_equal(before, wr_session_hash(s)));
     wr_session_free(s);

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "image/image.h"
 
 #include <sys/stat.h>
@@ -378,10 +379,12 @@ static void a_cancelled_script_stops_with_an_error(void **state)
     (void)state;
     WrError err;
     volatile int cancel = 1;
-    WrSessionOptions options = { .cancel = &cancel };
-    WrSession *s = wr_session_new(&options);
+    const WrProgress progress = { .cancel = &cancel };
+    WrSession *s = wr_session_new(NULL);
     write_text("a.wrinkle", "fill 1\n");
+    wr_progress_set(&progress);
     assert_false(wr_session_run_script(s, "a.wrinkle", &err));
+    wr_progress_set(NULL);
     assert_non_null(strstr(err.text, "cancelled"));
     assert_true(wr_session_revision(s) == 0);
     wr_session_free(s);

@@ -266,7 +266,7 @@ static void handle(WrApp *app, const SDL_Event *event)
 
 /* ---- drawing ---- */
 
-static void make_layout(WrApp *app)
+void wr_app_make_layout(WrApp *app)
 {
     SDL_GetRendererOutputSize(app->renderer, &app->width, &app->height);
     WrLayoutInput in = { .width = app->width,
@@ -334,7 +334,7 @@ static void draw(WrApp *app, double now)
     wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
     app->in_frame = true;
     wr_panel_menu(app);
-    make_layout(app);
+    wr_app_make_layout(app);
     wr_app_place_view(app);
     wr_panel_options(app);
     wr_panel_tools(app);
@@ -459,7 +459,7 @@ void wr_app_step(WrApp *app)
                app->messages.list.count > 0 || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
-    if (!wr_session_in_stroke(app->session)) wr_session_journal_tend(app->session);
+    wr_app_tend(app);
     wr_strokes_work(app);
     wr_later_run(app);
     march(app);

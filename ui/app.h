@@ -10,9 +10,7 @@ typedef struct WrAppOptions {
     int threads;       /* of the preview, as in wr_pool_new */
     const char *isa;   /* kernels of the preview, as in wr_renderer_new; NULL: auto */
     int width, height; /* of the window, pixels; 0: as it was last time, at first 1440 x 900 */
-    volatile int
-        *cancel;   /* what the session's options name, or NULL: the window sets it to stop what
-                             takes long, and clears it afterwards */
+    const volatile int *cancel; /* may be NULL; non-zero: a measurement stops */
     WrText *notes; /* where the session's note sink puts its lines, each ended by '\n'; the window
                            shows and clears them. May be NULL */
 } WrAppOptions;

@@ -1,15 +1,22 @@
 /* SPDX-License-Identifier: MIT
    What may take long runs on a thread of its own while the window stays alive, and what is asked for
-   inside a picture of the window is done after it. */
+   inside a picture of the window is done after it.
+
+   Meanwhile only that thread touches the session. The window shows a snapshot of the document from before:
+   the patch turns, the canvas can be moved and zoomed, the panels stand still. Whatever else is pressed is
+   refused, and the bar says so. */
 #include "ui/job.h"
 #include "ui/state.h"
 
 #include "base/clock.h"
 
+#include <math.h>
 #include <string.h>
 
-#define MOMENT_SECONDS 0.2   /* what takes less shows nothing */
-#define PICTURE_SECONDS 0.04 /* between pictures meanwhile */
+#define QUIET_SECONDS 0.05   /* what takes less is not noticed: not even events are looked at */
+#define MOMENT_SECONDS 0.2   /* what takes less shows no bar */
+#define PICTURE_SECONDS 0.03 /* between pictures meanwhile */
+#define REFUSED_SECONDS 2.0  /* the bar says that it refused something */
 
 typedef struct Work {
     WrBusyWork *work;
@@ -21,7 +28,7 @@ typedef struct Work {
 static void run(void *arg, WrPool *pool, const WrProgress *progress)
 {
     (void)pool;
-    (void)progress;
+    (void)progress; /* the work finds it as its thread's own */
     Work *work = arg;
     work->ok = work->work(work->ctx, &work->err);
 }
@@ -33,104 +40,228 @@ static void drop(void *arg)
 
 /* ---- the window meanwhile ---- */
 
-/* The window as it was last drawn. */
-static SDL_Texture *grab(const WrApp *app)
+/* One wait: what is shown, and what was pressed. */
+typedef struct Wait {
+    WrApp *app;
+    WrJob *job;
+    const char *what;
+    double since, refused_at; /* clock */
+    double furthest;          /* fraction: bars do not go back */
+    SDL_Texture *behind;      /* the window as it was last drawn; owned */
+    int behind_w, behind_h;
+    bool panning, close, cancelled;
+} Wait;
+
+static void grab(Wait *wait)
 {
+    WrApp *app = wait->app;
     int w = app->width, h = app->height;
     uint32_t *pixels = wr_try_alloc((size_t)w * (size_t)h, 4, "a picture of the window", NULL);
-    if (!pixels) return NULL;
-    SDL_Texture *texture = NULL;
+    if (!pixels) return;
     if (SDL_RenderReadPixels(app->renderer, NULL, SDL_PIXELFORMAT_ARGB8888, pixels, w * 4) == 0)
-        texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
-                                    SDL_TEXTUREACCESS_STATIC, w, h);
-    if (texture) {
-        SDL_SetTextureBlendMode(texture, SDL_BLENDMODE_NONE);
-        SDL_UpdateTexture(texture, NULL, pixels, w * 4);
+        wait->behind = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
+                                         SDL_TEXTUREACCESS_STATIC, w, h);
+    if (wait->behind) {
+        SDL_SetTextureBlendMode(wait->behind, SDL_BLENDMODE_NONE);
+        SDL_SetTextureColorMod(wait->behind, 150, 150, 150); /* it does not answer */
+        SDL_UpdateTexture(wait->behind, NULL, pixels, w * 4);
     }
+    wait->behind_w = w;
+    wait->behind_h = h;
     wr_free(pixels);
-    return texture;
 }
 
-static void draw(WrApp *app, SDL_Texture *behind, const char *what, double seconds)
+/* "0:07 left", from how far it is and how long that took; "" while that says nothing yet. */
+static void print_left(double fraction, double seconds, char *text, size_t size)
 {
+    text[0] = '\0';
+    if (fraction < 0.01 || seconds < 0.4) return;
+    double left = seconds * (1.0 - fraction) / fraction;
+    if (left < 100.0 * 3600.0)
+        snprintf(text, size, "%d:%02d left", (int)(left / 60.0), (int)(left + 0.5) % 60);
+}
+
+static void cancel(Wait *wait)
+{
+    wait->cancelled = true;
+    wr_job_interrupt(wait->job);
+}
+
+static void bar(Wait *wait, double now)
+{
+    WrApp *app = wait->app;
     SDL_Rect room = app->layout.status;
     int tall = wr_gui_px(28);
-    char text[24];
+    char seconds[24], left[32];
+    double fraction = 0.0, took = now - wait->since;
+    bool refused = now - wait->refused_at < REFUSED_SECONDS;
+    wr_job_busy(wait->job, &fraction, NULL);
+    if (fraction > wait->furthest) wait->furthest = fraction;
     if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
+    wr_gui_area_begin("##busy", WR_AREA_BAR, room, refused ? 0xff5a3030u : WR_COLOUR_BAR);
+    wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG,
+                    refused ? "Not while this is being done: wait or cancel" : wait->what,
+                    wr_gui_px(320));
+    wr_gui_same_line(12);
+    wr_gui_move_to(wr_gui_px(350));
+    wr_gui_progress(wr_gui_px(220), wait->furthest > 0.0 ? wait->furthest : -1.0);
+    wr_gui_same_line(12);
+    snprintf(seconds, sizeof seconds, "%.1f s", took);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
+    wr_gui_same_line(12);
+    wr_gui_move_to(wr_gui_px(640));
+    print_left(wait->furthest, took, left, sizeof left);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, wait->cancelled ? "cancelling" : left);
+    wr_gui_same_line(12);
+    wr_gui_move_to(wr_gui_px(730));
+    if (wr_gui_chip(NULL, "Cancel")) cancel(wait);
+    wr_gui_tip("Escape");
+    wr_gui_area_end();
+}
+
+static void draw(Wait *wait, double now)
+{
+    WrApp *app = wait->app;
+    wr_gui_aside_begin(app->gui);
+    SDL_GetRendererOutputSize(app->renderer, &app->width, &app->height);
     wr_gui_frame_begin(app->gui, app->width, app->height, PICTURE_SECONDS);
+    wr_app_make_layout(app);
+    wr_app_place_view(app);
     SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
     SDL_RenderClear(app->renderer);
-    if (behind) SDL_RenderCopy(app->renderer, behind, NULL, NULL);
+    SDL_Rect place = { 0, 0, wait->behind_w, wait->behind_h };
+    if (wait->behind) SDL_RenderCopy(app->renderer, wait->behind, NULL, &place);
+    wr_canvas_view_draw(app);
     wr_patch_draw(app);
-    wr_gui_area_begin("##busy", WR_AREA_BAR, room, WR_COLOUR_BAR);
-    wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, what, wr_gui_px(280));
-    wr_gui_same_line(12);
-    wr_gui_move_to(wr_gui_px(310));
-    wr_gui_progress(wr_gui_px(220), -1.0);
-    wr_gui_same_line(12);
-    snprintf(text, sizeof text, "%.1f s", seconds);
-    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
-    if (app->options->cancel) {
-        wr_gui_same_line(12);
-        if (wr_gui_chip(NULL, "Cancel"))
-            __atomic_store_n(app->options->cancel, 1, __ATOMIC_RELAXED);
-        wr_gui_tip("Escape");
-    }
-    wr_gui_area_end();
+    if (now - wait->since > MOMENT_SECONDS) bar(wait, now);
     wr_gui_frame_end(app->gui);
     SDL_RenderPresent(app->renderer);
+    wr_gui_aside_end(app->gui);
 }
 
-/* Clicks go to the button, Escape cancels, a request to close waits. */
-static void take_events(WrApp *app, bool *close)
+/* ---- what is pressed meanwhile ---- */
+
+static bool over(const SDL_Rect *room, int x, int y)
+{
+    return wr_layout_inside(room, x, y);
+}
+
+/* The canvas can be moved and zoomed; true if the event was for it. */
+static bool move_view(Wait *wait, const SDL_Event *event)
+{
+    WrApp *app = wait->app;
+    int x, y;
+    SDL_GetMouseState(&x, &y);
+    if (event->type == SDL_MOUSEMOTION && wait->panning) {
+        wr_view_pan(&app->view, event->motion.xrel, event->motion.yrel);
+        return true;
+    }
+    if (event->type == SDL_MOUSEBUTTONUP && wait->panning) {
+        wait->panning = false;
+        return true;
+    }
+    if (!over(&app->layout.canvas, x, y)) return false;
+    if (event->type == SDL_MOUSEWHEEL) {
+        double way = event->wheel.direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0;
+        double steps = way * (double)event->wheel.preciseY;
+        wr_view_zoom_at(&app->view, x, y, app->view.zoom * exp2(steps / 3.0));
+        return true;
+    }
+    if (event->type != SDL_MOUSEBUTTONDOWN || event->button.button == SDL_BUTTON_RIGHT)
+        return false;
+    wait->panning = true;
+    return true;
+}
+
+static bool is_modifier(SDL_Keycode key)
+{
+    return key == SDLK_LSHIFT || key == SDLK_RSHIFT || key == SDLK_LCTRL || key == SDLK_RCTRL ||
+           key == SDLK_LALT || key == SDLK_RALT || key == SDLK_LGUI || key == SDLK_RGUI;
+}
+
+/* Escape cancels, a request to close waits, the bar's button is the bar's; all else is refused. */
+static void take_event(Wait *wait, const SDL_Event *event)
+{
+    WrApp *app = wait->app;
+    bool key = event->type == SDL_KEYDOWN && !is_modifier(event->key.keysym.sym);
+    bool press = event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_DROPFILE;
+    if (key && event->key.keysym.sym == SDLK_ESCAPE) {
+        cancel(wait);
+        return;
+    }
+    if (event->type == SDL_QUIT ||
+        (event->type == SDL_WINDOWEVENT && event->window.event == SDL_WINDOWEVENT_CLOSE))
+        wait->close = true;
+    if (event->type == SDL_DROPFILE) SDL_free(event->drop.file);
+    if (move_view(wait, event)) return;
+    wr_gui_event(app->gui, event);
+    bool on_bar = event->type == SDL_MOUSEBUTTONDOWN &&
+                  over(&app->layout.status, event->button.x, event->button.y);
+    if (key || (press && !on_bar)) wait->refused_at = wr_clock_seconds();
+}
+
+static void take_events(Wait *wait)
 {
     SDL_Event event;
-    while (SDL_PollEvent(&event)) {
-        bool escape = event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE;
-        if (escape && app->options->cancel)
-            __atomic_store_n(app->options->cancel, 1, __ATOMIC_RELAXED);
-        if (event.type == SDL_QUIT ||
-            (event.type == SDL_WINDOWEVENT && event.window.event == SDL_WINDOWEVENT_CLOSE))
-            *close = true;
-        if (event.type == SDL_DROPFILE) SDL_free(event.drop.file);
-        wr_gui_event(app->gui, &event);
-    }
+    WrPenEvent pen;
+    wr_gui_aside_begin(wait->app->gui);
+    while (SDL_PollEvent(&event)) take_event(wait, &event);
+    while (wr_pen_next(wait->app->pen, &pen))
+        if (pen.kind == WR_PEN_DOWN) wait->refused_at = wr_clock_seconds();
+    wr_gui_aside_end(wait->app->gui);
 }
 
-static void wait_for(WrApp *app, WrJob *job, const char *what, double since)
+/* ---- the wait ---- */
+
+static void wait_for(Wait *wait)
 {
-    SDL_Texture *behind = grab(app);
-    bool close = false;
-    while (!wr_job_take(job)) {
-        take_events(app, &close);
-        wr_patch_turn_on(app);
-        if (app->visible) draw(app, behind, what, wr_clock_seconds() - since);
-        SDL_Delay((Uint32)(PICTURE_SECONDS * 1000.0));
-    }
-    if (behind) SDL_DestroyTexture(behind);
+    WrApp *app = wait->app;
+    grab(wait);
     wr_gui_release_all(app->gui);
-    if (close) SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
+    while (!wr_job_take(wait->job)) {
+        double now = wr_clock_seconds();
+        /* Before the bar stands, nothing is looked at: what is pressed then is kept, in order. */
+        if (now - wait->since > MOMENT_SECONDS) take_events(wait);
+        wr_patch_update(app);
+        if (app->visible) draw(wait, now);
+        double rest = PICTURE_SECONDS - (wr_clock_seconds() - now);
+        if (rest > 0.0) SDL_WaitEventTimeout(NULL, (int)(rest * 1000.0) + 1);
+    }
+    if (wait->behind) SDL_DestroyTexture(wait->behind);
+    wr_gui_aside_begin(app->gui);
+    wr_gui_release_all(app->gui);
+    wr_gui_aside_end(app->gui);
+    if (wait->close) SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
     wr_app_redraw(app);
+}
+
+static bool run_beside(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err)
+{
+    static const WrJobKind kind = { run, drop };
+    Work here = { .work = work, .ctx = ctx };
+    Wait wait = { .app = app, .what = what, .since = wr_clock_seconds(), .refused_at = -1e9 };
+    wait.job = wr_job_new(&kind, 1, app->job_event);
+    wr_job_start(wait.job, &here);
+    bool done = false;
+    while (!done && wr_clock_seconds() - wait.since < QUIET_SECONDS) {
+        done = wr_job_take(wait.job) != NULL;
+        if (!done) SDL_Delay(1);
+    }
+    if (!done) wait_for(&wait);
+    wr_job_free(wait.job);
+    if (!here.ok) *err = here.err;
+    return here.ok;
 }
 
 bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err)
 {
-    static const WrJobKind kind = { run, drop };
-    if (app->in_frame || app->drawn_at == 0.0) return work(ctx, err);
-    Work here = { .work = work, .ctx = ctx };
-    double since = wr_clock_seconds();
-    WrJob *job = wr_job_new(&kind, 1, app->job_event);
-    wr_job_start(job, &here);
-    bool done = false;
-    while (!done && wr_clock_seconds() - since < MOMENT_SECONDS) {
-        done = wr_job_take(job) != NULL;
-        if (!done) SDL_Delay(1);
-    }
-    if (!done) wait_for(app, job, what, since);
-    wr_job_free(job);
-    if (app->options->cancel) __atomic_store_n(app->options->cancel, 0, __ATOMIC_RELAXED);
-    if (!here.ok) *err = here.err;
-    return here.ok;
+    if (app->shown) return wr_fail(err, "%s: not while something else is being done", what);
+    if (app->drawn_at == 0.0) return work(ctx, err);
+    app->shown = wr_document_share(wr_session_document(app->session));
+    bool ok = run_beside(app, what, work, ctx, err);
+    wr_document_free(app->shown);
+    app->shown = NULL;
+    return ok;
 }
 
 /* ---- later ---- */
@@ -153,18 +284,12 @@ static bool run_line(void *ctx, WrError *err)
     return wr_session_run(line->session, line->text, err);
 }
 
-void wr_app_run_slow(WrApp *app, const char *line)
+bool wr_app_run_line(WrApp *app, const char *line)
 {
-    if (app->in_frame) {
-        wr_free(app->later.line);
-        app->later.line = wr_strdup(line);
-        put_off(app);
-        return;
-    }
     WrError err;
     char what[64];
-    wr_hand_let_go(app);
-    snprintf(what, sizeof what, "%.48s", line);
+    wr_hand_let_go(app); /* a stroke that is open would refuse it */
+    snprintf(what, sizeof what, "%.60s", line);
     Line call = { app->session, line };
     bool ok = wr_busy_run(app, what, run_line, &call, &err);
     if (!ok) wr_app_fail(app, &err);
@@ -172,6 +297,18 @@ void wr_app_run_slow(WrApp *app, const char *line)
     wr_app_take_notes(app);
     wr_app_title(app);
     wr_app_redraw(app);
+    return ok;
+}
+
+void wr_app_run_slow(WrApp *app, const char *line)
+{
+    if (!app->in_frame) {
+        wr_app_run_line(app, line);
+        return;
+    }
+    wr_free(app->later.line);
+    app->later.line = wr_strdup(line);
+    put_off(app);
 }
 
 void wr_later_action(WrApp *app, const char *name)

@@ -8,6 +8,8 @@ bool wr_app_begin(WrApp *app, WrError *err);
 void wr_app_step(WrApp *app); /* wait for something, do it, draw */
 void wr_app_end(WrApp *app);
 void wr_app_redraw(WrApp *app);
+void wr_app_make_layout(WrApp *app);
+void wr_app_tend(WrApp *app); /* the journal, when nothing else is to do */
 double wr_app_wanted_scale(const WrApp *app);
 void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's */
 void wr_app_read_keys(WrApp *app);                 /* built in, the chosen map, the user's file */
@@ -24,7 +26,7 @@ void wr_app_try(WrApp *app, const WrTrialAsk *ask);
 void wr_app_try_end(WrApp *app);
 const WrScene *wr_app_scene(const WrApp *app); /* live if a value is being dragged */
 bool wr_app_unsaved(const WrApp *app);
-/* Run a command line; a failure becomes a message. */
+/* Run a command line, as wr_busy_run does; a failure becomes a message. */
 bool wr_app_run_line(WrApp *app, const char *line);
 bool wr_app_run_linef(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A scene that the caller may change at once; the preview shows it until wr_app_live_end. */
@@ -49,8 +51,8 @@ const char *wr_app_name(const WrApp *app); /* of the document, without folders *
 
 /* ---- busy.c: what may take long ---- */
 /* Call work(ctx), on another thread, and come back when it is done: with what it said. What takes longer
-   than a moment shows `what` and a bar; the window stays alive, but nothing else can be done. Inside a
-   picture of the window it is simply called. */
+   than a moment shows `what`, a bar, how long it will still take, and Cancel; the window stays alive, but
+   nothing else can be done. Only work(ctx) touches the session meanwhile. Also inside a picture of the window. */
 typedef bool WrBusyWork(void *ctx, WrError *err);
 bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err);
 /* Run a command that may take long, at once or after the picture of the window that is being made. */

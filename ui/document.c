@@ -4,6 +4,7 @@
 #include "ui/generate_hand.h"
 
 #include "base/file.h"
+#include "base/progress.h"
 #include "command/call.h"
 
 #include <stdarg.h>
@@ -11,7 +12,7 @@
 
 const WrDocument *wr_app_document(const WrApp *app)
 {
-    return wr_session_document(app->session);
+    return app->shown ? app->shown : wr_session_document(app->session);
 }
 
 const WrField *wr_app_field(const WrApp *app)
@@ -37,7 +38,7 @@ void wr_app_try_end(WrApp *app)
 
 const WrScene *wr_app_scene(const WrApp *app)
 {
-    return app->live ? app->live : wr_session_document(app->session)->scene;
+    return app->live ? app->live : wr_app_document(app)->scene;
 }
 
 bool wr_app_unsaved(const WrApp *app)
@@ -45,19 +46,6 @@ bool wr_app_unsaved(const WrApp *app)
     uint64_t now = wr_session_revision(app->session);
     return wr_session_in_stroke(app->session) ||
            (now != wr_session_saved_revision(app->session) && now != app->clean_revision);
-}
-
-bool wr_app_run_line(WrApp *app, const char *line)
-{
-    WrError err;
-    wr_hand_let_go(app); /* a stroke that is open would refuse it */
-    bool ok = wr_session_run(app->session, line, &err);
-    if (!ok) wr_app_fail(app, &err);
-    wr_app_try_end(app);
-    wr_app_take_notes(app);
-    wr_app_title(app);
-    wr_app_redraw(app);
-    return ok;
 }
 
 bool wr_app_run_linef(WrApp *app, const char *format, ...)
@@ -148,6 +136,20 @@ static bool save_work(void *ctx, WrError *err)
     return wr_session_save(call->session, call->path, err);
 }
 
+static bool tend_work(void *ctx, WrError *err)
+{
+    (void)err;
+    wr_session_journal_tend(ctx);
+    return true;
+}
+
+void wr_app_tend(WrApp *app)
+{
+    WrError err;
+    if (!wr_session_in_stroke(app->session) && wr_session_journal_wants(app->session))
+        wr_busy_run(app, "Keeping the journal short", tend_work, app->session, &err);
+}
+
 static bool open_now(WrApp *app, const char *path)
 {
     WrError err;
@@ -198,20 +200,30 @@ void wr_app_start(WrApp *app)
 
 /* ---- asking first ---- */
 
+static bool lines_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    bool good = true;
+    for (const char *at = call->path; *at && !wr_progress_stopped();) {
+        size_t length = strcspn(at, "\n");
+        char *line = wr_strndup(at, length);
+        WrError why;
+        if (!wr_session_run(call->session, line, good ? err : &why)) good = false;
+        wr_free(line);
+        at += length + (at[length] != '\0');
+    }
+    return good;
+}
+
 /* Of a line that fails the rest still runs, so that there is something to be seen. */
 static void run_lines(WrApp *app, const char *lines)
 {
     WrError err;
+    FileCall call = { app->session, lines };
     wr_hand_let_go(app);
     wr_session_reset(app->session);
     app->starter = false;
-    for (const char *at = lines; *at;) {
-        size_t length = strcspn(at, "\n");
-        char *line = wr_strndup(at, length);
-        if (!wr_session_run(app->session, line, &err)) wr_app_fail(app, &err);
-        wr_free(line);
-        at += length + (at[length] != '\0');
-    }
+    if (!wr_busy_run(app, "Making the document", lines_work, &call, &err)) wr_app_fail(app, &err);
     wr_app_changed_document(app);
     app->clean_revision = wr_session_revision(app->session); /* it can be opened again */
     wr_app_title(app);
@@ -341,10 +353,17 @@ void wr_app_save_history(WrApp *app)
     ask_file(app, WR_FILE_HISTORY, "history.wrinkle");
 }
 
+static bool history_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    return wr_session_save_history(call->session, call->path, err);
+}
+
 static void save_history_now(WrApp *app, const char *path)
 {
     WrError err;
-    if (!wr_session_save_history(app->session, path, &err)) wr_app_fail(app, &err);
+    FileCall call = { app->session, path };
+    if (!wr_busy_run(app, "Saving the steps", history_work, &call, &err)) wr_app_fail(app, &err);
     else wr_app_say(app, "Saved %d steps as %s", wr_session_history_position(app->session), path);
 }
 

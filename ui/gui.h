@@ -25,6 +25,10 @@ bool wr_gui_set_scale(WrGui *gui, double scale, WrError *err);
 /* Hand over an event. The caller looks at owns_point, holds_mouse and wants_text before it uses it
    itself. */
 void wr_gui_event(WrGui *gui, const SDL_Event *event);
+/* Widgets of their own: from begin to end all of this is about another set of windows and what is held over
+   them, while the first one waits as it is, even in the midst of a frame. */
+void wr_gui_aside_begin(WrGui *gui);
+void wr_gui_aside_end(WrGui *gui);
 /* Forget held keys and buttons (the window lost the keyboard). */
 void wr_gui_release_all(WrGui *gui);
 /* A press there would go to a widget: by the windows of the last frame, so that it is right even for

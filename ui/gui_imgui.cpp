@@ -126,15 +126,8 @@ static void set_clipboard(void *, const char *text)
     SDL_SetClipboardText(text);
 }
 
-extern "C" WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err)
-try {
-    WrGui *gui = static_cast<WrGui *>(calloc(1, sizeof(WrGui)));
-    if (!gui) {
-        wr_fail(err, "no memory for the window");
-        return nullptr;
-    }
-    gui->renderer = renderer;
-    gui->context = ImGui::CreateContext();
+static void settle_io(WrGui *gui)
+{
     ImGuiIO &io = ImGui::GetIO();
     io.IniFilename = io.LogFilename = nullptr;
     io.UserData = gui;
@@ -144,6 +137,18 @@ try {
     io.GetClipboardTextFn = get_clipboard;
     io.SetClipboardTextFn = set_clipboard;
     set_key_map(io);
+}
+
+extern "C" WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err)
+try {
+    WrGui *gui = static_cast<WrGui *>(calloc(1, sizeof(WrGui)));
+    if (!gui) {
+        wr_fail(err, "no memory for the window");
+        return nullptr;
+    }
+    gui->renderer = renderer;
+    gui->context = ImGui::CreateContext();
+    settle_io(gui);
     if (!wr_gui_set_scale(gui, scale, err)) {
         wr_gui_free(gui);
         return nullptr;
@@ -155,6 +160,7 @@ WR_CAUGHT(nullptr)
 extern "C" void wr_gui_free(WrGui *gui)
 try {
     if (!gui) return;
+    if (gui->aside) ImGui::DestroyContext(gui->aside);
     ImGui::DestroyContext(gui->context);
     if (gui->atlas) SDL_DestroyTexture(gui->atlas);
     free(gui);
@@ -168,6 +174,26 @@ try {
     return wr_gui_build_fonts(gui, err);
 }
 WR_CAUGHT(false)
+
+/* ---- aside ---- */
+
+extern "C" void wr_gui_aside_begin(WrGui *gui)
+try {
+    ImGuiStyle style = ImGui::GetStyle();
+    ImFontAtlas *fonts = ImGui::GetIO().Fonts;
+    bool fresh = !gui->aside;
+    if (fresh) gui->aside = ImGui::CreateContext(fonts);
+    ImGui::SetCurrentContext(gui->aside);
+    if (fresh) settle_io(gui);
+    ImGui::GetStyle() = style;
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_aside_end(WrGui *gui)
+try {
+    ImGui::SetCurrentContext(gui->context);
+}
+WR_CAUGHT()
 
 /* ---- events ---- */
 

@@ -10,6 +10,7 @@ extern "C" {
 struct WrGui {
     SDL_Renderer *renderer; /* borrowed */
     ImGuiContext *context;  /* owned */
+    ImGuiContext *aside;    /* owned; NULL until it is needed */
     SDL_Texture *atlas;     /* owned */
     ImFont *fonts[WR_FONT_COUNT];
     double scale;

@@ -64,7 +64,9 @@ static void *thread_main(void *arg)
         job->fraction = 0.0;
         __atomic_store_n(&job->cancel, 0, __ATOMIC_RELAXED);
         pthread_mutex_unlock(&job->lock);
+        wr_progress_set(&progress);
         job->kind->run(work, pool, &progress);
+        wr_progress_set(NULL);
         pthread_mutex_lock(&job->lock);
         job->running = false;
         bool wanted = !job->stale;

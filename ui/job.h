@@ -9,7 +9,8 @@
 typedef struct WrJob WrJob;
 
 typedef struct WrJobKind {
-    /* Do it, on the job's own thread; results go into `work`. progress can be cancelled. */
+    /* Do it, on the job's own thread; results go into `work`. progress can be cancelled; it is the thread's
+       own too. */
     void (*run)(void *work, WrPool *pool, const WrProgress *progress);
     void (*drop)(void *work); /* free it; on either thread */
 } WrJobKind;

@@ -393,6 +393,8 @@ struct WrApp {
     uint64_t seam_key; /* of the table that it was measured on */
     WrMeter meter;
     WrLater later;
+    WrDocument *
+        shown; /* while the session works on a thread of its own: the document from before; owned */
     WrRecovery *recovery; /* while its dialog is open; owned */
     bool in_frame;        /* between the first and the last widget of a picture */
     double input_at;      /* clock at the last event of the user's */

@@ -1,4 +1,5 @@
 #include "base/hash.h"
+#include "base/progress.h"
 
 #include "base/file.h"
 
@@ -49,7 +50,7 @@ bool wr_sha256_file(const char *path, char hex[65], WrError *err)
     SHA2_CTX ctx;
     SHA256Init(&ctx);
     ssize_t n = 1;
-    while (left > 0 && n != 0) {
+    while (left > 0 && n != 0 && !wr_progress_stopped()) {
         n = read(fd, block, left < sizeof block ? (size_t)left : sizeof block);
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) break;
@@ -58,6 +59,7 @@ bool wr_sha256_file(const char *path, char hex[65], WrError *err)
     }
     close(fd);
     if (n < 0) return wr_fail(err, "%s: cannot be read (%s)", path, strerror(errno));
+    if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     SHA256Final(digest, &ctx);
     hex_of(digest, hex);
     return true;

@@ -1,8 +1,8 @@
 #include "base/pool.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <pthread.h>
-#include <stdbool.h>
 #include <unistd.h>
 
 typedef struct Worker {
@@ -22,16 +22,35 @@ struct WrPool {
     int count;
     WrPiece piece;
     void *ctx;
-    int threads; /* the caller included */
+    bool told;        /* the caller's progress hears of each of its pieces */
+    WrProgress quiet; /* the caller's progress as the others have it: without reports */
+    int threads;      /* the caller included */
     Worker *workers;
 };
+
+static int64_t begun; /* atomic */
+
+int64_t wr_pool_pieces(void)
+{
+    return __atomic_load_n(&begun, __ATOMIC_RELAXED);
+}
+
+/* False: somebody wants it to stop. */
+static bool run_piece(int index, int count, int worker, bool told, WrPiece piece, void *ctx)
+{
+    if (told && worker == 0) wr_progress_tell((double)index / count);
+    if (wr_progress_stopped()) return false;
+    __atomic_fetch_add(&begun, 1, __ATOMIC_RELAXED);
+    piece(index, worker, ctx);
+    return true;
+}
 
 static void take_pieces(WrPool *pool, int worker)
 {
     for (;;) {
         int index = __atomic_fetch_add(&pool->next, 1, __ATOMIC_RELAXED);
         if (index >= pool->count) return;
-        pool->piece(index, worker, pool->ctx);
+        if (!run_piece(index, pool->count, worker, pool->told, pool->piece, pool->ctx)) return;
     }
 }
 
@@ -46,7 +65,9 @@ static void *worker_main(void *arg)
         if (pool->quit) break;
         seen = pool->generation;
         pthread_mutex_unlock(&pool->lock);
+        wr_progress_set(&pool->quiet);
         take_pieces(pool, self->id);
+        wr_progress_set(NULL);
         pthread_mutex_lock(&pool->lock);
         if (--pool->active == 0) pthread_cond_signal(&pool->done);
     }
@@ -96,21 +117,25 @@ int wr_pool_threads(const WrPool *pool)
     return pool ? pool->threads : 1;
 }
 
-void wr_pool_run(WrPool *pool, int count, WrPiece piece, void *ctx)
+/* All on this thread. A pool of one still lets only one run in at a time: scratch memory goes by worker. */
+static void run_here(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
 {
-    if (count <= 0) return;
-    if (!pool || pool->threads == 1 || count == 1) {
-        /* A pool of one still lets only one run in at a time: scratch memory goes by worker. */
-        if (pool) pthread_mutex_lock(&pool->run_lock);
-        for (int i = 0; i < count; i++) piece(i, 0, ctx);
-        if (pool) pthread_mutex_unlock(&pool->run_lock);
-        return;
+    if (pool) pthread_mutex_lock(&pool->run_lock);
+    for (int i = 0; i < count && run_piece(i, count, 0, told, piece, ctx); i++) {
     }
+    if (pool) pthread_mutex_unlock(&pool->run_lock);
+}
+
+static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
+{
+    const WrProgress *here = wr_progress_here();
     pthread_mutex_lock(&pool->run_lock);
     pthread_mutex_lock(&pool->lock);
     pool->piece = piece;
     pool->ctx = ctx;
     pool->count = count;
+    pool->told = told;
+    pool->quiet = (WrProgress){ .cancel = here ? here->cancel : NULL };
     __atomic_store_n(&pool->next, 0, __ATOMIC_RELAXED);
     pool->active = pool->threads - 1;
     pool->generation++;
@@ -121,4 +146,23 @@ void wr_pool_run(WrPool *pool, int count, WrPiece piece, void *ctx)
     while (pool->active > 0) pthread_cond_wait(&pool->done, &pool->lock);
     pthread_mutex_unlock(&pool->lock);
     pthread_mutex_unlock(&pool->run_lock);
+}
+
+static bool run(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
+{
+    if (told) wr_progress_tell(0.0); /* whoever takes the first piece */
+    if (count <= 0) return !wr_progress_stopped();
+    if (!pool || pool->threads == 1 || count == 1) run_here(pool, count, piece, ctx, told);
+    else run_on_all(pool, count, piece, ctx, told);
+    return !wr_progress_stopped();
+}
+
+bool wr_pool_run(WrPool *pool, int count, WrPiece piece, void *ctx)
+{
+    return run(pool, count, piece, ctx, false);
+}
+
+bool wr_pool_run_told(WrPool *pool, int count, WrPiece piece, void *ctx)
+{
+    return run(pool, count, piece, ctx, true);
 }

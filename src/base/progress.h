@@ -27,3 +27,30 @@ static inline bool wr_progress_step(const WrProgress *progress, double fraction)
     if (progress && progress->report) progress->report(progress->ctx, fraction);
     return !wr_progress_cancelled(progress);
 }
+
+/* ---- the thread's own ----
+   Who asks for long work says here what it looks at: a session, a job in the background. Loops far below find it
+   without anybody in between handing it on; the pieces of a pool's run find it too. Where it is cancelled a
+   function may return with half of its work done, as long as its caller, who asks too, throws that away. */
+
+/* What this thread's work reports to and is stopped by; NULL: nothing. */
+const WrProgress *wr_progress_here(void);
+/* Set it; returns what was there, to be put back when the work has returned. */
+const WrProgress *wr_progress_set(const WrProgress *progress);
+
+/* Has this thread's work been asked to stop? */
+bool wr_progress_stopped(void);
+/* Tell how far it is. True if it should go on. */
+bool wr_progress_tell(double fraction);
+
+/* A part of the whole: 0..1 of it is from..to of the other. */
+typedef struct WrProgressPart {
+    WrProgress progress; /* hand this on */
+    const WrProgress *whole;
+    double from, to;
+} WrProgressPart;
+/* Fill in *part as that part of `whole`, which may be NULL and must outlive it. Returns &part->progress. */
+const WrProgress *wr_progress_part(WrProgressPart *part, const WrProgress *whole, double from,
+                                   double to);
+/* Make it that part of the thread's own. Returns what to give wr_progress_set afterwards. */
+const WrProgress *wr_progress_enter(WrProgressPart *part, double from, double to);

@@ -160,9 +160,7 @@ static bool present(const char *program)
 
 static bool begin(Bench *b, WrError *err)
 {
-    const WrSessionOptions options = { .pool = b->cli->pool,
-                                       .outputs = true,
-                                       .cancel = b->cli->cancel };
+    const WrSessionOptions options = { .pool = b->cli->pool, .outputs = true };
     strcpy(b->folder, "/tmp/wrinkle-bench-XXXXXX");
     if (!mkdtemp(b->folder)) {
         wr_fail(err, "%s: no folder can be made there", b->folder);

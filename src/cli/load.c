@@ -20,11 +20,9 @@ bool wr_cli_check_isa(const WrCli *cli, WrError *err)
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
 {
     if (!wr_cli_check_isa(cli, err)) return NULL;
-    WrSessionOptions options = { .pool = cli->pool,
-                                 .note = print_note,
-                                 .outputs = outputs,
-                                 .isa = cli->isa,
-                                 .cancel = cli->cancel };
+    WrSessionOptions options = {
+        .pool = cli->pool, .note = print_note, .outputs = outputs, .isa = cli->isa
+    };
     return wr_session_new(&options);
 }
 

@@ -1,3 +1,4 @@
+#include "base/progress.h"
 #include "cli/cli.h"
 
 #include <signal.h>
@@ -70,8 +71,11 @@ static int run(WrCli *cli)
         wr_text_fini(&text);
         return status;
     }
+    static const WrProgress progress = { .cancel = &interrupted };
     cli->pool = wr_pool_new(cli->threads);
+    wr_progress_set(&progress);
     int status = cli->command->run(cli);
+    wr_progress_set(NULL);
     wr_pool_free(cli->pool);
     return status;
 }

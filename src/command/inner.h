@@ -160,8 +160,8 @@ void wr_painting_end(WrSession *session, WrPainting *painting);
 /* Draw a whole stroke of samples, sample(ctx, 0) .. sample(ctx, count - 1). False and an error when
  * cancelled. */
 typedef WrSample WrSampleAt(const void *ctx, int index);
-bool wr_session_draw(WrSession *session, const WrPainting *painting, WrSampleAt *sample,
-                     const void *ctx, int count, WrError *err);
+bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void *ctx, int count,
+                     WrError *err);
 /* One of the brush's arguments is given. False where the form has none of that name. */
 bool wr_call_gives(const WrCall *call, const char *name);
 

@@ -2,6 +2,7 @@
 #include "command/inner.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "field/ops.h"
 
 #include <string.h>
@@ -15,7 +16,9 @@ typedef struct Adjusting {
 static bool run_on(const Adjusting *adjusting, WrField **field, WrError *err)
 {
     if (!*field) return true;
-    WrField *made = wr_op_run(adjusting->op, *field, adjusting->param, &adjusting->options, err);
+    WrOpOptions options = adjusting->options;
+    options.progress = wr_progress_here();
+    WrField *made = wr_op_run(adjusting->op, *field, adjusting->param, &options, err);
     if (!made) return false;
     wr_field_free(*field);
     *field = made;
@@ -27,7 +30,10 @@ static bool run_on_part(const Adjusting *adjusting, WrField **field, WrError *er
 {
     if (!*field || !run_on(adjusting, field, err)) return !*field;
     const double unit[WR_OP_PARAMS] = { 0, 1 };
-    WrOpOptions options = { .pool = adjusting->options.pool };
+    WrProgressPart quiet = { .progress = { 0 } }; /* a step back to 0 would only confuse */
+    wr_progress_part(&quiet, wr_progress_here(), 0.0, 1.0);
+    quiet.progress.report = NULL;
+    WrOpOptions options = { .pool = adjusting->options.pool, .progress = &quiet.progress };
     WrField *clamped = wr_op_run(wr_op_find("clamp"), *field, unit, &options, err);
     if (!clamped) return false;
     wr_field_free(*field);
@@ -49,17 +55,21 @@ static bool run_on_all(WrSession *session, const Adjusting *adjusting, WrError *
     for (int i = 0; i < document->layer_count; i++) {
         /* all tables have one size, so a lock cannot keep one from being reshaped */
         if (!adjusting->op->reshapes && !wr_session_check_unlocked(session, i, err)) return false;
-        if (!run_on_layer(adjusting, &document->layers[i], err)) return false;
+        WrProgressPart part;
+        double count = document->layer_count;
+        const WrProgress *whole = wr_progress_enter(&part, i / count, (i + 1) / count);
+        bool good = run_on_layer(adjusting, &document->layers[i], err);
+        wr_progress_set(whole);
+        if (!good) return false;
     }
     return !adjusting->op->reshapes || run_on_part(adjusting, &document->selection, err);
 }
 
 bool wr_run_adjust(WrSession *session, WrCall *call, WrError *err)
 {
-    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
     Adjusting adjusting = { .op = &wr_ops[call->form] };
     const WrOpInfo *op = adjusting.op;
-    adjusting.options = (WrOpOptions){ .pool = session->options.pool, .progress = &progress };
+    adjusting.options = (WrOpOptions){ .pool = session->options.pool };
     if (!op->reshapes) adjusting.options.mask = session->state.document->selection;
     for (int i = 0; i < wr_op_param_count(op); i++)
         adjusting.param[i] = op->params[i].choices ? wr_call_choice(call, op->params[i].name)

@@ -1,6 +1,8 @@
 /* dab, stroke. */
 #include "command/inner.h"
 
+#include "base/progress.h"
+
 #define SLICE 0.05 /* seconds between two looks at whether somebody wants it to stop */
 
 bool wr_run_dab(WrSession *session, WrCall *call, WrError *err)
@@ -13,16 +15,15 @@ bool wr_run_dab(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-bool wr_session_draw(WrSession *session, const WrPainting *painting, WrSampleAt *sample,
-                     const void *ctx, int count, WrError *err)
+bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void *ctx, int count,
+                     WrError *err)
 {
-    const volatile int *cancel = session->options.cancel;
     WrStroke *stroke = wr_stroke_new_on(&painting->ground, &painting->held.brush);
     bool more = true;
     for (int i = 0; i < count; i++) {
         wr_stroke_push(stroke, sample(ctx, i));
         do {
-            if (cancel && *cancel) {
+            if (!wr_progress_tell((double)i / count)) {
                 wr_stroke_abandon(stroke);
                 return wr_fail(err, "cancelled");
             }
@@ -45,7 +46,7 @@ bool wr_run_stroke(WrSession *session, WrCall *call, WrError *err)
     WrPainting painting;
     if (!wr_painting_begin(session, call, &painting, err)) return false;
     const WrArg *points = wr_call_arg(call, "points");
-    bool good = wr_session_draw(session, &painting, sample_of, points, points->rows, err);
+    bool good = wr_session_draw(&painting, sample_of, points, points->rows, err);
     wr_painting_end(session, &painting);
     return good;
 }

@@ -162,8 +162,7 @@ static WrSample sample_at(const void *ctx, int i)
         WrSample){ .u = trace->points.data[i].u, .v = trace->points.data[i].v, .pressure = 1.0 };
 }
 
-static bool draw_outline(WrSession *session, WrPainting *painting, const WrFigure *figure,
-                         WrError *err)
+static bool draw_outline(WrPainting *painting, const WrFigure *figure, WrError *err)
 {
     const WrField *field = painting->ground.field;
     Trace trace = { .width = wr_field_width(field), .height = wr_field_height(field) };
@@ -175,7 +174,7 @@ static bool draw_outline(WrSession *session, WrPainting *painting, const WrFigur
             good = wr_fail(err, "an outline of more than %d samples", WR_POINTS_MAX);
     }
     if (good && figure->closed) close_evenly(&trace, &painting->held.brush);
-    good = good && wr_session_draw(session, painting, sample_at, &trace, trace.points.count, err);
+    good = good && wr_session_draw(painting, sample_at, &trace, trace.points.count, err);
     wr_array_free(&trace.points);
     return good;
 }
@@ -202,7 +201,6 @@ static void move_points(const WrField *field, const WrFigure *figure, const WrCo
 static WrField *cover_copies(WrSession *session, const WrField *field, const WrFigure *figure,
                              const WrCopy *copies, int count, WrError *err)
 {
-    const volatile int *cancel = session->options.cancel;
     WrSelectPoint *points = wr_alloc((size_t)figure->count, sizeof *points);
     WrField *cover = NULL;
     for (int i = 0; i < count; i++) {
@@ -214,7 +212,7 @@ static WrField *cover_copies(WrSession *session, const WrField *field, const WrF
         wr_field_free(one);
         wr_field_free(cover);
         cover = both;
-        if (cover && cancel && *cancel) {
+        if (cover && !wr_progress_tell((double)i / count)) {
             wr_fail(err, "cancelled");
             wr_field_free(cover);
             cover = NULL;
@@ -253,9 +251,8 @@ static bool fill_inside(WrSession *session, const WrPainting *painting, const Wr
     int count = wr_symmetry_copies(&brush->symmetry, field, copies);
     WrField *cover = count > 1 ? cover_copies(session, field, figure, copies, count, err)
                                : cover_plain(session, field, call, figure, err);
-    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
     WrBrushGround ground = painting->ground;
-    ground.progress = &progress;
+    ground.progress = wr_progress_here();
     bool good = cover &&
                 wr_brush_fill(&ground, brush, cover, figure->points[0].u, figure->points[0].v, err);
     wr_field_free(cover);
@@ -288,7 +285,7 @@ bool wr_run_shape(WrSession *session, WrCall *call, WrError *err)
     bool good = make_figure(painting.ground.field, call, fill, &figure, err);
     if (good)
         good = fill ? fill_inside(session, &painting, call, &figure, err)
-                    : draw_outline(session, &painting, &figure, err);
+                    : draw_outline(&painting, &figure, err);
     wr_figure_fini(&figure);
     wr_painting_end(session, &painting);
     return good;

@@ -10,12 +10,12 @@ bool wr_run_flood(WrSession *session, WrCall *call, WrError *err)
     const double *at = wr_call_arg(call, "u,v")->numbers;
     WrPainting painting;
     if (!wr_painting_begin(session, call, &painting, err)) return false;
-    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
-    painting.ground.progress = &progress;
+    const WrProgress *progress = wr_progress_here();
+    painting.ground.progress = progress;
     WrField *cover =
         wr_select_flood(wr_document_composite(document, session->options.pool), at[0], at[1],
                         wr_call_number(call, "tolerance"), wr_call_choice(call, "diagonal") == 1,
-                        session->options.pool, &progress, err);
+                        session->options.pool, progress, err);
     bool good =
         cover && wr_brush_fill(&painting.ground, &painting.held.brush, cover, at[0], at[1], err);
     wr_field_free(cover);
@@ -64,13 +64,13 @@ bool wr_run_ramp(WrSession *session, WrCall *call, WrError *err)
                     .low = wr_call_number(call, "low"),
                     .high = wr_call_number(call, "high"),
                     .fold = wr_call_choice(call, "fold") == 1 };
-    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
-    WrField *made = wr_ramp_make(layer->heights, &ramp, session->options.pool, &progress, err);
+    const WrProgress *progress = wr_progress_here();
+    WrField *made = wr_ramp_make(layer->heights, &ramp, session->options.pool, progress, err);
     if (!made) return false;
     WrBlend blend = blends[wr_call_choice(call, "blend")];
     if (blend != WR_BLEND_REPLACE) {
         WrField *joined = wr_field_share(layer->heights);
-        bool good = join(joined, made, blend, &progress, err);
+        bool good = join(joined, made, blend, progress, err);
         wr_field_free(made);
         if (!good) {
             wr_field_free(joined);

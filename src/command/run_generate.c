@@ -167,7 +167,8 @@ static void join_tile(const Joining *join, int tx, int ty)
 static bool join_all(const Joining *join, const WrProgress *progress, WrError *err)
 {
     for (int ty = 0; ty < wr_field_tiles_v(join->layer); ty++) {
-        if (wr_progress_cancelled(progress)) return wr_fail(err, "cancelled");
+        if (!wr_progress_step(progress, (double)ty / wr_field_tiles_v(join->layer)))
+            return wr_fail(err, "cancelled");
         for (int tx = 0; tx < wr_field_tiles_u(join->layer); tx++) join_tile(join, tx, ty);
     }
     return true;
@@ -181,7 +182,7 @@ static WrField *weight_of(const WrField *cover, const WrField *selection)
     WrField *weight = wr_field_share(cover);
     float *row = wr_alloc((size_t)wr_field_width(cover), 2 * sizeof *row);
     int width = wr_field_width(cover);
-    for (int j = 0; j < wr_field_height(cover); j++) {
+    for (int j = 0; j < wr_field_height(cover) && !wr_progress_stopped(); j++) {
         wr_field_read(cover, 0, j, width, 1, row, (size_t)width);
         wr_field_read(selection, 0, j, width, 1, row + width, (size_t)width);
         for (int i = 0; i < width; i++) row[i] = unit(row[i]) * unit(row[width + i]);
@@ -215,10 +216,10 @@ bool wr_run_generate(WrSession *session, WrCall *call, WrError *err)
     const WrGenerator *generator = wr_call_generator(call);
     WrLayer *layer = wr_session_layer(session, err);
     if (!layer) return false;
-    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
+    WrProgressPart making, joining;
     WrGenerateJob job = { .like = layer->heights,
                           .pool = session->options.pool,
-                          .progress = &progress,
+                          .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9),
                           .note = note,
                           .note_ctx = session,
                           .chose = keep_choice,
@@ -227,10 +228,10 @@ bool wr_run_generate(WrSession *session, WrCall *call, WrError *err)
     char *owned[WR_GENERATOR_PARAMS] = { NULL };
     WrRelief relief = { NULL, NULL };
     wr_call_values(call, generator, values);
-    bool good =
-        resolve(session, call, generator, values, owned, err) &&
-        wr_generator_make(generator, values, &job, &relief, err) &&
-        wr_call_join(call, &relief, session->state.document->selection, layer, &progress, err);
+    bool good = resolve(session, call, generator, values, owned, err) &&
+                wr_generator_make(generator, values, &job, &relief, err) &&
+                wr_call_join(call, &relief, session->state.document->selection, layer,
+                             wr_progress_part(&joining, wr_progress_here(), 0.9, 1.0), err);
     wr_relief_fini(&relief);
     for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
     return good;

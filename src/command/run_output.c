@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "document/document_file.h"
 #include "document/ora.h"
 #include "export/export.h"
@@ -18,13 +19,14 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
     if (!session->renderer)
         session->renderer = wr_renderer_new(session->options.pool, session->options.isa, err);
     if (!session->renderer) return false;
+    const WrProgress *here = wr_progress_here();
     WrFrameRequest request = { .field = wr_document_composite(session->state.document,
                                                               session->options.pool),
                                .scene = session->state.document->scene,
                                .width = width,
                                .height = height,
                                .turn_deg = turn_deg,
-                               .cancel = session->options.cancel };
+                               .cancel = here ? here->cancel : NULL };
     if (request.scene->tolerance.kind == WR_TOLERANCE_NONE)
         return wr_renderer_frame(session->renderer, &request, frame, err);
     return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
@@ -52,6 +54,17 @@ static bool write_codes(WrSession *session, const char *path, const WrFrame *fra
     return good;
 }
 
+/* The picture itself is most of the work, its file the rest. */
+static bool frame_first(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
+                        WrError *err)
+{
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.8);
+    bool good = wr_session_frame(session, width, height, turn_deg, frame, err);
+    wr_progress_set(whole);
+    return good;
+}
+
 /* Whether a file can be written there, before a long computation. */
 static bool check_target(const char *path, WrError *err)
 {
@@ -72,13 +85,17 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8, linear ? 4 : 3, linear, err))
         return false;
     if (!check_target(path, err)) return false;
-    if (!wr_session_frame(session, width, height, turn_deg, &frame, err)) return false;
+    if (!frame_first(session, width, height, turn_deg, &frame, err)) return false;
     if (session->state.document->scene->tolerance.kind != WR_TOLERANCE_NONE &&
         session->choice.count > 0 && !session->choice.met)
         wr_session_note(session, "%s: %s", path, session->choice.reason);
-    if (!linear) return write_codes(session, path, &frame, err);
-    return wr_image_write_pixels(path, frame.width, frame.height, 4, WR_PIXEL_F32, true, frame.rgba,
-                                 err);
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.8, 1.0);
+    bool good = linear ? wr_image_write_pixels(path, frame.width, frame.height, 4, WR_PIXEL_F32,
+                                               true, frame.rgba, err)
+                       : write_codes(session, path, &frame, err);
+    wr_progress_set(whole);
+    return good;
 }
 
 bool wr_run_render(WrSession *session, WrCall *call, WrError *err)
@@ -89,6 +106,13 @@ bool wr_run_render(WrSession *session, WrCall *call, WrError *err)
 }
 
 /* ---- documents ---- */
+
+/* Up to date, so that what follows need not wait for it. */
+static bool make_composite(WrSession *session, WrError *err)
+{
+    wr_document_composite(session->state.document, session->options.pool);
+    return !wr_progress_stopped() || wr_fail(err, "cancelled");
+}
 
 /* Do both names lead to one file? */
 static bool same_file(const char *a, const char *b)
@@ -106,7 +130,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
                        "%s: was saved by a newer version of the program: saving over it would lose "
                        "what this one does not know; choose another name",
                        path);
-    wr_document_composite(session->state.document, session->options.pool);
+    if (!make_composite(session, err)) return false;
     wr_session_scene_text(session, &text);
     char ending[16];
     bool ora = strcmp(wr_path_ending(path, ending), "ora") == 0;
@@ -139,7 +163,7 @@ bool wr_run_export(WrSession *session, WrCall *call, WrError *err)
             return false;
     const char *path = wr_call_arg(call, "FILE")->text;
     WrExportReport report;
-    wr_document_composite(session->state.document, session->options.pool);
+    if (!make_composite(session, err)) return false;
     if (!wr_export(kind, session->state.document, &options, session->options.pool, path, &report,
                    err))
         return false;

@@ -93,10 +93,9 @@ static WrField *select_flood(WrSession *session, const WrCall *call, WrError *er
 {
     const WrField *f = wr_document_composite(session->state.document, session->options.pool);
     WrSelectPoint at = point(call, "u,v");
-    WrProgress progress = { .cancel = (volatile int *)session->options.cancel };
     return wr_select_flood(f, at.u, at.v, wr_call_number(call, "tolerance"),
-                           wr_call_choice(call, "diagonal") == 1, session->options.pool, &progress,
-                           err);
+                           wr_call_choice(call, "diagonal") == 1, session->options.pool,
+                           wr_progress_here(), err);
 }
 
 /* ---- changes of the present one ---- */

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <ctype.h>
 #include <stdarg.h>
@@ -111,6 +112,45 @@ static bool run_output(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+/* Where somebody wants it to stop, what a command left is only good to be thrown away, whatever it says. */
+static bool went_through(bool good, WrError *err)
+{
+    return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+}
+
+/* The composite of what the outermost command made, for those who want it at once. */
+static bool make_composite(WrSession *session, WrError *err)
+{
+    if (!session->options.composites || session->depth > 1 || session->opening) return true;
+    wr_document_composite(session->state.document, session->options.pool);
+    return went_through(true, err);
+}
+
+static bool run_edit(WrSession *session, WrCall *call, WrError *err)
+{
+    bool layers = session->options.composites && session->state.document->layer_count > 1;
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, layers ? 0.8 : 1.0);
+    bool good = !wr_progress_stopped() && call->command->run(session, call, err);
+    good = went_through(good, err);
+    part.from = part.to;
+    part.to = 1.0;
+    good = good && make_composite(session, err);
+    wr_progress_set(whole);
+    return good;
+}
+
+/* Through the steps, and back again where that is cancelled. */
+static bool run_history(WrSession *session, WrCall *call, WrError *err)
+{
+    int position = wr_session_history_position(session);
+    if (!call->command->run(session, call, err)) return false;
+    if (wr_session_history_position(session) == position || make_composite(session, err))
+        return true;
+    wr_session_go_to(session, position, NULL);
+    return false;
+}
+
 /* Only the outermost command is a step, and only its failure puts the old state back. A view is no step: the
    present state is looked at in another way. */
 static bool run_call(WrSession *session, WrCall *call, WrError *err)
@@ -120,13 +160,13 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
     bool good, view = call->command->kind == WR_CLASS_VIEW;
     wr_session_journal_before(session, call);
     if (call->command->kind == WR_CLASS_HISTORY) {
-        good = call->command->run(session, call, err);
+        good = run_history(session, call, err);
         if (good) wr_session_note_view(session);
         wr_session_journal_after(session, good, false);
         return good;
     }
     session->depth++;
-    good = call->command->run(session, call, err);
+    good = run_edit(session, call, err);
     session->depth--;
     if (session->depth > 0) return good;
     if (!good) wr_session_restore(session);
@@ -157,6 +197,7 @@ bool wr_session_run(WrSession *session, const char *line, WrError *err)
     if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!wr_call_parse(line, false, &call, err)) return false;
     bool good = run_call(session, call, err);
+    if (!good && wr_progress_stopped()) wr_fail(err, "cancelled"); /* whatever was left half done */
     if (!good) name_command(err, call->command->name);
     wr_call_free(call);
     return good;

@@ -1,5 +1,9 @@
 /* session.h - the one door to a document. The window, the command line, scripts and tests all change a
    document by running command lines here; nothing else may.
+
+   All that may take long tells the thread's own progress (base/progress.h) how far it is, and stops soon after
+   that is cancelled: with the error "cancelled", and everything as it was before: the document, the history,
+   the journal and all files. A script keeps what its finished lines did, as after any other failure.
    Layer 6. A session belongs to one thread; snapshots of it may be read by any. */
 #pragma once
 #include "base/pool.h"
@@ -22,7 +26,9 @@ typedef struct WrSessionOptions {
     const char *isa; /* kernel set for renders: NULL or "auto"; copied, checked at first use */
     bool journal; /* keep a journal of the document, so that a crash loses at most the command under
                      way (document/journal.h) */
-    const volatile int *cancel; /* may be NULL; non-zero: scripts and renders stop with an error */
+    bool
+        composites; /* every command makes the composite too, so that nobody who looks at the document
+                             afterwards has to: for the window */
 } WrSessionOptions;
 
 /* Starts with an empty document. The caller owns it. */
@@ -88,6 +94,8 @@ void wr_session_set_journal(WrSession *session, bool journal);
 /* True if every command so far can be recovered after a crash, or no journal is kept; else *reason says why
    not ("" if safe; valid until the next call). */
 bool wr_session_journal_safe(const WrSession *session, const char **reason);
+/* Would wr_session_journal_tend do something? */
+bool wr_session_journal_wants(const WrSession *session);
 /* When nothing else is to do: begin the journal anew from a snapshot if it has grown long, or if lines are
    missing since the disk was full. May take as long as a save. True if it did something. */
 bool wr_session_journal_tend(WrSession *session);

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "document/document_file.h"
 #include "document/ora.h"
 
@@ -53,22 +54,32 @@ static LineResult read_line(Lines *lines, WrText *line, WrError *err)
     return LINE_READ;
 }
 
-static bool cancelled(const WrSession *session)
+/* Of the whole, a line is the part that it takes of the file. */
+static bool run_line(WrSession *session, const char *text, double *place, double size, WrError *err)
 {
-    return session->options.cancel && *session->options.cancel;
+    WrProgressPart part;
+    double from = *place;
+    *place += (double)strlen(text) + 1.0;
+    double end = size > *place ? size : *place;
+    const WrProgress *whole = wr_progress_enter(&part, from / end, *place / end);
+    if (size == 0.0) part.progress.report = NULL; /* nobody knows how much is still to come */
+    bool good =
+        wr_progress_stopped() ? wr_fail(err, "cancelled") : wr_session_run(session, text, err);
+    wr_progress_set(whole);
+    return good;
 }
 
 static bool run_lines(WrSession *session, Lines lines, const char *name, WrError *err)
 {
     WrText line = { 0 };
+    double place = 0.0, size = lines.left < UINT64_MAX ? (double)lines.left : 0.0;
     bool good = true;
     for (int64_t number = 1;; number++) {
         LineResult result = read_line(&lines, &line, err);
         if (result == LINE_END) break;
         const char *text = wr_text_get(&line);
         if (number == 1 && strncmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3; /* byte order mark */
-        if (cancelled(session)) good = wr_fail(err, "cancelled");
-        else good = result == LINE_READ && wr_session_run(session, text, err);
+        good = result == LINE_READ && run_line(session, text, &place, size, err);
         if (good) wr_session_journal_tend(session);
         if (!good) {
             wr_error_prefix(err, "%s:%lld: ", name, (long long)number);
@@ -273,6 +284,7 @@ bool wr_session_open(WrSession *session, const char *path, WrError *err)
         good = open_document(session, path, err);
     else good = open_picture(session, path, err);
     session->opening = false;
+    if (good && wr_progress_stopped()) good = wr_fail(err, "%s: cancelled", path);
     if (good) wr_session_journal_drop(session);
     if (good) wr_session_keep_state(session, &old);
     else wr_session_restore_state(session, &old);

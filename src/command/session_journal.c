@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "document/document_file.h"
 
 #include <stdlib.h>
@@ -151,6 +152,7 @@ static void begin(WrSession *session)
     if (opened)
         start = (WrJournalStart){ .kind = WR_JOURNAL_DOCUMENT, .path = state->path, .sha256 = hex };
     if (wr_history_position(state->history) == 0) start.hash = hash_at_start(session);
+    if (wr_progress_stopped()) return; /* the hash is of a part only: the next command begins it */
     session->journal = wr_journal_begin(&options, &start);
     forget_kept(session);
     if (opened) keep(session, state->path, hex);
@@ -159,7 +161,10 @@ static void begin(WrSession *session)
     session->view_base = session->view_top = wr_views_number(state->views);
     WrError why = { "" };
     if (opened || !state->origin) add_history(session);
-    else if (!restart(session, false, &why)) wr_journal_break(session->journal, why.text);
+    else if (!restart(session, false, &why)) {
+        if (wr_progress_stopped()) wr_session_journal_drop(session); /* the next command begins it */
+        else wr_journal_break(session->journal, why.text);
+    }
 }
 
 static bool journaled(const WrSession *session)
@@ -174,6 +179,7 @@ void wr_session_journal_before(WrSession *session, const WrCall *call)
     bool view = call->command->kind == WR_CLASS_VIEW || call->command->run == wr_run_view;
     if (!session->journal && view) return;
     if (!session->journal) begin(session);
+    if (!session->journal) return;
     WrText canonical = { 0 }, text = { 0 };
     wr_call_print(call, &canonical);
     journal_line(session, wr_text_get(&canonical), session->folder, &text);
@@ -274,6 +280,7 @@ static bool restart(WrSession *session, bool checked, WrError *err)
     bool good =
         wr_journal_snapshot_path(session->journal, &path, err) &&
         wr_document_save(session->state.document, wr_text_get(&scene), wr_text_get(&path), err);
+    if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled"); /* so may be the hash */
     start.snapshot = wr_text_get(&path);
     good = good && (!checked || wr_session_reads_back(session, start.snapshot, err));
     good = good && wr_journal_restart(session->journal, &start, err);
@@ -298,11 +305,16 @@ bool wr_session_journal_anew(WrSession *session, WrError *err)
     return restart(session, true, err);
 }
 
-bool wr_session_journal_tend(WrSession *session)
+bool wr_session_journal_wants(const WrSession *session)
 {
     if (!session->journal || session->stroke) return false;
     WrJournalState state = wr_journal_state(session->journal);
-    if (state.busy || state.want == WR_JOURNAL_WANT_NOTHING) return false;
+    return !state.busy && state.want != WR_JOURNAL_WANT_NOTHING;
+}
+
+bool wr_session_journal_tend(WrSession *session)
+{
+    if (!wr_session_journal_wants(session)) return false;
     restart(session, false, NULL);
     return true;
 }

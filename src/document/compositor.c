@@ -10,6 +10,7 @@
 #include "document/compositor.h"
 
 #include "base/array.h"
+#include "base/progress.h"
 
 #include <string.h>
 
@@ -31,6 +32,7 @@ struct WrCompositor {
     WrField *result; /* NULL before the first update */
     Part *parts;     /* [count] */
     int count;
+    bool broken;     /* the result was given up half done: it is not what the parts make */
     int64_t strays;  /* bare tiles copied since the last start */
     int64_t blended; /* blended tiles at the last start */
 };
@@ -294,7 +296,7 @@ static void run_job(int index, int worker, void *ctx)
 static void repaint(Update *update, WrPool *pool)
 {
     WrCompositor *c = update->compositor;
-    for (int i = 0; i < update->dirty.count; i++) {
+    for (int i = 0; i < update->dirty.count && (i % 256 || !wr_progress_stopped()); i++) {
         int tx = update->dirty.data[i] % update->tiles_u;
         int ty = update->dirty.data[i] / update->tiles_u;
         if (!is_bare(update, tx, ty)) {
@@ -305,7 +307,7 @@ static void repaint(Update *update, WrPool *pool)
             c->strays++;
         }
     }
-    if (update->jobs.count) wr_pool_run(pool, update->jobs.count, run_job, update);
+    if (update->jobs.count) wr_pool_run_told(pool, update->jobs.count, run_job, update);
 }
 
 typedef struct Gathering {
@@ -406,9 +408,45 @@ static void pick_parts(Update *update, const WrBlendLayer *layers, int count)
 static bool is_mendable(const Update *update, const WrField *like, float level)
 {
     const WrCompositor *c = update->compositor;
-    return c->result && same_shape(c->result, like) &&
+    return c->result && !c->broken && same_shape(c->result, like) &&
            same_bits(wr_field_level(c->result), level) &&
            !base_of(c->parts, c->count, level) == !update->base;
+}
+
+static void keep_parts(const Update *update)
+{
+    WrCompositor *c = update->compositor;
+    Part *kept = share_parts(update->parts, update->count);
+    free_parts(c->parts, c->count);
+    c->parts = kept;
+    c->count = update->count;
+    c->broken = false;
+}
+
+/* ---- given up half way ---- */
+
+/* What there was before an update that can be cancelled. */
+typedef struct Before {
+    WrField *result; /* owned; NULL: nothing can be put back */
+    int64_t strays, blended;
+} Before;
+
+static Before keep_before(const WrCompositor *c)
+{
+    bool keeps = c->result && !c->broken && wr_progress_here();
+    return (Before){ keeps ? wr_field_share(c->result) : NULL, c->strays, c->blended };
+}
+
+/* The old result, which still is what the old parts make; else a new start for the next update. */
+static void put_back(WrCompositor *c, Before *before)
+{
+    c->broken = !before->result;
+    if (c->broken) return;
+    wr_field_free(c->result);
+    c->result = before->result;
+    before->result = NULL;
+    c->strays = before->strays;
+    c->blended = before->blended;
 }
 
 const WrField *wr_compositor_update(WrCompositor *compositor, const WrBlendLayer *layers, int count,
@@ -427,13 +465,13 @@ const WrField *wr_compositor_update(WrCompositor *compositor, const WrBlendLayer
     update.marked = wr_alloc((size_t)update.tiles_u * (size_t)wr_field_tiles_v(like), 1);
     update.whole = !is_mendable(&update, like, level);
     if (!update.whole) mark_differences(&update);
+    Before before = keep_before(compositor);
     if (update.whole) start(&update);
     repaint(&update, pool);
     if (compositor->strays > compositor->blended + STRAYS) drop_strays(&update);
-    Part *kept = share_parts(update.parts, update.count);
-    free_parts(compositor->parts, compositor->count);
-    compositor->parts = kept;
-    compositor->count = update.count;
+    if (wr_progress_stopped()) put_back(compositor, &before);
+    else keep_parts(&update);
+    wr_field_free(before.result);
     wr_free(update.parts);
     wr_free(update.marked);
     wr_array_free(&update.dirty);

@@ -46,7 +46,7 @@ void wr_compositor_free(WrCompositor *compositor); /* NULL is fine */
  *
  * layers   [count], count >= 1; checked by wr_blend_layer_check
  * pool     NULL: all on this thread
- * Returns  borrowed: valid until the next call
+ * Returns  borrowed: valid until the next call. Where the thread's progress is cancelled: any table
  * Threads  one caller at a time, and nobody edits the layers meanwhile */
 const WrField *wr_compositor_update(WrCompositor *compositor, const WrBlendLayer *layers, int count,
                                     WrPool *pool);

@@ -88,7 +88,9 @@ void wr_document_start_over(WrDocument *document, WrField *heights);
  *   - add or subtract onto add or subtract: the new layer holds the sum of what they add;
  *   - any others: the new layer holds what the two change in the composite of the layers below, and adds
  *     that, so later edits below no longer meet the old layers' blends.
- * In the last two each height changes by at most 2^-21 times the largest height that meets there. */
+ * In the last two each height changes by at most 2^-21 times the largest height that meets there.
+ * Where the thread's progress is cancelled, this and what follows leave a document that is only good to be
+ * thrown away. */
 void wr_document_merge(WrDocument *document, int index, WrPool *pool);
 /* One layer with the bottom one's name that holds the composite of the visible layers, bit for bit, solo or
    not; hidden layers are lost. The selection stays. */

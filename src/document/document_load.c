@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <math.h>
 #include <string.h>
@@ -180,6 +181,11 @@ static WrField *read_field(Loading *in, int part, bool heights, WrError *err)
     float *strip = wr_try_alloc((size_t)in->width * WR_TILE, sizeof *strip, "rows of a layer", err);
     for (int y = 0; strip && y < in->height; y += WR_TILE) {
         int rows = in->height - y < WR_TILE ? in->height - y : WR_TILE;
+        double done = part + (double)y / in->height;
+        if (!wr_progress_tell(done / wr_image_file_parts(in->file))) {
+            wr_fail(err, "%s: cancelled", in->path);
+            goto fail;
+        }
         if (!wr_image_file_read_rows(in->file, part, y, rows, strip, err)) goto fail;
         if (!heights) clamp_strip(strip, (size_t)in->width * (size_t)rows);
         if (!field) {

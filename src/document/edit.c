@@ -1,5 +1,7 @@
 #include "document/edit.h"
 
+#include "base/progress.h"
+
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
@@ -45,6 +47,7 @@ static bool differ(const float *a, const float *b, int count)
 static void mix_tile(int tx, int ty, void *ctx)
 {
     const Mixing *m = ctx;
+    if (wr_progress_stopped()) return;
     const float *s = wr_field_tile(m->selection, tx, ty);
     float level = wr_field_level(m->selection);
     if (is_nothing(s, level)) return;
@@ -85,7 +88,7 @@ void wr_edit_mark(WrField *cover, const WrField *selection)
         return;
     }
     float level = wr_field_level(selection), base = wr_field_level(cover);
-    for (int ty = 0; ty < wr_field_tiles_v(cover); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(cover) && !wr_progress_stopped(); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(cover); tx++) {
             const float *s = wr_field_tile(selection, tx, ty), *old = wr_field_tile(cover, tx, ty);
             if (is_nothing(s, level) || (!s && !old && unit(level) <= base)) continue;

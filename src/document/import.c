@@ -1,6 +1,7 @@
 #include "document/document_file.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <math.h>
 
@@ -120,11 +121,13 @@ static bool resample(Resampling *r, WrField *field, WrError *err)
     r->row = wr_try_alloc((size_t)r->u.from, sizeof *r->row, "a row", err);
     float *out = wr_try_alloc(columns, sizeof *out, "a row", err);
     bool ok = r->weights && r->row && out;
-    for (int i = 0; ok && i < r->u.to; i++) {
+    for (int i = 0; ok && i < r->u.to && !wr_progress_stopped(); i++) {
         r->columns[i].weight = r->weights + (size_t)i * (size_t)r->u.most;
         find_taps(&r->u, i, &r->columns[i]);
     }
     for (int j = 0; ok && j < r->v.to; j++) {
+        if (!wr_progress_tell((double)j / r->v.to)) ok = wr_fail(err, "cancelled");
+        if (!ok) break;
         resample_row(r, j, out);
         wr_field_write(field, 0, j, r->u.to, 1, out, columns);
     }

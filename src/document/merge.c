@@ -2,6 +2,7 @@
 #include "document/composite.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <float.h>
 #include <math.h>
@@ -71,6 +72,11 @@ static Values level_of(const WrField *field)
     return (Values){ NULL, field ? wr_field_level(field) : 1.0f };
 }
 
+static double row_part(const WrField *field, int ty)
+{
+    return (double)ty / wr_field_tiles_v(field);
+}
+
 /* The sum of what two additive layers add. */
 static WrField *sum_of(const WrLayer *a, const WrLayer *b)
 {
@@ -80,7 +86,7 @@ static WrField *sum_of(const WrLayer *a, const WrLayer *b)
     WrField *out = wr_field_new(wr_field_width(like), wr_field_height(like), wr_field_wrap_u(like),
                                 wr_field_wrap_v(like),
                                 bounded(added(a, &ha, &ma, 0) + added(b, &hb, &mb, 0)), NULL);
-    for (int ty = 0; ty < wr_field_tiles_v(like); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(like) && wr_progress_tell(row_part(like, ty)); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(like); tx++) add_tile(a, b, tx, ty, out);
     return out;
 }
@@ -107,7 +113,7 @@ static WrField *change_of(const WrField *below, const WrField *with)
         wr_field_new(wr_field_width(below), wr_field_height(below), wr_field_wrap_u(below),
                      wr_field_wrap_v(below), bounded(level), NULL);
     Change change = { below, with, out };
-    for (int ty = 0; ty < wr_field_tiles_v(below); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(below) && !wr_progress_stopped(); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(below); tx++)
             if (level != 0.0 || wr_field_tile(below, tx, ty) != wr_field_tile(with, tx, ty))
                 change_tile(tx, ty, &change);
@@ -122,7 +128,7 @@ static WrField *cover_of(const WrLayer *a, const WrLayer *b)
     float low = wr_field_level(f), other = wr_field_level(g);
     WrField *out = wr_field_new(wr_field_width(f), wr_field_height(f), wr_field_wrap_u(f),
                                 wr_field_wrap_v(f), low > other ? low : other, NULL);
-    for (int ty = 0; ty < wr_field_tiles_v(f); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(f) && !wr_progress_stopped(); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(f); tx++) {
             Values x = values_of(f, tx, ty), y = values_of(g, tx, ty);
             if (!x.tile && !y.tile) continue;
@@ -152,8 +158,13 @@ void wr_document_merge(WrDocument *document, int index, WrPool *pool)
     } else if (is_additive(upper) && is_additive(lower)) {
         made.heights = sum_of(upper, lower);
     } else {
+        WrProgressPart part;
+        const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.45);
         WrField *below = composite_of(layers, index - 1, -1, pool);
+        part.from = part.to;
+        part.to = 0.9;
         WrField *with = composite_of(layers, index + 1, -1, pool);
+        wr_progress_set(whole);
         made.heights = change_of(below, with);
         wr_field_free(below);
         wr_field_free(with);

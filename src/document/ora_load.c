@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
 
@@ -31,16 +32,31 @@ typedef struct Loading {
     WrWrap wrap_u, wrap_v;
     bool newer; /* than this program: what is not known is passed over */
     int64_t replaced;
-    int64_t pixels; /* of pictures read so far */
+    int64_t pixels;     /* of pictures read so far */
+    int read, pictures; /* how many of them, and of all that there are */
     WrText *notes;
 } Loading;
+
+static int count_pictures(const WrOraStack *stack)
+{
+    int count = (stack->selection != NULL) + (stack->colour != NULL);
+    for (int i = 0; i < stack->layers.count; i++) {
+        const WrOraLayer *layer = &stack->layers.data[i];
+        count += 1 + (layer->cover != NULL) + (layer->mask != NULL);
+    }
+    return count;
+}
 
 static WrImage *read_picture(Loading *in, const char *entry, WrError *err)
 {
     char *bytes;
     size_t length;
     if (!wr_ora_zip_read(in->zip, entry, PICTURE_MAX, &bytes, &length, err)) return NULL;
+    WrProgressPart part;
+    double all = in->pictures, from = in->read++ / all;
+    const WrProgress *whole = wr_progress_enter(&part, from, from + 1.0 / all);
     WrImage *image = wr_image_read_bytes(entry, bytes, length, err);
+    wr_progress_set(whole);
     wr_free(bytes);
     if (!image) {
         wr_error_prefix(err, "%s: in it, ", in->path);
@@ -349,6 +365,7 @@ static void add_notes(Loading *in)
 static bool load(Loading *in, WrLoaded *loaded, WrError *err)
 {
     if (!check_type(in, err) || !read_stack(in, err) || !check_stack(in, loaded, err)) return false;
+    in->pictures = count_pictures(&in->stack);
     loaded->document = wr_document_new();
     WrDocument *document = loaded->document;
     document->active = -1;

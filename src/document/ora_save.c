@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/progress.h"
 #include "document/ora_show.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
@@ -38,6 +39,7 @@ typedef struct Saving {
     WrText stack, scene;
     int lowest;         /* index of the lowest layer that is shown, -1: none */
     WrField *ground;    /* what that one makes of the empty ground; owned */
+    int packed;         /* entries whose pictures were made */
     uint8_t *thumbnail; /* RGBA */
     uint8_t profile[WR_SRGB_PROFILE_SIZE];
     WrError err; /* of a picture, since the archive cannot pass it on */
@@ -105,9 +107,14 @@ static bool thumbnail_rows(void *ctx, int y, int rows, void *out, WrError *err)
 static bool render(Entry *entry)
 {
     if (entry->bytes) return true;
-    if (!wr_image_write_bytes(entry->name, &entry->picture, &entry->bytes, &entry->length,
-                              &entry->to->err))
-        return false;
+    Saving *to = entry->to;
+    WrProgressPart part;
+    double all = to->entries.count, from = entry->known ? to->packed / all : to->packed++ / all;
+    const WrProgress *whole = wr_progress_enter(&part, from, from + 1.0 / all);
+    bool good =
+        wr_image_write_bytes(entry->name, &entry->picture, &entry->bytes, &entry->length, &to->err);
+    wr_progress_set(whole);
+    if (!good) return false;
     entry->known = true;
     entry->content = wr_hash_bytes(entry->bytes, entry->length, (WrHash){ 0 });
     return true;
@@ -143,6 +150,7 @@ static zip_int64_t on_source(void *ctx, void *data, zip_uint64_t length, zip_sou
         return render(entry) ? 0 : -1;
     }
     if (command == ZIP_SOURCE_READ) {
+        if (wr_progress_stopped()) return -1;
         size_t left = entry->length - entry->at, take = left < length ? left : (size_t)length;
         memcpy(data, entry->bytes + entry->at, take);
         entry->at += take;
@@ -464,6 +472,7 @@ bool wr_ora_save(const WrDocument *document, const char *scene_text, const char 
     to->document = document;
     wr_text_add(&to->scene, scene_text);
     bool good = write_archive(to, target.fd, err) && verify_archive(to, path, target.fd, err);
+    if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled");
     if (good) wr_file_verified(&target);
     else wr_error_prefix(err, "%s: cannot be written: ", path);
     for (int i = 0; i < to->entries.count; i++) {

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 #define TEXELS (WR_TILE * WR_TILE)
 #define FAN_BITS 3 /* 8 children along each side of a node */
@@ -295,7 +296,7 @@ WrHash wr_field_hash(const WrField *field)
     WrHash level = wr_hash_bytes(&field->level, sizeof field->level, (WrHash){ 1, 0 });
     WrHash row[WR_FIELD_MAX / WR_TILE];
     int tiles_u = wr_field_tiles_u(field), tiles_v = wr_field_tiles_v(field);
-    for (int ty = 0; ty < tiles_v; ty++) {
+    for (int ty = 0; ty < tiles_v && !wr_progress_stopped(); ty++) {
         for (int tx = 0; tx < tiles_u; tx++) {
             const float *tile = wr_field_tile(field, tx, ty);
             row[tx] =
@@ -317,7 +318,7 @@ typedef struct Survey {
 static void survey_tile(Survey *s, const float *texels, int tx, int ty)
 {
     s->tiles++;
-    if (!s->heights) return;
+    if (!s->heights || wr_progress_stopped()) return;
     int count_i = used(tx, s->field->width), count_j = used(ty, s->field->height);
     float low = s->low, high = s->high;
     for (int j = 0; j < count_j; j++)

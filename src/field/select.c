@@ -44,7 +44,7 @@ static void build_piece(int index, int worker, void *ctx)
 
 static bool build_group(Build *build, int count, WrField *field, WrPool *pool, WrError *err)
 {
-    wr_pool_run(pool, count, build_piece, build);
+    if (!wr_pool_run(pool, count, build_piece, build)) return wr_fail(err, "cancelled");
     for (int k = 0; k < count; k++) {
         if (build->failed[k]) return wr_fail(err, "selection: not enough memory");
         int j = build->first + k * WR_TILE;
@@ -131,7 +131,7 @@ WrField *wr_select_height(const WrField *field, double low, double high, double 
     Band band = { .field = field, .low = low, .high = high, .soft = soft };
     if (!check_band(&band, "height", err)) return NULL;
     float level = in_band(&band, wr_field_level(field));
-    return wr_select_build(field, level, height_rows, &band, pool, NULL, err);
+    return wr_select_build(field, level, height_rows, &band, pool, wr_progress_here(), err);
 }
 
 static bool slope_rows(void *ctx, int worker, int j, int rows, float *out)
@@ -174,8 +174,8 @@ WrField *wr_select_slope(const WrField *field, double relief, double low, double
     band.scratch = wr_try_alloc(threads * (WR_TILE + 2) * band.pitch, sizeof *band.scratch,
                                 "selection by slope", err);
     if (!band.scratch) return NULL;
-    WrField *result =
-        wr_select_build(field, in_band(&band, 0.0), slope_rows, &band, pool, NULL, err);
+    WrField *result = wr_select_build(field, in_band(&band, 0.0), slope_rows, &band, pool,
+                                      wr_progress_here(), err);
     wr_free(band.scratch);
     return result;
 }
@@ -197,6 +197,11 @@ static bool same_shape(const WrField *a, const WrField *b)
 {
     return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
            wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b);
+}
+
+static double row_part(const WrField *field, int ty)
+{
+    return (double)ty / wr_field_tiles_v(field);
 }
 
 static void join_tile(WrField *out, const WrField *a, const WrField *b, WrSelectMode mode, int tx,
@@ -222,7 +227,7 @@ WrField *wr_select_combine(const WrField *a, const WrField *b, WrSelectMode mode
                           : wr_field_new(wr_field_width(a), wr_field_height(a), wr_field_wrap_u(a),
                                          wr_field_wrap_v(a),
                                          join(mode, wr_field_level(a), wr_field_level(b)), err);
-    for (int ty = 0; ty < wr_field_tiles_v(a); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(a) && wr_progress_tell(row_part(a, ty)); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(a); tx++)
             if (wr_field_tile(b, tx, ty) || (!sparse && wr_field_tile(a, tx, ty)))
                 join_tile(out, a, b, mode, tx, ty);
@@ -233,7 +238,7 @@ WrField *wr_select_invert(const WrField *a)
 {
     WrField *out = wr_field_new(wr_field_width(a), wr_field_height(a), wr_field_wrap_u(a),
                                 wr_field_wrap_v(a), 1.0f - wr_field_level(a), NULL);
-    for (int ty = 0; ty < wr_field_tiles_v(a); ty++)
+    for (int ty = 0; ty < wr_field_tiles_v(a) && wr_progress_tell(row_part(a, ty)); ty++)
         for (int tx = 0; tx < wr_field_tiles_u(a); tx++) {
             const float *from = wr_field_tile(a, tx, ty);
             if (!from) continue;
@@ -247,7 +252,7 @@ WrField *wr_select_invert(const WrField *a)
 WrField *wr_select_feather(const WrField *a, double sigma, WrPool *pool, WrError *err)
 {
     const WrOpInfo *blur = wr_op_find("blur"), *clamp = wr_op_find("clamp");
-    WrOpOptions options = { .pool = pool };
+    WrOpOptions options = { .pool = pool, .progress = wr_progress_here() };
     if (sigma == 0.0) return wr_field_share(a);
     WrField *blurred = wr_op_run(blur, a, &sigma, &options, err);
     if (!blurred) return NULL;

@@ -121,6 +121,8 @@ static bool spread(Flood *f, const WrProgress *progress, WrError *err)
         f->next.count = 0;
         if (wr_progress_cancelled(progress)) return wr_fail(err, "cancelled");
         for (size_t i = 0; i < f->now.count; i++) {
+            if (i % 1024 == 1023 && wr_progress_cancelled(progress))
+                return wr_fail(err, "cancelled");
             Run run = f->now.runs[i];
             if (!take_row(f, run, run.y - 1, err) || !take_row(f, run, run.y + 1, err))
                 return false;

@@ -169,11 +169,14 @@ static WrField *change(const WrField *a, double r, bool grow, WrPool *pool, WrEr
     int threads = wr_pool_threads(pool);
     WrField *result = NULL;
     if (make_room(&d, threads, err)) {
-        wr_pool_run(pool, wr_field_tiles_u(a), column_piece, &d);
+        bool whole = wr_pool_run(pool, wr_field_tiles_u(a), column_piece, &d);
         bool any = false;
         for (int tx = 0; tx < wr_field_tiles_u(a); tx++) any |= d.some[tx];
-        result = any ? wr_select_build(a, wr_field_level(a), distance_rows, &d, pool, NULL, err)
-                     : wr_field_share(a);
+        if (!whole) wr_fail(err, "cancelled");
+        else if (!any) result = wr_field_share(a);
+        else
+            result = wr_select_build(a, wr_field_level(a), distance_rows, &d, pool,
+                                     wr_progress_here(), err);
     }
     free_room(&d, threads);
     return result;

@@ -308,7 +308,8 @@ struct WrOiioWriter {
     std::vector<ImageSpec> specs;
     std::vector<TypeDesc> types;
     size_t part = 0;
-    int row = 0; /* how many rows of the part are written */
+    int row = 0;      /* how many rows of the part are written */
+    int64_t head = 0; /* bytes before the first of them */
     bool png = false;
 };
 
@@ -398,6 +399,7 @@ static bool create_file(WrOiioWriter &writer, int file, const char *format, cons
     bool ok = count > 1 ? writer.out->open(writer.path, count, writer.specs.data())
                         : writer.out->open(writer.path, writer.specs[0]);
     if (!check_write(writer, ok, reason)) return false;
+    if (writer.disk) writer.head = writer.disk->tell();
     if (writer.out->spec().format != writer.types[0])
         return fail(reason, "the format does not hold this type");
     return true;
@@ -437,14 +439,14 @@ static bool writer_next(WrOiioWriter *writer, char *reason)
     });
 }
 
-/* libpng complains on standard error when a file is closed before its picture is complete, so one that is
-   given up gets black rows first. */
+/* libpng complains on standard error when a file is closed before it has any of its picture, so one that is
+   given up gets black rows until some of it was written. */
 static void complete_png(WrOiioWriter &writer)
 {
     const ImageSpec &spec = writer.specs[0];
     std::vector<char> black(spec.scanline_bytes() * WR_IMAGE_STRIP);
     char ignored[WR_OIIO_REASON];
-    while (writer.row < spec.height) {
+    while (writer.row < spec.height && writer.disk->tell() == writer.head) {
         int rows = std::min(WR_IMAGE_STRIP, spec.height - writer.row);
         bool ok = writer.out->write_scanlines(writer.row, writer.row + rows, 0, writer.types[0],
                                               black.data());

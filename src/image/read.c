@@ -1,5 +1,6 @@
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "image/decode.h"
 #include "image/process.h"
 #include "image/read_inner.h"
@@ -100,6 +101,7 @@ const char *wr_image_file_attribute(const WrImageFile *file, int part, const cha
 static bool read_rows(WrImageFile *file, int part, int y, int rows, int channels, float *out,
                       WrError *err)
 {
+    if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     if (file->reader) return wr_reader_read(file->reader, part, y, rows, channels, out, err);
     if (wr_decoder_read(file->decoder, part, y, rows, channels, out, NULL, err)) return true;
     wr_error_prefix(err, "%s: ", file->path);
@@ -117,6 +119,7 @@ bool wr_image_file_read(WrImageFile *file, int part, float *out, WrError *err)
     size_t row = (size_t)is.width * (size_t)is.channels;
     for (int y = 0; y < is.height; y += WR_IMAGE_BAND) {
         int rows = is.height - y < WR_IMAGE_BAND ? is.height - y : WR_IMAGE_BAND;
+        if (!wr_progress_tell((double)y / is.height)) return wr_fail(err, "cancelled");
         if (!wr_image_file_read_rows(file, part, y, rows, out + (size_t)y * row, err)) return false;
     }
     return true;

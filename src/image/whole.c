@@ -1,5 +1,6 @@
 /* Whole pictures: one part, some of its channels, the way up that the file tells. */
 #include "base/memory.h"
+#include "base/progress.h"
 #include "image/choose.h"
 #include "image/read_inner.h"
 #include "image/told.h"
@@ -95,6 +96,7 @@ static bool read_pixels(WrImageFile *file, int part, const WrChannelChoice *choi
         const int left = image->height - y, rows = left < (int)most ? left : (int)most;
         const size_t pixels = width * (size_t)rows;
         float *out = image->data + (size_t)y * width * (size_t)choice->count;
+        wr_progress_tell((double)y / image->height);
         good = wr_image_file_read_first(file, part, y, rows, first, band, err);
         if (!good) break;
         gather(band, pixels, first, choice, out);

@@ -1,6 +1,7 @@
 #include "image/wire.h"
 
 #include "base/clock.h"
+#include "base/progress.h"
 
 #include <errno.h>
 #include <math.h>
@@ -8,6 +9,8 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#define LOOK_MS 20 /* between two looks at whether somebody wants it to stop */
 
 typedef union Control {
     struct cmsghdr align;
@@ -53,11 +56,13 @@ bool wr_wire_send(int channel, WrWireKind kind, const void *bytes, size_t length
 static WrWireGot wait_for(int channel, double deadline)
 {
     for (;;) {
-        int timeout = -1;
+        int timeout = wr_progress_here() ? LOOK_MS : -1;
+        if (wr_progress_stopped()) return WR_WIRE_GONE;
         if (deadline > 0.0) {
             double left = deadline - wr_clock_seconds();
             if (left <= 0.0) return WR_WIRE_LATE;
-            timeout = (int)ceil(left < 1e5 ? left * 1e3 : 1e8);
+            int most = (int)ceil(left < 1e5 ? left * 1e3 : 1e8);
+            timeout = timeout < 0 || most < timeout ? most : timeout;
         }
         struct pollfd ready = { .fd = channel, .events = POLLIN };
         int n = poll(&ready, 1, timeout);

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -14,6 +15,7 @@
 #include <unistd.h>
 
 #define SPOOL_MB 1024 /* files of more go to the disk at once (choose_spool) */
+#define PIECE_BYTES (1 << 20)
 
 static size_t type_bytes(WrPixelType type)
 {
@@ -50,6 +52,7 @@ typedef struct Writing {
     const WrOiioTable *library;
     WrOiioWriter *writer;
     float *values; /* scratch: a strip as a reader gives it */
+    int packed;    /* rows that the format packs together */
 } Writing;
 
 /* What reading the strip back will give. */
@@ -67,6 +70,29 @@ static void digest_strip(const Writing *to, WrPixelType type, const void *pixels
     wr_digest_strip(digest, values, count);
 }
 
+/* How many rows a format packs together, at most. */
+static int packed_rows(const char *format)
+{
+    return strcmp(format, "png") == 0 ? 1 : strcmp(format, "tiff") == 0 ? 32 : 16;
+}
+
+/* A strip, in pieces so small that it soon looks whether it should stop. row: bytes. */
+static bool write_strip(const Writing *to, int y, int rows, const void *pixels, size_t row,
+                        WrError *err)
+{
+    char reason[WR_OIIO_REASON] = "";
+    int piece = WR_IMAGE_STRIP;
+    while (piece > to->packed && (size_t)piece * row > PIECE_BYTES) piece /= 2;
+    for (int first = 0; first < rows; first += piece) {
+        int count = rows - first < piece ? rows - first : piece;
+        const char *from = (const char *)pixels + (size_t)first * row;
+        if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+        if (!to->library->write(to->writer, y + first, count, from, reason))
+            return fail_write(err, to->path, reason);
+    }
+    return true;
+}
+
 static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrError *err)
 {
     size_t row = (size_t)part->width * (size_t)part->channels;
@@ -75,13 +101,15 @@ static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrEr
         wr_try_alloc(row * (size_t)strip, type_bytes(part->type), "rows of a picture", err);
     to->values = wr_try_alloc(row * (size_t)strip, sizeof(float), "rows of a picture", err);
     bool ok = pixels && to->values;
-    char reason[WR_OIIO_REASON] = "";
     for (int y = 0; y < part->height && ok; y += strip) {
         int rows = part->height - y < strip ? part->height - y : strip;
+        if (!wr_progress_tell((double)y / part->height)) {
+            ok = wr_fail(err, "cancelled");
+            break;
+        }
         ok = part->rows(part->ctx, y, rows, pixels, err);
         if (ok) digest_strip(to, part->type, pixels, row * (size_t)rows, digest);
-        if (ok && !to->library->write(to->writer, y, rows, pixels, reason))
-            ok = fail_write(err, to->path, reason);
+        ok = ok && write_strip(to, y, rows, pixels, row * type_bytes(part->type), err);
     }
     wr_free(pixels);
     wr_free(to->values);
@@ -93,17 +121,21 @@ static bool write_file(const char *path, int file, const char *format, const WrI
                        int count, WrHash *digests, WrError *err)
 {
     char reason[WR_OIIO_REASON] = "";
-    Writing to = { .path = path, .library = wr_oiio(err) };
+    Writing to = { .path = path, .library = wr_oiio(err), .packed = packed_rows(format) };
     if (!to.library) return false;
     to.writer = to.library->create(file, format, parts, count, reason);
     if (!to.writer) return fail_write(err, path, reason);
     bool ok = true;
     for (int i = 0; i < count && ok; i++) {
+        WrProgressPart share;
+        const WrProgress *whole = wr_progress_enter(&share, (double)i / count, (i + 1.0) / count);
         if (i > 0 && !to.library->next(to.writer, reason)) ok = fail_write(err, path, reason);
         ok = ok && write_part(&to, &parts[i], &digests[i], err);
+        wr_progress_set(whole);
     }
     bool whole = to.library->finish(to.writer, ok, reason);
     if (ok && !whole) ok = fail_write(err, path, reason);
+    if (ok && wr_progress_stopped()) ok = wr_fail(err, "cancelled"); /* rows may be missing */
     return ok;
 }
 
@@ -137,6 +169,8 @@ static bool copy_file(int from, const WrFileTarget *target, WrError *err)
     bool good = true;
     off_t at = 0;
     for (ssize_t n = 1; good && n != 0; at += n > 0 ? n : 0) {
+        if (wr_progress_stopped()) good = wr_fail(err, "cancelled");
+        if (!good) break;
         n = pread(from, block, size, at);
         if (n < 0 && errno == EINTR) continue;
         good = n >= 0 && (n == 0 || wr_fd_write(target->fd, block, (size_t)n));
@@ -160,8 +194,11 @@ static bool write_target(WrFileTarget *target, const char *path, const WrImageFo
 {
     WrError inner = { "" };
     int spool = choose_spool(target, format->library, parts, count);
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7); /* reading it back is the rest */
     bool good = write_file(path, spool, format->library, parts, count, digests, err) &&
                 (spool == target->fd || copy_file(spool, target, err));
+    wr_progress_set(whole);
     if (spool != target->fd) close(spool);
     if (!good) return false;
     if (wr_image_verify(path, target->fd, format, parts, count, digests, &inner)) {
@@ -179,6 +216,7 @@ bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrErro
     WrHash *digests = wr_alloc((size_t)count, sizeof *digests);
     bool good = write_target(&target, path, wr_image_format(path, err), parts, count, digests, err);
     wr_free(digests);
+    if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled");
     if (good) return wr_file_commit(&target, err);
     wr_file_abort(&target);
     return false;

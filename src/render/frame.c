@@ -1,6 +1,7 @@
 #include "render/frame.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "render/frame_inner.h"
 #include "render/pipe.h"
 
@@ -188,7 +189,10 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
         wr_view_mesh_prepare(&renderer->mesh, &scene->shape, &renderer->view, &ask, kernels,
                              renderer->pool);
     else wr_view_mesh_fini(&renderer->mesh);
-    return true;
+    if (!wr_progress_stopped()) return true;
+    wr_view_mesh_fini(&renderer->mesh); /* half made */
+    forget_view(renderer);
+    return wr_fail(err, "cancelled");
 }
 
 /* Render the tiles. False if told to stop. */
@@ -209,8 +213,8 @@ static bool run_tiles(WrRenderer *renderer, const WrFrameRequest *request, Frame
             job->tile.seen = renderer->keep.seen;
         }
     }
-    wr_pool_run(renderer->pool, tiles, render_tile, job);
-    return !job->cancel || !*job->cancel;
+    const bool whole = wr_pool_run_told(renderer->pool, tiles, render_tile, job);
+    return whole && (!job->cancel || !*job->cancel);
 }
 
 bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,

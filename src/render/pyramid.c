@@ -1,5 +1,6 @@
 #include "render/pyramid.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <float.h>
 #include <math.h>
@@ -260,6 +261,7 @@ static void remake(Job *job, int a, int b, int c, int d)
 static void remake_tile(int tx, int ty, void *ctx)
 {
     Job *job = ctx;
+    if (wr_progress_stopped()) return;
     const int w = wr_field_width(job->field), h = wr_field_height(job->field), reach = 3;
     int a = tx * WR_TILE - reach, b = (tx + 1) * WR_TILE + reach;
     int c = ty * WR_TILE - reach, d = (ty + 1) * WR_TILE + reach;
@@ -319,6 +321,10 @@ bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *fie
     } else {
         if (!same && !allocate(pyramid, kind, field, err)) return false;
         make_all(&job, pool);
+    }
+    if (wr_progress_stopped()) {
+        wr_pyramid_drop(pyramid); /* half made */
+        return wr_fail(err, "cancelled");
     }
     wr_field_free(pyramid->seen);
     pyramid->seen = wr_field_share(field);

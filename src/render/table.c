@@ -1,5 +1,6 @@
 #include "render/table.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <float.h>
 #include <string.h>
@@ -160,11 +161,12 @@ bool wr_table_flat(WrTable *table, const WrField *field)
         wr_free(table->high);
         table->low = wr_alloc((size_t)count, sizeof *table->low);
         table->high = wr_alloc((size_t)count, sizeof *table->high);
-        for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int ty = 0; ty < wr_field_tiles_v(field) && !wr_progress_stopped(); ty++)
             for (int tx = 0; tx < wr_field_tiles_u(field); tx++) range_tile(tx, ty, &job);
     }
     wr_field_free(table->ranged);
-    table->ranged = wr_field_share(field);
+    table->ranged = wr_progress_stopped() ? NULL : wr_field_share(field);
+    if (!table->ranged) return false;
     for (int i = 0; i < count; i++)
         if (table->low[i] != table->high[i] || table->low[i] != table->low[0]) return false;
     return true;
@@ -278,6 +280,7 @@ static Pieces cut(int a, int b, int n, WrWrap wrap)
 static void refresh_tile(int tx, int ty, void *ctx)
 {
     CopyJob *job = ctx;
+    if (wr_progress_stopped()) return;
     const WrField *field = job->field;
     const int w = wr_field_width(field), h = wr_field_height(field), reach = kinds[job->kind].reach;
     const int edge = reach + WR_APRON;
@@ -350,6 +353,10 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
     } else {
         if (!same_layout(copy->seen, field) && !allocate(&job, err)) return false;
         wr_pool_run(pool, wr_field_tiles_v(field), build_strip, &job);
+    }
+    if (wr_progress_stopped()) {
+        wr_table_drop(table, kind); /* half made */
+        return wr_fail(err, "cancelled");
     }
     wr_field_free(copy->seen);
     copy->seen = wr_field_share(field);

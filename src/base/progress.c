@@ -1,0 +1,47 @@
+#include "base/progress.h"
+
+static _Thread_local const WrProgress *here;
+
+const WrProgress *wr_progress_here(void)
+{
+    return here;
+}
+
+const WrProgress *wr_progress_set(const WrProgress *progress)
+{
+    const WrProgress *before = here;
+    here = progress;
+    return before;
+}
+
+bool wr_progress_stopped(void)
+{
+    return wr_progress_cancelled(here);
+}
+
+bool wr_progress_tell(double fraction)
+{
+    return wr_progress_step(here, fraction);
+}
+
+static void report_part(void *ctx, double fraction)
+{
+    const WrProgressPart *part = ctx;
+    double within = fraction < 0.0 ? 0.0 : fraction > 1.0 ? 1.0 : fraction;
+    part->whole->report(part->whole->ctx, part->from + (part->to - part->from) * within);
+}
+
+const WrProgress *wr_progress_part(WrProgressPart *part, const WrProgress *whole, double from,
+                                   double to)
+{
+    *part = (WrProgressPart){ .whole = whole, .from = from, .to = to };
+    if (whole) part->progress.cancel = whole->cancel;
+    if (whole && whole->report) part->progress.report = report_part;
+    part->progress.ctx = part;
+    return &part->progress;
+}
+
+const WrProgress *wr_progress_enter(WrProgressPart *part, double from, double to)
+{
+    return wr_progress_set(wr_progress_part(part, here, from, to));
+}

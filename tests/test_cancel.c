@@ -1,0 +1,430 @@
+/* Everything that may take long can be cancelled: each command of the table, on a large table, is told to stop at
+   a report of its own progress, and leaves no trace. What it does afterwards is counted in pieces of work and in
+   reports, not in seconds, so that no machine is too slow or too fast for the test. */
+#include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
+
+#include "base/clock.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "command/call.h"
+#include "generate/generator.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+
+#define THREADS 2
+#define PIECES_AFTER (2 * THREADS) /* that were under way, or began in the same moment */
+#define REPORTS_AFTER 4
+
+/* Texels along the table's side. */
+static int side(void)
+{
+    return getenv("WR_FULL") ? 4096 : 256;
+}
+
+/* ---- what is told to stop ---- */
+
+typedef struct Stop {
+    volatile int cancel;
+    int reports, at;       /* so far; the one to stop at, 0: never */
+    int64_t pieces;        /* begun when it was told */
+    double since, slowest; /* clock then; most seconds between two looks */
+} Stop;
+
+static void hear(void *ctx, double fraction)
+{
+    Stop *stop = ctx;
+    assert_true(fraction >= 0.0 && fraction <= 1.0);
+    if (++stop->reports != stop->at) return;
+    stop->cancel = 1;
+    stop->pieces = wr_pool_pieces();
+    stop->since = wr_clock_seconds();
+}
+
+/* ---- the files of a folder ---- */
+
+static uint64_t look_at_folder(void)
+{
+    uint64_t sum = 0;
+    DIR *dir = opendir(".");
+    for (struct dirent *e; (e = readdir(dir));) {
+        WrHash name = wr_hash_bytes(e->d_name, strlen(e->d_name), (WrHash){ 0, 0 });
+        sum += name.low;
+    }
+    closedir(dir);
+    return sum;
+}
+
+/* ---- a session with something in it ---- */
+
+static const char *const shape_of[] = {
+    "grid cells=16x16 width=9",
+    "pattern bricks",
+    "layer add \"second\"",
+    "noise perlin",
+    "layer set 2 blend=mix opacity=0.5",
+    "layer add \"third\"",
+    "ramp cone from=0.5,0.5 to=0.5,1",
+    "layer mask 3 from=white",
+    "select ellipse centre=0.5,0.5 radii=0.45,0.4",
+    "select feather by=20",
+};
+
+static WrSession *busy_session(WrPool *pool)
+{
+    WrSessionOptions options = {
+        .pool = pool, .outputs = true, .journal = true, .composites = true
+    };
+    WrSession *s = wr_session_new(&options);
+    char line[64];
+    snprintf(line, sizeof line, "table %dx%d", side(), side());
+    must_run(s, line);
+    for (size_t i = 0; i < sizeof shape_of / sizeof *shape_of; i++) must_run(s, shape_of[i]);
+    return s;
+}
+
+/* ---- the commands ---- */
+
+/* "NAME FORM", or its beginning: done at once whatever the table's size, or not a command of the table's. */
+static const char *const instant[] = {
+    "table",        "surface",      "rotate",      "analytic",   "bump",
+    "replicate",    "material",     "light",       "camera",     "dials",
+    "tolerance",    "script",       "history",     "layer add",  "layer use",
+    "layer move",   "layer rename", "layer set",   "layer solo", "layer duplicate",
+    "layer delete", "select all",   "select none", "fill",       "open",
+    "redo",
+};
+
+/* Large work. A file that a line reads is made before. */
+static const char *const lines[] = {
+    "grid cells=512x512 width=2",
+    "image big.exr fit=table",
+    "dab 0.5,0.5 radius=400",
+    "stroke radius=200 strength=0.1 points=0.1,0.1;0.9,0.9;0.1,0.9;0.9,0.1;0.5,0.2;0.2,0.8",
+    "shape rectangle a=0.1,0.1 b=0.9,0.9 paint=fill",
+    "shape ellipse middle=0.5,0.5 radii=0.4,0.3 radius=60 paint=outline",
+    "shape polygon points=0.1,0.1;0.9,0.2;0.5,0.9 paint=fill",
+    "shape path points=0.1,0.1;0.3,0.9;0.7,0.9;0.9,0.1 paint=fill",
+    "flood 0.5,0.5 tolerance=100",
+    "ramp linear from=0,0 to=1,0",
+    "ramp radial from=0.5,0.5 to=0.5,1 blend=add",
+    "ramp cone from=0.5,0.5 to=0.5,1 blend=max",
+    "layer merge 3",
+    "layer flatten",
+    "layer clear 1",
+    "layer mask 2 from=selection",
+    "select invert",
+    "select rect from=0.1,0.1 to=0.9,0.9 mode=add",
+    "select ellipse centre=0.3,0.3 radii=0.2,0.2 mode=add",
+    "select lasso points=0.1,0.1;0.9,0.2;0.5,0.9;0.2,0.3 mode=add",
+    "select height low=0 high=0.5",
+    "select slope low=0 high=30",
+    "select flood 0.5,0.5 tolerance=100",
+    "select grow by=30",
+    "select shrink by=30",
+    "select feather by=40",
+    "adjust offset du=100 dv=50 layers=all",
+    "adjust flip-u layers=all",
+    "adjust flip-v layers=all",
+    "adjust rotate angle=90",
+    "adjust crop x=0 y=0 width=250 height=250",
+    "adjust resize width=700 height=700",
+    "adjust levels layers=all",
+    "adjust invert layers=all",
+    "adjust normalise layers=all",
+    "adjust add amount=1 layers=all",
+    "adjust multiply factor=2 layers=all",
+    "adjust clamp low=0.2 high=0.3 layers=all",
+    "adjust blur sigma=50 layers=all",
+    "adjust sharpen amount=2 sigma=20 layers=all",
+    "adjust median radius=8 layers=all",
+    "adjust dilate radius=16 layers=all",
+    "adjust erode radius=16 layers=all",
+    "adjust slope-limit limit=0.001 layers=all",
+    "colour big.exr",
+    "save new.exr",
+    "save new.ora",
+    "export height new.png",
+    "export height new.tif",
+    "export normal+y new.exr",
+    "export normal-y new2.png",
+    "export lines new3.png",
+    "export profile new4.png",
+    "render new5.png size=700x700",
+    "undo 5",
+};
+#define LINES (int)(sizeof lines / sizeof *lines)
+
+/* What generators need besides their defaults; those that read other files are tried elsewhere. */
+static const char *line_of(const WrGenerator *g, WrText *line)
+{
+    static const struct {
+        const char *family, *name, *rest;
+    } given[] = { { "text", NULL, " Wrinkles size=200" },
+                  { "solid", "letters", " ab size=400" },
+                  { "solid", "surface", " sphere size=300" },
+                  { "formula", "fourier", " terms=3,2,0.5" },
+                  { "formula", "poly", " c=1,1,0.5" },
+                  { "terrain", "elevation", " big.exr" },
+                  { "picture", "photo", " big.exr" },
+                  { "picture", "normals", " big.png" },
+                  { "solid", "mesh", NULL } };
+    wr_text_clear(line);
+    wr_text_addf(line, "%s%s%s", g->family, g->name ? " " : "", g->name ? g->name : "");
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++) {
+        bool same = strcmp(given[i].family, g->family) == 0 &&
+                    (!g->name || !given[i].name || strcmp(given[i].name, g->name) == 0);
+        if (same && !given[i].rest) return NULL;
+        if (same) wr_text_add(line, given[i].rest);
+    }
+    return wr_text_get(line);
+}
+
+/* ---- one of them ---- */
+
+typedef struct Rig {
+    WrSession *session;
+    WrHash hash;
+    int steps;
+    uint64_t revision, folder;
+    bool print;
+} Rig;
+
+static void assert_untouched(const Rig *rig, const char *line, int at)
+{
+    if (!wr_hash_equal(wr_session_hash(rig->session), rig->hash))
+        fail_msg("%s: cancelled at report %d, it changed the document", line, at);
+    assert_int_equal(wr_session_history_position(rig->session), rig->steps);
+    assert_true(wr_session_revision(rig->session) == rig->revision);
+    if (look_at_folder() != rig->folder) fail_msg("%s: left a file behind", line);
+}
+
+/* Tell the line to stop at that report. False: it was done before. */
+static bool stop_at(Rig *rig, const char *line, int at, double *ms)
+{
+    WrError err = { "" };
+    Stop stop = { .at = at };
+    WrProgress progress = { &stop.cancel, hear, &stop };
+    wr_progress_set(&progress);
+    bool good = wr_session_run(rig->session, line, &err);
+    double seconds = wr_clock_seconds() - stop.since;
+    int64_t pieces = wr_pool_pieces() - stop.pieces;
+    wr_progress_set(NULL);
+    if (!stop.cancel) return false;
+    if (good) fail_msg("%s: went on though it was cancelled at report %d", line, at);
+    if (!strstr(err.text, "cancelled")) fail_msg("%s: cancelled, it said %s", line, err.text);
+    if (pieces > PIECES_AFTER)
+        fail_msg("%s: began %d pieces after report %d cancelled it", line, (int)pieces, at);
+    if (stop.reports - at > REPORTS_AFTER)
+        fail_msg("%s: %d reports after report %d cancelled it", line, stop.reports - at, at);
+    assert_untouched(rig, line, at);
+    if (seconds * 1e3 > *ms) *ms = seconds * 1e3;
+    return true;
+}
+
+/* Back to where the line began. */
+static void take_back(Rig *rig, const char *line)
+{
+    static const char *const outputs[] = { "save", "export", "render" };
+    bool output = false;
+    for (int i = 0; i < 3; i++) output |= strncmp(line, outputs[i], strlen(outputs[i])) == 0;
+    if (strncmp(line, "undo", 4) == 0) must_run(rig->session, "redo 5");
+    else if (!output) must_run(rig->session, "undo");
+    rig->folder = look_at_folder();
+    rig->revision = wr_session_revision(rig->session);
+    assert_untouched(rig, line, 0);
+}
+
+static void try_line(Rig *rig, const char *line)
+{
+    WrError err = { "" };
+    Stop whole = { 0 };
+    WrProgress progress = { &whole.cancel, hear, &whole };
+    double ms = 0.0;
+    if (!stop_at(rig, line, 1, &ms)) fail_msg("%s: no report", line);
+    wr_progress_set(&progress);
+    double began = wr_clock_seconds();
+    bool good = wr_session_run(rig->session, line, &err);
+    double took = wr_clock_seconds() - began;
+    wr_progress_set(NULL);
+    if (!good) fail_msg("%s: %s", line, err.text);
+    take_back(rig, line);
+    if (!stop_at(rig, line, whole.reports / 2 + 1, &ms)) take_back(rig, line);
+    if (!stop_at(rig, line, whole.reports, &ms)) take_back(rig, line);
+    if (getenv("WR_TELL"))
+        printf("%-78.78s %8.0f ms, %4d reports, stopped within %6.1f ms\n", line, took * 1e3,
+               whole.reports, ms);
+}
+
+static Rig make_rig(WrPool *pool)
+{
+    Rig rig = { .session = busy_session(pool) };
+    rig.hash = wr_session_hash(rig.session);
+    rig.steps = wr_session_history_position(rig.session);
+    rig.revision = wr_session_revision(rig.session);
+    rig.folder = look_at_folder();
+    return rig;
+}
+
+static void each_command_stops_at_a_report_and_leaves_no_trace(void **state)
+{
+    (void)state;
+    WrPool *pool = wr_pool_new(THREADS);
+    const char *only = getenv("WR_ONLY");
+    WrSession *maker = busy_session(pool);
+    must_run(maker, "export normal+y big.exr");
+    must_run(maker, "export normal+y big.png");
+    wr_session_free(maker);
+    Rig rig = make_rig(pool);
+    for (int i = 0; i < LINES; i++)
+        if (!only || strstr(lines[i], only)) try_line(&rig, lines[i]);
+    wr_session_free(rig.session);
+    wr_pool_free(pool);
+}
+
+static void each_generator_stops_at_a_report_and_leaves_no_trace(void **state)
+{
+    (void)state;
+    WrPool *pool = wr_pool_new(THREADS);
+    const char *only = getenv("WR_ONLY");
+    WrText line = { 0 };
+    Rig rig = make_rig(pool);
+    for (const WrFamily *f = wr_families; f->name; f++)
+        for (const WrGenerator *g = f->rows; g->family; g++)
+            if (line_of(g, &line) && (!only || strstr(wr_text_get(&line), only)))
+                try_line(&rig, wr_text_get(&line));
+    wr_text_fini(&line);
+    wr_session_free(rig.session);
+    wr_pool_free(pool);
+}
+
+/* ---- no command is forgotten ---- */
+
+static bool begins(const char *line, const char *name)
+{
+    size_t length = strlen(name);
+    return strncmp(line, name, length) == 0 && (line[length] == ' ' || line[length] == '\0');
+}
+
+static bool is_known(const char *name)
+{
+    for (size_t i = 0; i < sizeof instant / sizeof *instant; i++)
+        if (begins(name, instant[i])) return true;
+    for (int i = 0; i < LINES; i++)
+        if (begins(lines[i], name)) return true;
+    return false;
+}
+
+static void each_command_is_tried_or_known_to_be_instant(void **state)
+{
+    (void)state;
+    for (int i = 0; i < wr_command_count; i++) {
+        const WrCommand *command = &wr_commands[i];
+        WrForm form;
+        if (wr_family_find(command->name)) continue;
+        if (!command->form && !is_known(command->name)) fail_msg("%s: is not tried", command->name);
+        for (int k = 0; command->form && command->form(k, &form); k++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s %s", command->name, form.name);
+            if (!is_known(name)) fail_msg("%s: is not tried", name);
+        }
+    }
+}
+
+/* ---- what is no command ---- */
+
+/* False: it was done before. */
+static bool cancelled_at(int at, bool (*work)(WrSession *, WrError *), WrSession *session)
+{
+    WrError err = { "" };
+    Stop stop = { .at = at };
+    WrProgress progress = { &stop.cancel, hear, &stop };
+    wr_progress_set(&progress);
+    bool good = work(session, &err);
+    wr_progress_set(NULL);
+    if (!stop.cancel) return false;
+    assert_false(good);
+    assert_non_null(strstr(err.text, "cancelled"));
+    return true;
+}
+
+static bool open_document(WrSession *session, WrError *err)
+{
+    return wr_session_open(session, "old.exr", err);
+}
+
+static bool open_archive(WrSession *session, WrError *err)
+{
+    return wr_session_open(session, "old.ora", err);
+}
+
+static bool open_picture(WrSession *session, WrError *err)
+{
+    return wr_session_open(session, "old.png", err);
+}
+
+static bool open_script(WrSession *session, WrError *err)
+{
+    return wr_session_open(session, "old.wrinkle", err);
+}
+
+static bool save_again(WrSession *session, WrError *err)
+{
+    return wr_session_save(session, "old.exr", err);
+}
+
+static void opening_stops_and_keeps_what_was_open(void **state)
+{
+    (void)state;
+    static bool (*const works[])(WrSession *, WrError *) = { open_document, open_archive,
+                                                             open_picture, open_script,
+                                                             save_again };
+    WrPool *pool = wr_pool_new(THREADS);
+    WrSession *maker = busy_session(pool);
+    WrError err;
+    must_run(maker, "save old.exr");
+    must_run(maker, "save old.ora");
+    must_run(maker, "export height old.png");
+    assert_true(wr_session_save_history(maker, "old.wrinkle", &err));
+    uint64_t folder = look_at_folder();
+    for (size_t i = 0; i < sizeof works / sizeof *works; i++) {
+        WrSession *s = wr_session_new(&(WrSessionOptions){ .pool = pool, .journal = true });
+        must_run(s, "table 200x100");
+        must_run(s, "pattern dots");
+        WrHash hash = wr_session_hash(s);
+        int stops = 0;
+        for (int at = 1; cancelled_at(at, works[i], s); at += 1 + at / 2) {
+            assert_true(wr_hash_equal(wr_session_hash(s), hash));
+            assert_int_equal(wr_session_history_position(s), 2);
+            assert_string_equal(wr_session_path(s), "");
+            assert_true(look_at_folder() == folder);
+            stops++;
+        }
+        assert_true(stops > 0);
+        wr_session_free(s);
+    }
+    wr_session_free(maker);
+    wr_pool_free(pool);
+}
+
+/* Journals go into the folder too, where nobody looks for files left behind. */
+static int enter(void **state)
+{
+    if (enter_folder(state) != 0) return -1;
+    char path[128];
+    snprintf(path, sizeof path, "%s/state", (char *)*state);
+    return mkdir(path, 0700) == 0 ? setenv("WRINKLE_STATE", path, 1) : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_command_is_tried_or_known_to_be_instant),
+        cmocka_unit_test(each_command_stops_at_a_report_and_leaves_no_trace),
+        cmocka_unit_test(each_generator_stops_at_a_report_and_leaves_no_trace),
+        cmocka_unit_test(opening_stops_and_keeps_what_was_open),
+    };
+    return cmocka_run_group_tests(tests, enter, remove_folder);
+}
