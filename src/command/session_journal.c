@@ -162,7 +162,8 @@ static void begin(WrSession *session)
     WrError why = { "" };
     if (opened || !state->origin) add_history(session);
     else if (!restart(session, false, &why)) {
-        if (wr_progress_stopped()) wr_session_journal_drop(session); /* the next command begins it */
+        if (wr_progress_stopped())
+            wr_session_journal_drop(session); /* the next command begins it */
         else wr_journal_break(session->journal, why.text);
     }
 }
