@@ -7,7 +7,9 @@
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
-#define BATCH 64 /* tiles between two reports */
+#define BATCH 64   /* tiles between two reports */
+#define MANY 64    /* images in a tile from which on it pays to look for what is hidden */
+#define LEVELS 512 /* of heights, by which they are sorted */
 
 /* One image of a primitive, in the tile that lists it. */
 typedef struct Entry {
@@ -120,6 +122,8 @@ static bool put_all(Drawing *d, WrError *err)
 {
     int64_t count = d->scene->solid_count + d->scene->triangle_count;
     for (int64_t index = 0; index < count; index++) {
+        if (index % 4096 == 0 && wr_progress_cancelled(d->progress))
+            return wr_fail(err, "cancelled");
         Box box = box_of(d->scene, index);
         int first_x, first_y;
         int nx = images(box.x0, box.x1, d->width, wr_field_wrap_u(d->like), &first_x);
@@ -130,7 +134,7 @@ static bool put_all(Drawing *d, WrError *err)
                            "things larger than the table lie over it %lld times: must be fewer, at "
                            "most %d",
                            (long long)nx * ny, WR_Z_ENTRIES);
-        for (int j = 0; j < ny; j++)
+        for (int j = 0; j < ny && !wr_progress_cancelled(d->progress); j++)
             for (int i = 0; i < nx; i++)
                 put_image(d, index, &box, (double)(first_x + i) * d->width,
                           (double)(first_y + j) * d->height);
@@ -167,15 +171,17 @@ static bool fill_bins(Drawing *d, WrError *err)
 static double mean_depth(const WrZSheet *sheet, int at)
 {
     const WrZBlock *block = &sheet->blocks.data[sheet->block[at] - 1];
-    double sum = 0.0;
+    double sum = 0.0, whole = sheet->whole[at];
     int count = 0;
+    bool hidden = whole > -INFINITY; /* all rims: then the mean must not round */
     for (int s = 0; s < WR_Z_SAMPLES; s++) {
-        double z = block->z[s] > sheet->whole[at] ? block->z[s] : sheet->whole[at];
+        double z = block->z[s] > whole ? block->z[s] : whole;
+        hidden = hidden && !(block->z[s] > whole);
         if (!(z > -INFINITY)) continue;
         sum += z;
         count++;
     }
-    return sum / count;
+    return hidden ? whole : sum / count;
 }
 
 static double depth_at(const WrZSheet *sheet, int at)
@@ -204,15 +210,95 @@ static void finish_tile(const Drawing *d, const WrZSheet *sheet, float *heights,
         }
 }
 
-static void draw_entries(const Drawing *d, const Bin *bin, WrZSheet *sheet)
+/* The greatest height that an image can have in the tile. */
+static double bound_of(const Drawing *d, const WrZSheet *sheet, const Entry *e)
+{
+    int64_t triangle = e->index - d->scene->solid_count;
+    if (triangle < 0) {
+        double x = sheet->x - e->dx - 0.5, y = sheet->y - e->dy - 0.5;
+        const WrZRect rect = { x, y, x + sheet->wide, y + sheet->high };
+        return wr_zsolid_bound(&d->scene->solids[e->index], &rect);
+    }
+    const double *z = d->scene->triangles[triangle].z;
+    return z[0] > z[1] ? (z[0] > z[2] ? z[0] : z[2]) : z[1] > z[2] ? z[1] : z[2];
+}
+
+/* Only the thread that asked may tell how far it is. */
+static bool go_on(const Drawing *d, int busy, double part)
+{
+    if (d->progress && d->progress == wr_progress_here())
+        return wr_progress_step(d->progress, (busy + part) / d->busy_count);
+    return !wr_progress_cancelled(d->progress);
+}
+
+static void draw_entry(const Drawing *d, const Entry *e, WrZSheet *sheet)
+{
+    int64_t triangle = e->index - d->scene->solid_count;
+    if (triangle < 0) wr_zsheet_solid(sheet, &d->scene->solids[e->index], e->dx, e->dy);
+    else wr_zsheet_triangle(sheet, &d->scene->triangles[triangle], e->dx, e->dy);
+}
+
+static void draw_few(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
 {
     for (int64_t i = 0; i < bin->count; i++) {
-        const Entry *e = &d->entries[bin->first + i];
-        int64_t triangle = e->index - d->scene->solid_count;
-        if (i % 64 == 0 && wr_progress_cancelled(d->progress)) return;
-        if (triangle < 0) wr_zsheet_solid(sheet, &d->scene->solids[e->index], e->dx, e->dy);
-        else wr_zsheet_triangle(sheet, &d->scene->triangles[triangle], e->dx, e->dy);
+        if (i % 64 == 0 && !go_on(d, busy, (double)i / (double)bin->count)) return;
+        draw_entry(d, &d->entries[bin->first + i], sheet);
     }
+}
+
+/* Which level of heights, the highest first. */
+static int level_of(double bound, const double range[2])
+{
+    double part = (range[1] - bound) / (range[1] - range[0]);
+    int level = part > 0.0 ? (int)(part * LEVELS) : 0;
+    return level < LEVELS ? level : LEVELS - 1;
+}
+
+/* Entries in the order of their bounds, roughly, the highest first. False: told to stop. */
+static bool sort_entries(const Drawing *d, int busy, const Bin *bin, const WrZSheet *sheet,
+                         double *bounds, int32_t *order)
+{
+    double range[2] = { INFINITY, -INFINITY };
+    int64_t starts[LEVELS + 1] = { 0 };
+    for (int64_t i = 0; i < bin->count; i++) {
+        if (i % 4096 == 0 && !go_on(d, busy, 0.0)) return false;
+        double z = bounds[i] = bound_of(d, sheet, &d->entries[bin->first + i]);
+        range[0] = z < range[0] ? z : range[0];
+        range[1] = z > range[1] ? z : range[1];
+    }
+    for (int64_t i = 0; i < bin->count; i++) starts[level_of(bounds[i], range) + 1]++;
+    for (int k = 0; k < LEVELS; k++) starts[k + 1] += starts[k];
+    for (int64_t i = 0; i < bin->count; i++)
+        order[starts[level_of(bounds[i], range)]++] = (int32_t)i;
+    return true;
+}
+
+/* The highest first, so that what they hide need not be drawn. The order changes no bit: each texel keeps only
+   the greatest heights. */
+static void draw_many(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
+{
+    double *bounds = wr_alloc((size_t)bin->count, sizeof *bounds), filled = -INFINITY;
+    int32_t *order = wr_alloc((size_t)bin->count, sizeof *order);
+    bool going = sort_entries(d, busy, bin, sheet, bounds, order);
+    wr_zsheet_cull(sheet);
+    int triangles = 0;
+    for (int64_t i = 0; i < bin->count && going; i++) {
+        const Entry *e = &d->entries[bin->first + order[i]];
+        bool triangle = e->index >= d->scene->solid_count;
+        if (i % 64 == 0) going = go_on(d, busy, (double)i / (double)bin->count);
+        if (!going || bounds[order[i]] <= (triangle ? filled : sheet->least)) continue;
+        draw_entry(d, e, sheet);
+        if (triangle && ++triangles % 256 == 0) filled = wr_zsheet_filled(sheet);
+    }
+    wr_free(order);
+    wr_free(bounds);
+}
+
+static int64_t squares; /* atomic */
+
+int64_t wr_zbuffer_squares(void)
+{
+    return __atomic_load_n(&squares, __ATOMIC_RELAXED);
 }
 
 static void draw_tile(int index, int worker, void *ctx)
@@ -228,8 +314,10 @@ static void draw_tile(int index, int worker, void *ctx)
     sheet->high = d->height - sheet->y < WR_TILE ? d->height - sheet->y : WR_TILE;
     sheet->floor = d->scene->floor;
     for (int i = 0; i < TEXELS; i++) sheet->depth[i] = sheet->edge[i] = sheet->whole[i] = -INFINITY;
-    draw_entries(d, &d->bins[tile], sheet);
+    if (d->bins[tile].count < MANY || d->scene->hidden) draw_few(d, busy, &d->bins[tile], sheet);
+    else draw_many(d, busy, &d->bins[tile], sheet);
     finish_tile(d, sheet, d->heights[busy], d->covers[busy]);
+    __atomic_fetch_add(&squares, sheet->squares, __ATOMIC_RELAXED);
     wr_array_free(&sheet->blocks);
     wr_free(sheet);
 }

@@ -87,8 +87,13 @@ typedef struct WrZScene {
     double floor;         /* texels: what is lower is not seen, nor covers */
     double soft;          /* texels above the floor over which coverage fades in; 0: at once */
     double scale, offset; /* height = offset + scale z, table units */
+    bool hidden;          /* draw what is hidden too, which changes no bit: for tests */
 } WrZScene;
 
-/* Errors: coordinates that are not finite or beyond WR_Z_REACH, with the first one's number; more than
+/* What is hidden below others costs next to nothing, however large it is and however often it stands there.
+ * Errors: coordinates that are not finite or beyond WR_Z_REACH, with the first one's number; more than
  * WR_Z_ENTRIES pieces; no memory; cancelled. */
 bool wr_zbuffer_draw(const WrZScene *scene, const WrGenerateJob *job, WrRelief *out, WrError *err);
+
+/* Squares of 8 x 8 texels in which this process has drawn solids so far, for tests that count work. */
+int64_t wr_zbuffer_squares(void);

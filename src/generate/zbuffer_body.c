@@ -1,7 +1,7 @@
 /* Solids in a tile of the depth buffer. */
 #include "generate/zbuffer_tile.h"
 
-#define SQUARE 8 /* texels of the squares that are looked at together */
+#define SQUARE WR_Z_SQUARE
 #define STEP                                                                                       \
     1.0 /* texels that a texel's middle may differ from its corners before it counts as an edge */
 
@@ -123,12 +123,26 @@ static bool is_all_covered(const WrZSheet *sheet, const Body *body, int x0, int 
     return z[0] > -INFINITY && z[1] > -INFINITY && z[2] > -INFINITY && z[3] > -INFINITY;
 }
 
+/* What is drawn there already hides it; else it counts as drawn. */
+static bool is_hidden(WrZSheet *sheet, const Body *body, int x0, int x1, int y0, int y1)
+{
+    int square = y0 / SQUARE * WR_Z_SQUARES + x0 / SQUARE;
+    double settled = wr_zsheet_settled(sheet, square);
+    const WrZRect rect = { x0 + body->dx - 0.5, y0 + body->dy - 0.5, x1 + body->dx + 0.5,
+                           y1 + body->dy + 0.5 };
+    if (settled > -INFINITY && wr_zsolid_bound(body->solid, &rect) <= settled) return true;
+    sheet->draws[square]++;
+    return false;
+}
+
 static void draw_square(WrZSheet *sheet, const Body *body, int x0, int y0)
 {
     int x1 = (x0 | (SQUARE - 1)) < body->x1 ? x0 | (SQUARE - 1) : body->x1;
     int y1 = (y0 | (SQUARE - 1)) < body->y1 ? y0 | (SQUARE - 1) : body->y1;
     double mid_x = 0.5 * (x0 + x1) + body->dx, mid_y = 0.5 * (y0 + y1) + body->dy;
     if (wr_zsolid_far(body->solid, mid_x, mid_y, 0.75 * SQUARE)) return;
+    if (sheet->culls && is_hidden(sheet, body, x0, x1, y0, y1)) return;
+    sheet->squares++;
     if (!is_all_covered(sheet, body, x0, x1, y0, y1)) {
         draw_texels(sheet, body, x0, x1, y0, y1);
         return;

@@ -15,6 +15,9 @@ typedef struct WrZBlock {
     double z[WR_Z_SAMPLES];
 } WrZBlock;
 
+#define WR_Z_SQUARE 8 /* texels of the squares that are looked at together */
+#define WR_Z_SQUARES (WR_TILE / WR_Z_SQUARE)
+
 typedef struct WrZSheet {
     int x, y;       /* of its first texel */
     int wide, high; /* texels that the table has in it */
@@ -28,11 +31,32 @@ typedef struct WrZSheet {
         bodies[WR_TILE * WR_TILE]; /* solids that cover it, in part or all; 2: more, or one twice */
     int block[WR_TILE * WR_TILE];  /* 1 + its block's index; 0: none */
     WR_ARRAY(WrZBlock) blocks;     /* of texels that a solid covers in part */
+    /* of what is hidden, by squares of the tile (zbuffer_bound.c) */
+    bool culls;
+    int64_t squares; /* drawn */
+    double
+        settled[WR_Z_SQUARES * WR_Z_SQUARES]; /* solids that are not higher change nothing there */
+    uint8_t draws[WR_Z_SQUARES * WR_Z_SQUARES]; /* since that was found out */
+    double least;                               /* of them all */
 } WrZSheet;
 
 /* Draw one image of a primitive, moved by (dx, dy) whole texels. */
 void wr_zsheet_triangle(WrZSheet *sheet, const WrZTriangle *triangle, double dx, double dy);
 void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy);
+
+/* ---- what is hidden: zbuffer_bound.c ---- */
+
+typedef struct WrZRect {
+    double x0, y0, x1, y1; /* texels, closed */
+} WrZRect;
+/* No place of the solid over the rectangle is higher. */
+double wr_zsolid_bound(const WrZSolid *solid, const WrZRect *rect);
+/* From now on look for what is hidden; the sheet is empty. */
+void wr_zsheet_cull(WrZSheet *sheet);
+/* A solid that is nowhere in the square higher than that changes nothing there. */
+double wr_zsheet_settled(WrZSheet *sheet, int square);
+/* The same for triangles, anywhere in the tile. */
+double wr_zsheet_filled(const WrZSheet *sheet);
 
 /* texels of [low, high] as whole numbers; x may be any number */
 static inline int wr_z_clip(double x, int low, int high)
