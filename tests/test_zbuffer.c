@@ -363,8 +363,8 @@ static void hc80_equal_and_coplanar_depths_do_not_depend_on_the_order(void **sta
     triangles += 2;
     for (int i = 0; i < count; i++) turned[i] = solids[count - 1 - i];
     for (int i = 0; i < triangles; i++) other[i] = mesh[triangles - 1 - i];
-    WrZScene a = { solids, count, mesh, triangles, 0.0, 0.0, 0.5, 0.0 };
-    WrZScene b = { turned, count, other, triangles, 0.0, 0.0, 0.5, 0.0 };
+    WrZScene a = { solids, count, mesh, triangles, 0.0, 0.0, 0.5, 0.0, false };
+    WrZScene b = { turned, count, other, triangles, 0.0, 0.0, 0.5, 0.0, false };
     WrRelief one = drawn(&a, like, NULL), two = drawn(&b, like, NULL);
     assert_true(same_relief(&one, &two));
     wr_relief_fini(&one);
@@ -407,7 +407,7 @@ static void what_moves_by_whole_texels_rolls_bit_for_bit(void **state)
             mesh[i].x[k] = wr_z_place(mesh[i].x[k]);
             mesh[i].y[k] = wr_z_place(mesh[i].y[k]);
         }
-    WrZScene scene = { solids, count, mesh, triangles, 0.0, 0.0, 1.0, 0.0 };
+    WrZScene scene = { solids, count, mesh, triangles, 0.0, 0.0, 1.0, 0.0, false };
     WrRelief still = drawn(&scene, like, NULL);
     for (int i = 0; i < count; i++) {
         solids[i].at[0] += di;
