@@ -492,6 +492,39 @@ static void a_snapshot_of_an_open_stroke_stays_as_it_was(void **state)
     wr_session_free(s);
 }
 
+/* As the window does with what a dialog has shown: what was made on a snapshot is what the line would make. */
+static void a_line_whose_work_is_done_is_as_if_it_had_run(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "adjust blur sigma=3", "adjust invert layers=all",
+                                         "pattern dots", "noise perlin blend=max" };
+    WrError err = { "" };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        const char *const before[] = { "table 100x80",
+                                       "grid cells=4x4",
+                                       "layer add",
+                                       "pattern bricks",
+                                       "select ellipse centre=0.5,0.5 radii=0.3,0.3",
+                                       NULL };
+        WrSession *ran = session_of(before), *took = session_of(before);
+        must_run(ran, lines[i]);
+        assert_true(wr_session_takes_made(lines[i]));
+        assert_true(wr_session_run_made(took, lines[i], doc(ran), &err));
+        assert_true(wr_hash_equal(wr_session_hash(ran), wr_session_hash(took)));
+        assert_string_equal(wr_session_last_command(ran), wr_session_last_command(took));
+        must_run(took, "undo");
+        must_run(ran, "undo");
+        assert_true(wr_hash_equal(wr_session_hash(ran), wr_session_hash(took)));
+        must_run(took, "layer set 2 lock=on");
+        assert_false(wr_session_run_made(took, lines[i], doc(ran), &err) && i != 1);
+        wr_session_free(ran);
+        wr_session_free(took);
+    }
+    assert_false(wr_session_takes_made("table 3x3"));
+    assert_false(wr_session_takes_made("text abc")); /* names a font's file */
+    assert_false(wr_session_takes_made("no such line"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -517,6 +550,7 @@ int main(void)
         cmocka_unit_test(a_stroke_without_samples_never_happened),
         cmocka_unit_test(hc74_a_wild_pen_is_clamped_or_refused),
         cmocka_unit_test(a_snapshot_of_an_open_stroke_stays_as_it_was),
+        cmocka_unit_test(a_line_whose_work_is_done_is_as_if_it_had_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -65,7 +65,7 @@ static WrHash hash_of(const WrZScene *scene, const WrField *like, int64_t *squar
 static void what_is_hidden_changes_no_bit(void **state)
 {
     (void)state;
-    int rounds = getenv("WR_FULL") ? 1000 : 100;
+    int rounds = getenv("WR_FULL") ? 300 : 30;
     TestRandom r = { 12 };
     int64_t with = 0, without = 0;
     for (int round = 0; round < rounds; round++) {

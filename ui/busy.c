@@ -71,16 +71,6 @@ static void grab(Wait *wait)
     wr_free(pixels);
 }
 
-/* "0:07 left", from how far it is and how long that took; "" while that says nothing yet. */
-static void print_left(double fraction, double seconds, char *text, size_t size)
-{
-    text[0] = '\0';
-    if (fraction < 0.01 || seconds < 0.4) return;
-    double left = seconds * (1.0 - fraction) / fraction;
-    if (left < 100.0 * 3600.0)
-        snprintf(text, size, "%d:%02d left", (int)(left / 60.0), (int)(left + 0.5) % 60);
-}
-
 static void cancel(Wait *wait)
 {
     wait->cancelled = true;
@@ -92,7 +82,7 @@ static void bar(Wait *wait, double now)
     WrApp *app = wait->app;
     SDL_Rect room = app->layout.status;
     int tall = wr_gui_px(28);
-    char seconds[24], left[32];
+    char seconds[24], left[WR_PROGRESS_LEFT];
     double fraction = 0.0, took = now - wait->since;
     bool refused = now - wait->refused_at < REFUSED_SECONDS;
     wr_job_busy(wait->job, &fraction, NULL);
@@ -110,7 +100,7 @@ static void bar(Wait *wait, double now)
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
     wr_gui_same_line(12);
     wr_gui_move_to(wr_gui_px(640));
-    print_left(wait->furthest, took, left, sizeof left);
+    wr_progress_left(wait->furthest, took, left);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, wait->cancelled ? "cancelling" : left);
     wr_gui_same_line(12);
     wr_gui_move_to(wr_gui_px(730));
@@ -276,21 +266,24 @@ static void put_off(WrApp *app)
 typedef struct Line {
     WrSession *session;
     const char *text;
+    const WrDocument *made; /* NULL: it is still to be made */
 } Line;
 
 static bool run_line(void *ctx, WrError *err)
 {
     const Line *line = ctx;
+    if (line->made) return wr_session_run_made(line->session, line->text, line->made, err);
     return wr_session_run(line->session, line->text, err);
 }
 
-bool wr_app_run_line(WrApp *app, const char *line)
+static bool run_command(WrApp *app, const char *line, const WrDocument *made)
 {
     WrError err;
     char what[64];
     wr_hand_let_go(app); /* a stroke that is open would refuse it */
     snprintf(what, sizeof what, "%.60s", line);
-    Line call = { app->session, line };
+    if (app->trying) wr_trial_stop(app->trial); /* nobody waits for it any more */
+    Line call = { app->session, line, made };
     bool ok = wr_busy_run(app, what, run_line, &call, &err);
     if (!ok) wr_app_fail(app, &err);
     wr_app_try_end(app);
@@ -298,6 +291,26 @@ bool wr_app_run_line(WrApp *app, const char *line)
     wr_app_title(app);
     wr_app_redraw(app);
     return ok;
+}
+
+bool wr_app_run_line(WrApp *app, const char *line)
+{
+    return run_command(app, line, NULL);
+}
+
+void wr_app_run_tried(WrApp *app, const char *line)
+{
+    const WrDocument *made = app->trying ? wr_trial_made(app->trial) : NULL;
+    if (!made || !wr_session_takes_made(line)) {
+        wr_app_run_slow(app, line);
+        return;
+    }
+    WrDocument *kept = wr_document_share(made); /* the trial ends meanwhile */
+    WrText notes = { 0 };
+    wr_text_add(&notes, wr_trial_notes(app->trial));
+    if (run_command(app, line, kept)) wr_app_say_lines(app, wr_text_get(&notes));
+    wr_text_fini(&notes);
+    wr_document_free(kept);
 }
 
 void wr_app_run_slow(WrApp *app, const char *line)

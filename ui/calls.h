@@ -55,6 +55,9 @@ const char *wr_app_name(const WrApp *app); /* of the document, without folders *
    nothing else can be done. Only work(ctx) touches the session meanwhile. Also inside a picture of the window. */
 typedef bool WrBusyWork(void *ctx, WrError *err);
 bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err);
+/* Run a line that is being tried just so, on the document as it is: where the trial has made it, that is taken
+   instead of being made again. */
+void wr_app_run_tried(WrApp *app, const char *line);
 /* Run a command that may take long, at once or after the picture of the window that is being made. */
 void wr_app_run_slow(WrApp *app, const char *line);
 /* The same for a file that was chosen, and for an action. */
@@ -72,6 +75,7 @@ void wr_marks_free(WrApp *app);
 
 /* ---- messages.c ---- */
 void wr_app_say(WrApp *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void wr_app_say_lines(WrApp *app, const char *text); /* each line by itself */
 void wr_app_fail(WrApp *app, const WrError *err);
 void wr_app_take_notes(WrApp *app);
 void wr_messages_free(WrMessages *messages);

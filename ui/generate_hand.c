@@ -478,6 +478,9 @@ void wr_generate_commit(WrApp *app)
     hand->held = WR_POSE_NONE;
     app->hand.grab = WR_GRAB_NONE;
     app->hints = false;
-    wr_app_run_slow(app, wr_text_get(&line));
+    bool tried = app->trying && hand->asked && strcmp(hand->asked, wr_text_get(&line)) == 0 &&
+                 hand->asked_at == wr_session_revision(app->session);
+    if (tried) wr_app_run_tried(app, wr_text_get(&line));
+    else wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
 }

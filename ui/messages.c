@@ -32,6 +32,15 @@ void wr_app_say(WrApp *app, const char *format, ...)
     add(app, text, false);
 }
 
+void wr_app_say_lines(WrApp *app, const char *text)
+{
+    for (const char *at = text; *at;) {
+        size_t length = strcspn(at, "\n");
+        if (length > 0) wr_app_say(app, "%.*s", (int)(length < 400 ? length : 400), at);
+        at += length + (at[length] == '\n');
+    }
+}
+
 void wr_app_fail(WrApp *app, const WrError *err)
 {
     add(app, err->text, true);

@@ -27,6 +27,7 @@ static void ask(WrApp *app)
 {
     WrTrialAsk trial = { .op = app->adjust.op, .all_layers = app->adjust.layers == 1 };
     memcpy(trial.param, app->adjust.param, sizeof trial.param);
+    app->adjust.asked_at = wr_session_revision(app->session);
     wr_app_try(app, &trial);
 }
 
@@ -146,7 +147,9 @@ static void commit(WrApp *app)
         else wr_line_number(&line, param->name, value);
     }
     if (app->adjust.layers == 1 && !op->reshapes) wr_text_add(&line, " layers=all");
-    wr_app_run_slow(app, wr_text_get(&line));
+    bool same = app->adjust.asked_at == wr_session_revision(app->session);
+    if (same) wr_app_run_tried(app, wr_text_get(&line));
+    else wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
 }
 

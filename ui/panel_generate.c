@@ -180,7 +180,11 @@ static void foot(WrApp *app)
         wr_gui_tip("Show what it would make");
     }
     if (!busy) return;
+    char left[WR_PROGRESS_LEFT];
+    wr_progress_left(fraction, seconds, left);
     wr_gui_same_line(10);
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, left, wr_gui_px(48));
+    if (left[0]) wr_gui_same_line(4);
     wr_gui_progress(0, fraction);
 }
 

@@ -84,15 +84,6 @@ static bool recover_work(void *ctx, WrError *err)
     return wr_session_recover(call->session, call->journal, call->beyond, &call->recovered, err);
 }
 
-static void say_lines(WrApp *app, const char *text)
-{
-    for (const char *at = text; *at;) {
-        size_t length = strcspn(at, "\n");
-        if (length > 0) wr_app_say(app, "%.*s", (int)(length < 400 ? length : 400), at);
-        at += length + (at[length] == '\n');
-    }
-}
-
 /* The rest of it is still there: what now? */
 static void ask_about_rest(WrApp *app, const Call *call)
 {
@@ -113,7 +104,7 @@ void wr_recover(WrApp *app, const char *journal, bool beyond)
     if (wr_busy_run(app, "Recovering", recover_work, &call, &err)) {
         app->starter = false;
         wr_app_changed_document(app);
-        say_lines(app, wr_text_get(&call.recovered.report));
+        wr_app_say_lines(app, wr_text_get(&call.recovered.report));
         if (!call.recovered.removed) ask_about_rest(app, &call);
     } else {
         wr_app_fail(app, &err);

@@ -252,8 +252,9 @@ typedef struct WrLayersHand {
 typedef struct WrAdjust {
     const WrOpInfo *op; /* NULL: none */
     double param[WR_OP_PARAMS];
-    int layers;  /* 0 the active one, 1 all */
-    WrView view; /* as it was before */
+    int layers;        /* 0 the active one, 1 all */
+    uint64_t asked_at; /* the document's revision when it was tried last */
+    WrView view;       /* as it was before */
 } WrAdjust;
 
 typedef struct WrFinder { /* the search for actions */

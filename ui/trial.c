@@ -27,6 +27,8 @@ struct WrTrial {
     WrError err;
     bool failed;
     bool rough; /* the field is */
+    WrDocument
+        *made; /* that the field is the composite of; owned; NULL: not exact, or another size */
     WrText notes;
     double seconds;
 };
@@ -135,8 +137,15 @@ void wr_trial_free(WrTrial *trial)
     if (!trial) return;
     wr_job_free(trial->job);
     wr_field_free(trial->field);
+    wr_document_free(trial->made);
     wr_text_fini(&trial->notes);
     wr_free(trial);
+}
+
+static void forget_made(WrTrial *trial)
+{
+    wr_document_free(trial->made);
+    trial->made = NULL;
 }
 
 void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *ask)
@@ -154,6 +163,7 @@ void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *
         work->ask.dab = &work->brush;
     }
     trial->failed = false;
+    forget_made(trial);
     wr_job_start(trial->job, work);
 }
 
@@ -162,6 +172,7 @@ void wr_trial_end(WrTrial *trial)
     wr_job_cancel(trial->job);
     wr_field_free(trial->field);
     trial->field = NULL;
+    forget_made(trial);
     trial->failed = trial->rough = false;
     wr_text_clear(&trial->notes);
 }
@@ -191,6 +202,9 @@ static void take(WrTrial *trial)
         trial->notes = work->notes;
         work->notes = notes;
         trial->rough = work->ask.rough;
+        bool whole = !trial->rough && !(work->ask.op && work->ask.op->reshapes);
+        forget_made(trial);
+        if (whole) trial->made = wr_document_share(work->document);
         if (trial->rough) go_on(trial, work);
         else trial->seconds = work->seconds;
     } else if (!work->cancelled) {
@@ -204,6 +218,12 @@ const WrField *wr_trial_field(WrTrial *trial)
 {
     take(trial);
     return trial->field;
+}
+
+const WrDocument *wr_trial_made(WrTrial *trial)
+{
+    take(trial);
+    return trial->made;
 }
 
 bool wr_trial_busy(WrTrial *trial, double *fraction, double *seconds)

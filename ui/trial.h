@@ -38,6 +38,9 @@ typedef struct WrTrialAsk {
 void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *ask);
 /* Nothing is tried any more. */
 void wr_trial_end(WrTrial *trial);
+/* The whole document as the last ask makes it, exactly; NULL: not there yet, or of another size. Borrowed like
+   the field: a share for a command that would make the same. */
+const WrDocument *wr_trial_made(WrTrial *trial);
 /* Stop what is under way; what was there before stays. */
 void wr_trial_stop(WrTrial *trial);
 

@@ -28,6 +28,10 @@ static inline bool wr_progress_step(const WrProgress *progress, double fraction)
     return !wr_progress_cancelled(progress);
 }
 
+/* "0:07 left", from how far work is and how long that took; "" while that says nothing yet. */
+#define WR_PROGRESS_LEFT 24
+void wr_progress_left(double fraction, double seconds, char text[WR_PROGRESS_LEFT]);
+
 /* ---- the thread's own ----
    Who asks for long work says here what it looks at: a session, a job in the background. Loops far below find it
    without anybody in between handing it on; the pieces of a pool's run find it too. Where it is cancelled a

@@ -6,6 +6,7 @@
    missing value); 130 interrupted. */
 #pragma once
 #include "base/pool.h"
+#include "base/progress.h"
 #include "command/session.h"
 
 #define WR_EXIT_DONE 0
@@ -113,6 +114,10 @@ bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err);
 /* Write a result to standard output at once. Returns 0, or 1 with a message when that fails. */
 int wr_cli_print(const WrCli *cli, const WrText *text);
+
+/* From now on that progress is told on standard error, if that is a terminal; and no more, the line wiped. */
+void wr_cli_tell(WrProgress *progress);
+void wr_cli_tell_end(void);
 
 int wr_cli_paint(const WrCli *cli);
 int wr_cli_run(const WrCli *cli);

@@ -5,6 +5,7 @@
 static void print_note(void *ctx, const char *text)
 {
     (void)ctx;
+    wr_cli_tell_end();
     fprintf(stderr, "wrinkle: note: %s\n", text);
 }
 

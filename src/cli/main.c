@@ -48,6 +48,7 @@ static void catch_interrupts(void)
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
 {
     bool stopped = cli->cancel && *cli->cancel && status == WR_EXIT_FAILED;
+    wr_cli_tell_end();
     fprintf(stderr, "wrinkle: %s\n", stopped ? "interrupted" : err->text);
     return stopped ? WR_EXIT_INTERRUPTED : status;
 }
@@ -71,11 +72,14 @@ static int run(WrCli *cli)
         wr_text_fini(&text);
         return status;
     }
-    static const WrProgress progress = { .cancel = &interrupted };
+    static WrProgress progress = { .cancel = &interrupted };
+    if (cli->command->run == wr_cli_run || cli->command->run == wr_cli_export)
+        wr_cli_tell(&progress);
     cli->pool = wr_pool_new(cli->threads);
     wr_progress_set(&progress);
     int status = cli->command->run(cli);
     wr_progress_set(NULL);
+    wr_cli_tell_end();
     wr_pool_free(cli->pool);
     return status;
 }

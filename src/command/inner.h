@@ -43,6 +43,7 @@ struct WrSession {
     WrSessionState state;
     uint64_t last_revision; /* that was ever given */
     size_t budget;          /* of the history, bytes */
+    const WrDocument *made; /* while a line runs whose work is done already; borrowed */
     int depth;         /* commands under way, one inside the other; only the outermost is a step */
     char *folder;      /* of the script that is running; borrowed; NULL: the current folder */
     bool skip_outputs; /* while a script is opened rather than run */

@@ -126,12 +126,40 @@ static bool make_composite(WrSession *session, WrError *err)
     return went_through(true, err);
 }
 
+/* The tables of layers that were made already. */
+static bool take_made(WrSession *session, const WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    const WrDocument *made = session->made;
+    bool all = wr_call_gives(call, "layers") && wr_call_choice(call, "layers") == 1;
+    if (!all && !wr_session_layer(session, err)) return false;
+    if (made->layer_count != document->layer_count)
+        return wr_fail(err, "what was made has %d layers, the document %d", made->layer_count,
+                       document->layer_count);
+    for (int i = 0; i < document->layer_count; i++) {
+        WrLayer *layer = &document->layers[i], taken = wr_layer_share(&made->layers[i]);
+        if (wr_field_key(layer->heights) != wr_field_key(taken.heights) &&
+            !wr_session_check_unlocked(session, i, err)) {
+            wr_layer_fini(&taken);
+            return false;
+        }
+        char *name = layer->name;
+        layer->name = taken.name;
+        taken.name = name;
+        WrLayer old = *layer;
+        *layer = taken;
+        wr_layer_fini(&old);
+    }
+    return true;
+}
+
 static bool run_edit(WrSession *session, WrCall *call, WrError *err)
 {
     bool layers = session->options.composites && session->state.document->layer_count > 1;
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, layers ? 0.8 : 1.0);
-    bool good = !wr_progress_stopped() && call->command->run(session, call, err);
+    bool good = !wr_progress_stopped() && (session->made ? take_made(session, call, err)
+                                                         : call->command->run(session, call, err));
     good = went_through(good, err);
     part.from = part.to;
     part.to = 1.0;
@@ -189,6 +217,27 @@ static void name_command(WrError *err, const char *verb)
     size_t length = strlen(verb);
     if (err && (strncmp(err->text, verb, length) != 0 || isalnum((unsigned char)err->text[length])))
         wr_error_prefix(err, "%s: ", verb);
+}
+
+bool wr_session_takes_made(const char *line)
+{
+    WrCall *call = NULL;
+    if (!wr_call_parse(line, false, &call, NULL)) return false;
+    bool takes = call->command &&
+                 (call->command->run == wr_run_adjust || call->command->run == wr_run_generate);
+    for (int i = 0; i < call->count; i++) takes = takes && !wr_call_hash_name(call, i);
+    wr_call_free(call);
+    return takes;
+}
+
+bool wr_session_run_made(WrSession *session, const char *line, const WrDocument *made, WrError *err)
+{
+    if (!wr_session_takes_made(line))
+        return wr_fail(err, "%.60s: its work cannot be done beforehand", line);
+    session->made = made;
+    bool good = wr_session_run(session, line, err);
+    session->made = NULL;
+    return good;
 }
 
 bool wr_session_run(WrSession *session, const char *line, WrError *err)

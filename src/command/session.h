@@ -49,6 +49,12 @@ void wr_session_reset(WrSession *session);
    nothing. Relative file names are read from `folder` of the script that is running, else from the
    current folder. */
 bool wr_session_run(WrSession *session, const char *line, WrError *err);
+/* Run a line whose work is done already: `made` is the document as it is, shared, with its layers as the line
+   makes them, which the caller vouches for. Only lines that change nothing but layers' tables and read no
+   files: wr_session_takes_made. Steps, journal and all else go as in wr_session_run. */
+bool wr_session_run_made(WrSession *session, const char *line, const WrDocument *made,
+                         WrError *err);
+bool wr_session_takes_made(const char *line);
 /* Run a script file line by line; errors carry "file:line: ". Stops at the first failure: what ran
    before it stays. */
 bool wr_session_run_script(WrSession *session, const char *path, WrError *err);

@@ -1,0 +1,40 @@
+/* How far long work is, and how long it will still take, on the terminal's last line. */
+#include "base/clock.h"
+#include "base/progress.h"
+#include "cli/cli.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+#define SILENT_SECONDS 1.0 /* what takes less says nothing */
+#define STEP_SECONDS 0.2
+
+static struct {
+    double began, told; /* clock */
+    bool shown;
+} line;
+
+static void report(void *ctx, double fraction)
+{
+    (void)ctx;
+    double now = wr_clock_seconds();
+    char left[WR_PROGRESS_LEFT];
+    if (now - line.began < SILENT_SECONDS || now - line.told < STEP_SECONDS) return;
+    wr_progress_left(fraction, now - line.began, left);
+    fprintf(stderr, "\r%3.0f %%  %-16s", 100.0 * fraction, left);
+    line.told = now;
+    line.shown = true;
+}
+
+void wr_cli_tell(WrProgress *progress)
+{
+    if (!isatty(STDERR_FILENO)) return;
+    line.began = wr_clock_seconds();
+    progress->report = report;
+}
+
+void wr_cli_tell_end(void)
+{
+    if (line.shown) fprintf(stderr, "\r%*s\r", 24, "");
+    line.shown = false;
+}
