@@ -18,8 +18,9 @@
 /* ---- the watchdog ---- */
 
 typedef struct Dog {
+    pthread_mutex_t lock;      /* guards since, and telling the line that it is about */
     volatile int cancel, stop; /* atomic */
-    volatile double since;     /* clock; 0: nothing runs */
+    double since;              /* clock; 0: nothing runs */
     char line[256];
 } Dog;
 
@@ -27,16 +28,26 @@ static void *watch(void *arg)
 {
     Dog *dog = arg;
     while (!__atomic_load_n(&dog->stop, __ATOMIC_RELAXED)) {
-        double since = dog->since, now = wr_clock_seconds();
-        usleep(20000);
-        if (since == 0.0) continue;
-        if (now - since > PATIENCE) __atomic_store_n(&dog->cancel, 1, __ATOMIC_RELAXED);
-        if (now - since > PATIENCE + MERCY) {
+        pthread_mutex_lock(&dog->lock);
+        double took = dog->since > 0.0 ? wr_clock_seconds() - dog->since : 0.0;
+        if (took > PATIENCE) __atomic_store_n(&dog->cancel, 1, __ATOMIC_RELAXED);
+        pthread_mutex_unlock(&dog->lock);
+        if (took > PATIENCE + MERCY) {
             fprintf(stderr, "%s: did not stop when it was told to\n", dog->line);
             abort();
         }
+        usleep(20000);
     }
     return NULL;
+}
+
+/* A line begins or ends: now, or 0. */
+static void set_since(Dog *dog, double since)
+{
+    pthread_mutex_lock(&dog->lock);
+    dog->since = since;
+    if (since > 0.0) __atomic_store_n(&dog->cancel, 0, __ATOMIC_RELAXED);
+    pthread_mutex_unlock(&dog->lock);
 }
 
 /* ---- lines ---- */
@@ -110,12 +121,12 @@ static void try_line(Trials *t, const char *line)
     must_run(t->session, "grid cells=8x8");
     must_run(t->session, "select ellipse centre=0.5,0.5 radii=0.4,0.4");
     snprintf(t->dog.line, sizeof t->dog.line, "%s", line);
-    __atomic_store_n(&t->dog.cancel, 0, __ATOMIC_RELAXED);
-    double began = t->dog.since = wr_clock_seconds();
+    double began = wr_clock_seconds();
+    set_since(&t->dog, began);
     wr_progress_set(&progress);
     bool good = wr_session_run(t->session, line, &err);
     wr_progress_set(NULL);
-    t->dog.since = 0.0;
+    set_since(&t->dog, 0.0);
     t->tried++;
     if (getenv("WR_TELL") && wr_clock_seconds() - began > 1.0)
         printf("%6.1f s  %s  %s\n", wr_clock_seconds() - began, line, good ? "" : err.text);
@@ -162,6 +173,7 @@ static void extremes_end_or_can_be_stopped(void **state)
     pthread_t watcher;
     WrPool *pool = wr_pool_new(0);
     Trials t = { .every = 1 };
+    pthread_mutex_init(&t.dog.lock, NULL);
     t.session = wr_session_new(&(WrSessionOptions){ .pool = pool });
     assert_int_equal(pthread_create(&watcher, NULL, watch, &t.dog), 0);
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) try_line(&t, known[i]);
