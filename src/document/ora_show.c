@@ -1,6 +1,7 @@
 #include "document/ora_show.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <string.h>
 
@@ -64,7 +65,7 @@ uint8_t *wr_ora_thumbnail(const WrField *f, const WrOraRange *range, int *width,
     for (int y = 0; y < th; y++) {
         int top = (int)((int64_t)y * h / th), bottom = (int)((int64_t)(y + 1) * h / th);
         memset(sums, 0, sizeof sums);
-        for (int j = top; j < bottom; j++) {
+        for (int j = top; j < bottom && !wr_progress_stopped(); j++) {
             wr_field_read(f, 0, j, w, 1, row, (size_t)w);
             for (int x = 0; x < tw; x++)
                 for (int i = (int)((int64_t)x * w / tw); i < (int)((int64_t)(x + 1) * w / tw); i++)
