@@ -96,6 +96,43 @@ static void save_load_save_gives_the_same_bytes_with_every_part(void **state)
     wr_session_free(b);
 }
 
+/* A copy of one file, put under another's name as another program would. */
+static void put_in_place(const char *from, const char *to)
+{
+    char *bytes;
+    size_t length;
+    WrError err;
+    assert_true(wr_file_read(from, 1 << 24, &bytes, &length, &err));
+    assert_true(wr_file_write(to, bytes, length, &err));
+    wr_free(bytes);
+}
+
+static void a_file_that_another_program_has_written_since_is_seen(void **state)
+{
+    (void)state;
+    WrError err;
+    Notes notes = { 0 };
+    WrSession *s = rich(&notes);
+    assert_false(wr_session_file_changed(s)); /* it has none */
+    assert_true(wr_session_save(s, "own.exr", &err));
+    assert_false(wr_session_file_changed(s));
+    put_in_place("own.exr", "own.exr");
+    assert_true(wr_session_file_changed(s)); /* the same bytes in another file: nobody knows */
+    assert_true(wr_session_open(s, "own.exr", &err));
+    assert_false(wr_session_file_changed(s));
+    must_run(s, "layer solo off");
+    assert_false(wr_session_file_changed(s)); /* by its own work it does not change */
+    FILE *file = fopen("own.exr", "ae");
+    assert_true(file && fputc('x', file) == 'x' && fclose(file) == 0);
+    assert_true(wr_session_file_changed(s)); /* in place */
+    assert_true(wr_session_save(s, "own.exr", &err));
+    assert_false(wr_session_file_changed(s));
+    assert_int_equal(remove("own.exr"), 0);
+    assert_false(wr_session_file_changed(s)); /* saving loses nothing */
+    wr_session_free(s);
+    wr_text_fini(&notes.text);
+}
+
 static void the_hash_covers_everything_that_is_saved(void **state)
 {
     (void)state;
@@ -288,7 +325,7 @@ static void a_newer_version_opens_but_is_not_saved_over(void **state)
     char *before, *after;
     size_t length, length_after;
     read_bytes("new.exr", &before, &length);
-    must_run(s, "fill 3");
+    must_run(s, "layer solo off");
     assert_int_equal(symlink("new.exr", "link.exr"), 0);
     const char *names[] = { "new.exr", "./new.exr", "link.exr" };
     for (int i = 0; i < 3; i++) {
@@ -418,6 +455,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(save_load_save_gives_the_same_bytes_with_every_part),
+        cmocka_unit_test(a_file_that_another_program_has_written_since_is_seen),
         cmocka_unit_test(the_hash_covers_everything_that_is_saved),
         cmocka_unit_test(one_layer_that_is_f_is_a_file_of_one_part),
         cmocka_unit_test(a_newer_version_opens_but_is_not_saved_over),

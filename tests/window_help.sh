@@ -88,7 +88,8 @@ ends() {
     pid=''
 }
 
-shot() { import -window "$window" "$1.ppm"; }
+# Without a window `import` would wait for a click.
+shot() { timeout 20 import -window "$window" "$1.ppm"; }
 
 # home: the pointer goes where its outline is not in the way of comparisons.
 home() {

@@ -188,6 +188,7 @@ void wr_app_end(WrApp *app)
     wr_settings_fini(&app->settings);
     wr_settings_fini(&app->settings_known);
     wr_free(app->after_path);
+    wr_free(app->replace.path);
     for (int i = 0; i < SDL_NUM_SYSTEM_CURSORS; i++)
         if (app->cursors[i]) SDL_FreeCursor(app->cursors[i]);
     if (app->renderer) SDL_DestroyRenderer(app->renderer);

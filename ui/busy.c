@@ -354,7 +354,7 @@ void wr_later_run(WrApp *app)
     app->later = (WrLater){ 0 };
     if (later.line) wr_app_run_slow(app, later.line);
     if (later.action) wr_action_run(app, later.action->name);
-    if (later.path) wr_app_file_chosen(app, later.purpose, later.path);
+    if (later.path) wr_app_file_take(app, later.purpose, later.path);
     if (later.journal) wr_recover(app, later.journal, later.beyond);
     wr_free(later.line);
     wr_free(later.path);

@@ -45,9 +45,16 @@ void wr_app_save_history(WrApp *app); /* asks for the file */
 void wr_app_changed_document(WrApp *app);
 void wr_app_quit(WrApp *app);
 void wr_app_go_on(WrApp *app); /* with `after` */
+/* A dialog gave that name: read it, or write it, after asking where another file would go. */
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path);
+void wr_app_file_take(WrApp *app, WrFilePurpose purpose, const char *path); /* without asking */
 void wr_app_title(WrApp *app);
 const char *wr_app_name(const WrApp *app); /* of the document, without folders */
+
+/* ---- replace.c: files that would go ---- */
+/* If a file stands there, ask whether it may be replaced, and do it then: true. False: there is none. */
+bool wr_replace_ask(WrApp *app, WrReplaceKind kind, WrFilePurpose purpose, const char *path);
+void wr_dialog_replace(WrApp *app);
 
 /* ---- busy.c: what may take long ---- */
 /* Call work(ctx), on another thread, and come back when it is done: with what it said. What takes longer

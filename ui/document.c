@@ -316,6 +316,9 @@ static bool save_to(WrApp *app, const char *path)
 bool wr_app_save(WrApp *app)
 {
     const char *path = wr_session_path(app->session);
+    if (path[0] && wr_session_file_changed(app->session) &&
+        wr_replace_ask(app, WR_REPLACE_CHANGED, WR_FILE_SAVE, path))
+        return false;
     if (path[0]) {
         char *copy = wr_strdup(path); /* saving may replace it */
         bool ok = save_to(app, copy);
@@ -367,15 +370,6 @@ static void save_history_now(WrApp *app, const char *path)
     else wr_app_say(app, "Saved %d steps as %s", wr_session_history_position(app->session), path);
 }
 
-static char *with_ending(const char *path, const char *ending)
-{
-    char buffer[16];
-    if (wr_path_ending(path, buffer)[0]) return wr_strdup(path);
-    WrText text = { 0 };
-    wr_text_addf(&text, "%s%s", path, ending);
-    return text.data;
-}
-
 static void import_now(WrApp *app, const char *path)
 {
     WrText line = { 0 };
@@ -405,22 +399,20 @@ static void export_now(WrApp *app, const char *path)
 
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
-    if (app->in_frame) { /* it may take long */
-        wr_later_file(app, purpose, path);
-        return;
-    }
-    static const char *const endings[WR_FILE_GENERATE + 1] = {
-        [WR_FILE_SAVE] = ".exr", [WR_FILE_EXPORT] = ".png", [WR_FILE_HISTORY] = ".wrinkle"
-    };
-    char *full = endings[purpose] ? with_ending(path, endings[purpose]) : wr_strdup(path);
+    bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&
+                wr_replace_ask(app, WR_REPLACE_CHOSEN, purpose, path);
+    if (!asks) wr_later_file(app, purpose, path); /* it may take long */
+}
+
+void wr_app_file_take(WrApp *app, WrFilePurpose purpose, const char *path)
+{
     switch (purpose) {
-    case WR_FILE_OPEN: open_now(app, full); break;
-    case WR_FILE_SAVE: save_to(app, full); break;
-    case WR_FILE_IMPORT: import_now(app, full); break;
-    case WR_FILE_EXPORT: export_now(app, full); break;
-    case WR_FILE_HISTORY: save_history_now(app, full); break;
-    case WR_FILE_STAMP: wr_stamp_choose(app, full); break;
-    case WR_FILE_GENERATE: wr_generate_file(app, full); break;
+    case WR_FILE_OPEN: open_now(app, path); break;
+    case WR_FILE_SAVE: save_to(app, path); break;
+    case WR_FILE_IMPORT: import_now(app, path); break;
+    case WR_FILE_EXPORT: export_now(app, path); break;
+    case WR_FILE_HISTORY: save_history_now(app, path); break;
+    case WR_FILE_STAMP: wr_stamp_choose(app, path); break;
+    case WR_FILE_GENERATE: wr_generate_file(app, path); break;
     }
-    wr_free(full);
 }

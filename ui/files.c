@@ -30,6 +30,7 @@ struct WrFiles {
     Uint32 done_event;
     WrFilePurpose purpose;
     char answer[PATH_SIZE]; /* "" if cancelled */
+    bool agreed;            /* the native dialog asked before it gave a name that is taken */
     /* the native dialog */
     bool running;
     pid_t child;
@@ -44,16 +45,32 @@ struct WrFiles {
 
 static const struct {
     const char *title, *done;
-    bool save;
+    const char *ending; /* of a file to be written, for names without one; NULL: it is read */
 } purposes[] = {
-    [WR_FILE_OPEN] = { "Open", "Open", false },
-    [WR_FILE_SAVE] = { "Save as", "Save", true },
-    [WR_FILE_EXPORT] = { "Export to", "Export", true },
-    [WR_FILE_IMPORT] = { "Import heights", "Import", false },
-    [WR_FILE_HISTORY] = { "Save the history as a script", "Save", true },
-    [WR_FILE_STAMP] = { "Open a picture as a stamp", "Open", false },
-    [WR_FILE_GENERATE] = { "Choose a file", "Choose", false },
+    [WR_FILE_OPEN] = { "Open", "Open", NULL },
+    [WR_FILE_SAVE] = { "Save as", "Save", ".exr" },
+    [WR_FILE_EXPORT] = { "Export to", "Export", ".png" },
+    [WR_FILE_IMPORT] = { "Import heights", "Import", NULL },
+    [WR_FILE_HISTORY] = { "Save the history as a script", "Save", ".wrinkle" },
+    [WR_FILE_STAMP] = { "Open a picture as a stamp", "Open", NULL },
+    [WR_FILE_GENERATE] = { "Choose a file", "Choose", NULL },
 };
+
+bool wr_files_writes(WrFilePurpose purpose)
+{
+    return purposes[purpose].ending != NULL;
+}
+
+/* The name with the ending that its purpose wants, where it has none. Caller frees. */
+static char *with_ending(const WrFiles *files, const char *path)
+{
+    char buffer[16];
+    const char *ending = purposes[files->purpose].ending;
+    WrText text = { 0 };
+    if (!ending || wr_path_ending(path, buffer)[0]) return wr_strdup(path);
+    wr_text_addf(&text, "%s%s", path, ending);
+    return text.data;
+}
 
 static void free_entries(WrFiles *files)
 {
@@ -133,7 +150,7 @@ static bool start(WrFiles *files, const char *program, const char *const *argume
 static bool ask_native(WrFiles *files, const char *start_at)
 {
     const char *title = purposes[files->purpose].title, *forced = getenv("WRINKLE_DIALOG");
-    bool save = purposes[files->purpose].save, ok = false;
+    bool save = wr_files_writes(files->purpose), ok = false;
     if (forced && strcmp(forced, "own") == 0) return false;
     char *zenity = find_program("zenity"), *kdialog = zenity ? NULL : find_program("kdialog");
     if (zenity) {
@@ -151,6 +168,7 @@ static bool ask_native(WrFiles *files, const char *start_at)
         wr_text_fini(&where);
         wr_text_fini(&named);
     } else if (kdialog) {
+        /* It asks by itself before it gives the name of a file that is there. */
         const char *arguments[] = { kdialog,  "--title",
                                     title,    save ? "--getsavefilename" : "--getopenfilename",
                                     start_at, NULL };
@@ -225,10 +243,12 @@ static bool accept(WrFiles *files)
     if (is_folder(path)) {
         go_to(files, path);
         files->field[0] = '\0';
-    } else if (!purposes[files->purpose].save && access(path, R_OK) != 0) {
+    } else if (!wr_files_writes(files->purpose) && access(path, R_OK) != 0) {
         snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", path, strerror(errno));
     } else {
-        snprintf(files->answer, sizeof files->answer, "%s", path);
+        char *full = with_ending(files, path);
+        snprintf(files->answer, sizeof files->answer, "%s", full);
+        wr_free(full);
         done = true;
     }
     wr_free(path);
@@ -240,6 +260,7 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     if (files->running) return true; /* one at a time: the first is still open */
     files->purpose = purpose;
     files->answer[0] = '\0';
+    files->agreed = false;
     char *from = folder ? wr_strdup(folder) : realpath(".", NULL);
     char *start_at = wr_path_join(from ? from : "/", name);
     bool native = ask_native(files, start_at);
@@ -253,12 +274,28 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     return native;
 }
 
+/* The desktop's dialog knows the name without the ending only: of another file it has not asked. */
+static void take_native(WrFiles *files)
+{
+    char *full = with_ending(files, files->answer);
+    if (!files->answer[0]) full[0] = '\0';
+    files->agreed = strcmp(full, files->answer) == 0;
+    snprintf(files->answer, sizeof files->answer, "%s", full);
+    wr_free(full);
+}
+
+bool wr_files_agreed(const WrFiles *files)
+{
+    return files->agreed;
+}
+
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose)
 {
     if (files->running) {
         pthread_join(files->waiter, NULL);
         close(files->pipe);
         files->running = false;
+        take_native(files);
     }
     *purpose = files->purpose;
     return files->answer[0] ? files->answer : NULL;
@@ -302,13 +339,14 @@ static void show_entries(WrFiles *files, bool *done)
     wr_free(full);
 }
 
-/* Saving over a file that is there is a decision: say so where the eye is. */
+/* Saving over a file that is there is a decision: say so where the eye is, before it is asked about. */
 static void warn_overwrite(const WrFiles *files)
 {
-    if (!purposes[files->purpose].save || files->field[0] == '\0') return;
-    char *path = typed_path(files);
-    if (access(path, F_OK) == 0 && !is_folder(path))
-        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "This file exists and will be replaced.");
+    if (!wr_files_writes(files->purpose) || files->field[0] == '\0') return;
+    char *path = typed_path(files), *full = with_ending(files, path);
+    if (access(full, F_OK) == 0 && !is_folder(path))
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "There is a file of this name.");
+    wr_free(full);
     wr_free(path);
 }
 

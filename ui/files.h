@@ -24,8 +24,12 @@ void wr_files_free(WrFiles *files); /* closes a dialog that is open */
 /* Ask. name: the file name that the field starts with. True: a native dialog is open and the event will
  * come; false: there is none, and the panel must be drawn instead (wr_files_panel). */
 bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name);
-/* After the event: the path chosen, or NULL if it was cancelled. Valid until the next ask. */
+/* After the event: the path chosen, or NULL if it was cancelled. Valid until the next ask. A file to be
+ * written has an ending: that of its kind where none was typed. */
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose);
+/* The native dialog has asked whether that file may be replaced, if there is one. */
+bool wr_files_agreed(const WrFiles *files);
+bool wr_files_writes(WrFilePurpose purpose); /* it is a file to be written */
 
 /* The panel of our own, as a dialog. 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
 int wr_files_panel(WrFiles *files);

@@ -106,6 +106,7 @@ void wr_generate_cancel(WrApp *app); /* nothing is shown any more; the values st
 /* ---- generate_presets.c: presets.wrinkle in the settings folder, a script of lines with their names as comments
    before them ---- */
 void wr_generate_presets_find(WrApp *app); /* reads them at the first call */
+bool wr_generate_preset_taken(const WrApp *app, const char *name); /* there is one of that name */
 bool wr_generate_preset_save(WrApp *app, const char *name);
 bool wr_generate_preset_delete(WrApp *app, int index);
 

@@ -109,6 +109,12 @@ static bool tidy(const char *name, char out[WR_GENERATE_NAME])
     return out[0] != '\0';
 }
 
+bool wr_generate_preset_taken(const WrApp *app, const char *name)
+{
+    char own[WR_GENERATE_NAME];
+    return tidy(name, own) && find(app->generate, app->generate->generator, own) >= 0;
+}
+
 bool wr_generate_preset_save(WrApp *app, const char *name)
 {
     WrGenerateHand *hand = app->generate;

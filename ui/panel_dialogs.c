@@ -212,6 +212,7 @@ void wr_panel_dialogs(WrApp *app)
     case WR_DIALOG_TABLET: wr_dialog_tablet(app); break;
     case WR_DIALOG_CASES: wr_dialog_cases(app); break;
     case WR_DIALOG_PRESET: wr_dialog_preset(app); break;
+    case WR_DIALOG_REPLACE: wr_dialog_replace(app); break;
     case WR_DIALOG_HELP:
     case WR_DIALOG_ABOUT: wr_dialog_help(app); break;
     }

@@ -64,7 +64,9 @@ static void save_popup(WrApp *app)
     bool fresh = hand->name[0] == '\n';
     if (fresh) hand->name[0] = '\0';
     bool done = wr_gui_text_field("##name", wr_gui_px(220), hand->name, sizeof hand->name, fresh);
-    if (wr_gui_button("Save it", true) || done) {
+    bool taken = wr_generate_preset_taken(app, hand->name);
+    if (taken) wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "There is a preset of this name.");
+    if (wr_gui_button(taken ? "Replace it" : "Save it", !taken) || (done && !taken)) {
         if (wr_generate_preset_save(app, hand->name)) wr_gui_popup_close();
     }
     wr_gui_popup_end();

@@ -190,6 +190,21 @@ static bool is_name(const char *name)
     return true;
 }
 
+#define TIP_MAX (64u << 20) /* bytes */
+
+/* What lies there are these bytes, or nothing. A picture that another preset goes by is never replaced. */
+static bool is_free_for(const char *path, const char *bytes, size_t length, WrError *err)
+{
+    char *there = NULL;
+    size_t size = 0;
+    if (access(path, F_OK) != 0) return true;
+    bool same = wr_file_read(path, TIP_MAX, &there, &size, NULL) && size == length &&
+                memcmp(there, bytes, size) == 0;
+    wr_free(there);
+    return same ||
+           wr_fail(err, "%s: another picture of this name lies there; rename one of them", path);
+}
+
 /* The picture that goes with a preset lies beside it and stays there: a copy has one of its own. */
 static bool copy_tip(const WrApp *app, const char *folder, WrError *err)
 {
@@ -199,8 +214,9 @@ static bool copy_tip(const WrApp *app, const char *folder, WrError *err)
     size_t length;
     if (!path) return true;
     char *to = wr_path_join(folder, from ? from + 1 : path);
-    bool ok = strcmp(to, path) == 0 || (wr_file_read(path, 64u << 20, &bytes, &length, err) &&
-                                        wr_file_write(to, bytes, length, err));
+    bool ok = strcmp(to, path) == 0 ||
+              (wr_file_read(path, TIP_MAX, &bytes, &length, err) &&
+               is_free_for(to, bytes, length, err) && wr_file_write(to, bytes, length, err));
     wr_free(bytes);
     wr_free(to);
     return ok;
@@ -213,25 +229,43 @@ static WrPreset *plain(WrError *err)
     return wr_preset_parse(text, sizeof text - 1, "brush", NULL, err);
 }
 
+/* The file of a preset of one's own. Caller frees. */
+static char *preset_path(const char *folder, const char *name)
+{
+    WrText file = { 0 };
+    wr_text_addf(&file, "%s.myb", name);
+    char *path = wr_path_join(folder, wr_text_get(&file));
+    wr_text_fini(&file);
+    return path;
+}
+
 static bool write_preset(WrApp *app, const char *folder, const char *name, WrError *err)
 {
     WrShelf *shelf = &app->shelf;
-    WrText text = { 0 }, file = { 0 };
+    WrText text = { 0 };
     WrPreset *preset = shelf->tuned ? wr_preset_share(shelf->tuned) : plain(err);
     if (!preset) return false;
     WrBrush brush = app->settings.brush;
     brush.symmetry = (WrSymmetry){ 0 };
     if (wr_tools[app->tool].mode) brush.mode = shelf->kept;
     wr_preset_print(preset, &brush, &text);
-    wr_text_addf(&file, "%s.myb", name);
-    char *path = wr_path_join(folder, wr_text_get(&file));
+    char *path = preset_path(folder, name);
     bool ok =
         copy_tip(app, folder, err) && wr_file_write(path, wr_text_get(&text), text.length, err);
     wr_preset_free(preset);
     wr_free(path);
-    wr_text_fini(&file);
     wr_text_fini(&text);
     return ok;
+}
+
+void wr_shelf_ask_save(WrApp *app, const char *name)
+{
+    char *folder = is_name(name) ? wr_library_user_folder(NULL) : NULL;
+    char *path = folder ? preset_path(folder, name) : NULL;
+    bool asks = path && wr_replace_ask(app, WR_REPLACE_PRESET, WR_FILE_SAVE, path);
+    if (!asks) wr_shelf_save(app, name);
+    wr_free(path);
+    wr_free(folder);
 }
 
 bool wr_shelf_save(WrApp *app, const char *name)

@@ -47,6 +47,7 @@ void wr_shelf_tune_all(WrApp *app, const char *set); /* all at once; NULL: all i
 bool wr_shelf_tip(WrApp *app, const char *path);
 /* The brush as a preset of the user's own, and choose it. */
 bool wr_shelf_save(WrApp *app, const char *name);
+void wr_shelf_ask_save(WrApp *app, const char *name); /* the same, asking first where it is taken */
 /* Remove one of the user's own. */
 bool wr_shelf_delete(WrApp *app, const char *id);
 /* The one before in the list of those used; the next or the one before among the favourites. */

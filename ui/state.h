@@ -305,7 +305,8 @@ typedef enum WrDialog {
     WR_DIALOG_SELECT,
     WR_DIALOG_SEARCH,
     WR_DIALOG_RECOVER,
-    WR_DIALOG_PRESET, /* the name of a preset to be saved */
+    WR_DIALOG_PRESET,  /* the name of a preset to be saved */
+    WR_DIALOG_REPLACE, /* a file that stands where one is to be written */
     WR_DIALOG_TABLET,
     WR_DIALOG_CASES,
     WR_DIALOG_HELP,
@@ -327,6 +328,18 @@ typedef struct WrForms { /* what the dialogs hold while they are open */
     int wrap, kind, range;
     bool fit;
 } WrForms;
+
+typedef enum WrReplaceKind {
+    WR_REPLACE_CHOSEN,  /* the file of a name that was chosen */
+    WR_REPLACE_CHANGED, /* the document's own, which another program has written since */
+    WR_REPLACE_PRESET   /* a preset of the user's own */
+} WrReplaceKind;
+
+typedef struct WrReplace { /* while it is asked */
+    WrReplaceKind kind;
+    WrFilePurpose purpose;
+    char *path; /* owned */
+} WrReplace;
 
 typedef struct WrTiming { /* of the window's own pictures */
     int pictures;
@@ -404,6 +417,7 @@ struct WrApp {
     WrDialog dialog;
     bool dialog_fresh; /* in its first frame */
     WrForms forms;
+    WrReplace replace;
     WrAfter after;
     char *after_path;        /* owned */
     uint64_t clean_revision; /* also counts as saved: a starter made by commands */

@@ -2,6 +2,7 @@
    Layer 6, private to src/command. */
 #pragma once
 #include "base/array.h"
+#include "base/stamp.h"
 #include "command/call.h"
 #include "command/session.h"
 #include "document/history.h"
@@ -33,7 +34,8 @@ typedef struct WrSessionState {
     WrHistory *history;   /* owned; its marks are revisions */
     WrViews *views;       /* owned; the present one is the document's */
     uint64_t saved_revision;
-    char *path;       /* of the document file; owned; NULL: none */
+    char *path;        /* of the document file; owned; NULL: none */
+    WrFileStamp stamp; /* of that file as it was opened or saved here */
     char *origin;     /* the command line that makes the history's first state; owned; NULL: none */
     char *newer_path; /* a file of a newer version that must not be saved over; owned; NULL: none */
 } WrSessionState;

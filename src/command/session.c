@@ -339,6 +339,14 @@ uint64_t wr_session_revision(const WrSession *session)
     return wr_history_mark(session->state.history);
 }
 
+bool wr_session_file_changed(const WrSession *session)
+{
+    const WrSessionState *state = &session->state;
+    if (!state->path) return false;
+    WrFileStamp now = wr_file_stamp(state->path);
+    return now.there && !wr_file_stamp_same(&now, &state->stamp);
+}
+
 uint64_t wr_session_saved_revision(const WrSession *session)
 {
     return session->state.saved_revision;

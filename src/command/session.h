@@ -92,6 +92,9 @@ uint64_t wr_session_revision(const WrSession *session);
 /* Revision at the last save or open; the document is unsaved while they differ. */
 uint64_t wr_session_saved_revision(const WrSession *session);
 const char *wr_session_path(const WrSession *session); /* of the document file, "" if none */
+/* What stands under that name now is not what was opened or saved here last: another program has written
+   it since. False where nothing stands there. */
+bool wr_session_file_changed(const WrSession *session);
 
 /* ---- the journal ---- */
 

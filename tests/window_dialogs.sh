@@ -1,0 +1,188 @@
+#!/usr/bin/env bash
+# What dialogs may not do: no file goes without a question, whatever its name came by.
+# window_dialogs.sh PROGRAM SOURCE-FOLDER
+set -uo pipefail
+program=$1
+source=$2
+folder=$(mktemp -d) || exit 1
+# shellcheck source=tests/window_help.sh
+source "$source/tests/window_help.sh"
+
+serve
+printf 'width 1200\nheight 800\nturning 0\nants 0\nradius 24\nstrength 0.4\nmode 1\n' >config/wrinkle/window.conf
+printf 'table 128x128\nbump height=1\n' >flat.wrinkle
+
+sum_of() { sha256sum <"$1"; }
+is_sum() { [[ $(sum_of "$1") == "$2" ]]; }
+is_other() { ! is_sum "$@"; }
+stroke() { drag 180 $((300 + ${1:-0})) 6 4 20; }
+# unharmed FILE SUM WHAT
+unharmed() { is_sum "$1" "$2" || complain "$3 replaced $1"; }
+quit() { # with all work saved
+    xdotool key ctrl+q
+    ends 0
+}
+# name_file NAME KEY: ask for a file by hand and press Return, wherever that leads.
+name_file() {
+    shot unasked
+    key "$2"
+    until_true 10 "the question for a file" shows_dialog || return
+    xdotool key ctrl+a
+    xdotool type --delay 20 "$1"
+    xdotool key Return
+    home
+}
+# declined FILE SUM WHAT: the question stands, Return does not answer it, Escape goes back to the name, and again.
+declined() {
+    key Return
+    key Return
+    unharmed "$1" "$2" "$3 and Return, Return, Return"
+    key Escape
+    home
+    key Return # the name was kept: the same question again
+    home
+    key Escape
+    home
+    key Escape
+    home
+    unharmed "$1" "$2" "$3 and Escape"
+    # Whatever was open is closed: a stroke reaches the table.
+}
+
+# ---- a name that is taken: with its ending, and without ----
+start flat.wrinkle
+stroke
+save_as taken.exr ctrl+s
+was=$(sum_of taken.exr)
+for name in "$folder/taken.exr" "$folder/taken" taken; do
+    stroke 40
+    until_true 10 "the mark of unsaved work" title_is 'taken.exr *'
+    name_file "$name" ctrl+shift+s
+    declined taken.exr "$was" "saving as $name"
+    title_is 'taken.exr *' || complain "declined, $name left the title $(xdotool getwindowname "$window")"
+done
+name_file taken ctrl+shift+s
+key r
+until_true 20 "the file to be replaced" is_other taken.exr "$was"
+until_true 10 "the title of what was saved" title_is taken.exr
+was=$(sum_of taken.exr)
+
+# ---- saved onto what another program has written since ----
+stroke 80
+until_true 10 "the mark of unsaved work" title_is 'taken.exr *'
+cp taken.exr theirs.exr
+printf 'theirs' >>taken.exr
+theirs=$(sum_of taken.exr)
+key ctrl+s
+home
+key Return
+unharmed taken.exr "$theirs" "saving onto a changed file"
+key Escape
+home
+unharmed taken.exr "$theirs" "saving onto a changed file and Escape"
+title_is 'taken.exr *' || complain "not saved, the title is $(xdotool getwindowname "$window")"
+key ctrl+s
+home
+key s
+home
+xdotool type --delay 20 other
+key Return
+until_true 20 "the other name" title_is other.exr
+unharmed taken.exr "$theirs" "saving under another name"
+stroke 120
+until_true 10 "the mark of unsaved work" title_is 'other.exr *'
+printf 'theirs' >>other.exr
+theirs=$(sum_of other.exr)
+key ctrl+s
+home
+key r
+until_true 20 "the changed file to be replaced" is_other other.exr "$theirs"
+until_true 10 "the title of what was saved" title_is other.exr
+
+# ---- the history as a script, an export ----
+printf '# theirs\n' >steps.wrinkle
+was=$(sum_of steps.wrinkle)
+xdotool key ctrl+Return
+settle
+xdotool type --delay 20 'save history'
+home
+key Return
+home
+xdotool key ctrl+a
+xdotool type --delay 20 steps
+key Return
+home
+declined steps.wrinkle "$was" "the history as steps"
+printf 'theirs' >height.png
+was=$(sum_of height.png)
+key ctrl+e
+home
+key Return # "Choose a file..."
+home
+key Return # height.png
+home
+declined height.png "$was" "an export"
+
+# ---- a preset of one's own ----
+mkdir -p data/wrinkle/brushes
+xdotool key ctrl+Return
+settle
+xdotool type --delay 20 'save brush as a preset'
+home
+key Return
+home
+xdotool key ctrl+a
+xdotool type --delay 20 mine
+key Return
+preset() { find "$folder/data" -name mine.myb; }
+has_preset() { [[ -n $(preset) ]]; }
+until_true 10 "a preset of one's own" has_preset
+printf 'theirs' >"$(preset)"
+was=$(sum_of "$(preset)")
+home
+xdotool key ctrl+Return
+settle
+xdotool type --delay 20 'save brush as a preset'
+home
+key Return
+home
+xdotool key ctrl+a
+xdotool type --delay 20 mine
+key Return
+home
+declined "$(preset)" "$was" "a preset's name"
+quit
+
+# ---- the desktop's dialog is told to ask, and what it did not ask about is asked here ----
+mkdir bin
+cat >bin/zenity <<'END'
+#!/bin/sh
+printf '%s\n' "$@" >"$HOME/asked"
+cat "$HOME/answer"
+END
+chmod +x bin/zenity
+unset WRINKLE_DIALOG
+PATH=$folder/bin:$PATH start flat.wrinkle
+stroke
+was=$(sum_of taken.exr)
+printf '%s\n' "$folder/taken" >answer # an ending was never spoken of
+key ctrl+s
+home
+grep -qx -e --confirm-overwrite asked || complain "zenity is not told to ask: $(tr '\n' ' ' <asked)"
+key Return
+unharmed taken.exr "$was" "a name without its ending from the desktop's dialog"
+printf '%s\n' "$folder/fresh" >answer
+key Escape # asks the desktop's dialog again
+until_true 10 "the file of the second answer" file_is_there fresh.exr
+grep -qx -e "--filename=$folder/taken.exr" asked || complain "the name was not kept: $(tr '\n' ' ' <asked)"
+until_true 10 "the title of the second answer" title_is fresh.exr
+stroke 40
+until_true 10 "the mark of unsaved work" title_is 'fresh.exr *'
+was=$(sum_of taken.exr)
+printf '%s\n' "$folder/taken.exr" >answer # it has asked
+key ctrl+shift+s
+until_true 20 "the file that the desktop's dialog asked about" is_other taken.exr "$was"
+until_true 10 "its title" title_is taken.exr
+quit
+
+[[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }
