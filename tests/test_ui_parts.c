@@ -39,6 +39,25 @@ static void the_beginning_of_a_label_counts_more_than_its_middle(void **state)
     assert_true(begin > word && word > inside && inside > 0);
 }
 
+/* ---- a window and its borders ---- */
+
+static void a_window_keeps_to_the_room_that_the_desktop_leaves(void **state)
+{
+    (void)state;
+    const SDL_Rect room = { 0, 24, 1440, 876 }; /* a bar at the top of 1440 x 900 */
+    const int borders[4] = { 1, 22, 1, 5 };
+    SDL_Rect fits;
+    assert_true(wr_layout_window(&room, &(SDL_Rect){ 0, 0, 1440, 900 }, borders, &fits));
+    assert_true(SDL_RectEquals(&fits, &(SDL_Rect){ 1, 46, 1438, 849 }));
+    assert_false(wr_layout_window(&room, &fits, borders, &fits)); /* and then it rests */
+    /* What is small enough is moved only as far as it takes. */
+    assert_true(wr_layout_window(&room, &(SDL_Rect){ 700, 500, 1000, 600 }, borders, &fits));
+    assert_true(SDL_RectEquals(&fits, &(SDL_Rect){ 439, 295, 1000, 600 }));
+    assert_false(wr_layout_window(&room, &(SDL_Rect){ 100, 100, 800, 600 }, borders, &fits));
+    const int none[4] = { 0 };
+    assert_false(wr_layout_window(&room, &room, none, &fits));
+}
+
 /* ---- changed settings of a preset ---- */
 
 static void a_changed_setting_takes_its_place_and_can_be_taken_back(void **state)
@@ -567,6 +586,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_search_takes_all_words_in_any_order_and_case),
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
+        cmocka_unit_test(a_window_keeps_to_the_room_that_the_desktop_leaves),
         cmocka_unit_test(a_changed_setting_takes_its_place_and_can_be_taken_back),
         cmocka_unit_test(damaged_texts_of_settings_are_read_as_far_as_they_make_sense),
         cmocka_unit_test(favourites_come_and_go_and_survive_the_settings_file),

@@ -185,4 +185,84 @@ until_true 20 "the file that the desktop's dialog asked about" is_other taken.ex
 until_true 10 "its title" title_is taken.exr
 quit
 
+# ---- a press let go at once opens a list, which is drawn; the keys are then for the list ----
+start flat.wrinkle
+region=200x200+100+60
+xdotool mousemove $((X + 160)) $((Y + 50))
+settle
+shot closed
+xdotool click 1
+settle
+shot opened
+changed=$(differs closed opened "$region")
+[[ ${changed%.*} -gt 2000 ]] || complain "a click shows only $changed pixels of a list"
+canvas=200x200+100+500
+key Up # at the list's first row already
+key Down
+key Down
+key Down
+key q # a tool's key
+home
+shot moved
+changed=$(differs opened moved "$canvas")
+[[ ${changed%.*} -lt 20 ]] || complain "arrows in a list move the table: $changed pixels differ"
+key Return
+home
+stroke
+becomes 'stroke *mode=*' "a stroke after a list was chosen from"
+newest_is 'stroke *mode=raise*' && complain "the arrows and Return choose nothing from a list"
+key space # nothing is open any more: the table can be worked on
+# ... in a dialog the list goes first, then the dialog
+key ctrl+e
+home
+shot dialog
+xdotool mousemove $((X + 650)) $((Y + 316))
+settle
+xdotool click 1
+settle
+shot listed
+changed=$(differs dialog listed 300x300+500+300)
+[[ ${changed%.*} -gt 2000 ]] || complain "a list in a dialog shows only $changed pixels"
+key Escape
+home
+shot unlisted
+changed=$(differs dialog unlisted 400x300+450+250)
+[[ ${changed%.*} -lt 500 ]] || complain "Escape in a dialog's list closes more than the list: $changed pixels differ"
+key Escape
+home
+
+# ---- what is typed takes the place of the text that stands there ----
+key t
+home
+sleep 0.5
+xdotool type --delay 40 'ab'
+home
+key ctrl+Return
+becomes 'text *ab*' "letters by hand"
+newest_is 'text ab*' || complain "what is typed is added to the text that stood there: $(newest)"
+stroke
+xdotool key ctrl+q
+settle
+xdotool key d
+ends 0
+
+# ---- with a window manager the whole window, its borders included, is on the screen ----
+manager=''
+if command -v openbox >/dev/null; then
+    openbox --sm-disable >openbox.log 2>&1 &
+    manager=$!
+    managed() { xprop -root _NET_SUPPORTING_WM_CHECK 2>/dev/null | grep -q 0x; }
+    until_true 20 "the window manager" managed
+    printf 'turning 0\nwidth 1440\nheight 900\n' >config/wrinkle/window.conf
+    start flat.wrinkle
+    on_screen() {
+        eval "$(xdotool getwindowgeometry --shell "$window" | grep -E '^(X|Y|WIDTH|HEIGHT)=')"
+        read -r left right top bottom < <(xprop -id "$window" _NET_FRAME_EXTENTS | sed 's/.*= //; s/,//g')
+        [[ ${top:-0} -gt 0 && $((WIDTH + left + right)) -le 1280 && $((HEIGHT + top + bottom)) -le 900 ]]
+    }
+    until_true 20 "a window that fits the screen" on_screen || complain "it is $WIDTH x $HEIGHT at $X,$Y, borders ${left:-} ${right:-} ${top:-} ${bottom:-}"
+    quit
+    kill -TERM "$manager"
+fi
+
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

@@ -197,6 +197,25 @@ void wr_app_end(WrApp *app)
     SDL_Quit();
 }
 
+/* The window with what a window manager put around it stays within what the desktop leaves free, so that the
+   status line is on the screen. Known only once the window is shown, and looked at until a hand sizes it. */
+static void keep_on_screen(WrApp *app)
+{
+    SDL_Rect room, now, fits;
+    int top, left, bottom, right, display = SDL_GetWindowDisplayIndex(app->window);
+    Uint32 flags = SDL_GetWindowFlags(app->window);
+    if (app->fitted || app->options->width > 0) return;
+    if (flags & (SDL_WINDOW_MAXIMIZED | SDL_WINDOW_FULLSCREEN | SDL_WINDOW_HIDDEN)) return;
+    if (display < 0 || SDL_GetDisplayUsableBounds(display, &room) != 0 ||
+        SDL_GetWindowBordersSize(app->window, &top, &left, &bottom, &right) != 0)
+        return;
+    SDL_GetWindowPosition(app->window, &now.x, &now.y);
+    SDL_GetWindowSize(app->window, &now.w, &now.h);
+    if (!wr_layout_window(&room, &now, (const int[4]){ left, top, right, bottom }, &fits)) return;
+    SDL_SetWindowSize(app->window, fits.w, fits.h);
+    SDL_SetWindowPosition(app->window, fits.x, fits.y);
+}
+
 /* ---- events ---- */
 
 static void window_event(WrApp *app, const SDL_WindowEvent *event)
@@ -206,7 +225,11 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
     case SDL_WINDOWEVENT_MINIMIZED: app->visible = false; break;
     case SDL_WINDOWEVENT_SHOWN:
     case SDL_WINDOWEVENT_EXPOSED:
-    case SDL_WINDOWEVENT_RESTORED: app->visible = true; break;
+    case SDL_WINDOWEVENT_RESTORED:
+        app->visible = true;
+        keep_on_screen(app);
+        break;
+    case SDL_WINDOWEVENT_MOVED: keep_on_screen(app); break;
     case SDL_WINDOWEVENT_MAXIMIZED:
         app->visible = true;
         app->settings.maximized = true;
@@ -228,9 +251,15 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
     }
 }
 
+static bool is_hand(const SDL_Event *event)
+{
+    return event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_KEYDOWN;
+}
+
 static void handle(WrApp *app, const SDL_Event *event)
 {
     WrPenEvent pen;
+    if (is_hand(event)) app->fitted = true;
     if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
     while (wr_pen_next_before(app->pen, event, &pen)) wr_hand_pen(app, &pen);
     if (event->type == app->job_event) { /* what the result is needed for takes it */
@@ -356,6 +385,7 @@ static void draw(WrApp *app, double now)
     SDL_RenderPresent(app->renderer);
     set_cursor(app);
     app->drawn_at = now;
+    if (app->redraw < 1 && wr_gui_unsettled(app->gui)) app->redraw = 1;
     if (app->latency) wr_latency_drawn(app);
 }
 

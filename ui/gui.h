@@ -36,8 +36,13 @@ void wr_gui_release_all(WrGui *gui);
 bool wr_gui_owns_point(const WrGui *gui, int x, int y);
 bool wr_gui_holds_mouse(const WrGui *gui); /* a widget is being dragged */
 bool wr_gui_wants_text(const WrGui *gui);  /* a text field has the keyboard */
-/* A widget waits for time to pass (a click that may become a double click): draw again soon. */
+/* A widget waits for time to pass (a click that may become a double click, a tip): draw again soon. */
 bool wr_gui_busy(const WrGui *gui);
+/* The last picture does not show all that the events so far come to: a press that was let go at once, a list
+   or a dialog that opens over several pictures, a ground that is still being dimmed. Draw again now. */
+bool wr_gui_unsettled(const WrGui *gui);
+/* A menu, a list or a popup is open, dialogs not counted: the keys are for it. */
+bool wr_gui_popup_open_now(const WrGui *gui);
 /* The pointer's shape that the widgets ask for. */
 SDL_SystemCursor wr_gui_cursor(const WrGui *gui);
 

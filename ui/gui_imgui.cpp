@@ -85,33 +85,6 @@ static void set_style(double scale)
 
 /* ---- life ---- */
 
-static void set_key_map(ImGuiIO &io)
-{
-    static const struct {
-        int imgui, sdl;
-    } map[] = { { ImGuiKey_Tab, SDL_SCANCODE_TAB },
-                { ImGuiKey_LeftArrow, SDL_SCANCODE_LEFT },
-                { ImGuiKey_RightArrow, SDL_SCANCODE_RIGHT },
-                { ImGuiKey_UpArrow, SDL_SCANCODE_UP },
-                { ImGuiKey_DownArrow, SDL_SCANCODE_DOWN },
-                { ImGuiKey_PageUp, SDL_SCANCODE_PAGEUP },
-                { ImGuiKey_PageDown, SDL_SCANCODE_PAGEDOWN },
-                { ImGuiKey_Home, SDL_SCANCODE_HOME },
-                { ImGuiKey_End, SDL_SCANCODE_END },
-                { ImGuiKey_Delete, SDL_SCANCODE_DELETE },
-                { ImGuiKey_Backspace, SDL_SCANCODE_BACKSPACE },
-                { ImGuiKey_Enter, SDL_SCANCODE_RETURN },
-                { ImGuiKey_KeyPadEnter, SDL_SCANCODE_KP_ENTER },
-                { ImGuiKey_Escape, SDL_SCANCODE_ESCAPE },
-                { ImGuiKey_A, SDL_SCANCODE_A },
-                { ImGuiKey_C, SDL_SCANCODE_C },
-                { ImGuiKey_V, SDL_SCANCODE_V },
-                { ImGuiKey_X, SDL_SCANCODE_X },
-                { ImGuiKey_Y, SDL_SCANCODE_Y },
-                { ImGuiKey_Z, SDL_SCANCODE_Z } };
-    for (const auto &pair : map) io.KeyMap[pair.imgui] = pair.sdl;
-}
-
 static const char *get_clipboard(void *ctx)
 {
     WrGui *gui = static_cast<WrGui *>(ctx); /* keeps the text, which must outlive the call */
@@ -136,7 +109,7 @@ static void settle_io(WrGui *gui)
     io.ClipboardUserData = gui;
     io.GetClipboardTextFn = get_clipboard;
     io.SetClipboardTextFn = set_clipboard;
-    set_key_map(io);
+    wr_gui_keys_begin();
 }
 
 extern "C" WrGui *wr_gui_new(SDL_Renderer *renderer, double scale, WrError *err)
@@ -197,34 +170,6 @@ WR_CAUGHT()
 
 /* ---- events ---- */
 
-static void key_event(WrGui *gui, const SDL_KeyboardEvent *key)
-{
-    ImGuiIO &io = ImGui::GetIO();
-    int code = key->keysym.scancode;
-    if (code < 0 || code >= 512) return;
-    if (key->type == SDL_KEYDOWN) {
-        if (code == SDL_SCANCODE_ESCAPE) gui->close_popups = true;
-        io.KeysDown[code] = gui->pressed_now[code] = true;
-        gui->held_late |= key->keysym.mod & (KMOD_CTRL | KMOD_SHIFT | KMOD_ALT);
-    } else if (gui->pressed_now[code]) {
-        gui->released_late[code] = true; /* seen for one frame, then let go */
-    } else {
-        io.KeysDown[code] = false;
-    }
-}
-
-/* Those held now, and those that were held while a key went down since the last frame: Ctrl+A counts even if
-   both were let go before there was one. */
-static void set_held(WrGui *gui)
-{
-    ImGuiIO &io = ImGui::GetIO();
-    int mod = (int)SDL_GetModState() | gui->held_late;
-    io.KeyShift = (mod & KMOD_SHIFT) != 0;
-    io.KeyCtrl = (mod & KMOD_CTRL) != 0;
-    io.KeyAlt = (mod & KMOD_ALT) != 0;
-    gui->held_late = 0;
-}
-
 static int button_index(int button)
 {
     return button == SDL_BUTTON_LEFT     ? 0
@@ -255,7 +200,7 @@ try {
         break;
     case SDL_TEXTINPUT: io.AddInputCharactersUTF8(event->text.text); break;
     case SDL_KEYDOWN:
-    case SDL_KEYUP: key_event(gui, &event->key); break;
+    case SDL_KEYUP: wr_gui_keys_event(gui, &event->key); break;
     case SDL_WINDOWEVENT:
         if (event->window.event == SDL_WINDOWEVENT_LEAVE) io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
         break;
@@ -266,10 +211,8 @@ WR_CAUGHT()
 
 extern "C" void wr_gui_release_all(WrGui *gui)
 try {
-    ImGuiIO &io = ImGui::GetIO();
-    memset(io.KeysDown, 0, sizeof io.KeysDown);
     memset(gui->held, 0, sizeof gui->held);
-    io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+    wr_gui_keys_release();
 }
 WR_CAUGHT()
 
@@ -298,7 +241,40 @@ extern "C" bool wr_gui_wants_text(const WrGui *)
 
 extern "C" bool wr_gui_busy(const WrGui *gui)
 {
-    return gui->armed != 0;
+    return gui->armed != 0 || gui->tip_waits;
+}
+
+static int dialogs_open()
+{
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    bool modal = g.OpenPopupStack.Size > 0 && g.OpenPopupStack[0].Window &&
+                 (g.OpenPopupStack[0].Window->Flags & ImGuiWindowFlags_Modal);
+    return modal ? 1 : 0;
+}
+
+extern "C" bool wr_gui_popup_open_now(const WrGui *)
+{
+    return ImGui::GetCurrentContext()->OpenPopupStack.Size > dialogs_open();
+}
+
+/* Windows that fit their content are measured in a frame that does not show them. */
+static bool window_comes(const ImGuiContext &g)
+{
+    for (const ImGuiWindow *window : g.Windows)
+        if (window->Active &&
+            (window->HiddenFramesCanSkipItems > 0 || window->HiddenFramesCannotSkipItems > 0 ||
+             window->AutoFitFramesX > 0 || window->AutoFitFramesY > 0))
+            return true;
+    return false;
+}
+
+extern "C" bool wr_gui_unsettled(const WrGui *gui)
+{
+    const ImGuiContext &g = *ImGui::GetCurrentContext();
+    for (int i = 0; i < 3; i++)
+        if (gui->pressed[i] || g.IO.MouseDown[i] != gui->held[i]) return true;
+    bool dims = g.DimBgRatio > 0.0f && g.DimBgRatio < 1.0f;
+    return gui->keys_dropped || gui->popups != g.OpenPopupStack.Size || dims || window_comes(g);
 }
 
 extern "C" SDL_SystemCursor wr_gui_cursor(const WrGui *)
@@ -324,18 +300,16 @@ try {
         io.MouseDown[i] = gui->held[i] || gui->pressed[i];
         gui->pressed[i] = false;
     }
-    set_held(gui);
+    wr_gui_keys_frame(gui);
     ImGui::NewFrame();
     ImGuiContext &g = *ImGui::GetCurrentContext();
-    bool modal = g.OpenPopupStack.Size > 0 && g.OpenPopupStack[0].Window &&
-                 (g.OpenPopupStack[0].Window->Flags & ImGuiWindowFlags_Modal);
-    int keep = modal ? 1 : 0; /* a dialog's own lists close, the dialog decides for itself */
+    gui->popups = g.OpenPopupStack.Size;
+    gui->tip_waits = false;
+    int keep = dialogs_open(); /* a dialog's own lists close, the dialog decides for itself */
+    gui->list_open = g.OpenPopupStack.Size > keep;
     if (gui->close_popups && g.OpenPopupStack.Size > keep) ImGui::ClosePopupToLevel(keep, true);
     gui->close_popups = false;
-    for (int i = 0; i < 512; i++) {
-        gui->pressed_now[i] = false;
-        if (gui->released_late[i]) io.KeysDown[i] = gui->released_late[i] = false;
-    }
+    gui->keys_dropped = wr_gui_keys_seen(gui);
     ImGui::PushFont(gui->fonts[WR_FONT_TEXT]);
 }
 WR_CAUGHT()

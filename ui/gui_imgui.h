@@ -7,6 +7,8 @@ extern "C" {
 
 #include <imgui.h>
 
+#define WR_GUI_KEYS 512 /* of the keyboard, by SDL_Scancode */
+
 struct WrGui {
     SDL_Renderer *renderer; /* borrowed */
     ImGuiContext *context;  /* owned */
@@ -14,13 +16,20 @@ struct WrGui {
     SDL_Texture *atlas;     /* owned */
     ImFont *fonts[WR_FONT_COUNT];
     double scale;
-    bool held[3];            /* buttons as the events say */
-    bool pressed[3];         /* that went down since the last frame: none is ever missed */
-    bool released_late[512]; /* keys that went down and up between two frames */
-    bool pressed_now[512];
+    bool held[3];                    /* buttons as the events say */
+    bool pressed[3];                 /* that went down since the last frame: none is ever missed */
+    bool released_late[WR_GUI_KEYS]; /* keys that went down and up between two frames */
+    bool pressed_now[WR_GUI_KEYS];
     int held_late; /* KMOD_ bits held while a key went down since the last frame */
     char clipboard[4096];
     bool close_popups; /* Escape was pressed over a menu */
+    ImGuiID selecting; /* a text area that gets the keyboard: its text will be selected */
+    bool tip_waits;    /* the pointer rests where a tip will be shown */
+    int popups;        /* open when the frame began */
+    bool list_open;    /* a list or a menu was among them: the keys of this frame are for it */
+    bool keys_dropped; /* keys were let go for the widgets after their frame had begun */
+    ImGuiID chooser;   /* the list that is open, and its row that Return takes */
+    int chooser_row;
     /* number fields */
     ImGuiID typing, armed, dragging;
     bool typing_focus, moved;
@@ -35,6 +44,17 @@ struct WrGui {
 
 /* The one whose frame is open. */
 WrGui *wr_gui_current(void);
+/* gui_imgui_keys.cpp. Before the first frame; an event; all are let go; just before a frame; just after it has
+   begun: true if keys were let go that the widgets have not seen go up. */
+void wr_gui_keys_begin();
+void wr_gui_keys_event(WrGui *gui, const SDL_KeyboardEvent *key);
+void wr_gui_keys_release();
+void wr_gui_keys_frame(WrGui *gui);
+bool wr_gui_keys_seen(WrGui *gui);
+/* Keys, by their place: went down since the last frame; the same, or it is held and repeats. */
+bool wr_gui_went_down(SDL_Scancode key);
+bool wr_gui_key_repeats(SDL_Scancode key);
+bool wr_gui_return_for_list(); /* as wr_gui_return_pressed, for the list that is open */
 /* Draw the faces at the present scale and hand them to the renderer. */
 bool wr_gui_build_fonts(WrGui *gui, WrError *err);
 ImU32 wr_gui_colour_of(WrColour colour); /* 0xAARRGGBB as ImGui packs it */

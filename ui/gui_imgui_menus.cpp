@@ -128,24 +128,28 @@ extern "C" void wr_gui_dialog_end(void)
 
 extern "C" bool wr_gui_escape_pressed(void)
 {
-    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    return !wr_gui_current()->list_open && wr_gui_went_down(SDL_SCANCODE_ESCAPE);
+}
+
+bool wr_gui_return_for_list()
+{
+    return !ImGui::GetIO().WantTextInput &&
+           (wr_gui_went_down(SDL_SCANCODE_RETURN) || wr_gui_went_down(SDL_SCANCODE_KP_ENTER));
 }
 
 extern "C" bool wr_gui_return_pressed(void)
 {
-    return !ImGui::GetIO().WantTextInput &&
-           (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ||
-            ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter), false));
+    return !wr_gui_current()->list_open && wr_gui_return_for_list();
 }
 
 extern "C" bool wr_gui_letter_pressed(SDL_Scancode key)
 {
-    return !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(key, false);
+    return !wr_gui_current()->list_open && !ImGui::GetIO().WantTextInput && wr_gui_went_down(key);
 }
 
 extern "C" bool wr_gui_key_pressed(SDL_Scancode key)
 {
-    return ImGui::IsKeyPressed(key, true);
+    return wr_gui_key_repeats(key);
 }
 
 extern "C" bool wr_gui_field_left(void)
@@ -164,11 +168,26 @@ try {
 }
 WR_CAUGHT(false)
 
+/* What is typed takes the place of what stood there, as in fields of one line. */
+static int select_all(ImGuiInputTextCallbackData *data)
+{
+    data->SelectAll();
+    static_cast<WrGui *>(data->UserData)->selecting = 0;
+    return 0;
+}
+
 extern "C" bool wr_gui_text_area(const char *id, int lines, char *text, size_t size, bool focus)
 try {
+    WrGui *gui = wr_gui_current();
     float tall = ImGui::GetTextLineHeight() * (float)lines + 2 * ImGui::GetStyle().FramePadding.y;
-    if (focus) ImGui::SetKeyboardFocusHere();
-    bool changed = ImGui::InputTextMultiline(id, text, size, ImVec2(-1.0f, tall));
+    if (focus) {
+        ImGui::SetKeyboardFocusHere();
+        gui->selecting = ImGui::GetID(id);
+    }
+    bool pending = gui->selecting == ImGui::GetID(id);
+    bool changed = ImGui::InputTextMultiline(id, text, size, ImVec2(-1.0f, tall),
+                                             pending ? ImGuiInputTextFlags_CallbackAlways : 0,
+                                             pending ? select_all : nullptr, gui);
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     return changed;
 }

@@ -73,7 +73,7 @@ static WrEdit type_into(WrGui *gui, ImGuiID item, float width, const WrNumber *s
     wr_gui_edge(ImGui::GetWindowDrawList(), ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     bool active = ImGui::IsItemActive();
     if (first && active) gui->typing_focus = false;
-    bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    bool escape = wr_gui_went_down(SDL_SCANCODE_ESCAPE);
     if (!done && (active || gui->typing_focus) && !escape) return WR_EDIT_NONE;
     if (gui->typing == item) gui->typing = 0;
     if (escape) return WR_EDIT_NONE;

@@ -12,6 +12,8 @@ extern "C" {
 #include <stdio.h>
 #include <string.h>
 
+#define TIP_SECONDS 0.4f /* of resting before a tip is shown */
+
 static float px(double units)
 {
     return (float)wr_gui_px(units);
@@ -198,7 +200,11 @@ extern "C" double wr_gui_line_height(WrFont font)
 extern "C" void wr_gui_tip(const char *text)
 try {
     if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    if (ImGui::GetCurrentContext()->HoveredIdTimer < 0.4f || ImGui::IsMouseDown(0)) return;
+    if (ImGui::IsMouseDown(0)) return;
+    if (ImGui::GetCurrentContext()->HoveredIdTimer < TIP_SECONDS) {
+        wr_gui_current()->tip_waits = true;
+        return;
+    }
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(px(300));
@@ -210,6 +216,25 @@ try {
 WR_CAUGHT()
 
 /* ---- choices and buttons ---- */
+
+static bool chooser_moved()
+{
+    return wr_gui_key_pressed(SDL_SCANCODE_UP) || wr_gui_key_pressed(SDL_SCANCODE_DOWN) ||
+           ImGui::IsWindowAppearing();
+}
+
+/* The arrows move along an open list, Return takes: the row that it took, or -1. */
+static int choose_by_key(ImGuiID list, int count, int index)
+{
+    WrGui *gui = wr_gui_current();
+    bool appears = ImGui::IsWindowAppearing();
+    if (appears || gui->chooser != list) gui->chooser_row = index;
+    gui->chooser = list;
+    if (wr_gui_key_pressed(SDL_SCANCODE_DOWN) && gui->chooser_row < count - 1) gui->chooser_row++;
+    if (wr_gui_key_pressed(SDL_SCANCODE_UP) && gui->chooser_row > 0) gui->chooser_row--;
+    bool takes = !appears && wr_gui_return_for_list();
+    return takes && gui->chooser_row >= 0 && gui->chooser_row < count ? gui->chooser_row : -1;
+}
 
 extern "C" bool wr_gui_choice(const char *id, double width, const char *const *items, int count,
                               int *index)
@@ -227,11 +252,15 @@ try {
     list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
                             ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
     if (open) {
+        int chosen = choose_by_key(ImGui::GetID("rows"), count, *index);
         for (int i = 0; i < count; i++) {
-            if (ImGui::Selectable(items[i], i == *index)) {
-                changed = i != *index;
-                *index = i;
-            }
+            if (ImGui::Selectable(items[i], i == wr_gui_current()->chooser_row)) chosen = i;
+            if (i == wr_gui_current()->chooser_row && chooser_moved()) ImGui::SetScrollHereY();
+        }
+        if (chosen >= 0) {
+            changed = chosen != *index;
+            *index = chosen;
+            ImGui::CloseCurrentPopup();
         }
         ImGui::EndCombo();
     }

@@ -375,7 +375,7 @@ static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
 
 static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
 {
-    if (blocked(app) || wr_gui_wants_text(app->gui)) return;
+    if (blocked(app) || wr_gui_wants_text(app->gui) || wr_gui_popup_open_now(app->gui)) return;
     int mods = wr_key_mods((SDL_Keymod)event->keysym.mod);
     if (event->keysym.sym == SDLK_SPACE && mods == 0) {
         if (!event->repeat) space(app, true);

@@ -96,3 +96,22 @@ bool wr_layout_inside(const SDL_Rect *r, int x, int y)
 {
     return x >= r->x && y >= r->y && x < r->x + r->w && y < r->y + r->h;
 }
+
+/* One axis: as long as the room allows, and inside it. */
+static void fit_axis(int from, int length, int before, int after, int *at, int *size)
+{
+    int most = length - before - after;
+    if (*size > most && most > 0) *size = most;
+    int last = from + length - after - *size;
+    if (*at > last) *at = last;
+    if (*at < from + before) *at = from + before;
+}
+
+bool wr_layout_window(const SDL_Rect *room, const SDL_Rect *now, const int borders[4],
+                      SDL_Rect *fits)
+{
+    *fits = *now;
+    fit_axis(room->x, room->w, borders[0], borders[2], &fits->x, &fits->w);
+    fit_axis(room->y, room->h, borders[1], borders[3], &fits->y, &fits->h);
+    return !SDL_RectEquals(fits, now);
+}

@@ -28,4 +28,9 @@ WrLayout wr_layout_make(const WrLayoutInput *in);
 double wr_layout_lower_at(const WrLayout *layout, int y);
 /* The divider's share for a pointer at (x, y). */
 double wr_layout_divider_at(const WrLayout *layout, int x, int y);
+/* Where a window goes whose borders (left, top, right, bottom) would lie beyond the room that the desktop
+   leaves: as little smaller and as little moved as it takes. now, fits: the inside, without borders. False if
+   it fits already. */
+bool wr_layout_window(const SDL_Rect *room, const SDL_Rect *now, const int borders[4],
+                      SDL_Rect *fits);
 bool wr_layout_inside(const SDL_Rect *rect, int x, int y);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define KEPT 200 /* messages */
+#define NOTE_SECONDS 6.0
 
 static void add(WrApp *app, const char *text, bool bad)
 {
@@ -58,6 +59,14 @@ void wr_app_take_notes(WrApp *app)
         at += length + more;
     }
     wr_text_clear(notes);
+}
+
+const WrMessage *wr_messages_shown(const WrMessages *messages, double now)
+{
+    if (messages->list.count == 0) return NULL;
+    const WrMessage *last = &messages->list.data[messages->list.count - 1];
+    bool stays = last->bad ? messages->unread > 0 : now - last->since < NOTE_SECONDS;
+    return stays ? last : NULL;
 }
 
 void wr_messages_free(WrMessages *messages)

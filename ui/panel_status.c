@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#define NOTE_SECONDS 6.0
 #define METER_SECONDS 2.0
 #define MOMENT_SECONDS 0.2 /* work that takes less shows no bar */
 
@@ -55,7 +54,7 @@ static void dismiss(WrApp *app)
     wr_app_redraw(app);
 }
 
-static void all_messages(WrApp *app)
+static void all_messages(const WrApp *app)
 {
     const WrMessages *m = &app->messages;
     if (!wr_gui_popup_begin("messages")) return;
@@ -69,26 +68,39 @@ static void all_messages(WrApp *app)
     wr_gui_popup_end();
 }
 
-/* The newest error that was not read, else a note that is still young. False if there is nothing. */
+/* How many errors nobody has read: a click shows them all. */
+static void unread_errors(WrApp *app)
+{
+    char count[32];
+    snprintf(count, sizeof count, "%d error%s", app->messages.unread,
+             app->messages.unread == 1 ? "" : "s");
+    if (wr_gui_chip(WR_ICON_ALERT, count)) {
+        wr_gui_popup_open("messages");
+        dismiss(app);
+    }
+    wr_gui_tip("Errors that were not read yet");
+    wr_gui_same_line(8);
+}
+
+/* The newest message is what is seen: an error until it is read, a note while it is young. Errors before it
+   are counted. False if the rest of the line is free. */
 static bool message(WrApp *app)
 {
-    const WrMessages *m = &app->messages;
-    const WrMessage *show = NULL;
-    for (int i = m->list.count - 1; i >= 0 && !show && m->unread > 0; i--)
-        if (m->list.data[i].bad) show = &m->list.data[i];
-    const WrMessage *last = m->list.count ? &m->list.data[m->list.count - 1] : NULL;
-    if (!show && last && !last->bad && wr_clock_seconds() - last->since < NOTE_SECONDS) show = last;
-    if (!show) return false;
-    if (show->bad) {
+    const WrMessage *show = wr_messages_shown(&app->messages, wr_clock_seconds());
+    bool error = show && show->bad;
+    if (error) {
         wr_gui_text(WR_FONT_TEXT, WR_COLOUR_BAD, WR_ICON_ALERT);
         wr_gui_same_line(6);
         if (wr_gui_chip(NULL, "Dismiss")) dismiss(app);
         wr_gui_same_line(6);
         if (wr_gui_chip(NULL, "All")) wr_gui_popup_open("messages");
-        all_messages(app);
         wr_gui_same_line(8);
+    } else if (app->messages.unread > 0) {
+        unread_errors(app);
     }
-    wr_gui_text(WR_FONT_TEXT, show->bad ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text);
+    all_messages(app);
+    if (!show) return false;
+    wr_gui_text(WR_FONT_TEXT, error ? WR_COLOUR_STRONG : WR_COLOUR_TEXT, show->text);
     wr_gui_tip(show->text);
     return true;
 }

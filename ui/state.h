@@ -371,6 +371,7 @@ struct WrApp {
     WrLayout layout;
     int width, height, menu_height;
     double display_scale; /* of the display, in steps of 1/4 */
+    bool fitted;          /* the user has seen the window: its size is left alone */
     int redraw;           /* pictures of the window still to draw */
     bool visible, quit;
     double drawn_at, started_at;
