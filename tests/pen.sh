@@ -39,7 +39,7 @@ done
 
 # settings [LINE...]: the window's, where nothing moves by itself and pressure is strength.
 settings() {
-    printf 'width 1200\nheight 800\nturning 0\nants 0\nradius 12\nhardness 0.8\nstrength 0.5\nmode 0\npressure 0\n' \
+    printf 'width 1200\nheight 800\nturning 0\nants 0\nrange_follows 0\nradius 12\nhardness 0.8\nstrength 0.5\nmode 0\npressure 0\n' \
         >config/wrinkle/window.conf
     [[ $# == 0 ]] || printf '%s\n' "$@" >>config/wrinkle/window.conf
 }

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "ui/ants.h"
+#include "ui/canvas_range.h"
 #include "ui/job.h"
 #include "ui/keys.h"
 #include "ui/layout.h"
@@ -37,6 +38,52 @@ static void the_beginning_of_a_label_counts_more_than_its_middle(void **state)
     int word = wr_search_score("Grow selection...", "sel");
     int inside = wr_search_score("Unselect", "sel");
     assert_true(begin > word && word > inside && inside > 0);
+}
+
+/* ---- the canvas's range ---- */
+
+static void assert_range(const double range[2], double low, double high)
+{
+    if (range[0] != low || range[1] != high)
+        fail_msg("the range is %g .. %g, not %g .. %g", range[0], range[1], low, high);
+}
+
+static void a_range_shows_a_new_table_in_the_middle_and_signs_around_it(void **state)
+{
+    (void)state;
+    double range[2] = { 0 };
+    wr_range_follow(range, 0, 0, false);
+    assert_range(range, -0.5, 0.5);
+    wr_range_follow(range, 3, 3, false);
+    assert_range(range, -6, 6); /* level, but not white */
+    wr_range_follow(range, 0.25, 0.75, false);
+    assert_range(range, 0.25, 0.75);
+    wr_range_follow(range, -0.25, 0.125, false);
+    assert_range(range, -0.25, 0.25); /* zero is mid-grey */
+    wr_range_follow(range, 0, 1, false);
+    assert_range(range, 0, 1);
+}
+
+static void a_range_only_widens_while_something_is_painted(void **state)
+{
+    (void)state;
+    double range[2] = { 0 }, before;
+    wr_range_follow(range, 0, 0, true);
+    int changes = 0;
+    for (int i = 0; i <= 1000; i++) { /* a stroke that goes up */
+        before = range[1];
+        wr_range_follow(range, 0, i / 100.0, true);
+        assert_true(range[0] <= 0 && range[1] >= i / 100.0 && range[1] >= before);
+        changes += range[1] != before;
+    }
+    assert_in_range(changes, 1, 16); /* not with each dab */
+    before = range[1];
+    wr_range_follow(range, 0, 1, true); /* taken back meanwhile */
+    assert_true(range[1] == before);
+    wr_range_follow(range, 0, 1, false);
+    assert_range(range, 0, 1);
+    wr_range_follow(range, -0.125, 1, true); /* below zero: zero to the middle, at once */
+    assert_true(range[0] == -range[1] && range[1] >= 1);
 }
 
 /* ---- a window and its borders ---- */
@@ -586,6 +633,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_search_takes_all_words_in_any_order_and_case),
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
+        cmocka_unit_test(a_range_shows_a_new_table_in_the_middle_and_signs_around_it),
+        cmocka_unit_test(a_range_only_widens_while_something_is_painted),
         cmocka_unit_test(a_window_keeps_to_the_room_that_the_desktop_leaves),
         cmocka_unit_test(a_changed_setting_takes_its_place_and_can_be_taken_back),
         cmocka_unit_test(damaged_texts_of_settings_are_read_as_far_as_they_make_sense),

@@ -13,7 +13,7 @@ source "$source/tests/window_help.sh"
 serve
 printf '%s\n' 'table 64x64' 'grid cells=4x4 width=6' 'surface sphere' 'replicate 4,2' \
     'bump mode=blinn scheme=nearest height=0.1' >small.wrinkle
-printf '%s\n' 'width 1280' 'height 800' 'turning 0' 'ants 0' 'tab 5' 'lower 0.42' >config/wrinkle/window.conf
+printf '%s\n' 'width 1280' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' 'tab 5' 'lower 0.42' >config/wrinkle/window.conf
 
 patch=360x500+600+160 # the sphere, without the chips above and the labels below
 panel=250x330+1016+140

@@ -9,7 +9,7 @@ folder=$(mktemp -d) || exit 1
 source "$source/tests/window_help.sh"
 
 serve
-printf 'width 1200\nheight 800\nturning 0\nants 0\nradius 24\nstrength 0.4\nmode 1\n' >config/wrinkle/window.conf
+printf 'width 1200\nheight 800\nturning 0\nants 0\nrange_follows 0\nradius 24\nstrength 0.4\nmode 1\n' >config/wrinkle/window.conf
 printf 'table 128x128\nbump height=1\n' >flat.wrinkle
 
 sum_of() { sha256sum <"$1"; }

@@ -13,7 +13,7 @@ serve
 printf 'table 256x256\nbump height=0.1\n' >flat.wrinkle
 
 configure() {
-    printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'tab 0' 'lower 0.42' >config/wrinkle/window.conf
+    printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' 'tab 0' 'lower 0.42' >config/wrinkle/window.conf
 }
 # search WORDS: run the action that is found first.
 search() {

@@ -13,7 +13,7 @@ printf 'table 512x512\nbump height=1\n' >flat.wrinkle
 
 # configure LINE...: what the window remembers from the last time.
 configure() {
-    printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'radius 16' 'hardness 1' 'strength 0.5' 'tab 0' \
+    printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' 'radius 16' 'hardness 1' 'strength 0.5' 'tab 0' \
         'lower 0.42' "$@" >config/wrinkle/window.conf
 }
 

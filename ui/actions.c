@@ -223,6 +223,24 @@ static void range_auto(WrApp *app)
     app->settings.look.automatic = !app->settings.look.automatic;
 }
 
+static void range_unit(WrApp *app)
+{
+    WrCanvasLook *look = &app->settings.look;
+    look->automatic = false;
+    look->low = 0.0;
+    look->high = 1.0;
+}
+
+static void range_marks(WrApp *app)
+{
+    app->settings.look.marks = !app->settings.look.marks;
+}
+
+static bool is_marks(const WrApp *app)
+{
+    return app->settings.look.marks;
+}
+
 static bool is_auto(const WrApp *app)
 {
     return app->settings.look.automatic;
@@ -422,6 +440,8 @@ const WrAction wr_actions[] = {
     { "look_grey", "Grey", look_grey, NULL, is_grey },
     { "look_signed", "Blue below zero, orange above", look_signed, NULL, is_signed },
     { "range_auto", "Range follows the table", range_auto, NULL, is_auto },
+    { "range_unit", "Range from 0 to 1", range_unit, NULL, NULL },
+    { "range_marks", "Mark what lies beyond the range", range_marks, NULL, is_marks },
     { "ants", "Selection's outline moves", ants, NULL, is_ants },
     { "accuracy", "Accuracy", wr_act_accuracy, NULL, wr_is_accuracy },
     { "accuracy_measure", "Measure what accuracy costs", wr_act_accuracy_measure, NULL, NULL },

@@ -105,7 +105,7 @@ static void move_height(WrApp *app, int steps)
     if (!(wr_brush_modes[brush->mode].uses & WR_USES_TO)) {
         wr_act_level_mode(app);
     } else {
-        double step = fabs(app->range[1] - app->range[0]) / 20.0;
+        double step = fabs(app->range.high - app->range.low) / 20.0;
         double unit = step > 0.0 ? pow(10.0, floor(log10(step))) : 0.01;
         step = fmax(rint(step / unit), 1.0) * unit;
         brush->to = rint((brush->to + steps * step) / unit * 10.0) / (10.0 / unit) + 0.0;

@@ -4,25 +4,29 @@
 #include "base/array.h"
 #include "base/clock.h"
 #include "ui/canvas_cells.h"
+#include "ui/canvas_range.h"
 #include "ui/theme.h"
 
 #include <math.h>
 #include <string.h>
 
+#define CODES 256      /* of a picture; two more mark what lies beyond its range */
+#define BEYOND 0.01f   /* of a code: so far off it counts as beyond */
 #define DIRTY_MAX 4096 /* tiles; more than that and the whole picture is made anew */
 
 struct WrCanvas {
     WrCells *cells;
     SDL_Texture *texture;
-    int width, height;      /* of texture and pixels */
-    uint32_t *pixels;       /* [height][width], ARGB */
-    WrTaps *columns, *rows; /* [width], [height] */
-    float *line;            /* one row of cells: [tiles_u * side] */
-    bool *needed;           /* [tiles_u] tile columns that a rectangle looks at */
-    uint32_t palette[256];
-    WrView view; /* of the picture held */
+    int width, height;           /* of texture and pixels */
+    uint32_t *pixels;            /* [height][width], ARGB */
+    WrTaps *columns, *rows;      /* [width], [height] */
+    float *line;                 /* one row of cells: [tiles_u * side] */
+    bool *needed;                /* [tiles_u] tile columns that a rectangle looks at */
+    uint32_t palette[CODES + 2]; /* the last two: below, above */
+    WrView view;                 /* of the picture held */
     WrCanvasLook look;
     double low, high;
+    float table_low, table_high;
     bool valid, flooded;
     WR_ARRAY(SDL_Point) dirty; /* tiles */
     int64_t made;
@@ -79,6 +83,14 @@ static uint32_t mix(const double a[3], const double b[3], double t)
     return out;
 }
 
+static void make_marks(WrCanvas *canvas)
+{
+    bool grey = canvas->look.colours == WR_CANVAS_GREY, marks = canvas->look.marks;
+    uint32_t *palette = canvas->palette;
+    palette[CODES] = !marks ? palette[0] : grey ? 0xff1d4a78u : 0xff101f4au;
+    palette[CODES + 1] = !marks ? palette[CODES - 1] : grey ? 0xfff0b070u : 0xff6b2f05u;
+}
+
 static void make_palette(WrCanvas *canvas)
 {
     static const double blue[3] = { 38, 92, 190 }, white[3] = { 245, 245, 245 },
@@ -94,6 +106,23 @@ static void make_palette(WrCanvas *canvas)
         double t = reach > 0.0 ? f / reach : 0.0;
         canvas->palette[i] = t < 0.0 ? mix(white, blue, -t) : mix(white, orange, t);
     }
+    make_marks(canvas);
+}
+
+/* scaled: 0 black, 255 white. */
+static int code_of(float scaled)
+{
+    if (scaled < -BEYOND) return CODES;
+    if (scaled > CODES - 1 + BEYOND) return CODES + 1;
+    float code = scaled + 0.5f;
+    code = code > 0.0f ? code : 0.0f; /* NaN too */
+    return (int)(code < CODES - 1 ? code : CODES - 1);
+}
+
+uint32_t wr_canvas_colour(const WrCanvas *canvas, double height)
+{
+    return canvas->palette[code_of(
+        (float)((height - canvas->low) * (CODES - 1) / (canvas->high - canvas->low)))];
 }
 
 /* ---- the picture ---- */
@@ -135,16 +164,13 @@ static void make_line(WrCanvas *canvas, const WrTaps *row, int tiles_u, int leve
 static void paint_line(const WrCanvas *canvas, int x0, int x1, uint32_t *out)
 {
     float low = (float)canvas->low;
-    float scale = (float)(255.0 / (canvas->high - canvas->low));
+    float scale = (float)((CODES - 1) / (canvas->high - canvas->low));
     const float *line = canvas->line;
     for (int x = x0; x < x1; x++) {
         const WrTaps *t = &canvas->columns[x];
         float f = t->weight[0] * line[t->cell[0]] + t->weight[1] * line[t->cell[1]] +
                   t->weight[2] * line[t->cell[2]] + t->weight[3] * line[t->cell[3]];
-        float code = (f - low) * scale + 0.5f;
-        code = code > 0.0f ? code : 0.0f; /* NaN too */
-        code = code < 255.0f ? code : 255.0f;
-        out[x] = t->outside ? WR_COLOUR_SURROUND : canvas->palette[(int)code];
+        out[x] = t->outside ? WR_COLOUR_SURROUND : canvas->palette[code_of((f - low) * scale)];
     }
 }
 
@@ -241,17 +267,20 @@ static bool same_view(const WrView *a, const WrView *b)
            a->zoom == b->zoom && a->centre_x == b->centre_x && a->centre_y == b->centre_y;
 }
 
-static void choose_range(WrCanvas *canvas, const WrCanvasLook *look)
+static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, bool held)
 {
-    double low = look->low, high = look->high;
+    double shown[2] = { look->low, look->high };
+    wr_cells_range(canvas->cells, &canvas->table_low, &canvas->table_high);
     if (look->automatic) {
-        float l, h;
-        wr_cells_range(canvas->cells, &l, &h);
-        low = (double)l;
-        high = h > l ? (double)h : (double)l + 1.0;
+        bool follows = held && canvas->look.automatic && canvas->texture;
+        shown[0] = follows ? canvas->low : 0.0;
+        shown[1] = follows ? canvas->high : 0.0;
+        wr_range_follow(shown, (double)canvas->table_low, (double)canvas->table_high, held);
     }
+    double low = shown[0], high = shown[1];
     if (!(high - low > 1e-30)) high = low + 1e-30; /* never divide by nothing */
-    if (low != canvas->low || high != canvas->high || look->colours != canvas->look.colours)
+    if (low != canvas->low || high != canvas->high || look->colours != canvas->look.colours ||
+        look->marks != canvas->look.marks)
         canvas->valid = false;
     canvas->look = *look;
     canvas->low = low;
@@ -260,7 +289,8 @@ static void choose_range(WrCanvas *canvas, const WrCanvasLook *look)
 }
 
 bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view,
-                    const WrField *field, const WrCanvasLook *look, double budget, double range[2])
+                    const WrField *field, const WrCanvasLook *look, bool held, double budget,
+                    WrCanvasRange *range)
 {
     int level = wr_cells_level(view->zoom);
     canvas->dirty.count = 0;
@@ -275,7 +305,7 @@ bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view
     if (whole || wr_cells_rough(canvas->cells) || !same_view(&canvas->view, view))
         canvas->valid = false;
     canvas->view = *view;
-    choose_range(canvas, look);
+    choose_range(canvas, look, held);
     double deadline = wr_clock_seconds() + budget;
     wr_cells_forget_rough(canvas->cells);
     if (!canvas->valid || canvas->dirty.count > 0) {
@@ -288,8 +318,8 @@ bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view
         }
         canvas->valid = true;
     }
-    range[0] = canvas->low;
-    range[1] = canvas->high;
+    *range = (WrCanvasRange){ canvas->low, canvas->high, (double)canvas->table_low,
+                              (double)canvas->table_high };
     SDL_RenderCopy(renderer, canvas->texture, NULL,
                    &(SDL_Rect){ view->x, view->y, view->w, view->h });
     return wr_cells_rough(canvas->cells);

@@ -16,18 +16,27 @@ typedef enum WrCanvasColours {
 
 typedef struct WrCanvasLook {
     WrCanvasColours colours; /* SIGNED: blue below zero, white at zero, orange above */
-    bool automatic;          /* low and high follow the table */
+    bool automatic;          /* low and high follow the table (canvas_range.h) */
+    bool marks;              /* what lies beyond them is tinted: warm above, cool below */
     double low, high;        /* heights shown as black and white; low < high */
 } WrCanvasLook;
+
+typedef struct WrCanvasRange {
+    double low, high;             /* shown as black and white */
+    double table_low, table_high; /* that there are */
+} WrCanvasRange;
 
 WrCanvas *wr_canvas_new(void);
 void wr_canvas_free(WrCanvas *canvas); /* before the renderer; NULL is fine */
 
 /* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
- * seconds for the means of large tables; true if it would be better with another call. range[2] receives
- * the heights shown as black and white. */
+ * seconds for the means of large tables; true if it would be better with another call. held: it is being
+ * painted, so that a range that follows it only widens. */
 bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view,
-                    const WrField *field, const WrCanvasLook *look, double budget, double range[2]);
+                    const WrField *field, const WrCanvasLook *look, bool held, double budget,
+                    WrCanvasRange *range);
+/* The colour of a height, 0xffRRGGBB, as in the last picture. */
+uint32_t wr_canvas_colour(const WrCanvas *canvas, double height);
 /* The renderer lost its textures: make them anew. */
 void wr_canvas_forget(WrCanvas *canvas);
 /* Pixels computed by the last draw (0: nothing had changed). */

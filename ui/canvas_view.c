@@ -8,12 +8,18 @@
 #define MEANS_BUDGET 0.012 /* seconds a picture may take for the means of large tables */
 #define GRID_FROM 8.0      /* zoom from which texels get a grid */
 
+/* The range rests when the table does. */
+static bool is_held(const WrApp *app)
+{
+    return app->hand.grab != WR_GRAB_NONE || app->brush.jobs.count > 0;
+}
+
 void wr_canvas_view_draw(WrApp *app)
 {
     if (app->layout.canvas.w <= 0) return;
     app->canvas_unfinished =
         wr_canvas_draw(app->canvas, app->renderer, &app->view, wr_app_field(app),
-                       &app->settings.look, MEANS_BUDGET, app->range);
+                       &app->settings.look, is_held(app), MEANS_BUDGET, &app->range);
     if (app->canvas_unfinished) wr_app_redraw(app);
     wr_marks_draw(app);
 }
@@ -78,14 +84,57 @@ static void hints(WrApp *app)
 
 /* ---- the range, in a popup of the chip ---- */
 
+/* All heights that there are or that are shown, lowest first, in the colours that they have on the canvas: so
+   what lies beyond the range is seen at its ends. */
+static void ramp(const WrApp *app, const char *id, double wide, double tall)
+{
+    const WrCanvasRange *r = &app->range;
+    double low = fmin(r->low, r->table_low), high = fmax(r->high, r->table_high);
+    WrPad pad = wr_gui_pad_begin(id, wide, tall);
+    for (int x = 0; x < (int)pad.w; x++) {
+        double height = low + (high - low) * (x + 0.5) / pad.w;
+        wr_gui_draw_fill(pad.x + x, pad.y, 1, pad.h, wr_canvas_colour(app->canvas, height), 0);
+    }
+    wr_gui_pad_end();
+}
+
+static void ramp_tip(const WrApp *app)
+{
+    const WrCanvasRange *r = &app->range;
+    char tip[160];
+    bool beyond = r->table_low < r->low || r->table_high > r->high;
+    snprintf(tip, sizeof tip, "The table goes from %.4g to %.4g%s", r->table_low, r->table_high,
+             beyond ? ": some of it lies beyond the range that is shown" : "");
+    wr_gui_tip(tip);
+}
+
+static bool is_unit(const WrCanvasLook *look)
+{
+    return !look->automatic && look->low == 0.0 && look->high == 1.0;
+}
+
+static void choose_way(WrApp *app, int way)
+{
+    WrCanvasLook *look = &app->settings.look;
+    look->automatic = way == 0;
+    if (way == 0) return;
+    look->low = way == 1 ? 0.0 : app->range.low;
+    look->high = way == 1 ? 1.0 : app->range.high;
+}
+
 static void range_popup(WrApp *app)
 {
     static const char *const looks[] = { "Grey", "Signed" };
+    static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
     WrCanvasLook *look = &app->settings.look;
-    int chosen = (int)look->colours;
+    int chosen = (int)look->colours, way = look->automatic ? 0 : is_unit(look) ? 1 : 2;
     if (!wr_gui_popup_begin("range")) return;
     if (wr_gui_segments("look", looks, NULL, 2, &chosen)) look->colours = (WrCanvasColours)chosen;
-    wr_gui_check("Range follows the table", &look->automatic);
+    if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
+    ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
+    ramp_tip(app);
+    wr_gui_check("Mark what lies beyond", &look->marks);
+    wr_gui_tip("Warm above the range, cool below it");
     double field = 120 * wr_gui_scale();
     WrNumber low = { .low = -1,
                      .high = 1,
@@ -102,7 +151,7 @@ static void range_popup(WrApp *app)
                       .decimals = 3,
                       .tip = "Height shown as white" };
     wr_gui_disable(look->automatic);
-    double l = app->range[0], h = app->range[1];
+    double l = app->range.low, h = app->range.high;
     wr_gui_label("Black");
     if (wr_gui_number("low", field, &low, &l) && l < look->high) look->low = l;
     wr_gui_label("White");
@@ -117,11 +166,16 @@ static void chips(WrApp *app)
     int gap = wr_gui_px(12);
     char text[96];
     snprintf(text, sizeof text, "%s %.3g \xe2\x80\x93 %.3g",
-             app->settings.look.colours == WR_CANVAS_GREY ? "Grey" : "Signed", app->range[0],
-             app->range[1]);
+             app->settings.look.colours == WR_CANVAS_GREY ? "Grey" : "Signed", app->range.low,
+             app->range.high);
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
     wr_gui_tip("Which heights are black and white");
+    if (room->w > wr_gui_px(300)) {
+        wr_gui_same_line(6);
+        ramp(app, "narrow", wr_gui_px(64), wr_gui_line_height(WR_FONT_TEXT));
+        ramp_tip(app);
+    }
     range_popup(app);
     wr_gui_overlay_end();
 }

@@ -93,11 +93,11 @@ static const char *const select_menu[] = { "select_all",
 static const char *const table_menu[] = { "table_size", "fill",        "grid",       "import",
                                           "-",          "offset_half", "operations", NULL };
 static const char *const view_menu[] = {
-    "look_grey",     "look_signed",  "range_auto", "-",         "zoom_in",     "zoom_out",
-    "zoom_100",      "fit",          "-",          "turn",      "view_back",   "view_forward",
-    "pose_reset",    "camera_reset", "-",          "accuracy",  "compare",     "inspector",
-    "inspector_pin", "hard_cases",   "-",          "view_both", "view_canvas", "view_patch",
-    "panels",        "fullscreen",   "scale",      NULL
+    "look_grey",   "look_signed",  "range_auto",    "range_unit",   "range_marks", "-",
+    "zoom_in",     "zoom_out",     "zoom_100",      "fit",          "-",           "turn",
+    "view_back",   "view_forward", "pose_reset",    "camera_reset", "-",           "accuracy",
+    "compare",     "inspector",    "inspector_pin", "hard_cases",   "-",           "view_both",
+    "view_canvas", "view_patch",   "panels",        "fullscreen",   "scale",       NULL
 };
 static const char *const help_menu[] = { "help", "tablet", "about", NULL };
 

@@ -380,7 +380,7 @@ struct WrApp {
 
     WrView view;
     bool view_placed;
-    double range[2]; /* heights shown as black and white */
+    WrCanvasRange range; /* heights that the canvas shows */
     bool canvas_unfinished;
     int tool;
     WrHand hand;
