@@ -364,6 +364,44 @@ static void scaling_to_single_precision_touches_lengths_alone(void **state)
     assert_true(isfinite(out.value[0]));
 }
 
+/* The sum of N over a surface as it first shows itself, seen from all around: of a body the front's share and the
+   back's cancel, of a sheet they do not. Turns go about the upright axis, along which cups may be open. */
+static double sidedness(WrSurfaceKind kind)
+{
+    const WrSurfaceInfo *info = wr_surfaces[kind];
+    WrShape shape;
+    WrSurfacePoint point;
+    wr_shape_default(kind, &shape);
+    WrVec3 sum = { 0 };
+    double all = 0;
+    for (int face = 0; face < info->faces; face++)
+        for (int j = 0; j < 32; j++)
+            for (int i = 0; i < 32; i++) {
+                wr_surface_at(&shape, face, (i + 0.5) / 32, (j + 0.5) / 32, &point);
+                sum = v3_add(sum, point.n);
+                all += point.n_len;
+            }
+    for (int axis = 0; axis < 3; axis++) {
+        double a = info->pose_deg[axis] * WR_RAD_PER_DEG, c = cos(a), s = sin(a);
+        WrVec3 v = sum;
+        sum = axis == 0   ? (WrVec3){ v.x, c * v.y - s * v.z, s * v.y + c * v.z }
+              : axis == 1 ? (WrVec3){ c * v.x + s * v.z, v.y, c * v.z - s * v.x }
+                          : (WrVec3){ c * v.x - s * v.y, s * v.x + c * v.y, v.z };
+    }
+    return hypot(sum.x, sum.z) / all;
+}
+
+static void open_surfaces_are_those_that_show_a_back(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        double side = sidedness((WrSurfaceKind)kind);
+        if (wr_surfaces[kind]->open != (side > 0.25))
+            fail_msg("%s: open is %d, its sides differ by %g", wr_surfaces[kind]->name,
+                     wr_surfaces[kind]->open, side);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -379,6 +417,7 @@ int main(void)
         cmocka_unit_test(folded_corners_are_refused_and_others_are_not),
         cmocka_unit_test(bad_numbers_are_refused_by_name_value_and_range),
         cmocka_unit_test(the_radius_holds_the_surface_and_little_more),
+        cmocka_unit_test(open_surfaces_are_those_that_show_a_back),
         cmocka_unit_test(scaling_to_single_precision_touches_lengths_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,6 +9,7 @@
 #include "ui/job.h"
 #include "ui/keys.h"
 #include "ui/layout.h"
+#include "ui/rotation.h"
 #include "ui/seam.h"
 #include "ui/search.h"
 #include "ui/settings.h"
@@ -84,6 +85,28 @@ static void a_range_only_widens_while_something_is_painted(void **state)
     assert_range(range, 0, 1);
     wr_range_follow(range, -0.125, 1, true); /* below zero: zero to the middle, at once */
     assert_true(range[0] == -range[1] && range[1] >= 1);
+}
+
+/* ---- what rocks ---- */
+
+static void a_sheet_rocks_smoothly_and_never_shows_its_back(void **state)
+{
+    (void)state;
+    double way = 0, turn = 0, least = 0, most = 0, before = 0, swings = 0;
+    for (int i = 0; i < 4800; i++) { /* two minutes */
+        turn = wr_rotation_rock(&way, turn, 1.0 / 40.0);
+        assert_true(turn >= 0 && turn < 360);
+        double deg = turn > 180 ? turn - 360 : turn;
+        assert_true(fabs(deg - before) < 0.5); /* no jumps */
+        swings += (deg < 0) != (before < 0);
+        least = fmin(least, deg);
+        most = fmax(most, deg);
+        before = deg;
+    }
+    assert_true(fabs(most - 35) < 0.1 && fabs(least + 35) < 0.1);
+    assert_in_range(swings, 18, 22);
+    assert_true(wr_rotation_rock(&way, 170, 0) < 36); /* a body gave way to a sheet */
+    assert_true(wr_rotation_rock(&way, 200, 0) > 324);
 }
 
 /* ---- a window and its borders ---- */
@@ -635,6 +658,7 @@ int main(void)
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
         cmocka_unit_test(a_range_shows_a_new_table_in_the_middle_and_signs_around_it),
         cmocka_unit_test(a_range_only_widens_while_something_is_painted),
+        cmocka_unit_test(a_sheet_rocks_smoothly_and_never_shows_its_back),
         cmocka_unit_test(a_window_keeps_to_the_room_that_the_desktop_leaves),
         cmocka_unit_test(a_changed_setting_takes_its_place_and_can_be_taken_back),
         cmocka_unit_test(damaged_texts_of_settings_are_read_as_far_as_they_make_sense),

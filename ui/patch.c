@@ -124,12 +124,15 @@ static void take_picture(WrApp *app)
     if (app->redraw < 1) app->redraw = 1; /* the widgets have nothing to settle */
 }
 
-static void advance_turn(WrPatch *p, double now)
+/* A body turns; a sheet, of which the back would be seen, mirrored, rocks to and fro. */
+static void advance_turn(WrPatch *p, const WrScene *scene, double now)
 {
     double step = now - p->turned_at;
     p->turned_at = now;
     if (step > 0.2) step = 0.2; /* after a pause it goes on, it does not jump */
-    p->turn_deg = fmod(p->turn_deg + TURN_DEG_PER_SECOND * step, 360.0);
+    if (wr_surfaces[scene->shape.kind]->open)
+        p->turn_deg = wr_rotation_rock(&p->rock, p->turn_deg, step);
+    else p->turn_deg = fmod(p->turn_deg + TURN_DEG_PER_SECOND * step, 360.0);
 }
 
 void wr_patch_update(WrApp *app)
@@ -143,7 +146,7 @@ void wr_patch_update(WrApp *app)
     bool ready = !p->outstanding && now >= p->wished_at + picture_seconds(app);
     if (turns(app)) {
         if (!ready) return;
-        advance_turn(p, now);
+        advance_turn(p, wr_app_scene(app), now);
         wish(app, true);
         return;
     }
@@ -168,7 +171,7 @@ void wr_patch_turn_on(WrApp *app)
     take_picture(app);
     if (!p->wished_field || !turns(app) || p->outstanding || now < p->wished_at + PICTURE_SECONDS)
         return;
-    advance_turn(p, now);
+    advance_turn(p, p->wished_scene, now);
     WrPreviewWish w = { .field = p->wished_field,
                         .scene = p->wished_scene,
                         .turn_deg = p->turn_deg,

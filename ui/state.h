@@ -163,6 +163,7 @@ typedef struct WrPatch {
     uint64_t serial;       /* of that picture */
     int64_t seen;          /* pointer events that it shows (latency.c) */
     double turn_deg;       /* 0..360 */
+    double rock;           /* where a rocking sheet is on its way, radians (rotation.h) */
     double turned_at;      /* clock at the last step of the turn */
     WrField *wished_field; /* own shares of what was wished for last */
     WrScene *wished_scene;

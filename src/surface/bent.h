@@ -65,6 +65,7 @@ static const WrSurfaceInfo bent_row = {
                   "how far the corner (1,1) is moved" } },
     .pose_deg = { -25, 20, 0 },
     .centre_half_ab = true,
+    .open = true,
     .faces = 1,
     .inversion = WR_INVERT_MESH,
     .at = bent_at_d,

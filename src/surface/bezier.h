@@ -127,6 +127,7 @@ static const WrSurfaceInfo bezier_row = {
     /* clang-format on */
     .pose_deg = { -35, -20, 0 },
     .centre = { 0.5, 0.5, 0 },
+    .open = true,
     .faces = 1,
     .inversion = WR_INVERT_MESH,
     .at = bezier_at_d,

@@ -42,6 +42,7 @@ static const WrSurfaceInfo curl_row = {
                 { "q", 1, { 1.2 }, 0, 2, false, "rolled where u + v > q" } },
     .pose_deg = { -20, 15, 0 },
     .centre = { 0.5, 0.5, 0 },
+    .open = true,
     .faces = 1,
     .unit_sized = true,
     .inversion = WR_INVERT_MESH,

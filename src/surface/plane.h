@@ -29,6 +29,7 @@ static const WrSurfaceInfo plane_row = {
     .params = { { "a", 1, { 1 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "width" },
                 { "b", 1, { 1 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "height" } },
     .centre_half_ab = true,
+    .open = true,
     .faces = 1,
     .flat = true,
     .inversion = WR_INVERT_PLANE,

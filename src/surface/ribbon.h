@@ -43,6 +43,7 @@ static const WrSurfaceInfo ribbon_row = {
                 { "W", 1, { 0.8 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "width" },
                 { "t", 1, { 0 }, -1000, 1000, false, "twist in turns" } },
     .pose_deg = { -35, 20, 0 },
+    .open = true,
     .faces = 1,
     .inversion = WR_INVERT_MESH,
     .at = ribbon_at_d,

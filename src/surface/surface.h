@@ -71,6 +71,7 @@ typedef struct WrSurfaceInfo {
     double centre[3];        /* what turns stay about: a constant plus ... */
     bool centre_half_ab;     /* ... (a/2, b/2, 0) where this is set (plane, bent) */
     bool closed_u, closed_v; /* P has period 1: replication should be whole */
+    bool open;               /* a sheet: half way round, one looks at its back */
     int faces;               /* 1; cube 6, each with its own (u,v) */
     bool flat;               /* shape operator 0 everywhere: blinn is exact */
     bool unit_sized;         /* fixed size (curl): not rescaled by the renderer */
