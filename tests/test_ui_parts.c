@@ -3,13 +3,16 @@
 #include "test.h"
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "ui/ants.h"
 #include "ui/canvas_range.h"
+#include "ui/gui_icons.h"
 #include "ui/job.h"
 #include "ui/keys.h"
 #include "ui/layout.h"
 #include "ui/rotation.h"
+#include "ui/screen.h"
 #include "ui/seam.h"
 #include "ui/search.h"
 #include "ui/settings.h"
@@ -85,6 +88,54 @@ static void a_range_only_widens_while_something_is_painted(void **state)
     assert_range(range, 0, 1);
     wr_range_follow(range, -0.125, 1, true); /* below zero: zero to the middle, at once */
     assert_true(range[0] == -range[1] && range[1] >= 1);
+}
+
+/* ---- icons ---- */
+
+/* By the header's own lines: an icon that is added has a word too. */
+static void every_icon_has_a_word_where_its_font_is_missing(void **state)
+{
+    (void)state;
+    WrError err;
+    char *text;
+    size_t length;
+    int count = 0;
+    assert_true(wr_file_read(WR_SOURCE_DIR "/ui/gui.h", 1 << 20, &text, &length, &err));
+    for (char *at = text; (at = strstr(at, "#define WR_ICON_")); at++, count++) {
+        unsigned bytes[3];
+        const char *code = strchr(at, '"');
+        assert_non_null(code);
+        assert_int_equal(sscanf(code, "\"\\x%2x\\x%2x\\x%2x\"", bytes, bytes + 1, bytes + 2), 3);
+        char icon[4] = { (char)bytes[0], (char)bytes[1], (char)bytes[2], '\0' };
+        const char *word = wr_icon_word(icon);
+        if (strcmp(word, icon) == 0) fail_msg("no word for %.40s", at);
+        assert_in_range(strlen(word), 1, 3);
+        for (const char *c = word; *c; c++) assert_in_range(*c, ' ', '~');
+    }
+    assert_true(count > 40);
+    assert_string_equal(wr_icon_word("Brush"), "Brush");
+    wr_free(text);
+}
+
+/* ---- ways to the screen ---- */
+
+static void every_driver_has_a_way_to_the_screen_that_it_knows(void **state)
+{
+    (void)state;
+    static const char *const drivers[] = { "x11", "wayland", "dummy", "KMSDRM", NULL };
+    static const char *const wishes[] = { NULL, "opengl", "software" };
+    WrScreenWay ways[WR_SCREEN_WAYS];
+    for (int i = 0; i < 30; i++) {
+        const char *driver = drivers[i % 5], *wish = wishes[i / 5 % 3];
+        bool gpu = i >= 15, card = wish ? wish[0] == 'o' : gpu;
+        int count = wr_screen_ways(driver, gpu, wish, ways);
+        assert_in_range(count, 2, WR_SCREEN_WAYS); /* there is always one to fall back on */
+        assert_int_equal(ways[0] == WR_SCREEN_OPENGL, card);
+        assert_int_equal(ways[count - 1], WR_SCREEN_ANY);
+        bool direct = false;
+        for (int k = 0; k < count; k++) direct |= ways[k] == WR_SCREEN_DIRECT;
+        assert_int_equal(direct, i % 5 == 0 || i % 5 == 2); /* Wayland shows nothing that way */
+    }
 }
 
 /* ---- what rocks ---- */
@@ -658,6 +709,8 @@ int main(void)
         cmocka_unit_test(the_beginning_of_a_label_counts_more_than_its_middle),
         cmocka_unit_test(a_range_shows_a_new_table_in_the_middle_and_signs_around_it),
         cmocka_unit_test(a_range_only_widens_while_something_is_painted),
+        cmocka_unit_test(every_icon_has_a_word_where_its_font_is_missing),
+        cmocka_unit_test(every_driver_has_a_way_to_the_screen_that_it_knows),
         cmocka_unit_test(a_sheet_rocks_smoothly_and_never_shows_its_back),
         cmocka_unit_test(a_window_keeps_to_the_room_that_the_desktop_leaves),
         cmocka_unit_test(a_changed_setting_takes_its_place_and_can_be_taken_back),

@@ -246,6 +246,25 @@ settle
 xdotool key d
 ends 0
 
+# ---- without its samples the program says so, and calls nothing by their name; without icons there are words ----
+mkdir alone
+cp "$program" alone/wrinkle
+(
+    unset WRINKLE_DATA
+    export WRINKLE_FONTS=$folder/nowhere
+    program=$folder/alone/wrinkle
+    start
+    title_is untitled || complain "without samples the title is $(xdotool getwindowname "$window")"
+    shot alone
+    # The sign of an error, in its colour.
+    red=$(convert alone.ppm -crop 1200x28+0+772 -fuzz 5% -fill white +opaque '#e0694f' -fill black -opaque '#e0694f' \
+        -format '%[fx:(1-mean)*w*h]' info:)
+    [[ ${red%.*} -gt 3 ]] || complain "what is missing is not said: $red"
+    xdotool key ctrl+q
+    ends 0
+    exit "$failures"
+) || complain "started without samples and fonts"
+
 # ---- with a window manager the whole window, its borders included, is on the screen ----
 manager=''
 if command -v openbox >/dev/null; then

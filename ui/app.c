@@ -8,7 +8,6 @@
 #include "image/image.h"
 
 #include <math.h>
-#include <signal.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -28,15 +27,6 @@ void wr_app_redraw(WrApp *app)
 
 /* ---- scale ---- */
 
-static double display_scale(SDL_Window *window)
-{
-    float dpi = 96.0f;
-    int display = SDL_GetWindowDisplayIndex(window);
-    if (display < 0 || SDL_GetDisplayDPI(display, NULL, &dpi, NULL) != 0) return 1.0;
-    double scale = floor((double)dpi / 96.0 * 4.0 + 0.25) / 4.0; /* displays that say 97 mean 96 */
-    return scale < 1.0 ? 1.0 : scale > 3.0 ? 3.0 : scale;
-}
-
 double wr_app_wanted_scale(const WrApp *app)
 {
     const char *forced = getenv("WRINKLE_SCALE");
@@ -53,58 +43,6 @@ void wr_app_set_scale(WrApp *app, double setting)
 }
 
 /* ---- life ---- */
-
-static bool has_gpu(void)
-{
-    return access("/dev/dri/renderD128", R_OK | W_OK) == 0;
-}
-
-/* Without a graphics card SDL's software renderer, with its window's surface straight to the display, is
- * several times faster than any OpenGL made of software. */
-static SDL_Renderer *make_renderer(SDL_Window *window, bool software)
-{
-    if (!software) {
-        SDL_Renderer *fast = SDL_CreateRenderer(window, -1, SDL_RENDERER_ACCELERATED);
-        if (fast) return fast;
-    }
-    return SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
-}
-
-static bool make_window(WrApp *app)
-{
-    const char *wanted = getenv("WRINKLE_RENDERER");
-    bool software = wanted ? strcmp(wanted, "opengl") != 0 : !has_gpu();
-    if (software) SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    else SDL_SetHint(SDL_HINT_RENDER_DRIVER, "opengl");
-    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
-    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
-    SDL_SetHint(SDL_HINT_APP_NAME, "wrinkle");
-    SDL_SetHint(SDL_HINT_QUIT_ON_LAST_WINDOW_CLOSE, "0");
-    /* SDL turns these into SDL_QUIT, but only where nobody else has taken them. */
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return false;
-    const WrAppOptions *o = app->options;
-    int w = o->width > 0 ? o->width : app->settings.width;
-    int h = o->height > 0 ? o->height : app->settings.height;
-    SDL_Rect room;
-    if (o->width <= 0 && SDL_GetDisplayUsableBounds(0, &room) == 0) {
-        w = w < room.w ? w : room.w;
-        h = h < room.h ? h : room.h;
-    }
-    Uint32 flags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_HIDDEN;
-    if (app->settings.maximized && o->width <= 0) flags |= SDL_WINDOW_MAXIMIZED;
-    app->window =
-        SDL_CreateWindow("Wrinkle", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, flags);
-    if (!app->window) return false;
-    SDL_SetWindowMinimumSize(app->window, 640, 420);
-    app->renderer = make_renderer(app->window, software);
-    if (!app->renderer) return false;
-    SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);
-    SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
-    app->display_scale = display_scale(app->window);
-    return true;
-}
 
 /* The built-in keys, the map that is chosen, and the user's own file. */
 void wr_app_read_keys(WrApp *app)
@@ -131,7 +69,7 @@ void wr_app_read_keys(WrApp *app)
 bool wr_app_begin(WrApp *app, WrError *err)
 {
     wr_settings_begin(app);
-    if (!make_window(app)) return wr_fail(err, "no window: %s", SDL_GetError());
+    if (!wr_window_open(app)) return wr_fail(err, "no window: %s", SDL_GetError());
     app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
     if (!app->gui) return false;
     app->ready_event = SDL_RegisterEvents(3);
@@ -153,6 +91,9 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_generate_new(app);
     wr_accuracy_new(app);
     wr_app_start(app);
+    const char *fonts = wr_gui_missing_fonts(app->gui);
+    WrError missing;
+    if (fonts && !wr_fail(&missing, "%s", fonts)) wr_app_fail(app, &missing);
     wr_app_title(app);
     if (!app->latency) wr_dialog_recover_open(app);
     SDL_ShowWindow(app->window);
@@ -197,25 +138,6 @@ void wr_app_end(WrApp *app)
     SDL_Quit();
 }
 
-/* The window with what a window manager put around it stays within what the desktop leaves free, so that the
-   status line is on the screen. Known only once the window is shown, and looked at until a hand sizes it. */
-static void keep_on_screen(WrApp *app)
-{
-    SDL_Rect room, now, fits;
-    int top, left, bottom, right, display = SDL_GetWindowDisplayIndex(app->window);
-    Uint32 flags = SDL_GetWindowFlags(app->window);
-    if (app->fitted || app->options->width > 0) return;
-    if (flags & (SDL_WINDOW_MAXIMIZED | SDL_WINDOW_FULLSCREEN | SDL_WINDOW_HIDDEN)) return;
-    if (display < 0 || SDL_GetDisplayUsableBounds(display, &room) != 0 ||
-        SDL_GetWindowBordersSize(app->window, &top, &left, &bottom, &right) != 0)
-        return;
-    SDL_GetWindowPosition(app->window, &now.x, &now.y);
-    SDL_GetWindowSize(app->window, &now.w, &now.h);
-    if (!wr_layout_window(&room, &now, (const int[4]){ left, top, right, bottom }, &fits)) return;
-    SDL_SetWindowSize(app->window, fits.w, fits.h);
-    SDL_SetWindowPosition(app->window, fits.x, fits.y);
-}
-
 /* ---- events ---- */
 
 static void window_event(WrApp *app, const SDL_WindowEvent *event)
@@ -227,9 +149,9 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
     case SDL_WINDOWEVENT_EXPOSED:
     case SDL_WINDOWEVENT_RESTORED:
         app->visible = true;
-        keep_on_screen(app);
+        wr_window_keep(app);
         break;
-    case SDL_WINDOWEVENT_MOVED: keep_on_screen(app); break;
+    case SDL_WINDOWEVENT_MOVED: wr_window_keep(app); break;
     case SDL_WINDOWEVENT_MAXIMIZED:
         app->visible = true;
         app->settings.maximized = true;
@@ -246,7 +168,7 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
         if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED))
             app->settings.maximized = false;
         break;
-    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = display_scale(app->window); break;
+    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = wr_window_scale(app->window); break;
     default: break;
     }
 }

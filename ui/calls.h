@@ -14,6 +14,13 @@ double wr_app_wanted_scale(const WrApp *app);
 void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's */
 void wr_app_read_keys(WrApp *app);                 /* built in, the chosen map, the user's file */
 
+/* ---- window.c ---- */
+bool wr_window_open(WrApp *app); /* hidden, with its renderer; false: SDL_GetError says why */
+double wr_window_scale(SDL_Window *window); /* what its display asks for, in steps of 1/4 */
+/* The window with what a window manager put around it stays within what the desktop leaves free, so that the
+   status line is on the screen. Known only once it is shown, and looked at until a hand has been at it. */
+void wr_window_keep(WrApp *app);
+
 /* ---- latency.c ---- */
 void wr_latency_drawn(WrApp *app); /* a picture of the window was shown */
 

@@ -187,10 +187,13 @@ void wr_app_start(WrApp *app)
     }
     WrText path = { 0 };
     WrError err;
-    app->starter = true;
-    if (!wr_data_find("samples/bricks.wrinkle", &path)) {
-        make_starter(app);
-    } else if (!wr_session_open(app->session, wr_text_get(&path), &err)) {
+    bool found = wr_data_find("samples/bricks.wrinkle", &path);
+    app->starter = found && wr_session_open(app->session, wr_text_get(&path), &err);
+    if (!found)
+        wr_fail(&err,
+                "the samples and brushes of the program were not found: set WRINKLE_DATA to the "
+                "folder that holds samples and brushes, or install it");
+    if (!app->starter) {
         wr_app_fail(app, &err);
         make_starter(app);
     }

@@ -49,10 +49,13 @@ SDL_SystemCursor wr_gui_cursor(const WrGui *gui);
 void wr_gui_frame_begin(WrGui *gui, int width, int height, double seconds);
 void wr_gui_frame_end(WrGui *gui);
 
+/* The Debian packages of fonts that were not found, as a sentence; NULL if none is missing. */
+const char *wr_gui_missing_fonts(const WrGui *gui);
+
 double wr_gui_scale(void);   /* pixels a unit */
 int wr_gui_px(double units); /* units as whole pixels */
 
-/* ---- icons (UTF-8 of the icon font; plain letters where it is missing) ---- */
+/* ---- icons (UTF-8 of the icon font; short words where it is missing: gui_icons.h) ---- */
 #define WR_ICON_BRUSH "\xef\x83\xa3"    /* f0e3 */
 #define WR_ICON_HAND "\xef\x81\x81"     /* f041 arrow-all */
 #define WR_ICON_ZOOM "\xef\x8d\x89"     /* f349 */

@@ -329,9 +329,8 @@ try {
                               (int)(cmd.ClipRect.z - cmd.ClipRect.x),
                               (int)(cmd.ClipRect.w - cmd.ClipRect.y) };
             if (clip.w <= 0 || clip.h <= 0) continue;
-            wr_gui_sdl_draw(gui->renderer, static_cast<SDL_Texture *>(cmd.GetTexID()), white.x,
-                            white.y, vertices + cmd.VtxOffset,
-                            list->VtxBuffer.Size - (int)cmd.VtxOffset,
+            wr_gui_sdl_draw(gui->renderer, wr_gui_texture_of(cmd.GetTexID()), white.x, white.y,
+                            vertices + cmd.VtxOffset, list->VtxBuffer.Size - (int)cmd.VtxOffset,
                             list->IdxBuffer.Data + cmd.IdxOffset, (int)cmd.ElemCount, clip);
         }
     }

@@ -16,6 +16,7 @@ struct WrGui {
     SDL_Texture *atlas;     /* owned */
     ImFont *fonts[WR_FONT_COUNT];
     double scale;
+    bool no_icons, no_text;          /* their fonts were not found */
     bool held[3];                    /* buttons as the events say */
     bool pressed[3];                 /* that went down since the last frame: none is ever missed */
     bool released_late[WR_GUI_KEYS]; /* keys that went down and up between two frames */
@@ -55,6 +56,8 @@ bool wr_gui_keys_seen(WrGui *gui);
 bool wr_gui_went_down(SDL_Scancode key);
 bool wr_gui_key_repeats(SDL_Scancode key);
 bool wr_gui_return_for_list(); /* as wr_gui_return_pressed, for the list that is open */
+/* The icon, or the word for it where there is no font of icons. */
+const char *wr_gui_icon(const char *icon);
 /* Draw the faces at the present scale and hand them to the renderer. */
 bool wr_gui_build_fonts(WrGui *gui, WrError *err);
 ImU32 wr_gui_colour_of(WrColour colour); /* 0xAARRGGBB as ImGui packs it */
@@ -62,6 +65,28 @@ ImVec4 wr_gui_vec_of(WrColour colour);
 /* A thin edge of whole pixels, its corners left out: SDL's software renderer draws smooth thin outlines
    unevenly. */
 void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high);
+
+/* What other versions of the library call by other names; keys are in gui_imgui_keys.cpp, faces in
+   gui_imgui_fonts.cpp. */
+inline float wr_gui_size_of(const ImFont *font)
+{
+#if IMGUI_VERSION_NUM >= 19200
+    return font->LegacySize;
+#else
+    return font->FontSize;
+#endif
+}
+
+/* A pointer in some versions, a number in others: these casts fit both. */
+inline ImTextureID wr_gui_texture_id(SDL_Texture *texture)
+{
+    return (ImTextureID)(intptr_t)texture;
+}
+
+inline SDL_Texture *wr_gui_texture_of(ImTextureID id)
+{
+    return (SDL_Texture *)(intptr_t)id;
+}
 
 /* Nothing that is thrown may reach C. Written after a function's body that is a try block. */
 #define WR_CAUGHT(value)                                                                           \

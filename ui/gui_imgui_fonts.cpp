@@ -7,42 +7,50 @@
 extern "C" {
 #include "base/file.h"
 #include "base/memory.h"
+#include "ui/gui_icons.h"
 }
 
 #include <imgui_freetype.h>
 #include <stb_truetype.h>
 
 #include <math.h>
+#include <stdlib.h>
 #include <unistd.h>
 
-static const char *first_readable(const char *const *paths)
+#define SYSTEM_FONTS "/usr/share/fonts"
+
+/* The first of these files that is there; below WRINKLE_FONTS if that is set. The caller frees it. */
+static char *first_readable(const char *const *paths)
 {
-    for (; *paths; paths++)
-        if (access(*paths, R_OK) == 0) return *paths;
+    const char *folder = getenv("WRINKLE_FONTS");
+    for (; *paths; paths++) {
+        char *path =
+            folder ? wr_path_join(folder, *paths + sizeof SYSTEM_FONTS) : wr_strdup(*paths);
+        if (access(path, R_OK) == 0) return path;
+        wr_free(path);
+    }
     return nullptr;
 }
 
-static const char *const text_faces[] = {
-    "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
-    "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
-    "/usr/share/fonts/inter/Inter-Regular.otf",
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-    nullptr
-};
-static const char *const bold_faces[] = {
-    "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf",
-    "/usr/share/fonts/truetype/inter/Inter-SemiBold.ttf",
-    "/usr/share/fonts/inter/Inter-SemiBold.otf",
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Bold.ttf",
-    "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf",
-    nullptr
-};
+static const char *const text_faces[] = { SYSTEM_FONTS "/opentype/inter/Inter-Regular.otf",
+                                          SYSTEM_FONTS "/truetype/inter/Inter-Regular.ttf",
+                                          SYSTEM_FONTS "/inter/Inter-Regular.otf",
+                                          SYSTEM_FONTS "/truetype/dejavu/DejaVuSans.ttf",
+                                          SYSTEM_FONTS "/truetype/noto/NotoSans-Regular.ttf",
+                                          SYSTEM_FONTS
+                                          "/truetype/liberation/LiberationSans-Regular.ttf",
+                                          nullptr };
+static const char *const bold_faces[] = { SYSTEM_FONTS "/opentype/inter/Inter-SemiBold.otf",
+                                          SYSTEM_FONTS "/truetype/inter/Inter-SemiBold.ttf",
+                                          SYSTEM_FONTS "/inter/Inter-SemiBold.otf",
+                                          SYSTEM_FONTS "/truetype/dejavu/DejaVuSans-Bold.ttf",
+                                          SYSTEM_FONTS "/truetype/noto/NotoSans-Bold.ttf",
+                                          SYSTEM_FONTS
+                                          "/truetype/liberation/LiberationSans-Bold.ttf",
+                                          nullptr };
 static const float face_ems[] = { 14.0f, 14.0f, 12.0f }; /* units: text, bold, small */
 static const char *const icon_faces[] = {
-    "/usr/share/fonts/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf", nullptr
+    SYSTEM_FONTS "/truetype/materialdesignicons-webfont/materialdesignicons-webfont.ttf", nullptr
 };
 
 /* A face's file, and its numbers as the type's designer gave them. */
@@ -74,6 +82,7 @@ static bool open_face(Face *face, const char *path, float em)
     return true;
 }
 
+#if IMGUI_VERSION_NUM < 19200
 /* Advances as they were drawn (the widget library rounds each up, which spreads words), and one width for
    all digits, so that numbers do not jitter as they change. */
 static void space_letters(ImFont *font, const Face *face)
@@ -101,6 +110,12 @@ static void space_letters(ImFont *font, const Face *face)
     }
     font->BuildLookupTable();
 }
+#else
+/* Letters are drawn as they are needed, with their own advances. */
+static void space_letters(ImFont *, const Face *)
+{
+}
+#endif
 
 /* Sizes of type are of its em; the widget library wants the height of a line. */
 static ImFont *add_face(ImFontAtlas *atlas, const Face *face)
@@ -137,20 +152,50 @@ static void add_icons(ImFontAtlas *atlas, const char *path, float size, bool mer
 
 static void add_fonts(WrGui *gui, ImFontAtlas *atlas, Face faces[WR_FONT_ICON])
 {
-    const char *text = first_readable(text_faces), *bold = first_readable(bold_faces);
-    const char *icons = first_readable(icon_faces);
-    if (!bold) bold = text;
+    char *text = first_readable(text_faces), *bold = first_readable(bold_faces);
+    char *icons = first_readable(icon_faces);
+    gui->no_text = !text;
+    gui->no_icons = !icons;
     for (int i = 0; i < WR_FONT_ICON; i++) {
         float em = roundf(face_ems[i] * (float)gui->scale);
-        bool found = open_face(&faces[i], i == WR_FONT_BOLD ? bold : text, em);
+        bool found = open_face(&faces[i], i == WR_FONT_BOLD && bold ? bold : text, em);
         gui->fonts[i] = found ? add_face(atlas, &faces[i]) : atlas->AddFontDefault();
         if (found && icons) add_icons(atlas, icons, roundf(em * 1.35f), true);
     }
     gui->fonts[WR_FONT_ICON] = gui->fonts[WR_FONT_TEXT];
-    if (!icons) return;
     int before = atlas->Fonts.Size;
-    add_icons(atlas, icons, roundf(22.0f * (float)gui->scale), false);
+    if (icons) add_icons(atlas, icons, roundf(22.0f * (float)gui->scale), false);
     if (atlas->Fonts.Size > before) gui->fonts[WR_FONT_ICON] = atlas->Fonts.back();
+    wr_free(text);
+    wr_free(bold);
+    wr_free(icons);
+}
+
+const char *wr_gui_icon(const char *icon)
+{
+    return wr_gui_current()->no_icons ? wr_icon_word(icon) : icon;
+}
+
+extern "C" const char *wr_gui_missing_fonts(const WrGui *gui)
+{
+    if (gui->no_icons && gui->no_text)
+        return "no fonts were found: install fonts-inter and fonts-materialdesignicons-webfont";
+    if (gui->no_icons)
+        return "the font of the icons is missing, words stand in for them: install "
+               "fonts-materialdesignicons-webfont";
+    return gui->no_text ? "no font for text was found: install fonts-inter" : nullptr;
+}
+
+/* Sharp stems: whole pixels upwards only, so that letters keep their distances. */
+static void choose_rasterizer(ImFontAtlas *atlas)
+{
+#if IMGUI_VERSION_NUM >= 19200
+    atlas->SetFontLoader(ImGuiFreeType::GetFontLoader());
+    atlas->FontLoaderFlags = ImGuiFreeTypeLoaderFlags_LightHinting;
+#else
+    atlas->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
+    atlas->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+#endif
 }
 
 bool wr_gui_build_fonts(WrGui *gui, WrError *err)
@@ -158,9 +203,7 @@ bool wr_gui_build_fonts(WrGui *gui, WrError *err)
     ImFontAtlas *atlas = ImGui::GetIO().Fonts;
     Face faces[WR_FONT_ICON] = {};
     atlas->Clear();
-    atlas->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
-    /* Sharp stems: whole pixels upwards only, so that letters keep their distances. */
-    atlas->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+    choose_rasterizer(atlas);
     atlas->TexGlyphPadding = 1;
     add_fonts(gui, atlas, faces);
     unsigned char *pixels;
@@ -175,6 +218,6 @@ bool wr_gui_build_fonts(WrGui *gui, WrError *err)
     gui->atlas = wr_gui_sdl_texture(gui->renderer, width, height, pixels);
     if (!gui->atlas) return wr_fail(err, "a texture of %dx%d: %s", width, height, SDL_GetError());
     atlas->ClearTexData();
-    atlas->SetTexID(gui->atlas);
+    atlas->SetTexID(wr_gui_texture_id(gui->atlas));
     return true;
 }

@@ -196,7 +196,7 @@ WR_CAUGHT(false)
 extern "C" int wr_gui_list_row(const char *icon, const char *label, bool selected)
 try {
     char text[1100];
-    snprintf(text, sizeof text, "%s%s%s", icon ? icon : "", icon ? "  " : "", label);
+    snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "", icon ? "  " : "", label);
     if (!ImGui::Selectable(text, selected, ImGuiSelectableFlags_AllowDoubleClick)) return 0;
     return ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
 }

@@ -276,6 +276,6 @@ extern "C" void wr_gui_draw_arc(double x, double y, double radius, double turns,
 
 extern "C" void wr_gui_draw_text(double x, double y, WrFont font, WrColour colour, const char *text)
 {
-    const ImFont *face = wr_gui_current()->fonts[font];
-    views()->AddText(face, face->FontSize, at(x, y), wr_gui_colour_of(colour), text);
+    ImFont *face = wr_gui_current()->fonts[font];
+    views()->AddText(face, wr_gui_size_of(face), at(x, y), wr_gui_colour_of(colour), text);
 }

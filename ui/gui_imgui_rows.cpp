@@ -96,8 +96,8 @@ extern "C" void wr_gui_scroll_here(void)
 
 extern "C" void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width)
 try {
-    const ImFont *face = wr_gui_current()->fonts[font];
-    float size = face->FontSize;
+    ImFont *face = wr_gui_current()->fonts[font];
+    float size = wr_gui_size_of(face);
     char cut[300];
     snprintf(cut, sizeof cut, "%s", text);
     if ((double)face->CalcTextSizeA(size, FLT_MAX, 0, cut).x > width) {
@@ -118,14 +118,14 @@ try {
     ImGui::Dummy(ImVec2((float)w, (float)h));
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
-    if (texture) list->AddImage(texture, at, end);
+    if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
     wr_gui_edge(list, at, end);
 }
 WR_CAUGHT()
 
 extern "C" bool wr_gui_find_button(const char *label, const char *keys, double width)
 try {
-    const ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
+    ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];
     float h = roundf(ImGui::GetTextLineHeight() + px(8)), pad = px(8);
     ImVec2 bar = ImGui::GetWindowSize(), where = ImGui::GetWindowPos();
     ImVec2 at(ImGui::GetCursorScreenPos().x, where.y + roundf((bar.y - h) / 2));
@@ -136,10 +136,10 @@ try {
     list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
     wr_gui_edge(list, at, end);
     ImU32 ink = wr_gui_colour_of(ImGui::IsItemHovered() ? WR_COLOUR_TEXT : WR_COLOUR_LABEL);
-    ImVec2 size = small->CalcTextSizeA(small->FontSize, FLT_MAX, 0, keys);
-    float y = at.y + floorf((h - small->FontSize) / 2);
-    list->AddText(small, small->FontSize, ImVec2(at.x + pad, y), ink, label);
-    list->AddText(small, small->FontSize, ImVec2(end.x - pad - size.x, y),
+    ImVec2 size = small->CalcTextSizeA(wr_gui_size_of(small), FLT_MAX, 0, keys);
+    float y = at.y + floorf((h - wr_gui_size_of(small)) / 2);
+    list->AddText(small, wr_gui_size_of(small), ImVec2(at.x + pad, y), ink, label);
+    list->AddText(small, wr_gui_size_of(small), ImVec2(end.x - pad - size.x, y),
                   wr_gui_colour_of(0xff7a7a7au), keys);
     return pressed;
 }
@@ -151,6 +151,7 @@ try {
     ImVec2 at = ImGui::GetCursorScreenPos();
     bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
     bool hovered = ImGui::IsItemHovered();
+    icon = wr_gui_icon(icon);
     ImVec2 size = ImGui::CalcTextSize(icon);
     ImGui::GetWindowDrawList()->AddText(
         ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),

@@ -14,7 +14,7 @@ static float px(double units)
 static void put_picture(ImDrawList *list, SDL_Texture *texture, ImVec2 at, ImVec2 end)
 {
     list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
-    if (texture) list->AddImage(texture, at, end);
+    if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
 }
 
 extern "C" int wr_gui_tile(const char *id, SDL_Texture *texture, double side, bool selected,
@@ -39,12 +39,13 @@ try {
     }
     if (marked) {
         ImFont *font = ImGui::GetFont();
-        float size = font->FontSize * 0.8f;
-        ImVec2 wide = font->CalcTextSizeA(size, FLT_MAX, 0, WR_ICON_STAR);
+        float size = wr_gui_size_of(font) * 0.8f;
+        ImVec2 wide = font->CalcTextSizeA(size, FLT_MAX, 0, wr_gui_icon(WR_ICON_STAR));
         ImVec2 where(end.x - wide.x - px(2), at.y + px(2));
         list->AddText(font, size, ImVec2(where.x + 1, where.y + 1), wr_gui_colour_of(0xc0000000u),
-                      WR_ICON_STAR);
-        list->AddText(font, size, where, wr_gui_colour_of(WR_COLOUR_CELL), WR_ICON_STAR);
+                      wr_gui_icon(WR_ICON_STAR));
+        list->AddText(font, size, where, wr_gui_colour_of(WR_COLOUR_CELL),
+                      wr_gui_icon(WR_ICON_STAR));
     }
     return menu ? 2 : pressed ? 1 : 0;
 }

@@ -147,7 +147,7 @@ static void text_in(WrFont font, WrColour colour, const char *text, bool wrapped
     ImGui::PushFont(wr_gui_current()->fonts[font]);
     ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
     if (wrapped) ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(text);
+    ImGui::TextUnformatted(wr_gui_icon(text));
     if (wrapped) ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
     ImGui::PopFont();
@@ -188,13 +188,13 @@ WR_CAUGHT()
 
 extern "C" double wr_gui_text_width(WrFont font, const char *text)
 {
-    const ImFont *face = wr_gui_current()->fonts[font];
-    return (double)face->CalcTextSizeA(face->FontSize, FLT_MAX, 0.0f, text).x;
+    ImFont *face = wr_gui_current()->fonts[font];
+    return (double)face->CalcTextSizeA(wr_gui_size_of(face), FLT_MAX, 0.0f, text).x;
 }
 
 extern "C" double wr_gui_line_height(WrFont font)
 {
-    return (double)wr_gui_current()->fonts[font]->FontSize;
+    return (double)wr_gui_size_of(wr_gui_current()->fonts[font]);
 }
 
 extern "C" void wr_gui_tip(const char *text)
@@ -410,9 +410,10 @@ try {
     if (selected) list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
     else if (ImGui::IsItemHovered())
         list->AddRectFilled(at, end, wr_gui_colour_of(0xff3c3c3cu), px(3));
-    const ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
-    ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, 0, icon);
-    list->AddText(font, font->FontSize,
+    ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
+    icon = wr_gui_icon(icon);
+    ImVec2 size = font->CalcTextSizeA(wr_gui_size_of(font), FLT_MAX, 0, icon);
+    list->AddText(font, wr_gui_size_of(font),
                   ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
                   wr_gui_colour_of(selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT), icon);
     return pressed;
@@ -422,7 +423,8 @@ WR_CAUGHT(false)
 extern "C" bool wr_gui_chip(const char *icon, const char *label)
 try {
     char text[160];
-    snprintf(text, sizeof text, "%s%s%s", icon ? icon : "", icon && label[0] ? "  " : "", label);
+    snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
+             icon && label[0] ? "  " : "", label);
     ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_CHIP));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(0xf0343434u));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));

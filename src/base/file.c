@@ -1,5 +1,6 @@
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/stamp.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -99,16 +100,28 @@ char *wr_program_folder(void)
     return wr_path_folder(exe);
 }
 
+/* The checkout that the program was made from, if it runs where it was built; else NULL. */
+static const char *source_folder(const char *program_folder)
+{
+    WrFileStamp here = wr_file_stamp(program_folder), built = wr_file_stamp(WR_BUILD_FOLDER);
+    bool same = here.there && here.device == built.device && here.inode == built.inode;
+    return same ? WR_SOURCE_FOLDER : NULL;
+}
+
 bool wr_data_find(const char *name, WrText *path)
 {
     char *folder = wr_program_folder();
-    const char *given = getenv("WRINKLE_DATA");
-    const char *tails[] = { given, "/../share/wrinkle", "/.." };
+    const struct {
+        const char *folder, *tail;
+    } places[] = { { getenv("WRINKLE_DATA"), "" },
+                   { folder, "/../share/wrinkle" },
+                   { folder, "/.." },
+                   { source_folder(folder), "" } };
     bool found = false;
-    for (int i = 0; i < 3 && !found; i++) {
-        if (!tails[i]) continue;
+    for (size_t i = 0; i < sizeof places / sizeof *places && !found; i++) {
+        if (!places[i].folder) continue;
         wr_text_clear(path);
-        wr_text_addf(path, "%s%s/%s", i == 0 ? "" : folder, tails[i], name);
+        wr_text_addf(path, "%s%s/%s", places[i].folder, places[i].tail, name);
         found = access(wr_text_get(path), R_OK) == 0;
     }
     wr_free(folder);

@@ -75,8 +75,9 @@ char *wr_path_join(const char *folder, const char *path);
 const char *wr_path_ending(const char *path, char buffer[16]);
 
 /* Find a data file that ships with the program ("samples/bricks.wrinkle"): under $WRINKLE_DATA, under
- * ../share/wrinkle beside the program's folder (installed), or in the folder above it (a build folder
- * inside a checkout). False if it is in none. */
+ * ../share/wrinkle beside the program's folder (installed), in the folder above it (a build folder inside a
+ * checkout), or in the checkout that it was built from, while it lies in its build folder. False if it is in
+ * none. */
 bool wr_data_find(const char *name, WrText *path);
 /* The folder that holds the running program. Caller frees with wr_free. */
 char *wr_program_folder(void);

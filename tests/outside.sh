@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# The build itself: a folder outside the checkout, no cmocka, another processor.  outside.sh SOURCE-FOLDER
+set -uo pipefail
+source=$1
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+failures=0
+complain() {
+    printf '%s\n' "$*"
+    failures=$((failures + 1))
+}
+generator=()
+! command -v ninja >/dev/null || generator=(-G Ninja)
+# configure FOLDER OPTION...
+configure() {
+    local build=$folder/$1
+    shift
+    cmake -S "$source" -B "$build" "${generator[@]}" "$@" >"$build.log" 2>&1
+}
+
+# ---- what was built outside the checkout finds what ships with the program; a copy elsewhere does not ----
+unset WRINKLE_DATA
+configure outside -DWR_TESTS=ON || complain "configuring outside the checkout: $(tail -n 5 "$folder/outside.log")"
+cmake --build "$folder/outside" --target test_data --parallel 2 >"$folder/build.log" 2>&1 ||
+    complain "building outside the checkout: $(tail -n 5 "$folder/build.log")"
+(cd / && "$folder/outside/test_data" >"$folder/data.log" 2>&1) || complain "$(cat "$folder/data.log")"
+mkdir "$folder/elsewhere"
+cp "$folder/outside/test_data" "$folder/elsewhere"
+(cd / && "$folder/elsewhere/test_data" >/dev/null 2>&1) && complain "a copy finds the checkout's files"
+
+# ---- without cmocka: no tests, unless they are asked for ----
+mkdir "$folder/bin"
+printf '#!/bin/sh\ncase " $* " in *cmocka*) exit 1 ;; esac\nexec %s "$@"\n' "$(command -v pkg-config)" >"$folder/bin/pkg-config"
+chmod +x "$folder/bin/pkg-config"
+export PKG_CONFIG=$folder/bin/pkg-config
+configure without || complain "without cmocka: $(tail -n 5 "$folder/without.log")"
+grep -q 'No tests: cmocka is missing (Debian: libcmocka-dev)' "$folder/without.log" ||
+    complain "nothing says why there are no tests"
+configure asked -DWR_TESTS=ON && complain "tests without cmocka are configured"
+[[ $(grep -c 'CMake Error' "$folder/asked.log") == 1 ]] || complain "not one error: $(cat "$folder/asked.log")"
+tr -s ' \n' ' ' <"$folder/asked.log" | grep -q 'apt-get install libcmocka-dev' || complain "the error does not name the package"
+unset PKG_CONFIG
+
+# ---- another processor: no flags of x86 ----
+configure arm -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DWR_TESTS=OFF ||
+    complain "configuring for another processor: $(tail -n 5 "$folder/arm.log")"
+for flag in -march=x86 -mprefer-vector-width -mrecip -mavx -msse; do
+    grep -q -e "$flag" "$folder/outside/compile_commands.json" ||
+        [[ $flag == -mavx || $flag == -msse || $(uname -m) != x86_64 ]] || complain "$flag is not used on x86-64"
+    grep -q -e "$flag" "$folder/arm/compile_commands.json" && complain "$flag is used on another processor"
+done
+# Where there is a compiler for it, the kernels and what chooses among them are compiled.
+if command -v aarch64-linux-gnu-gcc >/dev/null; then
+    for file in base/cpu render/kern render/kern_fast_v4 render/kern_double_v3 brush/kern brush/kern_v4 \
+        noise/kern noise/kern_v4 field/taps field/taps_v4; do
+        aarch64-linux-gnu-gcc -std=c17 -O1 -D_GNU_SOURCE -fopenmp-simd -ffp-contract=off -Wno-psabi -I"$source/src" \
+            -c "$source/src/$file.c" -o "$folder/kern.o" || complain "src/$file.c is not for arm64"
+    done
+fi
+
+[[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }
