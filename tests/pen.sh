@@ -70,6 +70,12 @@ stroke() {
         }' | ./play "$1" || complain "the device $1 does not answer"
 }
 
+# lift DEVICE X Y: let go of a stroke that was left open.
+lift() {
+    awk -v x0="$X" -v y0="$Y" -v x="$2" -v y="$3" "$device_units"'
+        BEGIN { print "b 1 0", X(x), Y(y), 0, 0, 0 }' | ./play "$1" || complain "the device $1 does not answer"
+}
+
 # button DEVICE BUTTON X Y DX DY: press it there, move, let go.
 button() {
     awk -v x0="$X" -v y0="$Y" -v b="$2" -v x="$3" -v y="$4" -v dx="$5" -v dy="$6" "$device_units"'
@@ -117,7 +123,7 @@ heights() {
 settings
 start flat.wrinkle
 stroke front 160 420 380 420 0 1 100 4
-until_true 10 "the mark of unsaved work" title_is 'untitled *'
+until_true 120 "the mark of unsaved work" title_is 'untitled *'
 expect_strokes 1 'after one stroke'
 points_of 1 >points
 [[ $(wc -l <points) == 101 ]] || complain "a press and 100 moves gave $(wc -l <points) samples"
@@ -139,7 +145,6 @@ awk -v h="$high" -v l="$low" 'BEGIN { exit !(h > 0.2 && l < 0.02 && l > -0.02) }
     complain "the eraser made $low of the height $high"
 
 # ---- the upper button on the barrel moves the table, the lower one picks a height ----
-sleep 0.2
 home
 shot before
 button front 3 250 600 60 40
@@ -164,18 +169,22 @@ count=$(points_of 3 | wc -l)
 # ---- switched off in the middle of a stroke: it ends, the program goes on, the pen comes back ----
 stroke front 150 500 380 500 0.2 0.8 30 4 0 0 open
 xinput disable 'testpen front'
-sleep 0.3
+rest
 expect_strokes 4 'after a pen was switched off'
 xinput enable 'testpen front'
-sleep 0.3
+rest
 stroke front 150 540 380 540 0.2 0.8 30 4
 expect_strokes 5 'after it was switched on again'
 count=$(points_of 5 | wc -l)
 [[ $count == 31 ]] || complain "switched on again, a stroke of 31 samples has $count"
 
 # ---- a finger paints, but not while a pen is near ----
-button front 1 170 560 0 0
+stroke front 170 560 172 560 0.5 0.5 2 4 0 0 open
+rest
 finger 160 580 200 0
+rest
+lift front 172 560
+rest # the pen was near until now at the latest
 sleep 1.3
 finger 160 620 200 0
 expect_strokes 7 'after a tap, a palm and a finger'
@@ -189,14 +198,14 @@ xdotool key ctrl+shift+t
 settle
 shot tester
 stroke front 300 350 500 380 0.1 1 60 4
-sleep 2
 settle
 shot scribbled
 changed=$(differs tester scribbled 320x200+270+270)
 [[ ${changed%.*} -gt 400 ]] || complain "the scribble of the tester shows $changed pixels"
 # The pen also drags the lower point of its curve upwards, as a mouse would.
-stroke front 301 593 301 543 0.1 0.1 20 20
-sleep 2
+stroke front 301 593 301 543 0.1 0.1 20 20 0 0 open
+rest
+lift front 301 543
 settle
 xdotool key Escape
 settle
@@ -224,7 +233,6 @@ unset WRINKLE_PEN_RECORD
 export WRINKLE_PEN_REPLAY=$folder/record.pen
 settings
 start flat.wrinkle
-sleep 3
 settle
 save_as replayed.exr
 xdotool key ctrl+q
@@ -271,16 +279,16 @@ modes=$(sed -n 's/^stroke .*mode=\([a-z]*\).*/\1/p' history.wrinkle | tr '\n' ' 
 
 # ---- a mouse that holds its button is let go, also while a pen hovers ----
 xdotool mousemove $((X + 160)) $((Y + 520))
-sleep 0.5
+rest
 xdotool mousedown 1
 for i in 1 2 3 4 5 6; do xdotool mousemove $((X + 160 + 30 * i)) $((Y + 520)); done
-sleep 0.3
+rest
 awk -v x0="$X" -v y0="$Y" "$device_units"'
     BEGIN { for (i = 0; i < 100; i++) print "m", X(340 + i % 2), Y(520), 0, 0, 0 "\nw 10" }' | ./play front &
 sleep 0.5
 xdotool mouseup 1
 wait $!
-sleep 0.3
+rest
 stroke front 160 560 380 560 0.5 0.5 30 4
 expect_strokes 4 'after a mouse beside a pen that hovers'
 xdotool key ctrl+q

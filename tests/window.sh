@@ -28,7 +28,7 @@ title_is 'bricks (starter)' || complain "the title is $(xdotool getwindowname "$
 
 # ---- a stroke changes the table at once, and the patch ----
 drag 180 300 6 4 25
-until_true 10 "the mark of unsaved work" title_is 'bricks (starter) *'
+until_true 120 "the mark of unsaved work" title_is 'bricks (starter) *'
 settle
 shot painted
 changed=$(differs start painted "$canvas")
@@ -68,7 +68,7 @@ save_as second.exr
 
 # ---- unsaved work is asked about; Escape goes back to it, D gives it up ----
 drag 200 500 5 0 20
-until_true 10 "the mark of unsaved work" title_is 'second.exr *'
+until_true 120 "the mark of unsaved work" title_is 'second.exr *'
 settle
 shot unsaved
 xdotool key ctrl+q
@@ -91,7 +91,7 @@ ends 0
 # ---- the question can also be answered by saving ----
 start second.exr
 drag 200 500 5 0 20
-until_true 10 "the mark of unsaved work" title_is 'second.exr *'
+until_true 120 "the mark of unsaved work" title_is 'second.exr *'
 xdotool key ctrl+q
 settle
 xdotool key Return
@@ -102,7 +102,7 @@ ends 0
 start painted.exr
 shot start
 xdotool key ctrl+shift+n
-until_true 10 "the mark of a new layer" title_is 'painted.exr *'
+until_true 120 "the mark of a new layer" title_is 'painted.exr *'
 drag 180 300 6 4 20
 xdotool key ctrl+shift+n
 drag 380 520 -5 -3 20
@@ -144,9 +144,9 @@ save_as cancelled.exr
 xdotool key ctrl+i
 settle
 xdotool key Return
-until_true 10 "the mark of an operation" title_is 'cancelled.exr *'
+until_true 120 "the mark of an operation" title_is 'cancelled.exr *'
 xdotool key ctrl+z
-until_true 10 "an operation undone" title_is cancelled.exr
+until_true 120 "an operation undone" title_is cancelled.exr
 
 # ---- a stroke keeps to what is selected ----
 xdotool key shift+r
@@ -176,7 +176,7 @@ home
 shot calm
 xdotool mousemove $((X + 150)) $((Y + 520))
 xdotool keydown v
-sleep 0.2
+rest
 xdotool mousedown 1
 for step in '60 -60' '60 60' '60 -60' '40 60'; do
     # shellcheck disable=SC2086
@@ -186,7 +186,7 @@ settle
 title_is painted.exr || complain "a line that is only aimed counts as work"
 xdotool mouseup 1
 xdotool keyup v
-until_true 10 "the line" title_is 'painted.exr *'
+until_true 120 "the line" title_is 'painted.exr *'
 home
 shot lined
 changed=$(differs calm lined 200x20+160+510)
@@ -205,7 +205,7 @@ shot given_up
 changed=$(differs lined given_up "$canvas")
 [[ ${changed%.*} -lt 20 ]] || complain "a stroke that was given up changed $changed pixels"
 xdotool key ctrl+z
-until_true 10 "the line undone" title_is painted.exr
+until_true 120 "the line undone" title_is painted.exr
 
 # ---- on the patch the brush paints the table under it, the patch stays as it is turned; undone it is gone ----
 home
@@ -213,7 +213,7 @@ shot calm
 xdotool key a
 settle
 drag 660 430 6 3 15
-until_true 10 "a stroke on the patch" title_is 'painted.exr *'
+until_true 120 "a stroke on the patch" title_is 'painted.exr *'
 home
 shot on_patch
 changed=$(differs calm on_patch "$canvas")
@@ -223,7 +223,7 @@ changed=$(differs calm on_patch 150x110+630+405)
 changed=$(differs calm on_patch 300x60+520+560)
 [[ ${changed%.*} -lt 400 ]] || complain "painting on the patch turned it: $changed pixels differ"
 xdotool key ctrl+z
-until_true 10 "the stroke on the patch undone" title_is painted.exr
+until_true 120 "the stroke on the patch undone" title_is painted.exr
 home
 shot undone
 changed=$(differs calm undone "$canvas")

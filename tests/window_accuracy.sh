@@ -21,11 +21,11 @@ plot=180x140+1064+265 # three steps of the wheel down
 # search WORDS: run the action that is found first.
 search() {
     key ctrl+Return
-    sleep 0.3
+    rest
     xdotool type --delay 30 "$1"
-    sleep 0.3
+    rest
     key Return
-    sleep 0.3
+    rest
 }
 # much A B WHERE WHAT: those pictures differ there; same A B WHERE WHAT: they do not.
 much() {
@@ -57,17 +57,17 @@ scroll() {
     xdotool mousemove $((X + 1140)) $((Y + 300))
     for ((i = 0; i < $1; i++)); do
         xdotool click "$2"
-        sleep 0.05
+        rest
     done
-    sleep 0.3
+    rest
 }
 
 "$program" accuracy --hard-cases --json >cases.json & cases=$!
 start small.wrinkle
 scroll 3 5
 shot empty
-until_true 60 "the plot of what accuracy costs" alters empty $plot
-until_true 20 "rest after error and plot were measured" rests
+until_true 120 "the plot of what accuracy costs" alters empty $plot
+until_true 120 "rest after error and plot were measured" rests
 
 # ---- a click on a point of the plot becomes commands, which undo takes back ----
 picked() { [[ $(newest) == bump\ * || $(newest) == dials\ * ]]; }
@@ -87,62 +87,62 @@ scroll 3 4
 home
 shot plain
 key alt+6
-until_true 10 "two pictures side by side" alters plain $patch
-sleep 0.3
+until_true 120 "two pictures side by side" alters plain $patch
+rest
 shot split
 much plain split $patch "two settings are another picture than the preview's"
 drag 774 422 -20 0 8
 xdotool mousemove $((X + 330)) $((Y + 400))
-sleep 0.5
+rest
 shot dragged
 much split dragged 140x400+624+200 "between the line's old place and its new one"
 same split dragged 130x400+800+200 "right of the line nothing changes"
 key alt+5
-until_true 5 "the picture alone" shows plain $patch
+until_true 120 "the picture alone" shows plain $patch
 xdotool keydown w
-until_true 10 "B while its key is held" alters plain $patch
-sleep 0.3
+until_true 120 "B while its key is held" alters plain $patch
+rest
 shot held
 xdotool keyup w
-until_true 5 "the picture again" shows plain $patch
+until_true 120 "the picture again" shows plain $patch
 much plain held $patch "B is another picture"
 key alt+7
-until_true 10 "B while it flickers" shows held $patch
-until_true 10 "A while it flickers" alters held $patch
-until_true 10 "B again" shows held $patch
+until_true 120 "B while it flickers" shows held $patch
+until_true 120 "A while it flickers" alters held $patch
+until_true 120 "B again" shows held $patch
 key alt+5
-until_true 5 "no flicker any more" shows plain $patch
+until_true 120 "no flicker any more" shows plain $patch
 
 # ---- maps over the patch, with their scales ----
 for look in alt+8 alt+9; do
     key $look
-    until_true 15 "the map of $look" alters plain $patch
-    sleep 0.3
+    until_true 120 "the map of $look" alters plain $patch
+    rest
     shot map
     much plain map 290x70+545+690 "the scale of $look"
 done
 key alt+5
-until_true 5 "the picture without a map" shows plain $patch
+until_true 120 "the picture without a map" shows plain $patch
 
 # ---- the tolerance is a command; the inspector follows the pointer ----
 shot layers
 key F7
-sleep 0.3
+rest
 xdotool mousemove $((X + 760)) $((Y + 420))
-sleep 1
+rest
 shot inspected
 much layers inspected 250x200+1016+530 "the inspector has something to say"
 xdotool mousemove $((X + 700)) $((Y + 350))
-sleep 1
+rest
 shot elsewhere
 changed=$(differs inspected elsewhere 250x200+1016+530)
 [[ ${changed%.*} -gt 200 ]] || complain "the inspector does not follow: $changed pixels differ"
 search "pin the inspector"
 xdotool mousemove $((X + 780)) $((Y + 480))
-sleep 1
+rest
 shot first
 xdotool mousemove $((X + 720)) $((Y + 380))
-sleep 1
+rest
 shot second
 same first second 250x180+1016+555 "a pinned inspector stays"
 
@@ -150,8 +150,8 @@ same first second 250x180+1016+555 "a pinned inspector stays"
 home
 shot before
 drag 250 420 4 0 10
-sleep 0.4
-until_true 20 "rest after a stroke" rests
+rest
+until_true 120 "rest after a stroke" rests
 home
 shot after
 changed=$(differs before after $panel)
@@ -163,11 +163,11 @@ jq -r '.cases[] | select(.id == "HC01") | .scene[]' cases.json >case.wrinkle
 [[ -s case.wrinkle ]] || complain "HC01 has no scene"
 search "hard cases"
 xdotool type --delay 30 'HC01'
-sleep 0.3
+rest
 key Return
-sleep 0.5
+rest
 key d # the stroke is not saved: discard it
-until_true 10 "an untitled document" title_is untitled
+until_true 120 "an untitled document" title_is untitled
 home
 key F6
 answer_file opened.exr ctrl+shift+s

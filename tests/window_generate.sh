@@ -18,29 +18,29 @@ configure() {
 # search WORDS: run the action that is found first.
 search() {
     key ctrl+Return
-    sleep 0.3
+    rest
     xdotool type --delay 30 "$1"
-    sleep 0.3
+    rest
     key Return
-    sleep 0.5
+    rest
 }
 # slide X Y DX: drag slowly, so that no two events come into one picture of the window.
 slide() {
     xdotool mousemove $((X + $1)) $((Y + $2))
-    sleep 0.2
+    rest
     xdotool mousedown 1
     for ((i = 0; i < 6; i++)); do
-        sleep 0.1
+        rest
         xdotool mousemove_relative -- "$3" 0
     done
-    sleep 0.2
+    rest
     xdotool mouseup 1
-    sleep 0.5
+    rest
 }
 save_as() { answer_file "$1" ctrl+shift+s; }
 quit() {
     xdotool key ctrl+q
-    sleep 0.5
+    rest
     is_gone || xdotool key d
     ends 0
 }
@@ -117,15 +117,15 @@ ring=$(awk -v w="$wide" 'BEGIN { r = 32 * w / 256; if (r < 26) r = 26; print int
 # pull X Y X2 Y2: from the cell's middle to there, by way of the middle between the two.
 pull() {
     xdotool mousemove $((X + cx + $1)) $((Y + cy + $2))
-    sleep 0.2
+    rest
     xdotool mousedown 1
-    sleep 0.1
+    rest
     xdotool mousemove $((X + cx + ($1 + $3) / 2)) $((Y + cy + ($2 + $4) / 2))
-    sleep 0.1
+    rest
     xdotool mousemove $((X + cx + $3)) $((Y + cy + $4))
-    sleep 0.2
+    rest
     xdotool mouseup 1
-    sleep 0.3
+    rest
 }
 start flat.wrinkle
 search "solids sphere"
@@ -146,10 +146,10 @@ newest | sed -E 's/.*radius=([0-9.]+) at=([0-9.]+),([0-9.]+) rotate=0,0,([0-9.-]
 # ---- pictures of all of them, to choose by words ----
 search "patterns dots"
 click $gallery_x $gallery_y
-sleep 0.5
+rest
 xdotool type --delay 30 'basket'
 key Return
-sleep 0.5
+rest
 home
 key Return
 becomes 'pattern weave*' "what was chosen among the pictures"
@@ -158,10 +158,10 @@ becomes 'pattern weave*' "what was chosen among the pictures"
 search "patterns dots"
 slide $slider_x $slider_y 6
 click $save_x $presets_y
-sleep 0.3
+rest
 xdotool type --delay 30 'many dots'
 key Return
-until_true 10 "the file of presets" file_is_there config/wrinkle/presets.wrinkle
+until_true 120 "the file of presets" file_is_there config/wrinkle/presets.wrinkle
 grep -q '^# many dots$' config/wrinkle/presets.wrinkle ||
     complain "the preset has another name: $(cat config/wrinkle/presets.wrinkle)"
 line=$(grep '^pattern dots ' config/wrinkle/presets.wrinkle)
@@ -189,7 +189,7 @@ shot missing
 changed=$(differs before missing 400x500+60+150) # the brush's outline at the pointer
 [[ ${changed%.*} -lt 1000 ]] || complain "without its file what was shown before still is: $changed pixels"
 key Return
-sleep 0.5
+rest
 [[ -z $(newest) ]] || complain "without its file it became the command $(newest)"
 search "formulas polynomial"
 click $slider_x $((slider_y - 28))
@@ -197,7 +197,7 @@ key ctrl+a
 xdotool type --delay 30 'nonsense'
 home
 key Return
-sleep 0.5
+rest
 [[ -z $(newest) ]] || complain "nonsense became the command $(newest)"
 key Escape
 quit
@@ -207,10 +207,10 @@ start flat.wrinkle
 home
 shot before
 key t
-sleep 0.5
+rest
 key ctrl+a
 xdotool type --delay 30 'Blinn "78"'
-sleep 1
+rest
 shot written
 differs_much before written "letters are shown as they are typed"
 xdotool mousemove $((X + 330)) $((Y + 400))

@@ -2,7 +2,7 @@
 # needs `program` and `folder`, a folder of its own; makes `server`, `pid`, `window` and `failures`.
 # shellcheck shell=bash disable=SC2154
 
-server='' window='' pid='' failures=0
+server='' window='' pid='' asking='' failures=0
 
 cleanup() {
     # shellcheck disable=SC2086
@@ -37,7 +37,7 @@ until_true() {
 quiet_environment() {
     unset WAYLAND_DISPLAY SDL_VIDEODRIVER WRINKLE_SCALE
     export HOME=$folder XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state WRINKLE_DATA=$source WRINKLE_DIALOG=own
-    export WRINKLE_RENDERER=software WRINKLE_TIMING=1
+    export WRINKLE_RENDERER=software WRINKLE_TIMING=1 WRINKLE_REST=$folder/rest
 }
 
 # serve: an X server on whatever display is free, and the test's own folder as the current one.
@@ -69,10 +69,13 @@ is_gone() { ! kill -0 "$pid" 2>/dev/null; }
 # start ARGUMENT...: open the window and wait until it has drawn itself.
 start() {
     : >err
+    rm -f "$WRINKLE_REST"
+    mkfifo "$WRINKLE_REST"
+    exec {asking}<>"$WRINKLE_REST"
     "$program" paint "$@" >out 2>err &
     pid=$!
-    until_true 30 "the first picture" shows_picture || { cat err; exit 1; }
-    until_true 10 "the window" has_window || exit 1
+    until_true 120 "the first picture" shows_picture || { cat err; exit 1; }
+    until_true 120 "the window" has_window || exit 1
     eval "$(xdotool getwindowgeometry --shell "$window" | grep -E '^(X|Y|WIDTH|HEIGHT)=')"
     # Without a window manager keys go where the pointer is.
     xdotool mousemove $((X + 330)) $((Y + 400))
@@ -81,7 +84,7 @@ start() {
 
 # ends STATUS: the program ends by itself with that status.
 ends() {
-    until_true 20 "the end of the program" is_gone || return
+    until_true 120 "the end of the program" is_gone || return
     wait "$pid"
     local got=$?
     [[ $got == "$1" ]] || complain "exit status $got, not $1: $(cat err)"
@@ -98,13 +101,26 @@ home() {
     settle
 }
 
-# settle: wait until two pictures in a row are the same. The line that blinks in a text field is not
-# waited for: nobody calls this while there is one.
+# rest: wait until the window has dealt with every event so far and has nothing left to compute or to draw
+# (ui/rest.h), or has ended; however long that takes on a busy machine.
+answers() { grep -c '^at rest ' err; }
+has_answered() { is_gone || [[ $(answers) -gt $1 ]]; }
+rest() {
+    local before
+    before=$(answers)
+    printf . >&"$asking"
+    until_true 120 "the window at rest" has_answered "$before"
+}
+
+# settle: the same, and two pictures in a row are the same: small pictures in lists come a moment later.
 settle() {
-    local end=$((SECONDS + 20))
+    local end=$((SECONDS + 120))
+    rest
+    is_gone && return
     shot settled
     while :; do
-        sleep 0.3
+        rest
+        is_gone && return
         cp settled.ppm settling.ppm
         shot settled
         cmp -s settling.ppm settled.ppm && return
@@ -140,29 +156,30 @@ shows_dialog() {
 answer_file() {
     shot unasked
     xdotool key "$2"
-    until_true 10 "the question for a file" shows_dialog || return
-    sleep 0.2
-    xdotool key ctrl+a
+    until_true 120 "the question for a file" shows_dialog || return
+    rest
+    key ctrl+a
     xdotool type --delay 20 "$folder/$1"
+    rest
     xdotool key Return
-    until_true 20 "the file $1" file_is_there "$1"
+    until_true 120 "the file $1" file_is_there "$1"
 }
 # save_as NAME [KEY]
 save_as() {
     answer_file "$1" "${2:-ctrl+shift+s}" || return
-    until_true 10 "the title of $1" title_is "$1"
+    until_true 120 "the title of $1" title_is "$1"
 }
 
 # ---- one key, one click, and the command that comes of them ----
 key() {
     xdotool key "$1"
-    sleep 0.15
+    rest
 }
 click() {
     xdotool mousemove $((X + $1)) $((Y + $2))
-    sleep 0.2
+    rest
     xdotool click 1
-    sleep 0.3
+    rest
 }
 # The newest command that the journal holds, a stroke by its beginning.
 newest() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>/dev/null | tail -n 1; }
@@ -170,5 +187,5 @@ newest() { sed -nE 's/^[0-9a-f]+ [0-9]+ [cb] //p' state/wrinkle/journals/*.wj 2>
 newest_is() { [[ $(newest) == $1 ]]; }
 # becomes PATTERN WHAT: the newest command comes to look like that.
 becomes() {
-    until_true 10 "$2" newest_is "$1" || complain "the newest command is: $(newest)"
+    until_true 120 "$2" newest_is "$1" || complain "the newest command is: $(newest)"
 }

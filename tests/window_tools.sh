@@ -44,9 +44,9 @@ done
 key q
 press $((cx - 60)) $((cy - 60))
 xdotool mousemove $((X + cx)) $((Y + cy))
-sleep 0.1
+rest
 xdotool mousemove $((X + cx + 60)) $((Y + cy + 60))
-sleep 0.2
+rest
 xdotool mouseup 1
 becomes 'shape ellipse middle=*radii=*paint=outline*' "an ellipse by a drag"
 read -r u v rim < <(newest | sed -E 's/.*middle=([0-9.]+),([0-9.]+) radii=([0-9.]+),.*/\1 \2 \3/')
@@ -63,10 +63,10 @@ becomes 'ramp linear from=*low=0 high=1' "a ramp by a drag"
 key r
 press $((cx - 40)) $cy
 xdotool mousemove $((X + cx + 40)) $((Y + cy + 40))
-sleep 0.1
+rest
 key Escape
 xdotool mouseup 1
-sleep 0.2
+rest
 becomes 'ramp linear*' "no rectangle after Escape"
 
 # ---- a polygon by clicks, ended by Enter ----
@@ -75,7 +75,7 @@ for at in '-70 0' '0 -80' '70 10'; do
     # shellcheck disable=SC2086
     set -- $at
     click $((cx + $1)) $((cy + $2))
-    sleep 0.4
+    rest
 done
 key Return
 becomes 'shape polygon points=*,*;*,*;*,* paint=outline*' "a polygon by clicks"
@@ -83,9 +83,9 @@ becomes 'shape polygon points=*,*;*,*;*,* paint=outline*' "a polygon by clicks"
 # ---- a Bezier path: a drag pulls its arms ----
 key n
 drag $((cx - 60)) $((cy + 50)) 4 -4 8
-sleep 0.5
+rest
 drag $((cx + 60)) $((cy + 50)) 4 4 8
-sleep 0.5
+rest
 key Return
 becomes 'shape path points=*;*;*;* paint=outline*' "a path by drags"
 key b
@@ -107,7 +107,7 @@ changed=$(differs before ghost 500x500+480+150)
 title_is 'untitled' || complain "a stamp that is only shown makes unsaved work"
 press $cx $cy
 for i in 8 16 24 32 40; do xdotool mousemove $((X + cx)) $((Y + cy + i)); done
-sleep 0.2
+rest
 xdotool mouseup 1
 becomes 'dab *radius=* angle=-90*' "a stamp, turned by its drag"
 read -r u v < <(newest | sed -E 's/dab ([0-9.]+),([0-9.]+) .*/\1 \2/')
@@ -135,9 +135,9 @@ becomes 'stroke *mode=raise*' "the brush as it was"
 # ---- cloning: Ctrl and a click first says from where ----
 key c
 xdotool mousemove $((X + cx - 60)) $((Y + cy))
-sleep 0.1
+rest
 xdotool keydown ctrl click 1 keyup ctrl
-sleep 0.2
+rest
 drag $((cx + 20)) $cy 4 0 10
 becomes 'stroke *mode=clone*source=-*,*' "a stroke that clones"
 xdotool key ctrl+q
@@ -163,16 +163,16 @@ key u
 # ---- a preset is found by its name, chosen by a click, and named in the stroke ----
 click 1000 189
 xdotool type --delay 30 rivet
-sleep 1
+rest
 click 987 255
 xdotool mousemove $((X + cx)) $((Y + cy))
-sleep 0.3
+rest
 drag $((cx - 80)) $((cy + 30)) 5 0 30
 becomes 'stroke *preset=*rivet*' "a stroke with a preset that was searched for"
 # ... and / goes back to the brush before.
 key slash
 drag $((cx - 80)) $((cy - 30)) 5 0 10
-until_true 10 "a stroke of the brush before" eval '! newest_is "*preset=*"'
+until_true 120 "a stroke of the brush before" eval '! newest_is "*preset=*"'
 xdotool key ctrl+q
 settle
 xdotool key d
@@ -199,11 +199,11 @@ configure 'mode 0'
 start flat.wrinkle
 drag $((cx - 100)) $((cy - 50)) 0 2 5
 becomes 'stroke *mode=raise*' "a stroke to begin a line at"
-sleep 0.3
+rest
 xdotool keydown shift
 click $((cx + 100)) $((cy - 40))
 xdotool keyup shift
-sleep 0.5
+rest
 samples=$(sed -nE 's/^[0-9a-f]+ [0-9]+ ([bs]) /\1 /p' state/wrinkle/journals/*.wj |
     awk '$1 == "b" { n++ } $1 == "s" && n == 2 { for (i = 2; i <= NF; i++) print $i }' | tr ';' '\n')
 read -r u0 v0 < <(head -n 1 <<<"$samples" | tr ',' ' ')

@@ -2,6 +2,7 @@
    The window: SDL, the event loop, what is drawn when. */
 #include "ui/accuracy.h"
 #include "ui/generate_hand.h"
+#include "ui/rest.h"
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -72,9 +73,10 @@ bool wr_app_begin(WrApp *app, WrError *err)
     if (!wr_window_open(app)) return wr_fail(err, "no window: %s", SDL_GetError());
     app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
     if (!app->gui) return false;
-    app->ready_event = SDL_RegisterEvents(3);
+    app->ready_event = SDL_RegisterEvents(4);
     app->file_event = app->ready_event + 1;
     app->job_event = app->ready_event + 2;
+    app->rest_event = app->ready_event + 3;
     app->trial = wr_trial_new(app->options->threads, app->job_event);
     app->marks.outliner = wr_outliner_new(app->options->threads, app->job_event);
     app->layers.dragged = app->layers.renamed = -1;
@@ -97,6 +99,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
     wr_app_title(app);
     if (!app->latency) wr_dialog_recover_open(app);
     SDL_ShowWindow(app->window);
+    app->rest = app->latency ? NULL : wr_rest_new(app->rest_event);
     SDL_StartTextInput();
     wr_app_redraw(app);
     return true;
@@ -104,6 +107,7 @@ bool wr_app_begin(WrApp *app, WrError *err)
 
 void wr_app_end(WrApp *app)
 {
+    wr_rest_free(app->rest);
     wr_preview_free(app->preview);
     wr_accuracy_free(app);
     wr_trial_free(app->trial);
@@ -183,6 +187,10 @@ static void handle(WrApp *app, const SDL_Event *event)
     WrPenEvent pen;
     if (is_hand(event)) app->fitted = true;
     if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
+    if (event->type == app->rest_event) {
+        wr_rest_asked(app);
+        return;
+    }
     while (wr_pen_next_before(app->pen, event, &pen)) wr_hand_pen(app, &pen);
     if (event->type == app->job_event) { /* what the result is needed for takes it */
         wr_app_redraw(app);
@@ -428,6 +436,7 @@ void wr_app_step(WrApp *app)
         note_timing(app, wr_clock_seconds() - now);
     }
     wr_settings_tend(app);
+    wr_rest_step(app, works(app));
 }
 
 int wr_app_run(const WrAppOptions *options)

@@ -276,6 +276,11 @@ void wr_pen_push(WrPen *pen, const WrPenEvent *event)
     wr_pen_record_event(pen, event);
 }
 
+void wr_pen_sync(WrPen *pen)
+{
+    if (pen->x11) wr_pen_x11_sync(pen->x11);
+}
+
 bool wr_pen_next(WrPen *pen, WrPenEvent *event)
 {
     if (wr_pen_replaying(pen)) wr_pen_replay_step(pen);

@@ -92,3 +92,5 @@ bool wr_pen_recent(const WrPen *pen, int64_t number, WrPenEvent *event);
 bool wr_pen_record(WrPen *pen, const char *path, WrError *err);
 bool wr_pen_replay(WrPen *pen, const char *path, double speed, WrError *err);
 bool wr_pen_replaying(const WrPen *pen);
+/* Every event that the X server has by now is in SDL's reach when this returns. */
+void wr_pen_sync(WrPen *pen);

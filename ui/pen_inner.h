@@ -115,6 +115,7 @@ void wr_pen_mark(WrPen *pen, const SDL_Event *event);
 /* NULL: there are no pens, and *why is a sentence that says why not. */
 WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why);
 void wr_pen_x11_free(WrPenX11 *x11);
+void wr_pen_x11_sync(WrPenX11 *x11);
 /* An SDL_SYSWMEVENT inside an event watch. */
 void wr_pen_x11_event(WrPen *pen, const SDL_Event *event);
 

@@ -233,6 +233,11 @@ WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why)
     return x;
 }
 
+void wr_pen_x11_sync(WrPenX11 *x)
+{
+    XSync(x->display, False);
+}
+
 void wr_pen_x11_free(WrPenX11 *x)
 {
     if (x) SDL_EventState(SDL_SYSWMEVENT, SDL_DISABLE);

@@ -24,6 +24,7 @@ typedef struct WrApp WrApp;
 typedef struct WrGenerateHand WrGenerateHand; /* generate_hand.h */
 typedef struct WrAccuracy WrAccuracy;         /* accuracy.h */
 typedef struct WrLatency WrLatency;           /* latency.c */
+typedef struct WrRest WrRest;                 /* rest.h */
 
 /* ---- pointer ---- */
 
@@ -366,6 +367,8 @@ struct WrApp {
     Uint32 ready_event; /* of the preview */
     Uint32 file_event;  /* of a native file dialog */
     Uint32 job_event;   /* of work in the background */
+    WrRest *rest;       /* a test that asks; owned, or NULL */
+    Uint32 rest_event;  /* it asked */
     SDL_Cursor *cursors[SDL_NUM_SYSTEM_CURSORS];
     SDL_SystemCursor cursor;
 
