@@ -6,7 +6,6 @@
 
 #include "base/clock.h"
 #include "base/file.h"
-#include "image/image.h"
 
 #include <math.h>
 #include <string.h>
@@ -313,35 +312,11 @@ static void draw(WrApp *app, double now)
     app->in_frame = false;
     wr_gui_frame_end(app->gui);
     SDL_RenderPresent(app->renderer);
+    wr_hand_look(app);
     set_cursor(app);
     app->drawn_at = now;
     if (app->redraw < 1 && wr_gui_unsettled(app->gui)) app->redraw = 1;
     if (app->latency) wr_latency_drawn(app);
-}
-
-/* WRINKLE_TIMING: milliseconds to the first picture at once, the rest at the end. */
-static void note_timing(WrApp *app, double seconds)
-{
-    WrTiming *t = &app->timing;
-    if (t->pictures++ == 0 && getenv("WRINKLE_TIMING"))
-        fprintf(stderr, "first picture after %.0f ms\n",
-                (wr_clock_seconds() - app->started_at) * 1e3);
-    /* The first picture file is read at once then; its reader starts beside the window, not before it. */
-    if (t->pictures == 2 && !app->latency) wr_image_warm();
-    t->seconds += seconds;
-    t->slowest = seconds > t->slowest ? seconds : t->slowest;
-}
-
-static void tell_timing(const WrApp *app)
-{
-    const WrTiming *t = &app->timing;
-    const WrPreviewPicture *p = wr_preview_picture(app->preview);
-    if (!getenv("WRINKLE_TIMING") || t->pictures == 0) return;
-    fprintf(
-        stderr,
-        "%d pictures of the window, %.2f ms each, slowest %.2f ms; %llu of the patch in %.1f s\n",
-        t->pictures, t->seconds / t->pictures * 1e3, t->slowest * 1e3,
-        (unsigned long long)p->serial, wr_clock_seconds() - app->started_at);
 }
 
 /* ---- the loop ---- */
@@ -433,7 +408,7 @@ void wr_app_step(WrApp *app)
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
         app->redraw--;
         draw(app, now);
-        note_timing(app, wr_clock_seconds() - now);
+        wr_timing_note(app, wr_clock_seconds() - now);
     }
     wr_settings_tend(app);
     wr_rest_step(app, works(app));
@@ -450,7 +425,7 @@ int wr_app_run(const WrAppOptions *options)
     if (wr_app_begin(app, &err)) {
         while (!app->quit) wr_app_step(app);
         wr_settings_end(app);
-        tell_timing(app);
+        wr_timing_tell(app);
     } else {
         fprintf(stderr, "wrinkle: %s\n", err.text);
         status = 1;

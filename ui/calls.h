@@ -100,6 +100,9 @@ void wr_messages_free(WrMessages *messages);
 /* ---- hand.c: pointer and keys ---- */
 void wr_hand_event(WrApp *app, const SDL_Event *event);
 void wr_hand_pen(WrApp *app, const WrPenEvent *event);
+/* After a picture of the window: where widgets came or went, the pointer is on a view or no more, though it did
+   not move. */
+void wr_hand_look(WrApp *app);
 void wr_hand_let_go(WrApp *app); /* end what is being held, keeping what was done */
 void wr_hand_cancel(WrApp *app); /* end it as if it had not begun */
 void wr_app_place_view(WrApp *app);
@@ -304,3 +307,9 @@ void wr_settings_begin(WrApp *app); /* reads them */
 void wr_settings_tend(WrApp *app);
 double wr_settings_next_time(const WrApp *app);
 void wr_settings_end(WrApp *app); /* writes them at once */
+
+/* ---- timing.c ---- */
+
+/* WRINKLE_TIMING: a picture of the window took so long; and all of them, at the end. */
+void wr_timing_note(WrApp *app, double seconds);
+void wr_timing_tell(const WrApp *app);

@@ -199,6 +199,17 @@ static void drag(WrApp *app, const WrPointer *at)
     }
 }
 
+/* Is the pointer, at that pixel, over a view and over no widget? */
+static void look(WrApp *app, int x, int y)
+{
+    WrHand *hand = &app->hand;
+    bool free = hand->grab == WR_GRAB_NONE && !blocked(app) && !wr_gui_owns_point(app->gui, x, y) &&
+                !wr_gui_holds_mouse(app->gui);
+    bool held = hand->grab != WR_GRAB_NONE;
+    hand->on_canvas = (held || free) && wr_layout_inside(&app->layout.canvas, x, y);
+    hand->on_patch = (held || free) && wr_layout_inside(&app->layout.patch, x, y);
+}
+
 static void move(WrApp *app, const WrPointer *at)
 {
     WrHand *hand = &app->hand;
@@ -206,11 +217,16 @@ static void move(WrApp *app, const WrPointer *at)
     if (hand->grab != WR_GRAB_NONE) drag(app, at);
     hand->at = *at;
     wr_view_to_uv(&app->view, at->x, at->y, &hand->at.u, &hand->at.v); /* the view may have moved */
-    bool free = hand->grab == WR_GRAB_NONE && !blocked(app) && !wr_gui_owns_point(app->gui, x, y) &&
-                !wr_gui_holds_mouse(app->gui);
-    bool held = hand->grab != WR_GRAB_NONE;
-    hand->on_canvas = (held || free) && wr_layout_inside(&app->layout.canvas, x, y);
-    hand->on_patch = (held || free) && wr_layout_inside(&app->layout.patch, x, y);
+    look(app, x, y);
+}
+
+void wr_hand_look(WrApp *app)
+{
+    const WrHand *hand = &app->hand;
+    bool canvas = hand->on_canvas, patch = hand->on_patch;
+    if (hand->grab != WR_GRAB_NONE || SDL_GetMouseFocus() != app->window) return;
+    look(app, (int)hand->at.x, (int)hand->at.y);
+    if (canvas != hand->on_canvas || patch != hand->on_patch) wr_app_redraw(app);
 }
 
 /* ---- the mouse ---- */
