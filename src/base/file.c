@@ -100,6 +100,12 @@ char *wr_program_folder(void)
     return wr_path_folder(exe);
 }
 
+/* Told by the build; a fuzzer that is made of single files has none. */
+#ifndef WR_BUILD_FOLDER
+#define WR_BUILD_FOLDER ""
+#define WR_SOURCE_FOLDER ""
+#endif
+
 /* The checkout that the program was made from, if it runs where it was built; else NULL. */
 static const char *source_folder(const char *program_folder)
 {
