@@ -255,7 +255,7 @@ grep -q '"chosen":\[{"blocks":[0-9]*,"share":[0-9.e-]*,"where":"[^"]*","bump":"[
     complain "explain tells the choice as $(cat out)"
 # What cannot be kept to is told, by render as by explain.
 expect 0 render work.wrinkle --size 32x32 -o t.png --do 'tolerance rms=0.0000001'
-has err 'CANNOT be met'
+has err 'CANNOT be promised'
 rm -f t.png
 
 # ---- help ----

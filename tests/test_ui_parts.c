@@ -66,6 +66,10 @@ static void a_range_shows_a_new_table_in_the_middle_and_signs_around_it(void **s
     assert_range(range, -0.25, 0.25); /* zero is mid-grey */
     wr_range_follow(range, 0, 1, false);
     assert_range(range, 0, 1);
+    wr_range_follow(range, -0.055, 0.9375, false);
+    assert_range(range, -0.055, 0.9375); /* slight dents do not wash the bumps out */
+    wr_range_follow(range, -0.5, 0, false);
+    assert_range(range, -0.5, 0.5); /* a level table that was lowered */
 }
 
 static void a_range_only_widens_while_something_is_painted(void **state)

@@ -5,7 +5,7 @@
 
 /* Bring range (black, white) up to date for a table that goes from low to high.
  *
- * At rest it is the table's own. Where the table is level or goes below zero, zero is mid-grey: so that on a new
+ * At rest it is the table's own. Where the table is level or goes well below zero, zero is mid-grey: so that on a new
  * table both raising and lowering are seen, and the sign of a height too.
  * held: something is being painted. It then only widens, at once and by more than it must, so that neither the
  * picture flickers nor is made anew with each dab. */
