@@ -2,7 +2,8 @@
 # Build and test everything: bash tests/run.sh [--full]
 #
 #   build/        optimised, warnings as errors: every test
-#   build-asan/   address and undefined-behaviour sanitizers: the quick tests once more
+#   build-asan/   address and undefined-behaviour sanitizers: the quick tests once more (--full: the heavy too,
+#                 which count much and allocate little)
 #   build-tsan/   thread sanitizer: the quick tests (--full only)
 #
 # --full also runs the tests labelled bench and slow, and takes large counts whole, not a tenth of them.
@@ -86,9 +87,10 @@ fi
 wr_say "packages are there after $SECONDS s"
 
 leave_out=(-LE 'bench|slow')
-[[ $full == yes ]] && leave_out=()
+sanitized=quick
+[[ $full == yes ]] && leave_out=() sanitized='quick|heavy'
 run_tests "optimised" "$prefix" "${leave_out[@]}" -- CMAKE_BUILD_TYPE=RelWithDebInfo WR_SANITIZE=
-run_tests "address and undefined" "$prefix-asan" -L quick -- \
+run_tests "address and undefined" "$prefix-asan" -L "$sanitized" -- \
     CMAKE_BUILD_TYPE=Debug WR_SANITIZE=address,undefined
 if [[ $full == yes ]]; then
     run_tests "threads" "$prefix-tsan" -L quick -- CMAKE_BUILD_TYPE=Debug WR_SANITIZE=thread
