@@ -255,6 +255,24 @@ static void expect_turned(const WrImage *image, int orientation, double toleranc
     }
 }
 
+/* Read row by row it is the same picture. */
+static void expect_rows(const char *path, const WrImage *image)
+{
+    WrError err = { "" };
+    const WrImageWish all = { .channel = NULL };
+    WrImageRows *rows = wr_image_rows_open(path, &all, &err);
+    if (!rows) fail_msg("%s", err.text);
+    assert_int_equal(wr_image_rows_head(rows)->width, image->width);
+    assert_int_equal(wr_image_rows_head(rows)->height, image->height);
+    const size_t row = (size_t)image->width * (size_t)image->channels;
+    for (int y = 0; y < image->height; y++) {
+        const float *values = wr_image_rows_get(rows, y, &err);
+        assert_non_null(values);
+        assert_memory_equal(values, image->data + (size_t)y * row, row * sizeof *values);
+    }
+    wr_image_rows_close(rows);
+}
+
 static void pictures_stand_the_way_up_that_they_tell(void **state)
 {
     (void)state;
@@ -262,6 +280,7 @@ static void pictures_stand_the_way_up_that_they_tell(void **state)
         write_turned_tiff("turned.tif", (unsigned)o);
         WrImage *image = read_well("turned.tif");
         expect_turned(image, o >= 1 && o <= 8 ? o : 1, 1e-4);
+        expect_rows("turned.tif", image);
         wr_image_free(image);
     }
 }
@@ -290,6 +309,7 @@ static void photographs_are_turned_by_their_exif(void **state)
         write_bytes("photo.jpg", &b);
         WrImage *image = read_well("photo.jpg");
         expect_turned(image, o, 3);
+        expect_rows("photo.jpg", image);
         wr_image_free(image);
     }
     wr_free(bytes);

@@ -149,6 +149,10 @@ bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, cons
                           WrError *err);
 /* Read the picture that a line names; checks its sha256= argument, or sets it. The caller owns it. */
 WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err);
+/* Its channel= and part= arguments. */
+WrImageWish wr_call_wish(WrCall *call);
+/* Tell what was taken of a picture's file that has more, and how many values were not finite. */
+void wr_session_note_read(WrSession *session, const char *path, const WrImage *image);
 /* Put a document file's content in the place of the session's document, scene included. */
 bool wr_session_load(WrSession *session, const char *path, WrError *err);
 

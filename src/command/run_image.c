@@ -88,9 +88,10 @@ static void note_range(WrSession *session, const WrImage *image, const char *pat
 }
 
 /* The heights of a picture in a table like `like`, by what its label says of it. */
-static WrField *heights_of(WrSession *session, WrImage *image, const char *path, bool labels,
+static WrField *heights_of(WrSession *session, WrImageRows *rows, const char *path, bool labels,
                            const WrField *like, WrError *err)
 {
+    const WrImage *image = wr_image_rows_head(rows);
     const WrImageLabel *label = &image->label;
     if (labels && label->refused[0])
         wr_session_note(session, "%s: its label %s makes no sense and is not used", path,
@@ -103,9 +104,13 @@ static WrField *heights_of(WrSession *session, WrImage *image, const char *path,
             path);
         return heights_of_map(session, label, path, like, err);
     }
-    if (labels && wr_image_apply_range(image)) note_range(session, image, path);
-    return wr_import_heights(image, wr_field_width(like), wr_field_height(like),
-                             wr_field_wrap_u(like), wr_field_wrap_v(like), err);
+    const bool ranged = labels && wr_image_rows_apply_range(rows);
+    WrField *field = wr_import_rows(rows, wr_field_width(like), wr_field_height(like),
+                                    wr_field_wrap_u(like), wr_field_wrap_v(like), err);
+    if (!field) return NULL;
+    wr_session_note_read(session, path, image);
+    if (ranged) note_range(session, image, path);
+    return field;
 }
 
 bool wr_run_image(WrSession *session, WrCall *call, WrError *err)
@@ -115,16 +120,19 @@ bool wr_run_image(WrSession *session, WrCall *call, WrError *err)
     WrLayer *layer = wr_session_layer(session, err);
     if (!layer) return false;
     const WrField *old = layer->heights;
-    WrImage *image = wr_session_read_image(session, call, name, err);
-    if (!image) return false;
     char *path = wr_session_input_path(session, name);
-    WrField *like = fit ? wr_field_share(old)
-                        : wr_field_new(image->width, image->height, wr_field_wrap_u(old),
-                                       wr_field_wrap_v(old), 0, err);
-    WrField *field = like ? heights_of(session, image, path, labels, like, err) : NULL;
+    const WrImageWish wish = wr_call_wish(call);
+    WrImageRows *rows = NULL;
+    if (wr_session_check_sha256(call, path, err)) rows = wr_image_rows_open(path, &wish, err);
+    const WrImage *image = rows ? wr_image_rows_head(rows) : NULL;
+    WrField *like = !image ? NULL
+                    : fit  ? wr_field_share(old)
+                           : wr_field_new(image->width, image->height, wr_field_wrap_u(old),
+                                          wr_field_wrap_v(old), 0, err);
+    WrField *field = like ? heights_of(session, rows, path, labels, like, err) : NULL;
     wr_field_free(like);
     wr_free(path);
-    wr_image_free(image);
+    wr_image_rows_close(rows);
     if (!field) return false;
     if (!same_size(field, old)) return replace_table(session, layer, field, err);
     wr_session_put_heights(session, layer, field);

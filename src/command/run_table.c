@@ -108,19 +108,29 @@ bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, cons
     return true;
 }
 
+WrImageWish wr_call_wish(WrCall *call)
+{
+    return (WrImageWish){ .channel = wr_call_arg(call, "channel")->text,
+                          .part = wr_call_arg(call, "part")->text };
+}
+
+void wr_session_note_read(WrSession *session, const char *path, const WrImage *image)
+{
+    if (image->taken[0])
+        wr_session_note(session, "%s: took %s (channel= and part= take others)", path,
+                        image->taken);
+    if (image->replaced)
+        wr_session_note(session, "%s: %lld values were not finite and became 0", path,
+                        (long long)image->replaced);
+}
+
 WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err)
 {
     char *path = wr_session_input_path(session, name);
     WrImage *image = NULL;
-    const WrImageWish wish = { .channel = wr_call_arg(call, "channel")->text,
-                               .part = wr_call_arg(call, "part")->text };
+    const WrImageWish wish = wr_call_wish(call);
     if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
-    if (image && image->taken[0])
-        wr_session_note(session, "%s: took %s (channel= and part= take others)", path,
-                        image->taken);
-    if (image && image->replaced)
-        wr_session_note(session, "%s: %lld values were not finite and became 0", path,
-                        (long long)image->replaced);
+    if (image) wr_session_note_read(session, path, image);
     wr_free(path);
     return image;
 }

@@ -61,3 +61,7 @@ bool wr_document_load(const char *path, WrLoaded *out, int64_t *replaced, WrErro
  * and clamped on a clamped one; 0, 0 keeps its own size and exact values. The caller owns the result. */
 WrField *wr_import_heights(const WrImage *image, int width, int height, WrWrap wrap_u,
                            WrWrap wrap_v, WrError *err);
+/* The same of a picture that is read meanwhile: beside the table little more than a band of its rows is held,
+ * unless it grows in height. The rows are used up. */
+WrField *wr_import_rows(WrImageRows *rows, int width, int height, WrWrap wrap_u, WrWrap wrap_v,
+                        WrError *err);

@@ -78,29 +78,49 @@ static int wrap_index(const Axis *axis, int i)
     return i < 0 ? i + n : i;
 }
 
-static double grey(const WrImage *image, int x, int y)
+/* Of one pixel; pictures of one or two channels are grey already. */
+static inline float grey(const float *pixel, int channels)
 {
-    size_t at = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
-    double f = wr_image_luma(image->data + at, image->channels);
-    return isfinite(f) ? f : 0.0;
+    float f = channels < 3 ? pixel[0] : wr_image_luma(pixel, channels);
+    return isfinite(f) ? f : 0.0f;
 }
 
 typedef struct Resampling {
-    const WrImage *image;
+    const WrImage *image; /* whole; or only its head, and then */
+    WrImageRows *rows;
     Axis u, v;
     Taps *columns;   /* [u.to] */
     double *weights; /* those of the columns, u.most each, then v.most for the present row */
     double *row;     /* [image width] */
 } Resampling;
 
-static void resample_row(const Resampling *r, int j, float *out)
+static const float *input_row(const Resampling *r, int y, WrError *err)
+{
+    const WrImage *image = r->image;
+    if (r->rows) return wr_image_rows_get(r->rows, y, err);
+    return image->data + (size_t)y * (size_t)image->width * (size_t)image->channels;
+}
+
+/* Where nothing is resampled: what the sums below come to, -0 as 0 included. */
+static bool copy_row(const Resampling *r, int j, float *out, WrError *err)
+{
+    const float *in = input_row(r, j, err);
+    int channels = r->image->channels;
+    for (int x = 0; in && x < r->u.to; x++) out[x] = grey(in + x * channels, channels) + 0.0f;
+    return in != NULL;
+}
+
+static bool resample_row(const Resampling *r, int j, float *out, WrError *err)
 {
     Taps taps = { 0, 0, r->weights + (size_t)r->u.to * (size_t)r->u.most };
+    int channels = r->image->channels;
     find_taps(&r->v, j, &taps);
     for (int x = 0; x < r->u.from; x++) r->row[x] = 0.0;
     for (int k = 0; k < taps.count; k++) {
-        int y = wrap_index(&r->v, taps.first + k);
-        for (int x = 0; x < r->u.from; x++) r->row[x] += taps.weight[k] * grey(r->image, x, y);
+        const float *in = input_row(r, wrap_index(&r->v, taps.first + k), err);
+        if (!in) return false;
+        for (int x = 0; x < r->u.from; x++)
+            r->row[x] += taps.weight[k] * (double)grey(in + x * channels, channels);
     }
     for (int i = 0; i < r->u.to; i++) {
         const Taps *column = &r->columns[i];
@@ -109,48 +129,94 @@ static void resample_row(const Resampling *r, int j, float *out)
             sum += column->weight[k] * r->row[wrap_index(&r->u, column->first + k)];
         out[i] = (float)sum;
     }
+    return true;
 }
 
-static bool resample(Resampling *r, WrField *field, WrError *err)
+/* Rows [j, j + count) of the table. */
+static bool make_rows(const Resampling *r, int j, int count, float *out, WrError *err)
+{
+    bool same = r->u.from == r->u.to && r->v.from == r->v.to;
+    for (int k = 0; k < count; k++, out += r->u.to) {
+        if (!wr_progress_tell((double)(j + k) / r->v.to)) return wr_fail(err, "cancelled");
+        if (!(same ? copy_row : resample_row)(r, j + k, out, err)) return false;
+    }
+    return true;
+}
+
+/* A row of tiles at a time, so that those of one height take no memory; that height is the first one. */
+static WrField *fill_field(const Resampling *r, float *strip, WrError *err)
+{
+    WrField *field = NULL;
+    for (int j = 0; j < r->v.to; j += WR_TILE) {
+        int count = r->v.to - j < WR_TILE ? r->v.to - j : WR_TILE;
+        bool ok = make_rows(r, j, count, strip, err);
+        if (ok && !field)
+            ok = (field = wr_field_new(r->u.to, r->v.to, r->u.wrap, r->v.wrap, strip[0], err));
+        if (!ok) {
+            wr_field_free(field);
+            return NULL;
+        }
+        wr_field_write(field, 0, j, r->u.to, count, strip, (size_t)r->u.to);
+    }
+    return field;
+}
+
+static WrField *resample(Resampling *r, WrError *err)
 {
     size_t columns = (size_t)r->u.to;
+    WrField *field = NULL;
     r->columns = wr_try_alloc(columns, sizeof *r->columns, "filter taps", err);
-    if (!r->columns) return false;
+    if (!r->columns) return NULL;
     r->weights = wr_try_alloc(columns * (size_t)r->u.most + (size_t)r->v.most, sizeof *r->weights,
                               "filter weights", err);
     r->row = wr_try_alloc((size_t)r->u.from, sizeof *r->row, "a row", err);
-    float *out = wr_try_alloc(columns, sizeof *out, "a row", err);
-    bool ok = r->weights && r->row && out;
+    float *strip = wr_try_alloc(columns * WR_TILE, sizeof *strip, "rows of a table", err);
+    bool ok = r->weights && r->row && strip;
     for (int i = 0; ok && i < r->u.to && !wr_progress_stopped(); i++) {
         r->columns[i].weight = r->weights + (size_t)i * (size_t)r->u.most;
         find_taps(&r->u, i, &r->columns[i]);
     }
-    for (int j = 0; ok && j < r->v.to; j++) {
-        if (!wr_progress_tell((double)j / r->v.to)) ok = wr_fail(err, "cancelled");
-        if (!ok) break;
-        resample_row(r, j, out);
-        wr_field_write(field, 0, j, r->u.to, 1, out, columns);
-    }
-    wr_free(out);
+    if (ok) field = fill_field(r, strip, err);
+    wr_free(strip);
     wr_free(r->row);
     wr_free(r->weights);
     wr_free(r->columns);
-    return ok;
+    return field;
 }
 
-WrField *wr_import_heights(const WrImage *image, int width, int height, WrWrap wrap_u,
-                           WrWrap wrap_v, WrError *err)
+static WrField *import(const WrImage *image, WrImageRows *rows, int width, int height,
+                       WrWrap wrap_u, WrWrap wrap_v, WrError *err)
 {
     if (width == 0 && height == 0) {
         width = image->width;
         height = image->height;
     }
-    WrField *field = wr_field_new(width, height, wrap_u, wrap_v, 0.0f, err);
-    if (!field) return NULL;
+    if (width < 1 || width > WR_FIELD_MAX || height < 1 || height > WR_FIELD_MAX) {
+        wr_field_new(width, height, wrap_u, wrap_v, 0.0f, err); /* says why not */
+        return NULL;
+    }
     Resampling r = { .image = image,
+                     .rows = rows,
                      .u = make_axis(image->width, width, wrap_u),
                      .v = make_axis(image->height, height, wrap_v) };
-    if (resample(&r, field, err)) return field;
-    wr_field_free(field);
-    return NULL;
+    return resample(&r, err);
+}
+
+WrField *wr_import_heights(const WrImage *image, int width, int height, WrWrap wrap_u,
+                           WrWrap wrap_v, WrError *err)
+{
+    return import(image, NULL, width, height, wrap_u, wrap_v, err);
+}
+
+WrField *wr_import_rows(WrImageRows *rows, int width, int height, WrWrap wrap_u, WrWrap wrap_v,
+                        WrError *err)
+{
+    const WrImage *head = wr_image_rows_head(rows);
+    if (height <= head->height) return import(head, rows, width, height, wrap_u, wrap_v, err);
+    /* Growing begins with rows from the other end; such a picture is smaller than the table. */
+    WrImage *image = wr_image_rows_whole(rows, err);
+    if (!image) return NULL;
+    WrField *field = import(image, NULL, width, height, wrap_u, wrap_v, err);
+    wr_image_free(image);
+    return field;
 }

@@ -68,6 +68,20 @@ WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *
 /* The same of a file that is in memory; name stands in messages, and its ending counts as a path's. */
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err);
 
+/* The same picture row by row, downwards, so that no more of it than a band lies in memory, unless it has to be
+   turned. The head is the picture without its pixels; `replaced` counts those of the rows that were read, and
+   `taken` tells only after the last whether all is 0. */
+typedef struct WrImageRows WrImageRows;
+WrImageRows *wr_image_rows_open(const char *path, const WrImageWish *wish, WrError *err);
+void wr_image_rows_close(WrImageRows *rows); /* NULL is fine */
+const WrImage *wr_image_rows_head(const WrImageRows *rows);
+/* Row y, [width][channels], valid until the next call; y never goes up again. NULL and an error. */
+const float *wr_image_rows_get(WrImageRows *rows, int y, WrError *err);
+/* wr_image_apply_range for the rows that come. */
+bool wr_image_rows_apply_range(WrImageRows *rows);
+/* All rows as one picture, before any was read. */
+WrImage *wr_image_rows_whole(WrImageRows *rows, WrError *err);
+
 /* Codes become the heights that the picture's label tells; false where it tells none. Not for shared ones. */
 bool wr_image_apply_range(WrImage *image);
 

@@ -133,7 +133,12 @@ bool wr_image_file_digest(WrImageFile *file, int part, int y, int rows, WrHash *
     return wr_decoder_digest(file->decoder, part, y, rows, channels, digest, NULL, err);
 }
 
-/* ---- whole pictures ---- */
+const char *wr_image_file_path(const WrImageFile *file)
+{
+    return file->path;
+}
+
+/* ---- pictures ---- */
 
 bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int channels,
                               float *out, WrError *err)
@@ -151,14 +156,23 @@ static int most_parts(const char *name, const WrImageWish *wish)
     return several || (wish->part && *wish->part) ? WR_IMAGE_PARTS_MAX : 1;
 }
 
-static WrImage *read_whole(const char *name, int fd, const WrImageWish *wish, WrError *err)
+static WrImageRows *open_rows(const char *name, int fd, const WrImageWish *wish, WrError *err)
 {
     WrImageFile *file = open_file(name, fd, most_parts(name, wish), !read_inside(), err);
-    WrImage *image = file ? wr_image_file_whole(file, wish, err) : NULL;
-    if (file && !image && strncmp(err->text, name, strlen(name)) != 0)
-        wr_error_prefix(err, "%s: ", name);
-    wr_image_file_close(file);
+    return file ? wr_image_rows_take(file, wish, err) : NULL;
+}
+
+static WrImage *read_whole(const char *name, int fd, const WrImageWish *wish, WrError *err)
+{
+    WrImageRows *rows = open_rows(name, fd, wish, err);
+    WrImage *image = rows ? wr_image_rows_whole(rows, err) : NULL;
+    wr_image_rows_close(rows);
     return image;
+}
+
+WrImageRows *wr_image_rows_open(const char *path, const WrImageWish *wish, WrError *err)
+{
+    return open_rows(path, open_regular(path, err), wish, err);
 }
 
 WrImage *wr_image_read(const char *path, WrError *err)

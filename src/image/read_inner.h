@@ -7,8 +7,9 @@
 /* Rows and the first `channels` channels of a part. */
 bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int channels,
                               float *out, WrError *err);
-/* Of an open file; whole.c. Errors may lack the file's name. */
-WrImage *wr_image_file_whole(WrImageFile *file, const WrImageWish *wish, WrError *err);
+const char *wr_image_file_path(const WrImageFile *file); /* for messages */
+/* The rows of an open file, which is taken over, on failure too; whole.c. */
+WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrError *err);
 
 /* The file behind a descriptor, which is taken over. */
 WrImageFile *wr_image_file_take(const char *name, int fd, WrError *err);

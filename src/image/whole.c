@@ -1,4 +1,4 @@
-/* Whole pictures: one part, some of its channels, the way up that the file tells. */
+/* Pictures, row by row or whole: one part, some of its channels, the way up that the file tells. */
 #include "base/memory.h"
 #include "base/progress.h"
 #include "image/choose.h"
@@ -9,7 +9,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BAND_VALUES ((size_t)16 << 20) /* of a band of many channels, at most */
+#define BAND_BYTES ((size_t)16 << 20)  /* of a band, where it is not one strip */
+#define BAND_VALUES ((size_t)16 << 20) /* of a strip of many channels, at most */
+
+struct WrImageRows {
+    WrImageFile *file;
+    WrImagePart is;
+    int part;
+    WrChannelChoice choice;
+    int first;  /* files give their first channels: as many as reach the last that is wanted */
+    int turned; /* as TIFF and EXIF count; 1: as it is. Others are read whole and turned */
+    bool keep, ranged;
+    WrImage head;
+    float *all;    /* rows of the first channels, where those that are wanted are not just these */
+    WrImage *band; /* rows [y, y + its height) */
+    int y;
+    int zeros; /* rows in which all is 0 */
+};
 
 /* Values that are not finite become 0 unless they are to be kept; returns how many pixels had one. */
 static int64_t replace_bad_pixels(float *values, size_t pixels, int channels, bool keep)
@@ -59,17 +75,26 @@ static void tell(const WrImageFile *file, int index, const WrChannelChoice *choi
     if (parts > 1)
         wr_text_addf(&text, "%spart %d of %d%s%.40s", text.length ? " in " : "", index + 1, parts,
                      *part.name ? ", " : "", part.name);
-    bool zero = text.length > 0;
-    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    for (size_t k = 0; zero && k < count; k++) zero = image->data[k] == 0.0f;
-    if (zero) wr_text_add(&text, "; all of it is 0");
     snprintf(image->taken, sizeof image->taken, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
 
+/* Who took a part of a file is told, too, if there is nothing in it. */
+static void tell_zero(WrImageRows *rows, int count, const float *values)
+{
+    WrImage *head = &rows->head;
+    const size_t most = (size_t)rows->is.width * (size_t)count * (size_t)rows->choice.count;
+    bool zero = *head->taken != '\0';
+    for (size_t k = 0; zero && k < most; k++) zero = values[k] == 0.0f;
+    if (zero) rows->zeros += count;
+    if (!zero || rows->zeros < rows->is.height) return;
+    const size_t length = strlen(head->taken);
+    snprintf(head->taken + length, sizeof head->taken - length, "; all of it is 0");
+}
+
 /* ---- the pixels ---- */
 
-/* Some channels of rows that hold `from` of them; in place where out is in. */
+/* Some channels of rows that hold `from` of them. */
 static void gather(const float *in, size_t pixels, int from, const WrChannelChoice *choice,
                    float *out)
 {
@@ -79,30 +104,55 @@ static void gather(const float *in, size_t pixels, int from, const WrChannelChoi
                 in[i * (size_t)from + (size_t)choice->index[k]];
 }
 
-/* Files give their first channels: as many as reach the last that is wanted. */
-static bool read_pixels(WrImageFile *file, int part, const WrChannelChoice *choice, WrImage *image,
-                        bool keep, WrError *err)
+static bool need_gathering(const WrImageRows *rows)
 {
-    int first = 0;
-    for (int k = 0; k < choice->count; k++)
-        if (choice->index[k] >= first) first = choice->index[k] + 1;
-    const size_t width = (size_t)image->width, row = width * (size_t)first;
-    size_t most = BAND_VALUES / row;
+    bool need = rows->first != rows->choice.count;
+    for (int k = 0; k < rows->choice.count; k++) need |= rows->choice.index[k] != k;
+    return need;
+}
+
+/* Rows that are read at a time. */
+static int band_rows(const WrImageRows *rows)
+{
+    const size_t row = (size_t)rows->is.width * (size_t)rows->first;
+    size_t most = BAND_BYTES / (row * sizeof(float)) / WR_IMAGE_STRIP * WR_IMAGE_STRIP;
+    if (most < WR_IMAGE_STRIP) most = WR_IMAGE_STRIP;
     if (most > WR_IMAGE_BAND) most = WR_IMAGE_BAND;
+    if (most > BAND_VALUES / row) most = BAND_VALUES / row;
     if (most < 1) most = 1;
-    float *band = wr_try_alloc(most * row, sizeof *band, "a picture's channels", err);
-    bool good = band != NULL;
-    for (int y = 0; good && y < image->height; y += (int)most) {
-        const int left = image->height - y, rows = left < (int)most ? left : (int)most;
-        const size_t pixels = width * (size_t)rows;
-        float *out = image->data + (size_t)y * width * (size_t)choice->count;
-        wr_progress_tell((double)y / image->height);
-        good = wr_image_file_read_first(file, part, y, rows, first, band, err);
-        if (!good) break;
-        gather(band, pixels, first, choice, out);
-        image->replaced += replace_bad_pixels(out, pixels, choice->count, keep);
+    return most < (size_t)rows->is.height ? (int)most : rows->is.height;
+}
+
+/* Rows [y, y + count) of the part, at most a band: what is wanted of them. */
+static bool read_band(WrImageRows *rows, int y, int count, float *out, WrError *err)
+{
+    const size_t width = (size_t)rows->is.width, pixels = width * (size_t)count;
+    if (!rows->all && need_gathering(rows)) {
+        rows->all = wr_try_alloc((size_t)band_rows(rows) * width * (size_t)rows->first,
+                                 sizeof *rows->all, "a picture's channels", err);
+        if (!rows->all) return false;
     }
-    wr_free(band);
+    float *in = rows->all ? rows->all : out;
+    if (!wr_image_file_read_first(rows->file, rows->part, y, count, rows->first, in, err))
+        return false;
+    if (rows->all) gather(in, pixels, rows->first, &rows->choice, out);
+    rows->head.replaced += replace_bad_pixels(out, pixels, rows->choice.count, rows->keep);
+    tell_zero(rows, count, out);
+    return true;
+}
+
+static bool read_bands(WrImageRows *rows, WrImage *image, WrError *err)
+{
+    const int most = band_rows(rows);
+    const size_t row = (size_t)image->width * (size_t)image->channels;
+    bool good = true;
+    for (int y = 0; good && y < image->height; y += most) {
+        const int left = image->height - y;
+        wr_progress_tell((double)y / image->height);
+        good = read_band(rows, y, left < most ? left : most, image->data + (size_t)y * row, err);
+    }
+    wr_free(rows->all);
+    rows->all = NULL;
     return good;
 }
 
@@ -144,22 +194,122 @@ static int turned_of(WrImageFile *file, int part)
     return text && strlen(text) == 1 && *text >= '2' && *text <= '8' ? *text - '0' : 1;
 }
 
-WrImage *wr_image_file_whole(WrImageFile *file, const WrImageWish *wish, WrError *err)
+/* ---- rows ---- */
+
+static void name_file(const WrImageRows *rows, WrError *err)
 {
-    int index;
-    WrChannelChoice choice;
-    if (!find_part(file, wish->part, &index, err)) return NULL;
-    const WrImagePart part = wr_image_file_part(file, index);
-    if (!wr_channels_choose(&part, wish->channel, &choice, err)) return NULL;
-    WrImage *image = wr_image_new(part.width, part.height, choice.count, err);
-    if (!image) return NULL;
-    image->type = part.type;
-    wr_image_label_read(file, index, part.type, &image->label);
-    if (!read_pixels(file, index, &choice, image, wish->keep_lost, err)) {
-        wr_image_free(image);
+    const char *path = wr_image_file_path(rows->file);
+    if (err && strncmp(err->text, path, strlen(path)) != 0) wr_error_prefix(err, "%s: ", path);
+}
+
+static bool choose(WrImageRows *rows, const WrImageWish *wish, WrError *err)
+{
+    if (!find_part(rows->file, wish->part, &rows->part, err)) return false;
+    rows->is = wr_image_file_part(rows->file, rows->part);
+    if (!wr_channels_choose(&rows->is, wish->channel, &rows->choice, err)) return false;
+    for (int k = 0; k < rows->choice.count; k++)
+        if (rows->choice.index[k] >= rows->first) rows->first = rows->choice.index[k] + 1;
+    return true;
+}
+
+WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrError *err)
+{
+    WrImageRows *rows = wr_alloc(1, sizeof *rows);
+    *rows = (WrImageRows){ .file = file, .keep = wish->keep_lost };
+    if (!choose(rows, wish, err)) {
+        name_file(rows, err);
+        wr_image_rows_close(rows);
         return NULL;
     }
-    tell(file, index, &choice, image);
-    const int turned = turned_of(file, index);
-    return turned > 1 ? turn(image, turned, err) : image;
+    rows->turned = turned_of(file, rows->part);
+    const bool across = rows->turned >= 5;
+    rows->head = (WrImage){ .width = across ? rows->is.height : rows->is.width,
+                            .height = across ? rows->is.width : rows->is.height,
+                            .channels = rows->choice.count,
+                            .type = rows->is.type };
+    wr_image_label_read(file, rows->part, rows->is.type, &rows->head.label);
+    tell(file, rows->part, &rows->choice, &rows->head);
+    return rows;
+}
+
+void wr_image_rows_close(WrImageRows *rows)
+{
+    if (!rows) return;
+    wr_image_file_close(rows->file);
+    wr_image_free(rows->band);
+    wr_free(rows->all);
+    wr_free(rows);
+}
+
+const WrImage *wr_image_rows_head(const WrImageRows *rows)
+{
+    return &rows->head;
+}
+
+bool wr_image_rows_apply_range(WrImageRows *rows)
+{
+    rows->ranged = rows->head.label.ranged && rows->head.type != WR_PIXEL_F32;
+    return rows->ranged;
+}
+
+/* Rows of the part as it lies in the file, with what is known of the picture. */
+static WrImage *new_image(const WrImageRows *rows, int height, WrError *err)
+{
+    WrImage *image = wr_image_new(rows->is.width, height, rows->choice.count, err);
+    if (!image) return NULL;
+    image->type = rows->head.type;
+    image->label = rows->head.label;
+    return image;
+}
+
+WrImage *wr_image_rows_whole(WrImageRows *rows, WrError *err)
+{
+    WrImage *image = new_image(rows, rows->is.height, err);
+    if (image && !read_bands(rows, image, err)) {
+        wr_image_free(image);
+        image = NULL;
+    }
+    if (image) {
+        image->replaced = rows->head.replaced;
+        memcpy(image->taken, rows->head.taken, sizeof image->taken);
+        if (rows->turned > 1) image = turn(image, rows->turned, err);
+    }
+    if (!image) name_file(rows, err);
+    else if (rows->ranged) wr_image_apply_range(image);
+    return image;
+}
+
+/* None yet; or all, turned. */
+static WrImage *begin_band(WrImageRows *rows, WrError *err)
+{
+    if (rows->turned > 1) return wr_image_rows_whole(rows, err);
+    WrImage *band = new_image(rows, band_rows(rows), err);
+    if (band) band->height = 0;
+    else name_file(rows, err);
+    return band;
+}
+
+static bool next_band(WrImageRows *rows, int y, WrError *err)
+{
+    WrImage *band = rows->band;
+    const int left = rows->is.height - y, most = band_rows(rows);
+    const int count = left < most ? left : most;
+    band->height = 0;
+    if (!read_band(rows, y, count, band->data, err)) {
+        name_file(rows, err);
+        return false;
+    }
+    band->height = count;
+    rows->y = y;
+    if (rows->ranged) wr_image_apply_range(band);
+    return true;
+}
+
+const float *wr_image_rows_get(WrImageRows *rows, int y, WrError *err)
+{
+    if (!rows->band) rows->band = begin_band(rows, err);
+    const WrImage *band = rows->band;
+    if (!band) return NULL;
+    if (y >= rows->y + band->height && !next_band(rows, y, err)) return NULL;
+    return band->data + (size_t)(y - rows->y) * (size_t)band->width * (size_t)band->channels;
 }
