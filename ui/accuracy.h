@@ -102,6 +102,8 @@ void wr_accuracy_new(WrApp *app);
 void wr_accuracy_free(WrApp *app);
 /* Take what is done, begin what is due; once before each picture. */
 void wr_accuracy_update(WrApp *app);
+/* Something is measured or about to be; two pictures that are shown in turn do not count. */
+bool wr_accuracy_under_way(const WrApp *app);
 double wr_accuracy_next_time(const WrApp *app); /* clock at which that must be; 0: only on events */
 bool wr_accuracy_works(WrApp *app);             /* a bar of ours moves */
 void wr_accuracy_forget(WrApp *app);            /* textures were lost */

@@ -364,19 +364,32 @@ void wr_accuracy_update(WrApp *app)
     if (shown != a->flicker_shown) wr_app_redraw(app);
 }
 
-double wr_accuracy_next_time(const WrApp *app)
+/* When the next work begins; 0: none is to be done. */
+static double next_work(const WrApp *app)
 {
     const WrAccuracy *a = app->accuracy;
-    double due = 0.0, next;
+    double due = 0.0, next = a->changed_at + WR_ACCURACY_LOOK_REST;
     if (!app->visible || app->drawn_at == 0.0) return 0.0;
     WrAccuracyMoment m = moment(app);
     wr_accuracy_next(&m, &due);
-    if (look_missing(a) && m.rests) {
-        next = a->changed_at + WR_ACCURACY_LOOK_REST;
-        if (due == 0.0 || next < due) due = next;
-    }
+    if (look_missing(a) && m.rests && (due == 0.0 || next < due)) due = next;
+    return due;
+}
+
+bool wr_accuracy_under_way(const WrApp *app)
+{
+    const WrAccuracy *a = app->accuracy;
+    return a->measuring || wr_job_busy(a->looker, NULL, NULL) ||
+           wr_job_busy(a->prober, NULL, NULL) || next_work(app) > 0.0;
+}
+
+double wr_accuracy_next_time(const WrApp *app)
+{
+    const WrAccuracy *a = app->accuracy;
+    double due = next_work(app), next;
+    if (!app->visible || app->drawn_at == 0.0) return 0.0;
     if (a->look == WR_PATCH_FLICKER && !a->hold_b && a->pair[1].of == a->state) {
-        wr_accuracy_flicker(m.now, a->flicker_since, &next);
+        wr_accuracy_flicker(wr_clock_seconds(), a->flicker_since, &next);
         if (due == 0.0 || next < due) due = next;
     }
     return due;

@@ -141,8 +141,9 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         if (gui->moved && ImGui::IsItemActive())
             gui->drag_value =
                 value_at(spec, gui->drag_from + (double)(dx / width) * (io.KeyShift ? 0.1 : 1.0));
+        /* Held still it changes nothing: the caller has it already. */
+        edit = gui->moved && *value != gui->drag_value ? WR_EDIT_LIVE : WR_EDIT_NONE;
         if (gui->moved) *value = gui->drag_value;
-        edit = gui->moved ? WR_EDIT_LIVE : WR_EDIT_NONE;
         if (!ImGui::IsItemActive()) {
             gui->dragging = 0;
             edit = gui->moved ? WR_EDIT_DONE : WR_EDIT_NONE;

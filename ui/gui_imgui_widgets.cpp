@@ -202,7 +202,8 @@ try {
     if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (ImGui::IsMouseDown(0)) return;
     if (ImGui::GetCurrentContext()->HoveredIdTimer < TIP_SECONDS) {
-        wr_gui_current()->tip_waits = true;
+        /* without an id the timer stands still: no tip would ever come */
+        if (ImGui::GetHoveredID() != 0) wr_gui_current()->tip_waits = true;
         return;
     }
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
