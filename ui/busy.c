@@ -50,6 +50,7 @@ typedef struct Wait {
     SDL_Texture *behind;      /* the window as it was last drawn; owned */
     int behind_w, behind_h;
     bool panning, close, cancelled;
+    bool file_chosen, asked; /* the desktop's dialog, and a test, spoke: answered afterwards */
 } Wait;
 
 static void grab(Wait *wait)
@@ -169,19 +170,40 @@ static bool is_modifier(SDL_Keycode key)
            key == SDLK_LALT || key == SDLK_RALT || key == SDLK_LGUI || key == SDLK_RGUI;
 }
 
+static bool wants_end(const Wait *wait, const SDL_Event *event)
+{
+    if (event->type == SDL_QUIT) return true;
+    if (event->type == SDL_WINDOWEVENT) return event->window.event == SDL_WINDOWEVENT_CLOSE;
+    if (event->type != SDL_KEYDOWN) return false;
+    const char *action = wr_keys_find(wait->app->keys, event->key.keysym);
+    return action && strcmp(action, "quit") == 0;
+}
+
+/* Of what is not the user's hand: true if it was that. */
+static bool take_note(Wait *wait, const SDL_Event *event)
+{
+    WrApp *app = wait->app;
+    if (event->type == app->file_event) wait->file_chosen = true;
+    else if (event->type == app->rest_event) wait->asked = true;
+    else return false;
+    return true;
+}
+
 /* Escape cancels, a request to close waits, the bar's button is the bar's; all else is refused. */
 static void take_event(Wait *wait, const SDL_Event *event)
 {
     WrApp *app = wait->app;
+    if (take_note(wait, event)) return;
+    if (wants_end(wait, event)) {
+        wait->close = true;
+        return;
+    }
     bool key = event->type == SDL_KEYDOWN && !is_modifier(event->key.keysym.sym);
     bool press = event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_DROPFILE;
     if (key && event->key.keysym.sym == SDLK_ESCAPE) {
         cancel(wait);
         return;
     }
-    if (event->type == SDL_QUIT ||
-        (event->type == SDL_WINDOWEVENT && event->window.event == SDL_WINDOWEVENT_CLOSE))
-        wait->close = true;
     if (event->type == SDL_DROPFILE) SDL_free(event->drop.file);
     if (move_view(wait, event)) return;
     wr_gui_event(app->gui, event);
@@ -221,6 +243,8 @@ static void wait_for(Wait *wait)
     wr_gui_aside_begin(app->gui);
     wr_gui_release_all(app->gui);
     wr_gui_aside_end(app->gui);
+    if (wait->file_chosen) SDL_PushEvent(&(SDL_Event){ .type = app->file_event });
+    if (wait->asked) SDL_PushEvent(&(SDL_Event){ .type = app->rest_event });
     if (wait->close) SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
     wr_app_redraw(app);
 }
