@@ -262,10 +262,24 @@ static bool window_comes(const ImGuiContext &g)
 {
     for (const ImGuiWindow *window : g.Windows)
         if (window->Active &&
-            (window->HiddenFramesCanSkipItems > 0 || window->HiddenFramesCannotSkipItems > 0 ||
-             window->AutoFitFramesX > 0 || window->AutoFitFramesY > 0))
+            (window->HiddenFramesCanSkipItems > 0 || window->HiddenFramesCannotSkipItems > 0))
             return true;
     return false;
+}
+
+/* How large those that fit their content are, and what they would fit: another number when either changed. A
+   dialog says in every frame that it wants to fit. */
+static double fitted_sizes(const ImGuiContext &g)
+{
+    double sum = 0.0;
+    for (const ImGuiWindow *window : g.Windows) {
+        if (!window->Active || (window->AutoFitFramesX <= 0 && window->AutoFitFramesY <= 0))
+            continue;
+        sum = sum * 3.0 + (double)window->Size.x + 7.0 * (double)window->Size.y;
+        ImVec2 end = window->DC.CursorMaxPos;
+        sum = sum * 3.0 + (double)(end.x - window->Pos.x) + 7.0 * (double)(end.y - window->Pos.y);
+    }
+    return sum;
 }
 
 extern "C" bool wr_gui_unsettled(const WrGui *gui)
@@ -274,7 +288,8 @@ extern "C" bool wr_gui_unsettled(const WrGui *gui)
     for (int i = 0; i < 3; i++)
         if (gui->pressed[i] || g.IO.MouseDown[i] != gui->held[i]) return true;
     bool dims = g.DimBgRatio > 0.0f && g.DimBgRatio < 1.0f;
-    return gui->keys_dropped || gui->popups != g.OpenPopupStack.Size || dims || window_comes(g);
+    return gui->keys_dropped || gui->popups != g.OpenPopupStack.Size || dims || gui->fits ||
+           window_comes(g);
 }
 
 extern "C" SDL_SystemCursor wr_gui_cursor(const WrGui *)
@@ -318,6 +333,9 @@ extern "C" void wr_gui_frame_end(WrGui *gui)
 try {
     ImGui::PopFont();
     ImGui::Render();
+    double sizes = fitted_sizes(*ImGui::GetCurrentContext());
+    gui->fits = sizes != gui->fitted;
+    gui->fitted = sizes;
     ImDrawData *data = ImGui::GetDrawData();
     ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
     for (int n = 0; n < data->CmdListsCount; n++) {

@@ -25,6 +25,8 @@ struct WrGui {
     char clipboard[4096];
     bool close_popups; /* Escape was pressed over a menu */
     ImGuiID selecting; /* a text area that gets the keyboard: its text will be selected */
+    bool fits;         /* a window that fits its content was not as in the frame before */
+    double fitted;     /* fitted_sizes */
     bool tip_waits;    /* the pointer rests where a tip will be shown */
     int popups;        /* open when the frame began */
     bool list_open;    /* a list or a menu was among them: the keys of this frame are for it */
