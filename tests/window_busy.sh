@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# What takes long, in the window: a bar is shown, the view can be moved, all else is refused; Escape gives it up
+# and leaves the document as it was; a wish to quit waits for it.  window_busy.sh PROGRAM SOURCE-FOLDER
+set -uo pipefail
+program=$1
+source=$2
+folder=$(mktemp -d) || exit 1
+# shellcheck source=tests/window_help.sh
+source "$source/tests/window_help.sh"
+
+serve
+printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' >config/wrinkle/window.conf
+printf 'table 128x128\nbump height=1\ngrid cells=4x4 width=6\nsave small.exr\n' | "$program" run - >/dev/null || exit 1
+# Nobody waits for the end of this: hours of work.
+{
+    printf 'table 4096x4096\nbump height=1\n'
+    for ((i = 0; i < 1000; i++)); do printf 'noise perlin cells=64 octaves=12 seed=%d\n' "$i"; done
+} >long.wrinkle
+was=$(hash_of small.exr)
+
+bar=1200x28+0+772
+canvas=380x500+60+120
+# The bar has a button where the status line of this document has nothing.
+shows_bar() {
+    shot now
+    local changed
+    changed=$(differs calm now 60x24+735+774)
+    [[ ${changed%.*} -gt 200 ]]
+}
+alters() {
+    shot now
+    local changed
+    changed=$(differs "$1" now "$2")
+    [[ ${changed%.*} -gt 2000 ]]
+}
+# begin: open what takes long, and wait until the window says that it does.
+begin() {
+    home
+    shot calm
+    key ctrl+o
+    key ctrl+a
+    xdotool type --delay 20 "$folder/long.wrinkle"
+    rest
+    xdotool key Return # no rest comes of this
+    until_true 120 "the bar of what takes long" shows_bar
+}
+
+# ---- the view can be moved meanwhile, the rest is refused, Escape gives it up ----
+start small.exr
+begin
+shot working
+xdotool mousemove $((X + 330)) $((Y + 400)) click 4 click 4 click 4
+until_true 120 "a closer view meanwhile" alters working "$canvas"
+shot closer
+xdotool key ctrl+shift+n
+refused() { alters closer "$bar"; }
+until_true 120 "that another command is refused" refused
+shot refused
+xdotool key Escape
+rest
+title_is small.exr || complain "given up, the title is $(xdotool getwindowname "$window")"
+answer_file after.exr ctrl+shift+s
+[[ $(hash_of after.exr) == "$was" ]] || complain "what was given up changed the document"
+until_true 120 "the title of the copy" title_is after.exr
+
+# ---- the window lives on ----
+drag 180 300 6 4 20
+becomes 'stroke *' "a stroke afterwards"
+key ctrl+z
+until_true 120 "the stroke undone" title_is after.exr
+
+# ---- a wish to quit waits until it is done, or given up ----
+begin
+xdotool key ctrl+q
+sleep 0.1 # there is nothing to wait for: nothing may happen
+is_gone && complain "quitting did not wait"
+xdotool key Escape
+ends 0
+[[ $(hash_of after.exr) == "$was" ]] || complain "quitting changed the file"
+
+[[ -z ${KEEP:-} ]] || cp ./*.ppm "$KEEP"
+[[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }
