@@ -26,9 +26,10 @@ quit() { # with all work saved
 name_file() {
     shot unasked
     key "$2"
-    until_true 10 "the question for a file" shows_dialog || return
-    xdotool key ctrl+a
+    until_true 120 "the question for a file" shows_dialog || return
+    key ctrl+a
     xdotool type --delay 20 "$1"
+    rest
     xdotool key Return
     home
 }
@@ -56,20 +57,20 @@ save_as taken.exr ctrl+s
 was=$(sum_of taken.exr)
 for name in "$folder/taken.exr" "$folder/taken" taken; do
     stroke 40
-    until_true 10 "the mark of unsaved work" title_is 'taken.exr *'
+    until_true 120 "the mark of unsaved work" title_is 'taken.exr *'
     name_file "$name" ctrl+shift+s
     declined taken.exr "$was" "saving as $name"
     title_is 'taken.exr *' || complain "declined, $name left the title $(xdotool getwindowname "$window")"
 done
 name_file taken ctrl+shift+s
 key r
-until_true 20 "the file to be replaced" is_other taken.exr "$was"
-until_true 10 "the title of what was saved" title_is taken.exr
+until_true 120 "the file to be replaced" is_other taken.exr "$was"
+until_true 120 "the title of what was saved" title_is taken.exr
 was=$(sum_of taken.exr)
 
 # ---- saved onto what another program has written since ----
 stroke 80
-until_true 10 "the mark of unsaved work" title_is 'taken.exr *'
+until_true 120 "the mark of unsaved work" title_is 'taken.exr *'
 cp taken.exr theirs.exr
 printf 'theirs' >>taken.exr
 theirs=$(sum_of taken.exr)
@@ -86,18 +87,19 @@ home
 key s
 home
 xdotool type --delay 20 other
+rest
 key Return
-until_true 20 "the other name" title_is other.exr
+until_true 120 "the other name" title_is other.exr
 unharmed taken.exr "$theirs" "saving under another name"
 stroke 120
-until_true 10 "the mark of unsaved work" title_is 'other.exr *'
+until_true 120 "the mark of unsaved work" title_is 'other.exr *'
 printf 'theirs' >>other.exr
 theirs=$(sum_of other.exr)
 key ctrl+s
 home
 key r
-until_true 20 "the changed file to be replaced" is_other other.exr "$theirs"
-until_true 10 "the title of what was saved" title_is other.exr
+until_true 120 "the changed file to be replaced" is_other other.exr "$theirs"
+until_true 120 "the title of what was saved" title_is other.exr
 
 # ---- the history as a script, an export ----
 printf '# theirs\n' >steps.wrinkle
@@ -108,8 +110,9 @@ xdotool type --delay 20 'save history'
 home
 key Return
 home
-xdotool key ctrl+a
+key ctrl+a
 xdotool type --delay 20 steps
+rest
 key Return
 home
 declined steps.wrinkle "$was" "the history as steps"
@@ -131,12 +134,13 @@ xdotool type --delay 20 'save brush as a preset'
 home
 key Return
 home
-xdotool key ctrl+a
+key ctrl+a
 xdotool type --delay 20 mine
+rest
 key Return
 preset() { find "$folder/data" -name mine.myb; }
 has_preset() { [[ -n $(preset) ]]; }
-until_true 10 "a preset of one's own" has_preset
+until_true 120 "a preset of one's own" has_preset
 printf 'theirs' >"$(preset)"
 was=$(sum_of "$(preset)")
 home
@@ -146,8 +150,9 @@ xdotool type --delay 20 'save brush as a preset'
 home
 key Return
 home
-xdotool key ctrl+a
+key ctrl+a
 xdotool type --delay 20 mine
+rest
 key Return
 home
 declined "$(preset)" "$was" "a preset's name"
@@ -173,16 +178,16 @@ key Return
 unharmed taken.exr "$was" "a name without its ending from the desktop's dialog"
 printf '%s\n' "$folder/fresh" >answer
 key Escape # asks the desktop's dialog again
-until_true 10 "the file of the second answer" file_is_there fresh.exr
+until_true 120 "the file of the second answer" file_is_there fresh.exr
 grep -qx -e "--filename=$folder/taken.exr" asked || complain "the name was not kept: $(tr '\n' ' ' <asked)"
-until_true 10 "the title of the second answer" title_is fresh.exr
+until_true 120 "the title of the second answer" title_is fresh.exr
 stroke 40
-until_true 10 "the mark of unsaved work" title_is 'fresh.exr *'
+until_true 120 "the mark of unsaved work" title_is 'fresh.exr *'
 was=$(sum_of taken.exr)
 printf '%s\n' "$folder/taken.exr" >answer # it has asked
 key ctrl+shift+s
-until_true 20 "the file that the desktop's dialog asked about" is_other taken.exr "$was"
-until_true 10 "its title" title_is taken.exr
+until_true 120 "the file that the desktop's dialog asked about" is_other taken.exr "$was"
+until_true 120 "its title" title_is taken.exr
 quit
 
 # ---- a press let go at once opens a list, which is drawn; the keys are then for the list ----
@@ -271,7 +276,7 @@ if command -v openbox >/dev/null; then
     openbox --sm-disable >openbox.log 2>&1 &
     manager=$!
     managed() { xprop -root _NET_SUPPORTING_WM_CHECK 2>/dev/null | grep -q 0x; }
-    until_true 20 "the window manager" managed
+    until_true 120 "the window manager" managed
     printf 'turning 0\nwidth 1440\nheight 900\n' >config/wrinkle/window.conf
     start flat.wrinkle
     on_screen() {
@@ -279,7 +284,7 @@ if command -v openbox >/dev/null; then
         read -r left right top bottom < <(xprop -id "$window" _NET_FRAME_EXTENTS | sed 's/.*= //; s/,//g')
         [[ ${top:-0} -gt 0 && $((WIDTH + left + right)) -le 1280 && $((HEIGHT + top + bottom)) -le 900 ]]
     }
-    until_true 20 "a window that fits the screen" on_screen || complain "it is $WIDTH x $HEIGHT at $X,$Y, borders ${left:-} ${right:-} ${top:-} ${bottom:-}"
+    until_true 120 "a window that fits the screen" on_screen || complain "it is $WIDTH x $HEIGHT at $X,$Y, borders ${left:-} ${right:-} ${top:-} ${bottom:-}"
     quit
     kill -TERM "$manager"
 fi

@@ -23,33 +23,33 @@ killed() {
 # ---- a kill loses nothing that was changed ----
 start
 xdotool key bracketright bracketright bracketright
-until_true 15 "the brush's new size in the settings" forgot_radius
+until_true 120 "the brush's new size in the settings" forgot_radius
 radius=$(grep '^radius ' "$conf")
 save_as mine.exr
-until_true 15 "the file among the recent ones" remembers "recent $folder/mine.exr"
+until_true 120 "the file among the recent ones" remembers "recent $folder/mine.exr"
 
 # ---- another program's change stays, and comes in ----
 printf 'favourite wrinkle/pinch\n' >>"$conf"
 xdotool key bracketright
-until_true 15 "the next size in the settings" eval '! remembers "$radius"'
+until_true 120 "the next size in the settings" eval '! remembers "$radius"'
 remembers 'favourite wrinkle/pinch' || complain "another window's favourite is gone: $(cat "$conf")"
 remembers 'favourite wrinkle/groove' || complain "a favourite is gone: $(cat "$conf")"
 radius=$(grep '^radius ' "$conf")
 
 # ---- painted on, killed: both are there again ----
 drag 180 300 6 4 20
-until_true 10 "the mark of unsaved work" title_is 'mine.exr *'
+until_true 120 "the mark of unsaved work" title_is 'mine.exr *'
 killed
 remembers "$radius" || complain "the kill took the brush's size: $(cat "$conf")"
 remembers "recent $folder/mine.exr" || complain "the kill took the recent file: $(cat "$conf")"
 before=$(hash_of mine.exr)
 start
-shot offered
-xdotool key Return
-until_true 20 "the recovered document under its name" title_is 'mine.exr *'
+rest
+key Return
+until_true 120 "the recovered document under its name" title_is 'mine.exr *'
 [[ $(hash_of mine.exr) == "$before" ]] || complain "the recovery wrote the file by itself"
 xdotool key ctrl+s
-until_true 20 "the recovered document saved to its own file" title_is mine.exr
+until_true 120 "the recovered document saved to its own file" title_is mine.exr
 [[ $(hash_of mine.exr) != "$before" ]] || complain "what was recovered is not in the file"
 xdotool key ctrl+q
 ends 0
@@ -63,15 +63,15 @@ for y in 250 350 450; do
     drag 180 $y 6 0 12
     sleep 0.3
 done
-until_true 10 "three strokes in the journal" eval '[[ $(grep -c " e " state/wrinkle/journals/*.wj) -ge 3 ]]'
+until_true 120 "three strokes in the journal" eval '[[ $(grep -c " e " state/wrinkle/journals/*.wj) -ge 3 ]]'
 sleep 1
 killed
 journal=$(grep -l ' e ' state/wrinkle/journals/*.wj | head -n 1)
 awk '/ b stroke/ && ++n == 2 { sub(/radius/, "radios") } { print }' "$journal" >changed && cat changed >"$journal"
 start
-shot damaged
-xdotool key Return
-until_true 20 "the first stroke" title_is 'mine.exr *'
+rest
+key Return
+until_true 120 "the first stroke" title_is 'mine.exr *'
 settle
 shot rest
 file_is_there "$journal" || complain "a recovery in part removed the journal"
