@@ -1,6 +1,7 @@
 #include "cli/cli.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 static void print_note(void *ctx, const char *text)
 {
@@ -21,9 +22,11 @@ bool wr_cli_check_isa(const WrCli *cli, WrError *err)
 WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
 {
     if (!wr_cli_check_isa(cli, err)) return NULL;
-    WrSessionOptions options = {
-        .pool = cli->pool, .note = print_note, .outputs = outputs, .isa = cli->isa
-    };
+    WrSessionOptions options = { .pool = cli->pool,
+                                 .note = print_note,
+                                 .foretell = isatty(STDERR_FILENO) != 0,
+                                 .outputs = outputs,
+                                 .isa = cli->isa };
     return wr_session_new(&options);
 }
 

@@ -1,3 +1,4 @@
+#include "command/estimate.h"
 #include "command/inner.h"
 
 #include "base/file.h"
@@ -8,6 +9,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+#define FORETOLD_SECONDS 2.0 /* what takes less is not announced */
 
 static void state_fini(WrSessionState *state)
 {
@@ -240,11 +243,23 @@ bool wr_session_run_made(WrSession *session, const char *line, const WrDocument 
     return good;
 }
 
+static void foretell(WrSession *session, const WrCall *call)
+{
+    WrEstimate estimate;
+    char text[WR_ESTIMATE_TEXT];
+    wr_session_estimate_call(session, call, &estimate);
+    wr_estimate_print(&estimate, text);
+    if (estimate.seconds > FORETOLD_SECONDS)
+        wr_session_note(session, "%s%s%s: %s", call->command->name, call->form >= 0 ? " " : "",
+                        call->form_name, text);
+}
+
 bool wr_session_run(WrSession *session, const char *line, WrError *err)
 {
     WrCall *call;
     if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!wr_call_parse(line, false, &call, err)) return false;
+    if (session->options.foretell && !session->opening) foretell(session, call);
     bool good = run_call(session, call, err);
     if (!good && wr_progress_stopped()) wr_fail(err, "cancelled"); /* whatever was left half done */
     if (!good) name_command(err, call->command->name);

@@ -21,7 +21,8 @@ typedef struct WrSessionOptions {
     WrPool *pool;    /* borrowed; NULL: one thread */
     WrNoteSink note; /* may be NULL */
     void *note_ctx;
-    bool outputs;    /* perform output commands (only `wrinkle run` and the window do); otherwise
+    bool foretell; /* a note before what will take more than a moment: how long, how much memory */
+    bool outputs;  /* perform output commands (only `wrinkle run` and the window do); otherwise
                              they are skipped with a note */
     const char *isa; /* kernel set for renders: NULL or "auto"; copied, checked at first use */
     bool journal; /* keep a journal of the document, so that a crash loses at most the command under
