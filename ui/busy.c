@@ -9,6 +9,7 @@
 #include "ui/state.h"
 
 #include "base/clock.h"
+#include "command/estimate.h"
 
 #include <math.h>
 #include <string.h>
@@ -46,6 +47,7 @@ typedef struct Wait {
     WrJob *job;
     const char *what;
     double since, refused_at; /* clock */
+    double expected;          /* seconds, estimated before; 0: not known */
     double furthest;          /* fraction: bars do not go back */
     SDL_Texture *behind;      /* the window as it was last drawn; owned */
     int behind_w, behind_h;
@@ -78,6 +80,15 @@ static void cancel(Wait *wait)
     wr_job_interrupt(wait->job);
 }
 
+/* What the estimate leaves, until progress says better. */
+static void time_left(const Wait *wait, double took, char text[WR_PROGRESS_LEFT])
+{
+    wr_progress_left(wait->furthest, took, text);
+    int rest = (int)fmin(wait->expected - took + 0.5, 1e6);
+    if (!text[0] && rest > 0)
+        snprintf(text, WR_PROGRESS_LEFT, "~%d:%02d left", rest / 60, rest % 60);
+}
+
 static void bar(Wait *wait, double now)
 {
     WrApp *app = wait->app;
@@ -101,7 +112,7 @@ static void bar(Wait *wait, double now)
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
     wr_gui_same_line(12);
     wr_gui_move_to(wr_gui_px(640));
-    wr_progress_left(wait->furthest, took, left);
+    time_left(wait, took, left);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, wait->cancelled ? "cancelling" : left);
     wr_gui_same_line(12);
     wr_gui_move_to(wr_gui_px(730));
@@ -253,7 +264,11 @@ static bool run_beside(WrApp *app, const char *what, WrBusyWork *work, void *ctx
 {
     static const WrJobKind kind = { run, drop };
     Work here = { .work = work, .ctx = ctx };
-    Wait wait = { .app = app, .what = what, .since = wr_clock_seconds(), .refused_at = -1e9 };
+    Wait wait = { .app = app,
+                  .what = what,
+                  .since = wr_clock_seconds(),
+                  .refused_at = -1e9,
+                  .expected = app->expected };
     wait.job = wr_job_new(&kind, 1, app->job_event);
     wr_job_start(wait.job, &here);
     bool done = false;
@@ -308,7 +323,11 @@ static bool run_command(WrApp *app, const char *line, const WrDocument *made)
     snprintf(what, sizeof what, "%.60s", line);
     if (app->trying) wr_trial_stop(app->trial); /* nobody waits for it any more */
     Line call = { app->session, line, made };
+    WrEstimate estimate;
+    if (!made && wr_session_estimate(app->session, line, &estimate, NULL))
+        app->expected = estimate.seconds;
     bool ok = wr_busy_run(app, what, run_line, &call, &err);
+    app->expected = 0.0;
     if (!ok) wr_app_fail(app, &err);
     wr_app_try_end(app);
     wr_app_take_notes(app);

@@ -299,6 +299,8 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 done, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
+/* Beside the buttons: how long that line will take and how much memory, where that is more than a moment. */
+void wr_panel_estimate(const WrApp *app, const char *line);
 
 /* ---- settings_hand.c ---- */
 

@@ -135,18 +135,23 @@ static bool which_layers(WrApp *app)
 
 /* ---- done ---- */
 
-static void commit(WrApp *app)
+static void line_of(const WrApp *app, WrText *line)
 {
     const WrOpInfo *op = app->adjust.op;
-    WrText line = { 0 };
-    wr_text_addf(&line, "adjust %s", op->name);
+    wr_text_addf(line, "adjust %s", op->name);
     for (int i = 0; i < wr_op_param_count(op); i++) {
         const WrOpParam *param = &op->params[i];
         double value = app->adjust.param[i];
-        if (param->choices) wr_text_addf(&line, " %s=%s", param->name, param->choices[(int)value]);
-        else wr_line_number(&line, param->name, value);
+        if (param->choices) wr_text_addf(line, " %s=%s", param->name, param->choices[(int)value]);
+        else wr_line_number(line, param->name, value);
     }
-    if (app->adjust.layers == 1 && !op->reshapes) wr_text_add(&line, " layers=all");
+    if (app->adjust.layers == 1 && !op->reshapes) wr_text_add(line, " layers=all");
+}
+
+static void commit(WrApp *app)
+{
+    WrText line = { 0 };
+    line_of(app, &line);
     bool same = app->adjust.asked_at == wr_session_revision(app->session);
     if (same) wr_app_run_tried(app, wr_text_get(&line));
     else wr_app_run_slow(app, wr_text_get(&line));
@@ -159,6 +164,14 @@ static void cancel(WrApp *app)
     wr_app_try_end(app);
     app->view = app->adjust.view;
     wr_app_redraw(app);
+}
+
+static void expectation(const WrApp *app)
+{
+    WrText line = { 0 };
+    line_of(app, &line);
+    wr_panel_estimate(app, wr_text_get(&line));
+    wr_text_fini(&line);
 }
 
 /* One row, kept free while there is nothing to show. */
@@ -197,6 +210,7 @@ void wr_dialog_adjust(WrApp *app)
     if (wr_trial_error(app->trial, &err)) wr_app_fail(app, &err);
     progress(app);
     int answer = wr_dialog_buttons(app, "Apply", true);
+    expectation(app);
     if (answer > 0) commit(app);
     if (answer < 0) cancel(app);
     if (answer != 0) app->adjust.op = NULL;

@@ -4,6 +4,7 @@
 #include "ui/line.h"
 
 #include "base/memory.h"
+#include "command/estimate.h"
 #include "export/export.h"
 
 #include <math.h>
@@ -22,6 +23,18 @@ void wr_dialog_close(WrApp *app)
 {
     app->dialog = WR_DIALOG_NONE;
     wr_app_redraw(app);
+}
+
+void wr_panel_estimate(const WrApp *app, const char *line)
+{
+    WrEstimate estimate;
+    char text[WR_ESTIMATE_TEXT];
+    if (app->shown || !wr_session_estimate(app->session, line, &estimate, NULL)) return;
+    wr_estimate_print(&estimate, text);
+    if (!text[0]) return;
+    wr_gui_same_line(10);
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, wr_gui_available());
+    wr_gui_tip("Time and memory it will take, estimated from its values and the table's size");
 }
 
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)

@@ -3,6 +3,7 @@
 #include "ui/generate_hand.h"
 
 #include "base/memory.h"
+#include "command/estimate.h"
 #include "command/generate.h"
 
 #include <math.h>
@@ -163,6 +164,15 @@ static void head(WrApp *app)
     if (app->generate->generator) presets(app);
 }
 
+/* How long it will take, where that is more than a moment. */
+static void expectation(const WrApp *app)
+{
+    WrText line = { 0 };
+    wr_generate_line(app->generate, &line);
+    wr_panel_estimate(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
 static void foot(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
@@ -181,7 +191,10 @@ static void foot(WrApp *app)
         if (wr_gui_button("Show", false)) wr_generate_open(app, hand->generator);
         wr_gui_tip("Show what it would make");
     }
-    if (!busy) return;
+    if (!busy) {
+        if (hand->generator && !hand->err.text[0]) expectation(app);
+        return;
+    }
     char left[WR_PROGRESS_LEFT];
     wr_progress_left(fraction, seconds, left);
     wr_gui_same_line(10);
