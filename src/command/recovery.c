@@ -353,6 +353,40 @@ static void change_journals(WrSession *session, WrRecovered *out)
     out->claim = NULL;
 }
 
+/* The file as a document has that hash. */
+static bool holds(const char *path, const WrHash *hash, WrError *err)
+{
+    WrSession *session = wr_session_new(NULL);
+    bool good = wr_session_load(session, path, err) && check_hash(session, hash, path, err);
+    wr_session_free(session);
+    return good;
+}
+
+static const char *own_path(const WrJournalRead *read)
+{
+    return read->saved.path ? read->saved.path : read->start.path;
+}
+
+/* The document's own file is still what the journal knows of it. */
+static bool own_stands(const WrJournalRead *read, WrError *err)
+{
+    const char *own = own_path(read);
+    if (!own) return wr_fail(err, "it was never saved: it has no file of its own");
+    if (read->saved.path) return holds(own, &read->saved.hash, err);
+    if (read->start.kind == WR_JOURNAL_DOCUMENT) return holds(own, &read->start.hash, err);
+    return wr_fail(err, "%s: what it should hold is not on record", own);
+}
+
+/* The file's name comes back; where it stands as it did, saving to it loses nothing of another program. */
+static void take_path(WrSession *session, const WrJournalRead *read)
+{
+    const char *path = own_path(read);
+    session->state.path = wr_strdup(path);
+    WrFileStamp stamp = wr_file_stamp(path ? path : ""); /* of what is about to be read */
+    WrError err;
+    if (path && own_stands(read, &err)) session->state.stamp = stamp;
+}
+
 bool wr_session_recover(WrSession *session, const char *journal, bool beyond, WrRecovered *out,
                         WrError *err)
 {
@@ -369,9 +403,8 @@ bool wr_session_recover(WrSession *session, const char *journal, bool beyond, Wr
                  .report = &out->report };
     bool good = bring_back(&r, &old, err);
     if (good) {
-        const char *path = read.saved.path ? read.saved.path : read.start.path;
         wr_session_keep_state(session, &old);
-        session->state.path = wr_strdup(path);
+        take_path(session, &read);
         session->state.saved_revision = UINT64_MAX; /* no state of it was ever saved */
         sum_up(&r, out);
         change_journals(session, out);
@@ -450,26 +483,12 @@ bool wr_recovery_script(const char *journal, WrText *text, WrError *err)
     return true;
 }
 
-/* The file as a document has that hash. */
-static bool holds(const char *path, const WrHash *hash, WrError *err)
-{
-    WrSession *session = wr_session_new(NULL);
-    bool good = wr_session_load(session, path, err) && check_hash(session, hash, path, err);
-    wr_session_free(session);
-    return good;
-}
-
 bool wr_recovery_own_file(const char *journal, WrText *path, WrError *err)
 {
     WrJournalRead read = { 0 };
     if (!wr_journal_read(journal, &read, err)) return false;
-    const char *own = read.saved.path ? read.saved.path : read.start.path;
-    bool good = own || wr_fail(err, "it was never saved: it has no file of its own");
-    if (good && read.saved.path) good = holds(own, &read.saved.hash, err);
-    else if (good && read.start.kind == WR_JOURNAL_DOCUMENT)
-        good = holds(own, &read.start.hash, err);
-    else if (good) good = wr_fail(err, "%s: what it should hold is not on record", own);
-    if (good) wr_text_add(path, own);
+    bool good = own_stands(&read, err);
+    if (good) wr_text_add(path, own_path(&read));
     wr_journal_read_fini(&read);
     return good;
 }
