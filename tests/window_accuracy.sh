@@ -65,8 +65,9 @@ scroll() {
 "$program" accuracy --hard-cases --json >cases.json & cases=$!
 start small.wrinkle
 scroll 3 5
-shot empty
-until_true 120 "the plot of what accuracy costs" alters empty $plot
+shot plotted # the window is not at rest before the plot is there
+[[ $(convert plotted.ppm -crop $plot -unique-colors -format '%w' info:) -gt 20 ]] ||
+    complain "there is no plot of what accuracy costs"
 until_true 120 "rest after error and plot were measured" rests
 
 # ---- a click on a point of the plot becomes commands, which undo takes back ----
