@@ -8,6 +8,7 @@
 #include "export/export.h"
 
 #include <math.h>
+#include <string.h>
 
 void wr_dialog_open(WrApp *app, WrDialog dialog)
 {
@@ -33,8 +34,10 @@ void wr_panel_estimate(const WrApp *app, const char *line)
     wr_estimate_print(&estimate, text);
     if (!text[0]) return;
     wr_gui_same_line(10);
-    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, wr_gui_available());
-    wr_gui_tip("Time and memory it will take, estimated from its values and the table's size");
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text + strlen("about "), wr_gui_available());
+    char tip[80];
+    snprintf(tip, sizeof tip, "It will take %s", text); /* beside buttons is little room */
+    wr_gui_tip(tip);
 }
 
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
