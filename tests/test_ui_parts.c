@@ -90,7 +90,7 @@ static void a_range_only_widens_while_something_is_painted(void **state)
     assert_true(range[1] == before);
     wr_range_follow(range, 0, 1, false);
     assert_range(range, 0, 1);
-    wr_range_follow(range, -0.125, 1, true); /* below zero: zero to the middle, at once */
+    wr_range_follow(range, -0.375, 1, true); /* well below zero: zero to the middle, at once */
     assert_true(range[0] == -range[1] && range[1] >= 1);
 }
 

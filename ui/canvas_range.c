@@ -5,7 +5,8 @@
 
 #define LEVEL_REACH 0.5 /* heights from zero that a level table shows, at least */
 #define ROOM 0.25       /* more than it must, as a part of the range */
-#define SLIGHT 0.25     /* dents that are so much shallower than the bumps are high do not cost half of the greys */
+#define SLIGHT                                                                                     \
+    0.25 /* dents that are so much shallower than the bumps are high do not cost half of the greys */
 
 void wr_range_follow(double range[2], double low, double high, bool held)
 {

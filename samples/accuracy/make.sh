@@ -14,7 +14,7 @@
 # ImageMagick's convert. Takes about half an hour; --quick, half a minute.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-out=$here keep='' program='' size=256x256 runs=9 contest_size=256x256 quick=''
+out=$here keep='' program='' size=256x256 runs=9 contest_size=96x96 quick=''
 while [[ $# -gt 0 ]]; do
     case $1 in
     --quick) quick=yes size=16x16 runs=3 contest_size=32x32 ;;
