@@ -201,7 +201,7 @@ static void add_present(const WrLadder *ladder, WrText *text)
             wr_text_addf(&words, "as it stands: %s", ladder->rungs[i].full);
     wr_text_add(text, "set label 999 ");
     add_quoted(text, wr_text_get(&words));
-    wr_text_add(text, " noenhanced at screen 0.70, screen 0.635 font ',8'\n");
+    wr_text_add(text, " noenhanced at screen 0.38, screen 0.943 center font ',9'\n");
     wr_text_fini(&words);
 }
 
