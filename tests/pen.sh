@@ -280,6 +280,7 @@ modes=$(sed -n 's/^stroke .*mode=\([a-z]*\).*/\1/p' history.wrinkle | tr '\n' ' 
 # ---- a mouse that holds its button is let go, also while a pen hovers ----
 xdotool mousemove $((X + 160)) $((Y + 520))
 rest
+sleep 0.5 # the server says that the pen moved: for a tenth of a second after that a mouse is its shadow
 xdotool mousedown 1
 for i in 1 2 3 4 5 6; do xdotool mousemove $((X + 160 + 30 * i)) $((Y + 520)); done
 rest
