@@ -59,6 +59,20 @@ static WrFrame frame_of(Bench *bench, const WrChoice *choice)
     return frame;
 }
 
+/* most: samples a side. The caller ends it with wr_reference_fini. */
+static WrReference reference_of(const Bench *bench, int most)
+{
+    WrError err;
+    WrReference reference = { 0 };
+    const WrReferenceRequest wanted = { .field = bench->request.field,
+                                        .scene = bench->scene,
+                                        .width = SIDE,
+                                        .height = SIDE,
+                                        .most = most };
+    assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+    return reference;
+}
+
 static const char *const ball[] = { "table 64x64",
                                     "noise gradient cells=4 octaves=2 amplitude=0.6 level=0 seed=3",
                                     "surface sphere R=1",
@@ -82,15 +96,8 @@ static void the_measured_error_keeps_to_the_tolerance_or_it_says_so(void **state
     static const double tolerances[] = { 0.05, 0.015, 0.006 };
     int met = 0;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        WrError err;
         Bench bench = bench_of(scenes[i]);
-        WrReference reference = { 0 };
-        const WrReferenceRequest wanted = { .field = bench.request.field,
-                                            .scene = bench.scene,
-                                            .width = SIDE,
-                                            .height = SIDE,
-                                            .most = 16 };
-        assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+        WrReference reference = reference_of(&bench, 16);
         for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
             WrErrors errors;
             WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, tolerances[t]);
@@ -111,15 +118,8 @@ static void the_measured_error_keeps_to_the_tolerance_or_it_says_so(void **state
 
 static void expect_to_hold(const char *const *scene, const double tolerances[2], int most)
 {
-    WrError err;
     Bench bench = bench_of(scene);
-    WrReference reference = { 0 };
-    const WrReferenceRequest wanted = { .field = bench.request.field,
-                                        .scene = bench.scene,
-                                        .width = SIDE,
-                                        .height = SIDE,
-                                        .most = most };
-    assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+    WrReference reference = reference_of(&bench, most);
     for (int t = 0; t < 2; t++) {
         WrErrors errors;
         WrChoice choice = choose(&bench, WR_TOLERANCE_RMS, tolerances[t]);
@@ -384,15 +384,8 @@ static void the_worst_pixel_keeps_to_the_tolerance_or_it_says_so(void **state)
     static const double tolerances[] = { 0.3, 0.1, 0.03, 0.01 };
     int met = 0;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        WrError err;
         Bench bench = bench_of(scenes[i]);
-        WrReference reference = { 0 };
-        const WrReferenceRequest wanted = { .field = bench.request.field,
-                                            .scene = bench.scene,
-                                            .width = SIDE,
-                                            .height = SIDE,
-                                            .most = 32 };
-        assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+        WrReference reference = reference_of(&bench, 32);
         for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
             WrErrors errors;
             WrChoice choice = choose(&bench, WR_TOLERANCE_MAX, tolerances[t]);

@@ -13,9 +13,9 @@
    same table, scene, size and tolerance give the same dials, on any machine and any number of threads. Only
    `time=` needs to know how fast the machine is; that is measured once and kept.
 
-   The blocks' pictures at their picks are the picture: choosing and making it are one, and take about a third more
-   than making it alone. Where only the cheap pictures are needed it takes more: to know that one sample will do
-   costs 2 x 2.
+   The blocks' pictures at their picks are the picture: choosing and making it are one. As measured that takes two to
+   four times what making it again takes (samples/accuracy): blocks climb through all levels, some a level too high,
+   and to know that one sample will do costs 2 x 2.
 
    What it cannot know. `met` is an estimate: what all levels of a block agree on, and the probes do not meet, is
    not seen. samples/accuracy tells how often it held. The true picture is taken to be what 16 x 16 samples tend
