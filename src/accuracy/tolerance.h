@@ -20,7 +20,8 @@
    What it cannot know. `met` is an estimate: what all levels of a block agree on, and the probes do not meet, is
    not seen. samples/accuracy tells how often it held. The true picture is taken to be what 16 x 16 samples tend
    to: what the arithmetic or the stored heights lose is kept as the scene has it and is not counted, nor, but for
-   max=, which takes a finer one, what the surface's mesh loses at outlines. Where 16 x 16 samples themselves are off by more than the tolerance, it is said not to be met. Along
+   max=, which takes a finer one, what the surface's mesh loses at outlines. Where 16 x 16 samples themselves are off by
+   more than the tolerance, it is said not to be met. Along
    outlines that run with the pixels' rows all levels may be off alike: there the error is taken to be what such
    an outline can hide. */
 #pragma once
