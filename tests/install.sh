@@ -39,7 +39,8 @@ try "$folder/moved"
 share=$folder/prefix/share
 for file in applications/wrinkle.desktop mime/packages/wrinkle.xml man/man1/wrinkle.1 \
     icons/hicolor/scalable/apps/wrinkle.svg icons/hicolor/48x48/apps/wrinkle.png \
-    wrinkle/samples/bricks.wrinkle wrinkle/samples/rivets.wrinkle doc/wrinkle/README.md; do
+    wrinkle/samples/bricks.wrinkle wrinkle/samples/rivets.wrinkle wrinkle/samples/screenshot.png \
+    wrinkle/ui/guide/README.md wrinkle/ui/guide/window.md doc/wrinkle/README.md; do
     [[ -s $share/$file ]] || fail "share/$file is missing"
 done
 desktop-file-validate "$share/applications/wrinkle.desktop" || fail "the desktop entry is not valid"

@@ -467,7 +467,7 @@ const WrAction wr_actions[] = {
     { "pose_reset", "Reset the patch's pose", pose_reset, NULL, NULL },
     { "fullscreen", "Full screen", fullscreen, NULL, NULL },
     { "tablet", "Tablet tester...", wr_dialog_tablet_open, NULL, NULL },
-    { "help", "Short guide", help, NULL, NULL },
+    { "help", "Guide", help, NULL, NULL },
     { "about", "About Wrinkle", about, NULL, NULL },
     { NULL, NULL, NULL, NULL, NULL }
 };

@@ -2,6 +2,7 @@
    The window: SDL, the event loop, what is drawn when. */
 #include "ui/accuracy.h"
 #include "ui/generate_hand.h"
+#include "ui/guide.h"
 #include "ui/rest.h"
 
 #include "base/clock.h"
@@ -119,6 +120,7 @@ void wr_app_end(WrApp *app)
     wr_shelf_free(app);
     wr_stamp_forget(app);
     wr_generate_free(app);
+    wr_guide_free(app);
     if (app->renderer) wr_panel_layers_forget(app);
     wr_canvas_free(app->canvas);
     wr_gui_free(app->gui);

@@ -358,7 +358,8 @@ struct WrApp {
     WrPreview *preview;
     WrKeyMap *keys;
     WrPen *pen;
-    WrTester *tester; /* of tablets; owned, NULL until it is opened */
+    WrTester *tester;      /* of tablets; owned, NULL until it is opened */
+    struct WrGuide *guide; /* the help; owned, NULL until it is opened */
     WrSettings settings;
     WrSettings settings_known; /* as they were read or written last */
     double settings_at;        /* clock when they were looked at last */
