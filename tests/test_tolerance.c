@@ -170,6 +170,37 @@ static void relief_in_a_corner_of_the_picture_is_seen(void **state)
     }
 }
 
+/* No number of samples mends what the usual mesh loses there. */
+static void outlines_of_a_mesh_are_no_coarser_than_the_tolerance(void **state)
+{
+    (void)state;
+    static const char *const ring[] = { "table 64x64",
+                                        "fill 0",
+                                        "surface torus R=1 r=0.4",
+                                        "camera perspective fov=40",
+                                        "material diffuse=0.9 specular=0",
+                                        NULL };
+    expect_to_hold(ring, (const double[2]){ 0.0025, 0.0012 }, 32);
+}
+
+/* What 2 x 2 would change there is foretold by what a few of them tell. */
+static void calm_insides_are_not_rendered_twice(void **state)
+{
+    (void)state;
+    WrError err;
+    WrFrame frame;
+    WrChoice choice = { 0 };
+    Bench bench = bench_of(ball);
+    bench.scene->height = 0;
+    bench.scene->tolerance = (WrTolerance){ WR_TOLERANCE_RMS, 0.01 };
+    bench.request.width = bench.request.height = 2 * SIDE;
+    assert_true(wr_tolerance_choose(bench.renderer, &bench.request, &choice, &frame, &err));
+    assert_true(choice.met);
+    assert_true(frame.shaded < 3 * frame.covered);
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
 static void a_tolerance_that_nothing_meets_is_said_to_be_so(void **state)
 {
     (void)state;
@@ -539,6 +570,8 @@ int main(void)
         cmocka_unit_test(the_measured_error_keeps_to_the_tolerance_or_it_says_so),
         cmocka_unit_test(outlines_that_run_with_the_pixels_rows_do_not_deceive),
         cmocka_unit_test(relief_in_a_corner_of_the_picture_is_seen),
+        cmocka_unit_test(outlines_of_a_mesh_are_no_coarser_than_the_tolerance),
+        cmocka_unit_test(calm_insides_are_not_rendered_twice),
         cmocka_unit_test(a_tolerance_that_nothing_meets_is_said_to_be_so),
         cmocka_unit_test(a_coarser_tolerance_takes_no_more_samples),
         cmocka_unit_test(a_table_without_relief_needs_one_sample_inside),

@@ -9,8 +9,8 @@
 
 #define CLIMBS 16 /* rounds, each of one level for the blocks that want it */
 #define PROBINGS 3
-/* WrDials: the usual mesh leaves an outline a twentieth of a pixel off, which no number of samples mends. */
-#define FINE_MESH 2
+#define MANY 16 /* blocks of a level that want the next: one in AHEAD of them goes first */
+#define AHEAD 4
 #define WORTH 2.0 /* a look at cheaper slopes may save so many times what it takes */
 
 /* ---- slopes and normals ---- */
@@ -56,20 +56,44 @@ static bool add_cheaper(Study *study, double expected, WrError *err)
 
 /* ---- climbing ---- */
 
+/* Which blocks want the next level. How many. */
+static int64_t find_climbers(const Study *study, unsigned char *wanted)
+{
+    int64_t climbers = 0;
+    for (int64_t b = 0; b < study->count; b++) {
+        const Block *block = &study->block[b];
+        wanted[b] = block->shown && block->pick > block->level;
+        climbers += wanted[b];
+    }
+    return climbers;
+}
+
+/* Where many of a level want the next and nothing is known yet of how right that is, some go ahead: what they turn
+   out to be off may tell that the others can stay. */
+static void send_some_ahead(const Study *study, unsigned char *wanted)
+{
+    int64_t climbers[LEVELS][2] = { { 0 } }, passed[LEVELS][2] = { { 0 } };
+    for (int64_t b = 0; b < study->count; b++)
+        climbers[study->block[b].level][study->block[b].edge] += wanted[b];
+    for (int64_t b = 0; b < study->count; b++) {
+        const Block *block = &study->block[b];
+        if (!wanted[b] || block->level == 0) continue;
+        if (climbers[block->level][block->edge] < MANY) continue;
+        if (study->learnt[block->level][block->edge].blocks >= MANY / AHEAD) continue;
+        wanted[b] = passed[block->level][block->edge]++ % AHEAD == 0;
+    }
+}
+
 /* Until no block wants a level that it has not seen. */
 static bool climb(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     unsigned char *wanted = wr_alloc((size_t)study->count, 1);
     bool good = true;
     for (int round = 0; good && round < CLIMBS; round++) {
-        int64_t climbers = 0;
-        for (int64_t b = 0; b < study->count; b++) {
-            const Block *block = &study->block[b];
-            wanted[b] = block->shown && block->pick > block->level;
-            climbers += wanted[b];
-        }
-        if (climbers == 0) break;
+        if (find_climbers(study, wanted) == 0) break;
+        if (tolerance->kind != WR_TOLERANCE_MAX) send_some_ahead(study, wanted);
         good = wr_study_climb(study, wanted, err);
+        if (tolerance->kind != WR_TOLERANCE_MAX) wr_study_learn(study);
         if (good) wr_study_pick(study, tolerance, false);
     }
     wr_free(wanted);
@@ -92,12 +116,8 @@ static bool climb_and_probe(Study *study, const WrTolerance *tolerance, WrError 
 static bool run(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     add_best_pair(study);
-    const WrDial *mesh = &wr_dials[WR_DIAL_MESH];
-    if (tolerance->kind == WR_TOLERANCE_MAX &&
-        (!mesh->matters || mesh->matters(study->request->scene)))
-        study->mesh = FINE_MESH;
     for (int level = 0; level < LEVELS; level++) study->doubt[level] = (Doubt){ 1, 1, 0 };
-    if (!wr_study_survey(study, err)) return false;
+    if (!wr_study_survey(study, tolerance, err)) return false;
     wr_study_pick(study, tolerance, true);
     /* One sample a pixel tells what they change on the whole, not what at most. */
     if (tolerance->kind != WR_TOLERANCE_MAX && !add_cheaper(study, wr_study_cost(study), err))

@@ -11,11 +11,7 @@
 
 /* ---- blocks of pixels ---- */
 
-typedef struct Corner {
-    int x, y, w, h; /* of a block, pixels */
-} Corner;
-
-static Corner corner_of(const Study *study, int64_t block)
+Corner wr_study_corner(const Study *study, int64_t block)
 {
     const WrFrameRequest *request = study->request;
     Corner at = { (int)(block % study->blocks_u) * BLOCK, (int)(block / study->blocks_u) * BLOCK, 0,
@@ -28,7 +24,7 @@ static Corner corner_of(const Study *study, int64_t block)
 /* A block of the frame; what lies beyond the picture is 0. */
 static void take(const Study *study, int64_t block, float *out)
 {
-    const Corner at = corner_of(study, block);
+    const Corner at = wr_study_corner(study, block);
     const size_t wide = (size_t)study->request->width;
     if (at.w < BLOCK || at.h < BLOCK) memset(out, 0, BLOCK_FLOATS * sizeof *out);
     for (int y = 0; y < at.h; y++)
@@ -39,7 +35,7 @@ static void take(const Study *study, int64_t block, float *out)
 
 static void put(const Study *study, int64_t block, const float *rgba)
 {
-    const Corner at = corner_of(study, block);
+    const Corner at = wr_study_corner(study, block);
     const size_t wide = (size_t)study->request->width;
     for (int y = 0; y < at.h; y++)
         memcpy(study->frame->rgba + 4 * ((size_t)(at.y + y) * wide + (size_t)at.x),
@@ -66,8 +62,6 @@ Change wr_block_change(const float *a, const float *b)
 
 /* ---- outlines ---- */
 
-enum { NOTHING = 1, OBJECT = 2 }; /* and both */
-
 /* What a pixel shows, whose coverages are those: the sample in its middle does not see an edge that passes
    beside it, the others do. */
 static int look(float one, float two)
@@ -75,35 +69,42 @@ static int look(float one, float two)
     return (one > 0 || two > 0 ? OBJECT : 0) | (one <= 0 || two < 1 ? NOTHING : 0);
 }
 
+/* The same of a pixel of a block, by as many pictures as it has. */
+static int look_pixel(const Block *block, int x, int y)
+{
+    const size_t n = (size_t)4 * (size_t)(y * BLOCK + x) + 3;
+    const float one = block->rgba[0][n];
+    return look(one, block->rgba[1] ? block->rgba[1][n] : one);
+}
+
 /* What the block shows; its pixels that the first picture covers are counted. */
-static int look_at(const Study *study, int64_t b)
+int wr_study_look(const Study *study, int64_t b)
 {
     Block *block = &study->block[b];
-    const Corner at = corner_of(study, b);
+    const Corner at = wr_study_corner(study, b);
     int seen = 0;
     block->covered = 0;
     for (int y = 0; y < at.h; y++)
         for (int x = 0; x < at.w; x++) {
             const size_t n = (size_t)4 * (size_t)(y * BLOCK + x) + 3;
-            seen |= look(block->rgba[0][n], block->rgba[1][n]);
+            seen |= look_pixel(block, x, y);
             block->covered += block->rgba[0][n] > 0;
         }
     return seen;
 }
 
 /* What the pixels next to a block show. */
-static int look_around(const Study *study, int64_t b)
+int wr_study_look_around(const Study *study, int64_t b)
 {
-    const Corner at = corner_of(study, b);
+    const Corner at = wr_study_corner(study, b);
     int seen = 0;
-    for (int y = at.y - 1; y <= at.y + at.h; y++) {
+    for (int y = at.y - 1; y <= at.y + at.h && seen != (NOTHING | OBJECT); y++) {
         const bool beside = y >= at.y && y < at.y + at.h;
         for (int x = at.x - 1; x <= at.x + at.w; x += beside ? at.w + 1 : 1) {
             if (x < 0 || y < 0 || x >= study->request->width || y >= study->request->height)
                 continue;
             const Block *other = &study->block[(int64_t)(y / BLOCK) * study->blocks_u + x / BLOCK];
-            const size_t n = (size_t)4 * (size_t)(y % BLOCK * BLOCK + x % BLOCK) + 3;
-            seen |= look(other->rgba[0][n], other->rgba[1][n]);
+            seen |= look_pixel(other, x % BLOCK, y % BLOCK);
         }
     }
     return seen;
@@ -127,7 +128,7 @@ static void add_step(const float *p, const float *across, const float *p_beside,
    what two levels agree on may be off all the same. */
 static Change aligned(const Study *study, int64_t b, int level)
 {
-    const Corner at = corner_of(study, b);
+    const Corner at = wr_study_corner(study, b);
     const float *rgba = study->block[b].rgba[level];
     const int k = wr_level_side(level);
     Change sum = { 0, 0 };
@@ -151,7 +152,8 @@ WrScene *wr_study_scene(const Study *study, int pair, int level)
     scene->dials.aa = level > 0 ? WR_AA_SUPERSAMPLE : WR_AA_POINT;
     scene->dials.samples = wr_level_side(level);
     scene->dials.spread = WR_SPREAD_REGULAR;
-    if (scene->dials.mesh < study->mesh) scene->dials.mesh = study->mesh;
+    if (level >= study->mesh_from && scene->dials.mesh < study->mesh)
+        scene->dials.mesh = study->mesh;
     scene->tolerance = (WrTolerance){ WR_TOLERANCE_NONE, 0 };
     return scene;
 }
@@ -206,80 +208,32 @@ bool wr_study_render(Study *study, int pair, int level, bool keep, float *out, W
     return true;
 }
 
-/* ---- the survey ---- */
-
-static void drop(Block *block, int level)
-{
-    wr_free(block->rgba[level]);
-    block->rgba[level] = NULL;
-}
-
-/* An outline passes beside a block and may cut a corner of it that neither picture has seen: what one row of the
-   liveliest neighbour changed may be hidden there. */
-static void doubt_corner(Study *study, int64_t b)
-{
-    const int u = (int)(b % study->blocks_u), v = (int)(b / study->blocks_u);
-    Change *own = &study->block[b].change[1];
-    for (int j = v > 0 ? v - 1 : 0; j <= v + 1 && j < study->blocks_v; j++)
-        for (int i = u > 0 ? u - 1 : 0; i <= u + 1 && i < study->blocks_u; i++) {
-            const Block *other = &study->block[(int64_t)j * study->blocks_u + i];
-            if (!other->lined) continue;
-            own->most = fmax(own->most, other->change[1].most);
-            own->squares = fmax(own->squares, other->change[1].squares / BLOCK);
-        }
-}
-
-/* What each block shows, and what of it is nothing is let go. */
-static void sort_blocks(Study *study)
-{
-    unsigned char *seen = wr_alloc((size_t)study->count, 1);
-    study->pixels = 0;
-    for (int64_t b = 0; b < study->count; b++) seen[b] = (unsigned char)look_at(study, b);
-    for (int64_t b = 0; b < study->count; b++) {
-        Block *block = &study->block[b];
-        block->edge = (seen[b] | look_around(study, b)) == (NOTHING | OBJECT);
-        block->shown = block->edge || seen[b] == OBJECT;
-        block->lined = seen[b] == (NOTHING | OBJECT);
-        block->level = 1;
-        block->change[1] = wr_block_change(block->rgba[0], block->rgba[1]);
-        study->pixels += block->covered;
-    }
-    for (int64_t b = 0; b < study->count; b++)
-        if (study->block[b].edge && !study->block[b].lined) doubt_corner(study, b);
-    for (int64_t b = 0; b < study->count; b++)
-        for (int level = 0; level < 2 && !study->block[b].shown; level++)
-            drop(&study->block[b], level);
-    wr_free(seen);
-}
-
-bool wr_study_survey(Study *study, WrError *err)
-{
-    memset(study->mask, 1, (size_t)study->count);
-    if (!wr_study_render(study, 0, 0, true, NULL, err) ||
-        !wr_study_render(study, 0, 1, true, NULL, err))
-        return false;
-    sort_blocks(study);
-    return true;
-}
-
 /* ---- climbing ---- */
 
-/* The blocks of a pair that are at a level and want the next into the mask. How many. */
+/* The blocks of a pair that are at a level and want the next into the mask. How many. The second level is made
+   with the best pair, as the first was: what changes between them is the samples. */
 static int64_t mask_climbers(Study *study, const unsigned char *wanted, int pair, int level)
 {
     int64_t found = 0;
     for (int64_t b = 0; b < study->count; b++) {
         const Block *block = &study->block[b];
-        study->mask[b] = wanted[b] && block->level == level && block->pair == pair;
+        study->mask[b] =
+            wanted[b] && block->level == level && pair == (level > 0 ? block->pair : 0);
         found += study->mask[b];
     }
     return found;
 }
 
+void wr_study_drop(Block *block, int level)
+{
+    wr_free(block->rgba[level]);
+    block->rgba[level] = NULL;
+}
+
 bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err)
 {
     /* From above, so that no block climbs twice. */
-    for (int level = TOP - 1; level >= 1; level--)
+    for (int level = TOP - 1; level >= 0; level--)
         for (int pair = 0; pair < study->pairs; pair++) {
             if (mask_climbers(study, wanted, pair, level) == 0) continue;
             if (!wr_study_render(study, pair, level + 1, true, NULL, err)) return false;
@@ -289,7 +243,7 @@ bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err)
                 block->change[level + 1] =
                     wr_block_change(block->rgba[level], block->rgba[level + 1]);
                 block->level = (signed char)(level + 1);
-                drop(block, level - 1); /* nobody goes down two levels */
+                if (level > 0) wr_study_drop(block, level - 1); /* nobody goes down two levels */
             }
         }
     return true;

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Of the square of what a step from k to 2k samples a side changes, c, where errors fall as k^-p:
      outlines, p = 3/2   the finer is off by 1/9 of c if both are independent, by 0.3 if of the same sign;
@@ -21,9 +22,14 @@
 #define FELL_MOST 3.0
 static const double finer_most[LEVELS] = { 0, 0.85, 0.85, 0.75, 0.7 };
 
+/* What blocks that climbed on turned out to be off corrects the others: from so many on, within such bounds. */
+#define LEARNT_LEAST 6
+#define LEARNT_LOW 0.4
+#define LEARNT_HIGH 4.0
+
 /* Probing: which picks, at which level; of what the picture takes such a part, for all of them. */
 #define PROBED 3
-#define PROBE_LEVEL 3
+static const int probe_level[PROBED] = { 2, 3, 3 };
 #define PROBING 0.25
 #define GROWN 1.5   /* so many times as many blocks are probed anew */
 #define CAUTION 1.0 /* standard errors that are added to a ratio of the sample */
@@ -45,10 +51,10 @@ static Change times(Change a, double squares, double most)
     return (Change){ a.squares * squares, a.most * most };
 }
 
-/* At its own level: by the last step, and not by less than the steps before foretell. */
-static Change off_here(const Block *block)
+/* At a level: by the step to it, and not by less than the steps before foretell. */
+static Change foretold(const Block *block, int level)
 {
-    const int level = block->level;
+    if (level == 0) return times(block->change[1], COARSER_LEAST, 1);
     Change off = block->step[level];
     double fall = FINER, fall_most = finer_most[level];
     for (int n = level; n >= 1; n--) {
@@ -67,26 +73,60 @@ static double coarser(const Block *block, int level)
     return fmax(COARSER_LEAST, fmin(COARSER_MOST, before / after / 9));
 }
 
-static Change off_samples(const Block *block, int level)
+/* So many levels above where it is off by that. */
+static Change off_above(Change here, int above)
 {
-    const Change here = off_here(block);
+    return times(here, pow(1 / FALL, above), pow(1 / FALL_MOST, above));
+}
+
+/* At its own level, as others of its kind have turned out. */
+static Change off_here(const Study *study, const Block *block)
+{
+    const int level = block->level;
+    const Learnt *learnt = &study->learnt[level][block->edge];
+    const Change off = foretold(block, level);
+    if (learnt->blocks < LEARNT_LEAST || !(learnt->foretold > 0)) return off;
+    const double caution = 1 + 1 / sqrt((double)learnt->blocks);
+    const double right = caution * learnt->told / learnt->foretold;
+    return times(off, fmax(LEARNT_LOW, fmin(LEARNT_HIGH, right)), 1);
+}
+
+static Change off_samples(const Study *study, const Block *block, int level)
+{
+    const Change here = off_here(study, block);
     if (level == block->level) return here;
     if (level < block->level) {
         const Change *next = &block->change[level + 1];
         return larger(block->step[level],
                       (Change){ coarser(block, level) * next->squares, next->most + here.most });
     }
+    if (block->level == 0)
+        return off_above(times(block->change[1], FINER, finer_most[1]), level - 1);
     const int above = level - block->level;
     const Change step = times(block->step[block->level], pow(0.25, above), pow(0.5, above));
-    return larger(step, times(here, pow(1 / FALL, above), pow(1 / FALL_MOST, above)));
+    return larger(step, off_above(here, above));
 }
 
 Change wr_study_off(const Study *study, const Block *block, int pair, int level)
 {
     const Doubt *doubt = &study->doubt[level];
-    const Change off = times(off_samples(block, level), doubt->weight, doubt->weight_most);
+    const Change off = times(off_samples(study, block, level), doubt->weight, doubt->weight_most);
     const Change formula = pair > 0 ? block->formula[pair] : (Change){ 0, 0 };
     return (Change){ off.squares + formula.squares, off.most + formula.most };
+}
+
+void wr_study_learn(Study *study)
+{
+    memset(study->learnt, 0, sizeof study->learnt);
+    for (int64_t b = 0; b < study->count; b++) {
+        const Block *block = &study->block[b];
+        for (int level = 1; block->shown && level < block->level; level++) {
+            Learnt *learnt = &study->learnt[level][block->edge];
+            learnt->foretold += foretold(block, level).squares;
+            learnt->told += coarser(block, level) * block->change[level + 1].squares;
+            learnt->blocks++;
+        }
+    }
 }
 
 double wr_study_rms(const Study *study, double squares)
@@ -164,12 +204,18 @@ static void add_probe(const Study *study, const Block *block, const float *fine,
 }
 
 /* From shares of estimate and floor to a factor of the estimate: the floors add up to half of the estimates. */
+double wr_study_factor(double shares, double squares, int64_t count)
+{
+    const double n = (double)count, mean = shares / n;
+    const double variance = fmax(0, squares / n - mean * mean) / fmax(1, n - 1);
+    return 1.5 * (mean + CAUTION * sqrt(variance));
+}
+
 static double cautious(const Ratio *ratio)
 {
-    const double n = (double)ratio->count, mean = ratio->sum / n;
-    if (n < FEW) return 1.5 * mean > FAR ? 1.5 * mean : 1;
-    const double variance = fmax(0, ratio->squares / n - mean * mean) / fmax(1, n - 1);
-    return 1.5 * (mean + CAUTION * sqrt(variance));
+    const double mean = ratio->sum / (double)ratio->count;
+    if (ratio->count < FEW) return 1.5 * mean > FAR ? 1.5 * mean : 1;
+    return wr_study_factor(ratio->sum, ratio->squares, ratio->count);
 }
 
 static bool render_picks(Study *study, int pick, WrError *err)
@@ -193,9 +239,9 @@ static bool render_picks(Study *study, int pick, WrError *err)
 }
 
 /* At least one; together about PROBING of what the picture takes. */
-static int64_t probes_wanted(const Study *study, int64_t count)
+static int64_t probes_wanted(const Study *study, int pick, int64_t count)
 {
-    const double side = wr_level_side(PROBE_LEVEL);
+    const double side = wr_level_side(probe_level[pick]);
     const double one = study->pair[0].price * side * side * WR_FRAME_BLOCK * WR_FRAME_BLOCK;
     const int64_t worth = (int64_t)(PROBING / PROBED * wr_study_cost(study) / one);
     return worth < 1 ? 1 : worth < count ? worth : count;
@@ -207,14 +253,15 @@ static bool probe_pick(Study *study, int pick, bool *worse, WrError *err)
     double floor_off;
     Ratio ratio = { 0, 0, 0, 0 };
     Probe *list = list_picked(study, pick, &count);
-    const int64_t wanted =
-        (double)count > GROWN * (double)study->doubt[pick].blocks ? probes_wanted(study, count) : 0;
+    const int64_t wanted = (double)count > GROWN * (double)study->doubt[pick].blocks
+                               ? probes_wanted(study, pick, count)
+                               : 0;
     const int64_t drawn = wanted > 0 ? draw(study, list, count, wanted, &floor_off) : 0;
     wr_free(list);
     if (drawn == 0) return true;
     float *fine = wr_try_alloc((size_t)drawn * BLOCK_FLOATS, sizeof *fine, "blocks", err);
     bool good = fine && render_picks(study, pick, err) &&
-                wr_study_render(study, 0, PROBE_LEVEL, false, fine, err);
+                wr_study_render(study, 0, probe_level[pick], false, fine, err);
     const float *at = fine;
     for (int64_t b = 0; good && b < study->count; b++) {
         if (!study->mask[b]) continue;

@@ -31,10 +31,16 @@ typedef struct Change {
     double squares, most;
 } Change;
 
+typedef struct Corner {
+    int x, y, w, h; /* of a block, pixels */
+} Corner;
+
+enum { NOTHING = 1, OBJECT = 2 }; /* what pixels show; and both */
+
 typedef struct Block {
     bool shown;          /* any of the object is in it, or an outline next to it */
     bool edge, lined;    /* an outline is in it or next to it; in it */
-    signed char level;   /* the highest that it was rendered at */
+    signed char level;   /* the highest that it was rendered at; 0: change[1] is foretold */
     signed char pair;    /* from level 2 on, and of its pick */
     signed char pick;    /* the level that it gets */
     int covered;         /* pixels with coverage in the first picture */
@@ -53,6 +59,12 @@ typedef struct Doubt {
     int64_t blocks;     /* how many had that pick when it was probed; 0: it was not */
 } Doubt;
 
+/* What was foretold of a level's blocks from the step to it, beside what the step from it then told. */
+typedef struct Learnt {
+    double foretold, told; /* squares, of the blocks that climbed on */
+    int64_t blocks;
+} Learnt;
+
 typedef struct Study {
     WrRenderer *renderer;
     const WrFrameRequest *request;
@@ -64,10 +76,12 @@ typedef struct Study {
     double pixels;       /* of the object */
     Pair pair[PAIRS_MAX];
     int pairs;
-    int mesh; /* WrDials, at least */
+    int mesh; /* WrDials, at least, from level mesh_from on */
+    int mesh_from;
     Doubt doubt[LEVELS];
-    double spent;   /* of all frames so far, in prices */
-    double seconds; /* of the same, by the clock, without what had to be made first */
+    Learnt learnt[LEVELS][2]; /* by level, and whether at an outline */
+    double spent;             /* of all frames so far, in prices */
+    double seconds;           /* of the same, by the clock, without what had to be made first */
     int64_t shaded;
     WrStageTimes times;
 } Study;
@@ -76,8 +90,12 @@ typedef struct Study {
 
 /* The scene with a pair's and a level's dials; the caller frees it. */
 WrScene *wr_study_scene(const Study *study, int pair, int level);
-/* The first two levels of the whole picture with the best pair: all blocks' pictures and what they show. */
-bool wr_study_survey(Study *study, WrError *err);
+Corner wr_study_corner(const Study *study, int64_t block);
+/* What a block shows, by the pictures that it has, and what the pixels next to it do: NOTHING, OBJECT or both;
+   its pixels that the first picture covers are counted. */
+int wr_study_look(const Study *study, int64_t b);
+int wr_study_look_around(const Study *study, int64_t b);
+void wr_study_drop(Block *block, int level);
 /* Those blocks of study->mask at a level with a pair. keep: as their pictures of that level; else into `out`,
    BLOCK_FLOATS for each of them in order, or, where that is NULL too, nowhere: only study->frame has them. */
 bool wr_study_render(Study *study, int pair, int level, bool keep, float *out, WrError *err);
@@ -90,6 +108,12 @@ bool wr_study_compose(Study *study, WrError *err);
 Change wr_block_change(const float *a, const float *b);
 void wr_study_fini(Study *study);
 
+/* ---- tolerance_survey.c ---- */
+
+/* The first level of the whole picture with the best pair, and the second where it must be: all blocks' pictures
+   and what they show. */
+bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err);
+
 /* ---- tolerance_estimate.c ---- */
 
 /* What a block is off at a level with a pair: squares summed over pixels and channels, and the largest. A level
@@ -97,9 +121,14 @@ void wr_study_fini(Study *study);
 Change wr_study_off(const Study *study, const Block *block, int pair, int level);
 /* Root mean square of linear intensity over the object, of a sum of squares. */
 double wr_study_rms(const Study *study, double squares);
+/* How right were the estimates of blocks that have climbed on since? Those of the others follow. */
+void wr_study_learn(Study *study);
 /* A few blocks of each pick at a far finer level: where they are off by more than was estimated, all of their
    kind are taken to be. *worse: something was learnt that may change picks. */
 bool wr_study_probe(Study *study, bool *worse, WrError *err);
+/* Errors that were seen beside those that were foretold, each raised by a floor that comes to half of all that is
+   foretold: the factor that makes the foretold right, with some caution. shares: their sum, and of their squares. */
+double wr_study_factor(double shares, double squares, int64_t count);
 
 /* ---- tolerance_pick.c ---- */
 
