@@ -63,6 +63,24 @@ answer_file after.exr ctrl+shift+s
 [[ $(hash_of after.exr) == "$was" ]] || complain "what was given up changed the document"
 until_true 120 "the title of the copy" title_is after.exr
 
+# ---- it is laid out anew at once when its size changes, and the narrowest has room for Cancel ----
+has_size() { [[ $(identify -format '%wx%h' now.ppm) == "$1" ]]; }
+# The left end of the bar is at that height: the picture behind it is no bar.
+bar_at() {
+    shot now
+    has_size "$1" && [[ $(convert now.ppm -format "%[hex:p{3,$2}]" info:) == "$colour" ]]
+}
+shot calm
+colour=$(convert calm.ppm -format '%[hex:p{3,797}]' info:)
+begin
+xdotool windowsize "$window" 640 480
+until_true 120 "the bar at the foot of the smaller window" bar_at 640x480 477
+xdotool mousemove $((X + 590)) $((Y + 466)) click 1
+rest
+xdotool windowsize "$window" 1200 800
+settle
+title_is after.exr || complain "given up by its button, the title is $(xdotool getwindowname "$window")"
+
 # ---- the window lives on ----
 drag 180 300 6 4 20
 becomes 'stroke *' "a stroke afterwards"
@@ -71,8 +89,10 @@ until_true 120 "the stroke undone" title_is after.exr
 
 # ---- a wish to quit waits until it is done, or given up ----
 begin
+shot working
 xdotool key ctrl+q
-sleep 0.1 # there is nothing to wait for: nothing may happen
+promised() { alters working "$bar"; }
+until_true 120 "that it will close" promised
 is_gone && complain "quitting did not wait"
 xdotool key Escape
 ends 0

@@ -4,6 +4,7 @@
 #include "ui/generate_hand.h"
 #include "ui/guide.h"
 #include "ui/rest.h"
+#include "ui/thread.h"
 
 #include "base/clock.h"
 #include "base/file.h"
@@ -145,39 +146,6 @@ void wr_app_end(WrApp *app)
 
 /* ---- events ---- */
 
-static void window_event(WrApp *app, const SDL_WindowEvent *event)
-{
-    switch (event->event) {
-    case SDL_WINDOWEVENT_HIDDEN:
-    case SDL_WINDOWEVENT_MINIMIZED: app->visible = false; break;
-    case SDL_WINDOWEVENT_SHOWN:
-    case SDL_WINDOWEVENT_EXPOSED:
-    case SDL_WINDOWEVENT_RESTORED:
-        app->visible = true;
-        wr_window_keep(app);
-        break;
-    case SDL_WINDOWEVENT_MOVED: wr_window_keep(app); break;
-    case SDL_WINDOWEVENT_MAXIMIZED:
-        app->visible = true;
-        app->settings.maximized = true;
-        break;
-    case SDL_WINDOWEVENT_FOCUS_LOST:
-        wr_gui_release_all(app->gui);
-        app->hand.space = false;
-        break;
-    case SDL_WINDOWEVENT_LEAVE:
-        if (app->hand.grab == WR_GRAB_NONE) app->hand.on_canvas = app->hand.on_patch = false;
-        break;
-    case SDL_WINDOWEVENT_CLOSE: wr_app_quit(app); break;
-    case SDL_WINDOWEVENT_SIZE_CHANGED:
-        if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED))
-            app->settings.maximized = false;
-        break;
-    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = wr_window_scale(app->window); break;
-    default: break;
-    }
-}
-
 static bool is_hand(const SDL_Event *event)
 {
     return event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_KEYDOWN;
@@ -204,7 +172,7 @@ static void handle(WrApp *app, const SDL_Event *event)
         if (app->dialog == WR_DIALOG_UNSAVED) app->quit = true;
         else wr_app_quit(app);
     } else if (event->type == SDL_WINDOWEVENT) {
-        window_event(app, &event->window);
+        wr_window_event(app, &event->window);
     } else if (event->type == SDL_DROPFILE) {
         if (event->drop.file) wr_app_open_path(app, event->drop.file);
         SDL_free(event->drop.file);
@@ -382,6 +350,14 @@ static bool take_pens(WrApp *app)
     return any;
 }
 
+/* Each of what needed one does without. */
+static void tell_refused(WrApp *app)
+{
+    if (wr_thread_refused())
+        wr_app_say(app, "The system gives no more threads: what takes long holds the window up "
+                        "until it is done");
+}
+
 void wr_app_step(WrApp *app)
 {
     SDL_Event event;
@@ -397,6 +373,7 @@ void wr_app_step(WrApp *app)
                app->messages.list.count > 0 || works(app)) {
         if (app->redraw == 0) app->redraw = 1;
     }
+    tell_refused(app);
     wr_app_tend(app);
     wr_strokes_work(app);
     wr_later_run(app);

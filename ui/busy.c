@@ -8,6 +8,7 @@
 #include "ui/job.h"
 #include "ui/state.h"
 
+#include "base/array.h"
 #include "base/clock.h"
 #include "command/estimate.h"
 
@@ -52,7 +53,8 @@ typedef struct Wait {
     SDL_Texture *behind;      /* the window as it was last drawn; owned */
     int behind_w, behind_h;
     bool panning, close, cancelled;
-    bool file_chosen, asked; /* the desktop's dialog, and a test, spoke: answered afterwards */
+    bool file_chosen, asked;  /* the desktop's dialog, and a test, spoke: answered afterwards */
+    WR_ARRAY(char *) dropped; /* files, in order: opened afterwards; SDL's */
 } Wait;
 
 static void grab(Wait *wait)
@@ -89,6 +91,22 @@ static void time_left(const Wait *wait, double took, char text[WR_PROGRESS_LEFT]
         snprintf(text, WR_PROGRESS_LEFT, "~%d:%02d left", rest / 60, rest % 60);
 }
 
+/* What it does, or what it has to say of what was asked for meanwhile. */
+static const char *words(const Wait *wait, bool refused)
+{
+    return refused                   ? "Not while this is being done: wait or cancel"
+           : wait->close             ? "Closes when this is done: wait or cancel"
+           : wait->dropped.count > 0 ? "The dropped file opens when this is done"
+                                     : wait->what;
+}
+
+/* Narrow windows have shorter words and a shorter bar, but all of it. */
+static double squeezed(double wide, double share)
+{
+    double lacking = fmax(0.0, wr_gui_px(830) - wr_gui_width());
+    return fmax(wr_gui_px(20), wr_gui_px(wide) - share * lacking);
+}
+
 static void bar(Wait *wait, double now)
 {
     WrApp *app = wait->app;
@@ -101,21 +119,21 @@ static void bar(Wait *wait, double now)
     if (fraction > wait->furthest) wait->furthest = fraction;
     if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
     wr_gui_area_begin("##busy", WR_AREA_BAR, room, refused ? 0xff5a3030u : WR_COLOUR_BAR);
-    wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG,
-                    refused ? "Not while this is being done: wait or cancel" : wait->what,
-                    wr_gui_px(320));
+    double wide = squeezed(320, 0.6), long_bar = squeezed(220, 0.4);
+    double end = wr_gui_px(30) + wide + long_bar;
+    wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, words(wait, refused), wide);
     wr_gui_same_line(12);
-    wr_gui_move_to(wr_gui_px(350));
-    wr_gui_progress(wr_gui_px(220), wait->furthest > 0.0 ? wait->furthest : -1.0);
+    wr_gui_move_to(wr_gui_px(30) + wide);
+    wr_gui_progress(long_bar, wait->furthest > 0.0 ? wait->furthest : -1.0);
     wr_gui_same_line(12);
     snprintf(seconds, sizeof seconds, "%.1f s", took);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, seconds);
     wr_gui_same_line(12);
-    wr_gui_move_to(wr_gui_px(640));
+    wr_gui_move_to(end + wr_gui_px(70));
     time_left(wait, took, left);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, wait->cancelled ? "cancelling" : left);
     wr_gui_same_line(12);
-    wr_gui_move_to(wr_gui_px(730));
+    wr_gui_move_to(end + wr_gui_px(160));
     if (wr_gui_chip(NULL, "Cancel")) cancel(wait);
     wr_gui_tip("Escape");
     wr_gui_area_end();
@@ -190,32 +208,37 @@ static bool wants_end(const Wait *wait, const SDL_Event *event)
     return action && strcmp(action, "quit") == 0;
 }
 
-/* Of what is not the user's hand: true if it was that. */
+/* Of what is not the user's hand: true if it was that. What the window is told holds at once; what is let go
+   was pressed before. */
 static bool take_note(Wait *wait, const SDL_Event *event)
 {
     WrApp *app = wait->app;
     if (event->type == app->file_event) wait->file_chosen = true;
     else if (event->type == app->rest_event) wait->asked = true;
+    else if (event->type == SDL_WINDOWEVENT) wr_window_event(app, &event->window);
+    else if (event->type == SDL_DROPFILE && event->drop.file)
+        wr_array_push(&wait->dropped, event->drop.file);
+    else if (event->type == SDL_KEYUP) wr_hand_event(app, event);
     else return false;
-    return true;
+    return event->type != SDL_WINDOWEVENT &&
+           event->type != SDL_KEYUP; /* the widgets want those too */
 }
 
 /* Escape cancels, a request to close waits, the bar's button is the bar's; all else is refused. */
 static void take_event(Wait *wait, const SDL_Event *event)
 {
     WrApp *app = wait->app;
-    if (take_note(wait, event)) return;
     if (wants_end(wait, event)) {
         wait->close = true;
         return;
     }
+    if (take_note(wait, event)) return;
     bool key = event->type == SDL_KEYDOWN && !is_modifier(event->key.keysym.sym);
-    bool press = event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_DROPFILE;
+    bool press = event->type == SDL_MOUSEBUTTONDOWN;
     if (key && event->key.keysym.sym == SDLK_ESCAPE) {
         cancel(wait);
         return;
     }
-    if (event->type == SDL_DROPFILE) SDL_free(event->drop.file);
     if (move_view(wait, event)) return;
     wr_gui_event(app->gui, event);
     bool on_bar = event->type == SDL_MOUSEBUTTONDOWN &&
@@ -236,6 +259,19 @@ static void take_events(Wait *wait)
 
 /* ---- the wait ---- */
 
+/* What was asked for meanwhile, in order; the wish to close comes last, since it asks about the rest. */
+static void catch_up(const Wait *wait)
+{
+    const WrApp *app = wait->app;
+    if (wait->file_chosen) SDL_PushEvent(&(SDL_Event){ .type = app->file_event });
+    for (int i = 0; i < wait->dropped.count; i++) {
+        SDL_DropEvent drop = { .type = SDL_DROPFILE, .file = wait->dropped.data[i] };
+        if (SDL_PushEvent(&(SDL_Event){ .drop = drop }) != 1) SDL_free(drop.file);
+    }
+    if (wait->asked) SDL_PushEvent(&(SDL_Event){ .type = app->rest_event });
+    if (wait->close) SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
+}
+
 static void wait_for(Wait *wait)
 {
     WrApp *app = wait->app;
@@ -254,9 +290,8 @@ static void wait_for(Wait *wait)
     wr_gui_aside_begin(app->gui);
     wr_gui_release_all(app->gui);
     wr_gui_aside_end(app->gui);
-    if (wait->file_chosen) SDL_PushEvent(&(SDL_Event){ .type = app->file_event });
-    if (wait->asked) SDL_PushEvent(&(SDL_Event){ .type = app->rest_event });
-    if (wait->close) SDL_PushEvent(&(SDL_Event){ .type = SDL_QUIT });
+    catch_up(wait);
+    wr_array_free(&wait->dropped);
     wr_app_redraw(app);
 }
 
@@ -278,12 +313,14 @@ static bool run_beside(WrApp *app, const char *what, WrBusyWork *work, void *ctx
     }
     if (!done) wait_for(&wait);
     wr_job_free(wait.job);
+    app->gave_up = wait.cancelled && !here.ok;
     if (!here.ok) *err = here.err;
     return here.ok;
 }
 
 bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err)
 {
+    app->gave_up = false;
     if (app->shown) return wr_fail(err, "%s: not while something else is being done", what);
     if (app->drawn_at == 0.0) return work(ctx, err);
     app->shown = wr_document_share(wr_session_document(app->session));
@@ -291,6 +328,12 @@ bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrEr
     wr_document_free(app->shown);
     app->shown = NULL;
     return ok;
+}
+
+void wr_busy_fail(WrApp *app, const char *what, const WrError *err)
+{
+    if (app->gave_up) wr_app_say(app, "Cancelled: %s, nothing changed", what);
+    else wr_app_fail(app, err);
 }
 
 /* ---- later ---- */
@@ -328,7 +371,7 @@ static bool run_command(WrApp *app, const char *line, const WrDocument *made)
         app->expected = estimate.seconds;
     bool ok = wr_busy_run(app, what, run_line, &call, &err);
     app->expected = 0.0;
-    if (!ok) wr_app_fail(app, &err);
+    if (!ok) wr_busy_fail(app, what, &err);
     wr_app_try_end(app);
     wr_app_take_notes(app);
     wr_app_title(app);

@@ -20,6 +20,7 @@ double wr_window_scale(SDL_Window *window); /* what its display asks for, in ste
 /* The window with what a window manager put around it stays within what the desktop leaves free, so that the
    status line is on the screen. Known only once it is shown, and looked at until a hand has been at it. */
 void wr_window_keep(WrApp *app);
+void wr_window_event(WrApp *app, const SDL_WindowEvent *event);
 
 /* ---- latency.c ---- */
 void wr_latency_drawn(WrApp *app); /* a picture of the window was shown */
@@ -69,6 +70,8 @@ void wr_dialog_replace(WrApp *app);
    nothing else can be done. Only work(ctx) touches the session meanwhile. Also inside a picture of the window. */
 typedef bool WrBusyWork(void *ctx, WrError *err);
 bool wr_busy_run(WrApp *app, const char *what, WrBusyWork *work, void *ctx, WrError *err);
+/* Say why the newest one failed: an error, or a note where it was the user who gave it up. */
+void wr_busy_fail(WrApp *app, const char *what, const WrError *err);
 /* Run a line that is being tried just so, on the document as it is: where the trial has made it, that is taken
    instead of being made again. */
 void wr_app_run_tried(WrApp *app, const char *line);
@@ -299,7 +302,10 @@ SDL_Rect wr_dialog_side(const WrApp *app);
 void wr_dialog_open(WrApp *app, WrDialog dialog);
 /* The buttons at the end of a dialog: 1 done, -1 cancelled (also by Escape), 0 neither. */
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
-/* Beside the buttons: how long that line will take and how much memory, where that is more than a moment. */
+/* "Takes about 12 s, 300 MB", where that is more than a moment, and how much of a trial of it is left; else "". */
+#define WR_EXPECTATION 96
+void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION]);
+/* The same as rows of their own, one of which is there in any case, so that buttons below stay where they are. */
 void wr_panel_estimate(const WrApp *app, const char *line);
 
 /* ---- settings_hand.c ---- */

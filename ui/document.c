@@ -146,7 +146,9 @@ static bool tend_work(void *ctx, WrError *err)
 void wr_app_tend(WrApp *app)
 {
     WrError err;
-    if (!wr_session_in_stroke(app->session) && wr_session_journal_wants(app->session))
+    /* What is held would be let go meanwhile. */
+    bool idle = app->hand.grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
+    if (idle && wr_session_journal_wants(app->session))
         wr_busy_run(app, "Keeping the journal short", tend_work, app->session, &err);
 }
 
@@ -156,7 +158,7 @@ static bool open_now(WrApp *app, const char *path)
     FileCall call = { app->session, path };
     wr_hand_let_go(app);
     if (!wr_busy_run(app, "Opening", open_work, &call, &err)) {
-        wr_app_fail(app, &err);
+        wr_busy_fail(app, "opening", &err);
         return false;
     }
     app->starter = false;
@@ -215,7 +217,7 @@ static bool lines_work(void *ctx, WrError *err)
         wr_free(line);
         at += length + (at[length] != '\0');
     }
-    return good;
+    return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
 }
 
 /* Of a line that fails the rest still runs, so that there is something to be seen. */
@@ -226,7 +228,9 @@ static void run_lines(WrApp *app, const char *lines)
     wr_hand_let_go(app);
     wr_session_reset(app->session);
     app->starter = false;
-    if (!wr_busy_run(app, "Making the document", lines_work, &call, &err)) wr_app_fail(app, &err);
+    bool good = wr_busy_run(app, "Making the document", lines_work, &call, &err);
+    if (app->gave_up) wr_app_say(app, "Cancelled: the document is made as far as it came");
+    else if (!good) wr_app_fail(app, &err);
     wr_app_changed_document(app);
     app->clean_revision = wr_session_revision(app->session); /* it can be opened again */
     wr_app_title(app);
@@ -301,7 +305,7 @@ static bool save_to(WrApp *app, const char *path)
     FileCall call = { app->session, path };
     bool ok = wr_busy_run(app, "Saving", save_work, &call, &err);
     if (!ok) {
-        wr_app_fail(app, &err);
+        wr_busy_fail(app, "saving", &err);
         app->after = WR_AFTER_NOTHING; /* nothing may be lost because a disk is full */
         return false;
     }
@@ -369,7 +373,8 @@ static void save_history_now(WrApp *app, const char *path)
 {
     WrError err;
     FileCall call = { app->session, path };
-    if (!wr_busy_run(app, "Saving the steps", history_work, &call, &err)) wr_app_fail(app, &err);
+    if (!wr_busy_run(app, "Saving the steps", history_work, &call, &err))
+        wr_busy_fail(app, "saving the steps", &err);
     else wr_app_say(app, "Saved %d steps as %s", wr_session_history_position(app->session), path);
 }
 

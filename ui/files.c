@@ -4,10 +4,10 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "ui/gui.h"
+#include "ui/thread.h"
 
 #include <dirent.h>
 #include <errno.h>
-#include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
 #include <string.h>
@@ -127,6 +127,14 @@ static void *wait_for_child(void *arg)
     return NULL;
 }
 
+/* Nobody would hear its answer. */
+static void dismiss(pid_t child)
+{
+    kill(child, SIGTERM);
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR) {
+    }
+}
+
 static bool start(WrFiles *files, const char *program, const char *const *arguments)
 {
     int ends[2];
@@ -141,8 +149,8 @@ static bool start(WrFiles *files, const char *program, const char *const *argume
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     files->pipe = ends[0];
-    files->running =
-        trouble == 0 && pthread_create(&files->waiter, NULL, wait_for_child, files) == 0;
+    files->running = trouble == 0 && wr_thread_start(&files->waiter, wait_for_child, files);
+    if (trouble == 0 && !files->running) dismiss(files->child);
     if (!files->running) close(ends[0]);
     return files->running;
 }
@@ -350,7 +358,12 @@ static void warn_overwrite(const WrFiles *files)
     wr_free(path);
 }
 
-int wr_files_panel(WrFiles *files)
+WrFilePurpose wr_files_purpose(const WrFiles *files)
+{
+    return files->purpose;
+}
+
+int wr_files_panel(WrFiles *files, const char *note)
 {
     if (!wr_gui_dialog_begin(purposes[files->purpose].title, 620)) return 0;
     bool done = false;
@@ -361,6 +374,7 @@ int wr_files_panel(WrFiles *files)
     files->focus = false;
     warn_overwrite(files);
     if (files->trouble[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, files->trouble);
+    if (note[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, note);
     wr_gui_space(4);
     if (wr_gui_button(purposes[files->purpose].done, true)) done = true;
     wr_gui_same_line(8);

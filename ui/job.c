@@ -3,8 +3,8 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "ui/thread.h"
 
-#include <pthread.h>
 #include <sys/resource.h>
 
 #define NICENESS 5 /* so that the window's own thread goes first */
@@ -45,6 +45,30 @@ static void note_fraction(void *ctx, double fraction)
     pthread_mutex_unlock(&job->lock);
 }
 
+/* Take up what is next and do it. Called under the lock, which is let go meanwhile. */
+static void do_next(WrJob *job, WrPool *pool, const WrProgress *progress)
+{
+    void *work = job->next;
+    job->next = NULL;
+    job->running = true;
+    job->stale = false;
+    job->fraction = 0.0;
+    __atomic_store_n(&job->cancel, 0, __ATOMIC_RELAXED);
+    pthread_mutex_unlock(&job->lock);
+    const WrProgress *before = wr_progress_set(progress);
+    job->kind->run(work, pool, progress);
+    wr_progress_set(before);
+    pthread_mutex_lock(&job->lock);
+    job->running = false;
+    bool wanted = !job->stale;
+    if (wanted) job->done = work;
+    pthread_mutex_unlock(&job->lock);
+    if (!wanted) job->kind->drop(work);
+    SDL_Event event = { .type = job->done_event };
+    if (wanted) SDL_PushEvent(&event);
+    pthread_mutex_lock(&job->lock);
+}
+
 static void *thread_main(void *arg)
 {
     WrJob *job = arg;
@@ -53,29 +77,8 @@ static void *thread_main(void *arg)
     WrProgress progress = { .cancel = &job->cancel, .report = note_fraction, .ctx = job };
     pthread_mutex_lock(&job->lock);
     while (!job->quit) {
-        void *work = job->next;
-        if (!work) {
-            pthread_cond_wait(&job->wake, &job->lock);
-            continue;
-        }
-        job->next = NULL;
-        job->running = true;
-        job->stale = false;
-        job->fraction = 0.0;
-        __atomic_store_n(&job->cancel, 0, __ATOMIC_RELAXED);
-        pthread_mutex_unlock(&job->lock);
-        wr_progress_set(&progress);
-        job->kind->run(work, pool, &progress);
-        wr_progress_set(NULL);
-        pthread_mutex_lock(&job->lock);
-        job->running = false;
-        bool wanted = !job->stale;
-        if (wanted) job->done = work;
-        pthread_mutex_unlock(&job->lock);
-        if (!wanted) job->kind->drop(work);
-        SDL_Event event = { .type = job->done_event };
-        if (wanted) SDL_PushEvent(&event);
-        pthread_mutex_lock(&job->lock);
+        if (job->next) do_next(job, pool, &progress);
+        else pthread_cond_wait(&job->wake, &job->lock);
     }
     pthread_mutex_unlock(&job->lock);
     wr_pool_free(pool);
@@ -83,6 +86,15 @@ static void *thread_main(void *arg)
 }
 
 /* ---- the window's side ---- */
+
+/* The system gives no thread: on the caller's, which waits. Called under the lock. */
+static void do_in_place(WrJob *job)
+{
+    WrPool *pool = wr_pool_new(1);
+    WrProgress progress = { .cancel = &job->cancel };
+    do_next(job, pool, &progress);
+    wr_pool_free(pool);
+}
 
 /* Replace all that is wanted by `work`, which may be NULL. */
 static void replace(WrJob *job, void *work)
@@ -95,8 +107,8 @@ static void replace(WrJob *job, void *work)
     if (job->running) __atomic_store_n(&job->cancel, 1, __ATOMIC_RELAXED);
     job->asked_at = wr_clock_seconds();
     job->fraction = 0.0;
-    if (work && !job->started)
-        job->started = pthread_create(&job->thread, NULL, thread_main, job) == 0;
+    if (work && !job->started) job->started = wr_thread_start(&job->thread, thread_main, job);
+    if (work && !job->started) do_in_place(job);
     pthread_cond_signal(&job->wake);
     pthread_mutex_unlock(&job->lock);
     if (waiting) job->kind->drop(waiting);

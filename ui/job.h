@@ -22,7 +22,7 @@ WrJob *wr_job_new(const WrJobKind *kind, int threads, Uint32 done_event);
 void wr_job_free(WrJob *job);
 
 /* Do this next; takes `work`. What waits is dropped; what runs is cancelled and dropped when it ends; what
- * is done and was not taken is dropped. */
+ * is done and was not taken is dropped. Where the system gives no thread the work is done in the call. */
 void wr_job_start(WrJob *job, void *work);
 /* The same without anything to do next. */
 void wr_job_cancel(WrJob *job);

@@ -209,8 +209,8 @@ void wr_dialog_adjust(WrApp *app)
     if (changed) ask(app);
     if (wr_trial_error(app->trial, &err)) wr_app_fail(app, &err);
     progress(app);
-    int answer = wr_dialog_buttons(app, "Apply", true);
     expectation(app);
+    int answer = wr_dialog_buttons(app, "Apply", true);
     if (answer > 0) commit(app);
     if (answer < 0) cancel(app);
     if (answer != 0) app->adjust.op = NULL;

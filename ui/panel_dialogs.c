@@ -26,18 +26,33 @@ void wr_dialog_close(WrApp *app)
     wr_app_redraw(app);
 }
 
-void wr_panel_estimate(const WrApp *app, const char *line)
+/* Of what is tried. */
+static void add_time_left(const WrApp *app, char text[WR_EXPECTATION])
+{
+    char left[WR_PROGRESS_LEFT];
+    double fraction, seconds;
+    if (!app->trying || !wr_trial_busy(app->trial, &fraction, &seconds)) return;
+    wr_progress_left(fraction, seconds, left);
+    size_t used = strlen(text);
+    if (left[0])
+        snprintf(text + used, WR_EXPECTATION - used, "%s%s", used > 0 ? "  \xc2\xb7  " : "", left);
+}
+
+void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION])
 {
     WrEstimate estimate;
-    char text[WR_ESTIMATE_TEXT];
-    if (app->shown || !wr_session_estimate(app->session, line, &estimate, NULL)) return;
-    wr_estimate_print(&estimate, text);
-    if (!text[0]) return;
-    wr_gui_same_line(10);
-    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text + strlen("about "), wr_gui_available());
-    char tip[80];
-    snprintf(tip, sizeof tip, "It will take %s", text); /* beside buttons is little room */
-    wr_gui_tip(tip);
+    char about[WR_ESTIMATE_TEXT] = "";
+    if (!app->shown && wr_session_estimate(app->session, line, &estimate, NULL))
+        wr_estimate_print(&estimate, about);
+    snprintf(text, WR_EXPECTATION, "%s%s", about[0] ? "Takes " : "", about);
+    add_time_left(app, text);
+}
+
+void wr_panel_estimate(const WrApp *app, const char *line)
+{
+    char text[WR_EXPECTATION];
+    wr_expectation(app, line, text);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text[0] ? text : " ");
 }
 
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
@@ -62,6 +77,7 @@ static void unsaved(WrApp *app)
     snprintf(text, sizeof text, "%.200s has changes that are not saved. They are lost otherwise.",
              wr_app_name(app));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_panel_estimate(app, "save x.exr");
     wr_gui_space(8);
     bool key = !app->dialog_fresh;
     if (wr_gui_button("Save", true) || (key && wr_gui_return_pressed())) {
@@ -96,6 +112,14 @@ static void number(const char *label, double low, double high, double hard_low, 
     wr_gui_number(label, 0, &spec, value);
 }
 
+/* What it will take, and the buttons; frees the line. */
+static void run_if_agreed(WrApp *app, WrText *line, const char *done)
+{
+    wr_panel_estimate(app, wr_text_get(line));
+    if (wr_dialog_buttons(app, done, true) > 0) wr_app_run_slow(app, wr_text_get(line));
+    wr_text_fini(line);
+}
+
 static void table(WrApp *app)
 {
     static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
@@ -110,13 +134,10 @@ static void table(WrApp *app)
     number("Height", 16, 4096, 1, 16384, 512, 0, "texels", &f->height);
     wr_gui_label("Edges");
     wr_gui_choice("wrap", 0, wraps, 4, &f->wrap);
-    if (wr_dialog_buttons(app, "Make it", true) > 0) {
-        WrText line = { 0 };
-        wr_text_addf(&line, "table %dx%d wrap=%s", (int)rint(f->width), (int)rint(f->height),
-                     names[f->wrap]);
-        wr_app_run_slow(app, wr_text_get(&line));
-        wr_text_fini(&line);
-    }
+    WrText line = { 0 };
+    wr_text_addf(&line, "table %dx%d wrap=%s", (int)rint(f->width), (int)rint(f->height),
+                 names[f->wrap]);
+    run_if_agreed(app, &line, "Make it");
     wr_gui_dialog_end();
 }
 
@@ -124,13 +145,10 @@ static void fill(WrApp *app)
 {
     if (!wr_gui_dialog_begin("Fill the table", 360)) return;
     number("Height", 0, 1, -1e30, 1e30, 0, 3, NULL, &app->forms.fill);
-    if (wr_dialog_buttons(app, "Fill", true) > 0) {
-        WrText line = { 0 };
-        wr_text_add(&line, "fill ");
-        wr_text_add_number(&line, app->forms.fill);
-        wr_app_run_slow(app, wr_text_get(&line));
-        wr_text_fini(&line);
-    }
+    WrText line = { 0 };
+    wr_text_add(&line, "fill ");
+    wr_text_add_number(&line, app->forms.fill);
+    run_if_agreed(app, &line, "Fill");
     wr_gui_dialog_end();
 }
 
@@ -145,15 +163,12 @@ static void grid(WrApp *app)
     number("Line width", 0, 64, 0, 16384, 8, 1, "texels", &f->line_width);
     number("Cells' height", 0, 1, -1e30, 1e30, 0, 3, NULL, &f->low);
     number("Lines' height", 0, 1, -1e30, 1e30, 1, 3, NULL, &f->high);
-    if (wr_dialog_buttons(app, "Draw", true) > 0) {
-        WrText line = { 0 };
-        wr_text_addf(&line, "grid cells=%dx%d", (int)rint(f->cells_u), (int)rint(f->cells_v));
-        wr_line_number(&line, "width", f->line_width);
-        wr_line_number(&line, "low", f->low);
-        wr_line_number(&line, "high", f->high);
-        wr_app_run_slow(app, wr_text_get(&line));
-        wr_text_fini(&line);
-    }
+    WrText line = { 0 };
+    wr_text_addf(&line, "grid cells=%dx%d", (int)rint(f->cells_u), (int)rint(f->cells_v));
+    wr_line_number(&line, "width", f->line_width);
+    wr_line_number(&line, "low", f->low);
+    wr_line_number(&line, "high", f->high);
+    run_if_agreed(app, &line, "Draw");
     wr_gui_dialog_end();
 }
 
@@ -171,6 +186,12 @@ static void import(WrApp *app)
         !wr_files_ask(app->files, WR_FILE_IMPORT, NULL, ""))
         wr_dialog_open(app, WR_DIALOG_FILE);
     wr_gui_dialog_end();
+}
+
+/* What it will take does not go by the name. */
+static void export_line(const WrApp *app, char *line, size_t size)
+{
+    snprintf(line, size, "export %s x.png", wr_export_kinds[app->forms.kind].name);
 }
 
 static void export(WrApp *app)
@@ -191,6 +212,9 @@ static void export(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                         "The format goes by the file's ending: png and tif with 16 bits, exr with "
                         "float, jpg with 8.");
+    char line[64];
+    export_line(app, line, sizeof line);
+    wr_panel_estimate(app, line);
     if (wr_dialog_buttons(app, "Choose a file...", true) > 0 &&
         !wr_files_ask(app->files, WR_FILE_EXPORT, NULL, "height.png"))
         wr_dialog_open(app, WR_DIALOG_FILE);
@@ -199,7 +223,11 @@ static void export(WrApp *app)
 
 static void file(WrApp *app)
 {
-    int answer = wr_files_panel(app->files);
+    char takes[WR_EXPECTATION] = "", line[64] = "save x.exr";
+    WrFilePurpose of = wr_files_purpose(app->files);
+    if (of == WR_FILE_EXPORT) export_line(app, line, sizeof line);
+    if (of == WR_FILE_EXPORT || of == WR_FILE_SAVE) wr_expectation(app, line, takes);
+    int answer = wr_files_panel(app->files, takes);
     if (answer == 0) return;
     wr_dialog_close(app);
     WrFilePurpose purpose;

@@ -3,7 +3,6 @@
 #include "ui/generate_hand.h"
 
 #include "base/memory.h"
-#include "command/estimate.h"
 #include "command/generate.h"
 
 #include <math.h>
@@ -164,13 +163,30 @@ static void head(WrApp *app)
     if (app->generate->generator) presets(app);
 }
 
-/* How long it will take, where that is more than a moment. */
-static void expectation(const WrApp *app)
+static SDL_Rect cut(SDL_Rect *room, int height, bool top)
+{
+    SDL_Rect part = *room;
+    part.h = height < room->h ? height : room->h;
+    room->h -= part.h;
+    if (top) room->y += part.h;
+    else part.y = room->y + room->h;
+    return part;
+}
+
+/* How long it will take, where that is more than a moment, in a row of its own above the buttons. */
+static void expectation(const WrApp *app, SDL_Rect *room)
 {
     WrText line = { 0 };
+    char text[WR_EXPECTATION];
+    if (!app->generate->generator || app->generate->err.text[0]) return;
     wr_generate_line(app->generate, &line);
-    wr_panel_estimate(app, wr_text_get(&line));
+    wr_expectation(app, wr_text_get(&line), text);
     wr_text_fini(&line);
+    if (!text[0]) return;
+    SDL_Rect row = cut(room, wr_gui_px(24), false);
+    wr_gui_area_begin("##generate_takes", WR_AREA_PANEL, row, WR_COLOUR_BAR);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+    wr_gui_area_end();
 }
 
 static void foot(WrApp *app)
@@ -191,26 +207,9 @@ static void foot(WrApp *app)
         if (wr_gui_button("Show", false)) wr_generate_open(app, hand->generator);
         wr_gui_tip("Show what it would make");
     }
-    if (!busy) {
-        if (hand->generator && !hand->err.text[0]) expectation(app);
-        return;
-    }
-    char left[WR_PROGRESS_LEFT];
-    wr_progress_left(fraction, seconds, left);
+    if (!busy) return;
     wr_gui_same_line(10);
-    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, left, wr_gui_px(48));
-    if (left[0]) wr_gui_same_line(4);
     wr_gui_progress(0, fraction);
-}
-
-static SDL_Rect cut(SDL_Rect *room, int height, bool top)
-{
-    SDL_Rect part = *room;
-    part.h = height < room->h ? height : room->h;
-    room->h -= part.h;
-    if (top) room->y += part.h;
-    else part.y = room->y + room->h;
-    return part;
 }
 
 void wr_panel_generate(WrApp *app, SDL_Rect room)
@@ -220,6 +219,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     SDL_Rect low = cut(&room, wr_gui_px(44), false);
     if (!hand->generator) wr_generate_take(app, wr_generate_last(app));
     wr_generate_blame(hand);
+    expectation(app, &room);
     const char *said = notes(app);
     if (*said) {
         SDL_Rect told = cut(&room, wr_gui_px(42), false);

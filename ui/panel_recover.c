@@ -107,7 +107,7 @@ void wr_recover(WrApp *app, const char *journal, bool beyond)
         wr_app_say_lines(app, wr_text_get(&call.recovered.report));
         if (!call.recovered.removed) ask_about_rest(app, &call);
     } else {
-        wr_app_fail(app, &err);
+        wr_busy_fail(app, "recovering", &err);
     }
     wr_recovered_fini(&call.recovered);
 }

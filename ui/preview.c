@@ -3,9 +3,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "ui/thread.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <string.h>
 #include <sys/resource.h>
 
@@ -45,7 +45,9 @@ struct WrPreview {
     char *isa; /* owned */
     Uint32 ready_event;
 
-    /* of the thread alone */
+    /* of the thread alone; without one, of the window's */
+    WrPool *pool;         /* owned, as is the renderer */
+    WrRenderer *renderer; /* NULL: not made yet, or not to be had */
     Wish now;
     WrPreviewPicture *work; /* owned */
     WrPreviewLevel level;   /* reached for `now` */
@@ -96,6 +98,8 @@ void wr_preview_free(WrPreview *preview)
     pthread_cond_signal(&preview->wake);
     pthread_mutex_unlock(&preview->lock);
     if (preview->started) pthread_join(preview->thread, NULL);
+    wr_renderer_free(preview->renderer);
+    wr_pool_free(preview->pool);
     wish_clear(&preview->next);
     wish_clear(&preview->now);
     picture_free(preview->done);
@@ -281,7 +285,8 @@ static bool choose(WrPreview *preview, WrPreviewLevel *level)
         return true;
     }
     bool rests = preview->now.field && !preview->now.moving && !preview->now.painting;
-    if (rests && preview->level < WR_PREVIEW_FINAL && preview->level != WR_PREVIEW_NONE) {
+    WrPreviewLevel finest = preview->started ? WR_PREVIEW_FINAL : WR_PREVIEW_FULL;
+    if (rests && preview->level < finest && preview->level != WR_PREVIEW_NONE) {
         preview->edited = false;
         *level = preview->level + 1;
         return true;
@@ -298,16 +303,16 @@ static void publish(WrPreview *preview)
     preview->fresh = true;
 }
 
-static void work(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level)
+static void work(WrPreview *preview, WrPreviewLevel level)
 {
     WrError err = { "" };
-    bool ok = render(preview, renderer, pool, level, &err);
+    bool ok = render(preview, preview->renderer, preview->pool, level, &err);
     bool cancelled = __atomic_load_n(&preview->cancel, __ATOMIC_RELAXED) != 0;
     if (!ok && !cancelled) fail(preview, &err);
     if (ok) {
         preview->last_width = preview->work->width;
         preview->last_height = preview->work->height;
-        answer_point(preview, renderer, preview->last_width, preview->last_height);
+        answer_point(preview, preview->renderer, preview->last_width, preview->last_height);
     }
     pthread_mutex_lock(&preview->lock);
     preview->level = ok ? level : WR_PREVIEW_NONE;
@@ -316,40 +321,59 @@ static void work(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPrevi
     if (ok || !cancelled) notify(preview);
 }
 
+static void begin(WrPreview *preview)
+{
+    WrError err = { "" };
+    if (preview->pool) return;
+    preview->pool = wr_pool_new(preview->threads);
+    preview->renderer = wr_renderer_new(preview->pool, preview->isa, &err);
+    if (!preview->renderer) fail(preview, &err);
+}
+
+/* One picture, or one answer; false: nothing is left to do. Called under the lock, let go meanwhile. */
+static bool step(WrPreview *preview)
+{
+    WrPreviewLevel level;
+    if (preview->renderer && choose(preview, &level)) {
+        preview->settled = false;
+        pthread_mutex_unlock(&preview->lock);
+        work(preview, level);
+        pthread_mutex_lock(&preview->lock);
+        return true;
+    }
+    bool news = !preview->settled;
+    preview->settled = true;
+    if (preview->renderer && preview->point_new && preview->last_width > 0) {
+        pthread_mutex_unlock(&preview->lock);
+        answer_point(preview, preview->renderer, preview->last_width, preview->last_height);
+        notify(preview);
+        pthread_mutex_lock(&preview->lock);
+        return true;
+    }
+    if (news) notify(preview);
+    return false;
+}
+
 static void *thread_main(void *arg)
 {
     WrPreview *preview = arg;
     setpriority(PRIO_PROCESS, 0, NICENESS); /* on Linux this thread and those it starts */
-    WrError err = { "" };
-    WrPool *pool = wr_pool_new(preview->threads);
-    WrRenderer *renderer = wr_renderer_new(pool, preview->isa, &err);
-    if (!renderer) fail(preview, &err);
+    begin(preview);
     pthread_mutex_lock(&preview->lock);
-    while (!preview->quit) {
-        WrPreviewLevel level;
-        if (renderer && choose(preview, &level)) {
-            preview->settled = false;
-            pthread_mutex_unlock(&preview->lock);
-            work(preview, renderer, pool, level);
-            pthread_mutex_lock(&preview->lock);
-            continue;
-        }
-        bool news = !preview->settled;
-        preview->settled = true;
-        if (renderer && preview->point_new && preview->last_width > 0) {
-            pthread_mutex_unlock(&preview->lock);
-            answer_point(preview, renderer, preview->last_width, preview->last_height);
-            notify(preview);
-            pthread_mutex_lock(&preview->lock);
-            continue;
-        }
-        if (news) notify(preview);
-        pthread_cond_wait(&preview->wake, &preview->lock);
+    while (!preview->quit)
+        if (!step(preview)) pthread_cond_wait(&preview->wake, &preview->lock);
+    pthread_mutex_unlock(&preview->lock);
+    return NULL;
+}
+
+/* The system gives no thread: on the caller's, which waits, and no finer than every pixel once. */
+static void work_in_place(WrPreview *preview)
+{
+    begin(preview);
+    pthread_mutex_lock(&preview->lock);
+    while (step(preview)) {
     }
     pthread_mutex_unlock(&preview->lock);
-    wr_renderer_free(renderer);
-    wr_pool_free(pool);
-    return NULL;
 }
 
 /* ---- the window's side ---- */
@@ -370,9 +394,11 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
     if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     preview->settled = false;
     if (!preview->started)
-        preview->started = pthread_create(&preview->thread, NULL, thread_main, preview) == 0;
+        preview->started = wr_thread_start(&preview->thread, thread_main, preview);
+    bool alone = !preview->started;
     pthread_cond_signal(&preview->wake);
     pthread_mutex_unlock(&preview->lock);
+    if (alone) work_in_place(preview);
 }
 
 void wr_preview_point(WrPreview *preview, double x, double y)
@@ -384,7 +410,9 @@ void wr_preview_point(WrPreview *preview, double x, double y)
         preview->point_new = true;
         pthread_cond_signal(&preview->wake);
     }
+    bool alone = !preview->started && preview->pool && preview->point_new;
     pthread_mutex_unlock(&preview->lock);
+    if (alone) work_in_place(preview);
 }
 
 bool wr_preview_point_hit(WrPreview *preview, double *u, double *v)

@@ -107,3 +107,36 @@ void wr_window_keep(WrApp *app)
     SDL_SetWindowSize(app->window, fits.w, fits.h);
     SDL_SetWindowPosition(app->window, fits.x, fits.y);
 }
+
+void wr_window_event(WrApp *app, const SDL_WindowEvent *event)
+{
+    switch (event->event) {
+    case SDL_WINDOWEVENT_HIDDEN:
+    case SDL_WINDOWEVENT_MINIMIZED: app->visible = false; break;
+    case SDL_WINDOWEVENT_SHOWN:
+    case SDL_WINDOWEVENT_EXPOSED:
+    case SDL_WINDOWEVENT_RESTORED:
+        app->visible = true;
+        wr_window_keep(app);
+        break;
+    case SDL_WINDOWEVENT_MOVED: wr_window_keep(app); break;
+    case SDL_WINDOWEVENT_MAXIMIZED:
+        app->visible = true;
+        app->settings.maximized = true;
+        break;
+    case SDL_WINDOWEVENT_FOCUS_LOST:
+        wr_gui_release_all(app->gui);
+        app->hand.space = false;
+        break;
+    case SDL_WINDOWEVENT_LEAVE:
+        if (app->hand.grab == WR_GRAB_NONE) app->hand.on_canvas = app->hand.on_patch = false;
+        break;
+    case SDL_WINDOWEVENT_CLOSE: wr_app_quit(app); break;
+    case SDL_WINDOWEVENT_SIZE_CHANGED:
+        if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED))
+            app->settings.maximized = false;
+        break;
+    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = wr_window_scale(app->window); break;
+    default: break;
+    }
+}

@@ -12,6 +12,7 @@
 #ifndef WR_MODULE_FOLDER
 #define WR_MODULE_FOLDER "../lib/wrinkle"
 #endif
+#define WR_MODULE_THREADS 8 /* at once; log4cplus, which OpenCV brings, starts 4 */
 
 bool wr_module_path(int place, const char *file, WrText *path)
 {
@@ -55,11 +56,41 @@ static const void *load(const WrModule *module, WrError *err)
     return table;
 }
 
+static void *wait_for_all(void *lock)
+{
+    pthread_mutex_lock(lock);
+    pthread_mutex_unlock(lock);
+    return NULL;
+}
+
+/* Libraries behind the modules start a few as they are loaded, and end the program where they get none. */
+static bool threads_are_left(void)
+{
+    pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    pthread_t threads[WR_MODULE_THREADS];
+    int count = 0;
+    pthread_mutex_lock(&lock);
+    while (count < WR_MODULE_THREADS &&
+           pthread_create(&threads[count], NULL, wait_for_all, &lock) == 0)
+        count++;
+    pthread_mutex_unlock(&lock);
+    for (int i = 0; i < count; i++) pthread_join(threads[i], NULL);
+    return count == WR_MODULE_THREADS;
+}
+
+static const void *load_safely(const WrModule *module, WrError *err)
+{
+    if (threads_are_left()) return load(module, err);
+    wr_fail(err, "%s need threads, and the system gives no more: end another program first",
+            module->serves);
+    return NULL;
+}
+
 const void *wr_module_table(WrModule *module, WrError *err)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
     pthread_mutex_lock(&lock);
-    if (!module->table) module->table = load(module, err);
+    if (!module->table) module->table = load_safely(module, err);
     const void *table = module->table;
     pthread_mutex_unlock(&lock);
     return table;

@@ -1,0 +1,242 @@
+/* What the window is told while something long is being done: it hears it at once, or afterwards, or says that it
+   will not. Without a display; the long work is the test's own, and ends when the test has seen what it waits
+   for. */
+#include "test.h"
+
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "test_folder.h"
+#include "ui/state.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define PATIENCE 120.0 /* seconds until waiting in vain is a failure */
+
+typedef struct Bench {
+    WrPool *pool;
+    WrSession *session;
+    WrAppOptions options;
+    WrApp *app;
+} Bench;
+
+static void begin(Bench *bench)
+{
+    WrError err = { "" };
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
+    bench->pool = wr_pool_new(1);
+    bench->session = wr_session_new(&(WrSessionOptions){ .pool = bench->pool, .outputs = true });
+    if (!wr_session_run(bench->session, "table 64x64", &err)) fail_msg("%s", err.text);
+    bench->options = (WrAppOptions){
+        .session = bench->session, .file_given = true, .threads = 1, .width = 900, .height = 700
+    };
+    bench->app = wr_alloc(1, sizeof *bench->app);
+    bench->app->options = &bench->options;
+    bench->app->session = bench->session;
+    if (!wr_app_begin(bench->app, &err)) fail_msg("%s", err.text);
+    double end = wr_clock_seconds() + PATIENCE;
+    while (bench->app->drawn_at == 0.0 && wr_clock_seconds() < end) wr_app_step(bench->app);
+    assert_true(bench->app->drawn_at > 0.0);
+    bench->app->clean_revision = wr_session_revision(bench->session);
+}
+
+static void finish(Bench *bench)
+{
+    wr_app_end(bench->app);
+    wr_free(bench->app);
+    wr_session_free(bench->session);
+    wr_pool_free(bench->pool);
+}
+
+/* ---- long work ---- */
+
+typedef struct Long {
+    WrApp *app;
+    SDL_Event events[3]; /* happen meanwhile */
+    int count;
+    bool gives_up; /* it ends when it is cancelled */
+    bool in_vain;  /* the window did not look at them */
+} Long;
+
+static bool untaken(const Long *work)
+{
+    for (int i = 0; i < work->count; i++)
+        if (SDL_HasEvent(work->events[i].type)) return true;
+    return false;
+}
+
+static bool take_long(void *ctx, WrError *err)
+{
+    Long *work = ctx;
+    for (int i = 0; i < work->count; i++) SDL_PushEvent(&work->events[i]);
+    double end = wr_clock_seconds() + PATIENCE;
+    while (untaken(work) && wr_clock_seconds() < end) usleep(1000);
+    work->in_vain = untaken(work);
+    while (work->gives_up && !wr_progress_stopped() && wr_clock_seconds() < end) usleep(1000);
+    return !wr_progress_stopped() || wr_fail(err, "cancelled");
+}
+
+static bool run(Long *work, WrError *err)
+{
+    bool good = wr_busy_run(work->app, "Something long", take_long, work, err);
+    assert_false(work->in_vain);
+    return good;
+}
+
+static void step_until(WrApp *app, const bool *reached)
+{
+    double end = wr_clock_seconds() + PATIENCE;
+    while (!*reached && wr_clock_seconds() < end) {
+        SDL_PushEvent(&(SDL_Event){ .type = app->ready_event }); /* or it might wait for a hand */
+        wr_app_step(app);
+    }
+    assert_true(*reached);
+}
+
+static void step_until_open(WrApp *app, const char *path)
+{
+    double end = wr_clock_seconds() + PATIENCE;
+    while (strcmp(wr_session_path(app->session), path) != 0 && wr_clock_seconds() < end) {
+        SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
+        wr_app_step(app);
+    }
+    assert_string_equal(wr_session_path(app->session), path);
+}
+
+/* A document in the folder; caller frees the path. */
+static char *some_file(const char *name)
+{
+    WrError err = { "" };
+    char *folder = getcwd(NULL, 0), *path = wr_path_join(folder, name);
+    WrSession *session = wr_session_new(&(WrSessionOptions){ 0 });
+    if (!wr_session_run(session, "table 32x32", &err) || !wr_session_save(session, path, &err))
+        fail_msg("%s", err.text);
+    wr_session_free(session);
+    free(folder);
+    return path;
+}
+
+static SDL_Event key(Uint32 type, SDL_Keycode code)
+{
+    SDL_KeyboardEvent event = { .type = type, .keysym = { .sym = code } };
+    return (SDL_Event){ .key = event };
+}
+
+/* ---- the tests ---- */
+
+static void what_the_window_is_told_holds_at_once(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    SDL_WindowEvent hidden = { .type = SDL_WINDOWEVENT,
+                               .windowID = SDL_GetWindowID(app->window),
+                               .event = SDL_WINDOWEVENT_MINIMIZED };
+    app->hand.space = true; /* held when it began */
+    Long work = { .app = app,
+                  .events = { { .window = hidden }, key(SDL_KEYUP, SDLK_SPACE) },
+                  .count = 2 };
+    assert_true(run(&work, &err));
+    assert_false(app->visible);
+    assert_false(app->hand.space);
+    finish(&bench);
+}
+
+static void a_dropped_file_opens_afterwards(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    char *path = some_file("dropped.exr");
+    begin(&bench);
+    SDL_DropEvent drop = { .type = SDL_DROPFILE, .file = SDL_strdup(path) };
+    Long work = { .app = bench.app, .events = { { .drop = drop } }, .count = 1 };
+    assert_true(run(&work, &err));
+    assert_string_equal(wr_session_path(bench.session), ""); /* not before it was done */
+    step_until_open(bench.app, path);
+    finish(&bench);
+    wr_free(path);
+}
+
+/* The answer of the desktop's dialog, here a program that answers at once. */
+static void a_chosen_file_is_taken_afterwards(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    char *path = some_file("chosen.exr");
+    FILE *dialog = fopen("zenity", "w");
+    assert_non_null(dialog);
+    fprintf(dialog, "#!/bin/sh\necho '%s'\n", path);
+    fclose(dialog);
+    assert_int_equal(chmod("zenity", 0755), 0);
+    char *folder = getcwd(NULL, 0);
+    setenv("PATH", folder, 1);
+    begin(&bench);
+    assert_true(wr_files_ask(bench.app->files, WR_FILE_OPEN, NULL, ""));
+    double end = wr_clock_seconds() + PATIENCE;
+    while (!SDL_HasEvent(bench.app->file_event) && wr_clock_seconds() < end) usleep(1000);
+    Long work = { .app = bench.app, .events = { { .type = SDL_USEREVENT + 100 } }, .count = 1 };
+    assert_true(run(&work, &err));
+    step_until_open(bench.app, path);
+    finish(&bench);
+    free(folder);
+    wr_free(path);
+}
+
+static void a_cancel_is_no_error_and_then_it_closes(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err = { "" };
+    begin(&bench);
+    WrApp *app = bench.app;
+    WrHash before = wr_session_hash(bench.session);
+    Long work = { .app = app,
+                  .events = { { .type = SDL_QUIT }, key(SDL_KEYDOWN, SDLK_ESCAPE) },
+                  .count = 2,
+                  .gives_up = true };
+    assert_false(run(&work, &err));
+    assert_false(app->quit); /* it waited */
+    wr_busy_fail(app, "something", &err);
+    assert_int_equal(app->messages.unread, 0);
+    const WrMessage *said = wr_messages_shown(&app->messages, 0.0);
+    assert_non_null(said);
+    assert_string_equal(said->text, "Cancelled: something, nothing changed");
+    WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    step_until(app, &app->quit);
+    wr_fail(&err, "the disk is full"); /* what nobody gave up is one */
+    app->gave_up = false;
+    wr_busy_fail(app, "something", &err);
+    assert_int_equal(app->messages.unread, 1);
+    finish(&bench);
+}
+
+static int enter(void **state)
+{
+    int trouble = enter_folder(state);
+    setenv("XDG_CONFIG_HOME", *state, 1);
+    setenv("XDG_STATE_HOME", *state, 1);
+    setenv("XDG_DATA_HOME", *state, 1);
+    setenv("WRINKLE_DATA", WR_SOURCE_DIR, 1);
+    setenv("WRINKLE_RENDERER", "software", 1);
+    return trouble;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_the_window_is_told_holds_at_once),
+        cmocka_unit_test(a_dropped_file_opens_afterwards),
+        cmocka_unit_test(a_chosen_file_is_taken_afterwards),
+        cmocka_unit_test(a_cancel_is_no_error_and_then_it_closes),
+    };
+    return cmocka_run_group_tests(tests, enter, remove_folder);
+}
