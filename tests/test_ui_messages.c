@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "ui/state.h"
 
+#include <math.h>
 #include <string.h>
 
 #define LATER 1e9 /* of the clock: notes are old by then */
@@ -43,10 +44,33 @@ static void the_newest_message_is_what_is_seen(void **state)
     wr_free(app);
 }
 
+/* The status line, the Accuracy tab and the Plan tab tell the same, and its parts add up to it. */
+static void a_picture_has_one_time(void **state)
+{
+    (void)state;
+    WrPreviewPicture picture = { .width = 640,
+                                 .height = 480,
+                                 .level = WR_PREVIEW_SMOOTH,
+                                 .seconds = 0.0123,
+                                 .times = { .prepare = 0.001, .bump = 0.03, .shade = 0.004 } };
+    double ms[WR_PICTURE_STAGES], sum = 0.0;
+    char words[WR_PICTURE_WORDS];
+    assert_true(fabs(wr_picture_time(&picture, ms) - 12.3) < 1e-9);
+    for (int i = 0; i < WR_PICTURE_STAGES; i++) sum += ms[i];
+    assert_true(fabs(sum - 12.3) < 1e-9);
+    assert_true(fabs(ms[3] - 12.3 * 30.0 / 35.0) < 1e-9);
+    wr_picture_words(&picture, words);
+    assert_true(strncmp(words, "12.3 ms ", 8) == 0 && strstr(words, "640 \xc3\x97 480") != NULL);
+    picture.times = (WrStageTimes){ 0 };
+    wr_picture_time(&picture, ms);
+    assert_true(ms[0] == 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_newest_message_is_what_is_seen),
+        cmocka_unit_test(a_picture_has_one_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,8 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define VIEW_SECONDS 2.0    /* a view that would take longer is not rendered only to be timed */
-#define QUICK_SECONDS 0.4   /* one that takes less is timed three times, the least counts */
 #define REFERENCE_SAMPLES 8 /* a side, for the error of the resting view */
 #define LADDER_SAMPLES 16   /* a side, of the ladder's reference */
 #define LADDER_RUNS 3
@@ -131,28 +129,10 @@ static bool compare(WrWork *work, WrPool *pool, const WrFrameRequest *request, c
         wr_errors_measure(frame.rgba, normals, &reference, NULL, &work->errors);
         work->samples = reference.samples;
         work->change = reference.last_rms;
-        work->times = frame.times;
         good = keep_errors(work, frame.rgba, &reference);
     }
     wr_reference_fini(&reference);
     return good;
-}
-
-/* The view's own time, with all caches as a second picture of it has them. */
-static bool time_view(WrWork *work, WrPool *pool, const WrProgress *progress)
-{
-    WrFrame frame;
-    WrFrameRequest request = request_of(work, progress);
-    const double small = (double)work->measured_w * work->measured_h;
-    const double expected = work->times.total * work->width * work->height / small;
-    work->whole_view = expected <= VIEW_SECONDS;
-    if (!work->whole_view) return true;
-    for (int i = 0; i < (expected > QUICK_SECONDS ? 1 : 3);
-         i++) { /* the machine does other things too */
-        if (!render(work, 0, pool, &request, &frame)) return false;
-        if (i == 0 || frame.times.total < work->times.total) work->times = frame.times;
-    }
-    return true;
 }
 
 static bool measure_error(WrWork *work, WrPool *pool, const WrProgress *progress)
@@ -167,8 +147,7 @@ static bool measure_error(WrWork *work, WrPool *pool, const WrProgress *progress
     WrFrameRequest bent = request;
     bent.normals = normals;
     bool good = (chosen || render(work, 0, pool, &bent, &frame)) &&
-                compare(work, pool, &request, chosen ? NULL : normals) &&
-                time_view(work, pool, progress);
+                compare(work, pool, &request, chosen ? NULL : normals);
     wr_free(normals);
     return good;
 }

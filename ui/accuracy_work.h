@@ -49,8 +49,6 @@ typedef struct WrWork {
     int samples;                /* a side of the reference's pixels */
     double
         change; /* what the last doubling of them changed, RMS: smaller errors are the reference's own */
-    WrStageTimes times;   /* of the whole view with the scene's dials, on one thread */
-    bool whole_view;      /* false: of the measured picture, since the view would take too long */
     float *values;        /* error, map: [measured_h][measured_w], NAN where nothing is; owned */
     double high;          /* 99.5 percentile of them; 0 without any */
     WrLadder ladder;      /* owned */

@@ -131,12 +131,12 @@ static void error(WrApp *app)
 static const WrColour stage_colours[6] = { 0xff8f8f8fu, 0xff4a8fdcu, 0xff4fb39au,
                                            0xffe8a25cu, 0xffd8706cu, 0xffb191d6u };
 
-static void stage_bar(const double seconds[6], double all)
+static void stage_bar(const double ms[WR_PICTURE_STAGES], double all)
 {
     WrPad pad = wr_gui_pad_begin("stages", 0, wr_gui_px(14));
     double x = pad.x + 1;
-    for (int i = 0; i < 6; i++) {
-        const double w = all > 0 ? (pad.w - 2) * seconds[i] / all : 0;
+    for (int i = 0; i < WR_PICTURE_STAGES; i++) {
+        const double w = all > 0 ? (pad.w - 2) * ms[i] / all : 0;
         wr_gui_draw_fill(floor(x), pad.y + 1, ceil(x + w) - floor(x), pad.h - 2, stage_colours[i],
                          0);
         x += w;
@@ -146,9 +146,7 @@ static void stage_bar(const double seconds[6], double all)
 
 static void stages(WrApp *app)
 {
-    static const char *const names[6] = { "prepare", "visibility", "geometry",
-                                          "bump",    "shade",      "resolve" };
-    static const char *const tips[6] = {
+    static const char *const tips[WR_PICTURE_STAGES] = {
         "Copies of the table, slopes, meshes: only where something changed",
         "Which u, v each sample sees",
         "P, Pu, Pv and N there",
@@ -156,33 +154,24 @@ static void stages(WrApp *app)
         "Light and material",
         "Samples become pixels"
     };
-    const WrAccuracy *a = app->accuracy;
-    const WrWork *e = a->error;
-    if (!e) return;
-    const WrStageTimes *t = &e->times;
-    const double seconds[6] = { t->prepare, t->visibility, t->geometry,
-                                t->bump,    t->shade,      t->resolve };
-    char text[128];
-    double all = 0;
-    for (int i = 0; i < 6; i++) all += seconds[i];
+    const WrPreviewPicture *picture = wr_preview_picture(app->preview);
+    char words[WR_PICTURE_WORDS];
+    double ms[WR_PICTURE_STAGES], all = wr_picture_time(picture, ms);
+    if (!picture->serial) return;
     wr_gui_space(8);
     wr_gui_heading("TIME OF A PICTURE, MS");
-    stage_bar(seconds, all);
+    stage_bar(ms, all);
     wr_gui_space(-4);
-    for (int i = 0; i < 6; i += 2) {
-        Cell c[2] = { { stage_colours[i], names[i], tips[i], "" },
-                      { stage_colours[i + 1], names[i + 1], tips[i + 1], "" } };
+    for (int i = 0; i < WR_PICTURE_STAGES; i += 2) {
+        Cell c[2] = { { stage_colours[i], wr_picture_stages[i], tips[i], "" },
+                      { stage_colours[i + 1], wr_picture_stages[i + 1], tips[i + 1], "" } };
         for (int k = 0; k < 2; k++)
-            snprintf(c[k].value, sizeof c[k].value, seconds[i + k] < 0.01 ? "%.2f" : "%.1f",
-                     1e3 * seconds[i + k]);
+            snprintf(c[k].value, sizeof c[k].value, ms[i + k] < 10 ? "%.2f" : "%.1f", ms[i + k]);
         cells(&c[0], &c[1]);
     }
-    snprintf(text, sizeof text,
-             "%.3g ms by the scene's dials, %d \xc3\x97 %d pixels on one thread.%s", 1e3 * t->total,
-             e->whole_view ? e->width : e->measured_w, e->whole_view ? e->height : e->measured_h,
-             e->whole_view ? "" : " The whole view would take seconds.");
+    wr_picture_words(picture, words);
     wr_gui_space(6);
-    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, text);
+    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, words);
 }
 
 /* ---- all ---- */

@@ -29,6 +29,9 @@ void wr_panel_plan(WrApp *app)
         wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No picture yet.");
         return;
     }
+    char words[WR_PICTURE_WORDS];
+    wr_picture_words(picture, words);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, words);
     for (int pass = 0; pass < 2; pass++) {
         wr_gui_heading(pass == 0 ? "RUNS" : "LEFT OUT");
         wr_gui_space(2);

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #define METER_SECONDS 2.0
@@ -105,15 +106,13 @@ static bool message(WrApp *app)
     return true;
 }
 
-/* Where the picture's time went, in percent: the stages work on several threads at once. */
-static int stages(const WrStageTimes *t, char *text, size_t size, int used)
+/* Where the picture's time went, in percent. */
+static int stages(const double ms[WR_PICTURE_STAGES], double all, char *text, size_t size, int used)
 {
-    double all = t->visibility + t->geometry + t->bump + t->shade + t->resolve;
-    if (all <= 0) return used;
-    return used + snprintf(text + used, size - (size_t)used,
-                           "visibility %.0f %%  geometry %.0f %%  bump %.0f %%  shade %.0f %%     ",
-                           100 * t->visibility / all, 100 * t->geometry / all, 100 * t->bump / all,
-                           100 * t->shade / all);
+    for (int i = 1; i < WR_PICTURE_STAGES && all > 0.0; i++)
+        used += snprintf(text + used, size - (size_t)used, "%s %.0f %%%s", wr_picture_stages[i],
+                         100.0 * ms[i] / all, i + 1 < WR_PICTURE_STAGES ? "  " : "     ");
+    return used;
 }
 
 /* ---- memory ---- */
@@ -171,25 +170,27 @@ static void memory(WrApp *app)
 static void picture(const WrApp *app, char *text, size_t size)
 {
     const WrPreviewPicture *p = wr_preview_picture(app->preview);
+    double ms[WR_PICTURE_STAGES], all = wr_picture_time(p, ms);
     text[0] = '\0';
     if (!p->serial) return;
     int used = snprintf(text, size, "%s  \xc2\xb7  %.1f ms",
-                        wr_surfaces[wr_app_scene(app)->shape.kind]->label, p->seconds * 1e3);
+                        wr_surfaces[wr_app_scene(app)->shape.kind]->label, all);
     if (app->layout.status.w <= wr_gui_px(1400)) return;
     used += snprintf(text + used, size - (size_t)used, "   ");
-    stages(&p->times, text, size, used);
+    stages(ms, all, text, size, used);
 }
 
 static void picture_tip(const WrApp *app)
 {
     const WrPreviewPicture *p = wr_preview_picture(app->preview);
-    char tip[300];
-    const WrStageTimes *t = &p->times;
-    snprintf(tip, sizeof tip,
-             "Last picture, %d x %d pixels, milliseconds by stage (all threads)\n"
-             "prepare %.2f\nvisibility %.2f\ngeometry %.2f\nbump %.2f\nshade %.2f\nresolve %.2f",
-             p->width, p->height, t->prepare * 1e3, t->visibility * 1e3, t->geometry * 1e3,
-             t->bump * 1e3, t->shade * 1e3, t->resolve * 1e3);
+    char tip[400];
+    double ms[WR_PICTURE_STAGES];
+    wr_picture_time(p, ms);
+    wr_picture_words(p, tip);
+    size_t used = strlen(tip);
+    for (int i = 0; i < WR_PICTURE_STAGES; i++)
+        used += (size_t)snprintf(tip + used, sizeof tip - used, "\n%s %.2f ms",
+                                 wr_picture_stages[i], ms[i]);
     wr_gui_tip(tip);
 }
 

@@ -58,6 +58,17 @@ typedef struct WrPreviewPicture {
     uint64_t serial; /* counts pictures; 0: none yet */
 } WrPreviewPicture;
 
+/* ---- picture_time.c ---- */
+#define WR_PICTURE_STAGES 6
+extern const char *const wr_picture_stages[WR_PICTURE_STAGES];
+/* Milliseconds that it took by the clock, and each stage's share of them: the figure of the status line, the
+   Accuracy tab and the Plan tab. */
+double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STAGES]);
+/* The same in a sentence, with what it counts. */
+#define WR_PICTURE_WORDS 200
+void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORDS]);
+
+/* ---- of a preview ---- */
 /* The newest finished picture; stays as it is until the next call. */
 const WrPreviewPicture *wr_preview_picture(WrPreview *preview);
 /* The thread has nothing left to do for the present wish. */
