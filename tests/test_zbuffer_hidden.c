@@ -151,12 +151,43 @@ static void a_solid_larger_than_the_table_costs_what_is_seen(void **state)
     }
 }
 
+/* Lattices far closer than their copies are wide: in a square of the table almost all of them are hidden, by all
+   others together. */
+static void copies_in_copies_cost_what_is_seen(void **state)
+{
+    (void)state;
+    static const struct {
+        WrZShape shape;
+        int64_t most; /* squares */
+    } cases[] = { { WR_Z_TORUS, 90000 }, { WR_Z_SPHERE, 9000 }, { WR_Z_BOX, 900 } };
+    enum { ALONG = 64 };
+    const double upright[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }, size[3] = { 32, 32, 32 };
+    WrZSolid *solids = calloc((size_t)ALONG * ALONG, sizeof *solids);
+    WrField *like = wr_field_new(64, 64, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, NULL);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        for (int k = 0; k < ALONG * ALONG; k++) {
+            const double at[3] = { k % ALONG + 0.25, (double)k / ALONG, 0 };
+            assert_true(
+                wr_zsolid_set(&solids[k], cases[i].shape, 0.3, NULL, size, upright, at, NULL));
+        }
+        WrZScene scene = { .solids = solids, .solid_count = ALONG * ALONG, .scale = 1.0 };
+        int64_t squares;
+        hash_of(&scene, like, &squares);
+        if (getenv("WR_TELL")) printf("shape %d: %lld squares\n", (int)i, (long long)squares);
+        if (squares > cases[i].most)
+            fail_msg("shape %d: %lld squares were drawn", (int)cases[i].shape, (long long)squares);
+    }
+    wr_field_free(like);
+    free(solids);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_hidden_changes_no_bit),
         cmocka_unit_test(hidden_triangles_change_no_bit),
         cmocka_unit_test(a_solid_larger_than_the_table_costs_what_is_seen),
+        cmocka_unit_test(copies_in_copies_cost_what_is_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

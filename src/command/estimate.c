@@ -147,13 +147,13 @@ static bool leans(const Job *job)
 }
 
 /* ns: a texel that is seen; those that others hide are left out by whole parts of tiles, so that small ones
-   cost a fifth of it and large ones their rim, times `more`. turned: so many times that if it leans. each: one
+   cost a twentieth of it and large ones their rim, times `more`. turned: so many times that if it leans. each: one
    copy. */
 static void solid(const Job *job, const Price *p, WrEstimate *out)
 {
     bool turned = leans(job);
     double copies = number(job, "across", 0) * number(job, "rows", 0), area = shadow(job, turned);
-    double hidden = fmin(0.2 * area, p->more * 128.0 * sqrt(PI * area));
+    double hidden = fmin(0.05 * area, p->more * 128.0 * sqrt(PI * area));
     double seen = fmin(copies * area, 4.0 * job->texels);
     add(out, (turned ? p->turned : 1.0) * p->ns * (seen + copies * hidden) + p->each * copies,
         p->bytes * fmin(copies * area, job->texels) + 440.0 * copies);

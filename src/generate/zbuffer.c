@@ -11,12 +11,6 @@
 #define MANY 64    /* images in a tile from which on it pays to look for what is hidden */
 #define LEVELS 512 /* of heights, by which they are sorted */
 
-/* One image of a primitive, in the tile that lists it. */
-typedef struct Entry {
-    int64_t index; /* of the solid, or solid_count + of the triangle */
-    double dx, dy; /* texels: the image is moved by this */
-} Entry;
-
 typedef struct Bin { /* of a tile */
     int64_t first, count;
 } Bin;
@@ -29,10 +23,10 @@ typedef struct Drawing {
     const WrZScene *scene;
     const WrField *like;
     int width, height, tiles_u, tiles_v;
-    Bin *bins;      /* [tiles_v][tiles_u] */
-    Entry *entries; /* in the order of primitives within each bin; NULL while they are counted */
-    int64_t total;  /* counted so far */
-    int *busy;      /* tiles with entries */
+    Bin *bins;         /* [tiles_v][tiles_u] */
+    WrZEntry *entries; /* in the order of primitives within each bin; NULL while they are counted */
+    int64_t total;     /* counted so far */
+    int *busy;         /* tiles with entries */
     int busy_count;
     int first;                 /* of the busy tiles that are drawn now */
     float **heights, **covers; /* [busy_count] */
@@ -112,7 +106,7 @@ static void put_image(Drawing *d, int64_t index, const Box *box, double dx, doub
     for (int y = y0; y <= y1; y++)
         for (int x = x0; x <= x1; x++) {
             Bin *bin = &d->bins[(size_t)y * (size_t)d->tiles_u + (size_t)x];
-            if (d->entries) d->entries[bin->first + bin->count] = (Entry){ index, dx, dy };
+            if (d->entries) d->entries[bin->first + bin->count] = (WrZEntry){ index, dx, dy };
             bin->count++;
         }
 }
@@ -210,16 +204,9 @@ static void finish_tile(const Drawing *d, const WrZSheet *sheet, float *heights,
         }
 }
 
-/* The greatest height that an image can have in the tile. */
-static double bound_of(const Drawing *d, const WrZSheet *sheet, const Entry *e)
+static double top_of(const WrZTriangle *t)
 {
-    int64_t triangle = e->index - d->scene->solid_count;
-    if (triangle < 0) {
-        double x = sheet->x - e->dx - 0.5, y = sheet->y - e->dy - 0.5;
-        const WrZRect rect = { x, y, x + sheet->wide, y + sheet->high };
-        return wr_zsolid_bound(&d->scene->solids[e->index], &rect);
-    }
-    const double *z = d->scene->triangles[triangle].z;
+    const double *z = t->z;
     return z[0] > z[1] ? (z[0] > z[2] ? z[0] : z[2]) : z[1] > z[2] ? z[1] : z[2];
 }
 
@@ -231,11 +218,22 @@ static bool go_on(const Drawing *d, int busy, double part)
     return !wr_progress_cancelled(d->progress);
 }
 
-static void draw_entry(const Drawing *d, const Entry *e, WrZSheet *sheet)
+static void draw_entry(const Drawing *d, const WrZEntry *e, WrZSheet *sheet)
 {
     int64_t triangle = e->index - d->scene->solid_count;
     if (triangle < 0) wr_zsheet_solid(sheet, &d->scene->solids[e->index], e->dx, e->dy);
     else wr_zsheet_triangle(sheet, &d->scene->triangles[triangle], e->dx, e->dy);
+}
+
+typedef struct Going {
+    const Drawing *d;
+    int busy;
+} Going;
+
+static bool tile_goes_on(const void *ctx, double part)
+{
+    const Going *going = ctx;
+    return go_on(going->d, going->busy, part);
 }
 
 static void draw_few(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
@@ -254,44 +252,56 @@ static int level_of(double bound, const double range[2])
     return level < LEVELS ? level : LEVELS - 1;
 }
 
-/* Entries in the order of their bounds, roughly, the highest first. False: told to stop. */
-static bool sort_entries(const Drawing *d, int busy, const Bin *bin, const WrZSheet *sheet,
-                         double *bounds, int32_t *order)
+/* Triangles in the order of their highest corners, roughly, the highest first. False: told to stop. */
+static bool sort_triangles(const Drawing *d, int busy, const Bin *bin, double *tops, int32_t *order)
 {
     double range[2] = { INFINITY, -INFINITY };
     int64_t starts[LEVELS + 1] = { 0 };
     for (int64_t i = 0; i < bin->count; i++) {
         if (i % 4096 == 0 && !go_on(d, busy, 0.0)) return false;
-        double z = bounds[i] = bound_of(d, sheet, &d->entries[bin->first + i]);
+        int64_t index = d->entries[bin->first + i].index - d->scene->solid_count;
+        double z = tops[i] = top_of(&d->scene->triangles[index]);
         range[0] = z < range[0] ? z : range[0];
         range[1] = z > range[1] ? z : range[1];
     }
-    for (int64_t i = 0; i < bin->count; i++) starts[level_of(bounds[i], range) + 1]++;
+    for (int64_t i = 0; i < bin->count; i++) starts[level_of(tops[i], range) + 1]++;
     for (int k = 0; k < LEVELS; k++) starts[k + 1] += starts[k];
-    for (int64_t i = 0; i < bin->count; i++)
-        order[starts[level_of(bounds[i], range)]++] = (int32_t)i;
+    for (int64_t i = 0; i < bin->count; i++) order[starts[level_of(tops[i], range)]++] = (int32_t)i;
     return true;
 }
 
 /* The highest first, so that what they hide need not be drawn. The order changes no bit: each texel keeps only
    the greatest heights. */
-static void draw_many(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
+static void draw_many_triangles(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
 {
-    double *bounds = wr_alloc((size_t)bin->count, sizeof *bounds), filled = -INFINITY;
+    double *tops = wr_alloc((size_t)bin->count, sizeof *tops), filled = -INFINITY;
     int32_t *order = wr_alloc((size_t)bin->count, sizeof *order);
-    bool going = sort_entries(d, busy, bin, sheet, bounds, order);
-    wr_zsheet_cull(sheet);
-    int triangles = 0;
+    bool going = sort_triangles(d, busy, bin, tops, order);
+    int drawn = 0;
     for (int64_t i = 0; i < bin->count && going; i++) {
-        const Entry *e = &d->entries[bin->first + order[i]];
-        bool triangle = e->index >= d->scene->solid_count;
         if (i % 64 == 0) going = go_on(d, busy, (double)i / (double)bin->count);
-        if (!going || bounds[order[i]] <= (triangle ? filled : sheet->least)) continue;
-        draw_entry(d, e, sheet);
-        if (triangle && ++triangles % 256 == 0) filled = wr_zsheet_filled(sheet);
+        if (!going || tops[order[i]] <= filled) continue;
+        draw_entry(d, &d->entries[bin->first + order[i]], sheet);
+        if (++drawn % 256 == 0) filled = wr_zsheet_filled(sheet);
     }
     wr_free(order);
-    wr_free(bounds);
+    wr_free(tops);
+}
+
+static void draw_bin(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
+{
+    const Going going = { d, busy };
+    const WrZGoOn goes_on = { tile_goes_on, &going };
+    Bin solids = { bin->first, 0 };
+    while (solids.count < bin->count &&
+           d->entries[bin->first + solids.count].index < d->scene->solid_count)
+        solids.count++;
+    Bin triangles = { bin->first + solids.count, bin->count - solids.count };
+    const WrZEntry *first = &d->entries[solids.first];
+    if (solids.count < MANY) draw_few(d, busy, &solids, sheet);
+    else if (!wr_zsheet_many(sheet, d->scene, first, solids.count, &goes_on)) return;
+    if (triangles.count < MANY) draw_few(d, busy, &triangles, sheet);
+    else draw_many_triangles(d, busy, &triangles, sheet);
 }
 
 static int64_t squares; /* atomic */
@@ -314,8 +324,8 @@ static void draw_tile(int index, int worker, void *ctx)
     sheet->high = d->height - sheet->y < WR_TILE ? d->height - sheet->y : WR_TILE;
     sheet->floor = d->scene->floor;
     for (int i = 0; i < TEXELS; i++) sheet->depth[i] = sheet->edge[i] = sheet->whole[i] = -INFINITY;
-    if (d->bins[tile].count < MANY || d->scene->hidden) draw_few(d, busy, &d->bins[tile], sheet);
-    else draw_many(d, busy, &d->bins[tile], sheet);
+    if (d->scene->hidden) draw_few(d, busy, &d->bins[tile], sheet);
+    else draw_bin(d, busy, &d->bins[tile], sheet);
     finish_tile(d, sheet, d->heights[busy], d->covers[busy]);
     __atomic_fetch_add(&squares, sheet->squares, __ATOMIC_RELAXED);
     wr_array_free(&sheet->blocks);

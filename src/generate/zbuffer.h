@@ -56,6 +56,11 @@ typedef struct WrZSolid {
     double
         dome[6]; /* of a sphere, (x, y) from `at`: its top is d0 x + d1 y + d2 sqrt(rest) over `at`,
                        rest = 1 - d3 x x - d4 (y - d5 x)^2 */
+    /* of what it hides, see zbuffer_bound.c */
+    double peak;       /* no place is higher */
+    bool level;        /* its top is level */
+    bool round;        /* a sphere, or a torus that lies flat: round about its upright axis */
+    double ring, tube; /* texels: radii of the torus that lies flat */
 } WrZSolid;
 
 /* A turn by angles about X, then Y, then Z, in degrees, right-handed with y up: rows of Rz Ry Rx. */

@@ -123,25 +123,12 @@ static bool is_all_covered(const WrZSheet *sheet, const Body *body, int x0, int 
     return z[0] > -INFINITY && z[1] > -INFINITY && z[2] > -INFINITY && z[3] > -INFINITY;
 }
 
-/* What is drawn there already hides it; else it counts as drawn. */
-static bool is_hidden(WrZSheet *sheet, const Body *body, int x0, int x1, int y0, int y1)
-{
-    int square = y0 / SQUARE * WR_Z_SQUARES + x0 / SQUARE;
-    double settled = wr_zsheet_settled(sheet, square);
-    const WrZRect rect = { x0 + body->dx - 0.5, y0 + body->dy - 0.5, x1 + body->dx + 0.5,
-                           y1 + body->dy + 0.5 };
-    if (settled > -INFINITY && wr_zsolid_bound(body->solid, &rect) <= settled) return true;
-    sheet->draws[square]++;
-    return false;
-}
-
 static void draw_square(WrZSheet *sheet, const Body *body, int x0, int y0)
 {
     int x1 = (x0 | (SQUARE - 1)) < body->x1 ? x0 | (SQUARE - 1) : body->x1;
     int y1 = (y0 | (SQUARE - 1)) < body->y1 ? y0 | (SQUARE - 1) : body->y1;
     double mid_x = 0.5 * (x0 + x1) + body->dx, mid_y = 0.5 * (y0 + y1) + body->dy;
     if (wr_zsolid_far(body->solid, mid_x, mid_y, 0.75 * SQUARE)) return;
-    if (sheet->culls && is_hidden(sheet, body, x0, x1, y0, y1)) return;
     sheet->squares++;
     if (!is_all_covered(sheet, body, x0, x1, y0, y1)) {
         draw_texels(sheet, body, x0, x1, y0, y1);
@@ -157,7 +144,7 @@ static void draw_square(WrZSheet *sheet, const Body *body, int x0, int y0)
     }
 }
 
-void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy)
+static Body body_of(const WrZSheet *sheet, const WrZSolid *solid, double dx, double dy)
 {
     Body body = { .solid = solid, .dx = sheet->x - dx, .dy = sheet->y - dy };
     double x = solid->at[0] - body.dx, y = solid->at[1] - body.dy;
@@ -165,8 +152,21 @@ void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double d
     body.x1 = wr_z_clip(ceil(x + solid->right), -1, sheet->wide - 1);
     body.y0 = wr_z_clip(floor(y + solid->top), 0, sheet->high);
     body.y1 = wr_z_clip(ceil(y + solid->bottom), -1, sheet->high - 1);
-    /* squares lie by the tile, so that they do not depend on the bounding box's rounding */
+    return body;
+}
+
+/* Squares lie by the tile, so that they do not depend on the bounding box's rounding. */
+void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy)
+{
+    Body body = body_of(sheet, solid, dx, dy);
     for (int y0 = body.y0 - body.y0 % SQUARE; y0 <= body.y1; y0 += SQUARE)
         for (int x0 = body.x0 - body.x0 % SQUARE; x0 <= body.x1; x0 += SQUARE)
             draw_square(sheet, &body, x0 > body.x0 ? x0 : body.x0, y0 > body.y0 ? y0 : body.y0);
+}
+
+void wr_zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy, int x, int y)
+{
+    Body body = body_of(sheet, solid, dx, dy);
+    if (body.x1 < x || body.x0 >= x + SQUARE || body.y1 < y || body.y0 >= y + SQUARE) return;
+    draw_square(sheet, &body, x > body.x0 ? x : body.x0, y > body.y0 ? y : body.y0);
 }

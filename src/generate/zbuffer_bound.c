@@ -42,11 +42,6 @@ static double top_of(const WrZSolid *s)
     return with_margin(s->at[2] + wr_zsolid_rise(s));
 }
 
-static double beyond(double x, double low, double high)
-{
-    return x < low ? low - x : x > high ? x - high : 0.0;
-}
-
 static bool is_round(const WrZSolid *s)
 {
     const double *d = s->dome;
@@ -59,6 +54,20 @@ static bool is_flat_ring(const WrZSolid *s)
            s->inverse[6] == 0.0 && s->inverse[7] == 0.0;
 }
 
+void wr_zsolid_set_bounds(WrZSolid *s)
+{
+    s->level = is_level(s);
+    s->round = is_round(s) || is_flat_ring(s);
+    s->ring = sqrt(s->pose[0] * s->pose[0] + s->pose[3] * s->pose[3]);
+    s->tube = s->ring * s->param;
+    s->peak = top_of(s);
+}
+
+static double beyond(double x, double low, double high)
+{
+    return x < low ? low - x : x > high ? x - high : 0.0;
+}
+
 /* Over places that are `near` to `far` texels from its upright axis, for what is round about that. */
 static double top_between(const WrZSolid *s, double near, double far)
 {
@@ -66,8 +75,7 @@ static double top_between(const WrZSolid *s, double near, double far)
         double rest = 1.0 - s->dome[3] * near * near;
         return s->at[2] + s->dome[2] * sqrt(rest > 0.0 ? rest : 0.0);
     }
-    double ring = sqrt(s->pose[0] * s->pose[0] + s->pose[3] * s->pose[3]), tube = ring * s->param;
-    double off = beyond(ring, near, far), rest = tube * tube - off * off;
+    double off = beyond(s->ring, near, far), rest = s->tube * s->tube - off * off;
     return s->at[2] + sqrt(rest > 0.0 ? rest : 0.0);
 }
 
@@ -77,35 +85,91 @@ static double farthest(double x, double low, double high)
     return a > b ? a : b;
 }
 
-/* A convex body's top is a concave function: over a rectangle within its shadow it is nowhere higher than by as
-   much over the middle as the lowest corner is under it. */
-static double top_of_convex(const WrZSolid *s, const WrZRect *r, double most)
+/* The lowest over such places if it covers them all. */
+static double least_between(const WrZSolid *s, double near, double far)
 {
-    const double x[5] = { r->x0, r->x1, r->x0, r->x1, 0.5 * (r->x0 + r->x1) };
-    const double y[5] = { r->y0, r->y0, r->y1, r->y1, 0.5 * (r->y0 + r->y1) };
+    double rest;
+    if (s->shape == WR_Z_SPHERE) {
+        rest = 1.0 - s->dome[3] * far * far;
+        return rest > MARGIN ? s->at[2] + s->dome[2] * sqrt(rest) : -INFINITY;
+    }
+    double a = fabs(near - s->ring), b = fabs(far - s->ring), off = a > b ? a : b;
+    rest = s->tube * s->tube - off * off;
+    return rest > MARGIN * s->tube * s->tube ? s->at[2] + sqrt(rest) : -INFINITY;
+}
+
+/* It is not there at all. */
+static bool is_clear(const WrZSolid *s, double near, double far)
+{
+    const double more = 1.0 + 1e-6;
+    if (s->shape == WR_Z_SPHERE) return s->dome[3] * near * near > more;
+    return beyond(s->ring, near, far) > s->tube * more;
+}
+
+static double round_range(const WrZSolid *s, const WrZRect *r, double most, double *least)
+{
+    double nx = beyond(s->at[0], r->x0, r->x1), ny = beyond(s->at[1], r->y0, r->y1);
+    double fx = farthest(s->at[0], r->x0, r->x1), fy = farthest(s->at[1], r->y0, r->y1);
+    double near = sqrt(nx * nx + ny * ny), far = sqrt(fx * fx + fy * fy);
+    if (is_clear(s, near, far)) return -INFINITY;
+    double low = least_between(s, near, far), high = with_margin(top_between(s, near, far));
+    if (low > -INFINITY) *least = low - MARGIN * (1.0 + fabs(low));
+    return high < most ? high : most;
+}
+
+/* A convex body's top is a concave function: over a rectangle within its shadow it is nowhere lower than at a
+   corner, and nowhere higher than by as much over the middle as the lowest corner is under it. */
+static double convex_range(const WrZSolid *s, const WrZRect *r, double most, double *least)
+{
+    double x[5] = { r->x0, r->x1, r->x0, r->x1, 0.5 * (r->x0 + r->x1) };
+    double y[5] = { r->y0, r->y0, r->y1, r->y1, 0.5 * (r->y0 + r->y1) };
     double z[5], low = INFINITY;
     wr_zsolid_tops(s, 5, x, y, z);
     for (int k = 0; k < 5; k++) {
         if (!(z[k] > -INFINITY)) return most;
         low = z[k] < low ? z[k] : low;
     }
+    *least = s->level ? low : low - MARGIN * (1.0 + fabs(low));
+    if (s->level) return most;
     double bound = z[4] + (z[4] - low);
     bound += MARGIN * (1.0 + fabs(z[4]) + fabs(low));
     return bound < most ? bound : most;
 }
 
-double wr_zsolid_bound(const WrZSolid *s, const WrZRect *r)
+static bool is_beside(const WrZSolid *s, const WrZRect *r)
 {
-    double most = top_of(s);
-    if (is_level(s)) return most;
-    if (is_round(s) || is_flat_ring(s)) {
-        double nx = beyond(s->at[0], r->x0, r->x1), ny = beyond(s->at[1], r->y0, r->y1);
-        double fx = farthest(s->at[0], r->x0, r->x1), fy = farthest(s->at[1], r->y0, r->y1);
-        double bound =
-            with_margin(top_between(s, sqrt(nx * nx + ny * ny), sqrt(fx * fx + fy * fy)));
-        return bound < most ? bound : most;
+    return s->at[0] + s->left > r->x1 || s->at[0] + s->right < r->x0 || s->at[1] + s->top > r->y1 ||
+           s->at[1] + s->bottom < r->y0;
+}
+
+double wr_zsolid_range(const WrZSolid *s, const WrZRect *r, double *least)
+{
+    *least = -INFINITY;
+    if (is_beside(s, r)) return -INFINITY;
+    if (s->round) return round_range(s, r, s->peak, least);
+    return wr_zsolid_convex(s) ? convex_range(s, r, s->peak, least) : s->peak;
+}
+
+/* A ring that lies flat and covers all of it well within its rims counts as covering all texels, and of those
+   only the centres' heights are kept. */
+bool wr_zsolid_changes(const WrZSolid *s, double x, double y, double least,
+                       const double settled[WR_Z_SQUARE * WR_Z_SQUARE])
+{
+    const double ring = s->ring, tube2 = s->tube * s->tube, z = s->at[2];
+    if (s->shape != WR_Z_TORUS || !s->round || s->tube < 4.0 || !(least > z + 0.5 * s->tube))
+        return true;
+    for (int j = 0; j < WR_Z_SQUARE; j++) {
+        const double *row = settled + j * WR_Z_SQUARE, py = y + j - s->at[1];
+        int some = 0;
+#pragma omp simd reduction(| : some)
+        for (int i = 0; i < WR_Z_SQUARE; i++) {
+            double px = x + i - s->at[0], off = sqrt(px * px + py * py) - ring;
+            double rise = row[i] - MARGIN * (1.0 + fabs(row[i])) - z;
+            some |= (rise < 0.0) | (tube2 - off * off > rise * rise);
+        }
+        if (some) return true;
     }
-    return wr_zsolid_convex(s) ? top_of_convex(s, r, most) : most;
+    return false;
 }
 
 /* ---- how high it must be ---- */
@@ -127,29 +191,18 @@ static double settled_texel(const WrZSheet *sheet, int at)
     return least;
 }
 
-static double settled_square(const WrZSheet *sheet, int square)
+double wr_zsheet_settled(const WrZSheet *sheet, int x, int y,
+                         double settled[WR_Z_SQUARE * WR_Z_SQUARE])
 {
-    int x0 = square % WR_Z_SQUARES * WR_Z_SQUARE, y0 = square / WR_Z_SQUARES * WR_Z_SQUARE;
     double least = INFINITY;
-    for (int y = y0; y < y0 + WR_Z_SQUARE && y < sheet->high; y++)
-        for (int x = x0; x < x0 + WR_Z_SQUARE && x < sheet->wide; x++) {
-            double z = settled_texel(sheet, y * WR_TILE + x);
-            if (!(z > -INFINITY)) return -INFINITY;
+    for (int j = 0; j < WR_Z_SQUARE; j++)
+        for (int i = 0; i < WR_Z_SQUARE; i++) {
+            bool there = x + i < sheet->wide && y + j < sheet->high;
+            double z = there ? settled_texel(sheet, (y + j) * WR_TILE + x + i) : INFINITY;
+            settled[j * WR_Z_SQUARE + i] = z;
             least = z < least ? z : least;
         }
     return least;
-}
-
-double wr_zsheet_settled(WrZSheet *sheet, int square)
-{
-    enum { OFTEN = 4 };
-    if (sheet->draws[square] < OFTEN) return sheet->settled[square];
-    sheet->draws[square] = 0;
-    sheet->settled[square] = settled_square(sheet, square);
-    sheet->least = INFINITY;
-    for (int k = 0; k < WR_Z_SQUARES * WR_Z_SQUARES; k++)
-        if (sheet->settled[k] < sheet->least) sheet->least = sheet->settled[k];
-    return sheet->settled[square];
 }
 
 double wr_zsheet_filled(const WrZSheet *sheet)
@@ -162,15 +215,4 @@ double wr_zsheet_filled(const WrZSheet *sheet)
             least = sheet->depth[at] < least ? sheet->depth[at] : least;
         }
     return least;
-}
-
-void wr_zsheet_cull(WrZSheet *sheet)
-{
-    sheet->culls = true;
-    sheet->least = -INFINITY;
-    for (int k = 0; k < WR_Z_SQUARES * WR_Z_SQUARES; k++) {
-        bool there = k % WR_Z_SQUARES * WR_Z_SQUARE < sheet->wide &&
-                     k / WR_Z_SQUARES * WR_Z_SQUARE < sheet->high;
-        sheet->settled[k] = there ? -INFINITY : INFINITY;
-    }
 }

@@ -31,30 +31,50 @@ typedef struct WrZSheet {
         bodies[WR_TILE * WR_TILE]; /* solids that cover it, in part or all; 2: more, or one twice */
     int block[WR_TILE * WR_TILE];  /* 1 + its block's index; 0: none */
     WR_ARRAY(WrZBlock) blocks;     /* of texels that a solid covers in part */
-    /* of what is hidden, by squares of the tile (zbuffer_bound.c) */
-    bool culls;
-    int64_t squares; /* drawn */
-    double
-        settled[WR_Z_SQUARES * WR_Z_SQUARES]; /* solids that are not higher change nothing there */
-    uint8_t draws[WR_Z_SQUARES * WR_Z_SQUARES]; /* since that was found out */
-    double least;                               /* of them all */
+    int64_t squares;               /* drawn */
 } WrZSheet;
+
+/* One image of a primitive. */
+typedef struct WrZEntry {
+    int64_t index; /* of the solid, or solid_count + of the triangle */
+    double dx, dy; /* texels: the image is moved by this */
+} WrZEntry;
 
 /* Draw one image of a primitive, moved by (dx, dy) whole texels. */
 void wr_zsheet_triangle(WrZSheet *sheet, const WrZTriangle *triangle, double dx, double dy);
 void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy);
+/* Only what of it lies in the square whose first texel is (x, y) of the tile. */
+void wr_zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy, int x, int y);
+
+/* May the work go on? part: of the tile, 0..1. */
+typedef struct WrZGoOn {
+    bool (*call)(const void *ctx, double part);
+    const void *ctx;
+} WrZGoOn;
+/* Draw the images of solids [count], but what is hidden. Drawing that too would change no bit. False: told to
+   stop. */
+bool wr_zsheet_many(WrZSheet *sheet, const WrZScene *scene, const WrZEntry *entries, int64_t count,
+                    const WrZGoOn *go_on);
 
 /* ---- what is hidden: zbuffer_bound.c ---- */
+
+/* Fill in what the solid's bounds are found from; part of wr_zsolid_set. */
+void wr_zsolid_set_bounds(WrZSolid *solid);
 
 typedef struct WrZRect {
     double x0, y0, x1, y1; /* texels, closed */
 } WrZRect;
-/* No place of the solid over the rectangle is higher. */
-double wr_zsolid_bound(const WrZSolid *solid, const WrZRect *rect);
-/* From now on look for what is hidden; the sheet is empty. */
-void wr_zsheet_cull(WrZSheet *sheet);
-/* A solid that is nowhere in the square higher than that changes nothing there. */
-double wr_zsheet_settled(WrZSheet *sheet, int square);
+/* No place of the solid over the rectangle is higher; -inf: it is not there. *least: where it covers all of the
+   rectangle, none is lower; else -inf. */
+double wr_zsolid_range(const WrZSolid *solid, const WrZRect *rect, double *least);
+/* Each texel of the square of WR_Z_SQUARE from (x, y) on: a solid that is nowhere higher than that changes nothing
+   there; inf beyond the table. Returns the least. */
+double wr_zsheet_settled(const WrZSheet *sheet, int x, int y,
+                         double settled[WR_Z_SQUARE * WR_Z_SQUARE]);
+/* May the solid, which is nowhere in such a square lower than `least`, change anything there? (x, y): the square's
+   first texel in its space. True where that takes more than a look at the texels' centres. */
+bool wr_zsolid_changes(const WrZSolid *solid, double x, double y, double least,
+                       const double settled[WR_Z_SQUARE * WR_Z_SQUARE]);
 /* The same for triangles, anywhere in the tile. */
 double wr_zsheet_filled(const WrZSheet *sheet);
 

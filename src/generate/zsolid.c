@@ -3,6 +3,7 @@
 
 #include "base/exactmath.h"
 #include "generate/zbuffer_shapes.h"
+#include "generate/zbuffer_tile.h"
 
 static const WrZSpan nothing = { 1.0, -1.0 }, everything = { -INFINITY, INFINITY };
 
@@ -91,8 +92,27 @@ static inline double dome_top(const WrZSolid *solid, double x, double y)
     return rest >= 0.0 ? z : -INFINITY;
 }
 
+/* As wr_ztorus_top of a torus that lies flat, in every bit. */
+static void ring_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z)
+{
+    const double *m = solid->inverse, down = m[8], tube = solid->param;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        double dx = x[i] - solid->at[0], dy = y[i] - solid->at[1];
+        double p = m[0] * dx + m[1] * dy, q = m[3] * dx + m[4] * dy, r = m[6] * dx + m[7] * dy;
+        double d = sqrt(p * p + q * q) - 1.0, rest = tube * tube - d * d;
+        double root = sqrt(rest > 0.0 ? rest : 0.0);
+        double top = solid->at[2] + ((down > 0.0 ? root : -root) - r) / down;
+        z[i] = rest >= 0.0 ? top : -INFINITY;
+    }
+}
+
 void wr_zsolid_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z)
 {
+    if (solid->shape == WR_Z_TORUS && solid->round) {
+        ring_tops(solid, count, x, y, z);
+        return;
+    }
     if (solid->shape == WR_Z_SPHERE) {
 #pragma omp simd
         for (int i = 0; i < count; i++) z[i] = dome_top(solid, x[i], y[i]);
@@ -277,5 +297,6 @@ bool wr_zsolid_set(WrZSolid *solid, WrZShape shape, double param, const WrZLette
         }
     set_box(solid);
     set_dome(solid);
+    wr_zsolid_set_bounds(solid);
     return true;
 }
