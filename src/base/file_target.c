@@ -286,7 +286,9 @@ bool wr_file_commit(WrFileTarget *target, WrError *err)
 
 void wr_file_abort(WrFileTarget *target)
 {
-    if (target->temporary) unlink(target->temporary);
+    /* Once more where it will not go: nobody else removes it before this process has ended. */
+    if (target->temporary && unlink(target->temporary) != 0 && errno != ENOENT)
+        unlink(target->temporary);
     release(target);
 }
 
