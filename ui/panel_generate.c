@@ -183,8 +183,8 @@ static void expectation(const WrApp *app, SDL_Rect *room)
     wr_expectation(app, wr_text_get(&line), text);
     wr_text_fini(&line);
     if (!text[0]) return;
-    SDL_Rect row = cut(room, wr_gui_px(24), false);
-    wr_gui_area_begin("##generate_takes", WR_AREA_PANEL, row, WR_COLOUR_BAR);
+    SDL_Rect row = cut(room, wr_gui_px(32), false);
+    wr_gui_area_begin("##generate_takes", WR_AREA_BAR, row, WR_COLOUR_BAR);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     wr_gui_area_end();
 }

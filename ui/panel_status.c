@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
    The status line: what is under the pointer, what the last picture cost, what there is to say. */
-#include "ui/state.h"
+#include "ui/generate_hand.h"
 
 #include "base/clock.h"
 #include "base/exactmath.h"
@@ -238,10 +238,12 @@ static bool work(WrApp *app)
     bool outlined = !tried && wr_outliner_busy(app->marks.outliner, &fraction, &seconds) &&
                     seconds > MOMENT_SECONDS;
     if (!tried && !outlined) return false;
+    const WrGenerateHand *hand = app->generate;
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_STRONG,
-                outlined         ? "Outlining the selection"
-                : app->adjust.op ? app->adjust.op->label
-                                 : "Joining the layers");
+                outlined                          ? "Outlining the selection"
+                : app->adjust.op                  ? app->adjust.op->label
+                : hand->active && hand->generator ? hand->generator->label
+                                                  : "Joining the layers");
     wr_gui_same_line(12);
     wr_gui_progress(wr_gui_px(220), tried ? fraction : -1.0);
     return true;

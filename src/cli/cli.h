@@ -115,9 +115,11 @@ int wr_cli_fail(const WrCli *cli, int status, const WrError *err);
 /* Write a result to standard output at once. Returns 0, or 1 with a message when that fails. */
 int wr_cli_print(const WrCli *cli, const WrText *text);
 
-/* From now on that progress is told on standard error, if that is a terminal; and no more, the line wiped. */
+/* From now on that progress is told on standard error, if that is a terminal; the line wiped until there is more
+   to tell; and never more. */
 void wr_cli_tell(WrProgress *progress);
 void wr_cli_tell_end(void);
+void wr_cli_tell_no_more(void);
 
 int wr_cli_paint(const WrCli *cli);
 int wr_cli_run(const WrCli *cli);

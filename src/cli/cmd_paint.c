@@ -38,6 +38,7 @@ int wr_cli_paint(const WrCli *cli)
                              .notes = &notes };
         signal(SIGINT, SIG_DFL); /* the window library makes it a request to close */
         signal(SIGTERM, SIG_DFL);
+        wr_cli_tell_no_more(); /* from here the window tells */
         status = wr_app_run(&app);
     } else {
         status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);

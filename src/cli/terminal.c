@@ -12,6 +12,7 @@
 static struct {
     double began, told; /* clock */
     bool shown;
+    WrProgress *progress; /* that reports here */
 } line;
 
 static void report(void *ctx, double fraction)
@@ -31,10 +32,17 @@ void wr_cli_tell(WrProgress *progress)
     if (!isatty(STDERR_FILENO)) return;
     line.began = wr_clock_seconds();
     progress->report = report;
+    line.progress = progress;
 }
 
 void wr_cli_tell_end(void)
 {
     if (line.shown) fprintf(stderr, "\r%*s\r", 24, "");
     line.shown = false;
+}
+
+void wr_cli_tell_no_more(void)
+{
+    wr_cli_tell_end();
+    if (line.progress) line.progress->report = NULL;
 }

@@ -1,6 +1,7 @@
 #include "generate/terrain.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "field/ops.h"
 
 #include <float.h>
@@ -17,17 +18,26 @@ bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], W
     return true;
 }
 
+/* Large tables take seconds to be copied, where the machine has other work: row j is one to look up at. */
+static bool gives_up(int j, WrError *err)
+{
+    return j % ROWS == 0 && wr_progress_stopped() && !wr_fail(err, "cancelled");
+}
+
 bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err)
 {
     const WrWrap wrap[2] = { wr_field_wrap_u(field), wr_field_wrap_v(field) };
     int width = wr_field_width(field), height = wr_field_height(field);
     float *row = wr_alloc((size_t)width, sizeof *row);
     bool good = wr_sheet_new(sheet, width, height, wrap, err);
+    bool made = good;
     for (int j = 0; good && j < height; j++) {
         wr_field_read(field, 0, j, width, 1, row, (size_t)width);
         for (int i = 0; i < width; i++)
             sheet->z[(size_t)j * (size_t)width + (size_t)i] = (double)row[i];
+        good = !gives_up(j, err);
     }
+    if (made && !good) wr_sheet_fini(sheet);
     wr_free(row);
     return good;
 }
@@ -35,8 +45,14 @@ bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err)
 bool wr_sheet_copy(WrSheet *sheet, const WrSheet *from, WrError *err)
 {
     if (!wr_sheet_new(sheet, from->width, from->height, from->wrap, err)) return false;
-    memcpy(sheet->z, from->z, (size_t)from->width * (size_t)from->height * sizeof *from->z);
-    return true;
+    const size_t width = (size_t)from->width;
+    bool good = true;
+    for (int j = 0; good && j < from->height; j++) {
+        memcpy(sheet->z + (size_t)j * width, from->z + (size_t)j * width, width * sizeof *from->z);
+        good = !gives_up(j, err);
+    }
+    if (!good) wr_sheet_fini(sheet);
+    return good;
 }
 
 void wr_sheet_fini(WrSheet *sheet)
@@ -67,13 +83,17 @@ WrField *wr_sheet_field(const WrSheet *sheet, WrError *err)
     WrField *field = wr_field_new(width, sheet->height, sheet->wrap[0], sheet->wrap[1], 0.0f, err);
     if (!field) return NULL;
     float *row = wr_alloc((size_t)width, sizeof *row);
-    for (int j = 0; j < sheet->height; j++) {
+    bool good = true;
+    for (int j = 0; good && j < sheet->height; j++) {
         for (int i = 0; i < width; i++)
             row[i] = to_float(sheet->z[(size_t)j * (size_t)width + (size_t)i]);
         wr_field_write(field, 0, j, width, 1, row, (size_t)width);
+        good = !gives_up(j, err);
     }
     wr_free(row);
-    return field;
+    if (good) return field;
+    wr_field_free(field);
+    return NULL;
 }
 
 /* One axis after the other, since the filter goes by the axis. */
@@ -83,7 +103,8 @@ static WrField *resized(const WrField *field, int width, int height, const WrGen
     enum { BOX = 0, CATMULL = 2 };
     bool fewer = width < wr_field_width(field) || height < wr_field_height(field);
     const double param[] = { width, height, fewer ? BOX : CATMULL };
-    const WrOpOptions options = { .pool = job->pool, .progress = NULL };
+    const WrProgress quiet = { .cancel = job->progress ? job->progress->cancel : NULL };
+    const WrOpOptions options = { .pool = job->pool, .progress = &quiet };
     return wr_op_run(wr_op_find("resize"), field, param, &options, err);
 }
 

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# On a terminal, what will take long is noted before it begins, and then how far it is and how long it still takes;
+# into a file goes neither.  terminal.sh PROGRAM
+set -uo pipefail
+program=$1
+folder=$(mktemp -d) || exit 1
+talk='' failures=0
+cleanup() {
+    [[ -z $talk ]] || kill -KILL -- "-$talk" 2>/dev/null
+    rm -rf "$folder"
+}
+trap cleanup EXIT
+cd "$folder" || exit 1
+export HOME=$folder XDG_STATE_HOME=$folder XDG_CONFIG_HOME=$folder XDG_DATA_HOME=$folder
+command -v script >/dev/null || { echo 'script is missing: apt-get install bsdutils'; exit 1; }
+complain() {
+    printf '%s\n' "$*"
+    failures=$((failures + 1))
+}
+
+# Nobody waits for the end of this: hours of work.
+printf 'table 4096x4096\nnoise perlin cells=64 octaves=12 warp=0.3\nterrain hydraulic rain=64\n' >long.wrinkle
+
+# says COMMAND...: on a terminal it comes to say both.
+says() {
+    : >said
+    setsid script -qefc "$*" said >/dev/null 2>&1 </dev/null &
+    talk=$!
+    local end=$((SECONDS + 120))
+    until grep -qE '[0-9] %  [0-9]+:[0-9]{2} left' said; do
+        [[ $SECONDS -lt $end ]] || { complain "$*: not how far it is: $(tr '\r' '\n' <said | tail -n 3)"; break; }
+        sleep 0.1
+    done
+    [[ $2 == paint ]] || # which opens the script: its lines are not foretold
+        grep -qE 'note: noise perlin: about [0-9.]+ (s|min|h), [0-9.]+ [MG]B' said || complain "$*: no estimate before: $(cat said)"
+    kill -KILL -- "-$talk" 2>/dev/null
+    { wait "$talk"; } 2>/dev/null
+    talk=''
+}
+says "$program" run long.wrinkle
+says "$program" paint long.wrinkle
+
+# ---- into a file ----
+printf 'table 1024x1024\nnoise perlin cells=64 octaves=12 warp=0.3\n' >short.wrinkle
+"$program" run short.wrinkle >out 2>err || complain "it failed: $(cat err)"
+! grep -qE 'about|left$' err || complain "a file is told of it: $(cat err)"
+
+[[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }
