@@ -265,6 +265,11 @@ expect 0 help render
 has out 'size=WxH'
 expect 0 help --json
 has out '"name":"stroke","class":"edit"'
+expect 0 help --markdown stroke effects
+has out '## stroke'
+has out '| E25 | back faces | '
+expect 1 help --markdown stroek
+has err 'did you mean stroke'
 "$program" help >/dev/full 2>err
 is 'a full disk under standard output' "$?" 1
 has err 'standard output'

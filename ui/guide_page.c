@@ -231,11 +231,17 @@ static bool marked_at(const char *p, WrGuideSpan *span, const char **end)
     return link_at(p, span, end);
 }
 
+/* A backslash before a sign that would be a mark. */
+static bool is_escape(const char *p)
+{
+    return p[0] == '\\' && p[1] && strchr("|*<", p[1]);
+}
+
 bool wr_guide_span(const char **at, WrGuideSpan *span)
 {
     const char *from = *at, *end;
     if (!*from) return false;
-    if (*from == '\\' && from[1] == '|') { /* the bar alone */
+    if (is_escape(from)) { /* the sign alone */
         *span = (WrGuideSpan){ WR_GUIDE_PLAIN, from + 1, 1, NULL, 0 };
         *at = from + 2;
         return true;
@@ -246,8 +252,7 @@ bool wr_guide_span(const char **at, WrGuideSpan *span)
     }
     const char *p = from + 1;
     WrGuideSpan next;
-    while (*p && !(*p == '\\' && p[1] == '|') && !(strchr("`*[!", *p) && marked_at(p, &next, &end)))
-        p++;
+    while (*p && !is_escape(p) && !(strchr("`*[!", *p) && marked_at(p, &next, &end))) p++;
     *span = (WrGuideSpan){ WR_GUIDE_PLAIN, from, (int)(p - from), NULL, 0 };
     *at = p;
     return true;

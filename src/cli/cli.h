@@ -68,6 +68,7 @@ struct WrCli {
     bool beyond;     /* --beyond */
     bool script;     /* --script */
     bool in_place;   /* --in-place */
+    bool markdown;   /* --markdown */
 
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
@@ -87,6 +88,7 @@ typedef enum WrOption {
                             --tolerance, --hard-cases */
     WR_OPTION_RECOVER,   /* --beyond, --script, --in-place */
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
+    WR_OPTION_MARKDOWN,  /* --markdown */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;
@@ -100,6 +102,12 @@ bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err);
 void wr_cli_fini(WrCli *cli);
 /* The help of one subcommand with its options, or of the program where command is NULL. */
 void wr_cli_help(const WrSubcommand *command, WrText *text);
+/* Every subcommand with its options, in Markdown; and what the plan may leave out, as a table. */
+void wr_cli_markdown_subcommands(WrText *text);
+void wr_cli_markdown_effects(WrText *text);
+/* Option i that a subcommand takes, or of those that all take: its name, other name, value and help (NULL: none).
+ * False past the last. */
+bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *out[4]);
 
 /* A session with FILE loaded (an empty document without one) and every --do run. outputs: perform output
  * commands among the --do lines. The caller owns it; NULL and an error on failure. */

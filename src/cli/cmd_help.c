@@ -4,8 +4,34 @@
 
 #include <string.h>
 
+/* What the guide's pages are made of. */
+static int print_markdown(const WrCli *cli)
+{
+    static const struct {
+        const char *name;
+        void (*add)(WrText *text);
+    } parts[] = { { "verbs", wr_help_markdown_verbs },
+                  { "subcommands", wr_cli_markdown_subcommands },
+                  { "effects", wr_cli_markdown_effects } };
+    WrText text = { 0 };
+    WrError err;
+    bool good = true;
+    for (int i = 0; i < cli->word_count && good; i++) {
+        size_t k = 0;
+        while (k < sizeof parts / sizeof *parts && strcmp(parts[k].name, cli->words[i]) != 0) k++;
+        if (i > 0) wr_text_add(&text, "\n");
+        if (k < sizeof parts / sizeof *parts) parts[k].add(&text);
+        else good = wr_help_markdown(cli->words[i], &text, &err);
+    }
+    if (cli->word_count == 0) wr_help_markdown_verbs(&text);
+    int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    wr_text_fini(&text);
+    return status;
+}
+
 int wr_cli_help_command(const WrCli *cli)
 {
+    if (cli->markdown) return print_markdown(cli);
     WrError err;
     WrText text = { 0 };
     int status = WR_EXIT_DONE;

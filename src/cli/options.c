@@ -228,6 +228,13 @@ static bool set_in_place(WrCli *cli, const char *value, WrError *err)
     return cli->in_place = true;
 }
 
+static bool set_markdown(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->markdown = true;
+}
+
 static bool set_help(WrCli *cli, const char *value, WrError *err)
 {
     (void)value;
@@ -298,6 +305,8 @@ static const struct Option {
       "instead: all commands that can be read, as text, to OUT or standard output", set_script },
     { "--in-place", NULL, NULL, WR_OPTION_RECOVER,
       "save to the document's own file, if that is still what it was", set_in_place },
+    { "--markdown", NULL, NULL, WR_OPTION_MARKDOWN,
+      "as the guide has it: of a VERB, of all verbs, subcommands or effects", set_markdown },
     { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", set_json },
     { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
       "run a command after FILE is loaded; repeatable, in order", set_do },
@@ -454,38 +463,18 @@ void wr_cli_fini(WrCli *cli)
 
 /* ---- help ---- */
 
-static void add_option(WrText *text, const struct Option *o)
+bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *out[4])
 {
-    char left[40];
-    snprintf(left, sizeof left, "%s%s%s%s%s", o->name, o->other ? ", " : "",
-             o->other ? o->other : "", o->value ? " " : "", o->value ? o->value : "");
-    wr_text_addf(text, "  %-20s %s\n", left, o->help);
-}
-
-void wr_cli_help(const WrSubcommand *command, WrText *text)
-{
-    if (command) {
-        wr_text_addf(text, "usage: wrinkle %s\n\n%s\n\n", command->usage, command->help);
-        if (command->details) wr_text_addf(text, "%s\n\n", command->details);
-        wr_text_add(text, "options:\n");
-    } else {
-        wr_text_add(text, "wrinkle - an interactive paint program for bump functions\n\nusage:\n");
-        for (const WrSubcommand *c = wr_subcommands; c->name; c++)
-            wr_text_addf(text, "  wrinkle %-52s %s\n", c->usage, c->help);
-        wr_text_add(
-            text, "\nFILE is a document (*.exr), a script (*.wrinkle) or any picture with heights; "
-                  "left out, it is an\nempty 512x512 table on a plane.\n\n"
-                  "options of every subcommand:\n");
+    for (int k = 0; k < OPTION_COUNT; k++) {
+        const struct Option *o = &options[k];
+        bool taken =
+            o->bit == WR_OPTION_COMMON ? common : !common && command->options >> o->bit & 1;
+        if (!taken || i-- > 0) continue;
+        out[0] = o->name;
+        out[1] = o->other;
+        out[2] = o->value;
+        out[3] = o->help;
+        return true;
     }
-    for (int i = 0; i < OPTION_COUNT; i++)
-        if (options[i].bit == WR_OPTION_COMMON ||
-            (command && command->options >> options[i].bit & 1))
-            add_option(text, &options[i]);
-    if (!command)
-        wr_text_add(text,
-                    "\n`wrinkle help` lists the commands that scripts and --do take, "
-                    "`wrinkle help VERB` tells\nmore of one, `wrinkle SUBCOMMAND --help` of a "
-                    "subcommand.\n\n"
-                    "Exit status: 0 done, 1 failed, 2 the shell line was wrong, 130 "
-                    "interrupted.\n");
+    return false;
 }

@@ -69,8 +69,11 @@ const WrSubcommand wr_subcommands[] = {
       "fast; --lines: one line a measurement, for programs.",
       wr_cli_bench },
 #endif
-    { "help", "help [VERB] [--json]", "the commands of scripts and --do",
-      BIT(JSON) | BIT(ALL_WORDS), NULL, wr_cli_help_command },
+    { "help", "help [VERB...] [--json|--markdown]", "the commands of scripts and --do",
+      BIT(JSON) | BIT(MARKDOWN) | BIT(ALL_WORDS),
+      "--markdown prints what the guide's pages hold: of a VERB its arguments; `verbs` all verbs, "
+      "`subcommands`\nthese with their options, `effects` what a plan leaves out and when.",
+      wr_cli_help_command },
     { .name = NULL }
 };
 

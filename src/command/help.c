@@ -58,8 +58,7 @@ static const char *written_short(const WrArgSpec *spec)
     return spec->type == WR_ARG_TEXT ? "" : written(spec);
 }
 
-/* How many of a form's arguments are its own or its command's, rather than those that others have too. */
-static int count_own(const WrCommand *command, int count)
+int wr_help_own(const WrCommand *command, int count)
 {
     for (const WrArgSpec *s = command->more; s && s->name; s++) count--;
     return count;
@@ -122,26 +121,38 @@ static void add_meanings(WrText *text, const WrArgSpec *spec)
     }
 }
 
-static void add_argument(WrText *text, const WrCommand *command, int form, const WrArgSpec *spec)
+void wr_help_argument(const WrCommand *command, int form, const WrArgSpec *spec, WrText *text)
 {
-    WrText left = { 0 }, right = { 0 }, value = { 0 };
-    wr_text_addf(&left, "%s%s%s", spec->name, spec->positional ? "" : "=",
-                 spec->positional ? "" : written_short(spec));
-    if (spec->type == WR_ARG_TEXT && spec->shape) wr_text_addf(&right, "%s: ", spec->shape);
-    wr_text_add(&right, spec->help);
+    WrText value = { 0 };
+    if (spec->type == WR_ARG_TEXT && spec->shape) wr_text_addf(text, "%s: ", spec->shape);
+    wr_text_add(text, spec->help);
     if ((spec->type < WR_ARG_PATH || spec->type == WR_ARG_LAYER) && !spec->parts &&
         !spec->explain) {
-        wr_text_add(&right, "; ");
-        wr_arg_expectation(spec, &right);
+        wr_text_add(text, "; ");
+        wr_arg_expectation(spec, text);
     }
     wr_arg_fallback_print(spec, &value);
     if (value.length && value.length < 60) {
-        wr_text_addf(&right, " (default %s)", wr_text_get(&value));
+        wr_text_addf(text, " (default %s)", wr_text_get(&value));
     } else if (!value.length) {
         wr_help_initial(command, form, spec->name, &value);
         if (value.length && !spec->required)
-            wr_text_addf(&right, " (at first %s)", wr_text_get(&value));
+            wr_text_addf(text, " (at first %s)", wr_text_get(&value));
     }
+    wr_text_fini(&value);
+}
+
+void wr_help_argument_name(const WrArgSpec *spec, WrText *text)
+{
+    wr_text_addf(text, "%s%s%s", spec->name, spec->positional ? "" : "=",
+                 spec->positional ? "" : written_short(spec));
+}
+
+static void add_argument(WrText *text, const WrCommand *command, int form, const WrArgSpec *spec)
+{
+    WrText left = { 0 }, right = { 0 };
+    wr_help_argument_name(spec, &left);
+    wr_help_argument(command, form, spec, &right);
     if (spec->explain) wr_text_add(&right, ":");
     if (left.length < 15) wr_text_addf(text, "    %-15s", wr_text_get(&left));
     else wr_text_addf(text, "    %s\n%19s", wr_text_get(&left), "");
@@ -149,7 +160,6 @@ static void add_argument(WrText *text, const WrCommand *command, int form, const
     add_meanings(text, spec);
     wr_text_fini(&left);
     wr_text_fini(&right);
-    wr_text_fini(&value);
 }
 
 static void add_arguments(WrText *text, const WrCommand *command, int form, const WrArgSpec *specs,
@@ -167,7 +177,7 @@ static void add_form(WrText *text, const WrCommand *command, int form)
     WrForm row;
     WrText usage = { 0 };
     int count = wr_command_specs(command, form, specs);
-    if (form >= 0) count = count_own(command, count);
+    if (form >= 0) count = wr_help_own(command, count);
     add_usage(command, form, specs, count, &usage);
     if (form >= 0 && command->more) wr_text_add(&usage, " ...");
     wr_text_add(text, "  ");

@@ -8,6 +8,13 @@ void wr_help_overview(WrText *text);
 /* One command: what it takes, with ranges and defaults. Fails for an unknown name. */
 bool wr_help_command(const char *name, WrText *text, WrError *err);
 
+/* The same as a part of a page of the guide, in Markdown: a heading, then a table of arguments. */
+bool wr_help_markdown(const char *name, WrText *text, WrError *err);
+/* All verbs with their classes, as a table in Markdown. */
+void wr_help_markdown_verbs(WrText *text);
+/* Text as a cell of a table in Markdown takes it. */
+void wr_help_markdown_cell(WrText *text, const char *words);
+
 /* The whole table as one JSON object:
  *   {"commands":[{"name","class","help","details","example","usage","args":[ARG...],
  *                 "form_word","forms":[{"name","help","args":[ARG...]}...]}...],
@@ -24,3 +31,12 @@ void wr_help_usage(const WrCommand *command, int form, WrText *text);
 /* The value that a new document's scene has for an argument whose row has no default, or "" if there is
    none: "blinn", "0.1". */
 void wr_help_initial(const WrCommand *command, int form, const char *name, WrText *text);
+
+/* ---- parts ---- */
+
+/* What an argument is, what is allowed, what holds without it: "of the brush; a number, 0..9 (default 1)". */
+void wr_help_argument(const WrCommand *command, int form, const WrArgSpec *spec, WrText *text);
+/* "radius=", "at=u,v", "FILE". */
+void wr_help_argument_name(const WrArgSpec *spec, WrText *text);
+/* How many of a form's `count` arguments are its own or its command's, rather than those that others have too. */
+int wr_help_own(const WrCommand *command, int count);

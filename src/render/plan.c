@@ -6,31 +6,57 @@
 /* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
 #define WIDE_FROM 1024.0
 
-static const struct {
-    const char *rule, *name;
-    WrProof proof;
-} effects[WR_EFFECT_COUNT] = {
-    [WR_EFFECT_DIFFUSE] = { "E1", "diffuse", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_SPECULAR] = { "E2", "specular", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_COLOUR] = { "E5", "colour picture", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_BUMP] = { "E6", "bump", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_GRADIENT] = { "E9", "gradient table", WR_PROOF_BOUNDED },
-    [WR_EFFECT_WIDE] = { "E10", "replication in double", WR_PROOF_BOUNDED },
-    [WR_EFFECT_INVARIANT] = { "E11", "scale invariance", WR_PROOF_BOUNDED },
-    [WR_EFFECT_EXACT] = { "E12", "exact normal", WR_PROOF_BOUNDED },
-    [WR_EFFECT_CURVATURE] = { "E13", "second derivatives", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_SAMPLES] = { "E15", "supersampling", WR_PROOF_POLICY },
-    [WR_EFFECT_BOUND] = { "E16", "refinement by bound", WR_PROOF_BOUNDED },
-    [WR_EFFECT_FILTER] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_BACK] = { "E25", "back faces", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED },
-    [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_AGAIN] = { "E29", "re-rendering", WR_PROOF_IDENTICAL },
-    [WR_EFFECT_SPREAD] = { "E31", "spread of slopes", WR_PROOF_POLICY },
-    [WR_EFFECT_ROUNDED] = { "E32", "rounded heights", WR_PROOF_POLICY },
-    [WR_EFFECT_DOUBLE] = { "E33", "double precision", WR_PROOF_POLICY },
-    [WR_EFFECT_HALF] = { "E34", "half precision", WR_PROOF_POLICY },
+const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
+    [WR_EFFECT_DIFFUSE] = { "E1", "diffuse", WR_PROOF_IDENTICAL,
+                            "no light shines, diffuse is 0, or the colour is black" },
+    [WR_EFFECT_SPECULAR] = { "E2", "specular", WR_PROOF_IDENTICAL,
+                             "no light shines, or specular is 0" },
+    [WR_EFFECT_COLOUR] = { "E5", "colour picture", WR_PROOF_IDENTICAL,
+                           "there is none, or it is white everywhere" },
+    [WR_EFFECT_BUMP] = { "E6", "bump", WR_PROOF_IDENTICAL,
+                         "the mode is none; height or replication is 0; all texels are equal; the "
+                         "scheme sees no slope anywhere; no light depends on the normal" },
+    [WR_EFFECT_GRADIENT] = { "E9", "gradient table", WR_PROOF_BOUNDED,
+                             "the scheme takes its slopes from the heights. For central and "
+                             "nearest one look-up of central differences equals the paper's four "
+                             "of F" },
+    [WR_EFFECT_WIDE] = { "E10", "replication in double", WR_PROOF_BOUNDED,
+                         "replication is under 1024, where single precision is right to a "
+                         "thousandth of a texel" },
+    [WR_EFFECT_INVARIANT] = { "E11", "scale invariance", WR_PROOF_BOUNDED,
+                              "the mode is not invariant; on the unit square it equals blinn" },
+    [WR_EFFECT_EXACT] = { "E12", "exact normal", WR_PROOF_BOUNDED,
+                          "the mode is not exact; on flat surfaces blinn is exact" },
+    [WR_EFFECT_CURVATURE] = { "E13", "second derivatives", WR_PROOF_IDENTICAL, "E12 is left out" },
+    [WR_EFFECT_SAMPLES] = { "E15", "supersampling", WR_PROOF_POLICY,
+                            "one sample a pixel was asked for" },
+    [WR_EFFECT_BOUND] = { "E16", "refinement by bound", WR_PROOF_BOUNDED,
+                          "the dials do not ask for it, or no bound on the intensity's change over "
+                          "a pixel is known: other surfaces than plane, cube and sphere, slopes "
+                          "not from central or nearest, a normal other than blinn, a colour "
+                          "picture" },
+    [WR_EFFECT_FILTER] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL,
+                           "the dials ask for no filtering, or no table is looked up; footprints "
+                           "up to one texel look up the table itself" },
+    [WR_EFFECT_BACK] = { "E25", "back faces", WR_PROOF_IDENTICAL,
+                         "a closed convex body hides its own back" },
+    [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL,
+                          "the nearest root of the ray is enough" },
+    [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED,
+                           "rays meet the surface in closed form" },
+    [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL,
+                                "the camera is orthographic" },
+    [WR_EFFECT_AGAIN] = { "E29", "re-rendering", WR_PROOF_IDENTICAL,
+                          "the view rests and no edit reaches the tile" },
+    [WR_EFFECT_SPREAD] = { "E31", "spread of slopes", WR_PROOF_POLICY,
+                           "the dials do not ask for moments, nothing is filtered, or there is no "
+                           "highlight" },
+    [WR_EFFECT_ROUNDED] = { "E32", "rounded heights", WR_PROOF_POLICY,
+                            "the dial keeps heights as they are" },
+    [WR_EFFECT_DOUBLE] = { "E33", "double precision", WR_PROOF_POLICY,
+                           "single precision was asked for" },
+    [WR_EFFECT_HALF] = { "E34", "half precision", WR_PROOF_POLICY,
+                         "the dial does not ask for normals and light in half precision" },
 };
 
 const char *wr_proof_letter(WrProof proof)
@@ -42,10 +68,10 @@ const char *wr_proof_letter(WrProof proof)
 static void say(WrPlan *plan, WrEffect effect, bool run, const char *reason)
 {
     WrPlanRow *row = &plan->rows[effect];
-    *row = (WrPlanRow){ .rule = effects[effect].rule,
-                        .name = effects[effect].name,
+    *row = (WrPlanRow){ .rule = wr_effects[effect].rule,
+                        .name = wr_effects[effect].name,
                         .run = run,
-                        .proof = effects[effect].proof };
+                        .proof = wr_effects[effect].proof };
     snprintf(row->reason, sizeof row->reason, "%s", reason);
 }
 

@@ -1,6 +1,6 @@
 /* plan.h - which effects a scene calls for, and why: the shortest list of stages that gives the right
    picture. Nothing that is not on it is computed, allocated or kept.
-   Layer 5. Rules are named E1, E2, ... as in the table of the README, "The plan". */
+   Layer 5. Rules are named E1, E2, ... as in the guide, ui/guide/plan.md, whose table is made from this one. */
 #pragma once
 #include "scene/scene.h"
 
@@ -36,6 +36,14 @@ typedef enum WrEffect {
     WR_EFFECT_HALF,
     WR_EFFECT_COUNT
 } WrEffect;
+
+/* What is always true of an effect. */
+typedef struct WrEffectInfo {
+    const char *rule, *name; /* "E6", "bump" */
+    WrProof proof;
+    const char *left_out; /* when, for the guide */
+} WrEffectInfo;
+extern const WrEffectInfo wr_effects[WR_EFFECT_COUNT];
 
 typedef struct WrPlanRow {
     const char *rule; /* "E6" */

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# What of the guide is made from the program's own tables: between a line
+#     <!-- wrinkle help --markdown ... -->
+# and the next line
+#     <!-- so far -->
+# stands what that command prints.
+#
+#   make.sh [--out FOLDER] [PROGRAM]
+#
+# PROGRAM   wrinkle, where it is not in build/ or in the PATH
+# --out     write the pages there (this folder, where only those that change are written)
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+out=$here program=''
+while [[ $# -gt 0 ]]; do
+    case $1 in
+    --out) out=$2 && shift ;;
+    -*) printf 'make.sh: unknown option %s\n' "$1" >&2 && exit 2 ;;
+    *) program=$1 ;;
+    esac
+    shift
+done
+if [[ -z $program ]]; then
+    program=$here/../../build/wrinkle
+    [[ -x $program ]] || program=wrinkle
+fi
+
+# One page, to standard output.
+make_page() {
+    local line skip='' words
+    while IFS= read -r line; do
+        [[ $line == '<!-- so far -->' ]] && skip=''
+        [[ -z $skip ]] && printf '%s\n' "$line"
+        if [[ $line =~ ^'<!-- wrinkle help --markdown '([a-z -]+)' -->'$ ]]; then
+            read -ra words <<<"${BASH_REMATCH[1]}"
+            "$program" help --markdown "${words[@]}"
+            skip=yes
+        fi
+    done <"$1"
+    [[ -z $skip ]] || { printf 'make.sh: %s: a table without end\n' "$1" >&2 && return 1; }
+}
+
+mkdir -p "$out"
+new=$(mktemp)
+trap 'rm -f "$new"' EXIT
+for page in "$here"/*.md; do
+    make_page "$page" >"$new"
+    cmp -s "$new" "$out/$(basename "$page")" || cat "$new" >"$out/$(basename "$page")"
+done
