@@ -1,14 +1,37 @@
-/* Measures the hard cases that are named and tells those that fail: hard_rows ID... Without one it names all that
-   are measured. A helper of mutate.sh. */
+/* Measures the hard cases that are named and tells those that fail, in which precisions, or that cannot be
+   measured: hard_rows ID... Without one it names all that are measured, and in which. A helper of mutate.sh. */
+#include <math.h>
 #include <stdio.h>
 
 #include "accuracy/hardcases.h"
 
+static const char *const words[WR_HARD_PRECISIONS] = { " float", " double" };
+
+static void list(void)
+{
+    for (int i = 0; i < WR_HARDCASES; i++) {
+        const WrHardCase *row = wr_hardcase(i);
+        if (!row->measure) continue;
+        printf("%s%s%s\n", row->id, isnan(row->bound[0]) ? "" : words[0],
+               isnan(row->bound[1]) ? "" : words[1]);
+    }
+}
+
+/* Of a case that failed: the precisions that are beyond their bounds. */
+static void tell(const WrHardResult *result)
+{
+    printf("%s", result->row->id);
+    for (int p = 0; p < WR_HARD_PRECISIONS; p++)
+        if (!isnan(result->row->bound[p]) && !(result->worst[p] <= result->row->bound[p]))
+            printf("%s", words[p]);
+    printf("\n");
+    fflush(stdout);
+}
+
 int main(int count, char **ids)
 {
     int failed = 0;
-    for (int i = 0; count == 1 && i < WR_HARDCASES; i++)
-        if (wr_hardcase(i)->measure) printf("%s\n", wr_hardcase(i)->id);
+    if (count == 1) list();
     for (int i = 1; i < count; i++) {
         const WrHardCase *row = wr_hardcase_find(ids[i]);
         WrHardRequest request = { 0 };
@@ -19,9 +42,10 @@ int main(int count, char **ids)
                     row ? err.text : "there is no such case");
             return 2;
         }
-        if (result.verdict != WR_HARD_FAIL) continue;
-        printf("%s\n", ids[i]);
-        fflush(stdout);
+        if (result.verdict == WR_HARD_UNMEASURED)
+            fprintf(stderr, "hard_rows: %s: %s\n", ids[i], result.note);
+        else if (result.verdict != WR_HARD_FAIL) continue;
+        tell(&result);
         failed++;
     }
     return failed > 0;

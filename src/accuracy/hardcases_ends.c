@@ -1,6 +1,7 @@
 /* Hard cases past the first: surfaces, tables and heights that come to an end of what there is, and light
    without a direction. */
 #include "accuracy/hardcases_later.h"
+#include "accuracy/hardcases_look.h"
 
 #include "base/exactmath.h"
 #include "document/blend.h"
@@ -117,6 +118,17 @@ bool wr_hard_hc160(WrHardGauge *g, WrError *err)
     return good;
 }
 
+/* The kernels' own n and n' there: light that is not a number counts as none, so that pictures hide them. */
+static void thin_point(WrHardGauge *g, int set, const WrScene *scene, WrHardSlope slope)
+{
+    const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&scene->shape)));
+    const WrSurfacePointf at =
+        wr_hard_point(g, set, &scene->shape, unit, 0, wr_hard_float(g), wr_hard_float(g));
+    const WrVec3 bent = wr_hard_bent_f(g, set, scene->bump, &at, slope, false);
+    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(wr_hard_vec(at.n_unit)) - 1.0) < 1e-5);
+    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0) < 1e-5);
+}
+
 /* Sides of 1e-30 beside others of 1: next to no area, and a slope per unit of length without bound. */
 bool wr_hard_hc161(WrHardGauge *g, WrError *err)
 {
@@ -141,7 +153,9 @@ bool wr_hard_hc161(WrHardGauge *g, WrError *err)
             const WrHardSlope slope = { 0.1, wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1) };
             wr_surface_at(&scene->shape, 0, wr_hard_random(g), wr_hard_random(g), &at);
             const WrVec3 bent = wr_hard_bent(scene->bump, &at, slope);
+            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(at.n_unit) - 1.0) < 1e-14);
             wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(bent) - 1.0) < 1e-14);
+            for (int set = 0; set < g->all; set++) thin_point(g, set, scene, slope);
         }
         wr_scene_free(scene);
     }
@@ -286,6 +300,24 @@ bool wr_hard_hc173(WrHardGauge *g, WrError *err)
     return good;
 }
 
+/* What the kernels look up of it, scaled as far as float goes, is finite: an infinite slope has no direction
+   left. */
+static bool look_stays_finite(WrHardGauge *g, const WrField *field, const WrScene *scene,
+                              WrError *err)
+{
+    WrHardLook look;
+    if (!wr_hard_look_init(g, &look, field, scene->scheme, 1, 1, err)) return false;
+    look.look.scale_f = look.look.scale_u = (float)fmin(fabs(scene->height), (double)FLT_MAX);
+    look.look.scale_v = -look.look.scale_u;
+    for (int i = 0; i < 20 * g->all; i++) {
+        const WrHardSlope s =
+            wr_hard_look_at(g, i % g->all, &look, wr_hard_float(g), wr_hard_float(g));
+        wr_hard_holds(g, WR_HARD_FLOAT, isfinite(s.f) && isfinite(s.fu) && isfinite(s.fv));
+    }
+    wr_hard_look_fini(&look);
+    return true;
+}
+
 /* Heights of 1e30 in a table, 1e30 times as high in the scene. */
 bool wr_hard_hc175(WrHardGauge *g, WrError *err)
 {
@@ -300,7 +332,7 @@ bool wr_hard_hc175(WrHardGauge *g, WrError *err)
         scene->scheme = (WrScheme)(k % WR_SCHEME_COUNT);
         scene->bump = (WrBumpMode)(WR_BUMP_BLINN + k / WR_SCHEME_COUNT % (WR_BUMP_COUNT - 1));
         scene->height = heights[k / WR_SCHEME_COUNT / (WR_BUMP_COUNT - 1)];
-        good = wr_hard_tame(g, field, scene, err);
+        good = look_stays_finite(g, field, scene, err) && wr_hard_tame(g, field, scene, err);
         wr_scene_free(scene);
     }
     wr_field_free(field);
@@ -309,12 +341,55 @@ bool wr_hard_hc175(WrHardGauge *g, WrError *err)
 
 /* ---- light ---- */
 
+/* The kernels themselves with the lamp, and the eye, in the very place that they light. */
+static void touching(WrHardGauge *g)
+{
+    for (int k = 0; k < 40; k++) {
+        const float hair = k % 4 ? ldexpf(1.0f, -20 * (k % 4) - k) : 0.0f;
+        const float p[3] = { wr_hard_float(g), wr_hard_float(g), wr_hard_float(g) };
+        const WrKernLight lamp = { .point = true,
+                                   .where = { p[0], p[1], p[2] + hair },
+                                   .rgb = { 1, 1, 1 } };
+        const WrRays rays = { .perspective = true, .eye = { p[0], p[1], p[2] + hair } };
+        for (int set = 0; set < g->all; set++) {
+            WrStrip *s = g->strip;
+            s->count = 1;
+            s->px[0] = p[0], s->py[0] = p[1], s->pz[0] = p[2];
+            s->bx[0] = s->by[0] = 0.0f, s->bz[0] = 1.0f;
+            g->kernels[set]->view(&rays, s);
+            g->kernels[set]->begin(0.0f, s);
+            g->kernels[set]->light(&lamp, s);
+            g->kernels[set]->diffuse(&lamp, 1.0f, s);
+            g->kernels[set]->specular(&lamp, 1.0f, 20.0f, k % 2, s);
+            wr_hard_holds(g, WR_HARD_FLOAT, s->dr[0] >= 0.0f && s->dr[0] <= 1.00001f);
+            wr_hard_holds(g, WR_HARD_FLOAT, s->sr[0] >= 0.0f && s->sr[0] <= 1.00001f);
+            wr_hard_holds(g, WR_HARD_FLOAT, isfinite(s->lx[0]) && isfinite(s->vz[0]));
+        }
+        const WrKernLightd wide = { .point = true,
+                                    .where = { (double)p[0], (double)p[1],
+                                               (double)p[2] + (double)hair },
+                                    .rgb = { 1, 1, 1 } };
+        for (int set = 0; set < 2; set++) {
+            WrStripd *s = g->wide_strip;
+            s->count = 1;
+            s->px[0] = (double)p[0], s->py[0] = (double)p[1], s->pz[0] = (double)p[2];
+            s->bx[0] = s->by[0] = 0.0, s->bz[0] = 1.0;
+            g->wide[set]->begin(0.0, s);
+            g->wide[set]->light(&wide, s);
+            g->wide[set]->diffuse(&wide, 1.0, s);
+            wr_hard_holds(g, WR_HARD_DOUBLE, s->dr[0] >= 0.0 && s->dr[0] <= 1.00001);
+            wr_hard_holds(g, WR_HARD_DOUBLE, isfinite(s->lx[0]) && isfinite(s->lz[0]));
+        }
+    }
+}
+
 /* A lamp at a place of the surface, and one inside: no direction there, and every value a number within what
    the light can give. */
 bool wr_hard_hc159(WrHardGauge *g, WrError *err)
 {
     WrField *field = wr_hard_waves(32, 32);
     bool good = true;
+    touching(g);
     for (int k = 0; k < 2 * WR_SURFACE_COUNT && good; k++) {
         WrScene *scene = wr_scene_new();
         WrSurfacePoint at;

@@ -154,6 +154,30 @@ bool wr_hard_hc167(WrHardGauge *g, WrError *err)
     return good;
 }
 
+/* The middle column looks down by 45 degrees at its middle and by `far` at the ground's end: below that every
+   pixel is ground, by whatever arithmetic. */
+static bool down_to_the_feet(WrHardGauge *g, const WrFrameRequest *request, double far,
+                             WrError *err)
+{
+    const int size = request->height;
+    WrReference reference = { 0 };
+    bool good = wr_hard_refer(g, request, 1, &reference, err);
+    for (int way = 0; way < WR_HARD_WAYS && good; way++) {
+        WrHardShot shot = { .renderer = NULL };
+        good = wr_hard_shoot_by(g, request, (WrHardWay)way, &shot, err);
+        for (int y = 0; y < size && good; y++) {
+            const double tangent = (1 - 2 * (y + 0.5) / size) * tan(60 * WR_RAD_PER_DEG);
+            const size_t at = 4 * ((size_t)y * (size_t)size + (size_t)size / 2) + 3;
+            if (WR_RAD_PER_DEG * 45 - atan(tangent) < far + 0.02) continue;
+            if (!(shot.frame.rgba[at] == 1.0f)) wr_hard_off(g, wr_hard_precision(way), 1.0);
+            if (!(reference.rgba[at] == 1.0)) wr_hard_off(g, WR_HARD_DOUBLE, 1.0);
+        }
+        wr_hard_put_away(&shot);
+    }
+    wr_reference_fini(&reference);
+    return good;
+}
+
 /* The plane by its closed form, and as a bent patch by cells: level, so that what counts is where it is. */
 bool wr_hard_hc168(WrHardGauge *g, WrError *err)
 {
@@ -173,7 +197,8 @@ bool wr_hard_hc168(WrHardGauge *g, WrError *err)
         scene->camera = (WrCamera){
             .eye = { 0, 0, 0.5 }, .target = { 0, 0.5, 0 }, .up = { 0, 0, 1 }, .fov_deg = 120
         };
-        good = against_reference(g, &request, 1, 0.02, err);
+        good = against_reference(g, &request, 1, 0.02, err) &&
+               down_to_the_feet(g, &request, atan(0.5 / (0.5 * side)), err);
         wr_scene_free(scene);
     }
     wr_field_free(field);
@@ -204,7 +229,7 @@ bool wr_hard_hc170(WrHardGauge *g, WrError *err)
             good = good && wr_hard_shoot_by(g, &request, (WrHardWay)way, &flat, err);
             if (good)
                 wr_hard_off(g, wr_hard_precision(way),
-                            (double)wr_hard_differ(&far, &flat, 0.01) / (4 * SIZE * SIZE));
+                            (double)wr_hard_differ(&far, &flat, 0.002) / (4 * SIZE * SIZE));
             if (good) wr_hard_off(g, wr_hard_precision(way), flat.frame.covered > 300 ? 0.0 : 1.0);
             wr_hard_put_away(&far);
             wr_hard_put_away(&flat);
@@ -290,7 +315,9 @@ bool wr_hard_hc166(WrHardGauge *g, WrError *err)
                                  (WrVec3){ 0, 0, 1 });
         const WrVec3 n = { 0, 0, 1 };
         const WrVec3 aside = v3_unit(v3_cross(v, (WrVec3){ 0.1, 0.2, 1 }), n);
-        const WrVec3 l = v3_unit(v3_add(v3_neg(v), v3_scale(v3_add(aside, n), tilt)), n);
+        /* h at random about n, as wide as the lobe */
+        const WrVec3 h_way = v3_mad(n, aside, 3.0 * wr_hard_random(g) / sqrt(s));
+        const WrVec3 l = v3_unit(v3_mad(v3_neg(v), h_way, tilt), n);
         for (int set = 0; set < g->all; set++) {
             WrStrip *strip = g->strip;
             const WrVec3f lf = v3f_from(l), vf = v3f_from(v);
@@ -307,7 +334,7 @@ bool wr_hard_hc166(WrHardGauge *g, WrError *err)
             const double c = len > 1e-12 ? fmax(0.0, h.z / len) : 0.0;
             wr_hard_off(g, WR_HARD_FLOAT, got >= 0.0 && got <= 1.0 ? 0.0 : 2.0);
             wr_hard_off(g, WR_HARD_FLOAT,
-                        fabs(got - pow(c, s)) / (s * 4 * (double)FLT_EPSILON / fmax(len, 1e-12)));
+                        fabs(got - pow(c, s)) / (s * (double)FLT_EPSILON / fmax(len, 1e-12)));
         }
         WrStripd *strip = g->wide_strip;
         const WrKernLightd lamp = { .where = { l.x, l.y, l.z }, .rgb = { 1, 1, 1 } };
@@ -320,8 +347,7 @@ bool wr_hard_hc166(WrHardGauge *g, WrError *err)
         g->wide[1]->specular(&lamp, 1.0, s, false, strip);
         const WrVec3 h = v3_add(l, v);
         const double len = v3_len(h), c = fmax(0.0, h.z / len);
-        wr_hard_off(g, WR_HARD_DOUBLE,
-                    fabs(strip->sr[0] - pow(c, s)) / (s * 4 * DBL_EPSILON / len));
+        wr_hard_off(g, WR_HARD_DOUBLE, fabs(strip->sr[0] - pow(c, s)) / (s * DBL_EPSILON / len));
     }
     return true;
 }

@@ -130,7 +130,7 @@ bool wr_hard_shine(const WrHardLit *lit, double part[2], WrError *err);
 
 /* clang-format off */
 #define WR_HARD_ROWS(X)                                                                            \
-    X(surface) X(bump) X(side) X(mesh)                                                             \
+    X(surface) X(focal) X(bump) X(side) X(mesh)                                                    \
     X(table) X(flat) X(limits) X(pyramid)                                                          \
     X(noise) X(octaves) X(faces) X(tiling)                                                         \
     X(dab) X(stroke) X(stamp) X(undo)                                                              \

@@ -50,7 +50,7 @@ static const WrHardCase rows[] = {
         "table 33x20\nfill 3.4e38\nadjust multiply factor=2\nadjust blur sigma=3\nsurface plane"),
     ROW(166, WR_HARD_RENDER, "light from all but behind the surface, down to 1e-9 of opposite",
         "the highlight is within 0..1, and as right as the half vector's own digits",
-        "of what they leave", 1, 1,
+        "of what they leave", 0.1, 1,
         WAVES "surface plane\nbump height=0.02\nmaterial specular=1 gate=off\n"
               "light directional to=1e-5,0,-1"),
     ROW(167, WR_HARD_RENDER, "a window of a millionth upon the cone's tip",

@@ -325,13 +325,14 @@ static bool hc94(WrHardGauge *g, WrError *err)
 
 static bool hc95(WrHardGauge *g, WrError *err)
 {
-    static const int sizes[][2] = { { 1, 1 }, { 1, 41 }, { 41, 1 }, { 257, 3 },
-                                    { 0, 0 }, { 0, 5 },  { -1, 5 }, { 16385, 1 } };
+    static const int sizes[][2] = { { 1, 1 }, { 1, 41 }, { 41, 1 },   { 257, 3 },
+                                    { 0, 0 }, { 0, 5 },  { -1, 5 },   { 16385, 1 },
+                                    { 5, 0 }, { 5, -1 }, { 1, 16385 } };
     WrField *field = wr_hard_waves(16, 16);
     WrScene *scene = wr_scene_new();
     scene->shape = wr_hard_shape(WR_SURFACE_sphere);
     WrRenderer *renderer = wr_renderer_new(g->pool, g->isa, err);
-    for (int k = 0; k < 8 && renderer; k++) {
+    for (int k = 0; k < 11 && renderer; k++) {
         WrFrame frame;
         WrError why = { "" };
         WrFrameRequest request = {
@@ -368,6 +369,10 @@ static bool hc96(WrHardGauge *g, WrError *err)
     wr_hard_holds(g, WR_HARD_FLOAT, wr_image_codes(WR_PIXEL_U8, rgba, 12, codes, NULL) == 3);
     wr_hard_holds(g, WR_HARD_FLOAT, codes[0] == 0 && codes[4] == 0 && codes[10] == 0);
     wr_hard_holds(g, WR_HARD_FLOAT, codes[5] == 255 && codes[8] == 0);
+    float out32[12]; /* files of floats */
+    wr_hard_holds(g, WR_HARD_FLOAT, wr_image_codes(WR_PIXEL_F32, rgba, 12, out32, NULL) == 3);
+    for (int k = 0; k < 12; k++)
+        wr_hard_holds(g, WR_HARD_FLOAT, out32[k] == (isfinite(rgba[k]) ? rgba[k] : 0.0f));
     return true;
 }
 

@@ -73,12 +73,12 @@ static bool hc60(WrHardGauge *g, WrError *err)
 static bool hc61(WrHardGauge *g, WrError *err)
 {
     (void)err;
-    static const double far[] = { 1e7, 3e9, 1e16, 1e300, INFINITY, NAN };
+    static const double far[] = { 1e7, 3e9, 1e16, 7.3e299, INFINITY, NAN };
     for (int k = 0; k < WR_NOISE_KIND_COUNT * 24; k++) {
         const WrNoiseKind kind = (WrNoiseKind)(k % WR_NOISE_KIND_COUNT);
         const int dim = kind == WR_NOISE_SIMPLEX ? 3 : 2;
         const WrNoise noise = noise_of(kind, dim, 12);
-        const double x = far[k % 6];
+        const double x = far[k / WR_NOISE_KIND_COUNT % 6];
         double out[3] = { x, -x, x }, in[3], slope[3];
         for (int a = 0; a < 3; a++) in[a] = isfinite(x) ? fmod(out[a], 12.0) : 0.0;
         for (int a = 0; a < 3; a++) in[a] += in[a] < 0.0 ? 12.0 : 0.0;
@@ -111,7 +111,12 @@ static bool hc66(WrHardGauge *g, WrError *err)
         }
         const uint32_t got = wr_lattice_hash(seed, c, 3);
         const double number = wr_lattice_number(got);
+        const uint32_t linked = wr_lattice_hash_link(
+            wr_lattice_hash_link(wr_lattice_hash_start(seed), wr_lattice_hash_part(c[0], 0)),
+            wr_lattice_hash_part(c[1], 1)); /* as rows of a lattice go */
         wr_hard_holds(g, WR_HARD_DOUBLE, got == h && number > -1.0 && number < 1.0);
+        wr_hard_holds(g, WR_HARD_DOUBLE, linked == wr_lattice_hash(seed, c, 2));
+        wr_hard_holds(g, WR_HARD_DOUBLE, wr_lattice_number(~got) == -number);
         wr_hard_holds(g, WR_HARD_FLOAT, (double)(float)number == number);
     }
     return true;
@@ -122,8 +127,18 @@ static bool hc67(WrHardGauge *g, WrError *err)
 {
     (void)err;
     const WrNoise flat = noise_of(WR_NOISE_SIMPLEX, 2, 0), solid = noise_of(WR_NOISE_SIMPLEX, 3, 0);
+    const WrNoise sheared = noise_of(WR_NOISE_SHEARED, 2, 0);
     for (int k = 0; k < 1000; k++) {
         const double a = wr_hard_between(g, 0, 9), b = wr_hard_between(g, 0, 9), e = 1e-15 * a;
+        /* x + y/2 a whole number; y one; and between them the halves of a square */
+        const double y = k % 3 == 1 ? floor(b) : b;
+        const double x = k % 3 == 0   ? floor(a) - y / 2
+                         : k % 3 == 1 ? a
+                                      : floor(a) + (y - floor(y)) - y / 2;
+        const double up = k % 3 == 1 ? 1e-14 : 0, across = k % 3 == 1 ? 0 : 1e-14;
+        const double over[2] = { x + across, y + up }, under[2] = { x - across, y - up };
+        wr_hard_near(g, WR_HARD_DOUBLE, wr_noise_at(&sheared, over, NULL),
+                     wr_noise_at(&sheared, under, NULL));
         const double two[2][2] = { { a, a + e }, { a, a - e } };
         wr_hard_near(g, WR_HARD_DOUBLE, wr_noise_at(&flat, two[0], NULL),
                      wr_noise_at(&flat, two[1], NULL));

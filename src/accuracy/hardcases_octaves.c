@@ -103,7 +103,8 @@ static bool hc65(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* Any step tiles: a period further on is the same to the bit, at places where u + 1 is exact. */
+/* Any step tiles: a period further on is the same to the bit, at places where u + 1 is exact; and a hair before
+   its end noise is all but what it is there. */
 static bool hc68(WrHardGauge *g, WrError *err)
 {
     static const double steps[] = { 2, 1.99, 1.5, 3 };
@@ -117,6 +118,11 @@ static bool hc68(WrHardGauge *g, WrError *err)
             const double here[2] = { u, v }, on[2] = { u + 1, v - 3 };
             wr_hard_holds(g, WR_HARD_DOUBLE,
                           wr_octaves_at(&plan, here, NULL) == wr_octaves_at(&plan, on, NULL));
+            const double end[2] = { i % 2 ? 0 : u, i % 2 ? v : 0 };
+            const double near[2] = { i % 2 ? 1 - 1e-12 : u, i % 2 ? v : 1 - 1e-12 };
+            wr_hard_holds(g, WR_HARD_DOUBLE,
+                          fabs(wr_octaves_at(&plan, near, NULL) - wr_octaves_at(&plan, end, NULL)) <
+                              1e-8);
         }
     }
     return true;

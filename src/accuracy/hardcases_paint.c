@@ -88,6 +88,18 @@ static bool hc71(WrHardGauge *g, WrError *err)
         wr_field_free(field);
         wr_field_free(was);
     }
+    for (int k = 0; k < 4;
+         k++) { /* no strength, and more than there is: nothing, and float's ends */
+        static const double strengths[] = { 0, NAN, INFINITY, -INFINITY };
+        WrField *field = wr_hard_rough(g, 50, 40, WR_WRAP_PERIODIC), *was = wr_field_share(field);
+        const WrBrush brush = brush_of(3, 1, strengths[k]);
+        wr_brush_dab(field, &brush, 0.5, 0.5);
+        const double got = (double)wr_field_get(field, 25, 20);
+        const double end = k == 2 ? (double)FLT_MAX : -(double)FLT_MAX;
+        wr_hard_holds(g, WR_HARD_FLOAT, k < 2 ? wr_hard_equal(field, was) : got == end);
+        wr_field_free(field);
+        wr_field_free(was);
+    }
     WrField *field = torus(50, 40);
     const WrBrush brush = brush_of(0.3, 0.5, 1);
     wr_brush_dab(field, &brush, 0.999, 0.001);
@@ -140,11 +152,13 @@ static bool hc74(WrHardGauge *g, WrError *err)
     (void)err;
     static const double pressures[][2] = { { NAN, 0 },      { -3, 0 }, { -INFINITY, 0 },
                                            { INFINITY, 1 }, { 7, 1 },  { 0.5, 0.5 } };
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 12; k++) { /* of both samples, and of the second alone */
         WrField *wild = wr_hard_rough(g, 64, 64, WR_WRAP_PERIODIC), *tame = wr_field_share(wild);
         const WrBrush brush = brush_of(9, 0.5, 1);
-        WrSample a[] = { at(0.5, 0.5, pressures[k][0]), at(0.6, 0.6, pressures[k][0]) };
-        WrSample b[] = { at(0.5, 0.5, pressures[k][1]), at(0.6, 0.6, pressures[k][1]) };
+        WrSample a[] = { at(0.5, 0.5, k < 6 ? pressures[k][0] : 0.7),
+                         at(0.6, 0.6, pressures[k % 6][0]) };
+        WrSample b[] = { at(0.5, 0.5, k < 6 ? pressures[k][1] : 0.7),
+                         at(0.6, 0.6, pressures[k % 6][1]) };
         a[0].tilt_x = a[1].tilt_y = k % 2 ? 90 : NAN;
         draw(wild, &brush, a, 2);
         draw(tame, &brush, b, 2);
@@ -216,6 +230,8 @@ static bool hc77(WrHardGauge *g, WrError *err)
     const WrOpInfo *blur = wr_op_find("blur");
     WrBrush brush = brush_of(20, 0.5, 1);
     bool good = true;
+    for (int k = 0; k < 90 * 70; k++) /* a mean that is not 0 */
+        wr_field_set(field, k % 90, k / 90, 0.7f + wr_field_get(field, k % 90, k / 90));
     brush.mode = WR_BRUSH_SMOOTH;
     for (int pass = 0; pass < 24 && good; pass++) {
         const double sigma = 0.5 + 0.25 * pass;
@@ -245,8 +261,9 @@ static const WrHardCase dabs[] = {
         "height", 0, "table 64x64\ndab 0,0 radius=14 strength=1\nsurface torus\nbump height=0.3"),
     ROW(70, "a dab larger than the table, up to infinitely large", "each texel is touched once",
         "height", 0, "table 64x64\ndab 0.5,0.5 radius=1e6 strength=1\nsurface plane"),
-    ROW(71, "radii of 0, below 0, NaN, and a third of a texel", "nothing; the last one texel",
-        "violations", 0, "table 50x40\ndab 0.999,0.001 radius=0.3 strength=1\nsurface plane"),
+    ROW(71, "radii of 0, below 0, NaN, and a third of a texel; strengths of 0, NaN and infinity",
+        "nothing; the third of a texel one texel, the infinite strength float's end", "violations",
+        0, "table 50x40\ndab 0.999,0.001 radius=0.3 strength=1\nsurface plane"),
 };
 WR_HARD_LIST(dab, dabs);
 

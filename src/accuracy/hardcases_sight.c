@@ -133,6 +133,15 @@ static bool hc82(WrHardGauge *g, WrError *err)
     return closed_against_mesh(g, err) && among_surfaces(g, err);
 }
 
+/* The middle column of level ground, looked along from just above it: all of its lower half is ground. */
+static bool lower_half(const float *alpha, int width, int height)
+{
+    bool all = true;
+    for (int y = height / 2 + 1; y < height; y++)
+        all = all && alpha[4 * (y * width + width / 2)] == 1.0f;
+    return all;
+}
+
 /* Eyes on every surface, looking along it, and a hair above: corners at and behind depth 0. */
 static bool hc83(WrHardGauge *g, WrError *err)
 {
@@ -153,9 +162,11 @@ static bool hc83(WrHardGauge *g, WrError *err)
         for (int way = 0; way < WR_HARD_WAYS && good; way++) {
             WrHardShot shot = { .renderer = NULL };
             good = wr_hard_shoot_by(g, &request, (WrHardWay)way, &shot, err);
-            if (good)
-                wr_hard_holds(g, way == WR_HARD_WIDE ? WR_HARD_DOUBLE : WR_HARD_FLOAT,
-                              wr_hard_wild(&shot) == 0);
+            const WrHardPrecision p = way == WR_HARD_WIDE ? WR_HARD_DOUBLE : WR_HARD_FLOAT;
+            if (good) wr_hard_holds(g, p, wr_hard_wild(&shot) == 0);
+            const bool level = kind == WR_SURFACE_plane || kind == WR_SURFACE_COUNT;
+            if (good && level && heights[k % 5] >= 1e-9)
+                wr_hard_holds(g, p, lower_half(shot.frame.rgba + 3, 40, 40));
             wr_hard_put_away(&shot);
         }
         WrReference reference = { 0 };
@@ -215,21 +226,23 @@ static bool hc84(WrHardGauge *g, WrError *err)
 }
 
 /* Straight at a place through a window of a tenth of a radius, or at a bent patch that fills the picture
-   and more. */
-static WrScene *filling(WrHardGauge *g, int k)
+   and more; or from behind, where triangles are seen the other way round. */
+static WrScene *filling(WrHardGauge *g, int k, bool behind)
 {
     const bool patch = k == WR_SURFACE_COUNT;
     WrScene *scene = scene_of(patch ? WR_SURFACE_bent : (WrSurfaceKind)k);
     if (patch) {
         scene->shape.value[2] = scene->shape.value[3] = 0.0;
         scene->shape.value[4] = 0.3;
-        scene->camera = (WrCamera){ .eye = { 0, 0, 1.2 }, .up = { 0, 1, 0 }, .fov_deg = 20 };
+        scene->camera =
+            (WrCamera){ .eye = { 0, 0, behind ? -1.2 : 1.2 }, .up = { 0, 1, 0 }, .fov_deg = 20 };
         return scene;
     }
     const double across = k == WR_SURFACE_torus ? 0.06 : 0.56; /* of a torus the outer side */
     const Stand at = stand_on(scene, wr_hard_between(g, 0.4, 0.6), across);
+    const double side = behind ? -3 : 3;
     scene->camera = (WrCamera){ .orthographic = true,
-                                .eye = v3_mad(at.p, at.n, 3 * at.radius),
+                                .eye = v3_mad(at.p, at.n, side * at.radius),
                                 .target = at.p,
                                 .up = { 0.31, 0.2, 0.9 },
                                 .size = at.radius / 10 };
@@ -242,9 +255,9 @@ static bool hc85(WrHardGauge *g, WrError *err)
     WrField *field = wr_hard_waves(32, 32);
     WrPool *pool = wr_pool_new(3), *own = g->pool;
     bool good = true;
-    for (int k = 0; k < 2 * (WR_SURFACE_COUNT + 1) && good; k++) {
+    for (int k = 0; k < 4 * (WR_SURFACE_COUNT + 1) && good; k++) {
         const int size = 53 + 22 * (k % 2);
-        WrScene *scene = filling(g, k / 2);
+        WrScene *scene = filling(g, k / 4, k / 2 % 2);
         const WrFrameRequest request = {
             .field = field, .scene = scene, .width = size, .height = size
         };
@@ -382,7 +395,8 @@ static const WrHardCase seen[] = {
         "of pixels", 0.02, 0.02,
         WAVES "surface bent c=0,0,0\nrotate 0,0,0\nbump height=0.02\n"
               "camera perspective eye=0,0,0.05 target=0,1,0 up=0,0,1 fov=90"),
-    ROW(83, "an eye on every surface and in its plane", "a picture without a NaN", "violations", 0,
+    ROW(83, "an eye on every surface and in its plane",
+        "a picture without a NaN; a billionth above the ground it is still seen", "violations", 0,
         0,
         WAVES "surface plane\nrotate 0,0,0\nbump height=0.02\n"
               "camera perspective eye=0.5,-0.5,0.001 target=-0.5,0.5,0.001 up=0,0,1 fov=100"),

@@ -4,6 +4,7 @@
 #include "base/exactmath.h"
 
 #include <float.h>
+#include <string.h>
 
 static const WrVec3 zero = { 0, 0, 0 };
 
@@ -189,10 +190,30 @@ static bool hc06(WrHardGauge *g, WrError *err)
     return degenerate(g, &shape, err);
 }
 
+/* Points on a line of any direction, whose coordinates are rounded: what is left of Pu x Pv is rounding. */
+static WrShape line_shape(WrHardGauge *g)
+{
+    WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
+    WrVec3 p[2];
+    for (int k = 0; k < 2; k++)
+        p[k] = (WrVec3){ wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
+                         wr_hard_between(g, -1, 1) };
+    for (int k = 0; k < 16; k++) {
+        const WrVec3 at = v3_mad(p[0], p[1], 0.3 * (k % 4) + 0.7 * (k / 4));
+        memcpy(shape.value + 3 * (size_t)k, &at, sizeof at);
+    }
+    return shape;
+}
+
 static bool hc07(WrHardGauge *g, WrError *err)
 {
     const WrShape shape = wr_hard_patch(line_point);
-    return degenerate(g, &shape, err);
+    bool good = degenerate(g, &shape, err);
+    for (int k = 0; k < 4 && good; k++) {
+        const WrShape line = line_shape(g);
+        good = degenerate(g, &line, err);
+    }
+    return good;
 }
 
 /* The normal of a tube points away from the tube's centre line, whatever the two radii. */
@@ -312,17 +333,18 @@ static bool hc10(WrHardGauge *g, WrError *err)
     return true;
 }
 
-/* A patch whose tangents are nearly one: sixteen points i a + j (a + 1e-6 b), a and b at random, of any
-   size, rounded to float, which is the patch that both precisions are asked about. */
+/* A patch whose tangents are nearly one: sixteen points i a + j (a + e b), a and b at random, e from 1e-6 to
+   1e-3, of any size, rounded to float, which is the patch that both precisions are asked about. */
 static WrShape nearly_shape(WrHardGauge *g, double size)
 {
     WrShape shape = wr_hard_shape(WR_SURFACE_bezier);
+    const double apart = pow(10, wr_hard_between(g, -6, -3));
     WrVec3 a[2];
     for (int k = 0; k < 2; k++)
         a[k] = (WrVec3){ wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1),
                          wr_hard_between(g, -1, 1) };
     for (int k = 0; k < 16; k++) {
-        const WrVec3 p = v3_add(v3_scale(a[0], k % 4 + k / 4), v3_scale(a[1], 1e-6 * (k / 4)));
+        const WrVec3 p = v3_add(v3_scale(a[0], k % 4 + k / 4), v3_scale(a[1], apart * (k / 4)));
         const double at[3] = { p.x, p.y, p.z };
         for (int c = 0; c < 3; c++) shape.value[3 * k + c] = (double)(float)(size * at[c]);
     }
@@ -410,7 +432,7 @@ static const WrHardCase rows[] = {
              "table 64x64\nnoise perlin cells=6\nsurface torus R=1e20 r=3e19\nbump height=2e19"),
     GEOMETRY(10, "Pu 1e10 times as long as Pv", "n stands upright on both", "last places", 4, 4,
              "table 64x64\ngrid cells=8x8 width=2\nsurface plane a=1 b=1e-10\nbump height=1e-12"),
-    GEOMETRY(11, "Pu and Pv a millionth of a radian apart",
+    GEOMETRY(11, "Pu and Pv a thousandth to a millionth of a radian apart",
              "n is off by no more than rounding over the sine of their angle", "last places / sine",
              1, 1, NULL),
 };

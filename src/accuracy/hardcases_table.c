@@ -5,7 +5,7 @@
 
 static const double ends[] = { 0, 1, -0.0, 5, -3 };
 
-/* Look-ups through every scheme and kernel set: call `check` with each. */
+/* Look-ups through every scheme and kernel set, reduced in float and in double: call `check` with each. */
 typedef struct Looker {
     WrHardGauge *g;
     const WrField *field;
@@ -19,8 +19,9 @@ static bool each_look(WrHardGauge *g, const WrField *field, double ru, double rv
     for (int scheme = 0; scheme < WR_SCHEME_COUNT; scheme++) {
         WrHardLook look;
         if (!wr_hard_look_init(g, &look, field, (WrScheme)scheme, ru, rv, err)) return false;
-        for (int set = 0; set < g->sets; set++) {
-            const Looker looker = { g, field, &look, (WrScheme)scheme, set };
+        for (int k = 0; k < 2 * g->sets; k++) {
+            const Looker looker = { g, field, &look, (WrScheme)scheme, k / 2 };
+            look.look.wide = k % 2 == 0;
             check(&looker);
         }
         wr_hard_look_fini(&look);
@@ -46,9 +47,13 @@ static void same_d(const Looker *l, double u, double v, double other_u, double o
 
 static void check_ends(const Looker *l)
 {
+    const WrHardSlope zero = wr_hard_sample(l->field, l->scheme, 0, 0);
     for (int k = 0; k < 5; k++) {
         same_d(l, ends[k], ends[4 - k], 0, 0);
         same_f(l, (float)ends[k], (float)ends[4 - k], 0, 0);
+        const WrHardSlope s = by_kernel(l, (float)ends[k], 0);
+        const double off = fabs(s.fu - zero.fu) + fabs(s.fv - zero.fv);
+        wr_hard_holds(l->g, WR_HARD_FLOAT, fabs(s.f - zero.f) < 1e-6 && off < 1e-3);
     }
     const float below = nextafterf(1, 0), above = nextafterf(1, 2);
     const WrHardSlope s = by_kernel(l, below, above);
@@ -74,7 +79,8 @@ static bool hc35(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* |F(-e) - F(0)|, which may be as much as the largest slope times e. */
+/* |F(-e) - F(0)|, which may be as much as the largest slope times e; and where 1 - e can be told from 1,
+   |F(-e) - F(1 - e)|. */
 static void check_tiny(const Looker *l)
 {
     static const double tiny[] = { -1e-9, -1e-17, -1e-300 };
@@ -85,6 +91,14 @@ static void check_tiny(const Looker *l)
         if (l->set > 0) continue;
         wr_hard_near(l->g, WR_HARD_DOUBLE, wr_hard_sample(l->field, l->scheme, tiny[k], 0.25).f,
                      wr_hard_sample(l->field, l->scheme, 0, 0.25).f);
+    }
+    for (int k = 1; k <= 20; k++) {
+        const double e = ldexp(1.0, -k);
+        const float t = (float)e;
+        wr_hard_near(l->g, WR_HARD_FLOAT, by_kernel(l, -t, 0.25f).f,
+                     by_kernel(l, 1.0f - t, 0.25f).f);
+        wr_hard_near(l->g, WR_HARD_DOUBLE, wr_hard_sample(l->field, l->scheme, -e, 0.25).f,
+                     wr_hard_sample(l->field, l->scheme, 1.0 - e, 0.25).f);
     }
 }
 
@@ -228,12 +242,39 @@ static bool hc41(WrHardGauge *g, WrError *err)
         good = wr_hard_look_init(g, &plain, field, scheme, 1, 1, err);
         if (!good) break;
         good = wr_hard_look_init(g, &turned, field, scheme, r, r, err);
-        if (good) check_repeats(g, field, &plain, &turned, r);
+        for (int wide = 0; wide < 2 && good; wide++) {
+            turned.look.wide = wide;
+            check_repeats(g, field, &plain, &turned, r);
+        }
         if (good) wr_hard_look_fini(&turned);
         wr_hard_look_fini(&plain);
     }
     wr_field_free(field);
     return good;
+}
+
+/* On the centres of the first and last columns and rows, several periods away, the paper's slopes are the
+   differences of the two neighbours, one of them at the table's other end. */
+static void check_ends_of_rows(const Looker *l)
+{
+    const int w = wr_field_width(l->field), h = wr_field_height(l->field);
+    if (l->scheme != WR_SCHEME_CENTRAL) return;
+    for (int k = 0; k < 16; k++) {
+        const int i = k % 2 ? w - 1 : 0, j = k / 2 % 2 ? h - 1 : 0, away = k / 4 - 2;
+        const double u = (i + 0.5) / w + away, v = 1 - (j + 0.5) / h - away;
+        const double right = (double)wr_field_get(l->field, (i + 1) % w, j);
+        const double left = (double)wr_field_get(l->field, (i + w - 1) % w, j);
+        const double up = (double)wr_field_get(l->field, i, (j + h - 1) % h);
+        const double down = (double)wr_field_get(l->field, i, (j + 1) % h);
+        const double fu = w / 2.0 * (right - left), fv = h / 2.0 * (up - down);
+        const WrHardSlope d = wr_hard_sample(l->field, l->scheme, u, v);
+        const WrHardSlope f = by_kernel(l, (float)u, (float)v);
+        wr_hard_holds(l->g, WR_HARD_DOUBLE,
+                      fabs(d.fu - fu) < 1e-8 * w && fabs(d.fv - fv) < 1e-8 * h);
+        if (w < 1000) /* else float does not know the texel */
+            wr_hard_holds(l->g, WR_HARD_FLOAT,
+                          fabs(f.fu - fu) < 1e-3 * w && fabs(f.fv - fv) < 1e-3 * h);
+    }
 }
 
 /* Places that are multiples of 2^-15, so that u + 7 is exact in float as well. */
@@ -254,7 +295,8 @@ static bool hc46(WrHardGauge *g, WrError *err)
     bool good = true;
     for (int s = 0; s < 4 && good; s++) {
         WrField *field = wr_hard_rough(g, sizes[s][0], sizes[s][1], WR_WRAP_PERIODIC);
-        good = each_look(g, field, 1, 1, check_modulus, err);
+        good = each_look(g, field, 1, 1, check_modulus, err) &&
+               each_look(g, field, 1, 1, check_ends_of_rows, err);
         wr_field_free(field);
     }
     return good;
