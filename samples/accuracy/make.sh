@@ -285,6 +285,8 @@ tell_hard_cases() {
     [[ -f $keep/hard.json ]] || "$program" accuracy --hard-cases --json >"$keep/hard.json"
     jq -r '"`wrinkle accuracy --hard-cases` measures \(.cases | length) cases: \(.pass) pass, \(.fail) fail, \(.waits) are of effects still to come.",
         (.cases[] | select(.verdict == "fail") | "- \(.id), \(.what): fails.")' "$keep/hard.json" >>"$temporary/page"
+    say ''
+    bash "$here/../../tests/mutate.sh" "$here/../.." tell >>"$temporary/page"
 }
 
 # ---- the page ----
