@@ -1,5 +1,6 @@
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "cli/cli.h"
 #include "command/recovery.h"
 
@@ -110,9 +111,17 @@ static bool recover_one(const WrCli *cli, const char *journal, const char *path,
 {
     WrRecovered recovered = { 0 };
     WrSession *session = wr_cli_session(cli, false, err);
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.8);
     bool good = session && wr_session_recover(session, journal, cli->beyond, &recovered, err);
+    wr_progress_set(whole);
+    wr_progress_enter(&part, 0.8, 1.0);
     good = good && wr_session_save(session, path, err) &&
            wr_recovered_saved(&recovered, session, path, err);
+    wr_progress_set(whole);
+    wr_cli_tell_end();
+    if (!good && wr_progress_stopped())
+        wr_text_addf(&recovered.report, "%s was kept whole: recover it another time\n", journal);
     if (good && !recovered.whole) good = tell_rest(cli->words[0], &recovered, err);
     print_notes(&recovered.report);
     wr_recovered_fini(&recovered);

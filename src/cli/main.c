@@ -74,7 +74,7 @@ static int run(WrCli *cli)
     }
     static WrProgress progress = { .cancel = &interrupted };
     if (cli->command->run == wr_cli_run || cli->command->run == wr_cli_export ||
-        cli->command->run == wr_cli_paint)
+        cli->command->run == wr_cli_recover || cli->command->run == wr_cli_paint)
         wr_cli_tell(&progress);
     cli->pool = wr_pool_new(cli->threads);
     wr_progress_set(&progress);

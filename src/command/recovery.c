@@ -2,6 +2,7 @@
 #include "command/inner.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "document/recover.h"
 
 #include <stdarg.h>
@@ -9,6 +10,7 @@
 #include <string.h>
 
 #define TRIAL_SECONDS 60.0
+#define START_PART 0.1   /* of the work: what the journal began with */
 #define SENTENCES_MAX 20 /* about single commands; the rest is counted */
 
 /* How a saved document was looked at since is no work that was lost. */
@@ -238,6 +240,12 @@ static bool run_one(Replay *r, int index, const char *text, WrError *err)
     return true;
 }
 
+static double done_part(const Replay *r, int index)
+{
+    double lines = r->end > r->from ? (double)(index - r->from) / (r->end - r->from) : 0.0;
+    return START_PART + (1.0 - START_PART) * lines;
+}
+
 /* False: it must end here. */
 static bool replay_line(Replay *r, int index)
 {
@@ -250,11 +258,15 @@ static bool replay_line(Replay *r, int index)
     }
     if (line->holed) tell(r, "command %d is a stroke of which some points are lost", index + 1);
     char *text = with_copies(r->journal, line->text);
+    WrProgressPart part;
+    const WrProgress *whole =
+        wr_progress_enter(&part, done_part(r, index), done_part(r, index + 1));
     /* A stroke that was being drawn had already run as far as its samples go. */
     bool stop = last && !r->read->in_stroke && !last_is_safe(r, text);
     bool good = stop || run_one(r, index, text, &why);
+    wr_progress_set(whole);
     wr_free(text);
-    if (stop) return false;
+    if (stop || wr_progress_stopped()) return false; /* what it made may be half done */
     if (!good) {
         tell(r, "command %d failed%s: %s", index + 1,
              r->beyond ? "" : ", and what came after it was left out", why.text);
@@ -277,11 +289,19 @@ static bool replay(Replay *r, bool from_saved, WrError *err)
     r->from = from_saved ? read->saved.at : 0;
     r->known = from_saved;
     r->session->opening = true;
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, START_PART);
     bool good = from_saved ? bring_saved(r, err) : bring_start(r, err);
+    wr_progress_set(whole);
     if (good) wr_session_rebase(r->session);
     r->end = r->beyond ? read->total : wr_journal_sound_end(read, r->from, r->known);
-    for (int i = r->from; good && i < r->end && replay_line(r, i);) i++;
+    for (int i = r->from; good && wr_progress_tell(done_part(r, i)) && i < r->end;) {
+        if (!replay_line(r, i)) break;
+        i++;
+    }
     r->session->opening = false;
+    if (wr_progress_stopped())
+        return wr_fail(err, "cancelled; nothing was changed, and the journal was kept whole");
     return good;
 }
 
@@ -329,12 +349,14 @@ static bool bring_back(Replay *r, WrSessionState *old, WrError *err)
     const Replay fresh = *r;
     const WrJournalRead *read = r->read;
     bool could = read->saved.path && attempt(r, old, true, err);
+    if (!could && wr_progress_stopped()) return false;
     bool all = could && (r->done == r->end - r->from || r->cut);
     if (all || (could && wr_journal_sound_end(read, 0, false) < read->saved.at)) return true;
     if (could) wr_session_restore_state(r->session, old);
     wr_text_clear(r->report);
     *r = fresh;
     if (attempt(r, old, false, err)) return true;
+    if (wr_progress_stopped()) return false;
     wr_text_clear(r->report);
     *r = fresh;
     return could && attempt(r, old, true, err);
@@ -357,7 +379,11 @@ static void change_journals(WrSession *session, WrRecovered *out)
 static bool holds(const char *path, const WrHash *hash, WrError *err)
 {
     WrSession *session = wr_session_new(NULL);
+    const WrProgress *here = wr_progress_here();
+    const WrProgress quiet = { .cancel = here ? here->cancel : NULL }; /* the work itself is done */
+    wr_progress_set(&quiet);
     bool good = wr_session_load(session, path, err) && check_hash(session, hash, path, err);
+    wr_progress_set(here);
     wr_session_free(session);
     return good;
 }

@@ -2,6 +2,7 @@
 #include "document/recover.h"
 
 #include "base/clock.h"
+#include "base/progress.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -88,7 +89,7 @@ static bool listen_to(pid_t child, int from, double seconds, Verdict *verdict, s
         bool ended = (asked == 0 && info.si_pid == child) || (asked != 0 && errno == ECHILD);
         if (open) open = hear(from, verdict, have); /* it came whole, or not at all */
         if (ended) return true;
-        if (wr_clock_seconds() >= stop) return false;
+        if (wr_clock_seconds() >= stop || wr_progress_stopped()) return false;
     }
 }
 
