@@ -1,5 +1,7 @@
 #include "test.h"
 
+#include "base/progress.h"
+#include "export/ink.h"
 #include "export/lines.h"
 
 #include <math.h>
@@ -111,6 +113,47 @@ static void a_single_texel_and_a_flat_edge_on_view_are_no_trouble(void **state)
     wr_drawing_fini(&drawing);
 }
 
+/* No more work than a row or a line lies between two looks at the cancel. */
+static void the_cancel_is_looked_at_row_by_row(void **state)
+{
+    (void)state;
+    enum { SIDE = 256 };
+    float *heights = calloc((size_t)SIDE * SIDE, sizeof *heights);
+    WrLinesView view = view_of(9, 7, 30.0, 40.0);
+    WrDrawing drawing;
+    WrError err;
+    int64_t before = wr_progress_looks();
+    assert_true(wr_lines_draw(heights, SIDE, SIDE, &view, NULL, &drawing, &err));
+    assert_true(wr_progress_looks() - before >= 2 * (SIDE - 1) + 9 + 7);
+    wr_drawing_fini(&drawing);
+    volatile int cancel = 1;
+    const WrProgress told = { .cancel = &cancel };
+    wr_progress_set(&told);
+    assert_false(wr_lines_draw(heights, SIDE, SIDE, &view, NULL, &drawing, &err));
+    wr_progress_set(NULL);
+    assert_string_equal(err.text, "cancelled");
+    free(heights);
+}
+
+static void a_picture_of_lines_looks_at_the_cancel_too(void **state)
+{
+    (void)state;
+    enum { POINTS = 10000, HIGH = 300 };
+    WrInkPoint *points = calloc(POINTS, sizeof *points);
+    WrError err;
+    for (int i = 0; i < POINTS; i++) points[i] = (WrInkPoint){ (float)(i % 400), (float)(i % 299) };
+    WrInk *ink = wr_ink_new("/nowhere/at/all.png", 400, HIGH, &err);
+    assert_non_null(ink);
+    int64_t before = wr_progress_looks();
+    wr_ink_line(ink, points, POINTS);
+    assert_true(wr_progress_looks() - before >= POINTS / 256);
+    before = wr_progress_looks();
+    assert_false(wr_ink_write(ink, &err)); /* there is no such folder */
+    assert_true(wr_progress_looks() - before >= HIGH);
+    wr_ink_free(ink);
+    free(points);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -118,6 +161,8 @@ int main(void)
         cmocka_unit_test(the_drawing_fits_its_frame_from_every_side),
         cmocka_unit_test(a_wall_hides_just_the_floor_in_its_shadow),
         cmocka_unit_test(a_single_texel_and_a_flat_edge_on_view_are_no_trouble),
+        cmocka_unit_test(the_cancel_is_looked_at_row_by_row),
+        cmocka_unit_test(a_picture_of_lines_looks_at_the_cancel_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 static _Thread_local const WrProgress *here;
+static _Thread_local int64_t looks;
 
 const WrProgress *wr_progress_here(void)
 {
@@ -16,13 +17,20 @@ const WrProgress *wr_progress_set(const WrProgress *progress)
     return before;
 }
 
+int64_t wr_progress_looks(void)
+{
+    return looks;
+}
+
 bool wr_progress_stopped(void)
 {
+    looks++;
     return wr_progress_cancelled(here);
 }
 
 bool wr_progress_tell(double fraction)
 {
+    looks++;
     return wr_progress_step(here, fraction);
 }
 

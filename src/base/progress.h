@@ -3,6 +3,7 @@
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* The caller's; any member, and the pointer to the struct itself, may be NULL. */
 typedef struct WrProgress {
@@ -46,6 +47,9 @@ const WrProgress *wr_progress_set(const WrProgress *progress);
 bool wr_progress_stopped(void);
 /* Tell how far it is. True if it should go on. */
 bool wr_progress_tell(double fraction);
+
+/* How often this thread has asked either, for tests that count work between two looks. */
+int64_t wr_progress_looks(void);
 
 /* A part of the whole: 0..1 of it is from..to of the other. */
 typedef struct WrProgressPart {

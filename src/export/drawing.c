@@ -1,5 +1,6 @@
 /* Line drawings of the cell as files: SVG, or a picture of antialiased lines. */
 #include "base/memory.h"
+#include "base/progress.h"
 #include "export/ink.h"
 #include "export/job.h"
 #include "export/lines.h"
@@ -8,21 +9,30 @@
 
 #define RELIEF 0.2 /* cells: how high all of it is drawn, unless told */
 
+/* All of them, row by row; their range goes into the report. Returns how wide that is. */
+static double read_heights(WrExportJob *job, float *heights)
+{
+    float low = INFINITY, high = -INFINITY;
+    for (int y = 0; y < job->height && !wr_progress_stopped(); y++) {
+        float *row = heights + (size_t)y * (size_t)job->width;
+        job->report.replaced += wr_export_heights(job, y, 1, row);
+        for (int x = 0; x < job->width; x++) {
+            low = row[x] < low ? row[x] : low;
+            high = row[x] > high ? row[x] : high;
+        }
+    }
+    job->report.low = low;
+    job->report.high = high;
+    return (double)high - (double)low;
+}
+
 static bool draw(WrExportJob *job, WrDrawing *drawing, WrError *err)
 {
     const WrExportOptions *o = &job->options;
     size_t texels = (size_t)job->width * (size_t)job->height;
     float *heights = wr_try_alloc(texels, sizeof *heights, "a table's heights", err);
     if (!heights) return false;
-    job->report.replaced = wr_export_heights(job, 0, job->height, heights);
-    float low = heights[0], high = heights[0];
-    for (size_t i = 0; i < texels; i++) {
-        low = heights[i] < low ? heights[i] : low;
-        high = heights[i] > high ? heights[i] : high;
-    }
-    job->report.low = low;
-    job->report.high = high;
-    double range = (double)high - (double)low;
+    double range = read_heights(job, heights);
     WrLinesView view = { .lines_u = o->lines_u,
                          .lines_v = o->lines_v,
                          .turn_deg = o->turn_deg,
@@ -40,18 +50,25 @@ bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err)
 {
     const WrExportOptions *o = &job->options;
     WrDrawing drawing;
-    if (!draw(job, &drawing, err)) return false;
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.7);
+    bool drawn = draw(job, &drawing, err);
+    wr_progress_set(whole);
+    if (!drawn) return false;
+    wr_progress_enter(&part, 0.7, 1.0);
     job->report.width = o->drawing_w;
     job->report.height = o->drawing_h;
     job->report.lines = drawing.stretch_count;
     WrInk *ink = wr_ink_new(path, o->drawing_w, o->drawing_h, err);
     if (ink) {
         wr_ink_pen(ink, o->pen, 1.0);
-        for (int s = 0; s < drawing.stretch_count; s++)
+        for (int s = 0; s < drawing.stretch_count && !wr_progress_stopped(); s++)
             wr_ink_line(ink, drawing.points + drawing.stretches[s].first,
                         drawing.stretches[s].count);
     }
-    bool good = ink && wr_ink_write(ink, err);
+    bool good =
+        ink && (!wr_progress_stopped() || wr_fail(err, "cancelled")) && wr_ink_write(ink, err);
+    wr_progress_set(whole);
     wr_ink_free(ink);
     wr_drawing_fini(&drawing);
     return good;

@@ -2,11 +2,14 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "image/image.h"
 #include "image/label.h"
 
 #include <math.h>
 #include <string.h>
+
+#define LOOK 256 /* pieces of a line between two looks at the cancel */
 
 struct WrInk {
     char *path;
@@ -178,13 +181,17 @@ static void ink_word(WrInk *ink, const char *word, double x, double y, double si
 {
     WrLabel *label = wr_label_new((int)rint(size), NULL);
     if (!label) return;
-    size_t pixels = (size_t)ink->width * (size_t)ink->height;
-    uint8_t *grey = wr_alloc(pixels, 1);
+    /* the rows that it can reach */
+    int top = clip(rint(y) - 2.0 * size, ink->height), end = clip(rint(y) + size, ink->height);
+    size_t pixels = (size_t)ink->width * (size_t)(end - top);
+    uint8_t *grey = wr_alloc(pixels + 1, 1);
+    float *under = ink->ink + (size_t)top * (size_t)ink->width;
     int from = (int)rint(x - anchor * wr_label_width(label, word));
-    wr_label_draw(label, word, from, (int)rint(y), ink->width, 255, grey, ink->width, ink->height);
+    wr_label_draw(label, word, from, (int)rint(y) - top, ink->width, 255, grey, ink->width,
+                  end - top);
     for (size_t i = 0; i < pixels; i++) {
         float dark = (float)(ink->darkness * grey[i] / 255.0);
-        if (dark > ink->ink[i]) ink->ink[i] = dark;
+        if (dark > under[i]) under[i] = dark;
     }
     wr_free(grey);
     wr_label_free(label);
@@ -192,12 +199,18 @@ static void ink_word(WrInk *ink, const char *word, double x, double y, double si
 
 static bool write_picture(WrInk *ink, WrError *err)
 {
-    size_t pixels = (size_t)ink->width * (size_t)ink->height;
-    uint8_t *codes = wr_alloc(pixels, 1);
-    for (size_t i = 0; i < pixels; i++) ink->ink[i] = wr_srgb_encode(1.0f - ink->ink[i]);
-    wr_image_codes(WR_PIXEL_U8, ink->ink, pixels, codes, NULL);
-    bool good = wr_image_write_pixels(ink->path, ink->width, ink->height, 1, WR_PIXEL_U8, false,
-                                      codes, err);
+    size_t wide = (size_t)ink->width;
+    uint8_t *codes = wr_alloc(wide * (size_t)ink->height, 1);
+    bool going = true;
+    for (int y = 0; going && y < ink->height; y++) {
+        float *row = ink->ink + (size_t)y * wide;
+        for (size_t i = 0; i < wide; i++) row[i] = wr_srgb_encode(1.0f - row[i]);
+        wr_image_codes(WR_PIXEL_U8, row, wide, codes + (size_t)y * wide, NULL);
+        going = !wr_progress_stopped();
+    }
+    if (!going) wr_fail(err, "cancelled");
+    bool good = going && wr_image_write_pixels(ink->path, ink->width, ink->height, 1, WR_PIXEL_U8,
+                                               false, codes, err);
     wr_free(codes);
     return good;
 }
@@ -217,7 +230,10 @@ void wr_ink_line(WrInk *ink, const WrInkPoint *points, int count)
         vector_line(ink, points, count);
         return;
     }
-    for (int i = 1; i < count; i++) ink_segment(ink, points + i - 1, points + i);
+    for (int i = 1; i < count; i++) {
+        if (i % LOOK == 0 && wr_progress_stopped()) return;
+        ink_segment(ink, points + i - 1, points + i);
+    }
 }
 
 void wr_ink_word(WrInk *ink, const char *word, double x, double y, double size, double anchor)

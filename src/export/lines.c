@@ -5,6 +5,7 @@
 #include "base/array.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <math.h>
 
@@ -70,7 +71,7 @@ static void find_frame(Sheet *sheet)
                          .dz = -sa,
                          .scale = 1.0 };
     double low_x = INFINITY, high_x = -INFINITY, low_y = INFINITY, high_y = -INFINITY;
-    for (int row = 0; row < sheet->rows; row++)
+    for (int row = 0; row < sheet->rows && !wr_progress_stopped(); row++)
         for (int column = 0; column < sheet->columns; column++) {
             WrLinesPlace p = vertex(sheet, column, row);
             low_x = p.x < low_x ? p.x : low_x;
@@ -130,7 +131,7 @@ static void fill_depth(Sheet *sheet)
 {
     size_t cells = (size_t)sheet->wide * (size_t)sheet->high;
     for (size_t i = 0; i < cells; i++) sheet->depth[i] = INFINITY;
-    for (int row = 0; row + 1 < sheet->rows; row++)
+    for (int row = 0; row + 1 < sheet->rows && wr_progress_tell((double)row / sheet->rows); row++)
         for (int column = 0; column + 1 < sheet->columns; column++) {
             WrLinesPlace a = vertex(sheet, column, row), b = vertex(sheet, column + 1, row);
             WrLinesPlace c = vertex(sheet, column, row + 1), d = vertex(sheet, column + 1, row + 1);
@@ -240,7 +241,7 @@ static void draw_family(const Sheet *sheet, bool along_u, int lines, Points *out
 {
     int places = along_u ? sheet->rows : sheet->columns;
     if (lines > places) lines = places;
-    for (int i = 0; i < lines; i++) {
+    for (int i = 0; i < lines && !wr_progress_stopped(); i++) {
         int at = lines > 1 ? (int)(((int64_t)i * (places - 1) + (lines - 1) / 2) / (lines - 1))
                            : places / 2;
         draw_line(sheet, along_u, at, out);
@@ -267,6 +268,11 @@ bool wr_lines_draw(const float *heights, int columns, int rows, const WrLinesVie
     draw_family(&sheet, true, view->lines_u, &out);
     draw_family(&sheet, false, view->lines_v, &out);
     wr_free(sheet.depth);
+    if (wr_progress_stopped()) {
+        wr_array_free(&out.points);
+        wr_array_free(&out.stretches);
+        return wr_fail(err, "cancelled");
+    }
     if (frame) *frame = sheet.frame;
     *drawing =
         (WrDrawing){ out.points.data, out.stretches.data, out.points.count, out.stretches.count };

@@ -3,6 +3,7 @@
 #include "export/job.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <math.h>
 
@@ -62,14 +63,15 @@ static void word_number(WrInk *ink, double number, double x, double y, double an
 static void draw_grid(const WrExportOptions *o, WrInk *ink, const Chart *chart)
 {
     double step = step_of(chart->high - chart->low, 5);
-    for (double f = ceil(chart->low / step) * step; f <= chart->high; f += step) {
+    for (double f = ceil(chart->low / step) * step; f <= chart->high && !wr_progress_stopped();
+         f += step) {
         double value = rint(f / step) * step, y = y_of(chart, value);
         wr_ink_pen(ink, 1.0, fabs(value) < 0.5 * step ? 0.45 : 0.12);
         line(ink, chart->x0, y, chart->x1, y);
         wr_ink_pen(ink, 1.0, 0.97);
         word_number(ink, value, chart->x0 - 8.0, y + 0.35 * SIZE, 1.0);
     }
-    for (int i = 0; i <= o->grid; i++) {
+    for (int i = 0; i <= o->grid && !wr_progress_stopped(); i++) {
         double t = (double)i / o->grid, x = chart->x0 + t * (chart->x1 - chart->x0);
         wr_ink_pen(ink, 1.0, 0.12);
         line(ink, x, chart->y0, x, chart->y1);
@@ -123,7 +125,7 @@ bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err)
     give_room(&chart);
     draw_grid(o, ink, &chart);
     draw_curve(o, ink, &chart);
-    bool good = wr_ink_write(ink, err);
+    bool good = wr_progress_stopped() ? wr_fail(err, "cancelled") : wr_ink_write(ink, err);
     wr_ink_free(ink);
     wr_free(chart.f);
     return good;
