@@ -69,6 +69,25 @@ static void stroke(Soak *soak)
     if (!wr_session_stroke_end(soak->session, &err)) fail_msg("%s", err.text);
 }
 
+/* Tips from pictures, and presets by all that they are made of: our own strokes, and libmypaint's. */
+static void special_strokes(Soak *soak)
+{
+    static const char *const brushes[] = { "tip=" WR_SOURCE_DIR "/brushes/brick.png",
+                                           "tip=" WR_SOURCE_DIR "/brushes/brick.png follow=on "
+                                           "jitter=0.2,30,0.3",
+                                           "preset=" WR_SOURCE_DIR "/brushes/bricks.myb",
+                                           "preset=" WR_SOURCE_DIR "/brushes/bark.myb",
+                                           "preset=" WR_SOURCE_DIR "/brushes/hammered.myb seed=4" };
+    for (size_t i = 0; i < sizeof brushes / sizeof *brushes; i++) {
+        WrText line = { 0 };
+        wr_text_addf(&line, "stroke points=0.2,0.%d;0.7,0.5;0.4,0.8 radius=12 %s", (int)i + 1,
+                     brushes[i]);
+        must_run(soak->session, wr_text_get(&line));
+        wr_text_fini(&line);
+    }
+    look(soak, false);
+}
+
 /* A dialog that tries an operation before it is run. */
 static void try_blur(Soak *soak)
 {
@@ -102,6 +121,7 @@ static void work(Soak *soak)
         stroke(soak);
         look(soak, i % 2);
     }
+    special_strokes(soak);
     try_blur(soak);
     must_run(s, "undo 3");
     look(soak, false);
