@@ -75,6 +75,33 @@ static void heights_come_back_from_every_range(void **state)
     }
 }
 
+/* The same by the other doors for strangers' pictures. */
+static void elevations_and_photographs_go_by_labels_too(void **state)
+{
+    (void)state;
+    Said said, other;
+    WrSession *s = rough_table(&said), *back = listening(&other);
+    must_run(back, "table 45x62");
+    must_run(s, "export height h.png");
+    must_run(back, "terrain elevation h.png");
+    assert_near(farthest(s, back), 0, 4.0 / 65535);
+    assert_non_null(strstr(other.text, "its label tells"));
+    must_run(back, "terrain elevation h.png scale=-1 labels=ignore");
+    assert_true(farthest(s, back) > 0.5);
+    must_run(back, "terrain elevation h.png values=code");
+    assert_true(farthest(s, back) > 0.5);
+    /* codes in proportion to heights, for a photograph too */
+    WrSession *codes = listening(&other);
+    must_run(codes, "image h.png labels=ignore");
+    must_run(back, "picture photo h.png highpass=0 seamless=off height=1");
+    assert_near(farthest(codes, back), 0, 1e-6);
+    must_run(back, "picture photo h.png highpass=0 seamless=off height=1 labels=ignore");
+    assert_true(farthest(codes, back) > 0.1);
+    wr_session_free(s);
+    wr_session_free(back);
+    wr_session_free(codes);
+}
+
 static void signed_zero_comes_back_as_zero(void **state)
 {
     (void)state;
@@ -167,6 +194,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heights_come_back_from_every_range),
+        cmocka_unit_test(elevations_and_photographs_go_by_labels_too),
         cmocka_unit_test(signed_zero_comes_back_as_zero),
         cmocka_unit_test(normal_maps_come_back_as_their_heights),
         cmocka_unit_test(labels_that_make_no_sense_are_not_believed),

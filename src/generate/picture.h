@@ -53,6 +53,15 @@ double wr_picture_light(double code);
         .help = "of a file with several: its number, from 1, or its name; a frame", .unit = "",    \
         .kind = WR_PARAM_TEXT, .fallback_text = ""                                                 \
     }
+/* Whether what the program wrote into a file of its own about its values counts. */
+#define WR_P_LABELS                                                                                \
+    WR_P_CHOICE("labels", "Labels", 0, wr_picture_labels,                                          \
+                "read: what export wrote into the file about its values counts; ignore: it does "  \
+                "not")
+extern const char *const wr_picture_labels[];
+/* The label that counts, having said so where it makes no sense; NULL: there is none. */
+const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *image,
+                                     const WrGenerateJob *job);
 /* The picture of a row that has `file`, `part` and channels by that name; says what was taken of it. */
 WrImage *wr_picture_read(const WrParams *params, const char *channels, bool keep_lost,
                          const WrGenerateJob *job, WrError *err);

@@ -26,11 +26,14 @@ const WrParam wr_params_photo[] = {
     WR_P_NUMBER("gamma", "Gamma", 1, 0.01, 100, 5, "",
                 "what is between, to the power 1/gamma: above 1 lifts it"),
     WR_P_SWITCH("invert", "Invert", 0, "dark is high"),
+    WR_P_LABELS,
     WR_P_HEIGHT,
     WR_P_NUMBER("level", "Level", 0, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
                 "of the lowest"),
     WR_P_END
 };
+
+const char *const wr_picture_labels[] = { "read", "ignore", NULL };
 
 double wr_picture_light(double code)
 {
@@ -49,6 +52,32 @@ WrImage *wr_picture_read(const WrParams *params, const char *channels_, bool kee
         wr_generate_note(job, "%s: took %s (%s= and part= take others)", path, image->taken,
                          channels_);
     return image;
+}
+
+const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *image,
+                                     const WrGenerateJob *job)
+{
+    const WrImageLabel *label = &image->label;
+    const char *path = wr_param_value(params, "file")->text;
+    if (wr_param_whole(params, "labels") != 0) return NULL;
+    if (label->refused[0])
+        wr_generate_note(job, "%s: its label %s makes no sense and is not used", path,
+                         label->refused);
+    return label->kind == WR_LABEL_NONE && !label->ranged ? NULL : label;
+}
+
+/* A label of heights or normals tells that codes are numbers, no light. */
+static bool is_light(const WrParams *p, const WrImage *image, const WrGenerateJob *job)
+{
+    bool linear = wr_param_whole(p, "light") == 0;
+    const WrImageLabel *label = wr_picture_label(p, image, job);
+    if (!label || !linear || image->type == WR_PIXEL_F32) return linear;
+    wr_generate_note(job,
+                     "%s: its label tells that it holds %s: its codes are taken as numbers, not as "
+                     "light (labels=ignore takes them as light)",
+                     wr_param_value(p, "file")->text,
+                     label->kind >= WR_LABEL_NORMAL_UP ? "normals" : "heights");
+    return false;
 }
 
 /* What each code of a picture of 8 or 16 bits stands for; NULL for floats. Caller frees. */
@@ -148,7 +177,7 @@ bool wr_picture_photo(const WrParamValue *values, const WrGenerateJob *job, WrRe
     bool good = image && check(&p, image, path, err) &&
                 wr_sheet_new(&sheet, image->width, image->height, wrap, err);
     if (good) {
-        read_light(image, wr_param_whole(&p, "channel"), wr_param_whole(&p, "light") == 0, &sheet);
+        read_light(image, wr_param_whole(&p, "channel"), is_light(&p, image, job), &sheet);
         if (image->replaced > 0)
             wr_generate_note(job, "%s: %lld numbers that are none count as 0", path,
                              (long long)image->replaced);

@@ -39,6 +39,7 @@ const WrParam wr_params_elevation[] = {
                 "fill what says that nothing is known: NaN, infinity, -9999, -32768, beyond 1e30"),
     WR_P_NUMBER("nodata", "No data", -9999, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 9999, "",
                 "another value that says so"),
+    WR_P_LABELS,
     WR_P_SEAMLESS(WR_SEAMLESS_OFF),
     WR_P_END
 };
@@ -49,6 +50,7 @@ typedef struct Elevation {
     double most; /* of all codes; 0: floats */
     double least;
     bool can_lack; /* values may stand for "nothing known" */
+    bool labelled; /* they are heights, as the file's label tells */
 } Elevation;
 
 static bool read_raw(const WrParams *p, const char *path, const char *ending, const WrWrap wrap[2],
@@ -74,6 +76,23 @@ static bool read_raw(const WrParams *p, const char *path, const char *ending, co
     return good;
 }
 
+/* Its codes become the heights that its label tells; other values= are asked for by name. */
+static bool apply_label(const WrParams *p, WrImage *image, const WrGenerateJob *job)
+{
+    const char *path = wr_param_value(p, "file")->text;
+    const WrImageLabel *label = wr_picture_label(p, image, job);
+    if (!label || wr_param_whole(p, "values") != AUTO) return false;
+    if (label->kind >= WR_LABEL_NORMAL_UP)
+        wr_generate_note(job, "%s: its label tells that it is a normal map: see picture normals",
+                         path);
+    if (!wr_image_apply_range(image)) return false;
+    wr_generate_note(job,
+                     "%s: its label tells which heights its codes are: so they are read "
+                     "(labels=ignore reads codes)",
+                     path);
+    return true;
+}
+
 /* What is not known comes as NaN and stays so. */
 static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[2],
                          const WrGenerateJob *job, Elevation *out, WrError *err)
@@ -82,7 +101,8 @@ static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[
     if (!image) return false;
     bool good = wr_sheet_new(&out->sheet, image->width, image->height, wrap, err);
     static const double codes[] = { [WR_PIXEL_U8] = 255.0, [WR_PIXEL_U16] = 65535.0 };
-    out->most = image->type == WR_PIXEL_F32 ? 0.0 : codes[image->type];
+    out->labelled = good && apply_label(p, image, job);
+    out->most = image->type == WR_PIXEL_F32 || out->labelled ? 0.0 : codes[image->type];
     out->least = 0.0;
     out->can_lack = image->type == WR_PIXEL_F32;
     size_t count = (size_t)image->width * (size_t)image->height;
@@ -100,7 +120,7 @@ static bool fill_holes(const WrParams *p, Elevation *e, const char *path, const 
                        WrError *err)
 {
     size_t count = (size_t)e->sheet.width * (size_t)e->sheet.height;
-    bool wanted = wr_param_whole(p, "holes") == 1;
+    bool wanted = wr_param_whole(p, "holes") == 1 && !e->labelled;
     double nodata = wr_param_number(p, "nodata");
     for (size_t k = 0; k < count; k++) {
         double *z = &e->sheet.z[k];
@@ -126,7 +146,7 @@ static void bring_to_heights(const WrParams *p, Elevation *e, const WrGenerateJo
     wr_sheet_range(&e->sheet, &from, &to);
     wr_generate_note(job, "%dx%d elevations from %g to %g", e->sheet.width, e->sheet.height, from,
                      to);
-    if (values == AUTO) values = e->can_lack ? REAL : CODE;
+    if (values == AUTO) values = e->can_lack || e->labelled ? REAL : CODE;
     if (values == CODE && e->most > 0.0) {
         from = e->least;
         to = e->most;
