@@ -177,9 +177,12 @@ static void a_chosen_file_is_taken_afterwards(void **state)
     fclose(dialog);
     assert_int_equal(chmod("zenity", 0755), 0);
     char *folder = getcwd(NULL, 0);
+    char *usual = strdup(getenv("PATH"));
     setenv("PATH", folder, 1);
     begin(&bench);
     assert_true(wr_files_ask(bench.app->files, WR_FILE_OPEN, NULL, ""));
+    setenv("PATH", usual, 1);
+    free(usual);
     double end = wr_clock_seconds() + PATIENCE;
     while (!SDL_HasEvent(bench.app->file_event) && wr_clock_seconds() < end) usleep(1000);
     Long work = { .app = bench.app, .events = { { .type = SDL_USEREVENT + 100 } }, .count = 1 };
@@ -188,6 +191,27 @@ static void a_chosen_file_is_taken_afterwards(void **state)
     finish(&bench);
     free(folder);
     wr_free(path);
+}
+
+/* Nobody asked for the journal to be tended: what is pressed meanwhile is not lost. */
+static void keys_wait_while_the_journal_is_tended(void **state)
+{
+    (void)state;
+    Bench bench;
+    WrError err;
+    begin(&bench);
+    WrApp *app = bench.app;
+    SDL_Event events[2];
+    Long work = { .app = app,
+                  .events = { key(SDL_KEYDOWN, SDLK_SPACE), key(SDL_KEYDOWN, SDLK_ESCAPE) },
+                  .count = 2 };
+    app->tending = true;
+    assert_true(run(&work, &err)); /* and Escape gives nothing up */
+    app->tending = false;
+    assert_int_equal(SDL_PeepEvents(events, 2, SDL_GETEVENT, SDL_KEYDOWN, SDL_KEYDOWN), 2);
+    assert_int_equal(events[0].key.keysym.sym, SDLK_SPACE);
+    assert_int_equal(events[1].key.keysym.sym, SDLK_ESCAPE);
+    finish(&bench);
 }
 
 static void a_cancel_is_no_error_and_then_it_closes(void **state)
@@ -236,6 +260,7 @@ int main(void)
         cmocka_unit_test(what_the_window_is_told_holds_at_once),
         cmocka_unit_test(a_dropped_file_opens_afterwards),
         cmocka_unit_test(a_chosen_file_is_taken_afterwards),
+        cmocka_unit_test(keys_wait_while_the_journal_is_tended),
         cmocka_unit_test(a_cancel_is_no_error_and_then_it_closes),
     };
     return cmocka_run_group_tests(tests, enter, remove_folder);

@@ -54,6 +54,7 @@ typedef struct Wait {
     int behind_w, behind_h;
     bool panning, close, cancelled;
     bool file_chosen, asked;  /* the desktop's dialog, and a test, spoke: answered afterwards */
+    WR_ARRAY(SDL_Event) kept; /* while the journal is tended: all of the hand's, in order */
     WR_ARRAY(char *) dropped; /* files, in order: opened afterwards; SDL's */
 } Wait;
 
@@ -232,6 +233,11 @@ static void take_event(Wait *wait, const SDL_Event *event)
         wait->close = true;
         return;
     }
+    if (app->tending && event->type != SDL_WINDOWEVENT && event->type != app->file_event &&
+        event->type != app->rest_event) {
+        wr_array_push(&wait->kept, *event);
+        return;
+    }
     if (take_note(wait, event)) return;
     bool key = event->type == SDL_KEYDOWN && !is_modifier(event->key.keysym.sym);
     bool press = event->type == SDL_MOUSEBUTTONDOWN;
@@ -252,7 +258,7 @@ static void take_events(Wait *wait)
     WrPenEvent pen;
     wr_gui_aside_begin(wait->app->gui);
     while (SDL_PollEvent(&event)) take_event(wait, &event);
-    while (wr_pen_next(wait->app->pen, &pen))
+    while (!wait->app->tending && wr_pen_next(wait->app->pen, &pen))
         if (pen.kind == WR_PEN_DOWN) wait->refused_at = wr_clock_seconds();
     wr_gui_aside_end(wait->app->gui);
 }
@@ -260,9 +266,11 @@ static void take_events(Wait *wait)
 /* ---- the wait ---- */
 
 /* What was asked for meanwhile, in order; the wish to close comes last, since it asks about the rest. */
-static void catch_up(const Wait *wait)
+static void catch_up(Wait *wait)
 {
     const WrApp *app = wait->app;
+    if (app->tending) take_events(wait); /* what came last comes last */
+    for (int i = 0; i < wait->kept.count; i++) SDL_PushEvent(&wait->kept.data[i]);
     if (wait->file_chosen) SDL_PushEvent(&(SDL_Event){ .type = app->file_event });
     for (int i = 0; i < wait->dropped.count; i++) {
         SDL_DropEvent drop = { .type = SDL_DROPFILE, .file = wait->dropped.data[i] };
@@ -292,6 +300,7 @@ static void wait_for(Wait *wait)
     wr_gui_aside_end(app->gui);
     catch_up(wait);
     wr_array_free(&wait->dropped);
+    wr_array_free(&wait->kept);
     wr_app_redraw(app);
 }
 

@@ -148,8 +148,10 @@ void wr_app_tend(WrApp *app)
     WrError err;
     /* What is held would be let go meanwhile. */
     bool idle = app->hand.grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
-    if (idle && wr_session_journal_wants(app->session))
-        wr_busy_run(app, "Keeping the journal short", tend_work, app->session, &err);
+    if (!idle || !wr_session_journal_wants(app->session)) return;
+    app->tending = true;
+    wr_busy_run(app, "Keeping the journal short", tend_work, app->session, &err);
+    app->tending = false;
 }
 
 static bool open_now(WrApp *app, const char *path)

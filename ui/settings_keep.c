@@ -14,7 +14,8 @@
 
 #define FILE_NAME "window.conf"
 #define LOCK_NAME "window.lock"
-#define PATIENCE_TRIES 100 /* of 10 ms, when it must be written now */
+/* Of 1 ms, when it must be written now: others may let go for moments only. */
+#define PATIENCE_TRIES 5000
 
 static void copy_texts(char **to, char *const *from, int most)
 {
@@ -173,7 +174,7 @@ static int lock(bool now)
     for (int i = 0; fd >= 0; i++) {
         if (flock(fd, LOCK_EX | LOCK_NB) == 0) return fd;
         if (!now || i >= PATIENCE_TRIES) break;
-        nanosleep(&(struct timespec){ .tv_nsec = 10000000 }, NULL);
+        nanosleep(&(struct timespec){ .tv_nsec = 1000000 }, NULL);
     }
     if (fd >= 0) close(fd);
     return -1;

@@ -416,6 +416,7 @@ struct WrApp {
     WrDocument *
         shown; /* while the session works on a thread of its own: the document from before; owned */
     double expected;      /* seconds that the line to be run will take; 0: not known */
+    bool tending;         /* nobody asked for it: what is pressed meanwhile is kept */
     bool gave_up;         /* the newest of them failed because the user cancelled it */
     WrRecovery *recovery; /* while its dialog is open; owned */
     bool in_frame;        /* between the first and the last widget of a picture */
