@@ -257,6 +257,13 @@ grep -q '"chosen":\[{"blocks":[0-9]*,"share":[0-9.e-]*,"where":"[^"]*","bump":"[
 expect 0 render work.wrinkle --size 32x32 -o t.png --do 'tolerance rms=0.0000001'
 has err 'CANNOT be promised'
 rm -f t.png
+# Frames of a turn have one choice, told once.
+expect 0 render work.wrinkle --size 32x32 -o 't##.png' --frames 1-8 --do 'tolerance rms=0.0000001'
+[[ $(grep -c 'tolerance rms' err) == 1 ]] || complain "a turn tells its choice as $(cat err)"
+has err '8 frames: CANNOT be promised'
+expect 0 render work.wrinkle --size 32x32 -o 't##.png' --frames 1-8 --do 'tolerance rms=0.05'
+has err 'dials chosen on 2 of them for all'
+rm -f t*.png
 
 # ---- help ----
 expect 0 help

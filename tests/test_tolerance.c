@@ -399,6 +399,43 @@ static void a_choice_is_kept_while_its_picture_stays(void **state)
 }
 
 /* The largest error of any pixel against the reference, on scenes with outlines, corners and highlights. */
+/* Of a turn's frames: the dials are chosen once, and hold on frames that they were not chosen on. */
+static void one_choice_does_for_all_frames_of_a_turn(void **state)
+{
+    (void)state;
+    WrError err;
+    WrFrame frame;
+    WrChoice choice = { 0 };
+    double turns[12];
+    Bench bench = bench_of(band);
+    bench.scene->tolerance = (WrTolerance){ WR_TOLERANCE_RMS, 0.015 };
+    for (int i = 0; i < 12; i++) turns[i] = 30 * i;
+    assert_true(wr_tolerance_turn(bench.renderer, &bench.request, turns, 12, &choice, &err));
+    assert_true(choice.met);
+    assert_non_null(strstr(choice.reason, "12 frames: met; dials chosen on "));
+    assert_non_null(strstr(choice.reason, "pays from frame "));
+    const unsigned char *chosen = choice.part_of;
+    for (int i = 1; i < 12; i += 4) {
+        WrErrors errors;
+        WrReference reference = { 0 };
+        const WrReferenceRequest wanted = { .field = bench.request.field,
+                                            .scene = bench.scene,
+                                            .width = SIDE,
+                                            .height = SIDE,
+                                            .turn_deg = turns[i],
+                                            .most = 16 };
+        bench.request.turn_deg = turns[i];
+        assert_true(wr_tolerance_frame(bench.renderer, &bench.request, &choice, &frame, &err));
+        assert_ptr_equal(choice.part_of, chosen);
+        assert_true(wr_reference_render(&wanted, NULL, &reference, &err));
+        wr_errors_measure(frame.rgba, NULL, &reference, NULL, &errors);
+        if (errors.rms > 0.015) fail_msg("turn %g: %g: %s", turns[i], errors.rms, choice.reason);
+        wr_reference_fini(&reference);
+    }
+    wr_choice_fini(&choice);
+    bench_fini(&bench);
+}
+
 static void the_worst_pixel_keeps_to_the_tolerance_or_it_says_so(void **state)
 {
     (void)state;
@@ -581,6 +618,7 @@ int main(void)
         cmocka_unit_test(choosing_gives_the_picture_that_the_choice_makes),
         cmocka_unit_test(the_same_picture_gets_the_same_dials),
         cmocka_unit_test(a_choice_is_kept_while_its_picture_stays),
+        cmocka_unit_test(one_choice_does_for_all_frames_of_a_turn),
         cmocka_unit_test(the_worst_pixel_keeps_to_the_tolerance_or_it_says_so),
         cmocka_unit_test(a_time_buys_the_same_dials_again),
         cmocka_unit_test(another_size_is_refused),

@@ -5,7 +5,7 @@
 typedef struct WrChosen {
     bool any; /* a tolerance chose the dials of this picture */
     bool met;
-    char reason[320]; /* one or two sentences */
+    char reason[480]; /* one or two sentences */
     char lines[2000]; /* a line a part: share, dials, kinds of blocks */
     /* One setting for all blocks that is as fine as the finest of any: keeps to the tolerance too. By WrDialId */
     double finest[WR_DIAL_COUNT];

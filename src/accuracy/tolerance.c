@@ -213,8 +213,8 @@ static bool is_of(const WrChoice *choice, const WrFrameRequest *request)
 {
     return choice->count > 0 && choice->scene == request->scene &&
            choice->field_key == wr_field_key(request->field) &&
-           choice->turn_deg == request->turn_deg && choice->width == request->width &&
-           choice->height == request->height;
+           (choice->turning || choice->turn_deg == request->turn_deg) &&
+           choice->width == request->width && choice->height == request->height;
 }
 
 bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *choice,

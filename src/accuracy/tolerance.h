@@ -30,6 +30,8 @@
 /* Blocks that have the same setting. */
 typedef struct WrChoicePart {
     WrScene *scene;  /* the scene with their dials; owned */
+    int level;       /* of samples: 1, 2, 4, 8, 16 a side */
+    double price;    /* of a sample, with their slopes and normal */
     int64_t blocks;  /* how many there are; those without any of the object are not counted */
     char where[160]; /* "edges, some of the liveliest insides" */
 } WrChoicePart;
@@ -46,11 +48,13 @@ typedef struct WrChoice {
     double seconds;     /* estimated time of one more such frame */
     double top_seconds; /* the same of 16 x 16 samples everywhere */
     double spent;       /* seconds that choosing took, the picture included */
-    char reason[320];   /* one or two sentences */
+    char reason[480];   /* one or two sentences */
+    bool told;          /* the caller's: that reason was given to the user */
     /* Of what picture it is. */
     const WrScene *scene; /* shared; owned */
     uint64_t field_key;
     double turn_deg;
+    bool turning; /* for any turn */
 } WrChoice;
 
 /* Choose for the request's picture under its scene's tolerance, and give the picture: *frame, its counts and times
@@ -59,9 +63,15 @@ typedef struct WrChoice {
 bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *out,
                          WrFrame *frame, WrError *err);
 /* The request's picture under its scene's tolerance: as *choice has it if that was chosen for the same table, scene,
- * turn and size, else chosen anew into *choice. */
+ * turn (or for any) and size, else chosen anew into *choice. */
 bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *choice,
                         WrFrame *frame, WrError *err);
+/* One choice for all frames of a turn, those angles: dials are chosen on up to four of them that lie spread over it,
+   a quarter of them at most; each block gets the dearest that it got on any. As many frames between are looked
+   at: a part of their blocks with finer samples. One that is off by more is studied too. No picture is given;
+   reason tells which and from how many frames on it pays. */
+bool wr_tolerance_turn(WrRenderer *renderer, const WrFrameRequest *request, const double *turn_deg,
+                       int count, WrChoice *out, WrError *err);
 void wr_choice_fini(WrChoice *choice);
 
 /* The picture with chosen dials: each part's blocks with its setting, in one frame.rgba. Bit for bit what

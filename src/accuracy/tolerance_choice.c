@@ -70,6 +70,8 @@ void wr_study_settle(const Study *study, WrChoice *out)
         if (part_of[setting] < 0) {
             WrChoicePart *part = &out->parts[part_of[setting] = out->count++];
             part->scene = wr_study_scene(study, block->pair, block->pick);
+            part->level = block->pick;
+            part->price = study->pair[block->pair].price;
             name_part(study, setting, part);
         }
         out->part_of[b] = (unsigned char)part_of[setting];

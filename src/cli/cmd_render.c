@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,17 +18,34 @@ static void frame_name(const char *out, int number, WrText *name)
 }
 
 /* Each frame's angle comes from its number alone: fmod is exact, so nothing adds up (HC87). */
+static double angle_of(int frame, double turn)
+{
+    return fmod(frame * turn, 360);
+}
+
+/* Under a tolerance the dials are chosen once. */
+static bool choose_for_all(const WrCli *cli, WrSession *session, double turn, WrError *err)
+{
+    const int count = cli->last - cli->first + 1;
+    double *angles = wr_alloc((size_t)count, sizeof *angles);
+    for (int i = 0; i < count; i++) angles[i] = angle_of(cli->first + i, turn);
+    const bool good = wr_session_turn(session, cli->width, cli->height, angles, count, err);
+    wr_free(angles);
+    return good;
+}
+
 static bool render_frames(const WrCli *cli, WrSession *session, WrError *err)
 {
     WrText name = { 0 };
     int count = cli->last - cli->first + 1;
     double turn = cli->turned ? cli->turn_deg : 360.0 / count;
-    bool good = true, terminal = isatty(STDERR_FILENO);
+    const bool terminal = isatty(STDERR_FILENO);
+    bool good = choose_for_all(cli, session, turn, err);
     for (int f = cli->first; good && f <= cli->last; f++) {
         frame_name(cli->out, f, &name);
         if (terminal) fprintf(stderr, "\rframe %d of %d ", f - cli->first + 1, count);
         good = wr_session_render(session, wr_text_get(&name), cli->width, cli->height,
-                                 fmod(f * turn, 360), err);
+                                 angle_of(f, turn), err);
         if (good && cli->cancel && *cli->cancel) good = wr_fail(err, "cancelled");
     }
     if (terminal) fputc('\n', stderr);

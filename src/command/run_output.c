@@ -13,23 +13,44 @@
 
 /* ---- pictures ---- */
 
-bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
-                      WrError *err)
+static bool make_request(WrSession *session, int width, int height, double turn_deg,
+                         WrFrameRequest *out, WrError *err)
 {
     if (!session->renderer)
         session->renderer = wr_renderer_new(session->options.pool, session->options.isa, err);
     if (!session->renderer) return false;
     const WrProgress *here = wr_progress_here();
-    WrFrameRequest request = { .field = wr_document_composite(session->state.document,
-                                                              session->options.pool),
-                               .scene = session->state.document->scene,
-                               .width = width,
-                               .height = height,
-                               .turn_deg = turn_deg,
-                               .cancel = here ? here->cancel : NULL };
+    *out = (WrFrameRequest){ .field = wr_document_composite(session->state.document,
+                                                            session->options.pool),
+                             .scene = session->state.document->scene,
+                             .width = width,
+                             .height = height,
+                             .turn_deg = turn_deg,
+                             .cancel = here ? here->cancel : NULL };
+    return true;
+}
+
+bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
+                      WrError *err)
+{
+    WrFrameRequest request;
+    if (!make_request(session, width, height, turn_deg, &request, err)) return false;
     if (request.scene->tolerance.kind == WR_TOLERANCE_NONE)
         return wr_renderer_frame(session->renderer, &request, frame, err);
     return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
+}
+
+bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,
+                     WrError *err)
+{
+    WrFrameRequest request;
+    if (!make_request(session, width, height, turn_deg[0], &request, err)) return false;
+    if (request.scene->tolerance.kind == WR_TOLERANCE_NONE || count < 2) return true;
+    if (!wr_tolerance_turn(session->renderer, &request, turn_deg, count, &session->choice, err))
+        return false;
+    wr_session_note(session, "%s", session->choice.reason);
+    session->choice.told = true;
+    return true;
 }
 
 const WrChoice *wr_session_choice(const WrSession *session)
@@ -87,8 +108,10 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     if (!check_target(path, err)) return false;
     if (!frame_first(session, width, height, turn_deg, &frame, err)) return false;
     if (session->state.document->scene->tolerance.kind != WR_TOLERANCE_NONE &&
-        session->choice.count > 0 && !session->choice.met)
+        session->choice.count > 0 && !session->choice.met && !session->choice.told) {
         wr_session_note(session, "%s: %s", path, session->choice.reason);
+        session->choice.told = true;
+    }
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.8, 1.0);
     bool good = linear ? wr_image_write_pixels(path, frame.width, frame.height, 4, WR_PIXEL_F32,

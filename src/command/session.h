@@ -154,6 +154,10 @@ WrHash wr_session_hash(const WrSession *session);
    y axis. *frame is borrowed until the session's next picture. */
 bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
                       WrError *err);
+/* Where the scene has a tolerance: choose its dials once for all pictures of a turn, which the next ones of that size
+   then have; a note tells what was chosen on which. */
+bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,
+                     WrError *err);
 /* What the last picture chose under the scene's tolerance; kinds is 0 if it had none. */
 const WrChoice *wr_session_choice(const WrSession *session);
 /* The same to a file: linear float R, G, B, A (premultiplied, background 0) for exr, tif and tiff, else
