@@ -145,6 +145,37 @@ static void contrast_refines_edges_and_leaves_the_rest(void **state)
     wr_field_free(flat);
 }
 
+static double rms_between(const Shot *a, const Shot *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)4 * SIDE * SIDE; i++) {
+        const double d = (double)a->frame.rgba[i] - (double)b->frame.rgba[i];
+        sum += d * d;
+    }
+    return sqrt(sum / (4.0 * SIDE * SIDE));
+}
+
+/* Light that falls off evenly over a ball has its mean in each pixel's middle, however steep: only the outline is
+   refined, and the picture is as near as with K x K everywhere. */
+static void an_even_slope_of_light_is_not_refined(void **state)
+{
+    (void)state;
+    WrField *flat = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    WrScene *scene = scene_of("sphere");
+    scene->material.specular = 0;
+    scene->lights[0].strength = 3;
+    Shot fine = with_dials(scene, flat, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, 32, 0.02);
+    Shot all = with_dials(scene, flat, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, 4, 0.02);
+    Shot some = with_dials(scene, flat, WR_AA_ADAPTIVE, WR_REFINE_CONTRAST, 4, 0.02);
+    assert_true(some.frame.shaded < all.frame.shaded / 2);
+    assert_true(rms_between(&some, &fine) < 1.2 * rms_between(&all, &fine));
+    put_away(&fine);
+    put_away(&all);
+    put_away(&some);
+    wr_scene_free(scene);
+    wr_field_free(flat);
+}
+
 /* Places are even over each cell: the mean over many pixels of a ramp's jittered samples is its middle, and
    one sample a cell makes the mean of K x K better than that of K x K anywhere (its error is that of K^2
    strata, each 1/K wide: variance K^-4 / 12 in the ramp's units). */
@@ -195,6 +226,7 @@ int main(void)
         cmocka_unit_test(refined_pixels_have_the_bits_of_supersampling),
         cmocka_unit_test(hc92_equal_samples_keep_their_value_jittered_and_adaptive),
         cmocka_unit_test(contrast_refines_edges_and_leaves_the_rest),
+        cmocka_unit_test(an_even_slope_of_light_is_not_refined),
         cmocka_unit_test(jittered_samples_are_even_and_stratified),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,8 +3,18 @@
 #include "render/pipe.h"
 #include "base/clock.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
+
+/* Of k x k samples that lie apart by d the mean is off by d / 2k at most, mostly by far less, and by what it moved from
+   the level before: `contrast` lets as much pass as it moved, and so many times k of d. */
+#define EDGE_STEPS 4
+#define EDGE_BESIDE 8.0f
+enum {
+    OPEN = 1,
+    OPEN_BESIDE = 2
+}; /* a pixel needs more; at least 4 x 4, for an edge that may pass beside */
 
 typedef struct Refiner {
     const WrTileJob *job;
@@ -38,25 +48,49 @@ static void first_samples(Refiner *r)
     }
 }
 
-static bool apart(const float a[4], const float b[4], float contrast)
+/* The largest difference of any channel; what is no number differs by infinity. */
+static float apart(const float a[4], const float b[4])
 {
-    bool far = false;
-    for (int c = 0; c < 4; c++) far |= !(fabsf(a[c] - b[c]) <= contrast);
-    return far;
+    float most = 0;
+    for (int c = 0; c < 4; c++) {
+        const float d = fabsf(a[c] - b[c]);
+        most = d <= most ? most : d <= FLT_MAX ? d : INFINITY;
+    }
+    return most;
 }
 
-/* Does the pixel differ from one of its eight neighbours? */
-static bool stands_out(const Refiner *r, int x, int y)
+/* An even slope has its mean in its middle: what counts is how far a pixel is from the mean of two opposite
+   neighbours, twice that, so that an edge counts for its height. At the picture's border and where an outline
+   passes, where nothing tells a slope from an edge: how far from either. */
+static float bend(const float a[4], const float pixel[4], const float b[4])
 {
+    float middle[4];
+    if (a[3] != pixel[3] || b[3] != pixel[3]) return fmaxf(apart(a, pixel), apart(b, pixel));
+    for (int c = 0; c < 4; c++) middle[c] = 2 * pixel[c] - a[c];
+    return apart(middle, b);
+}
+
+/* How far the pixel stands out from its eight neighbours. */
+static float stands_out(const Refiner *r, int x, int y)
+{
+    static const int ways[4][2] = { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } };
     const WrTileScratch *s = r->scratch;
-    for (int dy = -1; dy <= 1; dy++)
-        for (int dx = -1; dx <= 1; dx++) {
-            int px = r->part.x + x + dx, py = r->part.y + y + dy;
+    const float *pixel = s->centre[y + 1][x + 1];
+    float most = 0;
+    for (int way = 0; way < 4; way++) {
+        const float *sides[2] = { NULL, NULL };
+        for (int side = 0; side < 2; side++) {
+            const int dx = side ? -ways[way][0] : ways[way][0];
+            const int dy = side ? -ways[way][1] : ways[way][1];
+            const int px = r->part.x + x + dx, py = r->part.y + y + dy;
             if (px < 0 || py < 0 || px >= r->job->width || py >= r->job->height) continue;
-            if (apart(s->centre[y + 1][x + 1], s->centre[y + 1 + dy][x + 1 + dx], r->contrast))
-                return true;
+            sides[side] = s->centre[y + 1 + dy][x + 1 + dx];
         }
-    return false;
+        if (sides[0] && sides[1]) most = fmaxf(most, bend(sides[0], pixel, sides[1]));
+        else if (sides[0] || sides[1])
+            most = fmaxf(most, apart(sides[0] ? sides[0] : sides[1], pixel));
+    }
+    return most;
 }
 
 /* ---- pixels that the object leaves out ----------------------------------------------------------- */
@@ -125,17 +159,20 @@ static bool surely_empty(const Refiner *r, int x, int y)
 
 /* ---- more samples -------------------------------------------------------------------------------- */
 
-/* Do neighbouring samples of the k x k differ, or any from the first (k = 2)? */
-static bool rough(const Refiner *r, const float *sample, int k, size_t step, const float first[4])
+/* How far the k x k samples lie apart. */
+static float range_of(const float *sample, int k, size_t step)
 {
+    float low[4], high[4];
+    memcpy(low, sample, sizeof low);
+    memcpy(high, sample, sizeof high);
     for (int y = 0; y < k; y++)
-        for (int x = 0; x < k; x++) {
-            const float *at = sample + (size_t)y * step + 4 * (size_t)x;
-            if (x + 1 < k && apart(at, at + 4, r->contrast)) return true;
-            if (y + 1 < k && apart(at, at + step, r->contrast)) return true;
-            if (k == 2 && apart(at, first, r->contrast)) return true;
-        }
-    return false;
+        for (int x = 0; x < k; x++)
+            for (int c = 0; c < 4; c++) {
+                const float at = sample[(size_t)y * step + 4 * (size_t)x + (size_t)c];
+                if (!(at >= low[c])) low[c] = at;
+                if (!(at <= high[c])) high[c] = at;
+            }
+    return apart(low, high);
 }
 
 /* One row of the k x k samples of pixel px of the part into the scatter. */
@@ -208,10 +245,16 @@ static void sample_part(Refiner *r, WrTilePart part, int k, bool last)
         for (int x = 0; x < part.w; x++) {
             unsigned char *open = &s->open[part.y + y][part.x + x];
             if (!*open) continue;
-            float *sample = s->sample[y * k][x * k];
-            *open = !last && rough(r, sample, k, step, s->centre[part.y + y + 1][part.x + x + 1]);
+            float *sample = s->sample[y * k][x * k], mean[4];
             size_t px = (size_t)(r->part.x + part.x + x), py = (size_t)(r->part.y + part.y + y);
-            wr_tile_mean(sample, k, step, r->job->rgba + (py * (size_t)r->job->width + px) * 4);
+            float *pixel = r->job->rgba + (py * (size_t)r->job->width + px) * 4;
+            const float range = last ? 0 : range_of(sample, k, step);
+            wr_tile_mean(sample, k, step, mean); /* spoils the samples */
+            const bool more = (*open == OPEN_BESIDE && k == 2) ||
+                              apart(pixel, mean) > r->contrast ||
+                              range > (float)(EDGE_STEPS * k) * r->contrast;
+            *open = !last && more ? *open : 0;
+            memcpy(pixel, mean, sizeof mean);
         }
 }
 
@@ -227,6 +270,13 @@ static void sample_level(Refiner *r, int k, bool last)
         }
 }
 
+/* By how far a pixel stands out. An edge's pixels stand out by its height; it may cut an eighth of one that the 2 x 2
+   samples do not see. */
+static unsigned char how_open(const Refiner *r, float out)
+{
+    return out > EDGE_BESIDE * r->contrast ? OPEN_BESIDE : out > r->contrast ? OPEN : 0;
+}
+
 /* Which pixels the first samples leave open. */
 static bool open_pixels(Refiner *r)
 {
@@ -234,8 +284,8 @@ static bool open_pixels(Refiner *r)
     bool any = false;
     for (int y = 0; y < r->part.h; y++)
         for (int x = 0; x < r->part.w; x++) {
-            bool open;
-            if (!r->by_bound) open = stands_out(r, x, y);
+            unsigned char open;
+            if (!r->by_bound) open = how_open(r, stands_out(r, x, y));
             else if (s->centre[y + 1][x + 1][3] > 0.0f)
                 open = !(s->bound[y + 1][x + 1] <= r->contrast);
             else open = !r->job->plan->bounded || !surely_empty(r, x, y);

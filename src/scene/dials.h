@@ -52,8 +52,9 @@ typedef enum WrSpread {
 
 /* adaptive: what decides that a pixel needs more. */
 typedef enum WrRefine {
-    /* Neighbouring pixels, then neighbouring samples, differ by more than `contrast`: 2 x 2, 4 x 4, .. K x K.
-       May miss features. */
+    /* 2 x 2 where a pixel is off the mean of two opposite neighbours by more than half of `contrast`: an even slope
+       of light is not refined, an edge of that height is. 4 x 4, .. K x K while the mean moves by more than
+       `contrast`, or the k x k samples lie apart by more than 4 k times that. May miss features. */
     WR_REFINE_CONTRAST,
     /* K x K but where a bound on the intensity's change over the pixel is within `contrast`: then no pixel is
        farther from that of K x K than `contrast`. A bound is known on plane, cube and sphere with slopes by
