@@ -245,11 +245,24 @@ rm -f kept.png h.png
 
 # ---- explain ----
 expect 0 explain work.wrinkle --json --size 16x16
-[[ $(cat out) == '{"effects":[{"rule":"E'*'}],"width":16,"height":16,"covered":'*',"samples":'*',"seconds":'*'}' ]] ||
+[[ $(cat out) == '{"effects":[{"rule":"E'*'}],"costs":[{"name":"preparing"'*'}],"work_seconds":'*',"width":16,"height":16,"covered":'*',"samples":'*',"seconds":'*'}' ]] ||
     complain "explain: $(cat out)"
 has out '"run":true,"class":"'
+# Every cost is on some row: effects and costs add up to the whole, under a tolerance too.
+for words in 'dials arithmetic=exact' 'surface torus' 'dials aa=adaptive samples=4' 'dials aa=moments' 'tolerance rms=0.05'; do
+    expect 0 explain work.wrinkle --json --size 48x32 --do "$words"
+    jq -e '([.effects[].seconds, .costs[].seconds] | add) as $sum | .work_seconds as $all |
+        ($sum - $all | fabs) < 1e-6 * $all and ([.effects[].seconds, .costs[].seconds] | min) >= 0 and
+        (.costs | map(select(.name == "rest" or .name == "storing" or .name == "preparing")) | length) == 3' \
+        out >/dev/null || complain "explain, $words: the rows do not add up: $(cat out)"
+done
+# The back of a closed body is seen by an eye within it.
+expect 0 explain work.wrinkle --json --size 16x16 --do 'surface torus R=1 r=0.4' --do 'camera perspective eye=1,0,0 target=1,1,0'
+jq -e '.effects[] | select(.rule == "E25") | .run and (.reason | contains("inner walls"))' out >/dev/null ||
+    complain "explain within a torus: $(cat out)"
 expect 0 explain work.wrinkle --size 16x16
 has out 'reason'
+has out 'of all threads together'
 expect 0 explain work.wrinkle --json --size 32x32 --do 'tolerance rms=0.05'
 grep -q '"chosen":\[{"blocks":[0-9]*,"share":[0-9.e-]*,"where":"[^"]*","bump":"[^"\\]*","dials":"[^"\\]*"}' out ||
     complain "explain tells the choice as $(cat out)"

@@ -64,6 +64,7 @@ static bool render(WrWork *work, int i, WrPool *pool, const WrFrameRequest *requ
     WrChoice choice = { 0 };
     bool good = wr_tolerance_choose(r, request, &choice, frame, &work->err);
     wr_choice_fini(&choice);
+    frame->plan = NULL; /* it was the choice's */
     return good;
 }
 

@@ -184,7 +184,7 @@ static bool has_tolerance(const Wish *wish)
 }
 
 /* Block by block with the dials that keep to the scene's tolerance. */
-static bool by_tolerance(WrRenderer *renderer, const WrFrameRequest *wanted, WrChosen *chosen,
+static bool by_tolerance(WrRenderer *renderer, const WrFrameRequest *wanted, WrPreviewPicture *out,
                          WrFrame *frame, WrError *err)
 {
     WrChoice choice = { 0 };
@@ -192,7 +192,11 @@ static bool by_tolerance(WrRenderer *renderer, const WrFrameRequest *wanted, WrC
     request.dials = NULL;
     request.keep = false;
     bool good = wr_tolerance_choose(renderer, &request, &choice, frame, err);
-    if (good) wr_chosen_from(&choice, chosen);
+    if (good) {
+        wr_chosen_from(&choice, &out->chosen);
+        out->plan = choice.plan; /* the frame's, which goes with the choice */
+        frame->plan = &out->plan;
+    }
     wr_choice_fini(&choice);
     return good;
 }
@@ -218,7 +222,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     WrPreviewPicture *out = preview->work;
     out->chosen.any = false;
     bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
-                    ? by_tolerance(renderer, &request, &out->chosen, &frame, err)
+                    ? by_tolerance(renderer, &request, out, &frame, err)
                     : wr_renderer_frame(renderer, &request, &frame, err);
     if (!good) return false;
     if (!make_room(out, frame.width, frame.height, err)) return false;

@@ -204,6 +204,11 @@ bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, Wr
         tell(&study, &request->scene->tolerance, start, &choice);
         wr_choice_fini(out);
         *out = choice;
+        out->plan = study.plan;
+        out->plan.cost[WR_COST_CHOOSE] = fmax(0, out->spent - study.times.total);
+        out->plan.work += out->plan.cost[WR_COST_CHOOSE];
+        frame->plan = &out->plan;
+        frame->times.total = out->spent;
     }
     wr_study_fini(&study);
     return good;
@@ -220,6 +225,7 @@ static bool is_of(const WrChoice *choice, const WrFrameRequest *request)
 bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *choice,
                         WrFrame *frame, WrError *err)
 {
-    return is_of(choice, request) ? wr_choice_frame(renderer, request, choice, frame, err)
-                                  : wr_tolerance_choose(renderer, request, choice, frame, err);
+    if (!is_of(choice, request)) return wr_tolerance_choose(renderer, request, choice, frame, err);
+    choice->plan = (WrPlan){ 0 };
+    return wr_choice_frame_told(renderer, request, choice, &choice->plan, frame, err);
 }

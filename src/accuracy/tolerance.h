@@ -50,6 +50,7 @@ typedef struct WrChoice {
     double spent;       /* seconds that choosing took, the picture included */
     char reason[480];   /* one or two sentences */
     bool told;          /* the caller's: that reason was given to the user */
+    WrPlan plan;        /* what its last picture took: the frame's */
     /* Of what picture it is. */
     const WrScene *scene; /* shared; owned */
     uint64_t field_key;
@@ -57,8 +58,8 @@ typedef struct WrChoice {
     bool turning; /* for any turn */
 } WrChoice;
 
-/* Choose for the request's picture under its scene's tolerance, and give the picture: *frame, its counts and times
- * those of all that was rendered for it. The renderer's caches are used; its last picture is lost.
+/* Choose for the request's picture under its scene's tolerance, and give the picture: *frame, its counts, times
+ * and plan those of all that was rendered for it; the plan is the choice's and goes with it. The renderer's caches are used; its last picture is lost.
  * Zero-initialise *out. Errors: the scene has no tolerance; those of frames. */
 bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *out,
                          WrFrame *frame, WrError *err);

@@ -179,6 +179,7 @@ static bool render(Study *study, int pair, int level, const unsigned char *only,
                     wr_price_pass((int64_t)study->request->width * study->request->height);
     study->shaded += study->frame->shaded;
     wr_times_add(&study->times, times);
+    wr_plan_add(&study->plan, study->frame->plan);
     return true;
 }
 

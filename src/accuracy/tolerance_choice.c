@@ -104,8 +104,8 @@ static void clear_nothing(const WrChoice *choice, WrFrame *frame)
         }
 }
 
-bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
-                     WrFrame *frame, WrError *err)
+bool wr_choice_frame_told(WrRenderer *renderer, const WrFrameRequest *request,
+                          const WrChoice *choice, WrPlan *plan, WrFrame *frame, WrError *err)
 {
     const int64_t blocks = (int64_t)((choice->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK) *
                            ((choice->height + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK);
@@ -124,6 +124,8 @@ bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const 
         pass.keep = false;
         pass.hold = true; /* the next picture's choosing wants them all */
         good = wr_renderer_frame(renderer, &pass, frame, err);
+        if (!good) break;
+        if (plan) wr_plan_add(plan, frame->plan);
         sum.shaded += frame->shaded;
         wr_times_add(&sum.times, &frame->times);
     }
@@ -133,7 +135,14 @@ bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const 
     frame->covered = wr_frame_covered(frame);
     frame->shaded = sum.shaded;
     frame->times = sum.times;
+    if (plan) frame->plan = plan;
     return true;
+}
+
+bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
+                     WrFrame *frame, WrError *err)
+{
+    return wr_choice_frame_told(renderer, request, choice, NULL, frame, err);
 }
 
 void wr_choice_print(const WrChoice *choice, WrText *text)

@@ -84,6 +84,7 @@ typedef struct Study {
     double seconds;           /* of the same, by the clock, without what had to be made first */
     int64_t shaded;
     WrStageTimes times;
+    WrPlan plan; /* what all frames took */
 } Study;
 
 /* ---- tolerance_blocks.c ---- */
@@ -156,6 +157,9 @@ bool wr_price_seconds(WrRenderer *renderer, double *out, WrError *err);
 
 /* The study's picks become the caller's choice: its parts. */
 void wr_study_settle(const Study *study, WrChoice *out);
+/* wr_choice_frame; what its parts took together into *plan, which becomes the frame's, or NULL. */
+bool wr_choice_frame_told(WrRenderer *renderer, const WrFrameRequest *request,
+                          const WrChoice *choice, WrPlan *plan, WrFrame *frame, WrError *err);
 /* Stage by stage. */
 void wr_times_add(WrStageTimes *sum, const WrStageTimes *more);
 /* Pixels with coverage. */

@@ -50,6 +50,21 @@ static void add_json_choice(WrText *text, const WrChoice *choice)
     wr_text_add(text, "]}");
 }
 
+/* The costs that are no effect's, and what all of both come to. */
+static void add_json_costs(WrText *text, const WrPlan *plan)
+{
+    wr_text_add(text, "],\"costs\":[");
+    for (int i = 0; i < WR_COST_COUNT; i++) {
+        wr_text_addf(text, "%s{\"name\":\"%s\",\"reason\":", i ? "," : "", wr_cost_names[i]);
+        wr_text_add_json_string(text, wr_cost_reasons[i]);
+        wr_text_add(text, ",\"seconds\":");
+        wr_text_add_json_number(text, plan->cost[i]);
+        wr_text_add(text, "}");
+    }
+    wr_text_add(text, "],\"work_seconds\":");
+    wr_text_add_json_number(text, plan->work);
+}
+
 static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice, const WrFrame *frame)
 {
     wr_text_add(text, "{\"effects\":[");
@@ -65,14 +80,28 @@ static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice, c
         wr_text_addf(text, ",\"tiles\":%lld,\"pixels\":%lld,\"ns_per_pixel\":", (long long)e->tiles,
                      (long long)e->pixels);
         wr_text_add_json_number(text, e->ns_per_pixel);
+        wr_text_add(text, ",\"seconds\":");
+        wr_text_add_json_number(text, e->seconds);
         wr_text_add(text, "}");
     }
-    wr_text_addf(text,
-                 "],\"width\":%d,\"height\":%d,\"covered\":%lld,\"samples\":%lld,\"seconds\":",
+    add_json_costs(text, plan);
+    wr_text_addf(text, ",\"width\":%d,\"height\":%d,\"covered\":%lld,\"samples\":%lld,\"seconds\":",
                  frame->width, frame->height, (long long)frame->covered, (long long)frame->shaded);
     wr_text_add_json_number(text, frame->times.total);
     if (choice->count > 0) add_json_choice(text, choice);
     wr_text_add(text, "}\n");
+}
+
+/* What the rows take adds up to the last line. */
+static void add_costs(WrText *text, const WrPlan *plan)
+{
+    const double pixel = plan->shaded > 0 ? 1e9 / (double)plan->shaded : 0;
+    for (int i = 0; i < WR_COST_COUNT; i++)
+        if (plan->cost[i] > 0)
+            wr_text_addf(text, "%-5s %-24s %-4s %-5s %9.1f  %s\n", "-", wr_cost_names[i], "yes",
+                         "-", plan->cost[i] * pixel, wr_cost_reasons[i]);
+    wr_text_addf(text, "%-5s %-24s %-4s %-5s %9.1f  %.2f ms of all threads together\n", "-", "all",
+                 "", "", plan->work * pixel, 1e3 * plan->work);
 }
 
 static void add_table(WrText *text, const WrPlan *plan, const WrChoice *choice,
@@ -87,6 +116,7 @@ static void add_table(WrText *text, const WrPlan *plan, const WrChoice *choice,
         wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", e->rule, e->name,
                      e->run ? "yes" : "no", wr_proof_letter(e->proof), price, e->reason);
     }
+    add_costs(text, plan);
     if (choice->count > 0) {
         wr_text_addf(text, "\n%s\n", choice->reason);
         wr_choice_print(choice, text);

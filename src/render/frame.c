@@ -107,8 +107,10 @@ static void render_tile(int index, int worker, void *ctx)
     part.h = least(tile->height - part.y, tile->tile_h);
     if (job->cancel && *job->cancel) return;
     if (job->keep && !wr_keep_touches(job->keep, index)) return;
+    const double start = wr_clock_seconds();
     if (job->only) render_asked(job, part, index, job->scratch[worker]);
     else wr_tile_render(tile, part, index, job->scratch[worker]);
+    job->scratch[worker]->all += wr_clock_seconds() - start;
 }
 
 static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
@@ -235,6 +237,9 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
         wr_keep_fini(&renderer->keep);
         if (!prepare_view(renderer, request, kernels, err)) return false;
     }
+    const WrSurfaceInfo *info = wr_surfaces[request->scene->shape.kind];
+    wr_plan_back(&renderer->plan, info->convex_closed || (info->closed_u && info->closed_v),
+                 renderer->view.outside);
     wr_frame_start_counts(renderer);
     FrameJob job = { .tile = make_job(renderer, request, kernels), .scratch = renderer->scratch };
     const double prepared = wr_clock_seconds() - started;

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "render/frame_inner.h"
 
+#include <math.h>
 #include <string.h>
 
 void wr_frame_start_counts(WrRenderer *renderer)
@@ -14,65 +15,111 @@ void wr_frame_start_counts(WrRenderer *renderer)
             renderer->plan.shading_double || renderer->table.precision != WR_PRECISION_SINGLE;
         if (wide && !s->wide) s->wide = wr_alloc(3, sizeof *s->wide);
         memset(s->seconds, 0, sizeof s->seconds);
+        memset(s->whole, 0, sizeof s->whole);
+        s->all = 0;
         s->covered = s->shaded = s->tiles = s->wide_samples = 0;
         s->strips = 0;
     }
 }
 
+/* ---- where each stage's time goes ---- */
+
+static bool runs(const WrPlan *plan, WrEffect effect)
+{
+    return plan->rows[effect].run;
+}
+
+static WrEffect bump_effect(const WrPlan *plan)
+{
+    return runs(plan, WR_EFFECT_EXACT)       ? WR_EFFECT_EXACT
+           : runs(plan, WR_EFFECT_INVARIANT) ? WR_EFFECT_INVARIANT
+                                             : WR_EFFECT_BUMP;
+}
+
+/* A stage is the effect's, if that runs; else it is part of a cost that has no effect. */
+typedef struct Owner {
+    WrEffect effect; /* WR_EFFECT_COUNT: none */
+    WrCost cost;
+} Owner;
+
+static Owner owner_of(const WrPlan *plan, WrStage stage)
+{
+    switch (stage) {
+    case WR_STAGE_VISIBILITY: return (Owner){ WR_EFFECT_DEPTH, WR_COST_VISIBILITY };
+    case WR_STAGE_NEWTON: return (Owner){ WR_EFFECT_NEWTON, WR_COST_VISIBILITY };
+    case WR_STAGE_GEOMETRY: return (Owner){ WR_EFFECT_COUNT, WR_COST_GEOMETRY };
+    case WR_STAGE_CURVATURE: return (Owner){ WR_EFFECT_CURVATURE, WR_COST_GEOMETRY };
+    case WR_STAGE_FOOTPRINT: return (Owner){ WR_EFFECT_FILTER, WR_COST_GEOMETRY };
+    case WR_STAGE_LOOK:
+        return (Owner){ plan->gradient_table ? WR_EFFECT_GRADIENT : WR_EFFECT_BUMP,
+                        WR_COST_GEOMETRY };
+    case WR_STAGE_PYRAMID: return (Owner){ WR_EFFECT_FILTER, WR_COST_GEOMETRY };
+    case WR_STAGE_BUMP: return (Owner){ bump_effect(plan), WR_COST_GEOMETRY };
+    case WR_STAGE_SPREAD: return (Owner){ WR_EFFECT_SPREAD, WR_COST_GEOMETRY };
+    case WR_STAGE_COLOUR: return (Owner){ WR_EFFECT_COLOUR, WR_COST_STORE };
+    case WR_STAGE_DIFFUSE: return (Owner){ WR_EFFECT_DIFFUSE, WR_COST_STORE };
+    case WR_STAGE_SPECULAR: return (Owner){ WR_EFFECT_SPECULAR, WR_COST_STORE };
+    case WR_STAGE_BOUND: return (Owner){ WR_EFFECT_BOUND, WR_COST_REST };
+    case WR_STAGE_HALF: return (Owner){ WR_EFFECT_HALF, WR_COST_STORE };
+    case WR_STAGE_RESOLVE: return (Owner){ WR_EFFECT_SAMPLES, WR_COST_STORE };
+    case WR_STAGE_STORE: return (Owner){ WR_EFFECT_COUNT, WR_COST_STORE };
+    case WR_STAGE_CLEAR: return (Owner){ WR_EFFECT_COUNT, WR_COST_CLEAR };
+    default: return (Owner){ WR_EFFECT_COUNT, WR_COST_REST };
+    }
+}
+
 /* What each effect cost and touched, into the plan's rows. */
-static void account(WrRenderer *renderer, const double seconds[WR_STAGE_COUNT], int64_t tiles,
+static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], int64_t tiles,
                     int64_t shaded, int64_t filtered)
 {
-    static const int stage_of[WR_EFFECT_COUNT] = {
-        [WR_EFFECT_DIFFUSE] = WR_STAGE_DIFFUSE,
-        [WR_EFFECT_SPECULAR] = WR_STAGE_SPECULAR,
-        [WR_EFFECT_COLOUR] = WR_STAGE_COLOUR,
-        [WR_EFFECT_BUMP] = WR_STAGE_BUMP,
-        [WR_EFFECT_GRADIENT] = WR_STAGE_LOOK,
-        [WR_EFFECT_WIDE] = -1,
-        [WR_EFFECT_INVARIANT] = WR_STAGE_BUMP,
-        [WR_EFFECT_EXACT] = WR_STAGE_BUMP,
-        [WR_EFFECT_CURVATURE] = WR_STAGE_CURVATURE,
-        [WR_EFFECT_SAMPLES] = WR_STAGE_RESOLVE,
-        [WR_EFFECT_BOUND] = WR_STAGE_BOUND,
-        [WR_EFFECT_FILTER] = WR_STAGE_PYRAMID,
-        [WR_EFFECT_SPREAD] = -1,
-        [WR_EFFECT_ROUNDED] = -1,
-        [WR_EFFECT_DOUBLE] = -1,
-        [WR_EFFECT_HALF] = WR_STAGE_HALF,
-        [WR_EFFECT_BACK] = -1,
-        [WR_EFFECT_DEPTH] = WR_STAGE_VISIBILITY,
-        [WR_EFFECT_AGAIN] = -1,
-        [WR_EFFECT_NEWTON] = WR_STAGE_NEWTON,
-        [WR_EFFECT_PERSPECTIVE] = -1,
-    };
+    for (int c = 0; c < WR_COST_COUNT; c++) plan->cost[c] = 0;
     for (int e = 0; e < WR_EFFECT_COUNT; e++) {
-        WrPlanRow *row = &renderer->plan.rows[e];
+        WrPlanRow *row = &plan->rows[e];
+        row->seconds = 0;
         if (!row->run) continue;
         row->tiles = tiles;
-        row->pixels = shaded;
-        double spent = stage_of[e] >= 0 ? seconds[stage_of[e]] : 0;
-        if (e == WR_EFFECT_BUMP && !renderer->plan.gradient_table) spent += seconds[WR_STAGE_LOOK];
-        if (e == WR_EFFECT_FILTER) {
-            row->pixels = filtered;
-            spent += seconds[WR_STAGE_FOOTPRINT];
-        }
-        row->ns_per_pixel = shaded > 0 ? 1e9 * spent / (double)shaded : 0;
+        row->pixels = e == WR_EFFECT_FILTER ? filtered : shaded;
     }
+    for (int stage = 0; stage < WR_STAGE_COUNT; stage++) {
+        const Owner owner = owner_of(plan, (WrStage)stage);
+        if (owner.effect < WR_EFFECT_COUNT && runs(plan, owner.effect))
+            plan->rows[owner.effect].seconds += seconds[stage];
+        else plan->cost[owner.cost] += seconds[stage];
+    }
+    plan->shaded = shaded;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++)
+        plan->rows[e].ns_per_pixel = shaded > 0 ? 1e9 * plan->rows[e].seconds / (double)shaded : 0;
+}
+
+/* A thread's stages: those of its strips are measured on an eighth, and cannot have taken more than what the others
+   leave of its tiles' time. What is left of that. */
+static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
+{
+    double strips = 0, left = s->all;
+    for (int k = 0; k < WR_STAGE_COUNT; k++) {
+        strips += s->seconds[k];
+        left -= s->whole[k];
+    }
+    left = fmax(left, 0);
+    const double share = strips > left ? left / strips : 1;
+    for (int k = 0; k < WR_STAGE_COUNT; k++) seconds[k] += s->whole[k] + share * s->seconds[k];
+    return left - share * strips;
 }
 
 void wr_frame_account(WrRenderer *renderer, bool refreshed, double prepared, double started,
                       WrFrame *frame)
 {
-    double seconds[WR_STAGE_COUNT] = { 0 };
+    double seconds[WR_STAGE_COUNT] = { 0 }, rest = 0, busy = 0;
     int64_t tiles = 0, filtered = 0;
-    *frame = (WrFrame){ .width = renderer->width,
-                        .height = renderer->height,
-                        .rgba = renderer->rgba,
-                        .plan = &renderer->plan };
+    WrPlan *plan = &renderer->plan;
+    const double total = wr_clock_seconds() - started;
+    *frame = (WrFrame){
+        .width = renderer->width, .height = renderer->height, .rgba = renderer->rgba, .plan = plan
+    };
     for (int i = 0; i < renderer->threads; i++) {
         const WrTileScratch *s = renderer->scratch[i];
-        for (int k = 0; k < WR_STAGE_COUNT; k++) seconds[k] += s->seconds[k];
+        rest += add_thread(s, seconds);
+        busy += s->all;
         frame->covered += s->covered;
         frame->shaded += s->shaded;
         tiles += s->tiles;
@@ -80,16 +127,20 @@ void wr_frame_account(WrRenderer *renderer, bool refreshed, double prepared, dou
     }
     if (refreshed) frame->covered = renderer->covered; /* heights do not move the outline */
     renderer->covered = frame->covered;
-    account(renderer, seconds, tiles, frame->shaded, filtered);
+    account(plan, seconds, tiles, frame->shaded, filtered);
+    plan->work = prepared + renderer->threads * (total - prepared);
+    plan->cost[WR_COST_PREPARE] += prepared;
+    plan->cost[WR_COST_REST] += rest;
+    plan->cost[WR_COST_WAIT] += plan->work - prepared - busy;
     frame->times = (WrStageTimes){
         .prepare = prepared,
         .visibility = seconds[WR_STAGE_VISIBILITY] + seconds[WR_STAGE_NEWTON],
         .geometry = seconds[WR_STAGE_GEOMETRY] + seconds[WR_STAGE_CURVATURE],
         .bump = seconds[WR_STAGE_FOOTPRINT] + seconds[WR_STAGE_LOOK] + seconds[WR_STAGE_PYRAMID] +
-                seconds[WR_STAGE_BUMP],
+                seconds[WR_STAGE_BUMP] + seconds[WR_STAGE_SPREAD],
         .shade = seconds[WR_STAGE_COLOUR] + seconds[WR_STAGE_DIFFUSE] + seconds[WR_STAGE_SPECULAR],
-        .resolve = seconds[WR_STAGE_RESOLVE] + seconds[WR_STAGE_BOUND],
+        .resolve = seconds[WR_STAGE_RESOLVE] + seconds[WR_STAGE_BOUND] + seconds[WR_STAGE_STORE],
         .pyramid = renderer->pyramid_seconds,
-        .total = wr_clock_seconds() - started,
+        .total = total,
     };
 }

@@ -127,8 +127,11 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
         }
         if (plan->bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
         k->bump[plan->bump](rays, strip);
-        if (plan->moments && sink->rgba) k->widen(plan->bump == WR_BUMP_INVARIANT, strip);
         watch_lap(watch, WR_STAGE_BUMP);
+        if (plan->moments && sink->rgba) {
+            k->widen(plan->bump == WR_BUMP_INVARIANT, strip);
+            watch_lap(watch, WR_STAGE_SPREAD);
+        }
         keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
     }
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip);
@@ -168,7 +171,7 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
     if (strip->count == 0) return;
     shade_strip(job, rays, quad, sink, strip, scratch, watch);
     store(sink, strip, scratch);
-    watch_lap(watch, WR_STAGE_RESOLVE);
+    watch_lap(watch, WR_STAGE_STORE);
     if (sink->rgba) scratch->shaded += strip->count;
 }
 

@@ -80,6 +80,59 @@ void wr_plan_again(WrPlan *plan, bool refresh, const char *reason)
     say(plan, WR_EFFECT_AGAIN, !refresh, reason);
 }
 
+void wr_plan_back(WrPlan *plan, bool closed, bool outside)
+{
+    say(plan, WR_EFFECT_BACK, !(closed && outside),
+        !closed   ? "the surface is open: its back can be seen"
+        : outside ? "a closed body seen from outside hides its own back"
+                  : "the eye may be inside the body: its inner walls are seen");
+}
+
+/* ---- what it took ---- */
+
+const char *const wr_cost_names[WR_COST_COUNT] = {
+    [WR_COST_PREPARE] = "preparing", [WR_COST_VISIBILITY] = "visibility",
+    [WR_COST_GEOMETRY] = "geometry", [WR_COST_STORE] = "storing",
+    [WR_COST_CLEAR] = "clearing",    [WR_COST_REST] = "rest",
+    [WR_COST_WAIT] = "waiting",      [WR_COST_CHOOSE] = "choosing",
+};
+
+const char *const wr_cost_reasons[WR_COST_COUNT] = {
+    [WR_COST_PREPARE] = "copies of the table, pyramids, the view, the mesh",
+    [WR_COST_VISIBILITY] = "which samples the object covers",
+    [WR_COST_GEOMETRY] = "points, tangents and normals of the surface",
+    [WR_COST_STORE] = "colours are put together and stored",
+    [WR_COST_CLEAR] = "tiles are emptied; those that hold nothing are left out",
+    [WR_COST_REST] = "what lies between the stages: samples moved, loops, the clock",
+    [WR_COST_WAIT] = "threads that found no tile to do",
+    [WR_COST_CHOOSE] = "estimates of the tolerance, blocks compared and put together",
+};
+
+static void per_pixel(WrPlan *plan)
+{
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        WrPlanRow *row = &plan->rows[e];
+        row->ns_per_pixel = plan->shaded > 0 ? 1e9 * row->seconds / (double)plan->shaded : 0;
+    }
+}
+
+void wr_plan_add(WrPlan *sum, const WrPlan *more)
+{
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        WrPlanRow row = more->rows[e];
+        const WrPlanRow *before = &sum->rows[e];
+        if (!row.run && before->run) row = *before;
+        row.seconds = before->seconds + more->rows[e].seconds;
+        row.tiles = before->tiles + more->rows[e].tiles;
+        row.pixels = before->pixels + more->rows[e].pixels;
+        sum->rows[e] = row;
+    }
+    for (int c = 0; c < WR_COST_COUNT; c++) sum->cost[c] += more->cost[c];
+    sum->work += more->work;
+    sum->shaded += more->shaded;
+    per_pixel(sum);
+}
+
 static bool any_light(const WrScene *scene)
 {
     for (int i = 0; i < scene->light_count; i++) {
@@ -200,9 +253,7 @@ static void plan_visibility(WrPlan *plan, const WrScene *scene)
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     plan->mesh = info->inversion == WR_INVERT_MESH;
     const bool closed = info->convex_closed || (info->closed_u && info->closed_v);
-    say(plan, WR_EFFECT_BACK, !closed,
-        closed ? "a closed body seen from outside hides its own back"
-               : "the surface is open: its back can be seen");
+    wr_plan_back(plan, closed, true); /* until the eye is known */
     say(plan, WR_EFFECT_DEPTH, plan->mesh,
         plan->mesh ? "parts of the surface may hide others"
                    : "the nearest root of the ray is enough");

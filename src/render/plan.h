@@ -52,9 +52,24 @@ typedef struct WrPlanRow {
     WrProof proof;
     char reason[160]; /* one sentence */
     int64_t tiles,
-        pixels; /* that it ran on in the last frame: tiles of the picture, samples shaded */
-    double ns_per_pixel; /* measured in the last frame, over its samples; 0 if it did not run */
+        pixels;     /* that it ran on in the last frame: tiles of the picture, samples shaded */
+    double seconds; /* that it took of the last frame, of all threads; 0: nothing that is its own */
+    double ns_per_pixel; /* the same over the frame's samples */
 } WrPlanRow;
+
+/* What a frame takes besides its effects. */
+typedef enum WrCost {
+    WR_COST_PREPARE,    /* copies of the table, pyramids, the view, the mesh */
+    WR_COST_VISIBILITY, /* which samples the object covers, in closed form */
+    WR_COST_GEOMETRY,   /* points, tangents and normals of the surface */
+    WR_COST_STORE,      /* colours put together and stored */
+    WR_COST_CLEAR,      /* tiles emptied, and those left out that hold nothing */
+    WR_COST_REST,       /* what lies between the stages: samples moved, loops */
+    WR_COST_WAIT,       /* threads without a tile */
+    WR_COST_CHOOSE,     /* under a tolerance: everything but its frames */
+    WR_COST_COUNT
+} WrCost;
+extern const char *const wr_cost_names[WR_COST_COUNT], *const wr_cost_reasons[WR_COST_COUNT];
 
 /* How many samples a pixel takes. */
 typedef enum WrSampling {
@@ -83,7 +98,17 @@ typedef struct WrPlan {
     bool lean;        /* by the whole covariance; else by its trace */
     bool bounded;     /* adaptive: a bound on the intensity's change is known here */
     bool shading_double, shading_half;
+    /* What the last frame took: with the rows' seconds this adds up to `work`, the time of all threads together:
+       preparing by the clock, the rest by the clock for each thread. */
+    double cost[WR_COST_COUNT], work;
+    int64_t shaded; /* its samples */
 } WrPlan;
+
+/* Of frames that make one picture: costs are added, a row runs that ran in any. */
+void wr_plan_add(WrPlan *sum, const WrPlan *more);
+/* The row about back faces once the eye is known. closed: the surface is; outside: and seen from there, so that its
+   back is not looked at. */
+void wr_plan_back(WrPlan *plan, bool closed, bool outside);
 
 /* The row about rendering tiles again (E29), which the renderer decides: it alone knows the last frame. */
 void wr_plan_again(WrPlan *plan, bool refresh, const char *reason);

@@ -309,7 +309,7 @@ void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScra
         first_samples(&r);
         double start = wr_clock_seconds();
         bool more = open_pixels(&r);
-        scratch->seconds[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+        scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
         if (!r.by_bound)
             for (int k = 2; k < K && more; k *= 2) sample_level(&r, k, false);
         if (more) sample_level(&r, K, true);

@@ -54,7 +54,7 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
     if (job->mesh) {
         double start = wr_clock_seconds();
         wr_view_mesh_raster(job->mesh, job->view, &tile);
-        scratch->seconds[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
+        scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }
     return tile;
 }
@@ -184,7 +184,7 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
         for (int i = 0; i < 4 * part.w; i++) pixel[i] = folded[i] * share;
         for (int p = 0; p < part.w; p++) scratch->covered += pixel[4 * p + 3] > 0.0f;
     }
-    scratch->seconds[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+    scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
 /* Nothing anywhere on the tile yet. */
@@ -218,9 +218,11 @@ static WrTilePart touched(const WrTileJob *job, WrTilePart part)
 void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch)
 {
     const int64_t before = scratch->shaded;
+    const double start = wr_clock_seconds();
     scratch->seen = job->seen ? &job->seen[index] : NULL;
     clear(job, part);
     part = touched(job, part);
+    scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     if (part.w <= 0 || part.h <= 0) return;
     const WrSampling how = job->plan->sampling;
     if (how == WR_SAMPLING_ONE) render_point(job, part, true, scratch);

@@ -18,12 +18,15 @@ typedef enum WrStage {
     WR_STAGE_LOOK,    /* F, Fu, Fv */
     WR_STAGE_PYRAMID, /* the same from the pyramid */
     WR_STAGE_BUMP,
+    WR_STAGE_SPREAD,
     WR_STAGE_COLOUR,
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
     WR_STAGE_BOUND,
     WR_STAGE_HALF, /* rounding to half precision */
     WR_STAGE_RESOLVE,
+    WR_STAGE_STORE,
+    WR_STAGE_CLEAR,
     WR_STAGE_COUNT
 } WrStage;
 
@@ -83,12 +86,14 @@ typedef struct WrTileScratch {
                 [4]; /* adaptive: first samples, one pixel round */
     float bound[WR_REFINE_H + 2][WR_REFINE_W + 2];
     unsigned char open[WR_REFINE_H][WR_REFINE_W]; /* adaptive: the pixel needs more */
-    double seconds[WR_STAGE_COUNT];
-    int64_t covered, shaded; /* pixels, samples */
-    int64_t tiles;           /* that held anything */
-    int64_t wide_samples;    /* filter, moments: that looked above level 0 */
-    WrBlocks *seen;          /* of the tile at hand; NULL: not wanted */
-    unsigned strips;         /* counts strips: one in eight is timed */
+    double seconds[WR_STAGE_COUNT]; /* of strips: an eighth is measured, and counted eight times */
+    double whole[WR_STAGE_COUNT];   /* of what is measured each time */
+    double all;                     /* of all its tiles */
+    int64_t covered, shaded;        /* pixels, samples */
+    int64_t tiles;                  /* that held anything */
+    int64_t wide_samples;           /* filter, moments: that looked above level 0 */
+    WrBlocks *seen;                 /* of the tile at hand; NULL: not wanted */
+    unsigned strips;                /* counts strips: one in eight is timed */
 } WrTileScratch;
 
 /* Pixels of the picture that a tile is made of. */

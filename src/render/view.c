@@ -229,9 +229,9 @@ bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width
     view->forward = turn_back(&place, place.forward);
     view->half_h = place.half_height * (view->perspective ? 1.0 : view->scale);
     view->half_w = view->half_h * aspect;
-    view->cull = info->closed_u && info->closed_v &&
-                 (!view->perspective ||
-                  v3_len(v3_sub(view->eye, v3_scale(place.centre, view->scale))) > view->radius);
+    const WrVec3 away = v3_sub(view->eye, v3_scale(place.centre, view->scale));
+    view->outside = !view->perspective || v3_len(away) > view->radius;
+    view->cull = info->closed_u && info->closed_v && view->outside;
     view->near = WR_NEAR_PLANE * view->radius;
     wr_shape_scaled(&scene->shape, view->scale, &view->shape);
     scale_shape(&scene->shape, view->scale, &view->shape_d);

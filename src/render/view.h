@@ -27,6 +27,7 @@ typedef struct WrView {
     double near;                    /* depth of the near plane */
     bool perspective;
     int x0, y0, x1, y1; /* pixels x0 <= x < x1 that the object can cover, two more on each side */
+    bool outside;       /* the eye is farther than any of the object */
     bool cull;          /* a closed surface seen from outside: back faces are hidden (E25) */
     WrQuad quads[6];    /* planar surfaces: those that can be seen */
     WrQuadd quads_d[6];
