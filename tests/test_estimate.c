@@ -1,10 +1,15 @@
 /* What commands are said to cost before they begin, against what they do cost. */
 #include "test.h"
+#include "test_folder.h"
 
 #include "base/clock.h"
 #include "command/estimate.h"
 #include "command/table.h"
 #include "test_session_help.h"
+
+#include <fcntl.h>
+#include <malloc.h>
+#include <sys/wait.h>
 
 static WrSession *table_of(int size)
 {
@@ -148,6 +153,119 @@ static void memory_is_near_what_tables_hold(void **state)
     }
 }
 
+/* ---- files ---- */
+
+/* The library of files has started. */
+static void warm(WrSession *s)
+{
+    wr_session_set_outputs(s, true);
+    must_run(s, "save warm.exr");
+    must_run(s, "export height warm.png");
+}
+
+static void files_are_near_what_they_take(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {
+        "save a.exr",
+        "save a.ora",
+        "export height a.png",
+        "export height a.exr",
+        "export height a.tif",
+        "export normal+y a.png",
+        "export normal-y a.exr",
+        "export lines a.png",
+        "export lines a.svg",
+    };
+    enum { COUNT = (int)(sizeof lines / sizeof *lines) };
+    double ratio[COUNT], sum = 0.0;
+    WrSession *s = table_of(768);
+    must_run(s, "noise perlin cells=9 amplitude=1");
+    warm(s);
+    for (int i = 0; i < COUNT; i++) {
+        double said = estimate_of(s, lines[i]).seconds, before = wr_clock_process_seconds();
+        must_run(s, lines[i]);
+        ratio[i] = log((wr_clock_process_seconds() - before) / said);
+        sum += ratio[i] / COUNT;
+    }
+    for (int i = 0; i < COUNT; i++) {
+        if (getenv("WR_TELL")) print_message("%-24s %.2f\n", lines[i], exp(ratio[i]));
+        if (fabs(ratio[i] - sum) > log(5.0))
+            fail_msg("%s: %g times the estimate, all together %g", lines[i], exp(ratio[i]),
+                     exp(sum));
+    }
+    wr_session_free(s);
+}
+
+/* ---- memory ---- */
+
+static double status_bytes(const char *name)
+{
+    char line[256];
+    double kb = 0.0;
+    FILE *file = fopen("/proc/self/status", "re");
+    while (file && fgets(line, sizeof line, file))
+        if (strncmp(line, name, strlen(name)) == 0) kb = strtod(line + strlen(name) + 1, NULL);
+    if (file) fclose(file);
+    return kb * 1024.0;
+}
+
+/* Bytes of memory by which a process that runs the line grows at most; 0: this system does not tell. */
+static double peak_of(WrSession *s, const char *line)
+{
+    int ends[2];
+    double peak = 0.0;
+    assert_int_equal(pipe(ends), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        WrError err;
+        int fd = open("/proc/self/clear_refs", O_WRONLY | O_CLOEXEC);
+        malloc_trim(0); /* what is free already is not used again unseen */
+        double before = status_bytes("VmRSS");
+        bool good = fd >= 0 && write(fd, "5", 1) == 1 && wr_session_run(s, line, &err);
+        peak = status_bytes("VmHWM") - before;
+        _exit(!good || write(ends[1], &peak, sizeof peak) != (ssize_t)sizeof peak);
+    }
+    int status;
+    assert_true(waitpid(child, &status, 0) == child);
+    if (status == 0) assert_int_equal(read(ends[0], &peak, sizeof peak), (ssize_t)sizeof peak);
+    close(ends[0]);
+    close(ends[1]);
+    return status == 0 ? peak : 0.0;
+}
+
+#define FACTOR 2.2 /* more than that it is not off either way */
+
+static void memory_is_near_the_peak_of_a_process(void **state)
+{
+    (void)state;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    static const char *const lines[] = {
+        "pattern bricks",
+        "noise perlin",
+        "adjust invert",
+        "adjust blur sigma=9",
+        "terrain thermal rounds=3",
+        "terrain hydraulic rain=0.02",
+        "solid torus across=64 rows=64",
+        "solid surface sphere size=600",
+        "adjust resize width=3000 height=3000",
+        "export lines a.svg",
+    };
+    WrSession *s = table_of(1536);
+    must_run(s, "noise perlin");
+    wr_session_set_outputs(s, true);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        double said = estimate_of(s, lines[i]).bytes, peak = peak_of(s, lines[i]);
+        if (getenv("WR_TELL"))
+            print_message("%-40s said %6.1f MB, took %6.1f MB\n", lines[i], said / 1e6, peak / 1e6);
+        if (peak > 0.0 && (said < peak / FACTOR || said > peak * FACTOR) && !getenv("WR_TELL"))
+            fail_msg("%s: said %g bytes, took %g", lines[i], said, peak);
+    }
+    wr_session_free(s);
+#endif
+}
+
 /* Or it is done at once after all, as what is hidden costs nothing. */
 static void what_runs_for_minutes_is_told(void **state)
 {
@@ -199,8 +317,10 @@ int main(void)
         cmocka_unit_test(estimates_rise_with_size_and_counts),
         cmocka_unit_test(estimates_are_near_what_commands_take),
         cmocka_unit_test(memory_is_near_what_tables_hold),
+        cmocka_unit_test(files_are_near_what_they_take),
+        cmocka_unit_test(memory_is_near_the_peak_of_a_process),
         cmocka_unit_test(what_runs_for_minutes_is_told),
         cmocka_unit_test(estimates_are_told_in_a_few_words),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }
