@@ -74,7 +74,7 @@ all_in() {
     shift 2
     [[ $# -gt 1 ]] || fail "$what: only $# words"
     for word in "$@"; do
-        grep -qE "^\|.*[\` []${word}[]\` ,;]" "$guide/$page" || fail "$page leaves out the $what $word"
+        grep -qE "^\\| [^|]*[\` []${word}[]\` ]" "$guide/$page" || fail "$page leaves out the $what $word"
     done
 }
 forms() { jq -r ".commands[] | select(.name == \"$1\").forms[].name" help.json; }
@@ -91,6 +91,14 @@ mapfile -t words < <(choices bump scheme) && all_in formulas.md scheme "${words[
 mapfile -t words < <(choices bump mode) && all_in formulas.md mode "${words[@]}"
 mapfile -t words < <("$program" --help | sed -nE 's/^  wrinkle \[?([a-z]+)\]? .*/\1/p')
 all_in command-line.md subcommand "${words[@]}"
+
+# ---- every variable of the environment that the program asks for, but the tests' own ----
+grep -rhoE 'getenv\("WRINKLE_[A-Z_]+"\)' "$source/src" "$source/ui" --include=*.c --include=*.cpp |
+    sed -E 's/.*"(.*)".*/\1/' | grep -vx WRINKLE_REST | sort -u >variables
+[[ -s variables ]] || fail "no variable of the environment was found"
+while read -r variable; do
+    grep -qE "^\| [^|]*\`$variable\`" "$guide/command-line.md" || fail "command-line.md leaves out $variable"
+done <variables
 
 # ---- files and folders of the checkout, as `src/...`, `tests/...`, `ui/...`, `samples/...`; rooms in the maps ----
 maps=("$source/src/README.md" "$source/ui/README.md" "$source/tests/README.md")

@@ -57,15 +57,14 @@ static WrColour colour_of(const Flow *flow, WrGuideStyle style)
     return style == WR_GUIDE_PLAIN ? flow->colour : WR_COLOUR_STRONG;
 }
 
-/* from: where the ground behind code begins. */
+/* from: where the ground behind code begins, and a link can be pointed at. */
 static void draw_word(Flow *flow, const WrGuideSpan *span, const char *word, double from,
                       double width)
 {
     WrFont font = font_of(flow, span->style);
     double high = wr_gui_line_height(font), gap = rint((line_height(flow->font) - high) / 2);
     if (span->style == WR_GUIDE_LITERAL)
-        wr_gui_draw_fill(from - 2, flow->y + gap - 1, flow->x + width - from + 4, high + 2, GROUND,
-                         2);
+        wr_gui_draw_fill(from, flow->y + gap - 1, flow->x + width - from + 2, high + 2, GROUND, 2);
     const WrGuiPage *f = flow->field;
     bool pointed = span->link && f->hovered && f->pointer_x >= from &&
                    f->pointer_x < flow->x + width && f->pointer_y >= flow->y &&
@@ -91,6 +90,7 @@ static void set_word(Flow *flow, const WrGuideSpan *span, char *word, int length
         if (width > flow->word) flow->word = width;
         if (flow->x > flow->left && flow->x + gap + width > flow->right) {
             flow->x = from = flow->left;
+            inside = false;
             flow->y += line_height(flow->font);
             gap = 0;
         }
@@ -99,7 +99,7 @@ static void set_word(Flow *flow, const WrGuideSpan *span, char *word, int length
         char kept = word[fits];
         word[fits] = '\0';
         if (fits < length) width = wr_gui_text_width(font, word);
-        if (flow->draw) draw_word(flow, span, word, inside ? from : flow->x, width);
+        if (flow->draw) draw_word(flow, span, word, inside ? from + 2 : flow->x - 2, width);
         word[fits] = kept;
         flow->x += width;
         if (flow->x - flow->left > flow->widest) flow->widest = flow->x - flow->left;

@@ -6,7 +6,8 @@ set(desktop ${CMAKE_CURRENT_LIST_DIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/samples DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle
         PATTERN CMakeLists.txt EXCLUDE)
 # The guide, which the window shows, where its links to the samples lead on.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/guide DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle/ui)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/ui/guide DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle/ui
+        PATTERN "*.sh" EXCLUDE)
 if(EXISTS ${PROJECT_SOURCE_DIR}/brushes)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/brushes DESTINATION ${CMAKE_INSTALL_DATADIR}/wrinkle)
 endif()
