@@ -221,7 +221,7 @@ key space # nothing is open any more: the table can be worked on
 key ctrl+e
 home
 shot dialog
-xdotool mousemove $((X + 650)) $((Y + 316))
+xdotool mousemove $((X + 650)) $((Y + 305))
 settle
 xdotool click 1
 settle
