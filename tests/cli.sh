@@ -270,6 +270,15 @@ grep -q '"chosen":\[{"blocks":[0-9]*,"share":[0-9.e-]*,"where":"[^"]*","bump":"[
 expect 0 render work.wrinkle --size 32x32 -o t.png --do 'tolerance rms=0.0000001'
 has err 'CANNOT be promised'
 rm -f t.png
+# A new document's edges are smooth; a script that says otherwise is taken at its word.
+expect 0 render -o smooth.tif --size 64x64 --do 'table 8x8' --do 'surface sphere R=1'
+expect 0 render -o two.tif --size 64x64 --do 'table 8x8' --do 'surface sphere R=1' --do 'dials aa=supersample samples=2'
+expect 0 render -o point.tif --size 64x64 --do 'table 8x8' --do 'surface sphere R=1' --do 'dials aa=point'
+cmp -s smooth.tif two.tif || complain 'a new document has not 2 x 2 samples'
+cmp -s smooth.tif point.tif && complain 'a new document has stairs at its edges'
+expect 0 help dials
+has out 'supersample'
+rm -f smooth.tif two.tif point.tif
 # Frames of a turn have one choice, told once.
 expect 0 render work.wrinkle --size 32x32 -o 't##.png' --frames 1-8 --do 'tolerance rms=0.0000001'
 [[ $(grep -c 'tolerance rms' err) == 1 ]] || complain "a turn tells its choice as $(cat err)"

@@ -93,7 +93,8 @@ bool wr_bench_stroke(const WrCli *cli, WrBenchStroke *stroke, int samples, WrErr
     char line[64];
     WrFrame frame;
     snprintf(line, sizeof line, "table %dx%d", stroke->table, stroke->table);
-    bool good = session && wr_session_run(session, line, err) &&
+    bool good = session && wr_session_run(session, "dials aa=point", err) &&
+                wr_session_run(session, line, err) &&
                 wr_session_run(session, "surface sphere", err) &&
                 wr_session_run(session, "dials arithmetic=fast", err) &&
                 wr_session_run(session, "dab 0.2,0.2 radius=40", err) &&

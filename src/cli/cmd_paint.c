@@ -21,7 +21,8 @@ int wr_cli_paint(const WrCli *cli)
                                  .note_ctx = &notes,
                                  .outputs = true,
                                  .isa = cli->isa,
-                                 .composites = true };
+                                 .composites = true,
+                                 .smooth = true };
     WrSession *session = wr_session_new(&options);
     wr_session_set_outputs(session, false);
     bool good = wr_cli_check_isa(cli, &err);

@@ -26,6 +26,7 @@ void wr_help_initial(const WrCommand *command, int form, const char *name, WrTex
     if (!command->print) return;
     WrText lines = { 0 };
     WrScene *scene = wr_scene_new();
+    wr_dials_smooth(&scene->dials);
     command->print(scene, &lines);
     wr_scene_free(scene);
     bool found = false;

@@ -88,6 +88,8 @@ void wr_session_restore(WrSession *session);
 void wr_session_rebase(WrSession *session);
 /* Put a new document (taken) in place of the old state, which is returned: then keep the new one as
    opened, or put the old one back. Either consumes *old. */
+/* An empty document, as options.smooth has it. */
+WrDocument *wr_session_new_document(const WrSession *session);
 WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document);
 void wr_session_keep_state(WrSession *session, WrSessionState *old);
 void wr_session_restore_state(WrSession *session, WrSessionState *old);

@@ -282,7 +282,7 @@ static void sum_up(Replay *r, WrRecovered *out)
 /* A replay into a fresh state; the session's own comes back where it cannot even begin. */
 static bool attempt(Replay *r, WrSessionState *old, bool from_saved, WrError *err)
 {
-    *old = wr_session_begin_state(r->session, wr_document_new());
+    *old = wr_session_begin_state(r->session, wr_session_new_document(r->session));
     if (replay(r, from_saved, err)) return true;
     wr_session_restore_state(r->session, old);
     return false;

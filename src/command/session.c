@@ -23,13 +23,24 @@ static void state_fini(WrSessionState *state)
     *state = (WrSessionState){ 0 };
 }
 
+WrDocument *wr_session_new_document(const WrSession *session)
+{
+    WrDocument *document = wr_document_new();
+    if (!session->options.smooth) return document;
+    WrScene *scene = wr_scene_clone(document->scene);
+    wr_dials_smooth(&scene->dials);
+    wr_scene_free(document->scene);
+    document->scene = scene;
+    return document;
+}
+
 WrSession *wr_session_new(const WrSessionOptions *options)
 {
     WrSession *session = wr_alloc(1, sizeof *session);
     if (options) session->options = *options;
     session->options.isa = wr_strdup(session->options.isa);
     session->budget = WR_HISTORY_BUDGET;
-    session->state.document = wr_document_new();
+    session->state.document = wr_session_new_document(session);
     WrSceneView view = wr_scene_view(session->state.document->scene);
     session->state.history = wr_history_new(session->state.document, 0, session->budget);
     session->state.views = wr_views_new(&view);
@@ -439,6 +450,6 @@ void wr_session_reset(WrSession *session)
 {
     wr_session_stroke_cancel(session);
     wr_session_journal_drop(session);
-    WrSessionState old = wr_session_begin_state(session, wr_document_new());
+    WrSessionState old = wr_session_begin_state(session, wr_session_new_document(session));
     wr_session_keep_state(session, &old);
 }

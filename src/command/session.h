@@ -30,6 +30,8 @@ typedef struct WrSessionOptions {
     bool
         composites; /* every command makes the composite too, so that nobody who looks at the document
                              afterwards has to: for the window */
+    bool smooth;    /* new documents have 2 x 2 samples a pixel, so that edges are no stairs;
+                             else one. What a file says of its dials holds either way */
 } WrSessionOptions;
 
 /* Starts with an empty document. The caller owns it. */

@@ -279,7 +279,7 @@ bool wr_session_open(WrSession *session, const char *path, WrError *err)
     if (!wr_session_refuse_in_stroke(session, err)) return false;
     if (!script && !look_at_file(path, &exr, err)) return false;
     sweep_beside(path);
-    WrSessionState old = wr_session_begin_state(session, wr_document_new());
+    WrSessionState old = wr_session_begin_state(session, wr_session_new_document(session));
     session->opening = true;
     if (script) good = open_script(session, path, err);
     else if ((exr && wr_document_recognise(path)) || wr_ora_recognise(path))

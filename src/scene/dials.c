@@ -17,6 +17,12 @@ WrDials wr_dials_default(void)
     return (WrDials){ .samples = 4, .contrast = 0.02, .newton = -1, .heights = WR_HEIGHTS_FLOAT };
 }
 
+void wr_dials_smooth(WrDials *dials)
+{
+    dials->aa = WR_AA_SUPERSAMPLE;
+    dials->samples = 2;
+}
+
 /* ---- names of rungs ---- */
 
 #define NAMES(function, count, ...)                                                                \

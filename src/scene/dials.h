@@ -108,6 +108,8 @@ typedef struct WrDials {
 } WrDials;
 
 WrDials wr_dials_default(void);
+/* What documents start with where a person looks at them: 2 x 2 samples, so that edges are no stairs. */
+void wr_dials_smooth(WrDials *dials);
 
 typedef enum WrDialId {
     WR_DIAL_SCHEME, /* the scene's scheme and bump mode are dials as well, set by `bump` */
