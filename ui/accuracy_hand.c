@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    What is measured when, and where the results go. */
 #include "ui/accuracy.h"
+#include "ui/parts.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -9,65 +10,6 @@
 
 #include <math.h>
 #include <string.h>
-
-void wr_accuracy_new(WrApp *app)
-{
-    WrAccuracy *a = app->accuracy = wr_alloc(1, sizeof *a);
-    WrWorkTools tools = { .isa = app->options->isa };
-    a->measure_tools = a->look_tools = a->probe_tools = tools;
-    /* One thread each: what is computed here must not keep strokes and the preview waiting. */
-    a->measure = wr_job_new(&wr_work_jobs, 1, app->job_event);
-    a->looker = wr_job_new(&wr_work_jobs, 1, app->job_event);
-    a->prober = wr_job_new(&wr_work_jobs, 1, app->job_event);
-    a->split = 0.5;
-    a->plot_hot = -1;
-    a->state = 1;
-}
-
-static void layer_forget(WrPatchLayer *layer)
-{
-    if (layer->texture) SDL_DestroyTexture(layer->texture);
-    *layer = (WrPatchLayer){ 0 };
-}
-
-void wr_accuracy_forget(WrApp *app)
-{
-    WrAccuracy *a = app->accuracy;
-    for (int i = 0; i < 2; i++) layer_forget(&a->pair[i]);
-    layer_forget(&a->map);
-    a->look_of = 0;
-}
-
-void wr_accuracy_free(WrApp *app)
-{
-    WrAccuracy *a = app->accuracy;
-    if (!a) return;
-    wr_job_free(a->measure);
-    wr_job_free(a->looker);
-    wr_job_free(a->prober);
-    wr_work_tools_fini(&a->measure_tools);
-    wr_work_tools_fini(&a->look_tools);
-    wr_work_tools_fini(&a->probe_tools);
-    wr_accuracy_forget(app);
-    wr_work_free(a->error);
-    wr_work_free(a->plot);
-    wr_free(a->plot_base);
-    wr_free(a->cases.report);
-    wr_field_free(a->field);
-    if (a->scene) wr_scene_free(a->scene);
-    wr_free(a);
-    app->accuracy = NULL;
-}
-
-/* ---- what is seen ---- */
-
-bool wr_accuracy_rests(const WrApp *app)
-{
-    bool turns = app->settings.turning && app->visible;
-    bool held = app->hand.grab != WR_GRAB_NONE && app->hand.grab != WR_GRAB_SPLIT;
-    return !turns && !held && !app->live && app->brush.jobs.count == 0 &&
-           !wr_session_in_stroke(app->session) && app->layout.patch.w > 0;
-}
 
 static void note_view(WrApp *app)
 {
@@ -406,3 +348,9 @@ bool wr_accuracy_works(WrApp *app)
     return wr_accuracy_busy(app, WR_WORK_LADDER, NULL) ||
            wr_accuracy_busy(app, WR_WORK_CASES, NULL);
 }
+
+const WrPart wr_part_accuracy = { .update = wr_accuracy_update,
+                                  .next_time = wr_accuracy_next_time,
+                                  .works = wr_accuracy_works,
+                                  .draw = wr_accuracy_draw,
+                                  .forget = wr_accuracy_forget };

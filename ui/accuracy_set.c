@@ -44,7 +44,7 @@ static void add_dial(WrText *line, int dial, double value)
 static void set_all(WrApp *app, const double value[WR_DIAL_COUNT])
 {
     static const char *const verbs[] = { "bump", "dials" };
-    wr_patch_commit_zoom(app, true);
+    wr_app_settle(app);
     wr_app_live_end(app);
     if (wr_app_scene(app)->tolerance.kind != WR_TOLERANCE_NONE &&
         !wr_app_run_line(app, "tolerance off"))

@@ -3,6 +3,7 @@
 #include "ui/actions.h"
 #include "ui/accuracy.h"
 #include "ui/generate_hand.h"
+#include "ui/parts.h"
 #include "ui/line.h"
 
 #include <math.h>
@@ -44,7 +45,7 @@ static void search(WrApp *app)
 
 static void choose_tool(WrApp *app, const char *name)
 {
-    wr_tool_choose(app, wr_tool_find(name));
+    wr_tool_choose(app, wr_tool_find(app, name));
 }
 
 #define TOOL(name)                                                                                 \
@@ -274,7 +275,7 @@ static void fullscreen(WrApp *app)
 
 static void view_back(WrApp *app)
 {
-    wr_patch_commit_zoom(app, true);
+    wr_app_settle(app);
     wr_app_run_line(app, "view back");
 }
 
@@ -291,7 +292,7 @@ static bool can_view_forward(const WrApp *app)
 
 static void view_forward(WrApp *app)
 {
-    wr_patch_commit_zoom(app, true); /* which leaves none to go forward to */
+    wr_app_settle(app); /* which leaves none to go forward to */
     if (can_view_forward(app)) wr_app_run_line(app, "view forward");
 }
 
@@ -471,23 +472,3 @@ const WrAction wr_actions[] = {
     { "about", "About Wrinkle", about, NULL, NULL },
     { NULL, NULL, NULL, NULL, NULL }
 };
-
-const WrAction *wr_action_find(const char *name)
-{
-    for (const WrAction *a = wr_actions; a->name; a++)
-        if (strcmp(a->name, name) == 0) return a;
-    return NULL;
-}
-
-void wr_action_run(WrApp *app, const char *name)
-{
-    const WrAction *action = wr_action_find(name);
-    const WrOpInfo *op = action ? NULL : wr_action_op(name);
-    const WrGenerator *generator = action ? NULL : wr_action_generator(name);
-    if (op) wr_dialog_adjust_open(app, op);
-    if (generator) wr_generate_open(app, generator);
-    if (!action || (action->enabled && !action->enabled(app))) return;
-    if (app->in_frame) wr_later_action(app, name); /* it may take long */
-    else action->run(app);
-    wr_app_redraw(app);
-}

@@ -7,12 +7,12 @@
 void wr_act_accuracy(WrApp *app)
 {
     app->settings.panels = true;
-    app->settings.tab = wr_panel_right_tab("Accuracy");
+    app->settings.tab = wr_tab_find(app, "Accuracy");
 }
 
 bool wr_is_accuracy(const WrApp *app)
 {
-    return app->settings.panels && app->settings.tab == wr_panel_right_tab("Accuracy");
+    return app->settings.panels && app->settings.tab == wr_tab_find(app, "Accuracy");
 }
 
 /* Where there is no room for it below, it is at the end of the Accuracy tab. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    Actions of the brush: its values and modes, presets, symmetry, key maps. */
 #include "ui/actions.h"
+#include "ui/tool_rows.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,7 +13,7 @@ static double clamp(double x, double low, double high)
 
 static void scale_radius(WrApp *app, double factor)
 {
-    bool stamp = wr_tools[app->tool].press == wr_stamp_press;
+    bool stamp = wr_tool_now(app) == &wr_tool_stamp;
     double *radius = stamp ? &app->draw.radius : &app->settings.brush.radius;
     double old = *radius > 0.0 ? *radius : 48.0, r = old * factor;
     r = r < 10.0 ? rint(r * 10.0) / 10.0 : rint(r);
@@ -89,7 +90,7 @@ void wr_act_level_mode(WrApp *app)
 void wr_act_reset_values(WrApp *app)
 {
     WrBrush *brush = &app->settings.brush, own = wr_shelf_own(app);
-    if (!wr_tools[app->tool].mode) brush->mode = own.mode;
+    if (!wr_tool_now(app)->mode) brush->mode = own.mode;
     brush->strength = own.strength;
     brush->to = own.to;
     brush->opacity = own.opacity;

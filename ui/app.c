@@ -3,15 +3,13 @@
 #include "ui/accuracy.h"
 #include "ui/generate_hand.h"
 #include "ui/guide.h"
+#include "ui/parts.h"
 #include "ui/rest.h"
 #include "ui/thread.h"
 
 #include "base/clock.h"
-#include "base/file.h"
 
 #include <math.h>
-#include <string.h>
-#include <unistd.h>
 
 #define FRAME_SECONDS (1.0 / 125.0) /* least time between two pictures of the window */
 #define DRAWN_SECONDS                                                                              \
@@ -19,54 +17,7 @@
 #define CARET_SECONDS 0.3 /* a text field's caret blinks, messages go */
 #define BAR_SECONDS 0.1   /* between pictures of a bar that fills */
 
-void wr_app_redraw(WrApp *app)
-{
-    bool held = app->hand.grab != WR_GRAB_NONE;
-    /* The widgets need a second picture to settle; while the pointer works on a view they rest. */
-    if (!held) app->redraw = 2;
-    else if (app->redraw < 1) app->redraw = 1;
-}
-
-/* ---- scale ---- */
-
-double wr_app_wanted_scale(const WrApp *app)
-{
-    const char *forced = getenv("WRINKLE_SCALE");
-    double scale;
-    if (forced && wr_number_parse(forced, strlen(forced), &scale) && scale >= 0.75 && scale <= 3.0)
-        return scale;
-    return app->settings.scale > 0.0 ? app->settings.scale : app->display_scale;
-}
-
-void wr_app_set_scale(WrApp *app, double setting)
-{
-    app->settings.scale = setting;
-    wr_app_redraw(app);
-}
-
 /* ---- life ---- */
-
-/* The built-in keys, the map that is chosen, and the user's own file. */
-void wr_app_read_keys(WrApp *app)
-{
-    WrError map_err;
-    wr_keys_free(app->keys);
-    app->keys = wr_keys_new();
-    int map = app->settings.key_map;
-    if (map > 0 && map < WR_KEY_MAPS && !wr_keys_read(app->keys, wr_key_maps[map].text, &map_err))
-        wr_app_fail(app, &map_err);
-    if (app->latency) return; /* only what is built in */
-    char *path = wr_config_path("keys.conf"), *text = NULL;
-    size_t length;
-    WrError err;
-    if (path && access(path, R_OK) == 0 && wr_file_read(path, 1 << 16, &text, &length, &err) &&
-        !wr_keys_read(app->keys, text, &err)) {
-        wr_error_prefix(&err, "%s: ", path);
-        wr_app_fail(app, &err);
-    }
-    wr_free(text);
-    wr_free(path);
-}
 
 bool wr_app_begin(WrApp *app, WrError *err)
 {
@@ -114,12 +65,13 @@ void wr_app_end(WrApp *app)
     wr_trial_free(app->trial);
     wr_marks_free(app);
     wr_recovery_free(app->recovery);
-    wr_free(app->later.line);
-    wr_free(app->later.path);
-    wr_free(app->later.journal);
+    wr_later_free(app);
+    wr_patch_paint_free(app);
     if (app->renderer) wr_patch_free(app);
+    wr_thumbs_free(app);
     wr_shelf_free(app);
     wr_stamp_forget(app);
+    wr_gallery_free(app);
     wr_generate_free(app);
     wr_guide_free(app);
     if (app->renderer) wr_panel_layers_forget(app);
@@ -177,12 +129,8 @@ static void handle(WrApp *app, const SDL_Event *event)
         if (event->drop.file) wr_app_open_path(app, event->drop.file);
         SDL_free(event->drop.file);
     } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
-        wr_canvas_forget(app->canvas);
-        wr_panel_layers_forget(app);
-        wr_thumbs_forget(app);
-        wr_gallery_forget(app);
-        wr_accuracy_forget(app);
-        app->patch.serial = 0;
+        for (const WrPart *const *p = app->roster->parts; *p; p++)
+            if ((*p)->forget) (*p)->forget(app);
     } else if (event->type == app->file_event) {
         WrFilePurpose purpose;
         const char *path = wr_files_answer(app->files, &purpose);
@@ -194,21 +142,6 @@ static void handle(WrApp *app, const SDL_Event *event)
 }
 
 /* ---- drawing ---- */
-
-void wr_app_make_layout(WrApp *app)
-{
-    SDL_GetRendererOutputSize(app->renderer, &app->width, &app->height);
-    WrLayoutInput in = { .width = app->width,
-                         .height = app->height,
-                         .menu_height = app->menu_height,
-                         .scale = wr_gui_scale(),
-                         .divider = app->settings.divider,
-                         .views = app->settings.views,
-                         .tools = wr_tool_count,
-                         .panels = app->settings.panels,
-                         .lower = app->settings.lower };
-    app->layout = wr_layout_make(&in);
-}
 
 static SDL_SystemCursor cursor_for(const WrApp *app)
 {
@@ -270,12 +203,14 @@ static void draw(WrApp *app, double now)
     wr_panel_right(app);
     SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
     SDL_RenderClear(app->renderer);
-    wr_canvas_view_draw(app);
-    wr_patch_draw(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->draw) (*p)->draw(app);
     draw_divider(&app->layout.divider, app->hand.grab == WR_GRAB_DIVIDER);
     draw_divider(&app->layout.panel_divider, app->hand.grab == WR_GRAB_PANELS);
     wr_canvas_view_overlay(app);
     wr_patch_overlay(app);
+    wr_patch_paint_overlay(app);
+    wr_accuracy_overlay(app);
     wr_panel_status(app);
     wr_panel_dialogs(app);
     wr_thumbs_update(app);
@@ -286,7 +221,7 @@ static void draw(WrApp *app, double now)
     set_cursor(app);
     app->drawn_at = now;
     if (app->redraw < 1 && wr_gui_unsettled(app->gui)) app->redraw = 1;
-    if (app->latency) wr_latency_drawn(app);
+    if (app->drawn) app->drawn(app);
 }
 
 /* ---- the loop ---- */
@@ -294,8 +229,10 @@ static void draw(WrApp *app, double now)
 /* Something is being computed in the background: its bar moves. */
 static bool works(WrApp *app)
 {
-    return wr_trial_busy(app->trial, NULL, NULL) ||
-           wr_outliner_busy(app->marks.outliner, NULL, NULL) || wr_accuracy_works(app);
+    bool any = wr_trial_busy(app->trial, NULL, NULL);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->works && (*p)->works(app)) any = true;
+    return any;
 }
 
 static double frame_seconds(const WrApp *app)
@@ -310,14 +247,12 @@ static int wait_time(WrApp *app, double now)
     if (wr_strokes_waits(app)) return 0;
     if (wr_pen_replaying(app->pen)) next = now + 0.002;
     if (app->redraw > 0 && app->visible) next = app->drawn_at + frame_seconds(app);
-    double patch = wr_patch_next_time(app);
-    if (patch > 0.0 && patch < next) next = patch;
-    double measured = wr_accuracy_next_time(app);
-    if (measured > 0.0 && measured < next) next = measured;
+    for (const WrPart *const *p = app->roster->parts; *p; p++) {
+        double due = (*p)->next_time ? (*p)->next_time(app) : 0.0;
+        if (due > 0.0 && due < next) next = due;
+    }
     double settings = wr_settings_next_time(app);
     if (settings > 0.0 && settings < next) next = settings;
-    double march = wr_marks_next_time(app);
-    if (march > 0.0 && march < next) next = march;
     if (works(app) && app->drawn_at + BAR_SECONDS < next) next = app->drawn_at + BAR_SECONDS;
     bool young = app->messages.list.count > 0 &&
                  now - app->messages.list.data[app->messages.list.count - 1].since < 7.0;
@@ -327,15 +262,6 @@ static int wait_time(WrApp *app, double now)
     if (next > 1e299) return -1;
     double ms = ceil((next - now) * 1e3);
     return ms < 0.0 ? 0 : ms > 60000.0 ? 60000 : (int)ms;
-}
-
-/* The outline of the selection moves on. */
-static void march(WrApp *app)
-{
-    double now = wr_clock_seconds(), due = wr_marks_next_time(app);
-    if (due == 0.0 || now < due) return;
-    app->marks.stepped_at = now;
-    if (app->redraw == 0) app->redraw = 1;
 }
 
 /* What pens and fingers did since the last time; they come by a way of their own. */
@@ -377,12 +303,8 @@ void wr_app_step(WrApp *app)
     wr_app_tend(app);
     wr_strokes_work(app);
     wr_later_run(app);
-    march(app);
-    wr_marks_update(app);
-    wr_stamp_update(app);
-    wr_generate_update(app);
-    wr_patch_update(app);
-    wr_accuracy_update(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->update) (*p)->update(app);
     now = wr_clock_seconds();
     if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
         app->redraw--;
@@ -397,6 +319,7 @@ int wr_app_run(const WrAppOptions *options)
 {
     WrError err = { "" };
     WrApp *app = wr_alloc(1, sizeof *app);
+    app->roster = &wr_roster;
     app->options = options;
     app->session = options->session;
     app->started_at = wr_clock_seconds();

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
-   What may take long runs on a thread of its own while the window stays alive, and what is asked for
-   inside a picture of the window is done after it.
+   What may take long runs on a thread of its own while the window stays alive.
 
    Meanwhile only that thread touches the session. The window shows a snapshot of the document from before:
    the patch turns, the canvas can be moved and zoomed, the panels stand still. Whatever else is pressed is
@@ -13,6 +12,7 @@
 #include "command/estimate.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
 #define QUIET_SECONDS 0.05   /* what takes less is not noticed: not even events are looked at */
@@ -147,13 +147,12 @@ static void draw(Wait *wait, double now)
     SDL_GetRendererOutputSize(app->renderer, &app->width, &app->height);
     wr_gui_frame_begin(app->gui, app->width, app->height, PICTURE_SECONDS);
     wr_app_make_layout(app);
-    wr_app_place_view(app);
     SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
     SDL_RenderClear(app->renderer);
     SDL_Rect place = { 0, 0, wait->behind_w, wait->behind_h };
     if (wait->behind) SDL_RenderCopy(app->renderer, wait->behind, NULL, &place);
-    wr_canvas_view_draw(app);
-    wr_patch_draw(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->draw) (*p)->draw(app);
     if (now - wait->since > MOMENT_SECONDS) bar(wait, now);
     wr_gui_frame_end(app->gui);
     SDL_RenderPresent(app->renderer);
@@ -289,7 +288,8 @@ static void wait_for(Wait *wait)
         double now = wr_clock_seconds();
         /* Before the bar stands, nothing is looked at: what is pressed then is kept, in order. */
         if (now - wait->since > MOMENT_SECONDS) take_events(wait);
-        wr_patch_update(app);
+        for (const WrPart *const *p = app->roster->parts; *p; p++)
+            if ((*p)->meanwhile) (*p)->meanwhile(app);
         if (app->visible) draw(wait, now);
         double rest = PICTURE_SECONDS - (wr_clock_seconds() - now);
         if (rest > 0.0) SDL_WaitEventTimeout(NULL, (int)(rest * 1000.0) + 1);
@@ -345,14 +345,7 @@ void wr_busy_fail(WrApp *app, const char *what, const WrError *err)
     else wr_app_fail(app, err);
 }
 
-/* ---- later ---- */
-
-/* The window is first drawn without the dialog or menu that asked for it. */
-static void put_off(WrApp *app)
-{
-    app->later.since = wr_clock_seconds();
-    wr_app_redraw(app);
-}
+/* ---- commands ---- */
 
 typedef struct Line {
     WrSession *session;
@@ -408,51 +401,28 @@ void wr_app_run_tried(WrApp *app, const char *line)
     wr_document_free(kept);
 }
 
+bool wr_app_run_linef(WrApp *app, const char *format, ...)
+{
+    char line[256];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    return wr_app_run_line(app, line);
+}
+
+static void run_later(WrApp *app, const char *line)
+{
+    wr_app_run_line(app, line);
+}
+
 void wr_app_run_slow(WrApp *app, const char *line)
 {
-    if (!app->in_frame) {
-        wr_app_run_line(app, line);
-        return;
-    }
-    wr_free(app->later.line);
-    app->later.line = wr_strdup(line);
-    put_off(app);
+    if (app->in_frame) wr_later(app, run_later, line);
+    else wr_app_run_line(app, line);
 }
 
-void wr_later_action(WrApp *app, const char *name)
+bool wr_app_line_waits(const WrApp *app)
 {
-    app->later.action = wr_action_find(name);
-    put_off(app);
-}
-
-void wr_later_recover(WrApp *app, const char *journal, bool beyond)
-{
-    app->later.beyond = beyond;
-    wr_free(app->later.journal);
-    app->later.journal = wr_strdup(journal);
-    put_off(app);
-}
-
-void wr_later_file(WrApp *app, WrFilePurpose purpose, const char *path)
-{
-    wr_free(app->later.path);
-    app->later.path = wr_strdup(path);
-    app->later.purpose = purpose;
-    put_off(app);
-}
-
-void wr_later_run(WrApp *app)
-{
-    WrLater later = app->later;
-    if (!later.action && !later.line && !later.path && !later.journal) return;
-    if (app->visible && app->drawn_at <= later.since) return;
-    app->later = (WrLater){ 0 };
-    if (later.line) wr_app_run_slow(app, later.line);
-    if (later.action) wr_action_run(app, later.action->name);
-    if (later.path) wr_app_file_take(app, later.purpose, later.path);
-    if (later.journal) wr_recover(app, later.journal, later.beyond);
-    wr_free(later.line);
-    wr_free(later.path);
-    wr_free(later.journal);
-    wr_app_redraw(app);
+    return wr_later_waits(app, run_later);
 }

@@ -22,9 +22,6 @@ double wr_window_scale(SDL_Window *window); /* what its display asks for, in ste
 void wr_window_keep(WrApp *app);
 void wr_window_event(WrApp *app, const SDL_WindowEvent *event);
 
-/* ---- latency.c ---- */
-void wr_latency_drawn(WrApp *app); /* a picture of the window was shown */
-
 /* ---- document.c: the document behind the window ---- */
 /* What the views show: the composite, or what it would become by what is being tried. */
 const WrField *wr_app_field(const WrApp *app);
@@ -55,7 +52,12 @@ void wr_app_quit(WrApp *app);
 void wr_app_go_on(WrApp *app); /* with `after` */
 /* A dialog gave that name: read it, or write it, after asking where another file would go. */
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path);
-void wr_app_file_take(WrApp *app, WrFilePurpose purpose, const char *path); /* without asking */
+/* Without asking, for each purpose. */
+void wr_file_take_open(WrApp *app, const char *path);
+void wr_file_take_save(WrApp *app, const char *path);
+void wr_file_take_import(WrApp *app, const char *path);
+void wr_file_take_export(WrApp *app, const char *path);
+void wr_file_take_history(WrApp *app, const char *path);
 void wr_app_title(WrApp *app);
 const char *wr_app_name(const WrApp *app); /* of the document, without folders */
 
@@ -77,11 +79,14 @@ void wr_busy_fail(WrApp *app, const char *what, const WrError *err);
 void wr_app_run_tried(WrApp *app, const char *line);
 /* Run a command that may take long, at once or after the picture of the window that is being made. */
 void wr_app_run_slow(WrApp *app, const char *line);
-/* The same for a file that was chosen, and for an action. */
-void wr_later_file(WrApp *app, WrFilePurpose purpose, const char *path);
-void wr_later_action(WrApp *app, const char *name);
-void wr_later_recover(WrApp *app, const char *journal, bool beyond);
-void wr_later_run(WrApp *app); /* do what was put off */
+bool wr_app_line_waits(const WrApp *app); /* one is to be run after this picture */
+
+/* ---- later.c: after the picture of the window that is being made ---- */
+/* work(app, text) then; what was put off of the same kind before is not done. */
+void wr_later(WrApp *app, WrLaterWork *work, const char *text);
+bool wr_later_waits(const WrApp *app, WrLaterWork *work); /* NULL: any */
+void wr_later_run(WrApp *app);                            /* do what was put off */
+void wr_later_free(WrApp *app);
 
 /* ---- marks.c: outlines of selections ---- */
 void wr_marks_update(WrApp *app);
@@ -106,7 +111,7 @@ void wr_hand_pen(WrApp *app, const WrPenEvent *event);
 /* After a picture of the window: where widgets came or went, the pointer is on a view or no more, though it did
    not move. */
 void wr_hand_look(WrApp *app);
-void wr_hand_let_go(WrApp *app); /* end what is being held, keeping what was done */
+void wr_hand_end(WrApp *app);    /* end what is being held, keeping what was done */
 void wr_hand_cancel(WrApp *app); /* end it as if it had not begun */
 void wr_app_place_view(WrApp *app);
 
@@ -155,47 +160,15 @@ void wr_strokes_cancel(WrApp *app);      /* the stroke that is drawn never was *
 void wr_strokes_free(WrApp *app);
 
 /* ---- tool_shape.c, tool_path.c, tool_fill.c, tool_ramp.c, tool_clone.c, tool_stamp.c ---- */
-void wr_shape_press(WrApp *app, const WrPointer *at);
-void wr_shape_drag(WrApp *app, const WrPointer *at);
-void wr_shape_release(WrApp *app, const WrPointer *at);
-void wr_shape_marks(WrApp *app);
 void wr_shape_options(WrApp *app);
-bool wr_shape_key(WrApp *app, SDL_Keycode key);
 void wr_draw_leave(WrApp *app); /* gives up what is being drawn */
-void wr_path_press(WrApp *app, const WrPointer *at);
-void wr_path_drag(WrApp *app, const WrPointer *at);
-void wr_path_release(WrApp *app, const WrPointer *at);
-void wr_path_marks(WrApp *app);
-bool wr_path_key(WrApp *app, SDL_Keycode key);
-void wr_flood_press(WrApp *app, const WrPointer *at);
-void wr_flood_options(WrApp *app);
-void wr_ramp_press(WrApp *app, const WrPointer *at);
-void wr_ramp_drag(WrApp *app, const WrPointer *at);
-void wr_ramp_release(WrApp *app, const WrPointer *at);
-void wr_ramp_marks(WrApp *app);
-void wr_ramp_options(WrApp *app);
-bool wr_ramp_key(WrApp *app, SDL_Keycode key);
-void wr_clone_press(WrApp *app, const WrPointer *at);
-void wr_clone_drag(WrApp *app, const WrPointer *at);
-void wr_clone_marks(WrApp *app);
-void wr_stamp_press(WrApp *app, const WrPointer *at);
-void wr_stamp_drag(WrApp *app, const WrPointer *at);
-void wr_stamp_release(WrApp *app, const WrPointer *at);
-void wr_stamp_overlay(WrApp *app);
-void wr_stamp_marks(WrApp *app);
-void wr_stamp_options(WrApp *app);
-bool wr_stamp_key(WrApp *app, SDL_Keycode key);
-bool wr_stamp_wheel(WrApp *app, double steps);
-void wr_stamp_leave(WrApp *app);
-void wr_stamp_update(WrApp *app); /* once a picture: ask for what would come of it */
 bool wr_stamp_choose(WrApp *app, const char *path);
-void wr_stamp_forget(WrApp *app); /* at the end */
+void wr_stamp_take(WrApp *app, const char *path); /* of a file that was chosen */
+void wr_stamp_forget(WrApp *app);                 /* at the end */
 /* stamps.c: pictures in the folders of brushes, ours, the user's and GIMP's, in draw.stamps. */
 void wr_stamps_find(WrApp *app);
 void wr_stamp_picker(WrApp *app); /* a picture in the option row that opens all of them */
 void wr_stamps_free(WrApp *app);
-/* What of the brush fills of an area go by: mode, strength, ... */
-void wr_draw_paint_line(const WrApp *app, WrText *line);
 /* The brush's arguments for a command that is no stroke: symmetric or not. */
 void wr_draw_brush_line(const WrApp *app, WrText *line, bool symmetric);
 
@@ -220,21 +193,13 @@ void wr_symmetry_drag(WrApp *app, const WrPointer *at);
 void wr_panel_symmetry(WrApp *app); /* on the canvas */
 
 void wr_tool_pan_drag(WrApp *app, const WrPointer *at);
-void wr_tool_zoom_press(WrApp *app, const WrPointer *at);
-void wr_tool_zoom_drag(WrApp *app, const WrPointer *at);
 
-void wr_select_press(WrApp *app, const WrPointer *at);
-void wr_select_drag(WrApp *app, const WrPointer *at);
-void wr_select_release(WrApp *app, const WrPointer *at);
 void wr_select_cancel(WrApp *app);
-void wr_select_options(WrApp *app);
 
 /* ---- views ---- */
 void wr_canvas_view_draw(WrApp *app);    /* the picture */
 void wr_canvas_view_overlay(WrApp *app); /* what lies on it */
 void wr_patch_update(WrApp *app);        /* wish for what is wanted; take what is ready */
-void wr_patch_turn_on(
-    WrApp *app); /* the same without a look at the document: it is being changed */
 void wr_patch_draw(WrApp *app);
 void wr_patch_overlay(WrApp *app);
 bool wr_patch_press(WrApp *app, const WrPointer *at);
@@ -260,7 +225,6 @@ void wr_panel_menu(WrApp *app);
 void wr_panel_options(WrApp *app);
 void wr_panel_tools(WrApp *app);
 void wr_panel_right(WrApp *app);
-int wr_panel_right_tab(const char *label); /* its index, for settings.tab */
 void wr_panel_brushes(WrApp *app, SDL_Rect room);
 void wr_panel_brush(WrApp *app); /* the values of the brush in hand */
 void wr_panel_scene(WrApp *app);
@@ -278,6 +242,13 @@ void wr_layer_rename_start(WrApp *app, int index);
 void wr_panel_seam(WrApp *app); /* on the canvas */
 void wr_panel_status(WrApp *app);
 void wr_panel_dialogs(WrApp *app);
+void wr_dialog_unsaved(WrApp *app);
+void wr_dialog_table(WrApp *app);
+void wr_dialog_fill(WrApp *app);
+void wr_dialog_grid(WrApp *app);
+void wr_dialog_import(WrApp *app);
+void wr_dialog_export(WrApp *app);
+void wr_dialog_file(WrApp *app);
 void wr_dialog_help(WrApp *app);
 void wr_dialog_preset(WrApp *app); /* the name of a preset to be saved */
 /* panel_tablet.c: the pressure curves that were kept go to the pens; the tester. */
@@ -290,12 +261,12 @@ void wr_dialog_close(WrApp *app);
 const WrOpInfo *wr_action_op(const char *name);
 void wr_dialog_adjust_open(WrApp *app, const WrOpInfo *op);
 void wr_dialog_adjust(WrApp *app);
+bool wr_adjust_by_name(WrApp *app, const char *name); /* "adjust_NAME"; see WrActionFamily */
 void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
 void wr_dialog_select(WrApp *app);
 void wr_dialog_search(WrApp *app);
 void wr_dialog_recover_open(WrApp *app); /* if there is anything to recover */
 void wr_dialog_recover(WrApp *app);
-void wr_recover(WrApp *app, const char *journal, bool beyond);
 void wr_recovery_free(WrRecovery *recovery); /* NULL is fine */
 /* Where a dialog stands whose effect the views show. */
 SDL_Rect wr_dialog_side(const WrApp *app);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The table's view: its picture, and what lies on it. */
 #include "ui/state.h"
+#include "ui/parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -188,7 +189,7 @@ void wr_canvas_view_overlay(WrApp *app)
     pixel_grid(app);
     cell_outline(app);
     patch_mark(app);
-    const WrTool *tool = &wr_tools[app->tool];
+    const WrTool *tool = wr_tool_now(app);
     bool panning = app->hand.grab == WR_GRAB_PAN || app->hand.space;
     wr_symmetry_marks(app);
     if (app->hand.on_canvas && tool->overlay && !panning) tool->overlay(app);
@@ -199,3 +200,38 @@ void wr_canvas_view_overlay(WrApp *app)
     wr_panel_symmetry(app);
     if (room->w > wr_gui_px(240)) wr_panel_seam(app);
 }
+
+/* ---- the view ---- */
+
+void wr_app_place_view(WrApp *app)
+{
+    WrView *view = &app->view;
+    const SDL_Rect *room = &app->layout.canvas;
+    const WrField *field = wr_app_field(app);
+    int w = wr_field_width(field), h = wr_field_height(field);
+    if (w != view->table_w || h != view->table_h) app->view_placed = false;
+    view->x = room->x;
+    view->y = room->y;
+    view->w = room->w > 0 ? room->w : 1;
+    view->h = room->h > 0 ? room->h : 1;
+    view->table_w = w;
+    view->table_h = h;
+    if (app->view_placed || room->w == 0) return;
+    wr_view_fit(view, 0.36); /* with enough of the copies around it that seams are seen */
+    app->view_placed = true;
+}
+
+/* ---- the part ---- */
+
+static void draw(WrApp *app)
+{
+    wr_app_place_view(app);
+    wr_canvas_view_draw(app);
+}
+
+static void forget(WrApp *app)
+{
+    wr_canvas_forget(app->canvas);
+}
+
+const WrPart wr_part_canvas = { .draw = draw, .forget = forget };

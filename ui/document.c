@@ -1,95 +1,13 @@
 /* SPDX-License-Identifier: MIT
    The document behind the window: new, open, save, and what is asked before work is lost. All changes go
    through the session. */
-#include "ui/generate_hand.h"
+#include "ui/state.h"
 
 #include "base/file.h"
 #include "base/progress.h"
 #include "command/call.h"
 
-#include <stdarg.h>
 #include <string.h>
-
-const WrDocument *wr_app_document(const WrApp *app)
-{
-    return app->shown ? app->shown : wr_session_document(app->session);
-}
-
-const WrField *wr_app_field(const WrApp *app)
-{
-    const WrField *tried = app->trying ? wr_trial_field(app->trial) : NULL;
-    return tried ? tried : wr_document_field(wr_app_document(app));
-}
-
-void wr_app_try(WrApp *app, const WrTrialAsk *ask)
-{
-    app->trying = true;
-    wr_trial_ask(app->trial, wr_app_document(app), ask);
-    wr_app_redraw(app);
-}
-
-void wr_app_try_end(WrApp *app)
-{
-    if (!app->trying) return;
-    app->trying = false;
-    wr_trial_end(app->trial);
-    wr_app_redraw(app);
-}
-
-const WrScene *wr_app_scene(const WrApp *app)
-{
-    return app->live ? app->live : wr_app_document(app)->scene;
-}
-
-bool wr_app_unsaved(const WrApp *app)
-{
-    uint64_t now = wr_session_revision(app->session);
-    return wr_session_in_stroke(app->session) ||
-           (now != wr_session_saved_revision(app->session) && now != app->clean_revision);
-}
-
-bool wr_app_run_linef(WrApp *app, const char *format, ...)
-{
-    char line[256];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(line, sizeof line, format, args);
-    va_end(args);
-    return wr_app_run_line(app, line);
-}
-
-WrScene *wr_app_live(WrApp *app)
-{
-    WrScene *fresh = wr_scene_clone(wr_app_scene(app));
-    if (app->live) wr_scene_free(app->live);
-    app->live = fresh;
-    wr_app_redraw(app);
-    return fresh;
-}
-
-void wr_app_live_end(WrApp *app)
-{
-    if (app->live) wr_scene_free(app->live);
-    app->live = NULL;
-    wr_app_redraw(app);
-}
-
-/* ---- names ---- */
-
-const char *wr_app_name(const WrApp *app)
-{
-    const char *path = wr_session_path(app->session), *slash = strrchr(path, '/');
-    if (!path[0]) return app->starter ? "bricks (starter)" : "untitled";
-    return slash ? slash + 1 : path;
-}
-
-void wr_app_title(WrApp *app)
-{
-    char title[512];
-    snprintf(title, sizeof title, "%s%s - Wrinkle", wr_app_name(app),
-             wr_app_unsaved(app) ? " *" : "");
-    if (strcmp(title, SDL_GetWindowTitle(app->window)) != 0) SDL_SetWindowTitle(app->window, title);
-}
 
 static void note_recent(WrApp *app, const char *path)
 {
@@ -104,14 +22,11 @@ void wr_app_changed_document(WrApp *app)
 {
     app->clean_revision = wr_session_saved_revision(app->session);
     wr_app_try_end(app);
-    app->layers.dragged = app->layers.renamed = -1;
-    wr_select_cancel(app);
-    if (wr_tools[app->tool].leave) wr_tools[app->tool].leave(app);
-    app->draw.source = app->draw.anchored = false;
-    wr_patch_commit_zoom(app, false);
+    if (wr_tool_now(app)->leave) wr_tool_now(app)->leave(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->another) (*p)->another(app);
     wr_app_live_end(app);
     app->view_placed = false;
-    app->brush.have_last = false;
     app->hand.grab = WR_GRAB_NONE;
     wr_app_take_notes(app);
     wr_app_title(app);
@@ -303,7 +218,7 @@ static bool save_to(WrApp *app, const char *path)
 {
     WrError err;
     wr_hand_let_go(app);
-    wr_patch_commit_zoom(app, true);
+    wr_app_settle(app);
     FileCall call = { app->session, path };
     bool ok = wr_busy_run(app, "Saving", save_work, &call, &err);
     if (!ok) {
@@ -371,7 +286,7 @@ static bool history_work(void *ctx, WrError *err)
     return wr_session_save_history(call->session, call->path, err);
 }
 
-static void save_history_now(WrApp *app, const char *path)
+void wr_file_take_history(WrApp *app, const char *path)
 {
     WrError err;
     FileCall call = { app->session, path };
@@ -380,7 +295,7 @@ static void save_history_now(WrApp *app, const char *path)
     else wr_app_say(app, "Saved %d steps as %s", wr_session_history_position(app->session), path);
 }
 
-static void import_now(WrApp *app, const char *path)
+void wr_file_take_import(WrApp *app, const char *path)
 {
     WrText line = { 0 };
     wr_text_add(&line, "image ");
@@ -391,7 +306,7 @@ static void import_now(WrApp *app, const char *path)
     wr_text_fini(&line);
 }
 
-static void export_now(WrApp *app, const char *path)
+void wr_file_take_export(WrApp *app, const char *path)
 {
     static const char *const ranges[] = { "auto", "0,1", "signed" };
     const WrForms *forms = &app->forms;
@@ -411,18 +326,15 @@ void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
     bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&
                 wr_replace_ask(app, WR_REPLACE_CHOSEN, purpose, path);
-    if (!asks) wr_later_file(app, purpose, path); /* it may take long */
+    if (!asks) wr_later(app, app->roster->takes[purpose], path); /* it may take long */
 }
 
-void wr_app_file_take(WrApp *app, WrFilePurpose purpose, const char *path)
+void wr_file_take_open(WrApp *app, const char *path)
 {
-    switch (purpose) {
-    case WR_FILE_OPEN: open_now(app, path); break;
-    case WR_FILE_SAVE: save_to(app, path); break;
-    case WR_FILE_IMPORT: import_now(app, path); break;
-    case WR_FILE_EXPORT: export_now(app, path); break;
-    case WR_FILE_HISTORY: save_history_now(app, path); break;
-    case WR_FILE_STAMP: wr_stamp_choose(app, path); break;
-    case WR_FILE_GENERATE: wr_generate_file(app, path); break;
-    }
+    open_now(app, path);
+}
+
+void wr_file_take_save(WrApp *app, const char *path)
+{
+    save_to(app, path);
 }

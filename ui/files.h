@@ -12,7 +12,9 @@ typedef enum WrFilePurpose {
     WR_FILE_IMPORT,
     WR_FILE_HISTORY,
     WR_FILE_STAMP,
-    WR_FILE_GENERATE
+    WR_FILE_GENERATE,
+    WR_FILE_PRESET, /* never asked for by itself: a preset's name is typed */
+    WR_FILE_PURPOSES
 } WrFilePurpose;
 
 typedef struct WrFiles WrFiles;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "ui/generate_gallery.h"
+#include "ui/parts.h"
 
 #include "base/memory.h"
 #include "ui/generate_hand.h"
@@ -288,3 +289,5 @@ void wr_gallery_list(WrApp *app)
     }
     wr_gui_popup_end();
 }
+
+const WrPart wr_part_gallery = { .forget = wr_gallery_forget };

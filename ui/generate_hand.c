@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The generator in hand: its values, its command line, and what it would make. */
 #include "ui/generate_hand.h"
+#include "ui/parts.h"
 
 #include "base/memory.h"
 #include "command/generate.h"
@@ -34,7 +35,6 @@ void wr_generate_free(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     if (!hand) return;
-    wr_gallery_free(app);
     free_values(hand);
     for (int i = 0; i < hand->kept.count; i++) wr_free(hand->kept.data[i]);
     for (int i = 0; i < hand->presets.count; i++) {
@@ -365,8 +365,7 @@ void wr_generate_open(WrApp *app, const WrGenerator *generator)
         else wr_generate_take(app, generator);
         wr_free(line);
     }
-    app->settings.panels = true;
-    app->settings.tab = wr_panel_right_tab("Generate");
+    wr_tab_show(app, "Generate");
     app->hints = false;
     if (wr_generate_written(generator) >= 0) wr_generate_focus_text(app);
     wr_generate_changed(app);
@@ -387,7 +386,7 @@ void wr_generate_open_last(WrApp *app)
 
 void wr_generate_changed(WrApp *app)
 {
-    int tool = wr_tool_find("generate");
+    int tool = wr_tool_find(app, "generate");
     if (app->tool != tool) wr_tool_choose(app, tool); /* choosing lets go of what is dragged */
     app->generate->active = true;
     wr_app_redraw(app);
@@ -445,7 +444,8 @@ void wr_generate_update(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     WrText line = { 0 };
-    if (!hand->active || !hand->generator || app->dialog != WR_DIALOG_NONE || app->later.line)
+    if (!hand->active || !hand->generator || app->dialog != WR_DIALOG_NONE ||
+        wr_app_line_waits(app))
         return;
     if (app->trying && hand->asked) look(app);
     wr_generate_line(hand, &line);
@@ -484,3 +484,12 @@ void wr_generate_commit(WrApp *app)
     else wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
 }
+
+bool wr_generate_by_name(WrApp *app, const char *name)
+{
+    const WrGenerator *generator = wr_action_generator(name);
+    if (generator) wr_generate_open(app, generator);
+    return generator != NULL;
+}
+
+const WrPart wr_part_generate = { .update = wr_generate_update };

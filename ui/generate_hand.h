@@ -72,6 +72,8 @@ void wr_generate_free(WrApp *app);
 const WrGenerator *wr_action_generator(const char *name);
 #define WR_GENERATE_ACTION 64
 void wr_generate_action(const WrGenerator *generator, char name[WR_GENERATE_ACTION]);
+/* Open what "generate_FAMILY_NAME" says; see WrActionFamily. */
+bool wr_generate_by_name(WrApp *app, const char *name);
 /* Take it in hand with the values it last had, choose its tool and its tab, and show what it would make. */
 void wr_generate_open(WrApp *app, const WrGenerator *generator);
 /* The one that was in hand last, or the first. */
@@ -115,12 +117,6 @@ void wr_panel_generate(WrApp *app, SDL_Rect room);
 void wr_panel_generate_values(WrApp *app); /* panel_generate_values.c */
 
 /* ---- tool_pose.c ---- */
-void wr_pose_press(WrApp *app, const WrPointer *at);
-void wr_pose_drag(WrApp *app, const WrPointer *at);
-void wr_pose_release(WrApp *app, const WrPointer *at);
-void wr_pose_marks(WrApp *app);
-void wr_pose_options(WrApp *app);
-bool wr_pose_key(WrApp *app, SDL_Keycode key);
 
 /* ---- pose_points.c: its places, where it has several ---- */
 bool wr_pose_points_press(WrApp *app,

@@ -123,7 +123,7 @@ static bool is_told(const char *action)
 static void add_others(const WrApp *app, WrText *text)
 {
     WrText keys = { 0 };
-    for (const WrAction *a = wr_actions; a->name; a++) {
+    for (const WrAction *a = app->roster->actions; a->name; a++) {
         wr_text_clear(&keys);
         wr_keys_list(app->keys, a->name, &keys);
         if (keys.length > 0 && !is_told(a->name)) add_row(text, wr_text_get(&keys), a->label);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    Pointer and keys: who gets an event, and what the pointer holds meanwhile. */
 #include "ui/accuracy.h"
+#include "ui/parts.h"
 
 #include "base/clock.h"
 
@@ -40,7 +41,7 @@ static bool blocked(const WrApp *app)
 /* A dialog is open whose effect the canvas shows: it may be looked at from all sides. */
 static bool shows_effect(const WrApp *app)
 {
-    return app->dialog == WR_DIALOG_ADJUST || app->dialog == WR_DIALOG_SELECT;
+    return blocked(app) && app->roster->dialogs[app->dialog].shows_effect;
 }
 
 static bool can_look(const WrApp *app, int button)
@@ -53,7 +54,7 @@ static bool can_look(const WrApp *app, int button)
 static void press_canvas(WrApp *app, const WrPointer *at)
 {
     WrHand *hand = &app->hand;
-    const WrTool *tool = &wr_tools[app->tool];
+    const WrTool *tool = wr_tool_now(app);
     if (at->button == SDL_BUTTON_MIDDLE || (at->button == SDL_BUTTON_LEFT && hand->space)) {
         hand->grab = WR_GRAB_PAN;
         hand->space_used = true;
@@ -119,7 +120,7 @@ static void finish_resize(WrApp *app, const WrPointer *at)
 static void release(WrApp *app, const WrPointer *at)
 {
     WrGrab grab = app->hand.grab;
-    const WrTool *tool = &wr_tools[app->tool];
+    const WrTool *tool = wr_tool_now(app);
     app->hand.grab = WR_GRAB_NONE;
     if (grab == WR_GRAB_TOOL && tool->release) tool->release(app, at);
     if (grab == WR_GRAB_PATCH_PAINT) wr_patch_paint_release(app, at);
@@ -139,7 +140,7 @@ static void let_go(WrApp *app, const WrPointer *at, int device)
         release(app, at);
 }
 
-void wr_hand_let_go(WrApp *app)
+void wr_hand_end(WrApp *app)
 {
     if (app->hand.grab == WR_GRAB_RESIZE) {
         app->settings.brush.radius = app->brush.resize_radius;
@@ -178,7 +179,7 @@ static void pick(WrApp *app, const WrPointer *at)
 
 static void drag(WrApp *app, const WrPointer *at)
 {
-    const WrTool *tool = &wr_tools[app->tool];
+    const WrTool *tool = wr_tool_now(app);
     switch (app->hand.grab) {
     case WR_GRAB_TOOL:
         if (tool->drag) tool->drag(app, at);
@@ -264,7 +265,7 @@ static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
     if ((blocked(app) && !shows_effect(app)) || wr_gui_owns_point(app->gui, x, y)) return;
     double steps =
         (double)event->preciseY * (event->direction == SDL_MOUSEWHEEL_FLIPPED ? -1.0 : 1.0);
-    const WrTool *tool = &wr_tools[app->tool];
+    const WrTool *tool = wr_tool_now(app);
     if (wr_layout_inside(&app->layout.canvas, x, y)) {
         if (!blocked(app) && tool->wheel && tool->wheel(app, steps)) return;
         wr_view_zoom_at(&app->view, x, y, app->view.zoom * exp2(steps / 3.0));
@@ -397,7 +398,7 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
         if (!event->repeat) space(app, true);
         return;
     }
-    const WrTool *tool = &wr_tools[app->tool];
+    const WrTool *tool = wr_tool_now(app);
     if (mods == 0 && tool->key && tool->key(app, event->keysym.sym)) return;
     if (event->keysym.sym == SDLK_ESCAPE) {
         wr_hand_cancel(app);
@@ -420,22 +421,4 @@ void wr_hand_event(WrApp *app, const SDL_Event *event)
     }
 }
 
-/* ---- the view ---- */
-
-void wr_app_place_view(WrApp *app)
-{
-    WrView *view = &app->view;
-    const SDL_Rect *room = &app->layout.canvas;
-    const WrField *field = wr_app_field(app);
-    int w = wr_field_width(field), h = wr_field_height(field);
-    if (w != view->table_w || h != view->table_h) app->view_placed = false;
-    view->x = room->x;
-    view->y = room->y;
-    view->w = room->w > 0 ? room->w : 1;
-    view->h = room->h > 0 ? room->h : 1;
-    view->table_w = w;
-    view->table_h = h;
-    if (app->view_placed || room->w == 0) return;
-    wr_view_fit(view, 0.36); /* with enough of the copies around it that seams are seen */
-    app->view_placed = true;
-}
+const WrPart wr_part_hand = { .let_go = wr_hand_end };

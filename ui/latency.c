@@ -2,6 +2,7 @@
    The window measured: a thread scribbles with a mouse that is not there, at a real mouse's pace, and each
    picture of the window says which of the events it shows. */
 #include "ui/state.h"
+#include "ui/parts.h"
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -90,7 +91,7 @@ static void note(WrLatency *latency, int which, int64_t upto, double now)
         latency->delay[which][*seen] = (float)((now - latency->at[*seen]) * 1e3);
 }
 
-void wr_latency_drawn(WrApp *app)
+static void drawn(WrApp *app)
 {
     WrLatency *latency = app->latency;
     double now = wr_clock_seconds();
@@ -185,7 +186,9 @@ bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err
     WrApp *app = wr_alloc(1, sizeof *app);
     app->options = &own;
     app->session = options->session;
+    app->roster = &wr_roster;
     app->latency = &latency;
+    app->drawn = drawn;
     app->started_at = wr_clock_seconds();
     SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     bool good = wr_app_begin(app, err);

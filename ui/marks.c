@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The outline of the selection on every copy of the cell, as a marching dashed line. */
 #include "ui/state.h"
+#include "ui/parts.h"
 
 #include "base/clock.h"
 
@@ -106,3 +107,21 @@ void wr_marks_free(WrApp *app)
     wr_ants_free(&app->marks.shape);
     wr_array_free(&app->select.points);
 }
+
+static bool works(WrApp *app)
+{
+    return wr_outliner_busy(app->marks.outliner, NULL, NULL);
+}
+
+/* The outline of the selection moves on. */
+static void update(WrApp *app)
+{
+    double now = wr_clock_seconds(), due = wr_marks_next_time(app);
+    if (due != 0.0 && now >= due) {
+        app->marks.stepped_at = now;
+        if (app->redraw == 0) app->redraw = 1;
+    }
+    wr_marks_update(app);
+}
+
+const WrPart wr_part_marks = { .update = update, .next_time = wr_marks_next_time, .works = works };

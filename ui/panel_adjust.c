@@ -16,13 +16,6 @@ const WrOpInfo *wr_action_op(const char *name)
     return strncmp(name, prefix, length) == 0 ? wr_op_find(name + length) : NULL;
 }
 
-SDL_Rect wr_dialog_side(const WrApp *app)
-{
-    int wide = app->layout.panel.w > 0 ? app->layout.panel.w : wr_gui_px(320);
-    int top = app->menu_height + app->layout.options.h;
-    return (SDL_Rect){ app->width - wide, top, wide, app->layout.panel.h };
-}
-
 static void ask(WrApp *app)
 {
     WrTrialAsk trial = { .op = app->adjust.op, .all_layers = app->adjust.layers == 1 };
@@ -215,4 +208,11 @@ void wr_dialog_adjust(WrApp *app)
     if (answer < 0) cancel(app);
     if (answer != 0) app->adjust.op = NULL;
     wr_gui_dialog_end();
+}
+
+bool wr_adjust_by_name(WrApp *app, const char *name)
+{
+    const WrOpInfo *op = wr_action_op(name);
+    if (op) wr_dialog_adjust_open(app, op);
+    return op != NULL;
 }

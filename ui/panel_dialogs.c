@@ -1,76 +1,14 @@
 /* SPDX-License-Identifier: MIT
    Dialogs: only where a decision is needed. */
-#include "ui/accuracy.h"
 #include "ui/line.h"
+#include "ui/state.h"
 
-#include "base/memory.h"
-#include "command/estimate.h"
 #include "export/export.h"
 
 #include <math.h>
 #include <string.h>
 
-void wr_dialog_open(WrApp *app, WrDialog dialog)
-{
-    wr_hand_let_go(app);
-    wr_patch_commit_zoom(app, true);
-    app->dialog = dialog;
-    app->dialog_fresh = true;
-    app->hand.on_canvas = app->hand.on_patch = app->hand.space = false;
-    wr_app_redraw(app);
-}
-
-void wr_dialog_close(WrApp *app)
-{
-    app->dialog = WR_DIALOG_NONE;
-    wr_app_redraw(app);
-}
-
-/* Of what is tried. */
-static void add_time_left(const WrApp *app, char text[WR_EXPECTATION])
-{
-    char left[WR_PROGRESS_LEFT];
-    double fraction, seconds;
-    if (!app->trying || !wr_trial_busy(app->trial, &fraction, &seconds)) return;
-    wr_progress_left(fraction, seconds, left);
-    size_t used = strlen(text);
-    if (left[0])
-        snprintf(text + used, WR_EXPECTATION - used, "%s%s", used > 0 ? "  \xc2\xb7  " : "", left);
-}
-
-void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION])
-{
-    WrEstimate estimate;
-    char about[WR_ESTIMATE_TEXT] = "";
-    if (!app->shown && wr_session_estimate(app->session, line, &estimate, NULL))
-        wr_estimate_print(&estimate, about);
-    snprintf(text, WR_EXPECTATION, "%s%s", about[0] ? "Takes " : "", about);
-    add_time_left(app, text);
-}
-
-void wr_panel_estimate(const WrApp *app, const char *line)
-{
-    char text[WR_EXPECTATION];
-    wr_expectation(app, line, text);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text[0] ? text : " ");
-}
-
-int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
-{
-    int answer = 0;
-    wr_gui_space(8);
-    wr_gui_disable(!enabled);
-    if (wr_gui_button(done, true)) answer = 1;
-    wr_gui_enable();
-    wr_gui_same_line(8);
-    if (wr_gui_button("Cancel", false)) answer = -1;
-    if (enabled && !app->dialog_fresh && wr_gui_return_pressed()) answer = 1;
-    if (!app->dialog_fresh && wr_gui_escape_pressed()) answer = -1;
-    if (answer) wr_dialog_close(app);
-    return answer;
-}
-
-static void unsaved(WrApp *app)
+void wr_dialog_unsaved(WrApp *app)
 {
     char text[400];
     if (!wr_gui_dialog_begin("Save the changes?", 420)) return;
@@ -82,7 +20,7 @@ static void unsaved(WrApp *app)
     bool key = !app->dialog_fresh;
     if (wr_gui_button("Save", true) || (key && wr_gui_return_pressed())) {
         wr_dialog_close(app);
-        wr_later_action(app, "save");
+        wr_action_run(app, "save");
     }
     wr_gui_same_line(8);
     if (wr_gui_button("Discard", false) || (key && wr_gui_letter_pressed(SDL_SCANCODE_D))) {
@@ -120,7 +58,7 @@ static void run_if_agreed(WrApp *app, WrText *line, const char *done)
     wr_text_fini(line);
 }
 
-static void table(WrApp *app)
+void wr_dialog_table(WrApp *app)
 {
     static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
                                          "Ends at top and bottom", "Ends all around" };
@@ -141,7 +79,7 @@ static void table(WrApp *app)
     wr_gui_dialog_end();
 }
 
-static void fill(WrApp *app)
+void wr_dialog_fill(WrApp *app)
 {
     if (!wr_gui_dialog_begin("Fill the table", 360)) return;
     number("Height", 0, 1, -1e30, 1e30, 0, 3, NULL, &app->forms.fill);
@@ -152,7 +90,7 @@ static void fill(WrApp *app)
     wr_gui_dialog_end();
 }
 
-static void grid(WrApp *app)
+void wr_dialog_grid(WrApp *app)
 {
     WrForms *f = &app->forms;
     if (!wr_gui_dialog_begin("Grid", 380)) return;
@@ -172,7 +110,7 @@ static void grid(WrApp *app)
     wr_gui_dialog_end();
 }
 
-static void import(WrApp *app)
+void wr_dialog_import(WrApp *app)
 {
     static const char *const fits[] = { "The table takes its size", "It is fitted to the table" };
     int fit = app->forms.fit;
@@ -194,7 +132,7 @@ static void export_line(const WrApp *app, char *line, size_t size)
     snprintf(line, size, "export %s x.png", wr_export_kinds[app->forms.kind].name);
 }
 
-static void export(WrApp *app)
+void wr_dialog_export(WrApp *app)
 {
     static const char *const ranges[] = { "Lowest to highest", "0 to 1, others clipped",
                                           "Signed, 0 in the middle" };
@@ -221,7 +159,7 @@ static void export(WrApp *app)
     wr_gui_dialog_end();
 }
 
-static void file(WrApp *app)
+void wr_dialog_file(WrApp *app)
 {
     char takes[WR_EXPECTATION] = "", line[64] = "save x.exr";
     WrFilePurpose of = wr_files_purpose(app->files);
@@ -234,32 +172,4 @@ static void file(WrApp *app)
     const char *path = wr_files_answer(app->files, &purpose);
     if (answer > 0 && path) wr_app_file_chosen(app, purpose, path);
     else app->after = WR_AFTER_NOTHING;
-}
-
-void wr_panel_dialogs(WrApp *app)
-{
-    WrDialog was = app->dialog;
-    bool fresh = app->dialog_fresh;
-    switch (app->dialog) {
-    case WR_DIALOG_NONE: break;
-    case WR_DIALOG_UNSAVED: unsaved(app); break;
-    case WR_DIALOG_TABLE: table(app); break;
-    case WR_DIALOG_FILL: fill(app); break;
-    case WR_DIALOG_GRID: grid(app); break;
-    case WR_DIALOG_IMPORT: import(app); break;
-    case WR_DIALOG_EXPORT: export(app); break;
-    case WR_DIALOG_FILE: file(app); break;
-    case WR_DIALOG_ADJUST: wr_dialog_adjust(app); break;
-    case WR_DIALOG_SELECT: wr_dialog_select(app); break;
-    case WR_DIALOG_SEARCH: wr_dialog_search(app); break;
-    case WR_DIALOG_RECOVER: wr_dialog_recover(app); break;
-    case WR_DIALOG_TABLET: wr_dialog_tablet(app); break;
-    case WR_DIALOG_CASES: wr_dialog_cases(app); break;
-    case WR_DIALOG_PRESET: wr_dialog_preset(app); break;
-    case WR_DIALOG_REPLACE: wr_dialog_replace(app); break;
-    case WR_DIALOG_HELP:
-    case WR_DIALOG_ABOUT: wr_dialog_help(app); break;
-    }
-    if (app->dialog == was && fresh) app->dialog_fresh = false;
-    if (app->dialog == WR_DIALOG_NONE && was != WR_DIALOG_NONE) wr_app_redraw(app);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The layers: top layer first. Every act is a command line. */
 #include "ui/state.h"
+#include "ui/parts.h"
 
 #include "base/clock.h"
 #include "ui/line.h"
@@ -275,7 +276,7 @@ static bool row(WrApp *app, int i)
 static void menu_item(WrApp *app, const char *name)
 {
     char keys[32];
-    const WrAction *action = wr_action_find(name);
+    const WrAction *action = wr_action_find(app, name);
     bool enabled = !action->enabled || action->enabled(app);
     bool checked = action->checked && action->checked(app);
     if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked, enabled))
@@ -318,7 +319,7 @@ static void foot(WrApp *app)
                     { "layer_delete", WR_ICON_DELETE }, { "layer_merge", WR_ICON_MERGE },
                     { "layer_raise", WR_ICON_RAISE },   { "layer_lower", WR_ICON_LOWER } };
     for (size_t i = 0; i < sizeof buttons / sizeof *buttons; i++) {
-        const WrAction *action = wr_action_find(buttons[i].action);
+        const WrAction *action = wr_action_find(app, buttons[i].action);
         bool enabled = !action->enabled || action->enabled(app);
         char keys[32], tip[96];
         if (i) wr_gui_same_line(8);
@@ -357,3 +358,10 @@ void wr_panel_layers(WrApp *app, SDL_Rect room)
     foot(app);
     wr_gui_area_end();
 }
+
+static void another(WrApp *app)
+{
+    app->layers.dragged = app->layers.renamed = -1;
+}
+
+const WrPart wr_part_layers = { .another = another, .forget = wr_panel_layers_forget };

@@ -67,7 +67,7 @@ static void preset(WrApp *app, int which)
         const char *const *lines;
         int count;
     } sets[] = { { raking, 2 }, { studio, 4 }, { overcast, 4 }, { paper, 2 } };
-    wr_patch_commit_zoom(app, true);
+    wr_app_settle(app);
     for (int i = 0; i < sets[which].count; i++) wr_app_run_line(app, sets[which].lines[i]);
 }
 

@@ -137,7 +137,7 @@ static void scale(WrApp *app)
 static void item(WrApp *app, const char *name)
 {
     char keys[32];
-    const WrAction *action = wr_action_find(name);
+    const WrAction *action = wr_action_find(app, name);
     WR_ASSERT(action);
     if (!action) return;
     bool enabled = !action->enabled || action->enabled(app);

@@ -97,7 +97,7 @@ static void ask_about_rest(WrApp *app, const Call *call)
     }
 }
 
-void wr_recover(WrApp *app, const char *journal, bool beyond)
+static void recover(WrApp *app, const char *journal, bool beyond)
 {
     WrError err;
     Call call = { .session = app->session, .journal = journal, .beyond = beyond };
@@ -110,6 +110,16 @@ void wr_recover(WrApp *app, const char *journal, bool beyond)
         wr_busy_fail(app, "recovering", &err);
     }
     wr_recovered_fini(&call.recovered);
+}
+
+static void recover_upto(WrApp *app, const char *journal)
+{
+    recover(app, journal, false);
+}
+
+static void recover_beyond(WrApp *app, const char *journal)
+{
+    recover(app, journal, true);
 }
 
 static void rows(WrRecovery *recovery)
@@ -192,7 +202,7 @@ static void recover_buttons(WrApp *app, bool key)
         wr_gui_same_line(8);
     }
     if (!now && !beyond) return;
-    wr_later_recover(app, r->journal, beyond);
+    wr_later(app, beyond ? recover_beyond : recover_upto, r->journal);
     wr_dialog_close(app);
 }
 

@@ -6,19 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-void wr_scene_run(WrApp *app, WrText *line)
-{
-    wr_patch_commit_zoom(app, true); /* it lives in the same scene */
-    wr_app_live_end(app);
-    wr_app_run_line(app, wr_text_get(line));
-    wr_text_fini(line);
-}
-
-void wr_scene_live_number(WrApp *app, size_t place, double value)
-{
-    *(double *)((char *)wr_app_live(app) + place) = value;
-}
-
 /* ---- surface ---- */
 
 static void run_surface(WrApp *app, const WrShape *shape)

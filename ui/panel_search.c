@@ -34,7 +34,7 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
 {
     int count = 0;
     const char *query = app->finder.text;
-    for (const WrAction *a = wr_actions; a->name; a++)
+    for (const WrAction *a = app->roster->actions; a->name; a++)
         if (strcmp(a->name, "search") != 0) offer(found, &count, a->name, a->label, NULL, query);
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
         char name[64], label[80];
@@ -57,17 +57,13 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
 static void run(WrApp *app, const char *name)
 {
     wr_dialog_close(app);
-    const WrOpInfo *op = wr_action_op(name);
-    const WrGenerator *generator = wr_action_generator(name);
-    if (op) wr_dialog_adjust_open(app, op);
-    else if (generator) wr_generate_open(app, generator);
-    else wr_later_action(app, name);
+    wr_action_run(app, name);
 }
 
 static bool row(const WrApp *app, const Found *found, int i, bool chosen)
 {
     char keys[32];
-    const WrAction *action = wr_action_find(found->name);
+    const WrAction *action = wr_action_find(app, found->name);
     bool enabled = !action || !action->enabled || action->enabled(app);
     WrRow r = wr_gui_row_begin(i, 26, chosen);
     wr_gui_row_at(wr_gui_px(14), 0);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The patch's view: what is wished of the preview and when, turning, the light, the camera. */
-#include "ui/accuracy.h"
+#include "ui/state.h"
+#include "ui/parts.h"
 
 #include "base/clock.h"
 #include "ui/line.h"
@@ -14,6 +15,11 @@
 #define ZOOM_COMMIT_SECONDS 0.4
 
 /* ---- wishes ---- */
+
+bool wr_patch_paints(const WrApp *app)
+{
+    return app->paint.on && app->layout.patch.w > 0;
+}
 
 static bool is_painted(const WrApp *app)
 {
@@ -164,27 +170,6 @@ void wr_patch_update(WrApp *app)
     }
 }
 
-void wr_patch_turn_on(WrApp *app)
-{
-    WrPatch *p = &app->patch;
-    double now = wr_clock_seconds();
-    take_picture(app);
-    if (!p->wished_field || !turns(app) || p->outstanding || now < p->wished_at + PICTURE_SECONDS)
-        return;
-    advance_turn(p, p->wished_scene, now);
-    WrPreviewWish w = { .field = p->wished_field,
-                        .scene = p->wished_scene,
-                        .turn_deg = p->turn_deg,
-                        .width = p->wished_w,
-                        .height = p->wished_h,
-                        .tag = p->seen,
-                        .moving = true };
-    wr_preview_want(app->preview, &w);
-    p->wished_turn = p->turn_deg;
-    p->wished_moving = p->outstanding = true;
-    p->wished_at = now;
-}
-
 double wr_patch_next_time(const WrApp *app)
 {
     const WrPatch *p = &app->patch;
@@ -206,7 +191,6 @@ void wr_patch_free(WrApp *app)
     if (p->wished_scene) wr_scene_free(p->wished_scene);
     if (p->texture) SDL_DestroyTexture(p->texture);
     *p = (WrPatch){ 0 };
-    wr_patch_paint_free(app);
 }
 
 /* ---- the light ---- */
@@ -413,7 +397,6 @@ void wr_patch_draw(WrApp *app)
     if (picture->serial != p->serial) take_picture(app);
     SDL_RenderCopy(app->renderer, p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
                    room);
-    wr_accuracy_draw(app);
 }
 
 static void draw_lights(const WrApp *app)
@@ -451,9 +434,7 @@ void wr_patch_overlay(WrApp *app)
     wr_gui_draw_clip(*room);
     draw_lights(app);
     draw_ring(app, wr_preview_picture(app->preview));
-    wr_patch_paint_overlay(app);
     wr_gui_draw_unclip();
-    wr_accuracy_overlay(app);
     int gap = wr_gui_px(12);
     if (room->w <= wr_gui_px(140)) return;
     wr_gui_overlay_begin("##turn", room->x + room->w - gap, room->y + gap, 1, 0);
@@ -476,3 +457,28 @@ void wr_patch_overlay(WrApp *app)
     wr_preview_point(app->preview, over ? (app->hand.at.x - room->x) / room->w : -1.0,
                      over ? (app->hand.at.y - room->y) / room->h : -1.0);
 }
+
+/* ---- the part ---- */
+
+static void settle(WrApp *app)
+{
+    wr_patch_commit_zoom(app, true);
+}
+
+static void another(WrApp *app)
+{
+    wr_patch_commit_zoom(app, false);
+}
+
+static void forget(WrApp *app)
+{
+    app->patch.serial = 0;
+}
+
+const WrPart wr_part_patch = { .update = wr_patch_update,
+                               .next_time = wr_patch_next_time,
+                               .meanwhile = wr_patch_update,
+                               .draw = wr_patch_draw,
+                               .settle = settle,
+                               .another = another,
+                               .forget = forget };

@@ -14,11 +14,6 @@
 #define JUMP_TEXELS 4.0 /* and in any case */
 #define RING_STEPS 3    /* of the outline on the object: one of its points in between */
 
-bool wr_patch_paints(const WrApp *app)
-{
-    return app->paint.on && app->layout.patch.w > 0;
-}
-
 /* The picker for the picture that is shown; made anew when another one is. */
 static const WrPatchPick *picker(WrApp *app)
 {
@@ -255,13 +250,13 @@ static void draw_marks(const WrApp *app, const WrPatchPick *pick)
     }
 }
 
-void wr_patch_paint_overlay(WrApp *app)
+static void overlay_clipped(WrApp *app)
 {
     const WrHand *hand = &app->hand;
     bool painting = hand->grab == WR_GRAB_PATCH_PAINT;
     bool over = painting || (hand->on_patch && hand->grab == WR_GRAB_NONE && wr_patch_paints(app));
     bool resting = !app->settings.turning || wr_patch_paints(app);
-    bool marks = hand->on_canvas && resting && wr_tools[app->tool].press == wr_brush_press;
+    bool marks = hand->on_canvas && resting && wr_tool_now(app)->press == wr_brush_press;
     WrPatchSpot spot;
     if (!over && !marks) return;
     const WrPatchPick *pick = picker(app);
@@ -281,4 +276,12 @@ void wr_patch_paint_overlay(WrApp *app)
     if (!spot_under(app, x, y, &spot)) return;
     make_ring(app, pick, &mark, &spot, &ring);
     draw_ring(&ring, mark.erases);
+}
+
+void wr_patch_paint_overlay(WrApp *app)
+{
+    if (app->layout.patch.w <= 0) return;
+    wr_gui_draw_clip(app->layout.patch);
+    overlay_clipped(app);
+    wr_gui_draw_unclip();
 }

@@ -59,8 +59,7 @@ static void go_ahead(WrApp *app)
 {
     const WrReplace *replace = &app->replace;
     wr_dialog_close(app);
-    if (replace->kind == WR_REPLACE_PRESET) wr_shelf_save(app, app->shelf.name);
-    else wr_later_file(app, replace->purpose, replace->path);
+    wr_later(app, app->roster->takes[replace->purpose], replace->path);
 }
 
 void wr_dialog_replace(WrApp *app)
@@ -97,7 +96,7 @@ void wr_dialog_replace(WrApp *app)
     else if (replaces) go_ahead(app);
     else if (other && changed) {
         wr_dialog_close(app);
-        wr_app_save_as(app);
+        wr_action_run(app, "save_as");
     } else if (other) go_back(app);
     else if (cancel) {
         wr_dialog_close(app);

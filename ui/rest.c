@@ -67,7 +67,6 @@ void wr_rest_asked(WrApp *app)
 static bool is_calm(WrApp *app, bool busy)
 {
     const WrPatch *p = &app->patch;
-    const WrLater *later = &app->later;
     /* A widget that is held, and two pictures in turn, may stay so for ever. */
     bool held = wr_gui_holds_mouse(app->gui);
     bool patch = p->outstanding || wr_patch_next_time(app) > 0.0 ||
@@ -76,8 +75,7 @@ static bool is_calm(WrApp *app, bool busy)
     return !busy && !(patch && app->layout.patch.w > 0) && !(app->redraw > 0 && app->visible) &&
            !wr_strokes_waits(app) && !wr_accuracy_under_way(app) &&
            !(wr_gui_busy(app->gui) && !held) && !wr_pen_replaying(app->pen) &&
-           wr_pen_waiting(app->pen) == 0 && !later->action && !later->line && !later->path &&
-           !later->journal;
+           wr_pen_waiting(app->pen) == 0 && !wr_later_waits(app, NULL);
 }
 
 void wr_rest_step(WrApp *app, bool busy)

@@ -20,7 +20,7 @@ void wr_shelf_refresh(WrApp *app)
 {
     wr_library_free(app->shelf.library);
     app->shelf.library = NULL;
-    wr_thumbs_forget(app);
+    app->shelf.serial++;
     wr_app_redraw(app);
 }
 
@@ -80,7 +80,7 @@ static void take_values(WrApp *app)
     if (app->settings.lock_size) own.radius = brush->radius;
     own.seed = 0;
     shelf->kept = own.mode;
-    int forced = wr_tools[app->tool].mode;
+    int forced = wr_tool_now(app)->mode;
     if (forced) own.mode = (WrBrushMode)(forced - 1);
     *brush = own;
     app->settings.other_strength = 0.0;
@@ -247,7 +247,7 @@ static bool write_preset(WrApp *app, const char *folder, const char *name, WrErr
     if (!preset) return false;
     WrBrush brush = app->settings.brush;
     brush.symmetry = (WrSymmetry){ 0 };
-    if (wr_tools[app->tool].mode) brush.mode = shelf->kept;
+    if (wr_tool_now(app)->mode) brush.mode = shelf->kept;
     wr_preset_print(preset, &brush, &text);
     char *path = preset_path(folder, name);
     bool ok =
@@ -262,7 +262,7 @@ void wr_shelf_ask_save(WrApp *app, const char *name)
 {
     char *folder = is_name(name) ? wr_library_user_folder(NULL) : NULL;
     char *path = folder ? preset_path(folder, name) : NULL;
-    bool asks = path && wr_replace_ask(app, WR_REPLACE_PRESET, WR_FILE_SAVE, path);
+    bool asks = path && wr_replace_ask(app, WR_REPLACE_PRESET, WR_FILE_PRESET, path);
     if (!asks) wr_shelf_save(app, name);
     wr_free(path);
     wr_free(folder);
@@ -285,6 +285,12 @@ bool wr_shelf_save(WrApp *app, const char *name)
     if (ok) wr_app_say(app, "Saved the brush as %s", name);
     wr_text_fini(&id);
     return ok;
+}
+
+void wr_shelf_take(WrApp *app, const char *path)
+{
+    (void)path; /* of that name, as it is typed */
+    wr_shelf_save(app, app->shelf.name);
 }
 
 bool wr_shelf_delete(WrApp *app, const char *id)
@@ -334,7 +340,7 @@ void wr_shelf_start(WrApp *app)
 
 void wr_shelf_remember(const WrApp *app, WrSettings *settings)
 {
-    if (wr_tools[app->tool].mode) settings->brush.mode = app->shelf.kept;
+    if (wr_tool_now(app)->mode) settings->brush.mode = app->shelf.kept;
     settings->preset = app->brush_files.preset;
     settings->tip = app->brush_files.tip;
     settings->set = app->brush_files.set;
@@ -343,7 +349,6 @@ void wr_shelf_remember(const WrApp *app, WrSettings *settings)
 void wr_shelf_free(WrApp *app)
 {
     WrShelf *shelf = &app->shelf;
-    wr_thumbs_free(app);
     wr_library_free(shelf->library);
     wr_preset_free(shelf->tuned);
     wr_preset_free(shelf->preset);

@@ -20,6 +20,7 @@ typedef struct WrShelf {
     WrBrushMode before; /* mode to go back to from erasing */
     WrBrushMode kept;   /* the brush's own while a tool paints with another */
     WrThumbs *thumbs;   /* owned */
+    uint64_t serial;    /* counts how often the library was looked through */
     /* the tab */
     char search[80];
     int group;         /* 0 all, 1 favourites, 2 used last, 3.. groups of the library */
@@ -48,6 +49,7 @@ bool wr_shelf_tip(WrApp *app, const char *path);
 /* The brush as a preset of the user's own, and choose it. */
 bool wr_shelf_save(WrApp *app, const char *name);
 void wr_shelf_ask_save(WrApp *app, const char *name); /* the same, asking first where it is taken */
+void wr_shelf_take(WrApp *app, const char *path);     /* it may be replaced: save shelf.name */
 /* Remove one of the user's own. */
 bool wr_shelf_delete(WrApp *app, const char *id);
 /* The one before in the list of those used; the next or the one before among the favourites. */

@@ -21,6 +21,9 @@
 #include "ui/view.h"
 
 typedef struct WrApp WrApp;
+typedef struct WrRoster WrRoster;             /* roster.h */
+typedef struct WrTool WrTool;                 /* tool.h */
+typedef struct WrAction WrAction;             /* action.h */
 typedef struct WrGenerateHand WrGenerateHand; /* generate_hand.h */
 typedef struct WrAccuracy WrAccuracy;         /* accuracy.h */
 typedef struct WrLatency WrLatency;           /* latency.c */
@@ -39,41 +42,6 @@ typedef struct WrPointer {
     int mods;              /* WR_MOD_ bits */
     int button;            /* SDL_BUTTON_LEFT, ...: a pen's tip is the left one */
 } WrPointer;
-
-/* A tool of the strip on the left. Each function may be NULL. */
-typedef struct WrTool {
-    const char *action; /* that chooses it; its name, label and keys are the action's */
-    const char *icon;
-    const char *help; /* one sentence */
-    void (*press)(WrApp *app, const WrPointer *at);
-    void (*drag)(WrApp *app, const WrPointer *at);
-    void (*release)(WrApp *app, const WrPointer *at);
-    void (*overlay)(WrApp *app);              /* drawn over the canvas while the pointer is on it */
-    void (*marks)(WrApp *app);                /* drawn over the canvas wherever the pointer is */
-    void (*options)(WrApp *app);              /* widgets of the option row */
-    bool (*key)(WrApp *app, SDL_Keycode key); /* Escape, Return, ...: true if it took it */
-    bool (*wheel)(WrApp *app, double steps);  /* over the canvas: true if it took it */
-    void (*leave)(WrApp *app);                /* another tool is chosen, or another document */
-    bool paints;                              /* press, drag, release are the brush's */
-    int mode; /* 1 + the WrBrushMode that it paints with; 0: the brush's own */
-} WrTool;
-extern const WrTool wr_tools[];
-extern const int wr_tool_count;
-int wr_tool_find(const char *action); /* index, or -1 */
-void wr_tool_choose(WrApp *app, int index);
-
-/* ---- actions ---- */
-
-typedef struct WrAction {
-    const char *name;  /* as in the key file */
-    const char *label; /* as in menus; "..." when it asks first */
-    void (*run)(WrApp *app);
-    bool (*enabled)(const WrApp *app); /* NULL: always */
-    bool (*checked)(const WrApp *app); /* NULL: never */
-} WrAction;
-extern const WrAction wr_actions[]; /* ends with name NULL */
-const WrAction *wr_action_find(const char *name);
-void wr_action_run(WrApp *app, const char *name);
 
 /* ---- parts of the state ---- */
 
@@ -270,14 +238,14 @@ typedef struct WrMeter {     /* memory, measured now and then */
 } WrMeter;
 
 /* What was asked for inside a picture of the window, to be done after it. */
+typedef void WrLaterWork(WrApp *app, const char *text);
+typedef struct WrLaterItem {
+    WrLaterWork *work;
+    char *text; /* owned */
+} WrLaterItem;
 typedef struct WrLater {
-    const WrAction *action; /* NULL: none */
-    char *line;             /* a command; owned */
-    char *path;             /* a file chosen; owned */
-    char *journal;          /* to recover; owned */
-    bool beyond;            /* and go on behind what is missing in it */
-    double since;           /* clock */
-    WrFilePurpose purpose;
+    WR_ARRAY(WrLaterItem) items; /* in the order in which they were asked for; one of each kind */
+    double since;                /* clock */
 } WrLater;
 
 typedef struct WrRecovery WrRecovery;
@@ -312,7 +280,8 @@ typedef enum WrDialog {
     WR_DIALOG_TABLET,
     WR_DIALOG_CASES,
     WR_DIALOG_HELP,
-    WR_DIALOG_ABOUT
+    WR_DIALOG_ABOUT,
+    WR_DIALOG_COUNT
 } WrDialog;
 
 /* What to do once unsaved work is dealt with. */
@@ -349,6 +318,7 @@ typedef struct WrTiming { /* of the window's own pictures */
 } WrTiming;
 
 struct WrApp {
+    const WrRoster *roster;      /* borrowed: what the window is made of */
     const WrAppOptions *options; /* borrowed */
     WrSession *session;          /* borrowed */
     SDL_Window *window;
@@ -397,9 +367,10 @@ struct WrApp {
     WrAccuracy *accuracy;     /* owned */
     WrPatch patch;
     WrPatchPaint paint;
-    WrLatency *latency; /* while it is being measured; borrowed */
-    WrScene *live;      /* what the preview shows while a scene value is being dragged; owned */
-    bool hints;         /* shown until the first stroke */
+    WrLatency *latency;        /* while it is being measured; borrowed */
+    void (*drawn)(WrApp *app); /* a picture of the window was shown; NULL: nobody asks */
+    WrScene *live; /* what the preview shows while a scene value is being dragged; owned */
+    bool hints;    /* shown until the first stroke */
 
     WrTrial *trial;
     bool trying; /* the views show what the trial gives */
@@ -432,5 +403,9 @@ struct WrApp {
     uint64_t clean_revision; /* also counts as saved: a starter made by commands */
     bool starter;            /* the document is the starter */
 };
+
+#include "ui/action.h"
+#include "ui/roster.h"
+#include "ui/tool.h"
 
 #include "ui/calls.h"

@@ -4,6 +4,7 @@
    is let go before it is drawn goes on being drawn; the next one waits its turn. */
 #include "ui/brush_line.h"
 #include "ui/state.h"
+#include "ui/parts.h"
 
 #include "base/clock.h"
 #include "brush/preset.h"
@@ -202,3 +203,10 @@ void wr_strokes_free(WrApp *app)
     while (app->brush.jobs.count > 0) drop_job(&app->brush, 0);
     wr_array_free(&app->brush.jobs);
 }
+
+static void another(WrApp *app)
+{
+    app->brush.have_last = false;
+}
+
+const WrPart wr_part_strokes = { .another = another };

@@ -3,6 +3,7 @@
    picture paints one. */
 #include "ui/job.h"
 #include "ui/state.h"
+#include "ui/parts.h"
 #include "ui/thumb.h"
 
 #include "image/image.h"
@@ -37,6 +38,7 @@ struct WrThumbs {
     WR_ARRAY(int) wishes; /* slots seen in this picture of the window, without a picture yet */
     int side;
     uint64_t round;
+    uint64_t of; /* shelf.serial that the slots are for */
 };
 
 /* ---- on the job's thread ---- */
@@ -208,15 +210,6 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
 
 /* ---- the window's side ---- */
 
-static WrThumbs *thumbs_of(WrApp *app)
-{
-    static const WrJobKind kind = { run, drop };
-    if (app->shelf.thumbs) return app->shelf.thumbs;
-    WrThumbs *thumbs = wr_alloc(1, sizeof *thumbs);
-    thumbs->job = wr_job_new(&kind, 1, app->job_event);
-    return app->shelf.thumbs = thumbs;
-}
-
 void wr_thumbs_forget(WrApp *app)
 {
     WrThumbs *thumbs = app->shelf.thumbs;
@@ -226,6 +219,21 @@ void wr_thumbs_forget(WrApp *app)
     thumbs->slots.count = thumbs->wishes.count = 0;
     thumbs->round++;
     wr_job_cancel(thumbs->job);
+}
+
+static WrThumbs *thumbs_of(WrApp *app)
+{
+    static const WrJobKind kind = { run, drop };
+    WrThumbs *there = app->shelf.thumbs;
+    if (there && there->of != app->shelf.serial) { /* other presets */
+        wr_thumbs_forget(app);
+        there->of = app->shelf.serial;
+    }
+    if (there) return there;
+    WrThumbs *thumbs = wr_alloc(1, sizeof *thumbs);
+    thumbs->job = wr_job_new(&kind, 1, app->job_event);
+    thumbs->of = app->shelf.serial;
+    return app->shelf.thumbs = thumbs;
 }
 
 void wr_thumbs_free(WrApp *app)
@@ -316,10 +324,12 @@ static void ask(WrApp *app)
 
 void wr_thumbs_update(WrApp *app)
 {
-    WrThumbs *thumbs = app->shelf.thumbs;
+    WrThumbs *thumbs = app->shelf.thumbs ? thumbs_of(app) : NULL;
     if (!thumbs) return;
     Batch *done = wr_job_take(thumbs->job);
     if (done) take(app, done);
     if (thumbs->wishes.count > 0 && !wr_job_busy(thumbs->job, NULL, NULL)) ask(app);
     thumbs->wishes.count = 0;
 }
+
+const WrPart wr_part_thumbs = { .forget = wr_thumbs_forget };

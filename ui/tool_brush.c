@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT
    The brush: gestures become strokes. Freehand, straight lines from the last stroke (Shift and a click) or
    by a key that is held, picking a height, sizing. */
+#include "ui/option.h"
 #include "ui/state.h"
+#include "ui/tool_rows.h"
 
 #include <math.h>
 
@@ -183,3 +185,56 @@ void wr_brush_resize(WrApp *app, const WrPointer *at)
     app->settings.brush.radius = grown < 10.0 ? rint(grown * 10.0) / 10.0 : rint(grown);
     wr_app_redraw(app);
 }
+
+/* ---- options ---- */
+
+void wr_brush_options(WrApp *app)
+{
+    wr_option_brush_row(app, NULL, 0);
+}
+
+/* ---- the rows ---- */
+
+const WrTool wr_tool_brush = {
+    .action = "brush",
+    .icon = WR_ICON_BRUSH,
+    .help = "Paint heights. Ctrl picks a height, Shift and dragging sizes the brush, Shift and a "
+            "click "
+            "draws a straight line from the last stroke.",
+    .press = wr_brush_press,
+    .drag = wr_brush_drag,
+    .release = wr_brush_release,
+    .overlay = wr_brush_overlay,
+    .options = wr_brush_options,
+    .paints = true
+};
+
+const WrTool wr_tool_smooth = { .action = "smooth",
+                                .icon = WR_ICON_DROP,
+                                .help =
+                                    "Let heights flow together under the brush; their mean stays.",
+                                .press = wr_brush_press,
+                                .drag = wr_brush_drag,
+                                .release = wr_brush_release,
+                                .overlay = wr_brush_overlay,
+                                .options = wr_brush_options,
+                                .paints = true,
+                                .mode = 1 + WR_BRUSH_SMOOTH };
+
+const WrTool wr_tool_smear = { .action = "smear",
+                               .icon = WR_ICON_FINGER,
+                               .help = "Drag heights along with the brush, as with a finger.",
+                               .press = wr_brush_press,
+                               .drag = wr_brush_drag,
+                               .release = wr_brush_release,
+                               .overlay = wr_brush_overlay,
+                               .options = wr_brush_options,
+                               .paints = true,
+                               .mode = 1 + WR_BRUSH_SMEAR };
+
+const WrTool wr_tool_pick = { .action = "pick",
+                              .icon = WR_ICON_PICK,
+                              .help = "Pick the height under the pointer and paint towards it.",
+                              .press = wr_brush_pick,
+                              .drag = wr_brush_pick,
+                              .options = wr_brush_options };

@@ -2,6 +2,8 @@
    Painting with heights from elsewhere: Ctrl or Alt and a click says where from; the first stroke after it
    ties that place to the pointer, and later strokes keep the distance. */
 #include "ui/state.h"
+#include "ui/tool_rows.h"
+#include "ui/parts.h"
 
 #include <math.h>
 
@@ -27,7 +29,7 @@ static double short_way(double d, bool wraps)
     return rint(shortest * 1e7) / 1e7 + 0.0;
 }
 
-void wr_clone_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     const WrField *field = wr_app_field(app);
@@ -51,7 +53,7 @@ void wr_clone_press(WrApp *app, const WrPointer *at)
     wr_brush_press(app, &plain);
 }
 
-void wr_clone_drag(WrApp *app, const WrPointer *at)
+static void drag(WrApp *app, const WrPointer *at)
 {
     if (sets_source(at) && !app->brush.drawing) {
         set_source(app, at);
@@ -62,7 +64,7 @@ void wr_clone_drag(WrApp *app, const WrPointer *at)
     if (app->brush.drawing) wr_brush_drag(app, &plain);
 }
 
-void wr_clone_marks(WrApp *app)
+static void marks(WrApp *app)
 {
     const WrDrawHand *draw = &app->draw;
     const WrBrush *brush = &app->settings.brush;
@@ -74,3 +76,26 @@ void wr_clone_marks(WrApp *app)
     }
     wr_overlay_cross(app, u, v, WR_COLOUR_CELL);
 }
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_clone = {
+    .action = "clone",
+    .icon = WR_ICON_CLONE,
+    .help = "Paint with heights from elsewhere: Ctrl and a click says from where.",
+    .press = press,
+    .drag = drag,
+    .release = wr_brush_release,
+    .overlay = wr_brush_overlay,
+    .marks = marks,
+    .options = wr_brush_options,
+    .paints = true,
+    .mode = 1 + WR_BRUSH_CLONE
+};
+
+static void another(WrApp *app)
+{
+    app->draw.source = app->draw.anchored = false;
+}
+
+const WrPart wr_part_clone = { .another = another };

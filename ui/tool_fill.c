@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
    Filling what is connected: a click does to all of it what the brush's mode does. */
 #include "ui/line.h"
+#include "ui/option.h"
 #include "ui/state.h"
+#include "ui/tool_rows.h"
 
 #include <math.h>
 
-void wr_draw_paint_line(const WrApp *app, WrText *line)
+static void paint_line(const WrApp *app, WrText *line)
 {
     const WrBrush *brush = &app->settings.brush;
     unsigned uses = wr_brush_modes[brush->mode].uses;
@@ -20,7 +22,7 @@ void wr_draw_paint_line(const WrApp *app, WrText *line)
     wr_text_add_number(line, brush->source_v);
 }
 
-void wr_flood_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     const WrDrawing *how = &app->settings.drawing;
     WrSelectPoint home = wr_overlay_home(app, at->u, at->v);
@@ -32,7 +34,52 @@ void wr_flood_press(WrApp *app, const WrPointer *at)
     wr_text_add_number(&line, wr_line_round(at->v + home.v, 7));
     wr_line_number(&line, "tolerance", how->tolerance);
     if (how->diagonal) wr_text_add(&line, " diagonal=on");
-    wr_draw_paint_line(app, &line);
+    paint_line(app, &line);
     wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
 }
+
+/* ---- options ---- */
+
+static void tolerance(WrApp *app, double width)
+{
+    static const WrNumber spec = { .low = 0.0001,
+                                   .high = 1,
+                                   .hard_low = 0,
+                                   .hard_high = 1e30,
+                                   .reset = 0.01,
+                                   .decimals = -1,
+                                   .logarithmic = true,
+                                   .tip = "How far heights may be from the one that is clicked" };
+    wr_gui_number("tolerance", width, &spec, &app->settings.drawing.tolerance);
+}
+
+static void diagonal(WrApp *app, double width)
+{
+    (void)width;
+    wr_gui_check("over corners", &app->settings.drawing.diagonal);
+    wr_gui_tip("Texels that only touch at a corner count as connected");
+}
+
+static void options(WrApp *app)
+{
+    unsigned uses = wr_option_mode_of(app)->uses;
+    const WrOption items[] = { { "", 104, 12, wr_option_fill_mode, true },
+                               { "Strength", 84, 0, wr_option_strength,
+                                 (uses & WR_USES_STRENGTH) != 0 },
+                               { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
+                               { "Opacity", 84, 0, wr_option_opacity, true },
+                               { "Tolerance", 84, 0, tolerance, true },
+                               { "", 0, 120, diagonal, true } };
+    wr_option_row(app, items, (int)(sizeof items / sizeof *items));
+}
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_flood = {
+    .action = "flood",
+    .icon = WR_ICON_BUCKET,
+    .help = "Click to fill what is connected and as high as what is clicked.",
+    .press = press,
+    .options = options
+};

@@ -4,6 +4,7 @@
    up. */
 #include "ui/line.h"
 #include "ui/state.h"
+#include "ui/tool_rows.h"
 
 #include "base/clock.h"
 
@@ -18,7 +19,7 @@ enum { PART_ANCHOR, PART_IN, PART_OUT };
 
 static bool is_path(const WrApp *app)
 {
-    return strcmp(wr_tools[app->tool].action, "shape_path") == 0;
+    return strcmp(wr_tool_now(app)->action, "shape_path") == 0;
 }
 
 static WrAnchor *last_of(WrDrawHand *draw)
@@ -120,7 +121,7 @@ static void put_anchor(WrApp *app, const WrPointer *at)
     draw->part = is_path(app) ? PART_OUT : PART_ANCHOR;
 }
 
-void wr_path_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     int index, part;
@@ -148,7 +149,7 @@ void wr_path_press(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-void wr_path_drag(WrApp *app, const WrPointer *at)
+static void drag(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     double x, y;
@@ -174,7 +175,7 @@ void wr_path_drag(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-void wr_path_release(WrApp *app, const WrPointer *at)
+static void release(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     if (draw->active && draw->held >= 0 && draw->held < draw->anchors.count &&
@@ -188,7 +189,7 @@ void wr_path_release(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-bool wr_path_key(WrApp *app, SDL_Keycode key)
+static bool key(WrApp *app, SDL_Keycode key)
 {
     WrDrawHand *draw = &app->draw;
     if (!draw->active) return false;
@@ -233,7 +234,7 @@ static void draw_arm(const WrApp *app, const WrAnchor *a, double x, double y)
     wr_overlay_handle(app, arm[1].u, arm[1].v, true, false);
 }
 
-void wr_path_marks(WrApp *app)
+static void marks(WrApp *app)
 {
     WrDrawHand *draw = &app->draw;
     int count = draw->anchors.count;
@@ -258,3 +259,31 @@ void wr_path_marks(WrApp *app)
         wr_overlay_handle(app, p.u, p.v, false, i == draw->held || (i == 0 && count > 2));
     }
 }
+
+/* ---- the rows ---- */
+
+const WrTool wr_tool_shape_polygon = {
+    .action = "shape_polygon",
+    .icon = WR_ICON_POLYGON,
+    .help = "Click the corners; Enter or a double click paints it, Backspace takes one back.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = wr_shape_options,
+    .key = key,
+    .leave = wr_draw_leave
+};
+
+const WrTool wr_tool_shape_path = {
+    .action = "shape_path",
+    .icon = WR_ICON_CURVE,
+    .help = "Click anchors, drag for their arms, move both; Enter or a double click paints it.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = wr_shape_options,
+    .key = key,
+    .leave = wr_draw_leave
+};

@@ -2,6 +2,7 @@
    The place of what the Generate panel makes: dragged on the canvas, with a corner for its size and a ring
    for its turn, where its parameters say so. */
 #include "ui/generate_hand.h"
+#include "ui/tool_rows.h"
 #include "ui/line.h"
 
 #include <math.h>
@@ -156,7 +157,7 @@ static void begin(WrGenerateHand *hand, const Pose *pose)
     memcpy(hand->first_number, hand->value[i].number, sizeof hand->first_number);
 }
 
-void wr_pose_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     WrGenerateHand *hand = app->generate;
     app->hints = false;
@@ -213,7 +214,7 @@ static void turn(WrApp *app, const Pose *pose, const WrPointer *at)
     hand->value[pose->turn].number[pose->turned] = deg > p->high ? p->high : deg;
 }
 
-void wr_pose_drag(WrApp *app, const WrPointer *at)
+static void drag(WrApp *app, const WrPointer *at)
 {
     WrGenerateHand *hand = app->generate;
     bool moved = hypot(at->x - app->hand.start.x, at->y - app->hand.start.y) >= 2.0;
@@ -233,7 +234,7 @@ void wr_pose_drag(WrApp *app, const WrPointer *at)
 }
 
 /* A click where something is written gives that the keyboard. */
-void wr_pose_release(WrApp *app, const WrPointer *at)
+static void release(WrApp *app, const WrPointer *at)
 {
     WrGenerateHand *hand = app->generate;
     bool moved = hypot(at->x - app->hand.start.x, at->y - app->hand.start.y) >= 2.0;
@@ -245,7 +246,7 @@ void wr_pose_release(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-bool wr_pose_key(WrApp *app, SDL_Keycode key)
+static bool key(WrApp *app, SDL_Keycode key)
 {
     WrGenerateHand *hand = app->generate;
     if (!hand->active) return false;
@@ -286,7 +287,7 @@ static void handle(const WrApp *app, double x, double y, bool round, bool hot)
     wr_overlay_handle(app, p.u, p.v, round, hot);
 }
 
-void wr_pose_marks(WrApp *app)
+static void marks(WrApp *app)
 {
     const WrGenerateHand *hand = app->generate;
     double x, y;
@@ -311,7 +312,7 @@ void wr_pose_marks(WrApp *app)
 
 /* ---- the option row ---- */
 
-void wr_pose_options(WrApp *app)
+static void options(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     wr_gui_same_line(14);
@@ -342,3 +343,19 @@ void wr_pose_options(WrApp *app)
     wr_gui_same_line(0);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "; Ctrl and a click begins a path");
 }
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_generate = {
+    .action = "generate",
+    .icon = WR_ICON_WAND,
+    .help = "Patterns, noise, text and more from the Generate tab: drag what it makes, Enter puts "
+            "it on the table, Escape gives up.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = options,
+    .key = key,
+    .leave = wr_generate_cancel
+};

@@ -2,7 +2,9 @@
    Ramps: a drag says from where to where heights lead from low to high. Shift keeps to multiples of 15
    degrees, Escape gives up. */
 #include "ui/line.h"
+#include "ui/option.h"
 #include "ui/state.h"
+#include "ui/tool_rows.h"
 
 #include <math.h>
 
@@ -22,7 +24,7 @@ static void end_at(WrApp *app, const WrPointer *at)
     draw->y1 = draw->y0 + way * sin(turn);
 }
 
-void wr_ramp_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     app->draw.active = true;
     app->hints = false;
@@ -31,13 +33,13 @@ void wr_ramp_press(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-void wr_ramp_drag(WrApp *app, const WrPointer *at)
+static void drag(WrApp *app, const WrPointer *at)
 {
     end_at(app, at);
     wr_app_redraw(app);
 }
 
-void wr_ramp_release(WrApp *app, const WrPointer *at)
+static void release(WrApp *app, const WrPointer *at)
 {
     const WrDrawing *how = &app->settings.drawing;
     WrDrawHand *draw = &app->draw;
@@ -65,7 +67,7 @@ void wr_ramp_release(WrApp *app, const WrPointer *at)
     wr_text_fini(&line);
 }
 
-bool wr_ramp_key(WrApp *app, SDL_Keycode key)
+static bool key(WrApp *app, SDL_Keycode key)
 {
     if (key != SDLK_ESCAPE || !app->draw.active) return false;
     wr_draw_leave(app);
@@ -104,7 +106,7 @@ static void end_label(const WrApp *app, double x, double y, double height)
     wr_overlay_label(px, py - 16.0 * wr_gui_scale(), text);
 }
 
-void wr_ramp_marks(WrApp *app)
+static void marks(WrApp *app)
 {
     const WrDrawHand *draw = &app->draw;
     const WrDrawing *how = &app->settings.drawing;
@@ -124,3 +126,73 @@ void wr_ramp_marks(WrApp *app)
     end_label(app, draw->x0, draw->y0, how->low);
     if (how->ramp != RAMP_CONE) end_label(app, draw->x1, draw->y1, how->high);
 }
+
+/* ---- options ---- */
+
+static void ramp_kind(WrApp *app, double width)
+{
+    static const char *const names[] = { "Linear", "Radial", "Cone" };
+    (void)width;
+    wr_gui_segments("ramp", names, NULL, 3, &app->settings.drawing.ramp);
+}
+
+static void ramp_end(const char *id, double width, const char *tip, double reset, double *value)
+{
+    WrNumber spec = { .low = -1,
+                      .high = 1,
+                      .hard_low = -1e30,
+                      .hard_high = 1e30,
+                      .reset = reset,
+                      .decimals = 3,
+                      .tip = tip };
+    wr_gui_number(id, width, &spec, value);
+}
+
+static void ramp_low(WrApp *app, double width)
+{
+    ramp_end("low", width, "Height where the drag begins", 0, &app->settings.drawing.low);
+}
+
+static void ramp_high(WrApp *app, double width)
+{
+    ramp_end("high", width, "Height where it ends", 1, &app->settings.drawing.high);
+}
+
+static void ramp_fold(WrApp *app, double width)
+{
+    (void)width;
+    wr_gui_check("back down", &app->settings.drawing.fold);
+    wr_gui_tip("Leads back to the low height, so that nothing jumps at the edges");
+}
+
+static void ramp_blend(WrApp *app, double width)
+{
+    static const char *const names[] = { "replace", "add", "max", "min" };
+    wr_gui_choice("blend", width, names, 4, &app->settings.drawing.blend);
+    wr_gui_tip("How it joins the heights that are there");
+}
+
+static void options(WrApp *app)
+{
+    const WrOption items[] = { { "", 0, 190, ramp_kind, true },
+                               { "Low", 84, 0, ramp_low, true },
+                               { "High", 84, 0, ramp_high, true },
+                               { "", 0, 110, ramp_fold, true },
+                               { "Blend", 90, 0, ramp_blend, true } };
+    wr_option_row(app, items, (int)(sizeof items / sizeof *items));
+}
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_ramp = {
+    .action = "ramp",
+    .icon = WR_ICON_RAMP,
+    .help = "Drag from the low end of a slope to its high end; Shift keeps to 15 degrees.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = options,
+    .key = key,
+    .leave = wr_draw_leave
+};

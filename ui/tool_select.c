@@ -2,6 +2,8 @@
    Selecting by hand: a drag draws a shape on any copy of the cell, and across its edges. */
 #include "ui/line.h"
 #include "ui/state.h"
+#include "ui/tool_rows.h"
+#include "ui/parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,7 +17,7 @@ static const char *const join_names[] = { "replace", "add", "subtract", "interse
 
 static Shape shape_of(const WrApp *app)
 {
-    const char *name = wr_tools[app->tool].action;
+    const char *name = wr_tool_now(app)->action;
     return strcmp(name, "select_ellipse") == 0 ? SHAPE_ELLIPSE
            : strcmp(name, "select_lasso") == 0 ? SHAPE_LASSO
                                                : SHAPE_RECT;
@@ -82,7 +84,7 @@ static void follow(WrApp *app, const WrPointer *at)
 
 /* ---- the gesture ---- */
 
-void wr_select_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     WrSelectHand *hand = &app->select;
     bool shift = (at->mods & WR_MOD_SHIFT) != 0, alt = (at->mods & WR_MOD_ALT) != 0;
@@ -98,7 +100,7 @@ void wr_select_press(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-void wr_select_drag(WrApp *app, const WrPointer *at)
+static void drag(WrApp *app, const WrPointer *at)
 {
     if (!app->select.active) return;
     follow(app, at);
@@ -174,7 +176,7 @@ static bool is_click(const WrApp *app, const WrPointer *at)
     return near_by || box[0] == box[2] || box[1] == box[3];
 }
 
-void wr_select_release(WrApp *app, const WrPointer *at)
+static void release(WrApp *app, const WrPointer *at)
 {
     WrSelectHand *hand = &app->select;
     if (!hand->active) return;
@@ -194,7 +196,7 @@ void wr_select_release(WrApp *app, const WrPointer *at)
     wr_text_fini(&line);
 }
 
-void wr_select_options(WrApp *app)
+static void options(WrApp *app)
 {
     static const char *const joins[] = { "Replace", "Add", "Subtract", "Intersect" };
     wr_gui_same_line(14);
@@ -203,7 +205,7 @@ void wr_select_options(WrApp *app)
     static const char *const names[] = { "select_all", "select_none", "select_invert" };
     wr_gui_same_line(16);
     for (int i = 0; i < 3; i++) {
-        const WrAction *action = wr_action_find(names[i]);
+        const WrAction *action = wr_action_find(app, names[i]);
         wr_gui_disable(action->enabled && !action->enabled(app));
         if (wr_gui_chip(NULL, action->label)) wr_action_run(app, names[i]);
         wr_gui_enable();
@@ -214,3 +216,38 @@ void wr_select_options(WrApp *app)
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
                 "Shift adds, Alt subtracts, both intersect; a click selects nothing");
 }
+
+/* ---- the rows ---- */
+
+const WrTool wr_tool_select_rect = {
+    .action = "select_rect",
+    .icon = WR_ICON_RECT,
+    .help = "Drag a rectangle, across the cell's edges if need be: edits then keep to it.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .options = options
+};
+
+const WrTool wr_tool_select_ellipse = { .action = "select_ellipse",
+                                        .icon = WR_ICON_ELLIPSE,
+                                        .help = "Drag an ellipse: edits then keep to it.",
+                                        .press = press,
+                                        .drag = drag,
+                                        .release = release,
+                                        .options = options };
+
+const WrTool wr_tool_select_lasso = { .action = "select_lasso",
+                                      .icon = WR_ICON_LASSO,
+                                      .help = "Draw an outline by hand: edits then keep to it.",
+                                      .press = press,
+                                      .drag = drag,
+                                      .release = release,
+                                      .options = options };
+
+static void another(WrApp *app)
+{
+    wr_select_cancel(app);
+}
+
+const WrPart wr_part_select = { .another = another };

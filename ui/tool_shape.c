@@ -3,7 +3,9 @@
    Shift makes squares and circles, Ctrl begins in the middle, Escape gives up. */
 #include "ui/brush_line.h"
 #include "ui/line.h"
+#include "ui/option.h"
 #include "ui/state.h"
+#include "ui/tool_rows.h"
 
 #include "brush/preset.h"
 
@@ -33,7 +35,7 @@ void wr_draw_leave(WrApp *app)
 
 static bool is_round(const WrApp *app)
 {
-    return strcmp(wr_tools[app->tool].action, "shape_ellipse") == 0;
+    return strcmp(wr_tool_now(app)->action, "shape_ellipse") == 0;
 }
 
 /* The two corners, by what is held. */
@@ -53,7 +55,7 @@ static void corners(const WrApp *app, int mods, double box[4])
     box[3] = draw->y0 + dy;
 }
 
-void wr_shape_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     draw->active = true;
@@ -64,7 +66,7 @@ void wr_shape_press(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-void wr_shape_drag(WrApp *app, const WrPointer *at)
+static void drag(WrApp *app, const WrPointer *at)
 {
     wr_view_to_texel(&app->view, at->x, at->y, &app->draw.x1, &app->draw.y1);
     wr_app_redraw(app);
@@ -102,7 +104,7 @@ static void commit(WrApp *app, const double box[4])
     wr_text_fini(&line);
 }
 
-void wr_shape_release(WrApp *app, const WrPointer *at)
+static void release(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     double box[4];
@@ -114,7 +116,7 @@ void wr_shape_release(WrApp *app, const WrPointer *at)
     commit(app, box);
 }
 
-bool wr_shape_key(WrApp *app, SDL_Keycode key)
+static bool key(WrApp *app, SDL_Keycode key)
 {
     if (key != SDLK_ESCAPE || !app->draw.active) return false;
     wr_draw_leave(app);
@@ -149,7 +151,7 @@ static int rect_points(const double box[4], const WrApp *app, WrSelectPoint *poi
     return count;
 }
 
-void wr_shape_marks(WrApp *app)
+static void marks(WrApp *app)
 {
     WrSelectPoint points[ROUND_POINTS];
     double box[4], x, y;
@@ -162,3 +164,61 @@ void wr_shape_marks(WrApp *app)
     wr_view_to_pixel(&app->view, (box[0] + box[2]) / 2, fmax(box[1], box[3]), &x, &y);
     wr_overlay_label(x, y + 14.0 * wr_gui_scale(), text);
 }
+
+/* ---- options ---- */
+
+static void paint_what(WrApp *app, double width)
+{
+    static const char *const names[] = { "Outline", "Fill" };
+    int index = app->settings.drawing.fills;
+    (void)width;
+    if (wr_gui_segments("paint", names, NULL, 2, &index)) app->settings.drawing.fills = index == 1;
+}
+
+static void corner(WrApp *app, double width)
+{
+    static const WrNumber spec = { .low = 0,
+                                   .high = 100,
+                                   .hard_high = 16384,
+                                   .reset = 0,
+                                   .decimals = 0,
+                                   .unit = "px",
+                                   .tip = "Radius of the rectangle's corners" };
+    wr_gui_number("corner", width, &spec, &app->settings.drawing.corner);
+}
+
+void wr_shape_options(WrApp *app)
+{
+    bool rect = strcmp(wr_tool_now(app)->action, "shape_rect") == 0;
+    const WrOption first[] = { { "", 0, 118, paint_what, true },
+                               { "Corner", 74, 0, corner, rect } };
+    wr_option_brush_row(app, first, 2);
+}
+
+/* ---- the rows ---- */
+
+const WrTool wr_tool_shape_rect = {
+    .action = "shape_rect",
+    .icon = WR_ICON_BOX,
+    .help = "Drag a rectangle: Shift makes it a square, Ctrl begins in its middle.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = wr_shape_options,
+    .key = key,
+    .leave = wr_draw_leave
+};
+
+const WrTool wr_tool_shape_ellipse = {
+    .action = "shape_ellipse",
+    .icon = WR_ICON_ROUND,
+    .help = "Drag an ellipse: Shift makes it a circle, Ctrl begins in its middle.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = wr_shape_options,
+    .key = key,
+    .leave = wr_draw_leave
+};

@@ -4,7 +4,10 @@
    and size, let go. The wheel sizes it, Enter puts it where the pointer is, Escape gives up. */
 #include "ui/brush_line.h"
 #include "ui/line.h"
+#include "ui/option.h"
 #include "ui/state.h"
+#include "ui/tool_rows.h"
+#include "ui/parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -78,7 +81,7 @@ static void place_of(const WrApp *app, double *u, double *v)
 static bool is_wanted(const WrApp *app)
 {
     bool free = app->hand.grab == WR_GRAB_NONE || app->hand.grab == WR_GRAB_TOOL;
-    return wr_tools[app->tool].press == wr_stamp_press && app->dialog == WR_DIALOG_NONE && free &&
+    return wr_tool_now(app) == &wr_tool_stamp && app->dialog == WR_DIALOG_NONE && free &&
            (app->draw.placed || (app->hand.on_canvas && !app->hand.space));
 }
 
@@ -94,7 +97,7 @@ static bool same_brush(const WrBrush *a, const WrBrush *b)
            s->repeat_v == t->repeat_v && s->stagger == t->stagger;
 }
 
-void wr_stamp_update(WrApp *app)
+static void update(WrApp *app)
 {
     WrDrawHand *draw = &app->draw;
     if (!is_wanted(app)) {
@@ -114,7 +117,7 @@ void wr_stamp_update(WrApp *app)
     wr_app_try(app, &ask);
 }
 
-void wr_stamp_leave(WrApp *app)
+static void leave(WrApp *app)
 {
     app->draw.placed = app->draw.dragged = false;
     if (app->draw.trying) wr_app_try_end(app);
@@ -145,7 +148,7 @@ static void commit(WrApp *app)
     wr_text_fini(&line);
 }
 
-void wr_stamp_press(WrApp *app, const WrPointer *at)
+static void press(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     draw->placed = true;
@@ -157,7 +160,7 @@ void wr_stamp_press(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-void wr_stamp_drag(WrApp *app, const WrPointer *at)
+static void drag(WrApp *app, const WrPointer *at)
 {
     WrDrawHand *draw = &app->draw;
     double dx = at->x - app->hand.start.x, dy = at->y - app->hand.start.y, way = hypot(dx, dy);
@@ -170,20 +173,20 @@ void wr_stamp_drag(WrApp *app, const WrPointer *at)
     wr_app_redraw(app);
 }
 
-void wr_stamp_release(WrApp *app, const WrPointer *at)
+static void release(WrApp *app, const WrPointer *at)
 {
     (void)at;
     if (app->draw.placed) commit(app);
 }
 
-bool wr_stamp_key(WrApp *app, SDL_Keycode key)
+static bool key(WrApp *app, SDL_Keycode key)
 {
     WrDrawHand *draw = &app->draw;
     if (key == SDLK_ESCAPE && draw->placed) {
         draw->radius = draw->first_radius;
         draw->angle_deg = draw->first_angle;
         app->hand.grab = WR_GRAB_NONE;
-        wr_stamp_leave(app);
+        leave(app);
         wr_app_redraw(app);
         return true;
     }
@@ -193,7 +196,7 @@ bool wr_stamp_key(WrApp *app, SDL_Keycode key)
     return true;
 }
 
-bool wr_stamp_wheel(WrApp *app, double steps)
+static bool wheel(WrApp *app, double steps)
 {
     if (wr_key_mods(SDL_GetModState()) != 0) return false; /* Ctrl and the wheel zoom as ever */
     double r = radius_of(app) * exp2(steps / 6.0);
@@ -206,7 +209,7 @@ bool wr_stamp_wheel(WrApp *app, double steps)
 /* ---- on the canvas ---- */
 
 /* Its frame: the picture's edges, turned; a circle for the round brush. */
-void wr_stamp_overlay(WrApp *app)
+static void overlay(WrApp *app)
 {
     WrSelectPoint points[48];
     double u, v, r = radius_of(app), a = app->draw.angle_deg / 57.29577951308232;
@@ -225,7 +228,7 @@ void wr_stamp_overlay(WrApp *app)
     wr_overlay_lines(app, points, count, true, 0xd0f4f4f4u);
 }
 
-void wr_stamp_marks(WrApp *app)
+static void marks(WrApp *app)
 {
     const WrDrawHand *draw = &app->draw;
     char text[64];
@@ -233,3 +236,73 @@ void wr_stamp_marks(WrApp *app)
     snprintf(text, sizeof text, "%.4g px  %.0f\xc2\xb0", 2.0 * draw->radius, draw->angle_deg);
     wr_overlay_label(app->hand.start.x, app->hand.start.y, text);
 }
+
+/* ---- options ---- */
+
+static void stamp_size(WrApp *app, double width)
+{
+    static const WrNumber spec = { .low = 4,
+                                   .high = 1000,
+                                   .hard_low = 1,
+                                   .hard_high = 32768,
+                                   .reset = 96,
+                                   .decimals = -1,
+                                   .unit = "px",
+                                   .logarithmic = true,
+                                   .tip = "Length of the picture's longer side, in texels" };
+    double diameter = 2.0 * (app->draw.radius > 0.0 ? app->draw.radius : 48.0);
+    if (wr_gui_number("stamp_size", width, &spec, &diameter)) app->draw.radius = diameter / 2.0;
+}
+
+static void stamp_angle(WrApp *app, double width)
+{
+    static const WrNumber spec = { .low = -180,
+                                   .high = 180,
+                                   .hard_low = -360,
+                                   .hard_high = 360,
+                                   .reset = 0,
+                                   .decimals = 0,
+                                   .unit = "\xc2\xb0",
+                                   .tip = "Turns the picture anticlockwise" };
+    wr_gui_number("stamp_angle", width, &spec, &app->draw.angle_deg);
+}
+
+static void options(WrApp *app)
+{
+    unsigned uses = wr_option_mode_of(app)->uses;
+    const WrOption items[] = { { "", 104, 12, wr_option_mode, true },
+                               { "Size", 92, 0, stamp_size, true },
+                               { "Angle", 74, 0, stamp_angle, true },
+                               { "Strength", 84, 0, wr_option_strength,
+                                 (uses & WR_USES_STRENGTH) != 0 },
+                               { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
+                               { "", 28, 0, wr_option_symmetry, true },
+                               { "Hardness", 74, 0, wr_option_hardness, app->draw.tip == NULL },
+                               { "Opacity", 84, 0, wr_option_opacity, true } };
+    wr_stamp_picker(app);
+    wr_option_row(app, items, (int)(sizeof items / sizeof *items));
+}
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_stamp = {
+    .action = "stamp",
+    .icon = WR_ICON_SEAL,
+    .help = "Press where a picture goes, drag for its turn and size, let go; the wheel sizes it.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .overlay = overlay,
+    .marks = marks,
+    .options = options,
+    .key = key,
+    .wheel = wheel,
+    .leave = leave
+};
+
+void wr_stamp_take(WrApp *app, const char *path)
+{
+    wr_stamp_choose(app, path);
+}
+
+const WrPart wr_part_stamp = { .update = update };
