@@ -22,7 +22,6 @@ void wr_app_changed_document(WrApp *app)
 {
     app->clean_revision = wr_session_saved_revision(app->session);
     wr_app_try_end(app);
-    if (wr_tool_now(app)->leave) wr_tool_now(app)->leave(app);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->another) (*p)->another(app);
     wr_app_live_end(app);

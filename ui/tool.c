@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
    Which tool is in hand. */
 #include "ui/tool.h"
-#include "ui/roster.h"
+#include "ui/parts.h"
 
 #include <string.h>
 
@@ -32,3 +32,10 @@ void wr_tool_choose(WrApp *app, int index)
     app->tool = index;
     wr_app_redraw(app);
 }
+
+static void another(WrApp *app)
+{
+    if (wr_tool_now(app)->leave) wr_tool_now(app)->leave(app);
+}
+
+const WrPart wr_part_tools = { .another = another };
