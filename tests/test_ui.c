@@ -11,24 +11,24 @@
 
 /* ---- view ---- */
 
-static WrView some_view(void)
+static WrCanvasView some_view(void)
 {
-    return (WrView){ .x = 48,
-                     .y = 73,
-                     .w = 545,
-                     .h = 799,
-                     .table_w = 512,
-                     .table_h = 256,
-                     .zoom = 0.7,
-                     .centre_x = 100,
-                     .centre_y = 200 };
+    return (WrCanvasView){ .x = 48,
+                           .y = 73,
+                           .w = 545,
+                           .h = 799,
+                           .table_w = 512,
+                           .table_h = 256,
+                           .zoom = 0.7,
+                           .centre_x = 100,
+                           .centre_y = 200 };
 }
 
 static void pixels_and_texels_are_each_others_inverse(void **state)
 {
     (void)state;
     TestRandom r = { 1 };
-    WrView view = some_view();
+    WrCanvasView view = some_view();
     for (int i = 0; i < 200; i++) {
         double px = 2000 * test_random(&r) - 500, py = 2000 * test_random(&r) - 500, x, y, qx, qy;
         view.zoom = exp2(12 * test_random(&r) - 6);
@@ -42,7 +42,7 @@ static void pixels_and_texels_are_each_others_inverse(void **state)
 static void the_middle_of_the_canvas_shows_the_centre_texel(void **state)
 {
     (void)state;
-    WrView view = some_view();
+    WrCanvasView view = some_view();
     double u, v;
     wr_view_to_uv(&view, 48 + 545 / 2.0, 73 + 799 / 2.0, &u, &v);
     assert_near(u, 100.0 / 512.0, 1e-15);
@@ -54,7 +54,7 @@ static void zooming_keeps_the_texel_under_the_pointer(void **state)
     (void)state;
     TestRandom r = { 2 };
     for (int i = 0; i < 100; i++) {
-        WrView view = some_view();
+        WrCanvasView view = some_view();
         double px = 48 + 545 * test_random(&r), py = 73 + 799 * test_random(&r), x0, y0, x1, y1;
         wr_view_to_texel(&view, px, py, &x0, &y0);
         wr_view_zoom_at(&view, px, py, exp2(10 * test_random(&r) - 5));
@@ -68,7 +68,7 @@ static void zooming_keeps_the_texel_under_the_pointer(void **state)
 static void panning_moves_the_picture_by_the_pixels_dragged(void **state)
 {
     (void)state;
-    WrView view = some_view();
+    WrCanvasView view = some_view();
     double x0, y0, x1, y1;
     wr_view_to_texel(&view, 300, 300, &x0, &y0);
     wr_view_pan(&view, 30, -20);
@@ -85,7 +85,7 @@ static void zoom_stops_at_its_limits_for_tables_of_any_size(void **state)
     (void)state;
     static const int sizes[][2] = { { 1, 1 }, { 1, 16384 }, { 16384, 16384 }, { 37, 5 } };
     for (int i = 0; i < 4; i++) {
-        WrView view = some_view();
+        WrCanvasView view = some_view();
         view.table_w = sizes[i][0];
         view.table_h = sizes[i][1];
         wr_view_fit(&view, 0.1);
@@ -103,7 +103,7 @@ static void zoom_stops_at_its_limits_for_tables_of_any_size(void **state)
 static void an_outline_in_the_middle_of_the_cell_has_no_copies(void **state)
 {
     (void)state;
-    WrView view = some_view();
+    WrCanvasView view = some_view();
     WrShift copies[WR_VIEW_COPIES];
     assert_int_equal(wr_view_outline_copies(&view, true, true, 256, 128, 100, copies), 1);
     assert_near(copies[0].dx, 0, 0);
@@ -114,7 +114,7 @@ static void an_outline_in_the_middle_of_the_cell_has_no_copies(void **state)
 static void hc73_an_outline_over_an_edge_shows_on_the_other_side(void **state)
 {
     (void)state;
-    WrView view = some_view();
+    WrCanvasView view = some_view();
     WrShift copies[WR_VIEW_COPIES];
     assert_int_equal(wr_view_outline_copies(&view, true, true, 505, 128, 20, copies), 2);
     assert_near(copies[1].dx, -512, 0);
@@ -129,7 +129,7 @@ static void hc73_an_outline_over_an_edge_shows_on_the_other_side(void **state)
 static void an_outline_on_a_copy_is_brought_home(void **state)
 {
     (void)state;
-    WrView view = some_view();
+    WrCanvasView view = some_view();
     WrShift copies[WR_VIEW_COPIES];
     int count = wr_view_outline_copies(&view, true, true, 256 - 3 * 512, 128 + 7 * 256, 10, copies);
     assert_int_equal(count, 1);
@@ -484,7 +484,7 @@ static void pixels_weigh_texels_by_what_they_cover(void **state)
     for (int i = 0; i < 23; i++) texels[i] = test_random(&r);
     for (int k = 0; k < 1000; k++) {
         double from = 200 * test_random(&r) - 100, to = from + 0.01 + 1.98 * test_random(&r);
-        WrTaps taps = wr_taps_make(from, to, 23, 0, true);
+        WrCellTaps taps = wr_taps_make(from, to, 23, 0, true);
         double sum = 0, weight = 0;
         for (int i = 0; i < WR_TAPS; i++) {
             assert_true(taps.cell[i] >= 0 && taps.cell[i] < 23);
@@ -508,7 +508,7 @@ static void coarse_cells_at_the_seam_keep_their_true_width(void **state)
     }
     for (int k = 0; k < 1000; k++) {
         double from = 100 * test_random(&r) - 50, to = from + 4 + 4 * test_random(&r), sum = 0;
-        WrTaps taps = wr_taps_make(from, to, 23, 2, true);
+        WrCellTaps taps = wr_taps_make(from, to, 23, 2, true);
         for (int i = 0; i < WR_TAPS; i++) sum += (double)taps.weight[i] * cells[taps.cell[i]];
         assert_near(sum, mean_over(texels, 23, from, to), 1e-6);
     }
@@ -520,7 +520,7 @@ static void beyond_the_edge_of_a_clamped_axis_there_is_nothing(void **state)
     assert_true(wr_taps_make(-2, -1, 16, 0, false).outside);
     assert_true(wr_taps_make(16.2, 17, 16, 0, false).outside);
     assert_false(wr_taps_make(15.2, 15.9, 16, 0, false).outside);
-    WrTaps edge = wr_taps_make(-0.4, 0.6, 16, 0, false);
+    WrCellTaps edge = wr_taps_make(-0.4, 0.6, 16, 0, false);
     assert_false(edge.outside);
     assert_int_equal(edge.cell[0], 0);
     assert_near((double)edge.weight[0], 1, 1e-6);

@@ -490,17 +490,17 @@ static void an_axis_that_ends_has_no_seam_to_measure(void **state)
 
 /* A table of 100 x 100 texels at two pixels a texel: copies every 200 pixels; the real cell stands from
    (100, 50) on. */
-static WrView ants_view(void)
+static WrCanvasView ants_view(void)
 {
-    return (WrView){ .x = 10,
-                     .y = 20,
-                     .w = 580,
-                     .h = 460,
-                     .table_w = 100,
-                     .table_h = 100,
-                     .zoom = 2,
-                     .centre_x = 100,
-                     .centre_y = 100 };
+    return (WrCanvasView){ .x = 10,
+                           .y = 20,
+                           .w = 580,
+                           .h = 460,
+                           .table_w = 100,
+                           .table_h = 100,
+                           .zoom = 2,
+                           .centre_x = 100,
+                           .centre_y = 100 };
 }
 
 static const WrSelectPoint square[] = { { 0.2, 0.2 }, { 0.4, 0.2 }, { 0.4, 0.4 }, { 0.2, 0.4 } };
@@ -508,7 +508,7 @@ static const WrSelectPoint square[] = { { 0.2, 0.2 }, { 0.4, 0.2 }, { 0.4, 0.4 }
 static void an_outline_is_drawn_on_every_copy_that_is_seen(void **state)
 {
     (void)state;
-    WrView view = ants_view();
+    WrCanvasView view = ants_view();
     WrAnts ants = { 0 };
     wr_ants_add(&ants, square, 4, 0, 0, &view, false, false);
     int one = ants.pixels.count;
@@ -536,7 +536,7 @@ static void an_outline_is_drawn_on_every_copy_that_is_seen(void **state)
 static void hc73_an_outline_that_runs_round_the_table_goes_on_over_the_edge(void **state)
 {
     (void)state;
-    WrView view = ants_view();
+    WrCanvasView view = ants_view();
     WrField *band = wr_field_new(100, 100, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 40; j < 60; j++)
         for (int i = 0; i < 100; i++) wr_field_set(band, i, j, 1.0f);
@@ -564,7 +564,7 @@ static void hc73_an_outline_that_runs_round_the_table_goes_on_over_the_edge(void
 static void a_huge_outline_is_cut_off_and_says_so(void **state)
 {
     (void)state;
-    WrView view = ants_view();
+    WrCanvasView view = ants_view();
     WrAnts ants = { 0 };
     TestRandom r = { 5 };
     int count = 60000;
@@ -581,7 +581,7 @@ static void a_huge_outline_is_cut_off_and_says_so(void **state)
 static void only_what_is_seen_of_a_long_side_is_walked(void **state)
 {
     (void)state;
-    WrView view = ants_view();
+    WrCanvasView view = ants_view();
     view.table_w = view.table_h = 16384;
     view.zoom = 128;
     view.centre_x = view.centre_y = 8192;

@@ -108,7 +108,7 @@ static void export(WrApp *app)
 
 static void zoom_by(WrApp *app, double factor)
 {
-    const WrView *v = &app->view;
+    const WrCanvasView *v = &app->view;
     bool here = app->hand.on_canvas;
     wr_view_zoom_at(&app->view, here ? app->hand.at.x : v->x + v->w / 2.0,
                     here ? app->hand.at.y : v->y + v->h / 2.0, v->zoom * factor);

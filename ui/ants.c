@@ -30,7 +30,7 @@ static bool clip(double from, double to, double low, double high, double *t0, do
 }
 
 /* The pixels of one segment inside the view, the last one left to the next segment. */
-static void add_segment(WrAnts *ants, const WrView *view, Spot a, Spot b)
+static void add_segment(WrAnts *ants, const WrCanvasView *view, Spot a, Spot b)
 {
     double t0 = 0.0, t1 = 1.0;
     if (!clip(a.x, b.x, view->x, view->x + view->w, &t0, &t1)) return;
@@ -52,7 +52,7 @@ static void add_segment(WrAnts *ants, const WrView *view, Spot a, Spot b)
 
 /* The line in pixels where it stands, points nearer than half a pixel left out, closed. */
 static void to_pixels(const WrSelectPoint *points, int count, int wind_u, int wind_v,
-                      const WrView *view, Spots *spots)
+                      const WrCanvasView *view, Spots *spots)
 {
     double w = view->table_w, h = view->table_h;
     spots->count = 0;
@@ -83,7 +83,7 @@ static void copies(double low, double high, double from, double to, double perio
 }
 
 void wr_ants_add(WrAnts *ants, const WrSelectPoint *points, int count, int wind_u, int wind_v,
-                 const WrView *view, bool wraps_u, bool wraps_v)
+                 const WrCanvasView *view, bool wraps_u, bool wraps_v)
 {
     Spots spots = { 0 };
     if (count < 1) return; /* one is enough for a straight line round the table */
@@ -114,7 +114,7 @@ void wr_ants_add(WrAnts *ants, const WrSelectPoint *points, int count, int wind_
     wr_array_free(&spots);
 }
 
-void wr_ants_trace(WrAnts *ants, const WrOutline *outline, const WrView *view, bool wraps_u,
+void wr_ants_trace(WrAnts *ants, const WrOutline *outline, const WrCanvasView *view, bool wraps_u,
                    bool wraps_v)
 {
     ants->pixels.count = 0;

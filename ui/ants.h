@@ -23,10 +23,10 @@ void wr_ants_free(WrAnts *ants);
 
 /* The pixels of an outline inside the view, on every copy of the cell that is seen; axes that do not wrap
  * have one. Replaces what was there. */
-void wr_ants_trace(WrAnts *ants, const WrOutline *outline, const WrView *view, bool wraps_u,
+void wr_ants_trace(WrAnts *ants, const WrOutline *outline, const WrCanvasView *view, bool wraps_u,
                    bool wraps_v);
 
 /* Add the closed line through `count` points (u, v unwrapped), where it stands and on its copies: a shape
  * that is being drawn. */
 void wr_ants_add(WrAnts *ants, const WrSelectPoint *points, int count, int wind_u, int wind_v,
-                 const WrView *view, bool wraps_u, bool wraps_v);
+                 const WrCanvasView *view, bool wraps_u, bool wraps_v);

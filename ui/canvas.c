@@ -19,11 +19,11 @@ struct WrCanvas {
     SDL_Texture *texture;
     int width, height;           /* of texture and pixels */
     uint32_t *pixels;            /* [height][width], ARGB */
-    WrTaps *columns, *rows;      /* [width], [height] */
+    WrCellTaps *columns, *rows;  /* [width], [height] */
     float *line;                 /* one row of cells: [tiles_u * side] */
     bool *needed;                /* [tiles_u] tile columns that a rectangle looks at */
     uint32_t palette[CODES + 2]; /* the last two: below, above */
-    WrView view;                 /* of the picture held */
+    WrCanvasView view;           /* of the picture held */
     WrCanvasLook look;
     double low, high;
     float table_low, table_high;
@@ -129,7 +129,7 @@ uint32_t wr_canvas_colour(const WrCanvas *canvas, double height)
 
 static void make_taps(WrCanvas *canvas, const WrField *field, int level)
 {
-    const WrView *view = &canvas->view;
+    const WrCanvasView *view = &canvas->view;
     bool wraps_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
     bool wraps_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     double x0 = view->centre_x - view->w / 2.0 / view->zoom;
@@ -143,7 +143,8 @@ static void make_taps(WrCanvas *canvas, const WrField *field, int level)
 }
 
 /* Add up the cell rows that one pixel row weighs, over the tile columns that are needed. */
-static void make_line(WrCanvas *canvas, const WrTaps *row, int tiles_u, int level, double deadline)
+static void make_line(WrCanvas *canvas, const WrCellTaps *row, int tiles_u, int level,
+                      double deadline)
 {
     int side = WR_TILE >> level, shift = 6 - level;
     for (int tx = 0; tx < tiles_u; tx++) {
@@ -167,7 +168,7 @@ static void paint_line(const WrCanvas *canvas, int x0, int x1, uint32_t *out)
     float scale = (float)((CODES - 1) / (canvas->high - canvas->low));
     const float *line = canvas->line;
     for (int x = x0; x < x1; x++) {
-        const WrTaps *t = &canvas->columns[x];
+        const WrCellTaps *t = &canvas->columns[x];
         float f = t->weight[0] * line[t->cell[0]] + t->weight[1] * line[t->cell[1]] +
                   t->weight[2] * line[t->cell[2]] + t->weight[3] * line[t->cell[3]];
         out[x] = t->outside ? WR_COLOUR_SURROUND : canvas->palette[code_of((f - low) * scale)];
@@ -183,7 +184,7 @@ static void paint_rect(WrCanvas *canvas, SDL_Rect rect, const WrField *field, in
         for (int k = 0; k < WR_TAPS; k++)
             canvas->needed[canvas->columns[x].cell[k] >> shift] = true;
     for (int y = rect.y; y < rect.y + rect.h; y++) {
-        const WrTaps *row = &canvas->rows[y];
+        const WrCellTaps *row = &canvas->rows[y];
         uint32_t *out = canvas->pixels + (size_t)y * (size_t)canvas->width;
         if (row->outside) {
             for (int x = rect.x; x < rect.x + rect.w; x++) out[x] = WR_COLOUR_SURROUND;
@@ -222,7 +223,7 @@ static double first_copy(double start, double size, double edge)
 static void paint_tile(WrCanvas *canvas, SDL_Point tile, const WrField *field, int level,
                        double deadline)
 {
-    const WrView *v = &canvas->view;
+    const WrCanvasView *v = &canvas->view;
     double w = v->table_w, h = v->table_h, z = v->zoom;
     double left = v->centre_x - v->w / 2.0 / z, top = v->centre_y - v->h / 2.0 / z;
     double right = left + v->w / z, bottom = top + v->h / z;
@@ -261,7 +262,7 @@ static bool make_buffers(WrCanvas *canvas, SDL_Renderer *renderer, int w, int h,
     return true;
 }
 
-static bool same_view(const WrView *a, const WrView *b)
+static bool same_view(const WrCanvasView *a, const WrCanvasView *b)
 {
     return a->w == b->w && a->h == b->h && a->table_w == b->table_w && a->table_h == b->table_h &&
            a->zoom == b->zoom && a->centre_x == b->centre_x && a->centre_y == b->centre_y;
@@ -288,7 +289,7 @@ static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, bool held)
     if (!canvas->valid) make_palette(canvas);
 }
 
-bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view,
+bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
                     const WrField *field, const WrCanvasLook *look, bool held, double budget,
                     WrCanvasRange *range)
 {

@@ -32,7 +32,7 @@ void wr_canvas_free(WrCanvas *canvas); /* before the renderer; NULL is fine */
 /* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
  * seconds for the means of large tables; true if it would be better with another call. held: it is being
  * painted, so that a range that follows it only widens. */
-bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrView *view,
+bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
                     const WrField *field, const WrCanvasLook *look, bool held, double budget,
                     WrCanvasRange *range);
 /* The colour of a height, 0xffRRGGBB, as in the last picture. */

@@ -211,9 +211,9 @@ int wr_cells_level(double zoom)
     return level;
 }
 
-WrTaps wr_taps_make(double from, double to, int size, int level, bool repeats)
+WrCellTaps wr_taps_make(double from, double to, int size, int level, bool repeats)
 {
-    WrTaps taps = { 0 };
+    WrCellTaps taps = { 0 };
     double middle = (from + to) / 2.0;
     if (!repeats && (middle < 0.0 || middle >= size)) {
         taps.outside = true;

@@ -28,14 +28,14 @@ void wr_cells_range(WrCells *cells, float *low, float *high);
 
 /* How one row or column of pixels weighs cells: the exact box filter over the pixel's footprint. */
 #define WR_TAPS 4
-typedef struct WrTaps {
+typedef struct WrCellTaps {
     int cell[WR_TAPS];     /* unused ones: the first, weight 0 */
     float weight[WR_TAPS]; /* sum 1 */
     bool outside;          /* beyond the edge of an axis that does not repeat */
-} WrTaps;
+} WrCellTaps;
 
 /* The taps of the pixel that covers texels [from, to) of an axis of `size` texels at `level`; from and
  * to are unwrapped. */
-WrTaps wr_taps_make(double from, double to, int size, int level, bool repeats);
+WrCellTaps wr_taps_make(double from, double to, int size, int level, bool repeats);
 /* The level at which a cell is half a pixel to one pixel: 0 from zoom 1/2 up. */
 int wr_cells_level(double zoom);

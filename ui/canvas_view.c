@@ -28,7 +28,7 @@ void wr_canvas_view_draw(WrApp *app)
 /* Lines between texels, faint: dark on light and light on dark. */
 static void pixel_grid(const WrApp *app)
 {
-    const WrView *v = &app->view;
+    const WrCanvasView *v = &app->view;
     if (v->zoom < GRID_FROM) return;
     double x0, y0, x1, y1, px, py;
     wr_view_to_texel(v, v->x, v->y, &x0, &y0);
@@ -46,7 +46,7 @@ static void pixel_grid(const WrApp *app)
 /* The real cell. */
 static void cell_outline(const WrApp *app)
 {
-    const WrView *v = &app->view;
+    const WrCanvasView *v = &app->view;
     double x0, y0, x1, y1, line = wr_gui_px(1);
     wr_view_to_pixel(v, 0, 0, &x0, &y0);
     wr_view_to_pixel(v, v->table_w, v->table_h, &x1, &y1);
@@ -205,7 +205,7 @@ void wr_canvas_view_overlay(WrApp *app)
 
 void wr_app_place_view(WrApp *app)
 {
-    WrView *view = &app->view;
+    WrCanvasView *view = &app->view;
     const SDL_Rect *room = &app->layout.canvas;
     const WrField *field = wr_app_field(app);
     int w = wr_field_width(field), h = wr_field_height(field);

@@ -11,7 +11,7 @@
 #define IDLE_SECONDS 20  /* without the user's doing anything, after which it stands */
 #define DASH 4           /* pixels at scale 1, of each colour */
 
-static bool same_view(const WrView *a, const WrView *b)
+static bool same_view(const WrCanvasView *a, const WrCanvasView *b)
 {
     return a->x == b->x && a->y == b->y && a->w == b->w && a->h == b->h &&
            a->table_w == b->table_w && a->table_h == b->table_h && a->zoom == b->zoom &&

@@ -31,7 +31,7 @@ typedef struct Shifts {
 
 static Shifts shifts_of(const WrApp *app, WrSelectPoint low, WrSelectPoint high)
 {
-    const WrView *view = &app->view;
+    const WrCanvasView *view = &app->view;
     const WrField *field = wr_app_field(app);
     double u0, v0, u1, v1;
     wr_view_to_uv(view, view->x, view->y + view->h, &u0, &v0);

@@ -15,7 +15,7 @@
 #define WR_SETTINGS_FILE_MAX (1 << 16) /* bytes */
 
 /* What the tools that draw other things than strokes go by. */
-typedef struct WrDrawing {
+typedef struct WrDrawSettings {
     bool fills;       /* shapes: their inside, not their outline */
     bool closed;      /* the Bezier path ends where it began */
     double corner;    /* of rectangles, texels */
@@ -24,7 +24,7 @@ typedef struct WrDrawing {
     int ramp, blend;  /* wr_ramp_kinds, wr_ramp_blends */
     bool fold;
     double low, high; /* heights of the ramp's ends */
-} WrDrawing;
+} WrDrawSettings;
 
 typedef struct WrSettings {
     int width, height; /* of the window, pixels at scale 1 of the display */
@@ -40,7 +40,7 @@ typedef struct WrSettings {
     bool turning; /* the patch turns by itself */
     WrBrush brush;
     WrCanvasLook look;
-    /* The files that the brush comes from, owned, NULL: none; as WrBrushFiles. */
+    /* The files that the brush comes from, owned, NULL: none; as WrBrushSources. */
     char *preset, *tip, *set;
     double other_strength; /* of lowering while raising, and the other way round; 0: the same */
     bool lock_size;        /* another preset keeps the size */
@@ -50,7 +50,7 @@ typedef struct WrSettings {
     WrSymmetry symmetry;     /* kept while it is off */
     bool symmetry_panel;     /* shown */
     int key_map;             /* wr_key_maps */
-    WrDrawing drawing;
+    WrDrawSettings drawing;
     int steady;                          /* WrSteadyKind of strokes by hand */
     double steady_smooth, steady_string; /* their lengths, pixels at scale 1 */
     bool steady_catch_up;                /* a line on a string ends where the pointer does */

@@ -356,6 +356,6 @@ void wr_shelf_free(WrApp *app)
     wr_free(app->brush_files.preset);
     wr_free(app->brush_files.tip);
     wr_free(app->brush_files.set);
-    app->brush_files = (WrBrushFiles){ 0 };
+    app->brush_files = (WrBrushSources){ 0 };
     *shelf = (WrShelf){ 0 };
 }

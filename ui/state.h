@@ -79,11 +79,11 @@ typedef struct WrHand {
 
 /* What of the brush comes from files, as command lines name it. settings.brush.preset and .tip are what
    was read from them, owned by the window. */
-typedef struct WrBrushFiles {
+typedef struct WrBrushSources {
     char *preset; /* id of the preset, owned; NULL: none */
     char *tip;    /* path of a tip that is not the preset's own, owned; NULL: none */
     char *set;    /* "name=value;...", owned; NULL: the preset's own settings */
-} WrBrushFiles;
+} WrBrushSources;
 
 /* One stroke: being drawn by the session, or waiting for the one before it to be done. */
 typedef struct WrStrokeJob {
@@ -196,7 +196,7 @@ typedef struct WrMarks {
     uint64_t asked_key; /* of the selection that was outlined last; 0: none */
     WrAnts ants, shape;
     uint64_t traced; /* serial of the outline in ants */
-    WrView traced_view;
+    WrCanvasView traced_view;
     double stepped_at; /* clock at the last step of the march */
 } WrMarks;
 
@@ -224,7 +224,7 @@ typedef struct WrAdjust {
     double param[WR_OP_PARAMS];
     int layers;        /* 0 the active one, 1 all */
     uint64_t asked_at; /* the document's revision when it was tried last */
-    WrView view;       /* as it was before */
+    WrCanvasView view; /* as it was before */
 } WrAdjust;
 
 typedef struct WrFinder { /* the search for actions */
@@ -353,14 +353,14 @@ struct WrApp {
     double drawn_scale;
     WrTiming timing;
 
-    WrView view;
+    WrCanvasView view;
     bool view_placed;
     WrCanvasRange range; /* heights that the canvas shows */
     bool canvas_unfinished;
     int tool;
     WrHand hand;
     WrBrushHand brush;
-    WrBrushFiles brush_files;
+    WrBrushSources brush_files;
     WrShelf shelf;
     WrDrawHand draw;
     WrGenerateHand *generate; /* owned */

@@ -15,7 +15,7 @@
 
 void wr_strokes_head(const WrApp *app, const WrBrush *brush, WrText *line)
 {
-    const WrBrushFiles *files = &app->brush_files;
+    const WrBrushSources *files = &app->brush_files;
     WrBrushNames names = { files->preset, files->set, files->tip };
     WrBrush base = brush->preset ? wr_preset_brush(brush->preset) : wr_brush_default();
     wr_text_add(line, "stroke");

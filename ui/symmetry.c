@@ -29,7 +29,7 @@ static bool is_shown(const WrApp *app)
 
 static void upright(const WrApp *app, double u, WrColour colour)
 {
-    const WrView *view = &app->view;
+    const WrCanvasView *view = &app->view;
     double x, y;
     wr_view_to_pixel(view, u * view->table_w, 0, &x, &y);
     wr_gui_draw_line(x, view->y, x, view->y + view->h, colour, wr_gui_scale());
@@ -37,7 +37,7 @@ static void upright(const WrApp *app, double u, WrColour colour)
 
 static void level(const WrApp *app, double v, WrColour colour)
 {
-    const WrView *view = &app->view;
+    const WrCanvasView *view = &app->view;
     double x, y;
     wr_view_to_pixel(view, 0, (1.0 - v) * view->table_h, &x, &y);
     wr_gui_draw_line(view->x, y, view->x + view->w, y, colour, wr_gui_scale());
@@ -46,7 +46,7 @@ static void level(const WrApp *app, double v, WrColour colour)
 /* Spokes half a cell long: a turn is about the centre, in every cell. */
 static void spokes(const WrApp *app, const WrSymmetry *s)
 {
-    const WrView *view = &app->view;
+    const WrCanvasView *view = &app->view;
     double x = s->centre_u * view->table_w, y = (1.0 - s->centre_v) * view->table_h;
     double reach = 0.5 * (view->table_w < view->table_h ? view->table_w : view->table_h);
     if (s->radial > 72) return;

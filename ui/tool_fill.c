@@ -24,7 +24,7 @@ static void paint_line(const WrApp *app, WrText *line)
 
 static void press(WrApp *app, const WrPointer *at)
 {
-    const WrDrawing *how = &app->settings.drawing;
+    const WrDrawSettings *how = &app->settings.drawing;
     WrSelectPoint home = wr_overlay_home(app, at->u, at->v);
     WrText line = { 0 };
     app->hints = false;

@@ -41,7 +41,7 @@ static void drag(WrApp *app, const WrPointer *at)
 
 static void release(WrApp *app, const WrPointer *at)
 {
-    const WrDrawing *how = &app->settings.drawing;
+    const WrDrawSettings *how = &app->settings.drawing;
     WrDrawHand *draw = &app->draw;
     if (!draw->active) return;
     end_at(app, at);
@@ -109,7 +109,7 @@ static void end_label(const WrApp *app, double x, double y, double height)
 static void marks(WrApp *app)
 {
     const WrDrawHand *draw = &app->draw;
-    const WrDrawing *how = &app->settings.drawing;
+    const WrDrawSettings *how = &app->settings.drawing;
     if (!draw->active) return;
     WrSelectPoint way[2] = { wr_overlay_uv(app, draw->x0, draw->y0),
                              wr_overlay_uv(app, draw->x1, draw->y1) };

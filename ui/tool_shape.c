@@ -17,7 +17,7 @@
 
 void wr_draw_brush_line(const WrApp *app, WrText *line, bool symmetric)
 {
-    const WrBrushFiles *files = &app->brush_files;
+    const WrBrushSources *files = &app->brush_files;
     WrBrush brush = app->settings.brush;
     WrBrush base = brush.preset ? wr_preset_brush(brush.preset) : wr_brush_default();
     WrBrushNames names = { files->preset, files->set, files->tip };

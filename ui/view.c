@@ -8,14 +8,14 @@ static double clamp(double x, double low, double high)
     return x < low ? low : x > high ? high : x;
 }
 
-void wr_view_zoom_range(const WrView *view, double *low, double *high)
+void wr_view_zoom_range(const WrCanvasView *view, double *low, double *high)
 {
     double longer = view->table_w > view->table_h ? view->table_w : view->table_h;
     *low = clamp(64.0 / longer, 1.0 / 128.0, 1.0);
     *high = 128.0;
 }
 
-void wr_view_fit(WrView *view, double margin)
+void wr_view_fit(WrCanvasView *view, double margin)
 {
     double free = 1.0 - margin;
     double zoom = fmin(view->w * free / view->table_w, view->h * free / view->table_h);
@@ -26,19 +26,19 @@ void wr_view_fit(WrView *view, double margin)
     view->centre_y = view->table_h / 2.0;
 }
 
-void wr_view_to_texel(const WrView *view, double px, double py, double *x, double *y)
+void wr_view_to_texel(const WrCanvasView *view, double px, double py, double *x, double *y)
 {
     *x = view->centre_x + (px - view->x - view->w / 2.0) / view->zoom;
     *y = view->centre_y + (py - view->y - view->h / 2.0) / view->zoom;
 }
 
-void wr_view_to_pixel(const WrView *view, double x, double y, double *px, double *py)
+void wr_view_to_pixel(const WrCanvasView *view, double x, double y, double *px, double *py)
 {
     *px = view->x + view->w / 2.0 + (x - view->centre_x) * view->zoom;
     *py = view->y + view->h / 2.0 + (y - view->centre_y) * view->zoom;
 }
 
-void wr_view_to_uv(const WrView *view, double px, double py, double *u, double *v)
+void wr_view_to_uv(const WrCanvasView *view, double px, double py, double *u, double *v)
 {
     double x, y;
     wr_view_to_texel(view, px, py, &x, &y);
@@ -46,7 +46,7 @@ void wr_view_to_uv(const WrView *view, double px, double py, double *u, double *
     *v = 1.0 - y / view->table_h;
 }
 
-void wr_view_zoom_at(WrView *view, double px, double py, double zoom)
+void wr_view_zoom_at(WrCanvasView *view, double px, double py, double zoom)
 {
     double x, y, low, high, after_x, after_y;
     wr_view_to_texel(view, px, py, &x, &y);
@@ -58,14 +58,14 @@ void wr_view_zoom_at(WrView *view, double px, double py, double zoom)
     wr_view_keep_near(view);
 }
 
-void wr_view_pan(WrView *view, double dx, double dy)
+void wr_view_pan(WrCanvasView *view, double dx, double dy)
 {
     view->centre_x -= dx / view->zoom;
     view->centre_y -= dy / view->zoom;
     wr_view_keep_near(view);
 }
 
-void wr_view_keep_near(WrView *view)
+void wr_view_keep_near(WrCanvasView *view)
 {
     view->centre_x -= floor(view->centre_x / view->table_w) * view->table_w;
     view->centre_y -= floor(view->centre_y / view->table_h) * view->table_h;
@@ -77,7 +77,7 @@ static double outside(double x, double size)
     return x < 0.0 ? -x : x > size ? x - size : 0.0;
 }
 
-int wr_view_outline_copies(const WrView *view, bool wraps_u, bool wraps_v, double x, double y,
+int wr_view_outline_copies(const WrCanvasView *view, bool wraps_u, bool wraps_v, double x, double y,
                            double radius, WrShift copies[WR_VIEW_COPIES])
 {
     double w = view->table_w, h = view->table_h;

@@ -12,7 +12,7 @@ bool wr_hard_look_init(WrHardGauge *gauge, WrHardLook *look, const WrField *fiel
         wr_table_fini(&look->table);
         return false;
     }
-    const WrCopy *heights = &look->table.copies[kind];
+    const WrTableCopy *heights = &look->table.copies[kind];
     look->look = (WrLook){ .heights = heights->data,
                            .gradient = look->table.copies[WR_COPY_GRADIENT].data,
                            .pitch = heights->pitch,

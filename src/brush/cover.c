@@ -71,7 +71,7 @@ static void note(WrPage *page, const WrRun *run)
 }
 
 /* Whether the run's texels may gain; if so they do. */
-static bool gain(const WrCover *cover, WrPage *page, const WrShape *shape, const WrRun *run)
+static bool gain(const WrCover *cover, WrPage *page, const WrDabShape *shape, const WrRun *run)
 {
     const WrBrushKernels *kernels = shape->kernels;
     float *to = page->cover + run->at;
@@ -95,7 +95,7 @@ static bool gain(const WrCover *cover, WrPage *page, const WrShape *shape, const
     return false;
 }
 
-static void visit(void *ctx, const WrShape *shape, const WrPatch *patch)
+static void visit(void *ctx, const WrDabShape *shape, const WrScanPatch *patch)
 {
     WrCover *cover = ctx;
     WrPage *page = cover->pages[(size_t)patch->ty * (size_t)cover->tiles_u + (size_t)patch->tx];
@@ -103,7 +103,7 @@ static void visit(void *ctx, const WrShape *shape, const WrPatch *patch)
         if (gain(cover, page, shape, &patch->runs[k])) note(page, &patch->runs[k]);
 }
 
-void wr_cover_add(WrCover *cover, const WrShape *shape)
+void wr_cover_add(WrCover *cover, const WrDabShape *shape)
 {
     wr_scan(cover->maker.ground.field, shape, cover->maker.ground.pool, prepare, visit, cover);
 }

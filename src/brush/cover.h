@@ -35,7 +35,7 @@ typedef struct WrCover {
 void wr_cover_init(WrCover *cover, const WrBrushGround *ground, const WrBrush *brush,
                    WrCoverRule rule);
 void wr_cover_fini(WrCover *cover);
-void wr_cover_add(WrCover *cover, const WrShape *shape);
+void wr_cover_add(WrCover *cover, const WrDabShape *shape);
 /* Make the heights of what changed, until that time of the clock (HUGE_VAL: all), at least a few tiles. True
  * if some are left. */
 bool wr_cover_make(WrCover *cover, double until);

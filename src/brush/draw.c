@@ -46,7 +46,7 @@ static bool does_nothing(const WrDraw *draw)
 
 static void add_texel(WrDraw *draw, double x, double y, double pressure)
 {
-    WrShape shape;
+    WrDabShape shape;
     if (wr_shape_of_texel(draw->cover.maker.ground.field, x, y, pressure, &shape))
         wr_cover_add(&draw->cover, &shape);
 }
@@ -94,7 +94,7 @@ void wr_draw_motion(WrDraw *draw, double x, double y, double dx, double dy, doub
         const WrCopy *c = &draw->copies[k];
         double cx = c->a * x + c->b * y + c->dx, cy = c->c * x + c->d * y + c->dy;
         double cdx = c->a * dx + c->b * dy, cdy = c->c * dx + c->d * dy;
-        WrShape shape;
+        WrDabShape shape;
         if (maker->brush.radius <= WR_THIN)
             draw_line(draw, cx, cy, cdx, cdy, pressure_start, pressure_end - pressure_start);
         else if (wr_shape_of_motion(maker->ground.field, &maker->brush, cx, cy, cdx, cdy,
@@ -114,7 +114,7 @@ void wr_draw_dab(WrDraw *draw, const WrDab *dab)
     fine.dy = on_grid(dab->dy);
     for (int k = 0; k < draw->copy_count; k++) {
         const WrCopy *c = &draw->copies[k];
-        WrShape shape;
+        WrDabShape shape;
         if (!wr_shape_of_dab(maker->ground.field, maker->brush.tip, &fine, c, &shape)) continue;
         if (draw->moves)
             wr_move_dab(&draw->mover, &draw->cover, &shape, dab->radius,

@@ -57,7 +57,7 @@ static bool reserve(WrMover *mover, size_t floats)
 }
 
 /* Weights of one row of the box: the dab's, times opacity and selection. `at`: scratch. */
-static void weigh_row(const WrMaker *maker, const WrShape *shape, const WrMoveBox *box, int i,
+static void weigh_row(const WrMaker *maker, const WrDabShape *shape, const WrMoveBox *box, int i,
                       int j, float *weights, float *chosen)
 {
     float opacity = (float)maker->brush.opacity;
@@ -73,7 +73,7 @@ static void weigh_row(const WrMaker *maker, const WrShape *shape, const WrMoveBo
 }
 
 /* Rows in whole runs of 64, since kernels take no more at once. */
-static void weigh(const WrMaker *maker, const WrShape *shape, const WrMoveBox *box, int i, int j,
+static void weigh(const WrMaker *maker, const WrDabShape *shape, const WrMoveBox *box, int i, int j,
                   float *weights)
 {
     for (int y = 0; y < box->height; y++) {
@@ -195,8 +195,8 @@ static bool lay_out(WrMover *mover, WrMoveBox *box, float **weights, float **bef
     return true;
 }
 
-void wr_move_dab(WrMover *mover, WrCover *cover, const WrShape *shape, double radius, double way_x,
-                 double way_y, double drag, double dragged)
+void wr_move_dab(WrMover *mover, WrCover *cover, const WrDabShape *shape, double radius,
+                 double way_x, double way_y, double drag, double dragged)
 {
     const WrMaker *maker = &cover->maker;
     const WrField *field = maker->ground.field;

@@ -33,7 +33,7 @@ void wr_mover_fini(WrMover *mover);
 
 /* Put one dab's shape down; the maker in `cover` tells ground, mode and arguments. way_x, way_y: from the
  * dab before. drag, dragged: as in WrDab. */
-void wr_move_dab(WrMover *mover, WrCover *cover, const WrShape *shape, double radius, double way_x,
-                 double way_y, double drag, double dragged);
+void wr_move_dab(WrMover *mover, WrCover *cover, const WrDabShape *shape, double radius,
+                 double way_x, double way_y, double drag, double dragged);
 /* The mean height under a disc. */
 double wr_move_height(const WrField *field, double x, double y, double radius);

@@ -100,7 +100,7 @@ static bool any_cover(const float *fresh, int count)
     return false;
 }
 
-static void visit(void *ctx, const WrShape *shape, const WrPatch *patch)
+static void visit(void *ctx, const WrDabShape *shape, const WrScanPatch *patch)
 {
     const Spot *spot = ctx;
     float *out = NULL; /* fetched with the first texel that changes */
@@ -133,7 +133,7 @@ void wr_paint_dab(WrField *field, const WrBrush *brush, double x, double y)
     bool plain = brush->opacity == 1.0 && fabs(brush->strength) <= WR_BRUSH_STRONG;
     if (plain && brush->mode == WR_BRUSH_RAISE) spot.strength = brush->strength;
     if (plain && brush->mode == WR_BRUSH_LOWER) spot.strength = -brush->strength;
-    WrShape shape;
+    WrDabShape shape;
     bool there = brush->radius <= WR_THIN
                      ? wr_shape_of_texel(field, x, y, 1.0, &shape)
                      : wr_shape_of_motion(field, brush, x, y, 0.0, 0.0, 1.0, 1.0, &shape);

@@ -49,7 +49,7 @@ static int floor_int(double x)
     return whole - (x < whole);
 }
 
-static void find_spans(Band *band, const WrShape *shape, WrWindow columns)
+static void find_spans(Band *band, const WrDabShape *shape, WrWindow columns)
 {
     if (shape->reach_x < SMALL && shape->kind != WR_SHAPE_MOTION) {
         band->all = columns;
@@ -85,7 +85,7 @@ static WrRun run_of(const Band *band, int row, int first, int last, int texel)
 }
 
 /* The part of a band that lies in one tile: columns i .. i + count - 1, texel column `texel`. */
-static void patch_of(const Band *band, int i, int count, int texel, WrPatch *patch)
+static void patch_of(const Band *band, int i, int count, int texel, WrScanPatch *patch)
 {
     patch->tx = texel / WR_TILE;
     patch->ty = band->texel / WR_TILE;
@@ -102,7 +102,7 @@ static void patch_of(const Band *band, int i, int count, int texel, WrPatch *pat
 /* Tiles of one band, for several threads. */
 typedef struct Crew {
     const Band *band;
-    const WrShape *shape;
+    const WrDabShape *shape;
     WrVisit visit;
     void *ctx;
     struct Piece {
@@ -116,20 +116,20 @@ static void work(int index, int worker, void *ctx)
     (void)worker;
     const Crew *crew = ctx;
     const struct Piece *piece = &crew->pieces[index];
-    WrPatch patch;
+    WrScanPatch patch;
     patch_of(crew->band, piece->i, piece->count, piece->texel, &patch);
     if (patch.count) crew->visit(crew->ctx, crew->shape, &patch);
 }
 
 /* A motion meets a tile twice where it passes more than a period: then one after the other. */
-static bool many(const Band *band, const WrPool *pool, const WrShape *shape)
+static bool many(const Band *band, const WrPool *pool, const WrDabShape *shape)
 {
     int reach = band->all.high - band->all.low + 1;
     return pool && wr_pool_threads(pool) > 1 && reach >= MANY_TILES * WR_TILE &&
            band->count >= WR_TILE / 2 && shape->kind != WR_SHAPE_TEXEL && reach <= band->width;
 }
 
-static void scan_band(const Band *band, const WrShape *shape, WrPool *pool, WrPrepare prepare,
+static void scan_band(const Band *band, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
                       WrVisit visit, void *ctx)
 {
     Crew crew;
@@ -141,7 +141,7 @@ static void scan_band(const Band *band, const WrShape *shape, WrPool *pool, WrPr
             if (together) {
                 crew.pieces[crew.count++] = (struct Piece){ i, count, texel };
             } else {
-                WrPatch patch;
+                WrScanPatch patch;
                 patch_of(band, i, count, texel, &patch);
                 if (patch.count) visit(ctx, shape, &patch);
             }
@@ -159,7 +159,7 @@ static void scan_band(const Band *band, const WrShape *shape, WrPool *pool, WrPr
     if (meet) work(crew.count - 1, 0, &crew); /* the two ends of a period share a tile */
 }
 
-void wr_scan(const WrField *field, const WrShape *shape, WrPool *pool, WrPrepare prepare,
+void wr_scan(const WrField *field, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
              WrVisit visit, void *ctx)
 {
     int width = wr_field_width(field), height = wr_field_height(field);
@@ -177,7 +177,7 @@ void wr_scan(const WrField *field, const WrShape *shape, WrPool *pool, WrPrepare
     }
 }
 
-void wr_run_cover(const WrShape *shape, const WrRun *run, float *fresh)
+void wr_run_cover(const WrDabShape *shape, const WrRun *run, float *fresh)
 {
     wr_shape_row(shape, run->y, run->x, run->count, fresh);
     for (int i = 0; i < run->head; i++) fresh[i] = 0.0f;

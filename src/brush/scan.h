@@ -12,10 +12,10 @@ typedef struct WrRun {
 } WrRun;
 
 /* What of a shape lies in one tile. */
-typedef struct WrPatch {
+typedef struct WrScanPatch {
     int tx, ty, count;
     WrRun runs[WR_TILE];
-} WrPatch;
+} WrScanPatch;
 
 /* One axis's range of texels, not wrapped. */
 typedef struct WrWindow {
@@ -33,9 +33,9 @@ int wr_tile_run(int i, int last, int n, int *texel);
  * motion. pool: tiles may be visited by several threads at once where there are many; NULL: one after
  * the other. prepare, if not NULL, is called for each tile before, on this thread; false leaves it out. */
 typedef bool (*WrPrepare)(void *ctx, int tx, int ty);
-typedef void (*WrVisit)(void *ctx, const WrShape *shape, const WrPatch *patch);
-void wr_scan(const WrField *field, const WrShape *shape, WrPool *pool, WrPrepare prepare,
+typedef void (*WrVisit)(void *ctx, const WrDabShape *shape, const WrScanPatch *patch);
+void wr_scan(const WrField *field, const WrDabShape *shape, WrPool *pool, WrPrepare prepare,
              WrVisit visit, void *ctx);
 
 /* The coverage of a run: wr_shape_row with head and tail cleared. */
-void wr_run_cover(const WrShape *shape, const WrRun *run, float *fresh);
+void wr_run_cover(const WrDabShape *shape, const WrRun *run, float *fresh);

@@ -14,14 +14,14 @@ static double near_table(double x, int n, WrWrap wrap)
     return x - n * floor(x / n);
 }
 
-static void place(const WrField *field, double x, double y, WrShape *shape)
+static void place(const WrField *field, double x, double y, WrDabShape *shape)
 {
     shape->x = near_table(x, wr_field_width(field), wr_field_wrap_u(field));
     shape->y = near_table(y, wr_field_height(field), wr_field_wrap_v(field));
 }
 
 bool wr_shape_of_motion(const WrField *field, const WrBrush *brush, double x, double y, double dx,
-                        double dy, double pressure_start, double pressure_end, WrShape *shape)
+                        double dy, double pressure_start, double pressure_end, WrDabShape *shape)
 {
     if (!(pressure_start > 0.0 || pressure_end > 0.0) || !(brush->radius > WR_THIN)) return false;
     place(field, x, y, shape);
@@ -43,7 +43,7 @@ static double holder(double x, int n, WrWrap wrap)
     return wrap == WR_WRAP_CLAMP && x + 0.5 == n ? n - 1.0 : cell;
 }
 
-bool wr_shape_of_texel(const WrField *field, double x, double y, double alpha, WrShape *shape)
+bool wr_shape_of_texel(const WrField *field, double x, double y, double alpha, WrDabShape *shape)
 {
     if (!(alpha > 0.0)) return false;
     place(field, x, y, shape);
@@ -58,7 +58,7 @@ bool wr_shape_of_texel(const WrField *field, double x, double y, double alpha, W
 
 /* d^2 = A ex^2 + 2 B ex ey + C ey^2 = R^2 of an ellipse with unit long axis (ux, uy) and aspect s:
  * A C - B^2 = s^2, so it reaches R sqrt(C) / s across and R sqrt(A) / s down. */
-static void set_ellipse(const WrDab *dab, double aspect, double ux, double uy, WrShape *shape)
+static void set_ellipse(const WrDab *dab, double aspect, double ux, double uy, WrDabShape *shape)
 {
     WrEllipse *e = &shape->ellipse;
     double s2 = aspect * aspect;
@@ -86,7 +86,7 @@ static void set_ellipse(const WrDab *dab, double aspect, double ux, double uy, W
     shape->reach_y = dab->radius * sqrt(e->a) / aspect + SLACK;
 }
 
-static void set_tip(const WrTip *tip, const WrDab *dab, double ux, double uy, WrShape *shape)
+static void set_tip(const WrTip *tip, const WrDab *dab, double ux, double uy, WrDabShape *shape)
 {
     int width, height;
     wr_tip_size(tip, dab->tip_cell, &width, &height);
@@ -111,7 +111,7 @@ static double thick_enough(const WrDab *dab)
 }
 
 bool wr_shape_of_dab(const WrField *field, const WrTip *tip, const WrDab *dab, const WrCopy *copy,
-                     WrShape *shape)
+                     WrDabShape *shape)
 {
     if (!(dab->radius > 0.0) || !(dab->alpha > 0.0) || !isfinite(dab->x) || !isfinite(dab->y))
         return false;
@@ -151,7 +151,7 @@ static bool ellipse_span(const WrEllipse *e, double y, double *low, double *high
     return true;
 }
 
-bool wr_shape_span(const WrShape *shape, double y, double *low, double *high)
+bool wr_shape_span(const WrDabShape *shape, double y, double *low, double *high)
 {
     if (shape->kind == WR_SHAPE_DAB || shape->kind == WR_SHAPE_MOTION)
         return wr_capsule_span(&shape->capsule, y, low, high);
@@ -161,7 +161,7 @@ bool wr_shape_span(const WrShape *shape, double y, double *low, double *high)
     return true;
 }
 
-static void tip_row(const WrShape *shape, double y, double x, int count, float *fresh)
+static void tip_row(const WrDabShape *shape, double y, double x, int count, float *fresh)
 {
     const WrEllipse *e = &shape->ellipse;
     double ey = y - e->y, side = shape->flips ? -1.0 : 1.0;
@@ -174,7 +174,7 @@ static void tip_row(const WrShape *shape, double y, double x, int count, float *
     }
 }
 
-void wr_shape_row(const WrShape *shape, double y, double x, int count, float *fresh)
+void wr_shape_row(const WrDabShape *shape, double y, double x, int count, float *fresh)
 {
     switch (shape->kind) {
     case WR_SHAPE_TEXEL:

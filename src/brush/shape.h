@@ -16,7 +16,7 @@ typedef enum WrShapeKind {
     WR_SHAPE_TIP
 } WrShapeKind;
 
-typedef struct WrShape {
+typedef struct WrDabShape {
     WrShapeKind kind;
     double x, y, dx, dy;     /* centre, or start and way of a motion; not wrapped */
     double reach_x, reach_y; /* beyond these distances from (x, y) or the way there is nothing */
@@ -27,18 +27,18 @@ typedef struct WrShape {
     WrTipView tip;
     double across, down; /* tip: pictures a texel */
     bool flips;
-} WrShape;
+} WrDabShape;
 
 /* The field gives size and wrap; brush from wr_brush_sane. False where nothing is painted. */
 bool wr_shape_of_motion(const WrField *field, const WrBrush *brush, double x, double y, double dx,
-                        double dy, double pressure_start, double pressure_end, WrShape *shape);
-bool wr_shape_of_texel(const WrField *field, double x, double y, double alpha, WrShape *shape);
+                        double dy, double pressure_start, double pressure_end, WrDabShape *shape);
+bool wr_shape_of_texel(const WrField *field, double x, double y, double alpha, WrDabShape *shape);
 /* A dab, as `copy` makes it. tip: NULL, or in place of the dab's falloff. */
 bool wr_shape_of_dab(const WrField *field, const WrTip *tip, const WrDab *dab, const WrCopy *copy,
-                     WrShape *shape);
+                     WrDabShape *shape);
 
 /* The columns *low .. *high outside of which it does not reach on row y, a little wide and not rounded;
  * false if it misses the row. */
-bool wr_shape_span(const WrShape *shape, double y, double *low, double *high);
+bool wr_shape_span(const WrDabShape *shape, double y, double *low, double *high);
 /* fresh[i] = coverage of texel (x + i, y); count as in kern.h. */
-void wr_shape_row(const WrShape *shape, double y, double x, int count, float *fresh);
+void wr_shape_row(const WrDabShape *shape, double y, double x, int count, float *fresh);

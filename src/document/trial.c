@@ -93,7 +93,7 @@ static bool listen_to(pid_t child, int from, double seconds, Verdict *verdict, s
     }
 }
 
-static WrTrial judge(const Verdict *verdict, bool told, int status, WrError *err)
+static WrTrialEnd judge(const Verdict *verdict, bool told, int status, WrError *err)
 {
     if (told && verdict->result) return WR_TRIAL_TRUE;
     if (told) {
@@ -109,8 +109,8 @@ static WrTrial judge(const Verdict *verdict, bool told, int status, WrError *err
     return WR_TRIAL_CRASHED;
 }
 
-WrTrial wr_journal_trial(WrTrialFunction function, void *ctx, double seconds, size_t bytes,
-                         WrError *err)
+WrTrialEnd wr_journal_trial(WrTrialFunction function, void *ctx, double seconds, size_t bytes,
+                            WrError *err)
 {
     int ends[2], status = 0;
     size_t have = 0;

@@ -151,10 +151,10 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {
-    const WrCopy *copies = renderer->table.copies;
+    const WrTableCopy *copies = renderer->table.copies;
     const bool fitted = request->scene->scheme == WR_SCHEME_BSPLINE_FIT;
-    const WrCopy *heights = &copies[fitted ? WR_COPY_FITTED : WR_COPY_HEIGHTS];
-    const WrCopy *gradient = &copies[WR_COPY_GRADIENT];
+    const WrTableCopy *heights = &copies[fitted ? WR_COPY_FITTED : WR_COPY_HEIGHTS];
+    const WrTableCopy *gradient = &copies[WR_COPY_GRADIENT];
     WrLookd look = make_look(renderer, request, scale);
     look.heights = heights->fine;
     look.gradient = gradient->fine;

@@ -103,11 +103,11 @@ void wr_table_init(WrTable *table)
 
 void wr_table_drop(WrTable *table, WrCopyKind kind)
 {
-    WrCopy *copy = &table->copies[kind];
+    WrTableCopy *copy = &table->copies[kind];
     wr_field_free(copy->seen);
     wr_free(copy->data);
     wr_free(copy->fine);
-    *copy = (WrCopy){ 0 };
+    *copy = (WrTableCopy){ 0 };
     if (kind != WR_COPY_GRADIENT) return;
     wr_free(table->sloped);
     table->sloped = NULL;
@@ -185,7 +185,7 @@ void wr_table_range(const WrTable *table, float *low, float *high)
 
 typedef struct CopyJob {
     WrTable *table;
-    WrCopy *copy;
+    WrTableCopy *copy;
     WrCopyKind kind;
     const WrField *field;
     bool border; /* something changed that the apron shows */
@@ -213,7 +213,7 @@ static void widen(CopyJob *job, int i, int j, int w, int h)
 
 static void refresh(CopyJob *job, int i, int j, int w, int h)
 {
-    const WrCopy *copy = job->copy;
+    const WrTableCopy *copy = job->copy;
     if (w <= 0 || h <= 0) return;
     if (copy->data)
         kinds[job->kind].fill(job->field, i, j, w, h, copy->data + place(job, i, j),
@@ -340,7 +340,7 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
                     WrError *err)
 {
     CopyJob job = { .table = table, .copy = &table->copies[kind], .kind = kind, .field = field };
-    WrCopy *copy = job.copy;
+    WrTableCopy *copy = job.copy;
     table->texels_refreshed = 0;
     if (copy->precision != table->precision) wr_table_drop(table, kind);
     if (same_layout(copy->seen, field)) {
@@ -365,7 +365,7 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
 
 bool wr_table_slope_free(const WrTable *table)
 {
-    const WrCopy *copy = &table->copies[WR_COPY_GRADIENT];
+    const WrTableCopy *copy = &table->copies[WR_COPY_GRADIENT];
     if (!copy->seen) return false;
     for (int i = 0; i < tile_count(copy->seen); i++)
         if (table->sloped[i]) return false;

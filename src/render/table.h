@@ -21,17 +21,17 @@ typedef enum WrPrecision {
     WR_PRECISION_DOUBLE   /* numbers that were never rounded to single precision */
 } WrPrecision;
 
-typedef struct WrCopy {
+typedef struct WrTableCopy {
     WrField *seen; /* snapshot that data was made from; NULL: none */
     WrPrecision precision;
     float *data;  /* owned; SINGLE only */
     double *fine; /* owned; the others */
     int pitch;    /* texels a row */
-} WrCopy;
+} WrTableCopy;
 
 typedef struct WrTable {
     WrPrecision precision; /* of the copies to be brought; the caller's to set */
-    WrCopy copies[WR_COPY_COUNT];
+    WrTableCopy copies[WR_COPY_COUNT];
     WrField *ranged;          /* snapshot that low and high were made from */
     float *low, *high;        /* [tiles] of each field tile */
     unsigned char *sloped;    /* [tiles] the gradient copy has a slope there */
