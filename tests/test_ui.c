@@ -288,7 +288,7 @@ static void parts_of_the_window_cover_it_without_overlap(void **state)
             for (int views = 0; views < 3; views++) {
                 for (int d = 0; d <= 4; d++) {
                     WrLayoutInput in = { sizes[i][0], sizes[i][1], (int)(29 * scales[s]),
-                                         scales[s],   d / 4.0,     (WrViews)views,
+                                         scales[s],   d / 4.0,     (WrShownViews)views,
                                          d % 2 == 0,  0.2 * d,     17 };
                     check_layout(&in);
                 }
@@ -551,7 +551,7 @@ static void means_of_cut_off_tiles_count_only_what_is_inside(void **state)
     WrField *field = wr_field_new(100, 70, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < 70; j++)
         for (int i = 0; i < 100; i++) wr_field_set(field, i, j, (float)(i + 1000 * j));
-    WrCells *cells = wr_cells_new();
+    WrCanvasCells *cells = wr_cells_new();
     int changes = 0;
     float flat;
     assert_false(wr_cells_look(cells, field, 3, count_tile, &changes));
@@ -573,7 +573,7 @@ static void an_edit_is_seen_and_costs_its_tile_alone(void **state)
 {
     (void)state;
     WrField *field = wr_field_new(512, 512, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.25f, NULL);
-    WrCells *cells = wr_cells_new();
+    WrCanvasCells *cells = wr_cells_new();
     int changes = 0;
     float flat = 0, low, high;
     wr_cells_look(cells, field, 2, count_tile, &changes);
@@ -601,7 +601,7 @@ static void late_means_are_rough_and_made_good_later(void **state)
     WrField *field = wr_field_new(64, 64, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < 64; j++)
         for (int i = 0; i < 64; i++) wr_field_set(field, i, j, (float)i);
-    WrCells *cells = wr_cells_new();
+    WrCanvasCells *cells = wr_cells_new();
     float flat;
     wr_cells_look(cells, field, 6, count_tile, NULL);
     assert_near((double)wr_cells_block(cells, 0, 0, 0, &flat)[0], 0, 0);

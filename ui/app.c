@@ -124,7 +124,7 @@ static void handle(WrApp *app, const SDL_Event *event)
         if (app->dialog == WR_DIALOG_UNSAVED) app->quit = true;
         else wr_app_quit(app);
     } else if (event->type == SDL_WINDOWEVENT) {
-        wr_window_event(app, &event->window);
+        wr_window_event(app, event);
     } else if (event->type == SDL_DROPFILE) {
         if (event->drop.file) wr_app_open_path(app, event->drop.file);
         SDL_free(event->drop.file);

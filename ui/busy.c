@@ -208,6 +208,13 @@ static bool wants_end(const Wait *wait, const SDL_Event *event)
     return action && strcmp(action, "quit") == 0;
 }
 
+/* Parts follow these even now. */
+static void pass_on(WrApp *app, const SDL_Event *event)
+{
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->event) (*p)->event(app, event);
+}
+
 /* Of what is not the user's hand: true if it was that. What the window is told holds at once; what is let go
    was pressed before. */
 static bool take_note(Wait *wait, const SDL_Event *event)
@@ -215,10 +222,9 @@ static bool take_note(Wait *wait, const SDL_Event *event)
     WrApp *app = wait->app;
     if (event->type == app->file_event) wait->file_chosen = true;
     else if (event->type == app->rest_event) wait->asked = true;
-    else if (event->type == SDL_WINDOWEVENT) wr_window_event(app, &event->window);
+    else if (event->type == SDL_WINDOWEVENT || event->type == SDL_KEYUP) pass_on(app, event);
     else if (event->type == SDL_DROPFILE && event->drop.file)
         wr_array_push(&wait->dropped, event->drop.file);
-    else if (event->type == SDL_KEYUP) wr_hand_event(app, event);
     else return false;
     return event->type != SDL_WINDOWEVENT &&
            event->type != SDL_KEYUP; /* the widgets want those too */

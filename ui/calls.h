@@ -20,7 +20,7 @@ double wr_window_scale(SDL_Window *window); /* what its display asks for, in ste
 /* The window with what a window manager put around it stays within what the desktop leaves free, so that the
    status line is on the screen. Known only once it is shown, and looked at until a hand has been at it. */
 void wr_window_keep(WrApp *app);
-void wr_window_event(WrApp *app, const SDL_WindowEvent *event);
+void wr_window_event(WrApp *app, const SDL_Event *event);
 
 /* ---- document.c: the document behind the window ---- */
 /* What the views show: the composite, or what it would become by what is being tried. */

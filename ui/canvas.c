@@ -15,7 +15,7 @@
 #define DIRTY_MAX 4096 /* tiles; more than that and the whole picture is made anew */
 
 struct WrCanvas {
-    WrCells *cells;
+    WrCanvasCells *cells;
     SDL_Texture *texture;
     int width, height;           /* of texture and pixels */
     uint32_t *pixels;            /* [height][width], ARGB */

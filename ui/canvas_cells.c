@@ -14,7 +14,7 @@ typedef struct Block {
     bool rough;
 } Block;
 
-struct WrCells {
+struct WrCanvasCells {
     WrField *field; /* shared */
     int level, tiles_u, tiles_v;
     Block *blocks;               /* [tiles_v * tiles_u] */
@@ -26,12 +26,12 @@ struct WrCells {
     void *ctx;
 };
 
-WrCells *wr_cells_new(void)
+WrCanvasCells *wr_cells_new(void)
 {
-    return wr_alloc(1, sizeof(WrCells));
+    return wr_alloc(1, sizeof(WrCanvasCells));
 }
 
-static void drop_blocks(WrCells *cells)
+static void drop_blocks(WrCanvasCells *cells)
 {
     for (int i = 0; cells->blocks && i < cells->tiles_u * cells->tiles_v; i++) {
         wr_free(cells->blocks[i].mean);
@@ -40,7 +40,7 @@ static void drop_blocks(WrCells *cells)
     cells->bytes = 0;
 }
 
-static void drop_all(WrCells *cells)
+static void drop_all(WrCanvasCells *cells)
 {
     drop_blocks(cells);
     wr_free(cells->blocks);
@@ -48,10 +48,10 @@ static void drop_all(WrCells *cells)
     wr_free(cells->tile_high);
     wr_free(cells->tile_known);
     wr_field_free(cells->field);
-    *cells = (WrCells){ 0 };
+    *cells = (WrCanvasCells){ 0 };
 }
 
-void wr_cells_free(WrCells *cells)
+void wr_cells_free(WrCanvasCells *cells)
 {
     if (!cells) return;
     drop_all(cells);
@@ -60,7 +60,7 @@ void wr_cells_free(WrCells *cells)
 
 static void tile_changed(int tx, int ty, void *ctx)
 {
-    WrCells *cells = ctx;
+    WrCanvasCells *cells = ctx;
     int at = ty * cells->tiles_u + tx;
     wr_free(cells->blocks[at].mean);
     cells->blocks[at] = (Block){ 0 };
@@ -75,7 +75,7 @@ static bool same_frame(const WrField *a, const WrField *b)
            wr_field_wrap_v(a) == wr_field_wrap_v(b);
 }
 
-bool wr_cells_look(WrCells *cells, const WrField *field, int level, WrTileVisitor changed,
+bool wr_cells_look(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
                    void *ctx)
 {
     bool same = cells->field && same_frame(cells->field, field);
@@ -102,7 +102,7 @@ bool wr_cells_look(WrCells *cells, const WrField *field, int level, WrTileVisito
 }
 
 /* Means over squares of 2^level texels; squares at the table's edge count only texels inside it. */
-static void make_means(const WrCells *cells, int tx, int ty, const float *tile, float *mean)
+static void make_means(const WrCanvasCells *cells, int tx, int ty, const float *tile, float *mean)
 {
     int step = 1 << cells->level, side = WR_TILE >> cells->level;
     int w = wr_field_width(cells->field) - tx * WR_TILE;
@@ -123,14 +123,14 @@ static void make_means(const WrCells *cells, int tx, int ty, const float *tile, 
 }
 
 /* One texel in place of each mean: its first, which is always inside the table. */
-static void make_rough(const WrCells *cells, const float *tile, float *mean)
+static void make_rough(const WrCanvasCells *cells, const float *tile, float *mean)
 {
     int step = 1 << cells->level, side = WR_TILE >> cells->level;
     for (int j = 0; j < side; j++)
         for (int i = 0; i < side; i++) mean[side * j + i] = tile[WR_TILE * step * j + step * i];
 }
 
-const float *wr_cells_block(WrCells *cells, int tx, int ty, double deadline, float *flat)
+const float *wr_cells_block(WrCanvasCells *cells, int tx, int ty, double deadline, float *flat)
 {
     Block *block = &cells->blocks[ty * cells->tiles_u + tx];
     if (block->mean && !block->rough) return block->mean;
@@ -160,17 +160,17 @@ const float *wr_cells_block(WrCells *cells, int tx, int ty, double deadline, flo
     return block->mean;
 }
 
-bool wr_cells_rough(const WrCells *cells)
+bool wr_cells_rough(const WrCanvasCells *cells)
 {
     return cells->rough;
 }
 
-void wr_cells_forget_rough(WrCells *cells)
+void wr_cells_forget_rough(WrCanvasCells *cells)
 {
     cells->rough = false;
 }
 
-static void tile_range(const WrCells *cells, int tx, int ty, float *low, float *high)
+static void tile_range(const WrCanvasCells *cells, int tx, int ty, float *low, float *high)
 {
     const float *tile = wr_field_tile(cells->field, tx, ty);
     *low = *high = tile ? tile[0] : wr_field_level(cells->field);
@@ -186,7 +186,7 @@ static void tile_range(const WrCells *cells, int tx, int ty, float *low, float *
     }
 }
 
-void wr_cells_range(WrCells *cells, float *low, float *high)
+void wr_cells_range(WrCanvasCells *cells, float *low, float *high)
 {
     size_t tiles = (size_t)cells->tiles_u * (size_t)cells->tiles_v;
     if (!cells->tile_known) {

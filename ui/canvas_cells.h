@@ -5,26 +5,26 @@
 
 #define WR_CELL_LEVEL_MAX 6 /* one value a tile */
 
-typedef struct WrCells WrCells;
+typedef struct WrCanvasCells WrCanvasCells;
 
-WrCells *wr_cells_new(void);
-void wr_cells_free(WrCells *cells);
+WrCanvasCells *wr_cells_new(void);
+void wr_cells_free(WrCanvasCells *cells);
 
 /* Look at `field` (shared, kept until the next call) at `level`. Blocks of tiles that did not change are
  * kept; changed(tx, ty, ctx) is called for each tile that may have. Returns false, without calls, when
  * everything may be different (another size or level). */
-bool wr_cells_look(WrCells *cells, const WrField *field, int level, WrTileVisitor changed,
+bool wr_cells_look(WrCanvasCells *cells, const WrField *field, int level, WrTileVisitor changed,
                    void *ctx);
 
 /* The block of a tile: [side * side] means, side = 64 >> level, row by row; NULL where the whole tile
  * holds *flat. Blocks not made before `deadline` (wr_clock_seconds) are rough: single texels instead of
  * means; wr_cells_rough then says that looking again would be better. Valid until the next look. */
-const float *wr_cells_block(WrCells *cells, int tx, int ty, double deadline, float *flat);
-bool wr_cells_rough(const WrCells *cells);
-void wr_cells_forget_rough(WrCells *cells); /* before looking again */
+const float *wr_cells_block(WrCanvasCells *cells, int tx, int ty, double deadline, float *flat);
+bool wr_cells_rough(const WrCanvasCells *cells);
+void wr_cells_forget_rough(WrCanvasCells *cells); /* before looking again */
 
 /* Smallest and largest height of the field, from tiles that changed since it was last asked. */
-void wr_cells_range(WrCells *cells, float *low, float *high);
+void wr_cells_range(WrCanvasCells *cells, float *low, float *high);
 
 /* How one row or column of pixels weighs cells: the exact box filter over the pixel's footprint. */
 #define WR_TAPS 4

@@ -421,4 +421,9 @@ void wr_hand_event(WrApp *app, const SDL_Event *event)
     }
 }
 
-const WrPart wr_part_hand = { .let_go = wr_hand_end };
+static void key_event(WrApp *app, const SDL_Event *event)
+{
+    if (event->type == SDL_KEYUP) wr_hand_event(app, event);
+}
+
+const WrPart wr_part_hand = { .let_go = wr_hand_end, .event = key_event };

@@ -3,14 +3,14 @@
 #include <SDL.h>
 #include <stdbool.h>
 
-typedef enum WrViews { WR_VIEWS_BOTH, WR_VIEWS_CANVAS, WR_VIEWS_PATCH } WrViews;
+typedef enum WrShownViews { WR_VIEWS_BOTH, WR_VIEWS_CANVAS, WR_VIEWS_PATCH } WrShownViews;
 
 typedef struct WrLayoutInput {
     int width, height; /* of the window, pixels */
     int menu_height;   /* pixels */
     double scale;      /* pixels a unit */
     double divider;    /* share of the views' room that the canvas gets, 0..1 */
-    WrViews views;
+    WrShownViews views;
     bool panels;  /* false: the views fill the window */
     double lower; /* share of the panel on the right that its lower part gets, 0..1 */
     int tools;    /* in the strip, which has two columns where one is too short for them */

@@ -16,6 +16,7 @@ extern const WrPart wr_part_stamp;
 extern const WrPart wr_part_strokes;
 extern const WrPart wr_part_thumbs;
 extern const WrPart wr_part_tools;
+extern const WrPart wr_part_window;
 
 extern const WrRoster wr_roster;
 extern const WrAction wr_actions[]; /* ends with name NULL */

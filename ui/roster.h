@@ -29,6 +29,8 @@ typedef struct WrPart {
     void (*update)(WrApp *app);            /* once before each picture, in the order of the list */
     double (*next_time)(const WrApp *app); /* clock at which update must run; 0: only on events */
     bool (*works)(WrApp *app);             /* something is computed: its bar moves */
+    /* Of the window, and of a key that was let go; also while a command runs beside the window. */
+    void (*event)(WrApp *app, const SDL_Event *event);
     void (*meanwhile)(WrApp *app); /* before each picture while a command runs beside the window */
     void (*draw)(WrApp *app);      /* its view, below all widgets; also while a command runs */
     void (*let_go)(WrApp *app);    /* end what is held, keeping what was done */

@@ -31,7 +31,7 @@ typedef struct WrSettings {
     bool maximized;
     double scale;   /* 0.75..3; 0: from the display */
     double divider; /* the canvas's share of the views, 0..1 */
-    WrViews views;
+    WrShownViews views;
     bool panels;  /* shown */
     double lower; /* the layers' share of the panel on the right, 0..1 */
     bool ants;    /* the outline of a selection moves */

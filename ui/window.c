@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The window on the desktop: opened in whatever way the display knows, and kept on the screen. */
 #include "ui/screen.h"
+#include "ui/parts.h"
 #include "ui/state.h"
 
 #include <math.h>
@@ -108,7 +109,7 @@ void wr_window_keep(WrApp *app)
     SDL_SetWindowPosition(app->window, fits.x, fits.y);
 }
 
-void wr_window_event(WrApp *app, const SDL_WindowEvent *event)
+static void window_event(WrApp *app, const SDL_WindowEvent *event)
 {
     switch (event->event) {
     case SDL_WINDOWEVENT_HIDDEN:
@@ -140,3 +141,10 @@ void wr_window_event(WrApp *app, const SDL_WindowEvent *event)
     default: break;
     }
 }
+
+void wr_window_event(WrApp *app, const SDL_Event *event)
+{
+    if (event->type == SDL_WINDOWEVENT) window_event(app, &event->window);
+}
+
+const WrPart wr_part_window = { .event = wr_window_event };
