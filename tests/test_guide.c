@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
-#include "ui/guide_page.h"
+#include "ui/help/guide_page.h"
 
 #include <ctype.h>
 #include <dirent.h>

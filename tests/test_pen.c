@@ -2,7 +2,7 @@
    Pens without a tablet and without an X server: the curve, the numbers, the queue, files. */
 #include "test.h"
 
-#include "ui/pen_inner.h"
+#include "ui/pen/pen_inner.h"
 
 #include <unistd.h>
 

@@ -8,9 +8,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "ui/outline.h"
-#include "ui/preview.h"
-#include "ui/trial.h"
+#include "ui/canvas/outline.h"
+#include "ui/preview/preview.h"
+#include "ui/work/trial.h"
 
 #include <malloc.h>
 

@@ -5,8 +5,8 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "command/session.h"
-#include "ui/outline.h"
-#include "ui/trial.h"
+#include "ui/canvas/outline.h"
+#include "ui/work/trial.h"
 
 #include <unistd.h>
 

@@ -1,13 +1,13 @@
 /* The window's geometry, keys, settings and filtered cells: all that can be tested without a window. */
 #include "test.h"
 
-#include "ui/canvas_cells.h"
-#include "ui/keys.h"
-#include "ui/layout.h"
-#include "ui/line.h"
-#include "ui/rotation.h"
-#include "ui/settings.h"
-#include "ui/view.h"
+#include "ui/canvas/canvas_cells.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/line.h"
+#include "ui/preview/rotation.h"
+#include "ui/desk/settings.h"
+#include "ui/canvas/view.h"
 
 /* ---- view ---- */
 

@@ -1,8 +1,8 @@
 /* What the Accuracy panel stands on: the plot's axes and points, and when things are measured. */
 #include "test.h"
 
-#include "ui/accuracy_plan.h"
-#include "ui/accuracy_plot.h"
+#include "ui/accuracy/accuracy_plan.h"
+#include "ui/accuracy/accuracy_plot.h"
 
 /* ---- the plot ---- */
 

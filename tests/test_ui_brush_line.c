@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "command/inner.h"
-#include "ui/brush_line.h"
+#include "ui/tools/brush_line.h"
 
 static char *line_of(const WrBrush *brush, const WrBrushNames *names)
 {

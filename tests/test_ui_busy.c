@@ -8,7 +8,14 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "test_folder.h"
-#include "ui/state.h"
+#include "ui/app/loop.h"
+#include "ui/app/store.h"
+#include "ui/desk/app_options.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/document.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/messages.h"
+#include "ui/work/files.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -34,14 +41,14 @@ static void begin(Bench *bench)
     bench->options = (WrAppOptions){
         .session = bench->session, .file_given = true, .threads = 1, .width = 900, .height = 700
     };
-    bench->app = wr_alloc(1, sizeof *bench->app);
+    bench->app = wr_store_new();
     bench->app->options = &bench->options;
     bench->app->session = bench->session;
     if (!wr_app_begin(bench->app, &err)) fail_msg("%s", err.text);
     double end = wr_clock_seconds() + PATIENCE;
     while (bench->app->drawn_at == 0.0 && wr_clock_seconds() < end) wr_app_step(bench->app);
     assert_true(bench->app->drawn_at > 0.0);
-    bench->app->clean_revision = wr_session_revision(bench->session);
+    bench->app->file->clean_revision = wr_session_revision(bench->session);
 }
 
 static void finish(Bench *bench)
@@ -138,13 +145,13 @@ static void what_the_window_is_told_holds_at_once(void **state)
     SDL_WindowEvent hidden = { .type = SDL_WINDOWEVENT,
                                .windowID = SDL_GetWindowID(app->window),
                                .event = SDL_WINDOWEVENT_MINIMIZED };
-    app->hand.space = true; /* held when it began */
+    app->hand->space = true; /* held when it began */
     Long work = { .app = app,
                   .events = { { .window = hidden }, key(SDL_KEYUP, SDLK_SPACE) },
                   .count = 2 };
     assert_true(run(&work, &err));
     assert_false(app->visible);
-    assert_false(app->hand.space);
+    assert_false(app->hand->space);
     finish(&bench);
 }
 
@@ -229,8 +236,8 @@ static void a_cancel_is_no_error_and_then_it_closes(void **state)
     assert_false(run(&work, &err));
     assert_false(app->quit); /* it waited */
     wr_busy_fail(app, "something", &err);
-    assert_int_equal(app->messages.unread, 0);
-    const WrMessage *said = wr_messages_shown(&app->messages, 0.0);
+    assert_int_equal(app->messages->unread, 0);
+    const WrMessage *said = wr_messages_shown(app->messages, 0.0);
     assert_non_null(said);
     assert_string_equal(said->text, "Cancelled: something, nothing changed");
     WrHash after = wr_session_hash(bench.session);
@@ -239,7 +246,7 @@ static void a_cancel_is_no_error_and_then_it_closes(void **state)
     wr_fail(&err, "the disk is full"); /* what nobody gave up is one */
     app->gave_up = false;
     wr_busy_fail(app, "something", &err);
-    assert_int_equal(app->messages.unread, 1);
+    assert_int_equal(app->messages->unread, 1);
     finish(&bench);
 }
 

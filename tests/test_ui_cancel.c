@@ -6,8 +6,12 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "test_folder.h"
-#include "ui/state.h"
-#include "ui/thread.h"
+#include "ui/app/loop.h"
+#include "ui/app/store.h"
+#include "ui/desk/messages.h"
+#include "ui/desk/app_options.h"
+#include "ui/desk/busy.h"
+#include "ui/work/thread.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -60,7 +64,7 @@ static double cancelled_after(WrApp *app, const char *line, double seconds)
     pthread_join(thread, NULL);
     SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
     if (good || !app->gave_up) {
-        const WrMessages *m = &app->messages;
+        const WrMessages *m = app->messages;
         if (!good) printf("  (%s)\n", m->list.data[m->list.count - 1].text);
         return -1.0;
     }
@@ -83,7 +87,7 @@ static void a_cancel_ends_what_is_done(void **state)
     snprintf(line, sizeof line, "table %dx%d", size, size);
     if (!wr_session_run(session, line, &err)) fail_msg("%s", err.text);
     if (!wr_session_run(session, "noise perlin cells=64 octaves=9", &err)) fail_msg("%s", err.text);
-    WrApp *app = wr_alloc(1, sizeof *app);
+    WrApp *app = wr_store_new();
     app->options = &options;
     app->session = session;
     if (!wr_app_begin(app, &err)) fail_msg("%s", err.text);

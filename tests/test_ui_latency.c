@@ -2,7 +2,7 @@
    is measured. */
 #include "test.h"
 
-#include "ui/app.h"
+#include "ui/app/app.h"
 
 static WrSession *session_of(WrPool *pool)
 {

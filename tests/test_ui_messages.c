@@ -3,7 +3,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "ui/state.h"
+#include "ui/app/store.h"
+#include "ui/desk/messages.h"
+#include "ui/preview/preview.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,7 +14,7 @@
 
 static const char *shown(const WrApp *app, double now)
 {
-    const WrMessage *message = wr_messages_shown(&app->messages, now);
+    const WrMessage *message = wr_messages_shown(app->messages, now);
     return message ? message->text : "";
 }
 
@@ -26,7 +28,7 @@ static void fail_with(WrApp *app, const char *text)
 static void the_newest_message_is_what_is_seen(void **state)
 {
     (void)state;
-    WrApp *app = wr_alloc(1, sizeof *app);
+    WrApp *app = wr_store_new();
     double now = wr_clock_seconds();
     assert_string_equal(shown(app, now), "");
     fail_with(app, "the disk is full");
@@ -34,13 +36,13 @@ static void the_newest_message_is_what_is_seen(void **state)
     wr_app_say(app, "Saved elsewhere");
     assert_string_equal(shown(app, now), "Saved elsewhere");
     assert_string_equal(shown(app, LATER), ""); /* the line is free again ... */
-    assert_int_equal(app->messages.unread, 1);  /* ... but for the count */
+    assert_int_equal(app->messages->unread, 1); /* ... but for the count */
     fail_with(app, "no such file");
     assert_string_equal(shown(app, LATER), "no such file");
-    assert_int_equal(app->messages.unread, 2);
-    app->messages.unread = 0;
+    assert_int_equal(app->messages->unread, 2);
+    app->messages->unread = 0;
     assert_string_equal(shown(app, now), "");
-    wr_messages_free(&app->messages);
+    wr_messages_free(app->messages);
     wr_free(app);
 }
 

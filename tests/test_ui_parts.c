@@ -5,19 +5,19 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "ui/ants.h"
-#include "ui/canvas_range.h"
-#include "ui/gui_icons.h"
-#include "ui/job.h"
-#include "ui/keys.h"
-#include "ui/layout.h"
-#include "ui/rotation.h"
-#include "ui/screen.h"
-#include "ui/seam.h"
-#include "ui/search.h"
-#include "ui/settings.h"
-#include "ui/thumb.h"
-#include "ui/tuning.h"
+#include "ui/canvas/ants.h"
+#include "ui/canvas/canvas_range.h"
+#include "ui/gui/gui_icons.h"
+#include "ui/work/job.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/layout.h"
+#include "ui/preview/rotation.h"
+#include "ui/gui/screen.h"
+#include "ui/canvas/seam.h"
+#include "ui/desk/search.h"
+#include "ui/desk/settings.h"
+#include "ui/canvas/thumb.h"
+#include "ui/tools/tuning.h"
 
 #include <unistd.h>
 
@@ -104,7 +104,7 @@ static void every_icon_has_a_word_where_its_font_is_missing(void **state)
     char *text;
     size_t length;
     int count = 0;
-    assert_true(wr_file_read(WR_SOURCE_DIR "/ui/gui.h", 1 << 20, &text, &length, &err));
+    assert_true(wr_file_read(WR_SOURCE_DIR "/ui/gui/gui.h", 1 << 20, &text, &length, &err));
     for (char *at = text; (at = strstr(at, "#define WR_ICON_")); at++, count++) {
         unsigned bytes[3];
         const char *code = strchr(at, '"');

@@ -2,7 +2,7 @@
 #include "test.h"
 
 #include "render/frame.h"
-#include "ui/patch_pick.h"
+#include "ui/preview/patch_pick.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 
 #include "accuracy/tolerance.h"
 #include "base/memory.h"
-#include "ui/accuracy_choice.h"
-#include "ui/accuracy_probe.h"
+#include "ui/preview/accuracy_choice.h"
+#include "ui/accuracy/accuracy_probe.h"
 
 #define SIZE 64
 

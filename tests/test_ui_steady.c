@@ -1,7 +1,7 @@
 /* A steadier hand: what follows the pointer, smoothed or on a string. */
 #include "test.h"
 
-#include "ui/steady.h"
+#include "ui/pen/steady.h"
 
 #include <math.h>
 #include <stdint.h>

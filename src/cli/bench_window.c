@@ -2,7 +2,7 @@
 #include "cli/bench.h"
 
 #ifdef WR_HAVE_UI
-#include "ui/app.h"
+#include "ui/app/app.h"
 
 static bool measure(const WrCli *cli, double radius, bool turning, double seconds,
                     WrAppLatency *latency, WrError *err)

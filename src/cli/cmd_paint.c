@@ -1,7 +1,7 @@
 #include "cli/cli.h"
 
 #ifdef WR_HAVE_UI
-#include "ui/app.h"
+#include "ui/app/app.h"
 
 #include <signal.h>
 

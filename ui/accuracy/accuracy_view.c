@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: MIT
+   Over the patch: two pictures to compare, maps of one quantity, their labels and scales. */
+#include "ui/accuracy/accuracy.h"
+#include "ui/accuracy/accuracy_plan.h"
+#include "ui/accuracy/accuracy_plot.h"
+#include "ui/accuracy/accuracy_work.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+
+#include "accuracy/metrics.h"
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "render/reference.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define GRASP_UNITS 7 /* to either side of the line between two pictures */
+
+const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
+    "Picture", "Split A | B", "Flicker A, B", "Error", "Dropped term", "Tilt", "Mip level"
+};
+
+void wr_accuracy_show(WrApp *app, WrPatchLook look)
+{
+    WrAccuracy *a = app->accuracy;
+    a->look = look;
+    a->look_of = 0;
+    a->flicker_since = wr_clock_seconds();
+    if (look != WR_PATCH_PLAIN)
+        app->settings->turning = false; /* what is compared must stand still */
+    wr_app_redraw(app);
+}
+
+/* ---- textures ---- */
+
+static void put(WrApp *app, WrPatchLayer *layer, const uint8_t *bgra, int width, int height,
+                uint64_t of)
+{
+    if (!layer->texture || layer->width != width || layer->height != height) {
+        if (layer->texture) SDL_DestroyTexture(layer->texture);
+        layer->texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
+                                           SDL_TEXTUREACCESS_STREAMING, width, height);
+        layer->width = layer->height = 0;
+        if (!layer->texture) return;
+        SDL_SetTextureBlendMode(layer->texture, SDL_BLENDMODE_NONE);
+        SDL_SetTextureScaleMode(layer->texture, SDL_ScaleModeLinear);
+        layer->width = width;
+        layer->height = height;
+    }
+    SDL_UpdateTexture(layer->texture, NULL, bgra, 4 * width);
+    layer->of = of;
+    if (app->redraw < 1) app->redraw = 1;
+}
+
+/* Values as colours, 0 .. full; where there is none, the ground. */
+static void lay_map(WrApp *app, const WrWork *work, int look)
+{
+    WrPatchLayer *layer = &app->accuracy->map;
+    const size_t count = (size_t)work->measured_w * (size_t)work->measured_h;
+    uint8_t *bgra = wr_alloc(count, 4);
+    const double full = wr_plot_round_up(work->high);
+    for (size_t i = 0; i < count; i++) {
+        uint8_t rgb[3] = { 0x2e, 0x2f, 0x30 };
+        if (!isnan(work->values[i])) wr_heat_colour((double)work->values[i] / full, rgb);
+        bgra[4 * i] = rgb[2];
+        bgra[4 * i + 1] = rgb[1];
+        bgra[4 * i + 2] = rgb[0];
+        bgra[4 * i + 3] = 255;
+    }
+    put(app, layer, bgra, work->measured_w, work->measured_h, work->of);
+    layer->look = look;
+    layer->full = full;
+    wr_free(bgra);
+}
+
+void wr_accuracy_lay(WrApp *app, const WrWork *work)
+{
+    WrAccuracy *a = app->accuracy;
+    if (work->kind == WR_WORK_PAIR) {
+        for (int i = 0; i < 2; i++)
+            put(app, &a->pair[i], work->bgra[i], work->width, work->height, work->of);
+        a->flicker_since = wr_clock_seconds();
+    } else if (work->kind == WR_WORK_ERROR) {
+        lay_map(app, work, WR_PATCH_ERROR);
+    } else {
+        lay_map(app, work,
+                work->map == WR_MAP_DROPPED ? WR_PATCH_DROPPED
+                : work->map == WR_MAP_TILT  ? WR_PATCH_TILT
+                                            : WR_PATCH_LEVEL);
+    }
+}
+
+/* ---- what is drawn ---- */
+
+static bool pair_ready(const WrAccuracy *a)
+{
+    return a->pair[1].texture && a->pair[0].of == a->state && a->pair[1].of == a->state;
+}
+
+static bool map_ready(const WrAccuracy *a)
+{
+    return a->map.texture && a->map.of == a->state && a->map.look == (int)a->look;
+}
+
+/* The pixel column where B begins. */
+static int line_x(const WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    return room->x + (int)lround(room->w * app->accuracy->split);
+}
+
+static bool shows_split(const WrAccuracy *a)
+{
+    return a->look == WR_PATCH_SPLIT && !a->hold_b && pair_ready(a);
+}
+
+static void draw_split(WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    WrAccuracy *a = app->accuracy;
+    SDL_Rect left = { room->x, room->y, line_x(app) - room->x, room->h };
+    SDL_Rect right = { left.x + left.w, room->y, room->w - left.w, room->h };
+    SDL_RenderCopy(app->renderer, a->pair[0].texture, &(SDL_Rect){ 0, 0, left.w, left.h }, &left);
+    SDL_RenderCopy(app->renderer, a->pair[1].texture, &(SDL_Rect){ left.w, 0, right.w, right.h },
+                   &right);
+}
+
+void wr_accuracy_draw(WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    WrAccuracy *a = app->accuracy;
+    if (a->look == WR_PATCH_ERROR && a->error && a->error->of == a->state &&
+        (a->map.of != a->state || a->map.look != WR_PATCH_ERROR))
+        wr_accuracy_lay(app, a->error);
+    if (room->w <= 0) return;
+    if (shows_split(a)) {
+        draw_split(app);
+    } else if (a->hold_b || a->look == WR_PATCH_FLICKER) {
+        double next;
+        if (!pair_ready(a)) return;
+        a->flicker_shown =
+            a->hold_b || wr_accuracy_flicker(wr_clock_seconds(), a->flicker_since, &next);
+        SDL_RenderCopy(app->renderer, a->pair[a->flicker_shown].texture, NULL, room);
+    } else if (map_ready(a)) {
+        SDL_RenderCopy(app->renderer, a->map.texture, NULL, room);
+    }
+}
+
+/* ---- the line ---- */
+
+bool wr_accuracy_on_line(const WrApp *app, double x, double y)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    return shows_split(app->accuracy) && y >= room->y && y < room->y + room->h &&
+           fabs(x - line_x(app)) <= GRASP_UNITS * wr_gui_scale();
+}
+
+void wr_accuracy_drag_line(WrApp *app, double x)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    app->accuracy->split = wr_accuracy_split_at(x, room->x, room->w, 12.0 * wr_gui_scale());
+    wr_app_redraw(app);
+}
+
+/* ---- labels ---- */
+
+/* A chip of text whose left (anchor 0) or right (1) end is at x, its lower edge at y. */
+static void chip(double x, double y, double anchor, double most, const char *letter,
+                 const char *words)
+{
+    const double s = wr_gui_scale(), pad = 7 * s, tall = 22 * s;
+    const double head = wr_gui_text_width(WR_FONT_BOLD, letter);
+    char cut[160];
+    snprintf(cut, sizeof cut, "%.150s", words);
+    size_t length = strlen(cut);
+    const double gap = letter[0] && cut[0] ? 7 * s : 0, room = most - head - gap - 2 * pad;
+    while (length > 4 && wr_gui_text_width(WR_FONT_SMALL, cut) > room) {
+        cut[--length] = '\0';
+        memcpy(cut + length - 3, "...", 3);
+    }
+    const double body = wr_gui_text_width(WR_FONT_SMALL, cut), wide = head + gap + body + 2 * pad;
+    const double left = x - anchor * wide, top = y - tall;
+    wr_gui_draw_fill(left, top, wide, tall, WR_COLOUR_CHIP, 3 * s);
+    wr_gui_draw_text(left + pad, top + floor((tall - wr_gui_line_height(WR_FONT_BOLD)) / 2),
+                     WR_FONT_BOLD, WR_COLOUR_STRONG, letter);
+    wr_gui_draw_text(left + pad + head + gap,
+                     top + floor((tall - wr_gui_line_height(WR_FONT_SMALL)) / 2), WR_FONT_SMALL,
+                     WR_COLOUR_TEXT, cut);
+}
+
+static void side_label(const WrApp *app, int side, double x, double anchor, double most)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    WrText words = { 0 };
+    wr_accuracy_words(app, side, &words);
+    chip(x, room->y + room->h - 12 * wr_gui_scale(), anchor, most, side ? "B" : "A",
+         wr_text_get(&words));
+    wr_text_fini(&words);
+}
+
+static void split_labels(const WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    const double s = wr_gui_scale(), x = line_x(app);
+    /* At the outer corners, where neither picture is covered by the other's name; the ring has its place. */
+    const double left = room->x + 12 * s, right = room->x + room->w - 40 * s;
+    const double middle = room->y + room->h / 2.0;
+    wr_gui_draw_fill(x - 2 * s, room->y, 4 * s, room->h, 0x80101010u, 0);
+    wr_gui_draw_fill(x - floor(s / 2), room->y, floor(s) > 1 ? floor(s) : 1, room->h, 0xfff0f0f0u,
+                     0);
+    wr_gui_draw_disc(x, middle, 9 * s, 0xff202020u);
+    wr_gui_draw_circle(x, middle, 9 * s, 0xfff0f0f0u, 1.5 * s);
+    for (int i = -1; i <= 1; i += 2)
+        wr_gui_draw_fill(x + i * 3 * s - s / 2, middle - 3 * s, s, 6 * s, 0xfff0f0f0u, 0);
+    side_label(app, 0, left, 0, fmax(24 * s, fmin(x - 10 * s, room->x + room->w * 0.5) - left));
+    side_label(app, 1, right, 1, fmax(24 * s, right - fmax(x + 10 * s, room->x + room->w * 0.5)));
+}
+
+/* ---- scales ---- */
+
+static const struct {
+    const char *title, *unit;
+} scales[WR_PATCH_LOOKS] = {
+    [WR_PATCH_ERROR] = { "Error of linear intensity", "" },
+    [WR_PATCH_DROPPED] = { "Left out by the small-F approximation", "\xc2\xb0" },
+    [WR_PATCH_TILT] = { "Angle between n and n'", "\xc2\xb0" },
+    [WR_PATCH_LEVEL] = { "Mip level, log2 of texels a pixel", "" },
+};
+
+static void draw_scale(const WrApp *app)
+{
+    const WrPatchLayer *map = &app->accuracy->map;
+    const SDL_Rect *room = &app->layout->patch;
+    const double s = wr_gui_scale(), pad = 10 * s, line = wr_gui_line_height(WR_FONT_SMALL);
+    const double wide = fmin(280 * s, room->w - 56 * s), bar = wide - 2 * pad;
+    const double tall = 2 * pad + 2 * line + 22 * s;
+    const double left = room->x + 12 * s, top = room->y + room->h - 12 * s - tall;
+    char text[64], number[16];
+    if (bar < 60 * s) return;
+    wr_gui_draw_fill(left, top, wide, tall, WR_COLOUR_CHIP, 3 * s);
+    wr_gui_draw_text(left + pad, top + pad, WR_FONT_SMALL, WR_COLOUR_TEXT, scales[map->look].title);
+    const double y = top + pad + line + 6 * s;
+    const int steps = 96;
+    for (int i = 0; i < steps; i++) {
+        uint8_t rgb[3];
+        const double x0 = floor(bar * i / steps), x1 = floor(bar * (i + 1) / steps);
+        wr_heat_colour((i + 0.5) / steps, rgb);
+        wr_gui_draw_fill(left + pad + x0, y, x1 - x0, 10 * s,
+                         0xff000000u | (WrColour)rgb[0] << 16 | (WrColour)rgb[1] << 8 | rgb[2], 0);
+    }
+    wr_gui_draw_rect(left + pad, y, bar, 10 * s, 0xff5a5a5au, 1);
+    for (int i = 0; i <= 2; i++) {
+        snprintf(text, sizeof text, "%s%s%s", wr_plot_number(map->full * i / 2, number),
+                 scales[map->look].unit, i == 2 ? " and up" : "");
+        const double w = wr_gui_text_width(WR_FONT_SMALL, text);
+        wr_gui_draw_text(left + pad + (bar - w) * i / 2, y + 14 * s, WR_FONT_SMALL, WR_COLOUR_LABEL,
+                         text);
+    }
+}
+
+static const char *waiting(const WrApp *app)
+{
+    if (app->settings->turning) return "when the patch rests";
+    return wr_accuracy_rests(app) ? "in a moment" : "when the hand rests";
+}
+
+void wr_accuracy_overlay(WrApp *app)
+{
+    WrAccuracy *a = app->accuracy;
+    const SDL_Rect *room = &app->layout->patch;
+    const double s = wr_gui_scale();
+    bool pair = a->look == WR_PATCH_SPLIT || a->look == WR_PATCH_FLICKER || a->hold_b;
+    if (room->w <= 0 || (!pair && a->look == WR_PATCH_PLAIN)) return;
+    wr_gui_draw_clip(*room);
+    bool ready = pair ? pair_ready(a) : map_ready(a);
+    if (!ready) {
+        char text[96];
+        const char *name = wr_patch_look_names[a->hold_b ? WR_PATCH_FLICKER : a->look];
+        bool failed =
+            !pair && a->look == WR_PATCH_ERROR && a->error_of == a->state && a->error_why.text[0];
+        snprintf(text, sizeof text, "%s: %s", name, failed ? "cannot be measured" : waiting(app));
+        chip(room->x + 12 * s, room->y + room->h - 12 * s, 0, room->w - 56 * s, "", text);
+    } else if (shows_split(a)) {
+        split_labels(app);
+    } else if (pair) {
+        side_label(app, a->flicker_shown, room->x + 12 * s, 0, room->w - 56 * s);
+    } else {
+        draw_scale(app);
+    }
+    wr_gui_draw_unclip();
+}

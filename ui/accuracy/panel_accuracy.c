@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT
+   The Accuracy tab: what the patch shows, the error and the time of the picture, what other dials would cost,
+   the dials themselves. */
+#include "ui/accuracy/accuracy.h"
+#include "ui/accuracy/accuracy_plot.h"
+#include "ui/accuracy/accuracy_work.h"
+#include "ui/desk/action.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/preview/preview.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- what the patch shows ---- */
+
+static void show(WrApp *app)
+{
+    WrAccuracy *a = app->accuracy;
+    int look = (int)a->look;
+    wr_gui_label("Patch shows");
+    if (wr_gui_choice("look", 0, wr_patch_look_names, WR_PATCH_LOOKS, &look))
+        wr_accuracy_show(app, (WrPatchLook)look);
+    wr_gui_tip(
+        "A is the scene as its dials stand, B has dials of its own. Split has a line to drag. Maps "
+        "lie "
+        "over the patch: its distance from the reference, what the small-F approximation of the "
+        "paper "
+        "leaves out, how far the normal turns, how many texels fall into a pixel. The patch stands "
+        "still for all of them.");
+}
+
+/* ---- numbers in two columns ---- */
+
+typedef struct Cell {
+    WrColour colour; /* of the disc before the name; 0: none */
+    const char *name, *tip;
+    char value[32];
+} Cell;
+
+static void cell(const Cell *c, double from, double wide)
+{
+    wr_gui_move_to(from);
+    if (c->colour) {
+        wr_gui_swatch(c->colour, 3.5 * wr_gui_scale(), 0);
+        wr_gui_same_line(5);
+    }
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, c->name);
+    wr_gui_tip(c->tip);
+    wr_gui_same_line(0);
+    wr_gui_move_to(from + wide - wr_gui_text_width(WR_FONT_SMALL, c->value));
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_STRONG, c->value);
+    wr_gui_tip(c->tip);
+}
+
+static void cells(const Cell *left, const Cell *right)
+{
+    const double from = wr_gui_place(), gap = wr_gui_px(16);
+    const double wide = floor((wr_gui_available() - gap) / 2);
+    cell(left, from, wide);
+    wr_gui_same_line(0);
+    cell(right, from + wide + gap, wide);
+    wr_gui_space(-7);
+}
+
+/* ---- error ---- */
+
+static void no_error(WrApp *app)
+{
+    const WrAccuracy *a = app->accuracy;
+    if (app->settings->turning) {
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                            "The patch turns: its error is measured while it rests.");
+        if (wr_gui_chip(WR_ICON_PAUSE, "Let it rest")) wr_action_run(app, "turn");
+    } else if (a->error_of == a->state && a->error_why.text[0]) {
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, a->error_why.text);
+    } else if (!a->error) {
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, "Measuring ...");
+    }
+}
+
+static void caption(const WrWork *error, bool old)
+{
+    char text[160], number[16];
+    wr_gui_space(6);
+    if (old)
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_CELL,
+                            "Of the view before; measured anew when it rests.");
+    snprintf(text, sizeof text, "%d \xc3\x97 %d pixels, a reference of %d \xc3\x97 %d",
+             error->measured_w, error->measured_h, error->samples, error->samples);
+    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, text);
+    wr_gui_tip(
+        "The view is measured scaled down to at most 256 pixels along its longer side. The "
+        "reference "
+        "is rendered in double precision, by code of its own, with so many samples a pixel.");
+    snprintf(text, sizeof text, "samples, itself off by about %s",
+             wr_plot_number(error->change, number));
+    wr_gui_space(-6);
+    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, text);
+    wr_gui_tip("What the last doubling of its samples changed, rms: smaller errors may be its own");
+}
+
+static void error(WrApp *app)
+{
+    const WrAccuracy *a = app->accuracy;
+    const WrWork *e = a->error;
+    wr_gui_heading("ERROR AGAINST THE REFERENCE");
+    if (app->settings->turning || !e || (a->error_of == a->state && a->error_why.text[0]))
+        no_error(app);
+    if (!e) return;
+    Cell c[4] = {
+        { 0, "rms",
+          "Root mean square of the error of linear intensity, over all pixels with something in "
+          "them",
+          "" },
+        { 0, "max", "The largest error of a channel of any pixel", "" },
+        { 0, "99.9 %", "All but a thousandth of the pixels are nearer than this", "" },
+        { 0, "angle",
+          "Between the normals at the pixels' middles and the reference's, root mean square; with "
+          "a "
+          "tolerance, whose dials differ from place to place, it is not measured",
+          "" },
+    };
+    wr_plot_number(e->errors.rms, c[0].value);
+    wr_plot_number(e->errors.max, c[1].value);
+    wr_plot_number(e->errors.p999, c[2].value);
+    wr_plot_number(e->errors.angle_rms, c[3].value);
+    if (!isnan(e->errors.angle_rms)) strcat(c[3].value, "\xc2\xb0");
+    wr_gui_space(-2);
+    cells(&c[0], &c[1]);
+    cells(&c[2], &c[3]);
+    caption(e, e->of != a->state);
+}
+
+/* ---- time ---- */
+
+static const WrColour stage_colours[6] = { 0xff8f8f8fu, 0xff4a8fdcu, 0xff4fb39au,
+                                           0xffe8a25cu, 0xffd8706cu, 0xffb191d6u };
+
+static void stage_bar(const double ms[WR_PICTURE_STAGES], double all)
+{
+    WrPad pad = wr_gui_pad_begin("stages", 0, wr_gui_px(14));
+    double x = pad.x + 1;
+    for (int i = 0; i < WR_PICTURE_STAGES; i++) {
+        const double w = all > 0 ? (pad.w - 2) * ms[i] / all : 0;
+        wr_gui_draw_fill(floor(x), pad.y + 1, ceil(x + w) - floor(x), pad.h - 2, stage_colours[i],
+                         0);
+        x += w;
+    }
+    wr_gui_pad_end();
+}
+
+static void stages(WrApp *app)
+{
+    static const char *const tips[WR_PICTURE_STAGES] = {
+        "Copies of the table, slopes, meshes: only where something changed",
+        "Which u, v each sample sees",
+        "P, Pu, Pv and N there",
+        "F, its slopes and the turned normal",
+        "Light and material",
+        "Samples become pixels"
+    };
+    const WrPreviewPicture *picture = wr_preview_picture(app->preview);
+    char words[WR_PICTURE_WORDS];
+    double ms[WR_PICTURE_STAGES], all = wr_picture_time(picture, ms);
+    if (!picture->serial) return;
+    wr_gui_space(8);
+    wr_gui_heading("TIME OF A PICTURE, MS");
+    stage_bar(ms, all);
+    wr_gui_space(-4);
+    for (int i = 0; i < WR_PICTURE_STAGES; i += 2) {
+        Cell c[2] = { { stage_colours[i], wr_picture_stages[i], tips[i], "" },
+                      { stage_colours[i + 1], wr_picture_stages[i + 1], tips[i + 1], "" } };
+        for (int k = 0; k < 2; k++)
+            snprintf(c[k].value, sizeof c[k].value, ms[i + k] < 10 ? "%.2f" : "%.1f", ms[i + k]);
+        cells(&c[0], &c[1]);
+    }
+    wr_picture_words(picture, words);
+    wr_gui_space(6);
+    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, words);
+}
+
+/* ---- all ---- */
+
+void wr_panel_accuracy(WrApp *app)
+{
+    WrAccuracy *a = app->accuracy;
+    a->error_open = true;
+    show(app);
+    wr_gui_space(8);
+    error(app);
+    stages(app);
+    wr_gui_space(8);
+    wr_panel_accuracy_plot(app);
+    wr_gui_space(8);
+    wr_panel_accuracy_dials(app);
+    wr_gui_space(8);
+    wr_gui_heading("HARD CASES");
+    if (wr_gui_button("Hard cases...", false)) wr_action_run(app, "hard_cases");
+    wr_gui_tip(
+        "116 inputs at which a naive program fails: what must hold, and how far off this one is");
+    if (a->inspector.shown && app->layout->lower.w <= 0) {
+        wr_gui_space(8);
+        wr_gui_heading("INSPECTOR");
+        wr_panel_inspector(app);
+    }
+    wr_gui_space(8);
+}

@@ -1,0 +1,94 @@
+/* actions.h - actions of the hand, layers and selections, for the table in actions.c; nobody else includes it. */
+#pragma once
+#include "ui/desk/desk.h"
+
+#include <stdbool.h>
+
+void wr_act_straight_line(WrApp *app);
+void wr_act_paint_patch(WrApp *app);
+void wr_act_pressure_up(WrApp *app);
+void wr_act_pressure_down(WrApp *app);
+void wr_act_pressure_speed(WrApp *app);
+void wr_act_steady_off(WrApp *app);
+void wr_act_steady_smooth(WrApp *app);
+void wr_act_steady_string(WrApp *app);
+void wr_act_steady_catch_up(WrApp *app);
+
+bool wr_is_straight_line(const WrApp *app);
+bool wr_is_painting_patch(const WrApp *app);
+bool wr_is_pressure_speed(const WrApp *app);
+bool wr_is_steady_off(const WrApp *app);
+bool wr_is_steady_smooth(const WrApp *app);
+bool wr_is_steady_string(const WrApp *app);
+bool wr_is_steady_catch_up(const WrApp *app);
+
+/* actions_brush.c */
+void wr_act_size_up(WrApp *app);
+void wr_act_size_down(WrApp *app);
+void wr_act_hardness_up(WrApp *app);
+void wr_act_hardness_down(WrApp *app);
+void wr_act_strength_up(WrApp *app);
+void wr_act_strength_down(WrApp *app);
+void wr_act_swap_mode(WrApp *app);
+void wr_act_level_mode(WrApp *app);
+void wr_act_reset_values(WrApp *app);
+void wr_act_height_up(WrApp *app);
+void wr_act_height_down(WrApp *app);
+void wr_act_erase_mode(WrApp *app);
+void wr_act_preset_next(WrApp *app);
+void wr_act_preset_previous(WrApp *app);
+void wr_act_favourite(WrApp *app);
+void wr_act_round_brush(WrApp *app);
+void wr_act_lock_size(WrApp *app);
+void wr_act_preset_save(WrApp *app);
+void wr_act_brushes(WrApp *app);
+void wr_act_symmetry(WrApp *app);
+void wr_act_symmetry_on(WrApp *app);
+void wr_act_keys_paint(WrApp *app);
+void wr_act_keys_sculpt(WrApp *app);
+void wr_act_stamp_open(WrApp *app);
+bool wr_is_erase_mode(const WrApp *app);
+bool wr_is_favourite(const WrApp *app);
+bool wr_is_round_brush(const WrApp *app);
+bool wr_is_lock_size(const WrApp *app);
+bool wr_is_symmetry(const WrApp *app);
+bool wr_is_symmetry_on(const WrApp *app);
+bool wr_is_keys_paint(const WrApp *app);
+bool wr_is_keys_sculpt(const WrApp *app);
+
+void wr_act_layer_add(WrApp *app);
+void wr_act_layer_duplicate(WrApp *app);
+void wr_act_layer_delete(WrApp *app);
+void wr_act_layer_rename(WrApp *app);
+void wr_act_layer_merge(WrApp *app);
+void wr_act_layer_flatten(WrApp *app);
+void wr_act_layer_clear(WrApp *app);
+void wr_act_layer_solo(WrApp *app);
+void wr_act_layer_raise(WrApp *app);
+void wr_act_layer_lower(WrApp *app);
+void wr_act_layer_above(WrApp *app);
+void wr_act_layer_below(WrApp *app);
+void wr_act_layer_show(WrApp *app);
+void wr_act_layer_lock(WrApp *app);
+void wr_act_mask_selection(WrApp *app);
+void wr_act_mask_white(WrApp *app);
+void wr_act_mask_black(WrApp *app);
+void wr_act_mask_none(WrApp *app);
+void wr_act_select_all(WrApp *app);
+void wr_act_select_none(WrApp *app);
+void wr_act_select_invert(WrApp *app);
+void wr_act_select_grow(WrApp *app);
+void wr_act_select_shrink(WrApp *app);
+void wr_act_select_feather(WrApp *app);
+void wr_act_select_height(WrApp *app);
+void wr_act_select_slope(WrApp *app);
+void wr_act_offset_half(WrApp *app);
+
+bool wr_can_several_layers(const WrApp *app);
+bool wr_can_merge(const WrApp *app); /* there is a layer below */
+bool wr_can_raise(const WrApp *app);
+bool wr_can_mask_selection(const WrApp *app); /* something is selected */
+bool wr_can_mask_none(const WrApp *app);
+bool wr_is_solo(const WrApp *app);
+bool wr_is_layer_shown(const WrApp *app);
+bool wr_is_layer_locked(const WrApp *app);

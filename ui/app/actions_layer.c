@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: MIT
+   Actions of layers and selections: each is one command line. */
+#include "ui/app/actions.h"
+#include "ui/canvas/outline.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/session_view.h"
+#include "ui/panels/panel_layers.h"
+#include "ui/panels/panels.h"
+
+#include "document/document.h"
+#include "field/field.h"
+
+#include <stdio.h>
+
+/* Of the active layer, as commands count. */
+static int number(const WrApp *app)
+{
+    return wr_app_document(app)->active + 1;
+}
+
+static const WrLayer *active(const WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    return &document->layers[document->active];
+}
+
+static int count(const WrApp *app)
+{
+    return wr_app_document(app)->layer_count;
+}
+
+/* ---- layers ---- */
+
+void wr_act_layer_add(WrApp *app)
+{
+    wr_app_run_line(app, "layer add");
+}
+
+void wr_act_layer_duplicate(WrApp *app)
+{
+    wr_app_run_linef(app, "layer duplicate %d", number(app));
+}
+
+void wr_act_layer_delete(WrApp *app)
+{
+    wr_app_run_linef(app, "layer delete %d", number(app));
+}
+
+void wr_act_layer_rename(WrApp *app)
+{
+    wr_layer_rename_start(app, wr_app_document(app)->active);
+}
+
+void wr_act_layer_merge(WrApp *app)
+{
+    char line[48];
+    snprintf(line, sizeof line, "layer merge %d", number(app));
+    wr_app_run_slow(app, line);
+}
+
+void wr_act_layer_flatten(WrApp *app)
+{
+    wr_app_run_slow(app, "layer flatten");
+}
+
+void wr_act_layer_clear(WrApp *app)
+{
+    wr_app_run_linef(app, "layer clear %d", number(app));
+}
+
+void wr_act_layer_solo(WrApp *app)
+{
+    if (wr_is_solo(app)) wr_app_run_line(app, "layer solo off");
+    else wr_app_run_linef(app, "layer solo %d", number(app));
+}
+
+void wr_act_layer_raise(WrApp *app)
+{
+    wr_app_run_linef(app, "layer move %d to=%d", number(app), number(app) + 1);
+}
+
+void wr_act_layer_lower(WrApp *app)
+{
+    wr_app_run_linef(app, "layer move %d to=%d", number(app), number(app) - 1);
+}
+
+void wr_act_layer_above(WrApp *app)
+{
+    if (number(app) < count(app)) wr_app_run_linef(app, "layer use %d", number(app) + 1);
+}
+
+void wr_act_layer_below(WrApp *app)
+{
+    if (number(app) > 1) wr_app_run_linef(app, "layer use %d", number(app) - 1);
+}
+
+void wr_act_layer_show(WrApp *app)
+{
+    wr_app_run_linef(app, "layer set %d visible=%s", number(app),
+                     active(app)->visible ? "off" : "on");
+}
+
+void wr_act_layer_lock(WrApp *app)
+{
+    wr_app_run_linef(app, "layer set %d lock=%s", number(app), active(app)->locked ? "off" : "on");
+}
+
+/* ---- masks ---- */
+
+static void mask_from(WrApp *app, const char *what)
+{
+    wr_app_run_linef(app, "layer mask %d from=%s", number(app), what);
+}
+
+void wr_act_mask_selection(WrApp *app)
+{
+    mask_from(app, "selection");
+}
+
+void wr_act_mask_white(WrApp *app)
+{
+    mask_from(app, "white");
+}
+
+void wr_act_mask_black(WrApp *app)
+{
+    mask_from(app, "black");
+}
+
+void wr_act_mask_none(WrApp *app)
+{
+    mask_from(app, "none");
+}
+
+/* ---- what can be done ---- */
+
+bool wr_can_several_layers(const WrApp *app)
+{
+    return count(app) > 1;
+}
+
+bool wr_can_merge(const WrApp *app)
+{
+    return number(app) > 1;
+}
+
+bool wr_can_raise(const WrApp *app)
+{
+    return number(app) < count(app);
+}
+
+bool wr_can_mask_selection(const WrApp *app)
+{
+    return wr_app_document(app)->selection != NULL;
+}
+
+bool wr_can_mask_none(const WrApp *app)
+{
+    return active(app)->mask != NULL;
+}
+
+bool wr_is_solo(const WrApp *app)
+{
+    return wr_app_document(app)->solo == wr_app_document(app)->active;
+}
+
+bool wr_is_layer_shown(const WrApp *app)
+{
+    return active(app)->visible;
+}
+
+bool wr_is_layer_locked(const WrApp *app)
+{
+    return active(app)->locked;
+}
+
+/* ---- selections ---- */
+
+void wr_act_select_all(WrApp *app)
+{
+    wr_app_run_line(app, "select all");
+}
+
+void wr_act_select_none(WrApp *app)
+{
+    wr_app_run_line(app, "select none");
+}
+
+void wr_act_select_invert(WrApp *app)
+{
+    wr_app_run_line(app, "select invert");
+}
+
+void wr_act_select_grow(WrApp *app)
+{
+    wr_dialog_select_open(app, WR_OUTLINE_GROW);
+}
+
+void wr_act_select_shrink(WrApp *app)
+{
+    wr_dialog_select_open(app, WR_OUTLINE_SHRINK);
+}
+
+void wr_act_select_feather(WrApp *app)
+{
+    wr_dialog_select_open(app, WR_OUTLINE_FEATHER);
+}
+
+void wr_act_select_height(WrApp *app)
+{
+    wr_dialog_select_open(app, WR_OUTLINE_HEIGHT);
+}
+
+void wr_act_select_slope(WrApp *app)
+{
+    wr_dialog_select_open(app, WR_OUTLINE_SLOPE);
+}
+
+/* ---- the table ---- */
+
+void wr_act_offset_half(WrApp *app)
+{
+    const WrField *field = wr_app_field(app);
+    char line[96];
+    snprintf(line, sizeof line, "adjust offset du=%d dv=%d%s", wr_field_width(field) / 2,
+             wr_field_height(field) / 2, count(app) > 1 ? " layers=all" : "");
+    wr_app_run_slow(app, line);
+}

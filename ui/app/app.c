@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: MIT
+   The window: SDL, the event loop, what is drawn when. */
+#include "ui/app/app.h"
+#include "ui/accuracy/accuracy.h"
+#include "ui/app/canvas_view.h"
+#include "ui/app/hand_events.h"
+#include "ui/app/loop.h"
+#include "ui/app/rest.h"
+#include "ui/app/settings_hand.h"
+#include "ui/app/store.h"
+#include "ui/app/timing.h"
+#include "ui/app/window.h"
+#include "ui/canvas/canvas.h"
+#include "ui/canvas/outline.h"
+#include "ui/desk/app_options.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/document.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/later.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/messages.h"
+#include "ui/desk/replace.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/generate/generate_gallery.h"
+#include "ui/generate/generate_hand.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/help/guide.h"
+#include "ui/panels/panel_layers.h"
+#include "ui/panels/panel_status.h"
+#include "ui/panels/panel_tablet.h"
+#include "ui/panels/panels.h"
+#include "ui/patch/patch.h"
+#include "ui/patch/patch_paint.h"
+#include "ui/pen/pen.h"
+#include "ui/preview/preview.h"
+#include "ui/tools/shelf.h"
+#include "ui/tools/stroke_hand.h"
+#include "ui/tools/tool_stamp.h"
+#include "ui/views/marks.h"
+#include "ui/work/files.h"
+#include "ui/work/thread.h"
+#include "ui/work/trial.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/error.h"
+#include "scene/scene.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+
+#define FRAME_SECONDS (1.0 / 125.0) /* least time between two pictures of the window */
+#define DRAWN_SECONDS                                                                              \
+    (1.0 / 300.0)         /* while the pointer is held, so that what it does is seen at once */
+#define CARET_SECONDS 0.3 /* a text field's caret blinks, messages go */
+#define BAR_SECONDS 0.1   /* between pictures of a bar that fills */
+
+/* ---- life ---- */
+
+bool wr_app_begin(WrApp *app, WrError *err)
+{
+    wr_settings_begin(app);
+    if (!wr_window_open(app)) return wr_fail(err, "no window: %s", SDL_GetError());
+    app->gui = wr_gui_new(app->renderer, wr_app_wanted_scale(app), err);
+    if (!app->gui) return false;
+    app->ready_event = SDL_RegisterEvents(4);
+    app->file_event = app->ready_event + 1;
+    app->job_event = app->ready_event + 2;
+    app->rest_event = app->ready_event + 3;
+    app->trial = wr_trial_new(app->options->threads, app->job_event);
+    app->marks->outliner = wr_outliner_new(app->options->threads, app->job_event);
+    app->layers->dragged = app->layers->renamed = -1;
+    app->canvas = wr_canvas_new();
+    app->preview = wr_preview_new(app->options->threads, app->options->isa, app->ready_event);
+    app->files = wr_files_new(app->file_event);
+    app->pen = wr_pen_new(app->window);
+    wr_tablet_start(app);
+    app->keys = wr_keys_new();
+    *app->forms = (WrForms){ .cells_u = 8, .cells_v = 8, .line_width = 8, .high = 1 };
+    app->visible = true;
+    wr_app_read_keys(app);
+    wr_shelf_start(app);
+    wr_generate_new(app);
+    wr_accuracy_new(app);
+    wr_app_start(app);
+    const char *fonts = wr_gui_missing_fonts(app->gui);
+    WrError missing;
+    if (fonts && !wr_fail(&missing, "%s", fonts)) wr_app_fail(app, &missing);
+    wr_app_title(app);
+    if (!app->latency) wr_dialog_recover_open(app);
+    SDL_ShowWindow(app->window);
+    app->rest = app->latency ? NULL : wr_rest_new(app->rest_event);
+    SDL_StartTextInput();
+    wr_app_redraw(app);
+    return true;
+}
+
+void wr_app_end(WrApp *app)
+{
+    wr_rest_free(app->rest);
+    wr_preview_free(app->preview);
+    wr_accuracy_free(app);
+    wr_trial_free(app->trial);
+    wr_marks_free(app);
+    wr_recovery_free(app->recovery);
+    wr_later_free(app);
+    wr_patch_paint_free(app);
+    if (app->renderer) wr_patch_free(app);
+    wr_thumbs_free(app);
+    wr_shelf_free(app);
+    wr_stamp_forget(app);
+    wr_gallery_free(app);
+    wr_generate_free(app);
+    wr_guide_free(app);
+    if (app->renderer) wr_panel_layers_forget(app);
+    wr_canvas_free(app->canvas);
+    wr_gui_free(app->gui);
+    wr_files_free(app->files);
+    wr_pen_free(app->pen);
+    wr_tablet_free(app);
+    wr_keys_free(app->keys);
+    if (app->live) wr_scene_free(app->live);
+    wr_messages_free(app->messages);
+    wr_strokes_free(app);
+    wr_settings_fini(app->settings);
+    wr_settings_fini(app->settings_known);
+    wr_free(app->file->after_path);
+    wr_free(app->replace->path);
+    for (int i = 0; i < SDL_NUM_SYSTEM_CURSORS; i++)
+        if (app->cursors[i]) SDL_FreeCursor(app->cursors[i]);
+    if (app->renderer) SDL_DestroyRenderer(app->renderer);
+    if (app->window) SDL_DestroyWindow(app->window);
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    SDL_Quit();
+}
+
+/* ---- events ---- */
+
+static bool is_hand(const SDL_Event *event)
+{
+    return event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_KEYDOWN;
+}
+
+static void handle(WrApp *app, const SDL_Event *event)
+{
+    WrPenEvent pen;
+    if (is_hand(event)) app->fitted = true;
+    if (event->type == app->ready_event) return; /* wr_patch_update takes the picture */
+    if (event->type == app->rest_event) {
+        wr_rest_asked(app);
+        return;
+    }
+    while (wr_pen_next_before(app->pen, event, &pen)) wr_hand_pen(app, &pen);
+    if (event->type == app->job_event) { /* what the result is needed for takes it */
+        wr_app_redraw(app);
+        return;
+    }
+    wr_gui_event(app->gui, event);
+    app->input_at = wr_clock_seconds();
+    wr_app_redraw(app);
+    if (event->type == SDL_QUIT) { /* a signal; a second one does not wait for an answer */
+        if (app->dialog->now == WR_DIALOG_UNSAVED) app->quit = true;
+        else wr_app_quit(app);
+    } else if (event->type == SDL_WINDOWEVENT) {
+        wr_window_event(app, event);
+    } else if (event->type == SDL_DROPFILE) {
+        if (event->drop.file) wr_app_open_path(app, event->drop.file);
+        SDL_free(event->drop.file);
+    } else if (event->type == SDL_RENDER_TARGETS_RESET || event->type == SDL_RENDER_DEVICE_RESET) {
+        for (const WrPart *const *p = app->roster->parts; *p; p++)
+            if ((*p)->forget) (*p)->forget(app);
+    } else if (event->type == app->file_event) {
+        WrFilePurpose purpose;
+        const char *path = wr_files_answer(app->files, &purpose);
+        if (path) wr_app_file_chosen(app, purpose, path);
+        else app->file->after = WR_AFTER_NOTHING;
+    } else {
+        wr_hand_event(app, event);
+    }
+}
+
+/* ---- drawing ---- */
+
+static SDL_SystemCursor cursor_for(const WrApp *app)
+{
+    const WrHand *hand = app->hand;
+    if (hand->grab == WR_GRAB_DIVIDER ||
+        (hand->grab == WR_GRAB_NONE &&
+         wr_layout_inside(&app->layout->divider, (int)hand->at.x, (int)hand->at.y)))
+        return app->layout->stacked ? SDL_SYSTEM_CURSOR_SIZENS : SDL_SYSTEM_CURSOR_SIZEWE;
+    if (hand->grab == WR_GRAB_SPLIT || (hand->grab == WR_GRAB_NONE && hand->on_patch &&
+                                        wr_accuracy_on_line(app, hand->at.x, hand->at.y)))
+        return SDL_SYSTEM_CURSOR_SIZEWE;
+    if (hand->grab == WR_GRAB_PANELS ||
+        (hand->grab == WR_GRAB_NONE &&
+         wr_layout_inside(&app->layout->panel_divider, (int)hand->at.x, (int)hand->at.y)))
+        return SDL_SYSTEM_CURSOR_SIZENS;
+    if (hand->on_canvas && (hand->grab == WR_GRAB_PAN || hand->space))
+        return SDL_SYSTEM_CURSOR_SIZEALL;
+    if (hand->on_canvas) return SDL_SYSTEM_CURSOR_CROSSHAIR;
+    if (hand->grab == WR_GRAB_PATCH_PAINT || (hand->on_patch && wr_patch_paints(app)))
+        return SDL_SYSTEM_CURSOR_CROSSHAIR;
+    if (hand->on_patch)
+        return hand->grab == WR_GRAB_NONE ? SDL_SYSTEM_CURSOR_HAND : SDL_SYSTEM_CURSOR_SIZEALL;
+    return wr_gui_cursor(app->gui);
+}
+
+static void set_cursor(WrApp *app)
+{
+    SDL_SystemCursor wanted = cursor_for(app);
+    if (wanted == app->cursor && app->cursors[wanted]) return;
+    if (!app->cursors[wanted]) app->cursors[wanted] = SDL_CreateSystemCursor(wanted);
+    if (app->cursors[wanted]) SDL_SetCursor(app->cursors[wanted]);
+    app->cursor = wanted;
+}
+
+static void draw_divider(const SDL_Rect *d, bool hot)
+{
+    if (d->w <= 0) return;
+    wr_gui_draw_fill(d->x, d->y, d->w, d->h, hot ? WR_COLOUR_SELECTED : 0xff232323u, 0);
+}
+
+static void draw(WrApp *app, double now)
+{
+    WrError err;
+    double scale = wr_app_wanted_scale(app);
+    if (scale != app->drawn_scale) {
+        if (!wr_gui_set_scale(app->gui, scale, &err)) wr_app_fail(app, &err);
+        app->drawn_scale = scale;
+        app->redraw = 2;
+    }
+    int width, height;
+    SDL_GetRendererOutputSize(app->renderer, &width, &height);
+    wr_gui_frame_begin(app->gui, width, height, now - app->drawn_at);
+    app->in_frame = true;
+    wr_panel_menu(app);
+    wr_app_make_layout(app);
+    wr_app_place_view(app);
+    wr_panel_options(app);
+    wr_panel_tools(app);
+    wr_panel_right(app);
+    SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
+    SDL_RenderClear(app->renderer);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->draw) (*p)->draw(app);
+    draw_divider(&app->layout->divider, app->hand->grab == WR_GRAB_DIVIDER);
+    draw_divider(&app->layout->panel_divider, app->hand->grab == WR_GRAB_PANELS);
+    wr_canvas_view_overlay(app);
+    wr_patch_overlay(app);
+    wr_patch_paint_overlay(app);
+    wr_accuracy_overlay(app);
+    wr_panel_status(app);
+    wr_panel_dialogs(app);
+    wr_thumbs_update(app);
+    app->in_frame = false;
+    wr_gui_frame_end(app->gui);
+    SDL_RenderPresent(app->renderer);
+    wr_hand_look(app);
+    set_cursor(app);
+    app->drawn_at = now;
+    if (app->redraw < 1 && wr_gui_unsettled(app->gui)) app->redraw = 1;
+    if (app->drawn) app->drawn(app);
+}
+
+/* ---- the loop ---- */
+
+/* Something is being computed in the background: its bar moves. */
+static bool works(WrApp *app)
+{
+    bool any = wr_trial_busy(app->trial, NULL, NULL);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->works && (*p)->works(app)) any = true;
+    return any;
+}
+
+static double frame_seconds(const WrApp *app)
+{
+    return app->hand->grab != WR_GRAB_NONE ? DRAWN_SECONDS : FRAME_SECONDS;
+}
+
+/* Milliseconds until something is due without an event; -1: never. */
+static int wait_time(WrApp *app, double now)
+{
+    double next = 1e300;
+    if (wr_strokes_waits(app)) return 0;
+    if (wr_pen_replaying(app->pen)) next = now + 0.002;
+    if (app->redraw > 0 && app->visible) next = app->drawn_at + frame_seconds(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++) {
+        double due = (*p)->next_time ? (*p)->next_time(app) : 0.0;
+        if (due > 0.0 && due < next) next = due;
+    }
+    double settings = wr_settings_next_time(app);
+    if (settings > 0.0 && settings < next) next = settings;
+    if (works(app) && app->drawn_at + BAR_SECONDS < next) next = app->drawn_at + BAR_SECONDS;
+    bool young = app->messages->list.count > 0 &&
+                 now - app->messages->list.data[app->messages->list.count - 1].since < 7.0;
+    bool alive = wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) || young;
+    if (alive && app->drawn_at + CARET_SECONDS < next) next = app->drawn_at + CARET_SECONDS;
+    if (wr_gui_busy(app->gui) && now + 0.05 < next) next = now + 0.05;
+    if (next > 1e299) return -1;
+    double ms = ceil((next - now) * 1e3);
+    return ms < 0.0 ? 0 : ms > 60000.0 ? 60000 : (int)ms;
+}
+
+/* What pens and fingers did since the last time; they come by a way of their own. */
+static bool take_pens(WrApp *app)
+{
+    WrPenEvent event;
+    bool any = false;
+    while (wr_pen_next(app->pen, &event)) {
+        wr_hand_pen(app, &event);
+        any = true;
+    }
+    return any;
+}
+
+/* Each of what needed one does without. */
+static void tell_refused(WrApp *app)
+{
+    if (wr_thread_refused())
+        wr_app_say(app, "The system gives no more threads: what takes long holds the window up "
+                        "until it is done");
+}
+
+void wr_app_step(WrApp *app)
+{
+    SDL_Event event;
+    double now = wr_clock_seconds();
+    int wait = wait_time(app, now);
+    if (wait < 0 ? SDL_WaitEvent(&event) : SDL_WaitEventTimeout(&event, wait)) {
+        do handle(app, &event);
+        while (SDL_PollEvent(&event));
+        take_pens(app);
+    } else if (take_pens(app)) {
+        /* a picture was asked for */
+    } else if (wr_gui_wants_text(app->gui) || wr_gui_busy(app->gui) ||
+               app->messages->list.count > 0 || works(app)) {
+        if (app->redraw == 0) app->redraw = 1;
+    }
+    tell_refused(app);
+    wr_app_tend(app);
+    wr_strokes_work(app);
+    wr_later_run(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->update) (*p)->update(app);
+    now = wr_clock_seconds();
+    if (app->redraw > 0 && app->visible && now >= app->drawn_at + frame_seconds(app) - 0.0005) {
+        app->redraw--;
+        draw(app, now);
+        wr_timing_note(app, wr_clock_seconds() - now);
+    }
+    wr_settings_tend(app);
+    wr_rest_step(app, works(app));
+}
+
+int wr_app_run(const WrAppOptions *options)
+{
+    WrError err = { "" };
+    WrApp *app = wr_store_new();
+    app->options = options;
+    app->session = options->session;
+    app->started_at = wr_clock_seconds();
+    int status = 0;
+    if (wr_app_begin(app, &err)) {
+        while (!app->quit) wr_app_step(app);
+        wr_settings_end(app);
+        wr_timing_tell(app);
+    } else {
+        fprintf(stderr, "wrinkle: %s\n", err.text);
+        status = 1;
+    }
+    wr_app_end(app);
+    wr_free(app);
+    return status;
+}

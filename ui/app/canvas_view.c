@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: MIT
+   The table's view: its picture, and what lies on it. */
+#include "ui/app/canvas_view.h"
+#include "ui/canvas/canvas.h"
+#include "ui/canvas/view.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/document.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/preview/preview.h"
+#include "ui/tools/stroke_hand.h"
+#include "ui/tools/symmetry.h"
+#include "ui/tools/tool.h"
+#include "ui/views/marks.h"
+#include "ui/views/panel_seam.h"
+
+#include "field/field.h"
+#include "scene/scene.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MEANS_BUDGET 0.012 /* seconds a picture may take for the means of large tables */
+#define GRID_FROM 8.0      /* zoom from which texels get a grid */
+
+/* The range rests when the table does. */
+static bool is_held(const WrApp *app)
+{
+    return app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
+}
+
+void wr_canvas_view_draw(WrApp *app)
+{
+    if (app->layout->canvas.w <= 0) return;
+    app->canvas_unfinished =
+        wr_canvas_draw(app->canvas, app->renderer, app->view, wr_app_field(app),
+                       &app->settings->look, is_held(app), MEANS_BUDGET, app->range);
+    if (app->canvas_unfinished) wr_app_redraw(app);
+    wr_marks_draw(app);
+}
+
+/* Lines between texels, faint: dark on light and light on dark. */
+static void pixel_grid(const WrApp *app)
+{
+    const WrCanvasView *v = app->view;
+    if (v->zoom < GRID_FROM) return;
+    double x0, y0, x1, y1, px, py;
+    wr_view_to_texel(v, v->x, v->y, &x0, &y0);
+    wr_view_to_texel(v, v->x + v->w, v->y + v->h, &x1, &y1);
+    for (double x = ceil(x0); x <= x1; x += 1.0) {
+        wr_view_to_pixel(v, x, y0, &px, &py);
+        wr_gui_draw_fill(rint(px), v->y, 1, v->h, 0x30808080u, 0);
+    }
+    for (double y = ceil(y0); y <= y1; y += 1.0) {
+        wr_view_to_pixel(v, x0, y, &px, &py);
+        wr_gui_draw_fill(v->x, rint(py), v->w, 1, 0x30808080u, 0);
+    }
+}
+
+/* The real cell. */
+static void cell_outline(const WrApp *app)
+{
+    const WrCanvasView *v = app->view;
+    double x0, y0, x1, y1, line = wr_gui_px(1);
+    wr_view_to_pixel(v, 0, 0, &x0, &y0);
+    wr_view_to_pixel(v, v->table_w, v->table_h, &x1, &y1);
+    double x = rint(x0), y = rint(y0), w = rint(x1) - x, h = rint(y1) - y;
+    wr_gui_draw_rect(x, y, w, h, 0x90000000u, 3.0 * line);
+    wr_gui_draw_rect(x, y, w, h, WR_COLOUR_CELL, line);
+}
+
+/* Where the pointer on the patch is in the table. */
+static void patch_mark(const WrApp *app)
+{
+    double u, v, x, y, s = wr_gui_scale();
+    if (!app->hand->on_patch || app->hand->grab != WR_GRAB_NONE) return;
+    if (!wr_preview_point_hit(app->preview, &u, &v)) return;
+    const WrScene *scene = wr_app_scene(app);
+    double tu = wr_field_reduce(u, scene->replicate_u), tv = wr_field_reduce(v, scene->replicate_v);
+    wr_view_to_pixel(app->view, tu * app->view->table_w, (1.0 - tv) * app->view->table_h, &x, &y);
+    wr_gui_draw_circle(x, y, 6.0 * s, 0xb0000000u, 3.0 * s);
+    wr_gui_draw_circle(x, y, 6.0 * s, WR_COLOUR_ACCENT, 1.5 * s);
+}
+
+static void hints(WrApp *app)
+{
+    static const char *const lines[] = { "Drag to paint", "[ and ] change the size",
+                                         "Drag the patch to turn it" };
+    const SDL_Rect *room = &app->layout->canvas;
+    double s = wr_gui_scale(), pad = 10 * s, gap = 6 * s, h = wr_gui_line_height(WR_FONT_TEXT);
+    double wide = 0;
+    for (int i = 0; i < 3; i++) wide = fmax(wide, wr_gui_text_width(WR_FONT_TEXT, lines[i]));
+    double tall = 3 * h + 2 * gap + 2 * pad;
+    double x = room->x + 12 * s, y = room->y + room->h - 12 * s - tall;
+    wr_gui_draw_fill(x, y, wide + 2 * pad, tall, WR_COLOUR_CHIP, 4 * s);
+    for (int i = 0; i < 3; i++)
+        wr_gui_draw_text(x + pad, y + pad + i * (h + gap), WR_FONT_TEXT, WR_COLOUR_TEXT, lines[i]);
+}
+
+/* ---- the range, in a popup of the chip ---- */
+
+/* All heights that there are or that are shown, lowest first, in the colours that they have on the canvas: so
+   what lies beyond the range is seen at its ends. */
+static void ramp(const WrApp *app, const char *id, double wide, double tall)
+{
+    const WrCanvasRange *r = app->range;
+    double low = fmin(r->low, r->table_low), high = fmax(r->high, r->table_high);
+    WrPad pad = wr_gui_pad_begin(id, wide, tall);
+    for (int x = 0; x < (int)pad.w; x++) {
+        double height = low + (high - low) * (x + 0.5) / pad.w;
+        wr_gui_draw_fill(pad.x + x, pad.y, 1, pad.h, wr_canvas_colour(app->canvas, height), 0);
+    }
+    wr_gui_pad_end();
+}
+
+static void ramp_tip(const WrApp *app)
+{
+    const WrCanvasRange *r = app->range;
+    char tip[160];
+    bool beyond = r->table_low < r->low || r->table_high > r->high;
+    snprintf(tip, sizeof tip, "The table goes from %.4g to %.4g%s", r->table_low, r->table_high,
+             beyond ? ": some of it lies beyond the range that is shown" : "");
+    wr_gui_tip(tip);
+}
+
+static bool is_unit(const WrCanvasLook *look)
+{
+    return !look->automatic && look->low == 0.0 && look->high == 1.0;
+}
+
+static void choose_way(WrApp *app, int way)
+{
+    WrCanvasLook *look = &app->settings->look;
+    look->automatic = way == 0;
+    if (way == 0) return;
+    look->low = way == 1 ? 0.0 : app->range->low;
+    look->high = way == 1 ? 1.0 : app->range->high;
+}
+
+static void range_popup(WrApp *app)
+{
+    static const char *const looks[] = { "Grey", "Signed" };
+    static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
+    WrCanvasLook *look = &app->settings->look;
+    int chosen = (int)look->colours, way = look->automatic ? 0 : is_unit(look) ? 1 : 2;
+    if (!wr_gui_popup_begin("range")) return;
+    if (wr_gui_segments("look", looks, NULL, 2, &chosen)) look->colours = (WrCanvasColours)chosen;
+    if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
+    ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
+    ramp_tip(app);
+    wr_gui_check("Mark what lies beyond", &look->marks);
+    wr_gui_tip("Warm above the range, cool below it");
+    double field = 120 * wr_gui_scale();
+    WrNumber low = { .low = -1,
+                     .high = 1,
+                     .hard_low = -1e30,
+                     .hard_high = look->high - 1e-6,
+                     .reset = 0,
+                     .decimals = 3,
+                     .tip = "Height shown as black" };
+    WrNumber high = { .low = 0,
+                      .high = 2,
+                      .hard_low = look->low + 1e-6,
+                      .hard_high = 1e30,
+                      .reset = 1,
+                      .decimals = 3,
+                      .tip = "Height shown as white" };
+    wr_gui_disable(look->automatic);
+    double l = app->range->low, h = app->range->high;
+    wr_gui_label("Black");
+    if (wr_gui_number("low", field, &low, &l) && l < look->high) look->low = l;
+    wr_gui_label("White");
+    if (wr_gui_number("high", field, &high, &h) && h > look->low) look->high = h;
+    wr_gui_enable();
+    wr_gui_popup_end();
+}
+
+static void chips(WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->canvas;
+    int gap = wr_gui_px(12);
+    char text[96];
+    snprintf(text, sizeof text, "%s %.3g \xe2\x80\x93 %.3g",
+             app->settings->look.colours == WR_CANVAS_GREY ? "Grey" : "Signed", app->range->low,
+             app->range->high);
+    wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
+    if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
+    wr_gui_tip("Which heights are black and white");
+    if (room->w > wr_gui_px(300)) {
+        wr_gui_same_line(6);
+        ramp(app, "narrow", wr_gui_px(64), wr_gui_line_height(WR_FONT_TEXT));
+        ramp_tip(app);
+    }
+    range_popup(app);
+    wr_gui_overlay_end();
+}
+
+void wr_canvas_view_overlay(WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->canvas;
+    if (room->w <= 0) return;
+    wr_gui_draw_clip(*room);
+    pixel_grid(app);
+    cell_outline(app);
+    patch_mark(app);
+    const WrTool *tool = wr_tool_now(app);
+    bool panning = app->hand->grab == WR_GRAB_PAN || app->hand->space;
+    wr_symmetry_marks(app);
+    if (app->hand->on_canvas && tool->overlay && !panning) tool->overlay(app);
+    if (tool->marks) tool->marks(app);
+    if (app->hints && app->file->starter) hints(app);
+    wr_gui_draw_unclip();
+    if (room->w > wr_gui_px(140)) chips(app);
+    wr_panel_symmetry(app);
+    if (room->w > wr_gui_px(240)) wr_panel_seam(app);
+}
+
+/* ---- the view ---- */
+
+void wr_app_place_view(WrApp *app)
+{
+    WrCanvasView *view = app->view;
+    const SDL_Rect *room = &app->layout->canvas;
+    const WrField *field = wr_app_field(app);
+    int w = wr_field_width(field), h = wr_field_height(field);
+    if (w != view->table_w || h != view->table_h) app->view_placed = false;
+    view->x = room->x;
+    view->y = room->y;
+    view->w = room->w > 0 ? room->w : 1;
+    view->h = room->h > 0 ? room->h : 1;
+    view->table_w = w;
+    view->table_h = h;
+    if (app->view_placed || room->w == 0) return;
+    wr_view_fit(view, 0.36); /* with enough of the copies around it that seams are seen */
+    app->view_placed = true;
+}
+
+/* ---- the part ---- */
+
+static void draw(WrApp *app)
+{
+    wr_app_place_view(app);
+    wr_canvas_view_draw(app);
+}
+
+static void forget(WrApp *app)
+{
+    wr_canvas_forget(app->canvas);
+}
+
+const WrPart wr_part_canvas = { .draw = draw, .forget = forget };

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT
+   The window measured: a thread scribbles with a mouse that is not there, at a real mouse's pace, and each
+   picture of the window says which of the events it shows. */
+#include "ui/app/app.h"
+#include "ui/app/loop.h"
+#include "ui/app/store.h"
+#include "ui/desk/app_options.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/settings.h"
+#include "ui/patch/patch.h"
+#include "ui/tools/stroke_hand.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+#define EVENTS_A_SECOND 125
+#define STROKE_EVENTS 500 /* then the button is let go for a moment */
+#define PAUSE_EVENTS 25
+#define SETTLE_SECONDS 1.5 /* before the first event: first pictures, caches */
+#define LAST_SECONDS 5.0   /* after the last one, for all to be seen */
+
+struct WrLatency {
+    int64_t count; /* events in all */
+    double *at;    /* [count] clock when the system had event i; written by the thread before it is
+                          sent, read after it came */
+    float *delay[3]; /* [count] ms until seen: pointer, canvas, preview */
+    int64_t seen[3]; /* events seen so far */
+    bool *paints;    /* [count] the button is down */
+    int64_t pictures;
+    SDL_Rect room; /* of the canvas */
+    Uint32 window_id;
+    volatile int stop; /* atomic */
+    pthread_t thread;
+};
+
+/* ---- the scribble ---- */
+
+/* A hand that goes round and to and fro, never twice the same way; 0..1 both ways. */
+static void scribble(double t, double *x, double *y)
+{
+    *x = 0.5 + 0.28 * sin(2.9 * t) + 0.13 * sin(11.3 * t + 1) + 0.02 * sin(47 * t);
+    *y = 0.5 + 0.26 * cos(2.3 * t) + 0.14 * sin(9.1 * t) + 0.02 * cos(53 * t);
+}
+
+static SDL_Event event_at(const WrLatency *latency, int64_t i)
+{
+    int64_t phase = i % (STROKE_EVENTS + PAUSE_EVENTS);
+    double x, y;
+    SDL_Event event = { 0 };
+    scribble((double)i / EVENTS_A_SECOND, &x, &y);
+    int px = latency->room.x + (int)(x * latency->room.w);
+    int py = latency->room.y + (int)(y * latency->room.h);
+    if (phase == 0 || phase == STROKE_EVENTS) {
+        event.button =
+            (SDL_MouseButtonEvent){ .type = phase == 0 ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
+                                    .timestamp = SDL_GetTicks(),
+                                    .windowID = latency->window_id,
+                                    .button = SDL_BUTTON_LEFT,
+                                    .state = phase == 0 ? SDL_PRESSED : SDL_RELEASED,
+                                    .clicks = 1,
+                                    .x = px,
+                                    .y = py };
+    } else {
+        event.motion = (SDL_MouseMotionEvent){ .type = SDL_MOUSEMOTION,
+                                               .timestamp = SDL_GetTicks(),
+                                               .windowID = latency->window_id,
+                                               .x = px,
+                                               .y = py };
+    }
+    return event;
+}
+
+static void *feed(void *arg)
+{
+    WrLatency *latency = arg;
+    double start = wr_clock_seconds();
+    for (int64_t i = 0; i < latency->count; i++) {
+        double wait = start + (double)i / EVENTS_A_SECOND - wr_clock_seconds();
+        if (__atomic_load_n(&latency->stop, __ATOMIC_RELAXED)) break;
+        if (wait > 0.0) SDL_Delay((Uint32)(wait * 1e3 + 0.5));
+        SDL_Event event = event_at(latency, i);
+        latency->at[i] = wr_clock_seconds();
+        SDL_PushEvent(&event);
+    }
+    return NULL;
+}
+
+/* ---- what is seen ---- */
+
+static void note(WrLatency *latency, int which, int64_t upto, double now)
+{
+    int64_t *seen = &latency->seen[which];
+    for (; *seen < upto && *seen < latency->count; (*seen)++)
+        latency->delay[which][*seen] = (float)((now - latency->at[*seen]) * 1e3);
+}
+
+static void drawn(WrApp *app)
+{
+    WrLatency *latency = app->latency;
+    double now = wr_clock_seconds();
+    latency->pictures++;
+    note(latency, 0, app->hand->events, now);
+    note(latency, 1, app->brush->shown, now);
+    note(latency, 2, app->patch->seen, now);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static WrAppDelays summarise(const WrLatency *latency, int which)
+{
+    float *ms = wr_alloc((size_t)latency->count, sizeof *ms);
+    int count = 0;
+    for (int64_t i = 0; i < latency->seen[which]; i++)
+        if (latency->paints[i] || which == 0) ms[count++] = latency->delay[which][i];
+    WrAppDelays out = { 0 };
+    if (count > 0) {
+        qsort(ms, (size_t)count, sizeof *ms, ascending);
+        out = (WrAppDelays){ (double)ms[count / 2], (double)ms[(int)(0.95 * count)],
+                             (double)ms[(int)(0.99 * count)], (double)ms[count - 1] };
+    }
+    wr_free(ms);
+    return out;
+}
+
+/* ---- the run ---- */
+
+static void step_for(WrApp *app, double seconds)
+{
+    double end = wr_clock_seconds() + seconds;
+    while (wr_clock_seconds() < end && !app->quit) {
+        SDL_Event nothing = { .type = app->job_event }; /* a step that waits for ever ends */
+        SDL_PushEvent(&nothing);
+        wr_app_step(app);
+        SDL_Delay(4);
+    }
+}
+
+static bool all_seen(const WrLatency *latency)
+{
+    return latency->seen[1] >= latency->count && latency->seen[2] >= latency->count;
+}
+
+static bool stopped(const WrApp *app)
+{
+    return app->quit || (app->options->cancel && *app->options->cancel);
+}
+
+static bool measure(WrApp *app, WrLatency *latency, WrError *err)
+{
+    step_for(app, SETTLE_SECONDS);
+    latency->room = app->layout->canvas;
+    latency->window_id = SDL_GetWindowID(app->window);
+    latency->pictures = 0;
+    app->hand->events = 0;
+    app->brush->taken = app->brush->shown = app->patch->seen = 0;
+    if (latency->room.w <= 0) return wr_fail(err, "the window has no canvas");
+    if (pthread_create(&latency->thread, NULL, feed, latency) != 0)
+        return wr_fail(err, "no thread can be started");
+    while (app->hand->events < latency->count && !stopped(app)) wr_app_step(app);
+    __atomic_store_n(&latency->stop, 1, __ATOMIC_RELAXED);
+    pthread_join(latency->thread, NULL);
+    if (stopped(app)) return wr_fail(err, "interrupted");
+    double end = wr_clock_seconds() + LAST_SECONDS;
+    wr_hand_let_go(app);
+    while (!all_seen(latency) && wr_clock_seconds() < end) step_for(app, 0.02);
+    if (latency->seen[1] == 0 || latency->seen[2] == 0)
+        return wr_fail(err, "nothing that was painted was ever seen");
+    return true;
+}
+
+bool wr_app_latency(const WrAppOptions *options, WrAppLatency *out, WrError *err)
+{
+    if (!(out->seconds >= 0.5 && out->seconds <= 600.0))
+        return wr_fail(err, "%g seconds of scribbling: must be 0.5..600", out->seconds);
+    WrLatency latency = { .count = (int64_t)(out->seconds * EVENTS_A_SECOND) };
+    latency.at = wr_alloc((size_t)latency.count, sizeof *latency.at);
+    latency.paints = wr_alloc((size_t)latency.count, sizeof *latency.paints);
+    for (int k = 0; k < 3; k++) latency.delay[k] = wr_alloc((size_t)latency.count, sizeof(float));
+    for (int64_t i = 0; i < latency.count; i++)
+        latency.paints[i] = i % (STROKE_EVENTS + PAUSE_EVENTS) < STROKE_EVENTS;
+    WrAppOptions own = *options;
+    own.width = 1440;
+    own.height = 900;
+    own.file_given = true;
+    WrApp *app = wr_store_new();
+    app->options = &own;
+    app->session = options->session;
+    app->latency = &latency;
+    app->drawn = drawn;
+    app->started_at = wr_clock_seconds();
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
+    bool good = wr_app_begin(app, err);
+    if (good) {
+        app->settings->turning = out->turning;
+        app->settings->brush.radius = out->radius;
+        app->settings->brush.strength = 0.02;
+        good = measure(app, &latency, err);
+    }
+    if (good) {
+        out->events = latency.count;
+        out->pictures = latency.pictures;
+        out->pointer = summarise(&latency, 0);
+        out->canvas = summarise(&latency, 1);
+        out->preview = summarise(&latency, 2);
+    }
+    wr_app_end(app);
+    wr_free(app);
+    wr_free(latency.at);
+    wr_free(latency.paints);
+    for (int k = 0; k < 3; k++) wr_free(latency.delay[k]);
+    return good;
+}

@@ -1,0 +1,12 @@
+/* loop.h - one window's life. */
+#pragma once
+#include "ui/desk/desk.h"
+
+#include "base/error.h"
+
+#include <stdbool.h>
+
+/* One window's life, for wr_app_run and latency.c. end after begin even if that failed. */
+bool wr_app_begin(WrApp *app, WrError *err);
+void wr_app_step(WrApp *app); /* wait for something, do it, draw */
+void wr_app_end(WrApp *app);

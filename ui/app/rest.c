@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/app/rest.h"
+#include "ui/accuracy/accuracy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/later.h"
+#include "ui/desk/layout.h"
+#include "ui/gui/gui.h"
+#include "ui/patch/patch.h"
+#include "ui/pen/pen.h"
+#include "ui/preview/preview.h"
+#include "ui/tools/stroke_hand.h"
+
+#include "base/array.h"
+#include "base/memory.h"
+
+#include <SDL.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/* What a worker is done with may be taken one step later, and asks for pictures then. */
+#define CALM_STEPS 3
+
+struct WrRest {
+    Uint32 ask_event;
+    int fifo;
+    pthread_t thread;
+    int asked, answered; /* questions; the window's thread */
+    int calm;            /* steps at rest in a row since the newest question */
+};
+
+static void push(const WrRest *rest)
+{
+    SDL_Event event = { .type = rest->ask_event };
+    SDL_PushEvent(&event);
+}
+
+/* The byte 'q' ends it: only the program itself writes that. */
+static void *thread_main(void *ctx)
+{
+    const WrRest *rest = ctx;
+    char byte;
+    while (read(rest->fifo, &byte, 1) == 1 && byte != 'q') push(rest);
+    return NULL;
+}
+
+WrRest *wr_rest_new(Uint32 ask_event)
+{
+    const char *path = getenv("WRINKLE_REST");
+    int fifo = path && *path ? open(path, O_RDWR | O_CLOEXEC) : -1;
+    if (fifo < 0) return NULL;
+    WrRest *rest = wr_alloc(1, sizeof *rest);
+    rest->ask_event = ask_event;
+    rest->fifo = fifo;
+    if (pthread_create(&rest->thread, NULL, thread_main, rest) == 0) return rest;
+    close(fifo);
+    wr_free(rest);
+    return NULL;
+}
+
+void wr_rest_free(WrRest *rest)
+{
+    if (!rest) return;
+    if (write(rest->fifo, "q", 1) == 1) pthread_join(rest->thread, NULL);
+    close(rest->fifo);
+    wr_free(rest);
+}
+
+void wr_rest_asked(WrApp *app)
+{
+    WrRest *rest = app->rest;
+    if (!rest) return;
+    rest->asked++;
+    rest->calm = 0;
+    wr_pen_sync(app->pen); /* what the server had until now is in SDL's queue at the next look */
+}
+
+static bool is_calm(WrApp *app, bool busy)
+{
+    const WrPatch *p = app->patch;
+    /* A widget that is held, and two pictures in turn, may stay so for ever. */
+    bool held = wr_gui_holds_mouse(app->gui);
+    bool patch = p->outstanding || wr_patch_next_time(app) > 0.0 ||
+                 !wr_preview_settled(app->preview) ||
+                 wr_preview_picture(app->preview)->serial != p->serial;
+    return !busy && !(patch && app->layout->patch.w > 0) && !(app->redraw > 0 && app->visible) &&
+           !wr_strokes_waits(app) && !wr_accuracy_under_way(app) &&
+           !(wr_gui_busy(app->gui) && !held) && !wr_pen_replaying(app->pen) &&
+           wr_pen_waiting(app->pen) == 0 && !wr_later_waits(app, NULL);
+}
+
+void wr_rest_step(WrApp *app, bool busy)
+{
+    WrRest *rest = app->rest;
+    if (!rest || rest->answered == rest->asked) return;
+    if (!is_calm(app, busy)) {
+        rest->calm = 0;
+        return; /* what is due or under way makes the next step */
+    }
+    if (++rest->calm < CALM_STEPS) {
+        SDL_Event nothing = { .type = app->ready_event };
+        SDL_PushEvent(&nothing);
+        return;
+    }
+    wr_pen_sync(app->pen); /* the server has the picture */
+    rest->answered = rest->asked;
+    fprintf(stderr, "at rest %d\n", rest->answered);
+    fflush(stderr);
+}

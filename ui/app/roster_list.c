@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT
+   The roster of this program: all dialogs, tabs, parts and files' purposes. */
+#include "ui/app/roster_list.h"
+#include "ui/accuracy/accuracy.h"
+#include "ui/app/canvas_view.h"
+#include "ui/app/hand_events.h"
+#include "ui/app/tool_list.h"
+#include "ui/app/window.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/document.h"
+#include "ui/desk/replace.h"
+#include "ui/desk/roster.h"
+#include "ui/generate/generate_gallery.h"
+#include "ui/generate/generate_hand.h"
+#include "ui/help/panel_help.h"
+#include "ui/panels/panel_adjust.h"
+#include "ui/panels/panel_layers.h"
+#include "ui/panels/panel_search.h"
+#include "ui/panels/panel_tablet.h"
+#include "ui/panels/panels.h"
+#include "ui/patch/patch.h"
+#include "ui/tools/shelf.h"
+#include "ui/tools/stroke_hand.h"
+#include "ui/tools/thumbs.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_clone.h"
+#include "ui/tools/tool_select.h"
+#include "ui/tools/tool_stamp.h"
+#include "ui/views/marks.h"
+#include "ui/work/files.h"
+
+static const WrDialogRow dialogs[] = {
+    [WR_DIALOG_UNSAVED] = { wr_dialog_unsaved, false },
+    [WR_DIALOG_TABLE] = { wr_dialog_table, false },
+    [WR_DIALOG_FILL] = { wr_dialog_fill, false },
+    [WR_DIALOG_GRID] = { wr_dialog_grid, false },
+    [WR_DIALOG_IMPORT] = { wr_dialog_import, false },
+    [WR_DIALOG_EXPORT] = { wr_dialog_export, false },
+    [WR_DIALOG_FILE] = { wr_dialog_file, false },
+    [WR_DIALOG_ADJUST] = { wr_dialog_adjust, true },
+    [WR_DIALOG_SELECT] = { wr_dialog_select, true },
+    [WR_DIALOG_SEARCH] = { wr_dialog_search, false },
+    [WR_DIALOG_RECOVER] = { wr_dialog_recover, false },
+    [WR_DIALOG_PRESET] = { wr_dialog_preset, false },
+    [WR_DIALOG_REPLACE] = { wr_dialog_replace, false },
+    [WR_DIALOG_TABLET] = { wr_dialog_tablet, false },
+    [WR_DIALOG_CASES] = { wr_dialog_cases, false },
+    [WR_DIALOG_HELP] = { wr_dialog_help, false },
+    [WR_DIALOG_ABOUT] = { wr_dialog_help, false },
+};
+_Static_assert(sizeof dialogs / sizeof *dialogs == WR_DIALOG_COUNT, "a row for each dialog");
+
+static const WrTab tabs[] = {
+    { "Brushes", NULL, wr_panel_brushes, false },  { "Scene", wr_panel_scene, NULL, false },
+    { "Plan", wr_panel_plan, NULL, false },        { "History", wr_panel_history, NULL, false },
+    { "Generate", NULL, wr_panel_generate, true }, { "Accuracy", wr_panel_accuracy, NULL, true }
+};
+
+/* In the order in which they are updated and drawn. */
+static const WrPart *const parts[] = {
+    &wr_part_window, &wr_part_hand,     &wr_part_tools,   &wr_part_strokes,
+    &wr_part_select, &wr_part_clone,    &wr_part_canvas,  &wr_part_marks,
+    &wr_part_stamp,  &wr_part_generate, &wr_part_patch,   &wr_part_accuracy,
+    &wr_part_layers, &wr_part_thumbs,   &wr_part_gallery, NULL
+};
+
+static WrActionFamily *const families[] = { wr_adjust_by_name, wr_generate_by_name, NULL };
+
+static WrFileTake *const takes[] = {
+    [WR_FILE_OPEN] = wr_file_take_open,       [WR_FILE_SAVE] = wr_file_take_save,
+    [WR_FILE_EXPORT] = wr_file_take_export,   [WR_FILE_IMPORT] = wr_file_take_import,
+    [WR_FILE_HISTORY] = wr_file_take_history, [WR_FILE_STAMP] = wr_stamp_take,
+    [WR_FILE_GENERATE] = wr_generate_file,    [WR_FILE_PRESET] = wr_shelf_take,
+};
+_Static_assert(sizeof takes / sizeof *takes == WR_FILE_PURPOSES, "somebody takes each file");
+
+const WrRoster wr_roster = { .tools = wr_tools,
+                             .tool_count = WR_TOOL_COUNT,
+                             .actions = wr_actions,
+                             .families = families,
+                             .dialogs = dialogs,
+                             .tabs = tabs,
+                             .tab_count = (int)(sizeof tabs / sizeof *tabs),
+                             .parts = parts,
+                             .takes = takes };

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT
+   One block of memory for the state of all subjects. */
+#include "ui/app/store.h"
+#include "ui/app/roster_list.h"
+#include "ui/app/timing.h"
+#include "ui/canvas/canvas.h"
+#include "ui/canvas/outline.h"
+#include "ui/canvas/seam.h"
+#include "ui/canvas/view.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/document.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/later.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/messages.h"
+#include "ui/desk/replace.h"
+#include "ui/desk/settings.h"
+#include "ui/panels/panel_adjust.h"
+#include "ui/panels/panel_layers.h"
+#include "ui/panels/panel_search.h"
+#include "ui/panels/panel_status.h"
+#include "ui/patch/patch.h"
+#include "ui/patch/patch_paint.h"
+#include "ui/tools/shelf.h"
+#include "ui/tools/stroke_hand.h"
+#include "ui/tools/tool_clone.h"
+#include "ui/tools/tool_shape.h"
+#include "ui/tools/tool_stamp.h"
+#include "ui/views/marks.h"
+
+#include "base/memory.h"
+
+typedef struct Store {
+    WrApp app; /* the first: who frees it frees all */
+    WrSettings settings;
+    WrSettings settings_known;
+    WrLayout layout;
+    WrTiming timing;
+    WrCanvasView view;
+    WrCanvasRange range;
+    WrHand hand;
+    WrBrushHand brush;
+    WrBrushSources brush_files;
+    WrShelf shelf;
+    WrDrawHand draw;
+    WrPatch patch;
+    WrPatchPaint paint;
+    WrMarks marks;
+    WrSelectHand select;
+    WrLayersHand layers;
+    WrAdjust adjust;
+    WrOutlineAsk selecting;
+    WrFinder finder;
+    WrSeam seam;
+    WrMeter meter;
+    WrLater later;
+    WrMessages messages;
+    WrForms forms;
+    WrReplace replace;
+    WrCloneHand clone;
+    WrStampHand stamp;
+    WrDialogHand dialog;
+    WrDocumentHand file;
+} Store;
+
+WrApp *wr_store_new(void)
+{
+    Store *store = wr_alloc(1, sizeof *store);
+    WrApp *app = &store->app;
+    app->settings = &store->settings;
+    app->settings_known = &store->settings_known;
+    app->layout = &store->layout;
+    app->timing = &store->timing;
+    app->view = &store->view;
+    app->range = &store->range;
+    app->hand = &store->hand;
+    app->brush = &store->brush;
+    app->brush_files = &store->brush_files;
+    app->shelf = &store->shelf;
+    app->draw = &store->draw;
+    app->patch = &store->patch;
+    app->paint = &store->paint;
+    app->marks = &store->marks;
+    app->select = &store->select;
+    app->layers = &store->layers;
+    app->adjust = &store->adjust;
+    app->selecting = &store->selecting;
+    app->finder = &store->finder;
+    app->seam = &store->seam;
+    app->meter = &store->meter;
+    app->later = &store->later;
+    app->messages = &store->messages;
+    app->forms = &store->forms;
+    app->replace = &store->replace;
+    app->clone = &store->clone;
+    app->stamp = &store->stamp;
+    app->dialog = &store->dialog;
+    app->file = &store->file;
+    app->roster = &wr_roster;
+    return app;
+}

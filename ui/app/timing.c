@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+   How long the window's pictures take, for who asks. */
+#include "ui/app/timing.h"
+#include "ui/desk/desk.h"
+#include "ui/preview/preview.h"
+
+#include "base/clock.h"
+#include "image/image.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* WRINKLE_TIMING: milliseconds to the first picture at once, the rest at the end. */
+void wr_timing_note(WrApp *app, double seconds)
+{
+    WrTiming *t = app->timing;
+    if (t->pictures++ == 0 && getenv("WRINKLE_TIMING"))
+        fprintf(stderr, "first picture after %.0f ms\n",
+                (wr_clock_seconds() - app->started_at) * 1e3);
+    /* The first picture file is read at once then; its reader starts beside the window, not before it. */
+    if (t->pictures == 2 && !app->latency) wr_image_warm();
+    t->seconds += seconds;
+    t->slowest = seconds > t->slowest ? seconds : t->slowest;
+}
+
+void wr_timing_tell(const WrApp *app)
+{
+    const WrTiming *t = app->timing;
+    const WrPreviewPicture *p = wr_preview_picture(app->preview);
+    if (!getenv("WRINKLE_TIMING") || t->pictures == 0) return;
+    fprintf(
+        stderr,
+        "%d pictures of the window, %.2f ms each, slowest %.2f ms; %llu of the patch in %.1f s\n",
+        t->pictures, t->seconds / t->pictures * 1e3, t->slowest * 1e3,
+        (unsigned long long)p->serial, wr_clock_seconds() - app->started_at);
+}

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT
+   The window on the desktop: opened in whatever way the display knows, and kept on the screen. */
+#include "ui/app/window.h"
+#include "ui/desk/app_options.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/document.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/screen.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+double wr_window_scale(SDL_Window *window)
+{
+    float dpi = 96.0f;
+    int display = SDL_GetWindowDisplayIndex(window);
+    if (display < 0 || SDL_GetDisplayDPI(display, NULL, &dpi, NULL) != 0) return 1.0;
+    double scale = floor((double)dpi / 96.0 * 4.0 + 0.25) / 4.0; /* displays that say 97 mean 96 */
+    return scale < 1.0 ? 1.0 : scale > 3.0 ? 3.0 : scale;
+}
+
+static bool has_gpu(void)
+{
+    return access("/dev/dri/renderD128", R_OK | W_OK) == 0;
+}
+
+static SDL_Window *open_window(const WrApp *app)
+{
+    const WrAppOptions *o = app->options;
+    int w = o->width > 0 ? o->width : app->settings->width;
+    int h = o->height > 0 ? o->height : app->settings->height;
+    SDL_Rect room;
+    if (o->width <= 0 && SDL_GetDisplayUsableBounds(0, &room) == 0) {
+        w = w < room.w ? w : room.w;
+        h = h < room.h ? h : room.h;
+    }
+    Uint32 flags = SDL_WINDOW_RESIZABLE | SDL_WINDOW_HIDDEN;
+    if (app->settings->maximized && o->width <= 0) flags |= SDL_WINDOW_MAXIMIZED;
+    return SDL_CreateWindow("Wrinkle", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, flags);
+}
+
+/* One way to put pictures on the screen: true if a picture really gets there. */
+static bool try_screen(WrApp *app, WrScreenWay way)
+{
+    bool direct = way == WR_SCREEN_DIRECT;
+    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, direct ? "0" : NULL);
+    SDL_SetHint(SDL_HINT_RENDER_DRIVER, way == WR_SCREEN_OPENGL ? "opengl" : NULL);
+    app->window = open_window(app);
+    if (!app->window) return false;
+    Uint32 flags = way == WR_SCREEN_OPENGL || way == WR_SCREEN_ANY ? SDL_RENDERER_ACCELERATED
+                                                                   : SDL_RENDERER_SOFTWARE;
+    app->renderer = SDL_CreateRenderer(app->window, -1, flags);
+    if (app->renderer && SDL_RenderClear(app->renderer) == 0) return true;
+    if (app->renderer) SDL_DestroyRenderer(app->renderer);
+    SDL_DestroyWindow(app->window);
+    app->renderer = NULL;
+    app->window = NULL;
+    return false;
+}
+
+/* The ways from the best down. What did not work is said on standard error; SDL's word of the last one stays. */
+static bool open_screen(WrApp *app)
+{
+    WrScreenWay ways[WR_SCREEN_WAYS];
+    const char *driver = SDL_GetCurrentVideoDriver();
+    int count = wr_screen_ways(driver, has_gpu(), getenv("WRINKLE_RENDERER"), ways);
+    for (int i = 0; i < count; i++) {
+        if (try_screen(app, ways[i])) {
+            if (i > 0)
+                fprintf(stderr, "wrinkle: the window is drawn %s\n", wr_screen_words(ways[i]));
+            return true;
+        }
+        fprintf(stderr, "wrinkle: no window drawn %s on %s: %s\n", wr_screen_words(ways[i]),
+                driver ? driver : "no driver", SDL_GetError());
+    }
+    return false;
+}
+
+bool wr_window_open(WrApp *app)
+{
+    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+    SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");
+    SDL_SetHint(SDL_HINT_APP_NAME, "wrinkle");
+    SDL_SetHint(SDL_HINT_QUIT_ON_LAST_WINDOW_CLOSE, "0");
+    /* SDL turns these into SDL_QUIT, but only where nobody else has taken them. */
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !open_screen(app)) return false;
+    SDL_SetWindowMinimumSize(app->window, 640, 420);
+    SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);
+    SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
+    app->display_scale = wr_window_scale(app->window);
+    return true;
+}
+
+void wr_window_keep(WrApp *app)
+{
+    SDL_Rect room, now, fits;
+    int top, left, bottom, right, display = SDL_GetWindowDisplayIndex(app->window);
+    Uint32 flags = SDL_GetWindowFlags(app->window);
+    if (app->fitted || app->options->width > 0) return;
+    if (flags & (SDL_WINDOW_MAXIMIZED | SDL_WINDOW_FULLSCREEN | SDL_WINDOW_HIDDEN)) return;
+    if (display < 0 || SDL_GetDisplayUsableBounds(display, &room) != 0 ||
+        SDL_GetWindowBordersSize(app->window, &top, &left, &bottom, &right) != 0)
+        return;
+    SDL_GetWindowPosition(app->window, &now.x, &now.y);
+    SDL_GetWindowSize(app->window, &now.w, &now.h);
+    if (!wr_layout_window(&room, &now, (const int[4]){ left, top, right, bottom }, &fits)) return;
+    SDL_SetWindowSize(app->window, fits.w, fits.h);
+    SDL_SetWindowPosition(app->window, fits.x, fits.y);
+}
+
+static void window_event(WrApp *app, const SDL_WindowEvent *event)
+{
+    switch (event->event) {
+    case SDL_WINDOWEVENT_HIDDEN:
+    case SDL_WINDOWEVENT_MINIMIZED: app->visible = false; break;
+    case SDL_WINDOWEVENT_SHOWN:
+    case SDL_WINDOWEVENT_EXPOSED:
+    case SDL_WINDOWEVENT_RESTORED:
+        app->visible = true;
+        wr_window_keep(app);
+        break;
+    case SDL_WINDOWEVENT_MOVED: wr_window_keep(app); break;
+    case SDL_WINDOWEVENT_MAXIMIZED:
+        app->visible = true;
+        app->settings->maximized = true;
+        break;
+    case SDL_WINDOWEVENT_FOCUS_LOST:
+        wr_gui_release_all(app->gui);
+        app->hand->space = false;
+        break;
+    case SDL_WINDOWEVENT_LEAVE:
+        if (app->hand->grab == WR_GRAB_NONE) app->hand->on_canvas = app->hand->on_patch = false;
+        break;
+    case SDL_WINDOWEVENT_CLOSE: wr_app_quit(app); break;
+    case SDL_WINDOWEVENT_SIZE_CHANGED:
+        if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED))
+            app->settings->maximized = false;
+        break;
+    case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = wr_window_scale(app->window); break;
+    default: break;
+    }
+}
+
+void wr_window_event(WrApp *app, const SDL_Event *event)
+{
+    if (event->type == SDL_WINDOWEVENT) window_event(app, &event->window);
+}
+
+const WrPart wr_part_window = { .event = wr_window_event };

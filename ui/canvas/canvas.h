@@ -1,0 +1,46 @@
+/* canvas.h - the picture of the table on the canvas: grey or false colour, repeated in all directions,
+   box-filtered at every zoom, kept in a texture of which only what changed is made anew. */
+#pragma once
+#include "ui/canvas/view.h"
+
+#include "field/field.h"
+
+#include <SDL.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrCanvas WrCanvas;
+
+typedef enum WrCanvasColours {
+    WR_CANVAS_GREY,
+    WR_CANVAS_SIGNED,
+    WR_CANVAS_COLOURS
+} WrCanvasColours;
+
+typedef struct WrCanvasLook {
+    WrCanvasColours colours; /* SIGNED: blue below zero, white at zero, orange above */
+    bool automatic;          /* low and high follow the table (canvas_range.h) */
+    bool marks;              /* what lies beyond them is tinted: warm above, cool below */
+    double low, high;        /* heights shown as black and white; low < high */
+} WrCanvasLook;
+
+typedef struct WrCanvasRange {
+    double low, high;             /* shown as black and white */
+    double table_low, table_high; /* that there are */
+} WrCanvasRange;
+
+WrCanvas *wr_canvas_new(void);
+void wr_canvas_free(WrCanvas *canvas); /* before the renderer; NULL is fine */
+
+/* Bring the picture up to date and draw it into the view's rectangle. Takes at most about `budget`
+ * seconds for the means of large tables; true if it would be better with another call. held: it is being
+ * painted, so that a range that follows it only widens. */
+bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView *view,
+                    const WrField *field, const WrCanvasLook *look, bool held, double budget,
+                    WrCanvasRange *range);
+/* The colour of a height, 0xffRRGGBB, as in the last picture. */
+uint32_t wr_canvas_colour(const WrCanvas *canvas, double height);
+/* The renderer lost its textures: make them anew. */
+void wr_canvas_forget(WrCanvas *canvas);
+/* Pixels computed by the last draw (0: nothing had changed). */
+int64_t wr_canvas_pixels_made(const WrCanvas *canvas);

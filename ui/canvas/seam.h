@@ -1,0 +1,25 @@
+/* seam.h - does a table go on smoothly where its edges meet? Pure; tested without a window. */
+#pragma once
+#include "field/field.h"
+
+#include <stdbool.h>
+
+/* One pair of edges. Jump: how much more two texels differ across the edge than the slopes on both sides
+ * lead one to expect, a step in the height. Crease: how much the slope changes over the edge. Both are root
+ * mean squares along the edge; `inside` is the largest of the same over columns (rows) within the table.
+ * In table units, creases in table units a texel. */
+typedef struct WrSeamEdge {
+    bool wraps;                          /* false: the axis ends there, and nothing is measured */
+    double jump, jump_inside, jump_most; /* jump_most: the largest single one on the edge */
+    double crease, crease_inside;
+    bool jumps, creases; /* clearly more than anywhere inside */
+} WrSeamEdge;
+
+typedef struct WrSeam {
+    WrSeamEdge u; /* where the right edge meets the left one */
+    WrSeamEdge v; /* where the bottom meets the top */
+} WrSeam;
+
+/* Looks at no more than 256 places along an edge and 256 lines inside, however large the table. Axes of
+ * fewer than 4 texels have no seam to speak of. */
+WrSeam wr_seam_measure(const WrField *field);

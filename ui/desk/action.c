@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+   Actions by name. */
+#include "ui/desk/action.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/later.h"
+#include "ui/desk/roster.h"
+
+#include <string.h>
+
+const WrAction *wr_action_find(const WrApp *app, const char *name)
+{
+    for (const WrAction *a = app->roster->actions; a->name; a++)
+        if (strcmp(a->name, name) == 0) return a;
+    return NULL;
+}
+
+static void run_now(WrApp *app, const char *name)
+{
+    const WrAction *action = wr_action_find(app, name);
+    if (action && (!action->enabled || action->enabled(app))) action->run(app);
+    wr_app_redraw(app);
+}
+
+void wr_action_run(WrApp *app, const char *name)
+{
+    const WrAction *action = wr_action_find(app, name);
+    for (WrActionFamily *const *f = app->roster->families; !action && *f; f++)
+        if ((*f)(app, name)) break;
+    if (!action || (action->enabled && !action->enabled(app))) return;
+    if (app->in_frame) wr_later(app, run_now, name); /* it may take long */
+    else run_now(app, name);
+}

@@ -1,0 +1,17 @@
+/* action.h - what can be done by name: menus, keys, buttons and the search go by it. The rows are the roster's. */
+#pragma once
+#include "ui/desk/desk.h"
+
+#include <stdbool.h>
+
+struct WrAction {
+    const char *name;  /* as in the key file */
+    const char *label; /* as in menus; "..." when it asks first */
+    void (*run)(WrApp *app);
+    bool (*enabled)(const WrApp *app); /* NULL: always */
+    bool (*checked)(const WrApp *app); /* NULL: never */
+};
+
+const WrAction *wr_action_find(const WrApp *app, const char *name); /* NULL: none, or of a family */
+/* At once, or after the picture of the window that is being made. */
+void wr_action_run(WrApp *app, const char *name);

@@ -1,0 +1,151 @@
+/* desk.h - the window's state: where everything lies. Each subject's own header says what lies there; who needs it
+   includes that. */
+#pragma once
+#include <SDL.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrApp WrApp;
+typedef struct WrAccuracy WrAccuracy;
+typedef struct WrAction WrAction;
+typedef struct WrAdjust WrAdjust;
+typedef struct WrAppOptions WrAppOptions;
+typedef struct WrBrushHand WrBrushHand;
+typedef struct WrBrushSources WrBrushSources;
+typedef struct WrCanvas WrCanvas;
+typedef struct WrCanvasRange WrCanvasRange;
+typedef struct WrCanvasView WrCanvasView;
+typedef struct WrCloneHand WrCloneHand;
+typedef struct WrDialogHand WrDialogHand;
+typedef struct WrDocument WrDocument;
+typedef struct WrDocumentHand WrDocumentHand;
+typedef struct WrDrawHand WrDrawHand;
+typedef struct WrFiles WrFiles;
+typedef struct WrFinder WrFinder;
+typedef struct WrForms WrForms;
+typedef struct WrGenerateHand WrGenerateHand;
+typedef struct WrGui WrGui;
+typedef struct WrGuide WrGuide;
+typedef struct WrHand WrHand;
+typedef struct WrKeyMap WrKeyMap;
+typedef struct WrLatency WrLatency;
+typedef struct WrLater WrLater;
+typedef struct WrLayersHand WrLayersHand;
+typedef struct WrLayout WrLayout;
+typedef struct WrMarks WrMarks;
+typedef struct WrMessages WrMessages;
+typedef struct WrMeter WrMeter;
+typedef struct WrOutlineAsk WrOutlineAsk;
+typedef struct WrPart WrPart;
+typedef struct WrPatch WrPatch;
+typedef struct WrPatchPaint WrPatchPaint;
+typedef struct WrPen WrPen;
+typedef struct WrPointer WrPointer;
+typedef struct WrPreview WrPreview;
+typedef struct WrRecovery WrRecovery;
+typedef struct WrReplace WrReplace;
+typedef struct WrRest WrRest;
+typedef struct WrRoster WrRoster;
+typedef struct WrScene WrScene;
+typedef struct WrSeam WrSeam;
+typedef struct WrSelectHand WrSelectHand;
+typedef struct WrSession WrSession;
+typedef struct WrSettings WrSettings;
+typedef struct WrShelf WrShelf;
+typedef struct WrStampHand WrStampHand;
+typedef struct WrTester WrTester;
+typedef struct WrTiming WrTiming;
+typedef struct WrTool WrTool;
+typedef struct WrTrial WrTrial;
+
+/* Of all that is pointed to the window is the owner, unless it says otherwise. */
+struct WrApp {
+    const WrRoster *roster;      /* borrowed: what the window is made of */
+    const WrAppOptions *options; /* borrowed */
+    WrSession *session;          /* borrowed */
+    SDL_Window *window;
+    SDL_Renderer *renderer;
+    WrGui *gui;
+    WrCanvas *canvas;
+    WrPreview *preview;
+    WrKeyMap *keys;
+    WrPen *pen;
+    WrTester *tester;      /* of tablets; owned, NULL until it is opened */
+    struct WrGuide *guide; /* the help; owned, NULL until it is opened */
+    WrSettings *settings;
+    WrSettings *settings_known; /* as they were read or written last */
+    double settings_at;         /* clock when they were looked at last */
+    bool settings_failed;       /* and could not be written then */
+    WrFiles *files;
+    Uint32 ready_event; /* of the preview */
+    Uint32 file_event;  /* of a native file dialog */
+    Uint32 job_event;   /* of work in the background */
+    WrRest *rest;       /* a test that asks; owned, or NULL */
+    Uint32 rest_event;  /* it asked */
+    SDL_Cursor *cursors[SDL_NUM_SYSTEM_CURSORS];
+    SDL_SystemCursor cursor;
+
+    WrLayout *layout;
+    int width, height, menu_height;
+    double display_scale; /* of the display, in steps of 1/4 */
+    bool fitted;          /* the user has seen the window: its size is left alone */
+    int redraw;           /* pictures of the window still to draw */
+    bool visible, quit;
+    double drawn_at, started_at;
+    double drawn_scale;
+    WrTiming *timing;
+
+    WrCanvasView *view;
+    bool view_placed;
+    WrCanvasRange *range; /* heights that the canvas shows */
+    bool canvas_unfinished;
+    int tool;
+    WrHand *hand;
+    WrBrushHand *brush;
+    WrBrushSources *brush_files;
+    WrShelf *shelf;
+    WrDrawHand *draw;
+    WrCloneHand *clone;
+    WrStampHand *stamp;
+    WrGenerateHand *generate; /* owned */
+    WrAccuracy *accuracy;     /* owned */
+    WrPatch *patch;
+    WrPatchPaint *paint;
+    WrLatency *latency;        /* while it is being measured; borrowed */
+    void (*drawn)(WrApp *app); /* a picture of the window was shown; NULL: nobody asks */
+    WrScene *live; /* what the preview shows while a scene value is being dragged; owned */
+    bool hints;    /* shown until the first stroke */
+
+    WrTrial *trial;
+    bool trying; /* the views show what the trial gives */
+    WrMarks *marks;
+    WrSelectHand *select;
+    WrLayersHand *layers;
+    WrAdjust *adjust;
+    WrOutlineAsk *selecting; /* of the dialogs that change the selection */
+    WrFinder *finder;
+    WrSeam *seam;
+    uint64_t seam_key; /* of the table that it was measured on */
+    WrMeter *meter;
+    WrLater *later;
+    WrDocument *
+        shown; /* while the session works on a thread of its own: the document from before; owned */
+    double expected;      /* seconds that the line to be run will take; 0: not known */
+    bool tending;         /* nobody asked for it: what is pressed meanwhile is kept */
+    bool gave_up;         /* the newest of them failed because the user cancelled it */
+    WrRecovery *recovery; /* while its dialog is open; owned */
+    bool in_frame;        /* between the first and the last widget of a picture */
+    double input_at;      /* clock at the last event of the user's */
+
+    WrMessages *messages;
+    WrDialogHand *dialog;
+    WrForms *forms;
+    WrReplace *replace;
+    WrDocumentHand *file;
+};
+
+void wr_app_redraw(WrApp *app);
+void wr_app_make_layout(WrApp *app);
+double wr_app_wanted_scale(const WrApp *app);
+void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's */
+void wr_app_read_keys(WrApp *app);                 /* built in, the chosen map, the user's file */

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT
+   Opening and closing dialogs, and what most of them end with. */
+#include "ui/desk/dialog.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/roster.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/work/trial.h"
+
+#include "base/progress.h"
+#include "command/estimate.h"
+
+#include <SDL.h>
+#include <stdio.h>
+#include <string.h>
+
+void wr_dialog_open(WrApp *app, WrDialog dialog)
+{
+    wr_hand_let_go(app);
+    wr_app_settle(app);
+    app->dialog->now = dialog;
+    app->dialog->fresh = true;
+    app->hand->on_canvas = app->hand->on_patch = app->hand->space = false;
+    wr_app_redraw(app);
+}
+
+void wr_dialog_close(WrApp *app)
+{
+    app->dialog->now = WR_DIALOG_NONE;
+    wr_app_redraw(app);
+}
+
+/* Of what is tried. */
+static void add_time_left(const WrApp *app, char text[WR_EXPECTATION])
+{
+    char left[WR_PROGRESS_LEFT];
+    double fraction, seconds;
+    if (!app->trying || !wr_trial_busy(app->trial, &fraction, &seconds)) return;
+    wr_progress_left(fraction, seconds, left);
+    size_t used = strlen(text);
+    if (left[0])
+        snprintf(text + used, WR_EXPECTATION - used, "%s%s", used > 0 ? "  \xc2\xb7  " : "", left);
+}
+
+void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION])
+{
+    WrEstimate estimate;
+    char about[WR_ESTIMATE_TEXT] = "";
+    if (!app->shown && wr_session_estimate(app->session, line, &estimate, NULL))
+        wr_estimate_print(&estimate, about);
+    snprintf(text, WR_EXPECTATION, "%s%s", about[0] ? "Takes " : "", about);
+    add_time_left(app, text);
+}
+
+void wr_panel_estimate(const WrApp *app, const char *line)
+{
+    char text[WR_EXPECTATION];
+    wr_expectation(app, line, text);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text[0] ? text : " ");
+}
+
+int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)
+{
+    int answer = 0;
+    wr_gui_space(8);
+    wr_gui_disable(!enabled);
+    if (wr_gui_button(done, true)) answer = 1;
+    wr_gui_enable();
+    wr_gui_same_line(8);
+    if (wr_gui_button("Cancel", false)) answer = -1;
+    if (enabled && !app->dialog->fresh && wr_gui_return_pressed()) answer = 1;
+    if (!app->dialog->fresh && wr_gui_escape_pressed()) answer = -1;
+    if (answer) wr_dialog_close(app);
+    return answer;
+}
+
+SDL_Rect wr_dialog_side(const WrApp *app)
+{
+    int wide = app->layout->panel.w > 0 ? app->layout->panel.w : wr_gui_px(320);
+    int top = app->menu_height + app->layout->options.h;
+    return (SDL_Rect){ app->width - wide, top, wide, app->layout->panel.h };
+}
+
+void wr_panel_dialogs(WrApp *app)
+{
+    WrDialog was = app->dialog->now;
+    bool fresh = app->dialog->fresh;
+    if (was != WR_DIALOG_NONE) app->roster->dialogs[was].draw(app);
+    if (app->dialog->now == was && fresh) app->dialog->fresh = false;
+    if (app->dialog->now == WR_DIALOG_NONE && was != WR_DIALOG_NONE) wr_app_redraw(app);
+}

@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: MIT
+   The document behind the window: new, open, save, and what is asked before work is lost. All changes go
+   through the session. */
+#include "ui/desk/document.h"
+#include "ui/desk/app_options.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/later.h"
+#include "ui/desk/messages.h"
+#include "ui/desk/replace.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/work/files.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "command/call.h"
+#include "command/inner.h"
+#include "command/session.h"
+#include "command/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void note_recent(WrApp *app, const char *path)
+{
+    char *full = realpath(path, NULL);
+    if (full) wr_settings_note_recent(app->settings, full);
+    free(full);
+}
+
+/* ---- another document ---- */
+
+void wr_app_changed_document(WrApp *app)
+{
+    app->file->clean_revision = wr_session_saved_revision(app->session);
+    wr_app_try_end(app);
+    for (const WrPart *const *p = app->roster->parts; *p; p++)
+        if ((*p)->another) (*p)->another(app);
+    wr_app_live_end(app);
+    app->view_placed = false;
+    app->hand->grab = WR_GRAB_NONE;
+    wr_app_take_notes(app);
+    wr_app_title(app);
+    wr_app_redraw(app);
+}
+
+/* A call that may take long, as wr_busy_run wants it. */
+typedef struct FileCall {
+    WrSession *session;
+    const char *path;
+} FileCall;
+
+static bool open_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    return wr_session_open(call->session, call->path, err);
+}
+
+static bool save_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    return wr_session_save(call->session, call->path, err);
+}
+
+static bool tend_work(void *ctx, WrError *err)
+{
+    (void)err;
+    wr_session_journal_tend(ctx);
+    return true;
+}
+
+void wr_app_tend(WrApp *app)
+{
+    WrError err;
+    /* What is held would be let go meanwhile. */
+    bool idle = app->hand->grab == WR_GRAB_NONE && !wr_session_in_stroke(app->session);
+    if (!idle || !wr_session_journal_wants(app->session)) return;
+    app->tending = true;
+    wr_busy_run(app, "Keeping the journal short", tend_work, app->session, &err);
+    app->tending = false;
+}
+
+static bool open_now(WrApp *app, const char *path)
+{
+    WrError err;
+    FileCall call = { app->session, path };
+    wr_hand_let_go(app);
+    if (!wr_busy_run(app, "Opening", open_work, &call, &err)) {
+        wr_busy_fail(app, "opening", &err);
+        return false;
+    }
+    app->file->starter = false;
+    note_recent(app, path);
+    wr_app_changed_document(app);
+    return true;
+}
+
+/* Should the samples be missing: something to wrinkle all the same. */
+static void make_starter(WrApp *app)
+{
+    static const char *const lines[] = { "grid cells=4x8 width=10 low=0.7 high=0", "surface sphere",
+                                         "replicate 4,2", "bump height=0.05" };
+    WrError err;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (!wr_session_run(app->session, lines[i], &err)) wr_app_fail(app, &err);
+    app->file->clean_revision = wr_session_revision(app->session);
+}
+
+void wr_app_start(WrApp *app)
+{
+    app->file->clean_revision = wr_session_saved_revision(app->session);
+    app->hints = true;
+    if (app->options->file_given) {
+        if (wr_session_path(app->session)[0]) note_recent(app, wr_session_path(app->session));
+        wr_app_take_notes(app);
+        return;
+    }
+    WrText path = { 0 };
+    WrError err;
+    bool found = wr_data_find("samples/bricks.wrinkle", &path);
+    app->file->starter = found && wr_session_open(app->session, wr_text_get(&path), &err);
+    if (!found)
+        wr_fail(&err,
+                "the samples and brushes of the program were not found: set WRINKLE_DATA to the "
+                "folder that holds samples and brushes, or install it");
+    if (!app->file->starter) {
+        wr_app_fail(app, &err);
+        make_starter(app);
+    }
+    wr_text_fini(&path);
+    wr_app_take_notes(app);
+}
+
+/* ---- asking first ---- */
+
+static bool lines_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    bool good = true;
+    for (const char *at = call->path; *at && !wr_progress_stopped();) {
+        size_t length = strcspn(at, "\n");
+        char *line = wr_strndup(at, length);
+        WrError why;
+        if (!wr_session_run(call->session, line, good ? err : &why)) good = false;
+        wr_free(line);
+        at += length + (at[length] != '\0');
+    }
+    return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+}
+
+/* Of a line that fails the rest still runs, so that there is something to be seen. */
+static void run_lines(WrApp *app, const char *lines)
+{
+    WrError err;
+    FileCall call = { app->session, lines };
+    wr_hand_let_go(app);
+    wr_session_reset(app->session);
+    app->file->starter = false;
+    bool good = wr_busy_run(app, "Making the document", lines_work, &call, &err);
+    if (app->gave_up) wr_app_say(app, "Cancelled: the document is made as far as it came");
+    else if (!good) wr_app_fail(app, &err);
+    wr_app_changed_document(app);
+    app->file->clean_revision = wr_session_revision(app->session); /* it can be opened again */
+    wr_app_title(app);
+}
+
+void wr_app_go_on(WrApp *app)
+{
+    WrAfter after = app->file->after;
+    char *path = app->file->after_path;
+    app->file->after = WR_AFTER_NOTHING;
+    app->file->after_path = NULL;
+    switch (after) {
+    case WR_AFTER_NOTHING: break;
+    case WR_AFTER_NEW:
+        wr_hand_let_go(app);
+        wr_session_reset(app->session);
+        app->file->starter = false;
+        wr_app_changed_document(app);
+        break;
+    case WR_AFTER_OPEN:
+        if (!wr_files_ask(app->files, WR_FILE_OPEN, NULL, "")) wr_dialog_open(app, WR_DIALOG_FILE);
+        break;
+    case WR_AFTER_PATH: open_now(app, path); break;
+    case WR_AFTER_LINES: run_lines(app, path); break;
+    case WR_AFTER_QUIT: app->quit = true; break;
+    }
+    wr_free(path);
+}
+
+static void ask_first(WrApp *app, WrAfter after, const char *path)
+{
+    wr_hand_let_go(app);
+    app->file->after = after;
+    wr_free(app->file->after_path);
+    app->file->after_path = path ? wr_strdup(path) : NULL;
+    if (wr_app_unsaved(app)) wr_dialog_open(app, WR_DIALOG_UNSAVED);
+    else wr_app_go_on(app);
+}
+
+void wr_app_new(WrApp *app)
+{
+    ask_first(app, WR_AFTER_NEW, NULL);
+}
+
+void wr_app_open(WrApp *app)
+{
+    ask_first(app, WR_AFTER_OPEN, NULL);
+}
+
+void wr_app_open_path(WrApp *app, const char *path)
+{
+    ask_first(app, WR_AFTER_PATH, path);
+}
+
+void wr_app_open_lines(WrApp *app, const char *lines)
+{
+    ask_first(app, WR_AFTER_LINES, lines);
+}
+
+void wr_app_quit(WrApp *app)
+{
+    ask_first(app, WR_AFTER_QUIT, NULL);
+}
+
+/* ---- saving ---- */
+
+static bool save_to(WrApp *app, const char *path)
+{
+    WrError err;
+    wr_hand_let_go(app);
+    wr_app_settle(app);
+    FileCall call = { app->session, path };
+    bool ok = wr_busy_run(app, "Saving", save_work, &call, &err);
+    if (!ok) {
+        wr_busy_fail(app, "saving", &err);
+        app->file->after = WR_AFTER_NOTHING; /* nothing may be lost because a disk is full */
+        return false;
+    }
+    app->file->starter = false;
+    app->file->clean_revision =
+        wr_session_saved_revision(app->session); /* the old one is not in this file */
+    note_recent(app, path);
+    wr_app_take_notes(app);
+    wr_app_say(app, "Saved %s", path);
+    wr_app_title(app);
+    wr_app_go_on(app);
+    return true;
+}
+
+bool wr_app_save(WrApp *app)
+{
+    const char *path = wr_session_path(app->session);
+    if (path[0] && wr_session_file_changed(app->session) &&
+        wr_replace_ask(app, WR_REPLACE_CHANGED, WR_FILE_SAVE, path))
+        return false;
+    if (path[0]) {
+        char *copy = wr_strdup(path); /* saving may replace it */
+        bool ok = save_to(app, copy);
+        wr_free(copy);
+        return ok;
+    }
+    wr_app_save_as(app);
+    return false;
+}
+
+/* The folder of the document, or NULL. Caller frees. */
+static char *folder_of(const WrApp *app)
+{
+    const char *path = wr_session_path(app->session);
+    return path[0] ? wr_path_folder(path) : NULL;
+}
+
+static void ask_file(WrApp *app, WrFilePurpose purpose, const char *name)
+{
+    char *folder = folder_of(app);
+    if (!wr_files_ask(app->files, purpose, folder, name)) wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_free(folder);
+}
+
+void wr_app_save_as(WrApp *app)
+{
+    wr_hand_let_go(app);
+    ask_file(app, WR_FILE_SAVE,
+             wr_session_path(app->session)[0] ? wr_app_name(app) : "untitled.exr");
+}
+
+void wr_app_save_history(WrApp *app)
+{
+    wr_hand_let_go(app);
+    ask_file(app, WR_FILE_HISTORY, "history.wrinkle");
+}
+
+static bool history_work(void *ctx, WrError *err)
+{
+    const FileCall *call = ctx;
+    return wr_session_save_history(call->session, call->path, err);
+}
+
+void wr_file_take_history(WrApp *app, const char *path)
+{
+    WrError err;
+    FileCall call = { app->session, path };
+    if (!wr_busy_run(app, "Saving the steps", history_work, &call, &err))
+        wr_busy_fail(app, "saving the steps", &err);
+    else wr_app_say(app, "Saved %d steps as %s", wr_session_history_position(app->session), path);
+}
+
+void wr_file_take_import(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "image ");
+    wr_text_add_word(&line, path);
+    if (app->forms->fit) wr_text_add(&line, " fit=table");
+    wr_app_run_slow(app, wr_text_get(&line));
+    app->view_placed = false;
+    wr_text_fini(&line);
+}
+
+void wr_file_take_export(WrApp *app, const char *path)
+{
+    static const char *const ranges[] = { "auto", "0,1", "signed" };
+    const WrForms *forms = app->forms;
+    const WrCommand *command = wr_command_find("export");
+    WrForm form;
+    if (!command || !command->form || !command->form(forms->kind, &form)) return;
+    WrText line = { 0 };
+    wr_text_addf(&line, "export %s ", form.name);
+    wr_text_add_word(&line, path);
+    if (strcmp(form.name, "height") == 0) wr_text_addf(&line, " range=%s", ranges[forms->range]);
+    if (wr_app_run_line(app, wr_text_get(&line)) && app->messages->list.count == 0)
+        wr_app_say(app, "Exported %s", path);
+    wr_text_fini(&line);
+}
+
+void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
+{
+    bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&
+                wr_replace_ask(app, WR_REPLACE_CHOSEN, purpose, path);
+    if (!asks) wr_later(app, app->roster->takes[purpose], path); /* it may take long */
+}
+
+void wr_file_take_open(WrApp *app, const char *path)
+{
+    open_now(app, path);
+}
+
+void wr_file_take_save(WrApp *app, const char *path)
+{
+    save_to(app, path);
+}

@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/desk/keys.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <SDL.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char built_in[] = "new: Ctrl+N\n"
+                               "open: Ctrl+O\n"
+                               "save: Ctrl+S\n"
+                               "save_as: Ctrl+Shift+S\n"
+                               "export: Ctrl+E Ctrl+Shift+E\n"
+                               "quit: Ctrl+Q\n"
+                               "search: Ctrl+Return\n"
+                               "undo: Ctrl+Z Z\n"
+                               "redo: Ctrl+Shift+Z Ctrl+Y Y\n"
+                               "brush: B\n"
+                               "straight_line: V\n"
+                               "paint_patch: A\n"
+                               "pressure_up: Alt+Shift+S\n"
+                               "pressure_down: Alt+Shift+A\n"
+                               "pick: P\n"
+                               "select_rect: Shift+R\n"
+                               "select_ellipse: Shift+E\n"
+                               "select_lasso: Shift+L\n"
+                               "select_all: Ctrl+A\n"
+                               "select_none: Ctrl+Shift+A\n"
+                               "select_invert: Ctrl+Shift+I\n"
+                               "layer_add: Ctrl+Shift+N Insert\n"
+                               "layer_duplicate: Ctrl+J\n"
+                               "layer_delete: Shift+Delete\n"
+                               "layer_clear: Delete\n"
+                               "layer_merge: Ctrl+Alt+E\n"
+                               "layer_flatten: Ctrl+Shift+F\n"
+                               "layer_raise: Ctrl+PageUp\n"
+                               "layer_lower: Ctrl+PageDown\n"
+                               "layer_above: PageUp\n"
+                               "layer_below: PageDown\n"
+                               "offset_half: Ctrl+Shift+H\n"
+                               "adjust_levels: Ctrl+L\n"
+                               "adjust_invert: Ctrl+I\n"
+                               "pan: H\n"
+                               "zoom: Shift+Z\n"
+                               "size_down: [\n"
+                               "size_up: ]\n"
+                               "hardness_down: Shift+[\n"
+                               "hardness_up: Shift+]\n"
+                               "strength_down: I\n"
+                               "strength_up: O\n"
+                               "swap_mode: X\n"
+                               "reset_values: D\n"
+                               "height_up: L\n"
+                               "height_down: K\n"
+                               "erase_mode: E\n"
+                               "preset_last: /\n"
+                               "preset_previous: ,\n"
+                               "preset_next: .\n"
+                               "brushes: F5\n"
+                               "smooth: Shift+U\n"
+                               "smear: S\n"
+                               "clone: C\n"
+                               "flood: G F\n"
+                               "ramp: Shift+G\n"
+                               "shape_rect: R\n"
+                               "shape_ellipse: Q\n"
+                               "shape_polygon: Shift+Q\n"
+                               "shape_path: N\n"
+                               "stamp: Shift+S\n"
+                               "generate: Shift+T\n"
+                               "generate_text: T\n"
+                               "symmetry: U\n"
+                               "symmetry_on: Shift+M\n"
+                               "hold_pick: Ctrl\n"
+                               "hold_size: Shift\n"
+                               "hold_invert: Alt\n"
+                               "hold_smooth: Alt+Shift\n"
+                               "zoom_in: + = Shift+= Ctrl++ Ctrl+= Keypad_+\n"
+                               "zoom_out: - Ctrl+- Keypad_-\n"
+                               "zoom_100: 1\n"
+                               "fit: 2 Ctrl+0\n"
+                               "pan_left: Left\n"
+                               "pan_right: Right\n"
+                               "pan_up: Up\n"
+                               "pan_down: Down\n"
+                               "panels: Tab\n"
+                               "view_both: F2\n"
+                               "view_canvas: F3\n"
+                               "view_patch: F4\n"
+                               "look_grey: Alt+1\n"
+                               "look_signed: Alt+2\n"
+                               "range_auto: Alt+R\n"
+                               "accuracy: F6\n"
+                               "inspector: F7\n"
+                               "inspector_pin: Shift+F7\n"
+                               "look_plain: Alt+5\n"
+                               "look_split: Alt+6\n"
+                               "look_flicker: Alt+7\n"
+                               "look_error: Alt+8\n"
+                               "look_dropped: Alt+9\n"
+                               "compare_hold: W\n"
+                               "view_back: Alt+Left\n"
+                               "view_forward: Alt+Right\n"
+                               "turn: Ctrl+Space\n"
+                               "fullscreen: F11\n"
+                               "tablet: Ctrl+Shift+T\n"
+                               "help: F1\n";
+
+typedef struct Binding {
+    char *action; /* owned */
+    WrKey key;
+} Binding;
+
+typedef WR_ARRAY(Binding) Bindings;
+
+struct WrKeyMap {
+    Bindings bindings;
+};
+
+int wr_key_mods(SDL_Keymod held)
+{
+    return ((held & KMOD_CTRL) ? WR_MOD_CTRL : 0) | ((held & KMOD_SHIFT) ? WR_MOD_SHIFT : 0) |
+           ((held & KMOD_ALT) ? WR_MOD_ALT : 0);
+}
+
+static const struct {
+    const char *name;
+    int mod;
+} held_mods[] = { { "Ctrl+", WR_MOD_CTRL }, { "Shift+", WR_MOD_SHIFT }, { "Alt+", WR_MOD_ALT } };
+
+/* "Shift" at the end: a key that is only held. 0 if it is none. */
+static int held_alone(const char *at, const char *end)
+{
+    for (size_t m = 0; m < 3; m++) {
+        size_t n = strlen(held_mods[m].name) - 1;
+        if ((size_t)(end - at) == n && strncmp(at, held_mods[m].name, n) == 0)
+            return held_mods[m].mod;
+    }
+    return 0;
+}
+
+bool wr_key_parse(const char *text, size_t length, WrKey *key, WrError *err)
+{
+    const char *at = text, *end = text + length;
+    WrKey out = { SDLK_UNKNOWN, 0 };
+    for (size_t m = 0; m < 3;) {
+        size_t n = strlen(held_mods[m].name);
+        if ((size_t)(end - at) > n && strncmp(at, held_mods[m].name, n) == 0) {
+            out.mods |= held_mods[m].mod;
+            at += n;
+            m = 0;
+        } else {
+            m++;
+        }
+    }
+    int held = held_alone(at, end);
+    if (held) {
+        *key = (WrKey){ SDLK_UNKNOWN, out.mods | held };
+        return true;
+    }
+    char name[32];
+    if (end - at < 1 || (size_t)(end - at) >= sizeof name)
+        return wr_fail(err, "key '%.*s': a name such as Ctrl+S, [ or F1", (int)length, text);
+    memcpy(name, at, (size_t)(end - at));
+    name[end - at] = '\0';
+    for (char *c = name; *c; c++)
+        if (*c == '_' && c != name) *c = ' ';
+    if (strncmp(name, "Keypad", 6) != 0 && name[1] == '\0' && name[0] >= 'A' && name[0] <= 'Z')
+        out.code = name[0] - 'A' + 'a';
+    else out.code = SDL_GetKeyFromName(name);
+    if (out.code == SDLK_UNKNOWN)
+        return wr_fail(err, "key '%.*s': no key has the name '%s'", (int)length, text, name);
+    *key = out;
+    return true;
+}
+
+/* ---- the map ---- */
+
+static void drop_action(Bindings *bindings, const char *action)
+{
+    int kept = 0;
+    for (int i = 0; i < bindings->count; i++) {
+        if (strcmp(bindings->data[i].action, action) == 0) wr_free(bindings->data[i].action);
+        else bindings->data[kept++] = bindings->data[i];
+    }
+    bindings->count = kept;
+}
+
+static void free_bindings(Bindings *bindings)
+{
+    for (int i = 0; i < bindings->count; i++) wr_free(bindings->data[i].action);
+    wr_array_free(bindings);
+}
+
+/* One line "action: key key ...", without its end. */
+static bool read_line(Bindings *bindings, const char *line, size_t length, WrError *err)
+{
+    const char *hash = memchr(line, '#', length);
+    if (hash) length = (size_t)(hash - line);
+    while (length > 0 &&
+           (line[length - 1] == ' ' || line[length - 1] == '\r' || line[length - 1] == '\t'))
+        length--;
+    if (length == 0) return true;
+    const char *colon = memchr(line, ':', length), *end = line + length;
+    if (!colon || colon == line)
+        return wr_fail(err, "'%.*s': a line is 'action: key key ...'", (int)length, line);
+    char *action = wr_strndup(line, (size_t)(colon - line));
+    drop_action(bindings, action);
+    bool ok = true;
+    for (const char *at = colon + 1; ok && at < end;) {
+        while (at < end && (*at == ' ' || *at == '\t')) at++;
+        const char *from = at;
+        while (at < end && *at != ' ' && *at != '\t') at++;
+        if (at == from) break;
+        WrKey key;
+        ok = wr_key_parse(from, (size_t)(at - from), &key, err);
+        if (ok) wr_array_push(bindings, ((Binding){ wr_strdup(action), key }));
+    }
+    wr_free(action);
+    return ok;
+}
+
+bool wr_keys_read(WrKeyMap *map, const char *text, WrError *err)
+{
+    Bindings fresh = { 0 };
+    for (int i = 0; i < map->bindings.count; i++) {
+        Binding b = map->bindings.data[i];
+        wr_array_push(&fresh, ((Binding){ wr_strdup(b.action), b.key }));
+    }
+    int number = 1;
+    for (const char *at = text; *at; number++) {
+        size_t length = strcspn(at, "\n");
+        if (!read_line(&fresh, at, length, err)) {
+            wr_error_prefix(err, "line %d: ", number);
+            free_bindings(&fresh);
+            return false;
+        }
+        at += length + (at[length] == '\n');
+    }
+    free_bindings(&map->bindings);
+    map->bindings = fresh;
+    return true;
+}
+
+WrKeyMap *wr_keys_new(void)
+{
+    WrKeyMap *map = wr_alloc(1, sizeof *map);
+    WrError err;
+    bool ok = wr_keys_read(map, built_in, &err);
+    WR_ASSERT(ok);
+    (void)ok;
+    return map;
+}
+
+void wr_keys_free(WrKeyMap *map)
+{
+    if (!map) return;
+    free_bindings(&map->bindings);
+    wr_free(map);
+}
+
+/* The newest line that wants a key has it. */
+static const char *find(const WrKeyMap *map, SDL_Keycode code, int mods)
+{
+    for (int i = map->bindings.count - 1; i >= 0; i--) {
+        const Binding *b = &map->bindings.data[i];
+        if (b->key.code == code && b->key.mods == mods) return b->action;
+    }
+    return NULL;
+}
+
+const char *wr_keys_find(const WrKeyMap *map, SDL_Keysym sym)
+{
+    int held = wr_key_mods((SDL_Keymod)sym.mod);
+    if (sym.sym == SDLK_UNKNOWN) return NULL;
+    const char *action = find(map, sym.sym, held);
+    if (action) return action;
+    if (sym.scancode == SDL_SCANCODE_LEFTBRACKET) return find(map, SDLK_LEFTBRACKET, held);
+    if (sym.scancode == SDL_SCANCODE_RIGHTBRACKET) return find(map, SDLK_RIGHTBRACKET, held);
+    return NULL;
+}
+
+bool wr_keys_hold(const WrKeyMap *map, const char *action, int held)
+{
+    for (int i = 0; i < map->bindings.count; i++) {
+        const Binding *b = &map->bindings.data[i];
+        if (b->key.code == SDLK_UNKNOWN && b->key.mods == held && strcmp(b->action, action) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void print_key(WrKey key, char *buffer, size_t size)
+{
+    bool only = key.code == SDLK_UNKNOWN;
+    snprintf(buffer, size, "%s%s%s%s", key.mods & WR_MOD_CTRL ? "Ctrl+" : "",
+             key.mods & WR_MOD_SHIFT ? "Shift+" : "", key.mods & WR_MOD_ALT ? "Alt+" : "",
+             only ? "" : SDL_GetKeyName(key.code));
+    size_t length = strlen(buffer);
+    if (only && length > 0) buffer[length - 1] = '\0'; /* the last plus */
+}
+
+char *wr_keys_label(const WrKeyMap *map, const char *action, char buffer[32])
+{
+    buffer[0] = '\0';
+    for (int i = 0; i < map->bindings.count; i++) {
+        if (strcmp(map->bindings.data[i].action, action) != 0) continue;
+        print_key(map->bindings.data[i].key, buffer, 32);
+        break;
+    }
+    return buffer;
+}
+
+void wr_keys_list(const WrKeyMap *map, const char *action, WrText *out)
+{
+    char name[32];
+    bool any = false;
+    for (int i = 0; i < map->bindings.count; i++) {
+        if (strcmp(map->bindings.data[i].action, action) != 0) continue;
+        print_key(map->bindings.data[i].key, name, sizeof name);
+        wr_text_addf(out, "%s%s", any ? "  " : "", name);
+        any = true;
+    }
+}

@@ -1,0 +1,10 @@
+/* scene_line.h - one command for what was dragged in the scene. */
+#pragma once
+#include "ui/desk/desk.h"
+
+#include "base/text.h"
+
+/* Run a scene command whose value was being dragged; clears the line. */
+void wr_scene_run(WrApp *app, WrText *line);
+/* A number of the scene at `place` bytes, while it is being dragged. */
+void wr_scene_live_number(WrApp *app, size_t place, double value);

@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: MIT
+   The place of what the Generate panel makes: dragged on the canvas, with a corner for its size and a ring
+   for its turn, where its parameters say so. */
+#include "ui/canvas/view.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/line.h"
+#include "ui/desk/session_view.h"
+#include "ui/generate/generate_hand.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/tools/tool.h"
+#include "ui/views/overlay.h"
+
+#include "document/document.h"
+#include "field/field.h"
+#include "field/select.h"
+#include "generate/generator.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <string.h>
+
+#define NEAR_UNITS 9.0
+#define LEAST_UNITS 26.0 /* of the corner's way from the middle */
+#define RING_UNITS 22.0  /* of the ring, beyond the corner */
+#define HOLD_STEPS 3     /* of 4 units, around the pointer */
+#define DEGREES 57.29577951308232
+
+static const char *const place_names[] = { "at", "origin", "centre", NULL };
+static const char *const size_names[] = { "size", "radius", NULL };
+static const char *const turn_names[] = { "angle", "rotate", NULL };
+
+/* Which parameters say where, how large, how turned; -1: none. */
+typedef struct Pose {
+    int place, size, turn;
+    int turned; /* component of the turn: the last one, about the axis that is seen from above */
+} Pose;
+
+static bool has_unit(const WrGenerateHand *hand, int i, const char *unit)
+{
+    return i >= 0 && strcmp(hand->generator->params[i].unit, unit) == 0;
+}
+
+static int number_or_tuple(const WrGenerateHand *hand, const char *const *names)
+{
+    int i = wr_generate_find(hand, names, WR_PARAM_NUMBER);
+    return i >= 0 ? i : wr_generate_find(hand, names, WR_PARAM_TUPLE); /* by axes */
+}
+
+static Pose pose_of(const WrGenerateHand *hand)
+{
+    Pose pose = { wr_generate_find(hand, place_names, WR_PARAM_TUPLE),
+                  number_or_tuple(hand, size_names), number_or_tuple(hand, turn_names), 0 };
+    if (!has_unit(hand, pose.size, "texels")) pose.size = -1;
+    if (!has_unit(hand, pose.turn, "degrees")) pose.turn = -1;
+    if (pose.turn >= 0 && hand->generator->params[pose.turn].kind == WR_PARAM_TUPLE)
+        pose.turned = hand->generator->params[pose.turn].components - 1;
+    return pose;
+}
+
+static bool is_shown(const WrApp *app)
+{
+    return app->generate->active && app->dialog->now == WR_DIALOG_NONE;
+}
+
+/* ---- where things are, in texels ---- */
+
+static void middle(const WrApp *app, const Pose *pose, double *x, double *y)
+{
+    const double *uv = app->generate->value[pose->place].number;
+    *x = uv[0] * app->view->table_w;
+    *y = (1.0 - uv[1]) * app->view->table_h;
+}
+
+static double reach_units(const WrApp *app, double units)
+{
+    return units * wr_gui_scale() / app->view->zoom;
+}
+
+/* Of the corner from the middle; its size as the row says it, but far enough to be taken hold of. */
+static double corner_way(const WrApp *app, const Pose *pose)
+{
+    double size = pose->size >= 0 ? app->generate->value[pose->size].number[0] : 0.0;
+    return fmax(fabs(size), reach_units(app, LEAST_UNITS));
+}
+
+static double ring_way(const WrApp *app, const Pose *pose)
+{
+    return corner_way(app, pose) + reach_units(app, RING_UNITS);
+}
+
+static double turn_rad(const WrApp *app, const Pose *pose)
+{
+    return app->generate->value[pose->turn].number[pose->turned] / DEGREES;
+}
+
+/* The nearest copy of the middle to a pointer. */
+static void nearest(const WrApp *app, const Pose *pose, double px, double py, double *x, double *y)
+{
+    const WrField *field = wr_app_field(app);
+    double w = app->view->table_w, h = app->view->table_h;
+    middle(app, pose, x, y);
+    if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) *x += w * rint((px - *x) / w);
+    if (wr_field_wrap_v(field) == WR_WRAP_PERIODIC) *y += h * rint((py - *y) / h);
+}
+
+/* The pointer from the middle of the copy under it: texels right and up. */
+static void from_middle(const WrApp *app, const Pose *pose, const WrPointer *at, double *x,
+                        double *y)
+{
+    double px, py, mx, my;
+    wr_view_to_texel(app->view, at->x, at->y, &px, &py);
+    nearest(app, pose, px, py, &mx, &my);
+    *x = px - mx;
+    *y = my - py;
+}
+
+static WrPosePart part_at(const WrApp *app, const Pose *pose, double x, double y)
+{
+    double near = reach_units(app, NEAR_UNITS), way = hypot(x, y);
+    double corner = corner_way(app, pose) * 0.7071067811865476;
+    if (pose->size >= 0 && hypot(x - corner, y + corner) < near) return WR_POSE_SIZE;
+    if (pose->turn >= 0 && fabs(way - ring_way(app, pose)) < near) return WR_POSE_TURN;
+    return WR_POSE_PLACE;
+}
+
+/* What is made shows itself near the pointer: it is taken hold of there, not put there. */
+static bool is_on_it(const WrApp *app, const WrPointer *at)
+{
+    const WrField *now = wr_app_field(app), *was = wr_document_field(wr_app_document(app));
+    int w = wr_field_width(now), h = wr_field_height(now);
+    if (!app->trying || wr_field_width(was) != w || wr_field_height(was) != h) return false;
+    for (int j = -HOLD_STEPS; j <= HOLD_STEPS; j++)
+        for (int i = -HOLD_STEPS; i <= HOLD_STEPS; i++) {
+            double x, y, step = 4.0 * wr_gui_scale();
+            wr_view_to_texel(app->view, at->x + i * step, at->y + j * step, &x, &y);
+            x -= w * floor(x / w);
+            y -= h * floor(y / h);
+            int column = x < w - 1 ? (int)x : w - 1, row = y < h - 1 ? (int)y : h - 1;
+            if (wr_field_get(now, column, row) != wr_field_get(was, column, row)) return true;
+        }
+    return false;
+}
+
+/* ---- the gesture ---- */
+
+static double wrapped(const WrParam *p, bool periodic, double x)
+{
+    x = wr_line_round(periodic ? x - floor(x) : x, 6);
+    if (periodic && x >= 1.0) x = 0.0;
+    return x < p->low ? p->low : x > p->high ? p->high : x;
+}
+
+static void put(WrApp *app, const Pose *pose, double u, double v)
+{
+    WrGenerateHand *hand = app->generate;
+    const WrParam *p = &hand->generator->params[pose->place];
+    const WrField *field = wr_app_field(app);
+    double *number = hand->value[pose->place].number;
+    number[0] = wrapped(p, wr_field_wrap_u(field) == WR_WRAP_PERIODIC, u);
+    number[1] = wrapped(p, wr_field_wrap_v(field) == WR_WRAP_PERIODIC, v);
+}
+
+static void begin(WrGenerateHand *hand, const Pose *pose)
+{
+    int i = hand->held == WR_POSE_SIZE   ? pose->size
+            : hand->held == WR_POSE_TURN ? pose->turn
+                                         : pose->place;
+    memcpy(hand->first_number, hand->value[i].number, sizeof hand->first_number);
+}
+
+static void press(WrApp *app, const WrPointer *at)
+{
+    WrGenerateHand *hand = app->generate;
+    app->hints = false;
+    if (!hand->generator) return;
+    Pose pose = pose_of(hand);
+    bool took = wr_pose_points_press(app, at);
+    hand->held = took ? WR_POSE_POINT : WR_POSE_NONE;
+    if (took || pose.place < 0) return;
+    double x, y;
+    from_middle(app, &pose, at, &x, &y);
+    hand->held = part_at(app, &pose, x, y);
+    /* What has a size is put where a press beside it is; what fills the table is only moved. */
+    hand->placed = hand->held == WR_POSE_PLACE &&
+                   strcmp(hand->generator->params[pose.place].name, "at") == 0 &&
+                   hypot(x, y) > corner_way(app, &pose) && !is_on_it(app, at);
+    if (hand->placed) put(app, &pose, at->u, at->v);
+    hand->first[0] = at->u;
+    hand->first[1] = at->v;
+    begin(hand, &pose);
+    if (hand->placed || !hand->active) wr_generate_changed(app);
+    wr_app_redraw(app);
+}
+
+static void resize(WrApp *app, const Pose *pose, const WrPointer *at)
+{
+    WrGenerateHand *hand = app->generate;
+    const WrParam *p = &hand->generator->params[pose->size];
+    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
+    double x, y, fx, fy;
+    WrPointer first = app->hand->start;
+    from_middle(app, pose, at, &x, &y);
+    from_middle(app, pose, &first, &fx, &fy);
+    double factor = hypot(x, y) / fmax(hypot(fx, fy), 1e-6);
+    for (int k = 0; k < count; k++) {
+        double value = wr_line_round(hand->first_number[k] * factor, 2);
+        double low = p->above ? p->low + 0.01 : p->low;
+        hand->value[pose->size].number[k] = value < low ? low : value > p->high ? p->high : value;
+    }
+}
+
+static void turn(WrApp *app, const Pose *pose, const WrPointer *at)
+{
+    WrGenerateHand *hand = app->generate;
+    const WrParam *p = &hand->generator->params[pose->turn];
+    double x, y, fx, fy;
+    WrPointer first = app->hand->start;
+    from_middle(app, pose, at, &x, &y);
+    from_middle(app, pose, &first, &fx, &fy);
+    double deg = hand->first_number[pose->turned] + (atan2(y, x) - atan2(fy, fx)) * DEGREES;
+    deg -= 360.0 * rint(deg / 360.0);
+    if (at->mods & WR_MOD_SHIFT) deg = rint(deg / 15.0) * 15.0;
+    if (deg < p->low) deg += 360.0;
+    deg = wr_line_round(deg, 1);
+    hand->value[pose->turn].number[pose->turned] = deg > p->high ? p->high : deg;
+}
+
+static void drag(WrApp *app, const WrPointer *at)
+{
+    WrGenerateHand *hand = app->generate;
+    bool moved = hypot(at->x - app->hand->start.x, at->y - app->hand->start.y) >= 2.0;
+    if (!hand->generator || hand->held == WR_POSE_NONE || !moved) return;
+    Pose pose = pose_of(hand);
+    if (hand->held == WR_POSE_POINT) {
+        wr_pose_points_drag(app, at);
+        return;
+    }
+    if (hand->held == WR_POSE_SIZE) resize(app, &pose, at);
+    else if (hand->held == WR_POSE_TURN) turn(app, &pose, at);
+    else
+        put(app, &pose, hand->first_number[0] + at->u - hand->first[0],
+            hand->first_number[1] + at->v - hand->first[1]);
+    hand->preset = -2;
+    wr_generate_changed(app);
+}
+
+/* A click where something is written gives that the keyboard. */
+static void release(WrApp *app, const WrPointer *at)
+{
+    WrGenerateHand *hand = app->generate;
+    bool moved = hypot(at->x - app->hand->start.x, at->y - app->hand->start.y) >= 2.0;
+    bool point = hand->held == WR_POSE_POINT;
+    if (hand->generator && !moved && !point && wr_generate_written(hand->generator) >= 0)
+        wr_generate_focus_text(app);
+    hand->held = WR_POSE_NONE;
+    hand->point = -1;
+    wr_app_redraw(app);
+}
+
+static bool key(WrApp *app, SDL_Keycode key)
+{
+    WrGenerateHand *hand = app->generate;
+    if (!hand->active) return false;
+    if (key == SDLK_ESCAPE && hand->held != WR_POSE_NONE && hand->held != WR_POSE_POINT) {
+        Pose pose = pose_of(hand); /* first what is being dragged */
+        int i = hand->held == WR_POSE_SIZE   ? pose.size
+                : hand->held == WR_POSE_TURN ? pose.turn
+                                             : pose.place;
+        memcpy(hand->value[i].number, hand->first_number, sizeof hand->first_number);
+        hand->held = WR_POSE_NONE;
+        app->hand->grab = WR_GRAB_NONE;
+        wr_app_redraw(app);
+    } else if (key == SDLK_ESCAPE) {
+        wr_generate_cancel(app);
+    } else if (key == SDLK_RETURN || key == SDLK_KP_ENTER) {
+        wr_generate_commit(app);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* ---- on the canvas ---- */
+
+static void circle(const WrApp *app, double x, double y, double radius, WrColour colour)
+{
+    WrSelectPoint points[72];
+    for (int i = 0; i < 72; i++) {
+        double a = 6.283185307179586 * i / 72;
+        points[i] = wr_overlay_uv(app, x + radius * cos(a), y + radius * sin(a));
+    }
+    wr_overlay_lines(app, points, 72, true, colour);
+}
+
+static void handle(const WrApp *app, double x, double y, bool round, bool hot)
+{
+    WrSelectPoint p = wr_overlay_uv(app, x, y);
+    wr_overlay_handle(app, p.u, p.v, round, hot);
+}
+
+static void marks(WrApp *app)
+{
+    const WrGenerateHand *hand = app->generate;
+    double x, y;
+    if (!is_shown(app)) return;
+    bool points = wr_pose_points_marks(app); /* they say where, then */
+    Pose pose = pose_of(hand);
+    if (pose.place < 0 || points) return;
+    middle(app, &pose, &x, &y);
+    WrSelectPoint p = wr_overlay_uv(app, x, y);
+    wr_overlay_cross(app, p.u, p.v, hand->held == WR_POSE_PLACE ? WR_COLOUR_CELL : 0xfff4f4f4u);
+    if (pose.turn >= 0) {
+        double ring = ring_way(app, &pose), a = turn_rad(app, &pose);
+        circle(app, x, y, ring, 0xb0d0d0d0u);
+        handle(app, x + ring * cos(a), y - ring * sin(a), true, hand->held == WR_POSE_TURN);
+    }
+    if (pose.size >= 0) {
+        double way = corner_way(app, &pose), corner = way * 0.7071067811865476;
+        if (hand->held == WR_POSE_SIZE) circle(app, x, y, way, 0x90f4f4f4u);
+        handle(app, x + corner, y + corner, false, hand->held == WR_POSE_SIZE);
+    }
+}
+
+/* ---- the option row ---- */
+
+static void options(WrApp *app)
+{
+    WrGenerateHand *hand = app->generate;
+    wr_gui_same_line(14);
+    if (!hand->generator) {
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "Choose what to make in the Generate tab");
+        return;
+    }
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_TEXT, hand->generator->label);
+    wr_gui_same_line(14);
+    if (wr_gui_chip(WR_ICON_CHECK, "Apply")) wr_generate_commit(app);
+    wr_gui_tip("Enter");
+    wr_gui_same_line(6);
+    if (hand->active) {
+        if (wr_gui_chip(WR_ICON_CLOSE, "Cancel")) wr_generate_cancel(app);
+        wr_gui_tip("Escape: nothing was changed");
+    } else if (wr_gui_chip(WR_ICON_EYE, "Show")) {
+        wr_generate_open_last(app);
+    }
+    Pose pose = pose_of(hand);
+    if (pose.place < 0 || app->width < wr_gui_px(1100)) return;
+    wr_gui_same_line(14);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                pose.turn >= 0   ? "Drag it on the table; the corner sizes it, the ring turns it"
+                : pose.size >= 0 ? "Drag it on the table; the corner sizes it"
+                                 : "Drag it on the table");
+    bool path = wr_pose_points_taken(hand);
+    if (!path || app->width < wr_gui_px(1400)) return;
+    wr_gui_same_line(0);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "; Ctrl and a click begins a path");
+}
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_generate = {
+    .action = "generate",
+    .icon = WR_ICON_WAND,
+    .help = "Patterns, noise, text and more from the Generate tab: drag what it makes, Enter puts "
+            "it on the table, Escape gives up.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .marks = marks,
+    .options = options,
+    .key = key,
+    .leave = wr_generate_cancel
+};

@@ -1,0 +1,438 @@
+/* SPDX-License-Identifier: MIT
+   Areas, text, menus and widgets. */
+#include "ui/gui/gui_imgui.h"
+
+extern "C" {
+#include "base/clock.h"
+}
+
+#include <imgui_internal.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define TIP_SECONDS 0.4f /* of resting before a tip is shown */
+
+static float px(double units)
+{
+    return (float)wr_gui_px(units);
+}
+
+/* ---- areas ---- */
+
+extern "C" void wr_gui_area_begin(const char *name, WrAreaKind kind, SDL_Rect rect,
+                                  WrColour background)
+try {
+    ImGui::SetNextWindowPos(ImVec2((float)rect.x, (float)rect.y));
+    ImGui::SetNextWindowSize(ImVec2((float)rect.w, (float)rect.h));
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                             ImGuiWindowFlags_NoSavedSettings |
+                             ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+    ImVec2 padding(px(12), px(12));
+    if (kind == WR_AREA_PANEL) {
+        flags &= ~ImGuiWindowFlags_NoScrollbar;
+    } else {
+        flags |= ImGuiWindowFlags_NoScrollWithMouse;
+        float row = ImGui::GetFrameHeight();
+        float side = rect.w < rect.h ? roundf(((float)rect.w - px(36)) / 2) : px(12);
+        padding = ImVec2(side, rect.w < rect.h ? px(8) : floorf(((float)rect.h - row) / 2));
+        if (padding.y < 0) padding.y = 0;
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, wr_gui_colour_of(background));
+    ImGui::Begin(name, nullptr, flags);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_area_end(void)
+try {
+    ImGui::End();
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_overlay_begin(const char *name, int x, int y, double ax, double ay)
+try {
+    ImGui::SetNextWindowPos(ImVec2((float)x, (float)y), 0, ImVec2((float)ax, (float)ay));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoBackground);
+    ImGui::PopStyleVar(2);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_overlay_end(void)
+try {
+    ImGui::End();
+}
+WR_CAUGHT()
+
+/* ---- placing ---- */
+
+extern "C" void wr_gui_same_line(double gap_units)
+{
+    ImGui::SameLine(0.0f, px(gap_units));
+}
+
+extern "C" void wr_gui_space(double units)
+{
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(units));
+}
+
+extern "C" void wr_gui_separator(void)
+{
+    ImGui::Separator();
+}
+
+extern "C" void wr_gui_rule(void)
+{
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float h = ImGui::GetFrameHeight();
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        ImVec2(at.x, at.y + 2), ImVec2(at.x + 1, at.y + h - 2), wr_gui_colour_of(WR_COLOUR_EDGE));
+    ImGui::Dummy(ImVec2(1, h));
+}
+
+extern "C" double wr_gui_available(void)
+{
+    return (double)ImGui::GetContentRegionAvail().x;
+}
+
+extern "C" void wr_gui_move_to(double x)
+{
+    ImGui::SetCursorPosX((float)x);
+}
+
+extern "C" double wr_gui_place(void)
+{
+    return (double)ImGui::GetCursorPosX();
+}
+
+extern "C" double wr_gui_width(void)
+{
+    return (double)ImGui::GetWindowWidth();
+}
+
+extern "C" void wr_gui_push_id(int id)
+{
+    ImGui::PushID(id);
+}
+
+extern "C" void wr_gui_pop_id(void)
+{
+    ImGui::PopID();
+}
+
+extern "C" void wr_gui_disable(bool disabled)
+{
+    ImGui::BeginDisabled(disabled);
+}
+
+extern "C" void wr_gui_enable(void)
+{
+    ImGui::EndDisabled();
+}
+
+/* ---- text ---- */
+
+static void text_in(WrFont font, WrColour colour, const char *text, bool wrapped)
+{
+    ImGui::PushFont(wr_gui_current()->fonts[font]);
+    ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(colour));
+    if (wrapped) ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(wr_gui_icon(text));
+    if (wrapped) ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+extern "C" void wr_gui_text(WrFont font, WrColour colour, const char *text)
+try {
+    ImGui::AlignTextToFramePadding();
+    text_in(font, colour, text, false);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_text_wrapped(WrFont font, WrColour colour, const char *text)
+try {
+    text_in(font, colour, text, true);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_heading(const char *text)
+try {
+    text_in(WR_FONT_SMALL, WR_COLOUR_LABEL, text, false);
+}
+WR_CAUGHT()
+
+extern "C" void wr_gui_label(const char *text)
+try {
+    ImGui::AlignTextToFramePadding();
+    float column = roundf(ImGui::GetWindowContentRegionMax().x * 0.41f);
+    bool fits = ImGui::GetCursorPosX() + ImGui::CalcTextSize(text).x < column - px(4);
+    if (!fits)
+        ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(1)); /* onto the line of the others */
+    double room = (double)(column - ImGui::GetCursorPosX() - px(4));
+    if (fits) text_in(WR_FONT_TEXT, WR_COLOUR_LABEL, text, false);
+    else wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, room > 0 ? room : 1);
+    ImGui::SameLine(column);
+}
+WR_CAUGHT()
+
+extern "C" double wr_gui_text_width(WrFont font, const char *text)
+{
+    ImFont *face = wr_gui_current()->fonts[font];
+    return (double)face->CalcTextSizeA(wr_gui_size_of(face), FLT_MAX, 0.0f, text).x;
+}
+
+extern "C" double wr_gui_line_height(WrFont font)
+{
+    return (double)wr_gui_size_of(wr_gui_current()->fonts[font]);
+}
+
+extern "C" void wr_gui_tip(const char *text)
+try {
+    if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    if (ImGui::IsMouseDown(0)) return;
+    if (ImGui::GetCurrentContext()->HoveredIdTimer < TIP_SECONDS) {
+        /* without an id the timer stands still: no tip would ever come */
+        if (ImGui::GetHoveredID() != 0) wr_gui_current()->tip_waits = true;
+        return;
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(px(300));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+    ImGui::PopStyleVar();
+}
+WR_CAUGHT()
+
+/* ---- choices and buttons ---- */
+
+static bool chooser_moved()
+{
+    return wr_gui_key_pressed(SDL_SCANCODE_UP) || wr_gui_key_pressed(SDL_SCANCODE_DOWN) ||
+           ImGui::IsWindowAppearing();
+}
+
+/* The arrows move along an open list, Return takes: the row that it took, or -1. */
+static int choose_by_key(ImGuiID list, int count, int index)
+{
+    WrGui *gui = wr_gui_current();
+    bool appears = ImGui::IsWindowAppearing();
+    if (appears || gui->chooser != list) gui->chooser_row = index;
+    gui->chooser = list;
+    if (wr_gui_key_pressed(SDL_SCANCODE_DOWN) && gui->chooser_row < count - 1) gui->chooser_row++;
+    if (wr_gui_key_pressed(SDL_SCANCODE_UP) && gui->chooser_row > 0) gui->chooser_row--;
+    bool takes = !appears && wr_gui_return_for_list();
+    return takes && gui->chooser_row >= 0 && gui->chooser_row < count ? gui->chooser_row : -1;
+}
+
+extern "C" bool wr_gui_choice(const char *id, double width, const char *const *items, int count,
+                              int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    ImGui::SetNextItemWidth(width > 0 ? (float)width : -1.0f);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float right = at.x + ImGui::CalcItemWidth() - px(13), arrow = px(4);
+    float middle = roundf(at.y + ImGui::GetFrameHeight() / 2 - arrow / 2);
+    bool open = ImGui::BeginCombo("##choice", *index >= 0 && *index < count ? items[*index] : "",
+                                  ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+    wr_gui_edge(list, at, ImVec2(right + px(13), at.y + ImGui::GetFrameHeight()));
+    list->AddTriangleFilled(ImVec2(right - arrow, middle), ImVec2(right + arrow, middle),
+                            ImVec2(right, middle + arrow), wr_gui_colour_of(WR_COLOUR_LABEL));
+    if (open) {
+        int chosen = choose_by_key(ImGui::GetID("rows"), count, *index);
+        for (int i = 0; i < count; i++) {
+            if (ImGui::Selectable(items[i], i == wr_gui_current()->chooser_row)) chosen = i;
+            if (i == wr_gui_current()->chooser_row && chooser_moved()) ImGui::SetScrollHereY();
+        }
+        if (chosen >= 0) {
+            changed = chosen != *index;
+            *index = chosen;
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_segments(const char *id, const char *const *items, const WrColour *colours,
+                                int count, int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    float h = ImGui::GetFrameHeight(), pad = px(10);
+    ImVec2 start = ImGui::GetCursorScreenPos();
+    float width = 0;
+    for (int i = 0; i < count; i++) width += ImGui::CalcTextSize(items[i]).x + 2 * pad;
+    ImVec2 end(start.x + width, start.y + h);
+    list->AddRectFilled(start, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    for (int i = 0; i < count; i++) {
+        ImVec2 text = ImGui::CalcTextSize(items[i]);
+        if (i) ImGui::SameLine(0.0f, 0.0f);
+        ImVec2 at = ImGui::GetCursorScreenPos();
+        float w = text.x + 2 * pad;
+        if (ImGui::InvisibleButton(items[i], ImVec2(w, h))) {
+            changed = i != *index;
+            *index = i;
+        }
+        bool on = i == *index;
+        if (on)
+            list->AddRectFilled(ImVec2(at.x + 1, at.y + 1), ImVec2(at.x + w - 1, at.y + h - 1),
+                                wr_gui_colour_of(colours ? colours[i] : WR_COLOUR_SELECTED));
+        WrColour ink = on                       ? WR_COLOUR_STRONG
+                       : ImGui::IsItemHovered() ? WR_COLOUR_TEXT
+                                                : WR_COLOUR_LABEL;
+        list->AddText(ImVec2(at.x + pad, at.y + roundf((h - text.y) / 2)), wr_gui_colour_of(ink),
+                      items[i]);
+    }
+    wr_gui_edge(list, start, end);
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
+static float tabs_wide(const char *const *items, int count)
+{
+    float wide = 0;
+    for (int i = 0; i < count; i++) wide += ImGui::CalcTextSize(items[i]).x;
+    return wide;
+}
+
+/* Where even the small face leaves them hardly apart they stand in two rows. */
+extern "C" int wr_gui_tab_rows(const char *const *items, int count, double width)
+try {
+    ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    bool tight = tabs_wide(items, count) + px(8) * (float)count > (float)width;
+    ImGui::PopFont();
+    return tight && count > 2 ? 2 : 1;
+}
+WR_CAUGHT(1)
+
+static bool tab(const char *label, ImVec2 place, ImVec2 size, bool on)
+{
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImGui::SetCursorPos(place);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    bool pressed = ImGui::InvisibleButton(label, size);
+    if (on) {
+        ImVec2 end(at.x + size.x, at.y + size.y);
+        list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_PANEL));
+        list->AddRectFilled(at, ImVec2(end.x, at.y + px(2)), wr_gui_colour_of(WR_COLOUR_ACCENT));
+    }
+    ImVec2 text = ImGui::CalcTextSize(label);
+    bool bright = on || ImGui::IsItemHovered();
+    list->AddText(
+        ImVec2(at.x + roundf((size.x - text.x) / 2), at.y + roundf((size.y - text.y) / 2)),
+        wr_gui_colour_of(bright ? WR_COLOUR_STRONG : WR_COLOUR_LABEL), label);
+    return pressed;
+}
+
+extern "C" bool wr_gui_tabs(const char *id, const char *const *items, int count, int *index)
+try {
+    bool changed = false;
+    ImGui::PushID(id);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImVec2 origin = ImGui::GetWindowPos();
+    float width = ImGui::GetWindowWidth(), h = px(32);
+    int rows = wr_gui_tab_rows(items, count, (double)width), each = (count + rows - 1) / rows;
+    list->PushClipRect(origin,
+                       ImVec2(origin.x + width, origin.y + h * (float)rows)); /* over the padding */
+    bool small = rows > 1 || tabs_wide(items, count) + px(6) * (float)count > width;
+    if (small) ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
+    for (int row = 0; row < rows; row++) {
+        const char *const *first = items + row * each;
+        int n = count - row * each < each ? count - row * each : each;
+        float gap = (width - tabs_wide(first, n)) / (float)n, end = 0;
+        for (int i = 0; i < n; i++) {
+            float x0 = roundf(end);
+            end += ImGui::CalcTextSize(first[i]).x + gap;
+            ImVec2 place(x0, h * (float)row), size(roundf(end) - x0, h);
+            if (!tab(first[i], place, size, row * each + i == *index)) continue;
+            changed = row * each + i != *index;
+            *index = row * each + i;
+        }
+    }
+    if (small) ImGui::PopFont();
+    list->PopClipRect();
+    ImGui::SetCursorPosY(h * (float)rows + px(12));
+    ImGui::PopID();
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_check(const char *label, bool *value)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float side = ImGui::GetFrameHeight();
+    bool changed = ImGui::Checkbox(label, value);
+    wr_gui_edge(ImGui::GetWindowDrawList(), at, ImVec2(at.x + side, at.y + side));
+    return changed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_button(const char *label, bool primary)
+try {
+    if (primary) {
+        ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_SELECTED));
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_ACCENT));
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(14), px(5)));
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
+    bool pressed = ImGui::Button(label);
+    ImGui::PopStyleVar(2);
+    if (primary) ImGui::PopStyleColor(2);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_icon_button(const char *id, const char *icon, double units, bool selected)
+try {
+    float side = px(units);
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    bool pressed = ImGui::InvisibleButton(id, ImVec2(side, side));
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    ImVec2 end(at.x + side, at.y + side);
+    if (selected) list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
+    else if (ImGui::IsItemHovered())
+        list->AddRectFilled(at, end, wr_gui_colour_of(0xff3c3c3cu), px(3));
+    ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
+    icon = wr_gui_icon(icon);
+    ImVec2 size = font->CalcTextSizeA(wr_gui_size_of(font), FLT_MAX, 0, icon);
+    list->AddText(font, wr_gui_size_of(font),
+                  ImVec2(at.x + roundf((side - size.x) / 2), at.y + roundf((side - size.y) / 2)),
+                  wr_gui_colour_of(selected ? WR_COLOUR_STRONG : WR_COLOUR_TEXT), icon);
+    return pressed;
+}
+WR_CAUGHT(false)
+
+extern "C" bool wr_gui_chip(const char *icon, const char *label)
+try {
+    char text[160];
+    snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
+             icon && label[0] ? "  " : "", label);
+    ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_CHIP));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(0xf0343434u));
+    ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(3)));
+    bool pressed = ImGui::Button(text);
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor(2);
+    return pressed;
+}
+WR_CAUGHT(false)

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/help/guide.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/messages.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/gui_page.h"
+#include "ui/gui/theme.h"
+#include "ui/help/guide_flow.h"
+#include "ui/help/guide_page.h"
+#include "ui/help/guide_picture.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <SDL.h>
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define FOLDER "ui/guide/"
+#define INDEX "README.md" /* its links are the pages, in their order */
+#define PAGE_BYTES (4u << 20)
+#define FOUND_MAX 80
+#define COLUMN 216 /* units of the list of pages */
+
+struct WrGuide {
+    WR_ARRAY(WrGuidePage) pages;
+    WR_ARRAY(double) scrolls; /* of each page, pixels */
+    int page;                 /* that is open */
+    int marked;               /* block that is pointed out; -1: none */
+    int jump;                 /* block to scroll to; -1: none */
+    bool opened;              /* another page: its scroll is put back */
+    bool focus;               /* typing goes to the search again */
+    char query[80], asked[80];
+    WrGuideFound found[FOUND_MAX];
+    int found_count, chosen;
+    WrGuideLayout layout;
+    WrGuidePictures *pictures;
+};
+
+/* ---- pages ---- */
+
+static void add_page(WrGuide *guide, const char *name, const char *text)
+{
+    WrGuidePage page;
+    wr_guide_parse(&page, name, text);
+    wr_array_push(&guide->pages, page);
+    wr_array_push(&guide->scrolls, 0.0);
+}
+
+static bool read_page(WrGuide *guide, const char *name, WrError *err)
+{
+    WrText place = { 0 };
+    char path[300], *text;
+    size_t length;
+    snprintf(path, sizeof path, FOLDER "%.200s", name);
+    bool good =
+        wr_data_find(path, &place)
+            ? wr_file_read(wr_text_get(&place), PAGE_BYTES, &text, &length, err)
+            : wr_fail(err, "%s is not beside the program: set WRINKLE_DATA to its folder", path);
+    wr_text_fini(&place);
+    if (!good) return false;
+    add_page(guide, name, text);
+    wr_free(text);
+    return true;
+}
+
+static int find_page(const WrGuide *guide, const char *name, size_t length)
+{
+    for (int i = 0; i < guide->pages.count; i++)
+        if (strlen(guide->pages.data[i].name) == length &&
+            strncmp(guide->pages.data[i].name, name, length) == 0)
+            return i;
+    return -1;
+}
+
+/* Every page that the index leads to. A page that is missing is told of as one. */
+static void read_linked(WrGuide *guide, int index)
+{
+    for (int i = 0; i < guide->pages.data[index].blocks.count; i++)
+        for (int k = 0; k < guide->pages.data[index].blocks.data[i].cells; k++) {
+            const char *at = guide->pages.data[index].blocks.data[i].cell[k];
+            WrGuideSpan span;
+            while (wr_guide_span(&at, &span)) {
+                char name[200];
+                WrError err;
+                if (!span.link || memchr(span.link, '/', (size_t)span.link_length)) continue;
+                snprintf(name, sizeof name, "%.*s", span.link_length, span.link);
+                if (find_page(guide, name, strlen(name)) >= 0) continue;
+                if (!read_page(guide, name, &err)) add_page(guide, name, err.text);
+            }
+        }
+}
+
+static WrGuide *guide_of(WrApp *app)
+{
+    if (app->guide) return app->guide;
+    WrGuide *guide = wr_alloc(1, sizeof *guide);
+    WrError err;
+    guide->marked = guide->jump = -1;
+    guide->pictures = wr_guide_pictures_new(app->renderer, app->job_event);
+    add_page(guide, "", ""); /* the keys */
+    if (read_page(guide, INDEX, &err)) read_linked(guide, guide->pages.count - 1);
+    else add_page(guide, INDEX, err.text);
+    return app->guide = guide;
+}
+
+void wr_guide_free(WrApp *app)
+{
+    WrGuide *guide = app->guide;
+    if (!guide) return;
+    for (int i = 0; i < guide->pages.count; i++) wr_guide_page_fini(&guide->pages.data[i]);
+    wr_array_free(&guide->pages);
+    wr_array_free(&guide->scrolls);
+    wr_guide_layout_fini(&guide->layout);
+    wr_guide_pictures_free(guide->pictures);
+    wr_free(guide);
+    app->guide = NULL;
+}
+
+/* They may have been set anew since. */
+static void refresh_keys(WrApp *app, WrGuide *guide)
+{
+    WrText text = { 0 };
+    wr_guide_keys(app, &text);
+    wr_guide_page_fini(&guide->pages.data[0]);
+    wr_guide_parse(&guide->pages.data[0], "keys", wr_text_get(&text));
+    wr_text_fini(&text);
+    guide->layout.page = NULL;
+}
+
+static void open_page(WrApp *app, WrGuide *guide, int page, int block)
+{
+    guide->opened = page != guide->page || block >= 0;
+    guide->page = page;
+    guide->jump = guide->marked = block;
+    guide->focus = true;
+    wr_app_redraw(app);
+}
+
+/* ---- links ---- */
+
+/* "Files and exports" is led to as #files-and-exports. */
+static bool heading_is(const char *heading, const char *anchor, size_t length)
+{
+    size_t n = 0;
+    for (const char *p = heading; *p; p++) {
+        char c = *p == ' ' ? '-' : (char)tolower((unsigned char)*p);
+        if (c != '-' && c != '_' && !isalnum((unsigned char)c) && (unsigned char)c < 0x80) continue;
+        if (n >= length || anchor[n++] != c) return false;
+    }
+    return n == length;
+}
+
+static void follow(WrApp *app, WrGuide *guide, const char *link, int length)
+{
+    const char *anchor = memchr(link, '#', (size_t)length);
+    size_t name = anchor ? (size_t)(anchor - link) : (size_t)length;
+    int page = name == 0 ? guide->page : find_page(guide, link, name), block = -1;
+    if (page < 0) {
+        wr_app_say(app, "%.*s: a file that comes with the program", length, link);
+        return;
+    }
+    const WrGuidePage *target = &guide->pages.data[page];
+    for (int i = 0; anchor && i < target->blocks.count && block < 0; i++)
+        if (target->blocks.data[i].kind == WR_GUIDE_HEADING &&
+            heading_is(target->blocks.data[i].cell[0], anchor + 1, (size_t)length - name - 1))
+            block = i;
+    open_page(app, guide, page, block);
+}
+
+/* ---- searching ---- */
+
+static void choose(WrApp *app, WrGuide *guide, int chosen)
+{
+    if (guide->found_count == 0) return;
+    guide->chosen = chosen < 0 ? 0 : chosen >= guide->found_count ? guide->found_count - 1 : chosen;
+    open_page(app, guide, guide->found[guide->chosen].page, guide->found[guide->chosen].block);
+}
+
+static void search(WrApp *app, WrGuide *guide)
+{
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, WR_ICON_SEARCH);
+    wr_gui_same_line(8);
+    wr_gui_text_field("##guide", 0, guide->query, sizeof guide->query,
+                      app->dialog->fresh || (guide->focus && !guide->query[0]));
+    guide->focus = false;
+    if (strcmp(guide->query, guide->asked) != 0) {
+        memcpy(guide->asked, guide->query, sizeof guide->asked);
+        guide->found_count = wr_guide_search(guide->pages.data, guide->pages.count, guide->query,
+                                             guide->found, FOUND_MAX);
+        guide->marked = -1;
+        choose(app, guide, 0);
+    }
+    if (guide->query[0] && wr_gui_key_pressed(SDL_SCANCODE_DOWN))
+        choose(app, guide, guide->chosen + 1);
+    if (guide->query[0] && wr_gui_key_pressed(SDL_SCANCODE_UP))
+        choose(app, guide, guide->chosen - 1);
+}
+
+static void list_found(WrApp *app, WrGuide *guide)
+{
+    char words[400];
+    if (guide->found_count == 0)
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, "No page has these words.");
+    for (int i = 0; i < guide->found_count; i++) {
+        const WrGuidePage *page = &guide->pages.data[guide->found[i].page];
+        const WrGuideBlock *block = &page->blocks.data[guide->found[i].block];
+        int last = block->kind == WR_GUIDE_ROW && block->cells > 1 ? 1 : 0;
+        wr_guide_plain(block, 0, words, 120);
+        size_t used = strlen(words);
+        if (last) snprintf(words + used, sizeof words - used, "   ");
+        if (last) wr_guide_plain(block, 1, words + used + 3, sizeof words - used - 3);
+        WrRow row = wr_gui_row_begin(i, 46, i == guide->chosen);
+        wr_gui_row_at(wr_gui_px(8), wr_gui_px(40));
+        wr_gui_group_begin();
+        wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, words, wr_gui_row_width() - wr_gui_px(12));
+        wr_gui_space(-10);
+        wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, page->title,
+                        wr_gui_row_width() - wr_gui_px(12));
+        wr_gui_group_end();
+        wr_gui_row_end();
+        if (row.clicked) choose(app, guide, i);
+    }
+}
+
+static void list_pages(WrApp *app, WrGuide *guide)
+{
+    for (int i = 0; i < guide->pages.count; i++) {
+        WrRow row = wr_gui_row_begin(i, 26, i == guide->page);
+        wr_gui_row_at(wr_gui_px(8), 0);
+        wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, guide->pages.data[i].title,
+                        wr_gui_row_width() - wr_gui_px(12));
+        wr_gui_row_end();
+        if (row.clicked) open_page(app, guide, i, -1);
+    }
+}
+
+/* ---- the page ---- */
+
+/* Where the keys, a link or a search lead; below 0: nowhere else. */
+static double scroll_to(WrGuide *guide, const WrGuiPage *field)
+{
+    double page = field->bottom - field->top, to = -1;
+    if (wr_gui_key_pressed(SDL_SCANCODE_PAGEDOWN)) to = field->scroll + 0.9 * page;
+    if (wr_gui_key_pressed(SDL_SCANCODE_PAGEUP)) to = fmax(0, field->scroll - 0.9 * page);
+    if (!guide->query[0] && wr_gui_key_pressed(SDL_SCANCODE_DOWN))
+        to = field->scroll + wr_gui_px(40);
+    if (!guide->query[0] && wr_gui_key_pressed(SDL_SCANCODE_UP))
+        to = fmax(0, field->scroll - wr_gui_px(40));
+    if (guide->opened) to = guide->scrolls.data[guide->page];
+    if (guide->jump >= 0 && guide->jump < guide->layout.places.count)
+        to = fmax(0, guide->layout.places.data[guide->jump].y - 0.2 * page);
+    return to;
+}
+
+static void show_page(WrApp *app, WrGuide *guide, double tall)
+{
+    int length;
+    WrGuiPage field = wr_gui_page_begin("page", 0, tall);
+    const WrGuidePage *page = &guide->pages.data[guide->page];
+    if (wr_guide_layout(&guide->layout, page, field.w, guide->pictures)) wr_app_redraw(app);
+    const char *link =
+        wr_guide_draw(&guide->layout, &field, guide->marked, guide->pictures, &length);
+    double to = scroll_to(guide, &field);
+    guide->scrolls.data[guide->page] = to >= 0 ? to : field.scroll;
+    guide->opened = false;
+    guide->jump = -1;
+    wr_gui_page_end(guide->layout.height, to);
+    if (to >= 0) wr_app_redraw(app);
+    if (link && field.clicked) follow(app, guide, link, length);
+}
+
+void wr_guide_show(WrApp *app, double tall)
+{
+    WrGuide *guide = guide_of(app);
+    if (app->dialog->fresh) refresh_keys(app, guide);
+    guide->opened = guide->opened || app->dialog->fresh;
+    search(app, guide);
+    double wide = fmin(wr_gui_px(COLUMN), 0.34 * wr_gui_available());
+    wr_gui_column_begin("pages", wide, tall);
+    if (guide->query[0]) list_found(app, guide);
+    else list_pages(app, guide);
+    wr_gui_list_end();
+    wr_gui_same_line(8);
+    show_page(app, guide, tall);
+}

@@ -1,0 +1,383 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/help/guide_flow.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/gui_page.h"
+#include "ui/gui/theme.h"
+#include "ui/help/guide_page.h"
+#include "ui/help/guide_picture.h"
+
+#include "base/array.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MARGIN 16        /* units beside the text */
+#define INDENT 18        /* of items */
+#define CELL_GAP 14      /* between columns */
+#define LEADING 1.34     /* of a line, by the height of its letters */
+#define LINK 0xff78aeeau /* brighter than the accent: it is read, not seen */
+#define GROUND 0xff2e2e2eu
+#define MARKED 0xff34485eu
+
+/* A text that is being set, word by word. */
+typedef struct Flow {
+    double left, right; /* pixels of the window, or of the page while nothing is drawn */
+    double x, y;        /* where the next word stands; the top of its line */
+    double widest;      /* how far a line reached beyond `left` */
+    double word;        /* the widest word */
+    WrFont font;
+    WrColour colour;
+    bool draw;
+    const WrGuiPage *field; /* for the pointer; NULL while nothing is drawn */
+    const char *link;       /* under the pointer; NULL: none */
+    int link_length;
+} Flow;
+
+static double line_height(WrFont font)
+{
+    return rint(wr_gui_line_height(font) * LEADING);
+}
+
+/* The bytes of a word, whole characters, that are no wider than `room`; at least one character. */
+static int bytes_in(WrFont font, char *word, int length, double room)
+{
+    while (length > 1) {
+        char kept = word[length];
+        word[length] = '\0';
+        double width = wr_gui_text_width(font, word);
+        word[length] = kept;
+        if (width <= room) break;
+        length--;
+        while (length > 1 && ((unsigned char)word[length] & 0xc0) == 0x80) length--;
+    }
+    return length;
+}
+
+static WrFont font_of(const Flow *flow, WrGuideStyle style)
+{
+    return style == WR_GUIDE_STRONG ? WR_FONT_BOLD : flow->font;
+}
+
+static WrColour colour_of(const Flow *flow, WrGuideStyle style)
+{
+    if (style == WR_GUIDE_LINK) return LINK;
+    return style == WR_GUIDE_PLAIN ? flow->colour : WR_COLOUR_STRONG;
+}
+
+/* from: where the ground behind code begins, and a link can be pointed at. */
+static void draw_word(Flow *flow, const WrGuideSpan *span, const char *word, double from,
+                      double width)
+{
+    WrFont font = font_of(flow, span->style);
+    double high = wr_gui_line_height(font), gap = rint((line_height(flow->font) - high) / 2);
+    if (span->style == WR_GUIDE_LITERAL)
+        wr_gui_draw_fill(from, flow->y + gap - 1, flow->x + width - from + 2, high + 2, GROUND, 2);
+    const WrGuiPage *f = flow->field;
+    bool pointed = span->link && f->hovered && f->pointer_x >= from &&
+                   f->pointer_x < flow->x + width && f->pointer_y >= flow->y &&
+                   f->pointer_y < flow->y + line_height(flow->font);
+    if (pointed) {
+        flow->link = span->link;
+        flow->link_length = span->link_length;
+        wr_gui_draw_line(flow->x, flow->y + gap + high - 1, flow->x + width,
+                         flow->y + gap + high - 1, LINK, 1);
+    }
+    wr_gui_draw_text(flow->x, flow->y + gap, font, colour_of(flow, span->style), word);
+}
+
+/* One word, before which a gap may stand; what is too wide for a line is cut. */
+static void set_word(Flow *flow, const WrGuideSpan *span, char *word, int length, double gap,
+                     bool inside)
+{
+    WrFont font = font_of(flow, span->style);
+    while (length > 0) {
+        double from = flow->x;
+        word[length] = '\0';
+        double width = wr_gui_text_width(font, word);
+        if (width > flow->word) flow->word = width;
+        if (flow->x > flow->left && flow->x + gap + width > flow->right) {
+            flow->x = from = flow->left;
+            inside = false;
+            flow->y += line_height(flow->font);
+            gap = 0;
+        }
+        flow->x += gap;
+        int fits = bytes_in(font, word, length, flow->right - flow->x);
+        char kept = word[fits];
+        word[fits] = '\0';
+        if (fits < length) width = wr_gui_text_width(font, word);
+        if (flow->draw) draw_word(flow, span, word, inside ? from + 2 : flow->x - 2, width);
+        word[fits] = kept;
+        flow->x += width;
+        if (flow->x - flow->left > flow->widest) flow->widest = flow->x - flow->left;
+        memmove(word, word + fits, (size_t)(length - fits));
+        length -= fits;
+        gap = 0;
+    }
+}
+
+static void set_span(Flow *flow, const WrGuideSpan *span)
+{
+    char word[400];
+    double space = wr_gui_text_width(flow->font, " "), gap = 0;
+    bool inside = false; /* a word of the same span stands before */
+    for (int i = 0; i < span->length;) {
+        int length = 0;
+        if (span->text[i] == ' ') {
+            gap = flow->x > flow->left ? space : 0;
+            i++;
+            continue;
+        }
+        while (i + length < span->length && span->text[i + length] != ' ' && length < 390) length++;
+        memcpy(word, span->text + i, (size_t)length);
+        set_word(flow, span, word, length, gap, inside);
+        inside = true;
+        gap = 0;
+        i += length;
+    }
+    flow->x += gap;
+}
+
+/* Set a cell's Markdown; returns its height. */
+static double set_text(Flow *flow, const char *text)
+{
+    double top = flow->y;
+    const char *at = text;
+    WrGuideSpan span;
+    flow->x = flow->left;
+    while (wr_guide_span(&at, &span)) set_span(flow, &span);
+    flow->y += line_height(flow->font);
+    return flow->y - top;
+}
+
+/* Code goes on, indented, where it is wider than the line. */
+static double set_code(Flow *flow, const char *text)
+{
+    WrGuideSpan span = { WR_GUIDE_PLAIN, text, (int)strlen(text), NULL, 0 };
+    double top = flow->y;
+    size_t indent = strspn(text, " ");
+    flow->x = flow->left + (double)indent * wr_gui_text_width(flow->font, "n");
+    flow->left += wr_gui_px(INDENT);
+    double hang = flow->left;
+    if (flow->x < hang) { /* the first line begins at the left */
+        flow->left = flow->x;
+        const char *rest = text + indent;
+        char word[400];
+        int length = (int)strcspn(rest, " ");
+        if (length > 390) length = 390;
+        memcpy(word, rest, (size_t)length);
+        set_word(flow, &span, word, length, 0, false);
+        span.text = rest + length;
+        span.length = (int)strlen(span.text);
+        flow->left = hang;
+    }
+    set_span(flow, &span);
+    flow->y += line_height(flow->font);
+    return flow->y - top;
+}
+
+/* ---- where blocks stand ---- */
+
+static WrFont font_for(const WrGuideBlock *block)
+{
+    return block->kind == WR_GUIDE_HEADING ? WR_FONT_BOLD : WR_FONT_TEXT;
+}
+
+static WrColour colour_for(const WrGuideBlock *block)
+{
+    if (block->kind == WR_GUIDE_HEADING || block->kind == WR_GUIDE_CODE) return WR_COLOUR_STRONG;
+    return block->kind == WR_GUIDE_ROW && block->level == 1 ? WR_COLOUR_LABEL : WR_COLOUR_TEXT;
+}
+
+/* Units above a block. */
+static double space_above(const WrGuideBlock *block, bool first)
+{
+    if (first) return MARGIN;
+    switch (block->kind) {
+    case WR_GUIDE_HEADING: return block->level == 1 ? 10 : block->level == 2 ? 22 : 16;
+    case WR_GUIDE_ITEM: return 4;
+    default: return block->joined ? 0 : 9;
+    }
+}
+
+/* How wide each column of a table would be, and must be. */
+static void measure(const WrGuidePage *page, int first, double want[], double least[], int *columns)
+{
+    *columns = 0;
+    for (int k = 0; k < WR_GUIDE_CELLS; k++) want[k] = least[k] = 0;
+    for (int i = first; i < page->blocks.count; i++) {
+        const WrGuideBlock *row = &page->blocks.data[i];
+        if (row->kind != WR_GUIDE_ROW || (i > first && !row->joined)) break;
+        if (row->cells > *columns) *columns = row->cells;
+        for (int k = 0; k < row->cells; k++) {
+            Flow flow = { .right = 1e9, .font = font_for(row) };
+            set_text(&flow, row->cell[k]);
+            want[k] = fmax(want[k], ceil(flow.widest) + 1);
+            least[k] = fmax(least[k], ceil(flow.word) + 1);
+        }
+    }
+}
+
+/* Share `room` among the columns: all that they want, or their widest words and a share of the rest. */
+static void share(double column[], const double want[], const double least[], int columns,
+                  double room)
+{
+    double wanted = 0, needed = 0, more = 0;
+    for (int k = 0; k < columns; k++) {
+        double floor_k = fmin(least[k], 0.4 * room);
+        wanted += want[k];
+        needed += floor_k;
+        more += want[k] - floor_k;
+    }
+    for (int k = 0; k < columns; k++) {
+        double floor_k = fmin(least[k], 0.4 * room);
+        if (wanted <= room) column[k] = want[k];
+        else if (needed >= room) column[k] = floor_k * room / needed;
+        else column[k] = floor_k + (room - needed) * (want[k] - floor_k) / more;
+    }
+}
+
+static void place_columns(WrGuideLayout *layout, int first, double room)
+{
+    double want[WR_GUIDE_CELLS], least[WR_GUIDE_CELLS], column[WR_GUIDE_CELLS] = { 0 };
+    int columns;
+    measure(layout->page, first, want, least, &columns);
+    share(column, want, least, columns, room - (columns - 1) * wr_gui_px(CELL_GAP));
+    for (int i = first; i < layout->page->blocks.count; i++) {
+        const WrGuideBlock *row = &layout->page->blocks.data[i];
+        if (row->kind != WR_GUIDE_ROW || (i > first && !row->joined)) break;
+        memcpy(layout->places.data[i].column, column, sizeof column);
+    }
+}
+
+/* Set a block, drawn or not; returns its height. */
+static double set_block(const WrGuideBlock *block, const WrGuidePlace *place, double x, double y,
+                        double width, Flow *flow)
+{
+    char mark[16] = "\xe2\x80\xa2";
+    *flow = (Flow){ .left = x,
+                    .right = x + width,
+                    .y = y,
+                    .font = font_for(block),
+                    .colour = colour_for(block),
+                    .draw = flow->draw,
+                    .field = flow->field,
+                    .link = flow->link,
+                    .link_length = flow->link_length };
+    if (block->kind == WR_GUIDE_CODE) {
+        if (flow->draw) wr_gui_draw_fill(x, y, width, place->height, GROUND, 0);
+        flow->left += wr_gui_px(10);
+        flow->right -= wr_gui_px(10);
+        return set_code(flow, block->cell[0]);
+    }
+    if (block->kind == WR_GUIDE_ITEM) {
+        if (block->level > 0) snprintf(mark, sizeof mark, "%d.", block->level);
+        double room = wr_gui_text_width(WR_FONT_TEXT, mark) + wr_gui_px(8);
+        double gap = rint((line_height(WR_FONT_TEXT) - wr_gui_line_height(WR_FONT_TEXT)) / 2);
+        if (flow->draw) wr_gui_draw_text(x, y + gap, WR_FONT_TEXT, WR_COLOUR_LABEL, mark);
+        flow->left += fmax(room, wr_gui_px(INDENT));
+    }
+    if (block->kind != WR_GUIDE_ROW) return set_text(flow, block->cell[0]);
+    double tall = 0, pad = wr_gui_px(3);
+    for (int k = 0; k < block->cells; k++) {
+        flow->y = y + pad;
+        flow->left = x;
+        flow->right = x + place->column[k] + 1;
+        tall = fmax(tall, set_text(flow, block->cell[k]) + 2 * pad);
+        x += place->column[k] + wr_gui_px(CELL_GAP);
+    }
+    return tall + 1;
+}
+
+/* As large as it is, or as the width allows. */
+static double picture_size(const char *path, double width, WrGuidePictures *pictures, double *wide,
+                           SDL_Texture **texture)
+{
+    int w, h;
+    *texture = wr_guide_picture(pictures, path, &w, &h);
+    *wide = 0;
+    if (!*texture) return wr_gui_px(24);
+    double scale = fmin(fmax(1.0, floor(wr_gui_scale())), width / w);
+    *wide = floor(w * scale);
+    return floor(h * scale);
+}
+
+void wr_guide_layout_fini(WrGuideLayout *layout)
+{
+    wr_array_free(&layout->places);
+    *layout = (WrGuideLayout){ 0 };
+}
+
+bool wr_guide_layout(WrGuideLayout *layout, const WrGuidePage *page, double width,
+                     WrGuidePictures *pictures)
+{
+    int made = wr_guide_pictures_made(pictures);
+    double room = width - 2 * wr_gui_px(MARGIN), y = 0, wide;
+    if (layout->page == page && layout->width == width && layout->scale == wr_gui_scale() &&
+        layout->pictures == made)
+        return false;
+    layout->page = page;
+    layout->width = width;
+    layout->scale = wr_gui_scale();
+    layout->pictures = made;
+    layout->places.count = 0;
+    wr_array_reserve(&layout->places, page->blocks.count);
+    layout->places.count = page->blocks.count;
+    for (int i = 0; i < page->blocks.count; i++) {
+        const WrGuideBlock *block = &page->blocks.data[i];
+        WrGuidePlace *place = &layout->places.data[i];
+        SDL_Texture *texture;
+        Flow flow = { 0 };
+        if (block->kind == WR_GUIDE_ROW && !block->joined) place_columns(layout, i, room);
+        y += wr_gui_px(space_above(block, i == 0));
+        place->y = y;
+        place->height = block->kind == WR_GUIDE_PICTURE
+                            ? picture_size(block->cell[1], room, pictures, &wide, &texture)
+                            : set_block(block, place, 0, 0, room, &flow);
+        y += place->height;
+        if (block->kind == WR_GUIDE_HEADING) y += wr_gui_px(block->level == 1 ? 4 : 0);
+    }
+    layout->height = y + wr_gui_px(MARGIN);
+    return true;
+}
+
+/* ---- drawing ---- */
+
+static void draw_picture(const WrGuideBlock *block, double x, double y, double room,
+                         WrGuidePictures *pictures)
+{
+    double wide;
+    SDL_Texture *texture;
+    double tall = picture_size(block->cell[1], room, pictures, &wide, &texture);
+    if (texture) wr_gui_page_image(texture, x, y, wide, tall);
+    else wr_gui_draw_text(x, y, WR_FONT_SMALL, WR_COLOUR_LABEL, block->cell[0]);
+}
+
+const char *wr_guide_draw(const WrGuideLayout *layout, const WrGuiPage *field, int marked,
+                          WrGuidePictures *pictures, int *length)
+{
+    double x = field->x + wr_gui_px(MARGIN), room = layout->width - 2 * wr_gui_px(MARGIN);
+    Flow flow = { .draw = true, .field = field };
+    for (int i = 0; i < layout->places.count; i++) {
+        const WrGuideBlock *block = &layout->page->blocks.data[i];
+        const WrGuidePlace *place = &layout->places.data[i];
+        double y = field->y + place->y;
+        if (y + place->height < field->top || y > field->bottom) continue;
+        if (i == marked)
+            wr_gui_draw_fill(x - wr_gui_px(6), y - 2, room + wr_gui_px(12), place->height + 4,
+                             MARKED, 3);
+        if (block->kind == WR_GUIDE_PICTURE) {
+            draw_picture(block, x, y, room, pictures);
+            continue;
+        }
+        set_block(block, place, x, y, room, &flow);
+        if (block->kind == WR_GUIDE_ROW) /* a line below each */
+            wr_gui_draw_fill(x, y + place->height - 1, room, 1, WR_COLOUR_EDGE, 0);
+        if (block->kind == WR_GUIDE_HEADING && block->level == 1)
+            wr_gui_draw_fill(x, y + place->height + 1, room, 1, WR_COLOUR_ACCENT, 0);
+    }
+    *length = flow.link_length;
+    return flow.link;
+}

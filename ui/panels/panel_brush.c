@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: MIT
+   All values of the brush in hand, and what of a preset's own settings matters to heights. */
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+#include "ui/tools/shelf.h"
+#include "ui/tools/tuning.h"
+
+#include "brush/brush.h"
+#include "brush/preset.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- the brush ---- */
+
+static bool number(const char *label, const WrNumber *spec, double *value)
+{
+    wr_gui_label(label);
+    return wr_gui_number(label, 0, spec, value) != WR_EDIT_NONE;
+}
+
+static void percent(const char *label, const char *tip, double *part)
+{
+    WrNumber spec = { .low = 0, .high = 100, .reset = 100, .decimals = 0, .unit = "%", .tip = tip };
+    double value = *part * 100.0;
+    if (number(label, &spec, &value)) *part = rint(value * 100.0) / 1e4;
+}
+
+static void basic(WrApp *app)
+{
+    WrBrush *b = &app->settings->brush, own = wr_shelf_own(app);
+    unsigned uses = wr_brush_modes[b->mode].uses;
+    WrNumber size = { .low = 1,
+                      .high = 1000,
+                      .hard_high = 2e9,
+                      .reset = 2.0 * own.radius,
+                      .decimals = -1,
+                      .unit = "px",
+                      .logarithmic = true,
+                      .tip = "Diameter in texels of the table" };
+    WrNumber hard = { .low = 0,
+                      .high = 1,
+                      .reset = own.hardness,
+                      .decimals = 2,
+                      .tip = "How far from the middle it works in full" };
+    WrNumber strength = { .low = 0.001,
+                          .high = 1,
+                          .hard_low = -1e30,
+                          .hard_high = 1e30,
+                          .reset = own.strength,
+                          .decimals = -1,
+                          .logarithmic = true,
+                          .tip = "How much one stroke changes the height at its middle" };
+    WrNumber to = { .low = 0,
+                    .high = 1,
+                    .hard_low = -1e30,
+                    .hard_high = 1e30,
+                    .reset = own.to,
+                    .decimals = 3,
+                    .tip = "The height that the mode goes by" };
+    WrNumber reach = { .low = 0,
+                       .high = 64,
+                       .hard_high = 16384,
+                       .reset = own.reach,
+                       .decimals = 1,
+                       .unit = "px",
+                       .tip = "How far it looks around; 0: an eighth of the radius" };
+    double diameter = 2.0 * b->radius;
+    if (number("Size", &size, &diameter)) b->radius = diameter / 2.0;
+    number("Hardness", &hard, &b->hardness);
+    if (uses & WR_USES_STRENGTH) number("Strength", &strength, &b->strength);
+    if (uses & WR_USES_TO) number("Height", &to, &b->to);
+    if (uses & WR_USES_REACH) number("Reach", &reach, &b->reach);
+    percent("Opacity", "Of the whole stroke: it never does more than this part", &b->opacity);
+    percent("Flow", "Of each dab: low flow builds up slowly", &b->flow);
+    wr_gui_label("Build up");
+    wr_gui_check("##buildup", &b->buildup);
+    wr_gui_tip("Crossing one's own stroke, and resting, adds more");
+    wr_gui_label("Keep size");
+    wr_gui_check("##lock", &app->settings->lock_size);
+    wr_gui_tip("Choosing another brush keeps this size");
+}
+
+static void dabs(WrApp *app)
+{
+    WrBrush *b = &app->settings->brush, own = wr_shelf_own(app);
+    bool preset = b->preset != NULL;
+    WrNumber spacing = { .low = 0,
+                         .high = 2,
+                         .hard_high = 10,
+                         .reset = own.spacing,
+                         .decimals = 2,
+                         .tip = "Of the radius, between dabs; 0: what suits the mode" };
+    WrNumber angle = { .low = -180,
+                       .high = 180,
+                       .hard_low = -360,
+                       .hard_high = 360,
+                       .reset = own.angle_deg,
+                       .decimals = 0,
+                       .unit = "\xc2\xb0",
+                       .tip = "Turns the dab anticlockwise" };
+    WrNumber aspect = { .low = 1,
+                        .high = 10,
+                        .hard_low = 1,
+                        .hard_high = 100,
+                        .reset = own.aspect,
+                        .decimals = 2,
+                        .tip = "Length over breadth" };
+    if (!preset) number("Spacing", &spacing, &b->spacing);
+    number("Angle", &angle, &b->angle_deg);
+    number("Aspect", &aspect, &b->aspect);
+    wr_gui_label("Follow");
+    wr_gui_check("##follow", &b->follow);
+    wr_gui_tip("The angle counts from the stroke's direction");
+}
+
+static void chance(WrApp *app)
+{
+    WrBrush *b = &app->settings->brush, own = wr_shelf_own(app);
+    WrNumber place = { .low = 0,
+                       .high = 4,
+                       .hard_high = 100,
+                       .reset = own.jitter_place,
+                       .decimals = 2,
+                       .tip = "Dabs are thrown about by so many radii" };
+    WrNumber angle = { .low = 0,
+                       .high = 180,
+                       .reset = own.jitter_angle_deg,
+                       .decimals = 0,
+                       .unit = "\xc2\xb0",
+                       .tip = "Dabs are turned by up to this, either way" };
+    WrNumber size = { .low = 0,
+                      .high = 1,
+                      .reset = own.jitter_size,
+                      .decimals = 2,
+                      .tip = "Dabs are smaller by up to this part" };
+    number("Place", &place, &b->jitter_place);
+    number("Angle ", &angle, &b->jitter_angle_deg);
+    number("Size ", &size, &b->jitter_size);
+}
+
+static void pressure(WrApp *app)
+{
+    static const char *const names[WR_PRESSURE_COUNT] = { "Strength", "Size", "Both", "Nothing" };
+    int index = (int)app->settings->brush.pressure;
+    if (app->settings->brush.preset) return; /* it has curves of its own */
+    wr_gui_label("Pressure");
+    if (wr_gui_choice("pressure", 0, names, WR_PRESSURE_COUNT, &index))
+        app->settings->brush.pressure = (WrBrushPressure)index;
+    wr_gui_tip("What pressing harder turns");
+}
+
+/* ---- settings of a preset ---- */
+
+static const char *const groups[] = { "DABS", "SCATTER", "HAND", "SHAPE", "DRAGGING", "MORE" };
+#define GROUPS ((int)(sizeof groups / sizeof *groups))
+
+/* The group of a setting; -1: shown elsewhere, or nothing to heights. */
+static int group_of(const WrSettingInfo *info)
+{
+    static const struct {
+        const char *name;
+        int group;
+    } begins[] = { { "radius_logarithmic", -1 },
+                   { "hardness", -1 },
+                   { "opaque", 0 },
+                   { "dabs_", 0 },
+                   { "anti_aliasing", 0 },
+                   { "radius_by_random", 1 },
+                   { "offset_", 1 },
+                   { "slow_tracking", 2 },
+                   { "tracking_noise", 2 },
+                   { "pressure_gain", 2 },
+                   { "stroke_", 2 },
+                   { "elliptical", 3 },
+                   { "direction_filter", 3 },
+                   { "snap_to_pixel", 3 },
+                   { "smudge", 4 } };
+    if (info->use == WR_SETTING_IGNORED) return -1;
+    for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
+        if (strncmp(info->name, begins[i].name, strlen(begins[i].name)) == 0)
+            return begins[i].group;
+    return GROUPS - 1;
+}
+
+static void setting(WrApp *app, int index)
+{
+    const WrSettingInfo *info = wr_preset_setting(index);
+    double own = wr_preset_value(app->shelf->preset, index), value = own;
+    bool changed = wr_tuning_get(app->brush_files->set, info->name, &value);
+    bool curve = !wr_preset_is_constant(app->shelf->preset, index);
+    char tip[512];
+    snprintf(tip, sizeof tip, "%.300s\n%.60s%s%s", info->meaning, info->name,
+             curve ? "; the pen or the motion turns it too" : "",
+             changed ? ". Changed: a double click gives the preset's own back" : "");
+    WrNumber spec = { .low = info->low,
+                      .high = info->high > info->low ? info->high : info->low + 1,
+                      .reset = own,
+                      .decimals = 2,
+                      .tip = tip };
+    char label[64];
+    snprintf(label, sizeof label, "%s%.40s", changed ? "\xe2\x80\xa2 " : "", info->label);
+    wr_gui_push_id(index);
+    wr_gui_label(label);
+    WrEdit edit = wr_gui_number(info->name, 0, &spec, &value);
+    wr_gui_pop_id();
+    if (edit != WR_EDIT_NONE)
+        wr_shelf_tune(app, info->name, value == own ? (double)NAN : rint(value * 1e4) / 1e4);
+}
+
+static void preset_settings(WrApp *app)
+{
+    int changed = wr_tuning_count(app->brush_files->set), all = wr_preset_setting_count();
+    wr_gui_space(6);
+    wr_gui_heading("THE PRESET'S OWN SETTINGS");
+    if (changed > 0) {
+        char text[64];
+        snprintf(text, sizeof text, "Take back %d change%s", changed, changed > 1 ? "s" : "");
+        if (wr_gui_chip(WR_ICON_BACK, text)) wr_shelf_tune_all(app, NULL);
+    }
+    for (int g = 0; g < GROUPS; g++) {
+        if (!wr_gui_fold(groups[g], false)) continue;
+        for (int i = 0; i < all && app->shelf->preset; i++)
+            if (group_of(wr_preset_setting(i)) == g) setting(app, i);
+    }
+}
+
+void wr_panel_brush(WrApp *app)
+{
+    basic(app);
+    pressure(app);
+    if (wr_gui_fold("DABS OF THE BRUSH", false)) dabs(app);
+    if (!app->settings->brush.preset && wr_gui_fold("CHANCE", false)) chance(app);
+    if (app->shelf->preset) preset_settings(app);
+}
+
+void wr_dialog_preset(WrApp *app)
+{
+    WrShelf *shelf = app->shelf;
+    char name[sizeof shelf->name];
+    if (!wr_gui_dialog_begin("Save the brush as a preset", 380)) return;
+    wr_gui_text_wrapped(
+        WR_FONT_TEXT, WR_COLOUR_LABEL,
+        "It keeps all values of the brush in hand, in a file of your own that MyPaint "
+        "reads too.");
+    wr_gui_space(4);
+    wr_gui_label("Name");
+    bool enter =
+        wr_gui_text_field("##name", 0, shelf->name, sizeof shelf->name, app->dialog->fresh);
+    memcpy(name, shelf->name, sizeof name);
+    int answer = wr_dialog_buttons(app, "Save", name[0] != '\0');
+    if (enter && answer == 0 && name[0]) {
+        answer = 1;
+        wr_dialog_close(app);
+    }
+    if (answer > 0) wr_shelf_ask_save(app, name);
+    wr_gui_dialog_end();
+}

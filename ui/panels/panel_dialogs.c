@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: MIT
+   Dialogs: only where a decision is needed. */
+#include "ui/desk/action.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/document.h"
+#include "ui/desk/line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+#include "ui/work/files.h"
+
+#include "base/text.h"
+#include "export/export.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void wr_dialog_unsaved(WrApp *app)
+{
+    char text[400];
+    if (!wr_gui_dialog_begin("Save the changes?", 420)) return;
+    snprintf(text, sizeof text, "%.200s has changes that are not saved. They are lost otherwise.",
+             wr_app_name(app));
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    wr_panel_estimate(app, "save x.exr");
+    wr_gui_space(8);
+    bool key = !app->dialog->fresh;
+    if (wr_gui_button("Save", true) || (key && wr_gui_return_pressed())) {
+        wr_dialog_close(app);
+        wr_action_run(app, "save");
+    }
+    wr_gui_same_line(8);
+    if (wr_gui_button("Discard", false) || (key && wr_gui_letter_pressed(SDL_SCANCODE_D))) {
+        wr_dialog_close(app);
+        wr_app_go_on(app);
+    }
+    wr_gui_tip("D");
+    wr_gui_same_line(8);
+    if (wr_gui_button("Cancel", false) || (key && wr_gui_escape_pressed())) {
+        wr_dialog_close(app);
+        app->file->after = WR_AFTER_NOTHING;
+    }
+    wr_gui_dialog_end();
+}
+
+static void number(const char *label, double low, double high, double hard_low, double hard_high,
+                   double reset, int decimals, const char *unit, double *value)
+{
+    WrNumber spec = { .low = low,
+                      .high = high,
+                      .hard_low = hard_low,
+                      .hard_high = hard_high,
+                      .reset = reset,
+                      .decimals = decimals,
+                      .unit = unit };
+    wr_gui_label(label);
+    wr_gui_number(label, 0, &spec, value);
+}
+
+/* What it will take, and the buttons; frees the line. */
+static void run_if_agreed(WrApp *app, WrText *line, const char *done)
+{
+    wr_panel_estimate(app, wr_text_get(line));
+    if (wr_dialog_buttons(app, done, true) > 0) wr_app_run_slow(app, wr_text_get(line));
+    wr_text_fini(line);
+}
+
+void wr_dialog_table(WrApp *app)
+{
+    static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
+                                         "Ends at top and bottom", "Ends all around" };
+    static const char *const names[] = { "periodic", "clamp-u", "clamp-v", "clamp" };
+    WrForms *f = app->forms;
+    if (!wr_gui_dialog_begin("New table", 400)) return;
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "A table of this size at height 0 takes the place of the present one. The "
+                        "scene stays.");
+    number("Width", 16, 4096, 1, 16384, 512, 0, "texels", &f->width);
+    number("Height", 16, 4096, 1, 16384, 512, 0, "texels", &f->height);
+    wr_gui_label("Edges");
+    wr_gui_choice("wrap", 0, wraps, 4, &f->wrap);
+    WrText line = { 0 };
+    wr_text_addf(&line, "table %dx%d wrap=%s", (int)rint(f->width), (int)rint(f->height),
+                 names[f->wrap]);
+    run_if_agreed(app, &line, "Make it");
+    wr_gui_dialog_end();
+}
+
+void wr_dialog_fill(WrApp *app)
+{
+    if (!wr_gui_dialog_begin("Fill the table", 360)) return;
+    number("Height", 0, 1, -1e30, 1e30, 0, 3, NULL, &app->forms->fill);
+    WrText line = { 0 };
+    wr_text_add(&line, "fill ");
+    wr_text_add_number(&line, app->forms->fill);
+    run_if_agreed(app, &line, "Fill");
+    wr_gui_dialog_end();
+}
+
+void wr_dialog_grid(WrApp *app)
+{
+    WrForms *f = app->forms;
+    if (!wr_gui_dialog_begin("Grid", 380)) return;
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "Cells of one height, parted by lines of another. Replaces the heights.");
+    number("Cells across", 1, 32, 1, 16384, 8, 0, NULL, &f->cells_u);
+    number("Cells down", 1, 32, 1, 16384, 8, 0, NULL, &f->cells_v);
+    number("Line width", 0, 64, 0, 16384, 8, 1, "texels", &f->line_width);
+    number("Cells' height", 0, 1, -1e30, 1e30, 0, 3, NULL, &f->low);
+    number("Lines' height", 0, 1, -1e30, 1e30, 1, 3, NULL, &f->high);
+    WrText line = { 0 };
+    wr_text_addf(&line, "grid cells=%dx%d", (int)rint(f->cells_u), (int)rint(f->cells_v));
+    wr_line_number(&line, "width", f->line_width);
+    wr_line_number(&line, "low", f->low);
+    wr_line_number(&line, "high", f->high);
+    run_if_agreed(app, &line, "Draw");
+    wr_gui_dialog_end();
+}
+
+void wr_dialog_import(WrApp *app)
+{
+    static const char *const fits[] = { "The table takes its size", "It is fitted to the table" };
+    int fit = app->forms->fit;
+    if (!wr_gui_dialog_begin("Import heights", 420)) return;
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "Any picture: grey, or the luma of its colours. 8 and 16 bits give heights "
+                        "from 0 to 1, float files their values.");
+    wr_gui_label("Picture");
+    if (wr_gui_choice("fit", 0, fits, 2, &fit)) app->forms->fit = fit == 1;
+    if (wr_dialog_buttons(app, "Choose a file...", true) > 0 &&
+        !wr_files_ask(app->files, WR_FILE_IMPORT, NULL, ""))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_gui_dialog_end();
+}
+
+/* What it will take does not go by the name. */
+static void export_line(const WrApp *app, char *line, size_t size)
+{
+    snprintf(line, size, "export %s x.png", wr_export_kinds[app->forms->kind].name);
+}
+
+void wr_dialog_export(WrApp *app)
+{
+    static const char *const ranges[] = { "Lowest to highest", "0 to 1, others clipped",
+                                          "Signed, 0 in the middle" };
+    const char *kinds[WR_EXPORT_KIND_COUNT];
+    WrForms *f = app->forms;
+    if (!wr_gui_dialog_begin("Export", 440)) return;
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++) kinds[i] = wr_export_kinds[i].label;
+    wr_gui_label("What");
+    wr_gui_choice("kind", 0, kinds, WR_EXPORT_KIND_COUNT, &f->kind);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_export_kinds[f->kind].help);
+    if (wr_export_kinds[f->kind].prepare) { /* it has a range */
+        wr_gui_label("Codes hold");
+        wr_gui_choice("range", 0, ranges, 3, &f->range);
+    }
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        "The format goes by the file's ending: png and tif with 16 bits, exr with "
+                        "float, jpg with 8.");
+    char line[64];
+    export_line(app, line, sizeof line);
+    wr_panel_estimate(app, line);
+    if (wr_dialog_buttons(app, "Choose a file...", true) > 0 &&
+        !wr_files_ask(app->files, WR_FILE_EXPORT, NULL, "height.png"))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_gui_dialog_end();
+}
+
+void wr_dialog_file(WrApp *app)
+{
+    char takes[WR_EXPECTATION] = "", line[64] = "save x.exr";
+    WrFilePurpose of = wr_files_purpose(app->files);
+    if (of == WR_FILE_EXPORT) export_line(app, line, sizeof line);
+    if (of == WR_FILE_EXPORT || of == WR_FILE_SAVE) wr_expectation(app, line, takes);
+    int answer = wr_files_panel(app->files, takes);
+    if (answer == 0) return;
+    wr_dialog_close(app);
+    WrFilePurpose purpose;
+    const char *path = wr_files_answer(app->files, &purpose);
+    if (answer > 0 && path) wr_app_file_chosen(app, purpose, path);
+    else app->file->after = WR_AFTER_NOTHING;
+}

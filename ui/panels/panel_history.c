@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT
+   What was done, as the commands that did it; a click goes there. */
+#include "ui/desk/action.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+
+#include "command/session.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define ROWS_MAX 400 /* steps shown: the newest */
+#define ROW_UNITS 23
+
+static void print_bytes(double bytes, char *text, size_t size)
+{
+    if (bytes >= 1e9) snprintf(text, size, "%.3g GB", bytes / 1e9);
+    else if (bytes >= 1e6) snprintf(text, size, "%.3g MB", bytes / 1e6);
+    else snprintf(text, size, "%.3g kB", bytes / 1e3);
+}
+
+static void tip_of(const WrApp *app, int step, bool kept)
+{
+    char text[760], bytes[24];
+    const char *line = wr_session_history_line(app->session, step);
+    print_bytes((double)wr_session_history_step_bytes(app->session, step), bytes, sizeof bytes);
+    snprintf(text, sizeof text, "%.640s%s\n%s", line, strlen(line) > 640 ? " ..." : "",
+             kept ? bytes : "The state after it was given up to keep within the budget");
+    wr_gui_tip(text);
+}
+
+/* Go to the state after `position` steps. */
+static void go(WrApp *app, int position)
+{
+    int now = wr_session_history_position(app->session);
+    if (position < now) wr_app_run_linef(app, "undo %d", now - position);
+    if (position > now) wr_app_run_linef(app, "redo %d", position - now);
+}
+
+/* The state after `position` steps, with the step that led to it; position 0 is the beginning. True if it
+   was clicked. */
+static bool row(const WrApp *app, int position)
+{
+    int now = wr_session_history_position(app->session);
+    bool kept = position >= wr_session_history_oldest(app->session);
+    WrColour colour = position == now           ? WR_COLOUR_STRONG
+                      : position > now || !kept ? 0xff777777u
+                                                : WR_COLOUR_TEXT;
+    WrRow r = wr_gui_row_begin(position, ROW_UNITS, position == now);
+    if (position > 0) tip_of(app, position - 1, kept);
+    double x = wr_gui_px(12);
+    wr_gui_row_at(x, 0);
+    if (position == now) wr_gui_text(WR_FONT_SMALL, WR_COLOUR_ACCENT, "\xe2\x80\xa2");
+    wr_gui_row_at(x + wr_gui_px(12), 0);
+    const char *begin = wr_session_path(app->session)[0] ? "as opened" : "the beginning";
+    wr_gui_text_cut(WR_FONT_SMALL, colour,
+                    position > 0 ? wr_session_history_line(app->session, position - 1) : begin,
+                    wr_gui_row_width() - x - wr_gui_px(24));
+    wr_gui_row_end();
+    return r.clicked && kept && position != now;
+}
+
+void wr_panel_history(WrApp *app)
+{
+    char used[24], budget[24], text[64];
+    int count = wr_session_history_count(app->session), goal = -1;
+    print_bytes((double)wr_session_history_bytes(app->session), used, sizeof used);
+    print_bytes((double)wr_session_history_budget(app->session), budget, sizeof budget);
+    snprintf(text, sizeof text, "%s of %s", used, budget);
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+    wr_gui_tip(
+        "Memory that the states on the way take, and how much they may: the oldest are given "
+        "up first. `history budget=` changes it.");
+    double wide = wr_gui_text_width(WR_FONT_TEXT, "Save as script...") + wr_gui_px(28);
+    wr_gui_same_line(8);
+    wr_gui_move_to(wr_gui_width() - wide);
+    wr_gui_disable(count == 0);
+    if (wr_gui_chip(NULL, "Save as script...")) wr_action_run(app, "save_history");
+    wr_gui_enable();
+    wr_gui_space(2);
+    if (count == 0) {
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                            "Nothing yet. Every change is one line of text here, as a script would "
+                            "have it.");
+        return;
+    }
+    int last = count > ROWS_MAX ? count - ROWS_MAX : 0;
+    for (int i = count; i >= last; i--) /* newest on top */
+        if (row(app, i)) goal = i;
+    if (goal >= 0) go(app, goal);
+}

@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: MIT
+   The layers: top layer first. Every act is a command line. */
+#include "ui/panels/panel_layers.h"
+#include "ui/canvas/thumb.h"
+#include "ui/desk/action.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/line.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/work/trial.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/text.h"
+#include "command/call.h"
+#include "command/session.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define ROW_UNITS 42
+#define THUMB_UNITS 30
+#define THUMB_SECONDS 0.15 /* between two pictures of a table that keeps changing */
+
+/* ---- small pictures ---- */
+
+static WrThumb *thumb_at(WrApp *app, int place)
+{
+    while (app->layers->thumbs.count <= place)
+        wr_array_push(&app->layers->thumbs, ((WrThumb){ 0 }));
+    return &app->layers->thumbs.data[place];
+}
+
+static void make_thumb(const WrApp *app, WrThumb *thumb, const WrField *field, const WrField *cover,
+                       bool unit, int side)
+{
+    uint32_t argb[WR_THUMB_MAX * WR_THUMB_MAX];
+    if (!thumb->texture || thumb->side != side) {
+        if (thumb->texture) SDL_DestroyTexture(thumb->texture);
+        thumb->texture = SDL_CreateTexture(app->renderer, SDL_PIXELFORMAT_ARGB8888,
+                                           SDL_TEXTUREACCESS_STATIC, side, side);
+        if (!thumb->texture) return;
+    }
+    wr_thumb_draw(field, cover, unit, side, argb);
+    SDL_UpdateTexture(thumb->texture, NULL, argb, side * 4);
+    thumb->side = side;
+    thumb->key = wr_field_key(field);
+    thumb->cover = cover ? wr_field_key(cover) : 0;
+    thumb->made_at = wr_clock_seconds();
+}
+
+static SDL_Texture *thumb(WrApp *app, int place, const WrField *field, const WrField *cover,
+                          bool unit)
+{
+    WrThumb *t = thumb_at(app, place);
+    int side = wr_gui_px(THUMB_UNITS);
+    side = side < WR_THUMB_MAX ? side : WR_THUMB_MAX;
+    bool old = !t->texture || t->side != side || t->key != wr_field_key(field) ||
+               t->cover != (cover ? wr_field_key(cover) : 0);
+    bool young = t->texture && wr_clock_seconds() - t->made_at < THUMB_SECONDS;
+    if (old && young && wr_session_in_stroke(app->session)) return t->texture;
+    if (old) make_thumb(app, t, field, cover, unit, side);
+    return t->texture;
+}
+
+void wr_panel_layers_forget(WrApp *app)
+{
+    for (int i = 0; i < app->layers->thumbs.count; i++)
+        if (app->layers->thumbs.data[i].texture)
+            SDL_DestroyTexture(app->layers->thumbs.data[i].texture);
+    wr_array_free(&app->layers->thumbs);
+}
+
+/* ---- settings of the active layer ---- */
+
+static void try_layer(WrApp *app, int index, double opacity, double radius)
+{
+    const WrLayer *layer = &wr_app_document(app)->layers[index];
+    WrTrialAsk ask = {
+        .layer = index, .blend = layer->blend, .opacity = (float)opacity, .radius = (float)radius
+    };
+    wr_app_try(app, &ask);
+}
+
+static void set_number(WrApp *app, int index, const char *name, double value)
+{
+    WrText line = { 0 };
+    wr_text_addf(&line, "layer set %d", index + 1);
+    wr_line_number(&line, name, value);
+    wr_app_try_end(app);
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+/* True if there was room for a radius. */
+static void settings(WrApp *app, int index)
+{
+    static const WrNumber opacity_spec = { .low = 0,
+                                           .high = 100,
+                                           .reset = 100,
+                                           .decimals = 0,
+                                           .unit = "%",
+                                           .tip = "How much of the layer shows" };
+    static const WrNumber radius_spec = { .low = 0,
+                                          .high = 1,
+                                          .hard_low = 0,
+                                          .hard_high = 1e30,
+                                          .reset = 0.1,
+                                          .decimals = 3,
+                                          .tip = "How near heights must be to melt together" };
+    const char *labels[WR_BLEND_COUNT];
+    const WrLayer *layer = &wr_app_document(app)->layers[index];
+    for (int i = 0; i < WR_BLEND_COUNT; i++) labels[i] = wr_blends[i].label;
+    int blend = (int)layer->blend;
+    double percent = rint((double)layer->opacity * 1e4) / 100.0, radius = (double)layer->radius;
+    wr_gui_label("Blend");
+    bool chosen = wr_gui_choice("blend", 0, labels, WR_BLEND_COUNT, &blend);
+    wr_gui_tip(wr_blends[layer->blend].help);
+    if (chosen) {
+        wr_app_run_linef(app, "layer set %d blend=%s", index + 1, wr_blends[blend].name);
+        return;
+    }
+    wr_gui_label("Opacity");
+    WrEdit edit = wr_gui_number("opacity", 0, &opacity_spec, &percent);
+    if (edit == WR_EDIT_LIVE) try_layer(app, index, percent / 100.0, radius);
+    if (edit == WR_EDIT_DONE) {
+        set_number(app, index, "opacity", wr_line_round(percent / 100.0, 6));
+        return;
+    }
+    if (!wr_blends[layer->blend].uses_radius) return;
+    wr_gui_label("Radius");
+    edit = wr_gui_number("radius", 0, &radius_spec, &radius);
+    if (edit == WR_EDIT_LIVE) try_layer(app, index, (double)layer->opacity, radius);
+    if (edit == WR_EDIT_DONE) set_number(app, index, "radius", wr_line_round(radius, 6));
+}
+
+/* ---- rows ---- */
+
+void wr_layer_rename_start(WrApp *app, int index)
+{
+    WrLayersHand *hand = app->layers;
+    hand->renamed = index;
+    hand->fresh = true;
+    SDL_utf8strlcpy(hand->name, wr_app_document(app)->layers[index].name, sizeof hand->name);
+    wr_app_redraw(app);
+}
+
+static void finish_rename(WrApp *app, bool keep)
+{
+    WrLayersHand *hand = app->layers;
+    int index = hand->renamed;
+    const WrDocument *document = wr_app_document(app);
+    hand->renamed = -1;
+    if (!keep || index >= document->layer_count || hand->name[0] == '\0' ||
+        strcmp(hand->name, document->layers[index].name) == 0)
+        return;
+    WrText line = { 0 };
+    wr_text_addf(&line, "layer rename %d ", index + 1);
+    wr_text_add_word(&line, hand->name);
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+static void name_field(WrApp *app, double width)
+{
+    WrLayersHand *hand = app->layers;
+    bool first = hand->fresh;
+    bool done = wr_gui_text_field("##name", width, hand->name, sizeof hand->name, first);
+    bool left = wr_gui_field_left();
+    hand->fresh = false;
+    if (done) finish_rename(app, true);
+    else if (left) finish_rename(app, !wr_gui_escape_pressed());
+}
+
+static void describe(const WrLayer *layer, char *text, size_t size)
+{
+    snprintf(text, size, "%s %.4g %%", wr_blends[layer->blend].name,
+             rint((double)layer->opacity * 1000.0) / 10.0);
+}
+
+/* The name, and blend and opacity beside it, or below it where it is narrow. */
+static void row_name(const WrLayer *layer, double x, double right, bool shown, bool active)
+{
+    WrColour ink = !shown ? 0xff8a8a8au : active ? WR_COLOUR_STRONG : WR_COLOUR_TEXT;
+    char text[64];
+    describe(layer, text, sizeof text);
+    double wide = wr_gui_text_width(WR_FONT_SMALL, text), gap = wr_gui_px(6);
+    if (right - x - wide - gap >= wr_gui_text_width(WR_FONT_TEXT, layer->name)) {
+        wr_gui_row_at(right - wide, 0);
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+        wr_gui_row_at(x, 0);
+        wr_gui_text(WR_FONT_TEXT, ink, layer->name);
+        return;
+    }
+    double line = wr_gui_line_height(WR_FONT_TEXT);
+    wr_gui_row_at(x, 2.35 * line);
+    wr_gui_text_cut(WR_FONT_TEXT, ink, layer->name, right - x);
+    wr_gui_row_at(x, 0.15 * line);
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, right - x);
+}
+
+/* True if a command was run: the layers are others now. */
+static bool row_parts(WrApp *app, int i, bool active)
+{
+    const WrDocument *document = wr_app_document(app);
+    const WrLayer *layer = &document->layers[i];
+    bool shown = wr_document_shows(document, i);
+    double side = wr_gui_px(THUMB_UNITS), x = wr_gui_px(8), gap = wr_gui_px(8);
+    double right = wr_gui_row_width() - wr_gui_px(34);
+    wr_gui_row_at(x, wr_gui_px(24));
+    const char *eye = layer->visible ? WR_ICON_EYE : WR_ICON_EYE_OFF;
+    if (wr_gui_glyph("eye", eye, 24, shown ? WR_COLOUR_TEXT : 0xff6c6c6cu))
+        return wr_app_run_linef(app, "layer set %d visible=%s", i + 1,
+                                layer->visible ? "off" : "on");
+    wr_gui_tip(document->solo == i ? "Shown alone"
+               : layer->visible    ? "Hide this layer"
+                                   : "Show this layer");
+    x += wr_gui_px(24) + gap;
+    wr_gui_row_at(x, side);
+    wr_gui_image(thumb(app, 2 * i, layer->heights, layer->cover, false), side, side);
+    x += side + gap;
+    if (layer->mask) {
+        wr_gui_row_at(x, side);
+        wr_gui_image(thumb(app, 2 * i + 1, layer->mask, NULL, true), side, side);
+        x += side + gap;
+    }
+    wr_gui_row_at(right, wr_gui_px(24));
+    const char *lock = layer->locked ? WR_ICON_LOCK : WR_ICON_UNLOCK;
+    if (wr_gui_glyph("lock", lock, 24, layer->locked ? WR_COLOUR_CELL : 0xff5c5c5cu))
+        return wr_app_run_linef(app, "layer set %d lock=%s", i + 1, layer->locked ? "off" : "on");
+    wr_gui_tip(layer->locked ? "Locked: edits refuse it. Click to unlock"
+                             : "Click to lock: edits then refuse this layer");
+    if (app->layers->renamed == i) {
+        wr_gui_row_at(x, 0);
+        name_field(app, right - x - gap);
+        return app->layers->renamed != i;
+    }
+    row_name(layer, x, right - gap / 2.0, shown, active);
+    return false;
+}
+
+/* Keep in mind where the layer that is held would go. */
+static void follow_drag(WrApp *app, const WrRow *row, int i, int count)
+{
+    WrLayersHand *hand = app->layers;
+    hand->dragged = i;
+    /* rows run down, layers up */
+    double rows_up = (row->top + row->height / 2.0 - row->pointer_y) / row->height;
+    int gap = i + (int)floor(rows_up + 1.0);
+    hand->gap = gap < 0 ? 0 : gap > count ? count : gap;
+    wr_gui_drop_line(row->top + row->height * (i + 1 - hand->gap));
+}
+
+static void drop(WrApp *app)
+{
+    WrLayersHand *hand = app->layers;
+    int from = hand->dragged, to = hand->gap > from ? hand->gap - 1 : hand->gap;
+    hand->dragged = -1;
+    if (from >= 0 && to != from) wr_app_run_linef(app, "layer move %d to=%d", from + 1, to + 1);
+}
+
+static bool row(WrApp *app, int i)
+{
+    const WrDocument *document = wr_app_document(app);
+    bool active = document->active == i;
+    int count = document->layer_count;
+    WrRow r = wr_gui_row_begin(i, ROW_UNITS, active);
+    bool changed = row_parts(app, i, active);
+    wr_gui_row_end();
+    if (changed) return true;
+    if (r.dragging && count > 1) follow_drag(app, &r, i, count);
+    if (r.dropped && app->layers->dragged >= 0) {
+        drop(app);
+        return true;
+    }
+    if (r.menu) app->layers->open = true;
+    if ((r.clicked || r.menu) && !active) return wr_app_run_linef(app, "layer use %d", i + 1);
+    if (r.doubled && app->layers->renamed < 0) wr_layer_rename_start(app, i);
+    return false;
+}
+
+/* ---- the menu of a layer ---- */
+
+static void menu_item(WrApp *app, const char *name)
+{
+    char keys[32];
+    const WrAction *action = wr_action_find(app, name);
+    bool enabled = !action->enabled || action->enabled(app);
+    bool checked = action->checked && action->checked(app);
+    if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked, enabled))
+        wr_action_run(app, name);
+}
+
+static void menu(WrApp *app)
+{
+    static const char *const names[] = {
+        "layer_rename",  "layer_duplicate", "layer_delete", "-", "layer_merge",
+        "layer_flatten", "layer_clear",     "layer_solo",   "-", "mask_selection",
+        "mask_white",    "mask_black",      "mask_none",    NULL
+    };
+    if (app->layers->open) wr_gui_popup_open("layer");
+    app->layers->open = false;
+    if (!wr_gui_popup_begin("layer")) return;
+    for (int i = 0; names[i]; i++) {
+        if (names[i][0] == '-') wr_gui_menu_separator();
+        else menu_item(app, names[i]);
+    }
+    wr_gui_popup_end();
+}
+
+/* ---- the panel ---- */
+
+static void list(WrApp *app)
+{
+    wr_gui_space(-12); /* rows begin at the edge */
+    int count = wr_app_document(app)->layer_count;
+    for (int i = count - 1; i >= 0; i--)
+        if (row(app, i)) break; /* the rest follows in the next picture */
+    menu(app);
+}
+
+static void foot(WrApp *app)
+{
+    static const struct {
+        const char *action, *icon;
+    } buttons[] = { { "layer_add", WR_ICON_PLUS },      { "layer_duplicate", WR_ICON_COPY },
+                    { "layer_delete", WR_ICON_DELETE }, { "layer_merge", WR_ICON_MERGE },
+                    { "layer_raise", WR_ICON_RAISE },   { "layer_lower", WR_ICON_LOWER } };
+    for (size_t i = 0; i < sizeof buttons / sizeof *buttons; i++) {
+        const WrAction *action = wr_action_find(app, buttons[i].action);
+        bool enabled = !action->enabled || action->enabled(app);
+        char keys[32], tip[96];
+        if (i) wr_gui_same_line(8);
+        wr_gui_disable(!enabled);
+        if (wr_gui_glyph(buttons[i].action, buttons[i].icon, 24,
+                         enabled ? WR_COLOUR_TEXT : 0xff5c5c5cu))
+            wr_action_run(app, buttons[i].action);
+        wr_gui_enable();
+        snprintf(tip, sizeof tip, "%s   %s", action->label,
+                 wr_keys_label(app->keys, buttons[i].action, keys));
+        wr_gui_tip(tip);
+    }
+}
+
+void wr_panel_layers(WrApp *app, SDL_Rect room)
+{
+    const WrDocument *document = wr_app_document(app);
+    int active = document->active;
+    bool smooth = wr_blends[document->layers[active].blend].uses_radius;
+    SDL_Rect head = room, middle = room, bottom = room;
+    double line = wr_gui_line_height(WR_FONT_TEXT) + wr_gui_px(12);
+    head.h = wr_gui_px(20) + (int)(line * (smooth ? 3 : 2));
+    bottom.h = wr_gui_px(38);
+    bottom.y = room.y + room.h - bottom.h;
+    middle.y = room.y + head.h;
+    middle.h = bottom.y - middle.y;
+    wr_gui_area_begin("##layer_settings", WR_AREA_PANEL, head, WR_COLOUR_PANEL);
+    settings(app, active);
+    wr_gui_area_end();
+    if (middle.h > 0) {
+        wr_gui_area_begin("##layers", WR_AREA_PANEL, middle, 0xff292929u);
+        list(app);
+        wr_gui_area_end();
+    }
+    wr_gui_area_begin("##layer_buttons", WR_AREA_BAR, bottom, WR_COLOUR_BAR);
+    foot(app);
+    wr_gui_area_end();
+}
+
+static void another(WrApp *app)
+{
+    app->layers->dragged = app->layers->renamed = -1;
+}
+
+const WrPart wr_part_layers = { .another = another, .forget = wr_panel_layers_forget };

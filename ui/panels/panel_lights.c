@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT
+   The scene's panel: lights, camera, quality. */
+#include "ui/desk/action.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/line.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/panels/panels.h"
+
+#include "base/text.h"
+#include "base/vec.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
+
+#include <stdio.h>
+
+static void light_line(WrText *line, const WrLight *light, int index)
+{
+    bool point = light->kind == WR_LIGHT_POINT;
+    wr_text_add(line, point ? "light point" : "light directional");
+    wr_line_vec(line, point ? "at" : "to", light->where);
+    wr_line_vec(line, "colour", light->colour);
+    wr_line_number(line, "strength", light->strength);
+    if (index >= 0) wr_text_addf(line, " index=%d", index + 1);
+}
+
+/* True if the line was run: the lights are others now. */
+static bool one_light(WrApp *app, int i)
+{
+    static const char *const kinds[] = { "Far away", "Point" };
+    static const WrNumber strength = { .low = 0,
+                                       .high = 2,
+                                       .hard_low = 0,
+                                       .hard_high = 1e6,
+                                       .reset = 1,
+                                       .decimals = 2,
+                                       .tip = "Times the colour" };
+    WrLight light = wr_app_scene(app)->lights[i];
+    char label[24];
+    int kind = (int)light.kind;
+    double rgb[3] = { light.colour.x, light.colour.y, light.colour.z };
+    snprintf(label, sizeof label, "Light %d", i + 1);
+    wr_gui_label(label);
+    bool chosen = wr_gui_choice("kind", 0, kinds, 2, &kind);
+    wr_gui_tip("Drag the small sun on the patch to move the light");
+    wr_gui_label("Strength");
+    WrEdit a = wr_gui_number("strength", 0, &strength, &light.strength);
+    wr_gui_label("Colour");
+    WrEdit b = wr_gui_colour("colour", 0, rgb);
+    light.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
+    if (a != WR_EDIT_NONE || b != WR_EDIT_NONE) wr_app_live(app)->lights[i] = light;
+    if (chosen && kind != (int)light.kind) {
+        light.kind = (WrLightKind)kind;
+        WrVec3 unit = v3_unit(light.where, (WrVec3){ 0, 0, 1 });
+        light.where = wr_line_round_vec(v3_scale(unit, kind == WR_LIGHT_POINT ? 4.0 : 1.0), 3);
+    }
+    if (!chosen && a != WR_EDIT_DONE && b != WR_EDIT_DONE) return false;
+    WrText line = { 0 };
+    light_line(&line, &light, i);
+    wr_scene_run(app, &line);
+    return true;
+}
+
+static void preset(WrApp *app, int which)
+{
+    static const char *const raking[] = { "light clear",
+                                          "light directional to=-0.9,0.35,0.28 strength=1.1" };
+    static const char *const studio[] = { "light clear", "light directional to=-0.5,0.6,0.75",
+                                          "light directional to=0.8,0.1,0.5 strength=0.3",
+                                          "light directional to=0.1,0.5,-1 strength=0.4" };
+    static const char *const overcast[] = { "light clear",
+                                            "light directional to=0,1,0.3 strength=0.55",
+                                            "light directional to=-0.8,0.4,0.6 strength=0.3",
+                                            "light directional to=0.8,0.4,0.6 strength=0.3" };
+    static const char *const paper[] = { "light clear",
+                                         "light directional to=-0.4,0.5,0.8 strength=1" };
+    static const struct {
+        const char *const *lines;
+        int count;
+    } sets[] = { { raking, 2 }, { studio, 4 }, { overcast, 4 }, { paper, 2 } };
+    wr_app_settle(app);
+    for (int i = 0; i < sets[which].count; i++) wr_app_run_line(app, sets[which].lines[i]);
+}
+
+static void lights(WrApp *app)
+{
+    static const char *const presets[] = { "choose \xe2\x80\xa6", "Raking", "Studio", "Overcast",
+                                           "The paper's" };
+    int chosen = 0;
+    wr_gui_space(8);
+    wr_gui_heading("LIGHT");
+    for (int i = 0; i < wr_app_scene(app)->light_count; i++) {
+        wr_gui_push_id(i);
+        bool changed = one_light(app, i);
+        wr_gui_pop_id();
+        if (changed) break;
+    }
+    wr_gui_label("Presets");
+    if (wr_gui_choice("presets", 0, presets, 5, &chosen) && chosen > 0) preset(app, chosen - 1);
+    wr_gui_label("");
+    if (wr_gui_chip(WR_ICON_PLUS, "Add a light")) {
+        WrText line = { 0 };
+        wr_text_add(&line, "light directional to=0.6,0.5,0.6 strength=0.5");
+        wr_scene_run(app, &line);
+    }
+}
+
+static void camera(WrApp *app)
+{
+    static const char *const kinds[] = { "Perspective", "Orthographic" };
+    static const WrNumber fov = { .low = 5,
+                                  .high = 120,
+                                  .hard_low = 0.01,
+                                  .hard_high = 179,
+                                  .reset = 35,
+                                  .decimals = 1,
+                                  .unit = "\xc2\xb0",
+                                  .tip = "Angle of view from bottom to top" };
+    const WrCamera *c = &wr_app_scene(app)->camera;
+    int kind = c->orthographic;
+    double deg = c->fov_deg;
+    WrText line = { 0 };
+    wr_gui_space(8);
+    wr_gui_heading("CAMERA");
+    wr_gui_label("Kind");
+    if (wr_gui_choice("camera", 0, kinds, 2, &kind))
+        wr_text_addf(&line, "camera %s", kind ? "orthographic" : "perspective");
+    if (!c->orthographic) {
+        wr_gui_label("Angle");
+        WrEdit edit = wr_gui_number("fov", 0, &fov, &deg);
+        if (edit != WR_EDIT_NONE) wr_app_live(app)->camera.fov_deg = deg;
+        if (edit == WR_EDIT_DONE) {
+            wr_text_add(&line, "camera perspective");
+            wr_line_number(&line, "fov", deg);
+        }
+    }
+    wr_gui_label("");
+    if (wr_gui_chip(NULL, "Fit the object")) wr_action_run(app, "camera_reset");
+    if (line.length) wr_scene_run(app, &line);
+    wr_text_fini(&line);
+}
+
+void wr_panel_lights(WrApp *app)
+{
+    lights(app);
+    camera(app);
+}

@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/desk/action.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/document.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/generate/generate_hand.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "field/ops.h"
+#include "generate/generator.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define FIND_UNITS 190 /* width of what opens the search */
+
+/* Names of actions; "-" is a line, "recent", "scale" and "operations" are made below. */
+static const char *const file_menu[] = { "new",     "open",         "recent", "-",      "save",
+                                         "save_as", "save_history", "-",      "import", "export",
+                                         "-",       "quit",         NULL };
+static const char *const edit_menu[] = { "undo",       "redo",        "search", "-",
+                                         "keys_paint", "keys_sculpt", NULL };
+static const char *const brush_menu[] = { "brushes",
+                                          "round_brush",
+                                          "preset_last",
+                                          "preset_next",
+                                          "preset_previous",
+                                          "favourite",
+                                          "preset_save",
+                                          "lock_size",
+                                          "-",
+                                          "size_up",
+                                          "size_down",
+                                          "hardness_up",
+                                          "hardness_down",
+                                          "strength_up",
+                                          "strength_down",
+                                          "swap_mode",
+                                          "erase_mode",
+                                          "level_mode",
+                                          "height_up",
+                                          "height_down",
+                                          "reset_values",
+                                          "-",
+                                          "steady_off",
+                                          "steady_smooth",
+                                          "steady_string",
+                                          "steady_catch_up",
+                                          "-",
+                                          "pressure_up",
+                                          "pressure_down",
+                                          "pressure_speed",
+                                          "-",
+                                          "symmetry",
+                                          "symmetry_on",
+                                          NULL };
+static const char *const tool_menu[] = {
+    "brush", "smooth",     "smear",      "clone",         "straight_line",  "paint_patch",  "-",
+    "flood", "ramp",       "shape_rect", "shape_ellipse", "shape_polygon",  "shape_path",   "-",
+    "stamp", "stamp_open", "-",          "select_rect",   "select_ellipse", "select_lasso", "pick",
+    "pan",   "zoom",       NULL
+};
+static const char *const layer_menu[] = { "layer_add",
+                                          "layer_duplicate",
+                                          "layer_delete",
+                                          "layer_rename",
+                                          "-",
+                                          "layer_raise",
+                                          "layer_lower",
+                                          "layer_above",
+                                          "layer_below",
+                                          "-",
+                                          "layer_show",
+                                          "layer_lock",
+                                          "layer_solo",
+                                          "-",
+                                          "mask_selection",
+                                          "mask_white",
+                                          "mask_black",
+                                          "mask_none",
+                                          "-",
+                                          "layer_merge",
+                                          "layer_flatten",
+                                          "layer_clear",
+                                          NULL };
+static const char *const select_menu[] = { "select_all",
+                                           "select_none",
+                                           "select_invert",
+                                           "-",
+                                           "select_grow",
+                                           "select_shrink",
+                                           "select_feather",
+                                           "-",
+                                           "select_height",
+                                           "select_slope",
+                                           "-",
+                                           "select_rect",
+                                           "select_ellipse",
+                                           "select_lasso",
+                                           "ants",
+                                           NULL };
+static const char *const table_menu[] = { "table_size", "fill",        "grid",       "import",
+                                          "-",          "offset_half", "operations", NULL };
+static const char *const view_menu[] = {
+    "look_grey",   "look_signed",  "range_auto",    "range_unit",   "range_marks", "-",
+    "zoom_in",     "zoom_out",     "zoom_100",      "fit",          "-",           "turn",
+    "view_back",   "view_forward", "pose_reset",    "camera_reset", "-",           "accuracy",
+    "compare",     "inspector",    "inspector_pin", "hard_cases",   "-",           "view_both",
+    "view_canvas", "view_patch",   "panels",        "fullscreen",   "scale",       NULL
+};
+static const char *const help_menu[] = { "help", "tablet", "about", NULL };
+
+static void recent(WrApp *app)
+{
+    if (!wr_gui_menu_begin("Open recent")) return;
+    const char *chosen = NULL;
+    for (int i = 0; i < WR_RECENT_MAX && app->settings->recent[i]; i++) {
+        wr_gui_push_id(i);
+        if (wr_gui_menu_item(app->settings->recent[i], NULL, false, true))
+            chosen = app->settings->recent[i];
+        wr_gui_pop_id();
+    }
+    if (!app->settings->recent[0]) wr_gui_menu_item("No files yet", NULL, false, false);
+    wr_gui_menu_end();
+    if (!chosen) return;
+    char *copy = wr_strdup(chosen); /* opening reorders the list */
+    wr_app_open_path(app, copy);
+    wr_free(copy);
+}
+
+static void scale(WrApp *app)
+{
+    static const int percents[] = { 75, 100, 125, 150, 175, 200, 250, 300 };
+    if (!wr_gui_menu_begin("Size of everything")) return;
+    if (wr_gui_menu_item("As the display", NULL, app->settings->scale == 0.0, true))
+        wr_app_set_scale(app, 0.0);
+    for (size_t i = 0; i < sizeof percents / sizeof *percents; i++) {
+        char label[16];
+        snprintf(label, sizeof label, "%d %%", percents[i]);
+        if (wr_gui_menu_item(label, NULL, app->settings->scale == percents[i] / 100.0, true))
+            wr_app_set_scale(app, percents[i] / 100.0);
+    }
+    wr_gui_menu_end();
+}
+
+static void item(WrApp *app, const char *name)
+{
+    char keys[32];
+    const WrAction *action = wr_action_find(app, name);
+    WR_ASSERT(action);
+    if (!action) return;
+    bool enabled = !action->enabled || action->enabled(app);
+    bool checked = action->checked && action->checked(app);
+    if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked, enabled))
+        wr_action_run(app, name);
+}
+
+/* All table operations, in the order of their table. */
+static void operations(WrApp *app)
+{
+    for (const WrOpInfo *op = wr_ops; op->name; op++) {
+        char name[64], label[80], keys[32];
+        snprintf(name, sizeof name, "adjust_%.50s", op->name);
+        snprintf(label, sizeof label, "%.60s...", op->label);
+        if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys), false, true))
+            wr_action_run(app, name);
+        wr_gui_tip(op->help);
+    }
+}
+
+static void generator_item(WrApp *app, const WrGenerator *generator)
+{
+    char name[WR_GENERATE_ACTION], label[80], keys[32];
+    wr_generate_action(generator, name);
+    snprintf(label, sizeof label, "%.60s...", generator->label);
+    if (wr_gui_menu_item(label, wr_keys_label(app->keys, name, keys),
+                         app->generate->generator == generator, true))
+        wr_action_run(app, name);
+    wr_gui_tip(generator->help);
+}
+
+/* All generators, by family. */
+static void generators(WrApp *app)
+{
+    if (!wr_gui_menu_begin("Generate")) return;
+    item(app, "generate");
+    wr_gui_menu_separator();
+    for (const WrFamily *f = wr_families; f->name; f++) {
+        if (!f->rows->family) continue;
+        bool alone = !f->rows[1].family;
+        if (alone) {
+            generator_item(app, f->rows);
+        } else if (wr_gui_menu_begin(f->label)) {
+            for (const WrGenerator *g = f->rows; g->family; g++) generator_item(app, g);
+            wr_gui_menu_end();
+        }
+    }
+    wr_gui_menu_end();
+}
+
+/* What the patch shows besides its picture. */
+static void compare(WrApp *app)
+{
+    static const char *const names[] = {
+        "look_plain", "look_split", "look_flicker", "compare_hold", "compare_take", "compare_swap",
+        "-",          "look_error", "look_dropped", "look_tilt",    "look_level"
+    };
+    if (!wr_gui_menu_begin("Patch shows")) return;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();
+        else item(app, names[i]);
+    wr_gui_menu_end();
+}
+
+static void menu(WrApp *app, const char *label, const char *const *names)
+{
+    if (!wr_gui_menu_begin(label)) return;
+    for (; *names; names++) {
+        if (strcmp(*names, "-") == 0) wr_gui_menu_separator();
+        else if (strcmp(*names, "recent") == 0) recent(app);
+        else if (strcmp(*names, "scale") == 0) scale(app);
+        else if (strcmp(*names, "operations") == 0) operations(app);
+        else if (strcmp(*names, "compare") == 0) compare(app);
+        else item(app, *names);
+    }
+    wr_gui_menu_end();
+}
+
+/* At the right end: what opens the search. */
+static void find_field(WrApp *app)
+{
+    double wide = wr_gui_px(FIND_UNITS);
+    if (app->width < wr_gui_px(900)) return;
+    wr_gui_move_to(app->width - wide - wr_gui_px(12));
+    char keys[32];
+    if (wr_gui_find_button("Search actions", wr_keys_label(app->keys, "search", keys), wide))
+        wr_action_run(app, "search");
+}
+
+void wr_panel_menu(WrApp *app)
+{
+    app->menu_height = (int)wr_gui_menu_bar_begin(app->width < wr_gui_px(860));
+    menu(app, "File", file_menu);
+    menu(app, "Edit", edit_menu);
+    menu(app, "Brush", brush_menu);
+    menu(app, "Tools", tool_menu);
+    menu(app, "Layer", layer_menu);
+    menu(app, "Select", select_menu);
+    menu(app, "Table", table_menu);
+    generators(app);
+    menu(app, "View", view_menu);
+    menu(app, "Help", help_menu);
+    char title[300];
+    snprintf(title, sizeof title, "%.200s%s", wr_app_name(app),
+             wr_app_unsaved(app) ? "  \xe2\x80\xa2" : "");
+    double wide = wr_gui_text_width(WR_FONT_BOLD, title), at = (app->width - wide) / 2.0;
+    double from = wr_gui_place() + wr_gui_px(16); /* after the menus */
+    double to = app->width - wr_gui_px(app->width < wr_gui_px(900) ? 12 : FIND_UNITS + 28);
+    at = at + wide < to ? at : to - wide;
+    at = at > from ? at : from;
+    wr_gui_move_to(at);
+    wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_TEXT, title, to - at);
+    find_field(app);
+    wr_gui_menu_bar_end();
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+   The option row under the menu: the tool in hand, and what it puts there. */
+#include "ui/desk/action.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/layout.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+#include "ui/tools/tool.h"
+
+void wr_panel_options(WrApp *app)
+{
+    const WrTool *tool = wr_tool_now(app);
+    const WrAction *action = wr_action_find(app, tool->action);
+    if (app->layout->options.w <= 0) return;
+    wr_gui_area_begin("##options", WR_AREA_BAR, app->layout->options, WR_COLOUR_BAR);
+    bool wide = app->width >= wr_gui_px(1060) || !tool->options;
+    if (wide) wr_gui_text(WR_FONT_BOLD, WR_COLOUR_STRONG, action->label);
+    if (tool->options) {
+        tool->options(app);
+    } else {
+        wr_gui_same_line(14);
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, tool->help);
+    }
+    wr_gui_area_end();
+}

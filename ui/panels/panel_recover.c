@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: MIT
+   What a program that crashed left behind: take it back, give it up, or leave it for later. */
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/document.h"
+#include "ui/desk/later.h"
+#include "ui/desk/messages.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "command/inner.h"
+#include "command/recovery.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+struct WrRecovery {
+    WrRecoverable *list; /* owned */
+    int count, chosen;
+    bool sure;  /* Discard was pressed once */
+    char *told; /* the chosen one was recovered but for a part: how that went; owned; else NULL */
+    bool more;  /* and going on behind what is missing could bring more */
+};
+
+void wr_recovery_free(WrRecovery *recovery)
+{
+    if (!recovery) return;
+    wr_recovery_list_free(recovery->list, recovery->count);
+    wr_free(recovery->told);
+    wr_free(recovery);
+}
+
+static void forget(WrApp *app)
+{
+    wr_recovery_free(app->recovery);
+    app->recovery = NULL;
+}
+
+/* Is there one that something can be had of? The others are shown beside it; `wrinkle recover` tells of all. */
+static bool any_good(const WrRecovery *recovery)
+{
+    for (int i = 0; i < recovery->count; i++)
+        if (!recovery->list[i].error) return true;
+    return false;
+}
+
+void wr_dialog_recover_open(WrApp *app)
+{
+    WrError err;
+    WrRecovery *recovery = wr_alloc(1, sizeof *recovery);
+    forget(app);
+    if (!wr_recovery_list(&recovery->list, &recovery->count, &err)) {
+        wr_app_fail(app, &err);
+        wr_free(recovery);
+    } else if (!any_good(recovery)) {
+        wr_recovery_free(recovery);
+    } else {
+        app->recovery = recovery;
+        wr_dialog_open(app, WR_DIALOG_RECOVER);
+    }
+}
+
+static void describe(const WrRecoverable *r, char *name, size_t name_size, char *what, size_t size)
+{
+    char when[48] = "";
+    struct tm parts;
+    time_t t = (time_t)r->written;
+    const char *slash = strrchr(r->document, '/');
+    if (localtime_r(&t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M", &parts);
+    snprintf(name, name_size, "%.120s",
+             r->document[0] == '\0' ? "never saved"
+             : slash                ? slash + 1
+                                    : r->document);
+    if (r->error) snprintf(what, size, "%s   \xc2\xb7   cannot be read: %.160s", when, r->error);
+    else
+        snprintf(what, size, "%s   \xc2\xb7   %d step%s%s", when, r->commands,
+                 r->commands == 1 ? "" : "s", r->damaged ? "   \xc2\xb7   damaged" : "");
+}
+
+typedef struct Call {
+    WrSession *session;
+    const char *journal;
+    bool beyond;
+    WrRecovered recovered;
+} Call;
+
+static bool recover_work(void *ctx, WrError *err)
+{
+    Call *call = ctx;
+    return wr_session_recover(call->session, call->journal, call->beyond, &call->recovered, err);
+}
+
+/* The rest of it is still there: what now? */
+static void ask_about_rest(WrApp *app, const Call *call)
+{
+    wr_dialog_recover_open(app);
+    WrRecovery *recovery = app->recovery;
+    for (int i = 0; recovery && i < recovery->count; i++) {
+        if (strcmp(recovery->list[i].journal, call->journal) != 0) continue;
+        recovery->chosen = i;
+        recovery->told = wr_strdup(wr_text_get(&call->recovered.report));
+        recovery->more = call->recovered.more;
+    }
+}
+
+static void recover(WrApp *app, const char *journal, bool beyond)
+{
+    WrError err;
+    Call call = { .session = app->session, .journal = journal, .beyond = beyond };
+    if (wr_busy_run(app, "Recovering", recover_work, &call, &err)) {
+        app->file->starter = false;
+        wr_app_changed_document(app);
+        wr_app_say_lines(app, wr_text_get(&call.recovered.report));
+        if (!call.recovered.removed) ask_about_rest(app, &call);
+    } else {
+        wr_busy_fail(app, "recovering", &err);
+    }
+    wr_recovered_fini(&call.recovered);
+}
+
+static void recover_upto(WrApp *app, const char *journal)
+{
+    recover(app, journal, false);
+}
+
+static void recover_beyond(WrApp *app, const char *journal)
+{
+    recover(app, journal, true);
+}
+
+static void rows(WrRecovery *recovery)
+{
+    double tall = recovery->count < 5 ? recovery->count : 5;
+    wr_gui_list_begin("recoverable", wr_gui_px(tall * 46) + wr_gui_px(4));
+    wr_gui_space(-6);
+    for (int i = 0; i < recovery->count; i++) {
+        char name[128], what[256];
+        describe(&recovery->list[i], name, sizeof name, what, sizeof what);
+        WrRow r = wr_gui_row_begin(i, 46, i == recovery->chosen);
+        wr_gui_tip(recovery->list[i].document);
+        double x = wr_gui_px(12), line = wr_gui_line_height(WR_FONT_TEXT);
+        wr_gui_row_at(x, 2.4 * line);
+        wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, name, wr_gui_row_width() - 2 * x);
+        wr_gui_row_at(x, 0.2 * line);
+        wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, what, wr_gui_row_width() - 2 * x);
+        wr_gui_row_end();
+        if (r.clicked) {
+            recovery->chosen = i;
+            recovery->sure = false;
+        }
+    }
+    wr_gui_list_end();
+}
+
+static void discard(WrApp *app)
+{
+    WrError err;
+    if (!app->recovery->sure) { /* what is given up cannot be brought back: ask again */
+        app->recovery->sure = true;
+        return;
+    }
+    if (!wr_recovery_discard(app->recovery->list[app->recovery->chosen].journal, &err))
+        wr_app_fail(app, &err);
+    wr_dialog_close(app);
+    wr_dialog_recover_open(app); /* if there are others */
+}
+
+/* What the chosen one is, or how its recovery went. */
+static void tell(const WrRecovery *recovery)
+{
+    const WrRecoverable *r = &recovery->list[recovery->chosen];
+    if (recovery->told) {
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, recovery->told);
+        wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                            "What is left of it stays until it is discarded.");
+        return;
+    }
+    rows((WrRecovery *)recovery);
+    char text[200];
+    if (r->error) snprintf(text, sizeof text, "It cannot be read; a newer program may be able to.");
+    else if (r->headless)
+        snprintf(text, sizeof text, "Its beginning is damaged: what it began with is a guess.");
+    else if (r->beyond > 0)
+        snprintf(text, sizeof text,
+                 "It is damaged after step %d; %d step%s behind that can be read.", r->commands,
+                 r->beyond, r->beyond == 1 ? "" : "s");
+    else
+        snprintf(text, sizeof text, "%s",
+                 r->unfinished ? "Its last command had not ended. It is tried apart first." : "");
+    if (*text) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+}
+
+/* The buttons that bring it back. */
+static void recover_buttons(WrApp *app, bool key)
+{
+    const WrRecovery *recovery = app->recovery;
+    const WrRecoverable *r = &recovery->list[recovery->chosen];
+    bool parts = r->headless || r->beyond > 0;
+    bool now = false, beyond = false;
+    if (!r->error && !recovery->told && !r->headless) {
+        now = wr_gui_button(parts ? "Up to the damage" : "Recover", true) ||
+              (key && wr_gui_return_pressed());
+        wr_gui_same_line(8);
+    }
+    if (!r->error && (recovery->told ? recovery->more : parts)) {
+        beyond = wr_gui_button("With what follows", r->headless && !recovery->told);
+        wr_gui_tip("Steps that need what is missing are left out");
+        wr_gui_same_line(8);
+    }
+    if (!now && !beyond) return;
+    wr_later(app, beyond ? recover_beyond : recover_upto, r->journal);
+    wr_dialog_close(app);
+}
+
+void wr_dialog_recover(WrApp *app)
+{
+    WrRecovery *recovery = app->recovery;
+    if (!recovery) {
+        wr_dialog_close(app);
+        return;
+    }
+    const char *told = recovery->told;
+    if (!wr_gui_dialog_begin(told ? "Not everything came back" : "Work that was not saved", 500))
+        return;
+    bool key = !app->dialog->fresh;
+    if (!told)
+        wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT,
+                            "Wrinkle ended before this was saved. It can be brought back.");
+    tell(recovery);
+    wr_gui_space(8);
+    recover_buttons(app, key);
+    bool lose = wr_gui_button(recovery->sure ? "Discard for good"
+                              : told         ? "Discard the rest"
+                                             : "Discard",
+                              false);
+    wr_gui_same_line(8);
+    bool later = wr_gui_button(told ? "Keep it" : "Later", told) ||
+                 (key && (wr_gui_escape_pressed() || (told && wr_gui_return_pressed())));
+    wr_gui_tip("It is offered again the next time");
+    if (app->dialog->now != WR_DIALOG_RECOVER) lose = later = false;
+    if (lose) discard(app);
+    else if (later) wr_dialog_close(app);
+    wr_gui_dialog_end();
+    if (app->dialog->now != WR_DIALOG_RECOVER) forget(app);
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT
+   The panel on the right: one tab at a time above, the layers below; where there is no room for both,
+   the layers are a tab too. What needs many rows takes the layers' place where they leave it only a few. */
+#include "ui/accuracy/accuracy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panel_layers.h"
+#include "ui/panels/panels.h"
+
+#include <SDL.h>
+
+#define LONG_UNITS 400 /* that a long tab needs above the layers */
+#define MOST_TABS 16
+
+static SDL_Rect below_head(SDL_Rect room, const char *const *labels, int count, SDL_Rect *head)
+{
+    *head = room;
+    head->h = wr_gui_px(32) * wr_gui_tab_rows(labels, count, room.w);
+    room.y += head->h;
+    room.h -= head->h;
+    return room;
+}
+
+static void lower(WrApp *app)
+{
+    static const char *const labels[] = { "Layers", "Inspector" };
+    SDL_Rect head, room = below_head(app->layout->lower, labels, 2, &head);
+    WrInspector *inspector = &app->accuracy->inspector;
+    int tab = inspector->shown;
+    wr_gui_area_begin("##lower_tabs", WR_AREA_BAR, head, WR_COLOUR_BAR);
+    wr_gui_tabs("lower", labels, 2, &tab);
+    wr_gui_area_end();
+    inspector->shown = tab == 1;
+    if (!inspector->shown) {
+        wr_panel_layers(app, room);
+        return;
+    }
+    wr_gui_area_begin("##inspector", WR_AREA_PANEL, room, WR_COLOUR_PANEL);
+    wr_panel_inspector(app);
+    wr_gui_area_end();
+}
+
+void wr_panel_right(WrApp *app)
+{
+    const WrTab *tabs = app->roster->tabs;
+    const int own = app->roster->tab_count;
+    const char *labels[MOST_TABS + 1];
+    app->accuracy->error_open = app->accuracy->plot_open = false;
+    if (app->layout->panel.w <= 0) return;
+    bool split = app->layout->lower.w > 0;
+    int count = split ? own : own + 1, *tab = &app->settings->tab;
+    for (int i = 0; i < own; i++) labels[i] = tabs[i].label;
+    labels[own] = "Layers";
+    if (*tab < 0 || *tab >= count) *tab = 0;
+    SDL_Rect head, whole = app->layout->panel, low = app->layout->lower;
+    bool inspects =
+        tabs[*tab < own ? *tab : 0].draw == wr_panel_accuracy && app->accuracy->inspector.shown;
+    bool covers =
+        split && *tab < own && tabs[*tab].is_long && !inspects && whole.h < wr_gui_px(LONG_UNITS);
+    if (covers) whole.h = low.y + low.h - whole.y;
+    SDL_Rect room = below_head(whole, labels, count, &head);
+    wr_gui_area_begin("##tabs", WR_AREA_BAR, head, WR_COLOUR_BAR);
+    wr_gui_tabs("tabs", labels, count, tab);
+    wr_gui_area_end();
+    if (split && !covers) lower(app);
+    if (room.h <= 0) return;
+    if (*tab == own) {
+        wr_panel_layers(app, room);
+        return;
+    }
+    if (tabs[*tab].fill) {
+        tabs[*tab].fill(app, room);
+        return;
+    }
+    wr_gui_area_begin(labels[*tab], WR_AREA_PANEL, room, WR_COLOUR_PANEL);
+    tabs[*tab].draw(app);
+    wr_gui_area_end();
+}

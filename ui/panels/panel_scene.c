@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: MIT
+   The scene: every field shows what the document has, changes the preview while it is dragged, and runs
+   one command when it is let go. */
+#include "ui/desk/desk.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/panels/panels.h"
+
+#include "base/text.h"
+#include "scene/scene.h"
+#include "surface/surface.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- surface ---- */
+
+static void run_surface(WrApp *app, const WrShape *shape)
+{
+    WrText line = { 0 };
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    const double *value = shape->value;
+    wr_text_addf(&line, "surface %s", info->name);
+    for (int k = 0; k < WR_SURFACE_PARAMS && info->params[k].name; k++) {
+        int n = info->params[k].components, point = n < 3 ? n : 3;
+        wr_text_addf(&line, " %s=", info->params[k].name);
+        for (int i = 0; i < n; i++) {
+            if (i) wr_text_add(&line, i % point ? "," : ";");
+            wr_text_add_number(&line, *value++);
+        }
+    }
+    wr_scene_run(app, &line);
+}
+
+static void surface_params(WrApp *app)
+{
+    WrShape shape = wr_app_scene(app)->shape;
+    const WrSurfaceInfo *info = wr_surfaces[shape.kind];
+    int offset = 0;
+    for (int k = 0; k < WR_SURFACE_PARAMS && info->params[k].name; k++) {
+        const WrSurfaceParam *p = &info->params[k];
+        for (int i = 0; i < p->components && p->components <= 3; i++) {
+            static const char *const parts[] = { " x", " y", " z" };
+            double high = p->high < 1e3 ? p->high : fmax(2.0, fabs(p->fallback[i]) * 4.0);
+            double low = p->low > -1e3 ? p->low : -high;
+            WrNumber spec = { .low = low < high ? low : high - 1.0,
+                              .high = high,
+                              .hard_low = p->low,
+                              .hard_high = p->high,
+                              .reset = p->fallback[i],
+                              .decimals = 3,
+                              .tip = p->help };
+            char label[64];
+            snprintf(label, sizeof label, "%.48s%s", p->help, p->components == 3 ? parts[i] : "");
+            if (label[0] >= 'a' && label[0] <= 'z') label[0] = (char)(label[0] - 'a' + 'A');
+            wr_gui_label(label);
+            WrEdit edit = wr_gui_number(label, 0, &spec, &shape.value[offset + i]);
+            if (edit == WR_EDIT_LIVE && wr_shape_check(&shape, NULL))
+                wr_app_live(app)->shape = shape;
+            if (edit == WR_EDIT_DONE) run_surface(app, &shape);
+        }
+        offset += p->components;
+    }
+}
+
+static void surface(WrApp *app)
+{
+    const char *labels[WR_SURFACE_COUNT];
+    for (int i = 0; i < WR_SURFACE_COUNT; i++) labels[i] = wr_surfaces[i]->label;
+    int kind = (int)wr_app_scene(app)->shape.kind;
+    wr_gui_heading("SURFACE");
+    wr_gui_label("Patch");
+    if (wr_gui_choice("patch", 0, labels, WR_SURFACE_COUNT, &kind)) {
+        WrShape shape;
+        wr_shape_default((WrSurfaceKind)kind, &shape);
+        run_surface(app, &shape);
+    }
+    wr_gui_tip(wr_surfaces[kind]->help);
+    surface_params(app);
+    static const WrNumber spec = { .low = 1,
+                                   .high = 16,
+                                   .hard_low = -1e9,
+                                   .hard_high = 1e9,
+                                   .reset = 1,
+                                   .decimals = -1,
+                                   .tip = "How often the table repeats along u and v" };
+    double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;
+    wr_gui_label("Repeat u, v");
+    double half = (wr_gui_available() - wr_gui_px(8)) / 2.0;
+    WrEdit edit_u = wr_gui_number("ru", half, &spec, &ru);
+    wr_gui_same_line(8);
+    WrEdit edit_v = wr_gui_number("rv", half, &spec, &rv);
+    /* a drag goes by whole numbers, so that closed surfaces stay seamless; any can be typed */
+    if (edit_u == WR_EDIT_LIVE) ru = rint(ru);
+    if (edit_v == WR_EDIT_LIVE) rv = rint(rv);
+    if (edit_u != WR_EDIT_NONE) wr_scene_live_number(app, offsetof(WrScene, replicate_u), ru);
+    if (edit_v != WR_EDIT_NONE) wr_scene_live_number(app, offsetof(WrScene, replicate_v), rv);
+    if (edit_u != WR_EDIT_DONE && edit_v != WR_EDIT_DONE) return;
+    WrText line = { 0 };
+    wr_text_add(&line, "replicate ");
+    wr_text_add_number(&line, ru);
+    wr_text_add(&line, ",");
+    wr_text_add_number(&line, rv);
+    wr_scene_run(app, &line);
+}
+
+void wr_panel_scene(WrApp *app)
+{
+    surface(app);
+    wr_panel_material(app);
+    wr_panel_lights(app);
+    wr_gui_space(8);
+}

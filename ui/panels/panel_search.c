@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT
+   Finding an action by typing: all that the menus hold, every table operation, every generator. */
+#include "ui/panels/panel_search.h"
+#include "ui/desk/action.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/search.h"
+#include "ui/generate/generate_hand.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+
+#include "field/ops.h"
+#include "generate/generator.h"
+
+#include <SDL.h>
+#include <stdio.h>
+#include <string.h>
+
+#define FOUND_MAX 12
+
+typedef struct Found {
+    char name[64], label[80];
+    int score;
+} Found;
+
+/* Keep the best, those of equal score in the order of their table. also: what it answers to besides its label,
+   or NULL. */
+static void offer(Found found[FOUND_MAX], int *count, const char *name, const char *label,
+                  const char *also, const char *query)
+{
+    int score = wr_search_score(label, query), at = *count;
+    if (score == 0 && also && wr_search_score(also, query) > 0) score = 1;
+    if (score == 0) return;
+    while (at > 0 && found[at - 1].score < score) at--;
+    if (at >= FOUND_MAX) return;
+    int last = *count < FOUND_MAX ? *count : FOUND_MAX - 1;
+    memmove(found + at + 1, found + at, (size_t)(last - at) * sizeof *found);
+    found[at].score = score;
+    snprintf(found[at].name, sizeof found[at].name, "%.60s", name);
+    snprintf(found[at].label, sizeof found[at].label, "%.78s", label);
+    if (*count < FOUND_MAX) (*count)++;
+}
+
+static int find(const WrApp *app, Found found[FOUND_MAX])
+{
+    int count = 0;
+    const char *query = app->finder->text;
+    for (const WrAction *a = app->roster->actions; a->name; a++)
+        if (strcmp(a->name, "search") != 0) offer(found, &count, a->name, a->label, NULL, query);
+    for (const WrOpInfo *op = wr_ops; op->name; op++) {
+        char name[64], label[80];
+        snprintf(name, sizeof name, "adjust_%.50s", op->name);
+        snprintf(label, sizeof label, "%.60s...", op->label);
+        offer(found, &count, name, label, op->name, query);
+    }
+    for (const WrFamily *f = wr_families; f->name; f++)
+        for (const WrGenerator *g = f->rows; g->family; g++) {
+            char name[WR_GENERATE_ACTION], label[80], also[200];
+            wr_generate_action(g, name);
+            snprintf(label, sizeof label, g->name ? "%.30s: %.40s" : "%.30s", f->label, g->label);
+            snprintf(also, sizeof also, "%.30s %.30s %.130s", f->name, g->name ? g->name : "",
+                     g->help);
+            offer(found, &count, name, label, also, query);
+        }
+    return count;
+}
+
+static void run(WrApp *app, const char *name)
+{
+    wr_dialog_close(app);
+    wr_action_run(app, name);
+}
+
+static bool row(const WrApp *app, const Found *found, int i, bool chosen)
+{
+    char keys[32];
+    const WrAction *action = wr_action_find(app, found->name);
+    bool enabled = !action || !action->enabled || action->enabled(app);
+    WrRow r = wr_gui_row_begin(i, 26, chosen);
+    wr_gui_row_at(wr_gui_px(14), 0);
+    wr_gui_text_cut(WR_FONT_TEXT, enabled ? WR_COLOUR_TEXT : 0xff7a7a7au, found->label,
+                    wr_gui_row_width() - wr_gui_px(150));
+    wr_keys_label(app->keys, found->name, keys);
+    double wide = wr_gui_text_width(WR_FONT_SMALL, keys);
+    wr_gui_row_at(wr_gui_row_width() - wide - wr_gui_px(14), 0);
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, keys);
+    wr_gui_row_end();
+    return r.clicked && enabled;
+}
+
+void wr_dialog_search(WrApp *app)
+{
+    Found found[FOUND_MAX];
+    WrFinder *finder = app->finder;
+    if (app->dialog->fresh) *finder = (WrFinder){ 0 };
+    if (!wr_gui_dialog_begin("Search actions", 460)) return;
+    char before[sizeof finder->text];
+    memcpy(before, finder->text, sizeof before);
+    bool enter =
+        wr_gui_text_field("##find", 0, finder->text, sizeof finder->text, app->dialog->fresh);
+    if (strcmp(before, finder->text) != 0) finder->chosen = 0;
+    int count = find(app, found), go = -1;
+    if (wr_gui_key_pressed(SDL_SCANCODE_DOWN)) finder->chosen++;
+    if (wr_gui_key_pressed(SDL_SCANCODE_UP)) finder->chosen--;
+    finder->chosen = finder->chosen < 0 ? 0 : finder->chosen >= count ? count - 1 : finder->chosen;
+    if (finder->chosen < 0) finder->chosen = 0;
+    wr_gui_list_begin("found", 26.0 * FOUND_MAX * wr_gui_scale() + wr_gui_px(12));
+    wr_gui_space(-6);
+    for (int i = 0; i < count; i++)
+        if (row(app, &found[i], i, i == finder->chosen)) go = i;
+    if (count == 0) wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "No action has these words.");
+    wr_gui_list_end();
+    if (enter && count > 0) go = finder->chosen;
+    if (go >= 0) run(app, found[go].name);
+    else if (!app->dialog->fresh && wr_gui_escape_pressed()) wr_dialog_close(app);
+    wr_gui_dialog_end();
+}

@@ -1,0 +1,10 @@
+/* panel_search.h - finding an action by typing. */
+#pragma once
+#include "ui/desk/desk.h"
+
+typedef struct WrFinder { /* the search for actions */
+    char text[80];
+    int chosen;
+} WrFinder;
+
+void wr_dialog_search(WrApp *app);

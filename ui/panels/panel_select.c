@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT
+   The dialogs that change the selection by numbers; the canvas shows the outline that they give. */
+#include "ui/canvas/outline.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/line.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+#include "ui/views/marks.h"
+
+#include "base/text.h"
+#include "field/field.h"
+#include "field/select.h"
+
+static const char *const join_names[] = { "replace", "add", "subtract", "intersect" };
+
+static const struct {
+    const char *title, *help, *verb;
+} kinds[] = {
+    [WR_OUTLINE_GROW] = { "Grow the selection", "Moves its edge outwards.", "grow" },
+    [WR_OUTLINE_SHRINK] = { "Shrink the selection", "Moves its edge inwards.", "shrink" },
+    [WR_OUTLINE_FEATHER] = { "Feather the selection",
+                             "Blurs its edge. The outline is where it is half selected.",
+                             "feather" },
+    [WR_OUTLINE_HEIGHT] = { "Select by height", "All that is as high as this.", "height" },
+    [WR_OUTLINE_SLOPE] = { "Select by slope",
+                           "All that is as steep as this, at the scene's bump height.", "slope" },
+};
+
+static bool ranged(const WrApp *app)
+{
+    return app->selecting->kind == WR_OUTLINE_HEIGHT || app->selecting->kind == WR_OUTLINE_SLOPE;
+}
+
+void wr_dialog_select_open(WrApp *app, WrOutlineKind kind)
+{
+    wr_dialog_open(app, WR_DIALOG_SELECT);
+    *app->selecting =
+        (WrOutlineAsk){ .kind = kind, .by = 4.0, .mode = (WrSelectMode)app->settings->join };
+    if (kind == WR_OUTLINE_HEIGHT) {
+        float low, high;
+        wr_field_range(wr_app_field(app), &low, &high);
+        app->selecting->low = wr_line_round(((double)low + (double)high) / 2.0, 3);
+        app->selecting->high = wr_line_round((double)high + 0.0005, 3);
+    } else if (kind == WR_OUTLINE_SLOPE) {
+        app->selecting->low = 20.0;
+        app->selecting->high = 90.0;
+    }
+    wr_marks_try(app, app->selecting);
+}
+
+static bool number(const char *label, double low, double high, double hard_low, double hard_high,
+                   double reset, const char *unit, const char *tip, double *value)
+{
+    WrNumber spec = { .low = low,
+                      .high = high,
+                      .hard_low = hard_low,
+                      .hard_high = hard_high,
+                      .reset = reset,
+                      .decimals = hard_high == 90.0 || unit ? 1 : 3,
+                      .unit = unit,
+                      .tip = tip };
+    wr_gui_label(label);
+    return wr_gui_number(label, 0, &spec, value) != WR_EDIT_NONE;
+}
+
+static bool range_fields(WrApp *app)
+{
+    static const char *const joins[] = { "Replace the selection", "Add to it", "Take from it",
+                                         "Intersect with it" };
+    WrOutlineAsk *a = app->selecting;
+    bool changed = false, slope = a->kind == WR_OUTLINE_SLOPE;
+    double low = slope ? 0.0 : app->selecting->low < 0.0 ? -1.0 : 0.0, high = slope ? 90.0 : 1.0;
+    double least = slope ? 0.0 : -1e30, most = slope ? 90.0 : 1e30;
+    const char *unit = slope ? "\xc2\xb0" : NULL;
+    changed |= number("From", low, high, least, most, 0, unit, "The lower end", &a->low);
+    changed |= number("To", low, high, least, most, high, unit, "The upper end", &a->high);
+    changed |= number("Softness", 0, slope ? 30.0 : 0.5, 0, most, 0, unit,
+                      "Over how much it fades beyond the ends", &a->soft);
+    if (a->low > a->high) a->high = a->low;
+    int mode = (int)a->mode;
+    wr_gui_label("How");
+    if (wr_gui_choice("join", 0, joins, WR_SELECT_MODES, &mode)) {
+        a->mode = (WrSelectMode)mode;
+        changed = true;
+    }
+    return changed;
+}
+
+static void commit(WrApp *app)
+{
+    const WrOutlineAsk *a = app->selecting;
+    WrText line = { 0 };
+    wr_text_addf(&line, "select %s", kinds[a->kind].verb);
+    if (ranged(app)) {
+        wr_line_number(&line, "low", a->low);
+        wr_line_number(&line, "high", a->high);
+        if (a->soft > 0.0) wr_line_number(&line, "soft", a->soft);
+        if (a->mode != WR_SELECT_REPLACE) wr_text_addf(&line, " mode=%s", join_names[a->mode]);
+    } else {
+        wr_line_number(&line, "by", a->by);
+    }
+    wr_app_run_slow(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+void wr_dialog_select(WrApp *app)
+{
+    WrOutlineKind kind = app->selecting->kind;
+    if (!wr_gui_dialog_begin_at(kinds[kind].title, wr_dialog_side(app))) return;
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, kinds[kind].help);
+    wr_gui_space(4);
+    bool feather = kind == WR_OUTLINE_FEATHER;
+    bool changed =
+        ranged(app)
+            ? range_fields(app)
+            : number(feather ? "Width" : "By", 0, 64, 0, feather ? 1024 : WR_FIELD_MAX, 4, "texels",
+                     feather ? "Standard deviation of the blur" : "How far", &app->selecting->by);
+    if (changed) wr_marks_try(app, app->selecting);
+    int answer = wr_dialog_buttons(app, "Select", true);
+    if (answer > 0) commit(app);
+    if (answer != 0) wr_marks_try(app, NULL);
+    wr_gui_dialog_end();
+}

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: MIT
+   What the tablet tester draws: the scribble, the newest numbers, the curve. */
+#include "ui/desk/desk.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panel_tablet.h"
+#include "ui/pen/pen.h"
+#include "ui/pen/pen_curve.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define POINTS_MOST 3000
+#define POINT_STEP 1.5    /* pixels between points of the scribble */
+#define RATE_SECONDS 0.5  /* events are counted for so long */
+#define THICKEST 16.0     /* units, at full pressure */
+#define ALIVE_SECONDS 1.5 /* pictures go on so long after the last event */
+
+/* ---- what came ---- */
+
+static void add_point(WrTester *t, const WrPenEvent *e)
+{
+    bool down = (e->held & 2u) != 0 && e->kind != WR_PEN_LOST;
+    double x = e->x, y = e->y;
+    bool inside =
+        x >= t->pad_x && y >= t->pad_y && x < t->pad_x + t->pad_w && y < t->pad_y + t->pad_h;
+    bool joined = t->drawing == e->device;
+    if (!down || (!inside && !joined)) {
+        if (joined) t->drawing = -1;
+        return;
+    }
+    if (joined && t->points.count > 0) {
+        const WrScribble *last = &t->points.data[t->points.count - 1];
+        double dx = x - last->x, dy = y - last->y;
+        if (dx * dx + dy * dy < POINT_STEP * POINT_STEP) return;
+    }
+    if (t->points.count >= POINTS_MOST) {
+        int gone = POINTS_MOST / 3;
+        t->points.count -= gone;
+        memmove(t->points.data, t->points.data + gone,
+                (size_t)t->points.count * sizeof *t->points.data);
+        t->points.data[0].joined = false;
+    }
+    WrScribble point = { .x = x,
+                         .y = y,
+                         .pressure = e->pressure,
+                         .joined = joined,
+                         .eraser = e->eraser,
+                         .finger = e->finger };
+    wr_array_push(&t->points, point);
+    t->drawing = e->device;
+}
+
+void wr_tester_follow(WrApp *app)
+{
+    WrTester *t = app->tester;
+    double now = wr_clock_seconds();
+    int64_t total = wr_pen_total(app->pen);
+    WrPenEvent event;
+    for (; t->seen < total; t->seen++) {
+        if (!wr_pen_recent(app->pen, t->seen, &event)) continue;
+        if (event.device != t->chosen && event.kind == WR_PEN_DOWN) t->chosen_own = false;
+        if (!t->chosen_own) t->chosen = event.device;
+        add_point(t, &event);
+        t->newest_at = now;
+    }
+    if (now - t->counted_at >= RATE_SECONDS) {
+        double passed = now - t->counted_at;
+        t->rate = passed < 2.0 ? (double)(total - t->counted) / passed : 0.0;
+        t->counted = total;
+        t->counted_at = now;
+    }
+    if (now - t->newest_at < ALIVE_SECONDS) wr_app_redraw(app); /* until the rate is 0 again */
+}
+
+/* ---- the scribble ---- */
+
+static WrColour ink_of(const WrScribble *point)
+{
+    return point->eraser ? WR_COLOUR_LOWER : point->finger ? WR_COLOUR_LABEL : WR_COLOUR_RAISE;
+}
+
+void wr_tester_scribble(WrApp *app, double width, double height)
+{
+    WrTester *t = app->tester;
+    WrPad pad = wr_gui_pad_begin("scribble", width, height);
+    t->pad_x = pad.x;
+    t->pad_y = pad.y;
+    t->pad_w = pad.w;
+    t->pad_h = pad.h;
+    for (int i = 0; i < t->points.count; i++) {
+        const WrScribble *p = &t->points.data[i], *q = p->joined && i > 0 ? p - 1 : p;
+        double thick = 1.0 + THICKEST * wr_gui_scale() * 0.5 * (p->pressure + q->pressure);
+        if (q != p) wr_gui_draw_line(q->x, q->y, p->x, p->y, ink_of(p), thick);
+        if (thick > 3.0 || q == p) wr_gui_draw_disc(p->x, p->y, 0.5 * thick, ink_of(p));
+    }
+    if (t->points.count == 0) {
+        const char *hint = "Scribble here: harder is thicker";
+        double w = wr_gui_text_width(WR_FONT_TEXT, hint), h = wr_gui_line_height(WR_FONT_TEXT);
+        wr_gui_draw_text(floor(pad.x + (pad.w - w) / 2), floor(pad.y + (pad.h - h) / 2),
+                         WR_FONT_TEXT, 0xff5a5a5au, hint);
+    }
+    wr_gui_pad_end();
+}
+
+/* ---- the newest numbers ---- */
+
+/* The newest event of the chosen device among the last few. */
+static bool newest_of(const WrApp *app, WrPenEvent *event)
+{
+    int64_t total = wr_pen_total(app->pen);
+    for (int64_t i = total - 1; i >= 0 && i > total - 256; i--)
+        if (wr_pen_recent(app->pen, i, event) && event->device == app->tester->chosen) return true;
+    *event = (WrPenEvent){ .kind = WR_PEN_MOTION };
+    return false;
+}
+
+typedef struct Lines { /* of text, from the top down */
+    double x, y, w, step;
+} Lines;
+
+static void put(Lines *at, const char *label, WrColour colour, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+static void put(Lines *at, const char *label, WrColour colour, const char *format, ...)
+{
+    char text[96];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    double w = wr_gui_text_width(WR_FONT_TEXT, text);
+    wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, label);
+    wr_gui_draw_text(floor(at->x + at->w - w), floor(at->y), WR_FONT_TEXT, colour, text);
+    at->y += at->step;
+}
+
+static void put_bar(Lines *at, const char *label, double value, WrColour colour)
+{
+    char text[32];
+    double bar = wr_gui_px(8), from = at->x + wr_gui_px(70), to = at->x + at->w - wr_gui_px(50);
+    double line = wr_gui_line_height(WR_FONT_TEXT), top = floor(at->y + (line - bar) / 2) + 1;
+    snprintf(text, sizeof text, "%.3f", value);
+    wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, label);
+    wr_gui_draw_fill(from, top, to - from, bar, 0xff343434u, 0);
+    wr_gui_draw_fill(from, top, (to - from) * value, bar, colour, 0);
+    wr_gui_draw_text(floor(at->x + at->w - wr_gui_text_width(WR_FONT_TEXT, text)), floor(at->y),
+                     WR_FONT_TEXT, WR_COLOUR_TEXT, text);
+    at->y += at->step;
+}
+
+/* A disc with a needle to where the pen leans, and its three buttons beside it. */
+static void put_tilt(Lines *at, const WrPenDevice *d, const WrPenEvent *e)
+{
+    static const char *const names[] = { "tip", "2", "3" };
+    double r = 1.55 * at->step, x = at->x + wr_gui_px(70) + r, y = at->y + r;
+    wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, "Tilt");
+    wr_gui_draw_disc(x, y, r, 0xff2b2b2bu);
+    wr_gui_draw_circle(x, y, r, 0xff4a4a4au, 1.0);
+    if (d->has_tilt) {
+        double tx = x + r * e->tilt_x, ty = y + r * e->tilt_y;
+        wr_gui_draw_line(x, y, tx, ty, WR_COLOUR_ACCENT, wr_gui_px(2));
+        wr_gui_draw_disc(tx, ty, wr_gui_px(4), WR_COLOUR_STRONG);
+    }
+    double bx = x + r + wr_gui_px(16), side = wr_gui_px(24);
+    wr_gui_draw_text(bx, floor(at->y), WR_FONT_SMALL, WR_COLOUR_LABEL, "Buttons");
+    for (int b = 1; b <= 3; b++) {
+        bool down = (e->held & 1u << b) != 0;
+        double left = bx + (b - 1) * (side + wr_gui_px(4)), top = at->y + at->step;
+        double w = wr_gui_text_width(WR_FONT_SMALL, names[b - 1]);
+        double h = wr_gui_line_height(WR_FONT_SMALL);
+        wr_gui_draw_fill(left, top, side, side, down ? WR_COLOUR_ACCENT : 0xff343434u, 3);
+        wr_gui_draw_text(floor(left + (side - w) / 2), floor(top + (side - h) / 2), WR_FONT_SMALL,
+                         down ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, names[b - 1]);
+    }
+    at->y += 2.0 * r + wr_gui_px(8);
+}
+
+static void put_events(const WrApp *app, Lines *at, const WrPenDevice *d)
+{
+    put(at, "Events", WR_COLOUR_TEXT, "%lld,  %.0f a second", (long long)d->events,
+        app->tester->rate);
+}
+
+void wr_tester_live(WrApp *app, double width, double height)
+{
+    const WrPenDevice *d = wr_pen_device(app->pen, app->tester->chosen);
+    WrPenEvent e;
+    WrPad pad = wr_gui_pad_begin("live", width, height);
+    double gap = wr_gui_px(12), line = wr_gui_line_height(WR_FONT_TEXT);
+    Lines at = { .x = pad.x + gap,
+                 .y = pad.y + wr_gui_px(9),
+                 .w = pad.w - 2 * gap,
+                 .step = line + wr_gui_px(pad.h < wr_gui_px(200) ? 1 : 5) };
+    bool any = newest_of(app, &e), low = height < wr_gui_px(200);
+    if (d) {
+        put_bar(&at, "Pressure", e.raw, WR_COLOUR_ACCENT);
+        put_bar(&at, "By curve", e.pressure, WR_COLOUR_RAISE);
+        if (low) put_events(app, &at, d);
+        put_tilt(&at, d, &e);
+        if (any) put(&at, "Place", WR_COLOUR_TEXT, "%.2f, %.2f", e.x, e.y);
+        else put(&at, "Place", WR_COLOUR_TEXT, "-");
+        if (!low) put_events(app, &at, d);
+        put(&at, "Dropped, waiting", WR_COLOUR_TEXT, "0,  %d", wr_pen_waiting(app->pen));
+        put(&at, "Bad values", d->bad_values ? WR_COLOUR_BAD : WR_COLOUR_TEXT, "%lld",
+            (long long)d->bad_values);
+    }
+    wr_gui_pad_end();
+}
+
+/* ---- the curve ---- */
+
+static double within(double x, double low, double high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+/* Where a point of the curve stands: pressures of the device and of the brush, 0..1. */
+static void point_at(const WrPenCurve *c, int i, double *raw, double *out)
+{
+    *raw = c->minimum + c->x[i] * (c->maximum - c->minimum);
+    *out = within(c->y[i] * c->gain, 0.0, 1.0);
+}
+
+static void drag_point(WrPenCurve *c, int i, double raw, double out)
+{
+    double x = (raw - c->minimum) / (c->maximum - c->minimum), y = out / c->gain;
+    c->x[i] = within(x, i == 0 ? 0.0 : c->x[0] + 0.02, i == 0 ? c->x[1] - 0.02 : 1.0);
+    c->y[i] = within(y, i == 0 ? 0.0 : c->y[0], i == 0 ? c->y[1] : 1.0);
+}
+
+static int nearest_point(const WrPenCurve *c, double raw, double out)
+{
+    double away[2];
+    for (int i = 0; i < 2; i++) {
+        double x, y;
+        point_at(c, i, &x, &y);
+        away[i] = (x - raw) * (x - raw) + (y - out) * (y - out);
+    }
+    return away[0] < away[1] ? 0 : 1;
+}
+
+static void draw_curve(const WrApp *app, const WrPad *pad, const WrPenCurve *c, int grip)
+{
+    double last = 0.0;
+    for (int i = 1; i < 4; i++) {
+        wr_gui_draw_fill(floor(pad->x + pad->w * i / 4), pad->y, 1, pad->h, 0xff2d2d2du, 0);
+        wr_gui_draw_fill(pad->x, floor(pad->y + pad->h * i / 4), pad->w, 1, 0xff2d2d2du, 0);
+    }
+    WrPenEvent e;
+    if (newest_of(app, &e) && e.raw > 0.0)
+        wr_gui_draw_fill(floor(pad->x + e.raw * pad->w), pad->y, 1, pad->h, 0xff6a6a6au, 0);
+    for (int i = 0; i <= 96; i++) {
+        double raw = i / 96.0, out = wr_pen_curve_apply(c, raw);
+        if (i > 0)
+            wr_gui_draw_line(pad->x + (raw - 1.0 / 96.0) * pad->w, pad->y + (1.0 - last) * pad->h,
+                             pad->x + raw * pad->w, pad->y + (1.0 - out) * pad->h, WR_COLOUR_RAISE,
+                             wr_gui_px(2));
+        last = out;
+    }
+    for (int i = 0; i < 2; i++) {
+        double raw, out;
+        point_at(c, i, &raw, &out);
+        double x = pad->x + raw * pad->w, y = pad->y + (1.0 - out) * pad->h;
+        wr_gui_draw_disc(x, y, wr_gui_px(6), 0xff1f1f1fu);
+        wr_gui_draw_disc(x, y, wr_gui_px(5), i == grip ? WR_COLOUR_STRONG : WR_COLOUR_RAISE);
+    }
+}
+
+WrEdit wr_tester_curve(WrApp *app, double side, WrPenCurve *curve)
+{
+    WrTester *t = app->tester;
+    WrEdit edit = WR_EDIT_NONE;
+    WrPad pad = wr_gui_pad_begin("curve", side, side);
+    double raw = (pad.pointer_x - pad.x) / pad.w, out = 1.0 - (pad.pointer_y - pad.y) / pad.h;
+    if (pad.pressed) t->grip = nearest_point(curve, raw, out);
+    if (pad.held && t->grip >= 0) {
+        drag_point(curve, t->grip, raw, out);
+        edit = WR_EDIT_LIVE;
+    }
+    if (pad.released && t->grip >= 0) edit = WR_EDIT_DONE;
+    draw_curve(app, &pad, curve, pad.held ? t->grip : -1);
+    wr_gui_pad_end();
+    if (edit == WR_EDIT_DONE) t->grip = -1;
+    return edit;
+}

@@ -1,0 +1,31 @@
+/* panels.h - the panels and dialogs that the roster lists. */
+#pragma once
+#include "ui/canvas/outline.h"
+#include "ui/desk/desk.h"
+
+#include <SDL.h>
+
+void wr_panel_menu(WrApp *app);
+void wr_panel_options(WrApp *app);
+void wr_panel_tools(WrApp *app);
+void wr_panel_right(WrApp *app);
+void wr_panel_brushes(WrApp *app, SDL_Rect room);
+void wr_panel_brush(WrApp *app); /* the values of the brush in hand */
+void wr_panel_scene(WrApp *app);
+void wr_panel_material(WrApp *app); /* its lower parts */
+void wr_panel_lights(WrApp *app);
+void wr_panel_plan(WrApp *app);
+void wr_panel_history(WrApp *app);
+void wr_dialog_unsaved(WrApp *app);
+void wr_dialog_table(WrApp *app);
+void wr_dialog_fill(WrApp *app);
+void wr_dialog_grid(WrApp *app);
+void wr_dialog_import(WrApp *app);
+void wr_dialog_export(WrApp *app);
+void wr_dialog_file(WrApp *app);
+void wr_dialog_preset(WrApp *app); /* the name of a preset to be saved */
+void wr_dialog_select_open(WrApp *app, WrOutlineKind kind);
+void wr_dialog_select(WrApp *app);
+void wr_dialog_recover_open(WrApp *app); /* if there is anything to recover */
+void wr_dialog_recover(WrApp *app);
+void wr_recovery_free(WrRecovery *recovery); /* NULL is fine */

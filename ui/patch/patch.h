@@ -1,0 +1,50 @@
+/* patch.h - the patch's view: what is wished of the preview and when, turning, the light, the camera. */
+#pragma once
+#include "ui/desk/desk.h"
+#include "ui/desk/roster.h"
+#include "ui/preview/rotation.h"
+
+#include "field/field.h"
+
+#include <SDL.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrPatch {
+    SDL_Texture *texture; /* of the newest picture; owned */
+    int texture_w, texture_h;
+    uint64_t serial;       /* of that picture */
+    int64_t seen;          /* pointer events that it shows (latency.c) */
+    double turn_deg;       /* 0..360 */
+    double rock;           /* where a rocking sheet is on its way, radians (rotation.h) */
+    double turned_at;      /* clock at the last step of the turn */
+    WrField *wished_field; /* own shares of what was wished for last */
+    WrScene *wished_scene;
+    double wished_turn;
+    int wished_w, wished_h;
+    bool wished_moving, wished_painted;
+    bool refreshing;  /* sharp pictures are being brought up to date by an edit */
+    bool outstanding; /* a moving picture was wished for and has not come */
+    bool held;        /* it stands still to be painted on */
+    double wished_at, rest_at;
+    double still_since;
+    /* of a drag */
+    WrRotation from; /* the object's own rotation at the start */
+    int light;       /* index of the light being moved */
+    double light_x, light_y;
+    double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
+} WrPatch;
+
+void wr_patch_update(WrApp *app); /* wish for what is wanted; take what is ready */
+void wr_patch_draw(WrApp *app);
+void wr_patch_overlay(WrApp *app);
+bool wr_patch_press(WrApp *app, const WrPointer *at);
+void wr_patch_drag(WrApp *app, const WrPointer *at);
+void wr_patch_release(WrApp *app);
+void wr_patch_wheel(WrApp *app, double steps);
+void wr_patch_commit_zoom(WrApp *app, bool now);
+void wr_patch_free(WrApp *app);
+double wr_patch_next_time(const WrApp *app); /* clock at which update must run; 0: only on events */
+bool wr_patch_paints(const WrApp *app);      /* the pointer over the patch would paint */
+
+extern const WrPart wr_part_patch;

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT
+   Painting on the patch: the pen goes over the object, the table under it is painted by the same strokes
+   as on the canvas. The way between two events is cut into steps of a few pixels, each looked up exactly
+   (patch_pick.h). Where the next step lies elsewhere in the table than the surface's slopes there say,
+   something jumped: the outline of a nearer part, another face of the cube, an edge, a seam of a
+   replication that does not close. The stroke ends there and another one begins. */
+#include "ui/patch/patch_paint.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/patch/patch.h"
+#include "ui/pen/steady.h"
+#include "ui/preview/patch_pick.h"
+#include "ui/tools/brush_outline.h"
+#include "ui/tools/stroke_hand.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_brush.h"
+
+#include "brush/brush.h"
+#include "field/field.h"
+#include "scene/scene.h"
+#include "surface/surface.h"
+
+#include <SDL.h>
+#include <math.h>
+
+#define STEP_PIXELS 4.0
+#define STEPS_MAX 256
+#define JUMP_FACTOR 6.0 /* of what the slopes say, that a step may go */
+#define JUMP_TEXELS 4.0 /* and in any case */
+#define RING_STEPS 3    /* of the outline on the object: one of its points in between */
+
+/* The picker for the picture that is shown; made anew when another one is. */
+static const WrPatchPick *picker(WrApp *app)
+{
+    WrPatchPaint *p = app->paint;
+    const SDL_Rect *room = &app->layout->patch;
+    const WrScene *scene = wr_app_scene(app);
+    double turn = app->patch->turn_deg;
+    bool same = p->picker && p->scene == scene && p->turn_deg == turn && p->room.w == room->w &&
+                p->room.h == room->h;
+    if (same || room->w <= 0) return room->w > 0 ? p->picker : NULL;
+    wr_patch_paint_free(app);
+    p->picker = wr_patch_pick_new(scene, turn, room->w, room->h, NULL);
+    p->scene = wr_scene_share(scene);
+    p->turn_deg = turn;
+    p->room = *room;
+    return p->picker;
+}
+
+void wr_patch_paint_free(WrApp *app)
+{
+    WrPatchPaint *p = app->paint;
+    wr_patch_pick_free(p->picker);
+    if (p->scene) wr_scene_free(p->scene);
+    p->picker = NULL;
+    p->scene = NULL;
+}
+
+static bool spot_under(WrApp *app, double x, double y, WrPatchSpot *spot)
+{
+    const WrPatchPick *pick = picker(app);
+    const SDL_Rect *room = &app->layout->patch;
+    return pick && x >= room->x && x < room->x + room->w && y >= room->y && y < room->y + room->h &&
+           wr_patch_pick_at(pick, x - room->x, y - room->y, spot);
+}
+
+bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)
+{
+    WrPatchSpot spot;
+    const WrScene *scene = wr_app_scene(app);
+    if (!spot_under(app, at->x, at->y, &spot)) return false;
+    *u = scene->replicate_u * spot.u;
+    *v = scene->replicate_v * spot.v;
+    return true;
+}
+
+/* ---- pieces ---- */
+
+static void lift(WrApp *app)
+{
+    app->paint->inside = false;
+    wr_strokes_end(app);
+}
+
+static void put_down(WrApp *app, const WrPointer *at, const WrPatchSpot *spot)
+{
+    const WrScene *scene = wr_app_scene(app);
+    if (!app->brush->drawing) {
+        WrBrush brush = wr_strokes_brush(app, at);
+        if (!wr_strokes_begin(app, &brush, at)) return;
+    }
+    app->paint->inside = true;
+    app->paint->last = *spot;
+    wr_strokes_sample(app, at, scene->replicate_u * spot->u, scene->replicate_v * spot->v);
+}
+
+/* Texels from one place of the table to another, the shortest way round where it wraps. */
+static double texels(double from, double to, int size, WrWrap wrap)
+{
+    double d = to - from;
+    if (wrap == WR_WRAP_PERIODIC) d -= rint(d);
+    return d * size;
+}
+
+/* Does the surface lead from the last spot to this one, or did something jump? */
+static bool leads(WrApp *app, const WrPatchSpot *spot)
+{
+    const WrPatchSpot *last = &app->paint->last;
+    const WrScene *scene = wr_app_scene(app);
+    const WrField *field = wr_app_field(app);
+    double ru = scene->replicate_u, rv = scene->replicate_v, most = 0.0;
+    int w = wr_field_width(field), h = wr_field_height(field);
+    double dx = spot->x - last->x, dy = spot->y - last->y;
+    if (spot->face != last->face) return false;
+    double du = texels(ru * last->u, ru * spot->u, w, wr_field_wrap_u(field));
+    double dv = texels(rv * last->v, rv * spot->v, h, wr_field_wrap_v(field));
+    const WrPatchSpot *ends[2] = { last, spot };
+    for (int i = 0; i < 2; i++) { /* near an outline the slopes of one end may be far larger */
+        double j[4];
+        if (!wr_patch_pick_slopes(picker(app), ends[i], j)) return true; /* a pole: no telling */
+        most =
+            fmax(most, hypot(ru * w * (j[0] * dx + j[1] * dy), rv * h * (j[2] * dx + j[3] * dy)));
+    }
+    return hypot(du, dv) <= JUMP_FACTOR * most + JUMP_TEXELS;
+}
+
+static void step_to(WrApp *app, const WrPointer *at)
+{
+    WrPatchSpot spot;
+    if (!spot_under(app, at->x, at->y, &spot)) {
+        if (app->paint->inside) lift(app);
+        return;
+    }
+    if (app->paint->inside && !leads(app, &spot)) lift(app);
+    put_down(app, at, &spot);
+}
+
+/* The pointer, steadied, went straight to `at`. */
+static void draw_to(WrApp *app, const WrPointer *at)
+{
+    WrPatchPaint *p = app->paint;
+    WrPointer from = p->at;
+    double way = hypot(at->x - from.x, at->y - from.y);
+    int steps = (int)fmin(STEPS_MAX, fmax(1.0, ceil(way / STEP_PIXELS)));
+    for (int i = 1; i <= steps; i++) {
+        WrPointer to = *at;
+        double t = (double)i / steps;
+        to.x = from.x + t * (at->x - from.x);
+        to.y = from.y + t * (at->y - from.y);
+        to.pressure = from.pressure + t * (at->pressure - from.pressure);
+        to.seconds = from.seconds + t * (at->seconds - from.seconds);
+        step_to(app, &to);
+    }
+    p->at = *at;
+}
+
+void wr_patch_paint_press(WrApp *app, const WrPointer *at)
+{
+    double u, v;
+    if (wr_keys_hold(app->keys, "hold_pick", at->mods)) {
+        WrPointer there = *at;
+        if (wr_patch_paint_uv(app, at, &u, &v)) {
+            there.u = u;
+            there.v = v;
+            wr_brush_pick(app, &there);
+        }
+        app->hand->grab = WR_GRAB_PICK;
+        return;
+    }
+    app->paint->inside = false;
+    app->paint->at = *at;
+    wr_brush_steady_begin(app, at);
+    step_to(app, at);
+}
+
+void wr_patch_paint_drag(WrApp *app, const WrPointer *at)
+{
+    wr_brush_steady_move(app, at, draw_to);
+}
+
+void wr_patch_paint_release(WrApp *app, const WrPointer *at)
+{
+    wr_brush_steady_end(app, at, draw_to);
+    lift(app);
+}
+
+/* ---- the outline on the object ---- */
+
+/* Where a place near (u, v) is seen: around a closed axis, not over the edge of an open one. */
+static bool on_object(const WrPatchPick *pick, const WrScene *scene, int face, double u, double v,
+                      WrPatchSpot *out, bool *hidden)
+{
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    if (info->closed_u) u -= floor(u);
+    if (info->closed_v) v -= floor(v);
+    if (!(u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0)) return false;
+    return wr_patch_pick_project(pick, face, u, v, out, hidden);
+}
+
+/* Points of the outline on the object, pixels of the window; seen: 0 not at all, 1 hidden, 2 in sight. */
+typedef struct Ring {
+    double x[WR_BRUSH_MARK_POINTS * RING_STEPS + 1], y[WR_BRUSH_MARK_POINTS * RING_STEPS + 1];
+    int seen[WR_BRUSH_MARK_POINTS * RING_STEPS + 1];
+    int count;
+} Ring;
+
+static void make_ring(const WrApp *app, const WrPatchPick *pick, const WrBrushMark *mark,
+                      const WrPatchSpot *middle, Ring *ring)
+{
+    const WrScene *scene = wr_app_scene(app);
+    const WrField *field = wr_app_field(app);
+    const SDL_Rect *room = &app->layout->patch;
+    double points[WR_BRUSH_MARK_POINTS][2];
+    int count = wr_brush_mark_points(mark, points);
+    double su = 1.0 / (wr_field_width(field) * scene->replicate_u);
+    double sv = -1.0 / (wr_field_height(field) * scene->replicate_v);
+    ring->count = count * RING_STEPS + 1;
+    for (int i = 0; i < ring->count; i++) {
+        const double *p = points[i / RING_STEPS % count], *q = points[(i / RING_STEPS + 1) % count];
+        double t = i % RING_STEPS / (double)RING_STEPS;
+        double x = p[0] + t * (q[0] - p[0]), y = p[1] + t * (q[1] - p[1]);
+        WrPatchSpot spot = { 0 };
+        bool hidden = false, seen = on_object(pick, scene, middle->face, middle->u + su * x,
+                                              middle->v + sv * y, &spot, &hidden);
+        ring->x[i] = room->x + spot.x;
+        ring->y[i] = room->y + spot.y;
+        ring->seen[i] = seen ? hidden ? 1 : 2 : 0;
+    }
+}
+
+static void draw_ring(const Ring *ring, bool erases)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 1; i < ring->count; i++) {
+            int a = ring->seen[i - 1], b = ring->seen[i], seen = a < b ? a : b;
+            if (seen == 0 || (seen == 1 && pass == 0)) continue;
+            if (pass == 1 && erases && i % 12 >= 6) continue; /* dashes */
+            WrColour light = seen == 1 ? 0x38f4f4f4u : 0xfff4f4f4u;
+            wr_gui_draw_line(ring->x[i - 1], ring->y[i - 1], ring->x[i], ring->y[i],
+                             pass ? light : 0xb0000000u, pass ? 1.3 : 3.0);
+        }
+    }
+}
+
+/* Where the pointer over the canvas is on the object: in every copy that the replication makes, up to a
+ * few. */
+static void draw_marks(const WrApp *app, const WrPatchPick *pick)
+{
+    const WrScene *scene = wr_app_scene(app);
+    const SDL_Rect *room = &app->layout->patch;
+    double s = wr_gui_scale();
+    double across = fmin(4.0, fmax(1.0, ceil(scene->replicate_u)));
+    double down = fmin(4.0, fmax(1.0, ceil(scene->replicate_v)));
+    double tu = app->hand->at.u - floor(app->hand->at.u),
+           tv = app->hand->at.v - floor(app->hand->at.v);
+    int faces = wr_surfaces[scene->shape.kind]->faces;
+    for (int k = 0; k < faces * (int)across * (int)down; k++) {
+        int copy = k / faces;
+        double u = (tu + copy % (int)across) / scene->replicate_u;
+        double v = (tv + copy / (int)across) / scene->replicate_v;
+        WrPatchSpot spot;
+        bool hidden;
+        if (!on_object(pick, scene, k % faces, u, v, &spot, &hidden) || hidden) continue;
+        wr_gui_draw_disc(room->x + spot.x, room->y + spot.y, 3.4 * s, 0xb0000000u);
+        wr_gui_draw_disc(room->x + spot.x, room->y + spot.y, 2.2 * s, WR_COLOUR_ACCENT);
+    }
+}
+
+static void overlay_clipped(WrApp *app)
+{
+    const WrHand *hand = app->hand;
+    bool painting = hand->grab == WR_GRAB_PATCH_PAINT;
+    bool over = painting || (hand->on_patch && hand->grab == WR_GRAB_NONE && wr_patch_paints(app));
+    bool resting = !app->settings->turning || wr_patch_paints(app);
+    bool marks = hand->on_canvas && resting && wr_tool_now(app)->press == wr_brush_press;
+    WrPatchSpot spot;
+    if (!over && !marks) return;
+    const WrPatchPick *pick = picker(app);
+    if (!pick) return;
+    if (!over) {
+        draw_marks(app, pick);
+        return;
+    }
+    double x = hand->at.x, y = hand->at.y;
+    if (painting && app->brush->steady.kind != WR_STEADY_OFF) {
+        x = app->brush->steady.follower.x;
+        y = app->brush->steady.follower.y;
+        wr_brush_show_string(app);
+    }
+    WrBrushMark mark = wr_brush_mark(app);
+    Ring ring;
+    if (!spot_under(app, x, y, &spot)) return;
+    make_ring(app, pick, &mark, &spot, &ring);
+    draw_ring(&ring, mark.erases);
+}
+
+void wr_patch_paint_overlay(WrApp *app)
+{
+    if (app->layout->patch.w <= 0) return;
+    wr_gui_draw_clip(app->layout->patch);
+    overlay_clipped(app);
+    wr_gui_draw_unclip();
+}

@@ -1,0 +1,28 @@
+/* patch_paint.h - painting on the patch. */
+#pragma once
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/preview/patch_pick.h"
+
+#include <SDL.h>
+#include <stdbool.h>
+
+/* Painting on the patch (patch_paint.c). */
+typedef struct WrPatchPaint {
+    bool on;             /* the pointer over the patch paints instead of turning it */
+    WrPatchPick *picker; /* owned */
+    WrScene *scene;      /* own share; what the picker was made for */
+    double turn_deg;
+    SDL_Rect room;
+    bool inside; /* the last step lay on the object */
+    WrPatchSpot last;
+    WrPointer at; /* where the last step ended */
+} WrPatchPaint;
+
+/* Where the table is that lies under a pointer on the patch; false beside the object. */
+bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v);
+void wr_patch_paint_press(WrApp *app, const WrPointer *at);
+void wr_patch_paint_drag(WrApp *app, const WrPointer *at);
+void wr_patch_paint_release(WrApp *app, const WrPointer *at);
+void wr_patch_paint_overlay(WrApp *app); /* the brush's outline on the object */
+void wr_patch_paint_free(WrApp *app);

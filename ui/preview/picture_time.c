@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+   How long the newest picture of the patch took: one figure, the same wherever it is shown. */
+#include "ui/preview/preview.h"
+
+#include "render/frame.h"
+
+#include <stdio.h>
+
+const char *const wr_picture_stages[WR_PICTURE_STAGES] = { "prepare", "visibility", "geometry",
+                                                           "bump",    "shade",      "resolve" };
+
+double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STAGES])
+{
+    const WrStageTimes *t = &picture->times;
+    const double spent[WR_PICTURE_STAGES] = { t->prepare, t->visibility, t->geometry,
+                                              t->bump,    t->shade,      t->resolve };
+    double all = 0.0, total = picture->seconds * 1e3;
+    for (int i = 0; i < WR_PICTURE_STAGES; i++) all += spent[i];
+    /* Threads work side by side, so that their times together are more than a clock's. */
+    for (int i = 0; i < WR_PICTURE_STAGES; i++) ms[i] = all > 0.0 ? total * spent[i] / all : 0.0;
+    return total;
+}
+
+void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORDS])
+{
+    static const char *const how[] = { [WR_PREVIEW_NONE] = "",
+                                       [WR_PREVIEW_MOVING] = ", coarse while something moves",
+                                       [WR_PREVIEW_FULL] = ", each looked at once",
+                                       [WR_PREVIEW_SMOOTH] = ", 2 \xc3\x97 2 samples each",
+                                       [WR_PREVIEW_FINAL] = ", as fine as it gets" };
+    double ms[WR_PICTURE_STAGES], total = wr_picture_time(picture, ms);
+    snprintf(text, WR_PICTURE_WORDS,
+             "%.1f ms by the clock for the newest picture of the patch, conversion for the screen "
+             "included: %d \xc3\x97 %d pixels%s.",
+             total, picture->width, picture->height, how[picture->level]);
+}

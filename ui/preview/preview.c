@@ -1,0 +1,472 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/preview/preview.h"
+#include "ui/preview/accuracy_choice.h"
+#include "ui/work/thread.h"
+
+#include "accuracy/tolerance.h"
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+#include "render/frame.h"
+#include "scene/dials.h"
+#include "scene/scene.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#define MOVING_SECONDS 0.020 /* that a picture may take while something moves */
+#define QUICK_SECONDS 0.005  /* and while it is painted on besides: seen within 1/60 s */
+#define EDIT_SECONDS                                                                               \
+    0.012              /* that a refresh after an edit may take before finer samples are given up */
+#define COARSEST 0.125 /* of the view's width and height */
+#define NICENESS 5     /* so that the window's own thread goes first */
+
+typedef struct Wish {
+    WrField *field; /* own shares; NULL: no wish */
+    WrScene *scene;
+    double turn_deg;
+    int width, height;
+    int64_t tag;
+    bool moving, painting;
+} Wish;
+
+struct WrPreview {
+    pthread_mutex_t lock; /* guards what follows, up to the next blank line */
+    pthread_cond_t wake;
+    bool started, quit;
+    Wish next; /* not taken up yet */
+    bool settled;
+    double point_x, point_y;   /* asked for */
+    bool point_new, point_hit; /* not looked up yet; on the object */
+    double point_u, point_v;
+    WrPreviewPicture *done, *shown; /* owned */
+    bool fresh;                     /* done is newer than shown */
+    bool failed;
+    WrError error;
+
+    volatile int cancel; /* atomic; read by the renderer */
+    pthread_t thread;
+    int threads;
+    char *isa; /* owned */
+    Uint32 ready_event;
+
+    /* of the thread alone; without one, of the window's */
+    WrPool *pool;         /* owned, as is the renderer */
+    WrRenderer *renderer; /* NULL: not made yet, or not to be had */
+    Wish now;
+    WrPreviewPicture *work; /* owned */
+    WrPreviewLevel level;   /* reached for `now` */
+    double scale;           /* of a moving picture, 0..1 */
+    double pixel_seconds;   /* of a moving picture, measured; 0: not yet */
+    double edit_seconds; /* of the last refresh after an edit with more than one sample a pixel */
+    bool edited;         /* the picture under way is such a refresh */
+    uint64_t serial;
+    int last_width, last_height; /* of the last picture */
+};
+
+static void wish_clear(Wish *wish)
+{
+    wr_field_free(wish->field);
+    if (wish->scene) wr_scene_free(wish->scene);
+    *wish = (Wish){ 0 };
+}
+
+static void picture_free(WrPreviewPicture *picture)
+{
+    if (picture) wr_free(picture->bgra);
+    wr_free(picture);
+}
+
+WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event)
+{
+    WrPreview *preview = wr_alloc(1, sizeof *preview);
+    pthread_mutex_init(&preview->lock, NULL);
+    pthread_cond_init(&preview->wake, NULL);
+    preview->threads = threads;
+    preview->isa = wr_strdup(isa);
+    preview->ready_event = ready_event;
+    preview->scale = 0.4;
+    preview->point_x = -1.0;
+    preview->settled = true;
+    preview->done = wr_alloc(1, sizeof(WrPreviewPicture));
+    preview->shown = wr_alloc(1, sizeof(WrPreviewPicture));
+    preview->work = wr_alloc(1, sizeof(WrPreviewPicture));
+    return preview;
+}
+
+void wr_preview_free(WrPreview *preview)
+{
+    if (!preview) return;
+    pthread_mutex_lock(&preview->lock);
+    preview->quit = true;
+    __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
+    pthread_cond_signal(&preview->wake);
+    pthread_mutex_unlock(&preview->lock);
+    if (preview->started) pthread_join(preview->thread, NULL);
+    wr_renderer_free(preview->renderer);
+    wr_pool_free(preview->pool);
+    wish_clear(&preview->next);
+    wish_clear(&preview->now);
+    picture_free(preview->done);
+    picture_free(preview->shown);
+    picture_free(preview->work);
+    wr_free(preview->isa);
+    pthread_cond_destroy(&preview->wake);
+    pthread_mutex_destroy(&preview->lock);
+    wr_free(preview);
+}
+
+/* ---- the thread ---- */
+
+static void fail(WrPreview *preview, const WrError *err)
+{
+    pthread_mutex_lock(&preview->lock);
+    preview->failed = true;
+    preview->error = *err;
+    pthread_mutex_unlock(&preview->lock);
+}
+
+static void notify(WrPreview *preview)
+{
+    SDL_Event event = { .type = preview->ready_event };
+    SDL_PushEvent(&event);
+}
+
+static WrDials dials_for(const Wish *wish, WrPreviewLevel level)
+{
+    WrDials dials = wish->scene->dials;
+    const WrAntialias aa = dials.aa;
+    int own = aa == WR_AA_SUPERSAMPLE ? dials.samples : 1;
+    bool rests = level == WR_PREVIEW_SMOOTH || level == WR_PREVIEW_FINAL;
+    /* Filtered and adaptive pictures are as the scene has them once the view rests. */
+    if (rests && aa != WR_AA_POINT && aa != WR_AA_SUPERSAMPLE) return dials;
+    dials.aa = WR_AA_POINT;
+    dials.samples = 1;
+    if (level == WR_PREVIEW_MOVING) {
+        dials.arithmetic = WR_ARITHMETIC_FAST;
+        dials.shading = WR_SHADING_FLOAT;
+    }
+    if (rests) {
+        dials.aa = WR_AA_SUPERSAMPLE;
+        dials.samples = level == WR_PREVIEW_SMOOTH ? 2 : own > 4 ? own : 4;
+    }
+    return dials;
+}
+
+/* Follow the measured speed, but not every wobble of it: a picture that changes its resolution all the
+ * time looks worse than one that is a little too coarse. What was only prepared, such as a new table's
+ * slopes, says nothing about the next picture. */
+static void adapt_scale(WrPreview *preview, const WrPreviewPicture *picture, double view_pixels)
+{
+    double seconds = picture->seconds, prepare = picture->times.prepare;
+    double lasting = seconds - (prepare < 0.8 * seconds ? prepare : 0.8 * seconds);
+    double measured = lasting / ((double)picture->width * picture->height);
+    double *known = &preview->pixel_seconds;
+    double pace = measured < *known ? 0.5 : 0.25;
+    *known = *known > 0.0 ? *known + pace * (measured - *known) : measured;
+    double allowed = preview->now.painting ? QUICK_SECONDS : MOVING_SECONDS;
+    double scale = sqrt(allowed / *known / view_pixels);
+    scale = scale > 0.9 ? 1.0 : scale < COARSEST ? COARSEST : scale;
+    if (fabs(scale - preview->scale) > 0.15 * preview->scale || scale == 1.0)
+        preview->scale = scale;
+}
+
+static bool make_room(WrPreviewPicture *picture, int width, int height, WrError *err)
+{
+    if (picture->bgra && picture->width == width && picture->height == height) return true;
+    uint8_t *bgra = wr_try_alloc((size_t)width * (size_t)height, 4, "the preview", err);
+    if (!bgra) return false;
+    wr_free(picture->bgra);
+    picture->bgra = bgra;
+    picture->width = width;
+    picture->height = height;
+    return true;
+}
+
+static bool has_tolerance(const Wish *wish)
+{
+    return wish->scene->tolerance.kind != WR_TOLERANCE_NONE;
+}
+
+/* Block by block with the dials that keep to the scene's tolerance. */
+static bool by_tolerance(WrRenderer *renderer, const WrFrameRequest *wanted, WrPreviewPicture *out,
+                         WrFrame *frame, WrError *err)
+{
+    WrChoice choice = { 0 };
+    WrFrameRequest request = *wanted;
+    request.dials = NULL;
+    request.keep = false;
+    bool good = wr_tolerance_choose(renderer, &request, &choice, frame, err);
+    if (good) {
+        wr_chosen_from(&choice, &out->chosen);
+        out->plan = choice.plan; /* the frame's, which goes with the choice */
+        frame->plan = &out->plan;
+    }
+    wr_choice_fini(&choice);
+    return good;
+}
+
+static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level,
+                   WrError *err)
+{
+    static const double surround[3] = { 0.0273, 0.0284,
+                                        0.0302 }; /* linear, a shade of the panels */
+    const Wish *wish = &preview->now;
+    double started = wr_clock_seconds();
+    double scale = level == WR_PREVIEW_MOVING ? preview->scale : 1.0;
+    WrDials dials = dials_for(wish, level);
+    WrFrameRequest request = { .field = wish->field,
+                               .scene = wish->scene,
+                               .width = (int)fmax(1.0, rint(wish->width * scale)),
+                               .height = (int)fmax(1.0, rint(wish->height * scale)),
+                               .turn_deg = wish->turn_deg,
+                               .dials = &dials,
+                               .keep = level > WR_PREVIEW_MOVING,
+                               .cancel = &preview->cancel };
+    WrFrame frame;
+    WrPreviewPicture *out = preview->work;
+    out->chosen.any = false;
+    bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
+                    ? by_tolerance(renderer, &request, out, &frame, err)
+                    : wr_renderer_frame(renderer, &request, &frame, err);
+    if (!good) return false;
+    if (!make_room(out, frame.width, frame.height, err)) return false;
+    wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
+    out->level = level;
+    out->turn_deg = wish->turn_deg;
+    out->tag = wish->tag;
+    out->times = frame.times;
+    out->plan = *frame.plan;
+    out->seconds = wr_clock_seconds() - started;
+    out->serial = ++preview->serial;
+    if (preview->edited) preview->edit_seconds = out->seconds;
+    if (level == WR_PREVIEW_MOVING) adapt_scale(preview, out, (double)wish->width * wish->height);
+    return true;
+}
+
+/* Look up the point asked for in the last picture. */
+static void answer_point(WrPreview *preview, WrRenderer *renderer, int width, int height)
+{
+    pthread_mutex_lock(&preview->lock);
+    double x = preview->point_x, y = preview->point_y, u = 0.0, v = 0.0;
+    preview->point_new = false;
+    pthread_mutex_unlock(&preview->lock);
+    int face;
+    bool hit = x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0 &&
+               wr_renderer_pick(renderer, x * width, y * height, &u, &v, &face);
+    pthread_mutex_lock(&preview->lock);
+    preview->point_hit = hit;
+    preview->point_u = u;
+    preview->point_v = v;
+    pthread_mutex_unlock(&preview->lock);
+}
+
+/* Does the wish ask for what is shown, but for an edit of the table? Then the sharp picture is brought up to
+ * date where the edit reaches, instead of starting coarse again. */
+static bool only_edited(const WrPreview *preview)
+{
+    const Wish *now = &preview->now, *next = &preview->next;
+    return now->field && preview->level > WR_PREVIEW_MOVING && !next->moving && !now->moving &&
+           now->scene == next->scene && now->turn_deg == next->turn_deg &&
+           now->width == next->width && now->height == next->height;
+}
+
+/* Take up the next wish, or go on with the present one; false: nothing to do. Called under the lock. */
+static bool choose(WrPreview *preview, WrPreviewLevel *level)
+{
+    if (preview->next.field) {
+        bool edited = only_edited(preview);
+        wish_clear(&preview->now);
+        preview->now = preview->next;
+        preview->next = (Wish){ 0 };
+        __atomic_store_n(&preview->cancel, 0, __ATOMIC_RELAXED);
+        preview->edited = edited && preview->level > WR_PREVIEW_FULL;
+        if (edited) {
+            bool slow = preview->now.painting &&
+                        (preview->edit_seconds > EDIT_SECONDS || has_tolerance(&preview->now));
+            *level = slow ? WR_PREVIEW_FULL : preview->level;
+            preview->edited = preview->edited && !slow;
+            return true;
+        }
+        preview->level = WR_PREVIEW_NONE;
+        preview->edit_seconds = 0.0;
+        *level = preview->now.moving || preview->serial == 0 ? WR_PREVIEW_MOVING : WR_PREVIEW_FULL;
+        return true;
+    }
+    bool rests = preview->now.field && !preview->now.moving && !preview->now.painting;
+    WrPreviewLevel finest = preview->started ? WR_PREVIEW_FINAL : WR_PREVIEW_FULL;
+    if (rests && preview->level < finest && preview->level != WR_PREVIEW_NONE) {
+        preview->edited = false;
+        *level = preview->level + 1;
+        return true;
+    }
+    return false;
+}
+
+/* Hand the finished picture over. Called under the lock. */
+static void publish(WrPreview *preview)
+{
+    WrPreviewPicture *finished = preview->work;
+    preview->work = preview->done;
+    preview->done = finished;
+    preview->fresh = true;
+}
+
+static void work(WrPreview *preview, WrPreviewLevel level)
+{
+    WrError err = { "" };
+    bool ok = render(preview, preview->renderer, preview->pool, level, &err);
+    bool cancelled = __atomic_load_n(&preview->cancel, __ATOMIC_RELAXED) != 0;
+    if (!ok && !cancelled) fail(preview, &err);
+    if (ok) {
+        preview->last_width = preview->work->width;
+        preview->last_height = preview->work->height;
+        answer_point(preview, preview->renderer, preview->last_width, preview->last_height);
+    }
+    pthread_mutex_lock(&preview->lock);
+    preview->level = ok ? level : WR_PREVIEW_NONE;
+    if (ok) publish(preview);
+    pthread_mutex_unlock(&preview->lock);
+    if (ok || !cancelled) notify(preview);
+}
+
+static void begin(WrPreview *preview)
+{
+    WrError err = { "" };
+    if (preview->pool) return;
+    preview->pool = wr_pool_new(preview->threads);
+    preview->renderer = wr_renderer_new(preview->pool, preview->isa, &err);
+    if (!preview->renderer) fail(preview, &err);
+}
+
+/* One picture, or one answer; false: nothing is left to do. Called under the lock, let go meanwhile. */
+static bool step(WrPreview *preview)
+{
+    WrPreviewLevel level;
+    if (preview->renderer && choose(preview, &level)) {
+        preview->settled = false;
+        pthread_mutex_unlock(&preview->lock);
+        work(preview, level);
+        pthread_mutex_lock(&preview->lock);
+        return true;
+    }
+    bool news = !preview->settled;
+    preview->settled = true;
+    if (preview->renderer && preview->point_new && preview->last_width > 0) {
+        pthread_mutex_unlock(&preview->lock);
+        answer_point(preview, preview->renderer, preview->last_width, preview->last_height);
+        notify(preview);
+        pthread_mutex_lock(&preview->lock);
+        return true;
+    }
+    if (news) notify(preview);
+    return false;
+}
+
+static void *thread_main(void *arg)
+{
+    WrPreview *preview = arg;
+    setpriority(PRIO_PROCESS, 0, NICENESS); /* on Linux this thread and those it starts */
+    begin(preview);
+    pthread_mutex_lock(&preview->lock);
+    while (!preview->quit)
+        if (!step(preview)) pthread_cond_wait(&preview->wake, &preview->lock);
+    pthread_mutex_unlock(&preview->lock);
+    return NULL;
+}
+
+/* The system gives no thread: on the caller's, which waits, and no finer than every pixel once. */
+static void work_in_place(WrPreview *preview)
+{
+    begin(preview);
+    pthread_mutex_lock(&preview->lock);
+    while (step(preview)) {
+    }
+    pthread_mutex_unlock(&preview->lock);
+}
+
+/* ---- the window's side ---- */
+
+void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
+{
+    pthread_mutex_lock(&preview->lock);
+    wish_clear(&preview->next);
+    preview->next = (Wish){ .field = wr_field_share(wish->field),
+                            .scene = wr_scene_share(wish->scene),
+                            .turn_deg = wish->turn_deg,
+                            .width = wish->width,
+                            .height = wish->height,
+                            .tag = wish->tag,
+                            .moving = wish->moving,
+                            .painting = wish->painting };
+    /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
+    if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
+    preview->settled = false;
+    if (!preview->started)
+        preview->started = wr_thread_start(&preview->thread, thread_main, preview);
+    bool alone = !preview->started;
+    pthread_cond_signal(&preview->wake);
+    pthread_mutex_unlock(&preview->lock);
+    if (alone) work_in_place(preview);
+}
+
+void wr_preview_point(WrPreview *preview, double x, double y)
+{
+    pthread_mutex_lock(&preview->lock);
+    if (x != preview->point_x || y != preview->point_y) {
+        preview->point_x = x;
+        preview->point_y = y;
+        preview->point_new = true;
+        pthread_cond_signal(&preview->wake);
+    }
+    bool alone = !preview->started && preview->pool && preview->point_new;
+    pthread_mutex_unlock(&preview->lock);
+    if (alone) work_in_place(preview);
+}
+
+bool wr_preview_point_hit(WrPreview *preview, double *u, double *v)
+{
+    pthread_mutex_lock(&preview->lock);
+    bool hit = preview->point_hit;
+    *u = preview->point_u;
+    *v = preview->point_v;
+    pthread_mutex_unlock(&preview->lock);
+    return hit;
+}
+
+const WrPreviewPicture *wr_preview_picture(WrPreview *preview)
+{
+    pthread_mutex_lock(&preview->lock);
+    if (preview->fresh) {
+        WrPreviewPicture *newest = preview->done;
+        preview->done = preview->shown;
+        preview->shown = newest;
+        preview->fresh = false;
+    }
+    pthread_mutex_unlock(&preview->lock);
+    return preview->shown;
+}
+
+bool wr_preview_settled(WrPreview *preview)
+{
+    pthread_mutex_lock(&preview->lock);
+    bool settled = preview->settled;
+    pthread_mutex_unlock(&preview->lock);
+    return settled;
+}
+
+bool wr_preview_error(WrPreview *preview, WrError *err)
+{
+    pthread_mutex_lock(&preview->lock);
+    bool failed = preview->failed;
+    if (failed) *err = preview->error;
+    preview->failed = false;
+    pthread_mutex_unlock(&preview->lock);
+    return failed;
+}

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/preview/rotation.h"
+
+#include "base/exactmath.h"
+#include "base/vec.h"
+
+#include <math.h>
+
+#define LIGHT_RIM_DEG 100.0
+
+WrRotation wr_rotation_axis(WrVec3 k, double deg)
+{
+    /* R = cos t I + sin t [k] + (1 - cos t) k k^T */
+    double s, c;
+    wr_sincos_turns(deg / 360.0, &s, &c);
+    double d = 1.0 - c;
+    return (WrRotation){ { c + d * k.x * k.x, d * k.x * k.y - s * k.z, d * k.x * k.z + s * k.y,
+                           d * k.y * k.x + s * k.z, c + d * k.y * k.y, d * k.y * k.z - s * k.x,
+                           d * k.z * k.x - s * k.y, d * k.z * k.y + s * k.x, c + d * k.z * k.z } };
+}
+
+WrRotation wr_rotation_times(const WrRotation *a, const WrRotation *b)
+{
+    WrRotation out;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            out.m[3 * i + j] = a->m[3 * i] * b->m[j] + a->m[3 * i + 1] * b->m[3 + j] +
+                               a->m[3 * i + 2] * b->m[6 + j];
+    return out;
+}
+
+WrVec3 wr_rotation_apply(const WrRotation *r, WrVec3 v)
+{
+    const double *m = r->m;
+    return (WrVec3){ m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+                     m[6] * v.x + m[7] * v.y + m[8] * v.z };
+}
+
+WrRotation wr_rotation_from_deg(WrVec3 deg)
+{
+    WrRotation x = wr_rotation_axis((WrVec3){ 1, 0, 0 }, deg.x);
+    WrRotation y = wr_rotation_axis((WrVec3){ 0, 1, 0 }, deg.y);
+    WrRotation z = wr_rotation_axis((WrVec3){ 0, 0, 1 }, deg.z);
+    WrRotation yx = wr_rotation_times(&y, &x);
+    return wr_rotation_times(&z, &yx);
+}
+
+static double whole(double deg)
+{
+    double r = rint(deg);
+    return fabs(deg - r) < 1e-9 ? r + 0.0 : deg;
+}
+
+/* With R = Rz Ry Rx:  m20 = -sin y,  m21 = cos y sin x,  m22 = cos y cos x,
+ *                     m10 = cos y sin z,  m00 = cos y cos z.
+ * At |sin y| = 1 the first column's rest vanishes, and with z = 0:  m01 = sin y sin x, m11 = cos x. */
+WrVec3 wr_rotation_to_deg(const WrRotation *r)
+{
+    const double *m = r->m;
+    double cos_y = sqrt(m[0] * m[0] + m[3] * m[3]);
+    double x, z = 0.0, y = wr_atan2(-m[6], cos_y);
+    if (cos_y > 1e-8) {
+        x = wr_atan2(m[7], m[8]);
+        z = wr_atan2(m[3], m[0]);
+    } else {
+        x = wr_atan2(-m[5], m[4]);
+    }
+    return (WrVec3){ whole(x / WR_RAD_PER_DEG), whole(y / WR_RAD_PER_DEG),
+                     whole(z / WR_RAD_PER_DEG) };
+}
+
+WrRotation wr_rotation_dragged(const WrRotation *rotation, double turn_deg, WrVec3 right, WrVec3 up,
+                               double dx, double dy, double span)
+{
+    WrRotation about_up = wr_rotation_axis(up, 180.0 * dx / span);
+    WrRotation about_right = wr_rotation_axis(right, 180.0 * dy / span);
+    WrRotation drag = wr_rotation_times(&about_right, &about_up);
+    /* Shown is T R. Wanted: T R' = D T R, so R' = T^-1 D T R. */
+    WrRotation turn = wr_rotation_axis((WrVec3){ 0, 1, 0 }, turn_deg);
+    WrRotation back = wr_rotation_axis((WrVec3){ 0, 1, 0 }, -turn_deg);
+    WrRotation tr = wr_rotation_times(&turn, rotation);
+    WrRotation dtr = wr_rotation_times(&drag, &tr);
+    return wr_rotation_times(&back, &dtr);
+}
+
+static double larger(double x, double y)
+{
+    return fabs(x) > fabs(y) ? fabs(x) : fabs(y);
+}
+
+/* With r = max(|x|, |y|), the angle from the viewer's axis goes as r^2: usual lights stand well out, in
+ * the corners, where the object does not hide them. */
+void wr_light_to_pad(WrVec3 towards, double *x, double *y)
+{
+    double side = sqrt(towards.x * towards.x + towards.y * towards.y);
+    double angle = wr_atan2(side, towards.z) / WR_RAD_PER_DEG;
+    double r = sqrt(angle < LIGHT_RIM_DEG ? angle / LIGHT_RIM_DEG : 1.0);
+    double reach = larger(towards.x, towards.y);
+    *x = reach > 0.0 ? r * towards.x / reach : 0.0;
+    *y = reach > 0.0 ? r * towards.y / reach : 0.0;
+}
+
+WrVec3 wr_light_from_pad(double x, double y)
+{
+    double r = larger(x, y), s, c;
+    double bounded = r < 1.0 ? r : 1.0, side = sqrt(x * x + y * y);
+    wr_sincos_turns(bounded * bounded * LIGHT_RIM_DEG / 360.0, &s, &c);
+    double k = side > 0.0 ? s / side : 0.0;
+    return (WrVec3){ k * x, k * y, c };
+}
+
+#define ROCK_DEG 35.0
+#define ROCK_SECONDS 12.0 /* there and back */
+
+/* The way's place that has this angle: on the way there or on the way back, as it was. */
+static double rock_from(double turn_deg, double before)
+{
+    double sine = (turn_deg > 180.0 ? turn_deg - 360.0 : turn_deg) / ROCK_DEG;
+    double there = asin(sine < -1.0 ? -1.0 : sine > 1.0 ? 1.0 : sine);
+    return cos(before) < 0.0 ? WR_PI - there : there;
+}
+
+double wr_rotation_rock(double *way, double turn_deg, double seconds)
+{
+    *way = fmod(rock_from(turn_deg, *way) + 2.0 * WR_PI * seconds / ROCK_SECONDS, 2.0 * WR_PI);
+    double deg = ROCK_DEG * sin(*way);
+    return deg < 0.0 ? deg + 360.0 : deg;
+}

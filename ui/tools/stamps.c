@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT
+   The pictures that the stamp tool offers: those in the folders of brushes that are not the thumbnail of a
+   preset. */
+#include "ui/tools/stamps.h"
+#include "ui/desk/desk.h"
+#include "ui/tools/tool_stamp.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "brush/library.h"
+
+#include <SDL.h>
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define DEPTH_MAX 3     /* of folders in folders */
+#define STAMPS_MAX 2000 /* of all folders */
+
+static bool has_ending(const char *name, const char *ending)
+{
+    size_t n = strlen(name), m = strlen(ending);
+    return n > m && SDL_strcasecmp(name + n - m, ending) == 0;
+}
+
+static bool is_picture(const char *name)
+{
+    static const char *const endings[] = {
+        ".png", ".gbr", ".gih", ".jpg", ".tif", ".tiff", ".exr"
+    };
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (has_ending(name, endings[i])) return true;
+    return false;
+}
+
+/* NAME.png beside NAME.myb, or NAME_prev.png, shows what a preset paints. */
+static bool is_thumbnail(const char *folder, const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    size_t length = (size_t)(dot - name);
+    if (length > 5 && strncmp(dot - 5, "_prev", 5) == 0) return true;
+    WrText preset = { 0 };
+    wr_text_addf(&preset, "%s/%.*s.myb", folder, (int)length, name);
+    bool there = access(wr_text_get(&preset), F_OK) == 0;
+    wr_text_fini(&preset);
+    return there;
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b)
+{
+    return SDL_strcasecmp((*a)->d_name, (*b)->d_name);
+}
+
+static void search(WrApp *app, const char *folder, int depth)
+{
+    struct dirent **list = NULL;
+    int count = scandir(folder, &list, NULL, by_name);
+    for (int i = 0; i < count; i++) {
+        const char *name = list[i]->d_name;
+        struct stat about;
+        char *path = wr_path_join(folder, name);
+        bool folder_too = name[0] != '.' && stat(path, &about) == 0 && S_ISDIR(about.st_mode);
+        if (folder_too && depth < DEPTH_MAX) search(app, path, depth + 1);
+        bool takes = name[0] != '.' && !folder_too && is_picture(name) &&
+                     !is_thumbnail(folder, name) && app->stamp->stamps.count < STAMPS_MAX;
+        if (takes) wr_array_push(&app->stamp->stamps, path);
+        else wr_free(path);
+        free(list[i]);
+    }
+    free(list);
+}
+
+void wr_stamps_find(WrApp *app)
+{
+    WrText ours = { 0 };
+    WrError err;
+    if (app->stamp->stamps_known) return;
+    app->stamp->stamps_known = true;
+    char *user = wr_library_user_folder(&err);
+    if (user) search(app, user, 0);
+    wr_free(user);
+    if (wr_data_find("brushes", &ours)) search(app, wr_text_get(&ours), 0);
+    wr_text_fini(&ours);
+    search(app, "/usr/share/gimp/2.0/brushes", 0);
+}
+
+void wr_stamps_free(WrApp *app)
+{
+    for (int i = 0; i < app->stamp->stamps.count; i++) wr_free(app->stamp->stamps.data[i]);
+    wr_array_free(&app->stamp->stamps);
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+   Which tool is in hand. */
+#include "ui/tools/tool.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/settings.h"
+#include "ui/tools/shelf.h"
+
+#include "brush/brush.h"
+
+#include <string.h>
+
+const WrTool *wr_tool_now(const WrApp *app)
+{
+    return app->roster->tools[app->tool];
+}
+
+int wr_tool_find(const WrApp *app, const char *action)
+{
+    for (int i = 0; i < app->roster->tool_count; i++)
+        if (strcmp(app->roster->tools[i]->action, action) == 0) return i;
+    return -1;
+}
+
+/* A tool that paints with a mode of its own gives the brush back its mode when it is left. */
+void wr_tool_choose(WrApp *app, int index)
+{
+    const WrTool *old = wr_tool_now(app), *tool = app->roster->tools[index];
+    wr_hand_let_go(app);
+    if (index == app->tool) return;
+    if (old->leave) old->leave(app);
+    if (old->mode) app->settings->brush.mode = app->shelf->kept;
+    if (tool->mode) {
+        app->shelf->kept = app->settings->brush.mode;
+        app->settings->brush.mode = (WrBrushMode)(tool->mode - 1);
+    }
+    app->tool = index;
+    wr_app_redraw(app);
+}
+
+static void another(WrApp *app)
+{
+    if (wr_tool_now(app)->leave) wr_tool_now(app)->leave(app);
+}
+
+const WrPart wr_part_tools = { .another = another };

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT
+   Painting with heights from elsewhere: Ctrl or Alt and a click says where from; the first stroke after it
+   ties that place to the pointer, and later strokes keep the distance. */
+#include "ui/tools/tool_clone.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/messages.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/tools/brush_outline.h"
+#include "ui/tools/stroke_hand.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_brush.h"
+#include "ui/tools/tool_rows.h"
+#include "ui/views/overlay.h"
+
+#include "brush/brush.h"
+#include "field/field.h"
+
+#include <math.h>
+
+static bool sets_source(const WrPointer *at)
+{
+    return (at->mods & (WR_MOD_CTRL | WR_MOD_ALT)) != 0;
+}
+
+static void set_source(WrApp *app, const WrPointer *at)
+{
+    WrCloneHand *draw = app->clone;
+    draw->source = true;
+    draw->anchored = false;
+    draw->source_u = at->u;
+    draw->source_v = at->v;
+    wr_app_redraw(app);
+}
+
+/* The shortest way round on axes that wrap, to what a line can say. */
+static double short_way(double d, bool wraps)
+{
+    double shortest = wraps ? d - floor(d + 0.5) : d;
+    return rint(shortest * 1e7) / 1e7 + 0.0;
+}
+
+static void press(WrApp *app, const WrPointer *at)
+{
+    WrCloneHand *draw = app->clone;
+    const WrField *field = wr_app_field(app);
+    if (sets_source(at)) {
+        set_source(app, at);
+        return;
+    }
+    if (!draw->source) {
+        wr_app_say(app, "Ctrl and a click first says where the heights come from");
+        return;
+    }
+    if (!draw->anchored) {
+        draw->anchored = true;
+        app->settings->brush.source_u =
+            short_way(draw->source_u - at->u, wr_field_wrap_u(field) == WR_WRAP_PERIODIC);
+        app->settings->brush.source_v =
+            short_way(draw->source_v - at->v, wr_field_wrap_v(field) == WR_WRAP_PERIODIC);
+    }
+    WrPointer plain = *at;
+    plain.mods &= WR_MOD_SHIFT; /* with others the brush would pick */
+    wr_brush_press(app, &plain);
+}
+
+static void drag(WrApp *app, const WrPointer *at)
+{
+    if (sets_source(at) && !app->brush->drawing) {
+        set_source(app, at);
+        return;
+    }
+    WrPointer plain = *at;
+    plain.mods &= WR_MOD_SHIFT;
+    if (app->brush->drawing) wr_brush_drag(app, &plain);
+}
+
+static void marks(WrApp *app)
+{
+    const WrCloneHand *draw = app->clone;
+    const WrBrush *brush = &app->settings->brush;
+    if (!draw->source) return;
+    double u = draw->source_u, v = draw->source_v;
+    if (draw->anchored && app->hand->on_canvas) {
+        u = app->hand->at.u + brush->source_u;
+        v = app->hand->at.v + brush->source_v;
+    }
+    wr_overlay_cross(app, u, v, WR_COLOUR_CELL);
+}
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_clone = {
+    .action = "clone",
+    .icon = WR_ICON_CLONE,
+    .help = "Paint with heights from elsewhere: Ctrl and a click says from where.",
+    .press = press,
+    .drag = drag,
+    .release = wr_brush_release,
+    .overlay = wr_brush_overlay,
+    .marks = marks,
+    .options = wr_brush_options,
+    .paints = true,
+    .mode = 1 + WR_BRUSH_CLONE
+};
+
+static void another(WrApp *app)
+{
+    app->clone->source = app->clone->anchored = false;
+}
+
+const WrPart wr_part_clone = { .another = another };

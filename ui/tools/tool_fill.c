@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT
+   Filling what is connected: a click does to all of it what the brush's mode does. */
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/line.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/tools/option.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_rows.h"
+#include "ui/views/overlay.h"
+
+#include "base/text.h"
+#include "brush/brush.h"
+#include "field/select.h"
+
+#include <math.h>
+
+static void paint_line(const WrApp *app, WrText *line)
+{
+    const WrBrush *brush = &app->settings->brush;
+    unsigned uses = wr_brush_modes[brush->mode].uses;
+    wr_line_number(line, "strength", brush->strength);
+    wr_text_addf(line, " mode=%s", wr_brush_modes[brush->mode].name);
+    if (uses & WR_USES_TO) wr_line_number(line, "to", brush->to);
+    if (brush->opacity < 1.0) wr_line_number(line, "opacity", brush->opacity);
+    if ((uses & WR_USES_REACH) && brush->reach > 0.0) wr_line_number(line, "reach", brush->reach);
+    if (!(uses & WR_USES_SOURCE)) return;
+    wr_line_number(line, "source", brush->source_u);
+    wr_text_add(line, ",");
+    wr_text_add_number(line, brush->source_v);
+}
+
+static void press(WrApp *app, const WrPointer *at)
+{
+    const WrDrawSettings *how = &app->settings->drawing;
+    WrSelectPoint home = wr_overlay_home(app, at->u, at->v);
+    WrText line = { 0 };
+    app->hints = false;
+    wr_text_add(&line, "flood ");
+    wr_text_add_number(&line, wr_line_round(at->u + home.u, 7));
+    wr_text_add(&line, ",");
+    wr_text_add_number(&line, wr_line_round(at->v + home.v, 7));
+    wr_line_number(&line, "tolerance", how->tolerance);
+    if (how->diagonal) wr_text_add(&line, " diagonal=on");
+    paint_line(app, &line);
+    wr_app_run_slow(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+/* ---- options ---- */
+
+static void tolerance(WrApp *app, double width)
+{
+    static const WrNumber spec = { .low = 0.0001,
+                                   .high = 1,
+                                   .hard_low = 0,
+                                   .hard_high = 1e30,
+                                   .reset = 0.01,
+                                   .decimals = -1,
+                                   .logarithmic = true,
+                                   .tip = "How far heights may be from the one that is clicked" };
+    wr_gui_number("tolerance", width, &spec, &app->settings->drawing.tolerance);
+}
+
+static void diagonal(WrApp *app, double width)
+{
+    (void)width;
+    wr_gui_check("over corners", &app->settings->drawing.diagonal);
+    wr_gui_tip("Texels that only touch at a corner count as connected");
+}
+
+static void options(WrApp *app)
+{
+    unsigned uses = wr_option_mode_of(app)->uses;
+    const WrOption items[] = { { "", 104, 12, wr_option_fill_mode, true },
+                               { "Strength", 84, 0, wr_option_strength,
+                                 (uses & WR_USES_STRENGTH) != 0 },
+                               { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
+                               { "Opacity", 84, 0, wr_option_opacity, true },
+                               { "Tolerance", 84, 0, tolerance, true },
+                               { "", 0, 120, diagonal, true } };
+    wr_option_row(app, items, (int)(sizeof items / sizeof *items));
+}
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_flood = {
+    .action = "flood",
+    .icon = WR_ICON_BUCKET,
+    .help = "Click to fill what is connected and as high as what is clicked.",
+    .press = press,
+    .options = options
+};

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: MIT
+   Selecting by hand: a drag draws a shape on any copy of the cell, and across its edges. */
+#include "ui/tools/tool_select.h"
+#include "ui/canvas/view.h"
+#include "ui/desk/action.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/line.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_rows.h"
+#include "ui/views/marks.h"
+
+#include "base/array.h"
+#include "base/text.h"
+#include "field/field.h"
+#include "field/select.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ELLIPSE_POINTS 96
+#define CLICK_PIXELS 3.0
+
+typedef enum Shape { SHAPE_RECT, SHAPE_ELLIPSE, SHAPE_LASSO } Shape;
+
+static const char *const join_names[] = { "replace", "add", "subtract", "intersect" };
+
+static Shape shape_of(const WrApp *app)
+{
+    const char *name = wr_tool_now(app)->action;
+    return strcmp(name, "select_ellipse") == 0 ? SHAPE_ELLIPSE
+           : strcmp(name, "select_lasso") == 0 ? SHAPE_LASSO
+                                               : SHAPE_RECT;
+}
+
+static void texel_at(const WrApp *app, const WrPointer *at, double *x, double *y)
+{
+    wr_view_to_texel(app->view, at->x, at->y, x, y);
+}
+
+static WrSelectPoint point_of(const WrApp *app, double x, double y)
+{
+    return (WrSelectPoint){ x / app->view->table_w, 1.0 - y / app->view->table_h };
+}
+
+/* ---- the shape ---- */
+
+static void put_rect(WrApp *app, double x0, double y0, double x1, double y1)
+{
+    WrSelectHand *hand = app->select;
+    hand->points.count = 0;
+    wr_array_push(&hand->points, point_of(app, x0, y0));
+    wr_array_push(&hand->points, point_of(app, x1, y0));
+    wr_array_push(&hand->points, point_of(app, x1, y1));
+    wr_array_push(&hand->points, point_of(app, x0, y1));
+}
+
+static void put_ellipse(WrApp *app, double x0, double y0, double x1, double y1)
+{
+    WrSelectHand *hand = app->select;
+    hand->points.count = 0;
+    for (int i = 0; i < ELLIPSE_POINTS; i++) {
+        double a = 6.28318530717958648 * i / ELLIPSE_POINTS;
+        wr_array_push(&hand->points, point_of(app, (x0 + x1) / 2 + (x1 - x0) / 2 * cos(a),
+                                              (y0 + y1) / 2 + (y1 - y0) / 2 * sin(a)));
+    }
+}
+
+/* The sides of a rectangle's drag, on the edges of texels. */
+static void corners(const WrApp *app, const WrPointer *at, double box[4])
+{
+    double x, y;
+    texel_at(app, at, &x, &y);
+    box[0] = rint(app->select->x);
+    box[1] = rint(app->select->y);
+    box[2] = rint(x);
+    box[3] = rint(y);
+}
+
+static void follow(WrApp *app, const WrPointer *at)
+{
+    double box[4], x, y;
+    Shape shape = shape_of(app);
+    if (shape == SHAPE_LASSO) {
+        texel_at(app, at, &x, &y);
+        if (app->select->points.count < WR_SELECT_POINTS)
+            wr_array_push(&app->select->points, point_of(app, x, y));
+        return;
+    }
+    corners(app, at, box);
+    if (shape == SHAPE_RECT) put_rect(app, box[0], box[1], box[2], box[3]);
+    else put_ellipse(app, box[0], box[1], box[2], box[3]);
+}
+
+/* ---- the gesture ---- */
+
+static void press(WrApp *app, const WrPointer *at)
+{
+    WrSelectHand *hand = app->select;
+    bool shift = (at->mods & WR_MOD_SHIFT) != 0, alt = (at->mods & WR_MOD_ALT) != 0;
+    hand->active = true;
+    hand->mode = shift && alt ? WR_SELECT_INTERSECT
+                 : shift      ? WR_SELECT_ADD
+                 : alt        ? WR_SELECT_SUBTRACT
+                              : (WrSelectMode)app->settings->join;
+    hand->points.count = 0;
+    texel_at(app, at, &hand->x, &hand->y);
+    app->hints = false;
+    follow(app, at);
+    wr_app_redraw(app);
+}
+
+static void drag(WrApp *app, const WrPointer *at)
+{
+    if (!app->select->active) return;
+    follow(app, at);
+    wr_app_redraw(app);
+}
+
+void wr_select_cancel(WrApp *app)
+{
+    app->select->active = false;
+    wr_array_free(&app->select->points);
+    wr_app_redraw(app);
+}
+
+/* What all points are moved by so that the first lies in the real cell: whole cells. */
+static WrSelectPoint home(const WrApp *app)
+{
+    WrSelectPoint first = app->select->points.data[0];
+    const WrField *field = wr_app_field(app);
+    return (WrSelectPoint){ wr_field_wrap_u(field) == WR_WRAP_PERIODIC ? -floor(first.u) : 0.0,
+                            wr_field_wrap_v(field) == WR_WRAP_PERIODIC ? -floor(first.v) : 0.0 };
+}
+
+static double reach(double x)
+{
+    return x < -WR_SELECT_REACH ? -WR_SELECT_REACH : x > WR_SELECT_REACH ? WR_SELECT_REACH : x;
+}
+
+static void add_point(WrText *line, double u, double v)
+{
+    wr_text_add_number(line, wr_line_round(reach(u), 9));
+    wr_text_add(line, ",");
+    wr_text_add_number(line, wr_line_round(reach(v), 9));
+}
+
+static void write_lasso(const WrApp *app, WrSelectPoint shift, WrText *line)
+{
+    const WrSelectHand *hand = app->select;
+    wr_text_add(line, "select lasso points=");
+    for (int i = 0; i < hand->points.count; i++) {
+        if (i) wr_text_add(line, ";");
+        add_point(line, hand->points.data[i].u + shift.u, hand->points.data[i].v + shift.v);
+    }
+}
+
+static void write_box(const WrApp *app, const WrPointer *at, WrSelectPoint shift, WrText *line)
+{
+    double box[4];
+    corners(app, at, box);
+    WrSelectPoint a = point_of(app, box[0], box[1]), b = point_of(app, box[2], box[3]);
+    a = (WrSelectPoint){ a.u + shift.u, a.v + shift.v };
+    b = (WrSelectPoint){ b.u + shift.u, b.v + shift.v };
+    if (shape_of(app) == SHAPE_RECT) {
+        wr_text_add(line, "select rect from=");
+        add_point(line, a.u, a.v);
+        wr_text_add(line, " to=");
+        add_point(line, b.u, b.v);
+    } else {
+        wr_text_add(line, "select ellipse centre=");
+        add_point(line, (a.u + b.u) / 2, (a.v + b.v) / 2);
+        wr_text_add(line, " radii=");
+        add_point(line, fabs(b.u - a.u) / 2, fabs(b.v - a.v) / 2);
+    }
+}
+
+/* A click without a drag gives the selection up, as painters expect. */
+static bool is_click(const WrApp *app, const WrPointer *at)
+{
+    bool near_by = fabs(at->x - app->hand->start.x) < CLICK_PIXELS &&
+                   fabs(at->y - app->hand->start.y) < CLICK_PIXELS;
+    if (shape_of(app) == SHAPE_LASSO) return near_by && app->select->points.count < 8;
+    double box[4];
+    corners(app, at, box);
+    return near_by || box[0] == box[2] || box[1] == box[3];
+}
+
+static void release(WrApp *app, const WrPointer *at)
+{
+    WrSelectHand *hand = app->select;
+    if (!hand->active) return;
+    WrText line = { 0 };
+    bool click = is_click(app, at) || (shape_of(app) == SHAPE_LASSO && hand->points.count < 3);
+    if (!click) {
+        WrSelectPoint shift = home(app);
+        if (shape_of(app) == SHAPE_LASSO) write_lasso(app, shift, &line);
+        else write_box(app, at, shift, &line);
+        if (hand->mode != WR_SELECT_REPLACE)
+            wr_text_addf(&line, " mode=%s", join_names[hand->mode]);
+    } else if (hand->mode == WR_SELECT_REPLACE && wr_app_document(app)->selection) {
+        wr_text_add(&line, "select none");
+    }
+    wr_select_cancel(app);
+    if (line.length) wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+static void options(WrApp *app)
+{
+    static const char *const joins[] = { "Replace", "Add", "Subtract", "Intersect" };
+    wr_gui_same_line(14);
+    wr_gui_segments("join", joins, NULL, WR_SELECT_MODES, &app->settings->join);
+    wr_gui_tip("Shift adds, Alt subtracts, both intersect");
+    static const char *const names[] = { "select_all", "select_none", "select_invert" };
+    wr_gui_same_line(16);
+    for (int i = 0; i < 3; i++) {
+        const WrAction *action = wr_action_find(app, names[i]);
+        wr_gui_disable(action->enabled && !action->enabled(app));
+        if (wr_gui_chip(NULL, action->label)) wr_action_run(app, names[i]);
+        wr_gui_enable();
+        wr_gui_same_line(6);
+    }
+    if (app->width < wr_gui_px(1100)) return;
+    wr_gui_same_line(16);
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                "Shift adds, Alt subtracts, both intersect; a click selects nothing");
+}
+
+/* ---- the rows ---- */
+
+const WrTool wr_tool_select_rect = {
+    .action = "select_rect",
+    .icon = WR_ICON_RECT,
+    .help = "Drag a rectangle, across the cell's edges if need be: edits then keep to it.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .options = options
+};
+
+const WrTool wr_tool_select_ellipse = { .action = "select_ellipse",
+                                        .icon = WR_ICON_ELLIPSE,
+                                        .help = "Drag an ellipse: edits then keep to it.",
+                                        .press = press,
+                                        .drag = drag,
+                                        .release = release,
+                                        .options = options };
+
+const WrTool wr_tool_select_lasso = { .action = "select_lasso",
+                                      .icon = WR_ICON_LASSO,
+                                      .help = "Draw an outline by hand: edits then keep to it.",
+                                      .press = press,
+                                      .drag = drag,
+                                      .release = release,
+                                      .options = options };
+
+static void another(WrApp *app)
+{
+    wr_select_cancel(app);
+}
+
+const WrPart wr_part_select = { .another = another };

@@ -1,0 +1,8 @@
+/* tool_select.h - a selection that is being drawn. */
+#pragma once
+#include "ui/desk/desk.h"
+#include "ui/desk/roster.h"
+
+void wr_select_cancel(WrApp *app);
+
+extern const WrPart wr_part_select;

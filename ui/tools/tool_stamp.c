@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: MIT
+   A stamp: a picture, or the round brush, put onto the table once. What would come of it is shown under
+   the pointer, on the table and on the patch, on a snapshot: press where its middle goes, drag for its turn
+   and size, let go. The wheel sizes it, Enter puts it where the pointer is, Escape gives up. */
+#include "ui/tools/tool_stamp.h"
+#include "ui/canvas/view.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/desk/line.h"
+#include "ui/desk/messages.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/tools/brush_line.h"
+#include "ui/tools/option.h"
+#include "ui/tools/stamps.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_rows.h"
+#include "ui/views/overlay.h"
+#include "ui/work/trial.h"
+
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "brush/brush.h"
+#include "brush/symmetry.h"
+#include "brush/tip.h"
+#include "field/select.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define DRAG_PIXELS 8.0
+#define FIRST_RADIUS 48.0
+
+static double radius_of(const WrApp *app)
+{
+    double least = fmin(app->view->table_w, app->view->table_h);
+    return app->stamp->radius > 0.0 ? app->stamp->radius
+                                    : fmax(1.0, fmin(FIRST_RADIUS, least / 6.0));
+}
+
+static WrBrush brush_of(const WrApp *app)
+{
+    WrBrush brush = app->settings->brush;
+    brush.preset = NULL;
+    brush.tip = app->stamp->tip;
+    brush.radius = radius_of(app);
+    brush.angle_deg = app->stamp->angle_deg;
+    brush.aspect = 1.0;
+    brush.follow = false;
+    brush.jitter_place = brush.jitter_angle_deg = brush.jitter_size = 0.0;
+    brush.flow = 1.0;
+    brush.seed = 0;
+    return brush;
+}
+
+bool wr_stamp_choose(WrApp *app, const char *path)
+{
+    WrStampHand *draw = app->stamp;
+    WrError err;
+    WrTip *tip = path ? wr_tip_read(path, &err) : NULL;
+    if (path && !tip) {
+        wr_app_fail(app, &err);
+        return false;
+    }
+    char *copy = path ? wr_strdup(path) : NULL;
+    wr_tip_free(draw->tip);
+    wr_free(draw->tip_path);
+    draw->tip = tip;
+    draw->tip_path = copy;
+    draw->trying = false;
+    wr_app_redraw(app);
+    return true;
+}
+
+void wr_stamp_forget(WrApp *app)
+{
+    wr_tip_free(app->stamp->tip);
+    wr_free(app->stamp->tip_path);
+    wr_stamps_free(app);
+    app->stamp->tip = NULL;
+    app->stamp->tip_path = NULL;
+}
+
+/* ---- what would come of it ---- */
+
+/* The middle, as the command will say it. */
+static void place_of(const WrApp *app, double *u, double *v)
+{
+    const WrStampHand *draw = app->stamp;
+    double pu = draw->placed ? draw->u : app->hand->at.u,
+           pv = draw->placed ? draw->v : app->hand->at.v;
+    WrSelectPoint home = wr_overlay_home(app, pu, pv);
+    *u = wr_line_round(pu + home.u, 7);
+    *v = wr_line_round(pv + home.v, 7);
+}
+
+static bool is_wanted(const WrApp *app)
+{
+    bool free = app->hand->grab == WR_GRAB_NONE || app->hand->grab == WR_GRAB_TOOL;
+    return wr_tool_now(app) == &wr_tool_stamp && app->dialog->now == WR_DIALOG_NONE && free &&
+           (app->stamp->placed || (app->hand->on_canvas && !app->hand->space));
+}
+
+/* All of a brush that a stamp goes by. */
+static bool same_brush(const WrBrush *a, const WrBrush *b)
+{
+    const WrSymmetry *s = &a->symmetry, *t = &b->symmetry;
+    return a->tip == b->tip && a->radius == b->radius && a->hardness == b->hardness &&
+           a->angle_deg == b->angle_deg && a->strength == b->strength && a->mode == b->mode &&
+           a->to == b->to && a->opacity == b->opacity && a->reach == b->reach &&
+           s->mirror_u == t->mirror_u && s->mirror_v == t->mirror_v && s->radial == t->radial &&
+           s->centre_u == t->centre_u && s->centre_v == t->centre_v && s->repeat_u == t->repeat_u &&
+           s->repeat_v == t->repeat_v && s->stagger == t->stagger;
+}
+
+static void update(WrApp *app)
+{
+    WrStampHand *draw = app->stamp;
+    if (!is_wanted(app)) {
+        if (draw->trying && app->dialog->now == WR_DIALOG_NONE) wr_app_try_end(app);
+        draw->trying = false;
+        return;
+    }
+    WrBrush brush = brush_of(app);
+    WrTrialAsk ask = { .dab = &brush };
+    place_of(app, &ask.u, &ask.v);
+    bool same = draw->trying && app->trying && draw->tried.u == ask.u && draw->tried.v == ask.v &&
+                same_brush(&draw->tried_brush, &brush);
+    if (same || wr_trial_busy(app->trial, NULL, NULL)) return;
+    draw->tried = ask;
+    draw->tried_brush = brush;
+    draw->trying = true;
+    wr_app_try(app, &ask);
+}
+
+static void leave(WrApp *app)
+{
+    app->stamp->placed = app->stamp->dragged = false;
+    if (app->stamp->trying) wr_app_try_end(app);
+    app->stamp->trying = false;
+}
+
+/* ---- the gesture ---- */
+
+static void commit(WrApp *app)
+{
+    WrStampHand *draw = app->stamp;
+    WrBrush brush = brush_of(app), base = wr_brush_default();
+    WrBrushNames names = { .tip = draw->tip_path };
+    WrText line = { 0 };
+    double u, v;
+    place_of(app, &u, &v);
+    wr_text_add(&line, "dab ");
+    wr_text_add_number(&line, u);
+    wr_text_add(&line, ",");
+    wr_text_add_number(&line, v);
+    brush.radius = wr_line_round(brush.radius, 3);
+    brush.angle_deg = wr_line_round(brush.angle_deg, 3);
+    wr_brush_line(&line, &brush, &base, &names);
+    app->hand->grab = WR_GRAB_NONE;
+    draw->placed = draw->dragged = draw->trying = false;
+    app->hints = false;
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+static void press(WrApp *app, const WrPointer *at)
+{
+    WrStampHand *draw = app->stamp;
+    draw->placed = true;
+    draw->dragged = false;
+    draw->u = at->u;
+    draw->v = at->v;
+    draw->first_radius = draw->radius;
+    draw->first_angle = draw->angle_deg;
+    wr_app_redraw(app);
+}
+
+static void drag(WrApp *app, const WrPointer *at)
+{
+    WrStampHand *draw = app->stamp;
+    double dx = at->x - app->hand->start.x, dy = at->y - app->hand->start.y, way = hypot(dx, dy);
+    if (!draw->placed || (!draw->dragged && way < DRAG_PIXELS * wr_gui_scale())) return;
+    draw->dragged = true;
+    double turn = atan2(-dy, dx) * 57.29577951308232;
+    if (at->mods & WR_MOD_SHIFT) turn = rint(turn / 15.0) * 15.0;
+    draw->angle_deg = wr_line_round(turn, 1);
+    draw->radius = wr_line_round(fmax(way / app->view->zoom, 0.5), 1);
+    wr_app_redraw(app);
+}
+
+static void release(WrApp *app, const WrPointer *at)
+{
+    (void)at;
+    if (app->stamp->placed) commit(app);
+}
+
+static bool key(WrApp *app, SDL_Keycode key)
+{
+    WrStampHand *draw = app->stamp;
+    if (key == SDLK_ESCAPE && draw->placed) {
+        draw->radius = draw->first_radius;
+        draw->angle_deg = draw->first_angle;
+        app->hand->grab = WR_GRAB_NONE;
+        leave(app);
+        wr_app_redraw(app);
+        return true;
+    }
+    if ((key != SDLK_RETURN && key != SDLK_KP_ENTER) || !(app->hand->on_canvas || draw->placed))
+        return false;
+    commit(app);
+    return true;
+}
+
+static bool wheel(WrApp *app, double steps)
+{
+    if (wr_key_mods(SDL_GetModState()) != 0) return false; /* Ctrl and the wheel zoom as ever */
+    double r = radius_of(app) * exp2(steps / 6.0);
+    r = r < 0.5 ? 0.5 : r > 16384.0 ? 16384.0 : r;
+    app->stamp->radius = wr_line_round(r, r < 10.0 ? 1 : 0);
+    wr_app_redraw(app);
+    return true;
+}
+
+/* ---- on the canvas ---- */
+
+/* Its frame: the picture's edges, turned; a circle for the round brush. */
+static void overlay(WrApp *app)
+{
+    WrSelectPoint points[48];
+    double u, v, r = radius_of(app), a = app->stamp->angle_deg / 57.29577951308232;
+    int count = app->stamp->tip ? 4 : 48, w = 1, h = 1;
+    if (app->stamp->tip) wr_tip_size(app->stamp->tip, 0, &w, &h);
+    double longer = w > h ? w : h;
+    place_of(app, &u, &v);
+    double x = u * app->view->table_w, y = (1.0 - v) * app->view->table_h;
+    for (int i = 0; i < count; i++) {
+        double turn = 6.283185307179586 * i / count;
+        double px = count == 4 ? (i == 0 || i == 3 ? r : -r) * w / longer : r * cos(turn);
+        double py = count == 4 ? (i < 2 ? r : -r) * h / longer : r * sin(turn); /* up */
+        points[i] =
+            wr_overlay_uv(app, x + px * cos(a) - py * sin(a), y - px * sin(a) - py * cos(a));
+    }
+    wr_overlay_lines(app, points, count, true, 0xd0f4f4f4u);
+}
+
+static void marks(WrApp *app)
+{
+    const WrStampHand *draw = app->stamp;
+    char text[64];
+    if (!draw->placed || !draw->dragged) return;
+    snprintf(text, sizeof text, "%.4g px  %.0f\xc2\xb0", 2.0 * draw->radius, draw->angle_deg);
+    wr_overlay_label(app->hand->start.x, app->hand->start.y, text);
+}
+
+/* ---- options ---- */
+
+static void stamp_size(WrApp *app, double width)
+{
+    static const WrNumber spec = { .low = 4,
+                                   .high = 1000,
+                                   .hard_low = 1,
+                                   .hard_high = 32768,
+                                   .reset = 96,
+                                   .decimals = -1,
+                                   .unit = "px",
+                                   .logarithmic = true,
+                                   .tip = "Length of the picture's longer side, in texels" };
+    double diameter = 2.0 * (app->stamp->radius > 0.0 ? app->stamp->radius : 48.0);
+    if (wr_gui_number("stamp_size", width, &spec, &diameter)) app->stamp->radius = diameter / 2.0;
+}
+
+static void stamp_angle(WrApp *app, double width)
+{
+    static const WrNumber spec = { .low = -180,
+                                   .high = 180,
+                                   .hard_low = -360,
+                                   .hard_high = 360,
+                                   .reset = 0,
+                                   .decimals = 0,
+                                   .unit = "\xc2\xb0",
+                                   .tip = "Turns the picture anticlockwise" };
+    wr_gui_number("stamp_angle", width, &spec, &app->stamp->angle_deg);
+}
+
+static void options(WrApp *app)
+{
+    unsigned uses = wr_option_mode_of(app)->uses;
+    const WrOption items[] = { { "", 104, 12, wr_option_mode, true },
+                               { "Size", 92, 0, stamp_size, true },
+                               { "Angle", 74, 0, stamp_angle, true },
+                               { "Strength", 84, 0, wr_option_strength,
+                                 (uses & WR_USES_STRENGTH) != 0 },
+                               { "Height", 84, 0, wr_option_to_height, (uses & WR_USES_TO) != 0 },
+                               { "", 28, 0, wr_option_symmetry, true },
+                               { "Hardness", 74, 0, wr_option_hardness, app->stamp->tip == NULL },
+                               { "Opacity", 84, 0, wr_option_opacity, true } };
+    wr_stamp_picker(app);
+    wr_option_row(app, items, (int)(sizeof items / sizeof *items));
+}
+
+/* ---- the row ---- */
+
+const WrTool wr_tool_stamp = {
+    .action = "stamp",
+    .icon = WR_ICON_SEAL,
+    .help = "Press where a picture goes, drag for its turn and size, let go; the wheel sizes it.",
+    .press = press,
+    .drag = drag,
+    .release = release,
+    .overlay = overlay,
+    .marks = marks,
+    .options = options,
+    .key = key,
+    .wheel = wheel,
+    .leave = leave
+};
+
+void wr_stamp_take(WrApp *app, const char *path)
+{
+    wr_stamp_choose(app, path);
+}
+
+const WrPart wr_part_stamp = { .update = update };

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT
+   Moving and zooming the canvas. */
+#include "ui/tools/tool_view.h"
+#include "ui/canvas/view.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
+#include "ui/gui/gui.h"
+#include "ui/tools/tool.h"
+#include "ui/tools/tool_rows.h"
+
+#include <math.h>
+
+void wr_tool_pan_drag(WrApp *app, const WrPointer *at)
+{
+    wr_view_pan(app->view, at->x - app->hand->at.x, at->y - app->hand->at.y);
+    wr_app_redraw(app);
+}
+
+static void zoom_press(WrApp *app, const WrPointer *at)
+{
+    double factor = at->mods & WR_MOD_CTRL ? 0.5 : 2.0;
+    wr_view_zoom_at(app->view, at->x, at->y, app->view->zoom * factor);
+    wr_app_redraw(app);
+}
+
+static void zoom_drag(WrApp *app, const WrPointer *at)
+{
+    double steps = (app->hand->at.y - at->y) / (100.0 * wr_gui_scale());
+    wr_view_zoom_at(app->view, app->hand->start.x, app->hand->start.y,
+                    app->view->zoom * exp2(steps));
+    wr_app_redraw(app);
+}
+
+/* ---- the rows ---- */
+
+const WrTool wr_tool_pan = {
+    .action = "pan",
+    .icon = WR_ICON_HAND,
+    .help = "Move the table. Space and dragging, or the middle button, does it in any tool.",
+    .drag = wr_tool_pan_drag
+};
+
+const WrTool wr_tool_zoom = {
+    .action = "zoom",
+    .icon = WR_ICON_ZOOM,
+    .help = "Click to zoom in, with Ctrl out; drag up and down to zoom smoothly. The wheel does "
+            "it in "
+            "any tool.",
+    .press = zoom_press,
+    .drag = zoom_drag
+};

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT
+   Lines and marks on the canvas, on every copy of the cell that is seen. */
+#include "ui/views/overlay.h"
+#include "ui/canvas/view.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+
+#include "field/field.h"
+#include "field/select.h"
+
+#include <math.h>
+
+#define COPIES_MAX 49 /* that are drawn; beyond, only the nearest */
+
+WrSelectPoint wr_overlay_uv(const WrApp *app, double x, double y)
+{
+    return (WrSelectPoint){ x / app->view->table_w, 1.0 - y / app->view->table_h };
+}
+
+WrSelectPoint wr_overlay_home(const WrApp *app, double u, double v)
+{
+    const WrField *field = wr_app_field(app);
+    return (WrSelectPoint){ wr_field_wrap_u(field) == WR_WRAP_PERIODIC ? -floor(u) : 0.0,
+                            wr_field_wrap_v(field) == WR_WRAP_PERIODIC ? -floor(v) : 0.0 };
+}
+
+static void pixel_of(const WrApp *app, WrSelectPoint p, double du, double dv, double *x, double *y)
+{
+    wr_view_to_pixel(app->view, (p.u + du) * app->view->table_w,
+                     (1.0 - p.v - dv) * app->view->table_h, x, y);
+}
+
+/* Whole cells by which what lies in low..high (u and v) must be moved to be seen: *from .. *to. */
+typedef struct Shifts {
+    int from_u, to_u, from_v, to_v;
+} Shifts;
+
+static Shifts shifts_of(const WrApp *app, WrSelectPoint low, WrSelectPoint high)
+{
+    const WrCanvasView *view = app->view;
+    const WrField *field = wr_app_field(app);
+    double u0, v0, u1, v1;
+    wr_view_to_uv(view, view->x, view->y + view->h, &u0, &v0);
+    wr_view_to_uv(view, view->x + view->w, view->y, &u1, &v1);
+    Shifts s = { 0, 0, 0, 0 };
+    if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) {
+        s.from_u = (int)ceil(u0 - high.u);
+        s.to_u = (int)floor(u1 - low.u);
+    }
+    if (wr_field_wrap_v(field) == WR_WRAP_PERIODIC) {
+        s.from_v = (int)ceil(v0 - high.v);
+        s.to_v = (int)floor(v1 - low.v);
+    }
+    int64_t count = (int64_t)(s.to_u - s.from_u + 1) * (s.to_v - s.from_v + 1);
+    if (count > COPIES_MAX) s = (Shifts){ -1, 1, -1, 1 };
+    return s;
+}
+
+static void lines(const WrApp *app, const WrSelectPoint *points, int count, bool closed, double du,
+                  double dv, WrColour colour, double width)
+{
+    double x0, y0, x1, y1;
+    for (int i = closed ? 0 : 1; i < count; i++) {
+        pixel_of(app, points[i == 0 ? count - 1 : i - 1], du, dv, &x0, &y0);
+        pixel_of(app, points[i], du, dv, &x1, &y1);
+        wr_gui_draw_line(x0, y0, x1, y1, colour, width);
+    }
+}
+
+void wr_overlay_lines(const WrApp *app, const WrSelectPoint *points, int count, bool closed,
+                      WrColour colour)
+{
+    if (count < 2) return;
+    WrSelectPoint low = points[0], high = points[0];
+    for (int i = 1; i < count; i++) {
+        low = (WrSelectPoint){ fmin(low.u, points[i].u), fmin(low.v, points[i].v) };
+        high = (WrSelectPoint){ fmax(high.u, points[i].u), fmax(high.v, points[i].v) };
+    }
+    double s = wr_gui_scale();
+    Shifts shifts = shifts_of(app, low, high);
+    for (int j = shifts.from_v; j <= shifts.to_v; j++)
+        for (int i = shifts.from_u; i <= shifts.to_u; i++) {
+            lines(app, points, count, closed, i, j, 0x90000000u, 3.0 * s);
+            lines(app, points, count, closed, i, j, colour, 1.3 * s);
+        }
+}
+
+/* Call `draw` at each place in pixels. */
+static void at_copies(const WrApp *app, double u, double v, WrColour colour,
+                      void (*draw)(double x, double y, WrColour colour))
+{
+    WrSelectPoint p = { u, v };
+    Shifts shifts = shifts_of(app, p, p);
+    for (int j = shifts.from_v; j <= shifts.to_v; j++)
+        for (int i = shifts.from_u; i <= shifts.to_u; i++) {
+            double x, y;
+            pixel_of(app, p, i, j, &x, &y);
+            draw(x, y, colour);
+        }
+}
+
+static void draw_cross(double x, double y, WrColour colour)
+{
+    double s = wr_gui_scale(), arm = 7.0 * s;
+    for (int pass = 0; pass < 2; pass++) {
+        WrColour ink = pass ? colour : 0xa0000000u;
+        double wide = (pass ? 1.5 : 3.5) * s;
+        wr_gui_draw_line(x - arm, y, x + arm, y, ink, wide);
+        wr_gui_draw_line(x, y - arm, x, y + arm, ink, wide);
+        wr_gui_draw_circle(x, y, arm * 0.6, ink, wide);
+    }
+}
+
+void wr_overlay_cross(const WrApp *app, double u, double v, WrColour colour)
+{
+    at_copies(app, u, v, colour, draw_cross);
+}
+
+static void draw_square(double x, double y, WrColour colour)
+{
+    double r = 4.0 * wr_gui_scale();
+    wr_gui_draw_fill(x - r - 1, y - r - 1, 2 * r + 2, 2 * r + 2, 0xd0000000u, 0);
+    wr_gui_draw_fill(x - r, y - r, 2 * r, 2 * r, colour, 0);
+}
+
+static void draw_knob(double x, double y, WrColour colour)
+{
+    double r = 4.0 * wr_gui_scale();
+    wr_gui_draw_disc(x, y, r + 1.0, 0xd0000000u);
+    wr_gui_draw_disc(x, y, r, colour);
+}
+
+void wr_overlay_handle(const WrApp *app, double u, double v, bool round, bool hot)
+{
+    at_copies(app, u, v, hot ? WR_COLOUR_CELL : 0xfff4f4f4u, round ? draw_knob : draw_square);
+}
+
+void wr_overlay_label(double x, double y, const char *text)
+{
+    double w = wr_gui_text_width(WR_FONT_SMALL, text), h = wr_gui_line_height(WR_FONT_SMALL);
+    double pad = 4.0 * wr_gui_scale();
+    wr_gui_draw_fill(x - w / 2 - pad, y - h / 2 - pad, w + 2 * pad, h + 2 * pad, WR_COLOUR_CHIP,
+                     3.0);
+    wr_gui_draw_text(x - w / 2, y - h / 2, WR_FONT_SMALL, WR_COLOUR_STRONG, text);
+}

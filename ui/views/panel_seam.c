@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: MIT
+   The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
+   smoothly, orange where it jumps. */
+#include "ui/views/panel_seam.h"
+#include "ui/canvas/seam.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+
+#include "base/text.h"
+#include "command/session.h"
+#include "field/field.h"
+
+#include <SDL.h>
+#include <math.h>
+
+#define QUIET 0xff6f7a86u
+#define CREASED 0xffc9a86au
+
+static WrColour colour_of(const WrSeamEdge *edge)
+{
+    return !edge->wraps    ? 0xff444444u
+           : edge->jumps   ? WR_COLOUR_RAISE
+           : edge->creases ? CREASED
+                           : QUIET;
+}
+
+static const char *word_of(const WrSeamEdge *edge)
+{
+    return !edge->wraps    ? "the table ends there"
+           : edge->jumps   ? "the height jumps"
+           : edge->creases ? "the slope breaks"
+                           : "smooth";
+}
+
+static void add_numbers(WrText *tip, const WrSeamEdge *edge)
+{
+    if (!edge->wraps) return;
+    wr_text_addf(tip,
+                 "\n   step %.3g, at most %.3g; inside up to %.3g\n"
+                 "   change of slope %.3g a texel; inside up to %.3g",
+                 edge->jump, edge->jump_most, edge->jump_inside, edge->crease, edge->crease_inside);
+}
+
+/* Measured when the table rests: a stroke wraps and makes no seams. */
+static void measure(WrApp *app)
+{
+    const WrField *field = wr_app_field(app);
+    uint64_t key = wr_field_key(field);
+    if (key == app->seam_key || wr_session_in_stroke(app->session)) return;
+    *app->seam = wr_seam_measure(field);
+    app->seam_key = key;
+}
+
+void wr_panel_seam(WrApp *app)
+{
+    const SDL_Rect *room = &app->layout->canvas;
+    measure(app);
+    const WrSeam *seam = app->seam;
+    WrColour u = colour_of(&seam->u), v = colour_of(&seam->v), sides[4] = { u, u, v, v };
+    WrText tip = { 0 };
+    wr_gui_overlay_begin("##seam", room->x + room->w - wr_gui_px(12), room->y + wr_gui_px(12), 1,
+                         0);
+    wr_gui_square("seam", 26, sides);
+    wr_text_addf(&tip, "Left and right edge: %s", word_of(&seam->u));
+    add_numbers(&tip, &seam->u);
+    wr_text_addf(&tip, "\nTop and bottom edge: %s", word_of(&seam->v));
+    add_numbers(&tip, &seam->v);
+    wr_gui_tip(wr_text_get(&tip));
+    wr_gui_overlay_end();
+    wr_text_fini(&tip);
+}

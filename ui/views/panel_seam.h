@@ -1,0 +1,5 @@
+/* panel_seam.h - how well the cell's edges meet, on the canvas. */
+#pragma once
+#include "ui/desk/desk.h"
+
+void wr_panel_seam(WrApp *app); /* on the canvas */

@@ -1,0 +1,393 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/work/files.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/work/thread.h"
+
+#include "base/array.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <SDL.h>
+#include <dirent.h>
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define PATH_SIZE 4096
+#define ENTRIES_MAX 4000 /* of a folder that the panel shows */
+
+extern char **environ;
+
+typedef struct Entry {
+    char *name; /* owned */
+    bool folder;
+} Entry;
+
+struct WrFiles {
+    Uint32 done_event;
+    WrFilePurpose purpose;
+    char answer[PATH_SIZE]; /* "" if cancelled */
+    bool agreed;            /* the native dialog asked before it gave a name that is taken */
+    /* the native dialog */
+    bool running;
+    pid_t child;
+    int pipe;
+    pthread_t waiter;
+    /* the panel */
+    char folder[PATH_SIZE], field[PATH_SIZE];
+    WR_ARRAY(Entry) entries;
+    bool focus;
+    char trouble[512];
+};
+
+static const struct {
+    const char *title, *done;
+    const char *ending; /* of a file to be written, for names without one; NULL: it is read */
+} purposes[] = {
+    [WR_FILE_OPEN] = { "Open", "Open", NULL },
+    [WR_FILE_SAVE] = { "Save as", "Save", ".exr" },
+    [WR_FILE_EXPORT] = { "Export to", "Export", ".png" },
+    [WR_FILE_IMPORT] = { "Import heights", "Import", NULL },
+    [WR_FILE_HISTORY] = { "Save the history as a script", "Save", ".wrinkle" },
+    [WR_FILE_STAMP] = { "Open a picture as a stamp", "Open", NULL },
+    [WR_FILE_GENERATE] = { "Choose a file", "Choose", NULL },
+};
+
+bool wr_files_writes(WrFilePurpose purpose)
+{
+    return purposes[purpose].ending != NULL;
+}
+
+/* The name with the ending that its purpose wants, where it has none. Caller frees. */
+static char *with_ending(const WrFiles *files, const char *path)
+{
+    char buffer[16];
+    const char *ending = purposes[files->purpose].ending;
+    WrText text = { 0 };
+    if (!ending || wr_path_ending(path, buffer)[0]) return wr_strdup(path);
+    wr_text_addf(&text, "%s%s", path, ending);
+    return text.data;
+}
+
+static void free_entries(WrFiles *files)
+{
+    for (int i = 0; i < files->entries.count; i++) wr_free(files->entries.data[i].name);
+    wr_array_free(&files->entries);
+}
+
+WrFiles *wr_files_new(Uint32 done_event)
+{
+    WrFiles *files = wr_alloc(1, sizeof *files);
+    files->done_event = done_event;
+    files->pipe = -1;
+    return files;
+}
+
+/* ---- the desktop's dialog ---- */
+
+static char *find_program(const char *name)
+{
+    const char *path = getenv("PATH");
+    while (path && *path) {
+        size_t length = strcspn(path, ":");
+        char *folder = wr_strndup(path, length), *full = wr_path_join(folder, name);
+        wr_free(folder);
+        if (length > 0 && access(full, X_OK) == 0) return full;
+        wr_free(full);
+        path += length + (path[length] == ':');
+    }
+    return NULL;
+}
+
+/* Read the child's answer: one path on one line. Runs on a thread of its own. */
+static void *wait_for_child(void *arg)
+{
+    WrFiles *files = arg;
+    char text[PATH_SIZE];
+    size_t length = 0;
+    for (;;) {
+        ssize_t got = read(files->pipe, text + length, sizeof text - 1 - length);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        length += (size_t)got;
+        if (length == sizeof text - 1) break;
+    }
+    int status = 0;
+    while (waitpid(files->child, &status, 0) < 0 && errno == EINTR) {
+    }
+    while (length > 0 && text[length - 1] == '\n') length--;
+    bool chosen = WIFEXITED(status) && WEXITSTATUS(status) == 0 && text[0] == '/' && length > 0;
+    memcpy(files->answer, text, chosen ? length : 0);
+    files->answer[chosen ? length : 0] = '\0';
+    SDL_Event event = { .type = files->done_event };
+    SDL_PushEvent(&event);
+    return NULL;
+}
+
+/* Nobody would hear its answer. */
+static void dismiss(pid_t child)
+{
+    kill(child, SIGTERM);
+    while (waitpid(child, NULL, 0) < 0 && errno == EINTR) {
+    }
+}
+
+static bool start(WrFiles *files, const char *program, const char *const *arguments)
+{
+    int ends[2];
+    if (pipe(ends) != 0) return false;
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_addclose(&actions, ends[0]);
+    posix_spawn_file_actions_addclose(&actions, ends[1]);
+    int trouble =
+        posix_spawn(&files->child, program, &actions, NULL, (char *const *)arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    files->pipe = ends[0];
+    files->running = trouble == 0 && wr_thread_start(&files->waiter, wait_for_child, files);
+    if (trouble == 0 && !files->running) dismiss(files->child);
+    if (!files->running) close(ends[0]);
+    return files->running;
+}
+
+static bool ask_native(WrFiles *files, const char *start_at)
+{
+    const char *title = purposes[files->purpose].title, *forced = getenv("WRINKLE_DIALOG");
+    bool save = wr_files_writes(files->purpose), ok = false;
+    if (forced && strcmp(forced, "own") == 0) return false;
+    char *zenity = find_program("zenity"), *kdialog = zenity ? NULL : find_program("kdialog");
+    if (zenity) {
+        WrText where = { 0 }, named = { 0 };
+        wr_text_addf(&where, "--filename=%s", start_at);
+        wr_text_addf(&named, "--title=%s", title);
+        const char *arguments[] = { zenity,
+                                    "--file-selection",
+                                    wr_text_get(&named),
+                                    wr_text_get(&where),
+                                    save ? "--save" : NULL,
+                                    "--confirm-overwrite",
+                                    NULL };
+        ok = start(files, zenity, arguments);
+        wr_text_fini(&where);
+        wr_text_fini(&named);
+    } else if (kdialog) {
+        /* It asks by itself before it gives the name of a file that is there. */
+        const char *arguments[] = { kdialog,  "--title",
+                                    title,    save ? "--getsavefilename" : "--getopenfilename",
+                                    start_at, NULL };
+        ok = start(files, kdialog, arguments);
+    }
+    wr_free(zenity);
+    wr_free(kdialog);
+    return ok;
+}
+
+/* ---- the panel's folder ---- */
+
+static int by_name(const void *a, const void *b)
+{
+    const Entry *x = a, *y = b;
+    if (x->folder != y->folder) return x->folder ? -1 : 1;
+    return strcasecmp(x->name, y->name);
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static void list_folder(WrFiles *files)
+{
+    free_entries(files);
+    files->trouble[0] = '\0';
+    DIR *dir = opendir(files->folder);
+    if (!dir) {
+        snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", files->folder,
+                 strerror(errno));
+        return;
+    }
+    for (struct dirent *e; (e = readdir(dir)) && files->entries.count < ENTRIES_MAX;) {
+        if (e->d_name[0] == '.') continue;
+        char *full = wr_path_join(files->folder, e->d_name);
+        wr_array_push(&files->entries, ((Entry){ wr_strdup(e->d_name), is_folder(full) }));
+        wr_free(full);
+    }
+    closedir(dir);
+    if (files->entries.count > 1)
+        qsort(files->entries.data, (size_t)files->entries.count, sizeof(Entry), by_name);
+}
+
+static void go_to(WrFiles *files, const char *folder)
+{
+    char *full = realpath(folder, NULL);
+    snprintf(files->folder, sizeof files->folder, "%s", full ? full : folder);
+    free(full);
+    list_folder(files);
+    files->focus = true;
+}
+
+/* What is in the field as a path: "~" is the home folder, the rest is seen from the folder shown. */
+static char *typed_path(const WrFiles *files)
+{
+    const char *home = getenv("HOME"), *text = files->field;
+    while (*text == ' ') text++;
+    if (text[0] == '~' && (text[1] == '/' || text[1] == '\0') && home)
+        return wr_path_join(home, text[1] ? text + 2 : "");
+    return wr_path_join(files->folder, text);
+}
+
+/* Return: a folder is shown, a file is the answer. */
+static bool accept(WrFiles *files)
+{
+    if (files->field[0] == '\0') return false;
+    char *path = typed_path(files);
+    bool done = false;
+    if (is_folder(path)) {
+        go_to(files, path);
+        files->field[0] = '\0';
+    } else if (!wr_files_writes(files->purpose) && access(path, R_OK) != 0) {
+        snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", path, strerror(errno));
+    } else {
+        char *full = with_ending(files, path);
+        snprintf(files->answer, sizeof files->answer, "%s", full);
+        wr_free(full);
+        done = true;
+    }
+    wr_free(path);
+    return done;
+}
+
+bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name)
+{
+    if (files->running) return true; /* one at a time: the first is still open */
+    files->purpose = purpose;
+    files->answer[0] = '\0';
+    files->agreed = false;
+    char *from = folder ? wr_strdup(folder) : realpath(".", NULL);
+    char *start_at = wr_path_join(from ? from : "/", name);
+    bool native = ask_native(files, start_at);
+    if (!native) {
+        snprintf(files->field, sizeof files->field, "%s", name);
+        go_to(files, from ? from : "/");
+    }
+    wr_free(start_at);
+    if (folder) wr_free(from);
+    else free(from);
+    return native;
+}
+
+/* The desktop's dialog knows the name without the ending only: of another file it has not asked. */
+static void take_native(WrFiles *files)
+{
+    char *full = with_ending(files, files->answer);
+    if (!files->answer[0]) full[0] = '\0';
+    files->agreed = strcmp(full, files->answer) == 0;
+    snprintf(files->answer, sizeof files->answer, "%s", full);
+    wr_free(full);
+}
+
+bool wr_files_agreed(const WrFiles *files)
+{
+    return files->agreed;
+}
+
+const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose)
+{
+    if (files->running) {
+        pthread_join(files->waiter, NULL);
+        close(files->pipe);
+        files->running = false;
+        take_native(files);
+    }
+    *purpose = files->purpose;
+    return files->answer[0] ? files->answer : NULL;
+}
+
+void wr_files_free(WrFiles *files)
+{
+    if (!files) return;
+    WrFilePurpose unused;
+    if (files->running) kill(files->child, SIGTERM);
+    wr_files_answer(files, &unused);
+    free_entries(files);
+    wr_free(files);
+}
+
+/* ---- the panel ---- */
+
+static void show_entries(WrFiles *files, bool *done)
+{
+    const char *enter = NULL;
+    wr_gui_list_begin("entries", wr_gui_px(300));
+    if (strcmp(files->folder, "/") != 0 && wr_gui_list_row(WR_ICON_UP, "..", false)) enter = "..";
+    for (int i = 0; i < files->entries.count; i++) {
+        const Entry *e = &files->entries.data[i];
+        wr_gui_push_id(i);
+        int clicked = wr_gui_list_row(e->folder ? WR_ICON_FOLDER : WR_ICON_FILE, e->name,
+                                      strcmp(files->field, e->name) == 0);
+        wr_gui_pop_id();
+        if (!clicked) continue;
+        if (e->folder) {
+            enter = e->name;
+        } else {
+            snprintf(files->field, sizeof files->field, "%s", e->name);
+            if (clicked == 2) *done = true;
+        }
+    }
+    wr_gui_list_end();
+    if (!enter) return;
+    char *full = wr_path_join(files->folder, enter);
+    go_to(files, full);
+    wr_free(full);
+}
+
+/* Saving over a file that is there is a decision: say so where the eye is, before it is asked about. */
+static void warn_overwrite(const WrFiles *files)
+{
+    if (!wr_files_writes(files->purpose) || files->field[0] == '\0') return;
+    char *path = typed_path(files), *full = with_ending(files, path);
+    if (access(full, F_OK) == 0 && !is_folder(path))
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "There is a file of this name.");
+    wr_free(full);
+    wr_free(path);
+}
+
+WrFilePurpose wr_files_purpose(const WrFiles *files)
+{
+    return files->purpose;
+}
+
+int wr_files_panel(WrFiles *files, const char *note)
+{
+    if (!wr_gui_dialog_begin(purposes[files->purpose].title, 620)) return 0;
+    bool done = false;
+    int answer = 0;
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, files->folder);
+    show_entries(files, &done);
+    bool entered = wr_gui_text_field("##name", 0, files->field, sizeof files->field, files->focus);
+    files->focus = false;
+    warn_overwrite(files);
+    if (files->trouble[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, files->trouble);
+    if (note[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, note);
+    wr_gui_space(4);
+    if (wr_gui_button(purposes[files->purpose].done, true)) done = true;
+    wr_gui_same_line(8);
+    if (wr_gui_button("Cancel", false) || wr_gui_escape_pressed()) answer = -1;
+    if (entered || done) answer = accept(files) ? 1 : 0;
+    if (answer < 0) files->answer[0] = '\0';
+    wr_gui_dialog_end();
+    return answer;
+}

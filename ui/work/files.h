@@ -1,0 +1,37 @@
+/* files.h - asking for a file: with the desktop's own dialog (zenity or kdialog, run without a shell
+   while the window stays alive), or with a plain panel of our own. */
+#pragma once
+#include <SDL.h>
+#include <stdbool.h>
+
+typedef enum WrFilePurpose {
+    WR_FILE_OPEN,
+    WR_FILE_SAVE,
+    WR_FILE_EXPORT,
+    WR_FILE_IMPORT,
+    WR_FILE_HISTORY,
+    WR_FILE_STAMP,
+    WR_FILE_GENERATE,
+    WR_FILE_PRESET, /* never asked for by itself: a preset's name is typed */
+    WR_FILE_PURPOSES
+} WrFilePurpose;
+
+typedef struct WrFiles WrFiles;
+
+/* done_event: an SDL event type that is pushed when a native dialog was closed. */
+WrFiles *wr_files_new(Uint32 done_event);
+void wr_files_free(WrFiles *files); /* closes a dialog that is open */
+
+/* Ask. name: the file name that the field starts with. True: a native dialog is open and the event will
+ * come; false: there is none, and the panel must be drawn instead (wr_files_panel). */
+bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, const char *name);
+/* After the event: the path chosen, or NULL if it was cancelled. Valid until the next ask. A file to be
+ * written has an ending: that of its kind where none was typed. */
+const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose);
+/* The native dialog has asked whether that file may be replaced, if there is one. */
+bool wr_files_agreed(const WrFiles *files);
+bool wr_files_writes(WrFilePurpose purpose); /* it is a file to be written */
+
+WrFilePurpose wr_files_purpose(const WrFiles *files);
+/* The panel of our own, as a dialog, with a note above its buttons or "". 0: still open, 1: chosen (wr_files_answer), -1: cancelled. */
+int wr_files_panel(WrFiles *files, const char *note);

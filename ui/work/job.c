@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/work/job.h"
+#include "ui/work/thread.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+
+#include <SDL.h>
+#include <pthread.h>
+#include <sys/resource.h>
+
+#define NICENESS 5 /* so that the window's own thread goes first */
+
+struct WrJob {
+    pthread_mutex_t lock; /* guards what follows, up to the next blank line */
+    pthread_cond_t wake;
+    bool started, quit;
+    void *next, *done;   /* owned; NULL: none */
+    bool running, stale; /* stale: what runs is not wanted any more */
+    double fraction, asked_at;
+
+    volatile int cancel; /* atomic; read by the work */
+    const WrJobKind *kind;
+    pthread_t thread;
+    int threads;
+    Uint32 done_event;
+};
+
+WrJob *wr_job_new(const WrJobKind *kind, int threads, Uint32 done_event)
+{
+    WrJob *job = wr_alloc(1, sizeof *job);
+    pthread_mutex_init(&job->lock, NULL);
+    pthread_cond_init(&job->wake, NULL);
+    job->kind = kind;
+    job->threads = threads;
+    job->done_event = done_event;
+    return job;
+}
+
+/* ---- the thread ---- */
+
+static void note_fraction(void *ctx, double fraction)
+{
+    WrJob *job = ctx;
+    pthread_mutex_lock(&job->lock);
+    job->fraction = fraction;
+    pthread_mutex_unlock(&job->lock);
+}
+
+/* Take up what is next and do it. Called under the lock, which is let go meanwhile. */
+static void do_next(WrJob *job, WrPool *pool, const WrProgress *progress)
+{
+    void *work = job->next;
+    job->next = NULL;
+    job->running = true;
+    job->stale = false;
+    job->fraction = 0.0;
+    __atomic_store_n(&job->cancel, 0, __ATOMIC_RELAXED);
+    pthread_mutex_unlock(&job->lock);
+    const WrProgress *before = wr_progress_set(progress);
+    job->kind->run(work, pool, progress);
+    wr_progress_set(before);
+    pthread_mutex_lock(&job->lock);
+    job->running = false;
+    bool wanted = !job->stale;
+    if (wanted) job->done = work;
+    pthread_mutex_unlock(&job->lock);
+    if (!wanted) job->kind->drop(work);
+    SDL_Event event = { .type = job->done_event };
+    if (wanted) SDL_PushEvent(&event);
+    pthread_mutex_lock(&job->lock);
+}
+
+static void *thread_main(void *arg)
+{
+    WrJob *job = arg;
+    setpriority(PRIO_PROCESS, 0, NICENESS); /* on Linux this thread and those it starts */
+    WrPool *pool = wr_pool_new(job->threads);
+    WrProgress progress = { .cancel = &job->cancel, .report = note_fraction, .ctx = job };
+    pthread_mutex_lock(&job->lock);
+    while (!job->quit) {
+        if (job->next) do_next(job, pool, &progress);
+        else pthread_cond_wait(&job->wake, &job->lock);
+    }
+    pthread_mutex_unlock(&job->lock);
+    wr_pool_free(pool);
+    return NULL;
+}
+
+/* ---- the window's side ---- */
+
+/* The system gives no thread: on the caller's, which waits. Called under the lock. */
+static void do_in_place(WrJob *job)
+{
+    WrPool *pool = wr_pool_new(1);
+    WrProgress progress = { .cancel = &job->cancel };
+    do_next(job, pool, &progress);
+    wr_pool_free(pool);
+}
+
+/* Replace all that is wanted by `work`, which may be NULL. */
+static void replace(WrJob *job, void *work)
+{
+    pthread_mutex_lock(&job->lock);
+    void *waiting = job->next, *done = job->done;
+    job->next = work;
+    job->done = NULL;
+    job->stale = job->running;
+    if (job->running) __atomic_store_n(&job->cancel, 1, __ATOMIC_RELAXED);
+    job->asked_at = wr_clock_seconds();
+    job->fraction = 0.0;
+    if (work && !job->started) job->started = wr_thread_start(&job->thread, thread_main, job);
+    if (work && !job->started) do_in_place(job);
+    pthread_cond_signal(&job->wake);
+    pthread_mutex_unlock(&job->lock);
+    if (waiting) job->kind->drop(waiting);
+    if (done) job->kind->drop(done);
+}
+
+void wr_job_start(WrJob *job, void *work)
+{
+    replace(job, work);
+}
+
+void wr_job_cancel(WrJob *job)
+{
+    replace(job, NULL);
+}
+
+void wr_job_interrupt(WrJob *job)
+{
+    __atomic_store_n(&job->cancel, 1, __ATOMIC_RELAXED);
+}
+
+void *wr_job_take(WrJob *job)
+{
+    pthread_mutex_lock(&job->lock);
+    void *done = job->done;
+    job->done = NULL;
+    pthread_mutex_unlock(&job->lock);
+    return done;
+}
+
+bool wr_job_busy(WrJob *job, double *fraction, double *seconds)
+{
+    pthread_mutex_lock(&job->lock);
+    bool busy = job->next || (job->running && !job->stale);
+    if (fraction) *fraction = job->fraction;
+    if (seconds) *seconds = wr_clock_seconds() - job->asked_at;
+    pthread_mutex_unlock(&job->lock);
+    return busy;
+}
+
+void wr_job_free(WrJob *job)
+{
+    if (!job) return;
+    replace(job, NULL);
+    pthread_mutex_lock(&job->lock);
+    job->quit = true;
+    pthread_cond_signal(&job->wake);
+    bool started = job->started;
+    pthread_mutex_unlock(&job->lock);
+    if (started) pthread_join(job->thread, NULL);
+    if (job->done) job->kind->drop(job->done);
+    if (job->next) job->kind->drop(job->next);
+    pthread_cond_destroy(&job->wake);
+    pthread_mutex_destroy(&job->lock);
+    wr_free(job);
+}

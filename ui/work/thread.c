@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/work/thread.h"
+
+#include <pthread.h>
+
+static int refused; /* atomic; 1: still to be told, 2: told */
+
+bool wr_thread_start(pthread_t *thread, void *(*run)(void *), void *arg)
+{
+    if (pthread_create(thread, NULL, run, arg) == 0) return true;
+    int none = 0;
+    __atomic_compare_exchange_n(&refused, &none, 1, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+    return false;
+}
+
+bool wr_thread_refused(void)
+{
+    int untold = 1;
+    return __atomic_compare_exchange_n(&refused, &untold, 2, false, __ATOMIC_RELAXED,
+                                       __ATOMIC_RELAXED);
+}

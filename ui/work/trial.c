@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: MIT */
+#include "ui/work/trial.h"
+#include "ui/work/job.h"
+#include "ui/work/trial_generate.h"
+
+#include "base/array.h"
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "brush/brush.h"
+#include "brush/tip.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "field/ops.h"
+
+#include <SDL.h>
+
+typedef struct Work {
+    WrDocument *document; /* a snapshot of its own, changed by the work */
+    WrTrialAsk ask;
+    WrDocument
+        *again; /* the snapshot as it was, for the exact result after a rough one; NULL: none */
+    char *line; /* of a generator; ask.line points to it */
+    WrText notes;
+    double seconds;
+    WrBrush brush;  /* of a dab; ask.dab points to it */
+    WrField *field; /* the result; NULL: none */
+    WrError err;
+    bool cancelled;
+} Work;
+
+struct WrTrial {
+    WrJob *job;
+    WrField *field; /* newest result; owned */
+    WrError err;
+    bool failed;
+    bool rough; /* the field is */
+    WrDocument
+        *made; /* that the field is the composite of; owned; NULL: not exact, or another size */
+    WrText notes;
+    double seconds;
+};
+
+static void drop(void *arg)
+{
+    Work *work = arg;
+    wr_document_free(work->document);
+    wr_document_free(work->again);
+    wr_free(work->line);
+    wr_text_fini(&work->notes);
+    wr_field_free(work->field);
+    if (work->ask.dab) wr_tip_free((WrTip *)work->brush.tip); /* a share of its own */
+    wr_free(work);
+}
+
+/* ---- on the job's thread ---- */
+
+static bool adjust_field(const Work *work, WrField **field, const WrOpOptions *options,
+                         WrError *err)
+{
+    if (!*field) return true;
+    WrField *made = wr_op_run(work->ask.op, *field, work->ask.param, options, err);
+    if (!made) return false;
+    wr_field_free(*field);
+    *field = made;
+    return true;
+}
+
+/* As the adjust command: where texels only move, what a layer says something about moves with them. */
+static bool adjust_layer(const Work *work, WrLayer *layer, const WrOpOptions *options, WrError *err)
+{
+    if (!adjust_field(work, &layer->heights, options, err)) return false;
+    return !work->ask.op->moves || (adjust_field(work, &layer->cover, options, err) &&
+                                    adjust_field(work, &layer->mask, options, err));
+}
+
+static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError *err)
+{
+    WrDocument *document = work->document;
+    WrOpOptions options = { .pool = pool, .progress = progress };
+    if (work->ask.op->reshapes) {
+        work->field = wr_op_run(work->ask.op, wr_document_composite(document, pool),
+                                work->ask.param, &options, err);
+        return work->field != NULL;
+    }
+    options.mask = document->selection;
+    if (!work->ask.all_layers)
+        return adjust_layer(work, &document->layers[document->active], &options, err);
+    for (int i = 0; i < document->layer_count; i++)
+        if (!adjust_layer(work, &document->layers[i], &options, err)) return false;
+    return true;
+}
+
+static void dab(Work *work, WrPool *pool)
+{
+    WrDocument *document = work->document;
+    WrLayer *layer = &document->layers[document->active];
+    WrBrushGround ground = { .field = layer->heights,
+                             .mark = layer->cover,
+                             .selection = document->selection,
+                             .pool = pool };
+    wr_brush_dab_on(&ground, &work->brush, work->ask.u, work->ask.v);
+}
+
+static void run(void *arg, WrPool *pool, const WrProgress *progress)
+{
+    Work *work = arg;
+    const WrTrialAsk *ask = &work->ask;
+    double began = wr_clock_seconds();
+    if (ask->line) {
+        if (!wr_trial_generate(work->document, ask->line, ask->rough, pool, progress, &work->notes,
+                               &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else if (ask->op) {
+        if (!adjust(work, pool, progress, &work->err)) {
+            work->cancelled = wr_progress_cancelled(progress);
+            return;
+        }
+    } else if (ask->dab) {
+        dab(work, pool);
+    } else {
+        WrLayer *layer = &work->document->layers[ask->layer];
+        layer->blend = ask->blend;
+        layer->opacity = ask->opacity;
+        layer->radius = ask->radius;
+    }
+    if (!work->field) work->field = wr_field_share(wr_document_composite(work->document, pool));
+    work->seconds = wr_clock_seconds() - began;
+}
+
+/* ---- the window's side ---- */
+
+WrTrial *wr_trial_new(int threads, Uint32 done_event)
+{
+    static const WrJobKind kind = { run, drop };
+    WrTrial *trial = wr_alloc(1, sizeof *trial);
+    trial->job = wr_job_new(&kind, threads, done_event);
+    return trial;
+}
+
+void wr_trial_free(WrTrial *trial)
+{
+    if (!trial) return;
+    wr_job_free(trial->job);
+    wr_field_free(trial->field);
+    wr_document_free(trial->made);
+    wr_text_fini(&trial->notes);
+    wr_free(trial);
+}
+
+static void forget_made(WrTrial *trial)
+{
+    wr_document_free(trial->made);
+    trial->made = NULL;
+}
+
+void wr_trial_ask(WrTrial *trial, const WrDocument *document, const WrTrialAsk *ask)
+{
+    Work *work = wr_alloc(1, sizeof *work);
+    work->document = wr_document_share(document);
+    work->ask = *ask;
+    work->ask.rough = ask->line && ask->rough;
+    if (work->ask.rough) work->again = wr_document_share(document);
+    if (ask->line) work->ask.line = work->line = wr_strdup(ask->line);
+    if (ask->dab) {
+        work->brush = *ask->dab;
+        work->brush.preset = NULL;
+        work->brush.tip = ask->dab->tip ? wr_tip_share(ask->dab->tip) : NULL;
+        work->ask.dab = &work->brush;
+    }
+    trial->failed = false;
+    forget_made(trial);
+    wr_job_start(trial->job, work);
+}
+
+void wr_trial_end(WrTrial *trial)
+{
+    wr_job_cancel(trial->job);
+    wr_field_free(trial->field);
+    trial->field = NULL;
+    forget_made(trial);
+    trial->failed = trial->rough = false;
+    wr_text_clear(&trial->notes);
+}
+
+void wr_trial_stop(WrTrial *trial)
+{
+    wr_job_interrupt(trial->job);
+}
+
+/* A rough result is there: now the exact one. */
+static void go_on(WrTrial *trial, const Work *rough)
+{
+    WrTrialAsk ask = rough->ask;
+    ask.rough = false;
+    wr_trial_ask(trial, rough->again, &ask);
+}
+
+static void take(WrTrial *trial)
+{
+    Work *work = wr_job_take(trial->job);
+    if (!work) return;
+    if (work->field) {
+        wr_field_free(trial->field);
+        trial->field = work->field;
+        work->field = NULL;
+        WrText notes = trial->notes;
+        trial->notes = work->notes;
+        work->notes = notes;
+        trial->rough = work->ask.rough;
+        bool whole = !trial->rough && !(work->ask.op && work->ask.op->reshapes);
+        forget_made(trial);
+        if (whole) trial->made = wr_document_share(work->document);
+        if (trial->rough) go_on(trial, work);
+        else trial->seconds = work->seconds;
+    } else if (!work->cancelled) {
+        trial->failed = true;
+        trial->err = work->err;
+    }
+    drop(work);
+}
+
+const WrField *wr_trial_field(WrTrial *trial)
+{
+    take(trial);
+    return trial->field;
+}
+
+const WrDocument *wr_trial_made(WrTrial *trial)
+{
+    take(trial);
+    return trial->made;
+}
+
+bool wr_trial_busy(WrTrial *trial, double *fraction, double *seconds)
+{
+    return wr_job_busy(trial->job, fraction, seconds);
+}
+
+bool wr_trial_rough(WrTrial *trial)
+{
+    take(trial);
+    return trial->field && trial->rough;
+}
+
+const char *wr_trial_notes(WrTrial *trial)
+{
+    take(trial);
+    return wr_text_get(&trial->notes);
+}
+
+double wr_trial_seconds(WrTrial *trial)
+{
+    take(trial);
+    return trial->seconds;
+}
+
+bool wr_trial_error(WrTrial *trial, WrError *err)
+{
+    take(trial);
+    bool failed = trial->failed;
+    if (failed) *err = trial->err;
+    trial->failed = false;
+    return failed;
+}

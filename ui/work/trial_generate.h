@@ -1,0 +1,20 @@
+/* trial_generate.h - what a generator's command line would make of a document. */
+#pragma once
+#include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "document/document.h"
+
+#include <stdbool.h>
+
+/* Join what the line makes to the document's active layer, inside its selection, as the command would.
+ *
+ * document  changed; half done after a failure
+ * line      of one of the generators' families; files as the current folder sees them
+ * rough     as fast as may be: worse where that helps, on a smaller table where nothing but its size
+ *           tells
+ * notes     what there is to say besides, one a line
+ * Threads   one for each document */
+bool wr_trial_generate(WrDocument *document, const char *line, bool rough, WrPool *pool,
+                       const WrProgress *progress, WrText *notes, WrError *err);
