@@ -6,8 +6,6 @@
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/hand.h"
-#include "ui/desk/line.h"
-#include "ui/desk/messages.h"
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
 #include "ui/tools/tool.h"
@@ -20,7 +18,6 @@
 #include "command/call.h"
 #include "command/generate.h"
 #include "command/session.h"
-#include "document/blend.h"
 #include "generate/generator.h"
 
 #include <SDL.h>
@@ -33,8 +30,6 @@
 #define QUICK_SECONDS 0.12    /* what takes longer is shown roughly first */
 #define LARGE_TEXELS 1e6 /* where nothing is known yet: a larger table is shown roughly first */
 
-static const char action_prefix[] = "generate_";
-
 void wr_generate_new(WrApp *app)
 {
     app->generate = wr_alloc(1, sizeof *app->generate);
@@ -43,17 +38,11 @@ void wr_generate_new(WrApp *app)
     app->generate->blame = "";
 }
 
-static void free_values(WrGenerateHand *hand)
-{
-    for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(hand->value[i].text);
-    memset(hand->value, 0, sizeof hand->value);
-}
-
 void wr_generate_free(WrApp *app)
 {
     WrGenerateHand *hand = app->generate;
     if (!hand) return;
-    free_values(hand);
+    wr_generate_free_values(hand);
     for (int i = 0; i < hand->kept.count; i++) wr_free(hand->kept.data[i]);
     for (int i = 0; i < hand->presets.count; i++) {
         wr_free(hand->presets.data[i].name);
@@ -64,230 +53,6 @@ void wr_generate_free(WrApp *app)
     wr_free(hand->asked);
     wr_free(hand);
     app->generate = NULL;
-}
-
-/* ---- names ---- */
-
-void wr_generate_action(const WrGenerator *generator, char name[WR_GENERATE_ACTION])
-{
-    const char *form = generator->name;
-    snprintf(name, WR_GENERATE_ACTION, "%s%.24s%s%.24s", action_prefix, generator->family,
-             form ? "_" : "", form ? form : "");
-}
-
-const WrGenerator *wr_action_generator(const char *name)
-{
-    char own[WR_GENERATE_ACTION];
-    if (strncmp(name, action_prefix, sizeof action_prefix - 1) != 0) return NULL;
-    for (const WrFamily *f = wr_families; f->name; f++)
-        for (const WrGenerator *g = f->rows; g->family; g++) {
-            wr_generate_action(g, own);
-            if (strcmp(own, name) == 0) return g;
-        }
-    return NULL;
-}
-
-int wr_generate_find(const WrGenerateHand *hand, const char *const *names, WrParamKind kind)
-{
-    for (; hand->generator && *names; names++) {
-        int i = wr_generator_param_find(hand->generator, *names);
-        if (i >= 0 && hand->generator->params[i].kind == kind) return i;
-    }
-    return -1;
-}
-
-int wr_generate_written(const WrGenerator *generator)
-{
-    for (int i = 0; generator->params[i].name; i++)
-        if (generator->params[i].kind == WR_PARAM_TEXT) return i;
-    return -1;
-}
-
-static bool is_written(WrParamKind kind)
-{
-    return kind == WR_PARAM_TEXT || kind == WR_PARAM_FILE || kind == WR_PARAM_POINTS ||
-           kind == WR_PARAM_TERMS;
-}
-
-/* ---- values ---- */
-
-static void set_text(WrGenerateValue *value, const char *text)
-{
-    if (!value->text) value->text = wr_alloc(1, WR_GENERATE_TEXT);
-    SDL_utf8strlcpy(value->text, text, WR_GENERATE_TEXT);
-}
-
-/* Terms have no default: one that shows what they are. */
-static void first_term(const WrParam *p, WrText *text)
-{
-    for (int k = 0; k < p->fewest; k++) {
-        const WrParamPart *part = &p->parts[k];
-        double wanted = part->whole ? 1.0 : 0.5;
-        if (k > 0) wr_text_add(text, ",");
-        wr_text_add_number(text, fmin(fmax(wanted, part->low), part->high));
-    }
-}
-
-static void set_default(WrGenerateHand *hand, int i)
-{
-    const WrParam *p = &hand->generator->params[i];
-    WrText text = { 0 };
-    memcpy(hand->value[i].number, p->fallback, sizeof p->fallback);
-    if (p->kind == WR_PARAM_TERMS) first_term(p, &text);
-    else if (p->fallback_text) wr_text_add(&text, p->fallback_text);
-    else if (p->kind == WR_PARAM_TEXT) wr_text_add(&text, "Wrinkle");
-    if (is_written(p->kind)) set_text(&hand->value[i], wr_text_get(&text));
-    wr_text_fini(&text);
-}
-
-void wr_generate_defaults(WrApp *app)
-{
-    WrGenerateHand *hand = app->generate;
-    for (int i = 0; hand->generator->params[i].name; i++) set_default(hand, i);
-    hand->blend = wr_blend_find(hand->generator->blend);
-    hand->radius = 0.1;
-    hand->offset = 0.0;
-    hand->preset = -1;
-}
-
-/* What a parsed argument says, as it is written. */
-static bool take_written(WrGenerateValue *value, const WrCall *call, const WrParam *p)
-{
-    WrText text = { 0 };
-    const WrArg *arg = wr_call_arg(call, p->name);
-    if (p->kind == WR_PARAM_TEXT && arg->text) {
-        char *lines = wr_generator_text(arg->text);
-        wr_text_add(&text, lines);
-        wr_free(lines);
-    } else if (p->kind == WR_PARAM_FILE && arg->text) {
-        wr_text_add(&text, arg->text);
-    } else if (arg->given) {
-        wr_arg_print(&call->specs[arg - call->args], arg, &text);
-    }
-    bool fits = text.length < WR_GENERATE_TEXT;
-    if (fits) set_text(value, wr_text_get(&text));
-    wr_text_fini(&text);
-    return fits;
-}
-
-static bool take_values(WrApp *app, const WrCall *call, const WrGenerator *generator, WrError *err)
-{
-    WrGenerateHand *hand = app->generate;
-    WrParamValue values[WR_GENERATOR_PARAMS];
-    wr_generate_take(app, generator);
-    wr_call_values(call, generator, values);
-    for (int i = 0; generator->params[i].name; i++) {
-        const WrParam *p = &generator->params[i];
-        memcpy(hand->value[i].number, values[i].number, sizeof values[i].number);
-        if (is_written(p->kind) && !take_written(&hand->value[i], call, p))
-            return wr_fail(err, "%s: too long for the panel", p->label);
-    }
-    hand->blend = wr_call_choice(call, wr_generator_argument(generator, "blend"));
-    hand->radius = wr_call_number(call, wr_generator_argument(generator, "radius"));
-    hand->offset = wr_call_number(call, wr_generator_argument(generator, "offset"));
-    return true;
-}
-
-bool wr_generate_load(WrApp *app, const char *line)
-{
-    WrCall *call = NULL;
-    WrError err;
-    bool good = wr_call_parse(line, false, &call, &err);
-    const WrGenerator *generator = good ? wr_call_generator(call) : NULL;
-    if (good && !generator) good = wr_fail(&err, "no generator's line: %.80s", line);
-    good = good && take_values(app, call, generator, &err);
-    if (!good) wr_app_fail(app, &err);
-    wr_call_free(call);
-    return good;
-}
-
-/* ---- the line ---- */
-
-/* In quotes, whatever it is. */
-static void add_quoted(WrText *line, const char *word, bool lines)
-{
-    wr_text_add(line, "\"");
-    for (const char *c = word; *c; c++) {
-        if (*c == '\r') continue; /* of what was pasted */
-        bool turn =
-            lines && (*c == '\n' || *c == '\\'); /* doubled: once for it, once for the quotes */
-        if (*c == '"' || *c == '\\' || turn) wr_text_add(line, "\\");
-        if (turn) wr_text_add(line, *c == '\n' ? "\\n" : "\\\\\\");
-        else wr_text_add_n(line, c, 1);
-    }
-    wr_text_add(line, "\"");
-}
-
-static void add_value(WrText *line, const WrParam *p, const WrGenerateValue *value)
-{
-    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
-    wr_text_add(line, " ");
-    if (!p->positional) wr_text_addf(line, "%s=", p->name);
-    if (p->kind == WR_PARAM_TEXT || p->kind == WR_PARAM_FILE) {
-        add_quoted(line, value->text, p->kind == WR_PARAM_TEXT);
-    } else if (is_written(p->kind) && strpbrk(value->text, "#\"\\")) {
-        add_quoted(line, value->text, false); /* no numbers, nor the end of the line */
-    } else if (is_written(p->kind)) {
-        for (const char *c = value->text; *c; c++) /* blanks would end it */
-            if (*c != ' ' && *c != '\t') wr_text_add_n(line, c, 1);
-    } else if (p->kind == WR_PARAM_CHOICE) {
-        wr_text_add(line, p->words[(int)value->number[0]]);
-    } else if (p->kind == WR_PARAM_SWITCH) {
-        wr_text_add(line, value->number[0] != 0.0 ? "on" : "off");
-    } else {
-        for (int k = 0; k < count; k++) {
-            if (k > 0) wr_text_add(line, ",");
-            wr_text_add_number(line, value->number[k]);
-        }
-    }
-}
-
-static bool is_default(const WrParam *p, const WrGenerateValue *value)
-{
-    int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
-    if (p->kind == WR_PARAM_TEXT || p->kind == WR_PARAM_FILE)
-        return p->fallback_text ? strcmp(value->text, p->fallback_text) == 0 : !value->text[0];
-    if (is_written(p->kind)) return !value->text[strspn(value->text, " \t")];
-    for (int k = 0; k < count; k++)
-        if (value->number[k] != p->fallback[k]) return false;
-    return true;
-}
-
-bool wr_generate_is_default(const WrGenerateHand *hand, int param)
-{
-    return is_default(&hand->generator->params[param], &hand->value[param]);
-}
-
-void wr_generate_line(const WrGenerateHand *hand, WrText *line)
-{
-    const WrGenerator *g = hand->generator;
-    wr_text_add(line, g->family);
-    if (g->name) wr_text_addf(line, " %s", g->name);
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; g->params[i].name; i++) {
-            const WrParam *p = &g->params[i];
-            bool told = !is_default(p, &hand->value[i]) ||
-                        (p->positional && !(is_written(p->kind) && !hand->value[i].text[0]));
-            if (p->positional == (pass == 0) && told) add_value(line, p, &hand->value[i]);
-        }
-    if (hand->blend != wr_blend_find(g->blend))
-        wr_text_addf(line, " %s=%s", wr_generator_argument(g, "blend"),
-                     wr_blends[hand->blend].name);
-    if (wr_blends[hand->blend].uses_radius && hand->radius != 0.1)
-        wr_line_number(line, wr_generator_argument(g, "radius"), hand->radius);
-    if (hand->offset != 0.0) wr_line_number(line, wr_generator_argument(g, "offset"), hand->offset);
-}
-
-void wr_generate_default_line(const WrGenerator *generator, const char *written, WrText *line)
-{
-    WrGenerateHand hand = { .generator = generator,
-                            .blend = wr_blend_find(generator->blend),
-                            .radius = 0.1 };
-    int text = wr_generate_written(generator);
-    for (int i = 0; generator->params[i].name; i++) set_default(&hand, i);
-    if (text >= 0 && !generator->params[text].fallback_text) set_text(&hand.value[text], written);
-    wr_generate_line(&hand, line);
-    free_values(&hand);
 }
 
 /* ---- what is wrong ---- */
@@ -360,7 +125,7 @@ void wr_generate_take(WrApp *app, const WrGenerator *generator)
     WrGenerateHand *hand = app->generate;
     if (hand->generator == generator) return;
     keep(hand);
-    free_values(hand);
+    wr_generate_free_values(hand);
     hand->generator = generator;
     hand->seconds = 0.0;
     hand->held = WR_POSE_NONE;
@@ -415,7 +180,7 @@ void wr_generate_file(WrApp *app, const char *path)
     WrGenerateHand *hand = app->generate;
     if (!hand->generator || hand->asking_file >= wr_generator_param_count(hand->generator)) return;
     if (hand->generator->params[hand->asking_file].kind != WR_PARAM_FILE) return;
-    set_text(&hand->value[hand->asking_file], path);
+    wr_generate_set_text(&hand->value[hand->asking_file], path);
     wr_generate_changed(app);
 }
 

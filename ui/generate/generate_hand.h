@@ -106,6 +106,9 @@ void wr_generate_default_line(const WrGenerator *generator, const char *written,
 bool wr_generate_is_default(const WrGenerateHand *hand, int param);
 /* Which parameter err is about, and what it says: sets blamed and blame. */
 void wr_generate_blame(WrGenerateHand *hand);
+/* A text of it; cut where it is too long. */
+void wr_generate_set_text(WrGenerateValue *value, const char *text);
+void wr_generate_free_values(WrGenerateHand *hand);
 /* A value was changed. */
 void wr_generate_changed(WrApp *app);
 void wr_generate_focus_text(WrApp *app);             /* what is written gets the keyboard */

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: MIT
-   The patch's view: what is wished of the preview and when, turning, the light, the camera. */
+   The patch's view: what is wished of the preview and when, and what is drawn. */
 #include "ui/patch/patch.h"
 #include "ui/desk/action.h"
-#include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/layout.h"
-#include "ui/desk/line.h"
 #include "ui/desk/messages.h"
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
@@ -20,11 +18,8 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/text.h"
-#include "base/vec.h"
 #include "field/field.h"
 #include "scene/scene.h"
-#include "shade/bump.h"
 #include "surface/surface.h"
 
 #include <SDL.h>
@@ -34,7 +29,6 @@
 #define PICTURE_SECONDS (1.0 / 40.0) /* between moving pictures */
 #define QUICK_SECONDS (1.0 / 100.0)  /* the same while it is painted on: soon, not often */
 #define REST_SECONDS 0.12            /* without change before the picture is made sharp */
-#define ZOOM_COMMIT_SECONDS 0.4
 
 /* ---- wishes ---- */
 
@@ -215,194 +209,6 @@ void wr_patch_free(WrApp *app)
     *p = (WrPatch){ 0 };
 }
 
-/* ---- the light ---- */
-
-static bool place(const WrApp *app, WrPlacement *out)
-{
-    const SDL_Rect *r = &app->layout->patch;
-    return r->w > 0 &&
-           wr_scene_place(wr_app_scene(app), app->patch->turn_deg, (double)r->w / r->h, out, NULL);
-}
-
-/* The pad on which lights stand: the view without its edges. */
-static void pad(const WrApp *app, double *cx, double *cy, double *rx, double *ry)
-{
-    const SDL_Rect *r = &app->layout->patch;
-    double margin = 26.0 * wr_gui_scale();
-    *cx = r->x + r->w / 2.0;
-    *cy = r->y + r->h / 2.0;
-    *rx = fmax(1.0, r->w / 2.0 - margin);
-    *ry = fmax(1.0, r->h / 2.0 - margin);
-}
-
-static void light_spot(const WrApp *app, const WrPlacement *at, const WrLight *light, double *x,
-                       double *y)
-{
-    WrVec3 w = light->where,
-           camera = { v3_dot(w, at->right), v3_dot(w, at->up), -v3_dot(w, at->forward) };
-    double cx, cy, rx, ry, dx, dy;
-    pad(app, &cx, &cy, &rx, &ry);
-    wr_light_to_pad(v3_unit(camera, (WrVec3){ 0, 0, 1 }), &dx, &dy);
-    *x = cx + rx * dx;
-    *y = cy - ry * dy;
-}
-
-/* The light under a pixel, or -1. */
-static int light_under(const WrApp *app, const WrPointer *p)
-{
-    WrPlacement at;
-    const WrScene *scene = wr_app_scene(app);
-    double reach = 14.0 * wr_gui_scale();
-    if (!place(app, &at)) return -1;
-    for (int i = scene->light_count - 1; i >= 0; i--) {
-        double x, y;
-        light_spot(app, &at, &scene->lights[i], &x, &y);
-        if (hypot(p->x - x, p->y - y) <= reach) return i;
-    }
-    return -1;
-}
-
-/* Put the light that is held where (x, y) says; its distance stays. */
-static void move_light(WrApp *app, double x, double y)
-{
-    WrPlacement at;
-    double cx, cy, rx, ry;
-    if (!place(app, &at)) return;
-    pad(app, &cx, &cy, &rx, &ry);
-    WrVec3 d = wr_light_from_pad((x - cx) / rx, (cy - y) / ry);
-    WrVec3 world =
-        v3_add(v3_add(v3_scale(at.right, d.x), v3_scale(at.up, d.y)), v3_scale(at.forward, -d.z));
-    WrLight *light = &wr_app_live(app)->lights[app->patch->light];
-    double length = light->kind == WR_LIGHT_POINT ? v3_len(light->where) : 1.0;
-    world = v3_scale(world, length > 0.0 ? length : 1.0);
-    light->where = wr_line_round_vec(world, 3);
-}
-
-static void commit_light(WrApp *app)
-{
-    if (!app->live) return;
-    const WrLight *light = &app->live->lights[app->patch->light];
-    bool point = light->kind == WR_LIGHT_POINT;
-    WrText line = { 0 };
-    wr_text_add(&line, point ? "light point" : "light directional");
-    wr_line_vec(&line, point ? "at" : "to", light->where);
-    wr_line_vec(&line, "colour", light->colour);
-    wr_line_number(&line, "strength", light->strength);
-    wr_text_addf(&line, " index=%d", app->patch->light + 1);
-    wr_app_live_end(app);
-    wr_app_run_line(app, wr_text_get(&line));
-    wr_text_fini(&line);
-}
-
-/* ---- turning by hand ---- */
-
-static void start_orbit(WrApp *app)
-{
-    const WrScene *scene = wr_app_scene(app);
-    const double *pose = wr_surfaces[scene->shape.kind]->pose_deg;
-    WrVec3 deg = scene->posed ? scene->rotate_deg : (WrVec3){ pose[0], pose[1], pose[2] };
-    app->patch->from = wr_rotation_from_deg(deg);
-}
-
-static void orbit(WrApp *app, const WrPointer *p)
-{
-    WrPlacement at;
-    if (!place(app, &at)) return;
-    const SDL_Rect *r = &app->layout->patch;
-    WrRotation now = wr_rotation_dragged(&app->patch->from, app->patch->turn_deg, at.right, at.up,
-                                         p->x - app->hand->start.x, p->y - app->hand->start.y,
-                                         r->w < r->h ? r->w : r->h);
-    WrVec3 deg = wr_rotation_to_deg(&now);
-    WrScene *scene = wr_app_live(app);
-    scene->posed = true;
-    scene->rotate_deg = wr_line_round_vec(deg, 2);
-}
-
-static void commit_orbit(WrApp *app)
-{
-    if (!app->live) return;
-    WrVec3 deg = app->live->rotate_deg;
-    WrText line = { 0 };
-    wr_text_add(&line, "rotate ");
-    wr_line_plain_vec(&line, deg);
-    wr_app_live_end(app);
-    wr_app_run_line(app, wr_text_get(&line));
-    wr_text_fini(&line);
-}
-
-bool wr_patch_press(WrApp *app, const WrPointer *at)
-{
-    WrPatch *p = app->patch;
-    wr_patch_commit_zoom(app, true);
-    int light = light_under(app, at);
-    bool right = at->button == SDL_BUTTON_RIGHT;
-    if (right && light < 0 && wr_app_scene(app)->light_count > 0) light = 0;
-    if (light >= 0 && at->button != SDL_BUTTON_MIDDLE) {
-        WrPlacement placed;
-        if (!place(app, &placed)) return false;
-        app->hand->grab = WR_GRAB_LIGHT;
-        p->light = light;
-        light_spot(app, &placed, &wr_app_scene(app)->lights[light], &p->light_x, &p->light_y);
-        return true;
-    }
-    if (right) return false;
-    app->hand->grab = WR_GRAB_ORBIT;
-    start_orbit(app);
-    return true;
-}
-
-void wr_patch_drag(WrApp *app, const WrPointer *at)
-{
-    if (app->hand->grab == WR_GRAB_LIGHT)
-        move_light(app, app->patch->light_x + at->x - app->hand->start.x,
-                   app->patch->light_y + at->y - app->hand->start.y);
-    else orbit(app, at);
-}
-
-void wr_patch_release(WrApp *app)
-{
-    if (app->hand->grab == WR_GRAB_LIGHT) commit_light(app);
-    else commit_orbit(app);
-}
-
-/* ---- zoom ---- */
-
-void wr_patch_wheel(WrApp *app, double steps)
-{
-    WrPlacement at;
-    if (app->hand->grab != WR_GRAB_NONE || !place(app, &at)) return;
-    double factor = exp2(-steps / 6.0);
-    WrScene *scene = wr_app_live(app);
-    WrCamera *camera = &scene->camera;
-    WrVec3 back = v3_sub(at.eye, camera->target);
-    double far_off = 400.0 * at.radius, near_by = 1.02 * at.radius;
-    double distance = v3_len(back), wanted = distance * factor;
-    wanted = wanted > far_off ? far_off : wanted < near_by && distance > near_by ? near_by : wanted;
-    if (camera->orthographic) camera->size = 2.0 * at.half_height * factor;
-    else back = v3_scale(back, wanted / distance);
-    camera->fit = false;
-    camera->eye = v3_add(camera->target, back);
-    app->patch->zoom_commit_at = wr_clock_seconds() + ZOOM_COMMIT_SECONDS;
-}
-
-void wr_patch_commit_zoom(WrApp *app, bool now)
-{
-    if (app->patch->zoom_commit_at == 0.0) return;
-    app->patch->zoom_commit_at = 0.0;
-    if (!app->live || !now) {
-        wr_app_live_end(app);
-        return;
-    }
-    const WrCamera *camera = &app->live->camera;
-    WrText line = { 0 };
-    wr_text_addf(&line, "camera %s", camera->orthographic ? "orthographic" : "perspective");
-    wr_line_vec(&line, "eye", wr_line_round_vec(camera->eye, 4));
-    if (camera->orthographic) wr_line_number(&line, "size", wr_line_round(camera->size, 4));
-    wr_app_live_end(app);
-    wr_app_run_line(app, wr_text_get(&line));
-    wr_text_fini(&line);
-}
-
 /* ---- drawing ---- */
 
 void wr_patch_draw(WrApp *app)
@@ -419,22 +225,6 @@ void wr_patch_draw(WrApp *app)
     if (picture->serial != p->serial) take_picture(app);
     SDL_RenderCopy(app->renderer, p->texture, &(SDL_Rect){ 0, 0, picture->width, picture->height },
                    room);
-}
-
-static void draw_lights(const WrApp *app)
-{
-    WrPlacement at;
-    const WrScene *scene = wr_app_scene(app);
-    double s = wr_gui_scale();
-    if (!place(app, &at)) return;
-    for (int i = 0; i < scene->light_count; i++) {
-        double x, y;
-        light_spot(app, &at, &scene->lights[i], &x, &y);
-        bool behind = v3_dot(scene->lights[i].where, at.forward) > 0.0;
-        for (int k = 4; k >= 1; k--) wr_gui_draw_disc(x, y, (9.0 + 2.2 * k) * s, 0x14ffd070u);
-        wr_gui_draw_disc(x, y, 9.0 * s, behind ? 0xffb08a3cu : 0xfff2c860u);
-        wr_gui_draw_disc(x - 2.0 * s, y - 2.0 * s, 5.0 * s, behind ? 0xffc49c4cu : 0xffffe7a8u);
-    }
 }
 
 /* How far the picture is from its best: a ring that closes. */
@@ -454,7 +244,7 @@ void wr_patch_overlay(WrApp *app)
     const SDL_Rect *room = &app->layout->patch;
     if (room->w <= 0) return;
     wr_gui_draw_clip(*room);
-    draw_lights(app);
+    wr_patch_draw_lights(app);
     draw_ring(app, wr_preview_picture(app->preview));
     wr_gui_draw_unclip();
     int gap = wr_gui_px(12);

@@ -38,6 +38,7 @@ typedef struct WrPatch {
 void wr_patch_update(WrApp *app); /* wish for what is wanted; take what is ready */
 void wr_patch_draw(WrApp *app);
 void wr_patch_overlay(WrApp *app);
+void wr_patch_draw_lights(const WrApp *app);
 bool wr_patch_press(WrApp *app, const WrPointer *at);
 void wr_patch_drag(WrApp *app, const WrPointer *at);
 void wr_patch_release(WrApp *app);
