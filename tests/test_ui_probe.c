@@ -155,10 +155,15 @@ static void the_finest_of_each_axis_is_kept_of_kinds_that_are_there(void **state
     WrChoice choice = { .count = 3, .met = true, .reason = "because" };
     WrChosen chosen;
     choice.parts = wr_alloc(3, sizeof *choice.parts);
-    choice.parts[0] =
-        (WrChoicePart){ with(WR_SCHEME_CENTRAL, WR_BUMP_BLINN, 6), 10, "the liveliest relief" };
-    choice.parts[1] = (WrChoicePart){ with(WR_SCHEME_CATMULL, WR_BUMP_BLINN, 1), 10, "edges" };
-    choice.parts[2] = (WrChoicePart){ with(WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, 12), 0, "" };
+    choice.parts[0] = (WrChoicePart){ .scene = with(WR_SCHEME_CENTRAL, WR_BUMP_BLINN, 6),
+                                      .blocks = 10,
+                                      .where = "the liveliest relief" };
+    choice.parts[1] = (WrChoicePart){ .scene = with(WR_SCHEME_CATMULL, WR_BUMP_BLINN, 1),
+                                      .blocks = 10,
+                                      .where = "edges" };
+    choice.parts[2] = (WrChoicePart){ .scene = with(WR_SCHEME_BSPLINE_FIT, WR_BUMP_EXACT, 12),
+                                      .blocks = 0,
+                                      .where = "" };
     wr_chosen_from(&choice, &chosen);
     assert_true(chosen.any && chosen.met);
     assert_string_equal(chosen.reason, "because");
