@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 
 static const char *const words[WR_HARD_PRECISIONS] = { " float", " double" };
 

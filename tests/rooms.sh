@@ -17,13 +17,14 @@ BEGIN {
     may["brush"] = base "field image "
     may["scene"] = base "field surface shade image "
     may["render"] = base "field surface shade scene "
-    may["accuracy"] = base "field noise image surface shade generate brush scene render document "
+    may["accuracy"] = base "field image surface shade scene render "
     may["document"] = base "field scene image "
+    may["hardcases"] = may["document"] "noise surface shade generate brush render accuracy document "
     may["export"] = base "field noise image surface shade scene render document "
     may["command"] = may["export"] "generate brush accuracy export "
-    may["cli"] = may["command"] "command "
+    may["cli"] = may["command"] "command hardcases "
     # The rooms of the window, from the ground up: each knows those before it.
-    ui = may["command"] "command "
+    ui = may["command"] "command hardcases "
     count = split("gui pen work canvas preview desk views tools patch generate accuracy help panels app", floor)
     for (i = 1; i <= count; i++) {
         may["ui/" floor[i]] = ui below

@@ -1,7 +1,7 @@
 /* The table of hard cases: whole, true, able to fail, and printed so that programs can read it. */
 #include "test.h"
 
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 #include "command/session.h"
 
 #include <json-c/json.h>

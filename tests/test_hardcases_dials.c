@@ -3,7 +3,7 @@
    no bit. */
 #include "test.h"
 
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 #include "base/memory.h"
 #include "command/session.h"
 #include "render/frame.h"

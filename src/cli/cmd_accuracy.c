@@ -1,5 +1,5 @@
-#include "accuracy/contest.h"
-#include "accuracy/hardcases.h"
+#include "cli/contest.h"
+#include "hardcases/hardcases.h"
 #include "accuracy/report.h"
 #include "base/file.h"
 #include "base/memory.h"

@@ -8,7 +8,7 @@
 #include "ui/preview/preview.h"
 #include "ui/work/job.h"
 
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "field/field.h"

@@ -4,7 +4,7 @@
 #include "ui/accuracy/accuracy_probe.h"
 #include "ui/work/job.h"
 
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
 #include "accuracy/tolerance.h"

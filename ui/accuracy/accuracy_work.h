@@ -3,7 +3,7 @@
 #pragma once
 #include "ui/work/job.h"
 
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
 #include "base/error.h"

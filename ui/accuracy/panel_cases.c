@@ -11,7 +11,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 #include "base/text.h"
 
 #include <math.h>

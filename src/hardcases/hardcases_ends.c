@@ -1,7 +1,7 @@
 /* Hard cases past the first: surfaces, tables and heights that come to an end of what there is, and light
    without a direction. */
-#include "accuracy/hardcases_later.h"
-#include "accuracy/hardcases_look.h"
+#include "hardcases/hardcases_later.h"
+#include "hardcases/hardcases_look.h"
 
 #include "base/exactmath.h"
 #include "document/blend.h"

@@ -1,5 +1,5 @@
 /* Hard cases of the sides that a bent normal may turn to: away from the eye, away from the light, edge on. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include <float.h>
 

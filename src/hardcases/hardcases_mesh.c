@@ -1,5 +1,5 @@
 /* Hard cases of frames: triangles with texture coordinates, sheared tangents, scaled objects. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include "shade/bump.h"
 

@@ -1,5 +1,5 @@
 /* Hard cases of heights: extreme ones, integer ones, and what happens at the edges of cells. */
-#include "accuracy/hardcases_look.h"
+#include "hardcases/hardcases_look.h"
 
 #include "base/memory.h"
 #include "image/image.h"

@@ -1,5 +1,5 @@
 /* The report of the hard cases for people and for programs. */
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 
 #include <math.h>
 #include <string.h>

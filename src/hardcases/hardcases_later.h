@@ -2,7 +2,7 @@
    list of their rows.
    Layer 6, private to this room. */
 #pragma once
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 /* What a picture of that arithmetic (WrHardWay) tells about. */
 static inline WrHardPrecision wr_hard_precision(int way)

@@ -1,5 +1,5 @@
 /* Hard cases past the first: eyes inside, far away and close by, light from behind, seams. */
-#include "accuracy/hardcases_later.h"
+#include "hardcases/hardcases_later.h"
 
 #include "base/exactmath.h"
 

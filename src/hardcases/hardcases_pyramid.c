@@ -1,5 +1,5 @@
 /* Hard cases of filtered tables, seams of closed surfaces, and the spline through the samples. */
-#include "accuracy/hardcases_look.h"
+#include "hardcases/hardcases_look.h"
 
 #include "base/exactmath.h"
 #include "render/pyramid.h"

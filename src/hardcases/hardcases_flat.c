@@ -1,5 +1,5 @@
 /* Hard cases of level tables: nothing to see, and detail on a level of a million. */
-#include "accuracy/hardcases_look.h"
+#include "hardcases/hardcases_look.h"
 
 static bool hc47(WrHardGauge *g, WrError *err)
 {

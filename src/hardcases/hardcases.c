@@ -1,7 +1,7 @@
 /* The table of hard cases and its runner. */
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 #include "base/clock.h"
 #include "base/memory.h"
 

@@ -1,5 +1,5 @@
 /* Hard cases of highlights, of means over samples, and of pictures. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include "base/kernmath.h"
 #include "image/image.h"

@@ -1,5 +1,5 @@
 /* Hard cases of what is rasterized into a table, and of going back and forth in its history. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include "base/memory.h"
 #include "brush/brush.h"

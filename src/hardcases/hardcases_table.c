@@ -1,5 +1,5 @@
 /* Hard cases of looking a parameter up in the table: ends, wraps, repeats, odd sizes. */
-#include "accuracy/hardcases_look.h"
+#include "hardcases/hardcases_look.h"
 
 #include <float.h>
 

@@ -1,5 +1,5 @@
 /* Heights and slopes as the renderer looks them up. */
-#include "accuracy/hardcases_look.h"
+#include "hardcases/hardcases_look.h"
 
 bool wr_hard_look_init(WrHardGauge *gauge, WrHardLook *look, const WrField *field, WrScheme scheme,
                        double ru, double rv, WrError *err)

@@ -1,5 +1,5 @@
 /* Hard cases of points and normals: poles, tips, collapsed edges, extreme lengths. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include "base/exactmath.h"
 

@@ -1,5 +1,5 @@
 /* Hard cases of sums of noise: octaves too fine for the table, sums that do not converge, creases, tiling. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include "noise/grid.h"
 #include "noise/octaves.h"

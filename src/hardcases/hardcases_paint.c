@@ -1,5 +1,5 @@
 /* Hard cases of dabs and strokes. Heights are floats; how they change is worked out in double. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include "brush/brush.h"
 #include "field/ops.h"

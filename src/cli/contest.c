@@ -1,5 +1,5 @@
 /* What a tolerance chooses, beside the best that trying everything finds. */
-#include "accuracy/contest.h"
+#include "cli/contest.h"
 
 #include "accuracy/ladder_inner.h"
 #include "base/memory.h"

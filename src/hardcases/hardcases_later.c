@@ -1,5 +1,5 @@
 /* The rows of the hard cases past the first: HC156 on. */
-#include "accuracy/hardcases_later.h"
+#include "hardcases/hardcases_later.h"
 
 #define ROW(number, about, situation, rule, u, in_float, in_double, script)                        \
     {                                                                                              \

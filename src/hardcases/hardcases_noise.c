@@ -1,5 +1,5 @@
 /* Hard cases of single noises: lattice points, far and negative places, hashes, faces of simplices. */
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 
 #include "noise/grid.h"
 #include "noise/noise.h"

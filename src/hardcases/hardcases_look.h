@@ -1,7 +1,7 @@
 /* hardcases_look.h - heights and slopes as the renderer looks them up, for measuring.
    Layer 6, private to this room. */
 #pragma once
-#include "accuracy/hardcases_inner.h"
+#include "hardcases/hardcases_inner.h"
 #include "render/table.h"
 
 /* The renderer's copies of a table and how it looks heights up there. */

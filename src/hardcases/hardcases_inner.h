@@ -1,7 +1,7 @@
 /* hardcases_inner.h - what the measurements of the hard cases share.
    Layer 6, private to this room. */
 #pragma once
-#include "accuracy/hardcases.h"
+#include "hardcases/hardcases.h"
 #include "base/vec.h"
 #include "render/frame.h"
 #include "render/kern.h"
