@@ -21,7 +21,7 @@ complain() {
 # Names of our own making: what the system tells about this process, the null device, folders, files that are
 # being made in folders of ours, and what they are synced by; and the pipe that a test asks the window by.
 allowed='"/proc/self/statm"|"/dev/null"|O_CREAT|opendir\(|fdopen\(|bench_generate\.c|reader_main\.c|reopen\.c'
-allowed+='|ui/rest\.c:[0-9]+:    int fifo'
+allowed+='|ui/app/rest\.c:[0-9]+:    int fifo'
 allowed+='|int again = open\(path|/proc/self/status|src/base/file(_open|_target)?\.c|journal_folder\.c:[0-9]+:    int fd = open\(path, O_RDONLY \| O_CLOEXEC\);'
 passing=$(cd "$source" && grep -nE '(^|[^a-z_.>])(f?open(at)?(64)?|freopen|ifstream[^;]*)\(' -r src ui \
     --include='*.c' --include='*.cpp' --include='*.h' --include='*.hpp' | grep -vE "$allowed" |
