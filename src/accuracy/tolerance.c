@@ -140,19 +140,12 @@ static bool holds(const WrTolerance *tolerance, const WrChoice *choice)
 
 static void say_reason(const WrTolerance *tolerance, WrChoice *out)
 {
-    static const char *const names[] = { "", "rms", "max", "time" };
-    _Static_assert(sizeof names / sizeof *names == WR_TOLERANCE_COUNT, "every kind has a name");
-    WrText text = { 0 };
-    wr_text_addf(&text, "tolerance %s=", names[tolerance->kind]);
-    wr_text_add_number(&text, tolerance->value);
-    wr_text_addf(&text,
-                 "%s: %s; estimated rms %.2g, max %.2g; choosing and the picture took %.1f ms, one "
-                 "more such frame takes %.1f, 16 x 16 samples everywhere %.1f",
-                 tolerance->kind == WR_TOLERANCE_TIME ? " s" : "",
-                 out->met ? "met" : "CANNOT be promised by any setting: the nearest was taken",
-                 out->rms, out->max, 1e3 * out->spent, 1e3 * out->seconds, 1e3 * out->top_seconds);
-    snprintf(out->reason, sizeof out->reason, "%s", wr_text_get(&text));
-    wr_text_fini(&text);
+    char more[160];
+    snprintf(more, sizeof more,
+             "choosing and the picture took %.1f ms, one more such frame takes %.1f, 16 x 16 "
+             "samples everywhere %.1f",
+             1e3 * out->spent, 1e3 * out->seconds, 1e3 * out->top_seconds);
+    wr_choice_say(out, tolerance, more);
 }
 
 static double top_cost(const Study *study)
@@ -214,7 +207,7 @@ bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return good;
 }
 
-static bool is_of(const WrChoice *choice, const WrFrameRequest *request)
+bool wr_choice_fits(const WrChoice *choice, const WrFrameRequest *request)
 {
     return choice->count > 0 && choice->scene == request->scene &&
            choice->field_key == wr_field_key(request->field) &&
@@ -225,7 +218,10 @@ static bool is_of(const WrChoice *choice, const WrFrameRequest *request)
 bool wr_tolerance_frame(WrRenderer *renderer, const WrFrameRequest *request, WrChoice *choice,
                         WrFrame *frame, WrError *err)
 {
-    if (!is_of(choice, request)) return wr_tolerance_choose(renderer, request, choice, frame, err);
+    if (!wr_choice_fits(choice, request))
+        return wr_tolerance_choose(renderer, request, choice, frame, err);
     choice->plan = (WrPlan){ 0 };
-    return wr_choice_frame_told(renderer, request, choice, &choice->plan, frame, err);
+    if (!wr_choice_frame_told(renderer, request, choice, &choice->plan, frame, err)) return false;
+    if (choice->studies == 0) choice->seconds = frame->times.total; /* it was read: nobody knew */
+    return true;
 }

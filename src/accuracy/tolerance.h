@@ -25,6 +25,7 @@
    outlines that run with the pixels' rows all levels may be off alike: there the error is taken to be what such
    an outline can hide. */
 #pragma once
+#include "base/hash.h"
 #include "render/frame.h"
 
 /* Blocks that have the same setting. */
@@ -33,6 +34,7 @@ typedef struct WrChoicePart {
     int level;       /* of samples: 1, 2, 4, 8, 16 a side */
     double price;    /* of a sample, with their slopes and normal */
     int64_t blocks;  /* how many there are; those without any of the object are not counted */
+    unsigned kinds;  /* of which kinds of blocks, two bits a kind (tolerance_inner.h) */
     char where[160]; /* "edges, some of the liveliest insides" */
 } WrChoicePart;
 
@@ -50,7 +52,8 @@ typedef struct WrChoice {
     double spent;       /* seconds that choosing took, the picture included */
     char reason[480];   /* one or two sentences */
     bool told;          /* the caller's: that reason was given to the user */
-    WrPlan plan;        /* what its last picture took: the frame's */
+    int studies; /* frames that were studied for it; 0: it was read, and nothing was chosen */
+    WrPlan plan; /* what its last picture took: the frame's */
     /* Of what picture it is. */
     const WrScene *scene; /* shared; owned */
     uint64_t field_key;
@@ -79,5 +82,28 @@ void wr_choice_fini(WrChoice *choice);
    each setting alone gives there. */
 bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
                      WrFrame *frame, WrError *err);
+/* Is it of that request's table, scene, size and turn (or for any turn)? */
+bool wr_choice_fits(const WrChoice *choice, const WrFrameRequest *request);
 /* "12 % of the blocks, edges: mode=exact ... aa=supersample samples=4", a line a part that has blocks. */
 void wr_choice_print(const WrChoice *choice, WrText *text);
+
+/* ---- written down: tolerance_text.c ---- */
+
+/* What a choice was made for besides size and turn, which it knows: hashes of the heights and of the scene, the
+   tolerance included. */
+typedef struct WrChoiceOrigin {
+    WrHash table, scene;
+} WrChoiceOrigin;
+
+/* As one line of text, from which wr_choice_read makes the same picture, bit for bit. Of a picture whose blocks take
+ * more than 64 KiB the finest of its settings is written for all of them: it keeps to the tolerance too. */
+void wr_choice_write(const WrChoice *choice, const WrChoiceOrigin *origin, WrText *text);
+/* Is it such a text? Errors say where it is damaged. */
+bool wr_choice_check(const char *text, WrError *err);
+/* Of a checked text: what it was not chosen for, "table", "scene", "size" or "turn"; NULL: it fits. */
+const char *wr_choice_misfit(const char *text, const WrChoiceOrigin *origin,
+                             const WrFrameRequest *request);
+/* Of a checked text: is it for that table and scene, whatever the size and turn? */
+bool wr_choice_is_for(const char *text, const WrChoiceOrigin *origin);
+/* A checked text that fits, as the request's choice. */
+void wr_choice_read(const char *text, const WrFrameRequest *request, WrChoice *out);

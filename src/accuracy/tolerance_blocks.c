@@ -144,18 +144,25 @@ static Change aligned(const Study *study, int64_t b, int level)
 
 /* ---- frames ---- */
 
-WrScene *wr_study_scene(const Study *study, int pair, int level)
+WrScene *wr_level_scene(const WrScene *of, WrScheme scheme, WrBumpMode mode, int level, int mesh)
 {
-    WrScene *scene = wr_scene_clone(study->request->scene);
-    scene->scheme = study->pair[pair].scheme;
-    scene->bump = study->pair[pair].mode;
+    WrScene *scene = wr_scene_clone(of);
+    scene->scheme = scheme;
+    scene->bump = mode;
     scene->dials.aa = level > 0 ? WR_AA_SUPERSAMPLE : WR_AA_POINT;
     scene->dials.samples = wr_level_side(level);
     scene->dials.spread = WR_SPREAD_REGULAR;
-    if (level >= study->mesh_from && scene->dials.mesh < study->mesh)
-        scene->dials.mesh = study->mesh;
+    scene->dials.mesh = mesh;
     scene->tolerance = (WrTolerance){ WR_TOLERANCE_NONE, 0 };
     return scene;
+}
+
+WrScene *wr_study_scene(const Study *study, int pair, int level)
+{
+    const WrScene *scene = study->request->scene;
+    const bool finer = level >= study->mesh_from && scene->dials.mesh < study->mesh;
+    return wr_level_scene(scene, study->pair[pair].scheme, study->pair[pair].mode, level,
+                          finer ? study->mesh : scene->dials.mesh);
 }
 
 static bool render(Study *study, int pair, int level, const unsigned char *only, WrError *err)

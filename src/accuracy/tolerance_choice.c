@@ -7,8 +7,6 @@
 
 /* ---- making it ---- */
 
-/* Kinds of blocks for people: outlines, and what is inside of them by how much 2 x 2 samples change it. */
-enum { KIND_EDGE, KIND_CALM, KIND_RELIEF, KIND_ROUGH, KIND_COUNT };
 static const char *const kind_names[KIND_COUNT] = { "edges", "calm insides", "relief",
                                                     "rough relief" };
 static const double kind_ends[] = { 0.006, 0.03 }; /* root mean square of linear intensity */
@@ -28,11 +26,11 @@ static int setting_of(const Block *block)
     return block->pair * LEVELS + block->pick;
 }
 
-/* "edges, some of the relief": which blocks have that setting. */
-static void name_part(const Study *study, int setting, WrChoicePart *part)
+/* Which blocks have that setting. */
+static unsigned kinds_of(const Study *study, int setting)
 {
     int64_t all[KIND_COUNT] = { 0 }, here[KIND_COUNT] = { 0 };
-    WrText text = { 0 };
+    unsigned kinds = 0;
     for (int64_t b = 0; b < study->count; b++) {
         const Block *block = &study->block[b];
         if (!block->shown) continue;
@@ -40,28 +38,55 @@ static void name_part(const Study *study, int setting, WrChoicePart *part)
         here[kind_of(block)] += setting_of(block) == setting;
     }
     for (int k = 0; k < KIND_COUNT; k++) {
-        if (here[k] == 0) continue;
-        wr_text_addf(&text, "%s%s%s", text.length > 0 ? ", " : "",
-                     here[k] == all[k]      ? ""
-                     : 2 * here[k] > all[k] ? "most of the "
-                                            : "some of the ",
-                     kind_names[k]);
+        const unsigned has = here[k] == 0           ? HAS_NONE
+                             : here[k] == all[k]    ? HAS_ALL
+                             : 2 * here[k] > all[k] ? HAS_MOST
+                                                    : HAS_SOME;
+        kinds |= has << (KIND_BITS * k);
+    }
+    return kinds;
+}
+
+void wr_part_name(WrChoicePart *part)
+{
+    static const char *const share[] = { "", "some of the ", "most of the ", "" };
+    WrText text = { 0 };
+    for (int k = 0; k < KIND_COUNT; k++) {
+        const unsigned has = part->kinds >> (KIND_BITS * k) & 3;
+        if (has != HAS_NONE)
+            wr_text_addf(&text, "%s%s%s", text.length > 0 ? ", " : "", share[has], kind_names[k]);
     }
     snprintf(part->where, sizeof part->where, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
 
+void wr_choice_say(WrChoice *choice, const WrTolerance *tolerance, const char *more)
+{
+    static const char *const names[] = { "", "rms", "max", "time" };
+    _Static_assert(sizeof names / sizeof *names == WR_TOLERANCE_COUNT, "every kind has a name");
+    WrText text = { 0 };
+    wr_text_addf(&text, "tolerance %s=", names[tolerance->kind]);
+    wr_text_add_number(&text, tolerance->value);
+    wr_text_addf(&text, "%s: %s; estimated rms %.2g, max %.2g; %s",
+                 tolerance->kind == WR_TOLERANCE_TIME ? " s" : "",
+                 choice->met ? "met" : "CANNOT be promised by any setting: the nearest was taken",
+                 choice->rms, choice->max, more);
+    snprintf(choice->reason, sizeof choice->reason, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
 void wr_study_settle(const Study *study, WrChoice *out)
 {
-    int part_of[PAIRS_MAX * LEVELS];
+    int part_of[PARTS_MAX];
     out->width = study->request->width;
     out->height = study->request->height;
     out->scene = wr_scene_share(study->request->scene);
     out->field_key = wr_field_key(study->request->field);
     out->turn_deg = study->request->turn_deg;
-    out->parts = wr_alloc(PAIRS_MAX * LEVELS, sizeof *out->parts);
+    out->studies = 1;
+    out->parts = wr_alloc(PARTS_MAX, sizeof *out->parts);
     out->part_of = wr_alloc((size_t)study->count, 1);
-    for (int i = 0; i < PAIRS_MAX * LEVELS; i++) part_of[i] = -1;
+    for (int i = 0; i < PARTS_MAX; i++) part_of[i] = -1;
     for (int64_t b = 0; b < study->count; b++) {
         const Block *block = &study->block[b];
         out->part_of[b] = WR_CHOICE_NOTHING;
@@ -72,7 +97,8 @@ void wr_study_settle(const Study *study, WrChoice *out)
             part->scene = wr_study_scene(study, block->pair, block->pick);
             part->level = block->pick;
             part->price = study->pair[block->pair].price;
-            name_part(study, setting, part);
+            part->kinds = kinds_of(study, setting);
+            wr_part_name(part);
         }
         out->part_of[b] = (unsigned char)part_of[setting];
         out->parts[part_of[setting]].blocks++;

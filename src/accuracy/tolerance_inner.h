@@ -155,6 +155,22 @@ bool wr_price_seconds(WrRenderer *renderer, double *out, WrError *err);
 
 /* ---- tolerance_choice.c ---- */
 
+/* Kinds of blocks for people: outlines, and what is inside of them by how much 2 x 2 samples change it. A part's
+   `kinds` has two bits for each. */
+enum { KIND_EDGE, KIND_CALM, KIND_RELIEF, KIND_ROUGH, KIND_COUNT };
+enum { HAS_NONE, HAS_SOME, HAS_MOST, HAS_ALL };
+#define KIND_BITS 2
+
+#define PARTS_MAX (PAIRS_MAX * LEVELS)
+
+/* "edges, some of the relief" into part->where, by part->kinds. */
+void wr_part_name(WrChoicePart *part);
+/* "tolerance rms=0.004: met; estimated rms 0.003, max 0.1; " and that, as the choice's reason. */
+void wr_choice_say(WrChoice *choice, const WrTolerance *tolerance, const char *more);
+/* The scene with those slopes, that normal and samples of a level, and no tolerance; the caller frees it. */
+WrScene *wr_level_scene(const WrScene *scene, WrScheme scheme, WrBumpMode mode, int level,
+                        int mesh);
+
 /* The study's picks become the caller's choice: its parts. */
 void wr_study_settle(const Study *study, WrChoice *out);
 /* wr_choice_frame; what its parts took together into *plan, which becomes the frame's, or NULL. */

@@ -267,6 +267,7 @@ bool wr_tolerance_turn(WrRenderer *renderer, const WrFrameRequest *request, cons
         return false;
     }
     turn.choice.turning = true;
+    turn.choice.studies = turn.studied;
     say_turn(&turn, count, wr_clock_seconds() - start);
     wr_choice_fini(out);
     *out = turn.choice;

@@ -309,6 +309,13 @@ const WrArgSpec wr_args_tolerance[] = {
       .shape = "8ms or 0.5s",
       .check = wr_check_duration,
       .help = "of a frame: the least error that it buys; 0.1ms to 3600s" },
+    { .name = "chosen",
+      .type = WR_ARG_TEXT,
+      .shape = "dials as save writes them",
+      .check = wr_check_chosen,
+      .help =
+          "what was chosen for the last picture, block by block: used again for the same table, "
+          "scene, size and turn" },
     { 0 }
 };
 

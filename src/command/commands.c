@@ -301,7 +301,8 @@ const WrCommand wr_commands[] = {
       .help = "the cheapest dials that keep to an error",
       .details = "One of the four. Each picture measures a sample of itself and takes, for each "
                  "kind of block that it has, the cheapest slopes, normals and samples that meet "
-                 "the tolerance; `wrinkle explain` says what it took, and whether that holds.",
+                 "the tolerance; `wrinkle explain` says what it took, and whether that holds. save "
+                 "keeps what the last picture took in chosen=.",
       .example = "tolerance rms=0.004" },
     { .name = "save",
       .kind = WR_CLASS_OUTPUT,

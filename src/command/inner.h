@@ -38,6 +38,9 @@ typedef struct WrSessionState {
     WrFileStamp stamp; /* of that file as it was opened or saved here */
     char *origin;     /* the command line that makes the history's first state; owned; NULL: none */
     char *newer_path; /* a file of a newer version that must not be saved over; owned; NULL: none */
+    char *chosen; /* the dials that the document keeps for its tolerance (wr_choice_write); owned;
+                         NULL: none */
+    bool chosen_told; /* that they are of no use was said */
 } WrSessionState;
 
 struct WrSession {
@@ -93,6 +96,16 @@ WrDocument *wr_session_new_document(const WrSession *session);
 WrSessionState wr_session_begin_state(WrSession *session, WrDocument *document);
 void wr_session_keep_state(WrSession *session, WrSessionState *old);
 void wr_session_restore_state(WrSession *session, WrSessionState *old);
+
+/* ---- chosen dials: session_chosen.c ---- */
+
+/* The document keeps that text from now on; NULL: none. */
+void wr_session_keep_chosen(WrSession *session, const char *text);
+/* Where nothing is chosen for that picture yet: take the dials that the document keeps, if they are for it; a note says
+   so once if they are not. */
+void wr_session_recall_chosen(WrSession *session, const WrFrameRequest *request);
+/* The scene's canonical lines as files keep them: with the dials that were chosen for its tolerance. */
+void wr_session_kept_text(WrSession *session, WrText *text);
 
 /* ---- views: session_views.c ---- */
 
@@ -216,12 +229,15 @@ WrHandler wr_run_view;                                             /* session_vi
 /* "8ms", "0.5s", "2": a duration of 1e-4..3600 seconds. run_look.c. */
 bool wr_duration_parse(const char *text, double *seconds);
 bool wr_check_duration(const void *ctx, const char *name, const char *value, WrError *err);
+bool wr_check_chosen(const void *ctx, const char *name, const char *value, WrError *err);
 
 /* The scene's canonical lines, by subject: scene_text.c. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
 WrScenePrinter wr_print_analytic, wr_print_surface, wr_print_bump, wr_print_replicate,
     wr_print_rotate, wr_print_material, wr_print_colour, wr_print_light, wr_print_camera,
     wr_print_dials, wr_print_tolerance;
+/* All of them; a colour picture as what its content is, wherever its file lies. */
+void wr_print_identity(const WrScene *scene, WrText *text);
 
 /* Words of choices, index past the last gives NULL. */
 const char *wr_camera_kind_name(int i);

@@ -195,6 +195,14 @@ bool wr_check_duration(const void *ctx, const char *name, const char *value, WrE
                    value);
 }
 
+bool wr_check_chosen(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    if (wr_choice_check(value, err)) return true;
+    wr_error_prefix(err, "%s: ", name);
+    return false;
+}
+
 bool wr_run_tolerance(WrSession *session, WrCall *call, WrError *err)
 {
     static const char *const names[] = { "off", "rms", "max", "time" };
@@ -211,6 +219,11 @@ bool wr_run_tolerance(WrSession *session, WrCall *call, WrError *err)
     if (given != 1)
         return wr_fail(err, "tolerance: needs one of off, rms=, max= and time=, %s given",
                        given == 0 ? "none is" : "several are");
+    const bool chosen = wr_call_given(call, "chosen");
+    if (chosen && tolerance.kind == WR_TOLERANCE_NONE)
+        return wr_fail(err, "tolerance: off and chosen= do not go together: without a tolerance "
+                            "the dials hold as they are set");
+    wr_session_keep_chosen(session, chosen ? wr_call_arg(call, "chosen")->text : NULL);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     scene->tolerance = tolerance;
     wr_session_replace_scene(session, scene);

@@ -37,6 +37,7 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
     if (!make_request(session, width, height, turn_deg, &request, err)) return false;
     if (request.scene->tolerance.kind == WR_TOLERANCE_NONE)
         return wr_renderer_frame(session->renderer, &request, frame, err);
+    wr_session_recall_chosen(session, &request);
     return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
 }
 
@@ -154,7 +155,7 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
                        "what this one does not know; choose another name",
                        path);
     if (!make_composite(session, err)) return false;
-    wr_session_scene_text(session, &text);
+    wr_session_kept_text(session, &text);
     char ending[16];
     bool ora = strcmp(wr_path_ending(path, ending), "ora") == 0;
     bool good = (ora ? wr_ora_save : wr_document_save)(session->state.document, wr_text_get(&text),

@@ -154,3 +154,18 @@ void wr_print_tolerance(const WrScene *scene, WrText *text)
     if (tolerance->kind != WR_TOLERANCE_NONE) wr_text_add_number(text, tolerance->value);
     wr_text_add(text, tolerance->kind == WR_TOLERANCE_TIME ? "s\n" : "\n");
 }
+
+static void print_colour_content(const WrScene *scene, WrText *text)
+{
+    if (scene->colour && *scene->colour_sha256)
+        wr_text_addf(text, "colour sha256=%s\n", scene->colour_sha256);
+    else wr_print_colour(scene, text);
+}
+
+void wr_print_identity(const WrScene *scene, WrText *text)
+{
+    for (int i = 0; i < wr_command_count; i++) {
+        if (wr_commands[i].print == wr_print_colour) print_colour_content(scene, text);
+        else if (wr_commands[i].print) wr_commands[i].print(scene, text);
+    }
+}

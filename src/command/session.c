@@ -20,6 +20,7 @@ static void state_fini(WrSessionState *state)
     wr_free(state->path);
     wr_free(state->origin);
     wr_free(state->newer_path);
+    wr_free(state->chosen);
     *state = (WrSessionState){ 0 };
 }
 
@@ -389,21 +390,10 @@ void wr_session_scene_text(const WrSession *session, WrText *text)
         if (wr_commands[i].print) wr_commands[i].print(session->state.document->scene, text);
 }
 
-/* A colour picture is what its content is, wherever its file lies. */
-static void add_colour(const WrScene *scene, WrText *text)
-{
-    if (scene->colour && *scene->colour_sha256)
-        wr_text_addf(text, "colour sha256=%s\n", scene->colour_sha256);
-    else wr_print_colour(scene, text);
-}
-
 WrHash wr_session_hash_with(const WrSession *session, const WrScene *scene)
 {
     WrText text = { 0 };
-    for (int i = 0; i < wr_command_count; i++) {
-        if (wr_commands[i].print == wr_print_colour) add_colour(scene, &text);
-        else if (wr_commands[i].print) wr_commands[i].print(scene, &text);
-    }
+    wr_print_identity(scene, &text);
     WrHash hash = wr_document_hash(session->state.document, wr_text_get(&text));
     wr_text_fini(&text);
     return hash;

@@ -274,7 +274,7 @@ void wr_session_journal_drop(WrSession *session)
 static bool restart(WrSession *session, bool checked, WrError *err)
 {
     WrText path = { 0 }, scene = { 0 };
-    wr_session_scene_text(session, &scene);
+    wr_session_kept_text(session, &scene);
     WrJournalStart start = { .kind = WR_JOURNAL_SNAPSHOT,
                              .hash = wr_session_hash(session),
                              .path = session->state.path };

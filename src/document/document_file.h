@@ -8,7 +8,7 @@
    scene's colour picture in RGB, if there is one.
 
    Attributes of part 0: wrinkle:version (of this format), wrinkle:program, wrinkle:scene (canonical command
-   lines), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
+   lines; the tolerance's with the dials that were chosen for it), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
    layer that edits change), wrinkle:solo (of the layer shown alone, 0: none). Of a layer: wrinkle:layer,
    wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and wrinkle:locked ("on", "off").
 

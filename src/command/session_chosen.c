@@ -1,0 +1,76 @@
+/* The dials that a tolerance chose, as a document keeps them. */
+#include "command/inner.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+void wr_session_keep_chosen(WrSession *session, const char *text)
+{
+    wr_free(session->state.chosen);
+    session->state.chosen = text ? wr_strdup(text) : NULL;
+    session->state.chosen_told = false;
+}
+
+static WrChoiceOrigin origin_of(const WrField *field, const WrScene *scene)
+{
+    WrText text = { 0 };
+    wr_print_identity(scene, &text);
+    const char *lines = wr_text_get(&text);
+    const WrChoiceOrigin origin = { .table = wr_field_hash(field),
+                                    .scene =
+                                        wr_hash_bytes(lines, strlen(lines), (WrHash){ 0, 0 }) };
+    wr_text_fini(&text);
+    return origin;
+}
+
+void wr_session_recall_chosen(WrSession *session, const WrFrameRequest *request)
+{
+    WrSessionState *state = &session->state;
+    if (!state->chosen || wr_choice_fits(&session->choice, request)) return;
+    const WrChoiceOrigin origin = origin_of(request->field, request->scene);
+    const char *misfit = wr_choice_misfit(state->chosen, &origin, request);
+    if (!misfit) {
+        wr_choice_read(state->chosen, request, &session->choice);
+    } else if (!state->chosen_told) {
+        wr_session_note(session,
+                        "the document keeps dials that were chosen for another %s: chosen anew",
+                        misfit);
+        state->chosen_told = true;
+    }
+}
+
+/* What the last picture chose, if that is still what the document is; else what the document keeps. */
+static void add_chosen(WrSession *session, WrText *text)
+{
+    const WrDocument *document = session->state.document;
+    const WrField *field = wr_document_composite(document, session->options.pool);
+    const WrChoice *choice = &session->choice;
+    const bool fresh = choice->count > 0 && choice->scene == document->scene &&
+                       choice->field_key == wr_field_key(field);
+    if (document->scene->tolerance.kind == WR_TOLERANCE_NONE || (!fresh && !session->state.chosen))
+        return;
+    const WrChoiceOrigin origin = origin_of(field, document->scene);
+    WrText chosen = { 0 };
+    if (fresh) wr_choice_write(choice, &origin, &chosen);
+    else if (wr_choice_is_for(session->state.chosen, &origin))
+        wr_text_add(&chosen, session->state.chosen);
+    if (chosen.length > 0) {
+        wr_text_add(text, " chosen=");
+        wr_text_add_word(text, wr_text_get(&chosen));
+    }
+    wr_text_fini(&chosen);
+}
+
+void wr_session_kept_text(WrSession *session, WrText *text)
+{
+    const WrScene *scene = session->state.document->scene;
+    for (int i = 0; i < wr_command_count; i++) {
+        if (!wr_commands[i].print) continue;
+        wr_commands[i].print(scene, text);
+        if (wr_commands[i].print != wr_print_tolerance) continue;
+        text->data[--text->length] = '\0'; /* the line goes on */
+        add_chosen(session, text);
+        wr_text_add(text, "\n");
+    }
+}

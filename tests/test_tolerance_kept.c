@@ -1,0 +1,286 @@
+/* The dials that a tolerance chose are written down with the document: the same picture again, and nothing chosen
+   anew; of use only for what they were chosen for; damaged ones are refused. */
+#include "test.h"
+
+#include "accuracy/tolerance.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "test_session_help.h"
+
+#include <unistd.h>
+
+#define SIDE 80
+
+static char folder[] = "/tmp/wr_chosen_XXXXXX";
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return rmdir(folder);
+}
+
+/* A file of the test's folder; the caller ends it with gone. */
+static char *test_path(const char *name)
+{
+    WrText text = { 0 };
+    wr_text_addf(&text, "%s/%s", folder, name);
+    return text.data;
+}
+
+static void gone(char *path)
+{
+    unlink(path);
+    wr_free(path);
+}
+
+static void expect_same_file(const char *a, const char *b)
+{
+    WrError err;
+    char hex[2][65];
+    assert_true(wr_sha256_file(a, hex[0], &err) && wr_sha256_file(b, hex[1], &err));
+    assert_string_equal(hex[0], hex[1]);
+}
+
+static const char *const ball[] = { "table 64x64",
+                                    "noise gradient cells=4 octaves=2 amplitude=0.6 level=0 seed=3",
+                                    "surface sphere R=1", "bump mode=blinn height=0.06", NULL };
+static const char *const sheet[] = { "table 64x64", "grid cells=8x8 width=2", "surface plane",
+                                     "bump mode=blinn height=0.02", NULL };
+static const char *const ring[] = { "table 64x64", "fill 0", "surface torus R=1 r=0.4",
+                                    "material diffuse=0.9 specular=0", NULL };
+static const char *const formula[] = { "analytic fourier terms=3,0,0.5,0,0;0,4,0.4,30,60",
+                                       "surface cylinder", "bump mode=blinn height=0.03", NULL };
+
+/* What notes a session gave, one a line. */
+static void add_note(void *ctx, const char *text)
+{
+    wr_text_add(ctx, text);
+    wr_text_add(ctx, "\n");
+}
+
+static WrSession *opened(const char *path, WrText *notes)
+{
+    WrError err;
+    const WrSessionOptions options = { .note = add_note, .note_ctx = notes };
+    WrSession *session = wr_session_new(&options);
+    if (!wr_session_open(session, path, &err)) fail_msg("%s", err.text);
+    return session;
+}
+
+/* The picture's hash; *studies: how many frames were studied for it. */
+static WrHash picture(WrSession *session, int width, int height, int *studies)
+{
+    WrError err;
+    WrFrame frame;
+    if (!wr_session_frame(session, width, height, 0, &frame, &err)) fail_msg("%s", err.text);
+    *studies = wr_session_choice(session)->studies;
+    return wr_hash_bytes(frame.rgba, (size_t)4 * (size_t)width * (size_t)height * sizeof(float),
+                         (WrHash){ 0, 0 });
+}
+
+/* The scene under that tolerance, rendered once and saved. */
+static WrHash save_chosen(const char *const *scene, const char *tolerance, const char *path)
+{
+    WrError err;
+    int studies;
+    WrSession *session = session_of(scene);
+    must_run(session, tolerance);
+    const WrHash hash = picture(session, SIDE, SIDE, &studies);
+    assert_int_equal(studies, 1);
+    if (!wr_session_save(session, path, &err)) fail_msg("%s", err.text);
+    wr_session_free(session);
+    return hash;
+}
+
+static void a_saved_document_has_the_same_picture_and_chooses_nothing_anew(void **state)
+{
+    (void)state;
+    static const char *const *const scenes[] = { ball, sheet, ring, formula };
+    static const char *const tolerances[] = { "tolerance rms=0.01", "tolerance max=0.1",
+                                              "tolerance rms=0.000001" };
+    static const char *const names[] = { "chosen.exr", "chosen.ora" };
+    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++)
+        for (size_t t = 0; t < sizeof tolerances / sizeof *tolerances; t++) {
+            int studies;
+            WrText notes = { 0 };
+            char *path = test_path(names[(s + t) % 2]);
+            const WrHash before = save_chosen(scenes[s], tolerances[t], path);
+            WrSession *session = opened(path, &notes);
+            const WrHash after = picture(session, SIDE, SIDE, &studies);
+            if (studies != 0) fail_msg("scene %d, %s: chosen anew", (int)s, tolerances[t]);
+            assert_true(wr_hash_equal(before, after));
+            assert_true(picture(session, SIDE, SIDE, &studies).low == before.low && studies == 0);
+            assert_string_equal(wr_text_get(&notes), "");
+            assert_non_null(strstr(wr_session_choice(session)->reason, "written down"));
+            wr_text_fini(&notes);
+            wr_session_free(session);
+            gone(path);
+        }
+}
+
+/* Saved again without a picture made, it keeps what it kept. */
+static void what_a_document_keeps_stays_when_it_is_saved_again(void **state)
+{
+    (void)state;
+    WrError err;
+    WrText notes = { 0 };
+    int studies;
+    char *first = test_path("first.exr"), *second = test_path("second.exr");
+    const WrHash before = save_chosen(ring, "tolerance rms=0.01", first);
+    WrSession *session = opened(first, &notes);
+    assert_true(wr_session_save(session, second, &err));
+    wr_session_free(session);
+    expect_same_file(first, second);
+    session = opened(second, &notes);
+    assert_true(wr_hash_equal(picture(session, SIDE, SIDE, &studies), before));
+    assert_int_equal(studies, 0);
+    wr_session_free(session);
+    wr_text_fini(&notes);
+    gone(first);
+    gone(second);
+}
+
+static void another_picture_than_the_kept_one_is_chosen_anew_with_a_note(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line;
+        int side;
+        const char *what;
+    } changes[] = {
+        { "dab 0.5,0.5 radius=6 strength=0.4", SIDE, "another table" },
+        { "bump height=0.05", SIDE, "another scene" },
+        { "camera perspective fov=33", SIDE, "another scene" },
+        { "# as it was", SIDE - 1, "another size" },
+    };
+    char *path = test_path("changed.exr");
+    save_chosen(ball, "tolerance rms=0.01", path);
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        int studies;
+        WrText notes = { 0 };
+        WrSession *session = opened(path, &notes);
+        must_run(session, changes[i].line);
+        picture(session, changes[i].side, changes[i].side, &studies);
+        assert_int_equal(studies, 1);
+        if (!strstr(wr_text_get(&notes), changes[i].what))
+            fail_msg("%s: noted \"%s\"", changes[i].line, wr_text_get(&notes));
+        wr_text_fini(&notes);
+        wr_session_free(session);
+    }
+    gone(path);
+}
+
+/* An edit that is undone leaves what was written down of use; a tolerance given anew does not. */
+static void kept_dials_are_for_the_document_as_it_was_saved(void **state)
+{
+    (void)state;
+    int studies;
+    WrText notes = { 0 };
+    char *path = test_path("undone.exr");
+    const WrHash before = save_chosen(ball, "tolerance rms=0.01", path);
+    WrSession *session = opened(path, &notes);
+    must_run(session, "dab 0.5,0.5 radius=6 strength=0.4");
+    must_run(session, "undo");
+    assert_true(wr_hash_equal(picture(session, SIDE, SIDE, &studies), before));
+    assert_int_equal(studies, 0);
+    must_run(session, "tolerance rms=0.02");
+    picture(session, SIDE, SIDE, &studies);
+    assert_int_equal(studies, 1);
+    assert_string_equal(wr_text_get(&notes), "");
+    wr_session_free(session);
+    wr_text_fini(&notes);
+    gone(path);
+}
+
+/* A line as save writes it for a picture of 32 x 32 pixels: `where` is its first such piece, and becomes `bad`. */
+static void expect_damaged(const char *where, const char *bad, const char *what)
+{
+#define HASH "0123456789abcdef0123456789abcdef"
+    static const char good[] = "1 32x32 turn=0 table=" HASH " scene=" HASH
+                               " met=yes rms=0.003 max=0.1 parts=central,exact,1,0,3 blocks=a.a2";
+    char message[40], value[1200], line[1400];
+    WrError err = { "" };
+    const char *at = strstr(good, where);
+    snprintf(value, sizeof value, "%.*s%s%s", (int)(at - good), good, bad, at + strlen(where));
+    snprintf(line, sizeof line, "tolerance rms=0.1 chosen=\"%s\"", value);
+    snprintf(message, sizeof message, "damaged in its %s", what);
+    WrSession *session = wr_session_new(NULL);
+    assert_true(wr_choice_check(good, &err));
+    must_fail(session, line, message);
+    wr_session_free(session);
+}
+
+static void damaged_dials_are_refused_with_one_clear_error(void **state)
+{
+    (void)state;
+    expect_damaged("1 32x32", "2 32x32", "version");
+    expect_damaged("32x32", "0x32", "size");
+    expect_damaged("32x32", "32x99999999", "size");
+    expect_damaged("32x32", "32.5x32", "size");
+    expect_damaged("turn=0", "turn=nan", "turn");
+    expect_damaged("turn=0", "turn=", "turn");
+    expect_damaged("table=0", "table=g", "table");
+    expect_damaged("scene=0", "scene=00", "scene");
+    expect_damaged("met=yes", "met=maybe", "met");
+    expect_damaged("rms=0.003", "rms=-1", "rms");
+    expect_damaged("max=0.1", "max=inf", "max");
+    expect_damaged("central", "centra", "parts");
+    expect_damaged("exact", "exact2", "parts");
+    expect_damaged(",1,0,3", ",5,0,3", "parts");
+    expect_damaged(",1,0,3", ",1,9,3", "parts");
+    expect_damaged(",1,0,3", ",1,0,256", "parts");
+    expect_damaged(",1,0,3", ",1,0,3,", "parts");
+    expect_damaged(",1,0,3", ",1,0", "parts");
+    expect_damaged("a.a2", "a.b2", "blocks");
+    expect_damaged("a.a2", "a.a3", "blocks");
+    expect_damaged("a.a2", "a.a", "blocks");
+    expect_damaged("a.a2", "a.a0", "blocks");
+    expect_damaged("a.a2", "a99999999999999999999", "blocks");
+    expect_damaged("a.a2", "{.a2", "blocks");
+    expect_damaged(" blocks=a.a2", "", "parts"); /* it is torn off: the parts have no end */
+    WrSession *session = wr_session_new(NULL);
+    must_fail(session, "tolerance off chosen=x", "chosen");
+    must_fail(session, "tolerance rms=0.1 chosen=\"\"", "chosen");
+    wr_session_free(session);
+}
+
+/* So many blocks that their settings take more text than a line should: then all get the finest. */
+static void what_would_be_too_long_becomes_one_setting(void **state)
+{
+    (void)state;
+    enum { WIDE = 16 * 400 };
+    WrError err;
+    WrText text = { 0 };
+    WrScene *scene = wr_scene_new();
+    WrChoicePart parts[2] = { { .scene = scene, .level = 1, .price = 9 },
+                              { .scene = scene, .level = 3, .price = 5 } };
+    WrChoice choice = { .count = 2, .parts = parts, .width = WIDE, .height = WIDE };
+    choice.part_of = wr_alloc(400 * 400, 1);
+    for (int i = 0; i < 400 * 400; i++) choice.part_of[i] = (unsigned char)(i % 2);
+    wr_choice_write(&choice, &(WrChoiceOrigin){ .table = { 1, 2 } }, &text);
+    assert_true(text.length < 1000);
+    assert_non_null(strstr(wr_text_get(&text), ",3,0,0 blocks=a160000"));
+    assert_true(wr_choice_check(wr_text_get(&text), &err));
+    wr_text_fini(&text);
+    wr_free(choice.part_of);
+    wr_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_saved_document_has_the_same_picture_and_chooses_nothing_anew),
+        cmocka_unit_test(what_a_document_keeps_stays_when_it_is_saved_again),
+        cmocka_unit_test(another_picture_than_the_kept_one_is_chosen_anew_with_a_note),
+        cmocka_unit_test(kept_dials_are_for_the_document_as_it_was_saved),
+        cmocka_unit_test(damaged_dials_are_refused_with_one_clear_error),
+        cmocka_unit_test(what_would_be_too_long_becomes_one_setting),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
