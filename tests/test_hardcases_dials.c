@@ -95,7 +95,7 @@ static void check_scene(const Trial *trial, const WrScene *scene)
         scene->bump == WR_BUMP_INVARIANT && frame.plan->bump == WR_BUMP_BLINN ? 1e-5 : 0.0;
     if (scene->dials.aa == WR_AA_ADAPTIVE && scene->dials.refine == WR_REFINE_BOUND)
         allowed += scene->dials.contrast;
-    request.plan_off = true;
+    request.full = true;
     request.normals = NULL;
     if (!wr_renderer_frame(trial->renderer, &request, &frame, &err))
         fail_msg("%s %s: %s", trial->id, trial->setting, err.text);

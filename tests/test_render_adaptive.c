@@ -57,7 +57,7 @@ static void bounded_refinement_keeps_within_its_contrast(void **state)
             if (which == 8) scene->dials.spread = WR_SPREAD_JITTERED;
             Shot all = with_dials(scene, table, WR_AA_SUPERSAMPLE, WR_REFINE_BOUND, 8, contrast);
             Shot some = with_dials(scene, table, WR_AA_ADAPTIVE, WR_REFINE_BOUND, 8, contrast);
-            assert_true(some.frame.plan->bounded);
+            assert_true(wr_plan_runs(some.frame.plan, WR_EFFECT_BOUND));
             float worst = worst_difference(&all, &some);
             if (!((double)worst <= contrast + 2e-6))
                 fail_msg("scene %d, contrast %g: off by %g", which, contrast, (double)worst);

@@ -222,7 +222,7 @@ static void footprints_are_the_differences_between_neighbouring_pixels(void **st
         WrScene *scene = scene_of(surfaces[s]);
         Shot shot = shoot(scene, field, SIDE, SIDE, 1, "auto", false);
         WrView view;
-        assert_true(wr_view_init(&view, scene, 15, SIDE, SIDE, 1, NULL));
+        assert_true(wr_view_init(&view, scene, shot.frame.plan, 15, SIDE, SIDE, NULL));
         double x = 80.5, y = 190.5, at[2], right[2], down[2];
         int face;
         while (x < 300 && !wr_renderer_pick(shot.renderer, x - 20, y, &at[0], &at[1], &face)) x++;
@@ -290,7 +290,7 @@ static void hc94_a_flat_table_under_moments_has_the_bits_of_point(void **state)
         scene->dials.aa = WR_AA_MOMENTS;
         scene->dials.moments = (WrMoments)model;
         Shot moments = shoot(scene, flat, 60, 60, 2, "auto", true); /* nothing may be left out */
-        assert_true(moments.frame.plan->moments);
+        assert_true(wr_plan_runs(moments.frame.plan, WR_EFFECT_SPREAD));
         assert_true(same_picture(&point, &moments));
         put_away(&point);
         put_away(&moments);

@@ -404,7 +404,7 @@ static void a_white_picture_changes_nothing_and_a_grey_one_scales(void **state)
         assert_near((double)grey.frame.rgba[4 * i], 0.5 * (double)plain.frame.rgba[4 * i], 1e-6);
     for (int i = 0; i < 18; i++) scene->colour->data[i] = 1.0f;
     Shot white = shoot(scene, field, 64, 64, 1, "auto", false);
-    assert_false(white.frame.plan->colour);
+    assert_false(wr_plan_runs(white.frame.plan, WR_EFFECT_COLOUR));
     assert_true(same_picture(&plain, &white));
     put_away(&plain);
     put_away(&grey);

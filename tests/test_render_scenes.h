@@ -36,17 +36,14 @@ typedef struct Shot {
 } Shot;
 
 static inline Shot shoot(const WrScene *scene, const WrField *field, int w, int h, int threads,
-                         const char *isa, bool plan_off)
+                         const char *isa, bool full)
 {
     WrError err = { "" };
     Shot shot = { .pool = wr_pool_new(threads) };
     shot.renderer = wr_renderer_new(shot.pool, isa, &err);
-    WrFrameRequest request = { .field = field,
-                               .scene = scene,
-                               .width = w,
-                               .height = h,
-                               .turn_deg = 15,
-                               .plan_off = plan_off };
+    WrFrameRequest request = {
+        .field = field, .scene = scene, .width = w, .height = h, .turn_deg = 15, .full = full
+    };
     if (!shot.renderer || !wr_renderer_frame(shot.renderer, &request, &shot.frame, &err))
         fail_msg("%s", err.text);
     return shot;

@@ -63,8 +63,9 @@ static bool measure(WrRenderer *renderer, double *out, WrError *err)
     WrField *field = wr_field_new(64, 64, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err);
     if (!field) return false;
     WrScene *scene = wr_scene_new();
+    static const WrForce force[WR_EFFECT_COUNT] = { [WR_EFFECT_BUMP] = WR_FORCE_ON };
     const WrFrameRequest request = {
-        .field = field, .scene = scene, .width = SIDE, .height = SIDE, .plan_off = true
+        .field = field, .scene = scene, .width = SIDE, .height = SIDE, .force = force
     };
     double best = INFINITY;
     bool good = true;

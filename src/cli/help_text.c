@@ -91,6 +91,8 @@ void wr_cli_markdown_effects(WrText *text)
         const WrEffectInfo *e = &wr_effects[i];
         wr_text_addf(text, "| %s | %s | ", e->rule, e->name);
         wr_help_markdown_cell(text, e->left_out);
-        wr_text_addf(text, " | %s |\n", wr_proof_letter(e->proof));
+        wr_text_addf(text, " | %s%s", wr_proof_letter(e->proof), e->bound ? ": " : "");
+        if (e->bound) wr_help_markdown_cell(text, e->bound);
+        wr_text_add(text, " |\n");
     }
 }

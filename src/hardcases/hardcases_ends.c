@@ -278,7 +278,7 @@ bool wr_hard_hc173(WrHardGauge *g, WrError *err)
         wr_field_set(mixed, i % 24, i / 24, wr_hard_random(g) < 0.5 ? -0.0f : 0.0f);
     for (int k = 0; k < WR_SCHEME_COUNT * (WR_BUMP_COUNT - 1) && good; k++) {
         WrScene *scene = wr_scene_new();
-        WrFrameRequest request = { .scene = scene, .width = 32, .height = 32, .plan_off = true };
+        WrFrameRequest request = { .scene = scene, .width = 32, .height = 32, .full = true };
         scene->shape = wr_hard_shape(k % 2 ? WR_SURFACE_sphere : WR_SURFACE_torus);
         scene->scheme = (WrScheme)(k % WR_SCHEME_COUNT);
         scene->bump = (WrBumpMode)(WR_BUMP_BLINN + k / WR_SCHEME_COUNT);

@@ -302,7 +302,7 @@ static bool hc94(WrHardGauge *g, WrError *err)
     for (int k = 0; k < 3 * 4 && good; k++) {
         WrScene *scene = wr_scene_new();
         WrFrameRequest request = {
-            .field = flat, .scene = scene, .width = 40, .height = 40, .plan_off = true
+            .field = flat, .scene = scene, .width = 40, .height = 40, .full = true
         };
         WrHardShot point = { .renderer = NULL }, moments = { .renderer = NULL };
         scene->shape = wr_hard_shape(kinds[k / 4]);

@@ -120,11 +120,10 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
     WrTileJob job = { .view = &renderer->view,
                       .plan = plan,
                       .scene = renderer->scene,
-                      .dials = &renderer->dials,
                       .pipe = plan->shading_double ? &wr_pipe_double : &wr_pipe,
                       .kernels = kernels,
                       .kernels_double = wr_kernels_double(renderer->isa, NULL),
-                      .mesh = plan->mesh ? &renderer->mesh : NULL,
+                      .mesh = wr_plan_runs(plan, WR_EFFECT_DEPTH) ? &renderer->mesh : NULL,
                       .samples = renderer->samples,
                       .width = renderer->width,
                       .height = renderer->height,
@@ -136,37 +135,31 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
     return job;
 }
 
-/* Do two plans run the same stages? */
-static bool same_stages(const WrPlan *a, const WrPlan *b)
-{
-    return a->diffuse == b->diffuse && a->specular == b->specular && a->colour == b->colour &&
-           a->bump == b->bump && a->need_heights == b->need_heights && a->wide == b->wide &&
-           a->gradient_table == b->gradient_table && a->samples == b->samples &&
-           a->sampling == b->sampling && a->pyramid == b->pyramid && a->moments == b->moments;
-}
-
-static bool same_dials(const WrDials *a, const WrDials *b)
-{
-    return a->aa == b->aa && a->samples == b->samples && a->spread == b->spread &&
-           a->footprint == b->footprint && a->moments == b->moments && a->refine == b->refine &&
-           a->contrast == b->contrast && a->mesh == b->mesh && a->newton == b->newton &&
-           a->texels == b->texels && a->heights == b->heights && a->shading == b->shading &&
-           a->arithmetic == b->arithmetic;
-}
-
-/* May the last picture stand where the table has not changed? Not under `refine=bound`, whose bounds look at
-   blocks of texels beyond those that the picture reads. */
-static bool may_refresh(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
-                        const WrDials *dials, const WrKernels *kernels)
+static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrFrameRequest *last = &renderer->last;
-    return request->keep && !request->only && !request->normals && !renderer->plan.bounded &&
-           renderer->seen && renderer->scene == request->scene &&
+    return renderer->seen && renderer->scene == request->scene &&
            last->turn_deg == request->turn_deg && last->width == request->width &&
-           last->height == request->height && renderer->kernels == kernels &&
-           same_dials(dials, &renderer->dials) && same_stages(before, &renderer->plan) &&
+           last->height == request->height;
+}
+
+static bool find_outside(const WrRenderer *renderer, const WrFrameRequest *request, bool *outside,
+                         WrError *err)
+{
+    *outside = renderer->outside;
+    return same_view(renderer, request) ||
+           wr_view_outside(request->scene, request->turn_deg, request->width, request->height,
+                           outside, err);
+}
+
+/* Does the last picture show what this request asks for, but for edits of the table? */
+static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
+                  const WrKernels *kernels)
+{
+    return request->keep && !request->only && !request->normals && same_view(renderer, request) &&
+           renderer->kernels == kernels && wr_plan_same(before, &renderer->plan) &&
            wr_keep_compare(&renderer->keep, renderer->looked,
-                           wr_schemes[request->scene->scheme].reach + 2);
+                           wr_schemes[renderer->plan.scheme].reach + 2);
 }
 
 /* View and mesh of a whole new picture. */
@@ -174,20 +167,21 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels, WrError *err)
 {
     const WrScene *scene = request->scene;
-    const WrDials *dials = &renderer->dials;
+    const WrPlan *plan = &renderer->plan;
     WrScene *shared = wr_scene_share(scene); /* before the old one goes: it may be the same */
     forget_view(renderer);
     renderer->scene = shared;
-    renderer->samples = renderer->plan.samples;
-    renderer->seen = wr_view_init(&renderer->view, scene, request->turn_deg, request->width,
-                                  request->height, renderer->samples, err);
+    renderer->last = *request;
+    renderer->samples = plan->samples;
+    renderer->seen = wr_view_init(&renderer->view, scene, plan, request->turn_deg, request->width,
+                                  request->height, err);
     if (!renderer->seen) return false;
-    const WrMeshAsk ask = { .mesh = dials->mesh,
-                            .newton = dials->newton,
-                            .texels = dials->texels,
+    const WrMeshAsk ask = { .mesh = plan->mesh,
+                            .newton = plan->newton,
+                            .texels = plan->texels,
                             .table_w = fabs(scene->replicate_u) * wr_field_width(request->field),
                             .table_h = fabs(scene->replicate_v) * wr_field_height(request->field) };
-    if (renderer->plan.mesh)
+    if (wr_plan_runs(plan, WR_EFFECT_DEPTH))
         wr_view_mesh_prepare(&renderer->mesh, &scene->shape, &renderer->view, &ask, kernels,
                              renderer->pool);
     else wr_view_mesh_fini(&renderer->mesh);
@@ -198,17 +192,15 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
 }
 
 /* Render the tiles. False if told to stop. */
-static bool run_tiles(WrRenderer *renderer, const WrFrameRequest *request, FrameJob *job,
-                      bool refresh)
+static bool run_tiles(WrRenderer *renderer, const WrFrameRequest *request, FrameJob *job)
 {
     job->tiles_u = (request->width + job->tile.tile_w - 1) / job->tile.tile_w;
     int tiles = job->tiles_u * ((request->height + job->tile.tile_h - 1) / job->tile.tile_h);
     job->only = request->only;
-    if (refresh) {
+    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
         job->keep = &renderer->keep;
-        wr_plan_again(&renderer->plan, true,
-                      "the view rests: only tiles that an edit reached are new");
     } else {
+        wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
         job->cancel = request->cancel;
         if (request->keep && !request->only) {
             wr_keep_start(&renderer->keep, tiles);
@@ -228,29 +220,30 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
         wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, err);
     if (!kernels || !resize(renderer, request->width, request->height, err)) return false;
     const WrPlan before = renderer->plan;
-    const WrDials dials_before = renderer->dials;
-    renderer->dials = *dials;
-    if (!wr_frame_prepare_table(renderer, request, err)) return false;
+    WrPlanAsk ask = {
+        .scene = request->scene, .dials = dials, .force = request->force, .full = request->full
+    };
+    ask.facts.normals = request->normals;
+    if (!find_outside(renderer, request, &ask.facts.outside, err)) return false;
+    if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
     if (!wr_frame_prepare_colour(renderer, request, err)) return false;
-    const bool refresh = may_refresh(renderer, request, &before, &dials_before, kernels);
-    if (!refresh) {
+    ask.facts.rests = rests(renderer, request, &before, kernels);
+    wr_plan_again(&renderer->plan, &ask);
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
         wr_keep_fini(&renderer->keep);
+        renderer->outside = ask.facts.outside;
         if (!prepare_view(renderer, request, kernels, err)) return false;
     }
-    const WrSurfaceInfo *info = wr_surfaces[request->scene->shape.kind];
-    wr_plan_back(&renderer->plan, info->convex_closed || (info->closed_u && info->closed_v),
-                 renderer->view.outside);
     wr_frame_start_counts(renderer);
     FrameJob job = { .tile = make_job(renderer, request, kernels), .scratch = renderer->scratch };
     const double prepared = wr_clock_seconds() - started;
-    if (!run_tiles(renderer, request, &job, refresh)) {
+    if (!run_tiles(renderer, request, &job)) {
         wr_keep_fini(&renderer->keep);
         return wr_fail(err, "cancelled");
     }
     if (renderer->keep.seen) wr_keep_field(&renderer->keep, renderer->looked);
-    renderer->last = *request;
     renderer->kernels = kernels;
-    wr_frame_account(renderer, refresh, prepared, started, frame);
+    wr_frame_account(renderer, prepared, started, frame);
     return true;
 }
 

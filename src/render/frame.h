@@ -30,7 +30,9 @@ typedef struct WrFrameRequest {
        [height][width][3], the caller's; NULL: not wanted. One sample a pixel is taken, whatever the
        dials say of supersampling. */
     float *normals;
-    bool plan_off;              /* run the full path whatever the plan could leave out (tests) */
+    /* Effects that run, or do not, whatever the scene calls for: [WR_EFFECT_COUNT]; NULL: none. */
+    const WrForce *force;
+    bool full; /* run whatever the plan could leave out without changing the picture */
     const volatile int *cancel; /* may be NULL; non-zero: return early, false, err "cancelled" */
 } WrFrameRequest;
 

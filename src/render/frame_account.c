@@ -11,81 +11,34 @@ void wr_frame_start_counts(WrRenderer *renderer)
     for (int i = 0; i < renderer->threads; i++) {
         if (!renderer->scratch[i]) renderer->scratch[i] = wr_alloc(1, sizeof(WrTileScratch));
         WrTileScratch *s = renderer->scratch[i];
-        const bool wide =
-            renderer->plan.shading_double || renderer->table.precision != WR_PRECISION_SINGLE;
+        const bool wide = wr_plan_runs(&renderer->plan, WR_EFFECT_DOUBLE);
         if (wide && !s->wide) s->wide = wr_alloc(3, sizeof *s->wide);
         memset(s->seconds, 0, sizeof s->seconds);
         memset(s->whole, 0, sizeof s->whole);
         s->all = 0;
         s->covered = s->shaded = s->tiles = s->wide_samples = 0;
         s->strips = 0;
+        s->ran = 0;
     }
 }
 
 /* ---- where each stage's time goes ---- */
 
-static bool runs(const WrPlan *plan, WrEffect effect)
-{
-    return plan->rows[effect].run;
-}
-
-static WrEffect bump_effect(const WrPlan *plan)
-{
-    return runs(plan, WR_EFFECT_EXACT)       ? WR_EFFECT_EXACT
-           : runs(plan, WR_EFFECT_INVARIANT) ? WR_EFFECT_INVARIANT
-                                             : WR_EFFECT_BUMP;
-}
-
-/* A stage is the effect's, if that runs; else it is part of a cost that has no effect. */
-typedef struct Owner {
-    WrEffect effect; /* WR_EFFECT_COUNT: none */
-    WrCost cost;
-} Owner;
-
-static Owner owner_of(const WrPlan *plan, WrStage stage)
-{
-    switch (stage) {
-    case WR_STAGE_VISIBILITY: return (Owner){ WR_EFFECT_DEPTH, WR_COST_VISIBILITY };
-    case WR_STAGE_NEWTON: return (Owner){ WR_EFFECT_NEWTON, WR_COST_VISIBILITY };
-    case WR_STAGE_GEOMETRY: return (Owner){ WR_EFFECT_COUNT, WR_COST_GEOMETRY };
-    case WR_STAGE_CURVATURE: return (Owner){ WR_EFFECT_CURVATURE, WR_COST_GEOMETRY };
-    case WR_STAGE_FOOTPRINT: return (Owner){ WR_EFFECT_FILTER, WR_COST_GEOMETRY };
-    case WR_STAGE_LOOK:
-        return (Owner){ plan->gradient_table ? WR_EFFECT_GRADIENT : WR_EFFECT_BUMP,
-                        WR_COST_GEOMETRY };
-    case WR_STAGE_PYRAMID: return (Owner){ WR_EFFECT_FILTER, WR_COST_GEOMETRY };
-    case WR_STAGE_BUMP: return (Owner){ bump_effect(plan), WR_COST_GEOMETRY };
-    case WR_STAGE_SPREAD: return (Owner){ WR_EFFECT_SPREAD, WR_COST_GEOMETRY };
-    case WR_STAGE_COLOUR: return (Owner){ WR_EFFECT_COLOUR, WR_COST_STORE };
-    case WR_STAGE_DIFFUSE: return (Owner){ WR_EFFECT_DIFFUSE, WR_COST_STORE };
-    case WR_STAGE_SPECULAR: return (Owner){ WR_EFFECT_SPECULAR, WR_COST_STORE };
-    case WR_STAGE_BOUND: return (Owner){ WR_EFFECT_BOUND, WR_COST_REST };
-    case WR_STAGE_HALF: return (Owner){ WR_EFFECT_HALF, WR_COST_STORE };
-    case WR_STAGE_RESOLVE: return (Owner){ WR_EFFECT_SAMPLES, WR_COST_STORE };
-    case WR_STAGE_STORE: return (Owner){ WR_EFFECT_COUNT, WR_COST_STORE };
-    case WR_STAGE_CLEAR: return (Owner){ WR_EFFECT_COUNT, WR_COST_CLEAR };
-    default: return (Owner){ WR_EFFECT_COUNT, WR_COST_REST };
-    }
-}
-
 /* What each effect cost and touched, into the plan's rows. */
 static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], int64_t tiles,
-                    int64_t shaded, int64_t filtered)
+                    int64_t shaded, int64_t filtered, uint32_t ran)
 {
     for (int c = 0; c < WR_COST_COUNT; c++) plan->cost[c] = 0;
     for (int e = 0; e < WR_EFFECT_COUNT; e++) {
         WrPlanRow *row = &plan->rows[e];
         row->seconds = 0;
+        row->ran = ran >> e & 1;
         if (!row->run) continue;
         row->tiles = tiles;
         row->pixels = e == WR_EFFECT_FILTER ? filtered : shaded;
     }
-    for (int stage = 0; stage < WR_STAGE_COUNT; stage++) {
-        const Owner owner = owner_of(plan, (WrStage)stage);
-        if (owner.effect < WR_EFFECT_COUNT && runs(plan, owner.effect))
-            plan->rows[owner.effect].seconds += seconds[stage];
-        else plan->cost[owner.cost] += seconds[stage];
-    }
+    for (int stage = 0; stage < WR_STAGE_COUNT; stage++)
+        wr_plan_charge(plan, (WrStage)stage, seconds[stage]);
     plan->shaded = shaded;
     for (int e = 0; e < WR_EFFECT_COUNT; e++)
         plan->rows[e].ns_per_pixel = shaded > 0 ? 1e9 * plan->rows[e].seconds / (double)shaded : 0;
@@ -106,11 +59,11 @@ static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
     return left - share * strips;
 }
 
-void wr_frame_account(WrRenderer *renderer, bool refreshed, double prepared, double started,
-                      WrFrame *frame)
+void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame)
 {
     double seconds[WR_STAGE_COUNT] = { 0 }, rest = 0, busy = 0;
     int64_t tiles = 0, filtered = 0;
+    uint32_t ran = 0;
     WrPlan *plan = &renderer->plan;
     const double total = wr_clock_seconds() - started;
     *frame = (WrFrame){
@@ -124,10 +77,12 @@ void wr_frame_account(WrRenderer *renderer, bool refreshed, double prepared, dou
         frame->shaded += s->shaded;
         tiles += s->tiles;
         filtered += s->wide_samples;
+        ran |= s->ran;
     }
-    if (refreshed) frame->covered = renderer->covered; /* heights do not move the outline */
+    if (!wr_plan_runs(plan, WR_EFFECT_AGAIN))
+        frame->covered = renderer->covered; /* heights do not move the outline */
     renderer->covered = frame->covered;
-    account(plan, seconds, tiles, frame->shaded, filtered);
+    account(plan, seconds, tiles, frame->shaded, filtered, ran);
     plan->work = prepared + renderer->threads * (total - prepared);
     plan->cost[WR_COST_PREPARE] += prepared;
     plan->cost[WR_COST_REST] += rest;

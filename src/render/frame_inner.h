@@ -32,18 +32,20 @@ struct WrRenderer {
     WrPlan plan;
     WrView view; /* of the last frame, for picking */
     WrScene *scene;
-    WrDials dials;          /* of the last frame */
     double pyramid_seconds; /* that it spent on pyramids */
     int samples;
-    bool seen; /* view and scene are set */
+    bool seen;    /* view and scene are set */
+    bool outside; /* the eye of that view is outside the surface */
     WrKeep keep;
     WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
     const WrKernels *kernels; /* that it was made with */
     int64_t covered;
 };
 
-/* Decide, make what the decision needs, and decide again once the gradient table is known. */
-bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+/* Decide, make what the decision needs, and decide again once the gradient table is known. ask: its facts of the
+   table are filled in. */
+bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask,
+                            WrError *err);
 bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 void wr_frame_drop_tables(WrRenderer *renderer);
 /* What tiles look up; scale: object units -> kernel units. */
@@ -51,5 +53,4 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
                          WrTileJob *job);
 /* Start each thread's counts at 0; then what they came to, into the frame and the plan's rows. */
 void wr_frame_start_counts(WrRenderer *renderer);
-void wr_frame_account(WrRenderer *renderer, bool refreshed, double prepared, double started,
-                      WrFrame *frame);
+void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame);

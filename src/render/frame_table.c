@@ -55,15 +55,15 @@ void wr_frame_drop_tables(WrRenderer *renderer)
 static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
                          WrError *err)
 {
-    const WrScene *scene = request->scene;
     const bool hold = request->hold;
     WrTable *table = &renderer->table;
     const WrPlan *plan = &renderer->plan;
     const WrField *field = renderer->looked;
-    const bool looked = plan->bump != WR_BUMP_NONE && scene->analytic.kind == WR_ANALYTIC_OFF;
-    const bool fitted = looked && scene->scheme == WR_SCHEME_BSPLINE_FIT;
-    const bool heights = looked && !fitted && (!plan->gradient_table || plan->need_heights);
-    if (!plan->gradient_table && !slope_free && !hold) wr_table_drop(table, WR_COPY_GRADIENT);
+    const bool gradient = wr_plan_runs(plan, WR_EFFECT_GRADIENT);
+    const bool looked = plan->source == WR_SOURCE_TABLE;
+    const bool fitted = looked && plan->scheme == WR_SCHEME_BSPLINE_FIT;
+    const bool heights = looked && !fitted && (!gradient || wr_plan_runs(plan, WR_EFFECT_EXACT));
+    if (!gradient && !slope_free && !hold) wr_table_drop(table, WR_COPY_GRADIENT);
     if (!fitted && !hold) wr_table_drop(table, WR_COPY_FITTED);
     if (!heights && !hold) wr_table_drop(table, WR_COPY_HEIGHTS);
     if (fitted && !wr_table_bring(table, WR_COPY_FITTED, field, renderer->pool, err)) return false;
@@ -73,11 +73,13 @@ static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bo
 static bool bring_pyramids(WrRenderer *renderer, bool hold, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
-    const bool range = plan->bounded && plan->bump != WR_BUMP_NONE;
-    const WrPyramidKind kind = plan->moments ? WR_PYRAMID_MOMENTS : WR_PYRAMID_SLOPES;
-    if (!plan->pyramid && !hold) wr_pyramid_drop(&renderer->pyramid);
+    const bool filter = wr_plan_runs(plan, WR_EFFECT_FILTER);
+    const bool range = wr_plan_runs(plan, WR_EFFECT_BOUND) && wr_plan_runs(plan, WR_EFFECT_BUMP);
+    const WrPyramidKind kind =
+        wr_plan_runs(plan, WR_EFFECT_SPREAD) ? WR_PYRAMID_MOMENTS : WR_PYRAMID_SLOPES;
+    if (!filter && !hold) wr_pyramid_drop(&renderer->pyramid);
     if (!range) wr_pyramid_drop(&renderer->range);
-    if (plan->pyramid &&
+    if (filter &&
         !wr_pyramid_bring(&renderer->pyramid, kind, renderer->looked, renderer->pool, err))
         return false;
     return !range || wr_pyramid_bring(&renderer->range, WR_PYRAMID_RANGE, renderer->looked,
@@ -86,34 +88,33 @@ static bool bring_pyramids(WrRenderer *renderer, bool hold, WrError *err)
 
 static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
-    const WrDials *dials = &renderer->dials;
+    const WrPlan *plan = &renderer->plan;
     float low, high;
     wr_table_range(&renderer->table, &low, &high);
     renderer->looked =
-        wr_rounded_bring(&renderer->rounded, request->field, dials->heights, low, high, err);
-    renderer->table.precision = dials->heights == WR_HEIGHTS_DOUBLE   ? WR_PRECISION_DOUBLE
-                                : dials->shading == WR_SHADING_DOUBLE ? WR_PRECISION_WIDENED
-                                                                      : WR_PRECISION_SINGLE;
+        wr_rounded_bring(&renderer->rounded, request->field, plan->heights, low, high, err);
+    renderer->table.precision = plan->precision;
     return renderer->looked != NULL;
 }
 
-bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask,
+                            WrError *err)
 {
-    const WrScene *scene = request->scene;
     const WrField *field = request->field;
     WrTable *table = &renderer->table;
     WrPlan *plan = &renderer->plan;
-    WrTableFacts facts = { .flat = wr_table_flat(table, field), .normals = request->normals };
-    facts.zero = facts.flat && wr_field_get(field, 0, 0) == 0.0f;
-    wr_plan_build(plan, scene, &renderer->dials, &facts, request->plan_off);
+    WrPlanFacts *facts = &ask->facts;
+    facts->flat = wr_table_flat(table, field);
+    facts->zero = facts->flat && wr_field_get(field, 0, 0) == 0.0f;
+    wr_plan_build(plan, ask);
     if (!round_heights(renderer, request, err)) return false;
-    if (plan->gradient_table) {
+    if (wr_plan_runs(plan, WR_EFFECT_GRADIENT)) {
         if (!wr_table_bring(table, WR_COPY_GRADIENT, renderer->looked, renderer->pool, err))
             return false;
-        facts.slope_free = wr_table_slope_free(table);
-        wr_plan_build(plan, scene, &renderer->dials, &facts, request->plan_off);
+        facts->slope_free = wr_table_slope_free(table);
+        wr_plan_build(plan, ask);
     }
-    if (!bring_copies(renderer, request, facts.slope_free, err)) return false;
+    if (!bring_copies(renderer, request, facts->slope_free, err)) return false;
     const double started = wr_clock_seconds();
     if (!bring_pyramids(renderer, request->hold, err)) return false;
     renderer->pyramid_seconds = wr_clock_seconds() - started;
@@ -122,7 +123,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
 
 bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
-    if (renderer->plan.colour)
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR))
         return bring_colour(&renderer->colour, request->scene->colour, request->field, err);
     drop_colour(&renderer->colour);
     return true;
@@ -131,28 +132,41 @@ bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request
 static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *request, double scale)
 {
     const WrScene *scene = request->scene;
+    const WrPlan *plan = &renderer->plan;
     const double height = scene->height * scale;
     /* The scale-invariant tilt is the slope itself, in the scene's units whatever the object's size. */
-    const double slope = renderer->plan.bump == WR_BUMP_INVARIANT ? scene->height : height;
+    const double slope = plan->bump == WR_BUMP_INVARIANT ? scene->height : height;
     return (WrLookd){ .width = wr_field_width(request->field),
                       .height = wr_field_height(request->field),
                       .ru = scene->replicate_u,
                       .rv = scene->replicate_v,
                       .periodic_u = wr_field_wrap_u(request->field) == WR_WRAP_PERIODIC,
                       .periodic_v = wr_field_wrap_v(request->field) == WR_WRAP_PERIODIC,
-                      .wide = renderer->plan.wide,
+                      .wide = wr_plan_runs(plan, WR_EFFECT_WIDE),
                       .scale_f = height,
                       .scale_u = slope * scene->replicate_u,
                       .scale_v = slope * scene->replicate_v,
-                      .pyramid = renderer->plan.pyramid ? &renderer->pyramid : NULL,
+                      .pyramid = wr_plan_runs(plan, WR_EFFECT_FILTER) ? &renderer->pyramid : NULL,
                       .range = renderer->range.seen ? &renderer->range : NULL };
+}
+
+/* What a look-up at level 0 does, by what it was given. */
+static uint32_t looks_of(const WrFrameRequest *request, const WrRenderer *renderer,
+                         const WrLookd *look)
+{
+    const bool slopes =
+        renderer->plan.scheme == WR_SCHEME_CENTRAL || renderer->plan.scheme == WR_SCHEME_NEAREST;
+    const bool in_double = renderer->table.precision != WR_PRECISION_SINGLE;
+    return (slopes ? 1U << WR_EFFECT_GRADIENT : 0) | (look->wide ? 1U << WR_EFFECT_WIDE : 0) |
+           (in_double ? 1U << WR_EFFECT_DOUBLE : 0) |
+           (renderer->looked != request->field ? 1U << WR_EFFECT_ROUNDED : 0);
 }
 
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {
     const WrTableCopy *copies = renderer->table.copies;
-    const bool fitted = request->scene->scheme == WR_SCHEME_BSPLINE_FIT;
+    const bool fitted = renderer->plan.scheme == WR_SCHEME_BSPLINE_FIT;
     const WrTableCopy *heights = &copies[fitted ? WR_COPY_FITTED : WR_COPY_HEIGHTS];
     const WrTableCopy *gradient = &copies[WR_COPY_GRADIENT];
     WrLookd look = make_look(renderer, request, scale);
@@ -175,8 +189,8 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
                           .scale_v = (float)look.scale_v,
                           .pyramid = look.pyramid,
                           .range = look.range };
-    job->double_look = renderer->table.precision != WR_PRECISION_SINGLE;
-    if (!renderer->plan.colour) return;
+    job->looks = looks_of(request, renderer, &look);
+    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) return;
     const WrImage *image = request->scene->colour;
     job->colour = (WrColourLook){ .rgba = renderer->colour.rgba,
                                   .pitch = renderer->colour.pitch,

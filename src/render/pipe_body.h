@@ -25,6 +25,16 @@ static void watch_lap(Watch *watch, WrStage stage)
     watch->last = now;
 }
 
+static bool runs(const WrTileJob *job, WrEffect effect)
+{
+    return wr_plan_runs(job->plan, effect);
+}
+
+static void did(const Watch *watch, WrEffect effect)
+{
+    wr_did(watch->scratch, effect);
+}
+
 #include "render/pipe_look_body.h"
 
 /* ---- half precision ------------------------------------------------------------------------------ */
@@ -37,10 +47,11 @@ static void keep_half(REAL *x, int count)
 
 static void keep_half3(const WrTileJob *job, REAL *x, REAL *y, REAL *z, int count, Watch *watch)
 {
-    if (!job->plan->shading_half) return;
+    if (!runs(job, WR_EFFECT_HALF)) return;
     keep_half(x, count);
     keep_half(y, count);
     keep_half(z, count);
+    did(watch, WR_EFFECT_HALF);
     watch_lap(watch, WR_STAGE_HALF);
 }
 
@@ -51,7 +62,8 @@ static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, S
     const Kernels *k = KERNELS_OF(job);
     const WrMaterial *m = &job->scene->material;
     const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
-    if (!job->plan->moments) k->specular(light, shine.ks, shine.shininess, shine.gate, strip);
+    if (!runs(job, WR_EFFECT_SPREAD))
+        k->specular(light, shine.ks, shine.shininess, shine.gate, strip);
     else if (job->plan->lean) k->specular_lean(light, &shine, strip);
     else k->specular_toksvig(light, &shine, strip);
 }
@@ -60,55 +72,77 @@ static void bound_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKer
                         Strip *strip)
 {
     const WrMaterial *m = &job->scene->material;
-    const WR_T(WrKernShine)
-        shine = { job->plan->specular ? (REAL)m->specular : (REAL)0, (REAL)m->shininess, m->gate };
+    const WR_T(WrKernShine) shine = { runs(job, WR_EFFECT_SPECULAR) ? (REAL)m->specular : (REAL)0,
+                                      (REAL)m->shininess, m->gate };
     double most = fmax(m->colour.x, fmax(m->colour.y, m->colour.z));
     KERNELS_OF(job)->bound_light(rays, light, &shine, (REAL)(m->diffuse * most), strip);
+}
+
+/* What one light adds. */
+static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
+                       const WrSink *sink, Strip *strip, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    k->light(light, strip);
+    watch_lap(watch, WR_STAGE_DIFFUSE);
+    if (runs(job, WR_EFFECT_HALF)) keep_half(strip->n_dot_l, strip->count);
+    keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
+    if (runs(job, WR_EFFECT_DIFFUSE)) {
+        k->diffuse(light, (REAL)job->scene->material.diffuse, strip);
+        did(watch, WR_EFFECT_DIFFUSE);
+    }
+    watch_lap(watch, WR_STAGE_DIFFUSE);
+    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
+    if (runs(job, WR_EFFECT_SPECULAR)) {
+        shine_strip(job, light, strip);
+        did(watch, WR_EFFECT_SPECULAR);
+        watch_lap(watch, WR_STAGE_SPECULAR);
+        keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
+    }
+    if (sink->bound) bound_strip(job, rays, light, strip);
+    watch_lap(watch, WR_STAGE_BOUND);
 }
 
 static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink, Strip *strip,
                         Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
-    const WrPlan *plan = job->plan;
-    const WrMaterial *material = &job->scene->material;
-    k->begin((REAL)material->ambient, strip);
-    if (plan->colour) {
+    const bool specular = runs(job, WR_EFFECT_SPECULAR);
+    k->begin((REAL)job->scene->material.ambient, strip);
+    if (runs(job, WR_EFFECT_COLOUR)) {
         k->colour(&job->colour, strip);
+        did(watch, WR_EFFECT_COLOUR);
         watch_lap(watch, WR_STAGE_COLOUR);
     }
-    if (plan->specular || sink->bound) k->view(rays, strip);
-    watch_lap(watch, plan->specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
-    if (plan->specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
-    if (!plan->diffuse && !plan->specular) return;
-    for (int i = 0; i < job->view->light_count; i++) {
-        const WR_T(WrKernLight) *light = &VIEWED(job->view, lights)[i];
-        k->light(light, strip);
-        watch_lap(watch, WR_STAGE_DIFFUSE);
-        if (plan->shading_half) keep_half(strip->n_dot_l, strip->count);
-        keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
-        if (plan->diffuse) k->diffuse(light, (REAL)material->diffuse, strip);
-        watch_lap(watch, WR_STAGE_DIFFUSE);
-        keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
-        if (plan->specular) shine_strip(job, light, strip);
-        watch_lap(watch, WR_STAGE_SPECULAR);
-        if (plan->specular) keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
-        if (sink->bound) bound_strip(job, rays, light, strip);
-        watch_lap(watch, WR_STAGE_BOUND);
-    }
+    if (specular || sink->bound) k->view(rays, strip);
+    watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
+    if (specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
+    if (!specular && !runs(job, WR_EFFECT_DIFFUSE)) return;
+    for (int i = 0; i < job->view->light_count; i++)
+        lamp_strip(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
 }
 
 /* Where on the surface each pixel lies, and how far its normal turns there. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
-                           Strip *strip)
+                           Strip *strip, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
     const bool sphere = quad < 0, bumped = job->plan->bump != WR_BUMP_NONE;
+    did(watch, WR_EFFECT_BOUND);
     if (sphere) k->bound_sphere(rays, &VIEWED(job->view, shape), (REAL)sink->pixel, strip);
     else k->bound_quad(rays, &VIEWED(job->view, quads)[quad], (REAL)sink->pixel, strip);
     if (bumped) k->bound_slopes(LOOK_OF(job), strip);
     k->bound_normal(sphere, bumped, strip);
 }
+
+/* What each formula of the normal does. */
+static const uint32_t normal_effects[] = {
+    [WR_BUMP_NONE] = 0,
+    [WR_BUMP_BLINN] = 1U << WR_EFFECT_BUMP,
+    [WR_BUMP_INVARIANT] = 1U << WR_EFFECT_BUMP | 1U << WR_EFFECT_INVARIANT,
+    [WR_BUMP_EXACT] = 1U << WR_EFFECT_BUMP | 1U << WR_EFFECT_EXACT,
+};
+_Static_assert(sizeof normal_effects / sizeof *normal_effects == WR_BUMP_COUNT, "all formulas");
 
 /* All stages of the plan from (u, v) to the colour. quad: of a planar surface, or -1. */
 static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
@@ -116,25 +150,28 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
 {
     const Kernels *k = KERNELS_OF(job);
     const WrPlan *plan = job->plan;
-    const WrSurfaceKind kind = job->scene->shape.kind;
+    const WrSurfaceKind kind = job->view->shape_d.kind;
     const int face = quad >= 0 ? job->view->quad_face[quad] : 0;
     if (plan->normals) {
         k->geometry[kind](&VIEWED(job->view, shape), face, strip);
         watch_lap(watch, WR_STAGE_GEOMETRY);
-        if (plan->curvature) {
+        if (runs(job, WR_EFFECT_CURVATURE)) {
             k->curvature[kind](&VIEWED(job->view, shape), face, strip);
+            did(watch, WR_EFFECT_CURVATURE);
             watch_lap(watch, WR_STAGE_CURVATURE);
         }
         if (plan->bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
         k->bump[plan->bump](rays, strip);
+        scratch->ran |= normal_effects[plan->bump];
         watch_lap(watch, WR_STAGE_BUMP);
-        if (plan->moments && sink->rgba) {
+        if (runs(job, WR_EFFECT_SPREAD) && sink->rgba) {
             k->widen(plan->bump == WR_BUMP_INVARIANT, strip);
+            did(watch, WR_EFFECT_SPREAD);
             watch_lap(watch, WR_STAGE_SPREAD);
         }
         keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
     }
-    if (sink->bound) bound_geometry(job, rays, quad, sink, strip);
+    if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
     if (!sink->rgba) return;
     light_strip(job, rays, sink, strip, watch);
@@ -164,11 +201,20 @@ static void store(const WrSink *sink, const Strip *strip, WrTileScratch *scratch
         sink->bound[strip->index[i]] = (float)strip->bound[i];
 }
 
+/* What the view made of the strip, and in what numbers. */
+static void note_view(const WrTileJob *job, const Rays *rays, WrTileScratch *scratch)
+{
+    if (rays->perspective) wr_did(scratch, WR_EFFECT_PERSPECTIVE);
+    if (!job->view->cull) wr_did(scratch, WR_EFFECT_BACK);
+    if (sizeof(REAL) == sizeof(double)) wr_did(scratch, WR_EFFECT_DOUBLE);
+}
+
 static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                          WrTileScratch *scratch, Watch *watch)
 {
     Strip *strip = STRIP_OF(scratch);
     if (strip->count == 0) return;
+    note_view(job, rays, scratch);
     shade_strip(job, rays, quad, sink, strip, scratch, watch);
     store(sink, strip, scratch);
     watch_lap(watch, WR_STAGE_STORE);
@@ -201,10 +247,11 @@ static WR_T(WrHitAtKernel) closed_form_at(const Kernels *kernels, WrInversion in
 static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     watch_lap(watch, WR_STAGE_VISIBILITY);
-    if (strip->count == 0) return;
+    if (strip->count == 0 || !runs(job, WR_EFFECT_NEWTON)) return;
     WR_T(WrNewton) how = job->mesh->newton;
-    if (job->dials->newton < 0) how.steps += MORE_STEPS;
-    KERNELS_OF(job)->polish[job->scene->shape.kind](rays, &VIEWED(job->view, shape), &how, strip);
+    if (job->plan->newton < 0) how.steps += MORE_STEPS;
+    KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
+    did(watch, WR_EFFECT_NEWTON);
     watch_lap(watch, WR_STAGE_NEWTON);
 }
 
@@ -274,7 +321,7 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
         return;
     }
     WR_T(WrHitAtKernel)
-    hit = closed_form_at(kernels, wr_surfaces[job->scene->shape.kind]->inversion);
+    hit = closed_form_at(kernels, job->plan->inversion);
     if (hit) {
         pour(places, strip);
         hit(rays, &VIEWED(view, shape), places->count, strip);
@@ -306,7 +353,7 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 /* Places of what hit, where a later stage asks for them. */
 static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
 {
-    if (!job->plan->pyramid && !sink->bound) return;
+    if (!runs(job, WR_EFFECT_FILTER) && !sink->bound) return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];
         strip->y[i] = gy;
@@ -333,7 +380,7 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
         return;
     }
     WR_T(WrHitKernel)
-    hit = closed_form(kernels, wr_surfaces[job->scene->shape.kind]->inversion);
+    hit = closed_form(kernels, job->plan->inversion);
     if (hit) {
         hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
         note_places(job, sink, gx, gy, strip);
@@ -357,7 +404,7 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
     WrScatter *places = &scratch->scatter;
     Watch watch = { scratch, false, 0 };
     WR_T(WrHitAtKernel)
-    hit = closed_form_at(KERNELS_OF(job), wr_surfaces[job->scene->shape.kind]->inversion);
+    hit = closed_form_at(KERNELS_OF(job), job->plan->inversion);
     places->count = 1;
     places->x[0] = gx, places->y[0] = gy, places->cell[0] = 0;
     strip->count = 0;

@@ -24,7 +24,7 @@ static void look_in_double(const WrTileJob *job, Strip *strip, WrTileScratch *sc
         wide->u[i] = (double)strip->u[i];
         wide->v[i] = (double)strip->v[i];
     }
-    job->kernels_double->look[job->scene->scheme](&job->look_double, wide);
+    job->kernels_double->look[job->plan->scheme](&job->look_double, wide);
     for (int i = 0; i < strip->count; i++) {
         strip->tu[i] = (float)wide->tu[i];
         strip->tv[i] = (float)wide->tv[i];
@@ -37,14 +37,14 @@ static void look_in_double(const WrTileJob *job, Strip *strip, WrTileScratch *sc
 
 static void look_level0(const WrTileJob *job, Strip *strip, WrTileScratch *scratch)
 {
+    scratch->ran |= job->looks;
 #ifndef WR_PIPE_DOUBLE
-    if (job->double_look) {
+    if (job->plan->precision != WR_PRECISION_SINGLE) {
         look_in_double(job, strip, scratch);
         return;
     }
 #endif
-    (void)scratch;
-    KERNELS_OF(job)->look[job->scene->scheme](LOOK_OF(job), strip);
+    KERNELS_OF(job)->look[job->plan->scheme](LOOK_OF(job), strip);
 }
 
 /* The k-th look-up of a sample lies this far along its longer side, -1/2 .. 1/2. */
@@ -101,7 +101,7 @@ static void flush(const WrTileJob *job, const Batch *batch, Strip *strip, WrTile
                   Watch *watch)
 {
     Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
-    const bool moments = job->plan->moments;
+    const bool moments = runs(job, WR_EFFECT_SPREAD);
     if (near->count > 0) look_level0(job, near, scratch);
     watch_lap(watch, WR_STAGE_LOOK);
     if (far->count > 0) KERNELS_OF(job)->look_pyramid(LOOK_OF(job), moments, far);
@@ -140,6 +140,7 @@ static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
     Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
     Batch batch;
     int wide = 0;
+    did(watch, WR_EFFECT_FILTER);
     k->footprint(rays, LOOK_OF(job), 1, strip);
     k->spread(LOOK_OF(job), job->plan->anisotropic, strip);
     for (int i = 0; i < strip->count; i++) {
@@ -173,9 +174,9 @@ static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
 static void look(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
                  Watch *watch)
 {
-    if (job->scene->analytic.kind != WR_ANALYTIC_OFF) {
+    if (job->plan->source == WR_SOURCE_FORMULA) {
         look_analytic(job, strip);
-    } else if (job->plan->pyramid) {
+    } else if (runs(job, WR_EFFECT_FILTER)) {
         look_filtered(job, rays, strip, scratch, watch);
         return;
     } else {

@@ -37,18 +37,33 @@ typedef enum WrEffect {
     WR_EFFECT_COUNT
 } WrEffect;
 
-/* What is always true of an effect. */
-typedef struct WrEffectInfo {
-    const char *rule, *name; /* "E6", "bump" */
-    WrProof proof;
-    const char *left_out; /* when, for the guide */
-} WrEffectInfo;
-extern const WrEffectInfo wr_effects[WR_EFFECT_COUNT];
+/* What the renderer's clocks tell apart. */
+typedef enum WrStage {
+    WR_STAGE_VISIBILITY, /* rays against closed forms, or triangles into the depth tile */
+    WR_STAGE_NEWTON,
+    WR_STAGE_GEOMETRY,
+    WR_STAGE_CURVATURE,
+    WR_STAGE_FOOTPRINT,
+    WR_STAGE_LOOK,    /* F, Fu, Fv */
+    WR_STAGE_PYRAMID, /* the same from the pyramid */
+    WR_STAGE_BUMP,
+    WR_STAGE_SPREAD,
+    WR_STAGE_COLOUR,
+    WR_STAGE_DIFFUSE,
+    WR_STAGE_SPECULAR,
+    WR_STAGE_BOUND,
+    WR_STAGE_HALF, /* rounding to half precision */
+    WR_STAGE_RESOLVE,
+    WR_STAGE_STORE,
+    WR_STAGE_CLEAR,
+    WR_STAGE_COUNT
+} WrStage;
 
 typedef struct WrPlanRow {
     const char *rule; /* "E6" */
     const char *name; /* "bump" */
-    bool run;
+    bool run;         /* decided: all that the renderer asks */
+    bool ran;         /* recorded by what did it, in the last frame */
     WrProof proof;
     char reason[160]; /* one sentence */
     int64_t tiles,
@@ -78,51 +93,125 @@ typedef enum WrSampling {
     WR_SAMPLING_ADAPTIVE /* one, then more up to K x K where they are called for */
 } WrSampling;
 
+/* What F is looked up in. */
+typedef enum WrSource {
+    WR_SOURCE_NONE, /* it is not */
+    WR_SOURCE_FORMULA,
+    WR_SOURCE_TABLE
+} WrSource;
+
+/* What look-ups in double read. */
+typedef enum WrPrecision {
+    WR_PRECISION_SINGLE,  /* nothing: look-ups are in single precision */
+    WR_PRECISION_WIDENED, /* the single-precision numbers, as doubles */
+    WR_PRECISION_DOUBLE   /* numbers that were never rounded to single precision */
+} WrPrecision;
+
+/* What the plan settles beyond whether an effect runs: X(effect, type, name), each owned by one row. The
+   renderer reads these and the rows, and neither scene nor dials, to choose what it does.
+     bump        as simplified: BLINN for exact on a flat base, ...
+     scheme      how the table is looked up
+     normals     the surface's geometry and n' are worked out
+     samples     K of K x K; 1 where one sample is taken
+     anisotropic of several look-ups
+     lean        by the whole covariance; else by its trace
+     inversion   how rays meet the surface
+     mesh, newton, texels, spread, refine, contrast    as the dials of that name
+     heights     what they are rounded to */
+#define WR_PLAN_SETTINGS(X)                                                                        \
+    X(BUMP, WrBumpMode, bump)                                                                      \
+    X(BUMP, WrSource, source)                                                                      \
+    X(BUMP, WrScheme, scheme)                                                                      \
+    X(CURVATURE, bool, normals)                                                                    \
+    X(SAMPLES, int, samples)                                                                       \
+    X(SAMPLES, WrSampling, sampling)                                                               \
+    X(SAMPLES, WrSpread, spread)                                                                   \
+    X(SAMPLES, WrRefine, refine)                                                                   \
+    X(SAMPLES, double, contrast)                                                                   \
+    X(FILTER, bool, anisotropic)                                                                   \
+    X(DEPTH, WrInversion, inversion)                                                               \
+    X(DEPTH, int, mesh)                                                                            \
+    X(NEWTON, int, newton)                                                                         \
+    X(NEWTON, double, texels)                                                                      \
+    X(SPREAD, bool, lean)                                                                          \
+    X(ROUNDED, WrHeights, heights)                                                                 \
+    X(DOUBLE, bool, shading_double)                                                                \
+    X(DOUBLE, WrPrecision, precision)
+
 /* The decision, read by the renderer. */
 typedef struct WrPlan {
     WrPlanRow rows[WR_EFFECT_COUNT];
-    bool diffuse, specular, colour;
-    WrBumpMode bump; /* as simplified: NONE where the table has no slope, BLINN for exact on a flat
-                            base, ... */
-    bool need_heights;   /* F itself, not only its slopes */
-    bool curvature;      /* n_u, n_v */
-    bool gradient_table; /* central, nearest: slopes come from the table of central differences */
-    bool wide;           /* reduce r u in double */
-    bool mesh;           /* no closed form: mesh, depth buffer, Newton */
-    int samples;         /* K of K x K; 1 where one sample is taken */
-    WrSampling sampling;
-    bool normals;     /* n' is worked out: a light depends on it, or the caller wants it */
-    bool pyramid;     /* slopes are filtered over the pixel's footprint */
-    bool anisotropic; /* of several look-ups */
-    bool moments;     /* and their spread widens the highlight */
-    bool lean;        /* by the whole covariance; else by its trace */
-    bool bounded;     /* adaptive: a bound on the intensity's change is known here */
-    bool shading_double, shading_half;
+#define WR_PLAN_MEMBER(effect, type, name) type name;
+    WR_PLAN_SETTINGS(WR_PLAN_MEMBER)
+#undef WR_PLAN_MEMBER
     /* What the last frame took: with the rows' seconds this adds up to `work`, the time of all threads together:
        preparing by the clock, the rest by the clock for each thread. */
     double cost[WR_COST_COUNT], work;
     int64_t shaded; /* its samples */
 } WrPlan;
 
-/* Of frames that make one picture: costs are added, a row runs that ran in any. */
-void wr_plan_add(WrPlan *sum, const WrPlan *more);
-/* The row about back faces once the eye is known. closed: the surface is; outside: and seen from there, so that its
-   back is not looked at. */
-void wr_plan_back(WrPlan *plan, bool closed, bool outside);
+static inline bool wr_plan_runs(const WrPlan *plan, WrEffect effect)
+{
+    return plan->rows[effect].run;
+}
 
-/* The row about rendering tiles again (E29), which the renderer decides: it alone knows the last frame. */
-void wr_plan_again(WrPlan *plan, bool refresh, const char *reason);
-
-/* What the planner may ask of the table; the renderer's caches answer. */
-typedef struct WrTableFacts {
+/* What the planner may ask of the table, the view and the last frame; the renderer answers. */
+typedef struct WrPlanFacts {
     bool flat;       /* every texel equal */
     bool zero;       /* every texel 0 */
     bool slope_free; /* the gradient table is 0 everywhere, though the table is not flat */
     bool normals;    /* the caller wants n' itself */
-} WrTableFacts;
+    bool outside;    /* the eye is outside a closed surface, for certain */
+    bool rests; /* the last picture is kept, and was made by the same plan of the same request */
+} WrPlanFacts;
 
-/* everything: leave nothing out that could be left out without changing a bit (class I); for comparing. */
-void wr_plan_build(WrPlan *plan, const WrScene *scene, const WrDials *dials,
-                   const WrTableFacts *facts, bool everything);
+/* What a row says of a scene. */
+typedef enum WrVerdict {
+    WR_VERDICT_NONE,   /* nothing in the scene asks for it: there is nothing to run */
+    WR_VERDICT_SPARED, /* it could run, and by the row's proof need not */
+    WR_VERDICT_RUN
+} WrVerdict;
+
+/* Against the planner, for tests and as a yardstick. */
+typedef enum WrForce {
+    WR_FORCE_NONE,
+    WR_FORCE_ON, /* where it could run */
+    WR_FORCE_OFF /* where a picture is left without it */
+} WrForce;
+
+typedef struct WrPlanAsk {
+    const WrScene *scene;
+    const WrDials *dials;
+    WrPlanFacts facts;
+    const WrForce *force; /* [WR_EFFECT_COUNT]; NULL: nothing is forced */
+    bool full;            /* all is forced on, but what would make the picture more exact */
+} WrPlanAsk;
+
+/* One effect: everything that is known of it stands in its row. */
+typedef struct WrEffectInfo {
+    const char *rule, *name; /* "E6", "bump" */
+    WrProof proof;
+    const char *bound;    /* of class B: how far off the picture is without it; else NULL */
+    const char *left_out; /* when, for the guide */
+    unsigned stages; /* bits of WrStage; of one that several own the last that runs has the time */
+    bool only_way;   /* where it runs there is no picture without it */
+    bool finer; /* run where it could be left out, it makes the picture more exact: other bits */
+    /* Does the scene call for it, and why? Rows before it are decided. */
+    WrVerdict (*decide)(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
+    /* Fill what it owns of WR_PLAN_SETTINGS, once its row is decided; NULL: nothing. */
+    void (*settle)(WrPlan *plan, const WrPlanAsk *ask);
+} WrEffectInfo;
+extern const WrEffectInfo wr_effects[WR_EFFECT_COUNT];
+
+void wr_plan_build(WrPlan *plan, const WrPlanAsk *ask);
+/* The row about rendering tiles again (E29) once more: its fact is known when plans have been compared. */
+void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask);
+/* Do both make the same picture of one scene? All that rows own is compared, but E29's. */
+bool wr_plan_same(const WrPlan *a, const WrPlan *b);
+/* Of frames that make one picture: costs are added, a row runs that ran in any. */
+void wr_plan_add(WrPlan *sum, const WrPlan *more);
+/* A stage's seconds: to the effect that owns it, if one runs, else to the cost that it is part of. */
+void wr_plan_charge(WrPlan *plan, WrStage stage, double seconds);
+
 /* "I", "B", "P" */
 const char *wr_proof_letter(WrProof proof);

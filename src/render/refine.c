@@ -150,8 +150,7 @@ static bool surely_empty(const Refiner *r, int x, int y)
     const WrView *view = r->job->view;
     const WrRaysd *rays = &wr_view_grid(view, 1)->rays_d;
     double gx = r->part.x + x, gy = r->part.y + y;
-    if (wr_surfaces[r->job->scene->shape.kind]->inversion == WR_INVERT_SPHERE)
-        return misses_ball(view, rays, gx, gy);
+    if (r->job->plan->inversion == WR_INVERT_SPHERE) return misses_ball(view, rays, gx, gy);
     for (int i = 0; i < view->quad_count; i++)
         if (!misses_quad(view, rays, &view->quads_d[i], gx, gy)) return false;
     return true;
@@ -288,7 +287,7 @@ static bool open_pixels(Refiner *r)
             if (!r->by_bound) open = how_open(r, stands_out(r, x, y));
             else if (s->centre[y + 1][x + 1][3] > 0.0f)
                 open = !(s->bound[y + 1][x + 1] <= r->contrast);
-            else open = !r->job->plan->bounded || !surely_empty(r, x, y);
+            else open = !surely_empty(r, x, y);
             s->open[y][x] = open;
             any |= open;
             size_t at = (size_t)(r->part.y + y) * (size_t)r->job->width + (size_t)(r->part.x + x);
@@ -299,13 +298,14 @@ static bool open_pixels(Refiner *r)
 
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch)
 {
-    const WrDials *dials = job->dials;
+    const WrPlan *plan = job->plan;
     Refiner r = {
-        job, scratch, { x, y, w, h }, (float)dials->contrast, dials->refine == WR_REFINE_BOUND
+        job, scratch, { x, y, w, h }, (float)plan->contrast, plan->refine == WR_REFINE_BOUND
     };
+    wr_did(scratch, WR_EFFECT_SAMPLES);
     const int64_t covered = scratch->covered;
     const int K = job->samples;
-    if (!r.by_bound || job->plan->bounded) {
+    if (!r.by_bound || wr_plan_runs(plan, WR_EFFECT_BOUND)) {
         first_samples(&r);
         double start = wr_clock_seconds();
         bool more = open_pixels(&r);

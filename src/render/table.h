@@ -14,13 +14,6 @@ typedef enum WrCopyKind {
     WR_COPY_COUNT
 } WrCopyKind;
 
-/* What look-ups in double read. */
-typedef enum WrPrecision {
-    WR_PRECISION_SINGLE,  /* nothing: look-ups are in single precision */
-    WR_PRECISION_WIDENED, /* the single-precision numbers, as doubles */
-    WR_PRECISION_DOUBLE   /* numbers that were never rounded to single precision */
-} WrPrecision;
-
 typedef struct WrTableCopy {
     WrField *seen; /* snapshot that data was made from; NULL: none */
     WrPrecision precision;

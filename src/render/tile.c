@@ -50,10 +50,11 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .u = scratch->u,
                          .v = scratch->v,
                          .k = k };
-    if (k > 1 && job->dials->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
+    if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
     if (job->mesh) {
         double start = wr_clock_seconds();
         wr_view_mesh_raster(job->mesh, job->view, &tile);
+        wr_did(scratch, WR_EFFECT_DEPTH);
         scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }
     return tile;
@@ -175,6 +176,7 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     for (int y = 0; y < h; y++) memset(scratch->sample[y], 0, (size_t)w * sizeof(float[4]));
     run_rows(job, k, &tile, &out, scratch);
     scratch->covered = covered; /* that was samples */
+    wr_did(scratch, WR_EFFECT_SAMPLES);
     double start = wr_clock_seconds();
     const float share = 1.0f / (float)(k * k);
     for (int y = 0; y < part.h; y++) {

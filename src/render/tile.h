@@ -9,27 +9,6 @@
 #define WR_TILE_SAMPLES_W 256 /* at most, along a tile */
 #define WR_TILE_SAMPLES_H 64
 
-typedef enum WrStage {
-    WR_STAGE_VISIBILITY, /* rays against closed forms, or triangles into the depth tile */
-    WR_STAGE_NEWTON,
-    WR_STAGE_GEOMETRY,
-    WR_STAGE_CURVATURE,
-    WR_STAGE_FOOTPRINT,
-    WR_STAGE_LOOK,    /* F, Fu, Fv */
-    WR_STAGE_PYRAMID, /* the same from the pyramid */
-    WR_STAGE_BUMP,
-    WR_STAGE_SPREAD,
-    WR_STAGE_COLOUR,
-    WR_STAGE_DIFFUSE,
-    WR_STAGE_SPECULAR,
-    WR_STAGE_BOUND,
-    WR_STAGE_HALF, /* rounding to half precision */
-    WR_STAGE_RESOLVE,
-    WR_STAGE_STORE,
-    WR_STAGE_CLEAR,
-    WR_STAGE_COUNT
-} WrStage;
-
 typedef struct WrPipe WrPipe;
 
 /* What all tiles of a frame share; read only while they run. */
@@ -37,14 +16,13 @@ typedef struct WrTileJob {
     const WrView *view;
     const WrPlan *plan;
     const WrScene *scene;
-    const WrDials *dials;
     const WrPipe *pipe; /* in single or in double precision */
     const WrKernels *kernels;
     const WrKernelsd *kernels_double; /* shading or heights in double; else NULL */
     const WrViewMesh *mesh;           /* NULL: closed form */
     WrLook look;
     WrLookd look_double; /* where kernels_double looks */
-    bool double_look;    /* heights in double */
+    uint32_t looks; /* bits of WrEffect: what a look-up in the table does, by what it was given */
     WrColourLook colour; /* rgba NULL: none */
     int samples;         /* K */
     int width, height;   /* pixels */
@@ -92,9 +70,18 @@ typedef struct WrTileScratch {
     int64_t covered, shaded;        /* pixels, samples */
     int64_t tiles;                  /* that held anything */
     int64_t wide_samples;           /* filter, moments: that looked above level 0 */
+    uint32_t ran;                   /* bits of WrEffect: noted by what does it, where it is done */
     WrBlocks *seen;                 /* of the tile at hand; NULL: not wanted */
     unsigned strips;                /* counts strips: one in eight is timed */
 } WrTileScratch;
+
+_Static_assert(WR_EFFECT_COUNT <= 32, "a bit for each effect");
+
+/* A record beside the plan: this was done. */
+static inline void wr_did(WrTileScratch *scratch, WrEffect effect)
+{
+    scratch->ran |= 1U << effect;
+}
 
 /* Pixels of the picture that a tile is made of. */
 typedef struct WrTilePart {

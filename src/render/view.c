@@ -153,32 +153,76 @@ static void find_bounds(WrView *view, WrVec3 centre, int width, int height)
     view->y1 = pixel_at((1 - e.y0 / view->half_h) / 2 * height + 3, height);
 }
 
-/* Planar faces; of a closed box seen from outside, only those that face the viewer. */
+static bool planar(const WrSurfaceInfo *info)
+{
+    return info->inversion == WR_INVERT_PLANE || info->inversion == WR_INVERT_CUBE;
+}
+
+/* Object units -> kernel units: a power of two. */
+static double scale_of(const WrSurfaceInfo *info, const WrPlacement *place)
+{
+    return info->unit_sized ? 1.0 : scalbn(1.0, -ilogb(place->radius));
+}
+
+/* Which planar faces look at the viewer: at the eye, in kernel units, or, orthographic (NULL), against `forward`.
+   True if any does. */
+static bool find_facing(const WrShape *shape, double scale, const WrVec3 *eye, WrVec3 forward,
+                        bool facing[6])
+{
+    bool any = false;
+    for (int face = 0; face < wr_surfaces[shape->kind]->faces; face++) {
+        WrSurfacePoint at;
+        wr_surface_at(shape, face, 0, 0, &at);
+        const WrVec3 to = eye ? v3_sub(*eye, v3_scale(at.p, scale)) : v3_neg(forward);
+        facing[face] = v3_dot(to, at.n_unit) > 0;
+        any = any || facing[face];
+    }
+    return any;
+}
+
+static void add_quad(WrView *view, const WrShape *shape, int face)
+{
+    WrQuadd *quad = &view->quads_d[view->quad_count];
+    WrQuad *single = &view->quads[view->quad_count];
+    WrSurfacePoint at;
+    wr_surface_at(shape, face, 0, 0, &at);
+    WrVec3 pu = v3_scale(at.pu, view->scale), pv = v3_scale(at.pv, view->scale);
+    store(quad->origin, v3_scale(at.p, view->scale));
+    store(quad->normal, at.n_unit);
+    store(quad->eu, v3_scale(pu, 1.0 / v3_dot(pu, pu)));
+    store(quad->ev, v3_scale(pv, 1.0 / v3_dot(pv, pv)));
+    narrow(single->origin, quad->origin), narrow(single->normal, quad->normal);
+    narrow(single->eu, quad->eu), narrow(single->ev, quad->ev);
+    view->quad_face[view->quad_count++] = face;
+}
+
+/* Planar faces. Those that look away come first, so that in a closed box, which is convex, the others cover them. */
 static void make_quads(WrView *view, const WrShape *shape)
 {
-    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
-    bool facing[6], outside = false;
-    WrSurfacePoint at[6];
-    for (int face = 0; face < info->faces; face++) {
-        wr_surface_at(shape, face, 0, 0, &at[face]);
-        WrVec3 origin = v3_scale(at[face].p, view->scale);
-        WrVec3 to = view->perspective ? v3_sub(view->eye, origin) : v3_neg(view->forward);
-        facing[face] = v3_dot(to, at[face].n_unit) > 0;
-        outside = outside || facing[face];
+    bool facing[6];
+    find_facing(shape, view->scale, view->perspective ? &view->eye : NULL, view->forward, facing);
+    for (int near = view->cull ? 1 : 0; near < 2; near++)
+        for (int face = 0; face < wr_surfaces[shape->kind]->faces; face++)
+            if (facing[face] == (near == 1)) add_quad(view, shape, face);
+}
+
+bool wr_view_outside(const WrScene *scene, double turn_deg, int width, int height, bool *outside,
+                     WrError *err)
+{
+    WrPlacement place;
+    bool facing[6];
+    if (!wr_scene_place(scene, turn_deg, (double)width / height, &place, err)) return false;
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    const double scale = scale_of(info, &place);
+    const WrVec3 eye = bring_in(&place, scale, place.eye);
+    if (planar(info)) {
+        *outside = find_facing(&scene->shape, scale, place.orthographic ? NULL : &eye,
+                               turn_back(&place, place.forward), facing);
+        return true;
     }
-    for (int face = 0; face < info->faces; face++) {
-        if (info->convex_closed && outside && !facing[face]) continue;
-        WrQuadd *quad = &view->quads_d[view->quad_count];
-        WrQuad *single = &view->quads[view->quad_count];
-        WrVec3 pu = v3_scale(at[face].pu, view->scale), pv = v3_scale(at[face].pv, view->scale);
-        store(quad->origin, v3_scale(at[face].p, view->scale));
-        store(quad->normal, at[face].n_unit);
-        store(quad->eu, v3_scale(pu, 1.0 / v3_dot(pu, pu)));
-        store(quad->ev, v3_scale(pv, 1.0 / v3_dot(pv, pv)));
-        narrow(single->origin, quad->origin), narrow(single->normal, quad->normal);
-        narrow(single->eu, quad->eu), narrow(single->ev, quad->ev);
-        view->quad_face[view->quad_count++] = face;
-    }
+    const WrVec3 away = v3_sub(eye, v3_scale(place.centre, scale));
+    *outside = place.orthographic || v3_len(away) > place.radius * scale;
+    return true;
 }
 
 static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *place)
@@ -212,32 +256,31 @@ static void scale_shape(const WrShape *shape, double scale, WrShape *out)
             out->value[at] = shape->value[at] * (info->params[p].length ? scale : 1.0);
 }
 
-bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width, int height,
-                  int samples, WrError *err)
+bool wr_view_init(WrView *view, const WrScene *scene, const WrPlan *plan, double turn_deg,
+                  int width, int height, WrError *err)
 {
-    *view = (WrView){ .samples = samples, .grid_w = width * samples, .grid_h = height * samples };
+    *view = (WrView){ .samples = plan->samples,
+                      .grid_w = width * plan->samples,
+                      .grid_h = height * plan->samples,
+                      .perspective = wr_plan_runs(plan, WR_EFFECT_PERSPECTIVE),
+                      .cull = !wr_plan_runs(plan, WR_EFFECT_BACK) };
     WrPlacement place;
     double aspect = (double)width / height;
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
-    view->scale = info->unit_sized ? 1.0 : scalbn(1.0, -ilogb(place.radius));
+    view->scale = scale_of(info, &place);
     view->radius = place.radius * view->scale;
-    view->perspective = !place.orthographic;
     view->eye = bring_in(&place, view->scale, place.eye);
     view->right = turn_back(&place, place.right);
     view->up = turn_back(&place, place.up);
     view->forward = turn_back(&place, place.forward);
     view->half_h = place.half_height * (view->perspective ? 1.0 : view->scale);
     view->half_w = view->half_h * aspect;
-    const WrVec3 away = v3_sub(view->eye, v3_scale(place.centre, view->scale));
-    view->outside = !view->perspective || v3_len(away) > view->radius;
-    view->cull = info->closed_u && info->closed_v && view->outside;
     view->near = WR_NEAR_PLANE * view->radius;
     wr_shape_scaled(&scene->shape, view->scale, &view->shape);
     scale_shape(&scene->shape, view->scale, &view->shape_d);
     make_grids(view, v3_scale(place.centre, view->scale));
-    if (info->inversion == WR_INVERT_PLANE || info->inversion == WR_INVERT_CUBE)
-        make_quads(view, &scene->shape);
+    if (planar(info)) make_quads(view, &scene->shape);
     find_bounds(view, v3_scale(place.centre, view->scale), width, height);
     make_lights(view, scene, &place);
     return true;

@@ -2,6 +2,7 @@
    Layer 5, private to the renderer. */
 #pragma once
 #include "render/kern.h"
+#include "render/plan.h"
 #include "scene/scene.h"
 
 /* The rays of a grid of k x k samples a pixel. */
@@ -27,9 +28,8 @@ typedef struct WrView {
     double near;                    /* depth of the near plane */
     bool perspective;
     int x0, y0, x1, y1; /* pixels x0 <= x < x1 that the object can cover, two more on each side */
-    bool outside;       /* the eye is farther than any of the object */
-    bool cull;          /* a closed surface seen from outside: back faces are hidden (E25) */
-    WrQuad quads[6];    /* planar surfaces: those that can be seen */
+    bool cull;          /* back faces are left out (E25) */
+    WrQuad quads[6];    /* planar surfaces: those that can be seen, such as look away first */
     WrQuadd quads_d[6];
     int quad_face[6];
     int quad_count;
@@ -38,10 +38,14 @@ typedef struct WrView {
     int light_count;
 } WrView;
 
-/* Fill a view; all checks were made when the scene was accepted, so this fails only for a camera that
+/* Is the eye outside the surface for certain, if that is closed? Of planar faces: some face looks at it. Of curved
+   ones: it is farther than any of the object. */
+bool wr_view_outside(const WrScene *scene, double turn_deg, int width, int height, bool *outside,
+                     WrError *err);
+/* Fill a view, with what the plan says of samples, backs and perspective; all checks were made when the scene was accepted, so this fails only for a camera that
    cannot look (eye on target). Call fini even then. */
-bool wr_view_init(WrView *view, const WrScene *scene, double turn_deg, int width, int height,
-                  int samples, WrError *err);
+bool wr_view_init(WrView *view, const WrScene *scene, const WrPlan *plan, double turn_deg,
+                  int width, int height, WrError *err);
 void wr_view_fini(WrView *view);
 /* The grid of k x k samples a pixel; k is 1, K or a power of two below K. */
 const WrViewGrid *wr_view_grid(const WrView *view, int k);

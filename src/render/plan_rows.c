@@ -1,0 +1,468 @@
+/* The table of effects: for each, when a scene calls for it and why, what its leaving out is proven by, the stages
+   and the settings that it owns. In the order of the table: a row may ask those before it. */
+#include "render/plan.h"
+
+#include <math.h>
+
+/* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
+#define WIDE_FROM 1024.0
+
+static WrVerdict say(WrVerdict call, const char **why, const char *reason)
+{
+    *why = reason;
+    return call;
+}
+
+static bool runs(const WrPlan *plan, WrEffect effect)
+{
+    return wr_plan_runs(plan, effect);
+}
+
+static const WrSurfaceInfo *surface_of(const WrPlanAsk *ask)
+{
+    return wr_surfaces[ask->scene->shape.kind];
+}
+
+/* ---- light ---- */
+
+static bool any_light(const WrScene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        const WrLight *light = &scene->lights[i];
+        if (light->strength != 0 &&
+            (light->colour.x != 0 || light->colour.y != 0 || light->colour.z != 0))
+            return true;
+    }
+    return false;
+}
+
+static WrVerdict decide_diffuse(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrMaterial *m = &ask->scene->material;
+    (void)plan;
+    if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
+    if (m->diffuse == 0) return say(WR_VERDICT_SPARED, why, "diffuse is 0");
+    if (m->colour.x == 0 && m->colour.y == 0 && m->colour.z == 0)
+        return say(WR_VERDICT_SPARED, why, "the material's colour is black");
+    return say(WR_VERDICT_RUN, why, "a light shines and diffuse is not 0");
+}
+
+static WrVerdict decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
+    if (ask->scene->material.specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
+    return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
+}
+
+/* White everywhere: multiplying changes nothing. */
+static bool colour_white(const WrImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    for (size_t i = 0; i < count; i++)
+        if (image->data[i] != 1.0f) return false;
+    return true;
+}
+
+static WrVerdict decide_colour(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrImage *image = ask->scene->colour;
+    (void)plan;
+    if (!image) return say(WR_VERDICT_NONE, why, "the scene has no colour picture");
+    if (colour_white(image))
+        return say(WR_VERDICT_SPARED, why, "the colour picture is white everywhere");
+    return say(WR_VERDICT_RUN, why, "the scene has a colour picture");
+}
+
+/* ---- bump ---- */
+
+/* Does anything depend on n'? */
+static bool lit(const WrPlan *plan, const WrPlanAsk *ask)
+{
+    return runs(plan, WR_EFFECT_DIFFUSE) || runs(plan, WR_EFFECT_SPECULAR) || ask->facts.normals;
+}
+
+static bool still(const WrScene *scene)
+{
+    return scene->replicate_u == 0 && scene->replicate_v == 0;
+}
+
+/* Why the table cannot move the normal, or NULL if it can. The exact normal of an offset surface
+   (constant F) is the base's up to its sign, which flips where F passes a focal distance: so with `exact`
+   on a curved base a constant F is left out only if it is 0. */
+static const char *no_bump(const WrPlan *plan, const WrPlanAsk *ask)
+{
+    const WrScene *scene = ask->scene;
+    const WrPlanFacts *facts = &ask->facts;
+    const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
+    if (!lit(plan, ask)) return "no light depends on the normal";
+    if (scene->height == 0) return "height is 0";
+    if (table && facts->zero) return "the table is 0 everywhere";
+    if (scene->bump == WR_BUMP_EXACT && !surface_of(ask)->flat) return NULL;
+    if (still(scene)) return "replication is 0,0: F is constant";
+    if (table && facts->flat) return "every texel of the table is equal";
+    if (table && facts->slope_free) return "the scheme sees no slope anywhere in the table";
+    return NULL;
+}
+
+static WrVerdict decide_bump(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (ask->scene->bump == WR_BUMP_NONE) return say(WR_VERDICT_NONE, why, "bump mode is none");
+    const char *reason = no_bump(plan, ask);
+    if (reason) return say(WR_VERDICT_SPARED, why, reason);
+    return say(WR_VERDICT_RUN, why, "the table has slopes and a light shows them");
+}
+
+static void settle_bump(WrPlan *plan, const WrPlanAsk *ask)
+{
+    const bool run = runs(plan, WR_EFFECT_BUMP);
+    plan->bump = run ? WR_BUMP_BLINN : WR_BUMP_NONE;
+    plan->scheme = ask->scene->scheme;
+    plan->source = !run                                           ? WR_SOURCE_NONE
+                   : ask->scene->analytic.kind == WR_ANALYTIC_OFF ? WR_SOURCE_TABLE
+                                                                  : WR_SOURCE_FORMULA;
+}
+
+static WrVerdict decide_gradient(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrScheme scheme = ask->scene->scheme;
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (scheme != WR_SCHEME_CENTRAL && scheme != WR_SCHEME_NEAREST)
+        return say(WR_VERDICT_NONE, why, "this scheme takes its slopes from the heights");
+    return say(WR_VERDICT_RUN, why,
+               "one look-up of central differences equals the paper's four of F");
+}
+
+static WrVerdict decide_wide(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const double r = fmax(fabs(ask->scene->replicate_u), fabs(ask->scene->replicate_v));
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (r < WIDE_FROM)
+        return say(WR_VERDICT_SPARED, why,
+                   "replication is under 1024: single precision is right to 1e-3 texel");
+    return say(WR_VERDICT_RUN, why,
+               "replication of 1024 and more loses texels in single precision");
+}
+
+static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrShape *shape = &ask->scene->shape;
+    if (ask->scene->bump != WR_BUMP_INVARIANT)
+        return say(WR_VERDICT_NONE, why, "bump mode is not invariant");
+    if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
+    if (shape->kind == WR_SURFACE_plane && shape->value[0] == 1 && shape->value[1] == 1)
+        return say(WR_VERDICT_SPARED, why, "on the unit square it equals blinn");
+    return say(WR_VERDICT_RUN, why, "bump mode is invariant");
+}
+
+static void settle_invariant(WrPlan *plan, const WrPlanAsk *ask)
+{
+    (void)ask;
+    if (runs(plan, WR_EFFECT_INVARIANT)) plan->bump = WR_BUMP_INVARIANT;
+}
+
+static WrVerdict decide_exact(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (ask->scene->bump != WR_BUMP_EXACT)
+        return say(WR_VERDICT_NONE, why, "bump mode is not exact");
+    if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
+    if (surface_of(ask)->flat)
+        return say(WR_VERDICT_SPARED, why, "the base is flat: blinn is exact there for any F");
+    return say(WR_VERDICT_RUN, why, "bump mode is exact and the base is curved");
+}
+
+static void settle_exact(WrPlan *plan, const WrPlanAsk *ask)
+{
+    (void)ask;
+    if (runs(plan, WR_EFFECT_EXACT)) plan->bump = WR_BUMP_EXACT;
+}
+
+static WrVerdict decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)ask;
+    if (runs(plan, WR_EFFECT_EXACT))
+        return say(WR_VERDICT_RUN, why, "the exact normal needs how n turns");
+    return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");
+}
+
+static void settle_curvature(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) || runs(plan, WR_EFFECT_CURVATURE);
+}
+
+/* ---- samples ---- */
+
+static bool takes_grid(const WrDials *dials)
+{
+    return dials->aa == WR_AA_ADAPTIVE || dials->aa == WR_AA_SUPERSAMPLE;
+}
+
+static WrVerdict decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrDials *dials = ask->dials;
+    (void)plan;
+    if (!takes_grid(dials))
+        return say(WR_VERDICT_NONE, why, "the dial says one sample at the pixel's centre");
+    if (dials->samples == 1) return say(WR_VERDICT_NONE, why, "one sample a pixel was asked for");
+    return say(WR_VERDICT_RUN, why,
+               dials->aa == WR_AA_SUPERSAMPLE
+                   ? "the dial asks for the mean of K x K intensities"
+                   : "the dial asks for up to K x K where one is not enough");
+}
+
+static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)
+{
+    const WrDials *dials = ask->dials;
+    const bool run = runs(plan, WR_EFFECT_SAMPLES);
+    plan->samples = run ? dials->samples : 1;
+    plan->sampling = !run                          ? WR_SAMPLING_ONE
+                     : dials->aa == WR_AA_ADAPTIVE ? WR_SAMPLING_ADAPTIVE
+                                                   : WR_SAMPLING_ALL;
+    if (!run) return;
+    plan->spread = dials->spread;
+    plan->refine = dials->refine;
+    plan->contrast = dials->contrast;
+}
+
+/* Why no bound on the intensity's change over a pixel is known, or NULL if one is. */
+static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
+{
+    if (ask->dials->shading == WR_SHADING_HALF)
+        return "no bound is known of rounding to half precision: K x K everywhere";
+    const WrInversion how = surface_of(ask)->inversion;
+    if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
+        return "no bound is known on this surface: K x K everywhere";
+    if (runs(plan, WR_EFFECT_COLOUR))
+        return "no bound is known for a colour picture: K x K everywhere";
+    if (plan->bump == WR_BUMP_NONE) return NULL;
+    if (plan->bump != WR_BUMP_BLINN)
+        return "no bound is known for this normal formula: K x K everywhere";
+    if (!runs(plan, WR_EFFECT_GRADIENT))
+        return "a bound needs slopes from a table, central or nearest: K x K everywhere";
+    return NULL;
+}
+
+static WrVerdict decide_bound(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (plan->sampling != WR_SAMPLING_ADAPTIVE || plan->refine != WR_REFINE_BOUND)
+        return say(WR_VERDICT_NONE, why, "the dials do not ask for a bound");
+    const char *reason = no_bound(plan, ask);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
+    return say(WR_VERDICT_RUN, why,
+               "K x K only where the intensity may change by more than `contrast`");
+}
+
+static WrVerdict decide_filter(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (ask->dials->aa != WR_AA_FILTER && ask->dials->aa != WR_AA_MOMENTS)
+        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (still(ask->scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: F is constant");
+    return say(WR_VERDICT_RUN, why,
+               "footprints over a texel look up a pyramid; smaller ones level 0");
+}
+
+static void settle_filter(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->anisotropic =
+        runs(plan, WR_EFFECT_FILTER) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
+}
+
+/* ---- visibility ---- */
+
+static WrVerdict decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrSurfaceInfo *info = surface_of(ask);
+    (void)plan;
+    if (!info->convex_closed && !(info->closed_u && info->closed_v))
+        return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
+    if (!ask->facts.outside)
+        return say(WR_VERDICT_RUN, why, "the eye may be inside the body: its inner walls are seen");
+    return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its own back");
+}
+
+static WrVerdict decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (surface_of(ask)->inversion != WR_INVERT_MESH)
+        return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
+    return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
+}
+
+static void settle_depth(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->inversion = surface_of(ask)->inversion;
+    if (runs(plan, WR_EFFECT_DEPTH)) plan->mesh = ask->dials->mesh;
+}
+
+static WrVerdict decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)ask;
+    if (!runs(plan, WR_EFFECT_DEPTH))
+        return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
+    return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
+}
+
+static void settle_newton(WrPlan *plan, const WrPlanAsk *ask)
+{
+    if (!runs(plan, WR_EFFECT_NEWTON)) return;
+    plan->newton = ask->dials->newton;
+    plan->texels = ask->dials->texels;
+}
+
+static WrVerdict decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->scene->camera.orthographic)
+        return say(WR_VERDICT_NONE, why, "the camera is orthographic");
+    return say(WR_VERDICT_RUN, why, "the camera is in perspective");
+}
+
+/* Not under a bound, which looks at blocks of texels beyond those that the picture reads. */
+static WrVerdict decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!ask->facts.rests || runs(plan, WR_EFFECT_BOUND))
+        return say(WR_VERDICT_RUN, why, "a new picture: every tile is rendered");
+    return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
+}
+
+static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (ask->dials->aa != WR_AA_MOMENTS)
+        return say(WR_VERDICT_NONE, why, "the dials do not ask for moments");
+    if (!runs(plan, WR_EFFECT_FILTER)) return say(WR_VERDICT_NONE, why, "nothing is filtered");
+    if (!runs(plan, WR_EFFECT_SPECULAR))
+        return say(WR_VERDICT_NONE, why, "there is no highlight to widen");
+    return say(WR_VERDICT_RUN, why,
+               ask->dials->moments == WR_MOMENTS_LEAN
+                   ? "the covariance of the slopes widens the highlight"
+                   : "the variance of the slopes widens the highlight");
+}
+
+static void settle_spread(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->lean = runs(plan, WR_EFFECT_SPREAD) && ask->dials->moments == WR_MOMENTS_LEAN;
+}
+
+/* ---- arithmetic ---- */
+
+static WrVerdict decide_rounded(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrHeights heights = ask->dials->heights;
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (heights == WR_HEIGHTS_DOUBLE || heights == WR_HEIGHTS_FLOAT)
+        return say(WR_VERDICT_NONE, why, "the dial keeps heights as they are");
+    return say(WR_VERDICT_RUN, why, "the dial asks for heights of fewer bits");
+}
+
+static void settle_rounded(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->heights = runs(plan, WR_EFFECT_ROUNDED) ? ask->dials->heights : WR_HEIGHTS_FLOAT;
+}
+
+static WrVerdict decide_double(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (ask->dials->shading == WR_SHADING_DOUBLE)
+        return say(WR_VERDICT_RUN, why, "the dial asks for shading in double precision");
+    if (plan->source == WR_SOURCE_TABLE && ask->dials->heights == WR_HEIGHTS_DOUBLE)
+        return say(WR_VERDICT_RUN, why, "the dial asks for look-ups in double precision");
+    return say(WR_VERDICT_NONE, why, "single precision was asked for");
+}
+
+static void settle_double(WrPlan *plan, const WrPlanAsk *ask)
+{
+    const bool run = runs(plan, WR_EFFECT_DOUBLE);
+    plan->shading_double = run && ask->dials->shading == WR_SHADING_DOUBLE;
+    plan->precision = !run                                       ? WR_PRECISION_SINGLE
+                      : ask->dials->heights == WR_HEIGHTS_DOUBLE ? WR_PRECISION_DOUBLE
+                                                                 : WR_PRECISION_WIDENED;
+}
+
+static WrVerdict decide_half(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->dials->shading != WR_SHADING_HALF)
+        return say(WR_VERDICT_NONE, why, "the dial does not ask for it");
+    return say(WR_VERDICT_RUN, why, "the dial asks for normals and light in half precision");
+}
+
+/* ---- the table ---- */
+
+#define STAGE(name) (1U << WR_STAGE_##name)
+
+const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
+    [WR_EFFECT_DIFFUSE] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
+                            "no light shines, diffuse is 0, or the colour is black", STAGE(DIFFUSE),
+                            .decide = decide_diffuse },
+    [WR_EFFECT_SPECULAR] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,
+                             "no light shines, or specular is 0", STAGE(SPECULAR),
+                             .decide = decide_specular },
+    [WR_EFFECT_COLOUR] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
+                           "there is none, or it is white everywhere", STAGE(COLOUR),
+                           .decide = decide_colour },
+    [WR_EFFECT_BUMP] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
+                         "the mode is none; height or replication is 0; all texels are equal; the "
+                         "scheme sees no slope anywhere; no light depends on the normal",
+                         STAGE(LOOK) | STAGE(BUMP), .decide = decide_bump, .settle = settle_bump },
+    [WR_EFFECT_GRADIENT] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
+                             "the scheme takes its slopes from the heights. For central and "
+                             "nearest one look-up of central differences equals the paper's four "
+                             "of F",
+                             STAGE(LOOK), .only_way = true, .decide = decide_gradient },
+    [WR_EFFECT_WIDE] = { "E10", "replication in double", WR_PROOF_BOUNDED,
+                         "a thousandth of a texel",
+                         "replication is under 1024, where single precision is right to a "
+                         "thousandth of a texel",
+                         0, .finer = true, .decide = decide_wide },
+    [WR_EFFECT_INVARIANT] = { "E11", "scale invariance", WR_PROOF_BOUNDED, "rounding of the normal",
+                              "the mode is not invariant; on the unit square it equals blinn",
+                              STAGE(BUMP), .decide = decide_invariant, .settle = settle_invariant },
+    [WR_EFFECT_EXACT] = { "E12", "exact normal", WR_PROOF_BOUNDED, "rounding of the normal",
+                          "the mode is not exact; on flat surfaces blinn is exact", STAGE(BUMP),
+                          .decide = decide_exact, .settle = settle_exact },
+    [WR_EFFECT_CURVATURE] = { "E13", "second derivatives", WR_PROOF_IDENTICAL, NULL,
+                              "E12 is left out", STAGE(CURVATURE), .only_way = true,
+                              .decide = decide_curvature, .settle = settle_curvature },
+    [WR_EFFECT_SAMPLES] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
+                            "one sample a pixel was asked for", STAGE(RESOLVE),
+                            .decide = decide_samples, .settle = settle_samples },
+    [WR_EFFECT_BOUND] = { "E16", "refinement by bound", WR_PROOF_BOUNDED, "`contrast`",
+                          "the dials do not ask for it, or no bound on the intensity's change over "
+                          "a pixel is known: other surfaces than plane, cube and sphere, slopes "
+                          "not from central or nearest, a normal other than blinn, a colour "
+                          "picture",
+                          STAGE(BOUND), .decide = decide_bound },
+    [WR_EFFECT_FILTER] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL, NULL,
+                           "the dials ask for no filtering, or no table is looked up; footprints "
+                           "up to one texel look up the table itself",
+                           STAGE(FOOTPRINT) | STAGE(PYRAMID), .decide = decide_filter,
+                           .settle = settle_filter },
+    [WR_EFFECT_BACK] = { "E25", "back faces", WR_PROOF_IDENTICAL, NULL,
+                         "a closed body seen from outside hides its own back", 0,
+                         .decide = decide_back },
+    [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL, NULL,
+                          "the nearest root of the ray is enough", STAGE(VISIBILITY),
+                          .only_way = true, .decide = decide_depth, .settle = settle_depth },
+    [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED, "rounding of u and v",
+                           "rays meet the surface in closed form", STAGE(NEWTON),
+                           .decide = decide_newton, .settle = settle_newton },
+    [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL, NULL,
+                                "the camera is orthographic", 0, .only_way = true,
+                                .decide = decide_perspective },
+    [WR_EFFECT_AGAIN] = { "E29", "re-rendering", WR_PROOF_IDENTICAL, NULL,
+                          "the view rests and no edit reaches the tile", 0, .only_way = true,
+                          .decide = decide_again },
+    [WR_EFFECT_SPREAD] = { "E31", "spread of slopes", WR_PROOF_POLICY, NULL,
+                           "the dials do not ask for moments, nothing is filtered, or there is no "
+                           "highlight",
+                           STAGE(SPREAD), .decide = decide_spread, .settle = settle_spread },
+    [WR_EFFECT_ROUNDED] = { "E32", "rounded heights", WR_PROOF_POLICY, NULL,
+                            "the dial keeps heights as they are", 0, .decide = decide_rounded,
+                            .settle = settle_rounded },
+    [WR_EFFECT_DOUBLE] = { "E33", "double precision", WR_PROOF_POLICY, NULL,
+                           "single precision was asked for", 0, .decide = decide_double,
+                           .settle = settle_double },
+    [WR_EFFECT_HALF] = { "E34", "half precision", WR_PROOF_POLICY, NULL,
+                         "the dial does not ask for normals and light in half precision",
+                         STAGE(HALF), .decide = decide_half },
+};

@@ -1,0 +1,492 @@
+/* test_plan.c - the table of effects: each runs where its row says so and nowhere else, what is said is what ran, and
+   what is left out changes the picture no more than its row's proof allows. */
+#include "test.h"
+
+#include "test_render_scenes.h"
+
+#define SIDE 64
+
+/* A scene of its own and a table, for a case to change. */
+typedef struct Stage {
+    WrScene *scene;
+    WrField *field;
+    bool rests; /* the picture was made before, and one texel has changed since */
+} Stage;
+
+typedef void (*Change)(Stage *stage);
+
+/* ---- scenes ---------------------------------------------------------------------------------------- */
+
+static void keep_all(Stage *stage)
+{
+    (void)stage;
+}
+
+static void take_surface(Stage *stage, const char *name)
+{
+    wr_shape_default((WrSurfaceKind)wr_surface_find(name), &stage->scene->shape);
+}
+
+static void no_diffuse(Stage *stage)
+{
+    stage->scene->material.diffuse = 0;
+}
+
+static void dark(Stage *stage)
+{
+    for (int i = 0; i < stage->scene->light_count; i++) stage->scene->lights[i].strength = 0;
+}
+
+static void black(Stage *stage)
+{
+    stage->scene->material.colour = (WrVec3){ 0, 0, 0 };
+}
+
+static void no_specular(Stage *stage)
+{
+    stage->scene->material.specular = 0;
+}
+
+static void coloured(Stage *stage)
+{
+    WrImage *image = wr_image_new(8, 8, 3, NULL);
+    for (int i = 0; i < 8 * 8 * 3; i++) image->data[i] = (float)(i % 7) / 7;
+    stage->scene->colour = image;
+}
+
+static void white(Stage *stage)
+{
+    coloured(stage);
+    for (int i = 0; i < 8 * 8 * 3; i++) stage->scene->colour->data[i] = 1;
+}
+
+static void level(Stage *stage)
+{
+    for (int i = 0; i < 64 * 64; i++) wr_field_set(stage->field, i % 64, i / 64, 0.25f);
+}
+
+static void no_height(Stage *stage)
+{
+    stage->scene->height = 0;
+}
+
+static void no_replication(Stage *stage)
+{
+    stage->scene->replicate_u = stage->scene->replicate_v = 0;
+}
+
+/* Differences over two texels see nothing of it. */
+static void checkered(Stage *stage)
+{
+    for (int i = 0; i < 64 * 64; i++)
+        wr_field_set(stage->field, i % 64, i / 64, (float)((i + i / 64) % 2));
+}
+
+static void smooth(Stage *stage)
+{
+    stage->scene->bump = WR_BUMP_NONE;
+}
+
+static void bilinear(Stage *stage)
+{
+    stage->scene->scheme = WR_SCHEME_BILINEAR;
+}
+
+static void far_replicated(Stage *stage)
+{
+    stage->scene->replicate_u = stage->scene->replicate_v = 3001;
+}
+
+static void invariant(Stage *stage)
+{
+    stage->scene->bump = WR_BUMP_INVARIANT;
+}
+
+static void invariant_square(Stage *stage)
+{
+    invariant(stage);
+    take_surface(stage, "plane");
+}
+
+static void exact(Stage *stage)
+{
+    stage->scene->bump = WR_BUMP_EXACT;
+    stage->scene->height = 0.1;
+}
+
+static void exact_cube(Stage *stage)
+{
+    exact(stage);
+    take_surface(stage, "cube");
+}
+
+static void supersampled(Stage *stage)
+{
+    stage->scene->dials.aa = WR_AA_SUPERSAMPLE;
+    stage->scene->dials.samples = 3;
+}
+
+static void one_sample(Stage *stage)
+{
+    supersampled(stage);
+    stage->scene->dials.samples = 1;
+}
+
+static void bounded(Stage *stage)
+{
+    stage->scene->dials.aa = WR_AA_ADAPTIVE;
+    stage->scene->dials.refine = WR_REFINE_BOUND;
+    stage->scene->dials.contrast = 0.3;
+    stage->scene->height = 0.001;
+}
+
+static void bounded_torus(Stage *stage)
+{
+    bounded(stage);
+    take_surface(stage, "torus");
+}
+
+static void filtered(Stage *stage)
+{
+    stage->scene->dials.aa = WR_AA_FILTER;
+}
+
+static void filtered_still(Stage *stage)
+{
+    exact(stage);
+    filtered(stage);
+    no_replication(stage);
+}
+
+static void moments(Stage *stage)
+{
+    stage->scene->dials.aa = WR_AA_MOMENTS;
+    stage->scene->dials.moments = WR_MOMENTS_LEAN;
+}
+
+static void moments_dull(Stage *stage)
+{
+    moments(stage);
+    no_specular(stage);
+}
+
+static void curl(Stage *stage)
+{
+    take_surface(stage, "curl");
+}
+
+static void torus(Stage *stage)
+{
+    take_surface(stage, "torus");
+}
+
+static void torus_flat_on(Stage *stage)
+{
+    torus(stage);
+    stage->scene->posed = true;
+    stage->scene->camera.orthographic = true;
+}
+
+static void cube(Stage *stage)
+{
+    take_surface(stage, "cube");
+}
+
+static void cube_from_within(Stage *stage)
+{
+    cube(stage);
+    stage->scene->camera.fit = false;
+    stage->scene->camera.eye = (WrVec3){ 0.1, 0.05, 0.02 };
+    stage->scene->camera.target = (WrVec3){ 1, 0.3, 0.1 };
+}
+
+static void orthographic(Stage *stage)
+{
+    stage->scene->camera.orthographic = true;
+}
+
+static void resting(Stage *stage)
+{
+    stage->rests = true;
+}
+
+static void eight_bits(Stage *stage)
+{
+    stage->scene->dials.heights = WR_HEIGHTS_8;
+}
+
+static void shaded_double(Stage *stage)
+{
+    stage->scene->dials.shading = WR_SHADING_DOUBLE;
+}
+
+static void heights_double(Stage *stage)
+{
+    stage->scene->dials.heights = WR_HEIGHTS_DOUBLE;
+}
+
+static void shaded_half(Stage *stage)
+{
+    stage->scene->dials.shading = WR_SHADING_HALF;
+}
+
+/* ---- the cases ------------------------------------------------------------------------------------- */
+
+enum {
+    NOTHING = -1 /* there is nothing to run, even by force */
+};
+
+typedef struct Off {
+    Change change;
+    double apart; /* how far a picture may be off when the effect is forced; or NOTHING */
+} Off;
+
+typedef struct Case {
+    Change on;
+    Off off[5];
+} Case;
+
+static const Case cases[WR_EFFECT_COUNT] = {
+    [WR_EFFECT_DIFFUSE] = { keep_all, { { no_diffuse, 0 }, { dark, 0 }, { black, 0 } } },
+    [WR_EFFECT_SPECULAR] = { keep_all, { { no_specular, 0 }, { dark, 0 } } },
+    [WR_EFFECT_COLOUR] = { coloured, { { white, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_BUMP] = { keep_all,
+                         { { no_height, 0 },
+                           { no_replication, 0 },
+                           { level, 0 },
+                           { checkered, 0 },
+                           { smooth, NOTHING } } },
+    [WR_EFFECT_GRADIENT] = { keep_all, { { bilinear, NOTHING } } },
+    [WR_EFFECT_WIDE] = { far_replicated, { { keep_all, 1e-3 }, { smooth, NOTHING } } },
+    [WR_EFFECT_INVARIANT] = { invariant, { { invariant_square, 1e-5 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_EXACT] = { exact, { { exact_cube, 1e-5 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_CURVATURE] = { exact, { { keep_all, 0 }, { smooth, 0 } } },
+    [WR_EFFECT_SAMPLES] = { supersampled, { { keep_all, NOTHING }, { one_sample, NOTHING } } },
+    [WR_EFFECT_BOUND] = { bounded, { { keep_all, NOTHING }, { bounded_torus, NOTHING } } },
+    [WR_EFFECT_FILTER] = { filtered, { { filtered_still, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_BACK] = { curl,
+                         { { keep_all, 0 }, { torus, 0 }, { torus_flat_on, 0 }, { cube, 0 } } },
+    [WR_EFFECT_DEPTH] = { torus, { { keep_all, NOTHING } } },
+    [WR_EFFECT_NEWTON] = { torus, { { keep_all, NOTHING } } },
+    [WR_EFFECT_PERSPECTIVE] = { keep_all, { { orthographic, NOTHING } } },
+    [WR_EFFECT_AGAIN] = { keep_all, { { resting, 0 } } },
+    [WR_EFFECT_SPREAD] = { moments, { { filtered, NOTHING }, { moments_dull, NOTHING } } },
+    [WR_EFFECT_ROUNDED] = { eight_bits, { { keep_all, NOTHING } } },
+    [WR_EFFECT_DOUBLE] = { shaded_double, { { keep_all, NOTHING } } },
+    [WR_EFFECT_HALF] = { shaded_half, { { keep_all, NOTHING } } },
+};
+
+static Stage stage_of(Change change)
+{
+    Stage stage = { .scene = scene_of("sphere"), .field = bumpy_field(64, 64) };
+    stage.scene->scheme = WR_SCHEME_CENTRAL;
+    stage.scene->bump = WR_BUMP_BLINN;
+    stage.scene->material.diffuse = 0.7;
+    stage.scene->material.specular = 0.5;
+    stage.scene->material.shininess = 20;
+    change(&stage);
+    return stage;
+}
+
+static void strike(Stage *stage)
+{
+    wr_scene_free(stage->scene);
+    wr_field_free(stage->field);
+}
+
+/* The picture of a stage with one effect forced. */
+static Shot forced(const Stage *stage, WrEffect effect, WrForce how)
+{
+    WrForce force[WR_EFFECT_COUNT] = { WR_FORCE_NONE };
+    Shot shot = { .pool = wr_pool_new(2) };
+    shot.renderer = wr_renderer_new(shot.pool, "auto", NULL);
+    force[effect] = how;
+    WrFrameRequest request = { .field = stage->field,
+                               .scene = stage->scene,
+                               .width = SIDE,
+                               .height = SIDE,
+                               .turn_deg = 15,
+                               .keep = stage->rests,
+                               .force = force };
+    if (stage->rests) {
+        const float was = wr_field_get(stage->field, 20, 30);
+        wr_field_set(stage->field, 20, 30, was + 1);
+        assert_true(wr_renderer_frame(shot.renderer, &request, &shot.frame, NULL));
+        wr_field_set(stage->field, 20, 30, was);
+    }
+    assert_true(wr_renderer_frame(shot.renderer, &request, &shot.frame, NULL));
+    assert_true(shot.frame.covered > SIDE);
+    return shot;
+}
+
+/* What `explain` says of each effect is what the stages noted. */
+static void says_what_ran(const Shot *shot, WrEffect about, const char *how)
+{
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        const WrPlanRow *row = &shot->frame.plan->rows[e];
+        if (row->run != row->ran)
+            fail_msg("%s %s: the plan says that %s %s, and it %s", wr_effects[about].name, how,
+                     row->name, row->run ? "runs" : "is left out", row->ran ? "ran" : "did not");
+    }
+}
+
+static void expect(const Shot *shot, WrEffect effect, bool run, const char *how)
+{
+    const WrPlanRow *row = &shot->frame.plan->rows[effect];
+    says_what_ran(shot, effect, how);
+    if (row->run != run || !row->reason[0])
+        fail_msg("%s %s: %s (%s)", row->name, how, row->run ? "runs" : "is left out", row->reason);
+}
+
+/* ---- each effect ----------------------------------------------------------------------------------- */
+
+static void each_effect_runs_where_it_is_called_for(void **state)
+{
+    (void)state;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        const WrEffectInfo *info = &wr_effects[e];
+        Stage stage = stage_of(cases[e].on);
+        Shot on = forced(&stage, (WrEffect)e, WR_FORCE_NONE);
+        Shot off = forced(&stage, (WrEffect)e, WR_FORCE_OFF);
+        expect(&on, (WrEffect)e, true, "on");
+        expect(&off, (WrEffect)e, info->only_way, "forced off");
+        if (same_picture(&on, &off) != info->only_way)
+            fail_msg("%s: forced off, the picture is %s", info->name,
+                     info->only_way ? "another" : "the same: nothing calls for it");
+        put_away(&on);
+        put_away(&off);
+        strike(&stage);
+    }
+}
+
+static void check_off(WrEffect effect, const Off *off)
+{
+    const WrEffectInfo *info = &wr_effects[effect];
+    const bool can = off->apart >= 0;
+    Stage stage = stage_of(off->change);
+    Shot without = forced(&stage, effect, WR_FORCE_NONE),
+         with = forced(&stage, effect, WR_FORCE_ON);
+    expect(&without, effect, false, "off");
+    expect(&with, effect, can, "forced on");
+    const double apart = (double)worst_difference(&without, &with);
+    if (!(apart <= (can ? off->apart : 0)))
+        fail_msg("%s: forced on, the picture is %g apart", info->name, apart);
+    if (off->apart <= 0 && !same_picture(&without, &with)) fail_msg("%s: other bits", info->name);
+    if (can) assert_true((info->proof == WR_PROOF_IDENTICAL) == (off->apart == 0));
+    put_away(&without);
+    put_away(&with);
+    strike(&stage);
+}
+
+static void what_is_left_out_changes_no_more_than_its_proof_allows(void **state)
+{
+    (void)state;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        assert_non_null(cases[e].off[0].change);
+        for (int k = 0; k < 5 && cases[e].off[k].change; k++)
+            check_off((WrEffect)e, &cases[e].off[k]);
+    }
+}
+
+/* Where the bound is known no pixel is farther from K x K than `contrast`. */
+static void a_bound_keeps_within_its_contrast(void **state)
+{
+    (void)state;
+    Stage stage = stage_of(bounded);
+    Shot on = forced(&stage, WR_EFFECT_BOUND, WR_FORCE_NONE);
+    Shot off = forced(&stage, WR_EFFECT_BOUND, WR_FORCE_OFF);
+    assert_true((double)worst_difference(&on, &off) <= stage.scene->dials.contrast);
+    assert_true(on.frame.shaded < off.frame.shaded);
+    put_away(&on);
+    put_away(&off);
+    strike(&stage);
+}
+
+/* The inner walls of a closed body are seen from within it. */
+static void backs_are_seen_from_within(void **state)
+{
+    (void)state;
+    Stage stage = stage_of(cube_from_within);
+    Shot shot = forced(&stage, WR_EFFECT_BACK, WR_FORCE_NONE);
+    expect(&shot, WR_EFFECT_BACK, true, "from within");
+    put_away(&shot);
+    strike(&stage);
+    stage = stage_of(heights_double);
+    shot = forced(&stage, WR_EFFECT_DOUBLE, WR_FORCE_NONE);
+    expect(&shot, WR_EFFECT_DOUBLE, true, "of heights");
+    put_away(&shot);
+    strike(&stage);
+}
+
+/* ---- the table ------------------------------------------------------------------------------------- */
+
+static WrPlan plan_of(const Stage *stage)
+{
+    WrPlan plan;
+    const WrPlanAsk ask = { .scene = stage->scene, .dials = &stage->scene->dials };
+    wr_plan_build(&plan, &ask);
+    return plan;
+}
+
+static void rows_are_whole(void **state)
+{
+    (void)state;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        const WrEffectInfo *info = &wr_effects[e];
+        assert_true(info->rule && info->name && info->left_out && info->decide);
+        assert_true((info->proof == WR_PROOF_BOUNDED) == (info->bound != NULL));
+        assert_non_null(cases[e].on);
+    }
+}
+
+/* Whatever a row owns, or that it runs, makes another picture's plan. */
+static void plans_are_compared_in_all_that_rows_own(void **state)
+{
+    (void)state;
+    Stage stage = stage_of(keep_all);
+    const WrPlan plan = plan_of(&stage);
+    WrPlan other = plan;
+    assert_true(wr_plan_same(&plan, &other));
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        other.rows[e].run = !plan.rows[e].run;
+        assert_int_equal(wr_plan_same(&plan, &other), e == WR_EFFECT_AGAIN);
+        other = plan;
+    }
+#define CHECK(effect, type, name)                                                                  \
+    other.name = (type)(plan.name == (type)0);                                                     \
+    if (wr_plan_same(&plan, &other)) fail_msg("%s is not compared", #name);                        \
+    other = plan;
+    WR_PLAN_SETTINGS(CHECK)
+#undef CHECK
+    strike(&stage);
+}
+
+/* A stage's time is its effect's where that runs, else a cost of its own; none is lost. */
+static void every_stage_is_charged_once(void **state)
+{
+    (void)state;
+    for (int e = 0; e < WR_EFFECT_COUNT; e++)
+        for (int s = 0; s < WR_STAGE_COUNT; s++) {
+            WrPlan plan = { .work = 0 };
+            double costs = 0;
+            plan.rows[e].run = true;
+            wr_plan_charge(&plan, (WrStage)s, 1);
+            for (int c = 0; c < WR_COST_COUNT; c++) costs += plan.cost[c];
+            const bool owned = wr_effects[e].stages >> s & 1;
+            assert_true(plan.rows[e].seconds == (owned ? 1 : 0) && costs == (owned ? 0 : 1));
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_are_whole),
+        cmocka_unit_test(each_effect_runs_where_it_is_called_for),
+        cmocka_unit_test(what_is_left_out_changes_no_more_than_its_proof_allows),
+        cmocka_unit_test(a_bound_keeps_within_its_contrast),
+        cmocka_unit_test(backs_are_seen_from_within),
+        cmocka_unit_test(plans_are_compared_in_all_that_rows_own),
+        cmocka_unit_test(every_stage_is_charged_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
