@@ -324,7 +324,7 @@ static void each_command_is_tried_or_known_to_be_instant(void **state)
 {
     (void)state;
     for (int i = 0; i < wr_command_count; i++) {
-        const WrCommand *command = &wr_commands[i];
+        const WrCommand *command = wr_commands[i];
         WrForm form;
         if (wr_family_find(command->name)) continue;
         if (!command->form && !is_known(command->name)) fail_msg("%s: is not tried", command->name);

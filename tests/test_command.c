@@ -180,7 +180,7 @@ static void for_each_form(void (*each)(const WrCommand *command, int form, void 
 {
     WrForm row;
     for (int i = 0; i < wr_command_count; i++) {
-        const WrCommand *c = &wr_commands[i];
+        const WrCommand *c = wr_commands[i];
         if (!c->form) each(c, -1, ctx);
         for (int f = 0; c->form && c->form(f, &row); f++) each(c, f, ctx);
     }
@@ -211,7 +211,7 @@ static void every_row_is_complete_and_its_defaults_are_in_range(void **state)
 {
     (void)state;
     for (int i = 0; i < wr_command_count; i++) {
-        const WrCommand *c = &wr_commands[i];
+        const WrCommand *c = wr_commands[i];
         assert_true(c->help && c->example && c->run);
         assert_true((c->print != NULL) == (c->kind == WR_CLASS_SCENE || c->kind == WR_CLASS_VIEW));
         assert_ptr_equal(wr_command_find(c->name), c);
@@ -593,11 +593,11 @@ static void help_covers_every_command_as_text_and_as_json(void **state)
     check_json(wr_text_get(&json));
     for (int i = 0; i < wr_command_count; i++) {
         WrText text = { 0 }, key = { 0 };
-        assert_true(wr_help_command(wr_commands[i].name, &text, &err));
-        assert_non_null(strstr(wr_text_get(&text), wr_commands[i].example));
-        assert_non_null(strstr(wr_text_get(&overview), wr_commands[i].name));
-        wr_text_addf(&key, "{\"name\":\"%s\",\"class\":\"%s\"", wr_commands[i].name,
-                     wr_class_names[wr_commands[i].kind]);
+        assert_true(wr_help_command(wr_commands[i]->name, &text, &err));
+        assert_non_null(strstr(wr_text_get(&text), wr_commands[i]->example));
+        assert_non_null(strstr(wr_text_get(&overview), wr_commands[i]->name));
+        wr_text_addf(&key, "{\"name\":\"%s\",\"class\":\"%s\"", wr_commands[i]->name,
+                     wr_class_names[wr_commands[i]->kind]);
         assert_non_null(strstr(wr_text_get(&json), wr_text_get(&key)));
         wr_text_fini(&text);
         wr_text_fini(&key);

@@ -40,7 +40,7 @@ static double seconds_of(int size, const char *line)
 static void every_edit_and_output_has_a_price(void **state)
 {
     (void)state;
-    for (const WrCommand *c = wr_commands; c->name; c++) {
+    for (const WrCommand *const *row = wr_commands, *c; (c = *row) != NULL; row++) {
         if (c->kind != WR_CLASS_EDIT && c->kind != WR_CLASS_OUTPUT) continue;
         WrForm form;
         if (!wr_family_find(c->name) || !c->form) {
@@ -58,7 +58,7 @@ static void every_example_is_estimated_and_nothing_changes(void **state)
     (void)state;
     WrSession *s = table_of(64);
     WrHash before = wr_session_hash(s);
-    for (const WrCommand *c = wr_commands; c->name; c++) {
+    for (const WrCommand *const *row = wr_commands, *c; (c = *row) != NULL; row++) {
         WrEstimate e = estimate_of(s, c->example);
         if (!(e.seconds >= 0.0 && e.seconds < 60.0 && e.bytes >= 0.0 && e.bytes < 1e9))
             fail_msg("%s: %g s, %g bytes", c->example, e.seconds, e.bytes);

@@ -268,7 +268,7 @@ static void random_line(TestRandom *random, WrText *line)
                                          "adjust", "undo",   "redo" };
     for (;;) {
         const WrCommand *command =
-            &wr_commands[(int)(test_random(random) * (double)wr_command_count)];
+            wr_commands[(int)(test_random(random) * (double)wr_command_count)];
         if (test_random(random) < 0.7)
             command = wr_command_find(often[(int)(test_random(random) * 7)]);
         WrForm row;

@@ -1,6 +1,5 @@
-/* args.h - the rows of arguments that the table of commands is made of, by subject: args_table.c,
-   args_brush.c, args_layer.c, args_scene.c, args_output.c, args_history.c. Choices, surfaces and export
-   kinds come from the tables of their rooms.
+/* args.h - what rows of arguments are written with. Choices, surfaces and export kinds come from the tables of their
+   rooms.
    Layer 6, private to src/command. */
 #pragma once
 #include "command/inner.h"
@@ -27,21 +26,4 @@
 /* A tuple of a list may have n numbers. */
 #define TUPLE_OF(n) (1u << (n))
 
-/* Each ends with name NULL. */
-extern const WrArgSpec wr_args_table[], wr_args_fill[], wr_args_grid[], wr_args_image[],
-    wr_args_open[];
-extern const WrArgSpec wr_args_brush[], wr_args_dab[], wr_args_stroke[], wr_args_flood[];
-extern const WrArgSpec wr_args_rotate[], wr_args_bump[], wr_args_replicate[], wr_args_material[],
-    wr_args_colour[], wr_args_tolerance[];
-extern const WrArgSpec wr_args_save[], wr_args_export[], wr_args_render[];
-extern const WrArgSpec wr_args_undo[], wr_args_redo[], wr_args_history[], wr_args_script[];
-
-/* The rows of forms, as in WrCommand. */
-typedef bool WrFormRow(int index, WrForm *out);
-WrFormRow wr_form_layer, wr_form_select, wr_form_adjust, wr_form_surface, wr_form_analytic,
-    wr_form_light, wr_form_camera, wr_form_export, wr_form_shape, wr_form_ramp, wr_form_view;
-/* Of the families of generators: args_generate.c. */
-WrFormRow wr_form_pattern, wr_form_noise, wr_form_formula, wr_form_solid, wr_form_terrain,
-    wr_form_picture;
-bool wr_row_text(WrForm *out);
-bool wr_row_dials(WrForm *out); /* of the table of dials: args_scene.c */
+extern const char *const wr_off_on[]; /* "off", "on" */

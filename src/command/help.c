@@ -202,7 +202,7 @@ static void add_common(WrText *text, const WrCommand *command)
 static const char *name_at(const void *ctx, int i)
 {
     (void)ctx;
-    return i < wr_command_count ? wr_commands[i].name : NULL;
+    return i < wr_command_count ? wr_commands[i]->name : NULL;
 }
 
 bool wr_help_command(const char *name, WrText *text, WrError *err)
@@ -238,8 +238,8 @@ void wr_help_overview(WrText *text)
     for (int kind = 0; kind < WR_CLASS_COUNT; kind++) {
         wr_text_addf(text, "%s%s\n", kind ? "\n" : "", titles[kind]);
         for (int i = 0; i < wr_command_count; i++)
-            if ((int)wr_commands[i].kind == kind)
-                wr_text_addf(text, "  %-10s %s\n", wr_commands[i].name, wr_commands[i].help);
+            if ((int)wr_commands[i]->kind == kind)
+                wr_text_addf(text, "  %-10s %s\n", wr_commands[i]->name, wr_commands[i]->help);
     }
     wr_text_add(text, "\nOne command a line: verb value... name=value...   # comment\n"
                       "Positions are u,v in 0..1 (v up), lengths in the table are texels, angles "

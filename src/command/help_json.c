@@ -207,7 +207,7 @@ void wr_help_json(WrText *text)
     wr_text_add(text, "{\"commands\":[");
     for (int i = 0; i < wr_command_count; i++) {
         wr_text_add(text, i ? ",\n" : "\n");
-        add_command(text, &wr_commands[i]);
+        add_command(text, wr_commands[i]);
     }
     wr_text_add(text, "\n],\"surfaces\":[");
     const WrCommand *surface = wr_command_find("surface");

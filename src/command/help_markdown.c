@@ -89,9 +89,9 @@ void wr_help_markdown_verbs(WrText *text)
 {
     wr_text_add(text, "| verb | class | |\n| --- | --- | --- |\n");
     for (int i = 0; i < wr_command_count; i++) {
-        wr_text_addf(text, "| `%s` | %s | ", wr_commands[i].name,
-                     wr_class_names[wr_commands[i].kind]);
-        wr_help_markdown_cell(text, wr_commands[i].help);
+        wr_text_addf(text, "| `%s` | %s | ", wr_commands[i]->name,
+                     wr_class_names[wr_commands[i]->kind]);
+        wr_help_markdown_cell(text, wr_commands[i]->help);
         wr_text_add(text, " |\n");
     }
 }

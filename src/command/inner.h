@@ -208,36 +208,22 @@ void wr_brush_files_free(WrBrushFiles *files); /* NULL is fine */
 /* The check of set=. */
 bool wr_check_settings(const void *ctx, const char *name, const char *value, WrError *err);
 
-/* The commands' functions, by subject: see commands.c. */
+/* Handlers that others call too; the rest are their files' own. */
 typedef bool WrHandler(WrSession *session, WrCall *call, WrError *err);
-WrHandler wr_run_table, wr_run_fill, wr_run_grid, wr_run_image, wr_run_open; /* run_table.c */
-WrHandler wr_run_dab, wr_run_stroke;                                         /* run_brush.c */
-WrHandler wr_run_shape;                                                      /* run_figure.c */
-WrHandler wr_run_flood, wr_run_ramp;                                         /* run_flood.c */
-WrHandler wr_run_layer;                                                      /* run_layer.c */
-WrHandler wr_run_select;                                                     /* run_select.c */
-WrHandler wr_run_generate;                                                   /* run_generate.c */
-WrHandler wr_run_adjust;                                                     /* run_adjust.c */
-WrHandler wr_run_analytic, wr_run_surface, wr_run_bump, wr_run_replicate,
-    wr_run_rotate; /* run_shape.c */
-WrHandler wr_run_material, wr_run_colour, wr_run_light, wr_run_camera, wr_run_dials,
-    wr_run_tolerance;                                              /* run_look.c */
-WrHandler wr_run_save, wr_run_export, wr_run_render;               /* run_output.c */
-WrHandler wr_run_undo, wr_run_redo, wr_run_history, wr_run_script; /* run_history.c */
-WrHandler wr_run_view;                                             /* session_views.c */
+WrHandler wr_run_generate;                       /* generate_commands.c */
+WrHandler wr_run_adjust;                         /* adjust_command.c */
+WrHandler wr_run_undo, wr_run_redo, wr_run_view; /* history_commands.c */
 
-/* "8ms", "0.5s", "2": a duration of 1e-4..3600 seconds. run_look.c. */
-bool wr_duration_parse(const char *text, double *seconds);
-bool wr_check_duration(const void *ctx, const char *name, const char *value, WrError *err);
-bool wr_check_chosen(const void *ctx, const char *name, const char *value, WrError *err);
-
-/* The scene's canonical lines, by subject: scene_text.c. */
+/* The scene's canonical lines: each command's row prints its own. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
-WrScenePrinter wr_print_analytic, wr_print_surface, wr_print_bump, wr_print_replicate,
-    wr_print_rotate, wr_print_material, wr_print_colour, wr_print_light, wr_print_camera,
-    wr_print_dials, wr_print_tolerance;
+WrScenePrinter wr_print_rotate, wr_print_camera, wr_print_colour;
 /* All of them; a colour picture as what its content is, wherever its file lies. */
 void wr_print_identity(const WrScene *scene, WrText *text);
 
 /* Words of choices, index past the last gives NULL. */
 const char *wr_camera_kind_name(int i);
+
+/* ---- scene_text.c: parts of lines ---- */
+void wr_print_vec3(WrText *text, WrVec3 a);                    /* "x,y,z" */
+void wr_print_named(WrText *text, const char *name, double x); /* " name=x" */
+void wr_print_named_vec3(WrText *text, const char *name, WrVec3 a);

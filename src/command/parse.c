@@ -97,7 +97,7 @@ const char *wr_nearest_word(const char *word, const char *(*list)(const void *ct
 static const char *command_name(const void *ctx, int i)
 {
     (void)ctx;
-    return i < wr_command_count ? wr_commands[i].name : NULL;
+    return i < wr_command_count ? wr_commands[i]->name : NULL;
 }
 
 static bool fail_verb(const char *verb, WrError *err)

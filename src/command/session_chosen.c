@@ -66,9 +66,9 @@ void wr_session_kept_text(WrSession *session, WrText *text)
 {
     const WrScene *scene = session->state.document->scene;
     for (int i = 0; i < wr_command_count; i++) {
-        if (!wr_commands[i].print) continue;
-        wr_commands[i].print(scene, text);
-        if (wr_commands[i].print != wr_print_tolerance) continue;
+        if (!wr_commands[i]->print) continue;
+        wr_commands[i]->print(scene, text);
+        if (strcmp(wr_commands[i]->name, "tolerance") != 0) continue;
         text->data[--text->length] = '\0'; /* the line goes on */
         add_chosen(session, text);
         wr_text_add(text, "\n");

@@ -1,5 +1,5 @@
 /* What paints: the brush that a line describes, and what it paints on. */
-#include "command/args.h"
+#include "command/brush_args.h"
 
 #include "base/memory.h"
 #include "brush/preset.h"

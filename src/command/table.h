@@ -1,6 +1,6 @@
 /* table.h - the one table of commands: names, classes, arguments with types, ranges, defaults and help,
    and the functions that carry them out. The parser, the printer, the help, the window's dialogs and the
-   tests all go by it, so a new command is one row here and one function.
+   tests all go by it: a new command is a row with its arguments and functions in one file, and a line in commands.c.
    Layer 6. */
 #pragma once
 #include "base/text.h"
@@ -105,7 +105,7 @@ typedef struct WrCommand {
 } WrCommand;
 
 /* In the order of help; the scene's in the order in which a document keeps them. */
-extern const WrCommand wr_commands[];
+extern const WrCommand *const wr_commands[]; /* ends with NULL */
 extern const int wr_command_count;
 
 const WrCommand *wr_command_find(const char *name); /* NULL if there is none */

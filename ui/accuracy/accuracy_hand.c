@@ -64,7 +64,7 @@ static char *base_of(const WrScene *scene)
     WrText text = { 0 };
     for (int d = 0; d < WR_DIAL_COUNT; d++) wr_dials[d].set(bare, wr_dials[d].get(plain));
     bare->tolerance = plain->tolerance;
-    for (const WrCommand *c = wr_commands; c->name; c++)
+    for (const WrCommand *const *row = wr_commands, *c; (c = *row) != NULL; row++)
         if (c->print) c->print(bare, &text);
     wr_scene_free(plain);
     wr_scene_free(bare);

@@ -1,7 +1,11 @@
-/* layer: adding, ordering, joining and setting layers. */
-#include "command/inner.h"
+/* Layers and their masks. */
+#include "command/args.h"
+#include "command/commands.h"
 
 #include "base/memory.h"
+#include "document/document.h"
+#include "field/ops.h"
+#include "field/select.h"
 
 #include <string.h>
 
@@ -248,9 +252,122 @@ static const struct {
                  { "merge", layer_merge },   { "flatten", layer_flatten },
                  { "solo", layer_solo },     { "mask", layer_mask } };
 
-bool wr_run_layer(WrSession *session, WrCall *call, WrError *err)
+static bool run_layer(WrSession *session, WrCall *call, WrError *err)
 {
     int i = 0;
     while (strcmp(handlers[i].form, call->form_name) != 0) i++;
     return handlers[i].run(session, call, err);
 }
+
+static const char *blend_name(int i)
+{
+    return i < WR_BLEND_COUNT ? wr_blends[i].name : NULL;
+}
+
+static const char *const mask_sources[] = { "selection", "none", "white", "black", NULL };
+
+#define LAYER_N                                                                                    \
+    {                                                                                              \
+        PLACE("N"), .type = WR_ARG_LAYER, .help = "the layer"                                      \
+    }
+
+#define LAYER_SETTINGS                                                                             \
+    { .name = "blend",                                                                             \
+      .type = WR_ARG_CHOICE,                                                                       \
+      .choice = blend_name,                                                                        \
+      .help = "how it joins what lies below" },                                                    \
+        { .name = "opacity",                                                                       \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = 0,                                                                                \
+          .high = 1,                                                                               \
+          .help = "how much of it shows" },                                                        \
+    {                                                                                              \
+        .name = "radius", .type = WR_ARG_NUMBER, .low = 0, .high = WR_BIG_HEIGHT,                  \
+        .unit = "height units", .help = "of the smooth blends: how near heights must be to melt"   \
+    }
+
+static const WrForm layer_forms[] = {
+    { .name = "add",
+      .help = "a new layer, empty and active",
+      .args = { { .name = "NAME",
+                  .type = WR_ARG_NAME,
+                  .positional = true,
+                  .help = "left out, \"layer 2\" and so on" },
+                LAYER_SETTINGS,
+                { .name = "above",
+                  .type = WR_ARG_LAYER,
+                  .help = "where it goes; left out, above the active one" } } },
+    { .name = "delete", .help = "remove a layer", .args = { LAYER_N } },
+    { .name = "use", .help = "edits go to this layer from now on", .args = { LAYER_N } },
+    { .name = "move",
+      .help = "bring a layer to another place in the stack",
+      .args = { LAYER_N,
+                { .name = "to",
+                  .type = WR_ARG_NUMBER,
+                  .required = true,
+                  .whole = true,
+                  .low = 1,
+                  .high = WR_LAYERS_MAX,
+                  .help = "its new number" } } },
+    { .name = "rename",
+      .help = "give a layer another name",
+      .args = { LAYER_N, { PLACE("NAME"), .type = WR_ARG_NAME, .help = "the new name" } } },
+    { .name = "set",
+      .help = "only what is given changes",
+      .args = { LAYER_N,
+                LAYER_SETTINGS,
+                { .name = "visible",
+                  .type = WR_ARG_CHOICE,
+                  .words = wr_off_on,
+                  .help = "whether it is in the composite" },
+                { .name = "lock",
+                  .type = WR_ARG_CHOICE,
+                  .words = wr_off_on,
+                  .help = "whether edits are refused" } } },
+    { .name = "duplicate", .help = "a copy above it, active", .args = { LAYER_N } },
+    { .name = "merge",
+      .help = "join a layer and the one below; the composite changes by rounding at most: not at "
+              "all onto layer 1, else by 2^-21 of the largest height that meets there",
+      .args = { LAYER_N } },
+    { .name = "flatten", .help = "one layer that holds the composite; hidden layers are lost" },
+    { .name = "clear",
+      .help = "heights 0, and nothing painted, inside the selection",
+      .args = { { .name = "N",
+                  .type = WR_ARG_LAYER,
+                  .positional = true,
+                  .help = "left out, the active layer" } } },
+    { .name = "solo",
+      .help = "show one layer alone, or all again",
+      .args = { { PLACE("N|off"), .type = WR_ARG_LAYER, .help = "the layer, or off" } } },
+    { .name = "mask",
+      .help = "how much of a layer shows, texel by texel",
+      .args = { LAYER_N,
+                { .name = "from",
+                  .type = WR_ARG_CHOICE,
+                  .required = true,
+                  .words = mask_sources,
+                  .help = "what is selected, no mask, a mask that shows all or nothing" } } },
+};
+
+static bool form_layer(int i, WrForm *out)
+{
+    if (i >= (int)(sizeof layer_forms / sizeof *layer_forms)) return false;
+    *out = layer_forms[i];
+    return true;
+}
+
+/* ---- the row ---- */
+
+const WrCommand wr_command_layer = {
+    .name = "layer",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "ACTION",
+    .form = form_layer,
+    .run = run_layer,
+    .help = "add, order, join and set layers",
+    .details =
+        "Layers are named by their numbers, from 1 at the bottom, or by their names where only "
+        "one "
+        "has it. Edits go to the active layer; where it is locked or not shown they are refused.",
+    .example = "layer add moss blend=max"
+};

@@ -1,13 +1,18 @@
-/* shape: outlines drawn with the brush, and insides filled. */
-#include "command/inner.h"
+/* Shapes with the brush: rectangles, ellipses, polygons, paths. */
+#include "command/args.h"
+#include "command/brush_args.h"
+#include "command/commands.h"
 
 #include "base/memory.h"
 #include "brush/preset.h"
 #include "field/figure.h"
+#include "field/ramp.h"
+#include "field/select.h"
 
 #include <math.h>
 
-#define OUTLINE_TOLERANCE 0.0625      /* texels between a curve and its chords */
+#define OUTLINE_TOLERANCE 0.0625 /* texels between a curve and its chords */
+
 #define FILL_TOLERANCE (1.0 / 1024.0) /* the same where areas count */
 
 static WrSelectPoint point(const WrCall *call, const char *name)
@@ -67,7 +72,7 @@ static bool path(const WrField *like, const WrCall *call, double tolerance, WrFi
     return good;
 }
 
-/* In the order of wr_form_shape. */
+/* In the order of form_shape. */
 static Maker *const makers[] = { rectangle, ellipse, polygon, path };
 
 /* ---- outlines ---- */
@@ -276,7 +281,7 @@ static bool make_figure(const WrField *like, const WrCall *call, bool fill, WrFi
     return true;
 }
 
-bool wr_run_shape(WrSession *session, WrCall *call, WrError *err)
+static bool run_shape(WrSession *session, WrCall *call, WrError *err)
 {
     WrPainting painting;
     WrFigure figure = { 0 };
@@ -290,3 +295,95 @@ bool wr_run_shape(WrSession *session, WrCall *call, WrError *err)
     wr_painting_end(session, &painting);
     return good;
 }
+
+static const char *const paints[] = { "outline", "fill", NULL };
+
+#define POINTS(low_, high_, help_)                                                                 \
+    {                                                                                              \
+        .name = "points", .type = WR_ARG_LIST, .required = true, .components = 2,                  \
+        .shape = "u,v;...", .rows_low = low_, .rows_high = high_, .low = -WR_SELECT_REACH,         \
+        .high = WR_SELECT_REACH, .help = help_                                                     \
+    }
+
+#define TURN                                                                                       \
+    {                                                                                              \
+        .name = "turn", .type = WR_ARG_NUMBER, .low = -360, .high = 360, .fallback = NUMBERS(0),   \
+        .unit = "degrees", .help = "turns the shape anticlockwise about its middle"                \
+    }
+
+#define PAINT                                                                                      \
+    {                                                                                              \
+        .name = "paint", .type = WR_ARG_CHOICE, .words = paints, .fallback_text = "outline",       \
+        .help = "draw its outline with the brush, or cover its inside with what the mode does"     \
+    }
+
+/* In the order of run_figure.c. */
+static const WrForm shape_forms[] = {
+    { .name = "rectangle",
+      .help = "between two corners",
+      .args = { POINT("a", "a corner"),
+                POINT("b", "the corner across"),
+                { .name = "corner",
+                  .type = WR_ARG_NUMBER,
+                  .low = 0,
+                  .high = 1e9,
+                  .fallback = NUMBERS(0),
+                  .unit = "texels",
+                  .help = "radius of its corners, at most half the shorter side" },
+                TURN,
+                PAINT } },
+    { .name = "ellipse",
+      .help = "about a point",
+      .args = { POINT("middle", "its middle"),
+                { .name = "radii",
+                  .type = WR_ARG_TUPLE,
+                  .required = true,
+                  .components = 2,
+                  .shape = "ru,rv",
+                  .low = 0,
+                  .high = WR_SELECT_REACH,
+                  .help = "half its width and height, in parts of the cell as u and v" },
+                TURN,
+                PAINT } },
+    { .name = "polygon",
+      .help = "through points, closed; inside is where a ray meets it an odd number of times",
+      .args = { POINTS(3, WR_SELECT_POINTS, "its corners in order"), PAINT } },
+    { .name = "path",
+      .help = "cubic Bezier curves, each from the end of the one before",
+      .args = { POINTS(4, 3 * 4096 + 1, "the start, then for each curve two handles and its end"),
+                { .name = "closed",
+                  .type = WR_ARG_CHOICE,
+                  .words = wr_off_on,
+                  .fallback_text = "off",
+                  .help = "on: the outline goes straight back from the end to the start; a fill "
+                          "always does" },
+                PAINT } },
+};
+
+static bool form_shape(int i, WrForm *out)
+{
+    if (i >= (int)(sizeof shape_forms / sizeof *shape_forms)) return false;
+    *out = shape_forms[i];
+    return true;
+}
+
+/* ---- the row ---- */
+
+const WrCommand wr_command_shape = {
+    .name = "shape",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_shape,
+    .more = wr_args_brush,
+    .run = run_shape,
+    .help = "draw or fill a rectangle, an ellipse, a polygon or a path",
+    .details =
+        "An outline is drawn as a stroke with the brush at full pressure; a closed one meets "
+        "itself without doubling. A fill covers the inside, smooth at its edge, with what the "
+        "mode does to texels that a stroke covers wholly; the brush's radius does not matter, "
+        "and "
+        "modes that move heights cannot fill. Shapes wrap round periodic edges and keep their "
+        "form "
+        "in a cell that is not square.",
+    .example = "shape ellipse middle=0.5,0.5 radii=0.3,0.2 paint=fill strength=0.5"
+};

@@ -1,9 +1,12 @@
-/* adjust: the table's operations (field/ops.h), on one layer or on all. */
-#include "command/inner.h"
+/* Table operations. */
+#include "command/args.h"
+#include "command/commands.h"
 
 #include "base/memory.h"
 #include "base/progress.h"
+#include "document/document.h"
 #include "field/ops.h"
+#include "field/select.h"
 
 #include <string.h>
 
@@ -79,3 +82,60 @@ bool wr_run_adjust(WrSession *session, WrCall *call, WrError *err)
     WrLayer *layer = wr_session_layer(session, err);
     return layer && run_on_layer(&adjusting, layer, err);
 }
+
+static const char *const layer_choices[] = { "active", "all", NULL };
+
+/* ---- adjust ---- */
+
+static WrArgSpec op_argument(const WrOpParam *param)
+{
+    WrArgSpec spec = { .name = param->name,
+                       .type = WR_ARG_NUMBER,
+                       .low = param->low,
+                       .high = param->high,
+                       .above = param->above,
+                       .whole = param->whole,
+                       .fallback = &param->fallback,
+                       .unit = *param->unit ? param->unit : NULL,
+                       .help = param->help };
+    if (!param->choices) return spec;
+    spec.type = WR_ARG_CHOICE;
+    spec.words = param->choices;
+    spec.fallback = NULL;
+    spec.fallback_text = param->choices[(int)param->fallback];
+    return spec;
+}
+
+/* One form an operation. */
+static bool form_adjust(int i, WrForm *out)
+{
+    if (i >= wr_op_count) return false;
+    const WrOpInfo *op = &wr_ops[i];
+    int count = wr_op_param_count(op);
+    *out = (WrForm){ .name = op->name, .help = op->help };
+    for (int k = 0; k < count; k++) out->args[k] = op_argument(&op->params[k]);
+    if (op->reshapes) return true;
+    out->args[count] = (WrArgSpec){ .name = "layers",
+                                    .type = WR_ARG_CHOICE,
+                                    .words = layer_choices,
+                                    .fallback_text = "active",
+                                    .help = "which layers it changes" };
+    return true;
+}
+
+/* ---- the row ---- */
+
+const WrCommand wr_command_adjust = {
+    .name = "adjust",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "OPERATION",
+    .form = form_adjust,
+    .run = wr_run_adjust,
+    .help = "change a whole table: blur, levels, resize and the like",
+    .details =
+        "They act on the active layer inside the selection; those that change the table's size "
+        "act "
+        "on all layers, masks and the selection, locked or not. Where texels move, a layer's "
+        "coverage and mask move along.",
+    .example = "adjust blur sigma=3"
+};

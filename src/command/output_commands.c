@@ -1,5 +1,6 @@
-/* save, export, render: files. */
-#include "command/inner.h"
+/* Commands that write files: save, export, render. */
+#include "command/args.h"
+#include "command/commands.h"
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -122,7 +123,7 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     return good;
 }
 
-bool wr_run_render(WrSession *session, WrCall *call, WrError *err)
+static bool run_render(WrSession *session, WrCall *call, WrError *err)
 {
     const double *size = wr_call_arg(call, "size")->numbers;
     return wr_session_render(session, wr_call_arg(call, "FILE")->text, (int)size[0], (int)size[1],
@@ -171,14 +172,14 @@ bool wr_session_save(WrSession *session, const char *path, WrError *err)
     return true;
 }
 
-bool wr_run_save(WrSession *session, WrCall *call, WrError *err)
+static bool run_save(WrSession *session, WrCall *call, WrError *err)
 {
     return wr_session_save(session, wr_call_arg(call, "FILE")->text, err);
 }
 
 /* ---- exports ---- */
 
-bool wr_run_export(WrSession *session, WrCall *call, WrError *err)
+static bool run_export(WrSession *session, WrCall *call, WrError *err)
 {
     const WrExportKind *kind = &wr_export_kinds[call->form];
     WrExportOptions options = wr_export_default();
@@ -198,3 +199,72 @@ bool wr_run_export(WrSession *session, WrCall *call, WrError *err)
     wr_text_fini(&text);
     return true;
 }
+
+static const WrArgSpec args_save[] = {
+    { PLACE("FILE"), .type = WR_ARG_PATH,
+      .help = "an OpenEXR file, *.exr, or an OpenRaster file, *.ora" },
+    { 0 }
+};
+
+static bool check_export_option(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    WrExportOptions options = wr_export_default();
+    return wr_export_option(ctx, &options, name, value, err);
+}
+
+static bool form_export(int i, WrForm *out)
+{
+    if (i >= WR_EXPORT_KIND_COUNT) return false;
+    const WrExportKind *kind = &wr_export_kinds[i];
+    *out = (WrForm){ .name = kind->name, .help = kind->help };
+    for (int k = 0; k < WR_EXPORT_OPTIONS && kind->options[k].name; k++)
+        out->args[k] = (WrArgSpec){ .name = kind->options[k].name,
+                                    .type = WR_ARG_TEXT,
+                                    .shape = kind->options[k].values,
+                                    .help = kind->options[k].help,
+                                    .check = check_export_option,
+                                    .check_ctx = kind };
+    return true;
+}
+
+static const WrArgSpec args_export[] = {
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "the format goes by its ending" }, { 0 }
+};
+
+static const WrArgSpec args_render[] = {
+    { PLACE("FILE"), .type = WR_ARG_PATH,
+      .help = "exr and tiff hold linear float with coverage, others 8-bit sRGB" },
+    { .name = "size",
+      .type = WR_ARG_SIZE,
+      .low = 1,
+      .high = 16384,
+      .fallback = NUMBERS(512, 512),
+      .unit = "pixels",
+      .help = "of the picture" },
+    { 0 }
+};
+
+/* ---- the rows ---- */
+
+const WrCommand wr_command_save = { .name = "save",
+                                    .kind = WR_CLASS_OUTPUT,
+                                    .args = args_save,
+                                    .run = run_save,
+                                    .help = "save the document",
+                                    .example = "save bricks.exr" };
+
+const WrCommand wr_command_export = { .name = "export",
+                                      .kind = WR_CLASS_OUTPUT,
+                                      .form_word = "KIND",
+                                      .form = form_export,
+                                      .args = args_export,
+                                      .run = run_export,
+                                      .help = "write the table for other programs",
+                                      .example = "export height bricks.png" };
+
+const WrCommand wr_command_render = { .name = "render",
+                                      .kind = WR_CLASS_OUTPUT,
+                                      .args = args_render,
+                                      .run = run_render,
+                                      .help = "write a picture of the scene",
+                                      .example = "render bricks.png size=640x480" };

@@ -1,0 +1,499 @@
+/* Generators as commands: one for each family. */
+#include "command/args.h"
+#include "command/commands.h"
+#include "command/generate.h"
+
+#include "base/hash.h"
+#include "base/memory.h"
+#include "document/blend.h"
+#include "document/edit.h"
+
+#include <float.h>
+#include <string.h>
+
+#define TEXELS (WR_TILE * WR_TILE)
+
+const WrGenerator *wr_call_generator(const WrCall *call)
+{
+    const WrFamily *family = call->command ? wr_family_find(call->command->name) : NULL;
+    return family ? &family->rows[call->form > 0 ? call->form : 0] : NULL;
+}
+
+void wr_call_values(const WrCall *call, const WrGenerator *generator, WrParamValue *values)
+{
+    wr_generator_defaults(generator, values);
+    for (int i = 0; generator->params[i].name; i++) {
+        const WrParam *p = &generator->params[i];
+        const WrArg *arg = wr_call_arg(call, p->name);
+        if (p->kind == WR_PARAM_CHOICE || p->kind == WR_PARAM_SWITCH) {
+            values[i].number[0] = arg->choice;
+        } else if (p->kind == WR_PARAM_POINTS || p->kind == WR_PARAM_TERMS) {
+            values[i].points = arg->numbers;
+            values[i].count = arg->rows;
+        } else if (p->kind == WR_PARAM_TEXT || p->kind == WR_PARAM_FILE) {
+            if (arg->text) values[i].text = arg->text;
+        } else {
+            int count = p->kind == WR_PARAM_TUPLE ? p->components : 1;
+            memcpy(values[i].number, arg->numbers, (size_t)count * sizeof *arg->numbers);
+        }
+    }
+}
+
+/* ---- texts and files ---- */
+
+char *wr_generator_text(const char *text)
+{
+    WrText out = { 0 };
+    for (const char *p = text; *p; p++) {
+        bool pair = *p == '\\' && (p[1] == 'n' || p[1] == '\\');
+        if (pair) p++;
+        wr_text_add_n(&out, pair && *p == 'n' ? "\n" : p, 1);
+    }
+    char *made = wr_strdup(wr_text_get(&out));
+    wr_text_fini(&out);
+    return made;
+}
+
+/* Check the checksum that the line has for a parameter's file, or set it. */
+static bool check_file(WrCall *call, const char *param, const char *path, WrError *err)
+{
+    char hex[65];
+    const char *name = wr_call_hash_name(call, (int)(wr_call_arg(call, param) - call->args));
+    return wr_sha256_file(path, hex, err) &&
+           wr_call_check_sha256(call, name ? name : "sha256", path, hex, err);
+}
+
+/* Make the line say what its generator chose. */
+static bool keep_choice(void *ctx, const char *param, const char *value, WrError *err)
+{
+    WrCall *call = ctx;
+    WrArg *arg = wr_call_arg(call, param);
+    const WrArgSpec *spec = &call->specs[arg - call->args];
+    if (spec->type == WR_ARG_CHOICE) {
+        for (int i = 0; spec->words && spec->words[i]; i++) {
+            if (strcmp(spec->words[i], value) != 0) continue;
+            arg->choice = i;
+            arg->given = true;
+            return true;
+        }
+    } else {
+        wr_call_set_text(call, param, value);
+    }
+    return check_file(call, param, value, err);
+}
+
+/* Put what texts say and the paths that files have in their values' place: owned[i] where not NULL. */
+static bool resolve(WrSession *session, WrCall *call, const WrGenerator *generator,
+                    WrParamValue *values, char **owned, WrError *err)
+{
+    for (int i = 0; generator->params[i].name; i++) {
+        WrParamKind kind = generator->params[i].kind;
+        if (kind == WR_PARAM_TEXT && values[i].text) {
+            values[i].text = owned[i] = wr_generator_text(values[i].text);
+        } else if (kind == WR_PARAM_FILE && values[i].text && *values[i].text) {
+            values[i].text = owned[i] = wr_session_input_path(session, values[i].text);
+            if (!check_file(call, generator->params[i].name, owned[i], err)) return false;
+        }
+    }
+    return true;
+}
+
+static void note(void *ctx, const char *text)
+{
+    wr_session_note(ctx, "%s", text);
+}
+
+/* ---- joining ---- */
+
+typedef struct Joining {
+    WrBlend blend;
+    float radius;
+    double offset;
+    const WrField *heights, *weight; /* weight NULL: 1 everywhere */
+    WrField *layer;
+} Joining;
+
+static float bounded(double x)
+{
+    return x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : (float)x;
+}
+
+static float unit(float x)
+{
+    return x > 0.0f ? x < 1.0f ? x : 1.0f : 0.0f;
+}
+
+static bool is_nothing(const WrField *weight, int tx, int ty)
+{
+    const float *tile = wr_field_tile(weight, tx, ty);
+    if (!tile) return !(wr_field_level(weight) > 0.0f);
+    for (int i = 0; i < TEXELS; i++)
+        if (tile[i] > 0.0f) return false;
+    return true;
+}
+
+/* A tile that comes out as it was stays the very tile. */
+static void join_tile(const Joining *join, int tx, int ty)
+{
+    if (join->weight && is_nothing(join->weight, tx, ty)) return;
+    float heights[TEXELS], result[TEXELS];
+    const float *made = wr_field_tile(join->heights, tx, ty);
+    const float *old = wr_field_tile(join->layer, tx, ty);
+    float level = wr_field_level(join->heights), old_level = wr_field_level(join->layer);
+    for (int i = 0; i < TEXELS; i++) {
+        heights[i] = bounded((double)(made ? made[i] : level) + join->offset);
+        result[i] = old ? old[i] : old_level;
+    }
+    WrBlendTile tile = { .heights = heights, .cover_level = 1.0f, .mask_level = 1.0f };
+    if (join->weight) {
+        tile.mask = wr_field_tile(join->weight, tx, ty);
+        tile.mask_level = wr_field_level(join->weight);
+    }
+    wr_blend_tile(join->blend, 1.0f, join->radius, &tile, TEXELS, result);
+    int columns = wr_field_width(join->layer) - tx * WR_TILE;
+    int rows = wr_field_height(join->layer) - ty * WR_TILE;
+    columns = columns < WR_TILE ? columns : WR_TILE;
+    rows = rows < WR_TILE ? rows : WR_TILE;
+    float *out = NULL;
+    for (int y = 0; y < rows; y++) {
+        const float *row = result + y * WR_TILE;
+        for (int x = 0; x < columns && !out; x++) {
+            float was = old ? old[y * WR_TILE + x] : old_level;
+            if (memcmp(&row[x], &was, sizeof was) != 0)
+                out = wr_field_tile_write(join->layer, tx, ty);
+        }
+        if (out) memcpy(out + y * WR_TILE, row, (size_t)columns * sizeof *row);
+    }
+}
+
+static bool join_all(const Joining *join, const WrProgress *progress, WrError *err)
+{
+    for (int ty = 0; ty < wr_field_tiles_v(join->layer); ty++) {
+        if (!wr_progress_step(progress, (double)ty / wr_field_tiles_v(join->layer)))
+            return wr_fail(err, "cancelled");
+        for (int tx = 0; tx < wr_field_tiles_u(join->layer); tx++) join_tile(join, tx, ty);
+    }
+    return true;
+}
+
+/* Where and how much it acts: coverage times selection. A new field, or NULL for everywhere. */
+static WrField *weight_of(const WrField *cover, const WrField *selection)
+{
+    if (!cover && !selection) return NULL;
+    if (!cover || !selection) return wr_field_share(cover ? cover : selection);
+    WrField *weight = wr_field_share(cover);
+    float *row = wr_alloc((size_t)wr_field_width(cover), 2 * sizeof *row);
+    int width = wr_field_width(cover);
+    for (int j = 0; j < wr_field_height(cover) && !wr_progress_stopped(); j++) {
+        wr_field_read(cover, 0, j, width, 1, row, (size_t)width);
+        wr_field_read(selection, 0, j, width, 1, row + width, (size_t)width);
+        for (int i = 0; i < width; i++) row[i] = unit(row[i]) * unit(row[width + i]);
+        wr_field_write(weight, 0, j, width, 1, row, (size_t)width);
+    }
+    wr_free(row);
+    return weight;
+}
+
+bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
+                  WrLayer *layer, const WrProgress *progress, WrError *err)
+{
+    const WrGenerator *generator = wr_call_generator(call);
+    WrField *weight = weight_of(relief->cover, selection);
+    Joining joining = {
+        .blend = (WrBlend)wr_call_choice(call, wr_generator_argument(generator, "blend")),
+        .radius = (float)wr_call_number(call, wr_generator_argument(generator, "radius")),
+        .offset = wr_call_number(call, wr_generator_argument(generator, "offset")),
+        .heights = relief->heights,
+        .weight = weight,
+        .layer = layer->heights,
+    };
+    bool good = join_all(&joining, progress, err);
+    if (good) wr_edit_mark(layer->cover, weight);
+    wr_field_free(weight);
+    return good;
+}
+
+bool wr_run_generate(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrGenerator *generator = wr_call_generator(call);
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    WrProgressPart making, joining;
+    WrGenerateJob job = { .like = layer->heights,
+                          .pool = session->options.pool,
+                          .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9),
+                          .note = note,
+                          .note_ctx = session,
+                          .chose = keep_choice,
+                          .chose_ctx = call };
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    char *owned[WR_GENERATOR_PARAMS] = { NULL };
+    WrRelief relief = { NULL, NULL };
+    wr_call_values(call, generator, values);
+    bool good = resolve(session, call, generator, values, owned, err) &&
+                wr_generator_make(generator, values, &job, &relief, err) &&
+                wr_call_join(call, &relief, session->state.document->selection, layer,
+                             wr_progress_part(&joining, wr_progress_here(), 0.9, 1.0), err);
+    wr_relief_fini(&relief);
+    for (int i = 0; i < WR_GENERATOR_PARAMS; i++) wr_free(owned[i]);
+    return good;
+}
+
+static const char *blend_name(int i)
+{
+    return i < WR_BLEND_COUNT ? wr_blends[i].name : NULL;
+}
+
+const char *wr_generator_argument(const WrGenerator *generator, const char *plain)
+{
+    static const char *const names[][2] = { { "blend", "blend-mode" },
+                                            { "radius", "blend-radius" },
+                                            { "offset", "blend-offset" } };
+    int k = 0;
+    while (strcmp(names[k][0], plain) != 0) k++;
+    return names[k][wr_generator_param_find(generator, plain) >= 0];
+}
+
+static WrArgSpec argument(const WrParam *p)
+{
+    WrArgSpec spec = { .name = p->name,
+                       .type = WR_ARG_NUMBER,
+                       .positional = p->positional,
+                       .low = p->low,
+                       .high = p->high,
+                       .above = p->above,
+                       .shape = p->shape,
+                       .unit = p->unit && *p->unit ? p->unit : NULL,
+                       .help = p->help };
+    switch (p->kind) {
+    case WR_PARAM_NUMBER: spec.fallback = p->fallback; break;
+    case WR_PARAM_WHOLE:
+        spec.whole = true;
+        spec.fallback = p->fallback;
+        break;
+    case WR_PARAM_CHOICE:
+    case WR_PARAM_SWITCH:
+        spec.type = WR_ARG_CHOICE;
+        spec.words = p->kind == WR_PARAM_CHOICE ? p->words : wr_off_on;
+        spec.fallback_text = spec.words[(int)p->fallback[0]];
+        break;
+    case WR_PARAM_TUPLE:
+        spec.type = WR_ARG_TUPLE;
+        spec.components = p->components;
+        spec.fallback = p->fallback;
+        break;
+    case WR_PARAM_POINTS:
+        spec.type = WR_ARG_LIST;
+        spec.components = 2;
+        spec.rows_low = 1;
+        spec.rows_high = WR_GENERATOR_POINTS;
+        if (!spec.shape) spec.shape = "u,v;...";
+        break;
+    case WR_PARAM_TERMS:
+        spec.type = WR_ARG_LIST;
+        spec.required = true;
+        spec.components = p->components;
+        spec.parts = p->parts;
+        spec.counts = TUPLE_OF(p->fewest) | TUPLE_OF(p->components);
+        spec.rows_low = 1;
+        spec.rows_high = WR_TERMS_MAX;
+        break;
+    case WR_PARAM_TEXT:
+    case WR_PARAM_FILE:
+        spec.type = p->kind == WR_PARAM_TEXT ? WR_ARG_TEXT : WR_ARG_PATH;
+        spec.may_be_empty = p->kind == WR_PARAM_TEXT;
+        spec.required = !p->fallback_text;
+        spec.fallback_text = p->fallback_text;
+        break;
+    }
+    return spec;
+}
+
+/* The first file's is sha256, those of others have their names and come before it (wr_call_hash_name). */
+static int add_checksums(const WrGenerator *g, WrArgSpec *out)
+{
+    static const char *const others[][2] = { { "fallback", "fallback_sha256" },
+                                             { "fallback2", "fallback2_sha256" },
+                                             { "fallback3", "fallback3_sha256" } };
+    int count = 0;
+    bool any = false;
+    for (int i = 0; g->params[i].name; i++) {
+        if (g->params[i].kind != WR_PARAM_FILE) continue;
+        any = true;
+        for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+            if (strcmp(g->params[i].name, others[k][0]) == 0)
+                out[count++] = (WrArgSpec){ .name = others[k][1],
+                                            .type = WR_ARG_SHA256,
+                                            .help = "of that file" };
+    }
+    if (any)
+        out[count++] = (WrArgSpec){ .name = "sha256",
+                                    .type = WR_ARG_SHA256,
+                                    .help = "of the file: another content is then an error" };
+    return count;
+}
+
+static int add_shared(const WrGenerator *g, WrArgSpec *out)
+{
+    static const double radius[] = { 0.1 }, offset[] = { 0.0 };
+    int count = 0;
+    out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "blend"),
+                                .type = WR_ARG_CHOICE,
+                                .choice = blend_name,
+                                .fallback_text = g->blend,
+                                .help = "how it joins what is there" };
+    out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "radius"),
+                                .type = WR_ARG_NUMBER,
+                                .low = 0,
+                                .high = WR_BIG_HEIGHT,
+                                .fallback = radius,
+                                .unit = "table units",
+                                .help = "of the smooth ways to join" };
+    out[count++] = (WrArgSpec){ .name = wr_generator_argument(g, "offset"),
+                                .type = WR_ARG_NUMBER,
+                                .low = -WR_BIG_HEIGHT,
+                                .high = WR_BIG_HEIGHT,
+                                .fallback = offset,
+                                .unit = "table units",
+                                .help = "added to its heights first" };
+    return count + add_checksums(g, out + count);
+}
+
+/* One form a row of the family. */
+static bool form_of(const WrGenerator *rows, int index, WrForm *out)
+{
+    for (int i = 0; i < index; i++)
+        if (!rows[i].family) return false;
+    const WrGenerator *g = &rows[index];
+    if (!g->family) return false;
+    int count = wr_generator_param_count(g);
+    *out = (WrForm){ .name = g->name, .help = g->help };
+    for (int i = 0; i < count; i++) out->args[i] = argument(&g->params[i]);
+    add_shared(g, out->args + count);
+    return true;
+}
+
+static bool form_pattern(int i, WrForm *out)
+{
+    return form_of(wr_patterns, i, out);
+}
+
+static bool form_noise(int i, WrForm *out)
+{
+    return form_of(wr_noise_rows, i, out);
+}
+
+static bool form_formula(int i, WrForm *out)
+{
+    return form_of(wr_formula_rows, i, out);
+}
+
+static bool form_solid(int i, WrForm *out)
+{
+    return form_of(wr_solids, i, out);
+}
+
+static bool form_terrain(int i, WrForm *out)
+{
+    return form_of(wr_terrains, i, out);
+}
+
+static bool form_picture(int i, WrForm *out)
+{
+    return form_of(wr_picture_rows, i, out);
+}
+
+static bool row_text(WrForm *out)
+{
+    return form_of(wr_text_rows, 0, out);
+}
+
+/* ---- the rows ---- */
+
+const WrCommand wr_command_pattern = {
+    .name = "pattern",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_pattern,
+    .run = wr_run_generate,
+    .help = "bricks, tiles, cloth, cells and other regular things",
+    .details =
+        "They close at the table's edges, and origin= rolls them. What they make joins the "
+        "active "
+        "layer inside the selection, as blend= says: replace, unless the row has another way.",
+    .example = "pattern bricks across=4 rows=10 joint=5"
+};
+
+const WrCommand wr_command_noise = {
+    .name = "noise",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_noise,
+    .run = wr_run_generate,
+    .help = "sums of value, gradient or simplex noise",
+    .details =
+        "Heights become level + amplitude N, N the sum of octaves of ratio^-i noise, octave i "
+        "with "
+        "cells step^i cells, rounded, so that every octave closes at the table's edges. Octaves "
+        "that would alias are left out. `wrinkle inspect --noise` tells N at any point.",
+    .example = "noise perlin cells=6 octaves=5 amplitude=0.3"
+};
+
+const WrCommand wr_command_formula = {
+    .name = "formula",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_formula,
+    .run = wr_run_generate,
+    .help = "a polynomial or a Fourier series, texel by texel",
+    .details = "It is what `analytic` shows, as heights that can be painted on.",
+    .example = "formula fourier terms=3,0,0.5;0,5,0.25,90,0"
+};
+
+const WrCommand wr_command_text = {
+    .name = "text",
+    .kind = WR_CLASS_EDIT,
+    .row = row_text,
+    .run = wr_run_generate,
+    .help = "letters of any font and script, in relief",
+    .details = "They are added to the active layer, where they cover it, unless blend= says "
+               "otherwise. In quotes \\\\n begins a new line. Overlapping letters are one shape.",
+    .example = "text Wrinkle font=serif size=90 profile=round bevel=6"
+};
+
+const WrCommand wr_command_solid = {
+    .name = "solid",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_solid,
+    .run = wr_run_generate,
+    .help = "solids, letters and meshes seen from above by a Z-buffer",
+    .details = "They stand in the ground, which hides what is below height 0, and join the active "
+               "layer by max unless blend= says otherwise. across= and rows= make lattices of "
+               "them, crossing the table's edges exactly.",
+    .example = "solid sphere across=8 rows=8 radius=16"
+};
+
+const WrCommand wr_command_terrain = {
+    .name = "terrain",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_terrain,
+    .run = wr_run_generate,
+    .help = "mountains, real elevations, and what weather makes of them",
+    .details = "fractal and elevation make ground; hydraulic, thermal and terraces change what "
+               "lies in the active layer. Weather only moves ground: the mean height stays.",
+    .example = "terrain hydraulic rain=2"
+};
+
+const WrCommand wr_command_picture = {
+    .name = "picture",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "KIND",
+    .form = form_picture,
+    .run = wr_run_generate,
+    .help = "heights from pictures and from normal maps",
+    .details = "photo takes the light of a picture, made seamless; normals finds the heights "
+               "that a normal map belongs to, and whether its green points up or down.",
+    .example = "picture normals rock_normal.png height=0.1"
+};

@@ -1,0 +1,252 @@
+/* Going through what was done: script, undo, redo, view, history. */
+#include "command/args.h"
+#include "command/commands.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+bool wr_run_undo(WrSession *session, WrCall *call, WrError *err)
+{
+    int steps = (int)wr_call_number(call, "N");
+    int position = wr_session_history_position(session);
+    int most = position - wr_session_history_oldest(session);
+    if (position == 0) return wr_fail(err, "nothing to undo");
+    if (steps > most)
+        return wr_fail(err, "%d steps: %d can be undone%s", steps, most,
+                       position > most ? "; older states were given up to keep the history in its "
+                                         "budget"
+                                       : "");
+    return wr_session_go_to(session, position - steps, err);
+}
+
+bool wr_run_redo(WrSession *session, WrCall *call, WrError *err)
+{
+    int steps = (int)wr_call_number(call, "N");
+    int position = wr_session_history_position(session);
+    int most = wr_session_history_count(session) - position;
+    if (most == 0) return wr_fail(err, "nothing to redo");
+    if (steps > most) return wr_fail(err, "%d steps: %d can be redone", steps, most);
+    return wr_session_go_to(session, position + steps, err);
+}
+
+static bool run_history(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    if (wr_call_given(call, "budget"))
+        wr_session_set_history_budget(session, (size_t)wr_call_number(call, "budget"));
+    int position = wr_session_history_position(session);
+    wr_session_note(session, "%d steps can be undone, %d redone; they take %.1f of %.1f MB",
+                    position - wr_session_history_oldest(session),
+                    wr_session_history_count(session) - position,
+                    (double)wr_session_history_bytes(session) / 1e6,
+                    (double)wr_session_history_budget(session) / 1e6);
+    return true;
+}
+
+/* ---- as a script ---- */
+
+/* `path` as a script in `home` (absolute, "" if unknown) names it. Points into path. */
+static const char *seen_from(const char *home, const char *path)
+{
+    size_t length = strlen(home);
+    bool below = length > 0 && strncmp(path, home, length) == 0 && path[length] == '/';
+    return below ? path + length + 1 : path;
+}
+
+typedef struct Script {
+    WrText text;
+    const char *home; /* its folder */
+} Script;
+
+/* Files that were read carry a hash: name them so that the script finds them. */
+static void add_line(void *ctx, const char *line, const char *folder)
+{
+    Script *script = ctx;
+    WrText *text = &script->text;
+    WrCall *call = NULL;
+    if (!wr_call_parse(line, false, &call, NULL)) { /* cannot be: it ran */
+        wr_text_addf(text, "%s\n", line);
+        return;
+    }
+    for (int i = 0; i < call->count; i++) {
+        const char *hash = wr_call_hash_name(call, i);
+        if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
+        char *full = wr_path_join(folder ? folder : ".", call->args[i].text);
+        wr_call_set_text(call, call->specs[i].name, seen_from(script->home, full));
+        wr_free(full);
+    }
+    wr_call_print(call, text);
+    wr_text_add(text, "\n");
+    wr_call_free(call);
+}
+
+bool wr_session_save_history(WrSession *session, const char *path, WrError *err)
+{
+    char *folder = wr_path_folder(path), *real = realpath(folder, NULL);
+    Script script = { .home = real ? real : "" };
+    if (session->state.origin) add_line(&script, session->state.origin, NULL);
+    wr_session_lines(session, add_line, &script);
+    bool good = wr_file_write(path, wr_text_get(&script.text), script.text.length, err);
+    free(real);
+    wr_free(folder);
+    wr_text_fini(&script.text);
+    return good;
+}
+
+static bool run_script(WrSession *session, WrCall *call, WrError *err)
+{
+    return wr_session_save_history(session, wr_call_arg(call, "FILE")->text, err);
+}
+
+bool wr_run_view(WrSession *session, WrCall *call, WrError *err)
+{
+    WrViews *views = session->state.views;
+    bool back = strcmp(call->form_name, "back") == 0;
+    int steps = (int)wr_call_number(call, "N");
+    int most = back ? wr_views_back(views) : wr_views_forward(views);
+    if (most == 0) return wr_fail(err, "there is no view %s this one", back ? "before" : "after");
+    if (steps > most) return wr_fail(err, "%d views: there are %d", steps, most);
+    WrSceneView view = wr_views_go(views, back ? -steps : steps);
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    wr_scene_set_view(scene, &view);
+    wr_session_replace_scene(session, scene);
+    wr_history_look(session->state.history, session->state.document);
+    return true;
+}
+
+/* The lines that bring `view`. */
+static void put_view(const WrSceneView *view, WrLineSink *sink, void *ctx)
+{
+    WrText text = { 0 };
+    WrScene *scene = wr_scene_new();
+    wr_scene_set_view(scene, view);
+    if (!view->posed) wr_text_add(&text, "rotate pose=own\n");
+    wr_print_rotate(scene, &text);
+    wr_print_camera(scene, &text);
+    for (const char *p = wr_text_get(&text); *p;) {
+        size_t length = strcspn(p, "\n");
+        char *line = wr_strndup(p, length);
+        sink(ctx, line, NULL);
+        wr_free(line);
+        p += length + 1;
+    }
+    wr_scene_free(scene);
+    wr_text_fini(&text);
+}
+
+/* A view is needed where the lines end, and where a step brings one, since undoing that step brings back the
+   one before. A state that was given up is never gone back to. */
+void wr_session_lines(const WrSession *session, WrLineSink *sink, void *ctx)
+{
+    const WrHistory *history = session->state.history;
+    int position = wr_history_position(history);
+    WrSceneView now = wr_views_start(session->state.views), there;
+    bool known = true;
+    for (int i = 0; i <= position; i++) {
+        bool brings = i < position && wr_history_brings_view(history, i);
+        if ((brings || i == position) && wr_history_view(history, i, &there)) {
+            if (!known || !wr_scene_view_equal(&now, &there)) put_view(&there, sink, ctx);
+            now = there;
+            known = true;
+        }
+        if (i == position) break;
+        sink(ctx, wr_history_line(history, i), wr_history_folder(history, i));
+        known = known && !brings;
+    }
+}
+
+#define STEPS(help_)                                                                               \
+    {                                                                                              \
+        .name = "N", .type = WR_ARG_NUMBER, .positional = true, .whole = true, .low = 1,           \
+        .high = 1e9, .fallback = NUMBERS(1), .help = help_                                         \
+    }
+
+static const WrArgSpec args_undo[] = { STEPS("how many steps back"), { 0 } };
+
+static const WrArgSpec args_redo[] = { STEPS("how many steps forward"), { 0 } };
+
+static const WrForm view_forms[] = {
+    { .name = "back",
+      .help = "to views before this one",
+      .args = { STEPS("how many views back") } },
+    { .name = "forward",
+      .help = "to those that were gone back from",
+      .args = { STEPS("how many views forward") } },
+};
+
+static bool form_view(int i, WrForm *out)
+{
+    if (i >= (int)(sizeof view_forms / sizeof *view_forms)) return false;
+    *out = view_forms[i];
+    return true;
+}
+
+static const WrArgSpec args_history[] = {
+    { .name = "budget",
+      .type = WR_ARG_NUMBER,
+      .whole = true,
+      .low = 0,
+      .high = 1e15,
+      .unit = "bytes",
+      .help = "memory that old states may take; left out, it stays (at first 1 GiB)" },
+    { 0 }
+};
+
+static const WrArgSpec args_script[] = {
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a script, *.wrinkle" }, { 0 }
+};
+
+/* ---- the rows ---- */
+
+const WrCommand wr_command_script = {
+    .name = "script",
+    .kind = WR_CLASS_OUTPUT,
+    .args = args_script,
+    .run = run_script,
+    .help = "write what was done as a script",
+    .details = "The script makes the same document, bit for bit; undone steps are not in it, "
+               "and of the views only those that it takes.",
+    .example = "script bricks.wrinkle"
+};
+
+const WrCommand wr_command_undo = {
+    .name = "undo",
+    .kind = WR_CLASS_HISTORY,
+    .args = args_undo,
+    .run = wr_run_undo,
+    .help = "go back to before the last commands",
+    .details = "Every edit and every scene command is one step. How it is looked at stays, but "
+               "for a step that opened a document.",
+    .example = "undo 2"
+};
+
+const WrCommand wr_command_redo = { .name = "redo",
+                                    .kind = WR_CLASS_HISTORY,
+                                    .args = args_redo,
+                                    .run = wr_run_redo,
+                                    .help = "do again what was undone",
+                                    .example = "redo" };
+
+const WrCommand wr_command_view = {
+    .name = "view",
+    .kind = WR_CLASS_HISTORY,
+    .form_word = "WAY",
+    .form = form_view,
+    .run = wr_run_view,
+    .help = "go back and forth through how it was looked at",
+    .details = "Every `camera` and every `rotate` that changes something is one view; the last "
+               "thousand are kept. The edits stay as they are.",
+    .example = "view back 2"
+};
+
+const WrCommand wr_command_history = {
+    .name = "history",
+    .kind = WR_CLASS_HISTORY,
+    .args = args_history,
+    .run = run_history,
+    .help = "how much memory undo may take",
+    .details = "The oldest states go first; the last step can always be undone.",
+    .example = "history budget=2e9"
+};

@@ -1,0 +1,343 @@
+/* How pictures are made of it: material, colour, dials, tolerance. */
+#include "command/args.h"
+#include "command/commands.h"
+
+#include "base/hash.h"
+#include "base/memory.h"
+#include "document/document_file.h"
+
+#include <string.h>
+
+static void print_material(const WrScene *scene, WrText *text)
+{
+    const WrMaterial *m = &scene->material;
+    wr_text_add(text, "material");
+    wr_print_named(text, "ambient", m->ambient);
+    wr_print_named(text, "diffuse", m->diffuse);
+    wr_print_named(text, "specular", m->specular);
+    wr_print_named(text, "shininess", m->shininess);
+    wr_print_named_vec3(text, "colour", m->colour);
+    wr_text_addf(text, " gate=%s\n", m->gate ? "on" : "off");
+}
+
+void wr_print_colour(const WrScene *scene, WrText *text)
+{
+    if (!scene->colour) return;
+    wr_text_add(text, "colour ");
+    wr_text_add_word(text, scene->colour_path);
+    if (*scene->colour_sha256) wr_text_addf(text, " sha256=%s", scene->colour_sha256);
+    wr_text_add(text, "\n");
+}
+
+static void print_dials(const WrScene *scene, WrText *text)
+{
+    WrText dials = { 0 };
+    wr_dials_print(scene, "dials", true, &dials);
+    wr_text_addf(text, "dials %s\n", wr_text_get(&dials));
+    wr_text_fini(&dials);
+}
+
+static void print_tolerance(const WrScene *scene, WrText *text)
+{
+    static const char *const names[WR_TOLERANCE_COUNT] = { " off", " rms=", " max=", " time=" };
+    const WrTolerance *tolerance = &scene->tolerance;
+    wr_text_addf(text, "tolerance%s", names[tolerance->kind]);
+    if (tolerance->kind != WR_TOLERANCE_NONE) wr_text_add_number(text, tolerance->value);
+    wr_text_add(text, tolerance->kind == WR_TOLERANCE_TIME ? "s\n" : "\n");
+}
+
+static WrImage *session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err)
+{
+    char *path = wr_session_input_path(session, name);
+    WrImage *image = NULL;
+    const WrImageWish wish = wr_call_wish(call);
+    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
+    if (image) wr_session_note_read(session, path, image);
+    wr_free(path);
+    return image;
+}
+
+static bool run_material(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    WrMaterial *m = &scene->material;
+    wr_call_take_number(call, "ambient", &m->ambient);
+    wr_call_take_number(call, "diffuse", &m->diffuse);
+    wr_call_take_number(call, "specular", &m->specular);
+    wr_call_take_number(call, "shininess", &m->shininess);
+    wr_call_take_vec3(call, "colour", &m->colour);
+    if (wr_call_given(call, "gate")) m->gate = wr_call_choice(call, "gate") == 1;
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+/* ---- colour ---- */
+
+/* Linear RGB, or grey as one channel, without alpha; codes of 8 and 16 bits are decoded from sRGB. */
+static WrImage *linear_colour(const WrImage *from, WrError *err)
+{
+    int channels = from->channels < 3 ? 1 : 3;
+    WrImage *to = wr_image_new(from->width, from->height, channels, err);
+    if (!to) return NULL;
+    to->type = WR_PIXEL_F32;
+    size_t pixels = (size_t)from->width * (size_t)from->height;
+    bool decode = from->type != WR_PIXEL_F32;
+    for (size_t i = 0; i < pixels; i++)
+        for (int c = 0; c < channels; c++) {
+            float x = from->data[i * (size_t)from->channels + (size_t)c];
+            if (decode) x = wr_srgb_decode(x);
+            to->data[i * (size_t)channels + (size_t)c] = x > 0 ? x : 0;
+        }
+    return to;
+}
+
+/* The picture of a colour line: inside a document it is the one that the document carries. */
+static bool find_colour(WrSession *session, WrCall *call, const char *name, WrImage **colour,
+                        WrError *err)
+{
+    if (session->loading) {
+        *colour = session->embedded ? linear_colour(session->embedded, err) : NULL;
+        if (!session->embedded)
+            return wr_fail(err, "the document names the picture %s but does not hold it", name);
+        return *colour != NULL;
+    }
+    WrImage *image = session_read_image(session, call, name, err);
+    if (!image) return false;
+    *colour = linear_colour(image, err);
+    wr_image_free(image);
+    return *colour != NULL;
+}
+
+static bool run_colour(WrSession *session, WrCall *call, WrError *err)
+{
+    const char *name = wr_call_arg(call, "FILE|off")->text;
+    bool off = strcmp(name, "off") == 0;
+    WrImage *colour = NULL;
+    if (off && wr_call_given(call, "sha256")) return wr_fail(err, "off takes no sha256=");
+    if (!off && !find_colour(session, call, name, &colour, err)) return false;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    wr_image_free(scene->colour);
+    wr_free(scene->colour_path);
+    scene->colour = colour;
+    scene->colour_path = off ? NULL : wr_strdup(name);
+    memset(scene->colour_sha256, 0, sizeof scene->colour_sha256);
+    const char *hex = wr_call_arg(call, "sha256")->text;
+    if (hex) memcpy(scene->colour_sha256, hex, 64);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool run_dials(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    for (int i = 0; i < WR_DIAL_COUNT; i++) {
+        const WrDial *dial = &wr_dials[i];
+        if (strcmp(dial->command, "dials") != 0 || !wr_call_given(call, dial->name)) continue;
+        dial->set(scene, dial->choices > 0 ? wr_call_choice(call, dial->name)
+                                           : wr_call_number(call, dial->name));
+    }
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+/* ---- tolerance ---- */
+
+static bool duration_parse(const char *text, double *seconds)
+{
+    const size_t length = strlen(text);
+    const bool ms = length > 2 && strcmp(text + length - 2, "ms") == 0;
+    const bool s = !ms && length > 1 && text[length - 1] == 's';
+    double value;
+    if (!wr_number_parse(text, length - (ms ? 2 : s ? 1 : 0), &value)) return false;
+    value *= ms ? 1e-3 : 1;
+    if (!(value >= 1e-4 && value <= 3600)) return false;
+    *seconds = value;
+    return true;
+}
+
+static bool check_duration(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    double seconds;
+    if (duration_parse(value, &seconds)) return true;
+    return wr_fail(err, "%s=%.40s: must be a time such as 8ms or 0.5s, 0.1ms to 3600s", name,
+                   value);
+}
+
+static bool check_chosen(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    if (wr_choice_check(value, err)) return true;
+    wr_error_prefix(err, "%s: ", name);
+    return false;
+}
+
+static bool run_tolerance(WrSession *session, WrCall *call, WrError *err)
+{
+    static const char *const names[] = { "off", "rms", "max", "time" };
+    WrTolerance tolerance = { WR_TOLERANCE_NONE, 0 };
+    int given = 0;
+    for (int i = 0; i < WR_TOLERANCE_COUNT; i++) {
+        if (!wr_call_given(call, names[i])) continue;
+        given++;
+        tolerance.kind = (WrToleranceKind)i;
+        if (i == WR_TOLERANCE_TIME)
+            duration_parse(wr_call_arg(call, "time")->text, &tolerance.value);
+        else if (i != WR_TOLERANCE_NONE) tolerance.value = wr_call_number(call, names[i]);
+    }
+    if (given != 1)
+        return wr_fail(err, "tolerance: needs one of off, rms=, max= and time=, %s given",
+                       given == 0 ? "none is" : "several are");
+    const bool chosen = wr_call_given(call, "chosen");
+    if (chosen && tolerance.kind == WR_TOLERANCE_NONE)
+        return wr_fail(err, "tolerance: off and chosen= do not go together: without a tolerance "
+                            "the dials hold as they are set");
+    wr_session_keep_chosen(session, chosen ? wr_call_arg(call, "chosen")->text : NULL);
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->tolerance = tolerance;
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static const WrArgSpec args_material[] = {
+    { .name = "ambient", .type = WR_ARG_NUMBER, .low = 0, .high = 1000, .help = "ka" },
+    { .name = "diffuse", .type = WR_ARG_NUMBER, .low = 0, .high = 1000, .help = "kd" },
+    { .name = "specular", .type = WR_ARG_NUMBER, .low = 0, .high = 1000, .help = "ks" },
+    { .name = "shininess",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 1e6,
+      .help = "s, the highlight's exponent" },
+    { .name = "colour",
+      .type = WR_ARG_TUPLE,
+      .components = 3,
+      .low = 0,
+      .high = 1e6,
+      .shape = "r,g,b",
+      .help = "C, linear; does not tint the highlight" },
+    { .name = "gate",
+      .type = WR_ARG_CHOICE,
+      .words = wr_off_on,
+      .help = "highlight only where the light is above the surface" },
+    { 0 }
+};
+
+static const WrArgSpec args_colour[] = {
+    { PLACE("FILE|off"), .type = WR_ARG_PATH,
+      .help = "a picture that is laid over u and v as often as replicate says, like the table, or "
+              "off (a file of that name is ./off)" },
+    WR_ARGS_OF_FILE,
+    { .name = "sha256",
+      .type = WR_ARG_SHA256,
+      .help = "of the file: another content is then an error" },
+    { 0 }
+};
+
+static const char *tolerance_off(int i)
+{
+    return i == 0 ? "off" : NULL;
+}
+
+static const WrArgSpec args_tolerance[] = {
+    { .name = "off",
+      .type = WR_ARG_CHOICE,
+      .positional = true,
+      .choice = tolerance_off,
+      .help = "the dials hold as they are set" },
+    { .name = "rms",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .above = true,
+      .high = 1e6,
+      .unit = "linear intensity",
+      .help = "root mean square error over the object's pixels, at most" },
+    { .name = "max",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .above = true,
+      .high = 1e6,
+      .unit = "linear intensity",
+      .help = "error of any channel of any pixel, at most" },
+    { .name = "time",
+      .type = WR_ARG_TEXT,
+      .shape = "8ms or 0.5s",
+      .check = check_duration,
+      .help = "of a frame: the least error that it buys; 0.1ms to 3600s" },
+    { .name = "chosen",
+      .type = WR_ARG_TEXT,
+      .shape = "dials as save writes them",
+      .check = check_chosen,
+      .help =
+          "what was chosen for the last picture, block by block: used again for the same table, "
+          "scene, size and turn" },
+    { 0 }
+};
+
+/* One argument a dial: the table's rows that this command sets. */
+static bool row_dials(WrForm *out)
+{
+    int count = 0;
+    *out = (WrForm){ 0 };
+    for (int i = 0; i < WR_DIAL_COUNT; i++) {
+        const WrDial *dial = &wr_dials[i];
+        if (strcmp(dial->command, "dials") != 0) continue;
+        out->args[count++] = (WrArgSpec){ .name = dial->name,
+                                          .type = dial->choices > 0 ? WR_ARG_CHOICE : WR_ARG_NUMBER,
+                                          .choice = dial->choice,
+                                          .low = dial->low,
+                                          .high = dial->high,
+                                          .whole = dial->whole,
+                                          .help = dial->help };
+    }
+    return true;
+}
+
+/* ---- the rows ---- */
+
+const WrCommand wr_command_material = { .name = "material",
+                                        .kind = WR_CLASS_SCENE,
+                                        .args = args_material,
+                                        .run = run_material,
+                                        .print = print_material,
+                                        .help = "what the surface reflects",
+                                        .details = "Only what is given changes.",
+                                        .example =
+                                            "material diffuse=0.8 specular=0.3 shininess=60" };
+
+const WrCommand wr_command_colour = {
+    .name = "colour",
+    .kind = WR_CLASS_SCENE,
+    .args = args_colour,
+    .run = run_colour,
+    .print = wr_print_colour,
+    .help = "a colour picture on the surface",
+    .details =
+        "8-bit and 16-bit pictures are decoded from sRGB, float ones taken as linear; alpha is "
+        "left out. The picture is saved inside the document.",
+    .example = "colour peel.png"
+};
+
+const WrCommand wr_command_dials = { .name = "dials",
+                                     .kind = WR_CLASS_SCENE,
+                                     .row = row_dials,
+                                     .run = run_dials,
+                                     .print = print_dials,
+                                     .help = "accuracy against time",
+                                     .details = "Only what is given changes.",
+                                     .example = "dials aa=supersample samples=4" };
+
+const WrCommand wr_command_tolerance = {
+    .name = "tolerance",
+    .kind = WR_CLASS_SCENE,
+    .args = args_tolerance,
+    .run = run_tolerance,
+    .print = print_tolerance,
+    .help = "the cheapest dials that keep to an error",
+    .details = "One of the four. Each picture measures a sample of itself and takes, for each "
+               "kind of block that it has, the cheapest slopes, normals and samples that meet "
+               "the tolerance; `wrinkle explain` says what it took, and whether that holds. save "
+               "keeps what the last picture took in chosen=.",
+    .example = "tolerance rms=0.004"
+};

@@ -1,0 +1,308 @@
+/* Selections. */
+#include "command/args.h"
+#include "command/commands.h"
+
+#include "base/memory.h"
+#include "document/document.h"
+#include "field/ops.h"
+#include "field/select.h"
+
+#include <math.h>
+
+/* ---- select ---- */
+
+#define POINT(name_, help_)                                                                        \
+    {                                                                                              \
+        .name = name_, .type = WR_ARG_TUPLE, .required = true, .components = 2, .shape = "u,v",    \
+        .low = -WR_SELECT_REACH, .high = WR_SELECT_REACH, .help = help_                            \
+    }
+
+/* A form's work: the new selection, or NULL and an error. */
+typedef WrField *Maker(WrSession *session, const WrCall *call, WrError *err);
+
+static const WrField *like(const WrSession *session)
+{
+    return session->state.document->layers[0].heights;
+}
+
+static WrField *uniform(const WrSession *session, float level)
+{
+    const WrField *field = like(session);
+    return wr_field_new(wr_field_width(field), wr_field_height(field), wr_field_wrap_u(field),
+                        wr_field_wrap_v(field), level, NULL);
+}
+
+static WrField *select_all(WrSession *session, const WrCall *call, WrError *err)
+{
+    (void)call;
+    (void)err;
+    return uniform(session, 1.0f);
+}
+
+static WrField *select_invert(WrSession *session, const WrCall *call, WrError *err)
+{
+    (void)call;
+    (void)err;
+    const WrField *selection = session->state.document->selection;
+    return selection ? wr_select_invert(selection) : uniform(session, 1.0f);
+}
+
+/* ---- shapes ---- */
+
+static WrSelectPoint point(const WrCall *call, const char *name)
+{
+    const double *numbers = wr_call_arg(call, name)->numbers;
+    return (WrSelectPoint){ numbers[0], numbers[1] };
+}
+
+static WrField *select_rect(WrSession *session, const WrCall *call, WrError *err)
+{
+    return wr_select_rectangle(like(session), point(call, "from"), point(call, "to"),
+                               session->options.pool, err);
+}
+
+static WrField *select_ellipse(WrSession *session, const WrCall *call, WrError *err)
+{
+    WrSelectPoint c = point(call, "centre"), r = point(call, "radii");
+    WrSelectPoint a = { c.u - r.u, c.v - r.v }, b = { c.u + r.u, c.v + r.v };
+    return wr_select_ellipse(like(session), a, b, session->options.pool, err);
+}
+
+static WrField *select_lasso(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrArg *points = wr_call_arg(call, "points");
+    WrSelectPoint *corners =
+        wr_try_alloc((size_t)points->rows, sizeof *corners, "points of a lasso", err);
+    if (!corners) return NULL;
+    for (int i = 0; i < points->rows; i++)
+        corners[i] = (WrSelectPoint){ points->numbers[2 * i], points->numbers[2 * i + 1] };
+    WrField *made =
+        wr_select_lasso(like(session), corners, points->rows, session->options.pool, err);
+    wr_free(corners);
+    return made;
+}
+
+static WrField *select_height(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrField *f = wr_document_composite(session->state.document, session->options.pool);
+    return wr_select_height(f, wr_call_number(call, "low"), wr_call_number(call, "high"),
+                            wr_call_number(call, "soft"), session->options.pool, err);
+}
+
+/* Left out, relief is that of the unit cell as the scene shows it: its height over the width of a texel. */
+static WrField *select_slope(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    const WrField *f = wr_document_composite(document, session->options.pool);
+    double relief = fabs(document->scene->height) * wr_field_width(f);
+    if (wr_call_given(call, "relief")) relief = wr_call_number(call, "relief");
+    return wr_select_slope(f, relief, wr_call_number(call, "low"), wr_call_number(call, "high"),
+                           wr_call_number(call, "soft"), session->options.pool, err);
+}
+
+static WrField *select_flood(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrField *f = wr_document_composite(session->state.document, session->options.pool);
+    WrSelectPoint at = point(call, "u,v");
+    return wr_select_flood(f, at.u, at.v, wr_call_number(call, "tolerance"),
+                           wr_call_choice(call, "diagonal") == 1, session->options.pool,
+                           wr_progress_here(), err);
+}
+
+/* ---- changes of the present one ---- */
+
+static const WrField *present(const WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrField *selection = session->state.document->selection;
+    if (!selection) wr_fail(err, "nothing is selected that could %s", call->form_name);
+    return selection;
+}
+
+static WrField *select_grow(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrField *a = present(session, call, err);
+    return a ? wr_select_grow(a, wr_call_number(call, "by"), session->options.pool, err) : NULL;
+}
+
+static WrField *select_shrink(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrField *a = present(session, call, err);
+    return a ? wr_select_shrink(a, wr_call_number(call, "by"), session->options.pool, err) : NULL;
+}
+
+static WrField *select_feather(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrField *a = present(session, call, err);
+    return a ? wr_select_feather(a, wr_call_number(call, "by"), session->options.pool, err) : NULL;
+}
+
+/* In the order of form_select. */
+static const struct {
+    Maker *make; /* NULL: nothing selected, so edits act everywhere */
+    bool joins;  /* has mode= */
+} makers[] = { { select_all, false },   { NULL, false },          { select_invert, false },
+               { select_rect, true },   { select_ellipse, true }, { select_lasso, true },
+               { select_height, true }, { select_slope, true },   { select_flood, true },
+               { select_grow, false },  { select_shrink, false }, { select_feather, false } };
+
+/* Join what was made (taken) to the present selection. */
+static WrField *join(WrSession *session, const WrCall *call, WrField *made, WrError *err)
+{
+    WrSelectMode mode = (WrSelectMode)wr_call_choice(call, "mode");
+    if (mode == WR_SELECT_REPLACE) return made;
+    WrField *joined = wr_select_combine(session->state.document->selection, made, mode, err);
+    wr_field_free(made);
+    return joined;
+}
+
+static bool run_select(WrSession *session, WrCall *call, WrError *err)
+{
+    WrDocument *document = session->state.document;
+    WrField *made = NULL;
+    if (makers[call->form].make) {
+        made = makers[call->form].make(session, call, err);
+        if (made && makers[call->form].joins) made = join(session, call, made, err);
+        if (!made) return false;
+        float low, high;
+        wr_field_range(made, &low, &high);
+        if (!(high > 0.0f))
+            wr_session_note(session, "nothing is inside the selection: edits will change nothing");
+    }
+    wr_field_free(document->selection);
+    document->selection = made;
+    return true;
+}
+
+static const char *const join_modes[] = { "replace", "add", "subtract", "intersect", NULL };
+
+#define JOIN                                                                                       \
+    {                                                                                              \
+        .name = "mode", .type = WR_ARG_CHOICE, .words = join_modes, .fallback_text = "replace",    \
+        .help = "how it joins what is selected already"                                            \
+    }
+
+#define TEXELS(most, help_)                                                                        \
+    {                                                                                              \
+        .name = "by", .type = WR_ARG_NUMBER, .required = true, .low = 0, .high = most,             \
+        .unit = "texels", .help = help_                                                            \
+    }
+
+#define HEIGHT(name_, help_)                                                                       \
+    {                                                                                              \
+        .name = name_, .type = WR_ARG_NUMBER, .required = true, .low = -WR_BIG_HEIGHT,             \
+        .high = WR_BIG_HEIGHT, .help = help_                                                       \
+    }
+
+#define ANGLE(name_, default_, help_)                                                              \
+    {                                                                                              \
+        .name = name_, .type = WR_ARG_NUMBER, .low = 0, .high = 90, .fallback = NUMBERS(default_), \
+        .unit = "degrees", .help = help_                                                           \
+    }
+
+/* In the order of run_select.c. */
+static const WrForm select_forms[] = {
+    { .name = "all", .help = "everything, as a selection that can be changed" },
+    { .name = "none", .help = "no selection: edits act everywhere" },
+    { .name = "invert", .help = "what is not selected; without a selection, all" },
+    { .name = "rect",
+      .help = "a rectangle; a corner beyond 0 or 1 crosses the table's edge",
+      .args = { POINT("from", "a corner"), POINT("to", "the corner across"), JOIN } },
+    { .name = "ellipse",
+      .help = "an ellipse, its sides along u and v",
+      .args = { POINT("centre", "its middle"),
+                { .name = "radii",
+                  .type = WR_ARG_TUPLE,
+                  .required = true,
+                  .components = 2,
+                  .shape = "ru,rv",
+                  .low = 0,
+                  .high = WR_SELECT_REACH,
+                  .help = "half its width and height, in parts of the cell as u and v" },
+                JOIN } },
+    { .name = "lasso",
+      .help = "a polygon",
+      .args = { { .name = "points",
+                  .type = WR_ARG_LIST,
+                  .required = true,
+                  .components = 2,
+                  .shape = "u,v;...",
+                  .rows_low = 3,
+                  .rows_high = WR_SELECT_POINTS,
+                  .low = -WR_SELECT_REACH,
+                  .high = WR_SELECT_REACH,
+                  .help = "its corners in order" },
+                JOIN } },
+    { .name = "height",
+      .help = "where the composited height lies in a range",
+      .args = { HEIGHT("low", "lower end"),
+                HEIGHT("high", "upper end"),
+                { .name = "soft",
+                  .type = WR_ARG_NUMBER,
+                  .low = 0,
+                  .high = WR_BIG_HEIGHT,
+                  .fallback = NUMBERS(0),
+                  .unit = "height units",
+                  .help = "over how much it fades beyond the ends" },
+                JOIN } },
+    { .name = "slope",
+      .help = "where the composite's slope lies in a range",
+      .args = { ANGLE("low", 0, "lower end"),
+                ANGLE("high", 90, "upper end"),
+                ANGLE("soft", 0, "over how much it fades beyond the ends"),
+                { .name = "relief",
+                  .type = WR_ARG_NUMBER,
+                  .low = 0,
+                  .above = true,
+                  .high = 1e30,
+                  .unit = "texels",
+                  .help = "how tall a height of 1 is; left out, as the scene's height makes it "
+                          "on a cell that is one scene unit wide" },
+                JOIN } },
+    { .name = "flood",
+      .help = "a connected part of the composite that is of about one height, without soft edge",
+      .args = { { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2, .low = -1e6, .high = 1e6,
+                  .help = "where it begins" },
+                { .name = "tolerance",
+                  .type = WR_ARG_NUMBER,
+                  .low = 0,
+                  .high = WR_BIG_HEIGHT,
+                  .fallback = NUMBERS(0.01),
+                  .unit = "height units",
+                  .help = "how far heights may be from the one at u,v" },
+                { .name = "diagonal",
+                  .type = WR_ARG_CHOICE,
+                  .words = wr_off_on,
+                  .fallback_text = "off",
+                  .help = "on: texels that meet at a corner are connected too" },
+                JOIN } },
+    { .name = "grow",
+      .help = "move its edge outwards",
+      .args = { TEXELS(WR_FIELD_MAX, "how far") } },
+    { .name = "shrink",
+      .help = "move its edge inwards",
+      .args = { TEXELS(WR_FIELD_MAX, "how far") } },
+    { .name = "feather",
+      .help = "blur its edge",
+      .args = { TEXELS(1024, "standard deviation of the Gaussian") } },
+};
+
+static bool form_select(int i, WrForm *out)
+{
+    if (i >= (int)(sizeof select_forms / sizeof *select_forms)) return false;
+    *out = select_forms[i];
+    return true;
+}
+
+/* ---- the row ---- */
+
+const WrCommand wr_command_select = {
+    .name = "select",
+    .kind = WR_CLASS_EDIT,
+    .form_word = "WHAT",
+    .form = form_select,
+    .run = run_select,
+    .help = "choose where edits act",
+    .details = "Shapes wrap round periodic edges, and their edges are smooth. An edit under a "
+               "selection s leaves old + s (new - old), and where s is 0 every bit as it was.",
+    .example = "select ellipse centre=0.5,0.5 radii=0.3,0.2"
+};

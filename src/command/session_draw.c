@@ -1,0 +1,25 @@
+/* Drawing a whole stroke at once, cancellable. */
+#include "command/inner.h"
+
+#include "base/progress.h"
+
+#define SLICE 0.05 /* seconds between two looks at whether somebody wants it to stop */
+
+bool wr_session_draw(const WrPainting *painting, WrSampleAt *sample, const void *ctx, int count,
+                     WrError *err)
+{
+    WrStroke *stroke = wr_stroke_new_on(&painting->ground, &painting->held.brush);
+    bool more = true;
+    for (int i = 0; i < count; i++) {
+        wr_stroke_push(stroke, sample(ctx, i));
+        do {
+            if (!wr_progress_tell((double)i / count)) {
+                wr_stroke_abandon(stroke);
+                return wr_fail(err, "cancelled");
+            }
+            more = wr_stroke_work(stroke, SLICE);
+        } while (more);
+    }
+    wr_stroke_free(stroke);
+    return true;
+}

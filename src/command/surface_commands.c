@@ -1,0 +1,345 @@
+/* What carries the table and how it is wrinkled: surface, rotate, analytic, bump, replicate. */
+#include "command/args.h"
+#include "command/commands.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static void print_surface(const WrScene *scene, WrText *text)
+{
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    const double *value = scene->shape.value;
+    wr_text_addf(text, "surface %s", info->name);
+    for (int k = 0; k < WR_SURFACE_PARAMS && info->params[k].name; k++) {
+        int components = info->params[k].components, point = components <= 3 ? components : 3;
+        wr_text_addf(text, " %s=", info->params[k].name);
+        for (int i = 0; i < components; i++) {
+            if (i > 0) wr_text_add(text, i % point == 0 ? ";" : ",");
+            wr_text_add_number(text, *value++);
+        }
+    }
+    wr_text_add(text, "\n");
+}
+
+void wr_print_rotate(const WrScene *scene, WrText *text)
+{
+    if (!scene->posed) return;
+    wr_text_add(text, "rotate ");
+    wr_print_vec3(text, scene->rotate_deg);
+    wr_text_add(text, "\n");
+}
+
+static void print_analytic(const WrScene *scene, WrText *text)
+{
+    const WrAnalytic *analytic = &scene->analytic;
+    if (analytic->kind == WR_ANALYTIC_OFF) return;
+    bool fourier = analytic->kind == WR_ANALYTIC_FOURIER;
+    wr_text_add(text, fourier ? "analytic fourier terms=" : "analytic poly c=");
+    for (int i = 0; i < analytic->count; i++) {
+        const WrAnalyticTerm *term = &analytic->terms[i];
+        wr_text_addf(text, "%s%d,%d,", i ? ";" : "", term->i, term->j);
+        wr_text_add_number(text, term->a);
+        if (!fourier || (term->phase_u_deg == 0 && term->phase_v_deg == 0)) continue;
+        wr_text_add(text, ",");
+        wr_text_add_number(text, term->phase_u_deg);
+        wr_text_add(text, ",");
+        wr_text_add_number(text, term->phase_v_deg);
+    }
+    wr_text_add(text, "\n");
+}
+
+static void print_bump(const WrScene *scene, WrText *text)
+{
+    wr_text_addf(text, "bump mode=%s scheme=%s", wr_bump_names[scene->bump],
+                 wr_schemes[scene->scheme].name);
+    wr_print_named(text, "height", scene->height);
+    wr_text_add(text, "\n");
+}
+
+static void print_replicate(const WrScene *scene, WrText *text)
+{
+    wr_text_add(text, "replicate ");
+    wr_text_add_number(text, scene->replicate_u);
+    wr_text_add(text, ",");
+    wr_text_add_number(text, scene->replicate_v);
+    wr_text_add(text, "\n");
+}
+
+/* HC41: on a closed surface a replication that is not whole leaves a seam. */
+static void warn_seam(WrSession *session, const WrScene *scene)
+{
+    const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
+    double u = scene->replicate_u, v = scene->replicate_v;
+    if ((info->closed_u && u != floor(u)) || (info->closed_v && v != floor(v)))
+        wr_session_note(
+            session,
+            "replicate %g,%g leaves a seam on the %s, which is closed: whole numbers do not", u, v,
+            info->name);
+}
+
+static bool run_surface(WrSession *session, WrCall *call, WrError *err)
+{
+    WrShape shape = { .kind = (WrSurfaceKind)call->form };
+    wr_shape_default(shape.kind, &shape);
+    for (int i = 0; i < call->count; i++) {
+        if (!call->args[i].given) continue;
+        int offset = wr_surface_param_offset(shape.kind, call->specs[i].name);
+        WR_ASSERT(offset >= 0);
+        memcpy(shape.value + offset, call->args[i].numbers,
+               (size_t)call->args[i].rows * (size_t)wr_arg_width(&call->specs[i]) * sizeof(double));
+    }
+    if (!wr_shape_check(&shape, err)) return false;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->shape = shape;
+    warn_seam(session, scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool run_rotate(WrSession *session, WrCall *call, WrError *err)
+{
+    bool own = wr_call_given(call, "pose"), turned = wr_call_given(call, "x,y,z");
+    if (own == turned) return wr_fail(err, "needs one of x,y,z and pose=own");
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->posed = turned;
+    scene->rotate_deg = turned ? wr_call_vec3(call, "x,y,z") : (WrVec3){ 0 };
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool run_analytic(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    static const struct {
+        const char *form, *list;
+        WrAnalyticKind kind;
+    } forms[] = { { "poly", "c", WR_ANALYTIC_POLY },
+                  { "fourier", "terms", WR_ANALYTIC_FOURIER },
+                  { "off", NULL, WR_ANALYTIC_OFF } };
+    int which = 0;
+    while (strcmp(forms[which].form, call->form_name) != 0) which++;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    wr_free(scene->analytic.terms);
+    scene->analytic = (WrAnalytic){ .kind = forms[which].kind };
+    if (forms[which].list) {
+        const WrArg *list = wr_call_arg(call, forms[which].list);
+        size_t width = forms[which].kind == WR_ANALYTIC_POLY ? 3 : 5;
+        scene->analytic.terms = wr_alloc((size_t)list->rows, sizeof *scene->analytic.terms);
+        scene->analytic.count = list->rows;
+        for (int i = 0; i < list->rows; i++) {
+            const double *row = list->numbers + width * (size_t)i;
+            scene->analytic.terms[i] =
+                (WrAnalyticTerm){ (int)row[0], (int)row[1], row[2], width > 3 ? row[3] : 0,
+                                  width > 3 ? row[4] : 0 };
+        }
+    }
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool run_bump(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    if (wr_call_given(call, "mode")) scene->bump = (WrBumpMode)wr_call_choice(call, "mode");
+    if (wr_call_given(call, "scheme")) scene->scheme = (WrScheme)wr_call_choice(call, "scheme");
+    if (wr_call_given(call, "height")) scene->height = wr_call_number(call, "height");
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool run_replicate(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    const WrArg *arg = wr_call_arg(call, "ru,rv");
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->replicate_u = arg->numbers[0];
+    scene->replicate_v = arg->numbers[1];
+    warn_seam(session, scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static const char *bump_name(int i)
+{
+    return i < WR_BUMP_COUNT ? wr_bump_names[i] : NULL;
+}
+
+static const char *scheme_name(int i)
+{
+    return i < WR_SCHEME_COUNT ? wr_schemes[i].name : NULL;
+}
+
+static const WrComponent poly_parts[] = { { "i", 0, 64, true },
+                                          { "j", 0, 64, true },
+                                          { "a", -1e30, 1e30, false } };
+
+static const WrComponent fourier_parts[] = {
+    { "k", -16384, 16384, true },    { "l", -16384, 16384, true },    { "a", -1e30, 1e30, false },
+    { "phase_u", -1e9, 1e9, false }, { "phase_v", -1e9, 1e9, false },
+};
+
+static const WrForm analytic_forms[] = {
+    { .name = "poly",
+      .help = "sum of a u^i v^j",
+      .args = { { .name = "c",
+                  .type = WR_ARG_LIST,
+                  .required = true,
+                  .components = 3,
+                  .parts = poly_parts,
+                  .rows_low = 1,
+                  .rows_high = WR_TERMS_MAX,
+                  .shape = "i,j,a;...",
+                  .help = "the terms" } } },
+    { .name = "fourier",
+      .help = "sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v), phases in degrees",
+      .args = { { .name = "terms",
+                  .type = WR_ARG_LIST,
+                  .required = true,
+                  .components = 5,
+                  .parts = fourier_parts,
+                  .counts = TUPLE_OF(3) | TUPLE_OF(5),
+                  .rows_low = 1,
+                  .rows_high = WR_TERMS_MAX,
+                  .shape = "k,l,a[,phase_u,phase_v];...",
+                  .help = "the terms" } } },
+    { .name = "off", .help = "the table again" },
+};
+
+static bool form_analytic(int i, WrForm *out)
+{
+    if (i >= (int)(sizeof analytic_forms / sizeof *analytic_forms)) return false;
+    *out = analytic_forms[i];
+    return true;
+}
+
+/* A surface's parameters as arguments; numbers of 3n components are lists of n points. */
+static bool form_surface(int i, WrForm *out)
+{
+    if (i >= WR_SURFACE_COUNT) return false;
+    const WrSurfaceInfo *info = wr_surfaces[i];
+    *out = (WrForm){ .name = info->name, .help = info->help };
+    for (int k = 0; k < WR_SURFACE_PARAMS && info->params[k].name; k++) {
+        const WrSurfaceParam *p = &info->params[k];
+        WrArgSpec spec = { .name = p->name,
+                           .low = p->low,
+                           .high = p->high,
+                           .help = p->help,
+                           .fallback = p->fallback };
+        spec.type = p->components == 1   ? WR_ARG_NUMBER
+                    : p->components <= 3 ? WR_ARG_TUPLE
+                                         : WR_ARG_LIST;
+        spec.components = p->components <= 3 ? p->components : 3;
+        if (spec.type == WR_ARG_LIST) {
+            spec.rows_low = spec.rows_high = spec.fallback_rows = p->components / 3;
+            spec.shape = "x,y,z;...";
+        }
+        out->args[k] = spec;
+    }
+    return true;
+}
+
+static const WrArgSpec args_bump[] = {
+    { .name = "mode",
+      .type = WR_ARG_CHOICE,
+      .choice = bump_name,
+      .help =
+          "how the normal is made: unchanged, the paper's N + D, the same whatever the scale, or "
+          "the true normal of the displaced surface" },
+    { .name = "scheme",
+      .type = WR_ARG_CHOICE,
+      .choice = scheme_name,
+      .help = "how F is differentiated" },
+    { .name = "height",
+      .type = WR_ARG_NUMBER,
+      .low = -1e30,
+      .high = 1e30,
+      .unit = "scene units",
+      .help = "displacement where the table is 1" },
+    { 0 }
+};
+
+static const WrArgSpec args_replicate[] = { { PLACE("ru,rv"), .type = WR_ARG_TUPLE, .components = 2,
+                                              .low = -1e9, .high = 1e9,
+                                              .help = "how often the table repeats along u and v" },
+                                            { 0 } };
+
+static const char *pose_word(int i)
+{
+    return i == 0 ? "own" : NULL;
+}
+
+static const WrArgSpec args_rotate[] = {
+    { .name = "x,y,z",
+      .type = WR_ARG_TUPLE,
+      .positional = true,
+      .components = 3,
+      .low = -1e9,
+      .high = 1e9,
+      .unit = "degrees",
+      .help = "turns about the world's x, then y, then z axis" },
+    { .name = "pose",
+      .type = WR_ARG_CHOICE,
+      .choice = pose_word,
+      .help = "instead: the pose in which each surface first shows itself" },
+    { 0 }
+};
+
+/* ---- the rows ---- */
+
+const WrCommand wr_command_surface = { .name = "surface",
+                                       .kind = WR_CLASS_SCENE,
+                                       .form_word = "NAME",
+                                       .form = form_surface,
+                                       .run = run_surface,
+                                       .print = print_surface,
+                                       .help = "the surface that the table wrinkles",
+                                       .details =
+                                           "Parameters that are left out take their defaults.",
+                                       .example = "surface torus R=1 r=0.35" };
+
+const WrCommand wr_command_rotate = {
+    .name = "rotate",
+    .kind = WR_CLASS_VIEW,
+    .args = args_rotate,
+    .run = run_rotate,
+    .print = wr_print_rotate,
+    .help = "the object's orientation",
+    .details =
+        "It replaces the pose in which the surface first shows itself, and turns about the "
+        "object's centre, which stands at the world's origin. A view is no edit: undo leaves it "
+        "as it is, `view back` goes back.",
+    .example = "rotate -90,0,30"
+};
+
+const WrCommand wr_command_analytic = {
+    .name = "analytic",
+    .kind = WR_CLASS_SCENE,
+    .form_word = "KIND",
+    .form = form_analytic,
+    .run = run_analytic,
+    .print = print_analytic,
+    .help = "a formula in place of the table",
+    .details = "It is evaluated at (ru u, rv v) reduced to [0,1), like a table, with exact "
+               "derivatives.",
+    .example = "analytic fourier terms=3,0,0.5;0,5,0.25,90,0"
+};
+
+const WrCommand wr_command_bump = { .name = "bump",
+                                    .kind = WR_CLASS_SCENE,
+                                    .args = args_bump,
+                                    .run = run_bump,
+                                    .print = print_bump,
+                                    .help = "how the table turns the normal",
+                                    .details = "Only what is given changes.",
+                                    .example = "bump mode=exact height=0.05" };
+
+const WrCommand wr_command_replicate = { .name = "replicate",
+                                         .kind = WR_CLASS_SCENE,
+                                         .args = args_replicate,
+                                         .run = run_replicate,
+                                         .print = print_replicate,
+                                         .help = "how often the table repeats over the surface",
+                                         .example = "replicate 6,3" };

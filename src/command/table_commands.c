@@ -1,0 +1,374 @@
+/* Commands of the table as a whole: table, fill, grid, open, image. */
+#include "command/args.h"
+#include "command/commands.h"
+
+#include "base/hash.h"
+#include "base/memory.h"
+#include "document/document_file.h"
+#include "generate/generator.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool run_table(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrArg *size = wr_call_arg(call, "WxH");
+    int wrap = wr_call_choice(call, "wrap"); /* bit 0: clamp u, bit 1: clamp v */
+    WrField *field = wr_field_new((int)size->numbers[0], (int)size->numbers[1],
+                                  wrap & 1 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC,
+                                  wrap & 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC, 0, err);
+    if (!field) return false;
+    wr_document_start_over(session->state.document, field);
+    return true;
+}
+
+/* A table like the layer's, every height `level`. */
+static WrField *flat_like(const WrField *field, double level)
+{
+    return wr_field_new(wr_field_width(field), wr_field_height(field), wr_field_wrap_u(field),
+                        wr_field_wrap_v(field), (float)level, NULL);
+}
+
+static bool run_fill(WrSession *session, WrCall *call, WrError *err)
+{
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    wr_session_put_heights(session, layer, flat_like(layer->heights, wr_call_number(call, "F")));
+    return true;
+}
+
+/* ---- grid ---- */
+
+/* Which of `count` texels along an axis of `cells` cells lie on a line: with the texel's centre at
+ * i + 1/2 and boundaries at multiples of count/cells, the signed distance p to the nearest boundary is
+ * an exact fraction q / (2 cells), q whole, -count <= q < count; high where -width/2 <= p < width/2. */
+static void mark_lines(int count, int cells, double width, unsigned char *high)
+{
+    double limit = width * cells; /* of q */
+    for (int i = 0; i < count; i++) {
+        int64_t q = (2 * (int64_t)i + 1) * cells % (2 * (int64_t)count);
+        if (q >= count) q -= 2 * (int64_t)count;
+        high[i] = -limit <= (double)q && (double)q < limit;
+    }
+}
+
+static bool any_set(const unsigned char *marks, int count)
+{
+    return memchr(marks, 1, (size_t)count) != NULL;
+}
+
+static void draw_lines(WrField *field, const unsigned char *columns, const unsigned char *rows,
+                       float level)
+{
+    int width = wr_field_width(field), height = wr_field_height(field);
+    for (int ty = 0; ty < wr_field_tiles_v(field); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(field); tx++) {
+            int i = tx * WR_TILE, j = ty * WR_TILE;
+            int w = width - i < WR_TILE ? width - i : WR_TILE;
+            int h = height - j < WR_TILE ? height - j : WR_TILE;
+            if (!any_set(columns + i, w) && !any_set(rows + j, h)) continue;
+            float *texels = wr_field_tile_write(field, tx, ty);
+            for (int y = 0; y < h; y++)
+                for (int x = 0; x < w; x++)
+                    if (columns[i + x] || rows[j + y]) texels[WR_TILE * y + x] = level;
+        }
+}
+
+static bool run_grid(WrSession *session, WrCall *call, WrError *err)
+{
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    WrField *field = flat_like(layer->heights, wr_call_number(call, "low"));
+    const WrArg *cells = wr_call_arg(call, "cells");
+    double width = wr_call_number(call, "width");
+    unsigned char *columns = wr_alloc((size_t)wr_field_width(field), 1);
+    unsigned char *rows = wr_alloc((size_t)wr_field_height(field), 1);
+    mark_lines(wr_field_width(field), (int)cells->numbers[0], width, columns);
+    mark_lines(wr_field_height(field), (int)cells->numbers[1], width, rows);
+    draw_lines(field, columns, rows, (float)wr_call_number(call, "high"));
+    wr_free(columns);
+    wr_free(rows);
+    wr_session_put_heights(session, layer, field);
+    return true;
+}
+
+/* ---- open ---- */
+
+static bool run_open(WrSession *session, WrCall *call, WrError *err)
+{
+    char *path = wr_session_input_path(session, wr_call_arg(call, "FILE")->text);
+    bool good = wr_session_check_sha256(call, path, err) && wr_session_load(session, path, err);
+    wr_free(path);
+    return good;
+}
+
+static bool same_size(const WrField *a, const WrField *b)
+{
+    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
+}
+
+/* A picture of another size makes the table another; so it can only where there is nothing but one layer. */
+static bool replace_table(WrSession *session, WrLayer *layer, WrField *field, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    if (document->layer_count > 1 || document->selection || layer->mask) {
+        wr_fail(err,
+                "the picture is %dx%d, the table %dx%d: with more layers, a mask or a selection it "
+                "must be resampled (fit=table)",
+                wr_field_width(field), wr_field_height(field), wr_field_width(layer->heights),
+                wr_field_height(layer->heights));
+        wr_field_free(field);
+        return false;
+    }
+    wr_field_free(layer->heights);
+    wr_field_free(layer->cover);
+    layer->heights = field;
+    layer->cover = NULL;
+    return true;
+}
+
+static void hear(void *ctx, const char *text)
+{
+    wr_session_note(ctx, "%s", text);
+}
+
+static WrParamValue *value_of(const WrGenerator *row, WrParamValue *values, const char *name)
+{
+    return &values[wr_generator_param_find(row, name)];
+}
+
+static void turn_over(WrField *field)
+{
+    const int width = wr_field_width(field);
+    float *row = wr_alloc((size_t)width, sizeof *row);
+    for (int j = 0; j < wr_field_height(field); j++) {
+        wr_field_read(field, 0, j, width, 1, row, (size_t)width);
+        for (int i = 0; i < width; i++) row[i] = 0.0f - row[i];
+        wr_field_write(field, 0, j, width, 1, row, (size_t)width);
+    }
+    wr_free(row);
+}
+
+/* The heights that have the normals of a map of ours; a negative height turned them round. */
+static WrField *heights_of_map(WrSession *session, const WrImageLabel *label, const char *path,
+                               const WrField *like, WrError *err)
+{
+    const WrGenerator *row = wr_generator_find("picture", "normals");
+    WrParamValue values[WR_GENERATOR_PARAMS];
+    WrRelief relief = { NULL, NULL };
+    wr_generator_defaults(row, values);
+    value_of(row, values, "file")->text = path;
+    value_of(row, values, "y")->number[0] = label->kind == WR_LABEL_NORMAL_UP ? 1 : 2;
+    value_of(row, values, "cell")->number[0] = label->cell[0];
+    value_of(row, values, "cell")->number[1] = label->cell[1];
+    value_of(row, values, "height")->number[0] = fabs(label->height);
+    WrGenerateJob job = {
+        .like = like, .pool = session->options.pool, .note = hear, .note_ctx = session
+    };
+    if (!wr_generator_make(row, values, &job, &relief, err)) return NULL;
+    wr_field_free(relief.cover);
+    if (label->height < 0) turn_over(relief.heights);
+    return relief.heights;
+}
+
+static void note_range(WrSession *session, const WrImage *image, const char *path)
+{
+    const WrImageLabel *label = &image->label;
+    const double last = image->type == WR_PIXEL_U8 ? 255 : 65535;
+    wr_session_note(session,
+                    "%s: its label tells that codes 0 to %g are heights %g to %g: so they are read "
+                    "(labels=ignore reads 0 to 1)",
+                    path, last, label->low - label->step * label->zero,
+                    label->low + label->step * (last - label->zero));
+}
+
+/* The heights of a picture in a table like `like`, by what its label says of it. */
+static WrField *heights_of(WrSession *session, WrImageRows *rows, const char *path, bool labels,
+                           const WrField *like, WrError *err)
+{
+    const WrImage *image = wr_image_rows_head(rows);
+    const WrImageLabel *label = &image->label;
+    if (labels && label->refused[0])
+        wr_session_note(session, "%s: its label %s makes no sense and is not used", path,
+                        label->refused);
+    if (labels && label->kind >= WR_LABEL_NORMAL_UP) {
+        wr_session_note(
+            session,
+            "%s: its label tells that it is a normal map: read as the heights that have "
+            "its normals (labels=ignore reads its luma)",
+            path);
+        return heights_of_map(session, label, path, like, err);
+    }
+    const bool ranged = labels && wr_image_rows_apply_range(rows);
+    WrField *field = wr_import_rows(rows, wr_field_width(like), wr_field_height(like),
+                                    wr_field_wrap_u(like), wr_field_wrap_v(like), err);
+    if (!field) return NULL;
+    wr_session_note_read(session, path, image);
+    if (ranged) note_range(session, image, path);
+    return field;
+}
+
+static bool run_image(WrSession *session, WrCall *call, WrError *err)
+{
+    const bool fit = wr_call_given(call, "fit"), labels = wr_call_choice(call, "labels") == 0;
+    const char *name = wr_call_arg(call, "FILE")->text;
+    WrLayer *layer = wr_session_layer(session, err);
+    if (!layer) return false;
+    const WrField *old = layer->heights;
+    char *path = wr_session_input_path(session, name);
+    const WrImageWish wish = wr_call_wish(call);
+    WrImageRows *rows = NULL;
+    if (wr_session_check_sha256(call, path, err)) rows = wr_image_rows_open(path, &wish, err);
+    const WrImage *image = rows ? wr_image_rows_head(rows) : NULL;
+    WrField *like = !image ? NULL
+                    : fit  ? wr_field_share(old)
+                           : wr_field_new(image->width, image->height, wr_field_wrap_u(old),
+                                          wr_field_wrap_v(old), 0, err);
+    WrField *field = like ? heights_of(session, rows, path, labels, like, err) : NULL;
+    wr_field_free(like);
+    wr_free(path);
+    wr_image_rows_close(rows);
+    if (!field) return false;
+    if (!same_size(field, old)) return replace_table(session, layer, field, err);
+    wr_session_put_heights(session, layer, field);
+    return true;
+}
+
+static const char *wrap_name(int i)
+{
+    static const char *const names[] = { "periodic", "clamp-u", "clamp-v", "clamp" };
+    return i < 4 ? names[i] : NULL;
+}
+
+static const char *labels_name(int i)
+{
+    static const char *const names[] = { "use", "ignore" };
+    return i >= 0 && i < 2 ? names[i] : NULL;
+}
+
+static const char *fit_name(int i)
+{
+    return i == 0 ? "table" : NULL;
+}
+
+static const WrArgSpec args_table[] = {
+    { PLACE("WxH"), .type = WR_ARG_SIZE, .low = 1, .high = WR_FIELD_MAX, .unit = "texels",
+      .help = "columns and rows" },
+    { .name = "wrap",
+      .type = WR_ARG_CHOICE,
+      .choice = wrap_name,
+      .fallback_text = "periodic",
+      .help = "what lies beyond the edges: the table again, or its edge for u, for v, for both" },
+    { 0 }
+};
+
+static const WrArgSpec args_fill[] = { { PLACE("F"), .type = WR_ARG_NUMBER, .low = -WR_BIG_HEIGHT,
+                                         .high = WR_BIG_HEIGHT, .help = "the height" },
+                                       { 0 } };
+
+static const WrArgSpec args_grid[] = { { .name = "cells",
+                                         .type = WR_ARG_SIZE,
+                                         .shape = "MxN",
+                                         .low = 1,
+                                         .high = WR_FIELD_MAX,
+                                         .fallback = NUMBERS(8, 8),
+                                         .help = "cells across and down" },
+                                       { .name = "width",
+                                         .type = WR_ARG_NUMBER,
+                                         .low = 0,
+                                         .high = WR_FIELD_MAX,
+                                         .fallback = NUMBERS(8),
+                                         .unit = "texels",
+                                         .help = "of the lines" },
+                                       { .name = "low",
+                                         .type = WR_ARG_NUMBER,
+                                         .low = -WR_BIG_HEIGHT,
+                                         .high = WR_BIG_HEIGHT,
+                                         .fallback = NUMBERS(0),
+                                         .help = "height of the cells" },
+                                       { .name = "high",
+                                         .type = WR_ARG_NUMBER,
+                                         .low = -WR_BIG_HEIGHT,
+                                         .high = WR_BIG_HEIGHT,
+                                         .fallback = NUMBERS(1),
+                                         .help = "height of the lines" },
+                                       { 0 } };
+
+static const WrArgSpec args_image[] = {
+    { PLACE("FILE"), .type = WR_ARG_PATH, .help = "any picture" },
+    { .name = "fit",
+      .type = WR_ARG_CHOICE,
+      .choice = fit_name,
+      .help =
+          "resample the picture to the table's size; without it the table takes the picture's" },
+    WR_ARGS_OF_FILE,
+    { .name = "labels",
+      .type = WR_ARG_CHOICE,
+      .choice = labels_name,
+      .fallback_text = "use",
+      .help =
+          "what export wrote into the file: the heights of its codes, or that it is a normal map" },
+    { .name = "sha256",
+      .type = WR_ARG_SHA256,
+      .help = "of the file: another content is then an error" },
+    { 0 }
+};
+
+static const WrArgSpec args_open[] = { { PLACE("FILE"), .type = WR_ARG_PATH, .help = "a document" },
+                                       { .name = "sha256",
+                                         .type = WR_ARG_SHA256,
+                                         .help = "of the file: another content is then an error" },
+                                       { 0 } };
+
+/* ---- the rows ---- */
+
+const WrCommand wr_command_table = { .name = "table",
+                                     .kind = WR_CLASS_EDIT,
+                                     .args = args_table,
+                                     .run = run_table,
+                                     .help = "a new height table, everywhere 0",
+                                     .details = "It has one layer, and nothing is selected.",
+                                     .example = "table 512x256 wrap=clamp-v" };
+
+const WrCommand wr_command_fill = { .name = "fill",
+                                    .kind = WR_CLASS_EDIT,
+                                    .args = args_fill,
+                                    .run = run_fill,
+                                    .help = "set every height",
+                                    .example = "fill 0.5" };
+
+const WrCommand wr_command_grid = {
+    .name = "grid",
+    .kind = WR_CLASS_EDIT,
+    .args = args_grid,
+    .run = run_grid,
+    .help = "replace the heights by a gridwork of lines",
+    .details = "The lines lie on the boundaries of the cells. A texel is high where its centre, "
+               "measured from the nearest boundary towards the right and downwards, lies at p with "
+               "-width/2 <= p < width/2, along either axis; so the pattern is exact and periodic.",
+    .example = "grid cells=4x4 width=6 high=0.5"
+};
+
+const WrCommand wr_command_open = { .name = "open",
+                                    .kind = WR_CLASS_EDIT,
+                                    .args = args_open,
+                                    .run = run_open,
+                                    .help = "take a document's layers, selection and scene",
+                                    .details =
+                                        "In a script the file is looked up beside the script.",
+                                    .example = "open bricks.exr" };
+
+const WrCommand wr_command_image = {
+    .name = "image",
+    .kind = WR_CLASS_EDIT,
+    .args = args_image,
+    .run = run_image,
+    .help = "take the heights from a picture",
+    .details =
+        "8-bit and 16-bit pictures read as 0..1, float ones as their values; of RGB the Rec. "
+        "709 luma of the codes is taken. A file that export wrote comes back as what it was: "
+        "codes "
+        "as the heights that its label tells, a normal map as the heights that have its normals. "
+        "The table keeps its wrap. In a script the file is looked up beside the script.",
+    .example = "image bricks.png fit=table"
+};

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Every argument that a command's handler asks for by name is in a row of the same file, or among those of the brush:
+# what is not there would be read as nothing.  arguments.sh SOURCE-FOLDER
+set -uo pipefail
+cd "$1/src/command" || exit 1
+bad=0 seen=0
+for file in *_command.c *_commands.c; do
+    rows=$(grep -ohE '\.name = "[^"]+"|\b[A-Z_]+\("[^"]+"' "$file" brush_args.[ch] args.h |
+        sed -E 's/.*"([^"]+)".*/\1/')
+    while read -r name; do
+        seen=$((seen + 1))
+        grep -qxF -- "$name" <<<"$rows" && continue
+        printf '%s: asks for the argument "%s", which no row of it has\n' "$file" "$name"
+        bad=1
+    done < <(grep -ohE 'wr_call_[a-z0-9_]+\((call|line|[a-z]+->call), "[^"]+"' "$file" | sed -E 's/.*"([^"]+)"/\1/' | sort -u)
+done
+((seen > 40)) || { printf 'only %d arguments found: is this the right folder?\n' "$seen"; bad=1; }
+exit $bad
