@@ -138,6 +138,33 @@ static void estimates_are_near_what_commands_take(void **state)
                      exp(ratio[i]), exp(sum));
 }
 
+/* Lattices from loose to so close that nearly all is hidden. */
+static void crowds_are_near_what_they_take(void **state)
+{
+    (void)state;
+    static const char *const shapes[] = { "sphere", "torus", "capsule", "box", "cylinder" };
+    static const int sizes[] = { 256, 2048 }, counts[] = { 32, 128, 1024 };
+    enum { SHAPES = (int)(sizeof shapes / sizeof *shapes), COUNT = SHAPES * 2 * 3 };
+    const int kinds = getenv("WR_FULL") ? 3 : 2, count = SHAPES * 2 * kinds;
+    double ratio[COUNT], sum = 0.0;
+    char line[64];
+    for (int i = 0; i < count; i++) {
+        int size = sizes[i / SHAPES % 2], along = counts[i / SHAPES / 2];
+        snprintf(line, sizeof line, "solid %s rows=%d across=%d", shapes[i % SHAPES], along, along);
+        double said = seconds_of(size, line);
+        ratio[i] = log(cost_of(size, line) / said);
+        sum += ratio[i] / count;
+        if (getenv("WR_TELL"))
+            print_message("%4d %-40s said %6.2f s, took %.2f of it\n", size, line, said,
+                          exp(ratio[i]));
+    }
+    for (int i = 0; i < count; i++)
+        if (fabs(ratio[i] - sum) > log(3.0))
+            fail_msg("%s, %d along each side, at %d: %g times the estimate, all together %g",
+                     shapes[i % SHAPES], counts[i / SHAPES / 2], sizes[i / SHAPES % 2],
+                     exp(ratio[i]), exp(sum));
+}
+
 /* Heights and coverage, as the layer's own tables hold them. */
 static void memory_is_near_what_tables_hold(void **state)
 {
@@ -316,6 +343,7 @@ int main(void)
         cmocka_unit_test(every_example_is_estimated_and_nothing_changes),
         cmocka_unit_test(estimates_rise_with_size_and_counts),
         cmocka_unit_test(estimates_are_near_what_commands_take),
+        cmocka_unit_test(crowds_are_near_what_they_take),
         cmocka_unit_test(memory_is_near_what_tables_hold),
         cmocka_unit_test(files_are_near_what_they_take),
         cmocka_unit_test(memory_is_near_the_peak_of_a_process),

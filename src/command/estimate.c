@@ -29,8 +29,8 @@ struct Price {
     Count *count;            /* adds nanoseconds to `seconds`, and bytes; NULL: it takes no time */
     double ns;               /* of one piece of work: a texel unless the count says otherwise */
     double bytes;            /* a texel of the table */
-    double more, each, turned; /* further prices, as the count says */
-    const char *unknown;       /* nothing is known, and why */
+    double more, each, turned, hidden; /* further prices, as the count says */
+    const char *unknown;               /* nothing is known, and why */
 };
 
 /* ---- the values ---- */
@@ -147,16 +147,24 @@ static bool leans(const Job *job)
            number(job, "tilt", 0) != 0.0 || number(job, "alternate", 0) != 0.0;
 }
 
-/* ns: a texel that is seen; those that others hide are left out by whole parts of tiles, so that small ones
-   cost a twentieth of it and large ones their rim, times `more`. turned: so many times that if it leans. each: one
-   copy. */
+/* Texels that are drawn: nearly all of loose copies; of close ones those that are seen, and few more. */
+static double drawn(double texels, double covered)
+{
+    double times = covered / texels, left = covered / (1.0 + times * times / 10.0);
+    return times > 1.0 ? fmax(texels, left) : left;
+}
+
+/* ns: a texel that is drawn; turned: so many times that if it leans. What others hide is left out by whole parts of
+   tiles: a copy costs `each`, a texel of it `hidden` or, of large ones, its rim `more` times ns. */
 static void solid(const Job *job, const Price *p, WrEstimate *out)
 {
     bool turned = leans(job);
     double copies = number(job, "across", 0) * number(job, "rows", 0), area = shadow(job, turned);
-    double hidden = fmin(0.05 * area, p->more * 128.0 * sqrt(PI * area));
-    double seen = fmin(copies * area, 4.0 * job->texels);
-    add(out, (turned ? p->turned : 1.0) * p->ns * (seen + copies * hidden) + p->each * copies,
+    double rate = !turned ? p->hidden : p->ns * (has(job, "tube") ? 1.0 : 0.05);
+    double hidden = fmin(rate * area, p->ns * p->more * 128.0 * sqrt(PI * area));
+    add(out,
+        (turned ? p->turned : 1.0) * (p->ns * drawn(job->texels, copies * area) + copies * hidden) +
+            p->each * copies,
         p->bytes * fmin(copies * area, job->texels) + 440.0 * copies);
 }
 
@@ -229,10 +237,10 @@ static void drawing(const Job *job, const Price *p, WrEstimate *out)
     {                                                                                              \
         "noise", name, octaves, .ns = (price), .more = (slow), .bytes = 8.2                        \
     }
-#define SOLID(name, price, rim, lean, one)                                                         \
+#define SOLID(name, price, rim, lean, below, one)                                                  \
     {                                                                                              \
-        "solid", name, solid, .ns = (price), .more = (rim), .turned = (lean), .each = (one),       \
-                              .bytes = 14                                                          \
+        "solid", name, solid, .ns = (price), .more = (rim), .turned = (lean), .hidden = (below),   \
+                              .each = (one), .bytes = 14                                           \
     }
 #define ADJUST(name, price, wider)                                                                 \
     {                                                                                              \
@@ -271,14 +279,14 @@ static const Price prices[] = {
     { "formula", "fourier", terms, .ns = 100, .bytes = 8.2 },
     { "formula", "poly", terms, .ns = 5.5, .bytes = 8.2 },
     { "text", NULL, texels, .ns = 6, .bytes = 6 },
-    SOLID("sphere", 50, 0.05, 1, 2e3),
-    SOLID("ellipsoid", 50, 0.05, 1, 2e3),
-    SOLID("box", 40, 1, 3.5, 2e3),
-    SOLID("cylinder", 100, 1, 4, 2e3),
-    SOLID("cone", 300, 1, 2, 2e3),
-    SOLID("torus", 120, 1, 8, 2e3),
-    SOLID("capsule", 50, 1, 4, 2e3),
-    SOLID("letters", 115, 1, 16, 2.5e6),
+    SOLID("sphere", 50, 0.05, 1, 0.25, 2e3),
+    SOLID("ellipsoid", 50, 0.05, 1, 2.5, 2e3),
+    SOLID("box", 40, 1, 3.5, 0.1, 1.5e3),
+    SOLID("cylinder", 100, 1, 4, 0.25, 2e3),
+    SOLID("cone", 300, 1, 2, 15, 2e3),
+    SOLID("torus", 120, 1, 8, 1.6, 2e3),
+    SOLID("capsule", 110, 1, 4, 0.1, 2e3),
+    SOLID("letters", 115, 1, 16, 5.75, 2.5e6),
     { "solid", "surface", net, .each = 450, .bytes = 1 },
     UNKNOWN("solid", "mesh"),
     { "terrain", "fractal", octaves, .ns = 20, .more = 90, .bytes = 12 },

@@ -45,22 +45,24 @@ typedef enum WrZShape {
     WR_Z_SHAPES
 } WrZShape;
 
+/* First what is looked at for each of many: see zbuffer_many.c. */
 typedef struct WrZSolid {
     WrZShape shape;
-    double param;
-    const WrZLetters *letters;       /* borrowed */
-    double at[3];                    /* texels: where its origin stands, x and y by wr_z_place */
-    double pose[9];                  /* row-major: unit solid -> texels (turn and scale), y down */
-    double inverse[9];               /* of pose */
-    double left, right, top, bottom; /* texels from `at`: its bounding box */
+    bool level; /* its top is level */
+    bool
+        round; /* a sphere, or an upright capsule, or a torus that lies flat: round about its axis */
+    double at[3];      /* texels: where its origin stands, x and y by wr_z_place */
+    double ring, tube; /* texels: radii of the torus that lies flat */
+    double middle;     /* z of the middle of the upper round end, or of the ring */
+    double peak;       /* no place is higher */
     double
         dome[6]; /* of a sphere, (x, y) from `at`: its top is d0 x + d1 y + d2 sqrt(rest) over `at`,
                        rest = 1 - d3 x x - d4 (y - d5 x)^2 */
-    /* of what it hides, see zbuffer_bound.c */
-    double peak;       /* no place is higher */
-    bool level;        /* its top is level */
-    bool round;        /* a sphere, or a torus that lies flat: round about its upright axis */
-    double ring, tube; /* texels: radii of the torus that lies flat */
+    double param;
+    const WrZLetters *letters;       /* borrowed */
+    double pose[9];                  /* row-major: unit solid -> texels (turn and scale), y down */
+    double inverse[9];               /* of pose */
+    double left, right, top, bottom; /* texels from `at`: its bounding box */
 } WrZSolid;
 
 /* A turn by angles about X, then Y, then Z, in degrees, right-handed with y up: rows of Rz Ry Rx. */

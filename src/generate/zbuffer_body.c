@@ -170,3 +170,20 @@ void wr_zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, doubl
     if (body.x1 < x || body.x0 >= x + SQUARE || body.y1 < y || body.y0 >= y + SQUARE) return;
     draw_square(sheet, &body, x > body.x0 ? x : body.x0, y > body.y0 ? y : body.y0);
 }
+
+void wr_zsheet_ring_at(WrZSheet *sheet, const WrZSolid *ring, double dx, double dy, int x, int y,
+                       uint64_t texels)
+{
+    double at_x[SQUARE * SQUARE], at_y[SQUARE * SQUARE], z[SQUARE * SQUARE];
+    int at[SQUARE * SQUARE], count = 0;
+    do {
+        int k = __builtin_ctzll(texels), i = x + k % SQUARE, j = y + k / SQUARE;
+        at[count] = j * WR_TILE + i;
+        at_x[count] = i + (sheet->x - dx);
+        at_y[count++] = j + (sheet->y - dy);
+        texels &= texels - 1;
+    } while (texels);
+    sheet->squares++;
+    wr_zsolid_tops(ring, count, at_x, at_y, z);
+    for (int k = 0; k < count; k++) draw_whole(sheet, at[k], z[k]);
+}

@@ -3,6 +3,7 @@
 #include "generate/zbuffer_tile.h"
 
 #define MARGIN 1e-9 /* more than rounding can add, as a part of the heights */
+#define HALF 0.7072 /* of a texel's diagonal */
 
 /* ---- how high a solid can be ---- */
 
@@ -48,18 +49,21 @@ static bool is_round(const WrZSolid *s)
     return s->shape == WR_Z_SPHERE && d[0] == 0.0 && d[1] == 0.0 && d[3] == d[4] && d[5] == 0.0;
 }
 
-static bool is_flat_ring(const WrZSolid *s)
+/* A ring that lies flat, or a capsule: both are as wide as they are long before they are turned. */
+static bool is_upright(const WrZSolid *s)
 {
-    return s->shape == WR_Z_TORUS && s->inverse[2] == 0.0 && s->inverse[5] == 0.0 &&
-           s->inverse[6] == 0.0 && s->inverse[7] == 0.0;
+    bool turned = s->shape == WR_Z_TORUS || s->shape == WR_Z_CAPSULE;
+    return turned && s->inverse[2] == 0.0 && s->inverse[5] == 0.0 && s->inverse[6] == 0.0 &&
+           s->inverse[7] == 0.0;
 }
 
 void wr_zsolid_set_bounds(WrZSolid *s)
 {
     s->level = is_level(s);
-    s->round = is_round(s) || is_flat_ring(s);
+    s->round = is_round(s) || is_upright(s);
     s->ring = sqrt(s->pose[0] * s->pose[0] + s->pose[3] * s->pose[3]);
     s->tube = s->ring * s->param;
+    s->middle = s->at[2] + (s->shape == WR_Z_CAPSULE ? fabs(s->pose[8]) * s->param : 0.0);
     s->peak = top_of(s);
 }
 
@@ -68,15 +72,16 @@ static double beyond(double x, double low, double high)
     return x < low ? low - x : x > high ? x - high : 0.0;
 }
 
-/* Over places that are `near` to `far` texels from its upright axis, for what is round about that. */
+/* Over places that are `near` to `far` texels from its upright axis, for what is round about that. A little more
+   than it is: at the rim rounding is a large part of what is left under the root. */
 static double top_between(const WrZSolid *s, double near, double far)
 {
-    if (s->shape == WR_Z_SPHERE) {
-        double rest = 1.0 - s->dome[3] * near * near;
-        return s->at[2] + s->dome[2] * sqrt(rest > 0.0 ? rest : 0.0);
+    if (s->shape != WR_Z_TORUS) {
+        double rest = 1.0 + 1e-15 - s->dome[3] * near * near;
+        return s->middle + s->dome[2] * sqrt(rest > 0.0 ? rest : 0.0);
     }
     double off = beyond(s->ring, near, far), rest = s->tube * s->tube - off * off;
-    return s->at[2] + sqrt(rest > 0.0 ? rest : 0.0);
+    return s->middle + sqrt(rest > 0.0 ? rest : 0.0);
 }
 
 static double farthest(double x, double low, double high)
@@ -89,29 +94,32 @@ static double farthest(double x, double low, double high)
 static double least_between(const WrZSolid *s, double near, double far)
 {
     double rest;
-    if (s->shape == WR_Z_SPHERE) {
+    if (s->shape != WR_Z_TORUS) {
         rest = 1.0 - s->dome[3] * far * far;
-        return rest > MARGIN ? s->at[2] + s->dome[2] * sqrt(rest) : -INFINITY;
+        return rest > MARGIN ? s->middle + s->dome[2] * sqrt(rest) : -INFINITY;
     }
     double a = fabs(near - s->ring), b = fabs(far - s->ring), off = a > b ? a : b;
     rest = s->tube * s->tube - off * off;
-    return rest > MARGIN * s->tube * s->tube ? s->at[2] + sqrt(rest) : -INFINITY;
+    return rest > MARGIN * s->tube * s->tube ? s->middle + sqrt(rest) : -INFINITY;
 }
 
-/* It is not there at all. */
+/* It is not there at all. near, far: squares. */
 static bool is_clear(const WrZSolid *s, double near, double far)
 {
     const double more = 1.0 + 1e-6;
-    if (s->shape == WR_Z_SPHERE) return s->dome[3] * near * near > more;
-    return beyond(s->ring, near, far) > s->tube * more;
+    if (s->shape != WR_Z_TORUS) return s->dome[3] * near > more;
+    double out = s->ring + s->tube * more, in = s->ring - s->tube * more;
+    return near > out * out || (in > 0.0 && far < in * in);
 }
 
 static double round_range(const WrZSolid *s, const WrZRect *r, double most, double *least)
 {
     double nx = beyond(s->at[0], r->x0, r->x1), ny = beyond(s->at[1], r->y0, r->y1);
     double fx = farthest(s->at[0], r->x0, r->x1), fy = farthest(s->at[1], r->y0, r->y1);
-    double near = sqrt(nx * nx + ny * ny), far = sqrt(fx * fx + fy * fy);
+    double near = nx * nx + ny * ny, far = fx * fx + fy * fy;
     if (is_clear(s, near, far)) return -INFINITY;
+    near = sqrt(near);
+    far = sqrt(far);
     double low = least_between(s, near, far), high = with_margin(top_between(s, near, far));
     if (low > -INFINITY) *least = low - MARGIN * (1.0 + fabs(low));
     return high < most ? high : most;
@@ -145,38 +153,92 @@ static bool is_beside(const WrZSolid *s, const WrZRect *r)
 double wr_zsolid_range(const WrZSolid *s, const WrZRect *r, double *least)
 {
     *least = -INFINITY;
-    if (is_beside(s, r)) return -INFINITY;
     if (s->round) return round_range(s, r, s->peak, least);
+    if (is_beside(s, r)) return -INFINITY;
     return wr_zsolid_convex(s) ? convex_range(s, r, s->peak, least) : s->peak;
 }
 
-/* A ring that lies flat and covers all of it well within its rims counts as covering all texels, and of those
-   only the centres' heights are kept. */
-bool wr_zsolid_changes(const WrZSolid *s, double x, double y, double least,
-                       const double settled[WR_Z_SQUARE * WR_Z_SQUARE])
+bool wr_zsolid_is_ring(const WrZSolid *s)
 {
-    const double ring = s->ring, tube2 = s->tube * s->tube, z = s->at[2];
-    if (s->shape != WR_Z_TORUS || !s->round || s->tube < 4.0 || !(least > z + 0.5 * s->tube))
-        return true;
-    for (int j = 0; j < WR_Z_SQUARE; j++) {
-        const double *row = settled + j * WR_Z_SQUARE, py = y + j - s->at[1];
-        int some = 0;
-#pragma omp simd reduction(| : some)
-        for (int i = 0; i < WR_Z_SQUARE; i++) {
-            double px = x + i - s->at[0], off = sqrt(px * px + py * py) - ring;
-            double rise = row[i] - MARGIN * (1.0 + fabs(row[i])) - z;
-            some |= (rise < 0.0) | (tube2 - off * off > rise * rise);
-        }
-        if (some) return true;
+    return s->shape == WR_Z_TORUS && s->round && s->tube >= 4.0;
+}
+
+/* Where its middle line is no farther from a texel's centre, it covers the texel above the floor, and is nowhere in
+   it so steep that it would count as an edge: then of its heights only the one over the centre counts. */
+static double well_within(const WrZSolid *s, double floor)
+{
+    double low = floor > s->at[2] ? floor - s->at[2] : 0.0, steep = 0.866 * s->tube;
+    double rest = s->tube * s->tube - low * low, wide = sqrt(rest > 0.0 ? rest : 0.0);
+    return (wide < steep ? wide : steep) - HALF;
+}
+
+/* How near its middle line must be to the centre of a texel to change it. Other parts of it are nearer by HALF at
+   most. */
+static double reach_of(const WrZSolid *s, double within, double settled)
+{
+    double rise = settled - MARGIN * (1.0 + fabs(settled)) - s->at[2];
+    double rest = s->tube * s->tube - (rise > 0.0 ? rise * rise : 0.0);
+    double reach = sqrt(rest > 0.0 ? rest : 0.0) * (1.0 + MARGIN);
+    return reach + HALF <= within ? reach : reach + HALF;
+}
+
+static void band_texel(const WrZSolid *s, WrZBand *band, int k, double settled)
+{
+    double reach = reach_of(s, band->within, settled);
+    double low = (s->ring - reach) * (1.0 - MARGIN), high = (s->ring + reach) * (1.0 + MARGIN);
+    band->low[k] = low > 0.0 ? low * low : -1.0;
+    band->high[k] = high * high;
+}
+
+void wr_zband_set(WrZBand *band, const WrZSolid *s, double floor, const double *settled,
+                  uint64_t texels)
+{
+    bool same = band->at == s->at[2] && band->ring == s->ring && band->tube == s->tube;
+    if (!same) {
+        *band = (WrZBand){ .at = s->at[2], .ring = s->ring, .tube = s->tube };
+        band->within = well_within(s, floor);
+        texels = ~(uint64_t)0;
     }
-    return false;
+    for (; texels; texels &= texels - 1) {
+        int k = __builtin_ctzll(texels);
+        band_texel(s, band, k, settled[k]);
+    }
+}
+
+uint64_t wr_zband_meets(const WrZBand *band, double x, double y)
+{
+    uint64_t met = 0;
+    for (int j = 0; j < WR_Z_SQUARE; j++) {
+        const double *low = band->low + j * WR_Z_SQUARE, *high = band->high + j * WR_Z_SQUARE;
+        const double yy = (y + j) * (y + j);
+        double in[WR_Z_SQUARE], any = 0.0;
+#pragma omp simd reduction(+ : any)
+        for (int i = 0; i < WR_Z_SQUARE; i++) {
+            double dd = (x + i) * (x + i) + yy, above = dd > low[i] ? 1.0 : 0.0;
+            in[i] = dd < high[i] ? above : 0.0;
+            any += in[i];
+        }
+        for (int i = 0; any > 0.0 && i < WR_Z_SQUARE; i++)
+            met |= (uint64_t)(in[i] > 0.0) << (j * WR_Z_SQUARE + i);
+    }
+    return met;
+}
+
+bool wr_zband_is_within(const WrZBand *band, double x, double y, uint64_t texels)
+{
+    for (; texels; texels &= texels - 1) {
+        int k = __builtin_ctzll(texels);
+        double px = x + k % WR_Z_SQUARE, py = y + k / WR_Z_SQUARE;
+        if (fabs(sqrt(px * px + py * py) - band->ring) > band->within) return false;
+    }
+    return true;
 }
 
 /* ---- how high it must be ---- */
 
 /* Whatever is not higher changes nothing of a texel. Where one solid covers it whole, that is its height; where
    rims cross it, the lowest of what is seen at its samples, once there are two of which the mean is taken. */
-static double settled_texel(const WrZSheet *sheet, int at)
+double wr_zsheet_settled_texel(const WrZSheet *sheet, int at)
 {
     if (sheet->mask[at] != WR_Z_FULL) return -INFINITY;
     double whole = sheet->whole[at];
@@ -198,7 +260,7 @@ double wr_zsheet_settled(const WrZSheet *sheet, int x, int y,
     for (int j = 0; j < WR_Z_SQUARE; j++)
         for (int i = 0; i < WR_Z_SQUARE; i++) {
             bool there = x + i < sheet->wide && y + j < sheet->high;
-            double z = there ? settled_texel(sheet, (y + j) * WR_TILE + x + i) : INFINITY;
+            double z = there ? wr_zsheet_settled_texel(sheet, (y + j) * WR_TILE + x + i) : INFINITY;
             settled[j * WR_Z_SQUARE + i] = z;
             least = z < least ? z : least;
         }

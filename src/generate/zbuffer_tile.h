@@ -43,7 +43,8 @@ typedef struct WrZEntry {
 /* Draw one image of a primitive, moved by (dx, dy) whole texels. */
 void wr_zsheet_triangle(WrZSheet *sheet, const WrZTriangle *triangle, double dx, double dy);
 void wr_zsheet_solid(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy);
-/* Only what of it lies in the square whose first texel is (x, y) of the tile. */
+/* Only what of it lies in the square whose first texel is (x, y) of the tile. dx, dy: of parts of texels too, if
+ * they are places as from wr_z_place. */
 void wr_zsheet_solid_at(WrZSheet *sheet, const WrZSolid *solid, double dx, double dy, int x, int y);
 
 /* May the work go on? part: of the tile, 0..1. */
@@ -71,10 +72,32 @@ double wr_zsolid_range(const WrZSolid *solid, const WrZRect *rect, double *least
    there; inf beyond the table. Returns the least. */
 double wr_zsheet_settled(const WrZSheet *sheet, int x, int y,
                          double settled[WR_Z_SQUARE * WR_Z_SQUARE]);
-/* May the solid, which is nowhere in such a square lower than `least`, change anything there? (x, y): the square's
-   first texel in its space. True where that takes more than a look at the texels' centres. */
-bool wr_zsolid_changes(const WrZSolid *solid, double x, double y, double least,
-                       const double settled[WR_Z_SQUARE * WR_Z_SQUARE]);
+/* The same of one texel. */
+double wr_zsheet_settled_texel(const WrZSheet *sheet, int at);
+
+/* A torus that lies flat and is not thin, of which single texels can be told apart. */
+bool wr_zsolid_is_ring(const WrZSolid *solid);
+/* How far from its axis such a torus may change each texel of a square: squares of distances. Holds for all of that
+   height and those radii. */
+typedef struct WrZBand {
+    double at, ring, tube; /* of the torus; tube 0: none yet */
+    double
+        within; /* a texel whose centre is that near to the middle line is covered, and its height is all
+                              that counts */
+    double low[WR_Z_SQUARE * WR_Z_SQUARE], high[WR_Z_SQUARE * WR_Z_SQUARE];
+} WrZBand;
+/* For the ring, anew where it is another kind, else only for the texels (a bit each, row by row) that have changed.
+ * settled: from wr_zsheet_settled. */
+void wr_zband_set(WrZBand *band, const WrZSolid *ring, double floor, const double *settled,
+                  uint64_t texels);
+/* The texels that such a ring may change. (x, y): from its axis to the square's first texel. */
+uint64_t wr_zband_meets(const WrZBand *band, double x, double y);
+/* Whether it lies well within those texels. */
+bool wr_zband_is_within(const WrZBand *band, double x, double y, uint64_t texels);
+/* Draw it there, where its height over the centre is all that counts. (x, y): the square's first
+ * texel; texels: not 0. */
+void wr_zsheet_ring_at(WrZSheet *sheet, const WrZSolid *ring, double dx, double dy, int x, int y,
+                       uint64_t texels);
 /* The same for triangles, anywhere in the tile. */
 double wr_zsheet_filled(const WrZSheet *sheet);
 

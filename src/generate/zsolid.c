@@ -107,10 +107,37 @@ static void ring_tops(const WrZSolid *solid, int count, const double *x, const d
     }
 }
 
+/* As capsule_span of a capsule that stands upright, in every bit: its upper end, but where rounding at its rim
+   decides what is met. */
+static void rod_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z)
+{
+    const double *m = solid->inverse, up = m[8], bb = up * up, rim = 1e-6 * bb;
+    const double shift = up > 0.0 ? solid->param : -solid->param;
+    int doubtful = 0;
+#pragma omp simd reduction(| : doubtful)
+    for (int i = 0; i < count; i++) {
+        double dx = x[i] - solid->at[0], dy = y[i] - solid->at[1];
+        double p = m[0] * dx + m[1] * dy, q = m[3] * dx + m[4] * dy;
+        double r = m[6] * dx + m[7] * dy - shift;
+        double b = r * up, c = p * p + q * q + r * r - 1.0, rest = b * b - bb * c;
+        double root = sqrt(rest > rim ? rest : rim);
+        double far = b > 0.0 ? -(b + root) : root - b, one = far / bb, other = c / far;
+        z[i] = rest > rim ? solid->at[2] + (one > other ? one : other) : -INFINITY;
+        doubtful |= fabs(rest) <= rim;
+    }
+    if (!doubtful) return;
+    for (int i = 0; i < count; i++)
+        if (!(z[i] > -INFINITY) && !wr_zsolid_top(solid, x[i], y[i], &z[i])) z[i] = -INFINITY;
+}
+
 void wr_zsolid_tops(const WrZSolid *solid, int count, const double *x, const double *y, double *z)
 {
     if (solid->shape == WR_Z_TORUS && solid->round) {
         ring_tops(solid, count, x, y, z);
+        return;
+    }
+    if (solid->shape == WR_Z_CAPSULE && solid->round) {
+        rod_tops(solid, count, x, y, z);
         return;
     }
     if (solid->shape == WR_Z_SPHERE) {
