@@ -13,6 +13,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -277,6 +278,51 @@ static void what_is_half_written_is_nobody_elses_and_has_no_name_to_guess(void *
     wr_free(path);
 }
 
+/* In the place of the system's: no chance at all for the next so many calls. */
+static int known_next;
+
+ssize_t getrandom(void *bytes, size_t length, unsigned flags)
+{
+    (void)flags;
+    if (known_next-- > 0) memset(bytes, 7, length);
+    else {
+        int fd = open("/dev/urandom", O_RDONLY | O_CLOEXEC);
+        ssize_t n = read(fd, bytes, length);
+        close(fd);
+        return n;
+    }
+    return (ssize_t)length;
+}
+
+/* Whoever does know the name has put a link there: it is not followed, and another name is taken. */
+static void a_planted_link_is_not_written_through(void **state)
+{
+    (void)state;
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", planted[300], text[8] = "";
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.exr"), *victim = wr_path_join(folder, "victim");
+    assert_true(wr_file_write(victim, "whole", 5, &err));
+    snprintf(planted, sizeof planted, "%s/.a.exr.%ld-0707070707070707.part.exr", folder,
+             (long)getpid());
+    for (int hard = 0; hard < 2; hard++) {
+        assert_int_equal(hard ? link(victim, planted) : symlink(victim, planted), 0);
+        known_next = 1;
+        assert_true(wr_file_write(path, "other", 5, &err));
+        assert_true(known_next <= 0); /* it was asked */
+        int fd = open(victim, O_RDONLY | O_CLOEXEC);
+        assert_int_equal(read(fd, text, sizeof text), 5);
+        close(fd);
+        assert_memory_equal(text, "whole", 5);
+        assert_int_equal(unlink(planted), 0);
+    }
+    unlink(path);
+    unlink(victim);
+    assert_int_equal(rmdir(folder), 0);
+    wr_free(path);
+    wr_free(victim);
+}
+
 /* A file NAME of the folder, as a killed program left it; whether it is there after a sweep. */
 static bool stays(const char *folder, const char *name)
 {
@@ -382,6 +428,7 @@ int main(void)
         cmocka_unit_test(bytes_become_a_file_in_memory),
         cmocka_unit_test(a_failed_write_leaves_the_old_file_whole),
         cmocka_unit_test(what_is_half_written_is_nobody_elses_and_has_no_name_to_guess),
+        cmocka_unit_test(a_planted_link_is_not_written_through),
         cmocka_unit_test(what_dead_processes_left_is_swept_and_nothing_else),
         cmocka_unit_test(a_killed_write_is_cleared_away_by_the_next),
     };

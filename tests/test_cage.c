@@ -4,11 +4,13 @@
 
 #include "image/cage.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <linux/landlock.h>
 #include <poll.h>
 #include <pthread.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <signal.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
@@ -339,12 +341,38 @@ static void the_filter_holds_where_landlock_is_missing(void **state)
         if (is_done(i, FILTER)) fail_msg("without Landlock a caged process %s", attempts[i].what);
 }
 
+/* Kernels since 5.13. */
+static bool has_landlock(void)
+{
+    return syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION) >= 1;
+}
+
+/* In the place of the library's: a filter that was never loaded. */
+static bool unfiltered;
+
+int seccomp_load(const scmp_filter_ctx filter)
+{
+    int (*load)(scmp_filter_ctx) = NULL;
+    *(void **)&load = dlsym(RTLD_NEXT, "seccomp_load");
+    return unfiltered ? 0 : load(filter);
+}
+
+static void entering_the_cage_takes_landlock_too(void **state)
+{
+    (void)state;
+    if (SANITIZED || !has_landlock()) skip();
+    write_files();
+    unfiltered = true;
+    for (int i = 0; i < ATTEMPTS; i++)
+        if ((attempts[i].kept_by & LANDLOCK) && is_done(i, 0))
+            fail_msg("a caged process without its filter %s", attempts[i].what);
+    unfiltered = false;
+}
+
 static void landlock_keeps_files_by_itself(void **state)
 {
     (void)state;
-    bool there = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION) >=
-                 1; /* kernels since 5.13 */
-    if (SANITIZED || !there) skip();
+    if (SANITIZED || !has_landlock()) skip();
     write_files();
     for (int i = 0; i < ATTEMPTS; i++)
         if ((attempts[i].kept_by & LANDLOCK) && is_done(i, LANDLOCK))
@@ -411,6 +439,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_caged_process_can_do_nothing_but_read_its_file),
         cmocka_unit_test(the_filter_holds_where_landlock_is_missing),
+        cmocka_unit_test(entering_the_cage_takes_landlock_too),
         cmocka_unit_test(landlock_keeps_files_by_itself),
         cmocka_unit_test(without_a_cage_most_of_it_works),
         cmocka_unit_test(processor_time_is_limited),
