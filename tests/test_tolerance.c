@@ -183,6 +183,40 @@ static void outlines_of_a_mesh_are_no_coarser_than_the_tolerance(void **state)
     expect_to_hold(ring, (const double[2]){ 0.0025, 0.0012 }, 32);
 }
 
+/* Two pictures: one sample a pixel, and the best. It is no dearer than the others would have been. */
+static void the_best_is_taken_at_once_where_choosing_would_cost_as_much(void **state)
+{
+    (void)state;
+    static const struct {
+        double away;
+        WrTolerance tolerance;
+        bool at_once;
+    } cases[] = {
+        { 300, { WR_TOLERANCE_RMS, 0.01 }, true },   { 300, { WR_TOLERANCE_MAX, 0.05 }, true },
+        { 4, { WR_TOLERANCE_RMS, 0.01 }, false },    { 4, { WR_TOLERANCE_TIME, 60 }, true },
+        { 4, { WR_TOLERANCE_TIME, 0.0002 }, false },
+    };
+    Bench bench = bench_of(ball);
+    bench.request.width = bench.request.height = 2 * SIDE;
+    bench.scene->camera.fit = false;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        WrError err;
+        WrFrame frame;
+        WrChoice choice = { 0 };
+        bench.scene->camera.eye = (WrVec3){ 0, 0, cases[i].away };
+        bench.scene->tolerance = cases[i].tolerance;
+        assert_true(wr_tolerance_choose(bench.renderer, &bench.request, &choice, &frame, &err));
+        if ((choice.frames == 2 && choice.parts[0].level == 4) != cases[i].at_once)
+            fail_msg("case %d: %d frames: %s", (int)i, choice.frames, choice.reason);
+        if (cases[i].at_once) {
+            assert_true(choice.met && choice.rms > 0 && choice.max > 0);
+            assert_int_equal(choice.count, 1);
+        }
+        wr_choice_fini(&choice);
+    }
+    bench_fini(&bench);
+}
+
 /* What 2 x 2 would change there is foretold by what a few of them tell. */
 static void calm_insides_are_not_rendered_twice(void **state)
 {
@@ -608,6 +642,7 @@ int main(void)
         cmocka_unit_test(outlines_that_run_with_the_pixels_rows_do_not_deceive),
         cmocka_unit_test(relief_in_a_corner_of_the_picture_is_seen),
         cmocka_unit_test(outlines_of_a_mesh_are_no_coarser_than_the_tolerance),
+        cmocka_unit_test(the_best_is_taken_at_once_where_choosing_would_cost_as_much),
         cmocka_unit_test(calm_insides_are_not_rendered_twice),
         cmocka_unit_test(a_tolerance_that_nothing_meets_is_said_to_be_so),
         cmocka_unit_test(a_coarser_tolerance_takes_no_more_samples),

@@ -117,6 +117,9 @@ static bool run(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     add_best_pair(study);
     for (int level = 0; level < LEVELS; level++) study->doubt[level] = (Doubt){ 1, 1, 0 };
+    if (!wr_study_begin(study, tolerance, err)) return false;
+    if (wr_study_best_is_cheaper(study, tolerance))
+        return wr_study_take_best(study, err) && wr_study_compose(study, err);
     if (!wr_study_survey(study, tolerance, err)) return false;
     wr_study_pick(study, tolerance, true);
     /* One sample a pixel tells what they change on the whole, not what at most. */

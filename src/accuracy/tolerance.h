@@ -13,6 +13,9 @@
    same table, scene, size and tolerance give the same dials, on any machine and any number of threads. Only
    `time=` needs to know how fast the machine is; that is measured once and kept.
 
+   Where the best setting everywhere, 16 x 16 samples, takes no more than choosing does at least (of an object that
+   covers few pixels), or the time allows it, it is taken at once.
+
    The blocks' pictures at their picks are the picture: choosing and making it are one. As measured that takes two to
    four times what making it again takes (samples/accuracy): blocks climb through all levels, some a level too high,
    and to know that one sample will do costs 2 x 2.
@@ -52,6 +55,7 @@ typedef struct WrChoice {
     double spent;       /* seconds that choosing took, the picture included */
     char reason[480];   /* one or two sentences */
     bool told;          /* the caller's: that reason was given to the user */
+    int frames;         /* that choosing rendered, each of some of the blocks */
     int studies; /* frames that were studied for it; 0: it was read, and nothing was chosen */
     WrPlan plan; /* what its last picture took: the frame's */
     /* Of what picture it is. */

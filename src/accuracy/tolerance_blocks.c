@@ -82,15 +82,17 @@ int wr_study_look(const Study *study, int64_t b)
 {
     Block *block = &study->block[b];
     const Corner at = wr_study_corner(study, b);
-    int seen = 0;
-    block->covered = 0;
+    const float *one = block->rgba[0], *two = block->rgba[1] ? block->rgba[1] : one;
+    int object = 0, nothing = 0, covered = 0;
     for (int y = 0; y < at.h; y++)
         for (int x = 0; x < at.w; x++) {
             const size_t n = (size_t)4 * (size_t)(y * BLOCK + x) + 3;
-            seen |= look_pixel(block, x, y);
-            block->covered += block->rgba[0][n] > 0;
+            covered += one[n] > 0;
+            object |= (one[n] > 0) | (two[n] > 0);
+            nothing |= (one[n] <= 0) | (two[n] < 1);
         }
-    return seen;
+    block->covered = covered;
+    return (object ? OBJECT : 0) | (nothing ? NOTHING : 0);
 }
 
 /* What the pixels next to a block show. */
@@ -185,6 +187,7 @@ static bool render(Study *study, int pair, int level, const unsigned char *only,
     study->spent += study->pair[pair].price * (double)study->frame->shaded +
                     wr_price_pass((int64_t)study->request->width * study->request->height);
     study->shaded += study->frame->shaded;
+    study->frames++;
     wr_times_add(&study->times, times);
     wr_plan_add(&study->plan, study->frame->plan);
     return true;

@@ -84,6 +84,7 @@ void wr_study_settle(const Study *study, WrChoice *out)
     out->field_key = wr_field_key(study->request->field);
     out->turn_deg = study->request->turn_deg;
     out->studies = 1;
+    out->frames = study->frames;
     out->parts = wr_alloc(PARTS_MAX, sizeof *out->parts);
     out->part_of = wr_alloc((size_t)study->count, 1);
     for (int i = 0; i < PARTS_MAX; i++) part_of[i] = -1;

@@ -83,6 +83,7 @@ typedef struct Study {
     double spent;             /* of all frames so far, in prices */
     double seconds;           /* of the same, by the clock, without what had to be made first */
     int64_t shaded;
+    int frames; /* rendered so far */
     WrStageTimes times;
     WrPlan plan; /* what all frames took */
 } Study;
@@ -111,9 +112,17 @@ void wr_study_fini(Study *study);
 
 /* ---- tolerance_survey.c ---- */
 
-/* The first level of the whole picture with the best pair, and the second where it must be: all blocks' pictures
-   and what they show. */
+/* After wr_study_begin: the second level with the best pair where it must be: all blocks' pictures and what they
+   show. */
 bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err);
+
+/* The first level alone. */
+bool wr_study_begin(Study *study, const WrTolerance *tolerance, WrError *err);
+/* Of what the first level shows: does the best setting everywhere take no more than what would still have to be
+   rendered to choose at least, or does the time allow it? */
+bool wr_study_best_is_cheaper(const Study *study, const WrTolerance *tolerance);
+/* Then that is taken: all blocks at the finest level, and what it changed tells what it is off. */
+bool wr_study_take_best(Study *study, WrError *err);
 
 /* ---- tolerance_estimate.c ---- */
 

@@ -189,11 +189,51 @@ static void sort_blocks(Study *study)
 
 /* ---- all ---- */
 
-bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err)
+bool wr_study_begin(Study *study, const WrTolerance *tolerance, WrError *err)
 {
     if (tolerance->kind == WR_TOLERANCE_MAX && mesh_matters(study)) study->mesh = FINE_MESH;
     for (int64_t b = 0; b < study->count; b++) study->mask[b] = 1;
-    if (!wr_study_render(study, 0, 0, true, NULL, err)) return false;
+    return wr_study_render(study, 0, 0, true, NULL, err);
+}
+
+/* A part of a sample lies beside what the first picture covers: outlines. */
+#define BESIDE 1.1
+
+bool wr_study_best_is_cheaper(const Study *study, const WrTolerance *tolerance)
+{
+    const double side = wr_level_side(TOP), seen = (double)study->shaded;
+    const double pass = wr_price_pass((int64_t)study->request->width * study->request->height);
+    const double best = BESIDE * study->pair[0].price * side * side * seen + pass;
+    if (tolerance->kind == WR_TOLERANCE_TIME) return best <= tolerance->value;
+    /* 2 x 2, a step up from there, a probe of each; of samples none. */
+    return seen > 0 && best <= 4 * pass;
+}
+
+bool wr_study_take_best(Study *study, WrError *err)
+{
+    for (int64_t b = 0; b < study->count; b++) study->mask[b] = 1;
+    study->mesh = mesh_matters(study) ? FINE_MESH : study->mesh;
+    if (!wr_study_render(study, 0, TOP, true, NULL, err)) return false;
+    study->pixels = 0;
+    for (int64_t b = 0; b < study->count; b++) {
+        Block *block = &study->block[b];
+        /* Outlines are seen by the finest: it stands for the second level, which nobody made. */
+        block->rgba[1] = block->rgba[TOP];
+        const int seen = wr_study_look(study, b);
+        block->rgba[1] = NULL;
+        block->shown = (seen & OBJECT) != 0;
+        block->edge = block->lined = seen == (NOTHING | OBJECT);
+        block->change[1] = wr_block_change(block->rgba[0], block->rgba[TOP]);
+        block->level = 1;
+        block->pick = TOP;
+        block->step[1] = block->step[TOP];
+        study->pixels += block->covered;
+    }
+    return true;
+}
+
+bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err)
+{
     const int64_t count = find_insides(study, tolerance);
     const bool some = count > (int64_t)LOOKED_LEAST;
     Inside *list = wr_alloc((size_t)count + 1, sizeof *list);
