@@ -413,6 +413,63 @@ static void a_white_picture_changes_nothing_and_a_grey_one_scales(void **state)
     wr_field_free(field);
 }
 
+/* Of a cube's outline: what of a pixel's samples is on it, by slabs in double, from the placement alone. */
+static int samples_on_cube(const WrPlacement *at, double half, int side, int k, int i, int j)
+{
+    int on = 0;
+    for (int n = 0; n < k * k; n++) {
+        const double x = (2 * (i + (n % k + 0.5) / k) / side - 1) * at->half_height;
+        const double y = (1 - 2 * (j + (n / k + 0.5) / k) / side) * at->half_height;
+        const WrVec3 d = v3_add(at->forward, v3_add(v3_scale(at->right, x), v3_scale(at->up, y)));
+        double low = -INFINITY, high = INFINITY;
+        for (int axis = 0; axis < 3; axis++) { /* to the object: by the rotation's columns */
+            const double *r = at->rotation + axis;
+            const double o = r[0] * at->eye.x + r[3] * at->eye.y + r[6] * at->eye.z;
+            const double v = r[0] * d.x + r[3] * d.y + r[6] * d.z;
+            low = fmax(low, fmin((-half - o) / v, (half - o) / v));
+            high = fmin(high, fmax((-half - o) / v, (half - o) / v));
+        }
+        on += high > low;
+    }
+    return on;
+}
+
+/* Faces join on to each other, and to nothing else: no sample beside the object is of it. */
+static void outlines_of_flat_faces_have_the_samples_that_are_on_them(void **state)
+{
+    (void)state;
+    enum { VIEW = 400 };
+    WrError err;
+    WrPlacement placed;
+    WrField *field = bumpy_field(32, 32);
+    WrScene *scene = scene_of("cube");
+    scene->shape.value[0] = 0.6;
+    scene->posed = true;
+    scene->rotate_deg = (WrVec3){ 28, -53, 0 }; /* pictures are turned by 15 */
+    scene->camera.fit = true;
+    scene->camera.fov_deg = 35;
+    scene->camera.target = (WrVec3){ 0, 0, 0 };
+    scene->camera.eye = (WrVec3){ 0, 0, 1 };
+    scene->dials.aa = WR_AA_SUPERSAMPLE;
+    scene->dials.samples = 4;
+    assert_true(wr_scene_place(scene, 15, 1, &placed, &err));
+    Shot shot = shoot(scene, field, VIEW, VIEW, 1, "auto", false);
+    const WrFrame frame = shot.frame;
+    int outline = 0;
+    for (int n = 0; n < VIEW * VIEW; n++) {
+        const double covered = 16 * (double)frame.rgba[4 * n + 3];
+        if (covered <= 0 || covered >= 16) continue;
+        const int on = samples_on_cube(&placed, 0.6, VIEW, 4, n % VIEW, n / VIEW);
+        outline++;
+        if (on != (int)lrint(covered))
+            fail_msg("pixel %d, %d: %g samples, not %d", n % VIEW, n / VIEW, covered, on);
+    }
+    assert_true(outline > 900);
+    put_away(&shot);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -432,6 +489,7 @@ int main(void)
         cmocka_unit_test(no_pixel_is_lost_wherever_the_camera_stands),
         cmocka_unit_test(a_cancelled_frame_says_so),
         cmocka_unit_test(a_white_picture_changes_nothing_and_a_grey_one_scales),
+        cmocka_unit_test(outlines_of_flat_faces_have_the_samples_that_are_on_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

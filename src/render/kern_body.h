@@ -19,7 +19,6 @@
 #define r_pow_below wr_pow_below_r
 #define r_floor floor
 #define ROUNDED K_(0x1p-46)
-#define EDGE K_(0x1p-48)
 #define STRIP WrStripd
 #define RAYS WrRaysd
 #define QUAD WrQuadd
@@ -36,7 +35,6 @@
 #define r_pow_below wr_pow_below_f
 #define r_floor floorf
 #define ROUNDED K_(0x1p-18)
-#define EDGE K_(0x1p-21)
 #define STRIP WrStrip
 #define RAYS WrRays
 #define QUAD WrQuad

@@ -122,7 +122,6 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
     return hits;
 }
 
-/* Faces reach beyond their edges by what rounding makes of u and v: a ray along the edge of two meets one. */
 ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int count,
                     const bool spread, STRIP *strip)
 {
@@ -131,6 +130,7 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
     const VEC eu = { quad->eu[0], quad->eu[1], quad->eu[2] };
     const VEC ev = { quad->ev[0], quad->ev[1], quad->ev[2] };
     const REAL s_min = rays->s_min;
+    const REAL u0 = quad->u0, u1 = quad->u1, v0 = quad->v0, v1 = quad->v1;
     SIMD for (int i = 0; i < count; i++)
     {
         RAY(i, i);
@@ -138,7 +138,7 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
         REAL s = v_dot(v_sub(o, q), n) / (dn != 0.0f ? dn : 1.0f);
         VEC p = v_sub(v_mad(q, d, s), o);
         REAL u = v_dot(p, eu), v = v_dot(p, ev);
-        bool in = u >= -EDGE && u <= K_(1) + EDGE && v >= -EDGE && v <= K_(1) + EDGE;
+        bool in = u >= u0 && u <= u1 && v >= v0 && v <= v1;
         strip->px[i] = clamp01(u);
         strip->py[i] = clamp01(v);
         strip->s[i] = in && s > s_min && s < MISS && dn != 0.0f ? s : MISS;

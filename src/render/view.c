@@ -180,7 +180,41 @@ static bool find_facing(const WrShape *shape, double scale, const WrVec3 *eye, W
     return any;
 }
 
-static void add_quad(WrView *view, const WrShape *shape, int face)
+/* Where two faces that look the same way, to the viewer or away, share an edge, both reach beyond it by what rounding
+   makes of u and v, so that a ray along it meets one. Along an outline none does: samples beside it are not of the
+   object. */
+#define JOINT 0x1p-48
+#define JOINT_SINGLE 0x1p-21f
+
+/* Does such a face go through that point, besides `own`? */
+static bool joins(const WrShape *shape, const bool facing[6], int own, WrVec3 p)
+{
+    for (int face = 0; face < wr_surfaces[shape->kind]->faces; face++) {
+        WrSurfacePoint at;
+        if (face == own || facing[face] != facing[own]) continue;
+        wr_surface_at(shape, face, 0, 0, &at);
+        if (fabs(v3_dot(v3_sub(p, at.p), at.n_unit)) < 1e-9 * v3_len(at.pu)) return true;
+    }
+    return false;
+}
+
+static void bound_quad(const WrShape *shape, const bool facing[6], int own, WrQuadd *quad,
+                       WrQuad *single)
+{
+    bool side[4]; /* u = 0, u = 1, v = 0, v = 1 */
+    for (int k = 0; k < 4; k++) {
+        WrSurfacePoint at;
+        const double to = k % 2;
+        wr_surface_at(shape, own, k < 2 ? to : 0.5, k < 2 ? 0.5 : to, &at);
+        side[k] = joins(shape, facing, own, at.p);
+    }
+    quad->u0 = side[0] ? -JOINT : 0, quad->u1 = side[1] ? 1 + JOINT : 1;
+    quad->v0 = side[2] ? -JOINT : 0, quad->v1 = side[3] ? 1 + JOINT : 1;
+    single->u0 = side[0] ? -JOINT_SINGLE : 0, single->u1 = side[1] ? 1 + JOINT_SINGLE : 1;
+    single->v0 = side[2] ? -JOINT_SINGLE : 0, single->v1 = side[3] ? 1 + JOINT_SINGLE : 1;
+}
+
+static void add_quad(WrView *view, const WrShape *shape, const bool facing[6], int face)
 {
     WrQuadd *quad = &view->quads_d[view->quad_count];
     WrQuad *single = &view->quads[view->quad_count];
@@ -193,6 +227,7 @@ static void add_quad(WrView *view, const WrShape *shape, int face)
     store(quad->ev, v3_scale(pv, 1.0 / v3_dot(pv, pv)));
     narrow(single->origin, quad->origin), narrow(single->normal, quad->normal);
     narrow(single->eu, quad->eu), narrow(single->ev, quad->ev);
+    bound_quad(shape, facing, face, quad, single);
     view->quad_face[view->quad_count++] = face;
 }
 
@@ -203,7 +238,7 @@ static void make_quads(WrView *view, const WrShape *shape)
     find_facing(shape, view->scale, view->perspective ? &view->eye : NULL, view->forward, facing);
     for (int near = view->cull ? 1 : 0; near < 2; near++)
         for (int face = 0; face < wr_surfaces[shape->kind]->faces; face++)
-            if (facing[face] == (near == 1)) add_quad(view, shape, face);
+            if (facing[face] == (near == 1)) add_quad(view, shape, facing, face);
 }
 
 bool wr_view_outside(const WrScene *scene, double turn_deg, int width, int height, bool *outside,
