@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "render/frame_inner.h"
+#include "shade/slope.h"
 
 static void drop_colour(ColourCopy *copy)
 {
@@ -133,9 +134,8 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
 {
     const WrScene *scene = request->scene;
     const WrPlan *plan = &renderer->plan;
-    const double height = scene->height * scale;
-    /* The scale-invariant tilt is the slope itself, in the scene's units whatever the object's size. */
-    const double slope = plan->bump == WR_BUMP_INVARIANT ? scene->height : height;
+    const WrSlopeScale by =
+        wr_slope_scale(plan->bump, scene->height, scene->replicate_u, scene->replicate_v, scale);
     return (WrLookd){ .width = wr_field_width(request->field),
                       .height = wr_field_height(request->field),
                       .ru = scene->replicate_u,
@@ -143,9 +143,9 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
                       .periodic_u = wr_field_wrap_u(request->field) == WR_WRAP_PERIODIC,
                       .periodic_v = wr_field_wrap_v(request->field) == WR_WRAP_PERIODIC,
                       .wide = wr_plan_runs(plan, WR_EFFECT_WIDE),
-                      .scale_f = height,
-                      .scale_u = slope * scene->replicate_u,
-                      .scale_v = slope * scene->replicate_v,
+                      .scale_f = by.f,
+                      .scale_u = by.u,
+                      .scale_v = by.v,
                       .pyramid = wr_plan_runs(plan, WR_EFFECT_FILTER) ? &renderer->pyramid : NULL,
                       .range = renderer->range.seen ? &renderer->range : NULL };
 }

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/kernmath.h"
 #include "render/pyramid.h"
+#include "shade/slope.h"
 
 #include <float.h>
 

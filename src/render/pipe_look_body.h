@@ -4,7 +4,7 @@
 /* F as a formula: one point at a time, in double. */
 static void look_analytic(const WrTileJob *job, Strip *strip)
 {
-    const double slope = job->plan->bump == WR_BUMP_INVARIANT ? 1.0 : job->view->scale;
+    const double slope = wr_slope_unit(job->plan->bump, job->view->scale);
     for (int i = 0; i < strip->count; i++) {
         double f, fu, fv;
         wr_scene_height(job->scene, NULL, (double)strip->u[i], (double)strip->v[i], &f, &fu, &fv);

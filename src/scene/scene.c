@@ -1,4 +1,5 @@
 #include "scene/scene.h"
+#include "shade/slope.h"
 
 #include <float.h>
 #include <string.h>
@@ -125,12 +126,6 @@ static double table_parameter(double u, double replicate, bool clamped)
     return clamped ? replicate * u : wr_field_reduce(u, replicate);
 }
 
-/* A product of finite numbers, kept finite. */
-static double bounded(double x)
-{
-    return fmax(-DBL_MAX, fmin(x, DBL_MAX));
-}
-
 void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
                      double *fu, double *fv)
 {
@@ -144,7 +139,7 @@ void wr_scene_height(const WrScene *scene, const WrField *field, double u, doubl
         double y = table_parameter(v, rv, wr_field_wrap_v(field) == WR_WRAP_CLAMP);
         wr_field_sample(field, scene->scheme, 1, &x, &y, &value, &slope_u, &slope_v);
     }
-    if (f) *f = bounded(scene->height * value);
-    if (fu) *fu = bounded(bounded(scene->height * slope_u) * ru);
-    if (fv) *fv = bounded(bounded(scene->height * slope_v) * rv);
+    if (f) *f = wr_slope_bounded(scene->height * value);
+    if (fu) *fu = wr_slope_of(slope_u, scene->height, ru);
+    if (fv) *fv = wr_slope_of(slope_v, scene->height, rv);
 }
