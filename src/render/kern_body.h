@@ -128,6 +128,7 @@ static inline VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_surface_body.h"
 #include "render/kern_look_body.h"
 #include "render/kern_bump_body.h"
+#include "shade/light_body.h"
 #include "render/kern_light_body.h"
 #include "render/kern_filter_body.h"
 #include "render/kern_moments_body.h"

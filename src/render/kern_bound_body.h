@@ -209,7 +209,8 @@ FLAT static void kern_bound_light(const RAYS *rays, const LIGHT *light, const SH
     const VEC eye = { rays->eye[0], rays->eye[1], rays->eye[2] };
     const REAL near_light = light->point ? K_(1) : K_(0);
     const REAL near_eye = rays->perspective ? K_(1) : K_(0);
-    const REAL gate = shine->gate ? K_(1) : K_(0), s = shine->shininess;
+    const bool gate = shine->gate;
+    const REAL s = shine->shininess;
     const REAL diffuse = kd * most, specular = shine->ks * most;
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
@@ -219,7 +220,7 @@ FLAT static void kern_bound_light(const RAYS *rays, const LIGHT *light, const SH
         REAL dl = near_light * turn_of(move, r_sqrt(v_dot(wl, wl)));
         REAL de = near_eye * turn_of(move, r_sqrt(v_dot(we, we)));
         REAL d = strip->n_dot_l[i], dd = strip->swing[i] + dl;
-        REAL d0 = larger(d - dd, K_(0)), d1 = larger(d + dd, K_(0)), lit = larger(d, K_(0));
+        REAL d0 = larger(d - dd, K_(0)), d1 = larger(d + dd, K_(0)), lit = light_lit(d);
         REAL change = diffuse * larger(smaller(d1, K_(1)) - lit, lit - d0);
 
         Half half = half_of(strip, i);
@@ -227,13 +228,11 @@ FLAT static void kern_bound_light(const RAYS *rays, const LIGHT *light, const SH
         REAL dh = turn_of(dl + de, r_sqrt(v_dot(lv, lv)));
         REAL c = larger(half.c, K_(0)), dc = strip->swing[i] + dh;
         REAL c0 = larger(c - dc, K_(0)), c1 = smaller(c + dc, K_(1));
-        REAL low = r_pow_below(c0, half.below + dc, s), high = r_pow_below(c1, half.below - dc, s);
-        REAL now = r_pow_below(smaller(c, K_(1)), half.below, s);
-        low = gate != K_(0) ? (d - dd > K_(0) ? low : K_(0)) : low;
-        high = gate != K_(0) ? (d + dd > K_(0) ? high : K_(0)) : high;
-        now = gate != K_(0) ? (d > K_(0) ? now : K_(0)) : now;
-        low = half.there ? low : K_(0);
-        now = half.there ? now : K_(0);
+        REAL low = light_lobe(c0, half.below + dc, s), high = light_lobe(c1, half.below - dc, s);
+        REAL now = light_lobe(smaller(c, K_(1)), half.below, s);
+        low = light_shown(low, gate, d - dd, half.there);
+        high = light_shown(high, gate, d + dd, true);
+        now = light_shown(now, gate, d, half.there);
         change += specular * larger(high - now, now - low);
         strip->bound[i] += LOOSE * change + K_(1e-7);
     }

@@ -1,4 +1,5 @@
-/* kern_light_body.h - ambient, diffuse and highlight over strips. A part of kern_body.h. */
+/* kern_light_body.h - ambient, diffuse and highlight over strips. A part of kern_body.h;
+   the formulas are in shade/light_body.h. */
 
 FLAT static void kern_view(const RAYS *rays, STRIP *strip)
 {
@@ -14,9 +15,8 @@ FLAT static void kern_view(const RAYS *rays, STRIP *strip)
     const VEC eye = { rays->eye[0], rays->eye[1], rays->eye[2] };
     SIMD for (int i = 0; i < count; i++)
     {
-        VEC w = v_sub(eye, LOAD3(strip, p, i));
-        REAL ww = v_dot(w, w), inv = 1.0f / r_sqrt(ww > 1e-30f ? ww : 1.0f);
-        STORE3(strip, v, i, v_scale(w, inv));
+        VEC w = light_toward(LOAD3(strip, p, i), eye);
+        STORE3(strip, v, i, w);
     }
 }
 
@@ -44,9 +44,8 @@ FLAT static void kern_light(const LIGHT *light, STRIP *strip)
     } else {
         SIMD for (int i = 0; i < count; i++)
         {
-            VEC w = v_sub(where, LOAD3(strip, p, i));
-            REAL ww = v_dot(w, w), inv = 1.0f / r_sqrt(ww > 1e-30f ? ww : 1.0f);
-            STORE3(strip, l, i, v_scale(w, inv));
+            VEC w = light_toward(LOAD3(strip, p, i), where);
+            STORE3(strip, l, i, w);
         }
     }
     SIMD for (int i = 0; i < count; i++)
@@ -62,33 +61,18 @@ FLAT static void kern_diffuse(const LIGHT *light, REAL kd, STRIP *strip)
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        REAL lit = strip->n_dot_l[i] > 0.0f ? strip->n_dot_l[i] : 0.0f;
+        REAL lit = light_lit(strip->n_dot_l[i]);
         strip->dr[i] += r * lit;
         strip->dg[i] += g * lit;
         strip->db[i] += b * lit;
     }
 }
 
-/* The half vector h = (l + v) / |l + v|. What a high power is taken of is 1 - n'.h: near 1 that is
-   |n' - h|^2 / 2, to which rounding of the lengths of n' and h does nothing (HC89). */
-typedef struct Half {
-    VEC h;         /* unit; 0 where l and v are opposite */
-    REAL c, below; /* n'.h; 1 - n'.h */
-    bool there;
-} Half;
-
 ALWAYS Half half_of(const STRIP *strip, int i)
 {
-    VEC h = v_add(LOAD3(strip, l, i), LOAD3(strip, v, i)), bent = LOAD3(strip, b, i);
-    REAL hh = v_dot(h, h);
-    bool there = hh > 1e-24f;
-    h = v_scale(h, there ? K_(1) / r_sqrt(there ? hh : K_(1)) : K_(0));
-    REAL c = v_dot(bent, h);
-    VEC off = v_sub(bent, h);
-    return (Half){ h, c, c > K_(0.5) ? K_(0.5) * v_dot(off, off) : K_(1) - c, there };
+    return light_half(LOAD3(strip, l, i), LOAD3(strip, v, i), LOAD3(strip, b, i));
 }
 
-/* max(0, n'.h)^s; 0 where l and v are opposite (HC91). */
 FLAT static void kern_specular(const LIGHT *light, REAL ks, REAL shininess, bool gate, STRIP *strip)
 {
     const REAL r = ks * light->rgb[0], g = ks * light->rgb[1], b = ks * light->rgb[2];
@@ -96,23 +80,22 @@ FLAT static void kern_specular(const LIGHT *light, REAL ks, REAL shininess, bool
     SIMD for (int i = 0; i < count; i++)
     {
         Half half = half_of(strip, i);
-        REAL shine = r_pow_below(half.c > 0.0f ? half.c : 0.0f, half.below, shininess);
-        shine = (!gate || strip->n_dot_l[i] > 0.0f) && half.there ? shine : 0.0f;
+        REAL shine = light_lobe(half.c, half.below, shininess);
+        shine = light_shown(shine, gate, strip->n_dot_l[i], half.there);
         strip->sr[i] += r * shine;
         strip->sg[i] += g * shine;
         strip->sb[i] += b * shine;
     }
 }
 
-/* I = C (ambient + diffuse) + specular */
 FLAT static void kern_finish(const REAL colour[3], STRIP *strip)
 {
     const REAL r = colour[0], g = colour[1], b = colour[2];
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        strip->cr[i] = r * strip->cr[i] * strip->dr[i] + strip->sr[i];
-        strip->cg[i] = g * strip->cg[i] * strip->dg[i] + strip->sg[i];
-        strip->cb[i] = b * strip->cb[i] * strip->db[i] + strip->sb[i];
+        strip->cr[i] = light_sum(r, strip->cr[i], strip->dr[i], strip->sr[i]);
+        strip->cg[i] = light_sum(g, strip->cg[i], strip->dg[i], strip->sg[i]);
+        strip->cb[i] = light_sum(b, strip->cb[i], strip->db[i], strip->sb[i]);
     }
 }

@@ -67,8 +67,8 @@ FLAT static void kern_widen(bool unit_tangents, STRIP *strip)
 ALWAYS void add_shine(const LIGHT *light, const SHINE *shine, REAL power, REAL factor, Half half,
                       STRIP *strip, int i)
 {
-    REAL lobe = r_pow_below(half.c > 0.0f ? half.c : 0.0f, half.below, power) * factor;
-    lobe = (!shine->gate || strip->n_dot_l[i] > 0.0f) && half.there ? lobe : 0.0f;
+    REAL lobe = light_lobe(half.c, half.below, power) * factor;
+    lobe = light_shown(lobe, shine->gate, strip->n_dot_l[i], half.there);
     strip->sr[i] += shine->ks * light->rgb[0] * lobe;
     strip->sg[i] += shine->ks * light->rgb[1] * lobe;
     strip->sb[i] += shine->ks * light->rgb[2] * lobe;

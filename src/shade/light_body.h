@@ -1,0 +1,57 @@
+/* light_body.h - light and reflection at one sample: the formulas, written once for both precisions and for every kernel.
+   Layer 3. After surface/formula.h's names for one precision, or the kernels' (render/kern_body.h): REAL, VEC, K_,
+   R_INLINE, v_dot, r_sqrt, r_pow_below. No branch but ?:, so that loops over samples vectorise. No include guard:
+   compiled once a precision. The reference renderer has its own, on purpose.
+
+     I = C (ambient + sum of kd L max(0, n'.l)) + sum of ks L lobe(n'.h)        h = (l + v) / |l + v| */
+
+/* The direction from one point to another; of nearly equal points their difference. */
+R_INLINE VEC light_toward(VEC from, VEC to)
+{
+    VEC w = v_sub(to, from);
+    REAL ww = v_dot(w, w), inv = K_(1) / r_sqrt(ww > K_(1e-30) ? ww : K_(1));
+    return v_scale(w, inv);
+}
+
+/* max(0, n'.l) */
+R_INLINE REAL light_lit(REAL n_dot_l)
+{
+    return n_dot_l > K_(0) ? n_dot_l : K_(0);
+}
+
+/* The half vector h. What a high power is taken of is 1 - n'.h: near 1 that is |n' - h|^2 / 2, to which
+   rounding of the lengths of n' and h does nothing (HC89). */
+typedef struct Half {
+    VEC h;         /* unit; 0 where l and v are opposite */
+    REAL c, below; /* n'.h; 1 - n'.h */
+    bool there;
+} Half;
+
+R_INLINE Half light_half(VEC l, VEC v, VEC bent)
+{
+    VEC h = v_add(l, v);
+    REAL hh = v_dot(h, h);
+    bool there = hh > K_(1e-24);
+    h = v_scale(h, there ? K_(1) / r_sqrt(there ? hh : K_(1)) : K_(0));
+    REAL c = v_dot(bent, h);
+    VEC off = v_sub(bent, h);
+    return (Half){ h, c, c > K_(0.5) ? K_(0.5) * v_dot(off, off) : K_(1) - c, there };
+}
+
+/* max(0, c)^s from c and 1 - c. */
+R_INLINE REAL light_lobe(REAL c, REAL below, REAL s)
+{
+    return r_pow_below(c > K_(0) ? c : K_(0), below, s);
+}
+
+/* `lobe`, or 0 where nothing shines: where l and v are opposite (HC91), or, gated, behind the light. */
+R_INLINE REAL light_shown(REAL lobe, bool gate, REAL n_dot_l, bool there)
+{
+    return (!gate || n_dot_l > K_(0)) && there ? lobe : K_(0);
+}
+
+/* I = C (ambient + diffuse) + specular */
+R_INLINE REAL light_sum(REAL own, REAL picture, REAL diffuse, REAL specular)
+{
+    return own * picture * diffuse + specular;
+}
