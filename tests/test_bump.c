@@ -305,7 +305,7 @@ static void modes_are_found_by_name(void **state)
 {
     (void)state;
     for (int mode = 0; mode < WR_BUMP_COUNT; mode++)
-        assert_int_equal(wr_bump_find(wr_bump_names[mode]), mode);
+        assert_int_equal(wr_bump_find(wr_bumps[mode].name), mode);
     assert_int_equal(wr_bump_find("phong"), -1);
 }
 

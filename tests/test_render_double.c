@@ -114,7 +114,7 @@ static void expect_surface_alike(int surface, const WrField *field)
         scene->dials.samples = 2;
         char what[120];
         snprintf(what, sizeof what, "%s, %s, %s, %s", name, wr_schemes[scheme].name,
-                 wr_bump_names[mode], filter->name);
+                 wr_bumps[mode].name, filter->name);
         expect_alike(scene, field, what);
         wr_scene_free(scene);
     }

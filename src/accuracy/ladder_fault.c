@@ -1,6 +1,7 @@
 /* Rungs of arithmetic that contradict their own meaning: more bits, and farther from the reference. That is never
    an approximation's price, it is a fault of the program, and it is told as one. */
 #include "accuracy/ladder_inner.h"
+#include "base/rows.h"
 
 #include <math.h>
 
@@ -12,15 +13,22 @@
    and range have it. */
 static int dearness(int dial, double value)
 {
-    static const int heights[] = { [WR_HEIGHTS_DOUBLE] = 3,
-                                   [WR_HEIGHTS_FLOAT] = 2,
-                                   [WR_HEIGHTS_HALF] = 1,
-                                   [WR_HEIGHTS_16] = 1,
-                                   [WR_HEIGHTS_8] = 1 };
-    static const int shadings[] = {
-        [WR_SHADING_DOUBLE] = 3, [WR_SHADING_FLOAT] = 2, [WR_SHADING_HALF] = 1
-    };
-    static const int arithmetics[] = { [WR_ARITHMETIC_EXACT] = 2, [WR_ARITHMETIC_FAST] = 1 };
+    WR_ROWS(heights);
+    static const int heights[] = { [WR_ROW(WR_HEIGHTS_DOUBLE)] = 3,
+                                   [WR_ROW(WR_HEIGHTS_FLOAT)] = 2,
+                                   [WR_ROW(WR_HEIGHTS_HALF)] = 1,
+                                   [WR_ROW(WR_HEIGHTS_16)] = 1,
+                                   [WR_ROW(WR_HEIGHTS_8)] = 1 };
+    WR_ROWS_END(heights, WR_HEIGHTS_COUNT);
+    WR_ROWS(shadings);
+    static const int shadings[] = { [WR_ROW(WR_SHADING_DOUBLE)] = 3,
+                                    [WR_ROW(WR_SHADING_FLOAT)] = 2,
+                                    [WR_ROW(WR_SHADING_HALF)] = 1 };
+    WR_ROWS_END(shadings, WR_SHADING_COUNT);
+    WR_ROWS(arithmetics);
+    static const int arithmetics[] = { [WR_ROW(WR_ARITHMETIC_EXACT)] = 2,
+                                       [WR_ROW(WR_ARITHMETIC_FAST)] = 1 };
+    WR_ROWS_END(arithmetics, WR_ARITHMETIC_COUNT);
     const int rung = (int)value;
     if (dial == WR_DIAL_HEIGHTS) return heights[rung];
     if (dial == WR_DIAL_SHADING) return shadings[rung];

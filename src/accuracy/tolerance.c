@@ -137,8 +137,10 @@ static bool holds(const WrTolerance *tolerance, const WrChoice *choice)
     case WR_TOLERANCE_RMS: return choice->rms <= tolerance->value;
     case WR_TOLERANCE_MAX: return choice->max <= tolerance->value;
     case WR_TOLERANCE_TIME: return choice->seconds <= tolerance->value;
-    default: return true;
+    case WR_TOLERANCE_NONE:
+    case WR_TOLERANCE_COUNT: break;
     }
+    return true;
 }
 
 static void say_reason(const WrTolerance *tolerance, WrChoice *out)

@@ -2,13 +2,18 @@
 #include "accuracy/tolerance_inner.h"
 
 #include "base/memory.h"
+#include "base/rows.h"
 
 #include <string.h>
 
 /* ---- making it ---- */
 
-static const char *const kind_names[KIND_COUNT] = { "edges", "calm insides", "relief",
-                                                    "rough relief" };
+WR_ROWS(kind_names);
+static const char *const kind_names[KIND_COUNT] = { [WR_ROW(KIND_EDGE)] = "edges",
+                                                    [WR_ROW(KIND_CALM)] = "calm insides",
+                                                    [WR_ROW(KIND_RELIEF)] = "relief",
+                                                    [WR_ROW(KIND_ROUGH)] = "rough relief" };
+WR_ROWS_END(kind_names, KIND_COUNT);
 static const double kind_ends[] = { 0.006, 0.03 }; /* root mean square of linear intensity */
 
 static int kind_of(const Block *block)

@@ -1,24 +1,27 @@
 /* What samples take, counted and not clocked: so the same picture gets the same dials wherever and whenever it is
    made. */
 #include "accuracy/tolerance_inner.h"
+#include "base/rows.h"
 
 /* Nanoseconds of one sample on one thread, by regression over all surfaces, slopes and normals at 512 x 512. What
    matters is how they compare. */
+WR_ROWS(surface_price);
 static const double surface_price[] = {
-    [WR_SURFACE_plane] = 10.5, [WR_SURFACE_bent] = 28,   [WR_SURFACE_curl] = 40,
-    [WR_SURFACE_bezier] = 48,  [WR_SURFACE_sphere] = 15, [WR_SURFACE_cylinder] = 14,
-    [WR_SURFACE_cone] = 21,    [WR_SURFACE_torus] = 40,  [WR_SURFACE_cube] = 18,
-    [WR_SURFACE_ribbon] = 43,
+    [WR_ROW(WR_SURFACE_plane)] = 10.5, [WR_ROW(WR_SURFACE_bent)] = 28,
+    [WR_ROW(WR_SURFACE_curl)] = 40,    [WR_ROW(WR_SURFACE_bezier)] = 48,
+    [WR_ROW(WR_SURFACE_sphere)] = 15,  [WR_ROW(WR_SURFACE_cylinder)] = 14,
+    [WR_ROW(WR_SURFACE_cone)] = 21,    [WR_ROW(WR_SURFACE_torus)] = 40,
+    [WR_ROW(WR_SURFACE_cube)] = 18,    [WR_ROW(WR_SURFACE_ribbon)] = 43,
 };
-_Static_assert(sizeof surface_price / sizeof *surface_price == WR_SURFACE_COUNT,
-               "every surface has a price");
+WR_ROWS_END(surface_price, WR_SURFACE_COUNT);
 
+WR_ROWS(slope_price);
 static const double slope_price[] = {
-    [WR_SCHEME_NEAREST] = 4.5,  [WR_SCHEME_BILINEAR] = 4.2,     [WR_SCHEME_CENTRAL] = 7.5,
-    [WR_SCHEME_BSPLINE] = 15.0, [WR_SCHEME_BSPLINE_FIT] = 15.0, [WR_SCHEME_CATMULL] = 17.0,
+    [WR_ROW(WR_SCHEME_NEAREST)] = 4.5,      [WR_ROW(WR_SCHEME_BILINEAR)] = 4.2,
+    [WR_ROW(WR_SCHEME_CENTRAL)] = 7.5,      [WR_ROW(WR_SCHEME_BSPLINE)] = 15.0,
+    [WR_ROW(WR_SCHEME_BSPLINE_FIT)] = 15.0, [WR_ROW(WR_SCHEME_CATMULL)] = 17.0,
 };
-_Static_assert(sizeof slope_price / sizeof *slope_price == WR_SCHEME_COUNT,
-               "every scheme has a price");
+WR_ROWS_END(slope_price, WR_SCHEME_COUNT);
 
 #define EXACT_PRICE 2.5    /* second derivatives, on curved surfaces */
 #define FORMULA_PRICE 20.0 /* F from a formula, a look at its terms */

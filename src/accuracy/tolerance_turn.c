@@ -222,13 +222,12 @@ static bool check(Turn *turn, double turn_deg, WrError *err)
 
 static void say_turn(Turn *turn, int count, double spent)
 {
-    static const char *const names[] = { "", "rms", "max", "time" };
     const WrTolerance *tolerance = &turn->request.scene->tolerance;
     WrChoice *choice = &turn->choice;
     const double each = turn->checked > 0 ? turn->frame_seconds / turn->checked : choice->seconds;
     const double anew = turn->study_seconds / turn->studied, gain = anew - each;
     WrText text = { 0 };
-    wr_text_addf(&text, "tolerance %s=", names[tolerance->kind]);
+    wr_text_addf(&text, "tolerance %s=", wr_tolerance_names[tolerance->kind]);
     wr_text_add_number(&text, tolerance->value);
     wr_text_addf(&text,
                  "%s, %d frames: %s; dials chosen on %d of them for all, looked at on %d others%s; "

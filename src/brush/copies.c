@@ -3,6 +3,8 @@
 #include "base/exactmath.h"
 #include "brush/symmetry.h"
 
+const char *const wr_mirror_names[] = { "none", "u", "v", "uv", NULL };
+
 static int at_least_1(int n)
 {
     return n > 1 ? n : 1;

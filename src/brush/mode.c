@@ -1,4 +1,5 @@
 #include "brush/mode.h"
+#include "base/rows.h"
 
 #include <math.h>
 
@@ -118,43 +119,47 @@ static void cover_sharpen(const WrModeArgs *args, const float *start, const floa
 /* clang-format off */
 #define WORK(...) &(const WrModeWork){ __VA_ARGS__ }
 
+WR_ROWS(wr_brush_modes);
 const WrBrushModeInfo wr_brush_modes[WR_BRUSH_MODE_COUNT] = {
-    [WR_BRUSH_RAISE] = { "raise", "Raise", "adds strength to the height",
+    [WR_ROW(WR_BRUSH_RAISE)] = { "raise", "Raise", "adds strength to the height",
         false, WR_USES_STRENGTH, 0.1, WORK(.cover = cover_raise, .as_strong = true) },
-    [WR_BRUSH_LOWER] = { "lower", "Lower", "takes strength from the height",
+    [WR_ROW(WR_BRUSH_LOWER)] = { "lower", "Lower", "takes strength from the height",
         false, WR_USES_STRENGTH, 0.1, WORK(.cover = cover_lower, .as_strong = true) },
-    [WR_BRUSH_TO] = { "to", "To height", "brings the height towards a given one, by strength at most",
+    [WR_ROW(WR_BRUSH_TO)] = { "to", "To height", "brings the height towards a given one, by strength at most",
         false, WR_USES_STRENGTH | WR_USES_TO, 0.1, WORK(.cover = cover_to, .as_strong = true) },
-    [WR_BRUSH_FLATTEN] = { "flatten", "Flatten", "brings the height to the one where the stroke began",
+    [WR_ROW(WR_BRUSH_FLATTEN)] = { "flatten", "Flatten", "brings the height to the one where the stroke began",
         false, 0, 0.1, WORK(.cover = cover_flatten, .first_height = true) },
-    [WR_BRUSH_LIFT] = { "lift", "Lift floors", "lifts what lies below a given height up to it",
+    [WR_ROW(WR_BRUSH_LIFT)] = { "lift", "Lift floors", "lifts what lies below a given height up to it",
         false, WR_USES_TO, 0.1, WORK(.cover = cover_lift) },
-    [WR_BRUSH_CUT] = { "cut", "Cut peaks", "cuts what stands above a given height down to it",
+    [WR_ROW(WR_BRUSH_CUT)] = { "cut", "Cut peaks", "cuts what stands above a given height down to it",
         false, WR_USES_TO, 0.1, WORK(.cover = cover_cut) },
-    [WR_BRUSH_ERASE] = { "erase", "Erase", "takes away what the layer does to those below",
+    [WR_ROW(WR_BRUSH_ERASE)] = { "erase", "Erase", "takes away what the layer does to those below",
         false, 0, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_BELOW, .lowers_mark = true) },
-    [WR_BRUSH_CLONE] = { "clone", "Clone", "brings the heights from another place",
+    [WR_ROW(WR_BRUSH_CLONE)] = { "clone", "Clone", "brings the heights from another place",
         false, WR_USES_SOURCE, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_SHIFTED) },
-    [WR_BRUSH_SHARPEN] = { "sharpen", "Sharpen", "moves the height away from the mean around it",
+    [WR_ROW(WR_BRUSH_SHARPEN)] = { "sharpen", "Sharpen", "moves the height away from the mean around it",
         false, WR_USES_REACH, 0.1, WORK(.cover = cover_sharpen, .target = WR_TARGET_SHARP) },
-    [WR_BRUSH_DILATE] = { "dilate", "Dilate", "widens what is high: to the largest height around",
+    [WR_ROW(WR_BRUSH_DILATE)] = { "dilate", "Dilate", "widens what is high: to the largest height around",
         false, WR_USES_REACH, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_LARGEST) },
-    [WR_BRUSH_ERODE] = { "erode", "Erode", "widens what is low: to the smallest height around",
+    [WR_ROW(WR_BRUSH_ERODE)] = { "erode", "Erode", "widens what is low: to the smallest height around",
         false, WR_USES_REACH, 0.1, WORK(.cover = cover_target, .target = WR_TARGET_SMALLEST) },
-    [WR_BRUSH_SMOOTH] = { "smooth", "Smooth", "lets heights flow to lower ones nearby; their mean stays",
+    [WR_ROW(WR_BRUSH_SMOOTH)] = { "smooth", "Smooth", "lets heights flow to lower ones nearby; their mean stays",
         true, WR_USES_REACH, 0.25, WORK(.move = wr_move_smooth) },
-    [WR_BRUSH_LEVEL] = { "level", "Level", "brings heights to the plane that fits them best",
+    [WR_ROW(WR_BRUSH_LEVEL)] = { "level", "Level", "brings heights to the plane that fits them best",
         true, 0, 0.25, WORK(.move = wr_move_level) },
-    [WR_BRUSH_PINCH] = { "pinch", "Pinch", "draws heights towards the path",
-        true, 0, 0.2, WORK(.move = wr_move_pinch) },
-    [WR_BRUSH_SMEAR] = { "smear", "Smear", "drags heights along the path",
-        true, 0, 0.1, WORK(.move = wr_move_smear) },
+    [WR_ROW(WR_BRUSH_PINCH)] = { "pinch", "Pinch", "draws heights towards the path",
+        true, 0, 0.2, WORK(.move = wr_move_pinch, .margin = wr_move_pinch_margin) },
+    [WR_ROW(WR_BRUSH_SMEAR)] = { "smear", "Smear", "drags heights along the path",
+        true, 0, 0.1, WORK(.move = wr_move_smear, .margin = wr_move_smear_margin) },
 };
+WR_ROWS_END(wr_brush_modes, WR_BRUSH_MODE_COUNT);
 
+WR_ROWS(wr_brush_pressures);
 const char *const wr_brush_pressures[WR_PRESSURE_COUNT] = {
-    [WR_PRESSURE_STRENGTH] = "strength",
-    [WR_PRESSURE_SIZE] = "size",
-    [WR_PRESSURE_BOTH] = "both",
-    [WR_PRESSURE_NONE] = "none",
+    [WR_ROW(WR_PRESSURE_STRENGTH)] = "strength",
+    [WR_ROW(WR_PRESSURE_SIZE)] = "size",
+    [WR_ROW(WR_PRESSURE_BOTH)] = "both",
+    [WR_ROW(WR_PRESSURE_NONE)] = "none",
 };
+WR_ROWS_END(wr_brush_pressures, WR_PRESSURE_COUNT);
 /* clang-format on */

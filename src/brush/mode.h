@@ -29,12 +29,15 @@ typedef void (*WrCoverMode)(const WrModeArgs *args, const float *start, const fl
 struct WrMoveBox; /* move.h */
 /* Change the heights of a dab's box. */
 typedef void (*WrMoveMode)(struct WrMoveBox *box);
+/* Of a dab's radius and its way from the one before, in texels. */
+typedef double (*WrMoveMargin)(double radius, double way_x, double way_y);
 
 typedef struct WrModeWork {
     WrCoverMode cover; /* NULL for moving modes */
     WrTargetKind target;
-    WrMoveMode move;   /* NULL for covering ones */
-    bool first_height; /* `to` is the height under the stroke's first sample */
+    WrMoveMode move;     /* NULL for covering ones */
+    WrMoveMargin margin; /* moving: texels beside the dab that it reads; NULL: one */
+    bool first_height;   /* `to` is the height under the stroke's first sample */
     bool lowers_mark;
     bool as_strong; /* does nothing where strength is 0 */
 } WrModeWork;

@@ -38,14 +38,6 @@ static double short_way(double d, int n, WrWrap wrap)
     return wrap == WR_WRAP_PERIODIC ? d - n * rint(d / n) : d > 0.0 ? n : -n;
 }
 
-/* Texels beside the dab that modes read. */
-static double margin_of(WrBrushMode mode, double radius, double way_x, double way_y)
-{
-    if (mode == WR_BRUSH_PINCH) return 0.25 * radius + 2.0;
-    if (mode == WR_BRUSH_SMEAR) return fmax(fabs(way_x), fabs(way_y)) + 2.0;
-    return 1.0;
-}
-
 static bool reserve(WrMover *mover, size_t floats)
 {
     if (mover->size >= floats) return true;
@@ -202,7 +194,8 @@ void wr_move_dab(WrMover *mover, WrCover *cover, const WrDabShape *shape, double
     const WrField *field = maker->ground.field;
     way_x = short_way(way_x, wr_field_width(field), wr_field_wrap_u(field));
     way_y = short_way(way_y, wr_field_height(field), wr_field_wrap_v(field));
-    double margin = margin_of(maker->brush.mode, radius, way_x, way_y);
+    const WrMoveMargin reads = wr_mode_work(maker->brush.mode)->margin;
+    double margin = reads ? reads(radius, way_x, way_y) : 1.0;
     int i, j;
     WrMoveBox box = { .dx = way_x, .dy = way_y, .radius = radius, .kernels = shape->kernels };
     if (!axis(shape->x, shape->reach_x, margin, wr_field_width(field), wr_field_wrap_u(field), &i,

@@ -22,6 +22,9 @@ void wr_move_smooth(WrMoveBox *box);
 void wr_move_level(WrMoveBox *box);
 void wr_move_pinch(WrMoveBox *box);
 void wr_move_smear(WrMoveBox *box);
+/* Texels beside the dab that pinch and smear read. */
+double wr_move_pinch_margin(double radius, double way_x, double way_y);
+double wr_move_smear_margin(double radius, double way_x, double way_y);
 
 /* The scratch memory of a stroke. */
 typedef struct WrMover {

@@ -140,6 +140,18 @@ static float height_at(const WrMoveBox *box, double x, double y)
 }
 
 /* Heights are taken from farther out: across the path where it has a direction, else from its centre. */
+double wr_move_pinch_margin(double radius, double way_x, double way_y)
+{
+    (void)way_x, (void)way_y;
+    return 0.25 * radius + 2.0;
+}
+
+double wr_move_smear_margin(double radius, double way_x, double way_y)
+{
+    (void)radius;
+    return fmax(fabs(way_x), fabs(way_y)) + 2.0;
+}
+
 void wr_move_pinch(WrMoveBox *box)
 {
     double length2 = box->dx * box->dx + box->dy * box->dy;

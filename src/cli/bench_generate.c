@@ -5,6 +5,7 @@
  * of its whole process less that of the same process that only loads the picture and saves it again. */
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "cli/bench.h"
 #include "image/image.h"
 
@@ -30,24 +31,26 @@ typedef struct Row {
     const char *bare; /* the same without the operation */
 } Row;
 
+WR_ROWS(rows);
 static const Row rows[KIND_COUNT] = {
-    [NOISE] = { "noise", "gradient noise, 8 octaves", "noise gradient cells=8 octaves=8",
-                "-o out.tif -- gegl:perlin-noise alpha=1.2 scale=1.8 n=8 gegl:crop width=4096 "
-                "height=4096",
-                "in.tif -o out.tif" },
-    [BLUR] = { "blur", "Gaussian blur, sigma 10.67", "adjust blur sigma=10.67",
-               "in.tif -o out.tif -- gegl:gaussian-blur std-dev-x=10.67 std-dev-y=10.67 "
-               "abyss-policy=none",
-               "in.tif -o out.tif" },
-    [NORMALS] = { "normals", "normal map", NULL,
-                  "in.tif -o out.tif -- gegl:normal-map scale=10 tileable=true",
-                  "in.tif -o out.tif -- gegl:convert-format format='RGB float'" },
-    [TEXT] = { "text", "text, 3000 letters", NULL, NULL, NULL },
-    [ROUND_TEXT] = { "text-round", "the same, rounded", NULL, NULL, NULL },
-    [RIVETS] = { "rivets", "10000 spheres", "solid sphere radius=16 across=100 rows=100", NULL,
-                 NULL },
-    [MESH] = { "mesh", "mesh, 1002528 triangles", NULL, NULL, NULL },
+    [WR_ROW(NOISE)] = { "noise", "gradient noise, 8 octaves", "noise gradient cells=8 octaves=8",
+                        "-o out.tif -- gegl:perlin-noise alpha=1.2 scale=1.8 "
+                        "n=8 gegl:crop width=4096 height=4096",
+                        "in.tif -o out.tif" },
+    [WR_ROW(BLUR)] = { "blur", "Gaussian blur, sigma 10.67", "adjust blur sigma=10.67",
+                       "in.tif -o out.tif -- gegl:gaussian-blur std-dev-x=10.67 std-dev-y=10.67 "
+                       "abyss-policy=none",
+                       "in.tif -o out.tif" },
+    [WR_ROW(NORMALS)] = { "normals", "normal map", NULL,
+                          "in.tif -o out.tif -- gegl:normal-map scale=10 tileable=true",
+                          "in.tif -o out.tif -- gegl:convert-format format='RGB float'" },
+    [WR_ROW(TEXT)] = { "text", "text, 3000 letters", NULL, NULL, NULL },
+    [WR_ROW(ROUND_TEXT)] = { "text-round", "the same, rounded", NULL, NULL, NULL },
+    [WR_ROW(RIVETS)] = { "rivets", "10000 spheres", "solid sphere radius=16 across=100 rows=100",
+                         NULL, NULL },
+    [WR_ROW(MESH)] = { "mesh", "mesh, 1002528 triangles", NULL, NULL, NULL },
 };
+WR_ROWS_END(rows, KIND_COUNT);
 
 typedef struct Bench {
     const WrCli *cli;

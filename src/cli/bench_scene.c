@@ -1,11 +1,17 @@
 #include "base/exactmath.h"
+#include "base/rows.h"
 #include "cli/bench.h"
 
 #include <math.h>
 #include <string.h>
 
-const char *const wr_bench_modes[WR_BENCH_MODE_COUNT] = { "phong", "texture", "bump",
-                                                          "bump+texture", "ss16" };
+WR_ROWS(wr_bench_modes);
+const char *const wr_bench_modes[WR_BENCH_MODE_COUNT] = {
+    [WR_ROW(WR_BENCH_PHONG)] = "phong", [WR_ROW(WR_BENCH_TEXTURE)] = "texture",
+    [WR_ROW(WR_BENCH_BUMP)] = "bump",   [WR_ROW(WR_BENCH_BUMP_TEXTURE)] = "bump+texture",
+    [WR_ROW(WR_BENCH_SS16)] = "ss16",
+};
+WR_ROWS_END(wr_bench_modes, WR_BENCH_MODE_COUNT);
 
 #define COLOUR_SIZE 512
 

@@ -49,12 +49,8 @@ static WrField *make_ridges(void)
 
 static bool needs_ground(const WrPreset *preset, const WrBrush *brush)
 {
-    switch (brush->mode) {
-    case WR_BRUSH_RAISE:
-    case WR_BRUSH_LOWER:
-    case WR_BRUSH_TO: return wr_preset_smudges(preset);
-    default: return true;
-    }
+    /* modes with a strength make something of nothing */
+    return !(wr_brush_modes[brush->mode].uses & WR_USES_STRENGTH) || wr_preset_smudges(preset);
 }
 
 /* The preset's brush at a size that the sample can show. */

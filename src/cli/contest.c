@@ -343,8 +343,6 @@ void wr_contest_fini(WrContest *contest)
 
 /* ---- telling ---- */
 
-static const char *const kind_names[WR_TOLERANCE_COUNT] = { "off", "rms", "max", "time" };
-
 static const char *verdict(const WrContestRow *row)
 {
     if (!row->claimed) return row->held ? "held, not promised" : "not promised";
@@ -367,8 +365,9 @@ void wr_contest_text(const WrContest *contest, const char *name, WrText *text)
         wr_text_clear(&setting);
         if (row->found) wr_setting_print(&row->cheapest, &setting);
         wr_text_addf(text, "%s=%-6s %9.2e %9.2e %-18s %8.2f %8.2f ",
-                     kind_names[row->tolerance.kind], wr_number_print(row->tolerance.value, number),
-                     row->rms, row->max, verdict(row), 1e3 * row->choosing, 1e3 * row->seconds);
+                     wr_tolerance_names[row->tolerance.kind],
+                     wr_number_print(row->tolerance.value, number), row->rms, row->max,
+                     verdict(row), 1e3 * row->choosing, 1e3 * row->seconds);
         if (row->found)
             wr_text_addf(text, "%8.2f %6.2f", 1e3 * row->best_seconds,
                          row->seconds / row->best_seconds);
@@ -406,8 +405,9 @@ void wr_contest_json(const WrContest *contest, const char *name, WrText *text)
         wr_text_addf(
             text,
             "%s{\"kind\":\"%s\",\"claimed\":%s,\"held\":%s,\"resolved\":%s,\"verdict\":\"%s\"",
-            i > 0 ? ",\n" : "", kind_names[row->tolerance.kind], row->claimed ? "true" : "false",
-            row->held ? "true" : "false", row->resolved ? "true" : "false", verdict(row));
+            i > 0 ? ",\n" : "", wr_tolerance_names[row->tolerance.kind],
+            row->claimed ? "true" : "false", row->held ? "true" : "false",
+            row->resolved ? "true" : "false", verdict(row));
         for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
             wr_text_addf(text, ",\"%s\":", numbers[n].name);
             wr_text_add_json_number(text, numbers[n].value);

@@ -1,9 +1,17 @@
 /* The one list of commands. */
 #include "command/commands.h"
 
+#include "base/rows.h"
+
 #include <string.h>
 
-const char *const wr_class_names[] = { "edit", "scene", "view", "output", "history" };
+WR_ROWS(wr_class_names);
+const char *const wr_class_names[WR_CLASS_COUNT] = {
+    [WR_ROW(WR_CLASS_EDIT)] = "edit",       [WR_ROW(WR_CLASS_SCENE)] = "scene",
+    [WR_ROW(WR_CLASS_VIEW)] = "view",       [WR_ROW(WR_CLASS_OUTPUT)] = "output",
+    [WR_ROW(WR_CLASS_HISTORY)] = "history",
+};
+WR_ROWS_END(wr_class_names, WR_CLASS_COUNT);
 
 const char *const wr_off_on[] = { "off", "on", NULL };
 

@@ -1,6 +1,7 @@
 #include "command/help.h"
 
 #include "base/memory.h"
+#include "base/rows.h"
 #include "command/call.h"
 
 #include <string.h>
@@ -233,8 +234,13 @@ bool wr_help_command(const char *name, WrText *text, WrError *err)
 
 void wr_help_overview(WrText *text)
 {
-    static const char *const titles[] = { "Edits of the table", "The scene", "How it is looked at",
-                                          "Files", "What was done" };
+    WR_ROWS(titles);
+    static const char *const titles[WR_CLASS_COUNT] = {
+        [WR_ROW(WR_CLASS_EDIT)] = "Edits of the table",  [WR_ROW(WR_CLASS_SCENE)] = "The scene",
+        [WR_ROW(WR_CLASS_VIEW)] = "How it is looked at", [WR_ROW(WR_CLASS_OUTPUT)] = "Files",
+        [WR_ROW(WR_CLASS_HISTORY)] = "What was done",
+    };
+    WR_ROWS_END(titles, WR_CLASS_COUNT);
     for (int kind = 0; kind < WR_CLASS_COUNT; kind++) {
         wr_text_addf(text, "%s%s\n", kind ? "\n" : "", titles[kind]);
         for (int i = 0; i < wr_command_count; i++)

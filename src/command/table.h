@@ -17,16 +17,17 @@ typedef struct WrCall WrCall;
 #define WR_TERMS_MAX 65536                  /* terms of an analytic function */
 
 typedef enum WrCommandClass {
-    WR_CLASS_EDIT,   /* changes heights, layers or the selection: undoable, journaled */
-    WR_CLASS_SCENE,  /* what pictures show: undoable, journaled, saved with the document */
-    WR_CLASS_VIEW,   /* how pictures look at it: no step of the edits, but of a history of its own;
+    WR_CLASS_EDIT,    /* changes heights, layers or the selection: undoable, journaled */
+    WR_CLASS_SCENE,   /* what pictures show: undoable, journaled, saved with the document */
+    WR_CLASS_VIEW,    /* how pictures look at it: no step of the edits, but of a history of its own;
                         journaled, saved with the document */
-    WR_CLASS_OUTPUT, /* writes files: never in a journal, never in a document */
-    WR_CLASS_HISTORY /* goes through what was done: no step of its own, journaled as itself */
+    WR_CLASS_OUTPUT,  /* writes files: never in a journal, never in a document */
+    WR_CLASS_HISTORY, /* goes through what was done: no step of its own, journaled as itself */
+    WR_CLASS_COUNT
 } WrCommandClass;
-#define WR_CLASS_COUNT 5
 
-extern const char *const wr_class_names[]; /* "edit", "scene", "view", "output", "history" */
+extern const char
+    *const wr_class_names[WR_CLASS_COUNT]; /* "edit", "scene", "view", "output", "history" */
 
 typedef enum WrArgType {
     WR_ARG_NUMBER, /* 0.5 */
@@ -39,10 +40,11 @@ typedef enum WrArgType {
     WR_ARG_SHA256, /* 64 hex digits; printed in lower case */
     WR_ARG_NAME,   /* a layer's name: any text but line ends, up to WR_LAYER_NAME_MAX bytes */
     WR_ARG_LAYER,  /* a layer: its number, from 1 at the bottom, or its name */
-    WR_ARG_PRESET  /* a brush preset: its name, or a file name that ends in .myb */
+    WR_ARG_PRESET, /* a brush preset: its name, or a file name that ends in .myb */
+    WR_ARG_TYPES
 } WrArgType;
 
-extern const char *const wr_arg_type_names[]; /* "number", "size", ... */
+extern const char *const wr_arg_type_names[WR_ARG_TYPES]; /* "number", "size", ... */
 
 /* One number of a tuple whose numbers have ranges of their own. */
 typedef WrParamPart WrComponent;

@@ -2,14 +2,25 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "document/document.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-const char *const wr_arg_type_names[] = { "number", "size",   "tuple", "list",  "choice", "path",
-                                          "text",   "sha256", "name",  "layer", "preset" };
+const char *const wr_off_on[] = { "off", "on", NULL };
+
+WR_ROWS(wr_arg_type_names);
+const char *const wr_arg_type_names[WR_ARG_TYPES] = {
+    [WR_ROW(WR_ARG_NUMBER)] = "number", [WR_ROW(WR_ARG_SIZE)] = "size",
+    [WR_ROW(WR_ARG_TUPLE)] = "tuple",   [WR_ROW(WR_ARG_LIST)] = "list",
+    [WR_ROW(WR_ARG_CHOICE)] = "choice", [WR_ROW(WR_ARG_PATH)] = "path",
+    [WR_ROW(WR_ARG_TEXT)] = "text",     [WR_ROW(WR_ARG_SHA256)] = "sha256",
+    [WR_ROW(WR_ARG_NAME)] = "name",     [WR_ROW(WR_ARG_LAYER)] = "layer",
+    [WR_ROW(WR_ARG_PRESET)] = "preset",
+};
+WR_ROWS_END(wr_arg_type_names, WR_ARG_TYPES);
 
 const char *wr_arg_word(const WrArgSpec *spec, int i)
 {
@@ -99,6 +110,7 @@ void wr_arg_expectation(const WrArgSpec *spec, WrText *text)
     case WR_ARG_NAME: wr_text_addf(text, "a name of up to %d bytes", WR_LAYER_NAME_MAX); return;
     case WR_ARG_LAYER: wr_text_add(text, "a layer's number, from 1 at the bottom, or name"); return;
     case WR_ARG_PRESET: wr_text_add(text, "a preset's name, or a file that ends in .myb"); return;
+    case WR_ARG_TYPES: break;
     }
     if (!spec->parts) add_range(text, spec->low, spec->high, spec->above);
     if (spec->unit) wr_text_addf(text, " %s", spec->unit);

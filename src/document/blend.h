@@ -49,6 +49,10 @@ typedef struct WrBlendMode {
 
 extern const WrBlendMode wr_blends[WR_BLEND_COUNT];
 
+/* Those by which a ramp may join the heights that are there, in the order of its argument's words. */
+#define WR_RAMP_BLENDS 4
+extern const WrBlend wr_ramp_blends[];
+
 /* The mode of that name, or -1. */
 int wr_blend_find(const char *name);
 

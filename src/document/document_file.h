@@ -31,7 +31,10 @@
 #define WR_DOCUMENT_SELECTION "selection"
 #define WR_DOCUMENT_COLOUR "colour"
 
-/* "periodic", "clamp-u", "clamp-v" or "clamp": the word for the wrap of a table, as in commands. */
+/* "periodic", "clamp-u", "clamp-v" or "clamp": the word for the wrap of a table, as in commands. Number i
+   clamps u where bit 0 is set, v where bit 1 is; NULL after the last. */
+#define WR_DOCUMENT_WRAPS 4
+const char *wr_document_wrap_name(int i);
 const char *wr_document_wrap_word(WrWrap wrap_u, WrWrap wrap_v);
 bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v); /* false: no such */
 

@@ -2,6 +2,7 @@
 
 #include "base/array.h"
 #include "base/memory.h"
+#include "base/rows.h"
 
 #include <string.h>
 
@@ -22,7 +23,12 @@ static const struct {
               { "clamp-u", WR_WRAP_CLAMP, WR_WRAP_PERIODIC },
               { "clamp-v", WR_WRAP_PERIODIC, WR_WRAP_CLAMP },
               { "clamp", WR_WRAP_CLAMP, WR_WRAP_CLAMP } };
-#define WRAP_COUNT (int)(sizeof wraps / sizeof *wraps)
+_Static_assert(WR_LENGTH(wraps) == WR_DOCUMENT_WRAPS, "document_file.h counts them");
+
+const char *wr_document_wrap_name(int i)
+{
+    return i >= 0 && i < WR_DOCUMENT_WRAPS ? wraps[i].word : NULL;
+}
 
 const char *wr_document_wrap_word(WrWrap wrap_u, WrWrap wrap_v)
 {
@@ -33,7 +39,7 @@ const char *wr_document_wrap_word(WrWrap wrap_u, WrWrap wrap_v)
 
 bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v)
 {
-    for (int i = 0; i < WRAP_COUNT; i++) {
+    for (int i = 0; i < WR_DOCUMENT_WRAPS; i++) {
         if (strcmp(word, wraps[i].word) != 0) continue;
         *wrap_u = wraps[i].u;
         *wrap_v = wraps[i].v;

@@ -33,7 +33,8 @@
 typedef enum WrJournalKind {
     WR_JOURNAL_EMPTY,    /* an empty document */
     WR_JOURNAL_DOCUMENT, /* the file at `path`, as the session opened it */
-    WR_JOURNAL_SNAPSHOT  /* `snapshot`, a document file in NAME.files/ */
+    WR_JOURNAL_SNAPSHOT, /* `snapshot`, a document file in NAME.files/ */
+    WR_JOURNAL_KINDS
 } WrJournalKind;
 
 /* The state that the first command line is to be run on. Strings are borrowed for the call. */

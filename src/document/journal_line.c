@@ -1,5 +1,7 @@
 #include "document/journal_line.h"
 
+#include "base/rows.h"
+
 #include <inttypes.h>
 #include <string.h>
 
@@ -7,8 +9,13 @@
 #define HASH_DIGITS 32
 #define HEADER_WORDS 7 /* after the checksum: program, time, kind, hash, sha256, snapshot, path */
 
-static const char *const kind_words[] = { "empty", "document", "snapshot" };
-#define KIND_COUNT (int)(sizeof kind_words / sizeof *kind_words)
+WR_ROWS(kind_words);
+static const char *const kind_words[WR_JOURNAL_KINDS] = { [WR_ROW(WR_JOURNAL_EMPTY)] = "empty",
+                                                          [WR_ROW(WR_JOURNAL_DOCUMENT)] =
+                                                              "document",
+                                                          [WR_ROW(WR_JOURNAL_SNAPSHOT)] =
+                                                              "snapshot" };
+WR_ROWS_END(kind_words, WR_JOURNAL_KINDS);
 
 /* ---- escapes ---- */
 
@@ -178,8 +185,8 @@ static bool header_from_words(char *const words[HEADER_WORDS], WrJournalHeader *
 {
     WrJournalHeader h = { .program = words[0] };
     int kind = 0;
-    while (kind < KIND_COUNT && strcmp(words[2], kind_words[kind]) != 0) kind++;
-    if (kind == KIND_COUNT) return false;
+    while (kind < WR_JOURNAL_KINDS && strcmp(words[2], kind_words[kind]) != 0) kind++;
+    if (kind == WR_JOURNAL_KINDS) return false;
     h.start.kind = (WrJournalKind)kind;
     if (!parse_time(words[1], &h.time)) return false;
     if (!wr_journal_parse_hash(words[3], &h.start.hash)) return false;

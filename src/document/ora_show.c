@@ -19,11 +19,19 @@ static double grey_of(const WrOraRange *range, float height)
 
 WrOraShowing wr_ora_showing(WrBlend blend)
 {
-    return blend == WR_BLEND_ADD        ? WR_ORA_SUM
-           : blend == WR_BLEND_SUBTRACT ? WR_ORA_TAKEN
-           : blend == WR_BLEND_MIX      ? WR_ORA_MIXED
-           : blend == WR_BLEND_MULTIPLY ? WR_ORA_FACTOR
-                                        : WR_ORA_HEIGHTS;
+    switch (blend) {
+    case WR_BLEND_ADD: return WR_ORA_SUM;
+    case WR_BLEND_SUBTRACT: return WR_ORA_TAKEN;
+    case WR_BLEND_MIX: return WR_ORA_MIXED;
+    case WR_BLEND_MULTIPLY: return WR_ORA_FACTOR;
+    case WR_BLEND_MAX:
+    case WR_BLEND_MIN:
+    case WR_BLEND_SMOOTH_MAX:
+    case WR_BLEND_SMOOTH_MIN:
+    case WR_BLEND_REPLACE:
+    case WR_BLEND_COUNT: break;
+    }
+    return WR_ORA_HEIGHTS;
 }
 
 void wr_ora_show(WrOraShowing showing, const WrOraRange *range, float height, float cover_of,

@@ -1,5 +1,5 @@
 #include "document/ora_stack.h"
-
+#include "base/rows.h"
 #include "document/document.h"
 #include "document/ora.h"
 
@@ -14,14 +14,20 @@
 
 const char *wr_ora_operation(WrBlend blend)
 {
+    WR_ROWS(operations);
     static const char *const operations[WR_BLEND_COUNT] = {
-        [WR_BLEND_ADD] = "svg:plus",           [WR_BLEND_SUBTRACT] = "svg:difference",
-        [WR_BLEND_MAX] = "svg:lighten",        [WR_BLEND_MIN] = "svg:darken",
-        [WR_BLEND_SMOOTH_MAX] = "svg:lighten", [WR_BLEND_SMOOTH_MIN] = "svg:darken",
-        [WR_BLEND_REPLACE] = "svg:src-over",   [WR_BLEND_MIX] = "svg:src-over",
-        [WR_BLEND_MULTIPLY] = "svg:multiply",
+        [WR_ROW(WR_BLEND_ADD)] = "svg:plus",
+        [WR_ROW(WR_BLEND_SUBTRACT)] = "svg:difference",
+        [WR_ROW(WR_BLEND_MAX)] = "svg:lighten",
+        [WR_ROW(WR_BLEND_MIN)] = "svg:darken",
+        [WR_ROW(WR_BLEND_SMOOTH_MAX)] = "svg:lighten",
+        [WR_ROW(WR_BLEND_SMOOTH_MIN)] = "svg:darken",
+        [WR_ROW(WR_BLEND_REPLACE)] = "svg:src-over",
+        [WR_ROW(WR_BLEND_MIX)] = "svg:src-over",
+        [WR_ROW(WR_BLEND_MULTIPLY)] = "svg:multiply",
     };
-    return operations[blend] ? operations[blend] : "svg:src-over";
+    WR_ROWS_END(operations, WR_BLEND_COUNT);
+    return operations[blend];
 }
 
 WrBlend wr_ora_blend(const char *operation, bool *exact)

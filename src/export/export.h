@@ -96,7 +96,7 @@ typedef struct WrExportKind {
 } WrExportKind;
 
 #define WR_EXPORT_KIND_COUNT 5
-extern const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT];
+extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 
 WrExportOptions wr_export_default(

@@ -1,3 +1,4 @@
+#include "base/rows.h"
 #include "export/job.h"
 #include "export/lines.h"
 
@@ -205,7 +206,7 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
         DEPTH, CELL, SCHEME, DITHER                                                                \
     }
 
-const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT] = {
+const WrExportKind wr_export_kinds[] = {
     { .name = "height",
       .label = "height",
       .help = "the table itself: one channel, white is high",
@@ -259,6 +260,7 @@ const WrExportKind wr_export_kinds[WR_EXPORT_KIND_COUNT] = {
       .channels = 1,
       .write = wr_export_profile_write },
 };
+_Static_assert(WR_LENGTH(wr_export_kinds) == WR_EXPORT_KIND_COUNT, "export.h counts them");
 
 const WrExportKind *wr_export_find(const char *name)
 {

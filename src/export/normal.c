@@ -24,18 +24,27 @@ static double difference(const double *at, ptrdiff_t step, bool forward)
 static void table_slope(const double *at, ptrdiff_t pitch, WrScheme scheme, double *right,
                         double *down)
 {
-    if (scheme == WR_SCHEME_BSPLINE || scheme == WR_SCHEME_BSPLINE_FIT) {
+    switch (scheme) {
+    case WR_SCHEME_BSPLINE:
+    case WR_SCHEME_BSPLINE_FIT:
         *right = (difference(at - pitch, 1, false) + 4.0 * difference(at, 1, false) +
                   difference(at + pitch, 1, false)) /
                  6.0;
         *down = (difference(at - 1, pitch, false) + 4.0 * difference(at, pitch, false) +
                  difference(at + 1, pitch, false)) /
                 6.0;
-    } else {
-        bool forward = scheme == WR_SCHEME_BILINEAR;
-        *right = difference(at, 1, forward);
-        *down = difference(at, pitch, forward);
+        return;
+    case WR_SCHEME_BILINEAR:
+        *right = difference(at, 1, true);
+        *down = difference(at, pitch, true);
+        return;
+    case WR_SCHEME_NEAREST:
+    case WR_SCHEME_CENTRAL:
+    case WR_SCHEME_CATMULL:
+    case WR_SCHEME_COUNT: break;
     }
+    *right = difference(at, 1, false);
+    *down = difference(at, pitch, false);
 }
 
 /* normalise(x, y, 1) of x = -height Fu / cell_w, y = -height Fv / cell_h; straight up and counted where
@@ -140,7 +149,7 @@ static double *read_taps(const WrExportJob *job, int y, int rows, size_t pitch)
     const int tall = rows + 2 * APRON, wide = (int)pitch;
     const size_t count = pitch * (size_t)tall;
     double *taps = wr_alloc(count, sizeof *taps);
-    if (job->options.scheme == WR_SCHEME_BSPLINE_FIT) {
+    if (wr_schemes[job->options.scheme].taps == WR_TAPS_FITTED) {
         wr_field_read_fitted_double(job->field, -APRON, y - APRON, wide, tall, taps, pitch);
         return taps;
     }

@@ -3,7 +3,14 @@
 #include <math.h>
 
 #include "base/exactmath.h"
+#include "base/rows.h"
 #include "field/select_inner.h"
+
+WR_ROWS(wr_ramp_names);
+const char *const wr_ramp_names[WR_RAMP_KINDS] = { [WR_ROW(WR_RAMP_LINEAR)] = "linear",
+                                                   [WR_ROW(WR_RAMP_RADIAL)] = "radial",
+                                                   [WR_ROW(WR_RAMP_CONE)] = "cone" };
+WR_ROWS_END(wr_ramp_names, WR_RAMP_KINDS);
 
 /* One axis in texels. */
 typedef struct Axis {

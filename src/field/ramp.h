@@ -25,6 +25,7 @@
 #include "field/field.h"
 
 typedef enum WrRampKind { WR_RAMP_LINEAR, WR_RAMP_RADIAL, WR_RAMP_CONE, WR_RAMP_KINDS } WrRampKind;
+extern const char *const wr_ramp_names[WR_RAMP_KINDS]; /* as in commands: "linear" */
 
 typedef struct WrRamp {
     WrRampKind kind;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/rows.h"
 
 #define COLUMN(a, i, base) a[i] - base, a[4 + (i)] - base, a[8 + (i)] - base, a[12 + (i)] - base
 
@@ -112,26 +113,32 @@ static void eval_catmull(const double *taps, double a, double b, double out[3])
     eval_cubic(catmull_value, catmull_slope, taps, a, b, out);
 }
 
+WR_ROWS(wr_schemes);
 const WrSchemeInfo wr_schemes[WR_SCHEME_COUNT] = {
-    [WR_SCHEME_NEAREST] = { "nearest", "nearest texel",
-                            "the texel's own height and its central difference: blocks", 1, 1, 3,
-                            WR_TAPS_CENTRED, eval_nearest },
-    [WR_SCHEME_BILINEAR] = { "bilinear", "bilinear",
-                             "straight between texels, with creases where cells meet", 2, 1, 3,
-                             WR_TAPS_TABLE, eval_bilinear },
-    [WR_SCHEME_CENTRAL] = { "central", "central difference",
-                            "the paper's: bilinear heights, differences one texel to either side",
-                            2, 2, 3, WR_TAPS_TABLE, eval_central },
-    [WR_SCHEME_BSPLINE] = { "bspline", "cubic B-spline",
-                            "smooth everywhere; rounds the heights off a little", 2, 2, 3,
-                            WR_TAPS_TABLE, eval_bspline },
-    [WR_SCHEME_BSPLINE_FIT] = { "bspline-fit", "cubic B-spline through the samples",
-                                "smooth everywhere and through every texel's height; may overshoot",
-                                4, 3, WR_PREFILTER_REACH + 2, WR_TAPS_FITTED, eval_bspline },
-    [WR_SCHEME_CATMULL] = { "catmull", "Catmull-Rom",
-                            "through every texel's height, with continuous slopes", 3, 2, 3,
-                            WR_TAPS_TABLE, eval_catmull },
+    [WR_ROW(WR_SCHEME_NEAREST)] = { "nearest", "nearest texel", "Nearest",
+                                    "the texel's own height and its central difference: blocks", 1,
+                                    1, 3, WR_TAPS_CENTRED, eval_nearest },
+    [WR_ROW(WR_SCHEME_BILINEAR)] = { "bilinear", "bilinear", "Bilinear",
+                                     "straight between texels, with creases where cells meet", 2, 1,
+                                     3, WR_TAPS_TABLE, eval_bilinear },
+    [WR_ROW(WR_SCHEME_CENTRAL)] = { "central", "central difference", "Central",
+                                    "the paper's: bilinear heights, differences one "
+                                    "texel to either side",
+                                    2, 2, 3, WR_TAPS_TABLE, eval_central },
+    [WR_ROW(WR_SCHEME_BSPLINE)] = { "bspline", "cubic B-spline", "B-spline",
+                                    "smooth everywhere; rounds the heights off a little", 2, 2, 3,
+                                    WR_TAPS_TABLE, eval_bspline },
+    [WR_ROW(WR_SCHEME_BSPLINE_FIT)] = { "bspline-fit", "cubic B-spline through the samples",
+                                        "B-spline, fitted",
+                                        "smooth everywhere and through every texel's height; may "
+                                        "overshoot",
+                                        4, 3, WR_PREFILTER_REACH + 2, WR_TAPS_FITTED,
+                                        eval_bspline },
+    [WR_ROW(WR_SCHEME_CATMULL)] = { "catmull", "Catmull-Rom", "Catmull-Rom",
+                                    "through every texel's height, with continuous slopes", 3, 2, 3,
+                                    WR_TAPS_TABLE, eval_catmull },
 };
+WR_ROWS_END(wr_schemes, WR_SCHEME_COUNT);
 
 int wr_scheme_find(const char *name)
 {

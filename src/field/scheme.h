@@ -41,6 +41,7 @@ typedef void (*WrSchemeEval)(const double *taps, double a, double b, double out[
 typedef struct WrSchemeInfo {
     const char *name;      /* as in commands: "bspline-fit" */
     const char *label;     /* for people: "cubic B-spline through the samples" */
+    const char *title;     /* in lists of the window: "B-spline, fitted" */
     const char *help;      /* one sentence */
     int order_f, order_fu; /* of convergence in the texel's size, for smooth F */
     int reach; /* a texel's edit changes F or its slopes at most this many texels away, the

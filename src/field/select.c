@@ -7,6 +7,7 @@
 
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "field/ops.h"
 #include "field/select_inner.h"
 
@@ -179,6 +180,15 @@ WrField *wr_select_slope(const WrField *field, double relief, double low, double
     wr_free(band.scratch);
     return result;
 }
+
+WR_ROWS(wr_select_modes);
+const char *const wr_select_modes[WR_SELECT_MODES + 1] = {
+    [WR_ROW(WR_SELECT_REPLACE)] = "replace",
+    [WR_ROW(WR_SELECT_ADD)] = "add",
+    [WR_ROW(WR_SELECT_SUBTRACT)] = "subtract",
+    [WR_ROW(WR_SELECT_INTERSECT)] = "intersect",
+};
+WR_ROWS_END(wr_select_modes, WR_SELECT_MODES);
 
 static float join(WrSelectMode mode, float a, float b)
 {

@@ -1,6 +1,7 @@
 #include "generate/noise_rows.h"
 
 #include "base/memory.h"
+#include "base/rows.h"
 #include "generate/build.h"
 #include "generate/param.h"
 #include "noise/grid.h"
@@ -11,7 +12,9 @@
 static const char *const domains[] = { "plane", "slice", "along-u", "along-v", NULL };
 static const char *const ways[] = { "sheared", "torus", "slice", NULL };
 static const char *const modes[] = { "fbm", "turbulence", "billow", "ridged", NULL };
+_Static_assert(WR_LENGTH(modes) == WR_OCTAVES_MODE_COUNT + 1, "in the order of WrOctavesMode");
 static const char *const fades[] = { "linear", "cubic", "quintic", NULL };
+_Static_assert(WR_LENGTH(fades) == WR_FADE_COUNT + 1, "in the order of WrFade");
 static const char *const sources[] = { "hash", "lecture", NULL };
 
 #define NOISE_PARAMS(count)                                                                        \

@@ -4,23 +4,28 @@
 #include "hardcases/hardcases_inner.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/rows.h"
 
 #include <string.h>
 
+WR_ROWS(wr_hard_subjects);
 const char *const wr_hard_subjects[WR_HARD_SUBJECTS] = {
-    [WR_HARD_GEOMETRY] = "geometry and normals",
-    [WR_HARD_TABLE] = "table lookup",
-    [WR_HARD_NOISE] = "noise",
-    [WR_HARD_PAINT] = "painting, stamping, text",
-    [WR_HARD_RENDER] = "rendering",
+    [WR_ROW(WR_HARD_GEOMETRY)] = "geometry and normals",
+    [WR_ROW(WR_HARD_TABLE)] = "table lookup",
+    [WR_ROW(WR_HARD_NOISE)] = "noise",
+    [WR_ROW(WR_HARD_PAINT)] = "painting, stamping, text",
+    [WR_ROW(WR_HARD_RENDER)] = "rendering",
 };
+WR_ROWS_END(wr_hard_subjects, WR_HARD_SUBJECTS);
 
+WR_ROWS(wr_hard_verdicts);
 const char *const wr_hard_verdicts[WR_HARD_VERDICTS] = {
-    [WR_HARD_PASS] = "pass",
-    [WR_HARD_FAIL] = "fail",
-    [WR_HARD_WAITS] = "waits",
-    [WR_HARD_UNMEASURED] = "unmeasured",
+    [WR_ROW(WR_HARD_PASS)] = "pass",
+    [WR_ROW(WR_HARD_FAIL)] = "fail",
+    [WR_ROW(WR_HARD_WAITS)] = "waits",
+    [WR_ROW(WR_HARD_UNMEASURED)] = "unmeasured",
 };
+WR_ROWS_END(wr_hard_verdicts, WR_HARD_VERDICTS);
 
 #define ONE_LIST(name) &wr_hard_##name,
 static const WrHardList *const lists[] = { WR_HARD_ROWS(ONE_LIST) };

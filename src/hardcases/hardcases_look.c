@@ -4,7 +4,8 @@
 bool wr_hard_look_init(WrHardGauge *gauge, WrHardLook *look, const WrField *field, WrScheme scheme,
                        double ru, double rv, WrError *err)
 {
-    const WrCopyKind kind = scheme == WR_SCHEME_BSPLINE_FIT ? WR_COPY_FITTED : WR_COPY_HEIGHTS;
+    const WrCopyKind kind =
+        wr_schemes[scheme].taps == WR_TAPS_FITTED ? WR_COPY_FITTED : WR_COPY_HEIGHTS;
     *look = (WrHardLook){ .scheme = scheme };
     wr_table_init(&look->table);
     if (!wr_table_bring(&look->table, kind, field, gauge->pool, err) ||

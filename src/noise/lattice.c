@@ -1,29 +1,32 @@
 #include "noise/lattice.h"
 
 #include "base/exactmath.h"
+#include "base/rows.h"
 
 #include <math.h>
 #include <string.h>
 
+WR_ROWS(wr_fades);
 const WrFadeInfo wr_fades[WR_FADE_COUNT] = {
-    [WR_FADE_LINEAR] = { "linear",
-                         "linear",
-                         "Straight between lattice points: creased there, and "
-                         "prescribed slopes are not met.",
-                         0,
-                         { 0, 1, 0, 0, 0, 0 } },
-    [WR_FADE_CUBIC] = { "cubic",
-                        "cubic",
-                        "Slopes are continuous and met; curvature jumps at cell "
-                        "borders, which bump shading can show.",
-                        1,
-                        { 0, 0, 3, -2, 0, 0 } },
-    [WR_FADE_QUINTIC] = { "quintic",
-                          "quintic",
-                          "Slopes and curvatures are continuous.",
-                          2,
-                          { 0, 0, 0, 10, -15, 6 } },
+    [WR_ROW(WR_FADE_LINEAR)] = { "linear",
+                                 "linear",
+                                 "Straight between lattice points: creased there, and "
+                                 "prescribed slopes are not met.",
+                                 0,
+                                 { 0, 1, 0, 0, 0, 0 } },
+    [WR_ROW(WR_FADE_CUBIC)] = { "cubic",
+                                "cubic",
+                                "Slopes are continuous and met; curvature jumps at cell "
+                                "borders, which bump shading can show.",
+                                1,
+                                { 0, 0, 3, -2, 0, 0 } },
+    [WR_ROW(WR_FADE_QUINTIC)] = { "quintic",
+                                  "quintic",
+                                  "Slopes and curvatures are continuous.",
+                                  2,
+                                  { 0, 0, 0, 10, -15, 6 } },
 };
+WR_ROWS_END(wr_fades, WR_FADE_COUNT);
 
 int wr_fade_find(const char *name)
 {

@@ -1,5 +1,5 @@
 #include "noise/noise.h"
-
+#include "base/rows.h"
 #include "noise/inner.h"
 
 #include <math.h>
@@ -14,40 +14,45 @@
         }                                                                                          \
     }
 
+WR_ROWS(wr_noises);
 const WrNoiseInfo wr_noises[WR_NOISE_KIND_COUNT] = {
-    [WR_NOISE_VALUE] = { .name = "value",
-                         .label = "value",
-                         .help = "Blends random heights that stand on a square lattice.",
-                         .cells = true,
-                         .repeat = ANY },
-    [WR_NOISE_GRADIENT] = { .name = "gradient",
-                            .label = "gradient",
-                            .help = "Meets random heights and random slopes on a square lattice.",
-                            .cells = true,
-                            .repeat = ANY },
-    [WR_NOISE_PERLIN] = { .name = "perlin",
-                          .label = "Perlin",
-                          .help = "Is 0 with a slope from a fixed set on a square lattice.",
-                          .cells = true,
-                          .repeat = ANY },
-    [WR_NOISE_SIMPLEX] = { .name = "simplex",
-                           .label = "simplex",
-                           .help =
-                               "Adds round bumps on a lattice of triangles or tetrahedra; in 2D "
-                               "it cannot repeat.",
-                           .repeat = { [1] = { .works = true },
-                                       [2] = { .works = true, .step = { 3, 3, 3 } } } },
-    [WR_NOISE_SHEARED] = { .name = "sheared",
-                           .label = "simplex on sheared triangles",
-                           .help =
-                               "Simplex noise on triangles of base 1 and height 1, which repeat.",
-                           .repeat = { [1] = { .works = true, .step = { 1, 2 } } } },
-    [WR_NOISE_TORUS] = { .name = "torus",
-                         .label = "simplex on a torus",
-                         .help =
-                             "4D simplex noise on a torus: repeats, without favoured directions.",
-                         .repeat = { [1] = { .works = true, .always = true, .step = { 1, 1 } } } },
+    [WR_ROW(WR_NOISE_VALUE)] = { .name = "value",
+                                 .label = "value",
+                                 .help = "Blends random heights that stand on a square lattice.",
+                                 .cells = true,
+                                 .repeat = ANY },
+    [WR_ROW(WR_NOISE_GRADIENT)] = { .name = "gradient",
+                                    .label = "gradient",
+                                    .help = "Meets random heights and random slopes on a square "
+                                            "lattice.",
+                                    .cells = true,
+                                    .repeat = ANY },
+    [WR_ROW(WR_NOISE_PERLIN)] = { .name = "perlin",
+                                  .label = "Perlin",
+                                  .help = "Is 0 with a slope from a fixed set on a square lattice.",
+                                  .cells = true,
+                                  .repeat = ANY },
+    [WR_ROW(WR_NOISE_SIMPLEX)] = { .name = "simplex",
+                                   .label = "simplex",
+                                   .help = "Adds round bumps on a lattice of triangles or "
+                                           "tetrahedra; in 2D it cannot repeat.",
+                                   .repeat = { [1] = { .works = true },
+                                               [2] = { .works = true, .step = { 3, 3, 3 } } } },
+    [WR_ROW(WR_NOISE_SHEARED)] = { .name = "sheared",
+                                   .label = "simplex on sheared triangles",
+                                   .help =
+                                       "Simplex noise on triangles of base 1 and height 1, which "
+                                       "repeat.",
+                                   .repeat = { [1] = { .works = true, .step = { 1, 2 } } } },
+    [WR_ROW(WR_NOISE_TORUS)] = { .name = "torus",
+                                 .label = "simplex on a torus",
+                                 .help = "4D simplex noise on a torus: repeats, without favoured "
+                                         "directions.",
+                                 .repeat = { [1] = { .works = true,
+                                                     .always = true,
+                                                     .step = { 1, 1 } } } },
 };
+WR_ROWS_END(wr_noises, WR_NOISE_KIND_COUNT);
 #undef ANY
 
 int wr_noise_find(const char *name)

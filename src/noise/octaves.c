@@ -1,21 +1,25 @@
 #include "noise/octaves.h"
 
 #include "base/text.h"
+#include "base/rows.h"
 
 #include <math.h>
 #include <string.h>
 
+WR_ROWS(wr_octaves_modes);
 const WrOctavesInfo wr_octaves_modes[WR_OCTAVES_MODE_COUNT] = {
-    [WR_OCTAVES_FBM] = { "fbm", "fractional Brownian motion", "The sum of the octaves." },
-    [WR_OCTAVES_TURBULENCE] = { "turbulence", "turbulence",
-                                "The sum of the octaves' absolute values: creased valleys." },
-    [WR_OCTAVES_BILLOW] = { "billow", "billow",
-                            "Turbulence about a ground level of 0: rounded hills between "
-                            "creases." },
-    [WR_OCTAVES_RIDGED] = { "ridged", "ridged",
-                            "Sharp ridges where the octaves are 0; finer octaves on the ridges "
-                            "only." },
+    [WR_ROW(WR_OCTAVES_FBM)] = { "fbm", "fractional Brownian motion", "The sum of the octaves." },
+    [WR_ROW(WR_OCTAVES_TURBULENCE)] = { "turbulence", "turbulence",
+                                        "The sum of the octaves' absolute values: creased "
+                                        "valleys." },
+    [WR_ROW(WR_OCTAVES_BILLOW)] = { "billow", "billow",
+                                    "Turbulence about a ground level of 0: rounded hills between "
+                                    "creases." },
+    [WR_ROW(WR_OCTAVES_RIDGED)] = { "ridged", "ridged",
+                                    "Sharp ridges where the octaves are 0; finer octaves "
+                                    "on the ridges only." },
 };
+WR_ROWS_END(wr_octaves_modes, WR_OCTAVES_MODE_COUNT);
 
 int wr_octaves_mode_find(const char *name)
 {

@@ -62,7 +62,7 @@ static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bo
     const WrField *field = renderer->looked;
     const bool gradient = wr_plan_runs(plan, WR_EFFECT_GRADIENT);
     const bool looked = plan->source == WR_SOURCE_TABLE;
-    const bool fitted = looked && plan->scheme == WR_SCHEME_BSPLINE_FIT;
+    const bool fitted = looked && wr_schemes[plan->scheme].taps == WR_TAPS_FITTED;
     const bool heights = looked && !fitted && (!gradient || wr_plan_runs(plan, WR_EFFECT_EXACT));
     if (!gradient && !slope_free && !hold) wr_table_drop(table, WR_COPY_GRADIENT);
     if (!fitted && !hold) wr_table_drop(table, WR_COPY_FITTED);
@@ -166,7 +166,7 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
                          WrTileJob *job)
 {
     const WrTableCopy *copies = renderer->table.copies;
-    const bool fitted = renderer->plan.scheme == WR_SCHEME_BSPLINE_FIT;
+    const bool fitted = wr_schemes[renderer->plan.scheme].taps == WR_TAPS_FITTED;
     const WrTableCopy *heights = &copies[fitted ? WR_COPY_FITTED : WR_COPY_HEIGHTS];
     const WrTableCopy *gradient = &copies[WR_COPY_GRADIENT];
     WrLookd look = make_look(renderer, request, scale);

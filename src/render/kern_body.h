@@ -3,6 +3,7 @@
    kernels shall work in double. Plain loops over structure-of-arrays strips; no branch inside but ?: on
    scalars, no library call that does not vectorise.
    A header without a guard, by intention. */
+#include "base/rows.h"
 #include "render/kern.h"
 #include "render/kern_double_math.h"
 #include "render/pyramid.h"
@@ -134,6 +135,7 @@ static inline VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_moments_body.h"
 #include "render/kern_bound_body.h"
 
+WR_ROWS(kernels);
 const KERNELS WR_KERN_TABLE = {
     .name = WR_KERN_NAME,
     .exact = WR_KERN_EXACT,
@@ -162,21 +164,21 @@ const KERNELS WR_KERN_TABLE = {
 #include "surface/surface_list.h"
     },
     .look = {
-        [WR_SCHEME_NEAREST] = kern_look_nearest,
-        [WR_SCHEME_BILINEAR] = kern_look_bilinear,
-        [WR_SCHEME_CENTRAL] = kern_look_central,
-        [WR_SCHEME_BSPLINE] = kern_look_bspline,
-        [WR_SCHEME_BSPLINE_FIT] = kern_look_bspline,
-        [WR_SCHEME_CATMULL] = kern_look_catmull,
+        [WR_ROW(WR_SCHEME_NEAREST)] = kern_look_nearest,
+        [WR_ROW(WR_SCHEME_BILINEAR)] = kern_look_bilinear,
+        [WR_ROW(WR_SCHEME_CENTRAL)] = kern_look_central,
+        [WR_ROW(WR_SCHEME_BSPLINE)] = kern_look_bspline,
+        [WR_ROW(WR_SCHEME_BSPLINE_FIT)] = kern_look_bspline,
+        [WR_ROW(WR_SCHEME_CATMULL)] = kern_look_catmull,
     },
     .footprint = kern_footprint,
     .spread = kern_spread,
     .look_pyramid = kern_look_pyramid,
     .bump = {
-        [WR_BUMP_NONE] = kern_bump_none,
-        [WR_BUMP_BLINN] = kern_bump_blinn,
-        [WR_BUMP_INVARIANT] = kern_bump_invariant,
-        [WR_BUMP_EXACT] = kern_bump_exact,
+        [WR_ROW(WR_BUMP_NONE)] = kern_bump_none,
+        [WR_ROW(WR_BUMP_BLINN)] = kern_bump_blinn,
+        [WR_ROW(WR_BUMP_INVARIANT)] = kern_bump_invariant,
+        [WR_ROW(WR_BUMP_EXACT)] = kern_bump_exact,
     },
     .widen = kern_widen,
     .colour = kern_colour,
@@ -194,3 +196,4 @@ const KERNELS WR_KERN_TABLE = {
     .bound_normal = kern_bound_normal,
     .bound_light = kern_bound_light,
 };
+WR_ROWS_END(kernels, WR_SCHEME_COUNT + WR_BUMP_COUNT);

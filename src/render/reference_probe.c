@@ -168,7 +168,7 @@ bool wr_reference_map(const WrField *field, const WrScene *scene, int width, int
 {
     MapJob job = { .map = map, .width = width, .cancel = cancel, .out = out };
     /* A single look-up by the scheme would find that texel's coefficients each time. */
-    const bool table = scene->scheme == WR_SCHEME_BSPLINE_FIT && map != WR_MAP_LEVEL;
+    const bool table = wr_schemes[scene->scheme].taps == WR_TAPS_FITTED && map != WR_MAP_LEVEL;
     bool good = looker_init(&job.looker, field, scene, width, height, turn_deg, table, pool, err);
     if (good) wr_pool_run(pool, height, map_row, &job);
     wr_reference_stage_fini(&job.looker.stage);

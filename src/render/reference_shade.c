@@ -2,6 +2,19 @@
 
 #include <math.h>
 
+/* The normal that a mode stands for: of a surface that is displaced, but where it is another by intention. */
+static WrBumpMode truth_of(WrBumpMode mode)
+{
+    switch (mode) {
+    case WR_BUMP_INVARIANT: return WR_BUMP_INVARIANT;
+    case WR_BUMP_NONE:
+    case WR_BUMP_BLINN:
+    case WR_BUMP_EXACT:
+    case WR_BUMP_COUNT: break;
+    }
+    return WR_BUMP_EXACT;
+}
+
 bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
                              double turn_deg, int width, int height, bool table, WrPool *pool,
                              WrError *err)
@@ -13,9 +26,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
         stage->periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
         stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     }
-    stage->bump = scene->height == 0                 ? WR_BUMP_NONE
-                  : scene->bump == WR_BUMP_INVARIANT ? WR_BUMP_INVARIANT
-                                                     : WR_BUMP_EXACT;
+    stage->bump = scene->height == 0 ? WR_BUMP_NONE : truth_of(scene->bump);
     if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
     if (!table || formula || scene->height == 0) return true;
     return wr_reference_table_init(&stage->table, field, pool, err);

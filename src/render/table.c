@@ -1,6 +1,7 @@
 #include "render/table.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/rows.h"
 
 #include <float.h>
 #include <string.h>
@@ -71,6 +72,7 @@ static void fine_gradient(const WrField *field, int i, int j, int w, int h, doub
     wr_free(ring.t);
 }
 
+WR_ROWS(kinds);
 static const struct {
     FillRect fill;
     FillFine fine; /* NULL: heights, which are single-precision numbers */
@@ -78,11 +80,12 @@ static const struct {
     int reach;     /* a texel of F changes the copy this far away */
     const char *what;
 } kinds[WR_COPY_COUNT] = {
-    [WR_COPY_HEIGHTS] = { wr_field_read, NULL, 1, 0, "heights for the picture" },
-    [WR_COPY_FITTED] = { wr_field_read_fitted, wr_field_read_fitted_double, 1, WR_PREFILTER_REACH,
-                         "spline coefficients" },
-    [WR_COPY_GRADIENT] = { fill_gradient, fine_gradient, 2, 1, "gradient table" },
+    [WR_ROW(WR_COPY_HEIGHTS)] = { wr_field_read, NULL, 1, 0, "heights for the picture" },
+    [WR_ROW(WR_COPY_FITTED)] = { wr_field_read_fitted, wr_field_read_fitted_double, 1,
+                                 WR_PREFILTER_REACH, "spline coefficients" },
+    [WR_ROW(WR_COPY_GRADIENT)] = { fill_gradient, fine_gradient, 2, 1, "gradient table" },
 };
+WR_ROWS_END(kinds, WR_COPY_COUNT);
 
 static int tile_count(const WrField *field)
 {

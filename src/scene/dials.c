@@ -1,16 +1,18 @@
 /* The table of dials. */
 #include "scene/dials.h"
-
+#include "base/rows.h"
 #include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>
 
+WR_ROWS(wr_axis_labels);
 const char *const wr_axis_labels[WR_AXIS_COUNT] = {
-    [WR_AXIS_DERIVATIVE] = "derivative of F", [WR_AXIS_NORMAL] = "normal",
-    [WR_AXIS_ANTIALIASING] = "antialiasing",  [WR_AXIS_VISIBILITY] = "visibility",
-    [WR_AXIS_ARITHMETIC] = "arithmetic",
+    [WR_ROW(WR_AXIS_DERIVATIVE)] = "derivative of F", [WR_ROW(WR_AXIS_NORMAL)] = "normal",
+    [WR_ROW(WR_AXIS_ANTIALIASING)] = "antialiasing",  [WR_ROW(WR_AXIS_VISIBILITY)] = "visibility",
+    [WR_ROW(WR_AXIS_ARITHMETIC)] = "arithmetic",
 };
+WR_ROWS_END(wr_axis_labels, WR_AXIS_COUNT);
 
 WrDials wr_dials_default(void)
 {
@@ -28,7 +30,8 @@ void wr_dials_smooth(WrDials *dials)
 #define NAMES(function, count, ...)                                                                \
     static const char *function(int rung)                                                          \
     {                                                                                              \
-        static const char *const names[count] = { __VA_ARGS__ };                                   \
+        static const char *const names[] = { __VA_ARGS__ };                                        \
+        _Static_assert(WR_LENGTH(names) == (count), "a word for each");                            \
         return rung >= 0 && rung < (count) ? names[rung] : NULL;                                   \
     }
 
@@ -48,7 +51,7 @@ static const char *scheme_name(int rung)
 
 static const char *normal_name(int rung)
 {
-    return rung >= 0 && rung < WR_BUMP_COUNT ? wr_bump_names[rung] : NULL;
+    return rung >= 0 && rung < WR_BUMP_COUNT ? wr_bumps[rung].name : NULL;
 }
 
 /* ---- where they live ---- */
@@ -122,60 +125,69 @@ static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
 #define CHOICES(name, count_) .choices = (count_), .choice = name##_name
 #define MEMBERS(name) .get = get_##name, .set = set_##name
 
+WR_ROWS(wr_dials);
 const WrDial wr_dials[WR_DIAL_COUNT] = {
-    [WR_DIAL_SCHEME] = { "scheme", "bump", WR_AXIS_DERIVATIVE, "Slopes of F",
-                         "how F and its slopes come from the table",
-                         CHOICES(scheme, WR_SCHEME_COUNT), MEMBERS(scheme), .matters = with_table },
-    [WR_DIAL_NORMAL] = { "mode", "bump", WR_AXIS_NORMAL, "Normal", "which formula turns the normal",
-                         CHOICES(normal, WR_BUMP_COUNT), MEMBERS(normal) },
-    [WR_DIAL_AA] = { "aa", "dials", WR_AXIS_ANTIALIASING, "Antialiasing",
-                     "how a pixel's samples become one intensity", CHOICES(aa, WR_AA_COUNT),
-                     MEMBERS(aa) },
-    [WR_DIAL_SAMPLES] = { "samples", "dials", WR_AXIS_ANTIALIASING, "Samples",
-                          "along each side of a pixel: supersample takes them all, adaptive at "
-                          "most",
-                          .low = 1, .high = 64, .whole = true, MEMBERS(samples),
-                          .matters = with_samples, .rungs = sample_rungs },
-    [WR_DIAL_SPREAD] = { "spread", "dials", WR_AXIS_ANTIALIASING, "Sample places",
-                         "where in the pixel the samples stand", CHOICES(spread, WR_SPREAD_COUNT),
-                         MEMBERS(spread), .matters = with_samples },
-    [WR_DIAL_FOOTPRINT] = { "footprint", "dials", WR_AXIS_ANTIALIASING, "Footprint",
-                            "shape of a pixel in the table, for filter and moments",
-                            CHOICES(footprint, WR_FOOTPRINT_COUNT), MEMBERS(footprint),
-                            .matters = with_footprint },
-    [WR_DIAL_MOMENTS] = { "moments", "dials", WR_AXIS_ANTIALIASING, "Spread of slopes",
-                          "one variance, or the whole covariance",
-                          CHOICES(moments, WR_MOMENTS_COUNT), MEMBERS(moments),
-                          .matters = with_moments },
-    [WR_DIAL_REFINE] = { "refine", "dials", WR_AXIS_ANTIALIASING, "Refine where",
-                         "neighbours disagree, or a bound on the error says so",
-                         CHOICES(refine, WR_REFINE_COUNT), MEMBERS(refine),
-                         .matters = with_adaptive },
-    [WR_DIAL_CONTRAST] = { "contrast", "dials", WR_AXIS_ANTIALIASING, "Contrast",
-                           "linear intensity that adaptive lets pass", .low = 0, .high = 1,
-                           MEMBERS(contrast), .matters = with_adaptive, .rungs = contrast_rungs },
-    [WR_DIAL_MESH] = { "mesh", "dials", WR_AXIS_VISIBILITY, "Mesh",
-                       "curved surfaces' grid is 2^mesh times as fine each way", .low = -4,
-                       .high = 4, .whole = true, MEMBERS(mesh), .matters = with_mesh,
-                       .rungs = mesh_rungs },
-    [WR_DIAL_NEWTON] = { "newton", "dials", WR_AXIS_VISIBILITY, "Newton steps",
-                         "most steps of the inversion; -1: as many as the mesh calls for",
-                         .low = -1, .high = 8, .whole = true, MEMBERS(newton), .matters = with_mesh,
-                         .rungs = newton_rungs },
-    [WR_DIAL_TEXELS] = { "texels", "dials", WR_AXIS_VISIBILITY, "Inversion stops at",
-                         "a step shorter than so many texels; 0: never before its last", .low = 0,
-                         .high = 16, MEMBERS(texels), .matters = with_mesh, .rungs = texel_rungs },
-    [WR_DIAL_HEIGHTS] = { "heights", "dials", WR_AXIS_ARITHMETIC, "Heights",
-                          "what a height is stored as when it is looked up",
-                          CHOICES(heights, WR_HEIGHTS_COUNT), MEMBERS(heights),
-                          .matters = with_table },
-    [WR_DIAL_SHADING] = { "shading", "dials", WR_AXIS_ARITHMETIC, "Shading",
-                          "precision from the ray to the intensity; half: of normals and light",
-                          CHOICES(shading, WR_SHADING_COUNT), MEMBERS(shading) },
-    [WR_DIAL_ARITHMETIC] = { "arithmetic", "dials", WR_AXIS_ARITHMETIC, "Arithmetic",
-                             "the same bits on every processor, or faster",
-                             CHOICES(arithmetic, WR_ARITHMETIC_COUNT), MEMBERS(arithmetic) },
+    [WR_ROW(WR_DIAL_SCHEME)] = { "scheme", "bump", WR_AXIS_DERIVATIVE, "Slopes of F",
+                                 "how F and its slopes come from the table",
+                                 CHOICES(scheme, WR_SCHEME_COUNT), MEMBERS(scheme),
+                                 .matters = with_table },
+    [WR_ROW(WR_DIAL_NORMAL)] = { "mode", "bump", WR_AXIS_NORMAL, "Normal",
+                                 "which formula turns the normal", CHOICES(normal, WR_BUMP_COUNT),
+                                 MEMBERS(normal) },
+    [WR_ROW(WR_DIAL_AA)] = { "aa", "dials", WR_AXIS_ANTIALIASING, "Antialiasing",
+                             "how a pixel's samples become one intensity", CHOICES(aa, WR_AA_COUNT),
+                             MEMBERS(aa) },
+    [WR_ROW(WR_DIAL_SAMPLES)] = { "samples", "dials", WR_AXIS_ANTIALIASING, "Samples",
+                                  "along each side of a pixel: supersample takes them "
+                                  "all, adaptive at most",
+                                  .low = 1, .high = 64, .whole = true, MEMBERS(samples),
+                                  .matters = with_samples, .rungs = sample_rungs },
+    [WR_ROW(WR_DIAL_SPREAD)] = { "spread", "dials", WR_AXIS_ANTIALIASING, "Sample places",
+                                 "where in the pixel the samples stand",
+                                 CHOICES(spread, WR_SPREAD_COUNT), MEMBERS(spread),
+                                 .matters = with_samples },
+    [WR_ROW(WR_DIAL_FOOTPRINT)] = { "footprint", "dials", WR_AXIS_ANTIALIASING, "Footprint",
+                                    "shape of a pixel in the table, for filter and moments",
+                                    CHOICES(footprint, WR_FOOTPRINT_COUNT), MEMBERS(footprint),
+                                    .matters = with_footprint },
+    [WR_ROW(WR_DIAL_MOMENTS)] = { "moments", "dials", WR_AXIS_ANTIALIASING, "Spread of slopes",
+                                  "one variance, or the whole covariance",
+                                  CHOICES(moments, WR_MOMENTS_COUNT), MEMBERS(moments),
+                                  .matters = with_moments },
+    [WR_ROW(WR_DIAL_REFINE)] = { "refine", "dials", WR_AXIS_ANTIALIASING, "Refine where",
+                                 "neighbours disagree, or a bound on the error says so",
+                                 CHOICES(refine, WR_REFINE_COUNT), MEMBERS(refine),
+                                 .matters = with_adaptive },
+    [WR_ROW(WR_DIAL_CONTRAST)] = { "contrast", "dials", WR_AXIS_ANTIALIASING, "Contrast",
+                                   "linear intensity that adaptive lets pass", .low = 0, .high = 1,
+                                   MEMBERS(contrast), .matters = with_adaptive,
+                                   .rungs = contrast_rungs },
+    [WR_ROW(WR_DIAL_MESH)] = { "mesh", "dials", WR_AXIS_VISIBILITY, "Mesh",
+                               "curved surfaces' grid is 2^mesh times as fine each way", .low = -4,
+                               .high = 4, .whole = true, MEMBERS(mesh), .matters = with_mesh,
+                               .rungs = mesh_rungs },
+    [WR_ROW(WR_DIAL_NEWTON)] = { "newton", "dials", WR_AXIS_VISIBILITY, "Newton steps",
+                                 "most steps of the inversion; -1: as many as the mesh calls for",
+                                 .low = -1, .high = 8, .whole = true, MEMBERS(newton),
+                                 .matters = with_mesh, .rungs = newton_rungs },
+    [WR_ROW(WR_DIAL_TEXELS)] = { "texels", "dials", WR_AXIS_VISIBILITY, "Inversion stops at",
+                                 "a step shorter than so many texels; 0: never before its last",
+                                 .low = 0, .high = 16, MEMBERS(texels), .matters = with_mesh,
+                                 .rungs = texel_rungs },
+    [WR_ROW(WR_DIAL_HEIGHTS)] = { "heights", "dials", WR_AXIS_ARITHMETIC, "Heights",
+                                  "what a height is stored as when it is looked up",
+                                  CHOICES(heights, WR_HEIGHTS_COUNT), MEMBERS(heights),
+                                  .matters = with_table },
+    [WR_ROW(WR_DIAL_SHADING)] = { "shading", "dials", WR_AXIS_ARITHMETIC, "Shading",
+                                  "precision from the ray to the intensity; half: of "
+                                  "normals and light",
+                                  CHOICES(shading, WR_SHADING_COUNT), MEMBERS(shading) },
+    [WR_ROW(WR_DIAL_ARITHMETIC)] = { "arithmetic", "dials", WR_AXIS_ARITHMETIC, "Arithmetic",
+                                     "the same bits on every processor, or faster",
+                                     CHOICES(arithmetic, WR_ARITHMETIC_COUNT),
+                                     MEMBERS(arithmetic) },
 };
+WR_ROWS_END(wr_dials, WR_DIAL_COUNT);
 
 int wr_dial_find(const char *name)
 {

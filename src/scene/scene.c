@@ -5,7 +5,24 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/rows.h"
 #include "field/field.h"
+
+WR_ROWS(wr_light_names);
+const char *const wr_light_names[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "directional",
+                                                     [WR_ROW(WR_LIGHT_POINT)] = "point" };
+WR_ROWS_END(wr_light_names, WR_LIGHT_KINDS);
+
+const char *const wr_camera_names[2] = { "perspective", "orthographic" };
+
+WR_ROWS(wr_tolerance_names);
+const char *const wr_tolerance_names[WR_TOLERANCE_COUNT] = {
+    [WR_ROW(WR_TOLERANCE_NONE)] = "off",
+    [WR_ROW(WR_TOLERANCE_RMS)] = "rms",
+    [WR_ROW(WR_TOLERANCE_MAX)] = "max",
+    [WR_ROW(WR_TOLERANCE_TIME)] = "time",
+};
+WR_ROWS_END(wr_tolerance_names, WR_TOLERANCE_COUNT);
 
 static const WrLight default_light = {
     .kind = WR_LIGHT_DIRECTIONAL,

@@ -5,13 +5,21 @@
 
 #include "base/error.h"
 #include "base/exactmath.h"
+#include "base/rows.h"
 
-const char *const wr_bump_names[WR_BUMP_COUNT] = { "none", "blinn", "invariant", "exact" };
+WR_ROWS(wr_bumps);
+const WrBumpInfo wr_bumps[WR_BUMP_COUNT] = {
+    [WR_ROW(WR_BUMP_NONE)] = { "none", "None" },
+    [WR_ROW(WR_BUMP_BLINN)] = { "blinn", "Blinn, N + D" },
+    [WR_ROW(WR_BUMP_INVARIANT)] = { "invariant", "Scale-invariant" },
+    [WR_ROW(WR_BUMP_EXACT)] = { "exact", "Exact" },
+};
+WR_ROWS_END(wr_bumps, WR_BUMP_COUNT);
 
 int wr_bump_find(const char *name)
 {
     for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-        if (strcmp(wr_bump_names[mode], name) == 0) return mode;
+        if (strcmp(wr_bumps[mode].name, name) == 0) return mode;
     }
     return -1;
 }
@@ -179,9 +187,14 @@ static Wide exact(const Point *p, WrVec3 n_u, WrVec3 n_v, double f)
 
 static Wide perturbed(WrBumpMode mode, const Point *p, WrVec3 n_u, WrVec3 n_v, double f)
 {
-    if (mode == WR_BUMP_EXACT) return exact(p, n_u, n_v, f);
-    if (mode == WR_BUMP_INVARIANT) return invariant(p);
-    return wide_add(p->n, d_vector(p));
+    switch (mode) {
+    case WR_BUMP_EXACT: return exact(p, n_u, n_v, f);
+    case WR_BUMP_INVARIANT: return invariant(p);
+    case WR_BUMP_BLINN: return wide_add(p->n, d_vector(p));
+    case WR_BUMP_NONE:
+    case WR_BUMP_COUNT: break;
+    }
+    return p->n;
 }
 
 /* Nothing to do: no slope, and in exact mode no offset of a curved surface either. */

@@ -22,8 +22,12 @@ typedef enum WrBumpMode {
     WR_BUMP_COUNT
 } WrBumpMode;
 
-extern const char *const wr_bump_names[WR_BUMP_COUNT]; /* "none", "blinn", ... */
-int wr_bump_find(const char *name);                    /* mode, or -1 */
+typedef struct WrBumpInfo {
+    const char *name;  /* as in commands: "blinn" */
+    const char *title; /* in lists of the window: "Blinn, N + D" */
+} WrBumpInfo;
+extern const WrBumpInfo wr_bumps[WR_BUMP_COUNT];
+int wr_bump_find(const char *name); /* mode, or -1 */
 
 /* D = Fu (n x Pv) - Fv (n x Pu) = n x (Fu Pv - Fv Pu), in the tangent plane, pointing downhill. */
 static inline WrVec3 wr_bump_d(WrVec3 n_unit, WrVec3 pu, WrVec3 pv, double fu, double fv)

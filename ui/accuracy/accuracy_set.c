@@ -138,13 +138,12 @@ void wr_accuracy_words(const WrApp *app, int side, WrText *text)
 {
     const WrTolerance *tolerance = &wr_app_scene(app)->tolerance;
     if (side == 0 && tolerance->kind != WR_TOLERANCE_NONE) {
-        static const char *const names[] = { "", "rms", "max", "time" };
-        wr_text_addf(text, "tolerance %s=", names[tolerance->kind]);
+        wr_text_addf(text, "tolerance %s=", wr_tolerance_names[tolerance->kind]);
         wr_text_add_number(text, tolerance->value);
         return;
     }
     WrScene *scene = wr_accuracy_scene(app, side);
-    wr_text_addf(text, "%s %s", wr_bump_names[scene->bump], wr_schemes[scene->scheme].name);
+    wr_text_addf(text, "%s %s", wr_bumps[scene->bump].name, wr_schemes[scene->scheme].name);
     const WrDials *dials = &scene->dials;
     const bool grid = dials->aa == WR_AA_SUPERSAMPLE || dials->aa == WR_AA_ADAPTIVE;
     if (dials->aa != WR_AA_SUPERSAMPLE)

@@ -14,6 +14,7 @@
 #include "base/array.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "render/reference.h"
 
@@ -24,9 +25,14 @@
 
 #define GRASP_UNITS 7 /* to either side of the line between two pictures */
 
+WR_ROWS(wr_patch_look_names);
 const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
-    "Picture", "Split A | B", "Flicker A, B", "Error", "Dropped term", "Tilt", "Mip level"
+    [WR_ROW(WR_PATCH_PLAIN)] = "Picture",        [WR_ROW(WR_PATCH_SPLIT)] = "Split A | B",
+    [WR_ROW(WR_PATCH_FLICKER)] = "Flicker A, B", [WR_ROW(WR_PATCH_ERROR)] = "Error",
+    [WR_ROW(WR_PATCH_DROPPED)] = "Dropped term", [WR_ROW(WR_PATCH_TILT)] = "Tilt",
+    [WR_ROW(WR_PATCH_LEVEL)] = "Mip level",
 };
+WR_ROWS_END(wr_patch_look_names, WR_PATCH_LOOKS);
 
 void wr_accuracy_show(WrApp *app, WrPatchLook look)
 {

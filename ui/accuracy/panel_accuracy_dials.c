@@ -12,6 +12,7 @@
 #include "ui/gui/theme.h"
 #include "ui/preview/accuracy_choice.h"
 
+#include "base/rows.h"
 #include "base/text.h"
 #include "scene/dials.h"
 #include "scene/scene.h"
@@ -24,9 +25,8 @@
 
 static void run_tolerance(WrApp *app, int kind, double value)
 {
-    static const char *const names[] = { "off", "rms", "max", "time" };
     WrText line = { 0 };
-    wr_text_addf(&line, "tolerance %s", names[kind]);
+    wr_text_addf(&line, "tolerance %s", wr_tolerance_names[kind]);
     if (kind != WR_TOLERANCE_NONE) wr_text_add(&line, "=");
     if (kind != WR_TOLERANCE_NONE)
         wr_text_add_number(&line,
@@ -75,14 +75,25 @@ static void chosen(WrApp *app)
 
 void wr_panel_accuracy_tolerance(WrApp *app)
 {
-    static const char *const names[] = { "Off", "RMS", "Max", "Time" };
-    static const double begin[] = { 0, 0.004, 0.05, 0.008 };
+    WR_ROWS(fresh);
+    static const struct {
+        const char *name;
+        double value; /* to begin with */
+    } fresh[WR_TOLERANCE_COUNT] = {
+        [WR_ROW(WR_TOLERANCE_NONE)] = { "Off", 0 },
+        [WR_ROW(WR_TOLERANCE_RMS)] = { "RMS", 0.004 },
+        [WR_ROW(WR_TOLERANCE_MAX)] = { "Max", 0.05 },
+        [WR_ROW(WR_TOLERANCE_TIME)] = { "Time", 0.008 },
+    };
+    WR_ROWS_END(fresh, WR_TOLERANCE_COUNT);
+    const char *names[WR_TOLERANCE_COUNT];
+    for (int i = 0; i < WR_TOLERANCE_COUNT; i++) names[i] = fresh[i].name;
     const WrTolerance t = wr_app_scene(app)->tolerance;
     int kind = (int)t.kind;
     wr_gui_space(2);
     wr_gui_heading("TOLERANCE");
     if (wr_gui_segments("tolerance", names, NULL, WR_TOLERANCE_COUNT, &kind))
-        run_tolerance(app, kind, begin[kind]);
+        run_tolerance(app, kind, fresh[kind].value);
     wr_gui_tip("The cheapest dials that keep to an error, or the nearest that a time allows, found "
                "by measuring "
                "samples of this very picture");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
    The roster of this program: all dialogs, tabs, parts and files' purposes. */
 #include "ui/app/roster_list.h"
+#include "base/rows.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"
 #include "ui/app/hand_events.h"
@@ -29,26 +30,28 @@
 #include "ui/views/marks.h"
 #include "ui/work/files.h"
 
+WR_ROWS(dialogs);
 static const WrDialogRow dialogs[] = {
-    [WR_DIALOG_UNSAVED] = { wr_dialog_unsaved, false },
-    [WR_DIALOG_TABLE] = { wr_dialog_table, false },
-    [WR_DIALOG_FILL] = { wr_dialog_fill, false },
-    [WR_DIALOG_GRID] = { wr_dialog_grid, false },
-    [WR_DIALOG_IMPORT] = { wr_dialog_import, false },
-    [WR_DIALOG_EXPORT] = { wr_dialog_export, false },
-    [WR_DIALOG_FILE] = { wr_dialog_file, false },
-    [WR_DIALOG_ADJUST] = { wr_dialog_adjust, true },
-    [WR_DIALOG_SELECT] = { wr_dialog_select, true },
-    [WR_DIALOG_SEARCH] = { wr_dialog_search, false },
-    [WR_DIALOG_RECOVER] = { wr_dialog_recover, false },
-    [WR_DIALOG_PRESET] = { wr_dialog_preset, false },
-    [WR_DIALOG_REPLACE] = { wr_dialog_replace, false },
-    [WR_DIALOG_TABLET] = { wr_dialog_tablet, false },
-    [WR_DIALOG_CASES] = { wr_dialog_cases, false },
-    [WR_DIALOG_HELP] = { wr_dialog_help, false },
-    [WR_DIALOG_ABOUT] = { wr_dialog_help, false },
+    [WR_ROW(WR_DIALOG_NONE)] = { NULL, false },
+    [WR_ROW(WR_DIALOG_UNSAVED)] = { wr_dialog_unsaved, false },
+    [WR_ROW(WR_DIALOG_TABLE)] = { wr_dialog_table, false },
+    [WR_ROW(WR_DIALOG_FILL)] = { wr_dialog_fill, false },
+    [WR_ROW(WR_DIALOG_GRID)] = { wr_dialog_grid, false },
+    [WR_ROW(WR_DIALOG_IMPORT)] = { wr_dialog_import, false },
+    [WR_ROW(WR_DIALOG_EXPORT)] = { wr_dialog_export, false },
+    [WR_ROW(WR_DIALOG_FILE)] = { wr_dialog_file, false },
+    [WR_ROW(WR_DIALOG_ADJUST)] = { wr_dialog_adjust, true },
+    [WR_ROW(WR_DIALOG_SELECT)] = { wr_dialog_select, true },
+    [WR_ROW(WR_DIALOG_SEARCH)] = { wr_dialog_search, false },
+    [WR_ROW(WR_DIALOG_RECOVER)] = { wr_dialog_recover, false },
+    [WR_ROW(WR_DIALOG_PRESET)] = { wr_dialog_preset, false },
+    [WR_ROW(WR_DIALOG_REPLACE)] = { wr_dialog_replace, false },
+    [WR_ROW(WR_DIALOG_TABLET)] = { wr_dialog_tablet, false },
+    [WR_ROW(WR_DIALOG_CASES)] = { wr_dialog_cases, false },
+    [WR_ROW(WR_DIALOG_HELP)] = { wr_dialog_help, false },
+    [WR_ROW(WR_DIALOG_ABOUT)] = { wr_dialog_help, false },
 };
-_Static_assert(sizeof dialogs / sizeof *dialogs == WR_DIALOG_COUNT, "a row for each dialog");
+WR_ROWS_END(dialogs, WR_DIALOG_COUNT);
 
 static const WrTab tabs[] = {
     { "Brushes", NULL, wr_panel_brushes, false },  { "Scene", wr_panel_scene, NULL, false },
@@ -66,13 +69,18 @@ static const WrPart *const parts[] = {
 
 static WrActionFamily *const families[] = { wr_adjust_by_name, wr_generate_by_name, NULL };
 
+WR_ROWS(takes);
 static WrFileTake *const takes[] = {
-    [WR_FILE_OPEN] = wr_file_take_open,       [WR_FILE_SAVE] = wr_file_take_save,
-    [WR_FILE_EXPORT] = wr_file_take_export,   [WR_FILE_IMPORT] = wr_file_take_import,
-    [WR_FILE_HISTORY] = wr_file_take_history, [WR_FILE_STAMP] = wr_stamp_take,
-    [WR_FILE_GENERATE] = wr_generate_file,    [WR_FILE_PRESET] = wr_shelf_take,
+    [WR_ROW(WR_FILE_OPEN)] = wr_file_take_open,
+    [WR_ROW(WR_FILE_SAVE)] = wr_file_take_save,
+    [WR_ROW(WR_FILE_EXPORT)] = wr_file_take_export,
+    [WR_ROW(WR_FILE_IMPORT)] = wr_file_take_import,
+    [WR_ROW(WR_FILE_HISTORY)] = wr_file_take_history,
+    [WR_ROW(WR_FILE_STAMP)] = wr_stamp_take,
+    [WR_ROW(WR_FILE_GENERATE)] = wr_generate_file,
+    [WR_ROW(WR_FILE_PRESET)] = wr_shelf_take,
 };
-_Static_assert(sizeof takes / sizeof *takes == WR_FILE_PURPOSES, "somebody takes each file");
+WR_ROWS_END(takes, WR_FILE_PURPOSES);
 
 const WrRoster wr_roster = { .tools = wr_tools,
                              .tool_count = WR_TOOL_COUNT,

@@ -19,7 +19,8 @@ typedef enum WrOutlineKind {
     WR_OUTLINE_SHRINK,
     WR_OUTLINE_FEATHER,
     WR_OUTLINE_HEIGHT, /* low..high, faded over `soft`, joined by `mode` */
-    WR_OUTLINE_SLOPE   /* the same in degrees */
+    WR_OUTLINE_SLOPE,  /* the same in degrees */
+    WR_OUTLINE_KINDS
 } WrOutlineKind;
 
 typedef struct WrOutlineAsk {

@@ -15,6 +15,7 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/stamp.h"
 
 #include <SDL.h>
@@ -77,9 +78,13 @@ static void go_ahead(WrApp *app)
 
 void wr_dialog_replace(WrApp *app)
 {
-    static const char *const titles[] = { [WR_REPLACE_CHOSEN] = "Replace this file?",
-                                          [WR_REPLACE_CHANGED] = "Replace the changed file?",
-                                          [WR_REPLACE_PRESET] = "Replace this preset?" };
+    WR_ROWS(titles);
+    static const char *const titles[WR_REPLACE_KINDS] = {
+        [WR_ROW(WR_REPLACE_CHOSEN)] = "Replace this file?",
+        [WR_ROW(WR_REPLACE_CHANGED)] = "Replace the changed file?",
+        [WR_ROW(WR_REPLACE_PRESET)] = "Replace this preset?"
+    };
+    WR_ROWS_END(titles, WR_REPLACE_KINDS);
     const WrReplace *replace = app->replace;
     bool changed = replace->kind == WR_REPLACE_CHANGED, key = !app->dialog->fresh;
     char text[400], facts[160];

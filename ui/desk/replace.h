@@ -8,7 +8,8 @@
 typedef enum WrReplaceKind {
     WR_REPLACE_CHOSEN,  /* the file of a name that was chosen */
     WR_REPLACE_CHANGED, /* the document's own, which another program has written since */
-    WR_REPLACE_PRESET   /* a preset of the user's own */
+    WR_REPLACE_PRESET,  /* a preset of the user's own */
+    WR_REPLACE_KINDS
 } WrReplaceKind;
 
 typedef struct WrReplace { /* while it is asked */

@@ -24,7 +24,7 @@ typedef struct WrDrawSettings {
     double corner;    /* of rectangles, texels */
     double tolerance; /* of the flood, heights */
     bool diagonal;    /* it also goes over corners */
-    int ramp, blend;  /* wr_ramp_kinds, wr_ramp_blends */
+    int ramp, blend;  /* WrRampKind; of wr_ramp_blends */
     bool fold;
     double low, high; /* heights of the ramp's ends */
 } WrDrawSettings;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "ui/gui/screen.h"
 
+#include "base/rows.h"
+
 #include <string.h>
 
 /* A window's surface goes to the display without acceleration only where SDL's driver can do that: Wayland's, for
@@ -25,10 +27,13 @@ int wr_screen_ways(const char *driver, bool gpu, const char *wanted,
 
 const char *wr_screen_words(WrScreenWay way)
 {
-    static const char *const words[] = { [WR_SCREEN_OPENGL] = "by OpenGL",
-                                         [WR_SCREEN_DIRECT] = "by software",
-                                         [WR_SCREEN_SURFACE] =
-                                             "by software on a surface of SDL's choice",
-                                         [WR_SCREEN_ANY] = "in whatever way SDL finds" };
+    WR_ROWS(words);
+    static const char *const words[WR_SCREEN_WAYS] = {
+        [WR_ROW(WR_SCREEN_OPENGL)] = "by OpenGL",
+        [WR_ROW(WR_SCREEN_DIRECT)] = "by software",
+        [WR_ROW(WR_SCREEN_SURFACE)] = "by software on a surface of SDL's choice",
+        [WR_ROW(WR_SCREEN_ANY)] = "in whatever way SDL finds"
+    };
+    WR_ROWS_END(words, WR_SCREEN_WAYS);
     return words[way];
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
    All values of the brush in hand, and what of a preset's own settings matters to heights. */
 #include "ui/desk/desk.h"
+
+#include "base/rows.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
@@ -146,7 +148,14 @@ static void chance(WrApp *app)
 
 static void pressure(WrApp *app)
 {
-    static const char *const names[WR_PRESSURE_COUNT] = { "Strength", "Size", "Both", "Nothing" };
+    WR_ROWS(names);
+    static const char *const names[WR_PRESSURE_COUNT] = {
+        [WR_ROW(WR_PRESSURE_STRENGTH)] = "Strength",
+        [WR_ROW(WR_PRESSURE_SIZE)] = "Size",
+        [WR_ROW(WR_PRESSURE_BOTH)] = "Both",
+        [WR_ROW(WR_PRESSURE_NONE)] = "Nothing",
+    };
+    WR_ROWS_END(names, WR_PRESSURE_COUNT);
     int index = (int)app->settings->brush.pressure;
     if (app->settings->brush.preset) return; /* it has curves of its own */
     wr_gui_label("Pressure");

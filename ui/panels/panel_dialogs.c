@@ -12,7 +12,9 @@
 #include "ui/panels/panels.h"
 #include "ui/work/files.h"
 
+#include "base/rows.h"
 #include "base/text.h"
+#include "document/document_file.h"
 #include "export/export.h"
 
 #include <SDL.h>
@@ -74,7 +76,7 @@ void wr_dialog_table(WrApp *app)
 {
     static const char *const wraps[] = { "Repeats both ways", "Ends at left and right",
                                          "Ends at top and bottom", "Ends all around" };
-    static const char *const names[] = { "periodic", "clamp-u", "clamp-v", "clamp" };
+    _Static_assert(WR_LENGTH(wraps) == WR_DOCUMENT_WRAPS, "in the order of their words");
     WrForms *f = app->forms;
     if (!wr_gui_dialog_begin("New table", 400)) return;
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
@@ -83,10 +85,10 @@ void wr_dialog_table(WrApp *app)
     number("Width", 16, 4096, 1, 16384, 512, 0, "texels", &f->width);
     number("Height", 16, 4096, 1, 16384, 512, 0, "texels", &f->height);
     wr_gui_label("Edges");
-    wr_gui_choice("wrap", 0, wraps, 4, &f->wrap);
+    wr_gui_choice("wrap", 0, wraps, WR_DOCUMENT_WRAPS, &f->wrap);
     WrText line = { 0 };
     wr_text_addf(&line, "table %dx%d wrap=%s", (int)rint(f->width), (int)rint(f->height),
-                 names[f->wrap]);
+                 wr_document_wrap_name(f->wrap));
     run_if_agreed(app, &line, "Make it");
     wr_gui_dialog_end();
 }

@@ -10,6 +10,7 @@
 #include "ui/gui/gui.h"
 #include "ui/panels/panels.h"
 
+#include "base/rows.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "scene/scene.h"
@@ -20,7 +21,7 @@
 static void light_line(WrText *line, const WrLight *light, int index)
 {
     bool point = light->kind == WR_LIGHT_POINT;
-    wr_text_add(line, point ? "light point" : "light directional");
+    wr_text_addf(line, "light %s", wr_light_names[light->kind]);
     wr_line_vec(line, point ? "at" : "to", light->where);
     wr_line_vec(line, "colour", light->colour);
     wr_line_number(line, "strength", light->strength);
@@ -30,7 +31,10 @@ static void light_line(WrText *line, const WrLight *light, int index)
 /* True if the line was run: the lights are others now. */
 static bool one_light(WrApp *app, int i)
 {
-    static const char *const kinds[] = { "Far away", "Point" };
+    WR_ROWS(kinds);
+    static const char *const kinds[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "Far away",
+                                                       [WR_ROW(WR_LIGHT_POINT)] = "Point" };
+    WR_ROWS_END(kinds, WR_LIGHT_KINDS);
     static const WrNumber strength = { .low = 0,
                                        .high = 2,
                                        .hard_low = 0,
@@ -44,7 +48,7 @@ static bool one_light(WrApp *app, int i)
     double rgb[3] = { light.colour.x, light.colour.y, light.colour.z };
     snprintf(label, sizeof label, "Light %d", i + 1);
     wr_gui_label(label);
-    bool chosen = wr_gui_choice("kind", 0, kinds, 2, &kind);
+    bool chosen = wr_gui_choice("kind", 0, kinds, WR_LIGHT_KINDS, &kind);
     wr_gui_tip("Drag the small sun on the patch to move the light");
     wr_gui_label("Strength");
     WrEdit a = wr_gui_number("strength", 0, &strength, &light.strength);
@@ -127,7 +131,7 @@ static void camera(WrApp *app)
     wr_gui_heading("CAMERA");
     wr_gui_label("Kind");
     if (wr_gui_choice("camera", 0, kinds, 2, &kind))
-        wr_text_addf(&line, "camera %s", kind ? "orthographic" : "perspective");
+        wr_text_addf(&line, "camera %s", wr_camera_names[kind]);
     if (!c->orthographic) {
         wr_gui_label("Angle");
         WrEdit edit = wr_gui_number("fov", 0, &fov, &deg);

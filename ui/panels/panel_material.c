@@ -20,9 +20,7 @@
 
 static void bump(WrApp *app)
 {
-    static const char *const modes[] = { "None", "Blinn, N + D", "Scale-invariant", "Exact" };
-    static const char *const schemes[] = { "Nearest",  "Bilinear",         "Central",
-                                           "B-spline", "B-spline, fitted", "Catmull-Rom" };
+    const char *modes[WR_BUMP_COUNT], *schemes[WR_SCHEME_COUNT];
     static const WrNumber spec = { .low = 0,
                                    .high = 0.3,
                                    .hard_low = -1e30,
@@ -33,6 +31,8 @@ static void bump(WrApp *app)
     const WrScene *scene = wr_app_scene(app);
     int mode = (int)scene->bump, scheme = (int)scene->scheme;
     double height = scene->height;
+    for (int i = 0; i < WR_BUMP_COUNT; i++) modes[i] = wr_bumps[i].title;
+    for (int i = 0; i < WR_SCHEME_COUNT; i++) schemes[i] = wr_schemes[i].title;
     wr_gui_space(8);
     wr_gui_heading("BUMP");
     wr_gui_label("Height");
@@ -45,7 +45,7 @@ static void bump(WrApp *app)
     }
     wr_gui_label("Normal");
     if (wr_gui_choice("mode", 0, modes, WR_BUMP_COUNT, &mode))
-        wr_text_addf(&line, "bump mode=%s", wr_bump_names[mode]);
+        wr_text_addf(&line, "bump mode=%s", wr_bumps[mode].name);
     wr_gui_tip(
         "How the normal is made: the paper's N + D, the same whatever the scale, or the true "
         "normal of the displaced surface");

@@ -12,24 +12,27 @@
 #include "ui/panels/panels.h"
 #include "ui/views/marks.h"
 
+#include "base/rows.h"
 #include "base/text.h"
 #include "field/field.h"
 #include "field/select.h"
 
-static const char *const join_names[] = { "replace", "add", "subtract", "intersect" };
-
+WR_ROWS(kinds);
 static const struct {
     const char *title, *help, *verb;
-} kinds[] = {
-    [WR_OUTLINE_GROW] = { "Grow the selection", "Moves its edge outwards.", "grow" },
-    [WR_OUTLINE_SHRINK] = { "Shrink the selection", "Moves its edge inwards.", "shrink" },
-    [WR_OUTLINE_FEATHER] = { "Feather the selection",
-                             "Blurs its edge. The outline is where it is half selected.",
-                             "feather" },
-    [WR_OUTLINE_HEIGHT] = { "Select by height", "All that is as high as this.", "height" },
-    [WR_OUTLINE_SLOPE] = { "Select by slope",
-                           "All that is as steep as this, at the scene's bump height.", "slope" },
+} kinds[WR_OUTLINE_KINDS] = {
+    [WR_ROW(WR_OUTLINE_PRESENT)] = { NULL, NULL, NULL }, /* nothing is asked of it */
+    [WR_ROW(WR_OUTLINE_GROW)] = { "Grow the selection", "Moves its edge outwards.", "grow" },
+    [WR_ROW(WR_OUTLINE_SHRINK)] = { "Shrink the selection", "Moves its edge inwards.", "shrink" },
+    [WR_ROW(WR_OUTLINE_FEATHER)] = { "Feather the selection",
+                                     "Blurs its edge. The outline is where it is half selected.",
+                                     "feather" },
+    [WR_ROW(WR_OUTLINE_HEIGHT)] = { "Select by height", "All that is as high as this.", "height" },
+    [WR_ROW(WR_OUTLINE_SLOPE)] = { "Select by slope",
+                                   "All that is as steep as this, at the scene's bump height.",
+                                   "slope" },
 };
+WR_ROWS_END(kinds, WR_OUTLINE_KINDS);
 
 static bool ranged(const WrApp *app)
 {
@@ -70,8 +73,14 @@ static bool number(const char *label, double low, double high, double hard_low, 
 
 static bool range_fields(WrApp *app)
 {
-    static const char *const joins[] = { "Replace the selection", "Add to it", "Take from it",
-                                         "Intersect with it" };
+    WR_ROWS(joins);
+    static const char *const joins[WR_SELECT_MODES] = {
+        [WR_ROW(WR_SELECT_REPLACE)] = "Replace the selection",
+        [WR_ROW(WR_SELECT_ADD)] = "Add to it",
+        [WR_ROW(WR_SELECT_SUBTRACT)] = "Take from it",
+        [WR_ROW(WR_SELECT_INTERSECT)] = "Intersect with it",
+    };
+    WR_ROWS_END(joins, WR_SELECT_MODES);
     WrOutlineAsk *a = app->selecting;
     bool changed = false, slope = a->kind == WR_OUTLINE_SLOPE;
     double low = slope ? 0.0 : app->selecting->low < 0.0 ? -1.0 : 0.0, high = slope ? 90.0 : 1.0;
@@ -100,7 +109,7 @@ static void commit(WrApp *app)
         wr_line_number(&line, "low", a->low);
         wr_line_number(&line, "high", a->high);
         if (a->soft > 0.0) wr_line_number(&line, "soft", a->soft);
-        if (a->mode != WR_SELECT_REPLACE) wr_text_addf(&line, " mode=%s", join_names[a->mode]);
+        if (a->mode != WR_SELECT_REPLACE) wr_text_addf(&line, " mode=%s", wr_select_modes[a->mode]);
     } else {
         wr_line_number(&line, "by", a->by);
     }

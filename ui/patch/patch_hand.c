@@ -91,7 +91,7 @@ static void commit_light(WrApp *app)
     const WrLight *light = &app->live->lights[app->patch->light];
     bool point = light->kind == WR_LIGHT_POINT;
     WrText line = { 0 };
-    wr_text_add(&line, point ? "light point" : "light directional");
+    wr_text_addf(&line, "light %s", wr_light_names[light->kind]);
     wr_line_vec(&line, point ? "at" : "to", light->where);
     wr_line_vec(&line, "colour", light->colour);
     wr_line_number(&line, "strength", light->strength);
@@ -202,7 +202,7 @@ void wr_patch_commit_zoom(WrApp *app, bool now)
     }
     const WrCamera *camera = &app->live->camera;
     WrText line = { 0 };
-    wr_text_addf(&line, "camera %s", camera->orthographic ? "orthographic" : "perspective");
+    wr_text_addf(&line, "camera %s", wr_camera_names[camera->orthographic]);
     wr_line_vec(&line, "eye", wr_line_round_vec(camera->eye, 4));
     if (camera->orthographic) wr_line_number(&line, "size", wr_line_round(camera->size, 4));
     wr_app_live_end(app);

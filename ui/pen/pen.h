@@ -18,7 +18,8 @@ typedef enum WrPenKind {
     WR_PEN_MOTION, /* button 0: hover */
     WR_PEN_DOWN,
     WR_PEN_UP,
-    WR_PEN_LOST /* the device went away, or the window lost it: what it did ends here */
+    WR_PEN_LOST, /* the device went away, or the window lost it: what it did ends here */
+    WR_PEN_KINDS
 } WrPenKind;
 
 typedef struct WrPenEvent {

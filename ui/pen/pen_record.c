@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 
 #include <errno.h>
@@ -23,7 +24,12 @@
 #define FIELDS_MOST 11
 #define PLACE_MOST 1e6 /* pixels */
 
-static const char *const event_names[] = { "motion", "down", "up", "lost" };
+WR_ROWS(event_names);
+static const char *const event_names[WR_PEN_KINDS] = { [WR_ROW(WR_PEN_MOTION)] = "motion",
+                                                       [WR_ROW(WR_PEN_DOWN)] = "down",
+                                                       [WR_ROW(WR_PEN_UP)] = "up",
+                                                       [WR_ROW(WR_PEN_LOST)] = "lost" };
+WR_ROWS_END(event_names, WR_PEN_KINDS);
 static const char *const device_names[] = { "pen", "eraser", "finger" };
 
 /* ---- to a file ---- */
@@ -162,7 +168,7 @@ static bool read_device(Reader *reader, const char *at, const char *end, WrError
         if (!next_field(&at, end, &f[i]))
             return wr_fail(err, "a device is: device INDEX KIND PRESSURE TILT LOW HIGH NAME");
     if (!whole_of(&f[0], "device", DEVICES_MOST - 1, &index, err)) return false;
-    int kind = word_of(&f[1], device_names, 3);
+    int kind = word_of(&f[1], device_names, WR_LENGTH(device_names));
     if (kind < 0)
         return wr_fail(err, "device of kind '%.*s': pen, eraser or finger",
                        f[1].length < 40 ? (int)f[1].length : 40, f[1].text);
@@ -214,7 +220,7 @@ static bool read_event(Reader *reader, const Field *name, const char *at, const 
                        WrError *err)
 {
     Field f[FIELDS_MOST];
-    int held, kind = word_of(name, event_names, 4);
+    int held, kind = word_of(name, event_names, WR_PEN_KINDS);
     WrPenEvent e = { 0 };
     if (kind < 0)
         return wr_fail(err, "'%.*s': device, motion, down, up or lost",

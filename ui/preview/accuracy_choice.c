@@ -20,8 +20,10 @@ static int scheme_rank(WrScheme scheme)
     case WR_SCHEME_BSPLINE: return 3;
     case WR_SCHEME_CENTRAL: return 2;
     case WR_SCHEME_BILINEAR: return 1;
-    default: return 0;
+    case WR_SCHEME_NEAREST:
+    case WR_SCHEME_COUNT: break;
     }
+    return 0;
 }
 
 /* Samples of a pixel. */
@@ -40,7 +42,7 @@ static void say_parts(const WrChoice *choice, WrText *text)
         const WrScene *s = part->scene;
         if (part->blocks == 0) continue;
         wr_text_addf(text, "%s%.1f %%: %s %s %d\xc3\x97%d, %s", text->length > 0 ? "\n" : "",
-                     100.0 * (double)part->blocks / (double)all, wr_bump_names[s->bump],
+                     100.0 * (double)part->blocks / (double)all, wr_bumps[s->bump].name,
                      wr_schemes[s->scheme].name, grid(s), grid(s), part->where);
     }
 }

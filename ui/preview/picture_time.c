@@ -2,6 +2,7 @@
    How long the newest picture of the patch took: one figure, the same wherever it is shown. */
 #include "ui/preview/preview.h"
 
+#include "base/rows.h"
 #include "render/frame.h"
 
 #include <stdio.h>
@@ -23,11 +24,15 @@ double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STA
 
 void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORDS])
 {
-    static const char *const how[] = { [WR_PREVIEW_NONE] = "",
-                                       [WR_PREVIEW_MOVING] = ", coarse while something moves",
-                                       [WR_PREVIEW_FULL] = ", each looked at once",
-                                       [WR_PREVIEW_SMOOTH] = ", 2 \xc3\x97 2 samples each",
-                                       [WR_PREVIEW_FINAL] = ", as fine as it gets" };
+    WR_ROWS(how);
+    static const char *const how[WR_PREVIEW_LEVELS] = {
+        [WR_ROW(WR_PREVIEW_NONE)] = "",
+        [WR_ROW(WR_PREVIEW_MOVING)] = ", coarse while something moves",
+        [WR_ROW(WR_PREVIEW_FULL)] = ", each looked at once",
+        [WR_ROW(WR_PREVIEW_SMOOTH)] = ", 2 \xc3\x97 2 samples each",
+        [WR_ROW(WR_PREVIEW_FINAL)] = ", as fine as it gets"
+    };
+    WR_ROWS_END(how, WR_PREVIEW_LEVELS);
     double ms[WR_PICTURE_STAGES], total = wr_picture_time(picture, ms);
     snprintf(text, WR_PICTURE_WORDS,
              "%.1f ms by the clock for the newest picture of the patch, conversion for the screen "

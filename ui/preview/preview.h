@@ -23,7 +23,8 @@ typedef enum WrPreviewLevel {
     WR_PREVIEW_MOVING, /* as coarse as it takes for 40 pictures a second, fast arithmetic */
     WR_PREVIEW_FULL,   /* every pixel once, the scene's arithmetic */
     WR_PREVIEW_SMOOTH, /* 2 x 2 samples a pixel */
-    WR_PREVIEW_FINAL /* 4 x 4, or more if the scene's dials say so; with a tolerance, what it chooses */
+    WR_PREVIEW_FINAL, /* 4 x 4, or more if the scene's dials say so; with a tolerance, what it chooses */
+    WR_PREVIEW_LEVELS
 } WrPreviewLevel;
 
 /* threads: as in wr_pool_new. isa: as in wr_renderer_new. ready_event: an SDL event type, pushed

@@ -2,6 +2,8 @@
    The option row: values of the brush that several tools show, and how many of a tool's options find room. What does
    not fit is behind the button at its end. */
 #include "ui/tools/option.h"
+
+#include "base/rows.h"
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/settings.h"
@@ -152,7 +154,14 @@ void wr_option_fill_mode(WrApp *app, double width)
 
 static void pressure(WrApp *app, double width)
 {
-    static const char *const names[WR_PRESSURE_COUNT] = { "strength", "size", "both", "nothing" };
+    WR_ROWS(names);
+    static const char *const names[WR_PRESSURE_COUNT] = {
+        [WR_ROW(WR_PRESSURE_STRENGTH)] = "strength",
+        [WR_ROW(WR_PRESSURE_SIZE)] = "size",
+        [WR_ROW(WR_PRESSURE_BOTH)] = "both",
+        [WR_ROW(WR_PRESSURE_NONE)] = "nothing",
+    };
+    WR_ROWS_END(names, WR_PRESSURE_COUNT);
     int index = (int)app->settings->brush.pressure;
     if (wr_gui_choice("pressure", width, names, WR_PRESSURE_COUNT, &index))
         app->settings->brush.pressure = (WrBrushPressure)index;
@@ -161,7 +170,13 @@ static void pressure(WrApp *app, double width)
 
 static void steady(WrApp *app, double width)
 {
-    static const char *const names[WR_STEADY_COUNT] = { "as it is", "smooth", "on a string" };
+    WR_ROWS(names);
+    static const char *const names[WR_STEADY_COUNT] = {
+        [WR_ROW(WR_STEADY_OFF)] = "as it is",
+        [WR_ROW(WR_STEADY_SMOOTH)] = "smooth",
+        [WR_ROW(WR_STEADY_STRING)] = "on a string",
+    };
+    WR_ROWS_END(names, WR_STEADY_COUNT);
     static const WrNumber spec = { .low = 2,
                                    .high = 200,
                                    .hard_low = 1,

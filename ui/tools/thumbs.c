@@ -112,9 +112,8 @@ static void shrink(const WrImage *image, int side, uint32_t *argb)
 /* Modes that only change what is there get something to change. */
 static void prepare_ground(const WrBrush *brush, WrField *field)
 {
-    if (wr_brush_modes[brush->mode].uses & WR_USES_STRENGTH && !wr_brush_modes[brush->mode].moves &&
-        brush->mode != WR_BRUSH_SHARPEN)
-        return;
+    const WrBrushModeInfo *mode = &wr_brush_modes[brush->mode];
+    if (mode->uses & WR_USES_STRENGTH && !mode->moves) return;
     for (int j = 0; j < PAINTED_TEXELS; j++)
         for (int i = 0; i < PAINTED_TEXELS; i++) {
             double a = sin(i * 0.26) * sin(j * 0.26);

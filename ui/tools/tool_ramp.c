@@ -17,16 +17,14 @@
 #include "ui/views/overlay.h"
 
 #include "base/text.h"
+#include "base/rows.h"
+#include "document/blend.h"
+#include "field/ramp.h"
 #include "field/select.h"
 
 #include <SDL.h>
 #include <math.h>
 #include <stdio.h>
-
-enum { RAMP_LINEAR, RAMP_RADIAL, RAMP_CONE };
-
-static const char *const kinds[] = { "linear", "radial", "cone" };
-static const char *const blends[] = { "replace", "add", "max", "min" };
 
 static void end_at(WrApp *app, const WrPointer *at)
 {
@@ -67,7 +65,7 @@ static void release(WrApp *app, const WrPointer *at)
     WrSelectPoint b = wr_overlay_uv(app, draw->x1, draw->y1);
     WrSelectPoint home = wr_overlay_home(app, a.u, a.v);
     WrText line = { 0 };
-    wr_text_addf(&line, "ramp %s", kinds[how->ramp]);
+    wr_text_addf(&line, "ramp %s", wr_ramp_names[how->ramp]);
     wr_line_number(&line, "from", wr_line_round(a.u + home.u, 7));
     wr_text_add(&line, ",");
     wr_text_add_number(&line, wr_line_round(a.v + home.v, 7));
@@ -77,7 +75,7 @@ static void release(WrApp *app, const WrPointer *at)
     wr_line_number(&line, "low", how->low);
     wr_line_number(&line, "high", how->high);
     if (how->fold) wr_text_add(&line, " fold=on");
-    if (how->blend) wr_text_addf(&line, " blend=%s", blends[how->blend]);
+    if (how->blend) wr_text_addf(&line, " blend=%s", wr_blends[wr_ramp_blends[how->blend]].name);
     wr_app_run_slow(app, wr_text_get(&line));
     wr_text_fini(&line);
 }
@@ -129,9 +127,9 @@ static void marks(WrApp *app)
     WrSelectPoint way[2] = { wr_overlay_uv(app, draw->x0, draw->y0),
                              wr_overlay_uv(app, draw->x1, draw->y1) };
     double radius = hypot(draw->x1 - draw->x0, draw->y1 - draw->y0);
-    if (how->ramp == RAMP_RADIAL) ring(app, radius, 0xfff4f4f4u);
-    if (how->ramp == RAMP_RADIAL && how->fold) ring(app, 2.0 * radius, 0xa0d0d0d0u);
-    if (how->ramp == RAMP_LINEAR) {
+    if (how->ramp == WR_RAMP_RADIAL) ring(app, radius, 0xfff4f4f4u);
+    if (how->ramp == WR_RAMP_RADIAL && how->fold) ring(app, 2.0 * radius, 0xa0d0d0d0u);
+    if (how->ramp == WR_RAMP_LINEAR) {
         bar(app, draw->x0, draw->y0);
         bar(app, draw->x1, draw->y1);
     }
@@ -139,16 +137,20 @@ static void marks(WrApp *app)
     wr_overlay_handle(app, way[0].u, way[0].v, true, false);
     wr_overlay_handle(app, way[1].u, way[1].v, true, true);
     end_label(app, draw->x0, draw->y0, how->low);
-    if (how->ramp != RAMP_CONE) end_label(app, draw->x1, draw->y1, how->high);
+    if (how->ramp != WR_RAMP_CONE) end_label(app, draw->x1, draw->y1, how->high);
 }
 
 /* ---- options ---- */
 
 static void ramp_kind(WrApp *app, double width)
 {
-    static const char *const names[] = { "Linear", "Radial", "Cone" };
+    WR_ROWS(names);
+    static const char *const names[WR_RAMP_KINDS] = { [WR_ROW(WR_RAMP_LINEAR)] = "Linear",
+                                                      [WR_ROW(WR_RAMP_RADIAL)] = "Radial",
+                                                      [WR_ROW(WR_RAMP_CONE)] = "Cone" };
+    WR_ROWS_END(names, WR_RAMP_KINDS);
     (void)width;
-    wr_gui_segments("ramp", names, NULL, 3, &app->settings->drawing.ramp);
+    wr_gui_segments("ramp", names, NULL, WR_RAMP_KINDS, &app->settings->drawing.ramp);
 }
 
 static void ramp_end(const char *id, double width, const char *tip, double reset, double *value)
@@ -182,8 +184,9 @@ static void ramp_fold(WrApp *app, double width)
 
 static void ramp_blend(WrApp *app, double width)
 {
-    static const char *const names[] = { "replace", "add", "max", "min" };
-    wr_gui_choice("blend", width, names, 4, &app->settings->drawing.blend);
+    const char *names[WR_RAMP_BLENDS];
+    for (int i = 0; i < WR_RAMP_BLENDS; i++) names[i] = wr_blends[wr_ramp_blends[i]].name;
+    wr_gui_choice("blend", width, names, WR_RAMP_BLENDS, &app->settings->drawing.blend);
     wr_gui_tip("How it joins the heights that are there");
 }
 

@@ -18,6 +18,7 @@
 #include "ui/views/marks.h"
 
 #include "base/array.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "field/field.h"
 #include "field/select.h"
@@ -29,8 +30,6 @@
 #define CLICK_PIXELS 3.0
 
 typedef enum Shape { SHAPE_RECT, SHAPE_ELLIPSE, SHAPE_LASSO } Shape;
-
-static const char *const join_names[] = { "replace", "add", "subtract", "intersect" };
 
 static Shape shape_of(const WrApp *app)
 {
@@ -204,7 +203,7 @@ static void release(WrApp *app, const WrPointer *at)
         if (shape_of(app) == SHAPE_LASSO) write_lasso(app, shift, &line);
         else write_box(app, at, shift, &line);
         if (hand->mode != WR_SELECT_REPLACE)
-            wr_text_addf(&line, " mode=%s", join_names[hand->mode]);
+            wr_text_addf(&line, " mode=%s", wr_select_modes[hand->mode]);
     } else if (hand->mode == WR_SELECT_REPLACE && wr_app_document(app)->selection) {
         wr_text_add(&line, "select none");
     }
@@ -215,7 +214,13 @@ static void release(WrApp *app, const WrPointer *at)
 
 static void options(WrApp *app)
 {
-    static const char *const joins[] = { "Replace", "Add", "Subtract", "Intersect" };
+    WR_ROWS(joins);
+    static const char *const joins[WR_SELECT_MODES] = { [WR_ROW(WR_SELECT_REPLACE)] = "Replace",
+                                                        [WR_ROW(WR_SELECT_ADD)] = "Add",
+                                                        [WR_ROW(WR_SELECT_SUBTRACT)] = "Subtract",
+                                                        [WR_ROW(WR_SELECT_INTERSECT)] =
+                                                            "Intersect" };
+    WR_ROWS_END(joins, WR_SELECT_MODES);
     wr_gui_same_line(14);
     wr_gui_segments("join", joins, NULL, WR_SELECT_MODES, &app->settings->join);
     wr_gui_tip("Shift adds, Alt subtracts, both intersect");

@@ -7,6 +7,7 @@
 #include "base/array.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 
 #include <SDL.h>
@@ -50,18 +51,21 @@ struct WrFiles {
     char trouble[512];
 };
 
+WR_ROWS(purposes);
 static const struct {
     const char *title, *done;
     const char *ending; /* of a file to be written, for names without one; NULL: it is read */
-} purposes[] = {
-    [WR_FILE_OPEN] = { "Open", "Open", NULL },
-    [WR_FILE_SAVE] = { "Save as", "Save", ".exr" },
-    [WR_FILE_EXPORT] = { "Export to", "Export", ".png" },
-    [WR_FILE_IMPORT] = { "Import heights", "Import", NULL },
-    [WR_FILE_HISTORY] = { "Save the history as a script", "Save", ".wrinkle" },
-    [WR_FILE_STAMP] = { "Open a picture as a stamp", "Open", NULL },
-    [WR_FILE_GENERATE] = { "Choose a file", "Choose", NULL },
+} purposes[WR_FILE_PURPOSES] = {
+    [WR_ROW(WR_FILE_OPEN)] = { "Open", "Open", NULL },
+    [WR_ROW(WR_FILE_SAVE)] = { "Save as", "Save", ".exr" },
+    [WR_ROW(WR_FILE_EXPORT)] = { "Export to", "Export", ".png" },
+    [WR_ROW(WR_FILE_IMPORT)] = { "Import heights", "Import", NULL },
+    [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle" },
+    [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL },
+    [WR_ROW(WR_FILE_GENERATE)] = { "Choose a file", "Choose", NULL },
+    [WR_ROW(WR_FILE_PRESET)] = { NULL, NULL, NULL }, /* its name is typed */
 };
+WR_ROWS_END(purposes, WR_FILE_PURPOSES);
 
 bool wr_files_writes(WrFilePurpose purpose)
 {
