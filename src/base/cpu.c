@@ -1,5 +1,7 @@
 #include "base/cpu.h"
 
+#include <stddef.h>
+
 /* By single features: GCC and clang agree on those only. */
 int wr_cpu_level(void)
 {
@@ -15,4 +17,18 @@ int wr_cpu_level(void)
 #else
     return 1;
 #endif
+}
+
+const void *wr_cpu_best(const WrCpuBuilds *builds)
+{
+    const int level = wr_cpu_level();
+    return level >= 4 ? builds->v4 : level >= 3 ? builds->v3 : builds->v1;
+}
+
+const void *wr_cpu_build(const WrCpuBuilds *builds, int index)
+{
+    if (index == 0) return builds->v1;
+    if (index == 1 && wr_cpu_level() >= 3) return builds->v3;
+    if (index == 2 && wr_cpu_level() >= 4) return builds->v4;
+    return NULL;
 }

@@ -43,8 +43,3 @@ double wr_asin(double x)
 {
     return Sleef_cinz_asind1_u10purec(x);
 }
-
-double wr_acos(double x)
-{
-    return Sleef_cinz_acosd1_u10purec(x);
-}

@@ -189,11 +189,6 @@ WrDocument *wr_history_go(WrHistory *history, int state)
     return wr_document_snapshot(present);
 }
 
-size_t wr_history_budget(const WrHistory *history)
-{
-    return history->budget;
-}
-
 void wr_history_set_budget(WrHistory *history, size_t bytes)
 {
     history->budget = bytes;

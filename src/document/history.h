@@ -48,6 +48,5 @@ bool wr_history_brings_view(const WrHistory *history, int step);
 /* Make `state` (oldest..count) the present one. Its document, a snapshot that is the caller's. */
 WrDocument *wr_history_go(WrHistory *history, int state);
 
-size_t wr_history_budget(const WrHistory *history);
 /* Gives up at once what is over it: the oldest states first, then undone steps, the last one first. */
 void wr_history_set_budget(WrHistory *history, size_t bytes);

@@ -45,10 +45,6 @@ static inline WrVec3 wr_hard_vec(WrVec3f a)
 {
     return (WrVec3){ (double)a.x, (double)a.y, (double)a.z };
 }
-static inline bool wr_hard_finite(WrVec3 a)
-{
-    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
-}
 static inline bool wr_hard_same(WrVec3 a, WrVec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;

@@ -2,20 +2,15 @@
 
 #include "base/cpu.h"
 
-#include <stddef.h>
+static const WrCpuBuilds builds = { &wr_noise_kernels_v1, &wr_noise_kernels_v3,
+                                    &wr_noise_kernels_v4 };
 
 const WrNoiseKernels *wr_noise_kernels_at(int index)
 {
-    if (index == 0) return &wr_noise_kernels_v1;
-    if (index == 1 && wr_cpu_level() >= 3) return &wr_noise_kernels_v3;
-    if (index == 2 && wr_cpu_level() >= 4) return &wr_noise_kernels_v4;
-    return NULL;
+    return wr_cpu_build(&builds, index);
 }
 
 const WrNoiseKernels *wr_noise_kernels(void)
 {
-    const int level = wr_cpu_level();
-    return level >= 4   ? &wr_noise_kernels_v4
-           : level >= 3 ? &wr_noise_kernels_v3
-                        : &wr_noise_kernels_v1;
+    return wr_cpu_best(&builds);
 }

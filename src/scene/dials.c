@@ -189,13 +189,6 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
 };
 WR_ROWS_END(wr_dials, WR_DIAL_COUNT);
 
-int wr_dial_find(const char *name)
-{
-    for (int i = 0; i < WR_DIAL_COUNT; i++)
-        if (strcmp(wr_dials[i].name, name) == 0) return i;
-    return -1;
-}
-
 void wr_dials_print(const WrScene *scene, const char *command, bool all, WrText *text)
 {
     WrScene fallback = { .dials = wr_dials_default() };

@@ -160,7 +160,6 @@ typedef struct WrDial {
 } WrDial;
 
 extern const WrDial wr_dials[WR_DIAL_COUNT];
-int wr_dial_find(const char *name); /* WrDialId, or -1 */
 
 /* "aa=supersample samples=4 ...", the members of one command that differ from the default, in the
    table's order; all of them when `all`. */

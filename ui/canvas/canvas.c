@@ -33,7 +33,6 @@ struct WrCanvas {
     float table_low, table_high;
     bool valid, flooded;
     WR_ARRAY(SDL_Point) dirty; /* tiles */
-    int64_t made;
 };
 
 WrCanvas *wr_canvas_new(void)
@@ -71,11 +70,6 @@ void wr_canvas_free(WrCanvas *canvas)
     wr_array_free(&canvas->dirty);
     wr_cells_free(canvas->cells);
     wr_free(canvas);
-}
-
-int64_t wr_canvas_pixels_made(const WrCanvas *canvas)
-{
-    return canvas->made;
 }
 
 /* ---- colours ---- */
@@ -199,7 +193,6 @@ static void paint_rect(WrCanvas *canvas, SDL_Rect rect, const WrField *field, in
             paint_line(canvas, rect.x, rect.x + rect.w, out);
         }
     }
-    canvas->made += (int64_t)rect.w * rect.h;
     SDL_UpdateTexture(canvas->texture, &rect,
                       canvas->pixels + (size_t)rect.y * (size_t)canvas->width + rect.x,
                       canvas->width * 4);
@@ -300,7 +293,6 @@ bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView
     int level = wr_cells_level(view->zoom);
     canvas->dirty.count = 0;
     canvas->flooded = false;
-    canvas->made = 0;
     bool whole = !wr_cells_look(canvas->cells, field, level, note_dirty, canvas) || canvas->flooded;
     bool resized = canvas->width != view->w || canvas->height != view->h || !canvas->texture ||
                    canvas->view.table_w != view->table_w;

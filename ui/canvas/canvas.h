@@ -42,5 +42,3 @@ bool wr_canvas_draw(WrCanvas *canvas, SDL_Renderer *renderer, const WrCanvasView
 uint32_t wr_canvas_colour(const WrCanvas *canvas, double height);
 /* The renderer lost its textures: make them anew. */
 void wr_canvas_forget(WrCanvas *canvas);
-/* Pixels computed by the last draw (0: nothing had changed). */
-int64_t wr_canvas_pixels_made(const WrCanvas *canvas);

@@ -123,8 +123,6 @@ void wr_gui_overlay_end(void);
 /* ---- placing ---- */
 void wr_gui_same_line(double gap_units);
 void wr_gui_space(double units); /* downwards */
-void wr_gui_separator(void);     /* a thin line across the panel */
-void wr_gui_rule(void);          /* a thin upright line in a bar */
 double wr_gui_available(void);   /* width left on this row, in pixels */
 void wr_gui_move_to(double x);   /* the next widget starts x pixels from the area's left edge */
 double wr_gui_place(void);       /* where that would be without it */
@@ -211,8 +209,6 @@ void wr_gui_centre(double side);
 void wr_gui_centre_end(double side);
 void wr_gui_mark(WrColour colour); /* a small upright bar of that colour, as tall as a field */
 void wr_gui_width_at_least(double units); /* of the popup that is open */
-/* Scroll so that the widget before is seen. */
-void wr_gui_scroll_here(void);
 /* The text field before lost the keyboard in this frame, by Return, Escape or a click elsewhere. */
 bool wr_gui_field_left(void);
 /* A bar that fills; fraction 0..1, below 0: nobody knows how far it is. width <= 0: what is left of the row. */

@@ -89,11 +89,6 @@ extern "C" void wr_gui_drop_line(double y)
         ImVec2(left, at - px(1)), ImVec2(right, at + px(1)), wr_gui_colour_of(WR_COLOUR_ACCENT));
 }
 
-extern "C" void wr_gui_scroll_here(void)
-{
-    ImGui::SetScrollHereY(0.5f);
-}
-
 extern "C" void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width)
 try {
     ImFont *face = wr_gui_current()->fonts[font];

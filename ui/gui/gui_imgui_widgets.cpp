@@ -86,20 +86,6 @@ extern "C" void wr_gui_space(double units)
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + px(units));
 }
 
-extern "C" void wr_gui_separator(void)
-{
-    ImGui::Separator();
-}
-
-extern "C" void wr_gui_rule(void)
-{
-    ImVec2 at = ImGui::GetCursorScreenPos();
-    float h = ImGui::GetFrameHeight();
-    ImGui::GetWindowDrawList()->AddRectFilled(
-        ImVec2(at.x, at.y + 2), ImVec2(at.x + 1, at.y + h - 2), wr_gui_colour_of(WR_COLOUR_EDGE));
-    ImGui::Dummy(ImVec2(1, h));
-}
-
 extern "C" double wr_gui_available(void)
 {
     return (double)ImGui::GetContentRegionAvail().x;
