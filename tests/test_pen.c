@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Pens without a tablet and without an X server: the curve, the numbers, the queue, files. */
+/* Pens without a tablet and without an X server: the curve, the numbers, the queue, files. */
 #include "test.h"
 
 #include "ui/pen/pen_inner.h"

@@ -59,7 +59,7 @@ static void a_place_is_the_same_by_its_pixel_and_by_its_parameters(void **state)
                 assert_true(b->hit && table->seen);
                 assert_vector(a->at.p, b->at.p, 1e-9);
                 assert_vector(a->d, b->d, 1e-7);
-                assert_vector(a->bent, b->bent, 1e-7);
+                assert_vector(a->perturbed, b->perturbed, 1e-7);
                 assert_near(a->tilt_deg, b->tilt_deg, 1e-6);
                 assert_near(a->dropped_deg, b->dropped_deg, 1e-6);
                 assert_near(a->level, b->level, 1e-6);

@@ -38,10 +38,11 @@ static Sample plane_point(void)
 
 static void angles(WrHardGauge *g, const Sample *s, WrBumpMode mode, WrHardSlope slope, WrVec3 want)
 {
-    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_bent(mode, &s->at, slope), want));
+    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_perturbed(mode, &s->at, slope), want));
     for (int set = 0; set < g->sets; set++)
-        wr_hard_off(g, WR_HARD_FLOAT,
-                    v3_angle_rad(wr_hard_bent_f(g, set, mode, &s->single, slope, false), want));
+        wr_hard_off(
+            g, WR_HARD_FLOAT,
+            v3_angle_rad(wr_hard_perturbed_f(g, set, mode, &s->single, slope, false), want));
 }
 
 static bool hc13(WrHardGauge *g, WrError *err)
@@ -66,11 +67,11 @@ static bool hc14(WrHardGauge *g, WrError *err)
     const Sample s = plane_point();
     const WrHardSlope slope = { 1e30, 0, 0 };
     for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-        WrVec3 bent = wr_hard_bent((WrBumpMode)mode, &s.at, slope);
-        wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(bent, s.at.n_unit));
+        WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
+        wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(perturbed, s.at.n_unit));
         for (int set = 0; set < g->sets; set++) {
-            bent = wr_hard_bent_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
-            wr_hard_holds(g, WR_HARD_FLOAT, wr_hard_same(bent, s.at.n_unit));
+            perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+            wr_hard_holds(g, WR_HARD_FLOAT, wr_hard_same(perturbed, s.at.n_unit));
         }
     }
     return true;
@@ -91,13 +92,13 @@ static void check_steep(WrHardGauge *g, int i)
     const WrVec3 d = wr_bump_d(s.at.n_unit, s.at.pu, s.at.pv, a, b);
     for (int set = 0; set < g->sets; set++) {
         const WrHardSlope slope = { 0, size * a, size * b };
-        const WrVec3 bent = wr_hard_bent_f(g, set, mode, &s.single, slope, false);
-        wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(bent, d));
+        const WrVec3 perturbed = wr_hard_perturbed_f(g, set, mode, &s.single, slope, false);
+        wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, d));
     }
     s.at.pu = v3_scale(s.at.pu, 1e30), s.at.pv = v3_scale(s.at.pv, 1e30);
     s.at.n = v3_scale(s.at.n, 1e60), s.at.n_len *= 1e60;
     const WrHardSlope slope = { 0, DBL_MAX * a, DBL_MAX * b };
-    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_bent(mode, &s.at, slope), d));
+    wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_perturbed(mode, &s.at, slope), d));
 }
 
 /* On the unit plane straight downhill is -(Fu, Fv). */
@@ -110,11 +111,11 @@ static bool hc15(WrHardGauge *g, WrError *err)
     for (int i = 0; i < 5; i++)
         for (int mode = WR_BUMP_BLINN; mode < WR_BUMP_COUNT; mode++) {
             const WrHardSlope slope = { 0.1, steep[i], -steep[i] / 2 };
-            WrVec3 bent = wr_hard_bent((WrBumpMode)mode, &s.at, slope);
-            wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(bent, down));
+            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
+            wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(perturbed, down));
             for (int set = 0; set < g->sets && i < 3; set++) {
-                bent = wr_hard_bent_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(bent, down));
+                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, down));
             }
         }
     for (int i = 0; i < 600; i++) check_steep(g, i);
@@ -135,11 +136,12 @@ static bool hc16(WrHardGauge *g, WrError *err)
         const Sample s = sample_of(g, i);
         for (int mode = WR_BUMP_BLINN; mode < WR_BUMP_COUNT; mode++) {
             const WrHardSlope slope = { 0, 1e-30, -1e-30 };
-            WrVec3 bent = wr_hard_bent((WrBumpMode)mode, &s.at, slope);
-            wr_hard_off(g, WR_HARD_DOUBLE, places(bent, s.at.n_unit, 0x1p-52));
+            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
+            wr_hard_off(g, WR_HARD_DOUBLE, places(perturbed, s.at.n_unit, 0x1p-52));
             for (int set = 0; set < g->sets; set++) {
-                bent = wr_hard_bent_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT, places(bent, wr_hard_vec(s.single.n_unit), 0x1p-23));
+                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+                wr_hard_off(g, WR_HARD_FLOAT,
+                            places(perturbed, wr_hard_vec(s.single.n_unit), 0x1p-23));
             }
         }
     }
@@ -154,13 +156,14 @@ static bool hc17(WrHardGauge *g, WrError *err)
         for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
             const double none = i % 2 ? -0.0 : 0.0, f = mode == WR_BUMP_EXACT ? 0.0 : 0.25;
             const WrHardSlope slope = { f, none, 0 };
-            const WrVec3 bent = wr_hard_bent((WrBumpMode)mode, &s.at, slope);
+            const WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &s.at, slope);
             const WrVec3 n = wr_bump_normal((WrBumpMode)mode, s.at.n, s.at.n_unit, s.at.pu, s.at.pv,
                                             s.at.n_u, s.at.n_v, f, none, 0);
-            wr_hard_holds(g, WR_HARD_DOUBLE, memcmp(&bent, &s.at.n_unit, sizeof bent) == 0);
+            wr_hard_holds(g, WR_HARD_DOUBLE,
+                          memcmp(&perturbed, &s.at.n_unit, sizeof perturbed) == 0);
             wr_hard_holds(g, WR_HARD_DOUBLE, memcmp(&n, &s.at.n, sizeof n) == 0);
             for (int set = 0; set < g->sets; set++) {
-                WrVec3 got = wr_hard_bent_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
+                WrVec3 got = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &s.single, slope, false);
                 wr_hard_holds(g, WR_HARD_FLOAT, wr_hard_same(got, wr_hard_vec(s.single.n_unit)));
             }
         }
@@ -177,11 +180,13 @@ static bool hc18(WrHardGauge *g, WrError *err)
     for (int i = 0; i < 4; i++) {
         const double a = slopes[i];
         const WrHardSlope slope = { 0, 0.6 * a, 0.8 * a };
-        WrVec3 bent = wr_hard_bent(WR_BUMP_INVARIANT, &s.at, slope);
-        wr_hard_off(g, WR_HARD_DOUBLE, fabs(hypot(bent.x / a, bent.y / a) / bent.z - 1.0));
+        WrVec3 perturbed = wr_hard_perturbed(WR_BUMP_INVARIANT, &s.at, slope);
+        wr_hard_off(g, WR_HARD_DOUBLE,
+                    fabs(hypot(perturbed.x / a, perturbed.y / a) / perturbed.z - 1.0));
         for (int set = 0; set < g->sets && i < 2; set++) {
-            bent = wr_hard_bent_f(g, set, WR_BUMP_INVARIANT, &s.single, slope, false);
-            wr_hard_off(g, WR_HARD_FLOAT, fabs(hypot(bent.x / a, bent.y / a) / bent.z - 1.0));
+            perturbed = wr_hard_perturbed_f(g, set, WR_BUMP_INVARIANT, &s.single, slope, false);
+            wr_hard_off(g, WR_HARD_FLOAT,
+                        fabs(hypot(perturbed.x / a, perturbed.y / a) / perturbed.z - 1.0));
         }
     }
     return true;
@@ -206,13 +211,13 @@ static bool hc19(WrHardGauge *g, WrError *err)
                 const double a = hypot(slope.fu, slope.fv);
                 WrSurfacePoint at;
                 wr_surface_at(&shape, 0, u, v, &at);
-                WrVec3 bent = wr_hard_bent(WR_BUMP_INVARIANT, &at, slope);
-                wr_hard_off(g, WR_HARD_DOUBLE, fabs(tangent(at.n_unit, bent) / a - 1.0));
+                WrVec3 perturbed = wr_hard_perturbed(WR_BUMP_INVARIANT, &at, slope);
+                wr_hard_off(g, WR_HARD_DOUBLE, fabs(tangent(at.n_unit, perturbed) / a - 1.0));
                 for (int set = 0; set < g->sets && k <= 24; set++) {
                     WrSurfacePointf atf = wr_hard_point(g, set, &shape, 1.0, 0, (float)u, (float)v);
-                    bent = wr_hard_bent_f(g, set, WR_BUMP_INVARIANT, &atf, slope, false);
+                    perturbed = wr_hard_perturbed_f(g, set, WR_BUMP_INVARIANT, &atf, slope, false);
                     wr_hard_off(g, WR_HARD_FLOAT,
-                                fabs(tangent(wr_hard_vec(atf.n_unit), bent) / a - 1.0));
+                                fabs(tangent(wr_hard_vec(atf.n_unit), perturbed) / a - 1.0));
                 }
             }
     return true;
@@ -255,9 +260,10 @@ static void kernels_make_unit(WrHardGauge *g)
         /* fast arithmetic estimates reciprocals, which a denormal has none of */
         const int sets = t > 0.0f && t < FLT_MIN ? g->sets : g->all;
         for (int set = 0; set < sets; set++) {
-            WrVec3 bent = wr_hard_bent_f(g, set, mode, &at, (WrHardSlope){ 0, 1, 0 }, false);
-            wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0) < 1e-6);
-            wr_hard_holds(g, WR_HARD_FLOAT, v3_angle_rad(bent, want) < 1e-4);
+            WrVec3 perturbed =
+                wr_hard_perturbed_f(g, set, mode, &at, (WrHardSlope){ 0, 1, 0 }, false);
+            wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-6);
+            wr_hard_holds(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, want) < 1e-4);
         }
     }
 }
@@ -311,8 +317,8 @@ static bool hc22(WrHardGauge *g, WrError *err)
         const WrVec3 want =
             v3_unit(v3_sub(wr_bump_d(wide.n_unit, wide.pu, wide.pv, fu, fv), n), zero);
         for (int set = 0; set < g->sets; set++) {
-            WrVec3 got =
-                wr_hard_bent_f(g, set, WR_BUMP_BLINN, &turned, (WrHardSlope){ 0, fv, fu }, false);
+            WrVec3 got = wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &turned,
+                                             (WrHardSlope){ 0, fv, fu }, false);
             wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(got, want));
         }
     }
@@ -363,7 +369,7 @@ static bool hc23(WrHardGauge *g, WrError *err)
         const WrHardSlope here = { f, fu, fv };
         angles(g, &s, WR_BUMP_EXACT, here, front);
         for (int set = 0; set < g->sets; set++) {
-            WrVec3 back = wr_hard_bent_f(g, set, WR_BUMP_EXACT, &s.single, here, true);
+            WrVec3 back = wr_hard_perturbed_f(g, set, WR_BUMP_EXACT, &s.single, here, true);
             wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(back, v3_neg(front)));
         }
     }

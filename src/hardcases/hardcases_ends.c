@@ -34,7 +34,7 @@ static WrShape coincident(int how)
 }
 
 /* Along the diagonal n at and beside the corner is all but one, in float as in double (beside it the edges
-   have normals of their own); everywhere it stays unit when bent. */
+   have normals of their own); everywhere it stays unit when perturbed. */
 bool wr_hard_hc156(WrHardGauge *g, WrError *err)
 {
     static const double near[] = { 0, 1e-30, 1e-7, 1e-5 };
@@ -59,9 +59,9 @@ bool wr_hard_hc156(WrHardGauge *g, WrError *err)
                     wr_hard_holds(g, WR_HARD_FLOAT,
                                   v3_angle_rad(wr_hard_vec(atf.n_unit), beside.n_unit) < 2e-3);
                 for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-                    const WrVec3 bent = wr_hard_bent_f(g, set, (WrBumpMode)mode, &atf,
-                                                       (WrHardSlope){ 0.1, 2, -3 }, false);
-                    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0) < 1e-6);
+                    const WrVec3 perturbed = wr_hard_perturbed_f(
+                        g, set, (WrBumpMode)mode, &atf, (WrHardSlope){ 0.1, 2, -3 }, false);
+                    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-6);
                 }
             }
         }
@@ -74,7 +74,7 @@ bool wr_hard_hc156(WrHardGauge *g, WrError *err)
     return good;
 }
 
-/* The hole closes to a point, and Pu with it: beside it n is away from the tube's centre line, and bent
+/* The hole closes to a point, and Pu with it: beside it n is away from the tube's centre line, and perturbed
    normals are unit whatever the table. */
 bool wr_hard_hc160(WrHardGauge *g, WrError *err)
 {
@@ -96,13 +96,13 @@ bool wr_hard_hc160(WrHardGauge *g, WrError *err)
                 wr_surface_at(&torus, 0, (double)u, (double)single, &at);
                 wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(at.n_unit, want));
                 wr_hard_off(g, WR_HARD_DOUBLE,
-                            fabs(v3_len(wr_hard_bent((WrBumpMode)mode, &at, slope)) - 1.0));
+                            fabs(v3_len(wr_hard_perturbed((WrBumpMode)mode, &at, slope)) - 1.0));
                 for (int set = 0; set < g->all; set++) {
                     const WrSurfacePointf atf = wr_hard_point(g, set, &torus, 1.0, 0, u, single);
-                    const WrVec3 bent =
-                        wr_hard_bent_f(g, set, (WrBumpMode)mode, &atf, slope, false);
+                    const WrVec3 perturbed =
+                        wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &atf, slope, false);
                     wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(wr_hard_vec(atf.n_unit), want));
-                    wr_hard_off(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0));
+                    wr_hard_off(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0));
                 }
             }
         }
@@ -124,9 +124,9 @@ static void thin_point(WrHardGauge *g, int set, const WrScene *scene, WrHardSlop
     const double unit = scalbn(1.0, -ilogb(wr_shape_radius(&scene->shape)));
     const WrSurfacePointf at =
         wr_hard_point(g, set, &scene->shape, unit, 0, wr_hard_float(g), wr_hard_float(g));
-    const WrVec3 bent = wr_hard_bent_f(g, set, scene->bump, &at, slope, false);
+    const WrVec3 perturbed = wr_hard_perturbed_f(g, set, scene->bump, &at, slope, false);
     wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(wr_hard_vec(at.n_unit)) - 1.0) < 1e-5);
-    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0) < 1e-5);
+    wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-5);
 }
 
 /* Sides of 1e-30 beside others of 1: next to no area, and a slope per unit of length without bound. */
@@ -152,9 +152,9 @@ bool wr_hard_hc161(WrHardGauge *g, WrError *err)
             WrSurfacePoint at;
             const WrHardSlope slope = { 0.1, wr_hard_between(g, -1, 1), wr_hard_between(g, -1, 1) };
             wr_surface_at(&scene->shape, 0, wr_hard_random(g), wr_hard_random(g), &at);
-            const WrVec3 bent = wr_hard_bent(scene->bump, &at, slope);
+            const WrVec3 perturbed = wr_hard_perturbed(scene->bump, &at, slope);
             wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(at.n_unit) - 1.0) < 1e-14);
-            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(bent) - 1.0) < 1e-14);
+            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0) < 1e-14);
             for (int set = 0; set < g->all; set++) thin_point(g, set, scene, slope);
         }
         wr_scene_free(scene);

@@ -28,7 +28,7 @@ static int focal_heights(const WrShape *shape, const WrSurfacePoint *at, double 
 static void check_focal(WrHardGauge *g, const WrSurfacePoint *at, WrHardSlope slope)
 {
     const bool level = slope.fu == 0.0 && slope.fv == 0.0;
-    const WrVec3 want = wr_hard_bent(WR_BUMP_EXACT, at, slope);
+    const WrVec3 want = wr_hard_perturbed(WR_BUMP_EXACT, at, slope);
     const WrSurfacePointf single = wr_hard_narrow(at);
     const WrVec3 n_f = wr_hard_vec(single.n_unit);
     if (level) wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(want, at->n_unit));
@@ -40,7 +40,7 @@ static void check_focal(WrHardGauge *g, const WrSurfacePoint *at, WrHardSlope sl
     }
     const bool still = wr_hard_same(want, at->n_unit);
     for (int set = 0; set < g->all; set++) {
-        const WrVec3 got = wr_hard_bent_f(g, set, WR_BUMP_EXACT, &single, slope, false);
+        const WrVec3 got = wr_hard_perturbed_f(g, set, WR_BUMP_EXACT, &single, slope, false);
         wr_hard_holds(g, WR_HARD_FLOAT,
                       still ? wr_hard_same(got, n_f) : v3_angle_rad(got, want) < 1e-4);
     }

@@ -96,14 +96,14 @@ WrSurfacePointf wr_hard_point(WrHardGauge *gauge, int set, const WrShape *shape,
     return at;
 }
 
-WrVec3 wr_hard_bent(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope)
+WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope)
 {
     return wr_bump_unit_normal(mode, at->n, at->n_unit, at->pu, at->pv, at->n_u, at->n_v, slope.f,
                                slope.fu, slope.fv);
 }
 
-WrVec3 wr_hard_bent_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
-                      WrHardSlope slope, bool behind)
+WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
+                           WrHardSlope slope, bool behind)
 {
     WrStrip *strip = gauge->strip;
     const float side = behind ? -1.0f : 1.0f;

@@ -63,10 +63,10 @@ typedef struct WrHardSlope {
     double f, fu, fv;
 } WrHardSlope;
 /* n' in double, made unit. */
-WrVec3 wr_hard_bent(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope);
+WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope slope);
 /* n' by a kernel, seen from the side of n (behind: from the other side). */
-WrVec3 wr_hard_bent_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
-                      WrHardSlope slope, bool behind);
+WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
+                           WrHardSlope slope, bool behind);
 /* The same by the renderer's kernels in double: set 0 or 1. */
 WrVec3 wr_hard_bent_wide(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePoint *at,
                          WrHardSlope slope);
@@ -115,7 +115,7 @@ int64_t wr_hard_differ(const WrHardShot *a, const WrHardShot *b, double off);
 
 /* One light of strength 1 on one place of a plane whose n is (0, 0, 1). */
 typedef struct WrHardLit {
-    WrVec3 bent, light, view; /* unit; for the reference bent.z and view.z are above 0 */
+    WrVec3 perturbed, light, view; /* unit; for the reference perturbed.z and view.z are above 0 */
     double diffuse, specular, shininess;
     bool gate;
 } WrHardLit;

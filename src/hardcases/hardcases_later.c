@@ -9,7 +9,7 @@
 #define WAVES "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\n"
 static const WrHardCase rows[] = {
     ROW(156, WR_HARD_GEOMETRY, "control points that fall together",
-        "n at the corner is that beside it, bent normals are unit, no picture holds a NaN",
+        "n at the corner is that beside it, perturbed normals are unit, no picture holds a NaN",
         "violations", 0, 0,
         WAVES "surface bezier points=0,0,0;0,0,0;0.667,0,0.164;1,0,0.37;0,0.333,0.041;"
               "0.333,0.333,0.082;0.667,0.333,0.206;1,0.333,0.411;0,0.667,0.164;0.333,0.667,0.206;"
@@ -28,10 +28,10 @@ static const WrHardCase rows[] = {
         WAVES "surface sphere\nrotate 0,0,0\nbump height=0.05\nlight point at=-1,0,0\n"
               "camera orthographic eye=-3,0,0.1 target=-1,0,0 up=0,0,1 size=1"),
     ROW(160, WR_HARD_GEOMETRY, "a torus whose hole is one point, R = r",
-        "n points away from the tube's centre line beside it too; bent normals are unit", "rad",
-        1e-6, 1e-14, WAVES "surface torus R=0.5 r=0.5\nrotate -60,0,0\nbump height=0.05"),
+        "n points away from the tube's centre line beside it too; perturbed normals are unit",
+        "rad", 1e-6, 1e-14, WAVES "surface torus R=0.5 r=0.5\nrotate -60,0,0\nbump height=0.05"),
     ROW(161, WR_HARD_GEOMETRY, "surfaces of next to no area, sides of 1e-30",
-        "bent normals are unit and no picture holds a NaN", "violations", 0, 0,
+        "perturbed normals are unit and no picture holds a NaN", "violations", 0, 0,
         WAVES "surface cylinder R=0.8 H=1e-30\nbump height=0.1"),
     ROW(162, WR_HARD_PAINT, "layers that all but cancel",
         "what is left is the exact difference of the stored heights", "violations", 0, NAN,

@@ -7,13 +7,13 @@
 #include <string.h>
 
 /* The highlight of n', l, v by the kernels. */
-static double highlight(WrHardGauge *g, int set, WrVec3f bent, WrVec3f light, WrVec3f view,
+static double highlight(WrHardGauge *g, int set, WrVec3f perturbed, WrVec3f light, WrVec3f view,
                         double shininess, bool gate)
 {
     WrStrip *s = g->strip;
     const WrKernLight kern = { .where = { light.x, light.y, light.z }, .rgb = { 1, 1, 1 } };
     s->count = 1;
-    s->bx[0] = bent.x, s->by[0] = bent.y, s->bz[0] = bent.z;
+    s->bx[0] = perturbed.x, s->by[0] = perturbed.y, s->bz[0] = perturbed.z;
     s->vx[0] = view.x, s->vy[0] = view.y, s->vz[0] = view.z;
     s->px[0] = s->py[0] = s->pz[0] = 0.0f;
     g->kernels[set]->begin(0.0f, s);
@@ -29,7 +29,7 @@ static double highlight_wide(WrHardGauge *g, int set, const WrHardLit *lit)
     const WrVec3 l = lit->light;
     const WrKernLightd kern = { .where = { l.x, l.y, l.z }, .rgb = { 1, 1, 1 } };
     s->count = 1;
-    s->bx[0] = lit->bent.x, s->by[0] = lit->bent.y, s->bz[0] = lit->bent.z;
+    s->bx[0] = lit->perturbed.x, s->by[0] = lit->perturbed.y, s->bz[0] = lit->perturbed.z;
     s->vx[0] = lit->view.x, s->vy[0] = lit->view.y, s->vz[0] = lit->view.z;
     s->px[0] = s->py[0] = s->pz[0] = 0.0;
     g->wide[set]->begin(0.0, s);
@@ -39,9 +39,10 @@ static double highlight_wide(WrHardGauge *g, int set, const WrHardLit *lit)
 }
 
 /* (n'.h)^s with sixty-four bits: from |n' - h|, so that no digit of it is lost near 1. */
-static double lobe_of(WrVec3 bent, WrVec3 light, WrVec3 view, double s)
+static double lobe_of(WrVec3 perturbed, WrVec3 light, WrVec3 view, double s)
 {
-    long double n[3] = { bent.x, bent.y, bent.z }, h[3] = { light.x, light.y, light.z };
+    long double n[3] = { perturbed.x, perturbed.y, perturbed.z },
+                h[3] = { light.x, light.y, light.z };
     h[0] += view.x, h[1] += view.y, h[2] += view.z;
     long double nn = 0, hh = 0, off = 0;
     for (int k = 0; k < 3; k++) nn += n[k] * n[k], hh += h[k] * h[k];
@@ -80,7 +81,7 @@ static bool generic_highlight(WrHardGauge *g, double s, WrError *err)
     for (int set = 0; set < g->all; set++)
         wr_hard_off(g, WR_HARD_FLOAT,
                     steps(highlight(g, set, nf, lf, vf, s, false), want, s, 0x1p-23));
-    const WrHardLit lit = { .bent = n, .light = l, .view = v, .specular = 1, .shininess = s };
+    const WrHardLit lit = { .perturbed = n, .light = l, .view = v, .specular = 1, .shininess = s };
     for (int set = 0; set < 2; set++)
         wr_hard_off(g, WR_HARD_DOUBLE,
                     steps(highlight_wide(g, set, &lit), lobe_of(n, l, v, s), s, 0x1p-52));
@@ -170,7 +171,7 @@ static bool hc90(WrHardGauge *g, WrError *err)
     for (int k = 0; k < 200; k++) { /* n', l and v one direction, each rounded in its own way */
         const double x = wr_hard_between(g, -1, 1), y = wr_hard_between(g, -1, 1);
         const WrVec3 n = v3_unit((WrVec3){ x, y, 1 }, (WrVec3){ 0, 0, 1 });
-        const WrHardLit lit = { .bent = n,
+        const WrHardLit lit = { .perturbed = n,
                                 .light = v3_scale(n, 1.0 + k),
                                 .view = n,
                                 .specular = 1,
@@ -193,7 +194,7 @@ static bool hc91(WrHardGauge *g, WrError *err)
             wr_hard_off(g, WR_HARD_FLOAT, highlight(g, set, v, back, v, powers[k % 3], k % 2 != 0));
             wr_hard_off(g, WR_HARD_FLOAT, highlight(g, set, v, none, v, powers[k % 3], true));
         }
-        const WrHardLit lit = { .bent = { 0, 0, 1 },
+        const WrHardLit lit = { .perturbed = { 0, 0, 1 },
                                 .light = { 0, 0, -1 },
                                 .view = { 0, 0, 1 },
                                 .specular = 1,
@@ -274,7 +275,7 @@ static bool hc93(WrHardGauge *g, WrError *err)
                 .pu = { 1, 0, 0 }, .pv = { 0.3f, 1, 0 }, .n_unit = { 0, 0, 1 }, .n_len = 1
             };
             WrStrip *s = g->strip;
-            wr_hard_bent_f(g, set, WR_BUMP_BLINN, &at, (WrHardSlope){ 0, 0.1, -0.2 }, false);
+            wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &at, (WrHardSlope){ 0, 0.1, -0.2 }, false);
             s->suu[0] = (float)spreads[k % 8][0];
             s->suv[0] = (float)spreads[k % 8][1];
             s->svv[0] = (float)spreads[k % 8][2];

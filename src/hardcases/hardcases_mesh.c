@@ -30,11 +30,13 @@ static bool hc32(WrHardGauge *g, WrError *err)
         const WrVec3 want = by_gradient(&at, fu, fv);
         const WrSurfacePointf single = wr_hard_narrow(&at);
         const WrHardSlope slope = { 0, fu, fv };
-        wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(wr_hard_bent(WR_BUMP_BLINN, &at, slope), want));
+        wr_hard_off(g, WR_HARD_DOUBLE,
+                    v3_angle_rad(wr_hard_perturbed(WR_BUMP_BLINN, &at, slope), want));
         for (int set = 0; set < g->sets; set++)
             wr_hard_off(
                 g, WR_HARD_FLOAT,
-                v3_angle_rad(wr_hard_bent_f(g, set, WR_BUMP_BLINN, &single, slope, false), want));
+                v3_angle_rad(wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &single, slope, false),
+                             want));
     }
     return true;
 }

@@ -171,20 +171,21 @@ static bool hc57(WrHardGauge *g, WrError *err)
             const WrShape shape = wr_hard_shape(kinds[k % 3]);
             const float t = wr_hard_float(g);
             const bool along_v = k % 3 == 2 && k % 2;
-            WrVec3 bent[2], single[WR_HARD_SETS][2];
+            WrVec3 perturbed[2], single[WR_HARD_SETS][2];
             for (int end = 0; end < 2; end++) {
                 const float u = along_v ? t : (float)end, v = along_v ? (float)end : t;
                 WrSurfacePoint at;
                 wr_surface_at(&shape, 0, (double)u, (double)v, &at);
                 WrHardSlope slope = wr_hard_sample(field, (WrScheme)scheme, (double)u, (double)v);
-                bent[end] = wr_hard_bent(WR_BUMP_BLINN, &at, slope);
+                perturbed[end] = wr_hard_perturbed(WR_BUMP_BLINN, &at, slope);
                 for (int set = 0; set < g->sets; set++) {
                     WrSurfacePointf atf = wr_hard_point(g, set, &shape, 1.0, 0, u, v);
                     slope = wr_hard_look_at(g, set, &look, u, v);
-                    single[set][end] = wr_hard_bent_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
+                    single[set][end] =
+                        wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
                 }
             }
-            wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(bent[0], bent[1]));
+            wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(perturbed[0], perturbed[1]));
             for (int set = 0; set < g->sets; set++)
                 wr_hard_holds(g, WR_HARD_FLOAT, wr_hard_same(single[set][0], single[set][1]));
         }

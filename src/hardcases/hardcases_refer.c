@@ -3,14 +3,14 @@
 
 #include "base/memory.h"
 
-/* The unit plane with a slope that bends n to lit->bent everywhere: F = fu u + fv v. The object's colour is
+/* The unit plane with a slope that bends n to lit->perturbed everywhere: F = fu u + fv v. The object's colour is
    red and highlights are white, which keeps the two parts apart. */
 static WrScene *scene_of(const WrHardLit *lit)
 {
     WrScene *scene = wr_scene_new();
     WrAnalyticTerm *terms = wr_alloc(2, sizeof *terms);
-    terms[0] = (WrAnalyticTerm){ .i = 1, .a = -lit->bent.x / lit->bent.z };
-    terms[1] = (WrAnalyticTerm){ .j = 1, .a = -lit->bent.y / lit->bent.z };
+    terms[0] = (WrAnalyticTerm){ .i = 1, .a = -lit->perturbed.x / lit->perturbed.z };
+    terms[1] = (WrAnalyticTerm){ .j = 1, .a = -lit->perturbed.y / lit->perturbed.z };
     scene->analytic = (WrAnalytic){ WR_ANALYTIC_POLY, 2, terms };
     scene->posed = true;
     scene->height = 1.0;

@@ -1,4 +1,4 @@
-/* Hard cases of the sides that a bent normal may turn to: away from the eye, away from the light, edge on. */
+/* Hard cases of the sides that a perturbed normal may turn to: away from the eye, away from the light, edge on. */
 #include "hardcases/hardcases_inner.h"
 
 #include <float.h>
@@ -20,7 +20,8 @@ static void shine(WrHardGauge *g, int set, const WrHardLit *lit, double out[2])
     const WrVec3f l = v3f_from(lit->light);
     const WrKernLight light = { .where = { l.x, l.y, l.z }, .rgb = { 1, 1, 1 } };
     s->count = 1;
-    s->bx[0] = (float)lit->bent.x, s->by[0] = (float)lit->bent.y, s->bz[0] = (float)lit->bent.z;
+    s->bx[0] = (float)lit->perturbed.x, s->by[0] = (float)lit->perturbed.y,
+    s->bz[0] = (float)lit->perturbed.z;
     s->vx[0] = (float)lit->view.x, s->vy[0] = (float)lit->view.y, s->vz[0] = (float)lit->view.z;
     s->px[0] = s->py[0] = s->pz[0] = 0.0f;
     k->begin(0.0f, s);
@@ -31,16 +32,16 @@ static void shine(WrHardGauge *g, int set, const WrHardLit *lit, double out[2])
     out[1] = (double)s->sr[0];
 }
 
-/* Can the reference stand so? It sees the front of a plane, whose n is not bent to its edge. */
+/* Can the reference stand so? It sees the front of a plane, whose n is not perturbed to its edge. */
 static bool forwards(const WrHardLit *lit)
 {
-    return lit->bent.z > 0.05 && lit->view.z > 0.05;
+    return lit->perturbed.z > 0.05 && lit->view.z > 0.05;
 }
 
 static bool hc24(WrHardGauge *g, WrError *err)
 {
     for (int i = 0; i < 2000; i++) {
-        const WrHardLit lit = { .bent = direction(g),
+        const WrHardLit lit = { .perturbed = direction(g),
                                 .light = direction(g),
                                 .view = direction(g),
                                 .diffuse = 1,
@@ -66,14 +67,14 @@ static bool hc24(WrHardGauge *g, WrError *err)
 static bool hc25(WrHardGauge *g, WrError *err)
 {
     for (int i = 0; i < 2000; i++) {
-        const WrHardLit lit = { .bent = direction(g),
+        const WrHardLit lit = { .perturbed = direction(g),
                                 .light = direction(g),
                                 .view = direction(g),
                                 .diffuse = 1,
                                 .specular = 1,
                                 .shininess = 30,
                                 .gate = true };
-        const double facing = v3_dot(lit.bent, lit.light);
+        const double facing = v3_dot(lit.perturbed, lit.light);
         for (int set = 0; set < g->sets; set++) {
             double part[2];
             shine(g, set, &lit, part);
@@ -95,13 +96,13 @@ static bool hc26(WrHardGauge *g, WrError *err)
     for (int i = 0; i < 400; i++) {
         const double s = i % 2 ? 5 : 200, angle = wr_hard_between(g, 0.2, 1.5);
         for (int gate = 0; gate < 2; gate++) {
-            WrHardLit lit = { .bent = { 0, 0, 1 },
+            WrHardLit lit = { .perturbed = { 0, 0, 1 },
                               .view = { sin(angle), 0, cos(angle) },
                               .diffuse = 1,
                               .specular = 1,
                               .shininess = s,
                               .gate = gate };
-            const WrVec3 half = v3_unit(v3_add((WrVec3){ 1, 0, 0 }, lit.view), lit.bent);
+            const WrVec3 half = v3_unit(v3_add((WrVec3){ 1, 0, 0 }, lit.view), lit.perturbed);
             const double allowed = gate ? pow(fmax(0.0, half.z), s) : 0.0;
             for (int set = 0; set < g->sets; set++) {
                 double above[2], below[2];
@@ -177,7 +178,7 @@ static bool hc27(WrHardGauge *g, WrError *err)
     }
 #define WAVES "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\n"
 static const WrHardCase rows[] = {
-    SIDE(24, "a bent normal that faces away from the eye",
+    SIDE(24, "a perturbed normal that faces away from the eye",
          "it is left as it is; diffuse and highlight stay within 0 and their strength",
          "violations", 0, 0, NULL,
          WAVES "surface plane\nrotate -80,0,0\nbump height=0.2\nmaterial specular=1"),

@@ -56,11 +56,11 @@ static bool hc02(WrHardGauge *g, WrError *err)
             const WrVec3 ideal =
                 v3_unit(v3_sub(n, v3_sub((WrVec3){ 0.1, 0, 0 }, v3_scale(n, 0.1 * n.x))), zero);
             wr_hard_off(g, WR_HARD_DOUBLE,
-                        v3_angle_rad(wr_hard_bent(WR_BUMP_BLINN, &at, slope), ideal));
+                        v3_angle_rad(wr_hard_perturbed(WR_BUMP_BLINN, &at, slope), ideal));
             for (int set = 0; set < g->sets && k <= 24; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, &sphere, 1.0, 0, (float)u, (float)v);
-                WrVec3 bent = wr_hard_bent_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(bent, ideal));
+                WrVec3 perturbed = wr_hard_perturbed_f(g, set, WR_BUMP_BLINN, &atf, slope, false);
+                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, ideal));
             }
         }
     return true;
@@ -78,12 +78,12 @@ static bool hc03(WrHardGauge *g, WrError *err)
                                         wr_hard_between(g, -40, 40) };
             WrSurfacePoint at;
             wr_surface_at(&sphere, 0, (double)u, v, &at);
-            WrVec3 bent = wr_hard_bent((WrBumpMode)mode, &at, slope);
-            wr_hard_off(g, WR_HARD_DOUBLE, fabs(v3_len(bent) - 1.0));
+            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &at, slope);
+            wr_hard_off(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0));
             for (int set = 0; set < g->sets; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, &sphere, 1.0, 0, u, (float)v);
-                bent = wr_hard_bent_f(g, set, (WrBumpMode)mode, &atf, slope, false);
-                wr_hard_off(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0));
+                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &atf, slope, false);
+                wr_hard_off(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0));
             }
         }
     return true;
@@ -160,12 +160,12 @@ static bool degenerate(WrHardGauge *g, const WrShape *shape, WrError *err)
         wr_surface_at(shape, 0, u, v, &at);
         wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(at.n_unit, (WrVec3){ 0, 0, 1 }));
         for (int mode = 0; mode < WR_BUMP_COUNT; mode++) {
-            WrVec3 bent = wr_hard_bent((WrBumpMode)mode, &at, slope);
-            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(bent) - 1.0) < 1e-14);
+            WrVec3 perturbed = wr_hard_perturbed((WrBumpMode)mode, &at, slope);
+            wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(perturbed) - 1.0) < 1e-14);
             for (int set = 0; set < g->sets; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, shape, 1.0, 0, (float)u, (float)v);
-                bent = wr_hard_bent_f(g, set, (WrBumpMode)mode, &atf, slope, false);
-                wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(bent) - 1.0) < 1e-6);
+                perturbed = wr_hard_perturbed_f(g, set, (WrBumpMode)mode, &atf, slope, false);
+                wr_hard_holds(g, WR_HARD_FLOAT, fabs(v3_len(perturbed) - 1.0) < 1e-6);
             }
         }
     }
@@ -290,15 +290,16 @@ static bool hc09(WrHardGauge *g, WrError *err)
         for (int m = 0; m < 2; m++) {
             const WrBumpMode mode = m ? WR_BUMP_INVARIANT : WR_BUMP_BLINN;
             const double grow = m ? 1.0 : k;
-            const WrVec3 want = wr_hard_bent(mode, &at, (WrHardSlope){ 0, fu, fv });
-            const WrVec3 got = wr_hard_bent(mode, &far, (WrHardSlope){ 0, grow * fu, grow * fv });
+            const WrVec3 want = wr_hard_perturbed(mode, &at, (WrHardSlope){ 0, fu, fv });
+            const WrVec3 got =
+                wr_hard_perturbed(mode, &far, (WrHardSlope){ 0, grow * fu, grow * fv });
             wr_hard_off(g, WR_HARD_DOUBLE, v3_angle_rad(got, want));
             for (int set = 0; set < g->sets; set++) {
                 WrSurfacePointf atf = wr_hard_point(g, set, &big, unit, 0, u, v);
                 const double s = m ? 1.0 : grow * unit;
-                WrVec3 bent =
-                    wr_hard_bent_f(g, set, mode, &atf, (WrHardSlope){ 0, s * fu, s * fv }, false);
-                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(bent, want));
+                WrVec3 perturbed = wr_hard_perturbed_f(g, set, mode, &atf,
+                                                       (WrHardSlope){ 0, s * fu, s * fv }, false);
+                wr_hard_off(g, WR_HARD_FLOAT, v3_angle_rad(perturbed, want));
             }
         }
     }

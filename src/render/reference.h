@@ -57,13 +57,13 @@ typedef struct WrProbe {
     bool hit;
     double u, v;
     int face;
-    WrSurfacePoint at;  /* P, Pu, Pv, N, n, n_u, n_v */
-    double f, fu, fv;   /* height and replication included */
-    WrVec3 d, a;        /* D = Fu (n x Pv) - Fv (n x Pu); A = Fv Pu - Fu Pv */
-    WrVec3 bent;        /* n', unit, by the formulas: from behind it points away from the viewer */
-    WrVec3 bent_exact;  /* of the exact formula, for the term that the paper drops */
-    double tilt_deg;    /* between n and n' */
-    double dropped_deg; /* between the paper's n' and the exact one */
+    WrSurfacePoint at; /* P, Pu, Pv, N, n, n_u, n_v */
+    double f, fu, fv;  /* height and replication included */
+    WrVec3 d, a;       /* D = Fu (n x Pv) - Fv (n x Pu); A = Fv Pu - Fu Pv */
+    WrVec3 perturbed;  /* n', unit, by the formulas: from behind it points away from the viewer */
+    WrVec3 perturbed_exact; /* of the exact formula, for the term that the paper drops */
+    double tilt_deg;        /* between n and n' */
+    double dropped_deg;     /* between the paper's n' and the exact one */
     /* The pixel's footprint in the table, texels, y downwards: dx/dX, dy/dX, dx/dY, dy/dY; within +-1e9,
        which it reaches along outlines and at poles. */
     double footprint[4];

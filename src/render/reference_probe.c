@@ -60,10 +60,10 @@ static double level_of(const double footprint[4])
 }
 
 static double dropped_deg(const WrSurfacePoint *at, double f, double fu, double fv,
-                          WrVec3 *bent_exact)
+                          WrVec3 *perturbed_exact)
 {
-    *bent_exact = wr_reference_normal(WR_BUMP_EXACT, at, f, fu, fv);
-    return wr_bump_tilt_deg(*bent_exact, wr_reference_normal(WR_BUMP_BLINN, at, f, fu, fv));
+    *perturbed_exact = wr_reference_normal(WR_BUMP_EXACT, at, f, fu, fv);
+    return wr_bump_tilt_deg(*perturbed_exact, wr_reference_normal(WR_BUMP_BLINN, at, f, fu, fv));
 }
 
 static int samples_of(const WrDials *dials)
@@ -90,14 +90,14 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
         wr_scene_height(scene, field, hit.u, hit.v, &probe.f, &probe.fu, &probe.fv);
         probe.d = wr_bump_d(at->n_unit, at->pu, at->pv, probe.fu, probe.fv);
         probe.a = wr_bump_axis(at->pu, at->pv, probe.fu, probe.fv);
-        probe.bent = wr_reference_normal(scene->bump, at, probe.f, probe.fu, probe.fv);
-        probe.tilt_deg = wr_bump_tilt_deg(at->n_unit, probe.bent);
-        probe.dropped_deg = dropped_deg(at, probe.f, probe.fu, probe.fv, &probe.bent_exact);
+        probe.perturbed = wr_reference_normal(scene->bump, at, probe.f, probe.fu, probe.fv);
+        probe.tilt_deg = wr_bump_tilt_deg(at->n_unit, probe.perturbed);
+        probe.dropped_deg = dropped_deg(at, probe.f, probe.fu, probe.fv, &probe.perturbed_exact);
         footprint(&looker, at, &ray, hit.s, &looker.per_x, probe.footprint);
         footprint(&looker, at, &ray, hit.s, &looker.per_y, probe.footprint + 2);
         probe.level = level_of(probe.footprint);
         probe.samples = samples_of(&scene->dials);
-        const WrVec3 seen = v3_scale(probe.bent, wr_reference_side(view, at));
+        const WrVec3 seen = v3_scale(probe.perturbed, wr_reference_side(view, at));
         wr_reference_light(&looker.stage, at->p, hit.u, hit.v, seen, probe.rgb);
     }
     wr_reference_stage_fini(&looker.stage);

@@ -128,17 +128,17 @@ static void picture_colour(const WrReferenceStage *stage, double u, double v, do
 
 /* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, of which a high power loses no
    digit. */
-static double lobe(WrVec3 bent, WrVec3 h, double s)
+static double lobe(WrVec3 perturbed, WrVec3 h, double s)
 {
-    const double nh = v3_dot(bent, h);
-    const WrVec3 off = v3_sub(bent, h);
+    const double nh = v3_dot(perturbed, h);
+    const WrVec3 off = v3_sub(perturbed, h);
     if (!(s > 0)) return 1;
     if (nh > 0.5) return exp(s * log1p(-v3_dot(off, off) / 2));
     return nh > 0 ? pow(nh, s) : 0;
 }
 
-void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v, WrVec3 bent,
-                        double rgb[3])
+void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
+                        WrVec3 perturbed, double rgb[3])
 {
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceView *view = &stage->view;
@@ -148,10 +148,10 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
         const WrReferenceLight *light = &view->lights[i];
         const WrVec3 l = light->point ? unit(v3_sub(light->where, p)) : light->where;
         const WrVec3 h = v3_add(l, to);
-        const double nl = v3_dot(bent, l), hh = v3_dot(h, h);
+        const double nl = v3_dot(perturbed, l), hh = v3_dot(h, h);
         double highlight = 0;
         if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24) {
-            highlight = m->specular * lobe(bent, v3_scale(h, 1 / sqrt(hh)), m->shininess);
+            highlight = m->specular * lobe(perturbed, v3_scale(h, 1 / sqrt(hh)), m->shininess);
         }
         for (int c = 0; c < 3; c++) {
             diffuse[c] += m->diffuse * light->rgb[c] * (nl > 0 ? nl : 0);
@@ -174,8 +174,8 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     double f = 0, fu = 0, fv = 0;
     view->info->at(view->shape, hit.face, hit.u, hit.v, &at);
     if (stage->bump != WR_BUMP_NONE) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
-    const WrVec3 bent = wr_reference_normal(stage->bump, &at, f, fu, fv);
-    out->normal = v3_scale(bent, wr_reference_side(view, &at));
+    const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
+    out->normal = v3_scale(perturbed, wr_reference_side(view, &at));
     out->lost = hit.lost;
     wr_reference_light(stage, at.p, hit.u, hit.v, out->normal, out->rgb);
     return true;

@@ -30,9 +30,9 @@ WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, 
 /* +1 where n points to the viewer's side of the surface, -1 where its back is seen. */
 double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at);
 /* I = C (ka + sum kd L max(0, n'.l)) + sum ks L max(0, n'.h)^s, the highlight gated as the material says.
- * bent: n' towards the viewer's side. */
-void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v, WrVec3 bent,
-                        double rgb[3]);
+ * perturbed: n' towards the viewer's side. */
+void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
+                        WrVec3 perturbed, double rgb[3]);
 
 typedef struct WrReferenceSample {
     double rgb[3];

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Hand lines to the test driver at their time:  play SOCKET <lines
+/* Hand lines to the test driver at their time:  play SOCKET <lines
    A line `w MS` waits until so many milliseconds after the last wait (1 is 1000 events a second); at the
    end it waits until the driver has done all. */
 #include <stdio.h>

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   An input driver of Xorg for tests: pens and a touch screen that do what a script says, through a Unix
+/* An input driver of Xorg for tests: pens and a touch screen that do what a script says, through a Unix
    socket (options SocketPath, ToolType: STYLUS, ERASER or TOUCH). X and Y of 0..65535 lie over the whole
    screen. Lines:
 

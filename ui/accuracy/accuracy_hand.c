@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What is measured when, and where the results go. */
+/* What is measured when, and where the results go. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plan.h"
 #include "ui/accuracy/accuracy_work.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The accuracy's state, from its beginning to its end. */
+/* The accuracy's state, from its beginning to its end. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/desk/app_options.h"

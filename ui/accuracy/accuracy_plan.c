@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/accuracy/accuracy_plan.h"
 
 #include <math.h>

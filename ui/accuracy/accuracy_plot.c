@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/accuracy/accuracy_plot.h"
 
 #include <math.h>

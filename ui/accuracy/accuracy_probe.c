@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/accuracy/accuracy_probe.h"
 #include "ui/accuracy/accuracy_work.h"
 
@@ -48,14 +47,14 @@ static void probe_at(const WrScene *scene, const WrField *field, double u, doubl
     wr_scene_height(scene, field, u, v, &out->f, &out->fu, &out->fv);
     out->d = wr_bump_d(at->n_unit, at->pu, at->pv, out->fu, out->fv);
     out->a = wr_bump_axis(at->pu, at->pv, out->fu, out->fv);
-    WrVec3 bent[WR_BUMP_COUNT];
+    WrVec3 perturbed[WR_BUMP_COUNT];
     for (int mode = 0; mode < WR_BUMP_COUNT; mode++)
-        bent[mode] = wr_bump_unit_normal((WrBumpMode)mode, at->n, at->n_unit, at->pu, at->pv,
-                                         at->n_u, at->n_v, out->f, out->fu, out->fv);
-    out->bent = bent[scene->bump];
-    out->bent_exact = bent[WR_BUMP_EXACT];
-    out->tilt_deg = wr_bump_tilt_deg(at->n_unit, out->bent);
-    out->dropped_deg = wr_bump_tilt_deg(out->bent_exact, bent[WR_BUMP_BLINN]);
+        perturbed[mode] = wr_bump_unit_normal((WrBumpMode)mode, at->n, at->n_unit, at->pu, at->pv,
+                                              at->n_u, at->n_v, out->f, out->fu, out->fv);
+    out->perturbed = perturbed[scene->bump];
+    out->perturbed_exact = perturbed[WR_BUMP_EXACT];
+    out->tilt_deg = wr_bump_tilt_deg(at->n_unit, out->perturbed);
+    out->dropped_deg = wr_bump_tilt_deg(out->perturbed_exact, perturbed[WR_BUMP_BLINN]);
 }
 
 /* The shorter way between two values of a parameter that may close. */
@@ -111,7 +110,7 @@ int wr_accuracy_probe_rows(const WrProbe *p, bool seen, WrProbeRow rows[WR_PROBE
     rows[n++] = one("Fv", p->fv, "", "dF/dv, replication included");
     rows[n++] = vector("D", p->d, "Fu (n x Pv) - Fv (n x Pu), n = N/|N|: what is added to N");
     rows[n++] = vector("A", p->a, "Fv Pu - Fu Pv: the axis that the normal is turned about");
-    rows[n++] = vector("n'", p->bent, "The turned normal, unit, by the scene's formula");
+    rows[n++] = vector("n'", p->perturbed, "The turned normal, unit, by the scene's formula");
     rows[n++] = one("tilt", p->tilt_deg, "\xc2\xb0", "Angle between N and n'");
     rows[n++] = one("tan", at->n_len > 0 ? v3_len(p->d) / at->n_len : (double)NAN, "",
                     "|D| / |N|, the tangent of the paper's angle");

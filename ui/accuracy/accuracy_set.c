@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Setting dials: of A, the scene, by commands like any other change of it; of B, which is nobody's but the
+/* Setting dials: of A, the scene, by commands like any other change of it; of B, which is nobody's but the
    window's. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/desk/busy.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Over the patch: two pictures to compare, maps of one quantity, their labels and scales. */
+/* Over the patch: two pictures to compare, maps of one quantity, their labels and scales. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plan.h"
 #include "ui/accuracy/accuracy_plot.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/accuracy/accuracy_plan.h"
 #include "ui/accuracy/accuracy_probe.h"
@@ -159,9 +158,9 @@ static bool measure_error(WrWork *work, WrPool *pool, const WrProgress *progress
     work->measured_h = request.height;
     float *normals = wr_alloc((size_t)request.width * (size_t)request.height, 3 * sizeof *normals);
     const bool chosen = work->scene->tolerance.kind != WR_TOLERANCE_NONE;
-    WrFrameRequest bent = request;
-    bent.normals = normals;
-    bool good = (chosen || render(work, 0, pool, &bent, &frame)) &&
+    WrFrameRequest shown = request;
+    shown.normals = normals;
+    bool good = (chosen || render(work, 0, pool, &shown, &frame)) &&
                 compare(work, pool, &request, chosen ? NULL : normals);
     wr_free(normals);
     return good;

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The Accuracy tab: what the patch shows, the error and the time of the picture, what other dials would cost,
+/* The Accuracy tab: what the patch shows, the error and the time of the picture, what other dials would cost,
    the dials themselves. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The dials, made from their table, of the scene or of what it is compared with; and the tolerance, which sets
+/* The dials, made from their table, of the scene or of what it is compared with; and the tolerance, which sets
    them by measuring. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/desk/action.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Error against time of all settings that the ladder tried, both logarithmic: the front that nothing beats, the
+/* Error against time of all settings that the ladder tried, both logarithmic: the front that nothing beats, the
    present setting ringed; a click uses a point. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"

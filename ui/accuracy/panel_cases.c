@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The gallery of hard cases: what must hold, how far from it the program's own code is, and the case itself on
+/* The gallery of hard cases: what must hold, how far from it the program's own code is, and the case itself on
    the patch. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_plot.h"

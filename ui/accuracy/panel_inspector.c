@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The inspector: every quantity of the formulas under the pointer, on the patch or on the table. */
+/* The inspector: every quantity of the formulas under the pointer, on the patch or on the table. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_probe.h"
 #include "ui/desk/action.h"

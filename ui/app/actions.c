@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The one table of actions: menus, keys and buttons all go by it. */
+/* The one table of actions: menus, keys and buttons all go by it. */
 #include "ui/app/actions.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/roster_list.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Actions of the Accuracy panel, for the table in actions.c. */
+/* Actions of the Accuracy panel, for the table in actions.c. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_probe.h"
 #include "ui/desk/desk.h"

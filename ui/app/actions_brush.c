@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Actions of the brush: its values and modes, presets, symmetry, key maps. */
+/* Actions of the brush: its values and modes, presets, symmetry, key maps. */
 #include "ui/app/actions.h"
 #include "ui/canvas/canvas.h"
 #include "ui/desk/desk.h"

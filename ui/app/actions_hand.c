@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Actions of the painting hand: straight lines, the patch, a mouse's pressure, steadying. */
+/* Actions of the painting hand: straight lines, the patch, a mouse's pressure, steadying. */
 #include "ui/app/actions.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Actions of layers and selections: each is one command line. */
+/* Actions of layers and selections: each is one command line. */
 #include "ui/app/actions.h"
 #include "ui/canvas/outline.h"
 #include "ui/desk/busy.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The window: SDL, the event loop, what is drawn when. */
+/* The window: SDL, the event loop, what is drawn when. */
 #include "ui/app/app.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/canvas_view.h"

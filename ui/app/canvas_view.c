@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The table's view: its picture, and what lies on it. */
+/* The table's view: its picture, and what lies on it. */
 #include "ui/app/canvas_view.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Pointer and keys: who gets an event, and what the pointer holds meanwhile. */
+/* Pointer and keys: who gets an event, and what the pointer holds meanwhile. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/hand_events.h"
 #include "ui/canvas/view.h"

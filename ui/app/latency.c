@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The window measured: a thread scribbles with a mouse that is not there, at a real mouse's pace, and each
+/* The window measured: a thread scribbles with a mouse that is not there, at a real mouse's pace, and each
    picture of the window says which of the events it shows. */
 #include "ui/app/app.h"
 #include "ui/app/loop.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/app/rest.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The roster of this program: all dialogs, tabs, parts and files' purposes. */
+/* The roster of this program: all dialogs, tabs, parts and files' purposes. */
 #include "ui/app/roster_list.h"
 #include "base/rows.h"
 #include "ui/accuracy/accuracy.h"

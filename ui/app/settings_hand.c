@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The settings while the window is open: written when they changed, once a second at most, between gestures. */
+/* The settings while the window is open: written when they changed, once a second at most, between gestures. */
 #include "ui/app/settings_hand.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   One block of memory for the state of all subjects. */
+/* One block of memory for the state of all subjects. */
 #include "ui/app/store.h"
 #include "ui/app/roster_list.h"
 #include "ui/app/timing.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   How long the window's pictures take, for who asks. */
+/* How long the window's pictures take, for who asks. */
 #include "ui/app/timing.h"
 #include "ui/desk/desk.h"
 #include "ui/preview/preview.h"

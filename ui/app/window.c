@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The window on the desktop: opened in whatever way the display knows, and kept on the screen. */
+/* The window on the desktop: opened in whatever way the display knows, and kept on the screen. */
 #include "ui/app/window.h"
 #include "ui/desk/app_options.h"
 #include "ui/desk/desk.h"

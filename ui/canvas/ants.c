@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/canvas/ants.h"
 #include "ui/canvas/view.h"
 

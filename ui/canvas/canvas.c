@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/canvas_cells.h"
 #include "ui/canvas/canvas_range.h"

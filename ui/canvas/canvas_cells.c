@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/canvas/canvas_cells.h"
 
 #include "base/array.h"

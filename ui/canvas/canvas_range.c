@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/canvas/canvas_range.h"
 
 #include <math.h>

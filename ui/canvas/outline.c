@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/canvas/outline.h"
 #include "ui/work/job.h"
 

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/canvas/thumb.h"
 
 #include "field/field.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Actions by name. */
+/* Actions by name. */
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/later.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What may take long runs on a thread of its own while the window stays alive.
+/* What may take long runs on a thread of its own while the window stays alive.
 
    Meanwhile only that thread touches the session. The window shows a snapshot of the document from before:
    the patch turns, the canvas can be moved and zoomed, the panels stand still. Whatever else is pressed is

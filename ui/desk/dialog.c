@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Opening and closing dialogs, and what most of them end with. */
+/* Opening and closing dialogs, and what most of them end with. */
 #include "ui/desk/dialog.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The document behind the window: new, open, save, and what is asked before work is lost. All changes go
+/* The document behind the window: new, open, save, and what is asked before work is lost. All changes go
    through the session. */
 #include "ui/desk/document.h"
 #include "ui/desk/app_options.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What every part asks of the window itself: another picture, its layout, its scale, its keys. */
+/* What every part asks of the window itself: another picture, its layout, its scale, its keys. */
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/keys.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The key maps that are shipped, as the text that a file of one's own would have. */
+/* The key maps that are shipped, as the text that a file of one's own would have. */
 #include "ui/desk/keys.h"
 
 #include "base/rows.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/desk/keys.h"
 
 #include "base/array.h"

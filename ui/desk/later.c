@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What is asked for inside a picture of the window is done after it: the window is first drawn without the dialog or
+/* What is asked for inside a picture of the window is done after it: the window is first drawn without the dialog or
    the menu that asked. */
 #include "ui/desk/later.h"
 #include "ui/desk/desk.h"

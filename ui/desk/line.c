@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/desk/line.h"
 
 #include "base/text.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What the window has to say: errors stay until they are read, notes for some seconds. */
+/* What the window has to say: errors stay until they are read, notes for some seconds. */
 #include "ui/desk/messages.h"
 #include "ui/desk/app_options.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Files that would go: what is written where another file stands is asked about first. Neither Return nor a
+/* Files that would go: what is written where another file stands is asked about first. Neither Return nor a
    click that came too often replaces anything. */
 #include "ui/desk/replace.h"
 #include "ui/desk/action.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Asking the parts of the window, whichever there are. */
+/* Asking the parts of the window, whichever there are. */
 #include "ui/desk/roster.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/settings.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   One command for what was dragged in the scene. */
+/* One command for what was dragged in the scene. */
 #include "ui/desk/scene_line.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/desk/search.h"
 
 #include <stdbool.h>

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The document as the window sees it: as it is, or as what is being tried or dragged would make it. */
+/* The document as the window sees it: as it is, or as what is being tried or dragged would make it. */
 #include "ui/desk/session_view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/desk/settings.h"
 #include "ui/canvas/canvas.h"
 #include "ui/pen/steady.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The settings' file, which every window that is open writes whenever something changes: what one of them did is
+/* The settings' file, which every window that is open writes whenever something changes: what one of them did is
    brought into what the file has, so that none takes away what another has added. */
 #include "ui/desk/settings.h"
 

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/generate/generate_gallery.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"

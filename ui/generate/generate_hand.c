@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The generator in hand: its values, its command line, and what it would make. */
+/* The generator in hand: its values, its command line, and what it would make. */
 #include "ui/generate/generate_hand.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/busy.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The values of the generator in hand, and the command line that they make; and a line's values. */
+/* The values of the generator in hand, and the command line that they make; and a line's values. */
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
 #include "ui/desk/messages.h"

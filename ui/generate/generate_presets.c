@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Presets of generators, in presets.wrinkle in the settings folder: the name as a comment, the command below
+/* Presets of generators, in presets.wrinkle in the settings folder: the name as a comment, the command below
    it; so the file is also a script. Lines that are not understood are kept as they are. */
 #include "ui/desk/desk.h"
 #include "ui/desk/messages.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The Generate tab, made from the generators' table: which one, its presets, what it has to say. */
+/* The Generate tab, made from the generators' table: which one, its presets, what it has to say. */
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/generate/generate_gallery.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The middle of the Generate tab: the values of the generator in hand, and how it joins what is there. What is
+/* The middle of the Generate tab: the values of the generator in hand, and how it joins what is there. What is
    wrong with one is said below it. */
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The places that a generator goes by, such as a path for letters: on the canvas Ctrl and a click adds one or
+/* The places that a generator goes by, such as a path for letters: on the canvas Ctrl and a click adds one or
    takes it away, a drag moves it. They are kept as they are written, "u,v;u,v;...". */
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The place of what the Generate panel makes: dragged on the canvas, with a corner for its size and a ring
+/* The place of what the Generate panel makes: dragged on the canvas, with a corner for its size and a ring
    for its turn, where its parameters say so. */
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"

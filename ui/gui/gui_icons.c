@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/gui/gui_icons.h"
 #include "ui/gui/gui.h"
 

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The widget library's context: style, events, frames. */
+/* The widget library's context: style, events, frames. */
 #include "ui/gui/gui_imgui.h"
 
 #include "ui/gui/gui_sdl.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Faces and their spacing: Inter if it is there, else what is; icons from Material Design. */
+/* Faces and their spacing: Inter if it is there, else what is; icons from Material Design. */
 #include "ui/gui/gui_imgui.h"
 
 #include "ui/gui/gui_sdl.h"

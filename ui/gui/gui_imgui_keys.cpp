@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Keys on their way to the widget library. From 1.87 on it has a queue of key events and names of its own
+/* Keys on their way to the widget library. From 1.87 on it has a queue of key events and names of its own
    for keys; before, an array of them by the platform's numbers. This file alone knows which. */
 #include "ui/gui/gui_imgui.h"
 

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Menus, popups, dialogs, lists and text fields. */
+/* Menus, popups, dialogs, lists and text fields. */
 #include "ui/gui/gui_imgui.h"
 
 #include <imgui_internal.h>

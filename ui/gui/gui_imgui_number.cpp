@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Fields for numbers and colours, and drawing on the views. */
+/* Fields for numbers and colours, and drawing on the views. */
 #include "ui/gui/gui_imgui.h"
 
 extern "C" {

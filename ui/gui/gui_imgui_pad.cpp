@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Fields to draw on and to point at. */
+/* Fields to draw on and to point at. */
 #include "ui/gui/gui_imgui.h"
 
 extern "C" WrPad wr_gui_pad_begin(const char *id, double w, double h)

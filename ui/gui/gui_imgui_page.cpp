@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Fields of text, drawn by hand. */
+/* Fields of text, drawn by hand. */
 #include "ui/gui/gui_imgui.h"
 #include "ui/gui/gui_page.h"
 

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Rows that hold widgets, pictures, bars. */
+/* Rows that hold widgets, pictures, bars. */
 #include "ui/gui/gui_imgui.h"
 
 #include <imgui_internal.h>

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Pictures to choose from, fields with a hint, parts that fold. */
+/* Pictures to choose from, fields with a hint, parts that fold. */
 #include "ui/gui/gui_imgui.h"
 
 #include <imgui_internal.h>

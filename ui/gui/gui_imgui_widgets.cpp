@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Areas, text, menus and widgets. */
+/* Areas, text, menus and widgets. */
 #include "ui/gui/gui_imgui.h"
 
 extern "C" {

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/gui/gui_sdl.h"
 
 #include <SDL.h>

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/gui/screen.h"
 
 #include "base/rows.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/help/guide.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/help/guide_flow.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/gui_page.h"

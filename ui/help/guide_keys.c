@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The keys, told in the order in which one comes to need them; those that are not told of follow. */
+/* The keys, told in the order in which one comes to need them; those that are not told of follow. */
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/keys.h"

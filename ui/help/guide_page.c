@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/help/guide_page.h"
 #include "ui/desk/search.h"
 

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/help/guide_picture.h"
 #include "ui/work/job.h"
 

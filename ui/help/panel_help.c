@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The guide, and what this program is. */
+/* The guide, and what this program is. */
 #include "ui/help/panel_help.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The dialog of a table operation, made from its row: canvas and patch show what it would do, on a
+/* The dialog of a table operation, made from its row: canvas and patch show what it would do, on a
    snapshot, and only Apply runs the command. */
 #include "ui/panels/panel_adjust.h"
 #include "ui/desk/busy.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   All values of the brush in hand, and what of a preset's own settings matters to heights. */
+/* All values of the brush in hand, and what of a preset's own settings matters to heights. */
 #include "ui/desk/desk.h"
 
 #include "base/rows.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The Brushes tab: presets as pictures, by collection and group, with a search; below them the values of
+/* The Brushes tab: presets as pictures, by collection and group, with a search; below them the values of
    the brush in hand. Where there is no room for both, one of them at a time. */
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Dialogs: only where a decision is needed. */
+/* Dialogs: only where a decision is needed. */
 #include "ui/desk/action.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"

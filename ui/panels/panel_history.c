@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What was done, as the commands that did it; a click goes there. */
+/* What was done, as the commands that did it; a click goes there. */
 #include "ui/desk/action.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The layers: top layer first. Every act is a command line. */
+/* The layers: top layer first. Every act is a command line. */
 #include "ui/panels/panel_layers.h"
 #include "ui/canvas/thumb.h"
 #include "ui/desk/action.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The scene's panel: lights, camera, quality. */
+/* The scene's panel: lights, camera, quality. */
 #include "ui/desk/action.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"

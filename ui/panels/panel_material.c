@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The scene's panel: bump and material. */
+/* The scene's panel: bump and material. */
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
 #include "ui/desk/scene_line.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"

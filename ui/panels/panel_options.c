@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The option row under the menu: the tool in hand, and what it puts there. */
+/* The option row under the menu: the tool in hand, and what it puts there. */
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/layout.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What the planner decided for the last picture, with its reasons and prices. */
+/* What the planner decided for the last picture, with its reasons and prices. */
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What a program that crashed left behind: take it back, give it up, or leave it for later. */
+/* What a program that crashed left behind: take it back, give it up, or leave it for later. */
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"

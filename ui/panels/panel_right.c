@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The panel on the right: one tab at a time above, the layers below; where there is no room for both,
+/* The panel on the right: one tab at a time above, the layers below; where there is no room for both,
    the layers are a tab too. What needs many rows takes the layers' place where they leave it only a few. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/desk/desk.h"

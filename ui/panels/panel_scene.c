@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The scene: every field shows what the document has, changes the preview while it is dragged, and runs
+/* The scene: every field shows what the document has, changes the preview while it is dragged, and runs
    one command when it is let go. */
 #include "ui/desk/desk.h"
 #include "ui/desk/scene_line.h"

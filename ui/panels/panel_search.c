@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Finding an action by typing: all that the menus hold, every table operation, every generator. */
+/* Finding an action by typing: all that the menus hold, every table operation, every generator. */
 #include "ui/panels/panel_search.h"
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"

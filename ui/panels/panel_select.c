@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The dialogs that change the selection by numbers; the canvas shows the outline that they give. */
+/* The dialogs that change the selection by numbers; the canvas shows the outline that they give. */
 #include "ui/canvas/outline.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The status line: what is under the pointer, what the last picture cost, what there is to say. */
+/* The status line: what is under the pointer, what the last picture cost, what there is to say. */
 #include "ui/panels/panel_status.h"
 #include "ui/canvas/outline.h"
 #include "ui/canvas/view.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The tablet tester: which devices there are, what comes from them, what is wrong, and their pressure
+/* The tablet tester: which devices there are, what comes from them, what is wrong, and their pressure
    curves. */
 #include "ui/panels/panel_tablet.h"
 #include "ui/desk/desk.h"

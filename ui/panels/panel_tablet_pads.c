@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What the tablet tester draws: the scribble, the newest numbers, the curve. */
+/* What the tablet tester draws: the scribble, the newest numbers, the curve. */
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"

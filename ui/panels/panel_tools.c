@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The strip of tools on the left. */
+/* The strip of tools on the left. */
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/keys.h"

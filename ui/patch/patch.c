@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The patch's view: what is wished of the preview and when, and what is drawn. */
+/* The patch's view: what is wished of the preview and when, and what is drawn. */
 #include "ui/patch/patch.h"
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"

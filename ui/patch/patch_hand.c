@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The patch in the hand: turned, its lights moved, come closer to; each becomes one command when it is let go. */
+/* The patch in the hand: turned, its lights moved, come closer to; each becomes one command when it is let go. */
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Painting on the patch: the pen goes over the object, the table under it is painted by the same strokes
+/* Painting on the patch: the pen goes over the object, the table under it is painted by the same strokes
    as on the canvas. The way between two events is cut into steps of a few pixels, each looked up exactly
    (patch_pick.h). Where the next step lies elsewhere in the table than the surface's slopes there say,
    something jumped: the outline of a nearer part, another face of the cube, an edge, a seam of a

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The queue of pen events, and what becomes of a device's numbers. Where they come from is pen_x11.c,
+/* The queue of pen events, and what becomes of a device's numbers. Where they come from is pen_x11.c,
    pen_finger.c and pen_record.c. */
 #include "ui/pen/pen.h"
 #include "ui/pen/pen_curve.h"

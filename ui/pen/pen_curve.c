@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/pen/pen_curve.h"
 
 #include "base/text.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Fingers on a touch screen, through SDL: one at a time, and none while a pen is near. */
+/* Fingers on a touch screen, through SDL: one at a time, and none while a pen is near. */
 #include "ui/pen/pen.h"
 #include "ui/pen/pen_inner.h"
 

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Pen events to a text file and back. */
+/* Pen events to a text file and back. */
 #include "ui/pen/pen.h"
 #include "ui/pen/pen_inner.h"
 

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Pens of XInput2, on the connection to the X server that SDL has already.
+/* Pens of XInput2, on the connection to the X server that SDL has already.
 
    Each pen is a slave device of the server and is listened to by itself. A master device would not do:
    its events would come in place of those that SDL makes its mouse of.

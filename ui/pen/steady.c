@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/pen/steady.h"
 
 #include <math.h>

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/preview/accuracy_choice.h"
 
 #include "accuracy/tolerance.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/preview/patch_pick.h"
 
 #include "base/array.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   How long the newest picture of the patch took: one figure, the same wherever it is shown. */
+/* How long the newest picture of the patch took: one figure, the same wherever it is shown. */
 #include "ui/preview/preview.h"
 
 #include "base/rows.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/preview/preview.h"
 #include "ui/preview/accuracy_choice.h"
 #include "ui/work/thread.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/preview/rotation.h"
 
 #include "base/exactmath.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/tools/brush_line.h"
 #include "ui/desk/line.h"
 

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What lies over the canvas while the brush is in hand: its outline in two tones, turned and sized as the
+/* What lies over the canvas while the brush is in hand: its outline in two tones, turned and sized as the
    next dab would be, with its copies; the string of a steadied hand; the straight line that is aimed. */
 #include "ui/tools/brush_outline.h"
 #include "ui/canvas/view.h"

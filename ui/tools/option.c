@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The option row: values of the brush that several tools show, and how many of a tool's options find room. What does
+/* The option row: values of the brush that several tools show, and how many of a tool's options find room. What does
    not fit is behind the button at its end. */
 #include "ui/tools/option.h"
 

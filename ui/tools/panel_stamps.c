@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Choosing the picture of the stamp tool. */
+/* Choosing the picture of the stamp tool. */
 #include "ui/desk/action.h"
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   What is chosen of the presets: its values go into settings.brush, its name into the commands. */
+/* What is chosen of the presets: its values go into settings.brush, its name into the commands. */
 #include "ui/tools/shelf.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/messages.h"

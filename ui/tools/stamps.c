@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The pictures that the stamp tool offers: those in the folders of brushes that are not the thumbnail of a
+/* The pictures that the stamp tool offers: those in the folders of brushes that are not the thumbnail of a
    preset. */
 #include "ui/tools/stamps.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Strokes by hand. Samples are handed to the session at once, which journals them; they are drawn for a few
+/* Strokes by hand. Samples are handed to the session at once, which journals them; they are drawn for a few
    milliseconds before each picture, so that a large brush never keeps the pointer waiting. A stroke that
    is let go before it is drawn goes on being drawn; the next one waits its turn. */
 #include "ui/tools/stroke_hand.h"

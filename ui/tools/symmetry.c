@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Symmetry: its values on a small panel over the canvas, its axes and its centre, which can be dragged,
+/* Symmetry: its values on a small panel over the canvas, its axes and its centre, which can be dragged,
    on the table. */
 #include "ui/tools/symmetry.h"
 #include "ui/canvas/view.h"

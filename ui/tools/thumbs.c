@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Small pictures of presets, read and shrunk on a thread of their own, a few at a time; a preset without a
+/* Small pictures of presets, read and shrunk on a thread of their own, a few at a time; a preset without a
    picture paints one. */
 #include "ui/tools/thumbs.h"
 #include "ui/canvas/thumb.h"

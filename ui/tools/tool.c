@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Which tool is in hand. */
+/* Which tool is in hand. */
 #include "ui/tools/tool.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"

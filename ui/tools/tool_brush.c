@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The brush: gestures become strokes. Freehand, straight lines from the last stroke (Shift and a click) or
+/* The brush: gestures become strokes. Freehand, straight lines from the last stroke (Shift and a click) or
    by a key that is held, picking a height, sizing. */
 #include "ui/tools/tool_brush.h"
 #include "ui/canvas/view.h"

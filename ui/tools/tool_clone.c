@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Painting with heights from elsewhere: Ctrl or Alt and a click says where from; the first stroke after it
+/* Painting with heights from elsewhere: Ctrl or Alt and a click says where from; the first stroke after it
    ties that place to the pointer, and later strokes keep the distance. */
 #include "ui/tools/tool_clone.h"
 #include "ui/desk/desk.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Filling what is connected: a click does to all of it what the brush's mode does. */
+/* Filling what is connected: a click does to all of it what the brush's mode does. */
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Polygons and Bezier paths with the brush: presses put anchors, a drag pulls a path's arms; anchors and
+/* Polygons and Bezier paths with the brush: presses put anchors, a drag pulls a path's arms; anchors and
    arms can be moved until Enter, or a double click, paints it. Backspace takes the last back, Escape gives
    up. */
 #include "ui/canvas/view.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Ramps: a drag says from where to where heights lead from low to high. Shift keeps to multiples of 15
+/* Ramps: a drag says from where to where heights lead from low to high. Shift keeps to multiples of 15
    degrees, Escape gives up. */
 #include "ui/canvas/view.h"
 #include "ui/desk/busy.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Selecting by hand: a drag draws a shape on any copy of the cell, and across its edges. */
+/* Selecting by hand: a drag draws a shape on any copy of the cell, and across its edges. */
 #include "ui/tools/tool_select.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/action.h"

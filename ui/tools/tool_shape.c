@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Rectangles and ellipses with the brush: a drag draws them on any copy of the cell, and across its edges.
+/* Rectangles and ellipses with the brush: a drag draws them on any copy of the cell, and across its edges.
    Shift makes squares and circles, Ctrl begins in the middle, Escape gives up. */
 #include "ui/tools/tool_shape.h"
 #include "ui/canvas/view.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   A stamp: a picture, or the round brush, put onto the table once. What would come of it is shown under
+/* A stamp: a picture, or the round brush, put onto the table once. What would come of it is shown under
    the pointer, on the table and on the patch, on a snapshot: press where its middle goes, drag for its turn
    and size, let go. The wheel sizes it, Enter puts it where the pointer is, Escape gives up. */
 #include "ui/tools/tool_stamp.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Moving and zooming the canvas. */
+/* Moving and zooming the canvas. */
 #include "ui/tools/tool_view.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"

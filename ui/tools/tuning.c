@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/tools/tuning.h"
 
 #include "base/text.h"

@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The outline of the selection on every copy of the cell, as a marching dashed line. */
+/* The outline of the selection on every copy of the cell, as a marching dashed line. */
 #include "ui/views/marks.h"
 #include "ui/canvas/ants.h"
 #include "ui/canvas/outline.h"

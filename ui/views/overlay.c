@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   Lines and marks on the canvas, on every copy of the cell that is seen. */
+/* Lines and marks on the canvas, on every copy of the cell that is seen. */
 #include "ui/views/overlay.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"

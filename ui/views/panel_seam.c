@@ -1,5 +1,4 @@
-/* SPDX-License-Identifier: MIT
-   The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
+/* The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
    smoothly, orange where it jumps. */
 #include "ui/views/panel_seam.h"
 #include "ui/canvas/seam.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/work/files.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/work/job.h"
 #include "ui/work/thread.h"
 

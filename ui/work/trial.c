@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/work/trial.h"
 #include "ui/work/job.h"
 #include "ui/work/trial_generate.h"

@@ -1,4 +1,3 @@
-/* SPDX-License-Identifier: MIT */
 #include "ui/work/trial_generate.h"
 
 #include "base/array.h"
