@@ -34,7 +34,7 @@ static void check_focal(WrHardGauge *g, const WrSurfacePoint *at, WrHardSlope sl
     if (level) wr_hard_holds(g, WR_HARD_DOUBLE, wr_hard_same(want, at->n_unit));
     wr_hard_holds(g, WR_HARD_DOUBLE, fabs(v3_len(want) - 1.0) < 1e-14);
     for (int set = 0; set < 2; set++) {
-        const WrVec3 got = wr_hard_bent_wide(g, set, WR_BUMP_EXACT, at, slope);
+        const WrVec3 got = wr_hard_perturbed_wide(g, set, WR_BUMP_EXACT, at, slope);
         wr_hard_holds(g, WR_HARD_DOUBLE,
                       level ? wr_hard_same(got, at->n_unit) : v3_angle_rad(got, want) < 1e-9);
     }

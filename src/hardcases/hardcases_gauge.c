@@ -124,7 +124,7 @@ WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const W
     return wr_hard_vec(GET3(strip, b));
 }
 
-WrVec3 wr_hard_bent_wide(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePoint *at,
+WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePoint *at,
                          WrHardSlope slope)
 {
     WrStripd *strip = gauge->wide_strip;

@@ -1,0 +1,60 @@
+/* The roster of the window: every tool, action, dialog, tab, part and purpose of files has what makes it work. */
+#include "test.h"
+
+#include "ui/app/roster_list.h"
+#include "ui/desk/action.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/roster.h"
+#include "ui/tools/tool.h"
+#include "ui/work/files.h"
+
+static const WrAction *action(const char *name)
+{
+    for (const WrAction *a = wr_roster.actions; a->name; a++)
+        if (strcmp(a->name, name) == 0) return a;
+    return NULL;
+}
+
+static void every_action_has_a_word_of_its_own_and_runs(void **state)
+{
+    (void)state;
+    for (const WrAction *a = wr_roster.actions; a->name; a++) {
+        if (action(a->name) != a) fail_msg("action %s stands twice", a->name);
+        if (!a->label || !a->run) fail_msg("action %s lacks its label, or does nothing", a->name);
+    }
+}
+
+static void every_tool_is_chosen_by_an_action(void **state)
+{
+    (void)state;
+    for (int i = 0; i < wr_roster.tool_count; i++) {
+        const WrTool *tool = wr_roster.tools[i];
+        if (!tool) fail_msg("tool %d is none", i);
+        if (!tool->action || !action(tool->action)) fail_msg("tool %d has no action", i);
+        if (!tool->icon || !tool->help) fail_msg("tool %s lacks icon or help", tool->action);
+        if (!tool->press && !tool->paints) fail_msg("tool %s does nothing", tool->action);
+    }
+}
+
+static void dialogs_tabs_parts_and_files_are_whole(void **state)
+{
+    (void)state;
+    for (int i = 1; i < WR_DIALOG_COUNT; i++)
+        if (!wr_roster.dialogs[i].draw) fail_msg("dialog %d shows nothing", i);
+    for (int i = 0; i < WR_FILE_PURPOSES; i++)
+        if (!wr_roster.takes[i]) fail_msg("nobody takes files of purpose %d", i);
+    for (int i = 0; i < wr_roster.tab_count; i++) {
+        const WrTab *tab = &wr_roster.tabs[i];
+        if (!tab->label || !tab->draw == !tab->fill) fail_msg("tab %d: one of the two draws it", i);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_action_has_a_word_of_its_own_and_runs),
+        cmocka_unit_test(every_tool_is_chosen_by_an_action),
+        cmocka_unit_test(dialogs_tabs_parts_and_files_are_whole),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
