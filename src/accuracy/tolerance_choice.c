@@ -67,10 +67,8 @@ void wr_part_name(WrChoicePart *part)
 
 void wr_choice_say(WrChoice *choice, const WrTolerance *tolerance, const char *more)
 {
-    static const char *const names[] = { "", "rms", "max", "time" };
-    _Static_assert(sizeof names / sizeof *names == WR_TOLERANCE_COUNT, "every kind has a name");
     WrText text = { 0 };
-    wr_text_addf(&text, "tolerance %s=", names[tolerance->kind]);
+    wr_text_addf(&text, "tolerance %s=", wr_tolerance_names[tolerance->kind]);
     wr_text_add_number(&text, tolerance->value);
     wr_text_addf(&text, "%s: %s; estimated rms %.2g, max %.2g; %s",
                  tolerance->kind == WR_TOLERANCE_TIME ? " s" : "",

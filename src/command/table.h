@@ -26,8 +26,8 @@ typedef enum WrCommandClass {
     WR_CLASS_COUNT
 } WrCommandClass;
 
-extern const char
-    *const wr_class_names[WR_CLASS_COUNT]; /* "edit", "scene", "view", "output", "history" */
+/* "edit", "scene", "view", "output", "history" */
+extern const char *const wr_class_names[WR_CLASS_COUNT];
 
 typedef enum WrArgType {
     WR_ARG_NUMBER, /* 0.5 */

@@ -38,6 +38,9 @@ const char *wr_document_wrap_name(int i);
 const char *wr_document_wrap_word(WrWrap wrap_u, WrWrap wrap_v);
 bool wr_document_wrap_find(const char *word, WrWrap *wrap_u, WrWrap *wrap_v); /* false: no such */
 
+/* Do all texels have the bits of that level? Tiles of such stay unallocated. pitch: floats from row to row. */
+bool wr_document_all_at(const float *texels, size_t pitch, int columns, int rows, float level);
+
 /* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. Saving what was
    loaded gives the same bytes. */
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,

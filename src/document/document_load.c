@@ -146,7 +146,7 @@ static bool find_parts(Loading *in, WrError *err)
 
 /* ---- fields ---- */
 
-static bool all_equal(const float *texels, size_t pitch, int columns, int rows, float level)
+bool wr_document_all_at(const float *texels, size_t pitch, int columns, int rows, float level)
 {
     for (int y = 0; y < rows; y++)
         for (int x = 0; x < columns; x++)
@@ -161,7 +161,8 @@ static void store_strip(Loading *in, WrField *field, int y, int rows, const floa
 {
     for (int x = 0; x < in->width; x += WR_TILE) {
         int columns = in->width - x < WR_TILE ? in->width - x : WR_TILE;
-        if (all_equal(strip + x, (size_t)in->width, columns, rows, wr_field_level(field))) continue;
+        if (wr_document_all_at(strip + x, (size_t)in->width, columns, rows, wr_field_level(field)))
+            continue;
         in->replaced += wr_field_write(field, x, y, columns, rows, strip + x, (size_t)in->width);
     }
 }

@@ -72,15 +72,6 @@ static WrImage *read_picture(Loading *in, const char *entry, WrError *err)
 
 /* ---- fields ---- */
 
-static bool all_equal(const float *texels, size_t pitch, int columns, int rows, float level)
-{
-    for (int y = 0; y < rows; y++)
-        for (int x = 0; x < columns; x++)
-            if (memcmp(&texels[(size_t)y * pitch + (size_t)x], &level, sizeof level) != 0)
-                return false;
-    return true;
-}
-
 /* Rows from y on; y and all rows but the last are those of tiles. Tiles at the field's level stay
  * unallocated. */
 static void store_rows(WrField *field, int y, int rows, const float *texels)
@@ -91,7 +82,8 @@ static void store_rows(WrField *field, int y, int rows, const float *texels)
             int columns = width - x < WR_TILE ? width - x : WR_TILE;
             int count = rows - top < WR_TILE ? rows - top : WR_TILE;
             const float *from = texels + (size_t)top * (size_t)width + x;
-            if (all_equal(from, (size_t)width, columns, count, wr_field_level(field))) continue;
+            if (wr_document_all_at(from, (size_t)width, columns, count, wr_field_level(field)))
+                continue;
             wr_field_write(field, x, y + top, columns, count, from, (size_t)width);
         }
 }

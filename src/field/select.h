@@ -68,8 +68,8 @@ typedef enum WrSelectMode {
     WR_SELECT_INTERSECT, /* min(a, b) */
     WR_SELECT_MODES
 } WrSelectMode;
-extern const char
-    *const wr_select_modes[WR_SELECT_MODES + 1]; /* as in commands: "add"; ends with NULL */
+/* As in commands: "replace", "add", ...; ends with NULL. */
+extern const char *const wr_select_modes[WR_SELECT_MODES + 1];
 
 /* Join a new selection `b` to the present one `a`, which may be NULL: to add to or intersect with
  * everything gives b, and to subtract from it gives what b leaves. Tiles that b does not change are

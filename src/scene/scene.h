@@ -14,8 +14,8 @@
 #include "surface/surface.h"
 
 typedef enum WrLightKind { WR_LIGHT_DIRECTIONAL, WR_LIGHT_POINT, WR_LIGHT_KINDS } WrLightKind;
-extern const char
-    *const wr_light_names[WR_LIGHT_KINDS]; /* as in commands: "directional", "point" */
+/* As in commands: "directional", "point". */
+extern const char *const wr_light_names[WR_LIGHT_KINDS];
 
 typedef struct WrLight {
     WrLightKind kind;
@@ -40,7 +40,8 @@ typedef struct WrCamera {
     double fov_deg; /* vertical, perspective: 0.01..179 */
     double size; /* height of the view in scene units, orthographic; <= 0: the object just fits */
 } WrCamera;
-extern const char *const wr_camera_names[2]; /* as in commands: "perspective", "orthographic" */
+/* As in commands: "perspective", "orthographic". */
+extern const char *const wr_camera_names[2];
 
 /* What the picture must keep to; the dials that meet it are chosen by measuring (accuracy/tolerance.h). */
 typedef enum WrToleranceKind {
@@ -50,8 +51,8 @@ typedef enum WrToleranceKind {
     WR_TOLERANCE_TIME, /* seconds a frame: the least error that it buys */
     WR_TOLERANCE_COUNT
 } WrToleranceKind;
-extern const char
-    *const wr_tolerance_names[WR_TOLERANCE_COUNT]; /* as in commands: "off", "rms", ... */
+/* As in commands: "off", "rms", "max", "time". */
+extern const char *const wr_tolerance_names[WR_TOLERANCE_COUNT];
 
 typedef struct WrTolerance {
     WrToleranceKind kind;

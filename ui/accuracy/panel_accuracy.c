@@ -10,6 +10,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/preview/preview.h"
+#include "base/rows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -137,8 +138,9 @@ static void error(WrApp *app)
 
 /* ---- time ---- */
 
-static const WrColour stage_colours[6] = { 0xff8f8f8fu, 0xff4a8fdcu, 0xff4fb39au,
-                                           0xffe8a25cu, 0xffd8706cu, 0xffb191d6u };
+static const WrColour stage_colours[] = { 0xff8f8f8fu, 0xff4a8fdcu, 0xff4fb39au,
+                                          0xffe8a25cu, 0xffd8706cu, 0xffb191d6u };
+_Static_assert(WR_LENGTH(stage_colours) == WR_PICTURE_STAGES, "a colour for each stage");
 
 static void stage_bar(const double ms[WR_PICTURE_STAGES], double all)
 {
@@ -155,7 +157,7 @@ static void stage_bar(const double ms[WR_PICTURE_STAGES], double all)
 
 static void stages(WrApp *app)
 {
-    static const char *const tips[WR_PICTURE_STAGES] = {
+    static const char *const tips[] = {
         "Copies of the table, slopes, meshes: only where something changed",
         "Which u, v each sample sees",
         "P, Pu, Pv and N there",
@@ -163,6 +165,7 @@ static void stages(WrApp *app)
         "Light and material",
         "Samples become pixels"
     };
+    _Static_assert(WR_LENGTH(tips) == WR_PICTURE_STAGES, "a tip for each stage");
     const WrPreviewPicture *picture = wr_preview_picture(app->preview);
     char words[WR_PICTURE_WORDS];
     double ms[WR_PICTURE_STAGES], all = wr_picture_time(picture, ms);

@@ -12,6 +12,7 @@
 
 #include "accuracy/ladder.h"
 #include "base/array.h"
+#include "base/rows.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "scene/dials.h"
@@ -23,8 +24,9 @@
 #define PLOT_UNITS 210 /* its height */
 #define REACH_UNITS 12 /* from the pointer to a point */
 
-static const WrColour axis_colours[WR_AXIS_COUNT + 1] = { 0xff4a8fdcu, 0xffe8a25cu, 0xff4fb39au,
-                                                          0xffb191d6u, 0xffd8c95cu, 0xffc4c4c4u };
+static const WrColour axis_colours[] = { 0xff4a8fdcu, 0xffe8a25cu, 0xff4fb39au,
+                                         0xffb191d6u, 0xffd8c95cu, 0xffc4c4c4u };
+_Static_assert(WR_LENGTH(axis_colours) == WR_AXIS_COUNT + 1, "and one for several axes at once");
 
 typedef struct Plot {
     WrPlotAxis time, error; /* seconds; RMS */
@@ -204,6 +206,7 @@ static void legend(void)
 {
     static const char *const labels[] = { "slopes",     "normal",     "antialiasing",
                                           "visibility", "arithmetic", "several" };
+    _Static_assert(WR_LENGTH(labels) == WR_AXIS_COUNT + 1, "a label for each colour");
     const double s = wr_gui_scale(), line = wr_gui_line_height(WR_FONT_SMALL),
                  from = wr_gui_place();
     const double column = floor(wr_gui_available() / 2);

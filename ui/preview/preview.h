@@ -67,8 +67,8 @@ typedef struct WrPreviewPicture {
 } WrPreviewPicture;
 
 /* ---- picture_time.c ---- */
-#define WR_PICTURE_STAGES 6
-extern const char *const wr_picture_stages[WR_PICTURE_STAGES];
+#define WR_PICTURE_STAGES 6 /* of WrStageTimes */
+extern const char *const wr_picture_stages[];
 /* Milliseconds that it took by the clock, and each stage's share of them: the figure of the status line, the
    Accuracy tab and the Plan tab. */
 double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STAGES]);
