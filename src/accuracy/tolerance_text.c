@@ -60,7 +60,7 @@ static bool is_finer(const WrChoicePart *a, const WrChoicePart *b)
 static void add_part(const WrChoicePart *part, WrText *text)
 {
     wr_text_addf(text, "%s,%s,%d,%d,%u", wr_schemes[part->scene->scheme].name,
-                 wr_bump_names[part->scene->bump], part->level, part->scene->dials.mesh,
+                 wr_bumps[part->scene->bump].name, part->level, part->scene->dials.mesh,
                  part->kinds);
 }
 
@@ -172,7 +172,7 @@ static bool parse_part(const char *text, WrittenPart *out)
     found = wr_scheme_find(scheme);
     out->scheme = (WrScheme)found;
     for (int i = 0; i < WR_BUMP_COUNT; i++) {
-        if (strcmp(mode, wr_bump_names[i]) != 0) continue;
+        if (strcmp(mode, wr_bumps[i].name) != 0) continue;
         out->mode = (WrBumpMode)i;
         return found >= 0;
     }
