@@ -21,7 +21,8 @@ static void is_new(const char *table, int row, const char *word, const char *(*b
 {
     if (!word || !*word) fail_msg("%s: row %d has no word", table, row);
     for (int i = 0; before && i < row; i++)
-        if (strcmp(before(i), word) == 0) fail_msg("%s: rows %d and %d are %s", table, i, row, word);
+        if (strcmp(before(i), word) == 0)
+            fail_msg("%s: rows %d and %d are %s", table, i, row, word);
 }
 
 #define NAME_OF(function, expression)                                                              \

@@ -124,8 +124,8 @@ WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const W
     return wr_hard_vec(GET3(strip, b));
 }
 
-WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePoint *at,
-                         WrHardSlope slope)
+WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode,
+                              const WrSurfacePoint *at, WrHardSlope slope)
 {
     WrStripd *strip = gauge->wide_strip;
     const WrRaysd rays = { .toward = { at->n_unit.x, at->n_unit.y, at->n_unit.z } };

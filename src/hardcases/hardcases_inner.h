@@ -68,8 +68,8 @@ WrVec3 wr_hard_perturbed(WrBumpMode mode, const WrSurfacePoint *at, WrHardSlope 
 WrVec3 wr_hard_perturbed_f(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePointf *at,
                            WrHardSlope slope, bool behind);
 /* The same by the renderer's kernels in double: set 0 or 1. */
-WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode, const WrSurfacePoint *at,
-                         WrHardSlope slope);
+WrVec3 wr_hard_perturbed_wide(WrHardGauge *gauge, int set, WrBumpMode mode,
+                              const WrSurfacePoint *at, WrHardSlope slope);
 /* The same point in double, for formulas on float's own numbers. */
 WrSurfacePoint wr_hard_widen(const WrSurfacePointf *at);
 /* The float point as it would come out without rounding: doubles rounded once. */
