@@ -23,21 +23,6 @@
         .name = "part", .type = WR_ARG_TEXT, .shape = "N or NAME",                                 \
         .help = "of a file with several, or a frame of an animation; left out, the first"          \
     }
-/* What a connected part of about one height is found by. */
-#define WR_ARGS_OF_FLOOD(tolerance_help)                                                           \
-    { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2,                                         \
-      .low = -1e6,  .high = 1e6,          .help = "where it begins" },                             \
-        { .name = "tolerance",                                                                     \
-          .type = WR_ARG_NUMBER,                                                                   \
-          .low = 0,                                                                                \
-          .high = WR_BIG_HEIGHT,                                                                   \
-          .fallback = NUMBERS(0.01),                                                               \
-          .unit = "height units",                                                                  \
-          .help = tolerance_help },                                                                \
-    {                                                                                              \
-        .name = "diagonal", .type = WR_ARG_CHOICE, .words = wr_off_on, .fallback_text = "off",     \
-        .help = "on: texels that meet at a corner are connected too"                               \
-    }
 /* A tuple of a list may have n numbers. */
 #define TUPLE_OF(n) (1u << (n))
 

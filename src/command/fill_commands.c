@@ -127,7 +127,7 @@ static const WrArgSpec args_flood[] = {
     }
 
 /* In the order of WrRampKind. */
-static const WrForm ramp_forms[WR_RAMP_KINDS] = {
+static const WrForm ramp_forms[] = {
     { .name = "linear",
       .help = "along the way; low before from, high after to. On periodic axes it jumps half a "
               "table away from the middle of the way; fold=on leads from to on round the table "
@@ -144,6 +144,7 @@ static const WrForm ramp_forms[WR_RAMP_KINDS] = {
           "beyond a quarter of the table mirrors itself, so that nothing jumps",
       .args = { RAMP_ARGS } },
 };
+_Static_assert(sizeof ramp_forms / sizeof *ramp_forms == WR_RAMP_KINDS, "one a kind");
 
 static bool form_ramp(int i, WrForm *out)
 {

@@ -52,7 +52,7 @@ static void print_analytic(const WrScene *scene, WrText *text)
 
 static void print_bump(const WrScene *scene, WrText *text)
 {
-    wr_text_addf(text, "bump mode=%s scheme=%s", wr_bump_names[scene->bump],
+    wr_text_addf(text, "bump mode=%s scheme=%s", wr_bumps[scene->bump].name,
                  wr_schemes[scene->scheme].name);
     wr_print_named(text, "height", scene->height);
     wr_text_add(text, "\n");
@@ -164,7 +164,7 @@ static bool run_replicate(WrSession *session, WrCall *call, WrError *err)
 
 static const char *bump_name(int i)
 {
-    return i < WR_BUMP_COUNT ? wr_bump_names[i] : NULL;
+    return i < WR_BUMP_COUNT ? wr_bumps[i].name : NULL;
 }
 
 static const char *scheme_name(int i)

@@ -9,8 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-const char *const wr_off_on[] = { "off", "on", NULL };
-
 WR_ROWS(wr_arg_type_names);
 const char *const wr_arg_type_names[WR_ARG_TYPES] = {
     [WR_ROW(WR_ARG_NUMBER)] = "number", [WR_ROW(WR_ARG_SIZE)] = "size",
