@@ -118,9 +118,9 @@ static void every_row_does_something(void **state)
     }
     assert_null(wr_ops[wr_op_count].name);
     for (int i = 0; i < wr_command_count; i++) {
-        assert_non_null(wr_commands[i].help);
-        assert_non_null(wr_commands[i].example);
-        assert_in_range(wr_commands[i].kind, 0, WR_CLASS_COUNT - 1);
+        assert_non_null(wr_commands[i]->help);
+        assert_non_null(wr_commands[i]->example);
+        assert_in_range(wr_commands[i]->kind, 0, WR_CLASS_COUNT - 1);
     }
     for (const WrFamily *f = wr_families; f->name; f++)
         for (const WrGenerator *g = f->rows; g->family; g++) {
