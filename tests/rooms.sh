@@ -25,7 +25,7 @@ BEGIN {
     may["cli"] = may["command"] "command hardcases "
     # The rooms of the window, from the ground up: each knows those before it.
     ui = may["command"] "command hardcases "
-    count = split("gui pen work canvas preview desk views tools patch generate accuracy help panels app", floor)
+    count = split("gui pen jobs canvas preview desk views tools patch generate accuracy help panels app", floor)
     for (i = 1; i <= count; i++) {
         may["ui/" floor[i]] = ui below
         below = below "ui/" floor[i] " "

@@ -2,8 +2,8 @@
 #include "test.h"
 
 #include "base/memory.h"
-#include "ui/work/job.h"
-#include "ui/work/thread.h"
+#include "ui/jobs/job.h"
+#include "ui/jobs/thread.h"
 
 #include <dlfcn.h>
 #include <errno.h>

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "ui/canvas/outline.h"
 #include "ui/preview/preview.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include <malloc.h>
 

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "command/session.h"
 #include "ui/canvas/outline.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include <unistd.h>
 

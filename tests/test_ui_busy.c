@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "test_folder.h"
+#include "test_window.h"
 #include "ui/app/loop.h"
 #include "ui/app/store.h"
 #include "ui/desk/app_options.h"
@@ -15,7 +16,7 @@
 #include "ui/desk/document.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/messages.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -250,17 +251,6 @@ static void a_cancel_is_no_error_and_then_it_closes(void **state)
     finish(&bench);
 }
 
-static int enter(void **state)
-{
-    int trouble = enter_folder(state);
-    setenv("XDG_CONFIG_HOME", *state, 1);
-    setenv("XDG_STATE_HOME", *state, 1);
-    setenv("XDG_DATA_HOME", *state, 1);
-    setenv("WRINKLE_DATA", WR_SOURCE_DIR, 1);
-    setenv("WRINKLE_RENDERER", "software", 1);
-    return trouble;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -270,5 +260,5 @@ int main(void)
         cmocka_unit_test(keys_wait_while_the_journal_is_tended),
         cmocka_unit_test(a_cancel_is_no_error_and_then_it_closes),
     };
-    return cmocka_run_group_tests(tests, enter, remove_folder);
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

@@ -6,12 +6,13 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "test_folder.h"
+#include "test_window.h"
 #include "ui/app/loop.h"
 #include "ui/app/store.h"
 #include "ui/desk/messages.h"
 #include "ui/desk/app_options.h"
 #include "ui/desk/busy.h"
-#include "ui/work/thread.h"
+#include "ui/jobs/thread.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -119,21 +120,10 @@ static void a_cancel_ends_what_is_done(void **state)
     wr_pool_free(pool);
 }
 
-static int enter(void **state)
-{
-    int trouble = enter_folder(state);
-    setenv("XDG_CONFIG_HOME", *state, 1);
-    setenv("XDG_STATE_HOME", *state, 1);
-    setenv("XDG_DATA_HOME", *state, 1);
-    setenv("WRINKLE_DATA", WR_SOURCE_DIR, 1);
-    setenv("WRINKLE_RENDERER", "software", 1);
-    return trouble;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cancel_ends_what_is_done),
     };
-    return cmocka_run_group_tests(tests, enter, remove_folder);
+    return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

@@ -8,7 +8,7 @@
 #include "ui/canvas/ants.h"
 #include "ui/canvas/canvas_range.h"
 #include "ui/gui/gui_icons.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 #include "ui/desk/keys.h"
 #include "ui/desk/layout.h"
 #include "ui/preview/rotation.h"

@@ -6,7 +6,7 @@
 #include "ui/desk/dialog.h"
 #include "ui/desk/roster.h"
 #include "ui/tools/tool.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 static const WrAction *action(const char *name)
 {

@@ -23,6 +23,14 @@
         .name = "part", .type = WR_ARG_TEXT, .shape = "N or NAME",                                 \
         .help = "of a file with several, or a frame of an animation; left out, the first"          \
     }
+/* The function that WrCommand.form asks for, of a list of forms. */
+#define WR_FORMS(function, list)                                                                   \
+    static bool function(int i, WrForm *out)                                                       \
+    {                                                                                              \
+        if (i >= (int)(sizeof(list) / sizeof *(list))) return false;                               \
+        *out = (list)[i];                                                                          \
+        return true;                                                                               \
+    }
 /* A tuple of a list may have n numbers. */
 #define TUPLE_OF(n) (1u << (n))
 

@@ -5,8 +5,6 @@
 #include "field/ramp.h"
 #include "field/select.h"
 
-static const char *const mirrors[] = { "none", "u", "v", "uv", NULL };
-
 const char *wr_brush_mode_name(int i)
 {
     return i < WR_BRUSH_MODE_COUNT ? wr_brush_modes[i].name : NULL;
@@ -132,7 +130,7 @@ const WrArgSpec wr_args_brush[] = {
       .help = "chance of each dab: place in radii, angle in degrees either way, size 0..1 down" },
     { .name = "mirror",
       .type = WR_ARG_CHOICE,
-      .words = mirrors,
+      .words = wr_mirror_names,
       .fallback_text = "none",
       .help = "drawn again as in a mirror that stands across u, v or both" },
     { .name = "radial",

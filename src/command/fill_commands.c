@@ -53,8 +53,6 @@ static bool join(WrField *heights, const WrField *ramp, WrBlend blend, const WrP
 
 static bool run_ramp(WrSession *session, WrCall *call, WrError *err)
 {
-    /* In the order of the argument's words. */
-    static const WrBlend blends[] = { WR_BLEND_REPLACE, WR_BLEND_ADD, WR_BLEND_MAX, WR_BLEND_MIN };
     WrLayer *layer = wr_session_layer(session, err);
     if (!layer) return false;
     const double *from = wr_call_arg(call, "from")->numbers, *to = wr_call_arg(call, "to")->numbers;
@@ -69,7 +67,7 @@ static bool run_ramp(WrSession *session, WrCall *call, WrError *err)
     const WrProgress *progress = wr_progress_here();
     WrField *made = wr_ramp_make(layer->heights, &ramp, session->options.pool, progress, err);
     if (!made) return false;
-    WrBlend blend = blends[wr_call_choice(call, "blend")];
+    WrBlend blend = wr_ramp_blends[wr_call_choice(call, "blend")];
     if (blend != WR_BLEND_REPLACE) {
         WrField *joined = wr_field_share(layer->heights);
         bool good = join(joined, made, blend, progress, err);
@@ -84,7 +82,10 @@ static bool run_ramp(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-static const char *const ramp_blends[] = { "replace", "add", "max", "min", NULL };
+static const char *ramp_blend(int i)
+{
+    return i >= 0 && i < WR_RAMP_BLENDS ? wr_blends[wr_ramp_blends[i]].name : NULL;
+}
 
 /* ---- flood, ramp ---- */
 
@@ -122,7 +123,7 @@ static const WrArgSpec args_flood[] = {
           .fallback_text = "off",                                                                  \
           .help = "on: it leads back down again, so that nothing jumps" },                         \
     {                                                                                              \
-        .name = "blend", .type = WR_ARG_CHOICE, .words = ramp_blends, .fallback_text = "replace",  \
+        .name = "blend", .type = WR_ARG_CHOICE, .choice = ramp_blend, .fallback_text = "replace",  \
         .help = "how it joins the heights that are there"                                          \
     }
 

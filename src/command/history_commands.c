@@ -176,12 +176,7 @@ static const WrForm view_forms[] = {
       .args = { STEPS("how many views forward") } },
 };
 
-static bool form_view(int i, WrForm *out)
-{
-    if (i >= (int)(sizeof view_forms / sizeof *view_forms)) return false;
-    *out = view_forms[i];
-    return true;
-}
+WR_FORMS(form_view, view_forms)
 
 static const WrArgSpec args_history[] = {
     { .name = "budget",

@@ -349,12 +349,7 @@ static const WrForm layer_forms[] = {
                   .help = "what is selected, no mask, a mask that shows all or nothing" } } },
 };
 
-static bool form_layer(int i, WrForm *out)
-{
-    if (i >= (int)(sizeof layer_forms / sizeof *layer_forms)) return false;
-    *out = layer_forms[i];
-    return true;
-}
+WR_FORMS(form_layer, layer_forms)
 
 /* ---- the row ---- */
 

@@ -152,12 +152,7 @@ static const WrForm light_forms[] = {
     { .name = "clear", .help = "no light at all" },
 };
 
-static bool form_light(int i, WrForm *out)
-{
-    if (i >= (int)(sizeof light_forms / sizeof *light_forms)) return false;
-    *out = light_forms[i];
-    return true;
-}
+WR_FORMS(form_light, light_forms)
 
 const char *wr_camera_kind_name(int i)
 {
@@ -213,12 +208,7 @@ static const WrForm camera_forms[] = {
                   .help = "height of the view; 0: so that the object just fits" } } },
 };
 
-static bool form_camera(int i, WrForm *out)
-{
-    if (i >= (int)(sizeof camera_forms / sizeof *camera_forms)) return false;
-    *out = camera_forms[i];
-    return true;
-}
+WR_FORMS(form_camera, camera_forms)
 
 /* ---- the rows ---- */
 

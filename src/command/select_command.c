@@ -173,12 +173,10 @@ static bool run_select(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-static const char *const join_modes[] = { "replace", "add", "subtract", "intersect", NULL };
-
 #define JOIN                                                                                       \
     {                                                                                              \
-        .name = "mode", .type = WR_ARG_CHOICE, .words = join_modes, .fallback_text = "replace",    \
-        .help = "how it joins what is selected already"                                            \
+        .name = "mode", .type = WR_ARG_CHOICE, .words = wr_select_modes,                           \
+        .fallback_text = "replace", .help = "how it joins what is selected already"                \
     }
 
 #define TEXELS(most, help_)                                                                        \
@@ -286,12 +284,7 @@ static const WrForm select_forms[] = {
       .args = { TEXELS(1024, "standard deviation of the Gaussian") } },
 };
 
-static bool form_select(int i, WrForm *out)
-{
-    if (i >= (int)(sizeof select_forms / sizeof *select_forms)) return false;
-    *out = select_forms[i];
-    return true;
-}
+WR_FORMS(form_select, select_forms)
 
 /* ---- the row ---- */
 

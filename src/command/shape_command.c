@@ -360,12 +360,7 @@ static const WrForm shape_forms[] = {
                 PAINT } },
 };
 
-static bool form_shape(int i, WrForm *out)
-{
-    if (i >= (int)(sizeof shape_forms / sizeof *shape_forms)) return false;
-    *out = shape_forms[i];
-    return true;
-}
+WR_FORMS(form_shape, shape_forms)
 
 /* ---- the row ---- */
 

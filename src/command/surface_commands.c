@@ -208,12 +208,7 @@ static const WrForm analytic_forms[] = {
     { .name = "off", .help = "the table again" },
 };
 
-static bool form_analytic(int i, WrForm *out)
-{
-    if (i >= (int)(sizeof analytic_forms / sizeof *analytic_forms)) return false;
-    *out = analytic_forms[i];
-    return true;
-}
+WR_FORMS(form_analytic, analytic_forms)
 
 /* A surface's parameters as arguments; numbers of 3n components are lists of n points. */
 static bool form_surface(int i, WrForm *out)

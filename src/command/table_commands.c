@@ -234,12 +234,6 @@ static bool run_image(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-static const char *wrap_name(int i)
-{
-    static const char *const names[] = { "periodic", "clamp-u", "clamp-v", "clamp" };
-    return i < 4 ? names[i] : NULL;
-}
-
 static const char *labels_name(int i)
 {
     static const char *const names[] = { "use", "ignore" };
@@ -256,7 +250,7 @@ static const WrArgSpec args_table[] = {
       .help = "columns and rows" },
     { .name = "wrap",
       .type = WR_ARG_CHOICE,
-      .choice = wrap_name,
+      .choice = wr_document_wrap_name,
       .fallback_text = "periodic",
       .help = "what lies beyond the edges: the table again, or its edge for u, for v, for both" },
     { 0 }

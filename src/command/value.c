@@ -349,13 +349,12 @@ static int arg_index(const WrCall *call, const char *name)
 
 WrArg *wr_call_arg(const WrCall *call, const char *name)
 {
-    static WrArg none;
-    static double zeros[4];
+    static double zeros[4]; /* of a tuple; nobody writes into them */
+    static const WrArg none = { .choice = -1, .numbers = zeros };
     int i = arg_index(call, name);
     WR_ASSERT(i >= 0); /* tests/arguments.sh looks at every name that is asked for */
     if (i >= 0) return (WrArg *)&call->args[i];
-    none = (WrArg){ .choice = -1, .numbers = zeros };
-    return &none;
+    return (WrArg *)&none;
 }
 
 bool wr_call_given(const WrCall *call, const char *name)

@@ -6,7 +6,7 @@
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
 #include "ui/preview/preview.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "hardcases/hardcases.h"
 #include "base/error.h"

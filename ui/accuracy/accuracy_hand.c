@@ -9,7 +9,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "accuracy/ladder.h"
 #include "base/array.h"

@@ -7,7 +7,7 @@
 #include "ui/desk/layout.h"
 #include "ui/desk/settings.h"
 #include "ui/tools/stroke_hand.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "base/array.h"
 #include "base/memory.h"

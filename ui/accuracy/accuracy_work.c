@@ -1,7 +1,7 @@
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/accuracy/accuracy_plan.h"
 #include "ui/accuracy/accuracy_probe.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "hardcases/hardcases.h"
 #include "accuracy/ladder.h"

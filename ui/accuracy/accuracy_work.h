@@ -1,7 +1,7 @@
 /* accuracy_work.h - what the Accuracy panel, the comparisons on the patch and the inspector have computed, each as
    one piece of work for a thread in the background (job.h): on snapshots, with renderers of its own. */
 #pragma once
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "hardcases/hardcases.h"
 #include "accuracy/ladder.h"

@@ -8,7 +8,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "accuracy/ladder.h"
 #include "base/array.h"

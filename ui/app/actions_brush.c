@@ -12,7 +12,7 @@
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/tools/tool_stamp.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include "brush/brush.h"
 

@@ -161,7 +161,8 @@ static void let_go(WrApp *app, const WrPointer *at, int device)
         release(app, at);
 }
 
-void wr_hand_end(WrApp *app)
+/* End what is being held, keeping what was done. */
+static void end_held(WrApp *app)
 {
     if (app->hand->grab == WR_GRAB_RESIZE) {
         app->settings->brush.radius = app->brush->resize_radius;
@@ -172,7 +173,8 @@ void wr_hand_end(WrApp *app)
     wr_strokes_finish(app);
 }
 
-void wr_hand_cancel(WrApp *app)
+/* End it as if it had not begun. */
+static void cancel_held(WrApp *app)
 {
     if (app->select->active) {
         wr_select_cancel(app);
@@ -422,7 +424,7 @@ static void key_down(WrApp *app, const SDL_KeyboardEvent *event)
     const WrTool *tool = wr_tool_now(app);
     if (mods == 0 && tool->key && tool->key(app, event->keysym.sym)) return;
     if (event->keysym.sym == SDLK_ESCAPE) {
-        wr_hand_cancel(app);
+        cancel_held(app);
         return;
     }
     const char *action = wr_keys_find(app->keys, event->keysym);
@@ -447,4 +449,4 @@ static void key_event(WrApp *app, const SDL_Event *event)
     if (event->type == SDL_KEYUP) wr_hand_event(app, event);
 }
 
-const WrPart wr_part_hand = { .let_go = wr_hand_end, .event = key_event };
+const WrPart wr_part_hand = { .let_go = end_held, .event = key_event };

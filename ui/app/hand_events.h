@@ -11,7 +11,5 @@ void wr_hand_pen(WrApp *app, const WrPenEvent *event);
 /* After a picture of the window: where widgets came or went, the pointer is on a view or no more, though it did
    not move. */
 void wr_hand_look(WrApp *app);
-void wr_hand_end(WrApp *app);    /* end what is being held, keeping what was done */
-void wr_hand_cancel(WrApp *app); /* end it as if it had not begun */
 
 extern const WrPart wr_part_hand;

@@ -27,7 +27,7 @@
 #include "ui/tools/tool_select.h"
 #include "ui/tools/tool_stamp.h"
 #include "ui/views/marks.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 WR_ROWS(dialogs);
 static const WrDialogRow dialogs[] = {

@@ -1,5 +1,5 @@
 #include "ui/canvas/outline.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "base/array.h"
 #include "base/memory.h"

@@ -15,8 +15,8 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/pen/pen.h"
-#include "ui/work/job.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/job.h"
+#include "ui/jobs/trial.h"
 
 #include "base/array.h"
 #include "base/clock.h"

@@ -5,7 +5,6 @@
 #include "base/error.h"
 
 #include <stdbool.h>
-#include <stdio.h>
 
 /* Run a command line, as wr_busy_run does; a failure becomes a message. */
 bool wr_app_run_line(WrApp *app, const char *line);

@@ -58,7 +58,8 @@ typedef struct WrTiming WrTiming;
 typedef struct WrTool WrTool;
 typedef struct WrTrial WrTrial;
 
-/* Of all that is pointed to the window is the owner, unless it says otherwise. */
+/* The window owns what these point to unless they say otherwise. Lengths are pixels of the window, times seconds of
+   base/clock.h. */
 struct WrApp {
     const WrRoster *roster;      /* borrowed: what the window is made of */
     const WrAppOptions *options; /* borrowed */
@@ -70,8 +71,8 @@ struct WrApp {
     WrPreview *preview;
     WrKeyMap *keys;
     WrPen *pen;
-    WrTester *tester;      /* of tablets; owned, NULL until it is opened */
-    struct WrGuide *guide; /* the help; owned, NULL until it is opened */
+    WrTester *tester; /* of tablets; owned, NULL until it is opened */
+    WrGuide *guide;   /* the help; owned, NULL until it is opened */
     WrSettings *settings;
     WrSettings *settings_known; /* as they were read or written last */
     double settings_at;         /* clock when they were looked at last */
@@ -128,8 +129,8 @@ struct WrApp {
     uint64_t seam_key; /* of the table that it was measured on */
     WrMeter *meter;
     WrLater *later;
-    WrDocument *
-        shown; /* while the session works on a thread of its own: the document from before; owned */
+    /* While the session works on a thread of its own: the document from before; owned. */
+    WrDocument *shown;
     double expected;      /* seconds that the line to be run will take; 0: not known */
     bool tending;         /* nobody asked for it: what is pressed meanwhile is kept */
     bool gave_up;         /* the newest of them failed because the user cancelled it */
@@ -144,8 +145,12 @@ struct WrApp {
     WrDocumentHand *file;
 };
 
+/* Another picture of the window is due. */
 void wr_app_redraw(WrApp *app);
+/* app->layout by the window's size in pixels, as it is now. */
 void wr_app_make_layout(WrApp *app);
+/* Pixels a unit of the widgets, 0.75..3: WRINKLE_SCALE, the setting, or the display's. */
 double wr_app_wanted_scale(const WrApp *app);
 void wr_app_set_scale(WrApp *app, double setting); /* 0: the display's */
-void wr_app_read_keys(WrApp *app);                 /* built in, the chosen map, the user's file */
+/* Built in, the chosen map, the user's file; what is wrong there becomes a message. */
+void wr_app_read_keys(WrApp *app);

@@ -6,7 +6,7 @@
 #include "ui/desk/roster.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/progress.h"
 #include "command/estimate.h"
@@ -17,7 +17,6 @@
 
 void wr_dialog_open(WrApp *app, WrDialog dialog)
 {
-    wr_hand_let_go(app);
     wr_app_settle(app);
     app->dialog->now = dialog;
     app->dialog->fresh = true;

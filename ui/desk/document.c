@@ -12,7 +12,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
 #include "ui/desk/settings.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include "base/array.h"
 #include "base/error.h"
@@ -235,7 +235,6 @@ void wr_app_quit(WrApp *app)
 static bool save_to(WrApp *app, const char *path)
 {
     WrError err;
-    wr_hand_let_go(app);
     wr_app_settle(app);
     FileCall call = { app->session, path };
     bool ok = wr_busy_run(app, "Saving", save_work, &call, &err);

@@ -1,7 +1,7 @@
 /* document.h - the document behind the window: new, open, save, and what is asked before work is lost. */
 #pragma once
 #include "ui/desk/desk.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -16,19 +16,20 @@ typedef struct WrPointer {
     int button;            /* SDL_BUTTON_LEFT, ...: a pen's tip is the left one */
 } WrPointer;
 
-typedef enum WrGrab { /* what the pointer holds outside the widgets */
-                      WR_GRAB_NONE,
-                      WR_GRAB_TOOL,
-                      WR_GRAB_PATCH_PAINT, /* the brush, on the patch */
-                      WR_GRAB_PICK,        /* a height, by a pen's second button */
-                      WR_GRAB_PAN,
-                      WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
-                      WR_GRAB_DIVIDER,
-                      WR_GRAB_SPLIT,    /* the line between two pictures of the patch */
-                      WR_GRAB_PANELS,   /* the line between the panels on the right */
-                      WR_GRAB_SYMMETRY, /* its centre */
-                      WR_GRAB_ORBIT,
-                      WR_GRAB_LIGHT
+/* What the pointer holds outside the widgets. */
+typedef enum WrGrab {
+    WR_GRAB_NONE,
+    WR_GRAB_TOOL,
+    WR_GRAB_PATCH_PAINT, /* the brush, on the patch */
+    WR_GRAB_PICK,        /* a height, by a pen's second button */
+    WR_GRAB_PAN,
+    WR_GRAB_RESIZE, /* the brush, by Shift and dragging */
+    WR_GRAB_DIVIDER,
+    WR_GRAB_SPLIT,    /* the line between two pictures of the patch */
+    WR_GRAB_PANELS,   /* the line between the panels on the right */
+    WR_GRAB_SYMMETRY, /* its centre */
+    WR_GRAB_ORBIT,
+    WR_GRAB_LIGHT
 } WrGrab;
 
 typedef struct WrHand {

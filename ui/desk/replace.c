@@ -9,7 +9,7 @@
 #include "ui/desk/roster.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include "base/array.h"
 #include "base/file.h"

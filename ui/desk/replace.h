@@ -1,7 +1,7 @@
 /* replace.h - files that would go are asked about first. */
 #pragma once
 #include "ui/desk/desk.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
-/* roster.h - what the window is made of: its tools, actions, dialogs, tabs and parts, in lists that roster.c alone
-   assembles. What lies below knows what lies above by these lists only, so that a new part is a file of its own
+/* roster.h - what the window is made of: its tools, actions, dialogs, tabs and parts, in lists that app/roster_list.c
+   alone assembles. What lies below knows what lies above by these lists only, so that a new part is a file of its own
    and one row. */
 #pragma once
 #include "ui/desk/desk.h"
@@ -59,6 +59,7 @@ struct WrRoster {
 int wr_tab_find(const WrApp *app, const char *label);
 /* Show it. */
 void wr_tab_show(WrApp *app, const char *label);
-void wr_hand_let_go(
-    WrApp *app);                /* all parts let go: what is held is ended, keeping what was done */
-void wr_app_settle(WrApp *app); /* let go, and what was put off becomes a command */
+/* All parts let go: what is held is ended, keeping what was done. */
+void wr_hand_let_go(WrApp *app);
+/* The same, and what was put off becomes a command now: a zoom by the wheel. */
+void wr_app_settle(WrApp *app);

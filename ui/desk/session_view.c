@@ -2,7 +2,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "command/session.h"
 #include "document/document.h"

@@ -1,7 +1,7 @@
 /* session_view.h - the document as the window sees it: as it is, or as what is tried or dragged would make it. */
 #pragma once
 #include "ui/desk/desk.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "field/field.h"
 

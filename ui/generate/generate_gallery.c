@@ -5,8 +5,8 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/job.h"
-#include "ui/work/trial_generate.h"
+#include "ui/jobs/job.h"
+#include "ui/jobs/trial_generate.h"
 
 #include "base/array.h"
 #include "base/error.h"

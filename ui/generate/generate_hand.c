@@ -8,7 +8,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
 #include "ui/tools/tool.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/array.h"
 #include "base/error.h"

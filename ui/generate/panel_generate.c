@@ -5,7 +5,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/array.h"
 #include "base/memory.h"

@@ -7,7 +7,7 @@
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include "document/blend.h"
 #include "generate/generator.h"

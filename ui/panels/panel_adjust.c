@@ -9,7 +9,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/error.h"
 #include "base/text.h"

@@ -8,6 +8,7 @@
 #include "ui/gui/theme.h"
 #include "ui/panels/panels.h"
 #include "ui/tools/shelf.h"
+#include "ui/tools/thumbs.h"
 
 #include "base/array.h"
 #include "base/memory.h"

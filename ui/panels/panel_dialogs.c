@@ -9,7 +9,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/panels/panels.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include "base/rows.h"
 #include "base/text.h"

@@ -10,7 +10,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/array.h"
 #include "base/clock.h"

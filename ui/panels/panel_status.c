@@ -13,7 +13,7 @@
 #include "ui/panels/panel_adjust.h"
 #include "ui/preview/preview.h"
 #include "ui/views/marks.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/clock.h"
 #include "base/exactmath.h"

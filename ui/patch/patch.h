@@ -39,10 +39,12 @@ void wr_patch_update(WrApp *app); /* wish for what is wanted; take what is ready
 void wr_patch_draw(WrApp *app);
 void wr_patch_overlay(WrApp *app);
 void wr_patch_draw_lights(const WrApp *app);
+/* Turning by hand, moving a light, the wheel. press: false where there is nothing to hold. */
 bool wr_patch_press(WrApp *app, const WrPointer *at);
 void wr_patch_drag(WrApp *app, const WrPointer *at);
 void wr_patch_release(WrApp *app);
 void wr_patch_wheel(WrApp *app, double steps);
+/* A zoom by the wheel that waits becomes a command; now false: it is forgotten. */
 void wr_patch_commit_zoom(WrApp *app, bool now);
 void wr_patch_free(WrApp *app);
 double wr_patch_next_time(const WrApp *app); /* clock at which update must run; 0: only on events */

@@ -1,6 +1,6 @@
 #include "ui/preview/preview.h"
 #include "ui/preview/accuracy_choice.h"
-#include "ui/work/thread.h"
+#include "ui/jobs/thread.h"
 
 #include "accuracy/tolerance.h"
 #include "base/array.h"

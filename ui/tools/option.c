@@ -10,6 +10,7 @@
 #include "ui/gui/theme.h"
 #include "ui/pen/steady.h"
 #include "ui/tools/shelf.h"
+#include "ui/tools/thumbs.h"
 #include "ui/tools/tool.h"
 
 #include "brush/brush.h"

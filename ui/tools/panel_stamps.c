@@ -5,6 +5,7 @@
 #include "ui/gui/theme.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/stamps.h"
+#include "ui/tools/thumbs.h"
 #include "ui/tools/tool_stamp.h"
 
 #include "base/array.h"

@@ -9,7 +9,7 @@
 #include "ui/tools/symmetry.h"
 #include "ui/tools/tool.h"
 #include "ui/tools/tuning.h"
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 
 #include "base/array.h"
 #include "base/error.h"

@@ -72,12 +72,3 @@ void wr_shelf_step(WrApp *app, int by);
 void wr_shelf_start(WrApp *app);
 void wr_shelf_remember(const WrApp *app, WrSettings *settings);
 void wr_shelf_free(WrApp *app);
-
-/* ---- thumbs.c: pictures of presets ---- */
-/* The picture of a preset, side x side pixels; NULL while it is not there: it comes by and by. index -1:
- * the round brush. */
-SDL_Texture *wr_thumb_of(WrApp *app, int index, int side);
-SDL_Texture *wr_thumb_of_stamp(WrApp *app, int index, int side); /* of draw.stamps */
-void wr_thumbs_update(WrApp *app); /* once a picture, after they were asked for */
-void wr_thumbs_forget(WrApp *app);
-void wr_thumbs_free(WrApp *app);

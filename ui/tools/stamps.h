@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/desk/desk.h"
 
-/* stamps.c: pictures in the folders of brushes, ours, the user's and GIMP's, in draw.stamps. */
+/* Looks through them at the first call; the paths are stamp.stamps. */
 void wr_stamps_find(WrApp *app);
 void wr_stamp_picker(WrApp *app); /* a picture in the option row that opens all of them */
 void wr_stamps_free(WrApp *app);

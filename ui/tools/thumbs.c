@@ -6,7 +6,7 @@
 #include "ui/desk/roster.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/tool_stamp.h"
-#include "ui/work/job.h"
+#include "ui/jobs/job.h"
 
 #include "base/array.h"
 #include "base/error.h"

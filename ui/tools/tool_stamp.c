@@ -20,7 +20,7 @@
 #include "ui/tools/tool.h"
 #include "ui/tools/tool_rows.h"
 #include "ui/views/overlay.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/array.h"
 #include "base/error.h"

@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
-#include "ui/work/trial.h"
+#include "ui/jobs/trial.h"
 
 #include "base/array.h"
 #include "brush/brush.h"
@@ -24,6 +24,7 @@ typedef struct WrStampHand {
     bool stamps_known;
 } WrStampHand;
 
+/* That picture, NULL: the round brush. False: it cannot be read; a message says why. */
 bool wr_stamp_choose(WrApp *app, const char *path);
 void wr_stamp_take(WrApp *app, const char *path); /* of a file that was chosen */
 void wr_stamp_forget(WrApp *app);                 /* at the end */

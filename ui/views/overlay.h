@@ -5,16 +5,15 @@
 
 #include "field/select.h"
 
-#include <math.h>
 #include <stdbool.h>
 
 /* points: u, v, unwrapped. dark under light, so that they are seen on any ground. */
 void wr_overlay_lines(const WrApp *app, const WrSelectPoint *points, int count, bool closed,
                       WrColour colour);
-/* A cross, a small square or disc at a place; also on all copies. size: units. */
+/* A cross, a small square or disc at u, v (unwrapped); also on all copies. */
 void wr_overlay_cross(const WrApp *app, double u, double v, WrColour colour);
 void wr_overlay_handle(const WrApp *app, double u, double v, bool round, bool hot);
-/* Texel place of a pointer, unwrapped; and back to u, v. */
+/* The u, v (unwrapped) of a place in texels, y downwards. */
 WrSelectPoint wr_overlay_uv(const WrApp *app, double x, double y);
 /* Whole cells to add to u, v so that it lies in the real cell (on axes that wrap). */
 WrSelectPoint wr_overlay_home(const WrApp *app, double u, double v);

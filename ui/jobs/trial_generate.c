@@ -1,4 +1,4 @@
-#include "ui/work/trial_generate.h"
+#include "ui/jobs/trial_generate.h"
 
 #include "base/array.h"
 #include "base/error.h"

@@ -1,7 +1,7 @@
-#include "ui/work/files.h"
+#include "ui/jobs/files.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
-#include "ui/work/thread.h"
+#include "ui/jobs/thread.h"
 
 #include "base/array.h"
 #include "base/file.h"

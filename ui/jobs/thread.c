@@ -1,4 +1,4 @@
-#include "ui/work/thread.h"
+#include "ui/jobs/thread.h"
 
 #include <pthread.h>
 

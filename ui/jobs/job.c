@@ -1,5 +1,5 @@
-#include "ui/work/job.h"
-#include "ui/work/thread.h"
+#include "ui/jobs/job.h"
+#include "ui/jobs/thread.h"
 
 #include "base/array.h"
 #include "base/clock.h"

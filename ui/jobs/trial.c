@@ -1,6 +1,6 @@
-#include "ui/work/trial.h"
-#include "ui/work/job.h"
-#include "ui/work/trial_generate.h"
+#include "ui/jobs/trial.h"
+#include "ui/jobs/job.h"
+#include "ui/jobs/trial_generate.h"
 
 #include "base/array.h"
 #include "base/clock.h"

@@ -1,0 +1,16 @@
+/* test_window.h - a group of tests with a window that nobody sees: cmocka_run_group_tests(tests, enter_window,
+   remove_folder). After test.h and test_folder.h. */
+#pragma once
+#include <stdlib.h>
+
+/* A folder of its own, for settings and journals too. */
+static inline int enter_window(void **state)
+{
+    int trouble = enter_folder(state);
+    setenv("XDG_CONFIG_HOME", *state, 1);
+    setenv("XDG_STATE_HOME", *state, 1);
+    setenv("XDG_DATA_HOME", *state, 1);
+    setenv("WRINKLE_DATA", WR_SOURCE_DIR, 1);
+    setenv("WRINKLE_RENDERER", "software", 1);
+    return trouble;
+}
