@@ -1,6 +1,8 @@
 /* test_window.h - a group of tests with a window that nobody sees: cmocka_run_group_tests(tests, enter_window,
-   remove_folder). After test.h and test_folder.h. */
+   remove_folder). After test.h. */
 #pragma once
+#include "test_folder.h"
+
 #include <stdlib.h>
 
 /* A folder of its own, for settings and journals too. */
