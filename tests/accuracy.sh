@@ -50,7 +50,15 @@ jq -e '[.rungs[] | select(.note == null and (.model | not))] as $all |
     add == 0' a.json >/dev/null || complain 'a rung on the front is beaten in both'
 [[ $(wc -l <a.csv) == $((rungs + 1)) ]] || complain 'the CSV has not a line a rung'
 [[ $(head -n 1 a.csv) == axis,setting,front,* ]] || complain 'the CSV lacks its heading'
-[[ $(identify -format '%m %wx%h' a.png) == 'PNG 1280x800' ]] || complain 'the plot is no picture of 1280x800'
+[[ $(identify -format '%m %w' a.png) == 'PNG 1280' ]] || complain 'the plot is no picture 1280 wide'
+# Nothing is cut: what reaches the border goes on beyond it.
+for plot in a.png "$source"/samples/accuracy/*-plot.png; do
+    for side in east west north south; do
+        strip=4x0 && [[ $side != *th ]] || strip=0x4
+        [[ $(convert "$plot" -gravity $side -crop $strip+0+0 +repage -format '%[fx:minima>0.95]' info:) == 1 ]] ||
+            complain "$plot: something is cut at its $side"
+    done
+done
 grep -q '</svg>' a.svg || complain 'the SVG is not whole'
 [[ $(find pictures -name '*.png' | wc -l) -ge 10 ]] || complain 'difference pictures are missing'
 [[ $(identify -format '%wx%h' pictures/00-*.png) == 24x24 ]] || complain 'a difference picture has another size'

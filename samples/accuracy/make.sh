@@ -235,8 +235,9 @@ tell_scene() {
     say ''
     sed -n '1{s/^# [^ ]* - //;s/^./\U&/};1,/^$/s/^# //;/^$/q;p' "$(script "$1")" >>"$temporary/page"
     say ''
-    say "| ![${title%%[:.,]*}]($1.png) | ![error against time]($1-plot.png) |"
-    say '| --- | --- |'
+    say "![${title%%[:.,]*}]($1.png)"
+    say ''
+    say "![error against time]($1-plot.png)"
     say ''
     say "Errors of one sample a pixel, of filtered F, of moments (white: 0.1): ![errors]($1-errors.png)"
     tell_front "$1"
