@@ -35,7 +35,8 @@ char *wr_font_find(int index, double size, WrError *err);
  * most of what those before it lack, by fontconfig's order for the language (NULL: any) and for a kind of
  * letters ("sans", "serif-bold", any of wr_font_names). Which ones depends on the machine: what is to be
  * replayed must keep their names. paths: up to `most`; the caller frees each with wr_free. Returns how
- * many; 0 also where fontconfig does not work. Any thread. */
+ * many; 0 also where fontconfig does not work, and where it is cancelled while that makes its list of fonts
+ * (base/aside.h). Any thread. */
 int wr_font_lenders(const uint32_t *characters, int count, const char *kind, const char *language,
                     int most, char *paths[]);
 

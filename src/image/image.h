@@ -90,6 +90,10 @@ bool wr_image_apply_range(WrImage *image);
  * it ahead of need and returns at once; any thread. With WRINKLE_READER=inside in the environment files are
  * read in this process, for debugging. */
 void wr_image_warm(void);
+/* The library that writes them is loaded into this process, with some 260 others, when the first file is written,
+ * which takes half a second, or a few where the disk is slow. This begins ahead of need and returns at once; any
+ * thread. */
+void wr_image_warm_writing(void);
 
 /* sRGB transfer curves (IEC 61966-2-1), exact to float; for pictures only, never for heights. */
 float wr_srgb_encode(float linear);

@@ -10,8 +10,11 @@
 
 static const WrAssimpTable *library(WrError *err)
 {
-    static WrModule module = { "wrinkle_assimp.so", "mesh files", WR_ASSIMP_SYMBOL,
-                               WR_ASSIMP_VERSION, NULL };
+    static WrModule module = { .file = "wrinkle_assimp.so",
+                               .serves = "mesh files",
+                               .symbol = WR_ASSIMP_SYMBOL,
+                               .version = WR_ASSIMP_VERSION,
+                               .loading = { .work = wr_module_load, .ctx = &module } };
     return wr_module_table(&module, err);
 }
 

@@ -78,27 +78,31 @@ static bool threads_are_left(void)
     return count == WR_MODULE_THREADS;
 }
 
-static const void *load_safely(const WrModule *module, WrError *err)
+bool wr_module_load(void *ctx, WrError *err)
 {
-    if (threads_are_left()) return load(module, err);
-    wr_fail(err, "%s need threads, and the system gives no more: end another program first",
-            module->serves);
-    return NULL;
+    WrModule *module = ctx;
+    if (threads_are_left()) return (module->table = load(module, err)) != NULL;
+    return wr_fail(err, "%s need threads, and the system gives no more: end another program first",
+                   module->serves);
 }
 
 const void *wr_module_table(WrModule *module, WrError *err)
 {
-    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    pthread_mutex_lock(&lock);
-    if (!module->table) module->table = load_safely(module, err);
-    const void *table = module->table;
-    pthread_mutex_unlock(&lock);
-    return table;
+    return wr_aside_wait(&module->loading, err) ? module->table : NULL;
+}
+
+static WrModule oiio = { .file = "wrinkle_oiio.so",
+                         .serves = "picture files",
+                         .symbol = WR_OIIO_SYMBOL,
+                         .version = WR_OIIO_VERSION,
+                         .loading = { .work = wr_module_load, .ctx = &oiio } };
+
+void wr_oiio_warm(void)
+{
+    wr_aside_begin(&oiio.loading);
 }
 
 const WrOiioTable *wr_oiio(WrError *err)
 {
-    static WrModule module = { "wrinkle_oiio.so", "picture files", WR_OIIO_SYMBOL, WR_OIIO_VERSION,
-                               NULL };
-    return wr_module_table(&module, err);
+    return wr_module_table(&oiio, err);
 }

@@ -1,6 +1,7 @@
 /* module.h - where the parts of the program that are not linked into it lie.
    Private to this room. */
 #pragma once
+#include "base/aside.h"
 #include "base/text.h"
 
 #define WR_MODULE_PLACES 3
@@ -16,7 +17,11 @@ typedef struct WrModule {
     const char *symbol;        /* of its table, which begins with an int: its version */
     int version;
     const void *table; /* NULL until it was loaded */
+    WrAside loading;   /* { wr_module_load, the module } */
 } WrModule;
-/* The module's table, loaded by the first call. A failure is not kept, so that a later call may succeed.
- * NULL with one error that says where it was looked for. */
+bool wr_module_load(void *module, WrError *err);
+
+/* The module's table, loaded by the first call, which can be cancelled meanwhile (base/aside.h). A failure is not
+ * kept, so that a later call may succeed. NULL with one error that says where it was looked for, or that it was
+ * cancelled. */
 const void *wr_module_table(WrModule *module, WrError *err);

@@ -61,3 +61,5 @@ static inline bool wr_oiio_by_name(const char *format, int count)
 
 /* The table, loaded on first use by any thread; NULL and an error that says where it was looked for. */
 const WrOiioTable *wr_oiio(WrError *err);
+/* Begin to load it and return at once. */
+void wr_oiio_warm(void);

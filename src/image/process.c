@@ -1,5 +1,6 @@
 #include "image/process.h"
 
+#include "base/aside.h"
 #include "image/module.h"
 
 #include <errno.h>
@@ -14,6 +15,7 @@
 #include <unistd.h>
 
 #define READER_FILE "wrinkle-reader"
+#define GRACE_MS 20 /* to end in order; it has nothing to lose, and who cancelled waits */
 
 /* The program's end of the control socket, or -1. That there is a reader process is a fact of this
    process, as the module is (module.c). A forked copy of the program goes on using the same one. */
@@ -79,7 +81,7 @@ static void leave(void)
     if (process->control < 0 || process->owner != getpid()) return;
     close(process->control);
     process->control = -1;
-    for (int ms = 0; ms < 100; ms++) {
+    for (int ms = 0; ms < GRACE_MS; ms++) {
         if (waitpid(process->pid, NULL, WNOHANG) != 0) return;
         usleep(1000);
     }
@@ -104,6 +106,7 @@ static bool start(Process *process, WrError *err)
         if (trouble != 0) {
             close(ends[0]);
         } else {
+            wr_aside_watch_end(); /* before our own, which thus comes first */
             if (process->owner != getpid()) atexit(leave);
             process->owner = getpid();
             process->control = ends[0];

@@ -17,6 +17,11 @@
 #define SPOOL_MB 1024 /* files of more go to the disk at once (choose_spool) */
 #define PIECE_BYTES (1 << 20)
 
+void wr_image_warm_writing(void)
+{
+    wr_oiio_warm();
+}
+
 static size_t type_bytes(WrPixelType type)
 {
     return type == WR_PIXEL_U8 ? 1 : type == WR_PIXEL_U16 ? 2 : 4;

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "base/rows.h"
 #include "base/text.h"
+#include "image/image.h"
 
 #include <SDL.h>
 #include <dirent.h>
@@ -279,6 +280,8 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     files->purpose = purpose;
     files->answer[0] = '\0';
     files->agreed = false;
+    /* While the name is chosen. */
+    if (purpose == WR_FILE_SAVE || purpose == WR_FILE_EXPORT) wr_image_warm_writing();
     char *from = folder ? wr_strdup(folder) : realpath(".", NULL);
     char *start_at = wr_path_join(from ? from : "/", name);
     bool native = ask_native(files, start_at);

@@ -1,0 +1,216 @@
+/* Modules and lists that are loaded when they are needed (base/aside.h): who waits for one that takes long can be told to
+   stop, and the one that was loaded meanwhile serves the next. */
+#include "test.h"
+#include "test_folder.h"
+
+#include "base/progress.h"
+#include "image/font.h"
+#include "image/module.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#define PATIENCE 120 /* seconds, until a test that hangs is ended */
+
+static long loadings(void)
+{
+    struct stat info;
+    return stat("began", &info) == 0 ? (long)info.st_size : 0;
+}
+
+static void make_file(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fclose(file);
+}
+
+/* A module of its own, since one that was loaded stays. */
+static void put_module(const char *file)
+{
+    char command[512];
+    snprintf(command, sizeof command, "cp '%s' %s", SLOW_MODULE, file);
+    assert_int_equal(system(command), 0);
+}
+
+static void name_module(WrModule *module, const char *file)
+{
+    remove("go");
+    remove("began");
+    *module = (WrModule){ .file = file,
+                          .serves = "slow files",
+                          .symbol = "slow_table",
+                          .version = 3,
+                          .loading = { .work = wr_module_load, .ctx = module } };
+}
+
+/* ---- who cancels once the loading has begun ---- */
+
+static void *cancel_then(void *cancel)
+{
+    while (loadings() == 0) usleep(1000);
+    __atomic_store_n((volatile int *)cancel, 1, __ATOMIC_RELAXED);
+    return NULL;
+}
+
+/* Ask for it and be told to stop meanwhile. */
+static void ask_and_cancel(WrModule *module)
+{
+    WrError err = { "" };
+    volatile int cancel = 0;
+    WrProgress progress = { .cancel = &cancel };
+    pthread_t thread;
+    assert_int_equal(pthread_create(&thread, NULL, cancel_then, (void *)&cancel), 0);
+    wr_progress_set(&progress);
+    const void *table = wr_module_table(module, &err);
+    wr_progress_set(NULL);
+    pthread_join(thread, NULL);
+    assert_null(table);
+    assert_string_equal(err.text, "cancelled");
+}
+
+static void *ask(void *module)
+{
+    volatile int cancel = 0;
+    WrProgress progress = { .cancel = &cancel };
+    wr_progress_set(&progress);
+    return (void *)wr_module_table(module, NULL);
+}
+
+static void who_is_cancelled_does_not_wait_and_the_next_takes_it(void **state)
+{
+    (void)state;
+    put_module("slow1.so");
+    static WrModule module; /* it may be loading when the test has failed */
+    name_module(&module, "slow1.so");
+    for (int i = 0; i < 3; i++) ask_and_cancel(&module); /* without waiting for "go" */
+    enum { COUNT = 4 };
+    pthread_t threads[COUNT];
+    const int *first = NULL;
+    for (int i = 0; i < COUNT; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, ask, &module), 0);
+    make_file("go");
+    for (int i = 0; i < COUNT; i++) {
+        void *table;
+        pthread_join(threads[i], &table);
+        assert_non_null(table);
+        if (!first) first = table;
+        assert_ptr_equal(table, first);
+    }
+    assert_int_equal(*first, 3);
+    assert_int_equal(loadings(), 1);
+    assert_ptr_equal(wr_module_table(&module, NULL), first);
+}
+
+static void warming_returns_at_once_and_loads_once(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    put_module("slow2.so");
+    static WrModule module; /* it may be loading when the test has failed */
+    name_module(&module, "slow2.so");
+    for (int i = 0; i < 3; i++) wr_aside_begin(&module.loading);
+    make_file("go");
+    assert_non_null(wr_module_table(&module, &err)); /* nobody could stop this one: it waits too */
+    wr_aside_begin(&module.loading);
+    assert_int_equal(loadings(), 1);
+}
+
+static void a_failure_is_told_and_not_kept(void **state)
+{
+    (void)state;
+    volatile int cancel = 0;
+    const WrProgress some = { .cancel = &cancel }, *const who[] = { NULL, &some };
+    static WrModule module; /* it may be loading when the test has failed */
+    name_module(&module, "slow3.so");
+    make_file("go");
+    for (int i = 0; i < 2; i++) {
+        WrError err = { "" };
+        wr_progress_set(who[i]);
+        assert_null(wr_module_table(&module, &err));
+        assert_non_null(strstr(err.text, "slow files need the module slow3.so, looked for at: "));
+    }
+    put_module("slow3.so");
+    assert_non_null(wr_module_table(&module, NULL));
+    wr_progress_set(NULL);
+}
+
+/* The end of the program does not wait for what nobody wants any more, and keeps its status and its words. */
+static void the_program_ends_while_one_loads(void **state)
+{
+    (void)state;
+    put_module("slow4.so");
+    static WrModule module; /* it may be loading when the test has failed */
+    name_module(&module, "slow4.so");
+    fflush(NULL);
+    pid_t child = fork();
+    if (child == 0) {
+        alarm(PATIENCE);
+        ask_and_cancel(&module);
+        FILE *words = fopen("words", "w");
+        fputs("said\n", words);
+        exit(7);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    assert_int_equal(WEXITSTATUS(status), 7);
+    struct stat info;
+    assert_int_equal(stat("words", &info), 0);
+    assert_int_equal(info.st_size, 5);
+    assert_int_not_equal(access("go", F_OK), 0);
+}
+
+/* ---- the list of fonts ---- */
+
+/* It is being read once somebody reads this fifo, and goes on when something comes of it. */
+static void *cancel_at_fifo(void *cancel)
+{
+    int file = open("fonts.conf", O_WRONLY | O_CLOEXEC);
+    __atomic_store_n((volatile int *)cancel, 1, __ATOMIC_RELAXED);
+    return (void *)(intptr_t)file;
+}
+
+static void a_list_of_fonts_that_takes_long_can_be_cancelled(void **state)
+{
+    (void)state;
+    static const char empty[] = "<?xml version=\"1.0\"?><fontconfig></fontconfig>";
+    const uint32_t letter = 'a';
+    char path[256], *lender = NULL;
+    volatile int cancel = 0;
+    WrProgress progress = { .cancel = &cancel };
+    pthread_t thread;
+    void *file;
+    snprintf(path, sizeof path, "%s/fonts.conf", getenv("WRINKLE_MODULES"));
+    setenv("FONTCONFIG_FILE", path, 1);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_int_equal(pthread_create(&thread, NULL, cancel_at_fifo, (void *)&cancel), 0);
+    wr_progress_set(&progress);
+    assert_int_equal(wr_font_lenders(&letter, 1, "sans", NULL, 1, &lender), 0);
+    assert_int_equal(cancel, 1);
+    wr_progress_set(NULL);
+    pthread_join(thread, &file);
+    assert_true(write((int)(intptr_t)file, empty, sizeof empty - 1) == sizeof empty - 1);
+    close((int)(intptr_t)file);
+    assert_int_equal(wr_font_lenders(&letter, 1, "sans", NULL, 1, &lender), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(who_is_cancelled_does_not_wait_and_the_next_takes_it),
+        cmocka_unit_test(warming_returns_at_once_and_loads_once),
+        cmocka_unit_test(a_failure_is_told_and_not_kept),
+        cmocka_unit_test(the_program_ends_while_one_loads),
+        cmocka_unit_test(a_list_of_fonts_that_takes_long_can_be_cancelled),
+    };
+    char here[64];
+    alarm(PATIENCE);
+    void *folder = NULL;
+    if (enter_folder(&folder) != 0 || !getcwd(here, sizeof here)) return 1;
+    setenv("WRINKLE_MODULES", here, 1);
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return remove_folder(&folder) || failed;
+}
