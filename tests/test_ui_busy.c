@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "command/inner.h"
 #include "test_folder.h"
 #include "test_window.h"
 #include "ui/app/loop.h"
@@ -15,6 +16,7 @@
 #include "ui/desk/busy.h"
 #include "ui/desk/document.h"
 #include "ui/desk/hand.h"
+#include "ui/desk/layout.h"
 #include "ui/desk/messages.h"
 #include "ui/jobs/files.h"
 
@@ -251,6 +253,41 @@ static void a_cancel_is_no_error_and_then_it_closes(void **state)
     finish(&bench);
 }
 
+static SDL_Event button(Uint32 type, int x, int y)
+{
+    SDL_MouseButtonEvent event = { .type = type, .button = SDL_BUTTON_LEFT, .x = x, .y = y };
+    return (SDL_Event){ .button = event };
+}
+
+/* There is nothing else to undo yet, and all of it comes before the stroke is drawn. */
+static void the_first_stroke_is_undone_before_it_is_drawn(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    WrApp *app = bench.app;
+    wr_session_rebase(bench.session);
+    uint64_t clean = wr_session_revision(bench.session);
+    WrHash before = wr_session_hash(bench.session);
+    int x = app->layout->canvas.x + app->layout->canvas.w / 2;
+    int y = app->layout->canvas.y + app->layout->canvas.h / 2;
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, x, y), up = button(SDL_MOUSEBUTTONUP, x + 20, y);
+    SDL_Event undo = key(SDL_KEYDOWN, SDLK_z);
+    undo.key.keysym.mod = KMOD_LCTRL;
+    SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = x, .y = y } });
+    SDL_PushEvent(&down);
+    SDL_PushEvent(&(SDL_Event){ .motion = { .type = SDL_MOUSEMOTION, .x = x + 20, .y = y } });
+    SDL_PushEvent(&up);
+    SDL_PushEvent(&undo);
+    wr_app_step(app);
+    assert_int_equal(wr_session_history_count(bench.session), 1); /* it was a stroke */
+    assert_int_equal(wr_session_history_position(bench.session), 0);
+    assert_true(wr_session_revision(bench.session) == clean);
+    WrHash after = wr_session_hash(bench.session);
+    assert_memory_equal(&before, &after, sizeof before);
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +296,7 @@ int main(void)
         cmocka_unit_test(a_chosen_file_is_taken_afterwards),
         cmocka_unit_test(keys_wait_while_the_journal_is_tended),
         cmocka_unit_test(a_cancel_is_no_error_and_then_it_closes),
+        cmocka_unit_test(the_first_stroke_is_undone_before_it_is_drawn),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

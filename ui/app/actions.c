@@ -19,6 +19,7 @@
 #include "ui/panels/panel_tablet.h"
 #include "ui/patch/patch.h"
 #include "ui/tools/shelf.h"
+#include "ui/tools/stroke_hand.h"
 #include "ui/tools/tool.h"
 
 #include "base/text.h"
@@ -45,7 +46,8 @@ static void redo(WrApp *app)
 
 static bool can_undo(const WrApp *app)
 {
-    return wr_session_history_position(app->session) > wr_session_history_oldest(app->session);
+    return wr_strokes_under_way(app) ||
+           wr_session_history_position(app->session) > wr_session_history_oldest(app->session);
 }
 
 static bool can_redo(const WrApp *app)
@@ -55,7 +57,7 @@ static bool can_redo(const WrApp *app)
 
 static bool has_history(const WrApp *app)
 {
-    return wr_session_history_position(app->session) > 0;
+    return wr_strokes_under_way(app) || wr_session_history_position(app->session) > 0;
 }
 
 static void search(WrApp *app)

@@ -189,6 +189,11 @@ bool wr_strokes_waits(const WrApp *app)
     return hand->unfinished || hand->jobs.count > (hand->drawing ? 1 : 0);
 }
 
+bool wr_strokes_under_way(const WrApp *app)
+{
+    return app->brush->jobs.count > 0;
+}
+
 void wr_strokes_finish(WrApp *app)
 {
     wr_strokes_end(app);

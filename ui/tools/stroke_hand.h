@@ -51,8 +51,10 @@ void wr_strokes_sample(WrApp *app, const WrPointer *at, double u, double v);
 void wr_strokes_end(WrApp *app);         /* no more samples; what is left is drawn by and by */
 void wr_strokes_work(WrApp *app);        /* once before each picture */
 bool wr_strokes_waits(const WrApp *app); /* more is left to draw */
-void wr_strokes_finish(WrApp *app);      /* draw all that is left, now */
-void wr_strokes_cancel(WrApp *app);      /* the stroke that is drawn never was */
+/* One is drawn or left to draw: a step as soon as anything else is asked for. */
+bool wr_strokes_under_way(const WrApp *app);
+void wr_strokes_finish(WrApp *app); /* draw all that is left, now */
+void wr_strokes_cancel(WrApp *app); /* the stroke that is drawn never was */
 void wr_strokes_free(WrApp *app);
 
 extern const WrPart wr_part_strokes;
