@@ -27,6 +27,7 @@ typedef enum FaultMode {
     FAULT_SHORT, /* half of it is written; the next one fails */
     FAULT_KILL,  /* before the call */
     FAULT_TORN,  /* when half of it is written */
+    FAULT_PLANT, /* before a file is created somebody puts a link to `victim` in its place; open alone */
     FAULT_MODES
 } FaultMode;
 
@@ -58,6 +59,9 @@ typedef struct FaultState {
     int32_t stage;
     int32_t fell; /* the fault has come, and */
     int32_t fell_place, fell_stage;
+    int32_t unsynced; /* files that hold what was written since they were synced last */
+    int32_t careless; /* of these, how many were given another name */
+    char victim[256], planted[400];
 } FaultState;
 
 extern const char *const wr_fault_kinds[FAULT_KINDS];

@@ -22,6 +22,7 @@ static inline bool fault_is_wanted(int64_t index, int64_t salt)
 static inline bool fault_fits(FaultKind kind, FaultMode mode)
 {
     if (mode == FAULT_ERROR || mode == FAULT_KILL) return true;
+    if (mode == FAULT_PLANT) return kind == FAULT_OPEN;
     return kind == FAULT_WRITE && (mode == FAULT_SHORT || mode == FAULT_TORN);
 }
 

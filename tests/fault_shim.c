@@ -20,13 +20,74 @@
 
 SHOWN const char *const wr_fault_kinds[FAULT_KINDS] = { "open",   "write", "truncate", "sync",
                                                         "rename", "link",  "unlink",   "close" };
-SHOWN const char *const wr_fault_modes[FAULT_MODES] = { "count", "error", "short", "kill", "torn" };
+SHOWN const char *const wr_fault_modes[FAULT_MODES] = { "count", "error", "short",
+                                                        "kill",  "torn",  "plant" };
 SHOWN const char *const wr_fault_places[FAULT_PLACES] = { "part", "journal", "memory", "folder",
                                                           "other" };
 SHOWN const char *const wr_fault_stages[FAULT_STAGES] = { "before", "writing", "synced",
                                                           "renamed" };
 
 static FaultState *state;
+
+/* ---- what is written and not synced ---- */
+
+#define PENDING_MAX 64
+
+static struct {
+    dev_t device;
+    ino_t inode;
+} pending[PENDING_MAX];
+static int pending_count, pending_held;
+
+static void hold_written(void)
+{
+    while (__atomic_exchange_n(&pending_held, 1, __ATOMIC_ACQUIRE)) continue;
+}
+
+static void let_go_written(void)
+{
+    state->unsynced = pending_count;
+    __atomic_store_n(&pending_held, 0, __ATOMIC_RELEASE);
+}
+
+static int place_of_written(const struct stat *info)
+{
+    int i = 0;
+    while (i < pending_count &&
+           (pending[i].device != info->st_dev || pending[i].inode != info->st_ino))
+        i++;
+    return i;
+}
+
+static void note_written(int fd)
+{
+    struct stat info;
+    if (syscall(SYS_newfstatat, fd, "", &info, AT_EMPTY_PATH) != 0) return;
+    hold_written();
+    int i = place_of_written(&info);
+    if (i == pending_count && i < PENDING_MAX) {
+        pending[i].device = info.st_dev;
+        pending[i].inode = info.st_ino;
+        pending_count++;
+    }
+    let_go_written();
+}
+
+/* True if that is a file that had not been synced; it is forgotten. */
+static bool forget_written(int folder, const char *path, int flags)
+{
+    struct stat info;
+    int saved = errno;
+    bool there = syscall(SYS_newfstatat, folder, path, &info, flags) == 0;
+    errno = saved;
+    if (!there) return false;
+    hold_written();
+    int i = place_of_written(&info);
+    bool found = i < pending_count;
+    if (found) pending[i] = pending[--pending_count];
+    let_go_written();
+    return found;
+}
 
 /* ---- orders ---- */
 
@@ -83,6 +144,7 @@ SHOWN FaultState *wr_fault_state(void)
 SHOWN void wr_fault_arm(FaultKind kind, int64_t n, FaultMode mode, int error)
 {
     *state = (FaultState){ .kind = (int)kind, .mode = (int)mode, .error = error, .n = n };
+    pending_count = 0;
     state->armed = 1;
 }
 
@@ -137,6 +199,7 @@ static bool fails(FaultKind kind, int fd)
     FaultPlace place;
     int saved = errno;
     if (!state || !state->armed || !place_of(fd, &place)) return false;
+    if (kind == FAULT_WRITE && place != FAULT_MEMORY) note_written(fd);
     errno = saved;
     return is_the_one(kind, place);
 }
@@ -240,6 +303,7 @@ static int sync_by(long call, int fd)
     FaultPlace place;
     if (fails(FAULT_SYNC, fd)) return -1;
     int done = (int)syscall(call, fd);
+    if (state && state->armed && done == 0) forget_written(fd, "", AT_EMPTY_PATH);
     if (state && state->armed && place_of(fd, &place) && place == FAULT_PART) reach(FAULT_SYNCED);
     return done;
 }
@@ -256,22 +320,20 @@ SHOWN int fdatasync(int fd)
     return sync_by(SYS_fdatasync, fd);
 }
 
-SHOWN int rename(const char *from, const char *to);
-SHOWN int rename(const char *from, const char *to)
-{
-    if (fails_path(FAULT_RENAME, from)) return -1;
-    int done = (int)syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0);
-    if (place_of_path(from) == FAULT_PART) reach(FAULT_RENAMED);
-    return done;
-}
-
 SHOWN int renameat2(int a, const char *from, int b, const char *to, unsigned flags);
 SHOWN int renameat2(int a, const char *from, int b, const char *to, unsigned flags)
 {
     if (fails_path(FAULT_RENAME, from)) return -1;
+    if (state && state->armed && forget_written(a, from, AT_SYMLINK_NOFOLLOW)) state->careless++;
     int done = (int)syscall(SYS_renameat2, a, from, b, to, flags);
     if (place_of_path(from) == FAULT_PART) reach(FAULT_RENAMED);
     return done;
+}
+
+SHOWN int rename(const char *from, const char *to);
+SHOWN int rename(const char *from, const char *to)
+{
+    return renameat2(AT_FDCWD, from, AT_FDCWD, to, 0);
 }
 
 SHOWN int renameat(int a, const char *from, int b, const char *to);
@@ -327,8 +389,13 @@ SHOWN int fclose(FILE *file)
 
 static int open_by(int folder, const char *path, int flags, mode_t mode)
 {
-    bool writes = (flags & O_ACCMODE) != O_RDONLY && strncmp(path, "/dev/", 5) != 0;
-    if (writes && fails_path(FAULT_OPEN, path)) return -1;
+    bool device = strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0;
+    bool writes = (flags & O_ACCMODE) != O_RDONLY && !device;
+    if (writes && fails_path(FAULT_OPEN, path)) {
+        if (state->mode != FAULT_PLANT) return -1;
+        if ((flags & O_CREAT) && syscall(SYS_symlinkat, state->victim, folder, path) == 0)
+            snprintf(state->planted, sizeof state->planted, "%s", path);
+    }
     int fd = (int)syscall(SYS_openat, folder, path, flags, mode);
     if (fd >= 0 && (flags & O_CREAT) && place_of_path(path) == FAULT_PART) reach(FAULT_WRITING);
     return fd;

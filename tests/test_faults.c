@@ -22,6 +22,7 @@
 #include <sys/stat.h>
 
 #define OLD "what was there before, and is worth keeping\n"
+#define VICTIM "victim" /* a file that nothing here names */
 
 /* What is written, one of each kind of file and each way to it. */
 typedef struct Job {
@@ -61,6 +62,7 @@ typedef struct World {
 } World;
 
 static World world;
+static void make_old(const Job *job);
 
 /* What every run would do first, done once: children inherit the library and go on using the same reader. */
 static void warm(void)
@@ -83,6 +85,7 @@ static int make_world(void **state)
     warm();
     wr_session_set_outputs(world.plain, true);
     wr_session_set_outputs(world.rich, true);
+    make_old(&(Job){ .file = VICTIM });
     world.said =
         mmap(NULL, sizeof *world.said, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     return world.said == MAP_FAILED || !wr_fault_state() ? -1 : 0;
@@ -216,13 +219,17 @@ static void run_fault(const Job *job, const Good *good, FaultKind kind, int64_t 
     pid_t child = fault_fork();
     if (child == 0) {
         wr_fault_arm(kind, n, mode, errors[n % 3]);
+        strcpy(wr_fault_state()->victim, VICTIM);
         run_job(job);
     }
     int status = fault_wait(child);
-    const FaultState *state = wr_fault_state();
+    FaultState *state = wr_fault_state();
+    state->armed = 0;
     if (!state->fell) fail_msg("%s: %s: there was no such call", job->line, what);
+    if (state->careless) fail_msg("%s: %s: renamed before it was synced", job->line, what);
+    if (*state->planted) unlink(state->planted);
+    if (!is_old(VICTIM)) fail_msg("%s: %s: another file was written to", job->line, what);
     if (WIFSIGNALED(status)) tally->kills[state->fell_place][state->fell_stage]++;
-    wr_fault_state()->armed = 0;
     check_end(job, good, status, tally, what);
 }
 
@@ -245,6 +252,8 @@ static void every_call_may_fail(void **state)
         wr_fault_state()->armed = 0;
         make_old(job);
         assert_true(counted.counts[FAULT_WRITE] > 0 && counted.counts[FAULT_RENAME] == 1);
+        assert_int_equal(counted.seen[FAULT_SYNC][FAULT_FOLDER], 1); /* the new name is kept, too */
+        assert_int_equal(counted.careless, 0);
         for (int kind = 0; kind < FAULT_KINDS; kind++)
             for (int64_t n = 1; n <= counted.counts[kind]; n++)
                 for (int mode = 0; mode < FAULT_MODES; mode++)
@@ -316,6 +325,38 @@ static void a_save_that_fails_keeps_the_journal(void **state)
     if (child == 0) save_journaled(FAULT_WRITE, 0, FAULT_COUNT);
     assert_int_equal(fault_wait(child), 0);
     assert_int_equal(hidden_files(), 0);
+    unsetenv("WRINKLE_STATE");
+    unlink("work.exr");
+    assert_int_equal(system("rm -rf state"), 0);
+}
+
+/* What was told to be saved, or drawn, outlives a loss of power: 0 if nothing waits to be synced. */
+static void work_in_safety(void)
+{
+    WrError err;
+    WrSample samples[2] = { { .u = 0.2, .v = 0.3, .pressure = 1 },
+                            { .u = 0.7, .v = 0.3, .pressure = 1 } };
+    WrSessionOptions options = { .outputs = true, .journal = true };
+    WrSession *session = wr_session_new(&options);
+    const FaultState *state = wr_fault_state();
+    bool good = wr_session_run(session, "table 64x48", &err);
+    wr_fault_arm(FAULT_WRITE, 0, FAULT_COUNT, 0);
+    good = good && wr_session_run(session, "fill 3", &err) &&
+           wr_session_save(session, "work.exr", &err);
+    if (!good || state->unsynced > 0 || state->careless > 0) _exit(2);
+    good = wr_session_stroke_begin(session, "stroke radius=5", &err) &&
+           wr_session_stroke_add(session, samples, 2, &err) && wr_session_stroke_end(session, &err);
+    _exit(good && state->unsynced == 0 && state->careless == 0 ? 0 : 3);
+}
+
+static void what_is_saved_or_drawn_is_on_the_disk(void **state)
+{
+    (void)state;
+    assert_int_equal(setenv("WRINKLE_STATE", "state", 1), 0);
+    pid_t child = fault_fork();
+    if (child == 0) work_in_safety();
+    assert_int_equal(fault_wait(child), 0);
+    wr_fault_state()->armed = 0;
     unsetenv("WRINKLE_STATE");
     unlink("work.exr");
     assert_int_equal(system("rm -rf state"), 0);
@@ -406,6 +447,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_call_may_fail),
         cmocka_unit_test(a_save_that_fails_keeps_the_journal),
+        cmocka_unit_test(what_is_saved_or_drawn_is_on_the_disk),
         cmocka_unit_test(no_room_by_a_limit),
         cmocka_unit_test(no_room_on_the_disk),
     };

@@ -152,15 +152,27 @@ static void check(const char *folder, int status, const char *what, FaultTally *
 static int run_case(const char *folder, FaultKind kind, int64_t n, FaultMode mode)
 {
     static const int errors[] = { ENOSPC, EIO, EDQUOT };
+    WrText victim = { 0 };
+    wr_text_addf(&victim, "%s.victim", folder); /* a file that nothing here names */
+    write_bytes(wr_text_get(&victim), "whole", 5);
     remove_tree(folder);
     *shared = (Shared){ 0 };
     pid_t child = fault_fork();
     if (child == 0) {
         wr_fault_arm(kind, n, mode, errors[n % 3]);
+        snprintf(wr_fault_state()->victim, sizeof wr_fault_state()->victim, "%s",
+                 wr_text_get(&victim));
         run_journal(folder);
     }
     int status = fault_wait(child);
-    wr_fault_state()->armed = 0;
+    FaultState *state = wr_fault_state();
+    state->armed = 0;
+    WrText left = read_bytes(wr_text_get(&victim));
+    if (strcmp(wr_text_get(&left), "whole") != 0)
+        fail_msg("%s %d: another file was written to", wr_fault_kinds[kind], (int)n);
+    if (state->careless) fail_msg("%s %d: renamed unsynced", wr_fault_kinds[kind], (int)n);
+    wr_text_fini(&left);
+    wr_text_fini(&victim);
     return status;
 }
 
@@ -172,12 +184,14 @@ static void the_journal_recovers_whatever_fails(void **state)
     assert_int_equal(run_case(folder, FAULT_WRITE, 0, FAULT_COUNT), 0);
     FaultState counted = *wr_fault_state();
     check(folder, 0, "no fault", &tally);
-    assert_true(counted.counts[FAULT_RENAME] >= 2 && counted.counts[FAULT_SYNC] > COMMANDS);
+    assert_true(counted.counts[FAULT_RENAME] >= 2 && counted.counts[FAULT_OPEN] >= 4 &&
+                counted.counts[FAULT_SYNC] > COMMANDS);
     for (int kind = 0; kind < FAULT_KINDS; kind++)
         for (int64_t n = 1; n <= counted.counts[kind]; n++)
             for (int mode = 0; mode < FAULT_MODES; mode++) {
                 char what[80];
-                if (!fault_fits((FaultKind)kind, (FaultMode)mode) || !fault_is_wanted(index++, 0))
+                if (!fault_fits((FaultKind)kind, (FaultMode)mode) ||
+                    (!fault_is_wanted(index++, 0) && mode != FAULT_PLANT))
                     continue;
                 snprintf(what, sizeof what, "%s %lld, %s", wr_fault_kinds[kind], (long long)n,
                          wr_fault_modes[mode]);
