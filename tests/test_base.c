@@ -5,17 +5,23 @@
 #include "base/file.h"
 #include "base/kernmath.h"
 #include "base/memory.h"
+#include "base/hash.h"
 #include "base/pool.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "base/vec.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <grp.h>
 #include <sys/file.h>
+#include <sys/inotify.h>
 #include <sys/random.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 static void numbers_print_shortest_and_read_back(void **state)
@@ -356,6 +362,7 @@ static void what_dead_processes_left_is_swept_and_nothing_else(void **state)
         { ".a.exr.%d-.part.exr", false },
         { ".a.exr.-12.part.exr", false },
         { ".a.exr.%d-xyz.part.exr", false },
+        { ".a.exr.%d-12zz.part.exr", false },
         { ".a.exr.%d-12.parts", false },
         { ".a.exr.x%d-12.part.exr", false },
         { ".%d.part", false },
@@ -413,6 +420,178 @@ static void a_killed_write_is_cleared_away_by_the_next(void **state)
     wr_free(other);
 }
 
+/* In the place of the system's: a disk that does not hold what was written. */
+static bool disk_lies;
+
+ssize_t pread(int fd, void *bytes, size_t length, off_t at)
+{
+    ssize_t n = syscall(SYS_pread64, fd, bytes, length, at);
+    if (disk_lies && n > 0) *(char *)bytes ^= 1;
+    return n;
+}
+
+static void what_does_not_read_back_is_not_written(void **state)
+{
+    (void)state;
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", name[300], text[8] = "";
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.exr");
+    assert_true(wr_file_write(path, "whole", 5, &err));
+    disk_lies = true;
+    assert_false(wr_file_write(path, "other", 5, &err));
+    disk_lies = false;
+    assert_non_null(strstr(err.text, "does not read back"));
+    assert_int_equal(wr_file_peek(path, text, sizeof text), 5);
+    assert_string_equal(text, "whole");
+    assert_false(hidden_file(folder, name));
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+    wr_free(path);
+}
+
+/* How often something in that folder was opened since `watch` was made or asked. */
+static int opened(int watch)
+{
+    char events[4096] __attribute__((aligned(8)));
+    int count = 0;
+    ssize_t n = read(watch, events, sizeof events);
+    for (ssize_t at = 0; at < n;) {
+        const struct inotify_event *event = (const void *)(events + at);
+        count += (event->mask & IN_OPEN) != 0;
+        at += (ssize_t)sizeof *event + event->len;
+    }
+    return count;
+}
+
+/* Opening a pipe wakes whoever waits at its other end; a device may do anything. */
+static void what_is_no_file_is_neither_opened_nor_replaced(void **state)
+{
+    (void)state;
+    WrError err;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX", bytes[4];
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "pipe");
+    assert_int_equal(mkfifo(path, 0600), 0);
+    int watch = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    assert_true(inotify_add_watch(watch, path, IN_OPEN) >= 0);
+    alarm(60); /* nothing of this may wait */
+    assert_int_equal(wr_file_open(path, 100, NULL, &err), -1);
+    assert_non_null(strstr(err.text, "is a pipe"));
+    assert_int_equal(wr_file_peek(path, bytes, sizeof bytes), 0);
+    assert_int_equal(opened(watch), 0);
+    assert_false(wr_file_write(path, "text", 4, &err));
+    assert_non_null(strstr(err.text, "not a regular file"));
+    assert_int_equal(wr_file_create(path, &err), -1); /* nobody reads it */
+    alarm(0);
+    struct stat info;
+    assert_true(lstat(path, &info) == 0 && S_ISFIFO(info.st_mode));
+    close(watch);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+    wr_free(path);
+}
+
+static void a_limit_is_what_may_still_be_read(void **state)
+{
+    (void)state;
+    WrError err;
+    char path[] = "/tmp/wrinkle-test-XXXXXX", *bytes, hex[65];
+    size_t length;
+    int fd = mkstemp(path), stop = 1;
+    assert_int_equal(write(fd, "12345", 5), 5);
+    close(fd);
+    assert_true(wr_file_read(path, 5, &bytes, &length, &err));
+    assert_int_equal(length, 5);
+    wr_free(bytes);
+    assert_false(wr_file_read(path, 4, &bytes, &length, &err));
+    assert_non_null(strstr(err.text, "over the limit"));
+    assert_true(wr_sha256_file(path, hex, &err));
+    const WrProgress stopped = { .cancel = &stop };
+    const WrProgress *before = wr_progress_set(&stopped);
+    assert_false(wr_sha256_file(path, hex, &err)); /* no hash of a part */
+    wr_progress_set(before);
+    assert_non_null(strstr(err.text, "cancelled"));
+    unlink(path);
+}
+
+/* A folder of all, and in it a file of user 54321's that group and others may write and that acts as its owner. */
+static void make_anothers(const char *folder, const char *path)
+{
+    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL, 0600);
+    assert_true(fd >= 0);
+    assert_int_equal(fchown(fd, 54321, 54321), 0);
+    assert_int_equal(fchmod(fd, 06777), 0);
+    close(fd);
+    assert_int_equal(chmod(folder, 0777), 0);
+}
+
+static void rights_of_another_group_are_not_passed_on(void **state)
+{
+    (void)state;
+    if (geteuid() != 0) skip();
+    char folder[] = "/tmp/wrinkle-test-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.exr");
+    make_anothers(folder, path);
+    pid_t child = fork();
+    if (child == 0) {
+        WrError err;
+        struct stat info;
+        const gid_t group = 12345;
+        if (setgroups(1, &group) != 0 || setgid(12345) != 0 || setuid(12345) != 0) _exit(2);
+        if (!wr_file_write(path, "text", 4, &err) || stat(path, &info) != 0) _exit(3);
+        _exit(info.st_uid != 12345 ? 4 : (info.st_mode & 07777) != 0707 ? 5 : 0);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+    wr_free(path);
+}
+
+/* What lists of rights look like to the system: a version, then kinds of users with what they may. */
+typedef struct Rights {
+    uint32_t version;
+    struct {
+        uint16_t kind, may;
+        uint32_t id;
+    } entries[5];
+} Rights;
+
+static mode_t mode_in_folder_with(const Rights *rights, int entries, mode_t mask)
+{
+    WrError err;
+    struct stat info;
+    char folder[] = "/tmp/wrinkle-test-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    char *path = wr_path_join(folder, "a.exr");
+    size_t length = 4 + 8 * (size_t)entries;
+    bool listed = setxattr(folder, "system.posix_acl_default", rights, length, 0) == 0;
+    mode_t before = umask(mask);
+    if (listed) assert_true(wr_file_write(path, "text", 4, &err));
+    umask(before);
+    if (listed) assert_int_equal(stat(path, &info), 0);
+    if (listed) unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+    wr_free(path);
+    if (!listed) skip(); /* this file system has no such lists */
+    return info.st_mode & 07777;
+}
+
+/* Such a list counts in the place of the umask, whether it names users or not. */
+static void what_a_folder_passes_on_a_new_file_has(void **state)
+{
+    (void)state;
+    const Rights named = {
+        2, { { 1, 7, ~0u }, { 2, 7, 12345 }, { 4, 5, ~0u }, { 16, 7, ~0u }, { 32, 0, ~0u } }
+    };
+    const Rights plain = { 2, { { 1, 7, ~0u }, { 4, 5, ~0u }, { 32, 0, ~0u } } };
+    assert_int_equal(mode_in_folder_with(&named, 5, 0077), 0660);
+    assert_int_equal(mode_in_folder_with(&plain, 3, 0), 0640);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -431,6 +610,11 @@ int main(void)
         cmocka_unit_test(a_planted_link_is_not_written_through),
         cmocka_unit_test(what_dead_processes_left_is_swept_and_nothing_else),
         cmocka_unit_test(a_killed_write_is_cleared_away_by_the_next),
+        cmocka_unit_test(what_does_not_read_back_is_not_written),
+        cmocka_unit_test(what_is_no_file_is_neither_opened_nor_replaced),
+        cmocka_unit_test(a_limit_is_what_may_still_be_read),
+        cmocka_unit_test(rights_of_another_group_are_not_passed_on),
+        cmocka_unit_test(what_a_folder_passes_on_a_new_file_has),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

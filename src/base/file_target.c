@@ -5,6 +5,7 @@
 
 #include <ctype.h>
 #include <dirent.h>
+#include <endian.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -18,6 +19,7 @@
 #include <unistd.h>
 
 #define ACL "system.posix_acl_access"
+#define ACL_PASSED_ON "system.posix_acl_default"
 #define ACL_MAX 65536 /* bytes of a list of rights */
 #define TRIES 16      /* at a name that nobody has */
 
@@ -119,11 +121,36 @@ static mode_t read_umask(void)
     return mask;
 }
 
-/* A new file's: as if it had been created so, rights that a folder passes on included. */
-static bool give_new_rights(int fd)
+/* What a folder's list gives its new files, as a mode: owner, mask or else group, others. A list is a version of
+   32 bits and entries of 64: kind, rights, whose; linux/posix_acl_xattr.h. */
+static mode_t passed_on(const char *list, size_t length)
 {
-    bool inherited = fgetxattr(fd, ACL, NULL, 0) > 0;
-    return fchmod(fd, inherited ? 0666 : 0666 & ~read_umask()) == 0;
+    mode_t owner = 0, group = 0, mask = 0, others = 0;
+    bool masked = false;
+    for (size_t at = 4; at + 8 <= length; at += 8) {
+        uint16_t kind, may;
+        memcpy(&kind, list + at, sizeof kind);
+        memcpy(&may, list + at + 2, sizeof may);
+        kind = le16toh(kind);
+        may = le16toh(may);
+        if (kind == 1) owner = may;
+        if (kind == 4) group = may;
+        if (kind == 16) mask = may;
+        if (kind == 32) others = may;
+        masked = masked || kind == 16;
+    }
+    return (owner & 7) << 6 | ((masked ? mask : group) & 7) << 3 | (others & 7);
+}
+
+/* A new file's: as if it had been created so. Where the folder has a list of what it passes on, that counts in
+   the place of the umask. */
+static bool give_new_rights(int fd, const char *path)
+{
+    char list[ACL_MAX], *folder = wr_path_folder(path);
+    ssize_t length = getxattr(folder, ACL_PASSED_ON, list, sizeof list);
+    wr_free(folder);
+    mode_t most = length > 0 ? passed_on(list, (size_t)length) : ~read_umask();
+    return fchmod(fd, 0666 & most) == 0;
 }
 
 /* Those of the file that is replaced: owner and group where we may give them, mode, list of rights. Rights of
@@ -263,7 +290,7 @@ bool wr_file_commit(WrFileTarget *target, WrError *err)
     WR_ASSERT(target->verified);
     bool replaces = stat(target->path, &old) == 0;
     bool good = (replaces ? give_old_rights(target->fd, target->path, &old)
-                          : give_new_rights(target->fd)) &&
+                          : give_new_rights(target->fd, target->path)) &&
                 fsync(target->fd) == 0;
     int fd = target->fd;
     target->fd = -1;
