@@ -1,5 +1,8 @@
 /* brush_help.h - what the tests of brushes share: tables, samples, strokes, comparisons. */
 #pragma once
+#include "base/hash.h"
+#include "field/field.h"
+#include "field/wrap.h"
 #include "test.h"
 
 #include "base/pool.h"

@@ -2,6 +2,7 @@
    parsed to a call whose text is stable; and those of the scene (the only ones that a document file may
    hold) run without harm. */
 #include "base/error.h"
+#include "base/text.h"
 #include "command/call.h"
 #include "command/session.h"
 

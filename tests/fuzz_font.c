@@ -2,6 +2,8 @@
    whose answer is sound, within which every outline can be drawn. The first byte chooses what goes before
    the rest: nothing, or the beginnings of PSF 1, PSF 2 and BDF files and of a packed one, or a small true
    font of each kind with the fuzzer's bytes laid over it. */
+#include "base/error.h"
+#include "base/text.h"
 #include "image/font_inner.h"
 
 #include <stdint.h>

@@ -3,10 +3,11 @@
      odd   the rest is lines of a kind and a payload, written as a journal whose checksums fit; it
            is read as it is, then with one byte changed, which must give the same commands but for
            the last. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "document/journal_folder.h"
 #include "document/journal_line.h"
-
-#include "base/memory.h"
 
 #include <string.h>
 #include <sys/mman.h>

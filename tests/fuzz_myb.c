@@ -4,8 +4,10 @@
            (2), what to do, and with which byte
    What is read is printed, which must be read again and give the same text; and it draws a short stroke
    through the engine, whose dabs must be finite. */
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "brush/engine.h"
 #include "brush/library.h"
 

@@ -1,9 +1,9 @@
 /* fuzz_raw.c - elevations without a header from strangers: whatever size is told and whatever the bytes,
    they are refused with a message or decoded within what there is. The first byte chooses the kind and the
    byte order, the second the length of the text that tells the size. */
-#include "generate/terrain_raw.h"
-
+#include "base/error.h"
 #include "base/memory.h"
+#include "generate/terrain_raw.h"
 
 #include <stdint.h>
 #include <stdlib.h>

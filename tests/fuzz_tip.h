@@ -1,5 +1,6 @@
 /* fuzz_tip.h - what holds for every tip that is given back. */
 #pragma once
+#include "base/error.h"
 #include "brush/tip.h"
 
 #include <stdlib.h>

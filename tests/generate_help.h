@@ -1,5 +1,8 @@
 /* generate_help.h - making reliefs in tests. After test.h. */
 #pragma once
+#include "base/error.h"
+#include "field/field.h"
+#include "field/wrap.h"
 #include "base/memory.h"
 #include "generate/generator.h"
 

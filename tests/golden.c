@@ -11,6 +11,7 @@
        FAIL   anything else, or no picture   fails
    What is not SAME leaves NAME.exr and NAME-difference.png (the difference enlarged until
    it is seen, grey where equal) in golden-results/ of the build. */
+#include "base/error.h"
 #include "base/memory.h"
 #include "image/image.h"
 

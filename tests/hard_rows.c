@@ -1,9 +1,10 @@
 /* Measures the hard cases that are named and tells those that fail, in which precisions, or that cannot be
    measured: hard_rows ID... Without one it names all that are measured, and in which. A helper of mutate.sh. */
+#include "base/error.h"
+#include "hardcases/hardcases.h"
+
 #include <math.h>
 #include <stdio.h>
-
-#include "hardcases/hardcases.h"
 
 static const char *const words[WR_HARD_PRECISIONS] = { " float", " double" };
 

@@ -1,6 +1,7 @@
 /* helper_help.h - what the tests of the process that reads strangers' files share: who runs, and pictures that must or
    must not read. */
 #pragma once
+#include "base/error.h"
 #include "test.h"
 
 #include "base/clock.h"

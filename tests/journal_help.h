@@ -1,5 +1,6 @@
 /* journal_help.h - what the journals' tests share: a folder of their own, files, children. */
 #pragma once
+#include "base/text.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "document/recover.h"

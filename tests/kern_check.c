@@ -5,7 +5,9 @@
 #include "test.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "render/kern.h"
 #include "render/pyramid.h"
 

@@ -1,5 +1,8 @@
 /* select_help.h - what the tests of selections share. */
 #pragma once
+#include "base/error.h"
+#include "field/field.h"
+#include "field/wrap.h"
 #include "test.h"
 
 #include "base/memory.h"

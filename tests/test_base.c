@@ -1,6 +1,7 @@
 /* Numbers as text, deterministic functions, files, the pool. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/file.h"
 #include "base/kernmath.h"

@@ -1,9 +1,11 @@
 /* The round brush against a slow model of what its header promises, and its hard cases. */
 #include "test.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "brush/brush.h"
 #include "brush/kern.h"
+#include "field/field.h"
 
 #include <float.h>
 

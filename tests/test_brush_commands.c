@@ -4,8 +4,14 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/pool.h"
+#include "brush/brush.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "field/field.h"
 #include "image/image.h"
 
 #include <sys/stat.h>

@@ -2,6 +2,8 @@
    selection, mark; and the hard cases of strokes for every mode. */
 #include "brush_help.h"
 
+#include "base/error.h"
+
 #include <float.h>
 
 enum { W = 96, H = 80 };

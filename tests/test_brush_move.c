@@ -1,6 +1,7 @@
 /* The modes that move heights, and presets that smudge. */
 #include "brush_help.h"
 
+#include "base/error.h"
 #include "brush/preset.h"
 
 #include <float.h>

@@ -4,9 +4,12 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "brush/brush.h"
+#include "command/session.h"
 #include "command/recovery.h"
 #include "image/image.h"
 

@@ -2,6 +2,7 @@
    that symmetry makes. */
 #include "brush_help.h"
 
+#include "base/error.h"
 #include "brush/preset.h"
 
 enum { W = 128, H = 128 };

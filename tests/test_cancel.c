@@ -6,9 +6,12 @@
 #include "test_session_help.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "command/call.h"
+#include "command/session.h"
 #include "generate/generator.h"
 
 #include <dirent.h>

@@ -1,7 +1,10 @@
 /* The command language: parsing, canonical printing, and the table that both go by. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "brush/brush.h"
 #include "command/call.h"
 #include "command/help.h"
 #include "command/session.h"

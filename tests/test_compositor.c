@@ -2,8 +2,12 @@
    making it anew, at no more cost than the edit's. */
 #include "test.h"
 
+#include "base/error.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "document/compositor.h"
+#include "field/field.h"
 
 enum { MOST = 8 };
 

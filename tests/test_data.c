@@ -2,6 +2,7 @@
 #include "test.h"
 
 #include "base/file.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 

@@ -2,10 +2,16 @@
 #include "test.h"
 #include "test_folder.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "document/document.h"
 #include "document/document_file.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

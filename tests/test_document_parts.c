@@ -3,9 +3,17 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "document/blend.h"
+#include "document/document.h"
 #include "document/document_file.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <unistd.h>
 

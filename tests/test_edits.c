@@ -2,8 +2,13 @@
 #include "test.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "brush/brush.h"
+#include "command/session.h"
+#include "document/document.h"
 #include "document/edit.h"
+#include "field/field.h"
 #include "image/image.h"
 
 #include <unistd.h>

@@ -3,6 +3,8 @@
 #include "test.h"
 
 #include "base/array.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "brush/engine.h"
 
 typedef struct Record {

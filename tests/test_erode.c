@@ -1,8 +1,10 @@
 /* Weather: what falls, flows and slides is never lost. */
 #include "test.h"
-
-#include "generate/erode.h"
 #include "generate_help.h"
+
+#include "base/pool.h"
+#include "base/progress.h"
+#include "generate/erode.h"
 
 static const WrGenerateJob alone = { .pool = NULL };
 

@@ -1,11 +1,13 @@
 /* What commands are said to cost before they begin, against what they do cost. */
 #include "test.h"
 #include "test_folder.h"
+#include "test_session_help.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "command/estimate.h"
+#include "command/session.h"
 #include "command/table.h"
-#include "test_session_help.h"
 
 #include <fcntl.h>
 #include <malloc.h>

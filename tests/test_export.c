@@ -2,11 +2,22 @@
 #include "test.h"
 #include "test_folder.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/text.h"
+#include "document/document.h"
 #include "document/document_file.h"
 #include "export/export.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "field/scheme.h"
+#include "image/image.h"
+#include "scene/scene.h"
+#include "surface/surface.h"
 
 #include <signal.h>
 #include <sys/resource.h>

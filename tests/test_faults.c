@@ -7,11 +7,13 @@
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
-
 #include "fault_help.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "brush/brush.h"
+#include "command/session.h"
 #include "document/recover.h"
 #include "image/oiio.h"
 

@@ -3,10 +3,11 @@
    ended; a journal that failed once comes back to be safe. Kills fall on every call; a tenth in every run, all with
    WR_FULL=1. */
 #include "test.h"
-
 #include "fault_help.h"
 #include "journal_help.h"
 
+#include "base/error.h"
+#include "document/document.h"
 #include "document/document_file.h"
 #include "image/oiio.h"
 

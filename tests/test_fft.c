@@ -2,6 +2,7 @@
 #include "test.h"
 
 #include "base/memory.h"
+#include "base/pool.h"
 #include "generate/fft.h"
 
 static const double tau = 6.283185307179586;

@@ -1,6 +1,7 @@
 /* The height table: tiles, sharing, reading beyond the edges, hashes. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "field/field.h"

@@ -1,7 +1,9 @@
 /* Outlines of shapes as points: areas against closed forms, curves against their formulas. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "field/field.h"
 #include "field/figure.h"
 
 static WrField *table(int w, int h)

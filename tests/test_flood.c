@@ -1,6 +1,8 @@
 /* Flood: the connected part of about one height, against a search that only knows neighbours. */
 #include "test.h"
 
+#include "base/error.h"
+#include "field/field.h"
 #include "field/select.h"
 
 /* Reached texels by going through the whole table again and again until nothing is added. */

@@ -2,7 +2,9 @@
    scripts. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "image/font_inner.h"
 
 #include <ft2build.h>

@@ -2,6 +2,7 @@
    lacks against the font that lends them, variable fonts against FreeType. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "image/font.h"
 

@@ -1,7 +1,9 @@
 /* What every generator keeps to, row by row of every family. */
 #include "test.h"
-
 #include "generate_help.h"
+
+#include "base/pool.h"
+#include "base/progress.h"
 
 static void for_each_row(void (*each)(const WrGenerator *g))
 {

@@ -1,11 +1,13 @@
 /* Generators that read files, as commands: the line learns what the file held, and holds to it. */
 #include "test.h"
-
-#include "base/file.h"
-#include "base/hash.h"
-#include "image/image.h"
 #include "test_folder.h"
 #include "test_session_help.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "command/session.h"
+#include "image/image.h"
 
 typedef struct Case {
     const char *line, *file;

@@ -1,10 +1,14 @@
 /* The generators as commands: what they make joins the active layer. */
 #include "test.h"
+#include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/progress.h"
 #include "command/generate.h"
+#include "command/session.h"
 #include "document/blend.h"
-#include "test_session_help.h"
+#include "document/document.h"
+#include "field/field.h"
 
 static WrHash hash_after(const char *const *lines)
 {

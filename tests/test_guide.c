@@ -1,8 +1,10 @@
 /* The guide as the window reads it: its Markdown, its search, and every page of it. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+
 #include "ui/help/guide_page.h"
 
 #include <ctype.h>

@@ -1,8 +1,12 @@
 /* The table of hard cases: whole, true, able to fail, and printed so that programs can read it. */
 #include "test.h"
 
-#include "hardcases/hardcases.h"
+#include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "base/text.h"
 #include "command/session.h"
+#include "hardcases/hardcases.h"
 
 #include <json-c/json.h>
 

@@ -3,10 +3,15 @@
    no bit. */
 #include "test.h"
 
-#include "hardcases/hardcases.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/text.h"
 #include "command/session.h"
+#include "document/document.h"
+#include "hardcases/hardcases.h"
 #include "render/frame.h"
+#include "scene/scene.h"
 
 enum { SIZE = 48, PIXELS = SIZE * SIZE };
 

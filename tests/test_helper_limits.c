@@ -1,6 +1,8 @@
 /* The process that reads strangers' files gets its time and its memory once, and no more. */
 #include "helper_help.h"
 
+#include "base/text.h"
+
 /* ---- limits ---- */
 
 static void a_reader_that_says_nothing_is_ended(void **state)

@@ -3,11 +3,18 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/text.h"
+#include "command/session.h"
 #include "command/table.h"
+#include "document/document.h"
+#include "field/field.h"
 #include "image/image.h"
+#include "scene/scene.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -2,6 +2,7 @@
 #include "test.h"
 #include "test_folder.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/pool.h"

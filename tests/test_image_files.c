@@ -1,12 +1,14 @@
 /* test_image_files.c - picture files made by hand, byte by byte as their formats are written down: PNM of any depth,
    GIMP patterns, SRTM elevations, pictures that tell which way is up, EXR files with channels in layers. */
 #include "test.h"
-
-#include "base/file.h"
-#include "base/memory.h"
-#include "image/image.h"
 #include "test_folder.h"
 #include "test_session_help.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "command/session.h"
+#include "image/image.h"
 
 typedef struct Bytes {
     uint8_t *data; /* owned */

@@ -3,9 +3,13 @@
 #include "test.h"
 #include "test_folder.h"
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "document/document_file.h"
+#include "field/field.h"
+#include "image/image.h"
 
 #include <unistd.h>
 

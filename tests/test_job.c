@@ -2,6 +2,8 @@
 #include "test.h"
 
 #include "base/memory.h"
+#include "base/progress.h"
+
 #include "ui/jobs/job.h"
 #include "ui/jobs/thread.h"
 

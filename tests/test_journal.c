@@ -1,8 +1,9 @@
 /* The journal as it is written and read: round trips, strokes, damage, kills. */
 #include "test.h"
-
-#include "document/journal_line.h"
 #include "journal_help.h"
+
+#include "base/error.h"
+#include "document/journal_line.h"
 
 static void assert_read(const char *path, WrJournalRead *read)
 {

@@ -1,8 +1,9 @@
 /* The journal when the disk is full, the folder is gone, or nothing may be written: it says so
    once, harms nothing, and comes back. */
 #include "test.h"
-
 #include "journal_help.h"
+
+#include "base/error.h"
 
 #include <sched.h>
 #include <sys/mount.h>

@@ -1,6 +1,7 @@
 /* Labels: where ink falls, widths, cuts, letters that are none. */
 #include "test.h"
 
+#include "base/error.h"
 #include "image/label.h"
 
 enum { W = 120, H = 40 };

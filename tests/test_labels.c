@@ -1,11 +1,13 @@
 /* test_labels.c - what export writes into its files is read back: heights of any range, signed ones, normal maps;
    and labels that a stranger made up are not believed. */
 #include "test.h"
-
-#include "base/memory.h"
-#include "image/image.h"
 #include "test_folder.h"
 #include "test_session_help.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "command/session.h"
+#include "image/image.h"
 
 typedef struct Said {
     char text[2000];

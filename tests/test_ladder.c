@@ -1,8 +1,13 @@
 #include "test.h"
 
 #include "accuracy/report.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "scene/scene.h"
 
 #include <unistd.h>
 

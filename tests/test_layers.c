@@ -3,6 +3,11 @@
 #include "test_session_help.h"
 
 #include "base/memory.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
 
 /* ---- the composite ---- */
 

@@ -1,8 +1,10 @@
 /* Where presets are found: collections, groups, names, and the words when there is none. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "brush/library.h"
 
 #include <sys/stat.h>

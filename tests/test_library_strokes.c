@@ -1,8 +1,12 @@
 /* Every preset of the library paints: those of MyPaint's package, all of them, and our own. */
 #include "test.h"
 
+#include "base/error.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "brush/library.h"
+#include "field/field.h"
 
 #define SIDE 160
 

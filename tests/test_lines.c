@@ -1,5 +1,6 @@
 #include "test.h"
 
+#include "base/error.h"
 #include "base/progress.h"
 #include "export/ink.h"
 #include "export/lines.h"

@@ -1,6 +1,7 @@
 /* Mesh files of several kinds, and files that are none, are broken, or mean harm. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "image/mesh.h"

@@ -1,9 +1,13 @@
 /* What moments are for, as the page of measured scenes says of its scene: highlights on relief that is far finer than
    a pixel are nearer with one look than with 4 x 4 samples. */
 #include "test.h"
+#include "test_session_help.h"
 
 #include "accuracy/metrics.h"
-#include "test_session_help.h"
+#include "base/error.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "render/frame.h"
 
 #define SIDE 256
 

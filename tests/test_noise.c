@@ -1,7 +1,8 @@
 /* Value, gradient and simplex noise at a point. */
 #include "test.h"
-
 #include "noise_cases.h"
+
+#include "base/error.h"
 
 #include <float.h>
 

@@ -1,6 +1,7 @@
 /* Tables filled with noise, against the same noise point by point. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/pool.h"
 #include "noise/grid.h"
 

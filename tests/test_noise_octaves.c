@@ -1,6 +1,7 @@
 /* Sums of noise: what is asked for, what is dropped, modes, slopes, warping. */
 #include "test.h"
 
+#include "base/error.h"
 #include "noise/octaves.h"
 
 static WrOctavesPlan plan_of(const WrOctaves *octaves)

@@ -1,8 +1,9 @@
 /* Heights from normal maps. */
 #include "test.h"
-
-#include "generate/normals.h"
 #include "generate_help.h"
+
+#include "base/memory.h"
+#include "generate/normals.h"
 #include "image/image.h"
 
 static const double tau = 6.283185307179586;

@@ -1,11 +1,15 @@
 /* test_normals_real.c - heights out of maps as they are met: our own exports of painted tables, and maps made by
    central differences here. What a map does not determine comes out as nothing, and flat ground stays flat. */
 #include "test.h"
-
-#include "base/memory.h"
-#include "image/image.h"
 #include "test_folder.h"
 #include "test_session_help.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "image/image.h"
 
 #define FLAT 0.45 /* of the table, from its left border: ground that nothing stands on */
 

@@ -1,7 +1,11 @@
 /* The table operations: their table, and what all of them keep to. */
 #include "test.h"
-
 #include "test_ops_tables.h"
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/progress.h"
+#include "field/field.h"
 
 #include <float.h>
 

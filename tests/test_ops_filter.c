@@ -1,7 +1,8 @@
 /* The filters of the table operations, against sums and sorts written down plainly. */
 #include "test.h"
-
 #include "test_ops_tables.h"
+
+#include "field/field.h"
 
 typedef struct Shape {
     int width, height;

@@ -1,7 +1,8 @@
 /* Resize: means, ramps, sines, and the filters' formulas. */
 #include "test.h"
-
 #include "test_ops_tables.h"
+
+#include "field/field.h"
 
 enum { BOX, LINEAR, CATMULL, LANCZOS3, FILTERS };
 

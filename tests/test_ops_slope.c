@@ -1,7 +1,8 @@
 /* The slope limit: its bound, that nothing higher (lower) keeps it, and the formula it solves. */
 #include "test.h"
-
 #include "test_ops_tables.h"
+
+#include "field/field.h"
 
 enum { BELOW, ABOVE, MEAN };
 

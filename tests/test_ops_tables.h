@@ -1,5 +1,9 @@
 /* test_ops_tables.h - tables for the tests of the table operations. */
 #pragma once
+#include "base/error.h"
+#include "base/hash.h"
+#include "field/field.h"
+#include "field/wrap.h"
 #include "base/pool.h"
 #include "field/ops.h"
 

@@ -3,9 +3,17 @@
 #include "test.h"
 #include "test_folder.h"
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "document/blend.h"
+#include "document/document.h"
 #include "document/ora.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

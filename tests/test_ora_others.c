@@ -3,8 +3,14 @@
 #include "test.h"
 #include "test_folder.h"
 
+#include "base/error.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "document/blend.h"
+#include "document/document.h"
 #include "document/ora.h"
+#include "field/field.h"
+#include "image/image.h"
 #include "image/profile.h"
 
 #include <zip.h>

@@ -1,6 +1,8 @@
 /* Pens without a tablet and without an X server: the curve, the numbers, the queue, files. */
 #include "test.h"
 
+#include "base/error.h"
+
 #include "ui/pen/pen_inner.h"
 
 #include <unistd.h>

@@ -1,8 +1,9 @@
 /* Heights from photographs. */
 #include "test.h"
+#include "generate_help.h"
 
 #include "generate/picture.h"
-#include "generate_help.h"
+#include "image/image.h"
 
 static const WrWrap ring[] = { WR_WRAP_PERIODIC, WR_WRAP_PERIODIC };
 

@@ -1,8 +1,11 @@
 /* test_plan.c - the table of effects: each runs where its row says so and nowhere else, what is said is what ran, and
    what is left out changes the picture no more than its row's proof allows. */
 #include "test.h"
-
 #include "test_render_scenes.h"
+
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #define SIDE 64
 

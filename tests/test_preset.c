@@ -1,10 +1,12 @@
 /* Brush presets: what is read, what it means, and what comes back from print. */
 #include "test.h"
 
-#include <libmypaint/mypaint-brush-settings.h>
-
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "brush/preset.h"
+
+#include <libmypaint/mypaint-brush-settings.h>
 
 static WrPreset *parse(const char *text, WrError *err)
 {

@@ -1,9 +1,11 @@
 /* Brush presets that are wrong: what is refused, and with which words. Tips beside presets. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "brush/preset.h"
 
 static WrPreset *parse(const char *text, WrError *err)

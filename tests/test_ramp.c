@@ -1,7 +1,11 @@
 /* Ramps against their closed forms; where they jump across the edges and where they do not. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/hash.h"
+#include "base/pool.h"
+#include "field/field.h"
 #include "field/ramp.h"
 
 #define W 96

@@ -1,7 +1,8 @@
 /* Journals that were left behind: listing, claims, kept files, leftovers, trials. */
 #include "test.h"
-
 #include "journal_help.h"
+
+#include "base/error.h"
 
 #include <fcntl.h>
 

@@ -3,9 +3,16 @@
    nobody was killed. WR_FULL=1 takes the full counts, else a tenth. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "brush/brush.h"
 #include "command/recovery.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "image/image.h"
 
 #include <dirent.h>
 #include <signal.h>

@@ -4,7 +4,9 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/progress.h"
+#include "command/session.h"
 #include "command/recovery.h"
 
 #include <sys/stat.h>

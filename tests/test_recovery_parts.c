@@ -1,9 +1,11 @@
 /* What comes back of a journal that is damaged, or of which a command fails; under which name a document comes
    back; and that nothing is removed before all of it is safe. WR_FULL=1 takes the full counts, else a tenth. */
 #include "test.h"
-
-#include "command/recovery.h"
 #include "journal_help.h"
+
+#include "base/error.h"
+#include "command/recovery.h"
+#include "command/session.h"
 
 static char *folder; /* for journals and documents; of each test its own */
 

@@ -1,9 +1,15 @@
 /* The reference against closed forms, against the meaning of its parts, and against the fast path. */
 #include "test.h"
+#include "test_render_scenes.h"
 
+#include "base/error.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "image/image.h"
 #include "render/reference.h"
 #include "render/reference_shade.h"
-#include "test_render_scenes.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 static WrReference render(const WrScene *scene, const WrField *field, int w, int h, int first,
                           int most)

@@ -1,9 +1,15 @@
 /* The reference's own table, normal, probe and maps. */
 #include "test.h"
+#include "test_render_scenes.h"
 
+#include "base/memory.h"
+#include "base/error.h"
+#include "field/analytic.h"
+#include "field/field.h"
 #include "render/reference.h"
 #include "render/reference_shade.h"
-#include "test_render_scenes.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
 
 /* A scene whose F is the table itself. */
 static WrScene *plain_scene(void)

@@ -1,10 +1,17 @@
 /* The reference and the fast path at its most exact, two programs that share no kernel, show the same
    pictures: every surface, and each thing that a scene may hold. */
 #include "test.h"
+#include "test_render_scenes.h"
 
+#include "base/memory.h"
+#include "base/error.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "image/image.h"
 #include "render/reference.h"
 #include "render/reference_view.h"
-#include "test_render_scenes.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 #define SIZE 120
 

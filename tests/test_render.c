@@ -2,8 +2,11 @@
    surface, then the paper's formulas from shade/bump.h. And what must not depend on anything: threads,
    instruction sets, what was rendered before. */
 #include "test.h"
-
 #include "test_render_scenes.h"
+
+#include "field/field.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
 
 /* ---- the independent renderer ------------------------------------------------------------------- */
 

@@ -1,7 +1,9 @@
 /* test_render_adaptive.c - jittered and adaptive sampling, and the bound that one of its rules keeps. */
 #include "test.h"
-
 #include "test_render_scenes.h"
+
+#include "field/field.h"
+#include "scene/scene.h"
 
 #define SIDE 80
 

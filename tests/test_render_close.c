@@ -1,10 +1,13 @@
 /* The renderer close by: the cone's tip, pictures of a millionth of the object, eyes a millionth of it away,
    ground under one's feet. Objects of 1e-6 to 1e6 units, exact and fast arithmetic, every surface. */
 #include "test.h"
-
-#include "render/reference.h"
-
 #include "test_render_scenes.h"
+
+#include "base/error.h"
+#include "field/field.h"
+#include "render/reference.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 enum { SIZE = 48, PIXELS = SIZE * SIZE };
 

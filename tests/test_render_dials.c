@@ -1,10 +1,15 @@
 /* test_render_dials.c - every rung of every dial on hard scenes: finite, unit, the same on any threads and
    instruction set; the mask of blocks and the normals of a request; storage and visibility dials. */
 #include "test.h"
+#include "test_render_scenes.h"
 
+#include "base/memory.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "field/field.h"
 #include "render/kern.h"
 #include "render/rounded.h"
-#include "test_render_scenes.h"
+#include "scene/scene.h"
 
 #define SIDE 72
 

@@ -1,9 +1,11 @@
 /* test_render_double.c - the pictures of double precision against those of single: every scheme, normal mode,
    surface and filter, on tables of random heights that no sum f(u) + g(v) can stand for. */
 #include "test.h"
-
-#include "surface/surface.h"
 #include "test_render_scenes.h"
+
+#include "field/field.h"
+#include "scene/scene.h"
+#include "surface/surface.h"
 
 /* Even: the middle of an odd picture looks at the middle of an odd table, a texel's centre to the last bit,
    where bilinear slopes have a crease. */

@@ -1,10 +1,15 @@
 /* test_render_filter.c - pyramids of slopes, footprints, filtered pictures, highlights widened by moments. */
 #include "test.h"
+#include "test_render_scenes.h"
 
+#include "base/memory.h"
+#include "base/error.h"
+#include "field/field.h"
 #include "render/kern.h"
 #include "render/pyramid.h"
 #include "render/view.h"
-#include "test_render_scenes.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
 
 static WrField *random_field(int w, int h, uint64_t seed)
 {

@@ -1,8 +1,13 @@
 /* The renderer where it is hard: near planes, insides, edges, tiny patches, seams, backs, odd sizes,
    values that are no numbers, scales of twenty decades, poles. */
 #include "test.h"
-
 #include "test_render_scenes.h"
+
+#include "base/error.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 static double mean_coverage(const Shot *shot)
 {

@@ -1,6 +1,10 @@
 /* test_render_scenes.h - scenes, pictures of them and comparisons, for the tests of the renderer.
    After test.h. */
 #pragma once
+#include "base/error.h"
+#include "field/field.h"
+#include "field/wrap.h"
+#include "scene/scene.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/pool.h"

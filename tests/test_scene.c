@@ -1,9 +1,12 @@
 /* Scenes: ownership, where things stand, and F with its factors. */
 #include "test.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "scene/scene.h"
+#include "base/vec.h"
 
 static double between(TestRandom *random, double low, double high)
 {

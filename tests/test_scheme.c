@@ -2,6 +2,7 @@
 #include "test.h"
 
 #include "base/memory.h"
+#include "field/field.h"
 #include "field/scheme.h"
 
 #include <float.h>

@@ -1,6 +1,8 @@
 /* Selections by height and slope, their combination, growing, shrinking and feathering. */
 #include "select_help.h"
 
+#include "base/pool.h"
+
 static WrField *noise(int width, int height, WrWrap wrap_u, WrWrap wrap_v, double low, double high,
                       uint64_t seed)
 {

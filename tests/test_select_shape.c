@@ -1,6 +1,8 @@
 /* Rectangles, ellipses and lassos: how much of each texel they cover, round all the edges. */
 #include "select_help.h"
 
+#include "base/pool.h"
+
 static WrField *rectangle(const WrField *like, double x0, double y0, double x1, double y1)
 {
     WrError err;

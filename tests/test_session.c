@@ -2,8 +2,15 @@
 #include "test.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "brush/brush.h"
 #include "command/call.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "scene/scene.h"
 
 static const WrField *field_of(const WrSession *session)
 {

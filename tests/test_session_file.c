@@ -2,11 +2,17 @@
 #include "test.h"
 #include "test_session_help.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "field/field.h"
 #include "image/image.h"
+#include "scene/scene.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,5 +1,8 @@
 /* test_session_help.h - running command lines that must succeed or fail. After test.h. */
 #pragma once
+#include "base/error.h"
+#include "document/document.h"
+#include "field/field.h"
 #include "command/session.h"
 
 static inline void must_run(WrSession *session, const char *line)

@@ -4,6 +4,7 @@
 
 #include "base/exactmath.h"
 #include "base/progress.h"
+#include "command/session.h"
 
 static double sum_of(const WrSession *s)
 {

@@ -8,6 +8,10 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "brush/brush.h"
+#include "command/session.h"
+
 #include "ui/canvas/outline.h"
 #include "ui/preview/preview.h"
 #include "ui/jobs/trial.h"

@@ -1,9 +1,10 @@
 /* The family of solids: where they stand, how high they come out, and what is refused. */
 #include "test.h"
+#include "generate_help.h"
 
 #include "base/clock.h"
+#include "base/pool.h"
 #include "generate/zbuffer.h"
-#include "generate_help.h"
 #include "surface/surface.h"
 
 #include <unistd.h>

@@ -1,7 +1,9 @@
 /* Surfaces: derivatives against finite differences, orientation, both precisions, ranges. */
 #include "test.h"
-
 #include "test_surface_points.h"
+
+#include "base/error.h"
+#include "base/vec.h"
 
 static double between(TestRandom *random, double low, double high)
 {

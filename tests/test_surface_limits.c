@@ -1,7 +1,9 @@
 /* Surfaces where N = 0 or nearly so: poles, tips, collapsed edges. */
 #include "test.h"
-
 #include "test_surface_points.h"
+
+#include "base/error.h"
+#include "base/vec.h"
 
 static void hc01_sphere_poles_are_exact_in_both_precisions(void **state)
 {

@@ -1,10 +1,12 @@
 /* Text in relief: against areas and distances worked out here from the outlines, and what must not change
    when a table is rolled. */
 #include "test.h"
+#include "generate_help.h"
 
 #include "base/exactmath.h"
+#include "base/pool.h"
+#include "base/progress.h"
 #include "generate/text.h"
-#include "generate_help.h"
 #include "image/font.h"
 
 #include <ft2build.h>

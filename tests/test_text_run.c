@@ -1,8 +1,9 @@
 /* The verb `text`: what a line of it does to a document, and what is kept of it. */
 #include "test.h"
+#include "test_session_help.h"
 
 #include "base/memory.h"
-#include "test_session_help.h"
+#include "command/session.h"
 
 #define SANS_FILE "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 

@@ -1,11 +1,16 @@
 /* What a tolerance chooses: it holds on the whole picture, it says when it cannot, its frame is what its
    settings give. */
 #include "test.h"
+#include "test_session_help.h"
 
 #include "accuracy/metrics.h"
 #include "accuracy/tolerance.h"
 #include "base/memory.h"
-#include "test_session_help.h"
+#include "base/pool.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "render/frame.h"
+#include "scene/scene.h"
 
 #include <stdlib.h>
 #include <unistd.h>

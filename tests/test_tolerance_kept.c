@@ -1,11 +1,15 @@
 /* The dials that a tolerance chose are written down with the document: the same picture again, and nothing chosen
    anew; of use only for what they were chosen for; damaged ones are refused. */
 #include "test.h"
+#include "test_session_help.h"
 
 #include "accuracy/tolerance.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "test_session_help.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "render/frame.h"
+#include "scene/scene.h"
 
 #include <unistd.h>
 

@@ -3,8 +3,12 @@
 #include "test.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
 #include "command/session.h"
+#include "document/document.h"
+#include "field/field.h"
+
 #include "ui/canvas/outline.h"
 #include "ui/jobs/trial.h"
 

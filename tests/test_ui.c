@@ -1,6 +1,10 @@
 /* The window's geometry, keys, settings and filtered cells: all that can be tested without a window. */
 #include "test.h"
 
+#include "base/error.h"
+#include "base/text.h"
+#include "base/vec.h"
+
 #include "ui/canvas/canvas_cells.h"
 #include "ui/desk/keys.h"
 #include "ui/desk/layout.h"

@@ -1,7 +1,10 @@
 /* A brush as a command's arguments: the line means the brush again. */
 #include "test.h"
 
+#include "base/error.h"
+#include "base/text.h"
 #include "command/inner.h"
+
 #include "ui/tools/brush_line.h"
 
 static char *line_of(const WrBrush *brush, const WrBrushNames *names)

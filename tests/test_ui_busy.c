@@ -2,14 +2,17 @@
    will not. Without a display; the long work is the test's own, and ends when the test has seen what it waits
    for. */
 #include "test.h"
-
-#include "base/clock.h"
-#include "base/file.h"
-#include "base/memory.h"
-#include "base/progress.h"
-#include "command/inner.h"
 #include "test_folder.h"
 #include "test_window.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "command/inner.h"
+
 #include "ui/app/loop.h"
 #include "ui/app/store.h"
 #include "ui/desk/app_options.h"

@@ -2,11 +2,14 @@
    checked is only that each ends as cancelled, and leaves the document as it was. WR_FULL=1: a
    table of 4096, three times each. */
 #include "test.h"
-
-#include "base/clock.h"
-#include "base/memory.h"
 #include "test_folder.h"
 #include "test_window.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+
 #include "ui/app/loop.h"
 #include "ui/app/store.h"
 #include "ui/desk/messages.h"

@@ -2,6 +2,11 @@
    is measured. */
 #include "test.h"
 
+#include "base/error.h"
+#include "base/pool.h"
+#include "document/document.h"
+#include "field/field.h"
+
 #include "ui/app/app.h"
 
 static WrSession *session_of(WrPool *pool)

@@ -2,7 +2,9 @@
 #include "test.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+
 #include "ui/app/store.h"
 #include "ui/desk/messages.h"
 #include "ui/preview/preview.h"

@@ -3,8 +3,13 @@
 #include "test.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "field/field.h"
+
 #include "ui/canvas/ants.h"
 #include "ui/canvas/canvas_range.h"
 #include "ui/gui/gui_icons.h"

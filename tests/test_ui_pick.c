@@ -1,7 +1,13 @@
 /* Painting on the patch: from a pixel to (u,v) and back. */
 #include "test.h"
 
+#include "base/error.h"
+#include "base/pool.h"
+#include "field/field.h"
 #include "render/frame.h"
+#include "scene/scene.h"
+#include "base/vec.h"
+
 #include "ui/preview/patch_pick.h"
 
 #include <math.h>

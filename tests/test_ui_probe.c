@@ -3,6 +3,11 @@
 
 #include "accuracy/tolerance.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/field.h"
+#include "scene/scene.h"
+
 #include "ui/preview/accuracy_choice.h"
 #include "ui/accuracy/accuracy_probe.h"
 

@@ -6,9 +6,11 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "command/session.h"
 #include "command/recovery.h"
 #include "command/table.h"
 #include "document/views.h"
+#include "scene/scene.h"
 
 #include <glob.h>
 #include <sys/stat.h>

@@ -1,7 +1,8 @@
 /* The depth buffer against square roots, marching along rays, and areas. */
 #include "test.h"
-
 #include "generate_help.h"
+
+#include "base/pool.h"
 #include "generate/zbuffer.h"
 
 static const double upright[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };

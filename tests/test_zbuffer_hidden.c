@@ -2,6 +2,9 @@
    drawn, so that no machine is too slow for the test. */
 #include "test.h"
 
+#include "base/error.h"
+#include "base/hash.h"
+#include "field/field.h"
 #include "generate/zbuffer.h"
 
 #include <string.h>

@@ -1,6 +1,7 @@
 /* Bodies cut out along outlines, against their definition and marching along rays. */
 #include "test.h"
 
+#include "base/error.h"
 #include "generate/zbuffer_letters.h"
 
 static double implicit_plate(double depth, double bevel, WrZBevel kind, const double q[3])

@@ -2,7 +2,13 @@
 #include "accuracy/ladder_inner.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,9 +3,17 @@
    Layer 6. */
 #pragma once
 #include "accuracy/metrics.h"
-#include "base/progress.h"
-#include "render/frame.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "scene/dials.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrField WrField;
+typedef struct WrProgress WrProgress;
+typedef struct WrScene WrScene;
+typedef struct WrText WrText;
 
 #define WR_SETTING_DIALS 6
 #define WR_LADDER_RUNS 9 /* timed runs of a setting, at least */

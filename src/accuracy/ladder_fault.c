@@ -2,6 +2,7 @@
    an approximation's price, it is a fault of the program, and it is told as one. */
 #include "accuracy/ladder_inner.h"
 #include "base/rows.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

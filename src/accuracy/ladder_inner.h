@@ -2,8 +2,11 @@
    Layer 6, private to the room. */
 #pragma once
 #include "accuracy/ladder.h"
+#include "render/frame.h"
 
 #include <sched.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 typedef struct WrBench {
     const WrLadderRequest *request;

@@ -1,6 +1,8 @@
 /* Which settings the ladder tries. */
 #include "accuracy/ladder.h"
 
+#include "scene/scene.h"
+
 #include <math.h>
 
 typedef struct RungList {

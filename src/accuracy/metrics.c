@@ -1,10 +1,11 @@
 #include "accuracy/metrics.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/memory.h"
 #include "render/frame.h"
+#include "shade/bump.h"
+
+#include <math.h>
+#include <string.h>
 
 /* The sum of `count` values, in pairs; they are used up. */
 static double pair_sum(double *values, int64_t count)

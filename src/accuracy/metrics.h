@@ -3,6 +3,8 @@
 #pragma once
 #include "render/reference.h"
 
+#include <stdint.h>
+
 typedef struct WrErrors {
     int64_t pixels; /* of the picture */
     int64_t

@@ -1,6 +1,7 @@
 /* Error against time as a picture: gnuplot draws it. */
 #include "accuracy/report.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "image/image.h"

@@ -3,6 +3,8 @@
 #pragma once
 #include "accuracy/ladder.h"
 
+#include <stdbool.h>
+
 /* A table, one line a rung, the reference and the paper's claim under it. name: of the document; "" for
    none. Times in ms, errors in linear intensity, angles in degrees. */
 void wr_report_text(const WrLadder *ladder, const char *name, WrText *text);

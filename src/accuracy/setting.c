@@ -1,6 +1,8 @@
 /* Settings of the dials: what differs from a scene, as a scene and as text. */
 #include "accuracy/ladder.h"
 
+#include "scene/scene.h"
+
 WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene)
 {
     WrScene *out = wr_scene_clone(scene);

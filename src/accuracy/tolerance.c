@@ -1,9 +1,11 @@
 /* A tolerance: blocks climb until it holds. */
 #include "accuracy/tolerance.h"
-#include "accuracy/tolerance_inner.h"
 
+#include "accuracy/tolerance_inner.h"
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 
 #include <math.h>
 

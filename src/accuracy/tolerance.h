@@ -29,7 +29,18 @@
    an outline can hide. */
 #pragma once
 #include "base/hash.h"
-#include "render/frame.h"
+#include "render/plan.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrPlan WrPlan;
+typedef struct WrError WrError;
+typedef struct WrFrame WrFrame;
+typedef struct WrFrameRequest WrFrameRequest;
+typedef struct WrRenderer WrRenderer;
+typedef struct WrScene WrScene;
+typedef struct WrText WrText;
 
 /* Blocks that have the same setting. */
 typedef struct WrChoicePart {

@@ -2,6 +2,7 @@
 #include "accuracy/tolerance_inner.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <math.h>

@@ -1,8 +1,11 @@
 /* What was chosen: its parts, its picture, its words. */
 #include "accuracy/tolerance_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "base/text.h"
+#include "field/field.h"
 
 #include <string.h>
 

@@ -2,6 +2,7 @@
    levels agree on the same wrong thing. */
 #include "accuracy/tolerance_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <math.h>

@@ -6,6 +6,12 @@
    to the next changes tells what both are off, since errors fall by a known order. */
 #pragma once
 #include "accuracy/tolerance.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #define LEVELS 5
 #define TOP (LEVELS - 1)

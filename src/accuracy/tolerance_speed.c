@@ -3,8 +3,11 @@
 
 #include "base/clock.h"
 #include "base/cpu.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
    does not do: most of a calm picture is never rendered a second time. */
 #include "accuracy/tolerance_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <math.h>

@@ -4,7 +4,10 @@
    of them follow each other. */
 #include "accuracy/tolerance_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,9 @@
 #include "accuracy/tolerance_inner.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <string.h>

@@ -9,6 +9,8 @@
 #pragma once
 #include "base/memory.h"
 
+#include <stddef.h>
+
 #define WR_ARRAY(type)                                                                             \
     struct {                                                                                       \
         type *data;   /* owned; NULL while empty */                                                \

@@ -1,6 +1,9 @@
 #include "base/file.h"
+
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/stamp.h"
+#include "base/text.h"
 
 #include <ctype.h>
 #include <errno.h>

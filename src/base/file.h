@@ -1,7 +1,12 @@
 /* file.h - whole files in, and files out that are there whole or not at all.
    Layer 0. */
 #pragma once
-#include "base/text.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrText WrText;
 
 /* ---- files that somebody else names: people, scripts, other files ---- */
 

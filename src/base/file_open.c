@@ -1,6 +1,8 @@
 /* The one door to files that somebody else names. */
 #include "base/file.h"
 
+#include "base/error.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>

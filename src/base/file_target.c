@@ -1,7 +1,9 @@
 /* Files that take the place of others: there whole or not at all. Everything that the program writes goes
    through here. */
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <ctype.h>
 #include <dirent.h>

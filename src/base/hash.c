@@ -1,7 +1,8 @@
 #include "base/hash.h"
-#include "base/progress.h"
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/progress.h"
 
 #include <errno.h>
 #include <sha256.h>

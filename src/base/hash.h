@@ -2,10 +2,11 @@
    read, and integer mixing for random choices.
    Layer 0. */
 #pragma once
-#include "base/error.h"
-
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 typedef struct WrHash {
     uint64_t low, high;

@@ -2,9 +2,9 @@
    Small things abort with a message when memory is gone; things sized by the user report.
    Layer 0. */
 #pragma once
-#include "base/error.h"
-
 #include <stddef.h>
+
+typedef struct WrError WrError;
 
 #define WR_ALIGN 64 /* bytes; every block starts on a cache line */
 

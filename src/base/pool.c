@@ -1,4 +1,5 @@
 #include "base/pool.h"
+
 #include "base/memory.h"
 #include "base/progress.h"
 

@@ -1,10 +1,13 @@
 #include "base/text.h"
+
 #include "base/memory.h"
 
 #include <ctype.h>
 #include <locale.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 void wr_text_fini(WrText *text)

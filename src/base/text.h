@@ -1,8 +1,7 @@
 /* text.h - growing text, and numbers as text without a locale.
    Layer 0. */
 #pragma once
-#include "base/error.h"
-
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 

@@ -1,8 +1,12 @@
-#include <stdalign.h>
-
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
 #include "brush/make.h"
 #include "brush/paint.h"
+#include "field/field.h"
+
+#include <stdalign.h>
 
 WrBrush wr_brush_default(void)
 {

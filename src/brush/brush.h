@@ -30,9 +30,16 @@
    (HC69, HC70, HC73). Off the ends of a clamped axis there is nothing to paint; a dab may be centred
    there. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
 #include "brush/symmetry.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrModeWork WrModeWork;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
 
 typedef enum WrBrushMode {
     /* covering */

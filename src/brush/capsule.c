@@ -1,5 +1,7 @@
 #include "brush/capsule.h"
 
+#include "brush/brush.h"
+
 #include <math.h>
 
 #define SLACK 1e-3 /* texels by which spans are too wide: above all rounding, below all cost */

@@ -2,7 +2,9 @@
    Layer 2, inside this room. In texel coordinates: x to the right, y down, texel (i, j)'s centre at
    x = i, y = j; not wrapped. */
 #pragma once
-#include "brush/brush.h"
+#include <stdbool.h>
+
+typedef struct WrBrush WrBrush;
 
 typedef struct WrCapsule {
     double x, y;             /* where the motion starts */

@@ -1,7 +1,9 @@
-#include <math.h>
-
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "brush/symmetry.h"
+#include "field/field.h"
+
+#include <math.h>
 
 const char *const wr_mirror_names[] = { "none", "u", "v", "uv", NULL };
 

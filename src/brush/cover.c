@@ -1,10 +1,12 @@
 #include "brush/cover.h"
 
-#include <math.h>
-#include <stdalign.h>
-
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+
+#include <math.h>
+#include <stdalign.h>
 
 #define MANY_PAGES 64 /* worth several threads */
 #define FEW_PAGES 8   /* between two looks at the clock */

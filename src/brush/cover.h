@@ -7,6 +7,8 @@
 #include "brush/make.h"
 #include "brush/scan.h"
 
+#include <stdbool.h>
+
 typedef enum WrCoverRule {
     WR_COVER_MAX,
     WR_COVER_OVER, /* 1 - (1 - A) (1 - a) */

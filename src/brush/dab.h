@@ -2,7 +2,7 @@
    Layer 2, inside this room. Texel coordinates as in capsule.h: texel (i, j) has its centre at x = i,
    y = j, y down; not wrapped. */
 #pragma once
-#include "brush/brush.h"
+#include <stdbool.h>
 
 typedef enum WrFalloff {
     WR_FALLOFF_ROUND,  /* brush.h */

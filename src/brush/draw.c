@@ -1,9 +1,10 @@
 #include "brush/draw.h"
 
-#include <math.h>
-
 #include "base/memory.h"
 #include "brush/preset.h"
+#include "field/field.h"
+
+#include <math.h>
 
 bool wr_draw_by_motions(const WrBrush *b)
 {

@@ -4,6 +4,8 @@
 #include "brush/cover.h"
 #include "brush/move.h"
 
+#include <stdbool.h>
+
 typedef struct WrDraw {
     WrCover cover; /* its maker knows ground and brush */
     WrMover mover;

@@ -22,6 +22,8 @@
 #include "brush/dab.h"
 #include "brush/preset.h"
 
+#include <stdbool.h>
+
 #define WR_ENGINE_STEP 0.00390625 /* seconds: 1/256, exact in binary */
 #define WR_ENGINE_SPEED 400.0     /* texels a second */
 #define WR_ENGINE_REST 1.0        /* seconds */

@@ -3,6 +3,8 @@
    Layer 2, inside this room. */
 #pragma once
 #include <libmypaint/mypaint-brush.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 #include "base/array.h"
 #include "brush/engine.h"

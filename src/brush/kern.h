@@ -4,6 +4,9 @@
    remainders would cost more than they. */
 #pragma once
 #include "brush/capsule.h"
+#include "field/wrap.h"
+
+#include <stdbool.h>
 
 #define WR_BRUSH_BLOCK 16    /* texels */
 #define WR_BRUSH_STRONG 1e30 /* table units */

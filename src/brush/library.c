@@ -1,13 +1,15 @@
 #include "brush/library.h"
 
+#include "base/array.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-#include "base/array.h"
-#include "base/file.h"
 
 #define DEEP 3        /* folders inside one another */
 #define MANY 20000    /* presets in all */

@@ -1,9 +1,10 @@
 #include "brush/make.h"
 
+#include "base/memory.h"
+#include "field/field.h"
+
 #include <math.h>
 #include <stdalign.h>
-
-#include "base/memory.h"
 
 void wr_maker_init(WrMaker *maker, const WrBrushGround *ground, const WrBrush *brush)
 {

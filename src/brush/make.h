@@ -3,6 +3,8 @@
 #pragma once
 #include "brush/target.h"
 
+#include <stdbool.h>
+
 typedef struct WrMaker {
     WrBrushGround ground; /* borrowed */
     WrBrush brush;        /* sane */

@@ -1,7 +1,10 @@
 /* mode.h - what the modes do to heights. A new mode is one function and one row of wr_brush_modes.
    Layer 2, inside this room. */
 #pragma once
+#include "brush/brush.h"
 #include "brush/kern.h"
+
+#include <stdbool.h>
 
 /* Where a covering mode's `target` comes from; of the table as it was when the stroke began. */
 typedef enum WrTargetKind {

@@ -1,9 +1,10 @@
 #include "brush/move.h"
 
+#include "base/memory.h"
+#include "field/field.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/memory.h"
 
 void wr_mover_fini(WrMover *mover)
 {

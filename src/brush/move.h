@@ -5,6 +5,9 @@
 #pragma once
 #include "brush/cover.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 typedef struct WrMoveBox {
     int width, height, pitch; /* texels; pitch: floats a row, whole blocks */
     bool wraps_x, wraps_y;    /* the box is the table's whole period: its sides meet */

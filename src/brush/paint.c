@@ -1,11 +1,12 @@
 #include "brush/paint.h"
 
+#include "base/memory.h"
+#include "brush/draw.h"
+#include "field/field.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdalign.h>
-
-#include "base/memory.h"
-#include "brush/draw.h"
 
 #define FAR_OFF 4e9 /* texels; beyond the largest radius from any table */
 #define ASPECT_MAX 1000.0

@@ -3,6 +3,8 @@
 #pragma once
 #include "brush/shape.h"
 
+#include <stdbool.h>
+
 /* The brush with every value in its range: NaN becomes 0, what is too large the largest; spacing and reach
  * get their modes' own where they are 0. */
 WrBrush wr_brush_sane(const WrBrush *brush);

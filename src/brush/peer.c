@@ -1,15 +1,17 @@
 #include "brush/peer.h"
 
-#include <libmypaint/mypaint-brush.h>
-#include <libmypaint/mypaint-fixed-tiled-surface.h>
-#include <math.h>
-#include <string.h>
-
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "brush/engine.h"
 #include "brush/preset.h"
+#include "field/field.h"
+
+#include <libmypaint/mypaint-brush.h>
+#include <libmypaint/mypaint-fixed-tiled-surface.h>
+#include <math.h>
+#include <string.h>
 
 #define STEP 16.0     /* texels between events */
 #define SECONDS 0.008 /* between events */

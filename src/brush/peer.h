@@ -4,7 +4,9 @@
    MyPaintFixedTiledSurface (16-bit RGBA), by our engine into our tiles, and as plain round dabs of ours at
    the same distance. All on one thread, pages touched once before. */
 #pragma once
-#include "brush/brush.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
 
 typedef struct WrBrushPace {
     double radius;                          /* texels */

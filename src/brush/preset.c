@@ -1,8 +1,9 @@
-#include <math.h>
-#include <string.h>
-
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "brush/preset_inner.h"
+
+#include <math.h>
+#include <string.h>
 
 #define LN2 0.69314718055994530942
 

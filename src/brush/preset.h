@@ -16,8 +16,15 @@
    beyond e^-2 .. e^6). A tip lies beside the preset, by a plain name; its hash is in the preset, so that
    the preset's own hash stands for both. */
 #pragma once
-#include "base/text.h"
 #include "brush/brush.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+typedef struct WrPreset WrPreset;
+typedef struct WrText WrText;
+typedef struct WrTip WrTip;
 
 #define WR_PRESET_BYTES 1048576 /* of a file, at most */
 

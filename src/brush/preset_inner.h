@@ -2,6 +2,7 @@
    Layer 2, inside this room. Settings and inputs go by libmypaint's own numbers. */
 #pragma once
 #include <libmypaint/mypaint-brush-settings.h>
+#include <stdbool.h>
 
 #include "base/array.h"
 #include "brush/preset.h"

@@ -1,12 +1,14 @@
 /* A preset's file, read by json-c and checked member by member. What other programs may have written that
    this one does not know (settings, inputs) is passed over and counted; what is known must be right. */
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/text.h"
+#include "brush/preset_inner.h"
+
 #include <json-c/json.h>
 #include <math.h>
 #include <string.h>
-
-#include "base/file.h"
-#include "base/hash.h"
-#include "brush/preset_inner.h"
 
 #define DEPTH 16  /* of nested objects and lists; a preset needs 7 */
 #define FAR 1e9   /* x of a curve's points, at most */

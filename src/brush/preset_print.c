@@ -1,9 +1,11 @@
 /* A preset as text, and presets made from others. */
+#include "base/error.h"
+#include "base/exactmath.h"
+#include "base/text.h"
+#include "brush/preset_inner.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/exactmath.h"
-#include "brush/preset_inner.h"
 
 #define LN2 0.69314718055994530942
 

@@ -1,8 +1,10 @@
 #include "brush/scan.h"
 
-#include <math.h>
-
 #include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+
+#include <math.h>
 
 #define SMALL 12.0    /* texels: below this reach all rows get one span, which costs less */
 #define MANY_TILES 12 /* in a row of tiles, worth several threads */

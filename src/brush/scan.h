@@ -2,6 +2,9 @@
    Layer 2, inside this room. */
 #pragma once
 #include "brush/shape.h"
+#include "field/wrap.h"
+
+#include <stdbool.h>
 
 /* A run of texels of one row of a tile, widened to whole blocks. Where the brush is as large as the
  * table the texels at its ends, and at the table's edge those beyond, must get no coverage. */

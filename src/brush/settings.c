@@ -3,6 +3,8 @@
    (hardness: at 0 the whole dab is edge). */
 #include "brush/preset_inner.h"
 
+#include "base/error.h"
+
 #include <string.h>
 
 static const WrSettingInfo settings[MYPAINT_BRUSH_SETTINGS_COUNT] = {

@@ -1,8 +1,9 @@
 #include "brush/shape.h"
 
-#include <math.h>
-
 #include "base/exactmath.h"
+#include "field/field.h"
+
+#include <math.h>
 
 #define SLACK 1e-3 /* texels, as in capsule.c */
 

@@ -1,9 +1,12 @@
 /* shape.h - the footprint of one dab or motion: which texels it reaches and how strongly.
    Layer 2, inside this room. Texel coordinates as in capsule.h. */
 #pragma once
+#include "brush/brush.h"
 #include "brush/dab.h"
 #include "brush/kern.h"
 #include "brush/tip.h"
+
+#include <stdbool.h>
 
 /* A brush of at most this radius paints single texels; a little over sqrt(1/2). */
 #define WR_THIN 0.70711

@@ -1,9 +1,10 @@
 #include "brush/spaced.h"
 
-#include <math.h>
-
 #include "base/exactmath.h"
 #include "brush/tip.h"
+#include "field/field.h"
+
+#include <math.h>
 
 #define LEAST_STEP 0.25 /* texels */
 #define NEARLY 1e-6     /* texels: a dab that far beyond the path's end is on it */

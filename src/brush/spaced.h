@@ -3,7 +3,11 @@
    Dab k + 1 lies `spacing` radii of dab k farther along the path's length; so how the path was cut into
    samples changes places by rounding only. What is random goes by the seed and the dab's number. */
 #pragma once
+#include "brush/brush.h"
 #include "brush/dab.h"
+
+#include <stdbool.h>
+#include <stdint.h>
 
 typedef struct WrSpaced {
     const WrBrush *brush; /* sane; borrowed */

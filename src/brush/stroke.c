@@ -1,11 +1,12 @@
-#include <math.h>
-
 #include "base/clock.h"
 #include "base/memory.h"
 #include "brush/draw.h"
 #include "brush/engine.h"
 #include "brush/paint.h"
 #include "brush/spaced.h"
+#include "field/field.h"
+
+#include <math.h>
 
 #define ON_THE_WAY 0.25             /* texels */
 #define SAME_PRESSURE (1.0 / 128.0) /* pressures closer than this are not told apart */

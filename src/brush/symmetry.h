@@ -10,7 +10,10 @@
    With M stagger a whole number the repeat is a lattice that closes round the periodic cell; others are
    refused. Every lattice that contains the cell's own is one of these, but for exchanging u and v. */
 #pragma once
-#include "field/field.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
 
 #define WR_COPIES_MAX 4096 /* of a stroke */
 

@@ -1,10 +1,11 @@
 #include "brush/target.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/memory.h"
 #include "brush/scan.h"
+#include "field/field.h"
+
+#include <math.h>
+#include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
 

@@ -1,5 +1,6 @@
 #include "brush/tip_inner.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 

@@ -6,11 +6,11 @@
    beside them not at all (tip_smooth.c). Each cell has a pyramid of halves for small sizes, which keep its
    mean. */
 #pragma once
-#include "base/error.h"
-
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 #define WR_TIP_SIDE 8192          /* pixels along a cell's side, at most */
 #define WR_TIP_CELLS 1024         /* pictures of a .gih, at most */

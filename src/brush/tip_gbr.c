@@ -3,6 +3,7 @@
    cent of the width; then the name and a NUL to the header's end, then the pixels, the top row first. */
 #include "brush/tip_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <string.h>

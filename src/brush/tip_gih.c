@@ -4,6 +4,7 @@
    number do, rank 0 first. */
 #include "brush/tip_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 

@@ -3,6 +3,10 @@
 #pragma once
 #include "brush/tip.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #define WR_TIP_LEVELS 14 /* 8192 .. 1 */
 #define WR_TIP_RANKS 4   /* of a .gih, at most */
 

@@ -1,5 +1,6 @@
 #include "brush/tip_inner.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "image/image.h"

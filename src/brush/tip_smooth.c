@@ -11,6 +11,7 @@
    an edge: what is black beside one stays exactly black. */
 #include "brush/tip_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <math.h>

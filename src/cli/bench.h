@@ -2,7 +2,14 @@
    Layer 7. Figures are medians of interleaved runs, so that a drift of the machine hits all alike. */
 #pragma once
 #include "cli/cli.h"
-#include "render/frame.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrScene WrScene;
+typedef struct WrText WrText;
 
 typedef enum WrBenchMode {
     WR_BENCH_PHONG, /* smooth */

@@ -1,7 +1,11 @@
 /* Dabs: ours, round and by the engine, beside libmypaint's own surface with the same brush and motion. */
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "brush/peer.h"
 #include "cli/bench.h"
+
+#include <math.h>
 
 #define ROUNDS_MAX 15
 

@@ -1,8 +1,12 @@
 /* Documents: what an edit and its undo take, and saving and loading. */
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
 #include "cli/bench.h"
+#include "command/session.h"
+#include "document/document.h"
 #include "document/document_file.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <unistd.h>

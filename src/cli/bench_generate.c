@@ -4,9 +4,14 @@
  * Ours is the time of the command in a running program, the composite brought up to date. A peer's is that
  * of its whole process less that of the same process that only loads the picture and saves it again. */
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "cli/bench.h"
+#include "command/session.h"
+#include "document/document.h"
 #include "image/image.h"
 
 #include <math.h>

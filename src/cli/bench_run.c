@@ -1,6 +1,13 @@
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "brush/brush.h"
 #include "cli/bench.h"
+#include "command/session.h"
+#include "field/field.h"
+#include "render/frame.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

@@ -1,6 +1,14 @@
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/hash.h"
 #include "base/rows.h"
 #include "cli/bench.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/dials.h"
+#include "scene/scene.h"
+#include "shade/bump_mode.h"
+#include "surface/surface.h"
 
 #include <math.h>
 #include <string.h>

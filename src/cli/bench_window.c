@@ -1,6 +1,9 @@
 /* The window: how soon a motion of the pen is seen. */
 #include "cli/bench.h"
 
+#include "base/error.h"
+#include "base/text.h"
+
 #ifdef WR_HAVE_UI
 #include "ui/app/app.h"
 

@@ -1,9 +1,13 @@
 #include "cli/brush_sample.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "command/session.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "render/frame.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

@@ -11,6 +11,9 @@
 #include "brush/preset.h"
 #include "cli/cli.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #define WR_SAMPLE_W 256 /* texels of the table */
 #define WR_SAMPLE_H 192
 

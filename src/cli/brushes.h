@@ -4,6 +4,8 @@
 #include "brush/library.h"
 #include "cli/cli.h"
 
+#include <stdbool.h>
+
 typedef struct WrBrushList {
     WrLibrary *library;          /* owned */
     const WrPresetEntry **entry; /* [count], borrowed from the library; the array is owned */

@@ -1,9 +1,10 @@
 /* Contact sheets and thumbnails: samples of many presets. */
-#include "cli/brush_sample.h"
-#include "cli/brushes.h"
-
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "cli/brush_sample.h"
+#include "cli/brushes.h"
 #include "image/image.h"
 #include "image/label.h"
 

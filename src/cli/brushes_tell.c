@@ -1,6 +1,7 @@
 /* One preset in words. */
 #include "cli/brushes.h"
 
+#include "base/text.h"
 #include "brush/tip.h"
 
 #include <string.h>

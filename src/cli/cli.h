@@ -5,9 +5,13 @@
    one message that begins "wrinkle: "; 2 for the shell line itself (unknown subcommand or option,
    missing value); 130 interrupted. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-#include "command/session.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
+typedef struct WrSession WrSession;
+typedef struct WrText WrText;
 
 #define WR_EXIT_DONE 0
 #define WR_EXIT_FAILED 1

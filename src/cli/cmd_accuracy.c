@@ -1,9 +1,15 @@
-#include "cli/contest.h"
-#include "hardcases/hardcases.h"
 #include "accuracy/report.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "cli/cli.h"
+#include "cli/contest.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "hardcases/hardcases.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,7 @@
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/text.h"
 #include "cli/bench.h"
 
 #include <string.h>

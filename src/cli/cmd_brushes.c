@@ -1,6 +1,8 @@
 #include "cli/brushes.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <string.h>
 

@@ -1,5 +1,13 @@
 #include "cli/cli.h"
 
+#include "accuracy/tolerance.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "render/frame.h"
+#include "render/plan.h"
+#include "scene/dials.h"
+
 /* {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
 static void add_json_part(WrText *text, const WrChoicePart *part, int64_t all)
 {

@@ -1,5 +1,8 @@
 #include "cli/cli.h"
 
+#include "base/error.h"
+#include "base/text.h"
+#include "command/session.h"
 #include "export/export.h"
 
 #include <string.h>

@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+#include "base/error.h"
+#include "base/text.h"
 #include "command/help.h"
 
 #include <string.h>

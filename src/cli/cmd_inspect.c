@@ -1,10 +1,18 @@
 #include "cli/cli.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "command/generate.h"
+#include "command/session.h"
+#include "document/blend.h"
+#include "document/document.h"
 #include "document/document_file.h"
+#include "field/field.h"
 #include "generate/noise_rows.h"
+#include "scene/scene.h"
 #include "shade/bump.h"
+#include "surface/surface.h"
 
 #include <errno.h>
 #include <float.h>

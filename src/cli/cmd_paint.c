@@ -1,5 +1,8 @@
 #include "cli/cli.h"
 
+#include "base/error.h"
+#include "base/text.h"
+
 #ifdef WR_HAVE_UI
 #include "ui/app/app.h"
 

@@ -1,8 +1,10 @@
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "command/recovery.h"
+#include "command/session.h"
 
 #include <stdlib.h>
 #include <string.h>

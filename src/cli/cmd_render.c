@@ -1,6 +1,9 @@
 #include "cli/cli.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "command/session.h"
 
 #include <math.h>
 #include <stdio.h>

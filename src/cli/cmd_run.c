@@ -1,5 +1,8 @@
 #include "cli/cli.h"
 
+#include "base/error.h"
+#include "command/session.h"
+
 #include <string.h>
 
 int wr_cli_run(const WrCli *cli)

@@ -2,7 +2,12 @@
 #include "cli/contest.h"
 
 #include "accuracy/ladder_inner.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/analytic.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,6 +4,9 @@
 #pragma once
 #include "accuracy/ladder.h"
 #include "accuracy/tolerance.h"
+#include "scene/scene.h"
+
+#include <stdbool.h>
 
 typedef struct WrContestRow {
     WrTolerance tolerance;

@@ -1,7 +1,9 @@
+#include "base/text.h"
 #include "cli/cli.h"
 #include "command/help.h"
 #include "render/plan.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Option i, told in one line. */

@@ -1,5 +1,9 @@
 #include "cli/cli.h"
 
+#include "base/error.h"
+#include "command/session.h"
+#include "render/frame.h"
+
 #include <stdio.h>
 #include <unistd.h>
 

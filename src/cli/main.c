@@ -1,4 +1,7 @@
+#include "base/error.h"
+#include "base/pool.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "cli/cli.h"
 
 #include <signal.h>

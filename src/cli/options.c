@@ -1,7 +1,9 @@
 /* The shell line: options and words. */
 #include "cli/cli.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "command/call.h"
 
 #include <limits.h>

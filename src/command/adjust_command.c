@@ -1,10 +1,11 @@
 /* Table operations. */
-#include "command/args.h"
-#include "command/commands.h"
-
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "command/args.h"
+#include "command/commands.h"
 #include "document/document.h"
+#include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
 

@@ -4,6 +4,8 @@
 #pragma once
 #include "command/inner.h"
 
+#include <stdbool.h>
+
 /* Numbers of a default. */
 #define NUMBERS(...)                                                                               \
     (const double[])                                                                               \

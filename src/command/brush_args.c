@@ -1,7 +1,8 @@
 /* Arguments of the brush, which all that paints has. */
-#include "command/args.h"
 #include "command/brush_args.h"
 
+#include "base/text.h"
+#include "command/args.h"
 #include "field/ramp.h"
 #include "field/select.h"
 

@@ -2,6 +2,9 @@
    Layer 6, private to src/command. */
 #pragma once
 #include "command/args.h"
+#include "field/wrap.h"
+
+#include <stdbool.h>
 
 const char *wr_brush_mode_name(int i);           /* word i of mode=, NULL past the last */
 void wr_brush_mode_explain(int i, WrText *text); /* with the argument names that the mode goes by */

@@ -1,9 +1,9 @@
 /* The brush as a command: dab, stroke. */
+#include "base/error.h"
+#include "base/progress.h"
 #include "command/args.h"
 #include "command/brush_args.h"
 #include "command/commands.h"
-
-#include "base/progress.h"
 #include "field/ramp.h"
 #include "field/select.h"
 

@@ -7,7 +7,10 @@
    come in any order; the printer puts values first, then names, both in the table's order, and only those
    that were given. */
 #pragma once
+#include "base/vec.h"
 #include "command/table.h"
+
+#include <stdbool.h>
 
 typedef struct WrArg {
     bool given;      /* false: the values are the default, or none */

@@ -2,6 +2,7 @@
 #include "command/commands.h"
 
 #include "base/rows.h"
+#include "command/args.h"
 
 #include <string.h>
 

@@ -1,10 +1,15 @@
 /* What commands cost: one table of prices, and the few ways in which their work is counted. */
 #include "command/estimate.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "command/generate.h"
 #include "command/inner.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,11 @@
    Layer 6. */
 #pragma once
 #include "command/call.h"
-#include "command/session.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrSession WrSession;
 
 typedef struct WrEstimate {
     double seconds; /* with the session's threads all busy on it, on the machine of the prices */

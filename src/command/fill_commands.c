@@ -1,8 +1,12 @@
 /* Filling what is connected, and ramps. */
+#include "base/error.h"
+#include "base/progress.h"
 #include "command/args.h"
 #include "command/brush_args.h"
 #include "command/commands.h"
-
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
 #include "field/ramp.h"
 #include "field/select.h"
 

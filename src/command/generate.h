@@ -2,7 +2,16 @@
    Layer 6. */
 #pragma once
 #include "command/call.h"
-#include "document/document.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrGenerator WrGenerator;
+typedef struct WrLayer WrLayer;
+typedef struct WrParamValue WrParamValue;
+typedef struct WrProgress WrProgress;
+typedef struct WrRelief WrRelief;
 
 /* The generator that the line names, or NULL if its verb is no family. */
 const WrGenerator *wr_call_generator(const WrCall *call);

@@ -1,8 +1,12 @@
 #include "command/help.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "command/call.h"
+#include "scene/dials.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

@@ -3,6 +3,8 @@
 #pragma once
 #include "command/table.h"
 
+#include <stdbool.h>
+
 /* All commands, grouped by class, one line each. */
 void wr_help_overview(WrText *text);
 /* One command: what it takes, with ranges and defaults. Fails for an unknown name. */

@@ -1,7 +1,9 @@
 #include "command/help.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "command/call.h"
+#include "surface/surface.h"
 
 #include <string.h>
 

@@ -1,5 +1,8 @@
 #include "command/help.h"
 
+#include "base/error.h"
+#include "base/text.h"
+
 void wr_help_markdown_cell(WrText *text, const char *words)
 {
     for (const char *p = words; *p; p++)

@@ -1,9 +1,12 @@
 /* Going through what was done: script, undo, redo, view, history. */
-#include "command/args.h"
-#include "command/commands.h"
-
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "document/document.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

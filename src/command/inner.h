@@ -3,13 +3,21 @@
 #pragma once
 #include "base/array.h"
 #include "base/stamp.h"
+#include "brush/brush.h"
 #include "command/call.h"
 #include "command/session.h"
 #include "document/history.h"
 #include "document/journal.h"
 #include "document/views.h"
+#include "image/image.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 typedef struct WrBrushFiles WrBrushFiles;
+typedef struct WrDocument WrDocument;
+typedef struct WrLayer WrLayer;
 
 /* A brush and what it borrows from. */
 typedef struct WrHeldBrush {

@@ -1,9 +1,11 @@
 /* Layers and their masks. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-
-#include "base/memory.h"
 #include "document/document.h"
+#include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
 

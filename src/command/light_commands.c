@@ -1,8 +1,11 @@
 /* Lights and the camera. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-
-#include "base/memory.h"
+#include "document/document.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

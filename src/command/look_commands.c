@@ -1,10 +1,13 @@
 /* How pictures are made of it: material, colour, dials, tolerance. */
-#include "command/args.h"
-#include "command/commands.h"
-
+#include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "document/document.h"
 #include "document/document_file.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

@@ -1,13 +1,17 @@
 /* Commands that write files: save, export, render. */
-#include "command/args.h"
-#include "command/commands.h"
-
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "document/document.h"
 #include "document/document_file.h"
 #include "document/ora.h"
 #include "export/export.h"
+#include "render/frame.h"
+#include "scene/scene.h"
 
 #include <string.h>
 #include <sys/stat.h>

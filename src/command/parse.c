@@ -1,5 +1,6 @@
 #include "command/call.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 

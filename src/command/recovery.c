@@ -1,8 +1,9 @@
 #include "command/recovery.h"
-#include "command/inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "command/inner.h"
 #include "document/recover.h"
 
 #include <stdarg.h>

@@ -1,7 +1,14 @@
 /* recovery.h - documents of programs that ended before their work was saved.
    Layer 6. */
 #pragma once
-#include "command/session.h"
+#include "base/text.h"
+
+#include <stdbool.h>
+
+typedef struct WrText WrText;
+typedef struct WrError WrError;
+typedef struct WrJournalClaim WrJournalClaim;
+typedef struct WrSession WrSession;
 
 /* What a program that crashed, or was killed, left behind. */
 typedef struct WrRecoverable {

@@ -1,8 +1,8 @@
 /* Which documents can be recovered. */
+#include "base/error.h"
+#include "base/memory.h"
 #include "command/inner.h"
 #include "command/recovery.h"
-
-#include "base/memory.h"
 #include "document/recover.h"
 
 /* How a saved document was looked at since is no work that was lost. */

@@ -3,6 +3,9 @@
    the light of a new document, the surface's own pose and a missing picture have no line. */
 #include "command/inner.h"
 
+#include "base/text.h"
+#include "scene/scene.h"
+
 #include <string.h>
 
 /* "x,y,z" */

@@ -1,11 +1,14 @@
 /* Selections. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
 #include "command/args.h"
 #include "command/commands.h"
-
-#include "base/memory.h"
 #include "document/document.h"
+#include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

@@ -1,9 +1,14 @@
-#include "command/estimate.h"
-#include "command/inner.h"
-
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "command/estimate.h"
+#include "command/inner.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "render/frame.h"
+#include "scene/scene.h"
 
 #include <ctype.h>
 #include <stdarg.h>

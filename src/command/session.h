@@ -6,11 +6,19 @@
    the journal and all files. A script keeps what its finished lines did, as after any other failure.
    Layer 6. A session belongs to one thread; snapshots of it may be read by any. */
 #pragma once
-#include "base/pool.h"
 #include "accuracy/tolerance.h"
-#include "brush/brush.h"
-#include "document/document.h"
-#include "render/frame.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct WrDocument WrDocument;
+typedef struct WrError WrError;
+typedef struct WrFrame WrFrame;
+typedef struct WrPool WrPool;
+typedef struct WrSample WrSample;
+typedef struct WrText WrText;
 
 typedef struct WrSession WrSession;
 

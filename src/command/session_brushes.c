@@ -2,6 +2,7 @@
    begins without touching the disk but for one look at the file's date. */
 #include "command/inner.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "brush/library.h"

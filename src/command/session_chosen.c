@@ -2,6 +2,11 @@
 #include "command/inner.h"
 
 #include "base/memory.h"
+#include "base/text.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "render/frame.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

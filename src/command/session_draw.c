@@ -1,6 +1,7 @@
 /* Drawing a whole stroke at once, cancellable. */
 #include "command/inner.h"
 
+#include "base/error.h"
 #include "base/progress.h"
 
 #define SLICE 0.05 /* seconds between two looks at whether somebody wants it to stop */

@@ -1,9 +1,14 @@
 /* What commands change in a document, and what keeps them from it. */
 #include "command/inner.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "document/document.h"
 #include "document/edit.h"
+#include "field/field.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

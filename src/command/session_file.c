@@ -1,9 +1,12 @@
 /* Sessions and files: scripts, documents, pictures. */
 #include "command/inner.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "document/document.h"
 #include "document/document_file.h"
 #include "document/ora.h"
 

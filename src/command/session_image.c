@@ -1,6 +1,7 @@
 /* What of a strangers' picture the session remembers: its hash, its part, its note. */
 #include "command/inner.h"
 
+#include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "document/document_file.h"

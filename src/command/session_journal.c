@@ -1,10 +1,13 @@
 /* The journal of a session: each command is on disk before it runs. */
 #include "command/inner.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "document/document_file.h"
+#include "scene/scene.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,14 @@
 /* What paints: the brush that a line describes, and what it paints on. */
 #include "command/brush_args.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "brush/preset.h"
 #include "brush/tip.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
 
 #include <string.h>
 

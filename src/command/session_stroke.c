@@ -1,6 +1,8 @@
 /* A stroke in progress: an open command. */
 #include "command/inner.h"
 
+#include "base/error.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -2,6 +2,8 @@
 #include "command/inner.h"
 
 #include "base/memory.h"
+#include "document/document.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

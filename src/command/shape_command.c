@@ -1,10 +1,12 @@
 /* Shapes with the brush: rectangles, ellipses, polygons, paths. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "brush/preset.h"
 #include "command/args.h"
 #include "command/brush_args.h"
 #include "command/commands.h"
-
-#include "base/memory.h"
-#include "brush/preset.h"
+#include "field/field.h"
 #include "field/figure.h"
 #include "field/ramp.h"
 #include "field/select.h"

@@ -1,8 +1,12 @@
 /* What carries the table and how it is wrinkled: surface, rotate, analytic, bump, replicate. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
-
-#include "base/memory.h"
+#include "document/document.h"
+#include "field/analytic.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,9 +3,13 @@
    tests all go by it: a new command is a row with its arguments and functions in one file, and a line in commands.c.
    Layer 6. */
 #pragma once
-#include "base/text.h"
 #include "generate/generator.h"
-#include "scene/scene.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrScene WrScene;
+typedef struct WrText WrText;
 
 typedef struct WrSession WrSession;
 typedef struct WrCall WrCall;

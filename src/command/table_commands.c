@@ -1,10 +1,12 @@
 /* Commands of the table as a whole: table, fill, grid, open, image. */
-#include "command/args.h"
-#include "command/commands.h"
-
+#include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "document/document.h"
 #include "document/document_file.h"
+#include "field/field.h"
 #include "generate/generator.h"
 
 #include <math.h>

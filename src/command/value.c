@@ -1,9 +1,12 @@
 #include "command/call.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "document/document.h"
+#include "surface/surface.h"
 
 #include <ctype.h>
 #include <math.h>

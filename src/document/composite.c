@@ -1,7 +1,9 @@
 #include "document/composite.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "document/compositor.h"
+#include "document/document.h"
 
 #include <pthread.h>
 

@@ -1,7 +1,11 @@
 /* composite.h - a document's composite, kept up to date: a compositor and its lock.
    Layer 5. Private to this room. */
 #pragma once
-#include "document/document.h"
+
+typedef struct WrComposite WrComposite;
+typedef struct WrField WrField;
+typedef struct WrLayer WrLayer;
+typedef struct WrPool WrPool;
 
 /* Empty; costs nothing until updated. The caller owns it. */
 WrComposite *wr_composite_new(void);

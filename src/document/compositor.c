@@ -10,8 +10,12 @@
 #include "document/compositor.h"
 
 #include "base/array.h"
+#include "base/error.h"
+#include "base/pool.h"
 #include "base/progress.h"
+#include "field/field.h"
 
+#include <math.h>
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)

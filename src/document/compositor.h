@@ -1,9 +1,13 @@
 /* compositor.h - the composite of a stack of layers, kept up to date tile by tile.
    Layer 5. Knows fields and blend modes only; the caller keeps the layers. */
 #pragma once
-#include "base/pool.h"
 #include "document/blend.h"
-#include "field/field.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
 
 /* One layer, bottom first in the stack. Fields are borrowed for the call and may be edited in place
  * between calls; the heights of a stack have one size and one wrap. */

@@ -2,6 +2,9 @@
 #include "document/document.h"
 
 #include "base/array.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #define TILE_BYTES (WR_TILE * WR_TILE * sizeof(float) + WR_ALIGN)
 

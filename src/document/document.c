@@ -1,7 +1,10 @@
 #include "document/document.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "document/composite.h"
+#include "field/field.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

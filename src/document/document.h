@@ -1,9 +1,15 @@
 /* document.h - what a user works on: layers of heights, a selection and a scene. Plain data.
    Layer 5. Only a session (command/session.h) changes a document. */
 #pragma once
-#include "base/pool.h"
+#include "base/hash.h"
 #include "document/blend.h"
-#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrScene WrScene;
 
 #define WR_LAYERS_MAX 256     /* of a document */
 #define WR_LAYER_NAME_MAX 255 /* bytes of a layer's name */

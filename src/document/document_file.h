@@ -19,7 +19,17 @@
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
    several is still written as version 2. All are read. */
 #pragma once
-#include "document/document.h"
+#include "field/wrap.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrDocument WrDocument;
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrImage WrImage;
+typedef struct WrImageRows WrImageRows;
 
 #define WR_DOCUMENT_VERSION 3
 #define WR_DOCUMENT_VERSION_PARTS 2 /* of a file of several parts */

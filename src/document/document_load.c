@@ -1,8 +1,14 @@
 #include "document/document_file.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,15 @@
 #include "document/document_file.h"
 
 #include "base/array.h"
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "base/text.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <string.h>
 

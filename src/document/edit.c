@@ -1,6 +1,7 @@
 #include "document/edit.h"
 
 #include "base/progress.h"
+#include "field/field.h"
 
 #include <string.h>
 

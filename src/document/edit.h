@@ -1,7 +1,8 @@
 /* edit.h - keeping an edit to the selection, and noting what a layer says something about.
    Layer 5. Knows fields only. Selections and coverage are 0..1; values outside count as 0 or 1. */
 #pragma once
-#include "field/field.h"
+
+typedef struct WrField WrField;
 
 /* What an edit that led from `before` to `after` leaves where it may act only inside a selection:
  *

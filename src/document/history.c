@@ -1,6 +1,9 @@
 #include "document/history.h"
 
 #include "base/array.h"
+#include "base/error.h"
+#include "document/document.h"
+#include "scene/scene.h"
 
 typedef struct Step {
     char *line, *folder; /* owned */

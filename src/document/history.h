@@ -11,7 +11,12 @@
    step that brought a view of its own (a document that was opened) the view goes along: to what it was on
    the other side of that step. */
 #pragma once
-#include "document/document.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrDocument WrDocument;
+typedef struct WrSceneView WrSceneView;
 
 #define WR_HISTORY_BUDGET ((size_t)1 << 30) /* bytes, if nobody says otherwise */
 

@@ -1,7 +1,10 @@
 #include "document/document_file.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "field/field.h"
+#include "image/image.h"
 
 #include <math.h>
 

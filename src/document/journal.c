@@ -1,8 +1,10 @@
 #include "document/journal.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "document/journal_folder.h"
 #include "document/journal_line.h"
 

@@ -24,7 +24,12 @@
    not known. */
 #pragma once
 #include "base/hash.h"
-#include "base/text.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrText WrText;
 
 #define WR_JOURNAL_FORMAT 2
 #define WR_JOURNAL_LINE_MAX ((int64_t)64 << 20) /* bytes of one line, its end included */

@@ -1,7 +1,9 @@
 #include "document/journal_folder.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -3,6 +3,8 @@
 #pragma once
 #include "document/recover.h"
 
+#include <stdbool.h>
+
 #define WR_JOURNAL_ENDING ".wj"
 #define WR_JOURNAL_FILES_ENDING ".files"
 #define WR_JOURNAL_SNAPSHOT_NAME "snapshot-%d.exr"

@@ -2,8 +2,10 @@
    journals keep the same. A link counts as a copy only when its content has been read and fits. */
 #include "document/journal_folder.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "document/journal_line.h"
 #include "document/recover.h"
 

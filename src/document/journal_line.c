@@ -1,6 +1,8 @@
 #include "document/journal_line.h"
 
+#include "base/error.h"
 #include "base/rows.h"
+#include "base/text.h"
 
 #include <inttypes.h>
 #include <string.h>

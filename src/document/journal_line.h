@@ -3,6 +3,10 @@
 #pragma once
 #include "document/journal.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 /* A header as read; strings point into the line that it was read from. */
 typedef struct WrJournalHeader {
     WrJournalStart start; /* snapshot: the name without a folder; path and sha256 may be NULL */

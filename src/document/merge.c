@@ -3,6 +3,9 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
+#include "document/blend.h"
+#include "document/document.h"
+#include "field/field.h"
 
 #include <float.h>
 #include <math.h>

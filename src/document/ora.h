@@ -20,6 +20,11 @@
 #pragma once
 #include "document/document_file.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrText WrText;
+
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
 #define WR_ORA_VERSION 1
 

@@ -1,10 +1,15 @@
 #include "document/ora.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "document/document.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
+#include "field/field.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <string.h>

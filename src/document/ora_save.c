@@ -1,13 +1,19 @@
 #include "document/ora.h"
 
 #include "base/array.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "document/document.h"
 #include "document/ora_show.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
+#include "field/field.h"
+#include "image/image.h"
 #include "image/profile.h"
+#include "scene/scene.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,7 +1,9 @@
 #include "document/ora_show.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "field/field.h"
 
 #include <string.h>
 

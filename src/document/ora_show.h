@@ -1,7 +1,12 @@
 /* ora_show.h - heights as greys, for the pictures of an OpenRaster file that other programs show.
    Layer 5. Private to this room. */
 #pragma once
-#include "document/document.h"
+#include "document/blend.h"
+
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
 
 typedef struct WrOraRange {
     float low, high; /* heights that are black and white; low < high */

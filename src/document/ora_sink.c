@@ -2,6 +2,8 @@
    that is left behind when the program is killed. */
 #include "document/ora_zip.h"
 
+#include "base/error.h"
+
 #include <errno.h>
 #include <string.h>
 #include <unistd.h>

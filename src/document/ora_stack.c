@@ -1,5 +1,8 @@
 #include "document/ora_stack.h"
+
+#include "base/error.h"
 #include "base/rows.h"
+#include "base/text.h"
 #include "document/document.h"
 #include "document/ora.h"
 

@@ -2,8 +2,13 @@
    Layer 5. Private to this room. */
 #pragma once
 #include "base/array.h"
-#include "base/text.h"
 #include "document/blend.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+typedef struct WrText WrText;
 
 /* Texts are owned, NULL where the file has no such attribute. */
 typedef struct WrOraLayer {

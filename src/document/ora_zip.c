@@ -1,5 +1,6 @@
 #include "document/ora_zip.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 

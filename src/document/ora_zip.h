@@ -1,9 +1,12 @@
 /* ora_zip.h - reading entries of a stranger's zip archive within limits, and where an archive of ours goes.
    Layer 5. Private to this room. */
 #pragma once
-#include "base/text.h"
-
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <zip.h>
+
+typedef struct WrError WrError;
 
 typedef struct WrOraZip WrOraZip;
 

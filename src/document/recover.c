@@ -1,6 +1,8 @@
 #include "document/recover.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "document/journal_folder.h"
 #include "document/journal_line.h"
 

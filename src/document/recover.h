@@ -11,6 +11,10 @@
 #pragma once
 #include "document/journal.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #define WR_JOURNAL_COMMANDS_MAX 1000000 /* in one journal; what follows is dropped */
 
 /* One command to run. */

@@ -2,7 +2,9 @@
 #include "document/recover.h"
 
 #include "base/array.h"
+#include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "document/journal_folder.h"
 
 #include <dirent.h>

@@ -2,6 +2,7 @@
 #include "document/recover.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/progress.h"
 
 #include <errno.h>

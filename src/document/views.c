@@ -1,6 +1,7 @@
 #include "document/views.h"
 
 #include "base/array.h"
+#include "base/error.h"
 
 #include <string.h>
 

@@ -2,7 +2,11 @@
    of its own beside that of the edits (history.h): views are no edits, and neither takes the other's steps.
    Layer 5. */
 #pragma once
-#include "scene/scene.h"
+#include "scene/camera.h"
+
+#include <stdint.h>
+
+typedef struct WrScene WrScene;
 
 #define WR_VIEWS_MAX 1000 /* that are kept; the oldest go first */
 

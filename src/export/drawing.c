@@ -1,4 +1,5 @@
 /* Line drawings of the cell as files: SVG, or a picture of antialiased lines. */
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "export/ink.h"

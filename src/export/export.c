@@ -1,8 +1,16 @@
 #include "export/export.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "document/document.h"
 #include "document/document_file.h"
 #include "export/job.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "field/scheme.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

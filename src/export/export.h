@@ -24,9 +24,13 @@
    white; vectors where the ending is svg, else a picture of 8 bits. profile: F along a line of the cell
    as a chart, by the scheme's interpolation. */
 #pragma once
-#include "base/pool.h"
-#include "base/text.h"
-#include "document/document.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrDocument WrDocument;
+typedef struct WrError WrError;
+typedef struct WrPool WrPool;
+typedef struct WrText WrText;
 
 typedef enum WrExportRange {
     WR_EXPORT_RANGE_GIVEN,

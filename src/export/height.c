@@ -1,6 +1,10 @@
 #include "export/job.h"
 
 #include "base/memory.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -1,8 +1,10 @@
 #include "export/ink.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "image/image.h"
 #include "image/label.h"
 

@@ -1,7 +1,9 @@
 /* ink.h - black lines and words on white, as an SVG file or as a picture of antialiased lines.
    Layer 6. Private to this room. */
 #pragma once
-#include "base/text.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
 
 /* Pixels from the top left. */
 typedef struct WrInkPoint {

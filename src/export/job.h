@@ -1,7 +1,15 @@
 /* job.h - one export under way: what the kinds' functions work on.
    Layer 6. Private to this room. */
 #pragma once
+#include "base/text.h"
 #include "export/export.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrField WrField;
+typedef struct WrScene WrScene;
 
 #define WR_EXPORT_ATTRIBUTES 8 /* at most */
 

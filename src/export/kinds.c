@@ -1,6 +1,8 @@
+#include "base/error.h"
 #include "base/rows.h"
 #include "export/job.h"
 #include "export/lines.h"
+#include "field/scheme.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 #include "export/lines.h"
 
 #include "base/array.h"
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "base/progress.h"

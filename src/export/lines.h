@@ -7,6 +7,7 @@
 #pragma once
 #include "export/ink.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define WR_LINES_MOST 1024   /* lines along either axis */

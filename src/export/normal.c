@@ -2,6 +2,10 @@
 
 #include "base/memory.h"
 #include "base/vec.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "field/scheme.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

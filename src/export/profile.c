@@ -1,9 +1,12 @@
 /* Profiles: F along a line of the cell as a chart, for the 1D constructions of noise and for seams. */
-#include "export/ink.h"
-#include "export/job.h"
-
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "export/ink.h"
+#include "export/job.h"
+#include "field/analytic.h"
+#include "field/scheme.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

@@ -1,7 +1,6 @@
 /* analytic.h - F(u,v) as a formula, usable wherever a table is, with exact derivatives.
    Layer 1. Source: Blinn 1978 section 3, "a bivariate polynomial or bivariate Fourier series". */
 #pragma once
-#include "base/error.h"
 
 typedef enum WrAnalyticKind {
     WR_ANALYTIC_OFF,

@@ -4,14 +4,16 @@
    level; a tree belongs to one level for good, since a fill drops it. */
 #include "field/field.h"
 
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "field/ops.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdalign.h>
 #include <stdatomic.h>
 #include <string.h>
-
-#include "base/memory.h"
-#include "base/progress.h"
 
 #define TEXELS (WR_TILE * WR_TILE)
 #define FAN_BITS 3 /* 8 children along each side of a node */

@@ -5,18 +5,13 @@
    Texel (i, j): column i from the left, row j from the TOP; its centre is u = (i + 0.5)/W,
    v = 1 - (j + 0.5)/H. Heights are in table units, unbounded, always finite; 0 is the ground. */
 #pragma once
-#include "base/error.h"
 #include "base/hash.h"
+#include "field/wrap.h"
 
+#include <stddef.h>
 #include <stdint.h>
 
-#define WR_TILE 64         /* texels along a tile's side */
-#define WR_FIELD_MAX 16384 /* texels along a table's side */
-
-typedef enum WrWrap {
-    WR_WRAP_PERIODIC, /* true modulus: texel W is texel 0 */
-    WR_WRAP_CLAMP     /* constant outside [0,1]; missing taps extrapolated to second order */
-} WrWrap;
+typedef struct WrError WrError;
 
 typedef struct WrField WrField;
 

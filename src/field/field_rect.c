@@ -2,6 +2,8 @@
    tile; a rectangle that sticks out is first cut into parts that do not. */
 #include "field/field.h"
 
+#include "base/error.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -1,10 +1,12 @@
 #include "field/figure.h"
 
+#include "base/array.h"
+#include "base/error.h"
+#include "base/exactmath.h"
+#include "field/field.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/array.h"
-#include "base/exactmath.h"
 
 typedef WR_ARRAY(WrSelectPoint) Points;
 

@@ -5,6 +5,8 @@
 #pragma once
 #include "field/select.h"
 
+#include <stdbool.h>
+
 #define WR_FIGURE_POINTS 1000000 /* at most */
 
 typedef struct WrFigure {

@@ -9,11 +9,12 @@
  * rows, and each output row is the same filter across the ring. */
 #include "field/scheme.h"
 
+#include "base/memory.h"
+#include "field/field.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#include "base/memory.h"
 
 #define REACH WR_PREFILTER_REACH
 #define TAPS (2 * REACH + 1)

@@ -1,10 +1,12 @@
 /* The table of operations, and the one door to them, where everything is checked. */
 #include "field/ops.h"
 
+#include "base/error.h"
+#include "field/field.h"
+#include "field/ops_inner.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "field/ops_inner.h"
 
 #define HEIGHT_UNIT "table units"
 /* Any height, with what a slider spans and the default. */

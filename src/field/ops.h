@@ -14,9 +14,12 @@
    - Heights that would pass float's range are clamped to it. Filters are exact as stated while heights
      are under 1e37. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-#include "field/field.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
 
 #define WR_OP_PARAMS 6 /* parameters of one operation, at most */
 

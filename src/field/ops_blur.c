@@ -9,10 +9,11 @@
  * so that all of it stays in the second-level cache. */
 #include "field/ops_inner.h"
 
-#include <math.h>
-
 #include "base/exactmath.h"
+#include "field/field.h"
 #include "field/taps.h"
+
+#include <math.h>
 
 #define REACH WR_OP_NARROW_REACH
 #define WIDE (WR_OP_SIDE + 2 * REACH) /* a block with its apron */

@@ -15,9 +15,10 @@
  * and each box's result is rounded to whole steps again. A box has less than 2^12 texels. */
 #include "field/ops_inner.h"
 
-#include <math.h>
-
 #include "base/memory.h"
+#include "field/field.h"
+
+#include <math.h>
 
 #define LANES 16 /* rows (or columns) that are filtered side by side */
 #define BOXES 4

@@ -3,10 +3,13 @@
    parallel. Which blocks make a batch does not depend on the number of threads, nor does any height. */
 #include "field/ops_inner.h"
 
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "field/field.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/memory.h"
 
 #define SIDE WR_OP_SIDE
 #define BATCH 32                /* blocks; 8 MB of new heights */

@@ -8,8 +8,12 @@
    for a table. */
 #pragma once
 #include <float.h>
+#include <stdbool.h>
+#include <stddef.h>
 
+#include "base/pool.h"
 #include "field/ops.h"
+#include "field/wrap.h"
 
 #define WR_OP_SIDE (4 * WR_TILE) /* texels along a block's side */
 

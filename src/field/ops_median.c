@@ -7,6 +7,8 @@
  * median's word is never far. */
 #include "field/ops_inner.h"
 
+#include "base/progress.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,9 @@
 /* Operations that only carry texels to other places: offset, flips, quarter turns, crop. */
 #include "field/ops_inner.h"
 
+#include "base/error.h"
+#include "field/field.h"
+
 /* Result texel (i, j) is input texel (i + du, j + dv). */
 typedef struct Shift {
     int du, dv;

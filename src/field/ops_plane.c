@@ -1,9 +1,12 @@
 /* What operations need besides the builder: reports, batches, reading with repeated edges, planes. */
 #include "field/ops_inner.h"
 
-#include <string.h>
-
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
+#include "field/field.h"
+
+#include <string.h>
 
 bool wr_op_step(const WrOpJob *job, double fraction)
 {

@@ -11,11 +11,13 @@
  * output rows that see it, so that not even a shrink of 16384 rows to one needs much memory. */
 #include "field/ops_inner.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/progress.h"
+#include "field/field.h"
+
+#include <math.h>
+#include <string.h>
 
 #define SIDE WR_OP_SIDE
 

@@ -14,6 +14,8 @@
  * along a long slope the roundings of its steps add up. */
 #include "field/ops_inner.h"
 
+#include "field/field.h"
+
 #include <math.h>
 
 enum { SIDE_BELOW, SIDE_ABOVE, SIDE_MEAN };

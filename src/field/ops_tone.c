@@ -1,7 +1,9 @@
 /* Operations on each height by itself: levels, invert, normalise, add, multiply, clamp. */
 #include "field/ops_inner.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "field/field.h"
 
 typedef struct Tone Tone;
 struct Tone {

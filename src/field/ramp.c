@@ -1,10 +1,13 @@
 #include "field/ramp.h"
 
-#include <math.h>
-
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/progress.h"
 #include "base/rows.h"
+#include "field/field.h"
 #include "field/select_inner.h"
+
+#include <math.h>
 
 WR_ROWS(wr_ramp_names);
 const char *const wr_ramp_names[WR_RAMP_KINDS] = { [WR_ROW(WR_RAMP_LINEAR)] = "linear",

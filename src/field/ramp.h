@@ -20,9 +20,12 @@
 
    Double arithmetic with base/exactmath.h: the same bits on every processor, for any number of threads. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-#include "field/field.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
 
 typedef enum WrRampKind { WR_RAMP_LINEAR, WR_RAMP_RADIAL, WR_RAMP_CONE, WR_RAMP_KINDS } WrRampKind;
 extern const char *const wr_ramp_names[WR_RAMP_KINDS]; /* as in commands: "linear" */

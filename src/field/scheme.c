@@ -4,11 +4,12 @@
  * exactly 0. Differences are taken in double, where no two floats overflow (HC50). */
 #include "field/scheme.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/memory.h"
 #include "base/rows.h"
+#include "field/field.h"
+
+#include <math.h>
+#include <string.h>
 
 #define COLUMN(a, i, base) a[i] - base, a[4 + (i)] - base, a[8 + (i)] - base, a[12 + (i)] - base
 

@@ -14,7 +14,9 @@
    carries the minus sign of rows that run down. Derivatives are formed from differences of taps, so
    that a flat table gives exactly 0 whatever its level (HC42-HC48). */
 #pragma once
-#include "field/field.h"
+#include <stddef.h>
+
+typedef struct WrField WrField;
 
 typedef enum WrScheme {
     WR_SCHEME_NEAREST,

@@ -2,14 +2,18 @@
    row. */
 #include "field/select.h"
 
-#include <math.h>
-#include <string.h>
-
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
 #include "base/rows.h"
+#include "field/field.h"
 #include "field/ops.h"
 #include "field/select_inner.h"
+
+#include <math.h>
+#include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
 

@@ -12,9 +12,12 @@
    this thread. The bits are the same on every processor and for any number of threads; where the table
    is rolled by whole texels, so is the selection, bit for bit. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-#include "field/field.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
 
 /* How far from the origin the points of a shape may lie, in cells. */
 #define WR_SELECT_REACH 64

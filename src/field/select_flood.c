@@ -1,11 +1,14 @@
 /* The connected part of a table whose heights are near to that of one texel. */
 #include "field/select.h"
 
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "field/field.h"
+#include "field/select_inner.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/memory.h"
-#include "field/select_inner.h"
 
 /* A run of texels of one row, from column x on, `count` of them; on a periodic axis it may go on from the
    first column. */

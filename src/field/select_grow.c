@@ -5,10 +5,14 @@
    swept twice round, and rows carry half a period more at either end. */
 #include "field/select.h"
 
-#include <math.h>
-
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/field.h"
 #include "field/select_inner.h"
+
+#include <math.h>
 
 #define FAR UINT16_MAX /* no target in this column; real distances are under WR_FIELD_MAX */
 

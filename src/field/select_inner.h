@@ -3,6 +3,9 @@
 #pragma once
 #include "field/select.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /* Make rows j .. j + rows - 1 of a selection: out [rows][width], filled with the level. False without
  * memory. worker: 0..threads-1, for scratch space. */
 typedef bool (*WrSelectRows)(void *ctx, int worker, int j, int rows, float *out);

@@ -3,10 +3,12 @@
    followed from cell to cell with the inside on its left. */
 #include "field/select.h"
 
-#include <math.h>
-
 #include "base/array.h"
+#include "base/error.h"
+#include "field/field.h"
 #include "field/select_inner.h"
+
+#include <math.h>
 
 /* Sides of a cell, and corners: side k lies between corners k and k + 1. */
 enum { TOP, RIGHT, BOTTOM, LEFT, SIDES };

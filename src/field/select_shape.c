@@ -1,11 +1,13 @@
 /* Rectangles, ellipses and lassos, brought to whole numbers of 1/65536 texel. */
 #include "field/select.h"
 
-#include <math.h>
-
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "field/select_inner.h"
+
+#include <math.h>
 
 static int64_t floor_div(int64_t a, int64_t b)
 {

@@ -10,11 +10,14 @@
  * neither the order of sums nor where the table begins can change a bit. */
 #include "field/select.h"
 
+#include "base/array.h"
+#include "base/error.h"
+#include "base/pool.h"
+#include "field/field.h"
+#include "field/select_inner.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/array.h"
-#include "field/select_inner.h"
 
 /* No band that is not higher is halved; with many sides in it the limit grows by FINEST for each MANY of
  * them, so that the wildest lasso ends in time. */

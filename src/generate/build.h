@@ -3,6 +3,8 @@
 #pragma once
 #include "generate/generator.h"
 
+#include <stdbool.h>
+
 /* A rectangle of a table of width x height texels, in one tile or smaller. */
 typedef struct WrGenerateBlock {
     int width, height;

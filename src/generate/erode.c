@@ -1,6 +1,8 @@
 #include "generate/erode.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 
 static int smaller(int n)
 {

@@ -6,6 +6,9 @@
 #pragma once
 #include "generate/terrain.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /* Stones roll down what is steeper than the angle of rest.
  *
  *   d_k = max(0, z - z_k - talus l_k)   to each of 8 neighbours, l_k = 1 or sqrt 2 texels

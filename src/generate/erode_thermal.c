@@ -1,7 +1,10 @@
 #include "generate/erode.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/progress.h"
+#include "field/field.h"
 
 #include <math.h>
 

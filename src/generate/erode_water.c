@@ -1,7 +1,11 @@
 #include "generate/erode.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
 
 #include <math.h>
 

@@ -1,8 +1,10 @@
 #include "generate/fft.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #define FACTORS 16

@@ -7,9 +7,12 @@
    11 and 13 go by mixed radices (Stockham's order), others by Bluestein's chirp through the next power of
    two. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-#include "base/error.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
 
 typedef struct WrFft WrFft;
 

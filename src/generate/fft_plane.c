@@ -2,8 +2,11 @@
    lines of them. */
 #include "generate/fft.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
 
 #include <string.h>
 

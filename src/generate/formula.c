@@ -1,7 +1,9 @@
 /* The analytic functions as heights: evaluated exactly at the texels' centres, then rounded to float. */
 #include "field/analytic.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/wrap.h"
 #include "generate/build.h"
 #include "generate/param.h"
 

@@ -1,7 +1,9 @@
 #include "generate/generator.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <string.h>

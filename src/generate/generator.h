@@ -10,9 +10,12 @@
    - The same bits on every processor and for any number of threads.
    - Heights are finite. Lengths are texels, heights table units, angles degrees anticlockwise as seen. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-#include "field/field.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
 
 #define WR_GENERATOR_PARAMS 28 /* of one generator, at most */
 #define WR_GENERATOR_POINTS 4096

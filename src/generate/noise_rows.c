@@ -1,7 +1,9 @@
 #include "generate/noise_rows.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/rows.h"
+#include "field/field.h"
 #include "generate/build.h"
 #include "generate/param.h"
 #include "noise/grid.h"

@@ -11,6 +11,8 @@
 #include "generate/generator.h"
 #include "noise/octaves.h"
 
+#include <stdbool.h>
+
 typedef struct WrNoiseMaker {
     WrOctavesPlan plan;
     WrOctavesPlan warp[WR_NOISE_AXES]; /* [plan.dim], in use if warp_amount is not 0 */

@@ -1,7 +1,9 @@
 #include "generate/normals.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <string.h>

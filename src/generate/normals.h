@@ -4,7 +4,13 @@
 #pragma once
 #include "generate/fft.h"
 #include "generate/terrain.h"
-#include "image/image.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrGenerateJob WrGenerateJob;
+typedef struct WrImage WrImage;
 
 typedef enum WrNormalCodes {
     WR_NORMALS_AUTO,

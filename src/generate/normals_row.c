@@ -1,7 +1,10 @@
 /* Heights from a normal map, as a row of the pictures. */
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "generate/normals.h"
 #include "generate/picture.h"
+#include "image/image.h"
 
 #include <math.h>
 

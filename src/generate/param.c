@@ -1,5 +1,7 @@
 #include "generate/param.h"
 
+#include "base/error.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -3,6 +3,10 @@
 #pragma once
 #include "generate/generator.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 /* The parameters that many generators have, as macros for their tables. */
 #define WR_P_NUMBER(n, l, value, lowest, highest, soft, u, h)                                      \
     {                                                                                              \

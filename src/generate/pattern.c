@@ -1,6 +1,8 @@
 #include "generate/pattern.h"
 
+#include "base/error.h"
 #include "base/kernmath.h"
+#include "field/field.h"
 
 #include <math.h>
 

@@ -11,6 +11,9 @@
 #include "generate/param.h"
 #include "noise/noise.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /* Height at a place; ctx is the pattern's own. Any thread. */
 typedef double (*WrPatternAt)(const void *ctx, double x, double y);
 

@@ -1,4 +1,5 @@
 /* Cells about points: dots, Voronoi cells, cracks. */
+#include "base/error.h"
 #include "base/memory.h"
 #include "generate/pattern.h"
 

@@ -1,4 +1,5 @@
 /* Threads: weave and rope. */
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "generate/pattern.h"
 

@@ -2,6 +2,8 @@
    is highest at its lower end and falls towards where the next row covers it. */
 #include "generate/pattern.h"
 
+#include "base/error.h"
+
 #include <math.h>
 
 typedef struct Coat {

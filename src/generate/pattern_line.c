@@ -1,6 +1,9 @@
 /* Lines and fields: grid, checks, stripes, waves, knurling. */
 #include "generate/pattern.h"
 
+#include "base/error.h"
+#include "field/field.h"
+
 #include <math.h>
 
 /* How far x is from the nearest whole number, 0..1/2. */

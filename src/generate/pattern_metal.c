@@ -1,6 +1,8 @@
 /* Chains: links of round wire, flat and upright in turn, each through the next. */
 #include "generate/pattern.h"
 
+#include "base/error.h"
+
 #include <math.h>
 
 static const char *const directions[] = { "u", "v", NULL };

@@ -4,7 +4,9 @@
    buckets, and each knows the pieces that reach it. The deepest scratch counts, so the order in which
    they come does not. */
 #include "base/array.h"
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "field/field.h"
 #include "generate/pattern.h"
 
 #include <math.h>

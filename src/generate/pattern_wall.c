@@ -1,5 +1,7 @@
 /* Pieces side by side: bricks, tiles, hexagons, planks. */
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "field/field.h"
 #include "generate/pattern.h"
 
 #include <math.h>

@@ -2,7 +2,17 @@
    Layer 4, private to this room. */
 #pragma once
 #include "generate/terrain.h"
-#include "image/image.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrGenerateJob WrGenerateJob;
+typedef struct WrImage WrImage;
+typedef struct WrImageLabel WrImageLabel;
+typedef struct WrParamValue WrParamValue;
+typedef struct WrParams WrParams;
+typedef struct WrRelief WrRelief;
 
 /* Fill texels that are not numbers (NaN) from their neighbours, smoothly: means of ever coarser levels,
  * evened out on the way back. Texels that are there keep their bits. Returns how many were filled; -1 where

@@ -1,5 +1,6 @@
 #include "generate/picture.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <math.h>

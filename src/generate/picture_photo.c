@@ -1,9 +1,12 @@
 /* Heights by how bright a picture is: in linear light, since the codes of pictures are not in proportion to
    it. */
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "field/ops.h"
 #include "generate/picture.h"
+#include "image/image.h"
 
 #include <math.h>
 

@@ -1,7 +1,8 @@
+#include "base/error.h"
+#include "base/memory.h"
+#include "field/field.h"
 #include "generate/fft.h"
 #include "generate/picture.h"
-
-#include "base/memory.h"
 
 #include <string.h>
 

@@ -4,6 +4,9 @@
 #include "generate/param.h"
 #include "generate/zbuffer.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #define WR_S_TUPLE(n, l, v, lowest, highest, soft_lowest, soft_highest, u, s, h)                   \
     {                                                                                              \
         .name = (n), .label = (l), .help = (h), .unit = (u), .kind = WR_PARAM_TUPLE,               \

@@ -1,5 +1,6 @@
 /* Letters in three dimensions: outlines of a font cut out of a plate, with an edge, in any pose (Blinn
  * 1978, figure 7: the date). */
+#include "base/error.h"
 #include "base/memory.h"
 #include "generate/build.h"
 #include "generate/solid.h"

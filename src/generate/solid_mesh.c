@@ -1,4 +1,5 @@
 /* Meshes of files, seen from above. */
+#include "base/error.h"
 #include "base/memory.h"
 #include "generate/build.h"
 #include "generate/solid.h"

@@ -1,7 +1,9 @@
 /* Where solids stand: lattices with their accidents, and the drawing of what stands there. */
 #include "generate/solid.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "generate/pattern.h"
 
 #define TRIANGLES_MAX 12000000 /* of all copies */

@@ -1,4 +1,5 @@
 /* The surfaces that can be shown, as nets of triangles seen from above. */
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "generate/build.h"

@@ -1,4 +1,5 @@
 /* The family of solids: its rows, and those with closed forms. */
+#include "base/error.h"
 #include "base/memory.h"
 #include "generate/solid.h"
 

@@ -1,7 +1,10 @@
 #include "generate/terrain.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
+#include "field/field.h"
 #include "field/ops.h"
 
 #include <float.h>

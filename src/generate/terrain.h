@@ -2,8 +2,11 @@
    share.
    Layer 4, private to this room. */
 #pragma once
+#include "field/wrap.h"
 #include "generate/build.h"
 #include "generate/param.h"
+
+#include <stdbool.h>
 
 typedef struct WrSheet {
     int width, height;

@@ -1,9 +1,12 @@
 /* Real elevations: pictures of 16 bits or of floats, and files of bare numbers. */
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "generate/picture.h"
 #include "generate/terrain.h"
 #include "generate/terrain_raw.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <string.h>

@@ -12,8 +12,10 @@
    is the sum of the slopes of the octaves so far, per cell of their own: what is steep stays smooth. */
 #include "generate/terrain.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "noise/grid.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 #include "generate/terrain_raw.h"
 
+#include "base/error.h"
 #include "field/field.h"
 
 #include <math.h>

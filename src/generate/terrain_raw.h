@@ -2,9 +2,10 @@
    (.r16, .raw, .r32).
    Layer 4, private to this room. */
 #pragma once
-#include "base/error.h"
-
+#include <stdbool.h>
 #include <stddef.h>
+
+typedef struct WrError WrError;
 
 typedef enum WrRawKind { WR_RAW_U16, WR_RAW_I16, WR_RAW_F32, WR_RAW_KINDS } WrRawKind;
 

@@ -1,7 +1,9 @@
 /* Terraces: what lies there, cut into steps. */
 #include "generate/terrain.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "noise/grid.h"
 
 #include <math.h>

@@ -11,7 +11,11 @@
    neither the order of outlines nor where the table begins can change a bit. */
 #pragma once
 #include "base/array.h"
+#include "field/wrap.h"
 #include "generate/build.h"
+
+#include <stdbool.h>
+#include <stdint.h>
 
 #define WR_TEXT_SUB 65536              /* corners are multiples of 1/WR_TEXT_SUB texel */
 #define WR_TEXT_UNIT (2 * WR_TEXT_SUB) /* a texel in the units of pieces */

@@ -1,6 +1,9 @@
 /* Outlines cut into pieces along the borders of texels. */
 #include "generate/text.h"
 
+#include "base/error.h"
+#include "field/field.h"
+
 #include <math.h>
 #include <string.h>
 

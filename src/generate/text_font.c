@@ -1,5 +1,7 @@
 /* Which fonts write a text: the one that is asked for, and others for what it lacks. */
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "generate/build.h"
 #include "generate/text_lay.h"

@@ -1,6 +1,11 @@
 /* From pieces to the covered part of each texel, row by row, and to the rim. */
 #include "generate/text.h"
 
+#include "base/error.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "field/field.h"
+
 #include <string.h>
 
 #define ROWS WR_TILE

@@ -1,6 +1,8 @@
 #include "generate/text_lay.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/progress.h"
 
 #include <math.h>
 #include <string.h>

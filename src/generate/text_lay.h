@@ -5,6 +5,8 @@
 #include "generate/text.h"
 #include "image/font.h"
 
+#include <stdbool.h>
+
 typedef enum WrTextAnchor {
     WR_TEXT_MIDDLE,   /* half way between the first line's ascent and the last one's descent */
     WR_TEXT_BASELINE, /* of the first line */

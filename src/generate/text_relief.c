@@ -1,4 +1,7 @@
 /* A profile over the distance from the rim. */
+#include "base/error.h"
+#include "base/pool.h"
+#include "field/field.h"
 #include "generate/pattern.h"
 #include "generate/text.h"
 

@@ -1,4 +1,5 @@
 /* The text generator: from parameters to placed outlines. */
+#include "base/error.h"
 #include "generate/param.h"
 #include "generate/text_lay.h"
 

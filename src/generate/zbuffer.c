@@ -1,7 +1,10 @@
 /* The depth buffer: lists what is to be drawn in each tile, then draws the tiles on all threads. */
 #include "generate/zbuffer.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
 #include "generate/zbuffer_tile.h"
 
 #include <string.h>

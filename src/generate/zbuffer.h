@@ -18,6 +18,8 @@
 #include "generate/zbuffer_letters.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 #define WR_Z_SAMPLES 16
 #define WR_Z_REACH 524288.0   /* texels from the origin that anything may reach */

@@ -2,7 +2,10 @@
 #include "generate/zbuffer_letters.h"
 
 #include "base/array.h"
+#include "base/error.h"
 #include "generate/zbuffer_shapes.h"
+
+#include <stdint.h>
 
 #define EDGES_MAX 4194304
 #define CELLS 256 /* of the grid along its longer side, at most */

@@ -7,7 +7,9 @@
    bevel - sqrt(bevel^2 - (bevel - d)^2) (round) or bevel - d (chamfer). The distance is the true one to the
    nearest outline, so thin strokes get a ridge and nothing ever folds over. */
 #pragma once
-#include "base/error.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
 
 typedef enum WrZBevel { WR_Z_BEVEL_ROUND, WR_Z_BEVEL_CHAMFER } WrZBevel;
 

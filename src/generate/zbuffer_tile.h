@@ -5,6 +5,9 @@
 #include "field/field.h"
 #include "generate/zbuffer.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #define WR_Z_FULL 0xffffU /* all samples */
 
 /* Where a texel is sampled, sixteenths of it from its centre; nearest first, no two in a row or column. */

@@ -1,6 +1,7 @@
 /* Solids met by lines straight down: q(z) = a + b z in the unit solid's own space. */
 #include "generate/zbuffer.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "generate/zbuffer_shapes.h"
 #include "generate/zbuffer_tile.h"

@@ -12,11 +12,13 @@
    hold is no number; the bound then is 0. Nothing here is taken for granted: a row without a comparison
    in a precision says so by NAN ("-"), and one whose effect the program does not have yet waits for it. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-#include "base/text.h"
-
+#include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
+typedef struct WrText WrText;
 
 #define WR_HARDCASES 116
 

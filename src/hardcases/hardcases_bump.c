@@ -1,7 +1,9 @@
 /* Hard cases of the formulas that bend the normal: beyond focal distances, extreme slopes, nothing at all. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "shade/bump.h"
 
 #include <float.h>
 #include <string.h>

@@ -1,11 +1,14 @@
 /* Hard cases past the first: surfaces, tables and heights that come to an end of what there is, and light
    without a direction. */
-#include "hardcases/hardcases_later.h"
-#include "hardcases/hardcases_look.h"
-
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "document/blend.h"
+#include "field/field.h"
 #include "field/ops.h"
+#include "hardcases/hardcases_later.h"
+#include "hardcases/hardcases_look.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 #include <float.h>
 #include <string.h>

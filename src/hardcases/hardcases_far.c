@@ -1,7 +1,11 @@
 /* Hard cases past the first: eyes inside, far away and close by, light from behind, seams. */
 #include "hardcases/hardcases_later.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "field/field.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 #include <float.h>
 

@@ -1,6 +1,9 @@
 /* Hard cases of level tables: nothing to see, and detail on a level of a million. */
 #include "hardcases/hardcases_look.h"
 
+#include "base/error.h"
+#include "field/field.h"
+
 static bool hc47(WrHardGauge *g, WrError *err)
 {
     static const float levels[] = { 0, 1, 0.1f, -1e6f, 3.3e38f, 1e-40f };

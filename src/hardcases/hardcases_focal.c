@@ -1,6 +1,10 @@
 /* The hard case of exact normals at focal distances, where the raised surface has lost a tangent. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
+#include "field/field.h"
+#include "scene/scene.h"
+
 /* The heights at which the tangents of P + F n come to lie in one line, det(I - F S) = 0: n_u = a Pu + b Pv
    and n_v = c Pu + d Pv, and F = -1 / w for each w of (a b; c d) that is not all but 0. On the sphere the two
    are one, which the root would lose half its digits of. */

@@ -1,8 +1,13 @@
 /* What the measurements of the hard cases share: comparisons, points, tables, look-ups, pictures. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "field/field.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
 
 #include <float.h>
 #include <string.h>

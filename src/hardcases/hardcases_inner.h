@@ -1,13 +1,16 @@
 /* hardcases_inner.h - what the measurements of the hard cases share.
    Layer 6, private to this room. */
 #pragma once
-#include "hardcases/hardcases.h"
 #include "base/vec.h"
+#include "field/wrap.h"
+#include "hardcases/hardcases.h"
 #include "render/frame.h"
 #include "render/kern.h"
 #include "render/reference.h"
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 /* Kernel sets that float is measured with: "ref" and another, both exact, and the other's fast form. */
 #define WR_HARD_SETS 3

@@ -4,6 +4,8 @@
 #pragma once
 #include "hardcases/hardcases_inner.h"
 
+#include <stdbool.h>
+
 /* What a picture of that arithmetic (WrHardWay) tells about. */
 static inline WrHardPrecision wr_hard_precision(int way)
 {

@@ -1,8 +1,12 @@
 /* Hard cases of highlights, of means over samples, and of pictures. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "base/kernmath.h"
+#include "field/field.h"
 #include "image/image.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 #include <string.h>
 

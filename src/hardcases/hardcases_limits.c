@@ -1,7 +1,9 @@
 /* Hard cases of heights: extreme ones, integer ones, and what happens at the edges of cells. */
 #include "hardcases/hardcases_look.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "image/image.h"
 
 #include <float.h>

@@ -1,6 +1,9 @@
 /* Heights and slopes as the renderer looks them up. */
 #include "hardcases/hardcases_look.h"
 
+#include "base/error.h"
+#include "field/field.h"
+
 bool wr_hard_look_init(WrHardGauge *gauge, WrHardLook *look, const WrField *field, WrScheme scheme,
                        double ru, double rv, WrError *err)
 {

@@ -4,6 +4,8 @@
 #include "hardcases/hardcases_inner.h"
 #include "render/table.h"
 
+#include <stdbool.h>
+
 /* The renderer's copies of a table and how it looks heights up there. */
 typedef struct WrHardLook {
     WrTable table;

@@ -1,6 +1,7 @@
 /* Hard cases of frames: triangles with texture coordinates, sheared tangents, scaled objects. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "shade/bump.h"
 
 /* n - grad F, grad F = [(G Fu - F1 Fv) Pu + (E Fv - F1 Fu) Pv] / (E G - F1^2): does not name the frame's

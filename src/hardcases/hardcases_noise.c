@@ -1,6 +1,7 @@
 /* Hard cases of single noises: lattice points, far and negative places, hashes, faces of simplices. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "noise/grid.h"
 #include "noise/noise.h"
 

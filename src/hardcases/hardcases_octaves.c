@@ -1,6 +1,7 @@
 /* Hard cases of sums of noise: octaves too fine for the table, sums that do not converge, creases, tiling. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "noise/grid.h"
 #include "noise/octaves.h"
 

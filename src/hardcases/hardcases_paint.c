@@ -1,7 +1,9 @@
 /* Hard cases of dabs and strokes. Heights are floats; how they change is worked out in double. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "brush/brush.h"
+#include "field/field.h"
 #include "field/ops.h"
 
 #include <float.h>

@@ -1,6 +1,8 @@
 /* The report of the hard cases for people and for programs. */
 #include "hardcases/hardcases.h"
 
+#include "base/text.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,9 @@
 /* Hard cases of filtered tables, seams of closed surfaces, and the spline through the samples. */
 #include "hardcases/hardcases_look.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "field/field.h"
 #include "render/pyramid.h"
 
 #include <string.h>

@@ -1,7 +1,11 @@
 /* Light and pictures in double, by the reference renderer. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/analytic.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 /* The unit plane with a slope that bends n to lit->perturbed everywhere: F = fu u + fv v. The object's colour is
    red and highlights are white, which keeps the two parts apart. */

@@ -1,6 +1,10 @@
 /* Hard cases of the sides that a perturbed normal may turn to: away from the eye, away from the light, edge on. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
+#include "field/field.h"
+#include "scene/scene.h"
+
 #include <float.h>
 
 static WrVec3 direction(WrHardGauge *g)

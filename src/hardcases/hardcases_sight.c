@@ -1,7 +1,12 @@
 /* Hard cases of what is in the picture: near planes, insides, shared edges, tiny patches; and of turning. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/pool.h"
+#include "field/field.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 static WrScene *scene_of(WrSurfaceKind kind)
 {

@@ -1,9 +1,14 @@
 /* Hard cases of what is rasterized into a table, and of going back and forth in its history. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
+#include "base/hash.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "brush/brush.h"
+#include "document/document.h"
 #include "document/history.h"
+#include "field/field.h"
 #include "generate/generator.h"
 #include "image/font.h"
 

@@ -1,7 +1,11 @@
 /* Hard cases of points and normals: poles, tips, collapsed edges, extreme lengths. */
 #include "hardcases/hardcases_inner.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "field/field.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 #include <float.h>
 #include <string.h>

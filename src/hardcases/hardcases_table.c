@@ -1,6 +1,9 @@
 /* Hard cases of looking a parameter up in the table: ends, wraps, repeats, odd sizes. */
 #include "hardcases/hardcases_look.h"
 
+#include "base/error.h"
+#include "field/field.h"
+
 #include <float.h>
 
 static const double ends[] = { 0, 1, -0.0, 5, -3 };

@@ -1,5 +1,9 @@
 #include "image/choose.h"
 
+#include "base/error.h"
+#include "base/text.h"
+#include "image/image.h"
+
 #include <string.h>
 #include <strings.h>
 

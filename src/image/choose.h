@@ -1,8 +1,11 @@
 /* choose.h - which channels of a part a picture is made of.
    Private to this room. */
 #pragma once
-#include "base/text.h"
-#include "image/image.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrImagePart WrImagePart;
+typedef struct WrText WrText;
 
 typedef struct WrChannelChoice {
     int count;    /* 1..4 */

@@ -1,5 +1,6 @@
 #include "image/decode.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "image/format.h"
 #include "image/oiio.h"

@@ -5,6 +5,11 @@
 #include "base/hash.h"
 #include "image/image.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+
 typedef struct WrDecoder WrDecoder;
 
 /* Open a picture.

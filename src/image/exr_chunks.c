@@ -1,6 +1,7 @@
 /* Source: OpenEXR File Layout, "Multi-Part and Deep Data". All numbers are little-endian. */
 #include "image/exr_chunks.h"
 
+#include "base/error.h"
 #include "image/image.h"
 
 #include <string.h>

@@ -5,7 +5,9 @@
    readers then put up with zeros there, some by searching the file, others not at all. Here every entry
    must be the place where the chunk before it ended, and the last chunk must end the file. */
 #pragma once
-#include "base/error.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
 
 /* Files of one part are not looked at: their failures are told. Errors do not name the file. */
 bool wr_exr_check_chunks(int fd, WrError *err);

@@ -1,5 +1,7 @@
 /* Asking the reader process for a shaped text, and fonts by name. */
+#include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "image/font_inner.h"
 #include "image/reader.h"
 

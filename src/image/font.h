@@ -10,9 +10,12 @@
    directions by FriBidi; bitmaps in PCF, BDF, PSF 1 and 2, all also compressed by gzip. */
 #pragma once
 #include "base/array.h"
-#include "base/error.h"
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 #define WR_FONT_TEXT_MAX 262144      /* bytes of a text */
 #define WR_FONT_FILE_MAX (128 << 20) /* bytes of a file, unpacked as well */

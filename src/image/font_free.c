@@ -2,13 +2,14 @@
    of that library shows. OpenType fonts are shaped by HarfBuzz, at a scale of one unit. */
 #include "image/font_inner.h"
 
+#include "base/error.h"
+
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_MULTIPLE_MASTERS_H
 #include FT_OUTLINE_H
 #include <hb-ft.h>
 #include <hb-ot.h>
-
 #include <string.h>
 
 #define SIDE_MAX 4096 /* dots of a bitmap glyph */

@@ -1,5 +1,8 @@
 #include "image/font_inner.h"
 
+#include "base/error.h"
+#include "base/text.h"
+
 #include <string.h>
 #include <zlib.h>
 

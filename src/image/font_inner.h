@@ -3,8 +3,14 @@
 
    A shaped text travels as one block: a WrFontHead, then the arrays in the order of its counts. */
 #pragma once
-#include "base/text.h"
 #include "image/font.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrText WrText;
 
 #define WR_FONT_MISSING_MAX 64
 

@@ -1,8 +1,9 @@
 /* A text cut into lines, and lines into parts by direction (Unicode's bidirectional algorithm). */
 #include "image/font_inner.h"
 
-#include <fribidi.h>
+#include "base/error.h"
 
+#include <fribidi.h>
 #include <string.h>
 
 uint32_t wr_font_character(const char *text, size_t length, size_t *at)

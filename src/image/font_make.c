@@ -1,6 +1,9 @@
 /* Reading fonts, in whichever process: unpacked, then by their kind. */
 #include "image/font_inner.h"
 
+#include "base/error.h"
+#include "base/text.h"
+
 #include <string.h>
 
 typedef struct Opened {

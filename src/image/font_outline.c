@@ -2,6 +2,8 @@
    + - * / sqrt, in a fixed order. */
 #include "image/font_inner.h"
 
+#include "base/error.h"
+
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,8 @@
 /* A shaped text as one block, and checking a block that may come from anywhere. */
 #include "image/font_inner.h"
 
+#include "base/text.h"
+
 #include <string.h>
 
 #define COORDINATE_MAX (1 << 23) /* half units */

@@ -2,6 +2,8 @@
    that tells for each glyph the characters that it stands for. */
 #include "image/font_inner.h"
 
+#include "base/error.h"
+
 #include <string.h>
 
 #define MODE_512 1 /* version 1: 512 glyphs, not 256 */

@@ -1,6 +1,8 @@
 #include "image/format.h"
 
+#include "base/error.h"
 #include "base/file.h"
+#include "image/image.h"
 
 #include <string.h>
 

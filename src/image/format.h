@@ -2,7 +2,10 @@
    files of each begin.
    Private to this room. */
 #pragma once
-#include "image/image.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
 
 typedef struct WrImageFormat {
     const char *endings[3]; /* lower case, without dot */

@@ -1,5 +1,6 @@
 #include "image/image.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 

@@ -2,10 +2,11 @@
    Layer 1. The library behind it is loaded on first use: a program that opens no picture never pays
    for it. */
 #pragma once
-#include "base/error.h"
-
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 typedef enum WrPixelType { WR_PIXEL_U8, WR_PIXEL_U16, WR_PIXEL_F32 } WrPixelType;
 

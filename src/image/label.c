@@ -1,10 +1,10 @@
 #include "image/label.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
-
 #include <string.h>
 
 struct WrLabel {

@@ -2,9 +2,9 @@
    own faces (Inter, else DejaVu Sans), never a stranger's; no shaping, so for short Latin labels.
    Layer 1. */
 #pragma once
-#include "base/error.h"
-
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 typedef struct WrLabel WrLabel;
 

@@ -1,7 +1,9 @@
 #include "image/mesh.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "image/mesh_make.h"
 #include "image/reader.h"
 

@@ -1,9 +1,11 @@
 /* mesh.h - files of triangles: OBJ, PLY, STL, glTF and what else the library reads.
    Layer 1. Knows no tables. Files are strangers' and are read by the reader process, as pictures are. */
 #pragma once
-#include "base/error.h"
-
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 #define WR_MESH_FILE_MAX ((size_t)1 << 30) /* bytes */
 #define WR_MESH_POINTS_MAX 9000000

@@ -1,6 +1,8 @@
 #include "image/mesh_make.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "image/assimp.h"
 #include "image/module.h"
 #include "image/ply.h"

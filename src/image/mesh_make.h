@@ -1,8 +1,14 @@
 /* mesh_make.h - a mesh file read within this process, and what travels from the reader process.
    Private to this room. */
 #pragma once
-#include "base/text.h"
 #include "image/mesh.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrText WrText;
 
 /* A mesh as bytes: this, then the points, then the corners. */
 typedef struct WrMeshHead {

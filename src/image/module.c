@@ -1,7 +1,9 @@
 #include "image/module.h"
 
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "image/oiio.h"
 
 #include <dlfcn.h>

@@ -2,7 +2,11 @@
    Private to this room. */
 #pragma once
 #include "base/aside.h"
-#include "base/text.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrText WrText;
 
 #define WR_MODULE_PLACES 3
 

@@ -8,6 +8,7 @@
 #pragma once
 #include "image/image.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #define WR_OIIO_VERSION 4

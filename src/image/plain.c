@@ -1,5 +1,6 @@
 #include "image/plain.h"
 
+#include "base/error.h"
 #include "base/memory.h"
 
 #include <errno.h>

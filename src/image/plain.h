@@ -5,6 +5,9 @@
 #pragma once
 #include "image/image.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 typedef struct WrPlain WrPlain;
 
 /* Whether a file that begins so, or failing that whose name ends so, is one of these. */

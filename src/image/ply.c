@@ -1,5 +1,6 @@
 #include "image/ply.h"
 
+#include "base/error.h"
 #include "base/text.h"
 
 #include <string.h>

@@ -1,5 +1,7 @@
 #include "image/png.h"
 
+#include "base/error.h"
+
 #include <stdint.h>
 #include <string.h>
 

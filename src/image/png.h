@@ -2,7 +2,10 @@
    damaged ones, allocates what a damaged length says, and forgives a missing end.
    Private to this room. Source: PNG specification (ISO/IEC 15948), 5.3 chunk layout, annex D. */
 #pragma once
-#include "base/error.h"
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef struct WrError WrError;
 
 /* Walks the chunks of an open file that starts with the PNG signature: lengths stay inside the file,
  * every CRC is right, the last chunk is IEND. The message does not name the file. */

@@ -1,6 +1,8 @@
 #include "image/process.h"
 
 #include "base/aside.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "image/module.h"
 
 #include <errno.h>

@@ -4,6 +4,8 @@
 #pragma once
 #include "image/wire.h"
 
+#include <stdbool.h>
+
 /* Start the process if there is none; returns at once, while it still loads. Any thread. */
 bool wr_process_start(WrError *err);
 

@@ -1,8 +1,13 @@
 /* read_inner.h - what reading whole pictures, and reading back what was written, need of reading.
    Private to this room. */
 #pragma once
-#include "base/hash.h"
-#include "image/image.h"
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrHash WrHash;
+typedef struct WrImageFile WrImageFile;
+typedef struct WrImageRows WrImageRows;
+typedef struct WrImageWish WrImageWish;
 
 /* Rows and the first `channels` channels of a part. */
 bool wr_image_file_read_first(WrImageFile *file, int part, int y, int rows, int channels,

@@ -2,7 +2,9 @@
 
 #include "base/array.h"
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "image/process.h"
 
 #include <fcntl.h>

@@ -10,6 +10,9 @@
 #include "image/image.h"
 #include "image/wire.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 typedef struct WrReader WrReader;
 
 /* Open a picture.

@@ -1,6 +1,8 @@
 #include "image/serve.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "image/cage.h"
 #include "image/decode.h"
 #include "image/font_inner.h"

@@ -1,6 +1,9 @@
 #include "image/verify.h"
 
+#include "base/error.h"
+#include "base/hash.h"
 #include "image/exr_chunks.h"
+#include "image/image.h"
 #include "image/read_inner.h"
 
 #include <errno.h>

@@ -1,8 +1,13 @@
 /* verify.h - reading back a picture file that was just written, by the reader process.
    Private to this room. */
 #pragma once
-#include "base/hash.h"
 #include "image/format.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrHash WrHash;
+typedef struct WrImageOut WrImageOut;
 
 /* Does a file hold what was written to it?
  *

@@ -1,6 +1,8 @@
 /* Pictures, row by row or whole: one part, some of its channels, the way up that the file tells. */
+#include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "image/choose.h"
 #include "image/read_inner.h"
 #include "image/told.h"

@@ -23,8 +23,9 @@
    first READ that needs it. */
 #pragma once
 #include "base/hash.h"
-#include "base/text.h"
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #define WR_WIRE_VERSION 4

@@ -1,10 +1,11 @@
-#include "image/decode.h"
-#include "image/oiio.h"
-#include "image/verify.h"
-
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/text.h"
+#include "image/decode.h"
+#include "image/oiio.h"
+#include "image/verify.h"
 
 #include <errno.h>
 #include <stdlib.h>

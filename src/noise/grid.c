@@ -1,5 +1,6 @@
 #include "noise/grid.h"
 
+#include "base/error.h"
 #include "noise/kern.h"
 
 #include <math.h>

@@ -10,6 +10,8 @@
 #pragma once
 #include "noise/octaves.h"
 
+#include <stddef.h>
+
 /* A rectangle of a table. */
 typedef struct WrNoiseGrid {
     int width, height;          /* of the table, texels, from 1 */

@@ -1,5 +1,7 @@
 #include "noise/kern.h"
 
+#include "base/error.h"
+
 #include <math.h>
 
 /* One octave over a piece of a grid (grid.h), with the loops of kern.h. */

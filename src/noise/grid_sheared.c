@@ -1,5 +1,7 @@
 #include "noise/inner.h"
 
+#include "base/error.h"
+
 #include <math.h>
 
 /* One octave of sheared noise over a piece of a grid: wr_noise_sheared's three corners, in float, with

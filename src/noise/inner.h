@@ -3,6 +3,8 @@
 #pragma once
 #include "noise/grid.h"
 
+#include <stdbool.h>
+
 /* The kinds on simplices; t brought into one period, or within 2^40. slope as in wr_noise_at, never
  * NULL. */
 double wr_noise_simplex(const WrNoise *noise, const double *t, double *slope);

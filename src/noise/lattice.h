@@ -9,6 +9,10 @@
 #pragma once
 #include "base/hash.h"
 
+#include <stdint.h>
+
+typedef struct WrError WrError;
+
 #define WR_NOISE_AXES 3           /* most dimensions of a caller's noise */
 #define WR_LATTICE_MOST (1 << 30) /* cells of a period at most */
 

@@ -1,4 +1,6 @@
 #include "noise/noise.h"
+
+#include "base/error.h"
 #include "base/rows.h"
 #include "noise/inner.h"
 

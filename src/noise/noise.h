@@ -28,6 +28,11 @@
 #pragma once
 #include "noise/lattice.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+
 typedef enum WrNoiseKind {
     WR_NOISE_VALUE,
     WR_NOISE_GRADIENT,

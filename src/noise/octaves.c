@@ -1,7 +1,8 @@
 #include "noise/octaves.h"
 
-#include "base/text.h"
+#include "base/error.h"
 #include "base/rows.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <string.h>

@@ -19,6 +19,12 @@
 #pragma once
 #include "noise/noise.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+
 #define WR_OCTAVES_MOST 32
 
 typedef enum WrOctavesMode {

@@ -1,9 +1,14 @@
 #include "render/frame.h"
+
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
+#include "field/field.h"
 #include "render/frame_inner.h"
 #include "render/pipe.h"
+#include "scene/scene.h"
 
 #include <math.h>
 

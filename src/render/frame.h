@@ -2,9 +2,16 @@
    Layer 5. A renderer keeps caches (contiguous heights, gradient table, meshes) from frame to frame and
    brings them up to date from what changed; give each view its own. */
 #pragma once
-#include "base/pool.h"
 #include "render/plan.h"
-#include "scene/scene.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrDials WrDials;
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrScene WrScene;
 
 typedef struct WrRenderer WrRenderer;
 

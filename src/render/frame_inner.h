@@ -1,12 +1,18 @@
 /* frame_inner.h - what a renderer holds from frame to frame.
    Layer 5, private to frame.c, frame_table.c, frame_account.c. */
 #pragma once
+#include "field/wrap.h"
 #include "render/frame.h"
 #include "render/keep.h"
 #include "render/pyramid.h"
 #include "render/rounded.h"
 #include "render/table.h"
 #include "render/tile.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrImage WrImage;
 
 /* The colour picture as the kernels want it. */
 typedef struct ColourCopy {

@@ -1,7 +1,11 @@
 /* Tables that a renderer keeps up to date: copies of heights, pyramids, the colour picture. */
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
+#include "image/image.h"
 #include "render/frame_inner.h"
+#include "scene/scene.h"
 #include "shade/slope.h"
 
 static void drop_colour(ColourCopy *copy)

@@ -1,5 +1,7 @@
 #include "render/keep.h"
+
 #include "base/memory.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <string.h>

@@ -9,6 +9,10 @@
 #pragma once
 #include "render/kern.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
 #define WR_KEEP_SIDE 64
 
 typedef struct WrBlocks {

@@ -1,6 +1,7 @@
 #include "render/kern.h"
 
 #include "base/cpu.h"
+#include "base/error.h"
 #include "render/kern_tables.h"
 
 #include <string.h>

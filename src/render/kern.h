@@ -7,7 +7,7 @@
    object space: lights and eye are turned into it once a frame, so that no normal is ever rotated. */
 #pragma once
 #include "field/scheme.h"
-#include "shade/bump.h"
+#include "shade/bump_mode.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>

@@ -1,6 +1,9 @@
 #include "render/mesh.h"
+
 #include "base/memory.h"
+#include "base/pool.h"
 #include "render/raster.h"
+#include "base/vec.h"
 
 #include <float.h>
 #include <math.h>

@@ -3,8 +3,12 @@
    parameters exact.
    Layer 5, private to the renderer. */
 #pragma once
-#include "base/pool.h"
 #include "render/view.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrPool WrPool;
 
 #define WR_MESH_BLOCK 8 /* cells along a block's side */
 

@@ -4,6 +4,9 @@
 #pragma once
 #include "render/tile.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 struct WrPipe {
     /* Row y of the tile, whose x, y, w, h are samples of a grid of k x k a pixel; with tile->shift each
        sample stands that far from its place. A mesh's depth tile was rasterised before. */

@@ -1,8 +1,9 @@
 /* The stages in double precision. */
-#include "render/pipe.h"
 #include "base/clock.h"
 #include "base/kernmath.h"
+#include "render/pipe.h"
 #include "render/pyramid.h"
+#include "scene/scene.h"
 #include "shade/slope.h"
 
 #include <float.h>

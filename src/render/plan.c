@@ -1,5 +1,6 @@
 #include "render/plan.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const char *wr_proof_letter(WrProof proof)

@@ -2,7 +2,16 @@
    picture. Nothing that is not on it is computed, allocated or kept.
    Layer 5. Rules are named E1, E2, ... as in the guide, ui/guide/plan.md, whose table is made from this one. */
 #pragma once
-#include "scene/scene.h"
+#include "field/scheme.h"
+#include "scene/dials.h"
+#include "shade/bump_mode.h"
+#include "surface/surface.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrDials WrDials;
+typedef struct WrScene WrScene;
 
 /* How leaving an effect out is justified. */
 typedef enum WrProof {

@@ -2,6 +2,10 @@
    and the settings that it owns. In the order of the table: a row may ask those before it. */
 #include "render/plan.h"
 
+#include "field/analytic.h"
+#include "image/image.h"
+#include "scene/scene.h"
+
 #include <math.h>
 
 /* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */

@@ -1,6 +1,10 @@
 #include "render/pyramid.h"
+
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
+#include "field/field.h"
 
 #include <float.h>
 #include <math.h>

@@ -15,8 +15,12 @@
    texel is the mean over exactly its share of the cell, parts of texels by their part, so that every level
    has the table's mean and no odd size shifts the picture (HC55). Level 0 is the table, not stored. */
 #pragma once
-#include "base/pool.h"
-#include "field/field.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
 
 typedef enum WrPyramidKind {
     WR_PYRAMID_SLOPES,  /* Fu, Fv, F, 0 */

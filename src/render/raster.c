@@ -1,5 +1,7 @@
 #include "render/raster.h"
 
+#include "base/vec.h"
+
 #include <math.h>
 
 WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, double v)

@@ -4,6 +4,9 @@
 #pragma once
 #include "render/mesh.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /* A projected vertex. */
 typedef struct WrRasterVertex {
     int32_t x, y; /* 1/256 samples */

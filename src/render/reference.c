@@ -1,12 +1,14 @@
 #include "render/reference.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "render/frame.h"
 #include "render/reference_shade.h"
+
+#include <math.h>
+#include <string.h>
 
 #define SIZE_MAX_PIXELS 4096
 #define SAMPLES_MAX 64

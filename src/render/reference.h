@@ -12,9 +12,16 @@
             under a tenth of the error to be measured, or the limit is reached.
    Shading  as the scene's lights and material say, in double, with the C library's pow. */
 #pragma once
-#include "base/pool.h"
 #include "render/plan.h"
-#include "scene/scene.h"
+#include "surface/surface.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrScene WrScene;
 
 typedef struct WrReferenceRequest {
     const WrField *field; /* borrowed for the call; may be NULL where the scene's F is a formula */

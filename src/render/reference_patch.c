@@ -8,9 +8,11 @@
  * folds, points where a tangent vanishes) it starts from five points. */
 #include "render/reference_patch.h"
 
-#include <math.h>
-
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/vec.h"
+
+#include <math.h>
 
 #define PIECES_MAX (1 << 18)
 #define DEPTH_MAX 40

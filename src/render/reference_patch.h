@@ -2,8 +2,11 @@
    square with boxes around what they map to, and Newton's method in the pieces that the ray enters.
    Layer 5, private to the reference. */
 #pragma once
-#include "base/error.h"
 #include "surface/surface.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
 
 /* Points q + s d; d's part along the axis of view is 1, so that s grows with depth. */
 typedef struct WrReferenceRay {

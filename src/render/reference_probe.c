@@ -1,9 +1,14 @@
 /* What the formulas hold at one place of a picture, by the scene's own scheme and bump mode, in double. */
 #include "render/reference.h"
 
-#include <math.h>
-
+#include "base/error.h"
+#include "base/pool.h"
+#include "field/field.h"
 #include "render/reference_shade.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
+
+#include <math.h>
 
 #define FOOTPRINT_MAX 1e9 /* texels a pixel: at outlines and poles there is no end to it */
 #define PICTURE_MAX 16384

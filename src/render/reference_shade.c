@@ -1,5 +1,12 @@
 #include "render/reference_shade.h"
 
+#include "base/error.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
+#include "shade/bump.h"
+
 #include <math.h>
 
 /* The normal that a mode stands for: of a surface that is displaced, but where it is another by intention. */

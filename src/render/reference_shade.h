@@ -3,6 +3,9 @@
 #pragma once
 #include "render/reference_table.h"
 #include "render/reference_view.h"
+#include "shade/bump_mode.h"
+
+#include <stdbool.h>
 
 /* All that samples of one picture share; read only while they are taken. */
 typedef struct WrReferenceStage {

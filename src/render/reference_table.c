@@ -5,10 +5,14 @@
  * ends, with the texels that stand there, leaves an error of 3e-37. */
 #include "render/reference_table.h"
 
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+#include "scene/scene.h"
+
 #include <float.h>
 #include <math.h>
-
-#include "base/memory.h"
 
 #define REACH 64
 #define BLOCK 32 /* columns that are filtered side by side */

@@ -2,8 +2,13 @@
    and evaluation in double.
    Layer 5, private to the reference. */
 #pragma once
-#include "base/pool.h"
-#include "scene/scene.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+typedef struct WrScene WrScene;
 
 typedef struct WrReferenceTable {
     int width, height; /* texels */

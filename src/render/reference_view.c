@@ -1,9 +1,12 @@
 #include "render/reference_view.h"
 
-#include <math.h>
-
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "scene/scene.h"
+#include "base/vec.h"
+
+#include <math.h>
 
 static WrVec3 world_to_object(const WrPlacement *place, WrVec3 w)
 {

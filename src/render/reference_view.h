@@ -3,7 +3,13 @@
    Layer 5, private to the reference. */
 #pragma once
 #include "render/reference_patch.h"
-#include "scene/scene.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrScene WrScene;
+typedef struct WrShape WrShape;
+typedef struct WrSurfaceInfo WrSurfaceInfo;
 
 typedef struct WrReferenceLight {
     bool point;

@@ -1,3 +1,4 @@
+#include "base/pool.h"
 #include "render/frame.h"
 #include "render/srgb_codes.h"
 

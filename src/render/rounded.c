@@ -1,6 +1,9 @@
 #include "render/rounded.h"
+
+#include "base/error.h"
 #include "base/kernmath.h"
 #include "base/memory.h"
+#include "field/field.h"
 
 #include <math.h>
 

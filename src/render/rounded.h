@@ -4,9 +4,10 @@
    measured on this rung is the error; its memory and its time are those of single precision. */
 #pragma once
 #include "base/kernmath.h"
-#include "base/pool.h"
-#include "field/field.h"
 #include "scene/dials.h"
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
 
 /* Zero-initialise; drop frees. */
 typedef struct WrRounded {

@@ -1,7 +1,11 @@
 #include "render/table.h"
+
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
 #include "base/rows.h"
+#include "field/field.h"
 
 #include <float.h>
 #include <string.h>

@@ -3,9 +3,15 @@
    Layer 5, private to the renderer. Each copy has an apron of WR_APRON texels (so no kernel wraps an
    index) and a row length off the powers of two. */
 #pragma once
-#include "base/pool.h"
 #include "render/kern.h"
 #include "render/plan.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
 
 typedef enum WrCopyKind {
     WR_COPY_HEIGHTS,  /* F */

@@ -6,6 +6,9 @@
 #include "render/mesh.h"
 #include "render/plan.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 #define WR_TILE_SAMPLES_W 256 /* at most, along a tile */
 #define WR_TILE_SAMPLES_H 64
 

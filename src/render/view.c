@@ -1,5 +1,9 @@
 #include "render/view.h"
+
+#include "base/error.h"
 #include "base/memory.h"
+#include "scene/scene.h"
+#include "base/vec.h"
 
 #include <math.h>
 

@@ -3,7 +3,11 @@
 #pragma once
 #include "render/kern.h"
 #include "render/plan.h"
-#include "scene/scene.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrScene WrScene;
 
 /* The rays of a grid of k x k samples a pixel. */
 typedef struct WrViewGrid {

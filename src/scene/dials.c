@@ -1,6 +1,8 @@
 /* The table of dials. */
 #include "scene/dials.h"
+
 #include "base/rows.h"
+#include "base/text.h"
 #include "scene/scene.h"
 
 #include <math.h>

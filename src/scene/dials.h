@@ -3,9 +3,9 @@
    `wrinkle accuracy` climbs and the window's Accuracy panel are all made from it. A new dial is one
    member of WrDials (or of the scene) and one row. */
 #pragma once
-#include "base/text.h"
-
 #include <stdbool.h>
+
+typedef struct WrText WrText;
 
 typedef struct WrScene WrScene;
 

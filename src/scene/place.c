@@ -1,8 +1,10 @@
 #include "scene/scene.h"
 
-#include <string.h>
-
+#include "base/error.h"
 #include "base/exactmath.h"
+#include "base/vec.h"
+
+#include <string.h>
 
 /* How much larger than the object's ball the view is, so that the object does not touch its
    border. */

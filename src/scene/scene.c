@@ -1,12 +1,13 @@
 #include "scene/scene.h"
-#include "shade/slope.h"
-
-#include <float.h>
-#include <string.h>
 
 #include "base/memory.h"
 #include "base/rows.h"
 #include "field/field.h"
+#include "image/image.h"
+#include "shade/slope.h"
+
+#include <float.h>
+#include <string.h>
 
 WR_ROWS(wr_light_names);
 const char *const wr_light_names[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "directional",

@@ -4,14 +4,19 @@
    snapshot is one pointer. World space is right-handed, y up; colours are linear; angles here in
    degrees. */
 #pragma once
-#include "base/text.h"
 #include "base/vec.h"
 #include "field/analytic.h"
 #include "field/scheme.h"
-#include "image/image.h"
+#include "scene/camera.h"
 #include "scene/dials.h"
-#include "shade/bump.h"
+#include "shade/bump_mode.h"
 #include "surface/surface.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrImage WrImage;
 
 typedef enum WrLightKind { WR_LIGHT_DIRECTIONAL, WR_LIGHT_POINT, WR_LIGHT_KINDS } WrLightKind;
 /* As in commands: "directional", "point". */
@@ -30,18 +35,6 @@ typedef struct WrMaterial {
     WrVec3 colour;                     /* C, linear RGB; does not tint the highlight */
     bool gate;                         /* highlight only where n'.l > 0 */
 } WrMaterial;
-
-typedef struct WrCamera {
-    bool orthographic;
-    /* The eye is placed on the line from target along (eye - target) so that the object just fits;
-       true until a camera command gives eye=. */
-    bool fit;
-    WrVec3 eye, target, up;
-    double fov_deg; /* vertical, perspective: 0.01..179 */
-    double size; /* height of the view in scene units, orthographic; <= 0: the object just fits */
-} WrCamera;
-/* As in commands: "perspective", "orthographic". */
-extern const char *const wr_camera_names[2];
 
 /* What the picture must keep to; the dials that meet it are chosen by measuring (accuracy/tolerance.h). */
 typedef enum WrToleranceKind {
@@ -82,18 +75,8 @@ struct WrScene {
     double background[3]; /* linear RGB behind 8-bit pictures */
 };
 
-/* How a scene is looked at: the object's orientation and the camera. Not part of the work: it has a
-   history of its own (document/views.h). */
-typedef struct WrSceneView {
-    bool posed; /* as in WrScene */
-    WrVec3 rotate_deg;
-    WrCamera camera;
-} WrSceneView;
-
 WrSceneView wr_scene_view(const WrScene *scene);
 void wr_scene_set_view(WrScene *scene, const WrSceneView *view);
-/* Do both show the same? The numbers of the kind of camera that is not chosen count too: they are kept. */
-bool wr_scene_view_equal(const WrSceneView *a, const WrSceneView *b);
 
 /* The scene of an empty document: the unit plane facing the viewer, blinn / central, one light from
    the upper left. The caller owns it. */

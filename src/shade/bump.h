@@ -13,21 +13,7 @@
               out. */
 #pragma once
 #include "base/vec.h"
-
-typedef enum WrBumpMode {
-    WR_BUMP_NONE,
-    WR_BUMP_BLINN,
-    WR_BUMP_INVARIANT,
-    WR_BUMP_EXACT,
-    WR_BUMP_COUNT
-} WrBumpMode;
-
-typedef struct WrBumpInfo {
-    const char *name;  /* as in commands: "blinn" */
-    const char *title; /* in lists of the window: "Blinn, N + D" */
-} WrBumpInfo;
-extern const WrBumpInfo wr_bumps[WR_BUMP_COUNT];
-int wr_bump_find(const char *name); /* mode, or -1 */
+#include "shade/bump_mode.h"
 
 /* D = Fu (n x Pv) - Fv (n x Pu) = n x (Fu Pv - Fv Pu), in the tangent plane, pointing downhill. */
 static inline WrVec3 wr_bump_d(WrVec3 n_unit, WrVec3 pu, WrVec3 pv, double fu, double fv)

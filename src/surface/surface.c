@@ -1,5 +1,7 @@
 #include "surface/surface.h"
 
+#include "base/error.h"
+
 #include <float.h>
 #include <string.h>
 

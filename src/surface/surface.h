@@ -3,8 +3,11 @@
    Layer 2. Object space; lengths in scene units; angles of parametrisation are whole turns,
    phi = 2 pi u. */
 #pragma once
-#include "base/error.h"
 #include "base/vec.h"
+
+#include <stdbool.h>
+
+typedef struct WrError WrError;
 
 #define WR_SURFACE_VALUES 48 /* numbers that describe a surface; a bicubic patch needs 16 points */
 #define WR_SURFACE_PARAMS 6

@@ -10,14 +10,17 @@
 
 #include "hardcases/hardcases.h"
 #include "base/error.h"
-#include "base/text.h"
-#include "field/field.h"
 #include "render/reference.h"
 #include "scene/dials.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrField WrField;
+typedef struct WrJob WrJob;
+typedef struct WrScene WrScene;
+typedef struct WrText WrText;
 
 /* What the patch's view shows. */
 typedef enum WrPatchLook {

@@ -3,10 +3,11 @@
 #pragma once
 #include "ui/accuracy/accuracy_work.h"
 
-#include "base/text.h"
 #include "render/reference.h"
 
 #include <stdbool.h>
+
+typedef struct WrText WrText;
 
 /* Fill work->probe. False and work->err only for a camera that cannot look. */
 bool wr_accuracy_probe(WrWork *work);

@@ -7,13 +7,14 @@
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
 #include "base/error.h"
-#include "field/field.h"
-#include "render/frame.h"
 #include "render/reference.h"
-#include "scene/scene.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrField WrField;
+typedef struct WrRenderer WrRenderer;
+typedef struct WrScene WrScene;
 
 #define WR_ERROR_SIDE                                                                              \
     256 /* pixels of the longer side of the picture that the error is measured on, at most */

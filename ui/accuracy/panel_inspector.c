@@ -8,6 +8,8 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 
+#include "scene/scene.h"
+
 #include <SDL.h>
 #include <math.h>
 #include <stdio.h>

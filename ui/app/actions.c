@@ -26,6 +26,7 @@
 #include "base/vec.h"
 #include "command/session.h"
 #include "field/field.h"
+#include "scene/scene.h"
 #include "surface/surface.h"
 
 #include <SDL.h>

@@ -3,10 +3,10 @@
 #pragma once
 #include "ui/desk/app_options.h"
 
-#include "base/error.h"
-
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 /* Open the window and stay until it is closed. Returns the process's exit status: 0, or 1 with a
  * message on standard error when there is no display to open it on.

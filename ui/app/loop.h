@@ -2,9 +2,9 @@
 #pragma once
 #include "ui/desk/desk.h"
 
-#include "base/error.h"
-
 #include <stdbool.h>
+
+typedef struct WrError WrError;
 
 /* One window's life, for wr_app_run and latency.c. end after begin even if that failed. */
 bool wr_app_begin(WrApp *app, WrError *err);

@@ -3,11 +3,11 @@
 #pragma once
 #include "ui/canvas/view.h"
 
-#include "field/field.h"
-
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrField WrField;
 
 typedef struct WrCanvas WrCanvas;
 

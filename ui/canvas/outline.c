@@ -8,6 +8,7 @@
 #include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
+#include "scene/scene.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -1,12 +1,13 @@
 /* outline.h - the outline of a selection, or of what it would become, computed in the background.
    All calls come from the window's thread. */
 #pragma once
-#include "document/document.h"
 #include "field/select.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrDocument WrDocument;
 
 typedef struct WrOutliner WrOutliner;
 

@@ -1,8 +1,8 @@
 /* seam.h - does a table go on smoothly where its edges meet? Pure; tested without a window. */
 #pragma once
-#include "field/field.h"
-
 #include <stdbool.h>
+
+typedef struct WrField WrField;
 
 /* One pair of edges. Jump: how much more two texels differ across the edge than the slopes on both sides
  * lead one to expect, a step in the height. Crease: how much the slope changes over the edge. Both are root

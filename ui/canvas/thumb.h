@@ -1,9 +1,9 @@
 /* thumb.h - small pictures of tables for lists. Pure; tested without a window. */
 #pragma once
-#include "field/field.h"
-
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrField WrField;
 
 #define WR_THUMB_MAX 128 /* pixels along a side */
 

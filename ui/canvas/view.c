@@ -1,6 +1,7 @@
 #include "ui/canvas/view.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static double clamp(double x, double low, double high)
 {

@@ -1,9 +1,10 @@
 /* app_options.h - what a window is opened with. */
 #pragma once
-#include "base/text.h"
 #include "command/inner.h"
 
 #include <stdbool.h>
+
+typedef struct WrText WrText;
 
 typedef struct WrAppOptions {
     WrSession

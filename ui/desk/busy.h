@@ -2,9 +2,9 @@
 #pragma once
 #include "ui/desk/desk.h"
 
-#include "base/error.h"
-
 #include <stdbool.h>
+
+typedef struct WrError WrError;
 
 /* Run a command line, as wr_busy_run does; a failure becomes a message. */
 bool wr_app_run_line(WrApp *app, const char *line);

@@ -1,11 +1,12 @@
 /* keys.h - which keys do what: lines "action: key key ...", built in and then the user's own. Actions of
    the hand, such as hold_pick, have keys that are held while the pointer works: "Ctrl", "Alt+Shift". */
 #pragma once
-#include "base/error.h"
-#include "base/text.h"
-
 #include <SDL.h>
 #include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+typedef struct WrText WrText;
 
 /* Held keys, as bits. */
 #define WR_MOD_CTRL 1

@@ -1,7 +1,8 @@
 /* line.h - command lines, piece by piece. */
 #pragma once
-#include "base/text.h"
 #include "base/vec.h"
+
+typedef struct WrText WrText;
 
 void wr_line_number(WrText *line, const char *name, double value); /* " name=1.5" */
 void wr_line_vec(WrText *line, const char *name, WrVec3 value);    /* " name=1,2,3" */

@@ -3,10 +3,11 @@
 #include "ui/desk/desk.h"
 
 #include "base/array.h"
-#include "base/error.h"
 
 #include <stdbool.h>
 #include <stdio.h>
+
+typedef struct WrError WrError;
 
 typedef struct WrMessage {
     char *text; /* owned */

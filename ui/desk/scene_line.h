@@ -2,7 +2,9 @@
 #pragma once
 #include "ui/desk/desk.h"
 
-#include "base/text.h"
+#include <stddef.h>
+
+typedef struct WrText WrText;
 
 /* Run a scene command whose value was being dragged; clears the line. */
 void wr_scene_run(WrApp *app, WrText *line);

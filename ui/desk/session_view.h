@@ -3,9 +3,11 @@
 #include "ui/desk/desk.h"
 #include "ui/jobs/trial.h"
 
-#include "field/field.h"
-
 #include <stdbool.h>
+
+typedef struct WrDocument WrDocument;
+typedef struct WrField WrField;
+typedef struct WrScene WrScene;
 
 /* What the views show: the composite, or what it would become by what is being tried. */
 const WrField *wr_app_field(const WrApp *app);

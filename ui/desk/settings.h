@@ -5,11 +5,12 @@
 #include "ui/desk/layout.h"
 #include "ui/pen/pen_curve.h"
 
-#include "base/text.h"
 #include "brush/brush.h"
 #include "brush/symmetry.h"
 
 #include <stdbool.h>
+
+typedef struct WrText WrText;
 
 #define WR_RECENT_MAX 8
 #define WR_FAVOURITES_MAX 64

@@ -9,13 +9,16 @@
 
 #include "base/array.h"
 #include "base/error.h"
-#include "base/text.h"
 #include "field/select.h"
 #include "generate/generator.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrGallery WrGallery;
+typedef struct WrPointer WrPointer;
+typedef struct WrText WrText;
 
 #define WR_GENERATE_WAKE 8      /* pictures that a new field takes to get the keyboard, at most */
 #define WR_GENERATE_TEXT 4096   /* bytes of a text, a file's name, a list of points */

@@ -10,6 +10,7 @@
 #include "ui/jobs/files.h"
 
 #include "document/blend.h"
+#include "document/document.h"
 #include "generate/generator.h"
 
 #include <SDL.h>

@@ -5,10 +5,13 @@
 
    Sizes are pixels of the window unless a name says `units`: a unit is a pixel at scale 1. */
 #pragma once
-#include "base/error.h"
 #include "ui/gui/theme.h"
 
 #include <SDL.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,10 +1,8 @@
 /* The widget library's context: style, events, frames. */
 #include "ui/gui/gui_imgui.h"
-
 #include "ui/gui/gui_sdl.h"
 
 #include <imgui_internal.h>
-
 #include <math.h>
 #include <string.h>
 

@@ -1,11 +1,14 @@
 /* gui_imgui.h - what the gui_imgui*.cpp files share; nobody else includes it. */
 #pragma once
-extern "C" {
-#include "base/text.h"
-}
 #include "ui/gui/gui.h"
 
+extern "C" {
+#include "base/error.h"
+}
+
 #include <imgui.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 #define WR_GUI_KEYS 512 /* of the keyboard, by SDL_Scancode */
 

@@ -1,9 +1,9 @@
 /* Faces and their spacing: Inter if it is there, else what is; icons from Material Design. */
 #include "ui/gui/gui_imgui.h"
-
 #include "ui/gui/gui_sdl.h"
 
 extern "C" {
+#include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "ui/gui/gui_icons.h"

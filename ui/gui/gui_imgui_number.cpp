@@ -2,6 +2,7 @@
 #include "ui/gui/gui_imgui.h"
 
 extern "C" {
+#include "base/text.h"
 #include "base/clock.h"
 }
 

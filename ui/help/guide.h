@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/desk/desk.h"
 
-#include "base/text.h"
+typedef struct WrText WrText;
 
 typedef struct WrGuide WrGuide;
 

@@ -1,11 +1,11 @@
 /* job.h - work in the background, one piece at a time: a newer piece takes the place of the one under way.
    Knows nothing of what the work is. All calls come from the window's thread. */
 #pragma once
-#include "base/pool.h"
-#include "base/progress.h"
-
 #include <SDL.h>
 #include <stdbool.h>
+
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
 
 typedef struct WrJob WrJob;
 

@@ -1,6 +1,7 @@
 #include "ui/jobs/thread.h"
 
 #include <pthread.h>
+#include <stddef.h>
 
 static int refused; /* atomic; 1: still to be told, 2: told */
 

@@ -2,15 +2,16 @@
    that the document is never touched and the window never waits.
    All calls come from the window's thread. */
 #pragma once
-#include "base/error.h"
-#include "brush/brush.h"
 #include "document/blend.h"
-#include "document/document.h"
-#include "field/field.h"
 #include "field/ops.h"
 
 #include <SDL.h>
 #include <stdbool.h>
+
+typedef struct WrBrush WrBrush;
+typedef struct WrDocument WrDocument;
+typedef struct WrError WrError;
+typedef struct WrField WrField;
 
 typedef struct WrTrial WrTrial;
 

@@ -1,12 +1,12 @@
 /* trial_generate.h - what a generator's command line would make of a document. */
 #pragma once
-#include "base/error.h"
-#include "base/pool.h"
-#include "base/progress.h"
-#include "base/text.h"
-#include "document/document.h"
-
 #include <stdbool.h>
+
+typedef struct WrDocument WrDocument;
+typedef struct WrError WrError;
+typedef struct WrPool WrPool;
+typedef struct WrProgress WrProgress;
+typedef struct WrText WrText;
 
 /* Join what the line makes to the document's active layer, inside its selection, as the command would.
  *

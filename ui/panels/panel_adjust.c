@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "command/session.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "field/ops.h"
 

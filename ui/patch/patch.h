@@ -4,11 +4,13 @@
 #include "ui/desk/roster.h"
 #include "ui/preview/rotation.h"
 
-#include "field/field.h"
-
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrField WrField;
+typedef struct WrPointer WrPointer;
+typedef struct WrScene WrScene;
 
 typedef struct WrPatch {
     SDL_Texture *texture; /* of the newest picture; owned */

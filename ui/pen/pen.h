@@ -8,11 +8,11 @@
 #pragma once
 #include "ui/pen/pen_curve.h"
 
-#include "base/error.h"
-
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
 
 typedef enum WrPenKind {
     WR_PEN_MOTION, /* button 0: hover */

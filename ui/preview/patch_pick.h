@@ -4,10 +4,10 @@
    A net of projected points of P(u,v) finds the nearest face of a net's cell under the pixel; Newton's
    method on the projection then makes (u,v) exact for any place between pixels. */
 #pragma once
-#include "base/error.h"
-#include "scene/scene.h"
-
 #include <stdbool.h>
+
+typedef struct WrError WrError;
+typedef struct WrScene WrScene;
 
 typedef struct WrPatchPick WrPatchPick;
 

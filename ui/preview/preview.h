@@ -5,15 +5,16 @@
 #pragma once
 #include "ui/preview/accuracy_choice.h"
 
-#include "base/error.h"
-#include "field/field.h"
 #include "render/frame.h"
 #include "render/plan.h"
-#include "scene/scene.h"
 
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrScene WrScene;
 
 typedef struct WrPreview WrPreview;
 

@@ -1,10 +1,10 @@
 /* brush_line.h - a brush as the arguments of a command line: what stroke, dab, shape and flood share. No
    window needed. */
 #pragma once
-#include "base/text.h"
-#include "brush/brush.h"
-
 #include <stdbool.h>
+
+typedef struct WrBrush WrBrush;
+typedef struct WrText WrText;
 
 typedef struct WrBrushNames { /* of the files that a brush comes from, borrowed; NULL or "": none */
     const char *preset;       /* id in the library */

@@ -2,9 +2,9 @@
 #pragma once
 #include "ui/desk/desk.h"
 
-#include "brush/brush.h"
-
 #include <stdbool.h>
+
+typedef struct WrBrushModeInfo WrBrushModeInfo;
 
 typedef struct WrOption {
     const char *label; /* "" for none */

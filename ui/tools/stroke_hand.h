@@ -5,11 +5,13 @@
 #include "ui/pen/steady.h"
 
 #include "base/array.h"
-#include "base/text.h"
 #include "brush/brush.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+typedef struct WrPointer WrPointer;
+typedef struct WrText WrText;
 
 /* One stroke: being drawn by the session, or waiting for the one before it to be done. */
 typedef struct WrStrokeJob {

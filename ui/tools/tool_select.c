@@ -19,6 +19,7 @@
 #include "base/array.h"
 #include "base/rows.h"
 #include "base/text.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
 

@@ -3,9 +3,10 @@
 #include "ui/desk/desk.h"
 
 #include "base/array.h"
-#include "base/text.h"
 
 #include <stdbool.h>
+
+typedef struct WrText WrText;
 
 /* An anchor of a Bezier path: its place and where its two arms end, texels, unwrapped. */
 typedef struct WrAnchor {

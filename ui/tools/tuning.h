@@ -1,8 +1,8 @@
 /* tuning.h - the text "name=value;name=value" of a preset's changed settings. No window needed. */
 #pragma once
-#include "base/text.h"
-
 #include <stdbool.h>
+
+typedef struct WrText WrText;
 
 /* The value of a name; false if it is not in the text (which may be NULL). */
 bool wr_tuning_get(const char *set, const char *name, double *value);

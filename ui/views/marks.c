@@ -12,6 +12,7 @@
 
 #include "base/array.h"
 #include "base/clock.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
 

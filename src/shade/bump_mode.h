@@ -1,0 +1,18 @@
+/* bump_mode.h - the ways in which a table turns the normal, by name; what each means is in bump.h.
+   Layer 3. */
+#pragma once
+
+typedef enum WrBumpMode {
+    WR_BUMP_NONE,
+    WR_BUMP_BLINN,
+    WR_BUMP_INVARIANT,
+    WR_BUMP_EXACT,
+    WR_BUMP_COUNT
+} WrBumpMode;
+
+typedef struct WrBumpInfo {
+    const char *name;  /* as in commands: "blinn" */
+    const char *title; /* in lists of the window: "Blinn, N + D" */
+} WrBumpInfo;
+extern const WrBumpInfo wr_bumps[WR_BUMP_COUNT];
+int wr_bump_find(const char *name); /* mode, or -1 */
