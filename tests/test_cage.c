@@ -4,6 +4,7 @@
 
 #include "image/cage.h"
 
+#include <linux/capability.h>
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <linux/landlock.h>
@@ -401,6 +402,32 @@ static void without_a_cage_most_of_it_works(void **state)
     assert_true(done >= 20); /* some need rights that this process may not have */
 }
 
+static rlim_t limit_of(__rlimit_resource_t what)
+{
+    struct rlimit now;
+    return getrlimit(what, &now) == 0 ? now.rlim_max : 0;
+}
+
+/* With root's rights a limit could be raised again. */
+static void limits_are_set_and_no_rights_are_left(void **state)
+{
+    (void)state;
+    int status;
+    pid_t pid = fork();
+    if (pid == 0) {
+        struct __user_cap_header_struct whose = { _LINUX_CAPABILITY_VERSION_3, 0 };
+        struct __user_cap_data_struct rights[_LINUX_CAPABILITY_U32S_3];
+        wr_cage_limit(0, 20);
+        if (syscall(SYS_capget, &whose, rights) != 0) _exit(2);
+        for (int i = 0; i < _LINUX_CAPABILITY_U32S_3; i++)
+            if (rights[i].effective || rights[i].permitted) _exit(3);
+        if (limit_of(RLIMIT_CORE) != 0 || limit_of(RLIMIT_FSIZE) != 0) _exit(4);
+        _exit(limit_of(RLIMIT_NOFILE) > 64 || limit_of(RLIMIT_CPU) > 21 ? 5 : 0);
+    }
+    assert_int_equal(waitpid(pid, &status, 0), pid);
+    assert_int_equal(status, 0);
+}
+
 /* A process that works for ever is told why it ends, and ends even if it does not listen. */
 static void processor_time_is_limited(void **state)
 {
@@ -442,6 +469,7 @@ int main(void)
         cmocka_unit_test(entering_the_cage_takes_landlock_too),
         cmocka_unit_test(landlock_keeps_files_by_itself),
         cmocka_unit_test(without_a_cage_most_of_it_works),
+        cmocka_unit_test(limits_are_set_and_no_rights_are_left),
         cmocka_unit_test(processor_time_is_limited),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

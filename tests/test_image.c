@@ -6,8 +6,11 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "image/decode.h"
 #include "image/image.h"
+#include "image/verify.h"
 
+#include <fcntl.h>
 #include <float.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -749,6 +752,74 @@ static void shared_pictures_live_until_the_last_owner(void **state)
     wr_image_free(NULL);
 }
 
+/* ---- reading back ---- */
+
+static bool rows_of_one(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)y, (void)err;
+    for (int i = 0; i < 5 * 2 * rows; i++) ((float *)out)[i] = *(const float *)ctx + (float)i;
+    return true;
+}
+
+/* Read back as `parts`, it is right, or wrong for that reason. */
+static void assert_doubted(int fd, const WrImageOut *parts, int count, const WrHash *digests,
+                           const char *reason)
+{
+    WrError err = { "" };
+    const WrImageFormat *format = wr_image_format("a.exr", &err);
+    bool good = wr_image_verify("a.exr", fd, format, parts, count, digests, &err);
+    if (good != !*reason || !strstr(err.text, reason)) fail_msg("'%s': %s", reason, err.text);
+}
+
+static void whatever_does_not_come_back_is_told(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    float first = 1.0f, values[5 * 2 * 4];
+    const WrImageAttribute text = { "wrinkle:scene", "bump height=1" };
+    const WrImageAttribute other = { "wrinkle:scene", "bump height=2" };
+    WrImageOut one = { .width = 5,
+                       .height = 4,
+                       .channels = 2,
+                       .type = WR_PIXEL_F32,
+                       .data = true,
+                       .part_name = "one",
+                       .attributes = &text,
+                       .attribute_count = 1,
+                       .rows = rows_of_one,
+                       .ctx = &first };
+    WrImageOut parts[2] = { one, one };
+    parts[1].part_name = "two", parts[1].attribute_count = 0;
+    if (!wr_image_write("a.exr", parts, 2, &err)) fail_msg("%s", err.text);
+    int fd = open("a.exr", O_RDWR);
+    WrHash digests[2] = { { 0 }, { 0 } };
+    rows_of_one(&first, 0, 4, values, &err);
+    for (int i = 0; i < 2; i++) wr_digest_strip(&digests[i], values, 5 * 2 * 4);
+    assert_doubted(fd, parts, 2, digests, "");
+    assert_doubted(fd, parts, 1, digests, "parts");
+    digests[1].low ^= 1;
+    assert_doubted(fd, parts, 2, digests, "texels of part 2");
+    digests[1].low ^= 1;
+    parts[1].width = 6;
+    assert_doubted(fd, parts, 2, digests, "5x4, not 6x4");
+    parts[1].width = 5, parts[1].height = 3;
+    assert_doubted(fd, parts, 2, digests, "5x4, not 5x3");
+    parts[1].height = 4, parts[0].channels = 3;
+    assert_doubted(fd, parts, 2, digests, "2 channels, not 3");
+    parts[0].channels = 2, parts[0].attributes = &other;
+    assert_doubted(fd, parts, 2, digests, "wrinkle:scene of part 1");
+    parts[0].attributes = &text;
+    /* The two places of chunks stand right before the first chunk; without the second it is not found. */
+    uint64_t chunk = 0, none = 0;
+    off_t at = 8;
+    while (pread(fd, &chunk, 8, at) == 8 && chunk != (uint64_t)at + 16) at++;
+    assert_int_equal(chunk, at + 16);
+    assert_int_equal(pwrite(fd, &none, 8, at + 8), 8);
+    assert_doubted(fd, parts, 2, digests, "tables");
+    close(fd);
+    unlink("a.exr");
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "--read") == 0) {
@@ -763,6 +834,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(
             many_threads_read_at_once), /* first: the module is loaded by several at once */
         cmocka_unit_test(every_type_comes_back_exactly),
+        cmocka_unit_test(whatever_does_not_come_back_is_told),
         cmocka_unit_test(hc95_single_pixels_and_lines_are_pictures_and_none_is_not),
         cmocka_unit_test(all_codes_read_as_code_over_the_largest),
         cmocka_unit_test(odd_floats_keep_their_bits),

@@ -254,6 +254,25 @@ static void a_journal_that_is_moved_away_is_noticed_at_the_next_sync(void **stat
     wr_free(away);
 }
 
+/* Whatever has its name now is another's: not synced in its place, and not removed. */
+static void another_file_of_its_name_is_not_taken_for_it(void **state)
+{
+    Reports reports = { 0 };
+    WrError err = { "" };
+    char *away = in(*state, "away.wj");
+    WrJournal *journal = begin_reporting(*state, &reports);
+    char *path = wr_strdup(wr_journal_path(journal));
+    assert_int_equal(rename(path, away), 0);
+    write_bytes(path, "other", 5);
+    assert_false(wr_journal_sync(journal, &err));
+    assert_non_null(strstr(err.text, "moved"));
+    wr_journal_finish(journal);
+    WrText left = read_bytes(path);
+    assert_string_equal(wr_text_get(&left), "other");
+    wr_text_fini(&left);
+    wr_free(path), wr_free(away);
+}
+
 /* A sync is seen by its finding out that the file was moved, which writing alone does not. */
 static void lines_are_synced_by_themselves_as_often_as_was_asked(void **state)
 {
@@ -283,7 +302,12 @@ static void a_restart_that_fails_changes_nothing(void **state)
     assert_non_null(strstr(err.text, "under way"));
     wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL);
     assert_true(wr_journal_snapshot_path(journal, &path, &err));
+    char *files = wr_path_folder(wr_text_get(&path)), *deeper = in(files, "deeper");
+    char *inner = in(deeper, "snapshot-1.exr");
+    assert_int_equal(mkdir(deeper, 0700), 0);
+    write_bytes(inner, "x", 1);
     const WrJournalStart bad[] = {
+        { .kind = WR_JOURNAL_SNAPSHOT, .snapshot = inner },
         { .kind = WR_JOURNAL_SNAPSHOT, .snapshot = wr_text_get(&path) }, /* was not written */
         { .kind = WR_JOURNAL_SNAPSHOT, .snapshot = "/etc/passwd" },
         { .kind = WR_JOURNAL_SNAPSHOT },
@@ -297,6 +321,8 @@ static void a_restart_that_fails_changes_nothing(void **state)
     assert_true(read.count == 2 && read.start.kind == WR_JOURNAL_EMPTY && reports.count == 0);
     wr_journal_read_fini(&read);
     wr_text_fini(&path);
+    remove_tree(deeper);
+    wr_free(files), wr_free(deeper), wr_free(inner);
     wr_journal_finish(journal);
 }
 
@@ -389,6 +415,7 @@ int main(void)
         PLACED(a_folder_that_can_be_written_later_is_used_then),
         PLACED(a_folder_that_vanishes_is_noticed_and_made_again),
         PLACED(a_journal_that_is_moved_away_is_noticed_at_the_next_sync),
+        PLACED(another_file_of_its_name_is_not_taken_for_it),
         PLACED(lines_are_synced_by_themselves_as_often_as_was_asked),
         PLACED(a_restart_that_fails_changes_nothing),
         PLACED(a_long_journal_asks_to_be_shortened),

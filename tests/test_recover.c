@@ -3,8 +3,10 @@
 #include "journal_help.h"
 
 #include "base/error.h"
+#include "document/journal_folder.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 
 /* ---- who holds a journal ---- */
 
@@ -80,6 +82,20 @@ static void a_journal_is_claimed_by_one_of_several_programs(void **state)
     }
     wr_free(path);
     munmap(race, sizeof *race);
+}
+
+/* Between opening and locking it another may have got its name. */
+static void a_lock_on_a_file_that_lost_its_name_is_none(void **state)
+{
+    char *path = in(*state, "a.wj"), *other = in(*state, "b.wj");
+    write_bytes(path, "old", 3);
+    write_bytes(other, "new", 3);
+    int fd = wr_journal_open(path, NULL);
+    assert_true(wr_journal_lock(fd, path, LOCK_SH));
+    assert_int_equal(rename(other, path), 0);
+    assert_false(wr_journal_lock(fd, path, LOCK_EX));
+    close(fd);
+    wr_free(path), wr_free(other);
 }
 
 static void a_journal_that_restarts_stays_held(void **state)
@@ -221,11 +237,12 @@ static void make_old(const char *path)
 
 static void leftovers_of_killed_programs_are_removed_after_a_day(void **state)
 {
-    const char *names[] = { ".a.new", ".b.new", "c.files", "d.files", "e.files", "e.wj", "f.new" };
-    const bool old[] = { true, false, true, false, true, true, true };
-    const bool stays[] = { false, true, false, true, true, true, true };
-    char *paths[7];
-    for (int i = 0; i < 7; i++) {
+    const char *names[] = { ".a.new",  ".b.new", "c.files", "d.files",
+                            "e.files", "e.wj",   "f.new",   ".g.new" };
+    const bool old[] = { true, false, true, false, true, true, true, true };
+    const bool stays[] = { false, true, false, true, true, true, true, true };
+    char *paths[8];
+    for (int i = 0; i < 8; i++) {
         paths[i] = in(*state, names[i]);
         if (strstr(names[i], ".files")) {
             char *inside = in(paths[i], "snapshot-1.exr");
@@ -237,8 +254,11 @@ static void leftovers_of_killed_programs_are_removed_after_a_day(void **state)
         }
         if (old[i]) make_old(paths[i]);
     }
+    int held = open(paths[7], O_RDONLY); /* a program that takes a day to begin */
+    assert_int_equal(flock(held, LOCK_EX), 0);
     wr_journal_finish(begin_at(*state));
-    for (int i = 0; i < 7; i++) {
+    close(held);
+    for (int i = 0; i < 8; i++) {
         if (exists(paths[i]) != stays[i]) fail_msg("%s: stays %d", names[i], !stays[i]);
         wr_free(paths[i]);
     }
@@ -503,6 +523,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         PLACED(a_journal_in_use_is_neither_listed_nor_claimed_until_its_program_dies),
         PLACED(a_journal_is_claimed_by_one_of_several_programs),
+        PLACED(a_lock_on_a_file_that_lost_its_name_is_none),
         PLACED(a_journal_that_restarts_stays_held),
         PLACED(a_listing_tells_what_there_is_to_recover_newest_first),
         PLACED(old_journals_of_what_was_saved_are_removed_others_never),

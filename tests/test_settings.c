@@ -125,6 +125,24 @@ static void a_file_that_is_gone_or_empty_is_written_anew(void **state)
     wr_free(path);
 }
 
+/* A lock is no way to have other files made. */
+static void a_planted_link_is_no_lock(void **state)
+{
+    Window a = open_window();
+    char *lock = in(*state, "wrinkle/window.lock"), *victim = in(*state, "victim");
+    write_window(&a);
+    unlink(lock);
+    assert_int_equal(symlink(victim, lock), 0);
+    a.own.width += 10;
+    write_window(&a); /* at the end of the program it is written all the same */
+    assert_false(exists(victim));
+    Window b = open_window();
+    assert_int_equal(b.own.width, a.own.width);
+    unlink(lock);
+    close_window(&a), close_window(&b);
+    wr_free(lock), wr_free(victim);
+}
+
 static void while_another_writes_it_waits(void **state)
 {
     (void)state;
@@ -201,6 +219,7 @@ int main(void)
         PLACED(two_windows_keep_what_each_of_them_changed),
         PLACED(what_one_does_to_a_full_list_is_done_to_the_others),
         PLACED(a_file_that_is_gone_or_empty_is_written_anew),
+        PLACED(a_planted_link_is_no_lock),
         PLACED(while_another_writes_it_waits),
         PLACED(killed_while_writing_nothing_that_was_written_is_lost),
     };
