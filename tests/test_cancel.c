@@ -2,6 +2,7 @@
    a report of its own progress, and leaves no trace. What it does afterwards is counted in pieces of work and in
    reports, not in seconds, so that no machine is too slow or too fast for the test. */
 #include "test.h"
+#include "looks.h"
 #include "test_folder.h"
 #include "test_session_help.h"
 
@@ -11,6 +12,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "command/call.h"
+#include "command/estimate.h"
 #include "command/session.h"
 #include "generate/generator.h"
 
@@ -20,20 +22,27 @@
 #define THREADS 2
 #define PIECES_AFTER (2 * THREADS) /* that were under way, or began in the same moment */
 #define REPORTS_AFTER 4
+#define LONG_SECONDS 2.0
+#define SOON 100 /* ms between two looks: what is slower is told in full */
+
+static bool is_whole(void)
+{
+    return getenv("WR_FULL") != NULL;
+}
 
 /* Texels along the table's side. */
 static int side(void)
 {
-    return getenv("WR_FULL") ? 4096 : 256;
+    return is_whole() ? 4096 : 256;
 }
 
 /* ---- what is told to stop ---- */
 
 typedef struct Stop {
     volatile int cancel;
-    int reports, at;       /* so far; the one to stop at, 0: never */
-    int64_t pieces;        /* begun when it was told */
-    double since, slowest; /* clock then; most seconds between two looks */
+    int reports, at; /* so far; the one to stop at, 0: never */
+    int64_t pieces;  /* begun when it was told */
+    double since;    /* clock then */
 } Stop;
 
 static void hear(void *ctx, double fraction)
@@ -75,14 +84,14 @@ static const char *const shape_of[] = {
     "select feather by=20",
 };
 
-static WrSession *busy_session(WrPool *pool)
+static WrSession *busy_session(WrPool *pool, int side)
 {
     WrSessionOptions options = {
         .pool = pool, .outputs = true, .journal = true, .composites = true
     };
     WrSession *s = wr_session_new(&options);
     char line[64];
-    snprintf(line, sizeof line, "table %dx%d", side(), side());
+    snprintf(line, sizeof line, "table %dx%d", side, side);
     must_run(s, line);
     for (size_t i = 0; i < sizeof shape_of / sizeof *shape_of; i++) must_run(s, shape_of[i]);
     return s;
@@ -106,7 +115,8 @@ static const char *const instant[] = {
 /* Large work. A file that a line reads is made before. */
 static const char *const lines[] = {
     "grid cells=512x512 width=2",
-    "image big.exr fit=table",
+    "image big.exr fit=table", /* it is a normal map */
+    "image big.exr fit=table labels=ignore",
     "dab 0.5,0.5 radius=400",
     "stroke radius=200 strength=0.1 points=0.1,0.1;0.9,0.9;0.1,0.9;0.9,0.1;0.5,0.2;0.2,0.8",
     "shape rectangle a=0.1,0.1 b=0.9,0.9 paint=fill",
@@ -243,30 +253,49 @@ static void take_back(Rig *rig, const char *line)
     assert_untouched(rig, line, 0);
 }
 
-static void try_line(Rig *rig, const char *line)
+static void tell(const char *line, double took, const Stop *whole, double gap, double ms)
+{
+    if (!getenv("WR_TELL")) return;
+    printf("%-70.70s %8.0f ms, %5d reports, looks within %6.1f ms, stopped within %6.1f ms\n", line,
+           took * 1e3, whole->reports, gap, ms);
+    fflush(stdout);
+    if (gap > SOON && strcmp(getenv("WR_TELL"), "where") == 0)
+        backtrace_symbols_fd(looks.where, looks.frames, 1);
+}
+
+/* Once to its end, which its reports and its looks are counted by. */
+static double run_whole(Rig *rig, const char *line, Stop *whole, double *gap)
 {
     WrError err = { "" };
-    Stop whole = { 0 };
-    WrProgress progress = { &whole.cancel, hear, &whole };
-    double ms = 0.0;
-    if (!stop_at(rig, line, 1, &ms)) fail_msg("%s: no report", line);
+    WrProgress progress = { &whole->cancel, hear, whole };
     wr_progress_set(&progress);
-    double began = wr_clock_seconds();
+    const double began = wr_clock_seconds();
+    looks_begin();
     bool good = wr_session_run(rig->session, line, &err);
-    double took = wr_clock_seconds() - began;
+    *gap = looks_end();
+    const double took = wr_clock_seconds() - began;
     wr_progress_set(NULL);
     if (!good) fail_msg("%s: %s", line, err.text);
     take_back(rig, line);
-    if (!stop_at(rig, line, whole.reports / 2 + 1, &ms)) take_back(rig, line);
-    if (!stop_at(rig, line, whole.reports, &ms)) take_back(rig, line);
-    if (getenv("WR_TELL"))
-        printf("%-78.78s %8.0f ms, %4d reports, stopped within %6.1f ms\n", line, took * 1e3,
-               whole.reports, ms);
+    return took;
 }
 
-static Rig make_rig(WrPool *pool)
+/* Large tables are worked on once to the end; small ones are stopped late as well. */
+static void try_line(Rig *rig, const char *line)
 {
-    Rig rig = { .session = busy_session(pool) };
+    Stop whole = { 0 };
+    double ms = 0.0, gap;
+    if (!stop_at(rig, line, 1, &ms)) fail_msg("%s: no report", line);
+    const double took = run_whole(rig, line, &whole, &gap);
+    const int late[] = { whole.reports / 2 + 1, whole.reports };
+    for (int i = 0; i < 2 && !is_whole(); i++)
+        if (!stop_at(rig, line, late[i], &ms)) take_back(rig, line);
+    tell(line, took, &whole, gap, ms);
+}
+
+static Rig make_rig(WrPool *pool, int side)
+{
+    Rig rig = { .session = busy_session(pool, side) };
     rig.hash = wr_session_hash(rig.session);
     rig.steps = wr_session_history_position(rig.session);
     rig.revision = wr_session_revision(rig.session);
@@ -279,15 +308,24 @@ static void each_command_stops_at_a_report_and_leaves_no_trace(void **state)
     (void)state;
     WrPool *pool = wr_pool_new(THREADS);
     const char *only = getenv("WR_ONLY");
-    WrSession *maker = busy_session(pool);
+    WrSession *maker = busy_session(pool, side());
     must_run(maker, "export normal+y big.exr");
     must_run(maker, "export normal+y big.png");
     wr_session_free(maker);
-    Rig rig = make_rig(pool);
+    Rig rig = make_rig(pool, side());
     for (int i = 0; i < LINES; i++)
         if (!only || strstr(lines[i], only)) try_line(&rig, lines[i]);
     wr_session_free(rig.session);
     wr_pool_free(pool);
+}
+
+/* A whole run of it on a large table takes long, and by its texels: a smaller one has pieces that are as large. */
+static bool is_long(const Rig *rig, const char *line)
+{
+    WrEstimate estimate;
+    WrError err;
+    if (!wr_session_estimate(rig->session, line, &estimate, &err)) fail_msg("%s", err.text);
+    return estimate.seconds > LONG_SECONDS;
 }
 
 static void each_generator_stops_at_a_report_and_leaves_no_trace(void **state)
@@ -296,12 +334,15 @@ static void each_generator_stops_at_a_report_and_leaves_no_trace(void **state)
     WrPool *pool = wr_pool_new(THREADS);
     const char *only = getenv("WR_ONLY");
     WrText line = { 0 };
-    Rig rig = make_rig(pool);
+    Rig rig = make_rig(pool, side()), smaller = make_rig(pool, side() / 4);
     for (const WrFamily *f = wr_families; f->name; f++)
-        for (const WrGenerator *g = f->rows; g->family; g++)
-            if (line_of(g, &line) && (!only || strstr(wr_text_get(&line), only)))
-                try_line(&rig, wr_text_get(&line));
+        for (const WrGenerator *g = f->rows; g->family; g++) {
+            if (!line_of(g, &line) || (only && !strstr(wr_text_get(&line), only))) continue;
+            bool small = is_whole() && is_long(&rig, wr_text_get(&line));
+            try_line(small ? &smaller : &rig, wr_text_get(&line));
+        }
     wr_text_fini(&line);
+    wr_session_free(smaller.session);
     wr_session_free(rig.session);
     wr_pool_free(pool);
 }
@@ -388,7 +429,7 @@ static void opening_stops_and_keeps_what_was_open(void **state)
                                                              open_picture, open_script,
                                                              save_again };
     WrPool *pool = wr_pool_new(THREADS);
-    WrSession *maker = busy_session(pool);
+    WrSession *maker = busy_session(pool, side());
     WrError err;
     must_run(maker, "save old.exr");
     must_run(maker, "save old.ora");

@@ -55,6 +55,12 @@ bool wr_file_commit(WrFileTarget *target, WrError *err);
 void wr_file_abort(WrFileTarget *target);
 /* "PATH: cannot be written (reason)". */
 bool wr_file_fail(const WrFileTarget *target, const char *reason, WrError *err);
+/* What the system says of a write that failed (errno), and what would help; kept in text where words are put
+   together. */
+#define WR_FILE_WHY 160
+const char *wr_file_why(int error, char text[WR_FILE_WHY]);
+/* The same where a library tells of it in words of its own, among them the system's; else those words. */
+const char *wr_file_why_told(const char *reason, char text[WR_FILE_WHY]);
 
 /* Remove what killed programs of this user left half-written in a folder: the name must tell a process that
    is gone, and nobody may hold the file. */

@@ -16,6 +16,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/random.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <unistd.h>
@@ -186,6 +187,55 @@ void wr_file_outlive_size_limit(void)
     sigaction(SIGXFSZ, &now, NULL);
 }
 
+/* ---- what the system says ---- */
+
+static const struct {
+    int error;
+    const char *help;
+} helps[] = {
+    { ENOSPC, "make room, or write to another disk" },
+    { EDQUOT, "make room, or write where there is no quota" },
+    { EROFS, "write to another disk" },
+    { EIO, "the disk may be failing: write to another" },
+    { EFBIG, NULL }, /* by the limit */
+};
+
+const char *wr_file_why(int error, char text[WR_FILE_WHY])
+{
+    struct rlimit limit;
+    const char *said = strerror(error), *help = NULL;
+    for (size_t i = 0; i < sizeof helps / sizeof *helps; i++)
+        if (helps[i].error == error) help = helps[i].help;
+    if (error == EFBIG && getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        snprintf(text, WR_FILE_WHY, "%s: at most %llu bytes are allowed here (ulimit -f)", said,
+                 (unsigned long long)limit.rlim_cur);
+        return text;
+    }
+    snprintf(text, WR_FILE_WHY, "%s%s%s", said, help ? ": " : "", help ? help : "");
+    return text;
+}
+
+const char *wr_file_why_told(const char *reason, char text[WR_FILE_WHY])
+{
+    for (size_t i = 0; i < sizeof helps / sizeof *helps; i++)
+        if (strstr(reason, strerror(helps[i].error))) return wr_file_why(helps[i].error, text);
+    return reason;
+}
+
+bool wr_file_fail(const WrFileTarget *target, const char *reason, WrError *err)
+{
+    return wr_fail(err, "%s: cannot be written%s%s%s", target->path, *reason ? " (" : "", reason,
+                   *reason ? ")" : "");
+}
+
+static bool fail_by_system(const WrFileTarget *target, WrError *err)
+{
+    char text[WR_FILE_WHY];
+    return wr_file_fail(target, wr_file_why(errno, text), err);
+}
+
+/* ---- the target ---- */
+
 static bool check_place(const char *path, const char *real, const char *folder, WrError *err)
 {
     struct stat info;
@@ -213,8 +263,7 @@ static bool create(WrFileTarget *target, const char *folder, WrError *err)
         target->fd =
             open(target->temporary, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
     }
-    if (target->fd < 0)
-        return wr_fail(err, "%s: cannot be written (%s)", target->path, strerror(errno));
+    if (target->fd < 0) return fail_by_system(target, err);
     flock(target->fd, LOCK_EX | LOCK_NB); /* some file systems cannot; the name tells the process */
     return true;
 }
@@ -244,24 +293,18 @@ bool wr_file_begin(WrFileTarget *target, const char *path, WrError *err)
     return good;
 }
 
-bool wr_file_fail(const WrFileTarget *target, const char *reason, WrError *err)
-{
-    return wr_fail(err, "%s: cannot be written%s%s%s", target->path, *reason ? " (" : "", reason,
-                   *reason ? ")" : "");
-}
-
 bool wr_file_put(WrFileTarget *target, const void *bytes, size_t length, WrError *err)
 {
     const char *from = bytes;
     char block[65536];
-    if (!wr_fd_write(target->fd, bytes, length)) return wr_file_fail(target, strerror(errno), err);
+    if (!wr_fd_write(target->fd, bytes, length)) return fail_by_system(target, err);
     off_t end = lseek(target->fd, 0, SEEK_CUR), at = end - (off_t)length;
     if (end < (off_t)length) return wr_file_fail(target, "its size is wrong", err);
     while (at < end) {
         size_t want = (size_t)(end - at) < sizeof block ? (size_t)(end - at) : sizeof block;
         ssize_t n = pread(target->fd, block, want, at);
         if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return wr_file_fail(target, strerror(errno), err);
+        if (n < 0) return fail_by_system(target, err);
         if (n == 0 || memcmp(block, from, (size_t)n) != 0)
             return wr_file_fail(target, "it does not read back as it was written", err);
         from += n;
@@ -304,7 +347,7 @@ bool wr_file_commit(WrFileTarget *target, WrError *err)
     /* Only a file that was closed without trouble: some file systems tell then what went wrong. */
     good = good && close(fd) == 0 && rename(target->temporary, target->path) == 0;
     if (!good) {
-        wr_file_fail(target, strerror(errno), err);
+        fail_by_system(target, err);
         wr_file_abort(target);
         return false;
     }

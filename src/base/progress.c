@@ -5,6 +5,18 @@
 static _Thread_local const WrProgress *here;
 static _Thread_local int64_t looks;
 
+/* Not inline: a test measures the time between two looks by standing in for these. */
+bool wr_progress_cancelled(const WrProgress *progress)
+{
+    return progress && progress->cancel && __atomic_load_n(progress->cancel, __ATOMIC_RELAXED) != 0;
+}
+
+bool wr_progress_step(const WrProgress *progress, double fraction)
+{
+    if (progress && progress->report) progress->report(progress->ctx, fraction);
+    return !wr_progress_cancelled(progress);
+}
+
 const WrProgress *wr_progress_here(void)
 {
     return here;

@@ -17,17 +17,10 @@ typedef struct WrProgress {
 } WrProgress;
 
 /* Has somebody asked the work to stop? Any thread may ask. */
-static inline bool wr_progress_cancelled(const WrProgress *progress)
-{
-    return progress && progress->cancel && __atomic_load_n(progress->cancel, __ATOMIC_RELAXED) != 0;
-}
+bool wr_progress_cancelled(const WrProgress *progress);
 
 /* Tell how far the work is. True if it should go on. */
-static inline bool wr_progress_step(const WrProgress *progress, double fraction)
-{
-    if (progress && progress->report) progress->report(progress->ctx, fraction);
-    return !wr_progress_cancelled(progress);
-}
+bool wr_progress_step(const WrProgress *progress, double fraction);
 
 /* "0:07 left", from how far work is and how long that took; "" while that says nothing yet. */
 #define WR_PROGRESS_LEFT 24

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -10,6 +11,8 @@
 #include "scene/scene.h"
 
 #include <string.h>
+
+#define LOOK 16384 /* pixels between two looks at whether it should stop */
 
 static void print_material(const WrScene *scene, WrText *text)
 {
@@ -86,12 +89,18 @@ static WrImage *linear_colour(const WrImage *from, WrError *err)
     to->type = WR_PIXEL_F32;
     size_t pixels = (size_t)from->width * (size_t)from->height;
     bool decode = from->type != WR_PIXEL_F32;
-    for (size_t i = 0; i < pixels; i++)
+    for (size_t i = 0; i < pixels; i++) {
+        if (i % LOOK == 0 && wr_progress_stopped()) {
+            wr_image_free(to);
+            wr_fail(err, "cancelled");
+            return NULL;
+        }
         for (int c = 0; c < channels; c++) {
             float x = from->data[i * (size_t)from->channels + (size_t)c];
             if (decode) x = wr_srgb_decode(x);
             to->data[i * (size_t)channels + (size_t)c] = x > 0 ? x : 0;
         }
+    }
     return to;
 }
 

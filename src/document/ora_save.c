@@ -434,11 +434,12 @@ static bool write_archive(Saving *to, int fd, WrError *err)
     to->sink = (WrOraSink){ .fd = fd };
     to->archive = wr_ora_sink_open(&to->sink, err);
     if (!to->archive) return false;
+    char why[WR_FILE_WHY];
     bool good = fill_archive(to, err);
     if (good && zip_close(to->archive) != 0)
         good = wr_fail(err, "%s",
                        to->err.text[0]  ? to->err.text
-                       : to->sink.error ? strerror(to->sink.error)
+                       : to->sink.error ? wr_file_why(to->sink.error, why)
                                         : zip_strerror(to->archive));
     else if (good) to->archive = NULL;
     if (to->archive) zip_discard(to->archive);

@@ -3,12 +3,14 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/progress.h"
 
 #include <string.h>
 #include <unistd.h>
 #include <zip.h>
 
 #define ENTRIES_MAX 10000
+#define PIECE ((zip_uint64_t)1 << 20)  /* bytes between two looks at whether it should stop */
 #define TOTAL_MAX ((uint64_t)16 << 30) /* bytes that all reading of an archive may give */
 #define RATIO_MAX 200
 #define RATIO_FREE ((uint64_t)1 << 20) /* entries up to this many bytes may be of any ratio */
@@ -93,8 +95,8 @@ bool wr_ora_zip_read(WrOraZip *zip, const char *name, size_t most, char **bytes,
     zip_file_t *file = zip_fopen_index(zip->archive, (zip_uint64_t)index, 0);
     size_t have = 0;
     zip_int64_t n = file ? 1 : -1;
-    while (n > 0 && have < is.size) {
-        n = zip_fread(file, block + have, is.size - have);
+    while (n > 0 && have < is.size && !wr_progress_stopped()) {
+        n = zip_fread(file, block + have, is.size - have < PIECE ? is.size - have : PIECE);
         if (n > 0) have += (size_t)n;
     }
     char beyond; /* the checksum is looked at when the end is seen */
@@ -102,6 +104,7 @@ bool wr_ora_zip_read(WrOraZip *zip, const char *name, size_t most, char **bytes,
     if (file) zip_fclose(file);
     if (n != 0 || have != is.size) {
         wr_free(block);
+        if (wr_progress_stopped()) return wr_fail(err, "cancelled");
         return wr_fail(err, "%s: %.80s in it cannot be read whole, truncated or damaged", zip->path,
                        name);
     }

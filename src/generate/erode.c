@@ -30,10 +30,10 @@ static bool add_change(WrSheet *sheet, const WrGenerateJob *job, WrError *err)
     size_t count = (size_t)sheet->width * (size_t)sheet->height;
     bool good = wr_sheet_read(&whole, job->like, err) && wr_sheet_copy(&before, &whole, err) &&
                 wr_sheet_resize(&before, sheet->width, sheet->height, job, err);
-    for (size_t k = 0; good && k < count; k++) sheet->z[k] -= before.z[k];
+    for (size_t k = 0; good && k < count && wr_sheet_goes_on(k); k++) sheet->z[k] -= before.z[k];
     good = good && wr_sheet_resize(sheet, whole.width, whole.height, job, err);
     count = (size_t)whole.width * (size_t)whole.height;
-    for (size_t k = 0; good && k < count; k++) sheet->z[k] += whole.z[k];
+    for (size_t k = 0; good && k < count && wr_sheet_goes_on(k); k++) sheet->z[k] += whole.z[k];
     wr_sheet_fini(&before);
     wr_sheet_fini(&whole);
     return good;

@@ -324,11 +324,12 @@ static bool add_change(WrSheet *sheet, WrSheet *small, const WrSheet *before,
 {
     size_t count = (size_t)small->width * (size_t)small->height;
     double sum = 0.0;
-    for (size_t k = 0; k < count; k++) small->z[k] -= before->z[k];
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) small->z[k] -= before->z[k];
     if (!wr_sheet_resize(small, sheet->width, sheet->height, job, err)) return false;
     count = (size_t)small->width * (size_t)small->height;
-    for (size_t k = 0; k < count; k++) sum += small->z[k];
-    for (size_t k = 0; k < count; k++) sheet->z[k] += small->z[k] - sum / (double)count;
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) sum += small->z[k];
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++)
+        sheet->z[k] += small->z[k] - sum / (double)count;
     return true;
 }
 

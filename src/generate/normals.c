@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
 #include "image/image.h"
 
 #include <math.h>
@@ -33,6 +35,7 @@ static bool is_signed(const WrImage *image, WrNormalCodes codes)
     double as_is = 0.0, as_codes = 0.0;
     for (size_t k = 0; k < count; k++) {
         const float *c = image->data + k * (size_t)image->channels;
+        if (!wr_sheet_goes_on(k)) break;
         if (c[0] < -0.01f || c[1] < -0.01f) return true;
         as_is += misfit(c, image->channels, 1.0, 0.0);
         as_codes += misfit(c, image->channels, 2.0, -1.0);
@@ -91,10 +94,14 @@ bool wr_normals_decode(const WrImage *image, WrNormalCodes codes, WrNormals *out
         return false;
     }
     bool as_is = is_signed(image, codes);
-    for (size_t k = 0; k < count; k++)
+    bool going = true;
+    for (size_t k = 0; k < count && going; k++) {
+        going = wr_sheet_goes_on(k);
         decode_texel(image, image->data + k * (size_t)image->channels, as_is, k, &made);
-    *out = made;
-    return true;
+    }
+    if (going) *out = made;
+    else wr_normals_fini(&made);
+    return going || wr_fail(err, "cancelled");
 }
 
 void wr_normals_fini(WrNormals *normals)
@@ -108,7 +115,7 @@ double wr_normals_upward(const WrNormals *n)
 {
     double both = 0.0, along = 0.0, across = 0.0;
     size_t w = (size_t)n->width;
-    for (int j = 1; j + 1 < n->height; j++)
+    for (int j = 1; j + 1 < n->height && !wr_progress_stopped(); j++)
         for (int i = 1; i + 1 < n->width; i++) {
             size_t k = (size_t)j * w + (size_t)i;
             double py = n->p[k + w] - n->p[k - w], qx = n->q[k + 1] - n->q[k - 1];
@@ -122,7 +129,9 @@ double wr_normals_upward(const WrNormals *n)
 
 void wr_normals_flip(WrNormals *n)
 {
-    for (size_t k = 0; k < (size_t)n->width * (size_t)n->height; k++) n->q[k] = -n->q[k];
+    for (int j = 0; j < n->height && !wr_progress_stopped(); j++)
+        for (size_t i = 0, k = (size_t)j * (size_t)n->width; i < (size_t)n->width; i++, k++)
+            n->q[k] = -n->q[k];
 }
 
 /* ---- integration ---- */
@@ -149,81 +158,146 @@ static void steps_of_line(const void *ctx, const WrFft *fft, double *a, double *
     }
 }
 
-/* An axis' slopes in table units a texel, as the way of taking slopes there wants them. */
-static bool prepare(const WrPlane *plane, int axis, const double *slopes, double unit, WrError *err)
+typedef struct Work {
+    WrPlane plane;
+    WrSlopes slopes[2];
+    double *want[2];    /* slopes of the map, table units a texel */
+    double *have[2];    /* for what is worked out from them */
+    const double *from; /* of an axis: slopes of the map, or heights */
+    const double *unit; /* table units a texel */
+    int axis;
+    double *sums; /* [height] of something of a row */
+} Work;
+
+typedef void Row(Work *w, int j, size_t k, size_t end); /* row j: texels [k, end) */
+
+typedef struct Rows {
+    Work *work;
+    Row *row;
+} Rows;
+
+static void one_row(int j, int worker, void *ctx)
 {
-    size_t count = (size_t)plane->width * (size_t)plane->height;
-    int n = axis == 0 ? plane->width : plane->height;
-    for (size_t k = 0; k < count; k++) plane->z[k] = slopes[k] * unit;
-    return plane->ends[axis] == WR_ENDS_RING || wr_plane_lines(plane, axis, steps_of_line, &n, err);
+    (void)worker;
+    const Rows *rows = ctx;
+    const size_t width = (size_t)rows->work->plane.width;
+    rows->row(rows->work, j, (size_t)j * width, ((size_t)j + 1) * width);
 }
 
-/* The heights' own slopes, in the same way. z: heights in, slopes out. */
-static bool own_slopes(const WrPlane *plane, int axis, WrSlopes slopes, WrError *err)
+static bool each_row(Work *w, Row *row, WrError *err)
 {
-    size_t w = (size_t)plane->width, h = (size_t)plane->height;
-    double *z = plane->z;
-    if (slopes != WR_SLOPES_STEP) {
-        if (!wr_plane_turned_slope(plane, axis, slopes, err)) return false;
-        for (size_t k = 0; k < w * h; k++) z[k] = -z[k]; /* turned round they only change sign */
-        return true;
-    }
-    size_t step = axis == 0 ? 1 : w;
-    for (size_t k = 0; k < w * h; k++) {
-        bool last = axis == 0 ? k % w == w - 1 : k >= w * (h - 1);
-        z[k] = last ? 0.0 : z[k + step] - z[k];
-    }
-    return true;
+    Rows rows = { w, row };
+    return wr_pool_run(w->plane.pool, w->plane.height, one_row, &rows) || wr_fail(err, "cancelled");
 }
 
-/* Root mean square angle between normals of slopes (a, b) and (c, d), in degrees. */
-static double mean_angle(const double *const s[4], const double unit[2], size_t count)
+/* Of the rows' sums; the same however many threads there are. */
+static double mean_of(const Work *w)
 {
     double sum = 0.0;
-    for (size_t k = 0; k < count; k++) {
-        double a = s[0][k] / unit[0], b = s[1][k] / unit[1];
-        double c = s[2][k] / unit[0], d = s[3][k] / unit[1];
+    for (int j = 0; j < w->plane.height; j++) sum += w->sums[j];
+    return sum / ((double)w->plane.width * w->plane.height);
+}
+
+static void scale_row(Work *w, int j, size_t k, size_t end)
+{
+    (void)j;
+    for (; k < end; k++) w->plane.z[k] = w->from[k] * w->unit[w->axis];
+}
+
+/* An axis' slopes in table units a texel, as the way of taking slopes there wants them. */
+static bool prepare(Work *w, int axis, const double *slopes, WrError *err)
+{
+    const int n = axis == 0 ? w->plane.width : w->plane.height;
+    w->plane.z = w->want[axis];
+    w->from = slopes;
+    w->axis = axis;
+    return each_row(w, scale_row, err) && (w->plane.ends[axis] == WR_ENDS_RING ||
+                                           wr_plane_lines(&w->plane, axis, steps_of_line, &n, err));
+}
+
+static void copy_row(Work *w, int j, size_t k, size_t end)
+{
+    (void)j;
+    memcpy(w->plane.z + k, w->from + k, (end - k) * sizeof *w->from);
+}
+
+static void turn_row_round(Work *w, int j, size_t k, size_t end)
+{
+    (void)j;
+    for (; k < end; k++) w->plane.z[k] = -w->plane.z[k];
+}
+
+static void step_row(Work *w, int j, size_t k, size_t end)
+{
+    const size_t step = w->axis == 0 ? 1 : (size_t)w->plane.width;
+    const bool last_row = w->axis == 1 && j == w->plane.height - 1;
+    for (; k < end; k++) {
+        const bool last = last_row || (w->axis == 0 && k + 1 == end);
+        w->plane.z[k] = last ? 0.0 : w->from[k + step] - w->from[k];
+    }
+}
+
+/* The slopes that these heights have, in the same way. */
+static bool own_slopes(Work *w, int axis, const double *heights, WrError *err)
+{
+    w->plane.z = w->have[axis];
+    w->from = heights;
+    w->axis = axis;
+    if (w->slopes[axis] == WR_SLOPES_STEP) return each_row(w, step_row, err);
+    /* Turned round they only change sign. */
+    return each_row(w, copy_row, err) &&
+           wr_plane_turned_slope(&w->plane, axis, w->slopes[axis], err) &&
+           each_row(w, turn_row_round, err);
+}
+
+static void sum_slopes_of_row(Work *w, int j, size_t k, size_t end)
+{
+    w->sums[j] = 0.0;
+    for (; k < end; k++) w->sums[j] += w->want[w->axis][k];
+}
+
+/* Squares of the angles between the normals of the map and the heights' own. */
+static void sum_angles_of_row(Work *w, int j, size_t k, size_t end)
+{
+    double sum = 0.0;
+    for (; k < end; k++) {
+        double a = w->want[0][k] / w->unit[0], b = w->want[1][k] / w->unit[1];
+        double c = w->have[0][k] / w->unit[0], d = w->have[1][k] / w->unit[1];
         double x = b - d, y = c - a, z = a * d - b * c; /* of the vector product */
         double angle = wr_atan2(sqrt(x * x + y * y + z * z), 1.0 + a * c + b * d);
         sum += angle * angle;
     }
-    return sqrt(sum / (double)count) / WR_RAD_PER_DEG;
+    w->sums[j] = sum;
 }
 
-typedef struct Work {
-    WrPlane plane;
-    WrSlopes slopes[2];
-    double *want[2]; /* slopes of the map, table units a texel */
-    double *have[2]; /* for what is worked out from them */
-    size_t count;
-} Work;
+static void add_row(Work *w, int j, size_t k, size_t end)
+{
+    (void)j;
+    for (; k < end; k++) w->plane.z[k] = w->have[0][k] + w->have[1][k];
+}
 
 static bool solve(Work *w, double *z, WrError *err)
 {
     for (int a = 0; a < 2; a++) {
         w->plane.z = w->have[a];
-        memcpy(w->have[a], w->want[a], w->count * sizeof *z);
-        if (!wr_plane_turned_slope(&w->plane, a, w->slopes[a], err)) return false;
+        w->from = w->want[a];
+        if (!each_row(w, copy_row, err) || !wr_plane_turned_slope(&w->plane, a, w->slopes[a], err))
+            return false;
     }
-    for (size_t k = 0; k < w->count; k++) z[k] = w->have[0][k] + w->have[1][k];
     w->plane.z = z;
-    return wr_plane_solve(&w->plane, w->slopes, err);
+    return each_row(w, add_row, err) && wr_plane_solve(&w->plane, w->slopes, err);
 }
 
 static bool compare(Work *w, const double *z, WrIntegral *how, WrError *err)
 {
     for (int a = 0; a < 2; a++) {
-        memcpy(w->have[a], z, w->count * sizeof *z);
-        w->plane.z = w->have[a];
-        if (!own_slopes(&w->plane, a, w->slopes[a], err)) return false;
-        double mean = 0.0;
-        for (size_t k = 0; k < w->count; k++) mean += w->want[a][k] / (double)w->count;
+        if (!own_slopes(w, a, z, err) || !each_row(w, sum_slopes_of_row, err)) return false;
         how->tilt_deg[a] = how->ends[a] == WR_ENDS_RING
-                               ? wr_atan2(mean / how->unit[a], 1.0) / WR_RAD_PER_DEG
+                               ? wr_atan2(mean_of(w) / how->unit[a], 1.0) / WR_RAD_PER_DEG
                                : 0.0;
     }
-    const double *const s[] = { w->want[0], w->want[1], w->have[0], w->have[1] };
-    how->residual_deg = mean_angle(s, how->unit, w->count);
+    if (!each_row(w, sum_angles_of_row, err)) return false;
+    how->residual_deg = sqrt(mean_of(w)) / WR_RAD_PER_DEG;
     return true;
 }
 
@@ -231,6 +305,7 @@ bool wr_normals_integrate(const WrNormals *normals, WrIntegral *how, const WrGen
                           WrSheet *sheet, WrError *err)
 {
     const double *slopes[2] = { normals->p, normals->q };
+    const size_t count = (size_t)normals->width * (size_t)normals->height;
     WrSheet made = { .z = NULL };
     WrWrap wrap[2];
     Work w = { .plane = { .width = normals->width,
@@ -238,16 +313,16 @@ bool wr_normals_integrate(const WrNormals *normals, WrIntegral *how, const WrGen
                           .ends = { how->ends[0], how->ends[1] },
                           .pool = job->pool,
                           .progress = job->progress },
-               .count = (size_t)normals->width * (size_t)normals->height };
+               .unit = how->unit,
+               .sums = wr_alloc((size_t)normals->height, sizeof *w.sums) };
     bool good = true;
     for (int a = 0; a < 2; a++) {
         bool ring = how->ends[a] == WR_ENDS_RING;
         wrap[a] = ring ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP;
         w.slopes[a] = !ring ? WR_SLOPES_STEP : how->central ? WR_SLOPES_CENTRAL : WR_SLOPES_SMOOTH;
-        w.want[a] = wr_try_alloc(w.count, sizeof *made.z, "a normal map", err);
-        w.have[a] = w.want[a] ? wr_try_alloc(w.count, sizeof *made.z, "a normal map", err) : NULL;
-        w.plane.z = w.want[a];
-        good = good && w.have[a] && prepare(&w.plane, a, slopes[a], how->unit[a], err);
+        w.want[a] = wr_try_alloc(count, sizeof *made.z, "a normal map", err);
+        w.have[a] = w.want[a] ? wr_try_alloc(count, sizeof *made.z, "a normal map", err) : NULL;
+        good = good && w.have[a] && prepare(&w, a, slopes[a], err);
     }
     good = good && wr_sheet_new(&made, normals->width, normals->height, wrap, err) &&
            solve(&w, made.z, err) && compare(&w, made.z, how, err);
@@ -255,6 +330,7 @@ bool wr_normals_integrate(const WrNormals *normals, WrIntegral *how, const WrGen
         wr_free(w.want[a]);
         wr_free(w.have[a]);
     }
+    wr_free(w.sums);
     if (good) *sheet = made;
     else wr_sheet_fini(&made);
     return good;

@@ -136,7 +136,7 @@ static bool make(const WrParams *p, WrNormals *normals, const WrGenerateJob *job
     wr_sheet_range(&sheet, &low, &high);
     double level = wr_param_number(p, "level");
     size_t count = (size_t)sheet.width * (size_t)sheet.height;
-    for (size_t k = 0; k < count; k++) sheet.z[k] += level - low;
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) sheet.z[k] += level - low;
     bool good =
         wr_sheet_resize(&sheet, wr_field_width(job->like), wr_field_height(job->like), job, err) &&
         wr_sheet_relief(&sheet, job, out, err);

@@ -21,7 +21,7 @@ static bool is_hole(double z)
 /* Means of those of four texels that are there. */
 static void shrink(const Level *fine, Level *coarse)
 {
-    for (int j = 0; j < coarse->height; j++)
+    for (int j = 0; j < coarse->height && !wr_progress_stopped(); j++)
         for (int i = 0; i < coarse->width; i++) {
             double sum = 0.0;
             int count = 0;
@@ -52,8 +52,9 @@ static double mean_around(const Level *l, int i, int j)
 static bool grow(Level *fine, const Level *coarse, int64_t *filled, WrError *err)
 {
     size_t count = (size_t)fine->width * (size_t)fine->height, holes = 0, k = 0;
-    for (size_t n = 0; n < count; n++) holes += is_hole(fine->z[n]);
+    for (size_t n = 0; n < count && wr_sheet_goes_on(n); n++) holes += is_hole(fine->z[n]);
     *filled = (int64_t)holes;
+    if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     if (holes == 0) return true;
     size_t *hole = wr_try_alloc(holes, sizeof *hole, "holes of a picture", err);
     if (!hole) return false;
@@ -65,7 +66,7 @@ static bool grow(Level *fine, const Level *coarse, int64_t *filled, WrError *err
             hole[k++] = at;
         }
     for (int sweep = 0; sweep < SWEEPS; sweep++)
-        for (k = 0; k < holes; k++)
+        for (k = 0; k < holes && wr_sheet_goes_on(k); k++)
             fine->z[hole[k]] = mean_around(fine, (int)(hole[k] % (size_t)fine->width),
                                            (int)(hole[k] / (size_t)fine->width));
     wr_free(hole);
@@ -77,7 +78,11 @@ int64_t wr_picture_fill(WrSheet *sheet, WrError *err)
     Level level[LEVELS] = { { sheet->width, sheet->height, sheet->z } };
     int64_t filled = 0, unused;
     size_t count = (size_t)sheet->width * (size_t)sheet->height, holes = 0;
-    for (size_t n = 0; n < count; n++) holes += is_hole(sheet->z[n]);
+    for (size_t n = 0; n < count && wr_sheet_goes_on(n); n++) holes += is_hole(sheet->z[n]);
+    if (wr_progress_stopped()) {
+        wr_fail(err, "cancelled");
+        return -2;
+    }
     if (holes == 0) return 0;
     if (holes == count) return -1;
     int top = 0;
@@ -90,6 +95,7 @@ int64_t wr_picture_fill(WrSheet *sheet, WrError *err)
                                  "holes of a picture", err);
         good = coarse->z != NULL;
         if (good) shrink(fine, coarse);
+        if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled");
         top++;
     }
     for (int k = top - 1; good && k >= 0; k--)

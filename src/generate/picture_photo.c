@@ -110,7 +110,7 @@ static void read_light(const WrImage *image, int channel, bool linear, WrSheet *
     double most, *light = light_of_codes(image, linear, &most);
     int n = image->channels, alpha = n == 2 ? 1 : n == 4 ? 3 : -1;
     size_t count = (size_t)image->width * (size_t)image->height;
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) {
         const float *pixel = image->data + k * (size_t)n;
         double c[4] = { 0.0, 0.0, 0.0, 1.0 };
         for (int a = 0; a < 3; a++) {
@@ -133,8 +133,10 @@ static bool high_pass(WrSheet *sheet, double sigma, const WrGenerateJob *job, Wr
     WrField *field = wr_sheet_field(sheet, err);
     WrField *blurred = field ? wr_op_run(wr_op_find("blur"), field, &sigma, &options, err) : NULL;
     bool good = blurred && wr_sheet_read(&wide, blurred, err);
-    for (size_t k = 0; good && k < count; k++) mean += sheet->z[k] / (double)count;
-    for (size_t k = 0; good && k < count; k++) sheet->z[k] += mean - wide.z[k];
+    for (size_t k = 0; good && k < count && wr_sheet_goes_on(k); k++)
+        mean += sheet->z[k] / (double)count;
+    for (size_t k = 0; good && k < count && wr_sheet_goes_on(k); k++)
+        sheet->z[k] += mean - wide.z[k];
     wr_sheet_fini(&wide);
     wr_field_free(field);
     wr_field_free(blurred);
@@ -150,7 +152,7 @@ static void bring_to_heights(const WrParams *p, WrSheet *sheet)
     if (wr_param_whole(p, "stretch") == 1) wr_sheet_range(sheet, &darkest, &lightest);
     double span = lightest > darkest ? lightest - darkest : 1.0;
     size_t count = (size_t)sheet->width * (size_t)sheet->height;
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) {
         double t = ((sheet->z[k] - darkest) / span - low) / (high - low);
         t = t > 0.0 ? t < 1.0 ? t : 1.0 : 0.0;
         if (power != 1.0) t = wr_pow(t, power);

@@ -222,15 +222,16 @@ static bool even_out(Steps *steps, WrSheet *sheet, const WrGenerateJob *job, WrE
 {
     size_t count = (size_t)sheet->width * (size_t)sheet->height;
     double mean = 0.0;
-    for (size_t k = 0; k < count; k++) mean += steps->z[k] / (double)count;
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) mean += steps->z[k] / (double)count;
     for (int a = 0; a < 2; a++) {
         WrPlane plane = plane_of(sheet, steps->g[a], job);
         if (!wr_plane_turned_slope(&plane, a, WR_SLOPES_STEP, err)) return false;
     }
-    for (size_t k = 0; k < count; k++) sheet->z[k] = steps->g[0][k] + steps->g[1][k];
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++)
+        sheet->z[k] = steps->g[0][k] + steps->g[1][k];
     WrPlane plane = plane_of(sheet, sheet->z, job);
     if (!solve_steps(&plane, err)) return false;
-    for (size_t k = 0; k < count; k++) sheet->z[k] += mean;
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) sheet->z[k] += mean;
     return true;
 }
 

@@ -69,6 +69,7 @@ void wr_sheet_range(const WrSheet *sheet, double *low, double *high)
     size_t count = (size_t)sheet->width * (size_t)sheet->height;
     *low = *high = sheet->z[0];
     for (size_t k = 1; k < count; k++) {
+        if (!wr_sheet_goes_on(k)) return;
         if (sheet->z[k] < *low) *low = sheet->z[k];
         if (sheet->z[k] > *high) *high = sheet->z[k];
     }

@@ -2,6 +2,7 @@
    share.
    Layer 4, private to this room. */
 #pragma once
+#include "base/progress.h"
 #include "field/wrap.h"
 #include "generate/build.h"
 #include "generate/param.h"
@@ -20,6 +21,12 @@ bool wr_sheet_new(WrSheet *sheet, int width, int height, const WrWrap wrap[2], W
 bool wr_sheet_read(WrSheet *sheet, const WrField *field, WrError *err);
 bool wr_sheet_copy(WrSheet *sheet, const WrSheet *from, WrError *err);
 void wr_sheet_fini(WrSheet *sheet); /* fine on a zeroed one */
+/* In loops over whole tables: should texel k be done? Looks only now and then; where somebody wants it to stop, who
+ * made the table throws it away. */
+static inline bool wr_sheet_goes_on(size_t k)
+{
+    return k % 16384 != 0 || !wr_progress_stopped();
+}
 /* Lowest and highest. */
 void wr_sheet_range(const WrSheet *sheet, double *low, double *high);
 

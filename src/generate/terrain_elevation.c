@@ -109,7 +109,7 @@ static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[
     out->least = 0.0;
     out->can_lack = image->type == WR_PIXEL_F32;
     size_t count = (size_t)image->width * (size_t)image->height;
-    for (size_t k = 0; good && k < count; k++) {
+    for (size_t k = 0; good && k < count && wr_sheet_goes_on(k); k++) {
         double x = (double)image->data[k * (size_t)image->channels];
         out->sheet.z[k] = out->most > 0.0 ? rint(x * out->most) : x;
     }
@@ -125,7 +125,7 @@ static bool fill_holes(const WrParams *p, Elevation *e, const char *path, const 
     size_t count = (size_t)e->sheet.width * (size_t)e->sheet.height;
     bool wanted = wr_param_whole(p, "holes") == 1 && !e->labelled;
     double nodata = wr_param_number(p, "nodata");
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) {
         double *z = &e->sheet.z[k];
         bool lost = !isfinite(*z) || fabs(*z) > 1e30;
         if (wanted && *z == nodata) lost = true;
@@ -155,7 +155,7 @@ static void bring_to_heights(const WrParams *p, Elevation *e, const WrGenerateJo
         to = e->most;
     }
     double scale = wr_param_number(p, "scale");
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) {
         double *z = &e->sheet.z[k];
         if (values == REAL) *z *= scale;
         else *z = to > from ? low + (high - low) * ((*z - from) / (to - from)) : low;

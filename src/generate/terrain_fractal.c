@@ -225,7 +225,7 @@ static void shape(const WrParams *p, WrSheet *sheet)
     double curve = wr_param_number(p, "curve"), sea = wr_param_number(p, "sea");
     size_t count = (size_t)sheet->width * (size_t)sheet->height;
     wr_sheet_range(sheet, &low, &high);
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && wr_sheet_goes_on(k); k++) {
         double t = high > low ? (sheet->z[k] - low) / (high - low) : 0.0;
         if (curve != 1.0) t = wr_pow(t, curve);
         sheet->z[k] = level + height * (t > sea ? t : sea);

@@ -1,11 +1,14 @@
 #include "generate/terrain_raw.h"
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "field/field.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+#define LOOK 16384 /* numbers between two looks at whether it should stop */
 
 size_t wr_raw_bytes(WrRawKind kind)
 {
@@ -74,7 +77,7 @@ static uint32_t number_at(const unsigned char *bytes, size_t each, bool big)
 void wr_raw_decode(const WrRaw *raw, const void *bytes, double *z)
 {
     size_t each = wr_raw_bytes(raw->kind), count = (size_t)raw->width * (size_t)raw->height;
-    for (size_t k = 0; k < count; k++) {
+    for (size_t k = 0; k < count && (k % LOOK != 0 || !wr_progress_stopped()); k++) {
         uint32_t code = number_at((const unsigned char *)bytes + k * each, each, raw->big);
         float real;
         memcpy(&real, &code, sizeof real);

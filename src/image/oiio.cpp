@@ -155,10 +155,13 @@ static bool open_file(WrOiioReader &reader, const char *format, int most, char *
     ImageSpec config, spec;
     config.attribute("oiio:UnassociatedAlpha", 1);
     if (reader.in->supports("ioproxy") && !give_file(reader, reason)) return false;
-    if (!reader.in->open(reader.path, spec, config))
+    if (!reader.in->open(reader.path, spec, config)) {
+        std::string why = reader.in->geterror();
         return fail(reason,
-                    "cannot be opened, truncated or damaged (" + reader.in->geterror() + ")",
+                    "cannot be opened, truncated or damaged" +
+                        (why.empty() ? "" : " (" + why + ")"),
                     reader.path);
+    }
     if (!add_part(reader, reader.in->spec(), reason)) return false;
     /* Readers find out about more parts by trying; some do not recover from it, so not without need. */
     for (int i = 1; most > 1 && reader.in->seek_subimage(i, 0); i++) {
@@ -367,6 +370,7 @@ static bool check_write(WrOiioWriter &writer, bool ok, char *reason)
 {
     std::string message = writer.out->geterror();
     if (writer.disk && writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
+    if (tiff_errno) return fail(reason, std::strerror(tiff_errno));
     if (message.empty()) message = tiff_error;
     if (ok && message.empty()) return true;
     return fail(reason, message, writer.path);
@@ -377,7 +381,7 @@ static bool create_file(WrOiioWriter &writer, int file, const char *format, cons
 {
     static const TypeDesc types[] = { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::FLOAT };
     settle_library();
-    tiff_error[0] = '\0';
+    forget_tiff_error();
     writer.out = ImageOutput::create(format);
     if (!writer.out) return fail(reason, OIIO::geterror(), writer.path);
     writer.png = !std::strcmp(format, "png");
@@ -422,6 +426,7 @@ static WrOiioWriter *writer_create(int file, const char *format, const WrImageOu
 static bool writer_write(WrOiioWriter *writer, int y, int rows, const void *pixels, char *reason)
 {
     return guarded(reason, [&] {
+        errno = 0;
         bool ok = writer->out->write_scanlines(y, y + rows, 0, writer->types[writer->part], pixels);
         writer->row = y + rows;
         return check_write(*writer, ok, reason);
@@ -459,6 +464,7 @@ static bool writer_finish(WrOiioWriter *writer, bool keep, char *reason)
 {
     bool ok = guarded(reason, [&] {
         if (!keep && writer->png) complete_png(*writer);
+        errno = 0;
         bool closed = writer->out->close();
         if (writer->disk) writer->disk->empty();
         return check_write(*writer, closed, reason);

@@ -9,11 +9,23 @@ extern "C" {
 #include <new>
 #include <string>
 
-/* The message as one line that does not name the file: the caller does. */
+/* Wherever it stands. */
+inline void say_instead(std::string &text, const std::string &what, const std::string &instead)
+{
+    for (size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += instead.size())
+        text.replace(at, what.size(), instead);
+}
+
+/* The message as one line. The caller names the file; the path by which the library knows it is ours alone. */
 inline bool fail(char *reason, std::string text, const std::string &path = std::string())
 {
-    for (size_t at; !path.empty() && (at = text.find(path)) != std::string::npos;)
-        text.replace(at, path.size(), "it");
+    if (!path.empty()) say_instead(text, " (" + path + ")", "");
+    for (const char *quote : { "\"", "'", "" }) {
+        std::string quoted = quote + path + quote;
+        for (const char *before : { "image file ", "file " })
+            if (!path.empty()) say_instead(text, before + quoted, "the file");
+        if (!path.empty()) say_instead(text, quoted, "the file");
+    }
     std::string line;
     for (char c : text) {
         bool space = static_cast<unsigned char>(c) <= ' ';

@@ -47,14 +47,27 @@ static bool check_parts(const char *path, const WrImageOut *parts, int count, Wr
     return true;
 }
 
-static bool fail_write(WrError *err, const char *path, const char *reason)
+/* A limit on file sizes holds for memory files as well, where libraries do not always tell of it. */
+static bool is_cut(int fd)
 {
-    return wr_fail(err, "%s: cannot be written%s%s%s", path, *reason ? " (" : "", reason,
-                   *reason ? ")" : "");
+    struct stat info;
+    struct rlimit limit;
+    return fstat(fd, &info) == 0 && getrlimit(RLIMIT_FSIZE, &limit) == 0 &&
+           (rlim_t)info.st_size >= limit.rlim_cur;
+}
+
+/* reason: of the library, which may have the system's in it. */
+static bool fail_write(WrError *err, const char *path, int file, const char *reason)
+{
+    char text[WR_FILE_WHY];
+    const char *why = is_cut(file) ? wr_file_why(EFBIG, text) : wr_file_why_told(reason, text);
+    return wr_fail(err, "%s: cannot be written%s%s%s", path, *why ? " (" : "", why,
+                   *why ? ")" : "");
 }
 
 typedef struct Writing {
     const char *path;
+    int file;
     const WrOiioTable *library;
     WrOiioWriter *writer;
     float *values; /* scratch: a strip as a reader gives it */
@@ -94,7 +107,7 @@ static bool write_strip(const Writing *to, int y, int rows, const void *pixels, 
         const char *from = (const char *)pixels + (size_t)first * row;
         if (wr_progress_stopped()) return wr_fail(err, "cancelled");
         if (!to->library->write(to->writer, y + first, count, from, reason))
-            return fail_write(err, to->path, reason);
+            return fail_write(err, to->path, to->file, reason);
     }
     return true;
 }
@@ -127,20 +140,22 @@ static bool write_file(const char *path, int file, const char *format, const WrI
                        int count, WrHash *digests, WrError *err)
 {
     char reason[WR_OIIO_REASON] = "";
-    Writing to = { .path = path, .library = wr_oiio(err), .packed = packed_rows(format) };
+    Writing to = {
+        .path = path, .file = file, .library = wr_oiio(err), .packed = packed_rows(format)
+    };
     if (!to.library) return false;
     to.writer = to.library->create(file, format, parts, count, reason);
-    if (!to.writer) return fail_write(err, path, reason);
+    if (!to.writer) return fail_write(err, path, file, reason);
     bool ok = true;
     for (int i = 0; i < count && ok; i++) {
         WrProgressPart share;
         const WrProgress *whole = wr_progress_enter(&share, (double)i / count, (i + 1.0) / count);
-        if (i > 0 && !to.library->next(to.writer, reason)) ok = fail_write(err, path, reason);
+        if (i > 0 && !to.library->next(to.writer, reason)) ok = fail_write(err, path, file, reason);
         ok = ok && write_part(&to, &parts[i], &digests[i], err);
         wr_progress_set(whole);
     }
     bool whole = to.library->finish(to.writer, ok, reason);
-    if (ok && !whole) ok = fail_write(err, path, reason);
+    if (ok && !whole) ok = fail_write(err, path, file, reason);
     if (ok && wr_progress_stopped()) ok = wr_fail(err, "cancelled"); /* rows may be missing */
     return ok;
 }
@@ -171,7 +186,7 @@ static int choose_spool(const WrFileTarget *target, const char *format, const Wr
 static bool copy_file(int from, const WrFileTarget *target, WrError *err)
 {
     static const size_t size = 1 << 18;
-    char *block = wr_alloc(size, 1);
+    char *block = wr_alloc(size, 1), why[WR_FILE_WHY];
     bool good = true;
     off_t at = 0;
     for (ssize_t n = 1; good && n != 0; at += n > 0 ? n : 0) {
@@ -180,19 +195,10 @@ static bool copy_file(int from, const WrFileTarget *target, WrError *err)
         n = pread(from, block, size, at);
         if (n < 0 && errno == EINTR) continue;
         good = n >= 0 && (n == 0 || wr_fd_write(target->fd, block, (size_t)n));
-        if (!good) wr_file_fail(target, strerror(errno), err);
+        if (!good) wr_file_fail(target, wr_file_why(errno, why), err);
     }
     wr_free(block);
     return good;
-}
-
-/* A limit on file sizes holds for memory files as well, where the library does not tell of it. */
-static bool is_cut(int fd)
-{
-    struct stat info;
-    struct rlimit limit;
-    return fstat(fd, &info) == 0 && getrlimit(RLIMIT_FSIZE, &limit) == 0 &&
-           (rlim_t)info.st_size >= limit.rlim_cur;
 }
 
 static bool write_target(WrFileTarget *target, const char *path, const WrImageFormat *format,
@@ -211,7 +217,7 @@ static bool write_target(WrFileTarget *target, const char *path, const WrImageFo
         wr_file_verified(target);
         return true;
     }
-    return fail_write(err, path, is_cut(target->fd) ? strerror(EFBIG) : inner.text);
+    return fail_write(err, path, target->fd, inner.text);
 }
 
 bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrError *err)
@@ -263,7 +269,7 @@ bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes
     WrHash digest = { 0 };
     bool ok = write_file(name, fd, format->library, part, 1, &digest, err);
     if (ok && !wr_image_verify(name, fd, format, part, 1, &digest, &inner))
-        ok = fail_write(err, name, inner.text);
+        ok = fail_write(err, name, fd, inner.text);
     ok = ok && take_bytes(name, fd, bytes, length, err);
     close(fd);
     return ok;
