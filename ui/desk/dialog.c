@@ -56,7 +56,15 @@ void wr_panel_estimate(const WrApp *app, const char *line)
 {
     char text[WR_EXPECTATION];
     wr_expectation(app, line, text);
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text[0] ? text : " ");
+    if (!text[0]) return;
+    wr_gui_same_line(12);
+    const bool fits = wr_gui_text_width(WR_FONT_SMALL, text) <= wr_gui_available();
+    if (fits) {
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+        return;
+    }
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, ""); /* the end of that row */
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
 }
 
 int wr_dialog_buttons(WrApp *app, const char *done, bool enabled)

@@ -43,5 +43,5 @@ int wr_dialog_buttons(WrApp *app, const char *done, bool enabled);
 /* "Takes about 12 s, 300 MB", where that is more than a moment, and how much of a trial of it is left; else "". */
 #define WR_EXPECTATION 96
 void wr_expectation(const WrApp *app, const char *line, char text[WR_EXPECTATION]);
-/* The same as rows of their own, one of which is there in any case, so that buttons below stay where they are. */
+/* The same after a dialog's buttons: beside them, or below where there is no room; so they stay where they are. */
 void wr_panel_estimate(const WrApp *app, const char *line);

@@ -387,11 +387,14 @@ int wr_files_panel(WrFiles *files, const char *note)
     files->focus = false;
     warn_overwrite(files);
     if (files->trouble[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, files->trouble);
-    if (note[0]) wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, note);
     wr_gui_space(4);
     if (wr_gui_button(purposes[files->purpose].done, true)) done = true;
     wr_gui_same_line(8);
     if (wr_gui_button("Cancel", false) || wr_gui_escape_pressed()) answer = -1;
+    if (note[0]) {
+        wr_gui_same_line(12);
+        wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, note);
+    }
     if (entered || done) answer = accept(files) ? 1 : 0;
     if (answer < 0) files->answer[0] = '\0';
     wr_gui_dialog_end();

@@ -182,15 +182,12 @@ static void expectation(const WrApp *app)
     wr_text_fini(&line);
 }
 
-/* One row, kept free while there is nothing to show. */
+/* A row below the buttons, which stay where they are. */
 static void progress(WrApp *app)
 {
     double fraction, seconds;
     bool shown = wr_trial_busy(app->trial, &fraction, &seconds) && seconds > 0.2;
-    if (!shown) {
-        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, "");
-        return;
-    }
+    if (!shown) return;
     wr_gui_progress(wr_gui_available() - wr_gui_px(64), fraction);
     wr_gui_same_line(8);
     if (wr_gui_chip(NULL, "Stop")) wr_trial_stop(app->trial);
@@ -216,9 +213,9 @@ void wr_dialog_adjust(WrApp *app)
                                          : "Only what is selected changes.");
     if (changed) ask(app);
     if (wr_trial_error(app->trial, &err)) wr_app_fail(app, &err);
-    progress(app);
-    expectation(app);
     int answer = wr_dialog_buttons(app, "Apply", true);
+    if (answer == 0) expectation(app);
+    progress(app);
     if (answer > 0) commit(app);
     if (answer < 0) cancel(app);
     if (answer != 0) app->adjust->op = NULL;

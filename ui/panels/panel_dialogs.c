@@ -28,7 +28,6 @@ void wr_dialog_unsaved(WrApp *app)
     snprintf(text, sizeof text, "%.200s has changes that are not saved. They are lost otherwise.",
              wr_app_name(app));
     wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_TEXT, text);
-    wr_panel_estimate(app, "save x.exr");
     wr_gui_space(8);
     bool key = !app->dialog->fresh;
     if (wr_gui_button("Save", true) || (key && wr_gui_return_pressed())) {
@@ -46,6 +45,7 @@ void wr_dialog_unsaved(WrApp *app)
         wr_dialog_close(app);
         app->file->after = WR_AFTER_NOTHING;
     }
+    wr_panel_estimate(app, "save x.exr");
     wr_gui_dialog_end();
 }
 
@@ -63,11 +63,12 @@ static void number(const char *label, double low, double high, double hard_low, 
     wr_gui_number(label, 0, &spec, value);
 }
 
-/* What it will take, and the buttons; frees the line. */
+/* The buttons, and what it will take; frees the line. */
 static void run_if_agreed(WrApp *app, WrText *line, const char *done)
 {
+    const bool agreed = wr_dialog_buttons(app, done, true) > 0;
     wr_panel_estimate(app, wr_text_get(line));
-    if (wr_dialog_buttons(app, done, true) > 0) wr_app_run_slow(app, wr_text_get(line));
+    if (agreed) wr_app_run_slow(app, wr_text_get(line));
     wr_text_fini(line);
 }
 
@@ -165,9 +166,9 @@ void wr_dialog_export(WrApp *app)
                         "float, jpg with 8.");
     char line[64];
     export_line(app, line, sizeof line);
+    const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
     wr_panel_estimate(app, line);
-    if (wr_dialog_buttons(app, "Choose a file...", true) > 0 &&
-        !wr_files_ask(app->files, WR_FILE_EXPORT, NULL, "height.png"))
+    if (agreed && !wr_files_ask(app->files, WR_FILE_EXPORT, NULL, "height.png"))
         wr_dialog_open(app, WR_DIALOG_FILE);
     wr_gui_dialog_end();
 }
