@@ -61,7 +61,8 @@ typedef struct FaultState {
     int32_t fell_place, fell_stage;
     int32_t unsynced; /* files that hold what was written since they were synced last */
     int32_t careless; /* of these, how many were given another name */
-    char victim[256], planted[2][400];
+    int32_t plants;
+    char victim[256], planted[3][400];
 } FaultState;
 
 extern const char *const wr_fault_kinds[FAULT_KINDS];

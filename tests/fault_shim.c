@@ -186,7 +186,7 @@ static bool is_the_one(FaultKind kind, FaultPlace place)
         return true;
     }
     bool again =
-        state->mode == FAULT_PLANT && n == state->n + 1; /* whoever does that does not give up */
+        state->mode == FAULT_PLANT && n > state->n && n < state->n + 3; /* three in a row */
     if (n != state->n && !again) return false;
     state->fell = 1;
     state->fell_place = (int)place;
@@ -396,7 +396,7 @@ static int open_by(int folder, const char *path, int flags, mode_t mode)
     if (writes && fails_path(FAULT_OPEN, path)) {
         if (state->mode != FAULT_PLANT) return -1;
         if ((flags & O_CREAT) && syscall(SYS_symlinkat, state->victim, folder, path) == 0)
-            snprintf(state->planted[**state->planted != 0], sizeof *state->planted, "%s", path);
+            snprintf(state->planted[state->plants++ % 3], sizeof *state->planted, "%s", path);
     }
     int fd = (int)syscall(SYS_openat, folder, path, flags, mode);
     if (fd >= 0 && (flags & O_CREAT) && place_of_path(path) == FAULT_PART) reach(FAULT_WRITING);

@@ -228,8 +228,11 @@ static void run_fault(const Job *job, const Good *good, FaultKind kind, int64_t 
     FaultState *state = wr_fault_state();
     state->armed = 0;
     if (!state->fell) fail_msg("%s: %s: there was no such call", job->line, what);
+    bool late = state->fell_place == FAULT_PART && state->fell_stage == FAULT_SYNCED;
+    if (kind == FAULT_CLOSE && mode == FAULT_ERROR && late && status == 0)
+        fail_msg("%s: %s: passed over", job->line, what);
     if (state->careless) fail_msg("%s: %s: renamed before it was synced", job->line, what);
-    for (int i = 0; i < 2 && *state->planted[i]; i++) unlink(state->planted[i]);
+    for (int i = 0; i < 3 && *state->planted[i]; i++) unlink(state->planted[i]);
     if (!is_old(VICTIM)) fail_msg("%s: %s: another file was written to", job->line, what);
     if (WIFSIGNALED(status)) tally->kills[state->fell_place][state->fell_stage]++;
     check_end(job, good, status, tally, what);

@@ -24,6 +24,12 @@ typedef struct Shared {
 
 static Shared *shared;
 
+/* What calls itself safe has its name. */
+static void must_be_there(const WrJournal *journal)
+{
+    if (wr_journal_state(journal).safe && access(wr_journal_path(journal), F_OK) != 0) _exit(5);
+}
+
 /* The journal begins anew from a snapshot of what `count` commands led to. */
 static bool restart(WrJournal *journal, const WrDocument *document, int count)
 {
@@ -35,6 +41,7 @@ static bool restart(WrJournal *journal, const WrDocument *document, int count)
                              .hash = { (uint64_t)count, 1 },
                              .snapshot = wr_text_get(&path) };
     good = good && wr_journal_restart(journal, &start, &err);
+    must_be_there(journal);
     if (!good) wr_journal_put_off(journal);
     wr_text_fini(&path);
     return good;
@@ -69,6 +76,7 @@ static void run_journal(const char *folder)
     WrJournalOptions options = { .folder = folder, .sync_seconds = 1e-9, .retry_seconds = 1e-9 };
     WrJournalStart start = { .kind = WR_JOURNAL_EMPTY, .hash = { 0, 1 } };
     WrJournal *journal = wr_journal_begin(&options, &start);
+    must_be_there(journal);
     keep(journal, folder);
     for (int i = 1; i <= COMMANDS; i++) {
         char line[32];

@@ -355,6 +355,9 @@ static void what_damage_in_the_middle_of_a_stroke_leaves(void **state)
             assert_string_equal(read.lines[k].text, cases[i].texts[k]);
         assert_true(*read.damage && read.dropped_bytes > 0);
         assert_int_equal(read.headless, cases[i].first == 0);
+        int sound = cases[i].first == 0 ? cases[i].total : cases[i].count;
+        assert_int_equal(wr_journal_sound_end(&read, 0, true), sound);
+        assert_int_equal(wr_journal_sound_end(&read, 0, false), cases[i].count);
         assert_int_equal(read.unfinished, cases[i].first == 12); /* nothing says that it ended */
         for (int k = 0, holed = 0; k < read.total; k++)
             if ((holed += read.lines[k].holed) > 0)

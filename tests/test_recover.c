@@ -47,8 +47,12 @@ static void a_journal_in_use_is_neither_listed_nor_claimed_until_its_program_die
     assert_true(wr_journal_list(*state, &list, &err)); /* now we hold it */
     assert_int_equal(list.count, 0);
     wr_journal_list_fini(&list);
+    char *files = files_of(path), *copy = in(files, "copy");
+    assert_int_equal(mkdir(files, 0700), 0);
+    write_bytes(copy, "x", 1);
     assert_true(wr_journal_claim_remove(claim, &err));
-    assert_int_equal(count_entries(*state), 0);
+    assert_int_equal(count_entries(*state), 0); /* its files are gone with it */
+    wr_free(files), wr_free(copy);
     munmap(memory, 1024);
 }
 
@@ -166,25 +170,35 @@ static void old_journals_of_what_was_saved_are_removed_others_never(void **state
     WrJournalStart empty = { .kind = WR_JOURNAL_EMPTY };
     WrJournalList list;
     int64_t now = (int64_t)time(NULL);
-    for (int i = 0; i < 3; i++) { /* saved and old; saved just now; old and not saved */
+    /* Saved and old; saved just now; old and not saved; saved, and then more was done, or lines are lost, or could
+       not be written. */
+    for (int i = 0; i < 6; i++) {
         WrJournalOptions options = { .folder = *state, .sync_seconds = -1 };
         WrJournal *journal = wr_journal_begin(&options, &empty);
         char *path = wr_strdup(wr_journal_path(journal));
         wr_journal_command(journal, "a", NULL);
         wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL);
-        if (i < 2) wr_journal_saved(journal, "/home/x/b.exr", &(WrHash){ 1, 2 }, NULL);
+        if (i != 2) wr_journal_saved(journal, "/home/x/b.exr", &(WrHash){ 1, 2 }, NULL);
+        if (i == 3) wr_journal_command(journal, "b", NULL);
+        if (i == 3) wr_journal_done(journal, WR_JOURNAL_OK, NULL, NULL);
+        if (i == 5) wr_journal_break(journal, "the disk is full");
         wr_journal_leave(journal);
+        FILE *file = fopen(path, "a");
+        if (i == 4) fputs("a line that nobody can read any more\n", file);
+        fclose(file);
         struct timespec times[2] = { { .tv_sec = now - (i == 1 ? 10 : 200000 + i) } };
         times[1] = times[0];
         assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
         wr_free(path);
     }
     assert_true(wr_journal_list(*state, &list, NULL));
-    assert_int_equal(list.count, 2);
-    assert_true(list.entries[0].nothing && !list.entries[1].nothing);
+    assert_int_equal(list.count, 5);
+    assert_true(list.entries[0].nothing);
+    for (int i = 1; i < 5; i++) assert_false(list.entries[i].nothing);
     assert_string_equal(list.entries[0].document, "/home/x/b.exr");
     assert_int_equal(list.entries[1].complete, 1);
-    assert_int_equal(count_entries(*state), 2);
+    assert_int_equal(list.entries[2].complete, 1);
+    assert_int_equal(count_entries(*state), 5);
     wr_journal_list_fini(&list);
 }
 
@@ -328,6 +342,11 @@ static void a_copy_of_another_content_is_refused(void **state)
     assert_false(wr_journal_kept_file(wr_journal_path(journal), bad, NULL, &path, &err));
     assert_non_null(strstr(err.text, "no copy"));
     assert_false(wr_journal_kept_file(wr_journal_path(journal), "../x", NULL, &path, &err));
+    WrText half = { 0 };
+    wr_text_addf(&half, "%s/%s.png.new", files, bad);
+    write_bytes(wr_text_get(&half), "pi", 2); /* cut short */
+    assert_false(wr_journal_kept_file(wr_journal_path(journal), bad, "x.png", &path, &err));
+    wr_text_fini(&half);
     assert_true(wr_journal_state(journal).safe && path.length == 0);
     wr_journal_finish(journal);
     wr_free(folder), wr_free(file), wr_free(files);

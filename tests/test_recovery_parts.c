@@ -466,6 +466,51 @@ static void an_opened_document_comes_back_with_each_step_once(void **state)
     wr_free(path);
 }
 
+/* The journal of a step on a document that another program has changed since. Caller frees. */
+static char *left_by_one_step_on(const char *path, WrHash *want)
+{
+    WrSession *session = new_session(false);
+    run(session, five[0]);
+    run(session, five[1]);
+    save(session, path);
+    wr_session_free(session);
+    session = new_session(true);
+    assert_true(wr_session_open(session, path, NULL));
+    run(session, five[2]);
+    *want = wr_session_hash(session);
+    leave(session);
+    write_other(path);
+    return only_journal();
+}
+
+/* The journal has a copy of it. Where that is gone too nothing is made of the other one, and the journal stays. */
+static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
+{
+    (void)state;
+    WrHash want;
+    WrError err = { "" };
+    WrRecovered how;
+    char *path = in(folder, "my.exr"), *journal = left_by_one_step_on(path, &want);
+    WrSession *session = recover(journal, false, &how);
+    assert_hash(session, want, &how);
+    assert_true(wr_session_file_changed(session)); /* so that saving asks first */
+    wr_recovered_fini(&how);
+    wr_session_free(session);
+    wr_free(journal);
+    assert_int_equal(journals(), 0);
+
+    journal = left_by_one_step_on(path, &want);
+    char *files = files_of(journal);
+    remove_tree(files);
+    session = new_session(false);
+    assert_false(wr_session_recover(session, journal, false, &how, &err));
+    assert_non_null(strstr(err.text, "is not what the journal began with"));
+    wr_recovered_fini(&how);
+    wr_session_free(session);
+    assert_int_equal(journals(), 1);
+    wr_free(files), wr_free(journal), wr_free(path);
+}
+
 static void scripts_and_pictures_are_no_files_to_save_to(void **state)
 {
     (void)state;
@@ -647,6 +692,7 @@ int main(void)
         PLACED(what_was_saved_is_not_offered),
         PLACED(a_kill_between_a_save_and_its_record_leaves_the_journal_as_it_was),
         PLACED(an_opened_document_comes_back_with_each_step_once),
+        PLACED(what_a_journal_began_with_comes_back_or_nothing_does),
         PLACED(scripts_and_pictures_are_no_files_to_save_to),
         PLACED(a_document_is_saved_in_place_only_if_nobody_changed_it),
     };
