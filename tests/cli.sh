@@ -260,6 +260,17 @@ done
 expect 0 explain work.wrinkle --json --size 16x16 --do 'surface torus R=1 r=0.4' --do 'camera perspective eye=1,0,0 target=1,1,0'
 jq -e '.effects[] | select(.rule == "E25") | .run and (.reason | contains("inner walls"))' out >/dev/null ||
     complain "explain within a torus: $(cat out)"
+# Everything that could be left out runs, and the picture is the same to the bit.
+expect 0 explain work.wrinkle --full --json --size 33x21 --do 'surface sphere' --do 'bump mode=blinn scheme=catmull'
+jq -e '([.effects[] | select(.reason | startswith("forced: "))] | length) > 0 and
+    ([.effects[] | select(.class == "I" and .run)] | length) >= 5' out >/dev/null ||
+    complain "explain --full: nothing is forced: $(cat out)"
+for words in 'surface sphere' 'surface torus' 'bump mode=exact' 'bump scheme=bspline'; do
+    expect 0 render work.wrinkle -o planned.exr --size 33x21 --do "$words"
+    expect 0 render work.wrinkle --full -o full.exr --size 33x21 --do "$words"
+    cmp planned.exr full.exr || complain "render --full is another picture: $words"
+done
+rm -f planned.exr full.exr
 expect 0 explain work.wrinkle --size 16x16
 has out 'reason'
 has out 'of all threads together'

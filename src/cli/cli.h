@@ -54,6 +54,7 @@ struct WrCli {
     bool turned;       /* --turn was given */
     double turn_deg;   /* degrees a frame */
     int face;          /* --face */
+    bool full;         /* --full */
     bool json;
     const char *sheet;      /* --sheet */
     const char *thumbnails; /* --thumbnails */
@@ -82,6 +83,7 @@ typedef enum WrOption {
     WR_OPTION_OUT,
     WR_OPTION_AS,
     WR_OPTION_SIZE,
+    WR_OPTION_FULL,
     WR_OPTION_FRAMES,
     WR_OPTION_TURN,
     WR_OPTION_AT,

@@ -30,6 +30,7 @@ WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
                                  .note = print_note,
                                  .foretell = isatty(STDERR_FILENO) != 0,
                                  .outputs = outputs,
+                                 .full = cli->full,
                                  .isa = cli->isa,
                                  .smooth = true };
     return wr_session_new(&options);

@@ -118,6 +118,13 @@ static bool set_face(WrCli *cli, const char *value, WrError *err)
     return wr_fail(err, "--face %.40s: must be a whole number, 0..5", value);
 }
 
+static bool set_full(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->full = true;
+}
+
 static bool set_json(WrCli *cli, const char *value, WrError *err)
 {
     (void)value;
@@ -267,6 +274,8 @@ static const struct Option {
     { "--size", NULL, "WxH", WR_OPTION_ACCURACY, "of the pictures in pixels (256x256)", set_size },
     { "--turn", NULL, "DEGREES", WR_OPTION_ACCURACY, "of the object about the world's y axis (0)",
       set_angle },
+    { "--full", NULL, NULL, WR_OPTION_FULL,
+      "run what the plan would leave out too: the yardstick that it is measured by", set_full },
     { "--frames", NULL, "A-B", WR_OPTION_FRAMES,
       "a turntable: #### in OUT becomes the frame's number", set_frames },
     { "--turn", NULL, "DEGREES", WR_OPTION_TURN,

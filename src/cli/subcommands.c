@@ -13,7 +13,7 @@ const WrSubcommand wr_subcommands[] = {
       "to the script's folder and written relative to the current one.",
       wr_cli_run },
     { "render", "render [FILE] -o OUT [--size WxH] [--frames A-B]", "a picture, or a turntable",
-      BIT(OUT) | BIT(SIZE) | BIT(FRAMES) | BIT(TURN),
+      BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(FRAMES) | BIT(TURN),
       "exr and tiff files hold linear float red, green, blue and coverage, others 8-bit sRGB over "
       "the\n"
       "scene's background. Frame f of a turntable is turned by f times --turn degrees.",
@@ -27,8 +27,8 @@ const WrSubcommand wr_subcommands[] = {
       "double\n"
       "precision; F, Fu, Fv carry the bump's height and the replication.",
       wr_cli_inspect },
-    { "explain", "explain [FILE] [--json] [--size WxH]", "the plan of a picture, with reasons",
-      BIT(JSON) | BIT(SIZE),
+    { "explain", "explain [FILE] [--full] [--json] [--size WxH]",
+      "the plan of a picture, with reasons", BIT(JSON) | BIT(SIZE) | BIT(FULL),
       "Renders once and prints what was simulated and what was left out. class I: leaving it out "
       "gives\n"
       "the same bits; B: within a stated bound; P: a choice that changes the picture.",

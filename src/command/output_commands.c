@@ -31,6 +31,7 @@ static bool make_request(WrSession *session, int width, int height, double turn_
                              .width = width,
                              .height = height,
                              .turn_deg = turn_deg,
+                             .full = session->options.full,
                              .cancel = here ? here->cancel : NULL };
     return true;
 }

@@ -32,6 +32,8 @@ typedef struct WrSessionOptions {
     bool foretell; /* a note before what will take more than a moment: how long, how much memory */
     bool outputs;  /* perform output commands (only `wrinkle run` and the window do); otherwise
                              they are skipped with a note */
+    bool
+        full; /* pictures run what their plan could leave out, as a yardstick: WrFrameRequest.full */
     const char *isa; /* kernel set for renders: NULL or "auto"; copied, checked at first use */
     bool journal; /* keep a journal of the document, so that a crash loses at most the command under
                      way (document/journal.h) */
