@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Every argument that a command's handler asks for by name is in a row of the same file, or among those of the brush:
+# Every argument that a command's handler asks for by name is in a row of the same file, or among those of the brush or
+# of the scene:
 # what is not there would be read as nothing.  arguments.sh SOURCE-FOLDER
 set -uo pipefail
 cd "$1/src/command" || exit 1
 bad=0 seen=0
 for file in *_command.c *_commands.c; do
     rows=$(grep -ohE '\.name = "[^"]+"|\b[A-Z_]+\("[^"]+"' "$file" brush_args.[ch] args.h |
-        sed -E 's/.*"([^"]+)".*/\1/')
+        sed -E 's/.*"([^"]+)".*/\1/'; grep -ohE '"[a-z]+", ("[a-z]+"|NULL), "[^"]+"' ../scene/param.c |
+        sed -E 's/.*"([^"]+)"$/\1/')
     while read -r name; do
         seen=$((seen + 1))
         grep -qxF -- "$name" <<<"$rows" && continue

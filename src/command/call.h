@@ -7,7 +7,6 @@
    come in any order; the printer puts values first, then names, both in the table's order, and only those
    that were given. */
 #pragma once
-#include "base/vec.h"
 #include "command/table.h"
 
 #include <stdbool.h>
@@ -49,10 +48,7 @@ double wr_call_number(const WrCall *call, const char *name);
 /* A choice's index, given or default. */
 int wr_call_choice(const WrCall *call, const char *name);
 /* Three numbers of a tuple. */
-WrVec3 wr_call_vec3(const WrCall *call, const char *name);
 /* Where the line gives a value, take it. */
-void wr_call_take_number(const WrCall *call, const char *name, double *value);
-void wr_call_take_vec3(const WrCall *call, const char *name, WrVec3 *value);
 /* The name of the argument that holds the SHA-256 of the file that argument `index` names: NAME_sha256, or
  * sha256. NULL if it names none, or one that is not read. */
 const char *wr_call_hash_name(const WrCall *call, int index);

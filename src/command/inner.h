@@ -229,9 +229,5 @@ WrScenePrinter wr_print_rotate, wr_print_camera, wr_print_colour;
 void wr_print_identity(const WrScene *scene, WrText *text);
 
 /* Words of choices, index past the last gives NULL. */
-const char *wr_camera_kind_name(int i);
 
 /* ---- scene_text.c: parts of lines ---- */
-void wr_print_vec3(WrText *text, WrVec3 a);                    /* "x,y,z" */
-void wr_print_named(WrText *text, const char *name, double x); /* " name=x" */
-void wr_print_named_vec3(WrText *text, const char *name, WrVec3 a);

@@ -1,24 +1,23 @@
 /* Lights and the camera. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/scene_args.h"
 #include "document/document.h"
+#include "scene/param.h"
 #include "scene/scene.h"
-
-#include <string.h>
 
 static void print_light(const WrScene *scene, WrText *text)
 {
     if (scene->lights_given && scene->light_count == 0) wr_text_add(text, "light clear\n");
     for (int i = 0; scene->lights_given && i < scene->light_count; i++) {
         const WrLight *light = &scene->lights[i];
-        bool point = light->kind == WR_LIGHT_POINT;
-        wr_text_addf(text, "light %s", point ? "point" : "directional");
-        wr_print_named_vec3(text, point ? "at" : "to", light->where);
-        wr_print_named_vec3(text, "colour", light->colour);
-        wr_print_named(text, "strength", light->strength);
+        const char *form = wr_light_names[light->kind];
+        wr_text_addf(text, "light %s", form);
+        wr_scene_print_params("light", form, light, text);
         wr_text_add(text, "\n");
     }
 }
@@ -26,17 +25,14 @@ static void print_light(const WrScene *scene, WrText *text)
 /* The number of the other kind of camera is kept too, by a line of its own before. */
 void wr_print_camera(const WrScene *scene, WrText *text)
 {
-    const WrCamera *camera = &scene->camera;
-    wr_text_addf(text, "camera %s", wr_camera_kind_name(camera->orthographic ? 0 : 1));
-    wr_print_named(text, camera->orthographic ? "fov" : "size",
-                   camera->orthographic ? camera->fov_deg : camera->size);
-    wr_text_addf(text, "\ncamera %s", wr_camera_kind_name(camera->orthographic ? 1 : 0));
-    wr_print_named_vec3(text, "eye", camera->eye);
-    wr_print_named_vec3(text, "target", camera->target);
-    wr_print_named_vec3(text, "up", camera->up);
-    wr_text_addf(text, " fit=%s", camera->fit ? "on" : "off");
-    wr_print_named(text, camera->orthographic ? "size" : "fov",
-                   camera->orthographic ? camera->size : camera->fov_deg);
+    const WrSceneParam *own = &wr_scene_params[WR_SCENE_PARAM_FOV],
+                       *other = &wr_scene_params[WR_SCENE_PARAM_CAMERA_SIZE];
+    const bool swap = scene->camera.orthographic;
+    if (swap) other = own;
+    wr_text_addf(text, "camera %s %s=", other->form, other->name);
+    wr_scene_print_value(other, scene, text);
+    wr_text_addf(text, "\ncamera %s", wr_camera_names[swap]);
+    wr_scene_print_params("camera", wr_camera_names[swap], scene, text);
     wr_text_add(text, "\n");
 }
 
@@ -62,19 +58,17 @@ static bool put_light(WrScene *scene, WrLight light, int index, WrError *err)
 
 static bool run_light(WrSession *session, WrCall *call, WrError *err)
 {
-    bool clear = strcmp(call->form_name, "clear") == 0, good = true;
+    const bool clear = call->form >= WR_LIGHT_KINDS;
+    bool good = true;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     if (clear) {
         scene->light_count = 0;
     } else {
-        bool point = strcmp(call->form_name, "point") == 0;
-        WrLight light = { .kind = point ? WR_LIGHT_POINT : WR_LIGHT_DIRECTIONAL,
-                          .where = wr_call_vec3(call, point ? "at" : "to"),
-                          .colour = wr_call_vec3(call, "colour"),
-                          .strength = wr_call_number(call, "strength") };
-        bool zero = light.where.x == 0 && light.where.y == 0 && light.where.z == 0;
+        WrLight light = { .kind = (WrLightKind)call->form };
+        wr_scene_take(call, wr_light_names[light.kind], &light);
+        const bool zero = light.where.x == 0 && light.where.y == 0 && light.where.z == 0;
         int index = wr_call_given(call, "index") ? (int)wr_call_number(call, "index") : 0;
-        if (!point && zero)
+        if (light.kind == WR_LIGHT_DIRECTIONAL && zero)
             good = wr_fail(err, "to=0,0,0 points nowhere: one number must not be 0");
         else good = put_light(scene, light, index, err);
     }
@@ -87,21 +81,16 @@ static bool run_light(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* ---- camera and dials ---- */
+/* ---- camera ---- */
 
 static bool run_camera(WrSession *session, WrCall *call, WrError *err)
 {
     WrPlacement unused;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     WrCamera *camera = &scene->camera;
-    camera->orthographic = strcmp(call->form_name, "orthographic") == 0;
-    wr_call_take_vec3(call, "eye", &camera->eye);
-    wr_call_take_vec3(call, "target", &camera->target);
-    wr_call_take_vec3(call, "up", &camera->up);
-    if (camera->orthographic) wr_call_take_number(call, "size", &camera->size);
-    else wr_call_take_number(call, "fov", &camera->fov_deg);
+    camera->orthographic = call->form == 1;
     if (wr_call_given(call, "eye")) camera->fit = false;
-    if (wr_call_given(call, "fit")) camera->fit = wr_call_choice(call, "fit") == 1;
+    wr_scene_take(call, wr_camera_names[camera->orthographic], scene);
     if (!wr_scene_place(scene, 0, 1, &unused, err)) {
         wr_scene_free(scene);
         return false;
@@ -110,108 +99,39 @@ static bool run_camera(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-#define LIGHT_ARGS                                                                                 \
-    { .name = "colour",                                                                            \
-      .type = WR_ARG_TUPLE,                                                                        \
-      .components = 3,                                                                             \
-      .low = 0,                                                                                    \
-      .high = 1e6,                                                                                 \
-      .shape = "r,g,b",                                                                            \
-      .fallback = NUMBERS(1, 1, 1),                                                                \
-      .help = "linear" },                                                                          \
-        { .name = "strength",                                                                      \
-          .type = WR_ARG_NUMBER,                                                                   \
-          .low = 0,                                                                                \
-          .high = 1e6,                                                                             \
-          .fallback = NUMBERS(1),                                                                  \
-          .help = "times the colour" },                                                            \
-    {                                                                                              \
-        .name = "index", .type = WR_ARG_NUMBER, .low = 1, .high = WR_LIGHTS_MAX, .whole = true,    \
-        .help = "replace this light, the first is 1; without it one is added"                      \
-    }
-
-static const WrForm light_forms[] = {
-    { .name = "directional",
-      .help = "light from far away",
-      .args = { { .name = "to",
-                  .type = WR_ARG_TUPLE,
-                  .required = true,
-                  .components = 3,
-                  .low = -1e9,
-                  .high = 1e9,
-                  .help = "from the surface to the light, any length" },
-                LIGHT_ARGS } },
-    { .name = "point",
-      .help = "light from a point",
-      .args = { { .name = "at",
-                  .type = WR_ARG_TUPLE,
-                  .required = true,
-                  .components = 3,
-                  .low = -1e9,
-                  .high = 1e9,
-                  .unit = "scene units",
-                  .help = "where it stands" },
-                LIGHT_ARGS } },
-    { .name = "clear", .help = "no light at all" },
-};
-
-WR_FORMS(form_light, light_forms)
-
-const char *wr_camera_kind_name(int i)
+/* One form a kind of light, and one for none. */
+static bool form_light(int i, WrForm *out)
 {
-    return i == 0 ? "perspective" : i == 1 ? "orthographic" : NULL;
+    WR_ROWS(help);
+    static const char *const help[WR_LIGHT_KINDS] = {
+        [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "light from far away",
+        [WR_ROW(WR_LIGHT_POINT)] = "light from a point",
+    };
+    WR_ROWS_END(help, WR_LIGHT_KINDS);
+    if (i > WR_LIGHT_KINDS) return false;
+    if (i == WR_LIGHT_KINDS) {
+        *out = (WrForm){ .name = "clear", .help = "no light at all" };
+        return true;
+    }
+    *out = (WrForm){ .name = wr_light_names[i], .help = help[i] };
+    const int count = wr_scene_args("light", out->name, out->args);
+    out->args[count] =
+        (WrArgSpec){ .name = "index",
+                     .type = WR_ARG_NUMBER,
+                     .low = 1,
+                     .high = WR_LIGHTS_MAX,
+                     .whole = true,
+                     .help = "replace this light, the first is 1; without it one is added" };
+    return true;
 }
 
-#define CAMERA_ARGS                                                                                \
-    { .name = "eye",                                                                               \
-      .type = WR_ARG_TUPLE,                                                                        \
-      .components = 3,                                                                             \
-      .low = -1e9,                                                                                 \
-      .high = 1e9,                                                                                 \
-      .unit = "scene units",                                                                       \
-      .help = "where the camera stands" },                                                         \
-        { .name = "target",                                                                        \
-          .type = WR_ARG_TUPLE,                                                                    \
-          .components = 3,                                                                         \
-          .low = -1e9,                                                                             \
-          .high = 1e9,                                                                             \
-          .unit = "scene units",                                                                   \
-          .help = "what it looks at" },                                                            \
-        { .name = "up",                                                                            \
-          .type = WR_ARG_TUPLE,                                                                    \
-          .components = 3,                                                                         \
-          .low = -1e9,                                                                             \
-          .high = 1e9,                                                                             \
-          .help = "what is up in the picture" },                                                   \
-    {                                                                                              \
-        .name = "fit", .type = WR_ARG_CHOICE, .words = wr_off_on,                                  \
-        .help =                                                                                    \
-            "on: stand so far from the target, towards the eye, that the object just fits; eye= "  \
-            "turns it off"                                                                         \
-    }
-
-static const WrForm camera_forms[] = {
-    { .name = "perspective",
-      .help = "nearer is larger",
-      .args = { CAMERA_ARGS,
-                { .name = "fov",
-                  .type = WR_ARG_NUMBER,
-                  .low = 0.01,
-                  .high = 179,
-                  .unit = "degrees",
-                  .help = "angle of view from bottom to top" } } },
-    { .name = "orthographic",
-      .help = "all distances alike",
-      .args = { CAMERA_ARGS,
-                { .name = "size",
-                  .type = WR_ARG_NUMBER,
-                  .low = 0,
-                  .high = 1e9,
-                  .unit = "scene units",
-                  .help = "height of the view; 0: so that the object just fits" } } },
-};
-
-WR_FORMS(form_camera, camera_forms)
+static bool form_camera(int i, WrForm *out)
+{
+    static const char *const help[] = { "nearer is larger", "all distances alike" };
+    if (i >= WR_LENGTH(help)) return false;
+    *out = (WrForm){ .name = wr_camera_names[i], .help = help[i] };
+    return wr_scene_args("camera", out->name, out->args) > 0;
+}
 
 /* ---- the rows ---- */
 

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/scene_args.h"
 #include "document/document.h"
 #include "document/document_file.h"
 #include "scene/scene.h"
@@ -16,14 +17,9 @@
 
 static void print_material(const WrScene *scene, WrText *text)
 {
-    const WrMaterial *m = &scene->material;
     wr_text_add(text, "material");
-    wr_print_named(text, "ambient", m->ambient);
-    wr_print_named(text, "diffuse", m->diffuse);
-    wr_print_named(text, "specular", m->specular);
-    wr_print_named(text, "shininess", m->shininess);
-    wr_print_named_vec3(text, "colour", m->colour);
-    wr_text_addf(text, " gate=%s\n", m->gate ? "on" : "off");
+    wr_scene_print_params("material", NULL, scene, text);
+    wr_text_add(text, "\n");
 }
 
 void wr_print_colour(const WrScene *scene, WrText *text)
@@ -67,13 +63,7 @@ static bool run_material(WrSession *session, WrCall *call, WrError *err)
 {
     (void)err;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    WrMaterial *m = &scene->material;
-    wr_call_take_number(call, "ambient", &m->ambient);
-    wr_call_take_number(call, "diffuse", &m->diffuse);
-    wr_call_take_number(call, "specular", &m->specular);
-    wr_call_take_number(call, "shininess", &m->shininess);
-    wr_call_take_vec3(call, "colour", &m->colour);
-    if (wr_call_given(call, "gate")) m->gate = wr_call_choice(call, "gate") == 1;
+    wr_scene_take(call, NULL, scene);
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -213,28 +203,11 @@ static bool run_tolerance(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-static const WrArgSpec args_material[] = {
-    { .name = "ambient", .type = WR_ARG_NUMBER, .low = 0, .high = 1000, .help = "ka" },
-    { .name = "diffuse", .type = WR_ARG_NUMBER, .low = 0, .high = 1000, .help = "kd" },
-    { .name = "specular", .type = WR_ARG_NUMBER, .low = 0, .high = 1000, .help = "ks" },
-    { .name = "shininess",
-      .type = WR_ARG_NUMBER,
-      .low = 0,
-      .high = 1e6,
-      .help = "s, the highlight's exponent" },
-    { .name = "colour",
-      .type = WR_ARG_TUPLE,
-      .components = 3,
-      .low = 0,
-      .high = 1e6,
-      .shape = "r,g,b",
-      .help = "C, linear; does not tint the highlight" },
-    { .name = "gate",
-      .type = WR_ARG_CHOICE,
-      .words = wr_off_on,
-      .help = "highlight only where the light is above the surface" },
-    { 0 }
-};
+static bool row_material(WrForm *out)
+{
+    *out = (WrForm){ 0 };
+    return wr_scene_args("material", NULL, out->args) > 0;
+}
 
 static const WrArgSpec args_colour[] = {
     { PLACE("FILE|off"), .type = WR_ARG_PATH,
@@ -310,7 +283,7 @@ static bool row_dials(WrForm *out)
 
 const WrCommand wr_command_material = { .name = "material",
                                         .kind = WR_CLASS_SCENE,
-                                        .args = args_material,
+                                        .row = row_material,
                                         .run = run_material,
                                         .print = print_material,
                                         .help = "what the surface reflects",

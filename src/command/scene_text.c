@@ -8,29 +8,6 @@
 
 #include <string.h>
 
-/* "x,y,z" */
-void wr_print_vec3(WrText *text, WrVec3 a)
-{
-    wr_text_add_number(text, a.x);
-    wr_text_add(text, ",");
-    wr_text_add_number(text, a.y);
-    wr_text_add(text, ",");
-    wr_text_add_number(text, a.z);
-}
-
-/* " name=x" */
-void wr_print_named(WrText *text, const char *name, double x)
-{
-    wr_text_addf(text, " %s=", name);
-    wr_text_add_number(text, x);
-}
-
-void wr_print_named_vec3(WrText *text, const char *name, WrVec3 a)
-{
-    wr_text_addf(text, " %s=", name);
-    wr_print_vec3(text, a);
-}
-
 static void print_colour_content(const WrScene *scene, WrText *text)
 {
     if (scene->colour && *scene->colour_sha256)

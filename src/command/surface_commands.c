@@ -4,8 +4,10 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/scene_args.h"
 #include "document/document.h"
 #include "field/analytic.h"
+#include "scene/param.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -31,7 +33,7 @@ void wr_print_rotate(const WrScene *scene, WrText *text)
 {
     if (!scene->posed) return;
     wr_text_add(text, "rotate ");
-    wr_print_vec3(text, scene->rotate_deg);
+    wr_scene_print_value(&wr_scene_params[WR_SCENE_PARAM_ROTATE], scene, text);
     wr_text_add(text, "\n");
 }
 
@@ -58,16 +60,14 @@ static void print_bump(const WrScene *scene, WrText *text)
 {
     wr_text_addf(text, "bump mode=%s scheme=%s", wr_bumps[scene->bump].name,
                  wr_schemes[scene->scheme].name);
-    wr_print_named(text, "height", scene->height);
+    wr_scene_print_params("bump", NULL, scene, text);
     wr_text_add(text, "\n");
 }
 
 static void print_replicate(const WrScene *scene, WrText *text)
 {
     wr_text_add(text, "replicate ");
-    wr_text_add_number(text, scene->replicate_u);
-    wr_text_add(text, ",");
-    wr_text_add_number(text, scene->replicate_v);
+    wr_scene_print_value(&wr_scene_params[WR_SCENE_PARAM_REPLICATE], scene, text);
     wr_text_add(text, "\n");
 }
 
@@ -108,7 +108,8 @@ static bool run_rotate(WrSession *session, WrCall *call, WrError *err)
     if (own == turned) return wr_fail(err, "needs one of x,y,z and pose=own");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     scene->posed = turned;
-    scene->rotate_deg = turned ? wr_call_vec3(call, "x,y,z") : (WrVec3){ 0 };
+    scene->rotate_deg = (WrVec3){ 0 };
+    wr_scene_take(call, NULL, scene);
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -149,7 +150,7 @@ static bool run_bump(WrSession *session, WrCall *call, WrError *err)
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     if (wr_call_given(call, "mode")) scene->bump = (WrBumpMode)wr_call_choice(call, "mode");
     if (wr_call_given(call, "scheme")) scene->scheme = (WrScheme)wr_call_choice(call, "scheme");
-    if (wr_call_given(call, "height")) scene->height = wr_call_number(call, "height");
+    wr_scene_take(call, NULL, scene);
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -157,10 +158,8 @@ static bool run_bump(WrSession *session, WrCall *call, WrError *err)
 static bool run_replicate(WrSession *session, WrCall *call, WrError *err)
 {
     (void)err;
-    const WrArg *arg = wr_call_arg(call, "ru,rv");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    scene->replicate_u = arg->numbers[0];
-    scene->replicate_v = arg->numbers[1];
+    wr_scene_take(call, NULL, scene);
     warn_seam(session, scene);
     wr_session_replace_scene(session, scene);
     return true;
@@ -240,51 +239,43 @@ static bool form_surface(int i, WrForm *out)
     return true;
 }
 
-static const WrArgSpec args_bump[] = {
-    { .name = "mode",
-      .type = WR_ARG_CHOICE,
-      .choice = bump_name,
-      .help =
-          "how the normal is made: unchanged, the paper's N + D, the same whatever the scale, or "
-          "the true normal of the displaced surface" },
-    { .name = "scheme",
-      .type = WR_ARG_CHOICE,
-      .choice = scheme_name,
-      .help = "how F is differentiated" },
-    { .name = "height",
-      .type = WR_ARG_NUMBER,
-      .low = -1e30,
-      .high = 1e30,
-      .unit = "scene units",
-      .help = "displacement where the table is 1" },
-    { 0 }
-};
+static bool row_bump(WrForm *out)
+{
+    *out = (WrForm){ .args = { { .name = "mode",
+                                 .type = WR_ARG_CHOICE,
+                                 .choice = bump_name,
+                                 .help = "how the normal is made: unchanged, the paper's N + D, "
+                                         "the same whatever the scale, or "
+                                         "the true normal of the displaced surface" },
+                               { .name = "scheme",
+                                 .type = WR_ARG_CHOICE,
+                                 .choice = scheme_name,
+                                 .help = "how F is differentiated" } } };
+    return wr_scene_args("bump", NULL, out->args + 2) > 0;
+}
 
-static const WrArgSpec args_replicate[] = { { PLACE("ru,rv"), .type = WR_ARG_TUPLE, .components = 2,
-                                              .low = -1e9, .high = 1e9,
-                                              .help = "how often the table repeats along u and v" },
-                                            { 0 } };
+static bool row_replicate(WrForm *out)
+{
+    *out = (WrForm){ 0 };
+    return wr_scene_args("replicate", NULL, out->args) > 0;
+}
 
 static const char *pose_word(int i)
 {
     return i == 0 ? "own" : NULL;
 }
 
-static const WrArgSpec args_rotate[] = {
-    { .name = "x,y,z",
-      .type = WR_ARG_TUPLE,
-      .positional = true,
-      .components = 3,
-      .low = -1e9,
-      .high = 1e9,
-      .unit = "degrees",
-      .help = "turns about the world's x, then y, then z axis" },
-    { .name = "pose",
-      .type = WR_ARG_CHOICE,
-      .choice = pose_word,
-      .help = "instead: the pose in which each surface first shows itself" },
-    { 0 }
-};
+static bool row_rotate(WrForm *out)
+{
+    *out = (WrForm){ 0 };
+    const int count = wr_scene_args("rotate", NULL, out->args);
+    out->args[count] =
+        (WrArgSpec){ .name = "pose",
+                     .type = WR_ARG_CHOICE,
+                     .choice = pose_word,
+                     .help = "instead: the pose in which each surface first shows itself" };
+    return true;
+}
 
 /* ---- the rows ---- */
 
@@ -302,7 +293,7 @@ const WrCommand wr_command_surface = { .name = "surface",
 const WrCommand wr_command_rotate = {
     .name = "rotate",
     .kind = WR_CLASS_VIEW,
-    .args = args_rotate,
+    .row = row_rotate,
     .run = run_rotate,
     .print = wr_print_rotate,
     .help = "the object's orientation",
@@ -328,7 +319,7 @@ const WrCommand wr_command_analytic = {
 
 const WrCommand wr_command_bump = { .name = "bump",
                                     .kind = WR_CLASS_SCENE,
-                                    .args = args_bump,
+                                    .row = row_bump,
                                     .run = run_bump,
                                     .print = print_bump,
                                     .help = "how the table turns the normal",
@@ -337,7 +328,7 @@ const WrCommand wr_command_bump = { .name = "bump",
 
 const WrCommand wr_command_replicate = { .name = "replicate",
                                          .kind = WR_CLASS_SCENE,
-                                         .args = args_replicate,
+                                         .row = row_replicate,
                                          .run = run_replicate,
                                          .print = print_replicate,
                                          .help = "how often the table repeats over the surface",

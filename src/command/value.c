@@ -377,23 +377,6 @@ int wr_call_choice(const WrCall *call, const char *name)
     return wr_call_arg(call, name)->choice;
 }
 
-WrVec3 wr_call_vec3(const WrCall *call, const char *name)
-{
-    const WrArg *arg = wr_call_arg(call, name);
-    WR_ASSERT(arg->numbers);
-    return (WrVec3){ arg->numbers[0], arg->numbers[1], arg->numbers[2] };
-}
-
-void wr_call_take_number(const WrCall *call, const char *name, double *value)
-{
-    if (wr_call_given(call, name)) *value = wr_call_number(call, name);
-}
-
-void wr_call_take_vec3(const WrCall *call, const char *name, WrVec3 *value)
-{
-    if (wr_call_given(call, name)) *value = wr_call_vec3(call, name);
-}
-
 const char *wr_call_hash_name(const WrCall *call, int index)
 {
     const WrArgSpec *spec = &call->specs[index];

@@ -4,6 +4,7 @@
 #include "base/rows.h"
 #include "field/field.h"
 #include "image/image.h"
+#include "scene/param.h"
 #include "shade/slope.h"
 
 #include <float.h>
@@ -25,13 +26,6 @@ const char *const wr_tolerance_names[WR_TOLERANCE_COUNT] = {
 };
 WR_ROWS_END(wr_tolerance_names, WR_TOLERANCE_COUNT);
 
-static const WrLight default_light = {
-    .kind = WR_LIGHT_DIRECTIONAL,
-    .where = { -0.5, 0.6, 0.75 },
-    .colour = { 1, 1, 1 },
-    .strength = 1,
-};
-
 WrScene *wr_scene_new(void)
 {
     WrScene *scene = wr_alloc(1, sizeof *scene);
@@ -39,18 +33,11 @@ WrScene *wr_scene_new(void)
     wr_shape_default(WR_SURFACE_plane, &scene->shape);
     scene->bump = WR_BUMP_BLINN;
     scene->scheme = WR_SCHEME_CENTRAL;
-    scene->height = 0.1;
-    scene->replicate_u = scene->replicate_v = 1;
-    scene->material = (WrMaterial){ .ambient = 0.08,
-                                    .diffuse = 0.72,
-                                    .specular = 0.35,
-                                    .shininess = 40,
-                                    .colour = { 0.8, 0.8, 0.8 },
-                                    .gate = true };
+    wr_scene_params_reset(scene, false);
     scene->lights = wr_alloc(1, sizeof *scene->lights);
-    scene->lights[0] = default_light;
+    scene->lights[0].kind = WR_LIGHT_DIRECTIONAL;
+    wr_scene_params_reset(scene->lights, true);
     scene->light_count = 1;
-    scene->camera = (WrCamera){ .fit = true, .eye = { 0, 0, 1 }, .up = { 0, 1, 0 }, .fov_deg = 35 };
     scene->dials = wr_dials_default();
     for (int i = 0; i < 3; i++) scene->background[i] = 0.032;
     return scene;

@@ -8,22 +8,26 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/param_row.h"
 
 #include "base/rows.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "scene/param.h"
 #include "scene/scene.h"
-#include "shade/bump.h"
 
 #include <stdio.h>
 
 static void light_line(WrText *line, const WrLight *light, int index)
 {
-    bool point = light->kind == WR_LIGHT_POINT;
-    wr_text_addf(line, "light %s", wr_light_names[light->kind]);
-    wr_line_vec(line, point ? "at" : "to", light->where);
-    wr_line_vec(line, "colour", light->colour);
-    wr_line_number(line, "strength", light->strength);
+    const char *form = wr_light_names[light->kind];
+    const WrSceneParam *param;
+    wr_text_addf(line, "light %s", form);
+    for (int i = 0; (param = wr_scene_param("light", form, i)) != NULL; i++) {
+        double values[3];
+        wr_scene_param_get(param, light, values);
+        wr_param_line(line, param, values);
+    }
     if (index >= 0) wr_text_addf(line, " index=%d", index + 1);
 }
 
@@ -34,13 +38,9 @@ static bool one_light(WrApp *app, int i)
     static const char *const kinds[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONAL)] = "Far away",
                                                        [WR_ROW(WR_LIGHT_POINT)] = "Point" };
     WR_ROWS_END(kinds, WR_LIGHT_KINDS);
-    static const WrNumber strength = { .low = 0,
-                                       .high = 2,
-                                       .hard_low = 0,
-                                       .hard_high = 1e6,
-                                       .reset = 1,
-                                       .decimals = 2,
-                                       .tip = "Times the colour" };
+    const WrSceneParam *power = &wr_scene_params[WR_SCENE_PARAM_LIGHT_STRENGTH],
+                       *tint = &wr_scene_params[WR_SCENE_PARAM_LIGHT_COLOUR];
+    const WrNumber strength = wr_param_slider(power);
     WrLight light = wr_app_scene(app)->lights[i];
     char label[24];
     int kind = (int)light.kind;
@@ -49,10 +49,10 @@ static bool one_light(WrApp *app, int i)
     wr_gui_label(label);
     bool chosen = wr_gui_choice("kind", 0, kinds, WR_LIGHT_KINDS, &kind);
     wr_gui_tip("Drag the small sun on the patch to move the light");
-    wr_gui_label("Strength");
-    WrEdit a = wr_gui_number("strength", 0, &strength, &light.strength);
-    wr_gui_label("Colour");
-    WrEdit b = wr_gui_colour("colour", 0, rgb);
+    wr_gui_label(power->label);
+    WrEdit a = wr_gui_number(power->name, 0, &strength, &light.strength);
+    wr_gui_label(tint->label);
+    WrEdit b = wr_gui_colour(tint->name, 0, rgb);
     light.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
     if (a != WR_EDIT_NONE || b != WR_EDIT_NONE) wr_app_live(app)->lights[i] = light;
     if (chosen && kind != (int)light.kind) {
@@ -114,32 +114,15 @@ static void lights(WrApp *app)
 static void camera(WrApp *app)
 {
     static const char *const kinds[] = { "Perspective", "Orthographic" };
-    static const WrNumber fov = { .low = 5,
-                                  .high = 120,
-                                  .hard_low = 0.01,
-                                  .hard_high = 179,
-                                  .reset = 35,
-                                  .decimals = 1,
-                                  .unit = "\xc2\xb0",
-                                  .tip = "Angle of view from bottom to top" };
     const WrCamera *c = &wr_app_scene(app)->camera;
     int kind = c->orthographic;
-    double deg = c->fov_deg;
     WrText line = { 0 };
     wr_gui_space(8);
     wr_gui_heading("CAMERA");
     wr_gui_label("Kind");
     if (wr_gui_choice("camera", 0, kinds, 2, &kind))
         wr_text_addf(&line, "camera %s", wr_camera_names[kind]);
-    if (!c->orthographic) {
-        wr_gui_label("Angle");
-        WrEdit edit = wr_gui_number("fov", 0, &fov, &deg);
-        if (edit != WR_EDIT_NONE) wr_app_live(app)->camera.fov_deg = deg;
-        if (edit == WR_EDIT_DONE) {
-            wr_text_add(&line, "camera perspective");
-            wr_line_number(&line, "fov", deg);
-        }
-    }
+    if (!c->orthographic) wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_FOV]);
     wr_gui_label("");
     if (wr_gui_chip(NULL, "Fit the object")) wr_action_run(app, "camera_reset");
     if (line.length) wr_scene_run(app, &line);

@@ -5,8 +5,10 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/param_row.h"
 
 #include "base/text.h"
+#include "scene/param.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 
@@ -79,15 +81,10 @@ static void surface(WrApp *app)
     }
     wr_gui_tip(wr_surfaces[kind]->help);
     surface_params(app);
-    static const WrNumber spec = { .low = 1,
-                                   .high = 16,
-                                   .hard_low = -1e9,
-                                   .hard_high = 1e9,
-                                   .reset = 1,
-                                   .decimals = -1,
-                                   .tip = "How often the table repeats along u and v" };
+    const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_REPLICATE];
+    const WrNumber spec = wr_param_slider(param);
     double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;
-    wr_gui_label("Repeat u, v");
+    wr_gui_label(param->label);
     double half = (wr_gui_available() - wr_gui_px(8)) / 2.0;
     WrEdit edit_u = wr_gui_number("ru", half, &spec, &ru);
     wr_gui_same_line(8);

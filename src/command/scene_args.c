@@ -1,0 +1,58 @@
+#include "command/scene_args.h"
+
+#include "base/text.h"
+#include "command/args.h"
+#include "scene/param.h"
+
+int wr_scene_args(const char *command, const char *form, WrArgSpec *out)
+{
+    int count = 0;
+    const WrSceneParam *p;
+    while ((p = wr_scene_param(command, form, count)) != NULL)
+        out[count++] = (WrArgSpec){ .name = p->name,
+                                    .type = p->components == 0   ? WR_ARG_CHOICE
+                                            : p->components == 1 ? WR_ARG_NUMBER
+                                                                 : WR_ARG_TUPLE,
+                                    .positional = p->positional,
+                                    .required = p->required,
+                                    .low = p->low,
+                                    .high = p->high,
+                                    .components = p->components > 1 ? p->components : 0,
+                                    .words = p->components == 0 ? wr_off_on : NULL,
+                                    .shape = p->shape,
+                                    .fallback = p->filled ? p->fallback : NULL,
+                                    .unit = p->unit,
+                                    .help = p->help };
+    return count;
+}
+
+void wr_scene_take(const WrCall *call, const char *form, void *owner)
+{
+    const WrSceneParam *p;
+    for (int i = 0; (p = wr_scene_param(call->command->name, form, i)) != NULL; i++) {
+        if (!p->filled && !wr_call_given(call, p->name)) continue;
+        const double on = p->components == 0 ? wr_call_choice(call, p->name) : 0;
+        wr_scene_param_set(p, owner,
+                           p->components == 0 ? &on : wr_call_arg(call, p->name)->numbers);
+    }
+}
+
+void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *text)
+{
+    double values[3];
+    wr_scene_param_get(param, owner, values);
+    if (param->components == 0) wr_text_add(text, wr_off_on[values[0] != 0]);
+    for (int i = 0; i < param->components; i++) {
+        if (i > 0) wr_text_add(text, ",");
+        wr_text_add_number(text, values[i]);
+    }
+}
+
+void wr_scene_print_params(const char *command, const char *form, const void *owner, WrText *text)
+{
+    const WrSceneParam *p;
+    for (int i = 0; (p = wr_scene_param(command, form, i)) != NULL; i++) {
+        wr_text_addf(text, " %s=", p->name);
+        wr_scene_print_value(p, owner, text);
+    }
+}

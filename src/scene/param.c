@@ -1,0 +1,135 @@
+#include "scene/param.h"
+
+#include "base/rows.h"
+#include "scene/scene.h"
+
+#include <string.h>
+
+#define IN_SCENE(member) .place = offsetof(WrScene, member)
+#define IN_LIGHT(member) .of_light = true, .place = offsetof(WrLight, member)
+#define SLIDER(from, to, digits) .soft_low = (from), .soft_high = (to), .decimals = (digits)
+#define PLACE_RANGE .components = 3, .low = -1e9, .high = 1e9
+
+/* A vector is three doubles, one after the other. */
+_Static_assert(sizeof(WrVec3) == 3 * sizeof(double), "vectors are read as numbers");
+_Static_assert(offsetof(WrScene, replicate_v) == offsetof(WrScene, replicate_u) + sizeof(double),
+               "the two are read as one pair");
+
+WR_ROWS(wr_scene_params);
+const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
+    [WR_ROW(WR_SCENE_PARAM_ROTATE)] = { "rotate", NULL, "x,y,z", .positional = true,
+                                        IN_SCENE(rotate_deg), PLACE_RANGE, .unit = "degrees",
+                                        .help = "turns about the world's x, then y, then z axis" },
+    [WR_ROW(WR_SCENE_PARAM_HEIGHT)] = { "bump", NULL, "height", IN_SCENE(height), .components = 1,
+                                        .low = -1e30, .high = 1e30, .fallback = { 0.1 },
+                                        .planned = true, .unit = "scene units", .label = "Height",
+                                        .help = "displacement where the table is 1",
+                                        SLIDER(0, 0.3, 4) },
+    [WR_ROW(WR_SCENE_PARAM_REPLICATE)] = { "replicate", NULL, "ru,rv", .positional = true,
+                                           .required = true, IN_SCENE(replicate_u), .components = 2,
+                                           .low = -1e9, .high = 1e9, .fallback = { 1, 1 },
+                                           .planned = true, .label = "Repeat u, v",
+                                           .help = "how often the table repeats along u and v",
+                                           SLIDER(1, 16, -1) },
+    [WR_ROW(WR_SCENE_PARAM_AMBIENT)] = { "material", NULL, "ambient", IN_SCENE(material.ambient),
+                                         .components = 1, .high = 1000, .fallback = { 0.08 },
+                                         .label = "Ambient", .help = "ka: light from everywhere",
+                                         SLIDER(0, 1, 3) },
+    [WR_ROW(WR_SCENE_PARAM_DIFFUSE)] = { "material", NULL, "diffuse", IN_SCENE(material.diffuse),
+                                         .components = 1, .high = 1000, .fallback = { 0.72 },
+                                         .planned = true, .label = "Diffuse",
+                                         .help = "kd: matt reflection", SLIDER(0, 1, 3) },
+    [WR_ROW(WR_SCENE_PARAM_SPECULAR)] = { "material", NULL, "specular", IN_SCENE(material.specular),
+                                          .components = 1, .high = 1000, .fallback = { 0.35 },
+                                          .planned = true, .label = "Specular",
+                                          .help = "ks: strength of the highlight",
+                                          SLIDER(0, 1, 3) },
+    [WR_ROW(WR_SCENE_PARAM_SHININESS)] = { "material", NULL, "shininess",
+                                           IN_SCENE(material.shininess), .components = 1,
+                                           .high = 1e6, .fallback = { 40 }, .label = "Shininess",
+                                           .help = "s: the highlight's exponent; higher is smaller",
+                                           SLIDER(1, 500, -1), .logarithmic = true },
+    [WR_ROW(WR_SCENE_PARAM_MATERIAL_COLOUR)] = { "material", NULL, "colour",
+                                                 IN_SCENE(material.colour), .components = 3,
+                                                 .high = 1e6, .fallback = { 0.8, 0.8, 0.8 },
+                                                 .planned = true, .shape = "r,g,b",
+                                                 .label = "Colour",
+                                                 .help = "C, linear; does not tint the highlight" },
+    [WR_ROW(WR_SCENE_PARAM_GATE)] = { "material", NULL, "gate", IN_SCENE(material.gate),
+                                      .fallback = { 1 },
+                                      .help =
+                                          "highlight only where the light is above the surface" },
+    [WR_ROW(WR_SCENE_PARAM_LIGHT_TO)] = { "light", "directional", "to", .required = true,
+                                          IN_LIGHT(where), PLACE_RANGE,
+                                          .fallback = { -0.5, 0.6, 0.75 },
+                                          .help = "from the surface to the light, any length" },
+    [WR_ROW(WR_SCENE_PARAM_LIGHT_AT)] = { "light", "point", "at", .required = true, IN_LIGHT(where),
+                                          PLACE_RANGE, .fallback = { -0.5, 0.6, 0.75 },
+                                          .unit = "scene units", .help = "where it stands" },
+    [WR_ROW(WR_SCENE_PARAM_LIGHT_COLOUR)] = { "light", NULL, "colour", .filled = true,
+                                              IN_LIGHT(colour), .components = 3, .high = 1e6,
+                                              .fallback = { 1, 1, 1 }, .planned = true,
+                                              .shape = "r,g,b", .label = "Colour",
+                                              .help = "linear" },
+    [WR_ROW(WR_SCENE_PARAM_LIGHT_STRENGTH)] = { "light", NULL, "strength", .filled = true,
+                                                IN_LIGHT(strength), .components = 1, .high = 1e6,
+                                                .fallback = { 1 }, .planned = true,
+                                                .label = "Strength", .help = "times the colour",
+                                                SLIDER(0, 2, 2) },
+    [WR_ROW(WR_SCENE_PARAM_EYE)] = { "camera", NULL, "eye", IN_SCENE(camera.eye), PLACE_RANGE,
+                                     .fallback = { 0, 0, 1 }, .planned = true,
+                                     .unit = "scene units", .help = "where the camera stands" },
+    [WR_ROW(WR_SCENE_PARAM_TARGET)] = { "camera", NULL, "target", IN_SCENE(camera.target),
+                                        PLACE_RANGE, .unit = "scene units",
+                                        .help = "what it looks at" },
+    [WR_ROW(WR_SCENE_PARAM_UP)] = { "camera", NULL, "up", IN_SCENE(camera.up), PLACE_RANGE,
+                                    .fallback = { 0, 1, 0 }, .help = "what is up in the picture" },
+    [WR_ROW(WR_SCENE_PARAM_FIT)] = { "camera", NULL, "fit", IN_SCENE(camera.fit), .fallback = { 1 },
+                                     .planned = true,
+                                     .help =
+                                         "on: stand so far from the target, towards the eye, that "
+                                         "the object just fits; eye= turns it off" },
+    [WR_ROW(WR_SCENE_PARAM_FOV)] = { "camera", "perspective", "fov", IN_SCENE(camera.fov_deg),
+                                     .components = 1, .low = 0.01, .high = 179, .fallback = { 35 },
+                                     .unit = "degrees", .label = "Angle",
+                                     .help = "angle of view from bottom to top",
+                                     SLIDER(5, 120, 1) },
+    [WR_ROW(
+        WR_SCENE_PARAM_CAMERA_SIZE)] = { "camera", "orthographic", "size", IN_SCENE(camera.size),
+                                         .components = 1, .high = 1e9, .unit = "scene units",
+                                         .help = "height of the view; 0: so that the object just "
+                                                 "fits" },
+};
+WR_ROWS_END(wr_scene_params, WR_SCENE_PARAM_COUNT);
+
+const WrSceneParam *wr_scene_param(const char *command, const char *form, int i)
+{
+    for (int k = 0; k < WR_SCENE_PARAM_COUNT; k++) {
+        const WrSceneParam *p = &wr_scene_params[k];
+        if (strcmp(p->command, command) != 0) continue;
+        if (form && p->form && strcmp(p->form, form) != 0) continue;
+        if (i-- == 0) return p;
+    }
+    return NULL;
+}
+
+void wr_scene_param_get(const WrSceneParam *param, const void *owner, double *values)
+{
+    const char *at = (const char *)owner + param->place;
+    if (param->components == 0) values[0] = *(const bool *)at ? 1 : 0;
+    else memcpy(values, at, (size_t)param->components * sizeof *values);
+}
+
+void wr_scene_param_set(const WrSceneParam *param, void *owner, const double *values)
+{
+    char *at = (char *)owner + param->place;
+    if (param->components == 0) *(bool *)at = values[0] != 0;
+    else memcpy(at, values, (size_t)param->components * sizeof *values);
+}
+
+void wr_scene_params_reset(void *owner, bool of_light)
+{
+    for (int k = 0; k < WR_SCENE_PARAM_COUNT; k++)
+        if (wr_scene_params[k].of_light == of_light)
+            wr_scene_param_set(&wr_scene_params[k], owner, wr_scene_params[k].fallback);
+}

@@ -1,0 +1,52 @@
+#include "ui/panels/param_row.h"
+#include "ui/desk/line.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+
+#include "base/text.h"
+#include "base/vec.h"
+#include "scene/param.h"
+#include "scene/scene.h"
+
+#include <string.h>
+
+WrNumber wr_param_slider(const WrSceneParam *param)
+{
+    return (WrNumber){ .low = param->soft_low,
+                       .high = param->soft_high,
+                       .hard_low = param->low,
+                       .hard_high = param->high,
+                       .reset = param->fallback[0],
+                       .decimals = param->decimals,
+                       .unit =
+                           param->unit && strcmp(param->unit, "degrees") == 0 ? "\xc2\xb0" : NULL,
+                       .logarithmic = param->logarithmic,
+                       .tip = param->help };
+}
+
+void wr_param_line(WrText *line, const WrSceneParam *param, const double *values)
+{
+    if (param->components == 1) wr_line_number(line, param->name, values[0]);
+    else wr_line_vec(line, param->name, (WrVec3){ values[0], values[1], values[2] });
+}
+
+static void run(WrApp *app, const WrSceneParam *param, const double *values)
+{
+    WrText line = { 0 };
+    wr_text_addf(&line, "%s", param->command);
+    if (param->form) wr_text_addf(&line, " %s", param->form);
+    wr_param_line(&line, param, values);
+    wr_scene_run(app, &line);
+}
+
+void wr_param_row(WrApp *app, const WrSceneParam *param)
+{
+    const WrNumber spec = wr_param_slider(param);
+    double values[3];
+    wr_scene_param_get(param, wr_app_scene(app), values);
+    wr_gui_label(param->label);
+    const WrEdit edit = param->components == 1 ? wr_gui_number(param->name, 0, &spec, values)
+                                               : wr_gui_colour(param->name, 0, values);
+    if (edit != WR_EDIT_NONE) wr_scene_param_set(param, wr_app_live(app), values);
+    if (edit == WR_EDIT_DONE) run(app, param, values);
+}
