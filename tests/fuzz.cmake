@@ -57,7 +57,7 @@ set(font_reading image/font_free.c image/font_gzip.c image/font_lines.c image/fo
 wr_fuzz(font ${font_reading} image/font_outline.c base/error.c base/memory.c base/text.c
         LIBRARIES ${SHAPING_CFLAGS} -lfreetype -lharfbuzz -lfribidi -lz)
 
-wr_fuzz(raw generate/terrain_raw.c base/error.c base/memory.c base/text.c)
+wr_fuzz(raw generate/terrain_raw.c base/error.c base/memory.c base/progress.c base/text.c)
 
 # Under sanitizers of gcc the rooms cannot be linked with clang's.
 if(NOT WR_SANITIZE)
