@@ -183,7 +183,7 @@ static void expect_blocks(const WrScene *scene, const WrField *field, const char
 {
     if (scene->dials.arithmetic == WR_ARITHMETIC_FAST) return; /* bits are not promised there */
     const int blocks = (SIDE + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
-    unsigned char only[64] = { 0 };
+    unsigned char only[(SIDE / WR_FRAME_BLOCK + 1) * (SIDE / WR_FRAME_BLOCK + 1)] = { 0 };
     Shot whole = picture(scene, field, NULL, SIDE, 2, "auto", NULL);
     for (int i = 0; i < blocks * blocks; i++) only[i] = i % 7 % 3 != 1; /* alone and in rows */
     WrFrameRequest request = {
@@ -213,6 +213,49 @@ static void blocks_that_are_asked_for_have_the_bits_of_the_whole_picture(void **
     WrField *field = bumpy_field(50, 70);
     each_rung("bezier", field, 0.02, expect_blocks);
     each_rung("cube", field, 0.02, expect_blocks);
+    wr_field_free(field);
+}
+
+/* Meshes that are held for other samples, while view, surface and dials change between: the bits of a new renderer. */
+static void meshes_that_are_held_are_kept_up_to_date(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *surface;
+        int samples, mesh, side;
+        double turn_deg;
+    } passes[] = { { "torus", 1, 0, 40, 0 },   { "torus", 4, 0, 40, 0 },
+                   { "torus", 1, 0, 40, 30 },  { "torus", 4, 1, 40, 30 },
+                   { "torus", 4, 1, 24, 30 },  { "bezier", 4, 0, 24, 30 },
+                   { "sphere", 4, 0, 24, 30 }, { "torus", 1, 0, 40, 30 },
+                   { "torus", 3, 0, 40, 30 },  { "torus", 4, 0, 40, 30 },
+                   { "curl", 3, 0, 40, 30 } };
+    WrField *field = bumpy_field(50, 70);
+    WrError err = { "" };
+    WrRenderer *renderer = wr_renderer_new(NULL, NULL, &err);
+    assert_non_null(renderer);
+    for (size_t i = 0; i < sizeof passes / sizeof *passes; i++) {
+        WrFrame held, fresh;
+        WrScene *scene = scene_of(passes[i].surface);
+        WrRenderer *other = wr_renderer_new(NULL, NULL, &err);
+        scene->dials.aa = WR_AA_SUPERSAMPLE;
+        scene->dials.samples = passes[i].samples;
+        scene->dials.mesh = passes[i].mesh;
+        WrFrameRequest request = { .field = field,
+                                   .scene = scene,
+                                   .width = passes[i].side,
+                                   .height = passes[i].side,
+                                   .turn_deg = passes[i].turn_deg,
+                                   .hold = true };
+        assert_true(wr_renderer_frame(renderer, &request, &held, &err));
+        request.hold = false;
+        assert_true(wr_renderer_frame(other, &request, &fresh, &err));
+        if (memcmp(held.rgba, fresh.rgba, frame_bytes(&fresh)) != 0)
+            fail_msg("pass %zu has other bits than a new renderer's", i);
+        wr_renderer_free(other);
+        wr_scene_free(scene);
+    }
+    wr_renderer_free(renderer);
     wr_field_free(field);
 }
 
@@ -522,6 +565,7 @@ int main(void)
         cmocka_unit_test(hc27_grazing_views_are_finite_under_every_rung),
         cmocka_unit_test(every_rung_has_the_same_bits_on_any_threads_and_instruction_set),
         cmocka_unit_test(blocks_that_are_asked_for_have_the_bits_of_the_whole_picture),
+        cmocka_unit_test(meshes_that_are_held_are_kept_up_to_date),
         cmocka_unit_test(copies_that_are_held_are_kept_up_to_date),
         cmocka_unit_test(normals_are_those_of_the_formula_at_pixel_centres),
         cmocka_unit_test(hc51_hc52_fewer_bits_err_by_half_a_step_times_the_slopes_gain),

@@ -227,7 +227,8 @@ static void footprints_are_the_differences_between_neighbouring_pixels(void **st
         WrScene *scene = scene_of(surfaces[s]);
         Shot shot = shoot(scene, field, SIDE, SIDE, 1, "auto", false);
         WrView view;
-        assert_true(wr_view_init(&view, scene, shot.frame.plan, 15, SIDE, SIDE, NULL));
+        assert_true(wr_view_init(&view, scene, wr_shape_radius(&scene->shape), shot.frame.plan, 15,
+                                 SIDE, SIDE, NULL));
         double x = 80.5, y = 190.5, at[2], right[2], down[2];
         int face;
         while (x < 300 && !wr_renderer_pick(shot.renderer, x - 20, y, &at[0], &at[1], &face)) x++;

@@ -161,7 +161,8 @@ static void outlines_that_run_with_the_pixels_rows_do_not_deceive(void **state)
 static void relief_in_a_corner_of_the_picture_is_seen(void **state)
 {
     (void)state;
-    static const char *const places[] = { "0.03,0.04", "0.5,0.02", "0.52,0.47", "0.96,0.93" };
+    static const char *const places[] = { "0.03,0.04", "0.5,0.02",    "0.52,0.47", "0.96,0.93",
+                                          "0.51,0.5",  "0.555,0.445", "0.6,0.53" };
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         char dab[80];
         snprintf(dab, sizeof dab, "dab %s radius=5 strength=1", places[i]);
@@ -452,7 +453,9 @@ static void one_choice_does_for_all_frames_of_a_turn(void **state)
     assert_true(wr_tolerance_turn(bench.renderer, &bench.request, turns, 12, &choice, &err));
     assert_true(choice.met);
     assert_non_null(strstr(choice.reason, "12 frames: met; dials chosen on "));
-    assert_non_null(strstr(choice.reason, "pays from frame "));
+    /* By the clock, which the machine's other work disturbs. */
+    assert_true(strstr(choice.reason, "it pays from frame ") ||
+                strstr(choice.reason, "it never pays"));
     const unsigned char *chosen = choice.part_of;
     for (int i = 1; i < 12; i += 4) {
         WrErrors errors;

@@ -202,11 +202,11 @@ static void kept_dials_are_for_the_document_as_it_was_saved(void **state)
     gone(path);
 }
 
-/* A line as save writes it for a picture of 32 x 32 pixels: `where` is its first such piece, and becomes `bad`. */
+/* A line as save writes it for a picture of 16 x 16 pixels: `where` is its first such piece, and becomes `bad`. */
 static void expect_damaged(const char *where, const char *bad, const char *what)
 {
 #define HASH "0123456789abcdef0123456789abcdef"
-    static const char good[] = "1 32x32 turn=0 table=" HASH " scene=" HASH
+    static const char good[] = "2 16x16 turn=0 table=" HASH " scene=" HASH
                                " met=yes rms=0.003 max=0.1 parts=central,exact,1,0,3 blocks=a.a2";
     char message[40], value[1200], line[1400];
     WrError err = { "" };
@@ -223,10 +223,10 @@ static void expect_damaged(const char *where, const char *bad, const char *what)
 static void damaged_dials_are_refused_with_one_clear_error(void **state)
 {
     (void)state;
-    expect_damaged("1 32x32", "2 32x32", "version");
-    expect_damaged("32x32", "0x32", "size");
-    expect_damaged("32x32", "32x99999999", "size");
-    expect_damaged("32x32", "32.5x32", "size");
+    expect_damaged("2 16x16", "3 16x16", "version");
+    expect_damaged("16x16", "0x16", "size");
+    expect_damaged("16x16", "16x99999999", "size");
+    expect_damaged("16x16", "16.5x16", "size");
     expect_damaged("turn=0", "turn=nan", "turn");
     expect_damaged("turn=0", "turn=", "turn");
     expect_damaged("table=0", "table=g", "table");
@@ -254,22 +254,47 @@ static void damaged_dials_are_refused_with_one_clear_error(void **state)
     wr_session_free(session);
 }
 
+/* Blocks of twice the side, as they were written once: each stands for four. */
+static void dials_of_wider_blocks_are_read(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "1 40x24 turn=0 table=" HASH " scene=" HASH " met=yes rms=0.003 max=0.1"
+        " parts=central,exact,1,0,3;nearest,blinn,2,0,3 blocks=ab.bab";
+    static const char parts[] = "aabb."
+                                "aabb."
+                                "bbaab";
+    WrError err = { "" };
+    WrChoice choice = { 0 };
+    WrField *field = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    WrScene *scene = wr_scene_new();
+    const WrFrameRequest request = { .field = field, .scene = scene, .width = 40, .height = 24 };
+    assert_true(wr_choice_check(text, &err));
+    wr_choice_read(text, &request, &choice);
+    assert_int_equal(choice.count, 2);
+    for (int b = 0; b < 15; b++)
+        assert_int_equal(choice.part_of[b], parts[b] == '.' ? WR_CHOICE_NOTHING : parts[b] - 'a');
+    wr_choice_fini(&choice);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 /* So many blocks that their settings take more text than a line should: then all get the finest. */
 static void what_would_be_too_long_becomes_one_setting(void **state)
 {
     (void)state;
-    enum { WIDE = 16 * 400 };
+    enum { SIDES = 800, WIDE = WR_FRAME_BLOCK * SIDES };
     WrError err;
     WrText text = { 0 };
     WrScene *scene = wr_scene_new();
     WrChoicePart parts[2] = { { .scene = scene, .level = 1, .price = 9 },
                               { .scene = scene, .level = 3, .price = 5 } };
     WrChoice choice = { .count = 2, .parts = parts, .width = WIDE, .height = WIDE };
-    choice.part_of = wr_alloc(400 * 400, 1);
-    for (int i = 0; i < 400 * 400; i++) choice.part_of[i] = (unsigned char)(i % 2);
+    choice.part_of = wr_alloc(SIDES * SIDES, 1);
+    for (int i = 0; i < SIDES * SIDES; i++) choice.part_of[i] = (unsigned char)(i % 2);
     wr_choice_write(&choice, &(WrChoiceOrigin){ .table = { 1, 2 } }, &text);
     assert_true(text.length < 1000);
-    assert_non_null(strstr(wr_text_get(&text), ",3,0,0 blocks=a160000"));
+    assert_non_null(strstr(wr_text_get(&text), ",3,0,0 blocks=a640000"));
     assert_true(wr_choice_check(wr_text_get(&text), &err));
     wr_text_fini(&text);
     wr_free(choice.part_of);
@@ -284,6 +309,7 @@ int main(void)
         cmocka_unit_test(another_picture_than_the_kept_one_is_chosen_anew_with_a_note),
         cmocka_unit_test(kept_dials_are_for_the_document_as_it_was_saved),
         cmocka_unit_test(damaged_dials_are_refused_with_one_clear_error),
+        cmocka_unit_test(dials_of_wider_blocks_are_read),
         cmocka_unit_test(what_would_be_too_long_becomes_one_setting),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -111,7 +111,7 @@ typedef struct WrChoiceOrigin {
 } WrChoiceOrigin;
 
 /* As one line of text, from which wr_choice_read makes the same picture, bit for bit. Of a picture whose blocks take
- * more than 64 KiB the finest of its settings is written for all of them: it keeps to the tolerance too. */
+ * more than 256 KiB the finest of its settings is written for all of them: it keeps to the tolerance too. */
 void wr_choice_write(const WrChoice *choice, const WrChoiceOrigin *origin, WrText *text);
 /* Is it such a text? Errors say where it is damaged. */
 bool wr_choice_check(const char *text, WrError *err);

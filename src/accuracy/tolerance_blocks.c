@@ -261,6 +261,30 @@ bool wr_study_climb(Study *study, const unsigned char *wanted, WrError *err)
     return true;
 }
 
+/* A step of the relief may end in a block between its pixels' centres, where one sample a pixel does not see it: what one
+   row of the liveliest block beside it changes may be hidden there. */
+static void doubt_formula(Study *study, int pair)
+{
+    Change *beside = wr_alloc((size_t)study->count, sizeof *beside);
+    for (int64_t b = 0; b < study->count; b++) {
+        const int u = (int)(b % study->blocks_u), v = (int)(b / study->blocks_u);
+        for (int n = 0; n < 9; n++) {
+            const int x = u + n % 3 - 1, y = v + n / 3 - 1;
+            if (x < 0 || y < 0 || x >= study->blocks_u || y >= study->blocks_v) continue;
+            const Block *other = &study->block[(int64_t)y * study->blocks_u + x];
+            if (!other->shown) continue;
+            beside[b].squares = fmax(beside[b].squares, other->formula[pair].squares / BLOCK);
+            beside[b].most = fmax(beside[b].most, other->formula[pair].most);
+        }
+    }
+    for (int64_t b = 0; b < study->count; b++) {
+        Change *own = &study->block[b].formula[pair];
+        own->squares = fmax(own->squares, beside[b].squares);
+        own->most = fmax(own->most, beside[b].most);
+    }
+    wr_free(beside);
+}
+
 bool wr_study_formula(Study *study, int pair, WrError *err)
 {
     float taken[BLOCK_FLOATS];
@@ -272,6 +296,7 @@ bool wr_study_formula(Study *study, int pair, WrError *err)
         take(study, b, taken);
         block->formula[pair] = wr_block_change(taken, block->rgba[0]);
     }
+    doubt_formula(study, pair);
     return true;
 }
 

@@ -44,7 +44,28 @@ static void take(Block *block, const Option *option)
     block->pick = (signed char)option->level;
 }
 
-/* ---- the worst pixel: every block for itself ---- */
+/* ---- the worst pixel: every cell for itself ---- */
+
+/* What the next level changes at most says little of the worst pixel where pixels are few: four blocks, two by two, are
+   as fine as the finest of them has to be. */
+#define CELL 2
+
+static void raise_cell(Study *study, int u, int v)
+{
+    Block *highest = NULL;
+    for (int pass = 0; pass < 2; pass++)
+        for (int y = v; y < v + CELL && y < study->blocks_v; y++)
+            for (int x = u; x < u + CELL && x < study->blocks_u; x++) {
+                Block *block = &study->block[(int64_t)y * study->blocks_u + x];
+                if (!block->shown) continue;
+                if (pass > 0) {
+                    block->pick = highest->pick;
+                    block->pair = highest->pair;
+                } else if (!highest || block->pick > highest->pick) {
+                    highest = block;
+                }
+            }
+}
 
 static void pick_most(Study *study, double most, bool free_pairs)
 {
@@ -61,6 +82,8 @@ static void pick_most(Study *study, double most, bool free_pairs)
         }
         take(block, best ? best : nearest);
     }
+    for (int v = 0; v < study->blocks_v; v += CELL)
+        for (int u = 0; u < study->blocks_u; u += CELL) raise_cell(study, u, v);
 }
 
 /* ---- the sum: by gain for its price ---- */

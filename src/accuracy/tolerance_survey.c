@@ -14,7 +14,8 @@
 /* One inside of so many is looked at for what the others are foretold by. */
 #define LOOKED_AT 10
 #define LOOKED_LEAST 12
-#define LIVELIEST 6 /* root mean squares: the largest of a block's pixels, foretold */
+#define LIVELIER 16.0 /* times as much foretold, squares: such a neighbour is one */
+#define LIVELIEST 6   /* root mean squares: the largest of a block's pixels, foretold */
 
 /* The usual mesh leaves an outline up to a quarter of a pixel off, typically a twentieth, which no number of samples
    mends; each step of the dial makes that a quarter. May it be such a part of the tolerance? */
@@ -121,6 +122,27 @@ static void look_at_some(Study *study, Inside *list, int64_t count)
     qsort(list, (size_t)count, sizeof *list, by_off);
     for (int64_t i = 0; i < wanted; i++)
         study->mask[list[count - 1 - i * count / wanted].block] = 1;
+}
+
+/* A calm block beside a lively one may hold the end of what makes that lively, between its pixels' centres. */
+static void look_beside_lively(Study *study, const Inside *list, int64_t count)
+{
+    double *off = wr_alloc((size_t)study->count, sizeof *off), sum = 0;
+    for (int64_t i = 0; i < count; i++) sum += off[list[i].block] = list[i].off;
+    for (int64_t i = 0; i < count; i++) {
+        const int u = (int)(list[i].block % study->blocks_u);
+        const int v = (int)(list[i].block / study->blocks_u);
+        for (int n = 0; n < 9; n++) {
+            const int other_u = u + n % 3 - 1, other_v = v + n / 3 - 1;
+            if (other_u < 0 || other_v < 0 || other_u >= study->blocks_u ||
+                other_v >= study->blocks_v)
+                continue;
+            const double beside = off[(int64_t)other_v * study->blocks_u + other_u];
+            if (beside * (double)count > sum && beside > LIVELIER * list[i].off)
+                study->mask[list[i].block] = 1;
+        }
+    }
+    wr_free(off);
 }
 
 /* What those that were looked at are off beside what was foretold corrects the others. */
@@ -242,7 +264,10 @@ bool wr_study_survey(Study *study, const WrTolerance *tolerance, WrError *err)
     for (int64_t b = 0; b < study->count; b++)
         if (!study->mask[b]) list[n++] = (Inside){ b, foretell(study->block[b].rgba[0]) };
     choose_mesh(study, tolerance);
-    if (some) look_at_some(study, list, count);
+    if (some) {
+        look_at_some(study, list, count);
+        look_beside_lively(study, list, count);
+    }
     for (int64_t b = 0; b < study->count && !some; b++) study->mask[b] = 1;
     const bool good = wr_study_render(study, 0, 1, true, NULL, err);
     if (good && some) correct(study, list, count);

@@ -1,7 +1,7 @@
 /* A choice as one line of text, and back:
-     1 256x256 turn=0 table=HASH scene=HASH met=yes rms=0.003 max=0.1 parts=central,exact,1,0,3;... blocks=a12b.4
+     2 256x256 turn=0 table=HASH scene=HASH met=yes rms=0.003 max=0.1 parts=central,exact,1,0,3;... blocks=a12b.4
    parts: slopes, normal, level, mesh, kinds. blocks: row by row, a letter for the part, '.' for none, and how many
-   of them follow each other. */
+   of them follow each other. Text that begins with 1 has blocks of twice the side. */
 #include "accuracy/tolerance_inner.h"
 
 #include "base/error.h"
@@ -12,9 +12,10 @@
 #include <math.h>
 #include <string.h>
 
-#define FORMAT "1"
-#define BLOCKS_MOST (64 << 10) /* bytes */
-#define SIDE_MOST 65536        /* pixels */
+#define FORMAT '2'
+#define FORMAT_WIDE '1'         /* of blocks of twice the side; read, not written */
+#define BLOCKS_MOST (256 << 10) /* bytes */
+#define SIDE_MOST 65536         /* pixels */
 _Static_assert(PARTS_MAX <= 26, "every part has a letter");
 
 typedef struct WrittenPart {
@@ -25,6 +26,7 @@ typedef struct WrittenPart {
 } WrittenPart;
 
 typedef struct Written {
+    bool wide; /* FORMAT_WIDE */
     int width, height;
     bool turning;
     double turn_deg;
@@ -36,10 +38,14 @@ typedef struct Written {
     const char *blocks;
 } Written;
 
-static int64_t count_blocks(int width, int height)
+static int64_t count_along(int pixels, int block)
 {
-    return (int64_t)((width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK) *
-           ((height + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK);
+    return (pixels + block - 1) / block;
+}
+
+static int64_t count_blocks(int width, int height, int block)
+{
+    return count_along(width, block) * count_along(height, block);
 }
 
 /* ---- writing ---- */
@@ -69,7 +75,7 @@ static void add_part(const WrChoicePart *part, WrText *text)
 
 static void add_parts(const WrChoice *choice, WrText *text)
 {
-    const int64_t count = count_blocks(choice->width, choice->height);
+    const int64_t count = count_blocks(choice->width, choice->height, WR_FRAME_BLOCK);
     WrText blocks = { 0 };
     add_blocks(choice->part_of, count, &blocks);
     wr_text_add(text, " parts=");
@@ -94,7 +100,7 @@ void wr_choice_write(const WrChoice *choice, const WrChoiceOrigin *origin, WrTex
     char table[33], scene[33];
     wr_hash_print(origin->table, table);
     wr_hash_print(origin->scene, scene);
-    wr_text_addf(text, FORMAT " %dx%d turn=", choice->width, choice->height);
+    wr_text_addf(text, "%c %dx%d turn=", FORMAT, choice->width, choice->height);
     if (choice->turning) wr_text_add(text, "any");
     else wr_text_add_number(text, choice->turn_deg);
     wr_text_addf(text, " table=%s scene=%s met=%s rms=", table, scene, choice->met ? "yes" : "no");
@@ -205,10 +211,11 @@ static bool take_run(const char **p, int parts, int64_t most, int *part, int64_t
     return *count >= 1 && *count <= most;
 }
 
-/* part_of: NULL: only whether all is well. */
+/* part_of: of blocks as they are written; NULL: only whether all is well. */
 static bool parse_blocks(const Written *written, unsigned char *part_of)
 {
-    const int64_t count = count_blocks(written->width, written->height);
+    const int block = written->wide ? 2 * WR_FRAME_BLOCK : WR_FRAME_BLOCK;
+    const int64_t count = count_blocks(written->width, written->height, block);
     const char *p = written->blocks;
     int64_t at = 0;
     while (*p) {
@@ -226,8 +233,9 @@ static const char *parse(const char *text, Written *out)
 {
     const char *p = text;
     *out = (Written){ 0 };
-    if (strncmp(p, FORMAT " ", sizeof FORMAT) != 0) return "version";
-    p += sizeof FORMAT;
+    if ((*p != FORMAT && *p != FORMAT_WIDE) || p[1] != ' ') return "version";
+    out->wide = *p == FORMAT_WIDE;
+    p += 2;
     if (!take_whole(&p, "", 'x', 1, SIDE_MOST, &out->width) ||
         !take_whole(&p, "", ' ', 1, SIDE_MOST, &out->height))
         return "size";
@@ -291,11 +299,29 @@ static WrChoicePart make_part(const WrScene *scene, const WrittenPart *written)
     return part;
 }
 
+/* The caller frees. */
+static unsigned char *read_blocks(const Written *written, int64_t count)
+{
+    unsigned char *part_of = wr_alloc((size_t)count, 1), *wide;
+    if (!written->wide) {
+        parse_blocks(written, part_of);
+        return part_of;
+    }
+    const int64_t across = count_along(written->width, WR_FRAME_BLOCK);
+    const int64_t wide_across = count_along(written->width, 2 * WR_FRAME_BLOCK);
+    wide = wr_alloc((size_t)count, 1); /* a quarter is used */
+    parse_blocks(written, wide);
+    for (int64_t b = 0; b < count; b++)
+        part_of[b] = wide[b / across / 2 * wide_across + b % across / 2];
+    wr_free(wide);
+    return part_of;
+}
+
 void wr_choice_read(const char *text, const WrFrameRequest *request, WrChoice *out)
 {
     Written written;
     if (parse(text, &written)) return;
-    const int64_t count = count_blocks(written.width, written.height);
+    const int64_t count = count_blocks(written.width, written.height, WR_FRAME_BLOCK);
     WrChoice choice = { .width = written.width,
                         .height = written.height,
                         .met = written.met,
@@ -307,10 +333,9 @@ void wr_choice_read(const char *text, const WrFrameRequest *request, WrChoice *o
                         .count = written.count };
     choice.scene = wr_scene_share(request->scene);
     choice.parts = wr_alloc(PARTS_MAX, sizeof *choice.parts);
-    choice.part_of = wr_alloc((size_t)count, 1);
+    choice.part_of = read_blocks(&written, count);
     for (int i = 0; i < written.count; i++)
         choice.parts[i] = make_part(request->scene, &written.parts[i]);
-    parse_blocks(&written, choice.part_of);
     for (int64_t b = 0; b < count; b++)
         if (choice.part_of[b] != WR_CHOICE_NOTHING) choice.parts[choice.part_of[b]].blocks++;
     wr_choice_say(&choice, &request->scene->tolerance,

@@ -52,18 +52,30 @@ static void count_blocks(WrChoice *choice)
         if (choice->part_of[b] != WR_CHOICE_NOTHING) choice->parts[choice->part_of[b]].blocks++;
 }
 
-/* Each block gets the finer level and the dearer slopes and normal of both. */
+/* The finest level and the dearest slopes and normal of four blocks, two by two: what turns moves from block to block. */
+static void find_dearest(const WrChoice *choice, int64_t b, WrChoicePart *level, WrChoicePart *pair)
+{
+    const int64_t across = (choice->width + WR_FRAME_BLOCK - 1) / WR_FRAME_BLOCK;
+    const int64_t u = b % across / 2 * 2, v = b / across / 2 * 2;
+    for (int64_t n = 0; n < 4; n++) {
+        const int64_t x = u + n % 2, at = (v + n / 2) * across + x;
+        if (x >= across || at >= blocks_of(choice) || choice->part_of[at] == WR_CHOICE_NOTHING)
+            continue;
+        const WrChoicePart *part = &choice->parts[choice->part_of[at]];
+        if (part->level > level->level) *level = *part;
+        if (part->price > pair->price) *pair = *part;
+    }
+}
+
+/* Each block gets the finest level and the dearest slopes and normal of both. */
 static void merge(WrChoice *sum, const WrChoice *more)
 {
     for (int64_t b = 0; b < blocks_of(sum); b++) {
+        const bool empty = sum->part_of[b] == WR_CHOICE_NOTHING;
         if (more->part_of[b] == WR_CHOICE_NOTHING) continue;
-        const WrChoicePart other = more->parts[more->part_of[b]];
-        WrChoicePart level = other, pair = other;
-        if (sum->part_of[b] != WR_CHOICE_NOTHING) {
-            const WrChoicePart own = sum->parts[sum->part_of[b]];
-            if (own.level >= other.level) level = own;
-            if (own.price >= other.price) pair = own;
-        }
+        WrChoicePart level = empty ? more->parts[more->part_of[b]] : sum->parts[sum->part_of[b]];
+        WrChoicePart pair = level;
+        find_dearest(more, b, &level, &pair);
         sum->part_of[b] = (unsigned char)find_part(sum, &level, &pair);
     }
     sum->met = sum->met && more->met;
@@ -193,6 +205,7 @@ static bool study(Turn *turn, double turn_deg, WrError *err)
     turn->study_seconds += one.spent;
     if (turn->studied++ == 0) {
         turn->choice = one;
+        merge(&turn->choice, &turn->choice);
         return true;
     }
     merge(&turn->choice, &one);

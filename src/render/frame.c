@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <string.h>
 
 WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
 {
@@ -42,13 +43,20 @@ static void forget_view(WrRenderer *renderer)
     renderer->seen = false;
 }
 
+/* All but one, which may be NULL. */
+static void drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
+{
+    for (int i = 0; i < WR_HELD_MESHES; i++)
+        if (&renderer->meshes[i] != but) wr_view_mesh_fini(&renderer->meshes[i]);
+}
+
 void wr_renderer_free(WrRenderer *renderer)
 {
     if (!renderer) return;
     forget_view(renderer);
     wr_keep_fini(&renderer->keep);
     wr_frame_drop_tables(renderer);
-    wr_view_mesh_fini(&renderer->mesh);
+    drop_meshes(renderer, NULL);
     for (int i = 0; i < renderer->threads; i++) {
         if (renderer->scratch[i]) wr_free(renderer->scratch[i]->wide);
         wr_free(renderer->scratch[i]);
@@ -128,7 +136,7 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
                       .pipe = plan->shading_double ? &wr_pipe_double : &wr_pipe,
                       .kernels = kernels,
                       .kernels_double = wr_kernels_double(renderer->isa, NULL),
-                      .mesh = wr_plan_runs(plan, WR_EFFECT_DEPTH) ? &renderer->mesh : NULL,
+                      .mesh = wr_plan_runs(plan, WR_EFFECT_DEPTH) ? renderer->mesh : NULL,
                       .samples = renderer->samples,
                       .width = renderer->width,
                       .height = renderer->height,
@@ -148,13 +156,22 @@ static bool same_view(const WrRenderer *renderer, const WrFrameRequest *request)
            last->height == request->height;
 }
 
-static bool find_outside(const WrRenderer *renderer, const WrFrameRequest *request, bool *outside,
+/* Kept while the shape stays. */
+static double radius_of(WrRenderer *renderer, const WrShape *shape)
+{
+    if (renderer->radius > 0 && memcmp(&renderer->sized, shape, sizeof *shape) == 0)
+        return renderer->radius;
+    renderer->sized = *shape;
+    return renderer->radius = wr_shape_radius(shape);
+}
+
+static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bool *outside,
                          WrError *err)
 {
     *outside = renderer->outside;
     return same_view(renderer, request) ||
-           wr_view_outside(request->scene, request->turn_deg, request->width, request->height,
-                           outside, err);
+           wr_view_outside(request->scene, radius_of(renderer, &request->scene->shape),
+                           request->turn_deg, request->width, request->height, outside, err);
 }
 
 /* Does the last picture show what this request asks for, but for edits of the table? */
@@ -165,6 +182,26 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
            renderer->kernels == kernels && wr_plan_same(before, &renderer->plan) &&
            wr_keep_compare(&renderer->keep, renderer->looked,
                            wr_schemes[renderer->plan.scheme].reach + 2);
+}
+
+/* Passes of one picture, which hold what they make, differ in their samples: each number keeps its mesh. */
+static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
+                         const WrKernels *kernels)
+{
+    const WrScene *scene = request->scene;
+    const WrPlan *plan = &renderer->plan;
+    const WrMeshAsk ask = { .mesh = plan->mesh,
+                            .newton = plan->newton,
+                            .texels = plan->texels,
+                            .table_w = fabs(scene->replicate_u) * wr_field_width(request->field),
+                            .table_h = fabs(scene->replicate_v) * wr_field_height(request->field) };
+    int slot = 0;
+    while (slot + 1 < WR_HELD_MESHES && 1 << slot < plan->samples) slot++;
+    renderer->mesh = wr_plan_runs(plan, WR_EFFECT_DEPTH) ? &renderer->meshes[slot] : NULL;
+    if (!request->hold || !renderer->mesh) drop_meshes(renderer, renderer->mesh);
+    if (renderer->mesh)
+        wr_view_mesh_prepare(renderer->mesh, &scene->shape, &renderer->view, &ask, kernels,
+                             renderer->pool);
 }
 
 /* View and mesh of a whole new picture. */
@@ -178,20 +215,12 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     renderer->scene = shared;
     renderer->last = *request;
     renderer->samples = plan->samples;
-    renderer->seen = wr_view_init(&renderer->view, scene, plan, request->turn_deg, request->width,
-                                  request->height, err);
+    renderer->seen = wr_view_init(&renderer->view, scene, radius_of(renderer, &scene->shape), plan,
+                                  request->turn_deg, request->width, request->height, err);
     if (!renderer->seen) return false;
-    const WrMeshAsk ask = { .mesh = plan->mesh,
-                            .newton = plan->newton,
-                            .texels = plan->texels,
-                            .table_w = fabs(scene->replicate_u) * wr_field_width(request->field),
-                            .table_h = fabs(scene->replicate_v) * wr_field_height(request->field) };
-    if (wr_plan_runs(plan, WR_EFFECT_DEPTH))
-        wr_view_mesh_prepare(&renderer->mesh, &scene->shape, &renderer->view, &ask, kernels,
-                             renderer->pool);
-    else wr_view_mesh_fini(&renderer->mesh);
+    prepare_mesh(renderer, request, kernels);
     if (!wr_progress_stopped()) return true;
-    wr_view_mesh_fini(&renderer->mesh); /* half made */
+    drop_meshes(renderer, NULL); /* half made */
     forget_view(renderer);
     return wr_fail(err, "cancelled");
 }

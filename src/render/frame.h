@@ -15,7 +15,7 @@ typedef struct WrScene WrScene;
 
 typedef struct WrRenderer WrRenderer;
 
-#define WR_FRAME_BLOCK 16 /* pixels */
+#define WR_FRAME_BLOCK 8 /* pixels */
 
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */

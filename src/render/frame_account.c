@@ -15,7 +15,7 @@ void wr_frame_start_counts(WrRenderer *renderer)
         if (wide && !s->wide) s->wide = wr_alloc(3, sizeof *s->wide);
         memset(s->seconds, 0, sizeof s->seconds);
         memset(s->whole, 0, sizeof s->whole);
-        s->all = 0;
+        s->all = s->all_strips = 0;
         s->covered = s->shaded = s->tiles = s->wide_samples = 0;
         s->strips = 0;
         s->ran = 0;
@@ -44,8 +44,8 @@ static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], int64_t 
         plan->rows[e].ns_per_pixel = shaded > 0 ? 1e9 * plan->rows[e].seconds / (double)shaded : 0;
 }
 
-/* A thread's stages: those of its strips are measured on an eighth, and cannot have taken more than what the others
-   leave of its tiles' time. What is left of that. */
+/* A thread's stages: what its strips took is shared among theirs as it was on the eighth of them that is measured. What
+   is left of its tiles' time. */
 static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
 {
     double strips = 0, left = s->all;
@@ -54,7 +54,7 @@ static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
         left -= s->whole[k];
     }
     left = fmax(left, 0);
-    const double share = strips > left ? left / strips : 1;
+    const double share = strips > 0 ? fmin(s->all_strips, left) / strips : 0;
     for (int k = 0; k < WR_STAGE_COUNT; k++) seconds[k] += s->whole[k] + share * s->seconds[k];
     return left - share * strips;
 }

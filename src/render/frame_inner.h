@@ -14,6 +14,8 @@
 
 typedef struct WrImage WrImage;
 
+#define WR_HELD_MESHES 5 /* for 1, 2, 4, 8 and 16 samples a side */
+
 /* The colour picture as the kernels want it. */
 typedef struct ColourCopy {
     const WrImage *source; /* shared; what rgba was made from */
@@ -29,7 +31,8 @@ struct WrRenderer {
     WrPyramid pyramid, range; /* of slopes; of their least and largest values */
     WrRounded rounded;
     const WrField *looked; /* what this frame looks up: the request's field, or its rounded form */
-    WrViewMesh mesh;
+    WrViewMesh meshes[WR_HELD_MESHES],
+        *mesh; /* mesh: of the last frame; the others, of frames that hold */
     ColourCopy colour;
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
@@ -40,6 +43,8 @@ struct WrRenderer {
     WrScene *scene;
     double pyramid_seconds; /* that it spent on pyramids */
     int samples;
+    WrShape sized; /* whose radius this is; 0: of none */
+    double radius;
     bool seen;    /* view and scene are set */
     bool outside; /* the eye of that view is outside the surface */
     WrKeep keep;

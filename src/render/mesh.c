@@ -175,6 +175,20 @@ static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info,
                        .steps = ask->newton < 0 ? enough : ask->newton };
 }
 
+static WrViewSight sight_of(const WrView *view)
+{
+    return (WrViewSight){ .eye = view->eye,
+                          .right = view->right,
+                          .up = view->up,
+                          .forward = view->forward,
+                          .half_w = view->half_w,
+                          .half_h = view->half_h,
+                          .near = view->near,
+                          .grid_w = view->grid_w,
+                          .grid_h = view->grid_h,
+                          .perspective = view->perspective };
+}
+
 void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
                           const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool)
 {
@@ -191,6 +205,9 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
         wr_pool_run(pool, mv + 1, make_row, &job);
     }
     mesh->newton = choose_newton(mesh, wr_surfaces[shape->kind], ask);
+    const WrViewSight sight = sight_of(view);
+    if (same && memcmp(&mesh->sight, &sight, sizeof sight) == 0) return;
+    mesh->sight = sight;
     wr_pool_run(pool, mv + 1, project_row, &job);
     wr_pool_run(pool, mesh->blocks_v, bound_row, &job);
 }

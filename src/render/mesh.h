@@ -17,6 +17,12 @@ typedef struct WrViewMeshBlock { /* bounds of a block's vertices, 1/256 samples 
     bool clipped; /* some vertex is near, behind or far outside: bounds say nothing */
 } WrViewMeshBlock;
 
+/* All that projecting asks of a view. */
+typedef struct WrViewSight {
+    WrVec3 eye, right, up, forward;
+    double half_w, half_h, near, grid_w, grid_h, perspective;
+} WrViewSight;
+
 /* Zero-initialise; fini frees. */
 typedef struct WrViewMesh {
     WrShape source; /* what the second derivatives were measured on */
@@ -26,7 +32,8 @@ typedef struct WrViewMesh {
     WrShapef shape;
     int mu, mv;              /* cells along u and v; 0: nothing yet */
     float *x, *y, *z;        /* [(mv + 1)(mu + 1)] kernel units, owned */
-    int32_t *sx, *sy;        /* projected, 1/256 samples; this frame's */
+    WrViewSight sight;       /* what the rest was projected for */
+    int32_t *sx, *sy;        /* projected, 1/256 samples */
     float *close;            /* 1/depth (perspective) or -depth: larger is nearer */
     unsigned char *out;      /* vertex needs clipping */
     WrViewMeshBlock *blocks; /* [blocks_v][blocks_u] */
@@ -52,7 +59,7 @@ typedef struct WrMeshAsk {
     double table_w, table_h; /* ... so many texels along u and v, replication included */
 } WrMeshAsk;
 
-/* Make or keep the points and project them for this view. */
+/* Make or keep the points and what they are projected to in this view. */
 void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *view,
                           const WrMeshAsk *ask, const WrKernels *kernels, WrPool *pool);
 void wr_view_mesh_fini(WrViewMesh *mesh);

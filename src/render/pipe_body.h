@@ -21,7 +21,7 @@ static void watch_lap(Watch *watch, WrStage stage)
 {
     if (!watch->on) return;
     double now = wr_clock_seconds();
-    watch->scratch->seconds[stage] += WR_TIMED * (now - watch->last);
+    watch->scratch->seconds[stage] += now - watch->last;
     watch->last = now;
 }
 

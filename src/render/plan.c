@@ -68,7 +68,7 @@ const char *const wr_cost_reasons[WR_COST_COUNT] = {
     [WR_COST_GEOMETRY] = "points, tangents and normals of the surface",
     [WR_COST_STORE] = "colours are put together and stored",
     [WR_COST_CLEAR] = "tiles are emptied; those that hold nothing are left out",
-    [WR_COST_REST] = "what lies between the stages: samples moved, loops, the clock",
+    [WR_COST_REST] = "what lies between the stages: loops, the clock",
     [WR_COST_WAIT] = "threads that found no tile to do",
     [WR_COST_CHOOSE] = "estimates of the tolerance, blocks compared and put together",
 };

@@ -40,6 +40,7 @@ static void first_samples(Refiner *r)
     x1 = x1 > job->width ? job->width : x1, y1 = y1 > job->height ? job->height : y1;
     WrDepthTile tile = wr_tile_depth(job, 1, x0, y0, x1 - x0, y1 - y0, s);
     memset(s->centre, 0, sizeof s->centre);
+    const double start = wr_clock_seconds();
     for (int y = y0; y < y1; y++) {
         const int at_y = y - r->part.y + 1, at_x = x0 - r->part.x + 1;
         WrSink sink = { .rgba = s->centre[at_y][at_x] };
@@ -47,6 +48,7 @@ static void first_samples(Refiner *r)
         if (r->by_bound) sink.bound = &s->bound[at_y][at_x], sink.pixel = 1;
         job->pipe->row(job, 1, &tile, y - y0, &sink, s);
     }
+    s->all_strips += wr_clock_seconds() - start;
 }
 
 /* The largest difference of any channel; what is no number differs by infinity. */
@@ -205,7 +207,9 @@ static void empty_queue(Queue *queue)
     if (queue->count == 0) return;
     memset(line, 0, (size_t)s->scatter.count * sizeof line[0]);
     WrSink sink = { .rgba = line[0] };
+    const double start = wr_clock_seconds();
     queue->r->job->pipe->points(queue->r->job, k, queue->tile, &sink, s);
+    s->all_strips += wr_clock_seconds() - start;
     for (int i = 0; i < queue->count; i++)
         memcpy(s->sample[queue->run[i].row][queue->run[i].x], line[i * k],
                (size_t)k * sizeof line[0]);
@@ -297,20 +301,25 @@ static bool open_pixels(Refiner *r)
     return any && r->job->samples > 1;
 }
 
+/* What strips and rays took so far, which is told elsewhere. */
+static double told_elsewhere(const WrTileScratch *scratch)
+{
+    return scratch->all_strips + scratch->whole[WR_STAGE_VISIBILITY];
+}
+
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch)
 {
     const WrPlan *plan = job->plan;
     Refiner r = {
         job, scratch, { x, y, w, h }, (float)plan->contrast, plan->refine == WR_REFINE_BOUND
     };
+    const double start = wr_clock_seconds(), before = told_elsewhere(scratch);
     wr_did(scratch, WR_EFFECT_SAMPLES);
     const int64_t covered = scratch->covered;
     const int K = job->samples;
     if (!r.by_bound || wr_plan_runs(plan, WR_EFFECT_BOUND)) {
         first_samples(&r);
-        double start = wr_clock_seconds();
-        bool more = open_pixels(&r);
-        scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+        const bool more = open_pixels(&r);
         if (!r.by_bound)
             for (int k = 2; k < K && more; k *= 2) sample_level(&r, k, false);
         if (more) sample_level(&r, K, true);
@@ -322,4 +331,6 @@ void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScra
     for (int j = y; j < y + h; j++)
         for (int i = x; i < x + w; i++)
             scratch->covered += job->rgba[4 * ((size_t)j * (size_t)job->width + (size_t)i) + 3] > 0;
+    scratch->whole[WR_STAGE_RESOLVE] +=
+        wr_clock_seconds() - start - (told_elsewhere(scratch) - before);
 }

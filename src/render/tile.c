@@ -114,6 +114,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
     const int many = WR_SPAN / tile->w;
     float rgba[WR_SPAN][4], normals[WR_SPAN][3];
     for (int top = 0; top < tile->h; top += many) {
+        const double start = wr_clock_seconds();
         const int rows = tile->h - top < many ? tile->h - top : many;
         places->count = 0;
         for (int i = 0; i < rows * tile->w; i++) {
@@ -127,13 +128,17 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
         memset(normals, 0, sizeof normals);
         WrSink sink = { .rgba = out->rgba ? rgba[0] : NULL,
                         .normals = out->normals ? normals[0] : NULL };
+        const double packed = wr_clock_seconds();
         job->pipe->points(job, k, tile, &sink, scratch);
+        const double ready = wr_clock_seconds();
+        scratch->all_strips += ready - packed;
         for (int y = 0; y < rows; y++) {
             const size_t from = (size_t)(y * tile->w), w = (size_t)tile->w, to = (size_t)(top + y);
             if (out->rgba) memcpy(out->rgba + to * out->rgba_step, rgba[from], w * sizeof rgba[0]);
             if (out->normals)
                 memcpy(out->normals + to * out->normals_step, normals[from], w * sizeof normals[0]);
         }
+        scratch->whole[WR_STAGE_STORE] += wr_clock_seconds() - ready + packed - start;
     }
 }
 
@@ -145,12 +150,14 @@ static void run_rows(const WrTileJob *job, int k, const WrDepthTile *tile, const
         run_packed(job, k, tile, out, scratch);
         return;
     }
+    const double start = wr_clock_seconds();
     for (int y = 0; y < tile->h; y++) {
         WrSink sink = { .rgba = out->rgba ? out->rgba + (size_t)y * out->rgba_step : NULL,
                         .normals =
                             out->normals ? out->normals + (size_t)y * out->normals_step : NULL };
         job->pipe->row(job, k, tile, y, &sink, scratch);
     }
+    scratch->all_strips += wr_clock_seconds() - start;
 }
 
 /* One sample a pixel, straight into the picture. rgba false: n' alone. */
@@ -173,11 +180,13 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     WrDepthTile tile = wr_tile_depth(job, k, part.x * k, part.y * k, w, h, scratch);
     const int64_t covered = scratch->covered;
     const Rows out = { .rgba = scratch->sample[0][0], .rgba_step = step };
+    double start = wr_clock_seconds();
     for (int y = 0; y < h; y++) memset(scratch->sample[y], 0, (size_t)w * sizeof(float[4]));
+    scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     run_rows(job, k, &tile, &out, scratch);
     scratch->covered = covered; /* that was samples */
     wr_did(scratch, WR_EFFECT_SAMPLES);
-    double start = wr_clock_seconds();
+    start = wr_clock_seconds();
     const float share = 1.0f / (float)(k * k);
     for (int y = 0; y < part.h; y++) {
         float *pixel = pixel_at(job, part.x, part.y + y);

@@ -67,7 +67,8 @@ typedef struct WrTileScratch {
                 [4]; /* adaptive: first samples, one pixel round */
     float bound[WR_REFINE_H + 2][WR_REFINE_W + 2];
     unsigned char open[WR_REFINE_H][WR_REFINE_W]; /* adaptive: the pixel needs more */
-    double seconds[WR_STAGE_COUNT]; /* of strips: an eighth is measured, and counted eight times */
+    double seconds[WR_STAGE_COUNT]; /* of strips, in what ratio: an eighth of them is measured */
+    double all_strips;              /* what they took together */
     double whole[WR_STAGE_COUNT];   /* of what is measured each time */
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */

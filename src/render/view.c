@@ -245,12 +245,13 @@ static void make_quads(WrView *view, const WrShape *shape)
             if (facing[face] == (near == 1)) add_quad(view, shape, facing, face);
 }
 
-bool wr_view_outside(const WrScene *scene, double turn_deg, int width, int height, bool *outside,
-                     WrError *err)
+bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int width, int height,
+                     bool *outside, WrError *err)
 {
     WrPlacement place;
     bool facing[6];
-    if (!wr_scene_place(scene, turn_deg, (double)width / height, &place, err)) return false;
+    if (!wr_scene_place_sized(scene, radius, turn_deg, (double)width / height, &place, err))
+        return false;
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     const double scale = scale_of(info, &place);
     const WrVec3 eye = bring_in(&place, scale, place.eye);
@@ -295,8 +296,8 @@ static void scale_shape(const WrShape *shape, double scale, WrShape *out)
             out->value[at] = shape->value[at] * (info->params[p].length ? scale : 1.0);
 }
 
-bool wr_view_init(WrView *view, const WrScene *scene, const WrPlan *plan, double turn_deg,
-                  int width, int height, WrError *err)
+bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,
+                  double turn_deg, int width, int height, WrError *err)
 {
     *view = (WrView){ .samples = plan->samples,
                       .grid_w = width * plan->samples,
@@ -305,7 +306,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, const WrPlan *plan, double
                       .cull = !wr_plan_runs(plan, WR_EFFECT_BACK) };
     WrPlacement place;
     double aspect = (double)width / height;
-    if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
+    if (!wr_scene_place_sized(scene, radius, turn_deg, aspect, &place, err)) return false;
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     view->scale = scale_of(info, &place);
     view->radius = place.radius * view->scale;

@@ -43,13 +43,13 @@ typedef struct WrView {
 } WrView;
 
 /* Is the eye outside the surface for certain, if that is closed? Of planar faces: some face looks at it. Of curved
-   ones: it is farther than any of the object. */
-bool wr_view_outside(const WrScene *scene, double turn_deg, int width, int height, bool *outside,
-                     WrError *err);
+   ones: it is farther than any of the object. radius: wr_shape_radius of the scene's. */
+bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int width, int height,
+                     bool *outside, WrError *err);
 /* Fill a view, with what the plan says of samples, backs and perspective; all checks were made when the scene was accepted, so this fails only for a camera that
    cannot look (eye on target). Call fini even then. */
-bool wr_view_init(WrView *view, const WrScene *scene, const WrPlan *plan, double turn_deg,
-                  int width, int height, WrError *err);
+bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,
+                  double turn_deg, int width, int height, WrError *err);
 void wr_view_fini(WrView *view);
 /* The grid of k x k samples a pixel; k is 1, K or a power of two below K. */
 const WrViewGrid *wr_view_grid(const WrView *view, int k);

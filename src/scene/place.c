@@ -124,6 +124,12 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
 bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlacement *out,
                     WrError *err)
 {
+    return wr_scene_place_sized(scene, wr_shape_radius(&scene->shape), turn_deg, aspect, out, err);
+}
+
+bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, double aspect,
+                          WrPlacement *out, WrError *err)
+{
     if (!check_camera(&scene->camera, aspect, err)) return false;
     if (!isfinite(turn_deg)) return wr_fail(err, "turn: the angle must be finite");
     if (scene->posed && !finite3(scene->rotate_deg))
@@ -131,7 +137,7 @@ bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlac
     WrPlacement placed;
     memset(&placed, 0, sizeof placed);
     placed.centre = wr_shape_centre(&scene->shape);
-    placed.radius = wr_shape_radius(&scene->shape);
+    placed.radius = radius;
     place_object(scene, turn_deg, placed.rotation);
     place_camera(&scene->camera, aspect, &placed);
     *out = placed;

@@ -114,6 +114,9 @@ typedef struct WrPlacement {
  *            range */
 bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlacement *out,
                     WrError *err);
+/* The same where the shape's radius (wr_shape_radius) is known: that of a free form takes longer than all else. */
+bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, double aspect,
+                          WrPlacement *out, WrError *err);
 
 /* F = height * table(ru u, rv v) and its derivatives with respect to the PATCH parameters, in
  * double, from the table or the analytic function (field may then be NULL). On a periodic axis ru
