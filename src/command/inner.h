@@ -107,8 +107,6 @@ void wr_session_restore_state(WrSession *session, WrSessionState *old);
 
 /* ---- chosen dials: session_chosen.c ---- */
 
-/* The document keeps that text from now on; NULL: none. */
-void wr_session_keep_chosen(WrSession *session, const char *text);
 /* Where nothing is chosen for that picture yet: take the dials that the document keeps, if they are for it; a note says
    so once if they are not. */
 void wr_session_recall_chosen(WrSession *session, const WrFrameRequest *request);

@@ -170,8 +170,18 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
    then have; a note tells what was chosen on which. */
 bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,
                      WrError *err);
-/* What the last picture chose under the scene's tolerance; kinds is 0 if it had none. */
+/* What the last picture chose under the scene's tolerance; count is 0 if it had none. */
 const WrChoice *wr_session_choice(const WrSession *session);
+/* The dials that the document keeps for its tolerance (wr_choice_write), or NULL. Valid until they change. */
+const char *wr_session_chosen(const WrSession *session);
+/* It keeps that text from now on; NULL: none. Saved only as long as table and scene are those that it is for. */
+void wr_session_keep_chosen(WrSession *session, const char *text);
+/* Where *choice is not for the request's picture: take kept dials (NULL: there are none), if they are. What they are not
+   for, "table", "scene", "size" or "turn"; else NULL. For pictures of any renderer, in any thread. */
+const char *wr_chosen_recall(const char *kept, const WrFrameRequest *request, WrChoice *choice);
+/* A choice as the document keeps it. */
+void wr_chosen_write(const WrChoice *choice, const WrField *field, const WrScene *scene,
+                     WrText *text);
 /* The same to a file: linear float R, G, B, A (premultiplied, background 0) for exr, tif and tiff, else
    8-bit sRGB over the scene's background. Works whatever options.outputs says. */
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,

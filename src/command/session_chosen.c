@@ -17,6 +17,11 @@ void wr_session_keep_chosen(WrSession *session, const char *text)
     session->state.chosen_told = false;
 }
 
+const char *wr_session_chosen(const WrSession *session)
+{
+    return session->state.chosen;
+}
+
 static WrChoiceOrigin origin_of(const WrField *field, const WrScene *scene)
 {
     WrText text = { 0 };
@@ -29,15 +34,27 @@ static WrChoiceOrigin origin_of(const WrField *field, const WrScene *scene)
     return origin;
 }
 
+const char *wr_chosen_recall(const char *kept, const WrFrameRequest *request, WrChoice *choice)
+{
+    if (!kept || wr_choice_fits(choice, request)) return NULL;
+    const WrChoiceOrigin origin = origin_of(request->field, request->scene);
+    const char *misfit = wr_choice_misfit(kept, &origin, request);
+    if (!misfit) wr_choice_read(kept, request, choice);
+    return misfit;
+}
+
+void wr_chosen_write(const WrChoice *choice, const WrField *field, const WrScene *scene,
+                     WrText *text)
+{
+    const WrChoiceOrigin origin = origin_of(field, scene);
+    wr_choice_write(choice, &origin, text);
+}
+
 void wr_session_recall_chosen(WrSession *session, const WrFrameRequest *request)
 {
     WrSessionState *state = &session->state;
-    if (!state->chosen || wr_choice_fits(&session->choice, request)) return;
-    const WrChoiceOrigin origin = origin_of(request->field, request->scene);
-    const char *misfit = wr_choice_misfit(state->chosen, &origin, request);
-    if (!misfit) {
-        wr_choice_read(state->chosen, request, &session->choice);
-    } else if (!state->chosen_told) {
+    const char *misfit = wr_chosen_recall(state->chosen, request, &session->choice);
+    if (misfit && !state->chosen_told) {
         wr_session_note(session,
                         "the document keeps dials that were chosen for another %s: chosen anew",
                         misfit);

@@ -298,6 +298,7 @@ static void note_times(WrApp *app)
         return;
     app->accuracy->full_times = *picture;
     app->accuracy->full_times.bgra = NULL;
+    app->accuracy->full_times.kept = NULL;
 }
 
 void wr_accuracy_update(WrApp *app)

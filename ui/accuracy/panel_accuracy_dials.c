@@ -66,6 +66,9 @@ static void chosen(WrApp *app)
     }
     wr_gui_text_wrapped(WR_FONT_SMALL, c->met ? WR_COLOUR_TEXT : WR_COLOUR_CELL, c->reason);
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, c->lines);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        c->kept ? "Kept with the document for this very view: nothing was chosen."
+                                : "Chosen for this view; saved with the document.");
     if (wr_gui_button("Keep these dials", false)) wr_accuracy_keep(app);
     wr_gui_tip("The finest of what was chosen becomes the scene's own setting, for the whole "
                "picture, and the "

@@ -7,6 +7,7 @@
 #include "ui/desk/layout.h"
 #include "ui/desk/messages.h"
 #include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
@@ -192,8 +193,14 @@ static void picture(const WrApp *app, char *text, size_t size)
     double ms[WR_PICTURE_STAGES], all = wr_picture_time(p, ms);
     text[0] = '\0';
     if (!p->serial) return;
-    int used = snprintf(text, size, "%s  \xc2\xb7  %.1f ms",
-                        wr_surfaces[wr_app_scene(app)->shape.kind]->label, all);
+    char moving[WR_PICTURE_MOVING];
+    wr_picture_moving(p, moving);
+    int used = snprintf(text, size, "%s  \xc2\xb7  %.1f ms%s%s",
+                        wr_surfaces[wr_app_scene(app)->shape.kind]->label, all,
+                        !moving[0]               ? ""
+                        : app->settings->turning ? "  \xc2\xb7  turning: "
+                                                 : "  \xc2\xb7  moving: ",
+                        moving);
     if (app->layout->status.w <= wr_gui_px(1400)) return;
     used += snprintf(text + used, size - (size_t)used, "   ");
     stages(ms, all, text, size, used);

@@ -16,6 +16,8 @@
 #include "ui/tools/stroke_hand.h"
 
 #include "base/clock.h"
+#include "command/session.h"
+#include "document/document.h"
 #include "base/error.h"
 #include "field/field.h"
 #include "scene/scene.h"
@@ -98,6 +100,7 @@ static void wish(WrApp *app, bool moving)
                         .width = room->w,
                         .height = room->h,
                         .tag = app->brush->shown,
+                        .chosen = moving ? NULL : wr_session_chosen(app->session),
                         .moving = moving,
                         .painting = is_painted(app) };
     wr_preview_want(app->preview, &w);
@@ -116,6 +119,15 @@ static void wish(WrApp *app, bool moving)
     p->rest_at = p->wished_at + REST_SECONDS;
 }
 
+/* What was chosen for the document as it rests here goes with it when it is saved. */
+static void keep_chosen(WrApp *app, const WrPreviewPicture *picture)
+{
+    const WrPatch *p = app->patch;
+    if (!picture->kept || p->wished_moving || p->wished_scene != wr_app_document(app)->scene)
+        return;
+    wr_session_keep_chosen(app->session, picture->kept);
+}
+
 static void take_picture(WrApp *app)
 {
     WrPatch *p = app->patch;
@@ -130,6 +142,7 @@ static void take_picture(WrApp *app)
     p->serial = picture->serial;
     p->seen = picture->tag;
     p->outstanding = false;
+    keep_chosen(app, picture);
     if (!p->texture || p->texture_w < picture->width || p->texture_h < picture->height) {
         if (p->texture) SDL_DestroyTexture(p->texture);
         p->texture_w = picture->width > p->texture_w ? picture->width : p->texture_w;

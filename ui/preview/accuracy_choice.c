@@ -49,7 +49,7 @@ static void say_parts(const WrChoice *choice, WrText *text)
 void wr_chosen_from(const WrChoice *choice, WrChosen *out)
 {
     const WrScene *slopes = NULL, *normal = NULL, *samples = NULL;
-    *out = (WrChosen){ .any = choice->count > 0, .met = choice->met };
+    *out = (WrChosen){ .any = choice->count > 0, .met = choice->met, .kept = choice->studies == 0 };
     for (int i = 0; i < choice->count; i++) {
         const WrScene *s = choice->parts[i].scene;
         if (choice->parts[i].blocks == 0) continue;

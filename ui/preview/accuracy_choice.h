@@ -8,6 +8,7 @@
 typedef struct WrChosen {
     bool any; /* a tolerance chose the dials of this picture */
     bool met;
+    bool kept;        /* the document had them, for this very picture */
     char reason[480]; /* one or two sentences */
     char lines[2000]; /* a line a part: share, dials, kinds of blocks */
     /* One setting for all blocks that is as fine as the finest of any: keeps to the tolerance too. By WrDialId */

@@ -24,20 +24,33 @@ double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STA
     return total;
 }
 
+void wr_picture_moving(const WrPreviewPicture *picture, char text[WR_PICTURE_MOVING])
+{
+    text[0] = '\0';
+    if (picture->level != WR_PREVIEW_MOVING) return;
+    const int used = snprintf(text, WR_PICTURE_MOVING, "%s", wr_moving_names[picture->way]);
+    if (picture->scale < 1)
+        snprintf(text + used, WR_PICTURE_MOVING - (size_t)used, " at %.0f %%",
+                 100 * picture->scale);
+}
+
 void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORDS])
 {
     WR_ROWS(how);
     static const char *const how[WR_PREVIEW_LEVELS] = {
         [WR_ROW(WR_PREVIEW_NONE)] = "",
-        [WR_ROW(WR_PREVIEW_MOVING)] = ", coarse while something moves",
+        [WR_ROW(WR_PREVIEW_MOVING)] = ", while something moves",
         [WR_ROW(WR_PREVIEW_FULL)] = ", each looked at once",
         [WR_ROW(WR_PREVIEW_SMOOTH)] = ", 2 \xc3\x97 2 samples each",
         [WR_ROW(WR_PREVIEW_FINAL)] = ", as fine as it gets"
     };
     WR_ROWS_END(how, WR_PREVIEW_LEVELS);
+    char way[WR_PICTURE_MOVING], moving[WR_PICTURE_MOVING + 4] = "";
     double ms[WR_PICTURE_STAGES], total = wr_picture_time(picture, ms);
+    wr_picture_moving(picture, way);
+    if (way[0]) snprintf(moving, sizeof moving, ": %s", way);
     snprintf(text, WR_PICTURE_WORDS,
              "%.1f ms by the clock for the newest picture of the patch, conversion for the screen "
-             "included: %d \xc3\x97 %d pixels%s.",
-             total, picture->width, picture->height, how[picture->level]);
+             "included: %d \xc3\x97 %d pixels%s%s.",
+             total, picture->width, picture->height, how[picture->level], moving);
 }

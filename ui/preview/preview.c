@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/text.h"
+#include "command/session.h"
 #include "field/field.h"
 #include "render/frame.h"
 #include "scene/dials.h"
@@ -19,12 +21,11 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#define MOVING_SECONDS 0.020 /* that a picture may take while something moves */
+#define MOVING_SECONDS 0.016 /* that a picture may take while something moves */
 #define QUICK_SECONDS 0.005  /* and while it is painted on besides: seen within 1/60 s */
 #define EDIT_SECONDS                                                                               \
-    0.012              /* that a refresh after an edit may take before finer samples are given up */
-#define COARSEST 0.125 /* of the view's width and height */
-#define NICENESS 5     /* so that the window's own thread goes first */
+    0.012          /* that a refresh after an edit may take before finer samples are given up */
+#define NICENESS 5 /* so that the window's own thread goes first */
 
 typedef struct Wish {
     WrField *field; /* own shares; NULL: no wish */
@@ -32,6 +33,7 @@ typedef struct Wish {
     double turn_deg;
     int width, height;
     int64_t tag;
+    char *chosen; /* owned */
     bool moving, painting;
 } Wish;
 
@@ -61,8 +63,8 @@ struct WrPreview {
     Wish now;
     WrPreviewPicture *work; /* owned */
     WrPreviewLevel level;   /* reached for `now` */
-    double scale;           /* of a moving picture, 0..1 */
-    double pixel_seconds;   /* of a moving picture, measured; 0: not yet */
+    WrMoving moving;
+    WrChoice choice;     /* of the last picture under a tolerance */
     double edit_seconds; /* of the last refresh after an edit with more than one sample a pixel */
     bool edited;         /* the picture under way is such a refresh */
     uint64_t serial;
@@ -73,12 +75,14 @@ static void wish_clear(Wish *wish)
 {
     wr_field_free(wish->field);
     if (wish->scene) wr_scene_free(wish->scene);
+    wr_free(wish->chosen);
     *wish = (Wish){ 0 };
 }
 
 static void picture_free(WrPreviewPicture *picture)
 {
     if (picture) wr_free(picture->bgra);
+    if (picture) wr_free(picture->kept);
     wr_free(picture);
 }
 
@@ -90,7 +94,7 @@ WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event)
     preview->threads = threads;
     preview->isa = wr_strdup(isa);
     preview->ready_event = ready_event;
-    preview->scale = 0.4;
+    preview->moving.scale = 0.4;
     preview->point_x = -1.0;
     preview->settled = true;
     preview->done = wr_alloc(1, sizeof(WrPreviewPicture));
@@ -108,6 +112,7 @@ void wr_preview_free(WrPreview *preview)
     pthread_cond_signal(&preview->wake);
     pthread_mutex_unlock(&preview->lock);
     if (preview->started) pthread_join(preview->thread, NULL);
+    wr_choice_fini(&preview->choice);
     wr_renderer_free(preview->renderer);
     wr_pool_free(preview->pool);
     wish_clear(&preview->next);
@@ -137,7 +142,7 @@ static void notify(WrPreview *preview)
     SDL_PushEvent(&event);
 }
 
-static WrDials dials_for(const Wish *wish, WrPreviewLevel level)
+static WrDials dials_for(const Wish *wish, WrPreviewLevel level, WrMovingWay way)
 {
     WrDials dials = wish->scene->dials;
     const WrAntialias aa = dials.aa;
@@ -148,6 +153,7 @@ static WrDials dials_for(const Wish *wish, WrPreviewLevel level)
     dials.aa = WR_AA_POINT;
     dials.samples = 1;
     if (level == WR_PREVIEW_MOVING) {
+        wr_moving_dials(way, &dials);
         dials.arithmetic = WR_ARITHMETIC_FAST;
         dials.shading = WR_SHADING_FLOAT;
     }
@@ -158,22 +164,14 @@ static WrDials dials_for(const Wish *wish, WrPreviewLevel level)
     return dials;
 }
 
-/* Follow the measured speed, but not every wobble of it: a picture that changes its resolution all the
- * time looks worse than one that is a little too coarse. What was only prepared, such as a new table's
- * slopes, says nothing about the next picture. */
-static void adapt_scale(WrPreview *preview, const WrPreviewPicture *picture, double view_pixels)
+/* What was only prepared, such as a new table's slopes, says nothing about the next picture. */
+static void learn(WrPreview *preview, const WrPreviewPicture *picture)
 {
-    double seconds = picture->seconds, prepare = picture->times.prepare;
-    double lasting = seconds - (prepare < 0.8 * seconds ? prepare : 0.8 * seconds);
-    double measured = lasting / ((double)picture->width * picture->height);
-    double *known = &preview->pixel_seconds;
-    double pace = measured < *known ? 0.5 : 0.25;
-    *known = *known > 0.0 ? *known + pace * (measured - *known) : measured;
-    double allowed = preview->now.painting ? QUICK_SECONDS : MOVING_SECONDS;
-    double scale = sqrt(allowed / *known / view_pixels);
-    scale = scale > 0.9 ? 1.0 : scale < COARSEST ? COARSEST : scale;
-    if (fabs(scale - preview->scale) > 0.15 * preview->scale || scale == 1.0)
-        preview->scale = scale;
+    const Wish *wish = &preview->now;
+    const double seconds = picture->seconds, prepare = picture->times.prepare;
+    wr_moving_learn(&preview->moving, seconds - fmin(prepare, 0.8 * seconds),
+                    (double)picture->width * picture->height, (double)wish->width * wish->height,
+                    wish->painting ? QUICK_SECONDS : MOVING_SECONDS);
 }
 
 static bool make_room(WrPreviewPicture *picture, int width, int height, WrError *err)
@@ -193,22 +191,23 @@ static bool has_tolerance(const Wish *wish)
     return wish->scene->tolerance.kind != WR_TOLERANCE_NONE;
 }
 
-/* Block by block with the dials that keep to the scene's tolerance. */
-static bool by_tolerance(WrRenderer *renderer, const WrFrameRequest *wanted, WrPreviewPicture *out,
+/* Block by block with the dials that keep to the scene's tolerance: those that this view has already, those that the
+   document keeps, or, where neither are for this picture, chosen now. */
+static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPreviewPicture *out,
                          WrFrame *frame, WrError *err)
 {
-    WrChoice choice = { 0 };
+    WrText text = { 0 };
+    WrChoice *choice = &preview->choice;
     WrFrameRequest request = *wanted;
     request.dials = NULL;
     request.keep = false;
-    bool good = wr_tolerance_choose(renderer, &request, &choice, frame, err);
-    if (good) {
-        wr_chosen_from(&choice, &out->chosen);
-        out->plan = choice.plan; /* the frame's, which goes with the choice */
-        frame->plan = &out->plan;
-    }
-    wr_choice_fini(&choice);
-    return good;
+    wr_chosen_recall(preview->now.chosen, &request, choice);
+    if (!wr_tolerance_frame(preview->renderer, &request, choice, frame, err)) return false;
+    wr_chosen_from(choice, &out->chosen);
+    wr_chosen_write(choice, request.field, request.scene, &text);
+    out->kept = wr_strdup(wr_text_get(&text));
+    wr_text_fini(&text);
+    return true;
 }
 
 static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level,
@@ -218,8 +217,9 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                         0.0302 }; /* linear, a shade of the panels */
     const Wish *wish = &preview->now;
     double started = wr_clock_seconds();
-    double scale = level == WR_PREVIEW_MOVING ? preview->scale : 1.0;
-    WrDials dials = dials_for(wish, level);
+    const WrMovingWay way = preview->moving.way;
+    double scale = level == WR_PREVIEW_MOVING ? preview->moving.scale : 1.0;
+    WrDials dials = dials_for(wish, level, way);
     WrFrameRequest request = { .field = wish->field,
                                .scene = wish->scene,
                                .width = (int)fmax(1.0, rint(wish->width * scale)),
@@ -231,13 +231,17 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     WrFrame frame;
     WrPreviewPicture *out = preview->work;
     out->chosen.any = false;
+    wr_free(out->kept);
+    out->kept = NULL;
     bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
-                    ? by_tolerance(renderer, &request, out, &frame, err)
+                    ? by_tolerance(preview, &request, out, &frame, err)
                     : wr_renderer_frame(renderer, &request, &frame, err);
     if (!good) return false;
     if (!make_room(out, frame.width, frame.height, err)) return false;
     wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
     out->level = level;
+    out->way = way;
+    out->scale = scale;
     out->turn_deg = wish->turn_deg;
     out->tag = wish->tag;
     out->times = frame.times;
@@ -245,7 +249,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     out->seconds = wr_clock_seconds() - started;
     out->serial = ++preview->serial;
     if (preview->edited) preview->edit_seconds = out->seconds;
-    if (level == WR_PREVIEW_MOVING) adapt_scale(preview, out, (double)wish->width * wish->height);
+    if (level == WR_PREVIEW_MOVING) learn(preview, out);
     return true;
 }
 
@@ -402,6 +406,7 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
                             .width = wish->width,
                             .height = wish->height,
                             .tag = wish->tag,
+                            .chosen = wish->chosen ? wr_strdup(wish->chosen) : NULL,
                             .moving = wish->moving,
                             .painting = wish->painting };
     /* A moving picture is done in a moment; a sharp one would hold up the new wish. */

@@ -4,6 +4,7 @@
    All calls but those of the thread itself come from the window's thread. */
 #pragma once
 #include "ui/preview/accuracy_choice.h"
+#include "ui/preview/moving.h"
 
 #include "render/frame.h"
 #include "render/plan.h"
@@ -21,7 +22,8 @@ typedef struct WrPreview WrPreview;
 /* How good the picture is. */
 typedef enum WrPreviewLevel {
     WR_PREVIEW_NONE,
-    WR_PREVIEW_MOVING, /* as coarse as it takes for 40 pictures a second, fast arithmetic */
+    WR_PREVIEW_MOVING, /* as coarse as it takes for 60 pictures a second, or as fine as that allows (moving.h); fast
+                          arithmetic */
     WR_PREVIEW_FULL,   /* every pixel once, the scene's arithmetic */
     WR_PREVIEW_SMOOTH, /* 2 x 2 samples a pixel */
     WR_PREVIEW_FINAL, /* 4 x 4, or more if the scene's dials say so; with a tolerance, what it chooses */
@@ -40,6 +42,8 @@ typedef struct WrPreviewWish {
     double turn_deg;
     int width, height; /* of the view, pixels */
     int64_t tag;       /* comes back with the picture */
+    const char *
+        chosen; /* the dials that the document keeps for its tolerance; NULL: none; copied by the call */
     bool painting; /* edits follow one another: be quick rather than fine, and do not refine yet */
     bool moving;   /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
 } WrPreviewWish;
@@ -63,6 +67,10 @@ typedef struct WrPreviewPicture {
     WrStageTimes times;
     WrPlan plan;
     WrChosen chosen; /* what the scene's tolerance chose for it */
+    char *
+        kept; /* the same as the document keeps it (wr_choice_write); owned; NULL: nothing was chosen */
+    WrMovingWay way; /* of WR_PREVIEW_MOVING ... */
+    double scale;    /* ... and its size beside the view's */
     int64_t tag;     /* of the wish that it shows */
     uint64_t serial; /* counts pictures; 0: none yet */
 } WrPreviewPicture;
@@ -73,6 +81,9 @@ extern const char *const wr_picture_stages[];
 /* Milliseconds that it took by the clock, and each stage's share of them: the figure of the status line, the
    Accuracy tab and the Plan tab. */
 double wr_picture_time(const WrPreviewPicture *picture, double ms[WR_PICTURE_STAGES]);
+/* Of a picture made while something moves: "2 x 2", "1 x 1 at 60 %"; "" of others. */
+#define WR_PICTURE_MOVING 40
+void wr_picture_moving(const WrPreviewPicture *picture, char text[WR_PICTURE_MOVING]);
 /* The same in a sentence, with what it counts. */
 #define WR_PICTURE_WORDS 200
 void wr_picture_words(const WrPreviewPicture *picture, char text[WR_PICTURE_WORDS]);
