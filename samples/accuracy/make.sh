@@ -276,6 +276,7 @@ tell_contest() {
     say 'picture, and of each more; that of the cheapest single setting that meets the tolerance, found by trying slopes,'
     say 'normals and ways against aliasing in all combinations, which nobody who wants one picture would do; how the two'
     say 'compare; and from how many pictures on choosing takes less than knowing that setting beforehand.'
+    say 'Larger pictures were not measured in this way.'
     say ''
     tell_kind rms 'Root mean square, the scenes above' "${contestants[@]:0:half}"
     tell_kind rms 'Root mean square, scenes that choosing was not tuned on' "${contestants[@]:half}"
