@@ -4,6 +4,7 @@
 #include "journal_help.h"
 
 #include "base/error.h"
+#include "command/inner.h"
 #include "command/recovery.h"
 #include "command/session.h"
 
@@ -411,6 +412,12 @@ static void what_was_saved_is_not_offered(void **state)
     run(session, "rotate 10,20,30"); /* looked at in another way */
     leave(session);
     assert_int_equal(journals(), 0);
+    session = new_session(true);
+    run(session, five[0]);
+    save(session, path);
+    assert_true(wr_session_journal_anew(session, NULL)); /* as a long one is shortened */
+    leave(session);
+    assert_int_equal(journals(), 0);
     wr_free(path);
 }
 
@@ -509,6 +516,96 @@ static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
     wr_session_free(session);
     assert_int_equal(journals(), 1);
     wr_free(files), wr_free(journal), wr_free(path);
+}
+
+/* Written over before the journal began, its file says nothing of the document. */
+static void a_file_that_changed_before_the_first_step_is_no_beginning(void **state)
+{
+    (void)state;
+    char *path = in(folder, "my.exr");
+    WrSession *session = new_session(false);
+    run(session, five[0]);
+    save(session, path);
+    wr_session_free(session);
+    session = new_session(true);
+    assert_true(wr_session_open(session, path, NULL));
+    write_other(path);
+    run(session, five[1]);
+    WrHash want = wr_session_hash(session);
+    leave(session);
+    WrRecovered how;
+    char *journal = only_journal();
+    session = recover(journal, false, &how);
+    assert_hash(session, want, &how);
+    wr_recovered_fini(&how);
+    wr_session_free(session);
+    wr_free(journal), wr_free(path);
+}
+
+/* The last of the lines are lost: what is left is brought back, and the journal stays. */
+static void damage_at_the_end_is_not_all(void **state)
+{
+    (void)state;
+    WrRecovered how;
+    char *journal = left_by(five);
+    damage(journal, five[4]);
+    WrSession *session = recover(journal, false, &how);
+    assert_true(how.done == 4 && !how.whole && !how.removed);
+    wr_recovered_fini(&how);
+    wr_session_free(session);
+    assert_int_equal(journals(), 1);
+    /* And so it does when what was left has been saved. */
+    WrError err = { "" };
+    char *path = in(folder, "my.exr");
+    session = new_session(false);
+    assert_true(wr_session_recover(session, journal, false, &how, &err));
+    save(session, path);
+    assert_true(wr_recovered_saved(&how, session, path, &err));
+    assert_false(how.removed);
+    wr_recovered_fini(&how);
+    wr_session_free(session);
+    assert_int_equal(journals(), 1);
+    wr_free(journal), wr_free(path);
+}
+
+/* It may be what crashed, so it is tried apart; one that cannot be done had done nothing. */
+static void a_last_command_that_fails_is_left_out_and_nothing_is_missing(void **state)
+{
+    (void)state;
+    WrRecovered how;
+    char *place = in(folder, "journals");
+    WrJournal *begun = begin_at(place);
+    wr_journal_command(begun, five[0], NULL);
+    wr_journal_done(begun, WR_JOURNAL_OK, NULL, NULL);
+    wr_journal_command(begun, "layer select 9", NULL);
+    wr_journal_leave(begun);
+    char *journal = only_journal();
+    WrSession *session = recover(journal, false, &how);
+    assert_true(how.whole);
+    assert_non_null(strstr(wr_text_get(&how.report), "left out"));
+    wr_recovered_fini(&how);
+    wr_session_free(session);
+    wr_free(journal), wr_free(place);
+}
+
+/* What was done to the one before was given up; what comes now is not its going on. */
+static void another_document_has_another_journal(void **state)
+{
+    (void)state;
+    char *path = in(folder, "my.exr");
+    WrSession *session = new_session(false);
+    run(session, five[0]);
+    save(session, path);
+    wr_session_free(session);
+    session = new_session(true);
+    run(session, "table 32x32");
+    run(session, "fill 7");
+    assert_true(wr_session_open(session, path, NULL));
+    run(session, five[1]);
+    WrHash want = wr_session_hash(session);
+    leave(session);
+    assert_back(path, want, 1);
+    wr_free(path);
 }
 
 static void scripts_and_pictures_are_no_files_to_save_to(void **state)
@@ -693,6 +790,10 @@ int main(void)
         PLACED(a_kill_between_a_save_and_its_record_leaves_the_journal_as_it_was),
         PLACED(an_opened_document_comes_back_with_each_step_once),
         PLACED(what_a_journal_began_with_comes_back_or_nothing_does),
+        PLACED(another_document_has_another_journal),
+        PLACED(a_file_that_changed_before_the_first_step_is_no_beginning),
+        PLACED(damage_at_the_end_is_not_all),
+        PLACED(a_last_command_that_fails_is_left_out_and_nothing_is_missing),
         PLACED(scripts_and_pictures_are_no_files_to_save_to),
         PLACED(a_document_is_saved_in_place_only_if_nobody_changed_it),
     };

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "command/session.h"
 #include "document/document.h"
+#include "document/document_file.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
@@ -398,6 +399,24 @@ static void a_cancelled_script_stops_with_an_error(void **state)
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
 
+/* A document is looked at before it is trusted: what it says of its scene can neither write nor open files. */
+static void a_document_holds_no_commands_but_of_its_scene(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "save stolen.exr",   "open /dev/zero",  "fill 3", "undo",
+                                         "render stolen.png", "history budget=0" };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        WrError err = { "" };
+        WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = true });
+        const WrDocument *document = wr_session_document(session);
+        if (!wr_document_save(document, lines[i], "hostile.exr", &err)) fail_msg("%s", err.text);
+        assert_false(wr_session_open(session, "hostile.exr", &err));
+        if (!strstr(err.text, "no command of a scene")) fail_msg("%s: %s", lines[i], err.text);
+        wr_session_free(session);
+    }
+    assert_int_not_equal(access("stolen.exr", F_OK), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,6 +434,7 @@ int main(void)
         IN_FOLDER(outputs_that_fail_leave_no_file),
         IN_FOLDER(rendered_files_hold_linear_float_or_srgb_over_the_background),
         IN_FOLDER(a_cancelled_script_stops_with_an_error),
+        IN_FOLDER(a_document_holds_no_commands_but_of_its_scene),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
