@@ -1,15 +1,20 @@
 #!/usr/bin/env bash
-# Do the hard cases notice what they guard? Every line of mutations.txt breaks one thing in the program's own
-# code - a sign, a bound, a fallback, an epsilon - and names the cases that must then fail.
-#   mutate.sh SOURCE check           the table alone: its texts are there, its files are, the page tells its counts
-#   mutate.sh SOURCE tell            the sentence about them that the page has
-#   mutate.sh SOURCE run FOLDER      build all of them at once in FOLDER, and break one after the other
+# Do the hard cases notice what they guard, and the tests of files and recovery? Every line of mutations.txt breaks
+# one thing in the program's own code - a sign, a bound, a fallback, an epsilon - and names the cases that must then
+# fail. mutations_files.txt does so for what writes, reads and recovers files, and names tests.
+#   mutate.sh SOURCE check [TABLE]       the table alone: its texts are there, its files are, the page tells its counts
+#   mutate.sh SOURCE tell                the sentence about them that the page has
+#   mutate.sh SOURCE run FOLDER [TABLE]  build all of them at once in FOLDER, and break one after the other
 # A mutation whose cases all pass survives: they have no teeth there. `run` tells those, cases that miss what is
 # aimed at them, and cases that nothing is aimed at; any of these is an error. What came out is in
 # FOLDER/results: number, cases, file, which of them noticed, which missed it.
 set -uo pipefail
-source=$(cd "$1" && pwd) what=$2 folder=${3:-}
-table=$source/tests/mutations.txt
+source=$(cd "$1" && pwd) what=$2 folder=
+[[ $what != run ]] || { folder=${3:-}; shift; }
+name=${3:-mutations.txt}
+table=$source/tests/$name
+[[ -f $table ]] || { printf 'mutate: no table %s\n' "$name" >&2; exit 1; }
+is_hard() { [[ $name == mutations.txt ]]; }
 fail() {
     printf 'mutate: %s\n' "$*" >&2
     exit 1
@@ -33,7 +38,7 @@ check() {
         [[ -n $new && -f $source/$file ]] || { echo "mutate: not four columns, or no file: $rows $file"; bad=1; }
         grep -qF -- "$old" "$source/$file" || { echo "mutate: $file does not hold: $old"; bad=1; }
     done < <(grep -v '^#' "$table")
-    grep -qxF -- "$(tell)" "$source/samples/accuracy/README.md" ||
+    ! is_hard || grep -qxF -- "$(tell)" "$source/samples/accuracy/README.md" ||
         { echo "mutate: samples/accuracy/README.md lacks: $(tell)"; bad=1; }
     return $bad
 }
@@ -62,12 +67,24 @@ plant() {
         >>"$tree/src/base/error.c"
 }
 
+# What asks: the rows of the hard cases, or the tests that the table names and what they run.
+targets() {
+    local known id
+    is_hard && { echo hard_rows; return; }
+    known=$(ninja -C "$1" -t targets all | cut -d : -f 1)
+    for id in wrinkle wrinkle-reader wrinkle_oiio wrinkle_assimp wr_fault hang $(named | sed 's/^/test_/'); do
+        grep -qxF "$id" <<<"$known" && echo "$id"
+    done
+}
+named() { grep -v '^#' "$table" | cut -f 1 | tr ' ' '\n' | LC_ALL=C sort -u; }
+
 # Less optimised than the program, which takes half the time; the same numbers come out.
 build() {
     cmake -S "$1" -B "$2" -G Ninja -DCMAKE_BUILD_TYPE=Mutants \
         -DCMAKE_C_FLAGS='-O1 -DNDEBUG' -DWR_SANITIZE= -DWR_WERROR=OFF \
         -DWR_TESTS=ON >"$folder/configure.log" 2>&1 || fail "configure: see $folder/configure.log"
-    ninja -C "$2" hard_rows >"$folder/build.log" 2>&1 || fail "build: see $folder/build.log"
+    # shellcheck disable=SC2046  # a list of targets
+    ninja -C "$2" $(targets "$2") >"$folder/build.log" 2>&1 || fail "build: see $folder/build.log"
 }
 
 if [[ $what == tell ]]; then
@@ -80,31 +97,44 @@ check || exit 1
 mkdir -p "$folder"
 plant "$folder/tree" || exit 1
 build "$folder/tree" "$folder/build"
-rows_program=$folder/build/hard_rows
+rows_program=
+is_hard && rows_program=$folder/build/hard_rows
 rm -rf "$folder/told" && mkdir "$folder/told" || exit 1
 wrong=0
 
-# Unbroken, every case must pass; and every case that is measured must be named.
-"$rows_program" >"$folder/precisions"
-cut -d ' ' -f 1 "$folder/precisions" | LC_ALL=C sort -u >"$folder/measured"
-grep -v '^#' "$table" | cut -f 1 | tr ' ' '\n' | LC_ALL=C sort -u >"$folder/named"
-for id in $(comm -23 "$folder/measured" "$folder/named"); do
-    echo "mutate: nothing is aimed at $id"
-    wrong=1
-done
-# shellcheck disable=SC2046  # a list of ids
-failing=$(WR_MUTANT=0 "$rows_program" $(<"$folder/named")) || { echo "mutate: fails unbroken: $failing"; wrong=1; }
-
-# Each by itself, as many at once as there are processors: the cases that fail, with the precisions that do, or
-# that stop the program.
-try() {
-    local number=$1 id said
-    for id in $2; do
-        said=$(WR_MUTANT=$number timeout 120 "$rows_program" "$id" 2>/dev/null) || echo "${said:-$id float double}"
-    done >"$folder/told/$number"
+# Those of the cases "$@" that fail, with the precisions that do, or that stop the program.
+failing() {
+    local id said
+    for id in "$@"; do
+        if [[ -n $rows_program ]]; then
+            said=$(timeout 120 "$rows_program" "$id" 2>/dev/null) || echo "${said:-$id float double}"
+        elif [[ -x $folder/build/test_$id ]]; then
+            (cd "$folder/build/tests" && timeout 300 "$folder/build/test_$id") >/dev/null 2>&1 || echo "$id"
+        else
+            ctest --test-dir "$folder/build" --timeout 300 -R "^$id\$" >/dev/null 2>&1 || echo "$id"
+        fi
+    done
 }
-export -f try
+# Each mutation by itself, as many at once as there are processors.
+try() {
+    # shellcheck disable=SC2086  # a list of ids
+    WR_MUTANT=$1 failing $2 >"$folder/told/$1"
+}
+export -f try failing
 export rows_program folder
+
+# Unbroken, every case must pass; and every case that is measured must be named.
+if is_hard; then
+    "$rows_program" >"$folder/precisions"
+    cut -d ' ' -f 1 "$folder/precisions" | LC_ALL=C sort -u >"$folder/measured"
+    for id in $(named | LC_ALL=C comm -23 "$folder/measured" -); do
+        echo "mutate: nothing is aimed at $id"
+        wrong=1
+    done
+fi
+# shellcheck disable=SC2046  # a list of ids
+failing=$(WR_MUTANT=0 failing $(named))
+[[ -z $failing ]] || { echo "mutate: fails unbroken: $failing"; wrong=1; }
 number=0
 while IFS=$'\t' read -r rows _; do
     number=$((number + 1))
@@ -130,9 +160,11 @@ while IFS=$'\t' read -r rows file old new; do
     printf '%s\t%s\t%s\t%s\t%s\n' "$number" "$rows" "$file" "$noticed" "$missed" >>"$folder/results"
 done < <(grep -v '^#' "$table")
 # For who wants more: cases that were broken in one precision alone.
-awk '{ for (i = 2; i <= NF; i++) print $1, $i }' "$folder/precisions" | LC_ALL=C sort >"$folder/bounds"
-awk '{ for (i = 2; i <= NF; i++) print $1, $i }' "$folder/told"/* | LC_ALL=C sort -u |
-    LC_ALL=C comm -13 - "$folder/bounds" | paste -sd ',' | sed 's/^/mutate: nothing shows in /; s/,/, /g'
+is_hard && {
+    awk '{ for (i = 2; i <= NF; i++) print $1, $i }' "$folder/precisions" | LC_ALL=C sort >"$folder/bounds"
+    awk '{ for (i = 2; i <= NF; i++) print $1, $i }' "$folder/told"/* | LC_ALL=C sort -u |
+        LC_ALL=C comm -13 - "$folder/bounds" | paste -sd ',' | sed 's/^/mutate: nothing shows in /; s/,/, /g'
+}
 cases=$(cut -f 2 "$folder/results" | tr ' ' '\n' | LC_ALL=C sort -u | wc -l)
 echo "mutate: $tried mutations aimed at $cases cases, $survivors survive"
 exit $((survivors > 0 || wrong))
