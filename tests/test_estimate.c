@@ -13,6 +13,8 @@
 #include <malloc.h>
 #include <sys/wait.h>
 
+#define MOMENT 0.1 /* seconds that are not worth a word */
+
 static WrSession *table_of(int size)
 {
     char line[40];
@@ -164,6 +166,37 @@ static void crowds_are_near_what_they_take(void **state)
         if (fabs(ratio[i] - sum) > log(3.0))
             fail_msg("%s, %d along each side, at %d: %g times the estimate, all together %g",
                      shapes[i % SHAPES], counts[i / SHAPES / 2], sizes[i / SHAPES % 2],
+                     exp(ratio[i]), exp(sum));
+}
+
+/* Every kind of solid, upright and leaning, alone and close together. What is done in a moment may be said to take
+   several. */
+static void solids_are_near_what_they_take(void **state)
+{
+    (void)state;
+    static const char *const shapes[] = { "sphere",   "ellipsoid",   "box",
+                                          "cylinder", "cone",        "torus",
+                                          "capsule",  "letters abc", "letters a size=300" };
+    static const char *const leans[] = { "", " tilt=30", " rotate=40,25,0" };
+    static const int sizes[] = { 512, 256 }, counts[] = { 2, 12 };
+    enum { SHAPES = (int)(sizeof shapes / sizeof *shapes), COUNT = SHAPES * 3 * 2 };
+    double ratio[COUNT], sum = 0.0;
+    char line[96];
+    for (int i = 0; i < COUNT; i++) {
+        const int kind = i / SHAPES / 3, along = counts[kind];
+        snprintf(line, sizeof line, "solid %s rows=%d across=%d%s", shapes[i % SHAPES], along,
+                 along, leans[i / SHAPES % 3]);
+        const double said = seconds_of(sizes[kind], line) + MOMENT;
+        ratio[i] = log((cost_of(sizes[kind], line) + MOMENT) / said);
+        sum += ratio[i] / COUNT;
+        if (getenv("WR_TELL"))
+            print_message("%4d %-56s said %7.3f s, took %.2f of it\n", sizes[kind], line, said,
+                          exp(ratio[i]));
+    }
+    for (int i = 0; i < COUNT; i++)
+        if (fabs(ratio[i] - sum) > log(3.0))
+            fail_msg("solid %s%s, %d along each side: %g times the estimate, all together %g",
+                     shapes[i % SHAPES], leans[i / SHAPES % 3], counts[i / SHAPES / 3],
                      exp(ratio[i]), exp(sum));
 }
 
@@ -349,6 +382,7 @@ int main(void)
         cmocka_unit_test(estimates_rise_with_size_and_counts),
         cmocka_unit_test(estimates_are_near_what_commands_take),
         cmocka_unit_test(crowds_are_near_what_they_take),
+        cmocka_unit_test(solids_are_near_what_they_take),
         cmocka_unit_test(memory_is_near_what_tables_hold),
         cmocka_unit_test(files_are_near_what_they_take),
         cmocka_unit_test(memory_is_near_the_peak_of_a_process),

@@ -173,6 +173,18 @@ static void solid(const Job *job, const Price *p, WrEstimate *out)
         p->bytes * fmin(copies * area, job->texels) + 440.0 * copies);
 }
 
+/* ns: a texel of those that stand upright, each: one of them besides; turned: of those that lean, whose rims are what
+   takes long, a texel of a letter's size. Letters hide less than solids without holes do. */
+static void letters(const Job *job, const Price *p, WrEstimate *out)
+{
+    const double copies = number(job, "across", 0) * number(job, "rows", 0);
+    const double area = shadow(job, false), close = copies * area / job->texels;
+    const double count = (double)strlen(wr_call_arg(job->call, "text")->text);
+    const double one = leans(job) ? p->turned * number(job, "size", 0) * count : p->ns * area;
+    add(out, copies * (one + p->each) / (1.0 + close / (leans(job) ? 5.0 : 20.0)),
+        p->bytes * fmin(copies * area, job->texels) + 440.0 * copies);
+}
+
 /* each: a triangle. How finely a surface is cut goes by its size. */
 static void net(const Job *job, const Price *p, WrEstimate *out)
 {
@@ -288,10 +300,10 @@ static const Price prices[] = {
     SOLID("ellipsoid", 50, 0.05, 1, 2.5, 2e3),
     SOLID("box", 40, 1, 3.5, 0.1, 1.5e3),
     SOLID("cylinder", 100, 1, 4, 0.25, 2e3),
-    SOLID("cone", 300, 1, 2, 15, 2e3),
-    SOLID("torus", 120, 1, 8, 1.6, 2e3),
+    SOLID("cone", 300, 1, 2, 30, 2e3),
+    SOLID("torus", 120, 1, 5, 1.6, 2e3),
     SOLID("capsule", 110, 1, 4, 0.1, 2e3),
-    SOLID("letters", 115, 1, 16, 5.75, 2.5e6),
+    { "solid", "letters", letters, .ns = 250, .turned = 4.4e5, .each = 2.5e6, .bytes = 14 },
     { "solid", "surface", net, .each = 450, .bytes = 1 },
     UNKNOWN("solid", "mesh"),
     { "terrain", "fractal", octaves, .ns = 20, .more = 90, .bytes = 12 },

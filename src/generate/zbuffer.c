@@ -10,7 +10,8 @@
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
-#define BATCH 64   /* tiles between two reports */
+#define BATCH 64 /* tiles between two reports */
+#define MANY_SLOW 4
 #define MANY 64    /* images in a tile from which on it pays to look for what is hidden */
 #define LEVELS 512 /* of heights, by which they are sorted */
 
@@ -291,6 +292,14 @@ static void draw_many_triangles(const Drawing *d, int busy, const Bin *bin, WrZS
     wr_free(tops);
 }
 
+/* Of letters and rings each texel takes long. */
+static int many_of(const Drawing *d, const Bin *solids)
+{
+    if (solids->count == 0) return MANY;
+    const WrZShape shape = d->scene->solids[d->entries[solids->first].index].shape;
+    return shape == WR_Z_LETTERS || shape == WR_Z_TORUS ? MANY_SLOW : MANY;
+}
+
 static void draw_bin(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet)
 {
     const Going going = { d, busy };
@@ -301,7 +310,7 @@ static void draw_bin(const Drawing *d, int busy, const Bin *bin, WrZSheet *sheet
         solids.count++;
     Bin triangles = { bin->first + solids.count, bin->count - solids.count };
     const WrZEntry *first = &d->entries[solids.first];
-    if (solids.count < MANY) draw_few(d, busy, &solids, sheet);
+    if (solids.count < many_of(d, &solids)) draw_few(d, busy, &solids, sheet);
     else if (!wr_zsheet_many(sheet, d->scene, first, solids.count, &goes_on)) return;
     if (triangles.count < MANY) draw_few(d, busy, &triangles, sheet);
     else draw_many_triangles(d, busy, &triangles, sheet);

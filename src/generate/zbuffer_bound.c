@@ -3,6 +3,7 @@
 #include "generate/zbuffer_tile.h"
 
 #define MARGIN 1e-9 /* more than rounding can add, as a part of the heights */
+#define SLACK 1e-6  /* of a unit solid, by which the box about it is larger */
 #define HALF 0.7072 /* of a texel's diagonal */
 
 /* ---- how high a solid can be ---- */
@@ -144,6 +145,53 @@ static double convex_range(const WrZSolid *s, const WrZRect *r, double most, dou
     return bound < most ? bound : most;
 }
 
+/* The box about it, in the space of its unit solid. A little larger, for rounding. */
+static void unit_box(const WrZSolid *s, double low[3], double high[3])
+{
+    if (s->shape == WR_Z_LETTERS) wr_zletters_box(s->letters, low, high);
+    for (int k = 0; k < 3 && s->shape != WR_Z_LETTERS; k++) {
+        high[k] = s->shape == WR_Z_TORUS     ? (k < 2 ? 1.0 + s->param : s->param)
+                  : s->shape == WR_Z_CAPSULE ? (k < 2 ? 1.0 : 1.0 + s->param)
+                                             : 1.0;
+        low[k] = -high[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        low[k] -= SLACK * (1.0 + fabs(low[k]));
+        high[k] += SLACK * (1.0 + fabs(high[k]));
+    }
+}
+
+/* How high that box is at most over the rectangle; -INFINITY: it is not there. What leans is much lower on one side
+   than on the other. A line up is a + b z there, and a goes by x and y alone. */
+static double box_top(const WrZSolid *s, const WrZRect *r)
+{
+    double low[3], high[3], top = INFINITY, bottom = -INFINITY;
+    const double x0 = r->x0 - s->at[0], x1 = r->x1 - s->at[0];
+    const double y0 = r->y0 - s->at[1], y1 = r->y1 - s->at[1];
+    unit_box(s, low, high);
+    for (int k = 0; k < 3; k++) {
+        const double u = s->inverse[3 * k], v = s->inverse[3 * k + 1], b = s->inverse[3 * k + 2];
+        const double least = (u < 0.0 ? u * x1 : u * x0) + (v < 0.0 ? v * y1 : v * y0);
+        const double most = (u < 0.0 ? u * x0 : u * x1) + (v < 0.0 ? v * y0 : v * y1);
+        if (fabs(b) <= SLACK * (fabs(u) + fabs(v))) { /* its sides are upright, nearly */
+            if (b == 0.0 && (least > high[k] || most < low[k])) return -INFINITY;
+            continue;
+        }
+        const double up = b > 0.0 ? (high[k] - least) / b : (low[k] - most) / b;
+        const double down = b > 0.0 ? (low[k] - most) / b : (high[k] - least) / b;
+        top = up < top ? up : top;
+        bottom = down > bottom ? down : bottom;
+    }
+    if (bottom > with_margin(top) + MARGIN * fabs(bottom)) return -INFINITY;
+    return with_margin(s->at[2] + top) + MARGIN * fabs(top);
+}
+
+static bool leans(const WrZSolid *s)
+{
+    const double *m = s->inverse;
+    return m[2] != 0.0 || m[5] != 0.0 || m[6] != 0.0 || m[7] != 0.0;
+}
+
 static bool is_beside(const WrZSolid *s, const WrZRect *r)
 {
     return s->at[0] + s->left > r->x1 || s->at[0] + s->right < r->x0 || s->at[1] + s->top > r->y1 ||
@@ -155,7 +203,13 @@ double wr_zsolid_range(const WrZSolid *s, const WrZRect *r, double *least)
     *least = -INFINITY;
     if (s->round) return round_range(s, r, s->peak, least);
     if (is_beside(s, r)) return -INFINITY;
-    return wr_zsolid_convex(s) ? convex_range(s, r, s->peak, least) : s->peak;
+    double most = s->peak;
+    if (leans(s)) {
+        const double top = box_top(s, r);
+        if (top == -INFINITY) return top;
+        most = top < most ? top : most;
+    }
+    return wr_zsolid_convex(s) ? convex_range(s, r, most, least) : most;
 }
 
 bool wr_zsolid_is_ring(const WrZSolid *s)
