@@ -38,9 +38,9 @@ scenes=(ribbon bricks-far sphere-poles terrain-grazing bits displacement scratch
 unseen=(rivets-torus curl-tiles bezier-noise cylinder-ridges sphere-gloss plane-fourier cube-letters floor-cells)
 shown=("${scenes[@]}" highlights) # of the last only the table: tolerances choose among samples
 if [[ -n $quick ]]; then
-    contestants=(painted cube-letters)
+    contestants=(painted cube-letters) large=()
 else
-    contestants=("${scenes[@]}" "${unseen[@]}")
+    contestants=("${scenes[@]}" "${unseen[@]}") large=(ribbon sphere-poles sphere-gloss cube-letters)
 fi
 
 say() { printf '%s\n' "$*" >>"$temporary/page"; }
@@ -145,6 +145,12 @@ compete() {
     for tolerance in "${max[@]}"; do words+=(--tolerance "max=$tolerance"); done
     "$program" accuracy "$(script "$name")" --size $contest_size "${words[@]}" --json >"$keep/contest-$name.new"
     mv "$keep/contest-$name.new" "$keep/contest-$name.json"
+}
+
+# The same of a larger picture, for few tolerances.
+compete_large() {
+    [[ -f $keep/large-$1.json ]] ||
+        "$program" accuracy "$(script "$1")" --size 256x256 --tolerance rms=0.01 --tolerance max=0.1 --json >"$keep/large-$1.json"
 }
 
 # ---- telling ----
@@ -276,12 +282,27 @@ tell_contest() {
     say 'picture, and of each more; that of the cheapest single setting that meets the tolerance, found by trying slopes,'
     say 'normals and ways against aliasing in all combinations, which nobody who wants one picture would do; how the two'
     say 'compare; and from how many pictures on choosing takes less than knowing that setting beforehand.'
-    say 'Larger pictures were not measured in this way.'
+    say 'Larger pictures were measured so on four scenes, below.'
     say ''
     tell_kind rms 'Root mean square, the scenes above' "${contestants[@]:0:half}"
     tell_kind rms 'Root mean square, scenes that choosing was not tuned on' "${contestants[@]:half}"
     tell_kind max 'The worst pixel, the scenes above' "${contestants[@]:0:half}"
     tell_kind max 'The worst pixel, scenes that choosing was not tuned on' "${contestants[@]:half}"
+}
+
+# Larger pictures: the columns of tell_kind, with the tolerance's kind.
+tell_large() {
+    local name files=()
+    [[ ${#large[@]} -gt 0 ]] || return 0
+    for name in "${large[@]}"; do files+=("$keep/large-$name.json"); done
+    say '### 256 x 256 pixels'
+    say ''
+    say '| scene | tolerance | error | | first ms | each more ms | cheapest ms | ratio | pays from |'
+    say '| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: |'
+    jq -r "$functions"'(.document | sub("\\.wrinkle$"; "")) as $name | .rows[] |
+        "| \($name) | \(.kind) \(.value) | \(if .kind == "rms" then .rms else .max end | short) | \(.verdict) | \(.choosing_seconds * 1e3 | short) | \(.seconds * 1e3 | short) | \(if .best_seconds then .best_seconds * 1e3 | short else "-" end) | \(if .best_seconds then .seconds / .best_seconds | short else "-" end) | \(if .pays_from then .pays_from else "never" end) |"' \
+        "${files[@]}" >>"$temporary/page"
+    say ''
 }
 
 tell_hard_cases() {
@@ -301,6 +322,7 @@ for name in "${shown[@]}"; do
     show_front "$name"
 done
 for name in "${contestants[@]}"; do compete "$name"; done
+for name in "${large[@]}"; do compete_large "$name"; done
 say '# What accuracy costs'
 say ''
 say 'Made by `make.sh` from measurements; the sentences follow from the numbers. Errors are of linear intensity'
@@ -310,5 +332,6 @@ say "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(n
 say ''
 for name in "${shown[@]}"; do tell_scene "$name"; done
 tell_contest
+tell_large
 tell_hard_cases
 mv "$temporary/page" "$out/README.md"
