@@ -166,13 +166,28 @@ typedef bool (*Run)(const WrKernels *k, Bench *b, int member, int count);
 
 static bool run_hit(const WrKernels *k, Bench *b, int member, int count)
 {
-    const WrHitKernel hits[] = { k->hit_sphere, k->hit_cylinder, k->hit_cone };
     const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
     if (member >= 8) return false;
     b->rays = some_rays(member & 1);
     if (member < 6)
-        hits[member / 2](&b->rays, &b->shape[shapes[member / 2]], 3, 31, count, &b->strip);
+        k->round[shapes[member / 2]].hit(&b->rays, &b->shape[shapes[member / 2]], 3, 31, count,
+                                         &b->strip);
     else k->hit_quad(&b->rays, &b->quad, 3, 31, count, &b->strip);
+    return true;
+}
+
+/* u and v, the normal alone, the frame, from points about the surface. */
+static bool run_round(const WrKernels *k, Bench *b, int member, int count)
+{
+    static const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
+    if (member >= 9) return false;
+    const WrShapef *shape = &b->shape[shapes[member / 3]];
+    b->strip.count = count;
+    switch (member % 3) {
+    case 0: k->round[shapes[member / 3]].params(shape, &b->strip); break;
+    case 1: k->round[shapes[member / 3]].normals(shape, &b->strip); break;
+    default: k->round[shapes[member / 3]].frames(shape, &b->strip); break;
+    }
     return true;
 }
 
@@ -256,11 +271,12 @@ static bool run_light(const WrKernels *k, Bench *b, int member, int count)
 
 static bool run_hit_at(const WrKernels *k, Bench *b, int member, int count)
 {
-    const WrHitAtKernel hits[] = { k->hit_sphere_at, k->hit_cylinder_at, k->hit_cone_at };
     const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
     if (member >= 8) return false;
     b->rays = some_rays(member & 1);
-    if (member < 6) hits[member / 2](&b->rays, &b->shape[shapes[member / 2]], count, &b->strip);
+    if (member < 6)
+        k->round[shapes[member / 2]].hit_at(&b->rays, &b->shape[shapes[member / 2]], count,
+                                            &b->strip);
     else k->hit_quad_at(&b->rays, &b->quad, count, &b->strip);
     return true;
 }
@@ -322,12 +338,10 @@ static const struct {
     const char *name;
     Run run;
 } families[] = {
-    { "hit", run_hit },           { "polish", run_polish },
-    { "geometry", run_geometry }, { "curvature", run_curvature },
-    { "points", run_points },     { "look", run_look },
-    { "bump", run_bump },         { "light", run_light },
-    { "hit at", run_hit_at },     { "filter", run_filter },
-    { "bound", run_bound },
+    { "hit", run_hit },           { "round", run_round },         { "polish", run_polish },
+    { "geometry", run_geometry }, { "curvature", run_curvature }, { "points", run_points },
+    { "look", run_look },         { "bump", run_bump },           { "light", run_light },
+    { "hit at", run_hit_at },     { "filter", run_filter },       { "bound", run_bound },
 };
 #define FAMILIES (int)(sizeof families / sizeof *families)
 

@@ -233,6 +233,20 @@ static void shaded_half(Stage *stage)
     stage->scene->dials.shading = WR_SHADING_HALF;
 }
 
+static void smooth_double(Stage *stage)
+{
+    smooth(stage);
+    shaded_double(stage);
+    take_surface(stage, "cylinder");
+}
+
+static void smooth_cone(Stage *stage)
+{
+    smooth(stage);
+    take_surface(stage, "cone");
+    stage->scene->lights[0].kind = WR_LIGHT_POINT;
+}
+
 /* ---- the cases ------------------------------------------------------------------------------------- */
 
 enum {
@@ -277,6 +291,18 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_ROUNDED] = { eight_bits, { { keep_all, NOTHING } } },
     [WR_EFFECT_DOUBLE] = { shaded_double, { { keep_all, NOTHING } } },
     [WR_EFFECT_HALF] = { shaded_half, { { keep_all, NOTHING } } },
+    [WR_EFFECT_PARAMETERS] = { keep_all,
+                               { { smooth, 0 },
+                                 { level, 0 },
+                                 { smooth_double, 0 },
+                                 { smooth_cone, 0 },
+                                 { cube, NOTHING } } },
+    [WR_EFFECT_TANGENTS] = { keep_all,
+                             { { smooth, 0 },
+                               { smooth_double, 0 },
+                               { smooth_cone, 0 },
+                               { dark, NOTHING },
+                               { cube, NOTHING } } },
 };
 
 static Stage stage_of(Change change)

@@ -139,14 +139,13 @@ WR_ROWS(kernels);
 const KERNELS WR_KERN_TABLE = {
     .name = WR_KERN_NAME,
     .exact = WR_KERN_EXACT,
-    .hit_sphere = kern_hit_sphere,
-    .hit_cylinder = kern_hit_cylinder,
-    .hit_cone = kern_hit_cone,
     .hit_quad = kern_hit_quad,
-    .hit_sphere_at = kern_hit_sphere_at,
-    .hit_cylinder_at = kern_hit_cylinder_at,
-    .hit_cone_at = kern_hit_cone_at,
     .hit_quad_at = kern_hit_quad_at,
+    .round = {
+        [WR_SURFACE_sphere] = ROUND(sphere),
+        [WR_SURFACE_cylinder] = ROUND(cylinder),
+        [WR_SURFACE_cone] = ROUND(cone),
+    },
 #define WR_X(name) [WR_SURFACE_##name] = kern_polish_##name,
     .polish = {
 #include "surface/surface_list.h"

@@ -28,11 +28,7 @@ ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, in
         RAY(i, strip->index[i]);
         REAL m = v_dot(q, d) / v_dot(d, d);
         VEC p = v_mad(v_mad(q, d, -m), d, strip->s[i]);
-        REAL rho = r_sqrt(p.x * p.x + p.y * p.y);
-        REAL a = r_atan2_turns(p.z, rho);
-        a = a > 0.5f ? a - 1.0f : a;
-        strip->u[i] = r_atan2_turns(p.y, p.x);
-        strip->v[i] = clamp01(0.5f + 2.0f * a);
+        STORE3(strip, p, i, p);
     }
     return hits;
 }
@@ -41,7 +37,7 @@ ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, in
 ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
                         const bool spread, STRIP *strip)
 {
-    const REAL r = shape->value[0], r2 = r * r, h = shape->value[1], top = 0.5f * h;
+    const REAL r = shape->value[0], r2 = r * r, top = 0.5f * shape->value[1];
     const REAL s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
@@ -62,8 +58,7 @@ ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, 
     {
         RAY(i, strip->index[i]);
         VEC p = v_mad(q, d, strip->s[i]);
-        strip->u[i] = r_atan2_turns(p.y, p.x);
-        strip->v[i] = clamp01(0.5f + p.z / h);
+        STORE3(strip, p, i, p);
     }
     return hits;
 }
@@ -116,11 +111,79 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
     {
         RAY(i, strip->index[i]);
         VEC p = v_mad(ray_of_tip(q, d, top).foot, d, strip->s[i]);
-        strip->u[i] = r_atan2_turns(p.y, p.x);
-        strip->v[i] = clamp01(K_(1) + p.z / h);
+        STORE3(strip, p, i, p);
     }
     return hits;
 }
+
+/* ---- from the point that the ray met: of round surfaces u, v and the frame, each only where it is asked for.
+   Points are the hits' own: of the cone from its tip. ---- */
+
+static inline REAL v_of_sphere(const SHAPE *shape, VEC p)
+{
+    (void)shape;
+    REAL a = r_atan2_turns(p.z, r_sqrt(p.x * p.x + p.y * p.y));
+    a = a > K_(0.5) ? a - K_(1) : a;
+    return K_(0.5) + K_(2) * a;
+}
+
+static inline REAL v_of_cylinder(const SHAPE *shape, VEC p)
+{
+    return K_(0.5) + p.z / shape->value[1];
+}
+
+static inline REAL v_of_cone(const SHAPE *shape, VEC p)
+{
+    return K_(1) + p.z / shape->value[1];
+}
+
+#define ROUND_KERNELS(name)                                                                        \
+    FLAT static void kern_params_##name(const SHAPE *shape, STRIP *strip)                          \
+    {                                                                                              \
+        const int count = strip->count;                                                            \
+        SIMD for (int i = 0; i < count; i++)                                                       \
+        {                                                                                          \
+            VEC p = LOAD3(strip, p, i);                                                            \
+            strip->u[i] = r_atan2_turns(p.y, p.x);                                                 \
+            strip->v[i] = clamp01(v_of_##name(shape, p));                                          \
+        }                                                                                          \
+    }                                                                                              \
+    static inline void normal_of_##name(const SHAPE *shape, STRIP *strip, int i)                   \
+    {                                                                                              \
+        POINT at;                                                                                  \
+        FN(name##_from)(shape, LOAD3(strip, p, i), &at);                                           \
+        STORE3(strip, p, i, at.p);                                                                 \
+        STORE3(strip, n, i, at.n_unit);                                                            \
+    }                                                                                              \
+    FLAT static void kern_normals_##name(const SHAPE *shape, STRIP *strip)                         \
+    {                                                                                              \
+        const int count = strip->count;                                                            \
+        SIMD for (int i = 0; i < count; i++)                                                       \
+        {                                                                                          \
+            normal_of_##name(shape, strip, i);                                                     \
+        }                                                                                          \
+    }                                                                                              \
+    static inline void frame_of_##name(const SHAPE *shape, STRIP *strip, int i)                    \
+    {                                                                                              \
+        POINT at;                                                                                  \
+        FN(name##_from)(shape, LOAD3(strip, p, i), &at);                                           \
+        STORE3(strip, p, i, at.p);                                                                 \
+        STORE3(strip, pu, i, at.pu);                                                               \
+        STORE3(strip, pv, i, at.pv);                                                               \
+        STORE3(strip, n, i, at.n_unit);                                                            \
+        strip->n_len[i] = at.n_len;                                                                \
+    }                                                                                              \
+    FLAT static void kern_frames_##name(const SHAPE *shape, STRIP *strip)                          \
+    {                                                                                              \
+        const int count = strip->count;                                                            \
+        SIMD for (int i = 0; i < count; i++)                                                       \
+        {                                                                                          \
+            frame_of_##name(shape, strip, i);                                                      \
+        }                                                                                          \
+    }
+ROUND_KERNELS(sphere)
+ROUND_KERNELS(cylinder)
+ROUND_KERNELS(cone)
 
 ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int count,
                     const bool spread, STRIP *strip)
@@ -166,3 +229,9 @@ HITS(sphere, SHAPE, shape)
 HITS(cylinder, SHAPE, shape)
 HITS(cone, SHAPE, shape)
 HITS(quad, QUAD, quad)
+
+#define ROUND(name)                                                                                \
+    {                                                                                              \
+        kern_hit_##name, kern_hit_##name##_at, kern_params_##name, kern_normals_##name,            \
+            kern_frames_##name                                                                     \
+    }

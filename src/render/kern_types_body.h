@@ -99,18 +99,27 @@ typedef int (*WR_T(WrHitKernel))(const WR_T(WrRays) * rays, const SHAPE *shape, 
 typedef int (*WR_T(WrHitAtKernel))(const WR_T(WrRays) * rays, const SHAPE *shape, int count,
                                    WR_T(WrStrip) * strip);
 
+/* A surface that rays meet in closed form and whose frame follows from the point that they meet (`p`, of the cone
+   from its tip): u and v are worked out only where something is read there. */
+typedef struct WR_T(WrRound) {
+    WR_T(WrHitKernel) hit; /* fills index, s, p of those that hit and returns how many */
+    WR_T(WrHitAtKernel) hit_at;
+    void (*params)(const SHAPE *shape, WR_T(WrStrip) * strip);  /* u, v; before what follows */
+    void (*normals)(const SHAPE *shape, WR_T(WrStrip) * strip); /* P and n, or */
+    void (*frames)(const SHAPE *shape, WR_T(WrStrip) * strip);  /* P, Pu, Pv, n, |N| */
+} WR_T(WrRound);
+
 typedef struct WR_T(WrKernels) {
     const char *name; /* "v3" */
     bool exact;       /* same bits as "ref" */
 
     /* Visibility in closed form for `count` neighbouring samples from (gx, gy): fills index, u, v of
        those that hit and returns how many. */
-    WR_T(WrHitKernel) hit_sphere, hit_cylinder, hit_cone;
     int (*hit_quad)(const WR_T(WrRays) * rays, const WR_T(WrQuad) * quad, REAL gx, REAL gy,
                     int count, WR_T(WrStrip) * strip);
-    WR_T(WrHitAtKernel) hit_sphere_at, hit_cylinder_at, hit_cone_at;
     int (*hit_quad_at)(const WR_T(WrRays) * rays, const WR_T(WrQuad) * quad, int count,
                        WR_T(WrStrip) * strip);
+    WR_T(WrRound) round[WR_SURFACE_COUNT]; /* zeros for all other surfaces */
     /* Newton's method from the guesses in u, v of the samples at x, y: solves P(u,v) = q + s d by
        3 x 3 steps, no longer than `reach` in u and v, until a step is shorter than `enough` in u and v
        (0: never); keeps the guess where it does not improve. */

@@ -144,7 +144,29 @@ static const uint32_t normal_effects[] = {
 };
 _Static_assert(sizeof normal_effects / sizeof *normal_effects == WR_BUMP_COUNT, "all formulas");
 
-/* All stages of the plan from (u, v) to the colour. quad: of a planar surface, or -1. */
+/* The kernels of a surface that rays meet in closed form; NULL: of another. */
+static const WR_T(WrRound) * round_of(const WrTileJob *job)
+{
+    const WR_T(WrRound) *round = &KERNELS_OF(job)->round[job->view->shape_d.kind];
+    return round->hit ? round : NULL;
+}
+
+/* P, n, and what else of the surface's frame the plan asks for. */
+static void surface_strip(const WrTileJob *job, int face, Strip *strip, Watch *watch)
+{
+    const WR_T(WrRound) *round = round_of(job);
+    if (!round) {
+        KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
+    } else if (runs(job, WR_EFFECT_TANGENTS)) {
+        round->frames(&VIEWED(job->view, shape), strip);
+        did(watch, WR_EFFECT_TANGENTS);
+    } else {
+        round->normals(&VIEWED(job->view, shape), strip);
+    }
+    watch_lap(watch, WR_STAGE_GEOMETRY);
+}
+
+/* All stages of the plan from the hit to the colour. quad: of a planar surface, or -1. */
 static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                         Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
@@ -152,9 +174,13 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
     const WrPlan *plan = job->plan;
     const WrSurfaceKind kind = job->view->shape_d.kind;
     const int face = quad >= 0 ? job->view->quad_face[quad] : 0;
+    if (runs(job, WR_EFFECT_PARAMETERS)) {
+        round_of(job)->params(&VIEWED(job->view, shape), strip);
+        did(watch, WR_EFFECT_PARAMETERS);
+        watch_lap(watch, WR_STAGE_PARAMETERS);
+    }
     if (plan->normals) {
-        k->geometry[kind](&VIEWED(job->view, shape), face, strip);
-        watch_lap(watch, WR_STAGE_GEOMETRY);
+        surface_strip(job, face, strip, watch);
         if (runs(job, WR_EFFECT_CURVATURE)) {
             k->curvature[kind](&VIEWED(job->view, shape), face, strip);
             did(watch, WR_EFFECT_CURVATURE);
@@ -222,26 +248,6 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
 }
 
 /* ---- visibility ---------------------------------------------------------------------------------- */
-
-static WR_T(WrHitKernel) closed_form(const Kernels *kernels, WrInversion inversion)
-{
-    switch (inversion) {
-    case WR_INVERT_SPHERE: return kernels->hit_sphere;
-    case WR_INVERT_CYLINDER: return kernels->hit_cylinder;
-    case WR_INVERT_CONE: return kernels->hit_cone;
-    default: return NULL;
-    }
-}
-
-static WR_T(WrHitAtKernel) closed_form_at(const Kernels *kernels, WrInversion inversion)
-{
-    switch (inversion) {
-    case WR_INVERT_SPHERE: return kernels->hit_sphere_at;
-    case WR_INVERT_CYLINDER: return kernels->hit_cylinder_at;
-    case WR_INVERT_CONE: return kernels->hit_cone_at;
-    default: return NULL;
-    }
-}
 
 /* Make the parameters of what the mesh covers exact. */
 static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
@@ -320,11 +326,10 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
         finish_strip(job, rays, -1, sink, scratch, &watch);
         return;
     }
-    WR_T(WrHitAtKernel)
-    hit = closed_form_at(kernels, job->plan->inversion);
-    if (hit) {
+    const WR_T(WrRound) *round = round_of(job);
+    if (round) {
         pour(places, strip);
-        hit(rays, &VIEWED(view, shape), places->count, strip);
+        round->hit_at(rays, &VIEWED(view, shape), places->count, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
         return;
@@ -379,10 +384,9 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
         finish_strip(job, rays, -1, sink, scratch, &watch);
         return;
     }
-    WR_T(WrHitKernel)
-    hit = closed_form(kernels, job->plan->inversion);
-    if (hit) {
-        hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
+    const WR_T(WrRound) *round = round_of(job);
+    if (round) {
+        round->hit(rays, &VIEWED(view, shape), gx, gy, tile->w, strip);
         note_places(job, sink, gx, gy, strip);
         watch_lap(&watch, WR_STAGE_VISIBILITY);
         finish_strip(job, rays, -1, sink, scratch, &watch);
@@ -403,8 +407,7 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
     Strip *strip = STRIP_OF(scratch);
     WrScatter *places = &scratch->scatter;
     Watch watch = { scratch, false, 0 };
-    WR_T(WrHitAtKernel)
-    hit = closed_form_at(KERNELS_OF(job), job->plan->inversion);
+    const WR_T(WrRound) *round = round_of(job);
     places->count = 1;
     places->x[0] = gx, places->y[0] = gy, places->cell[0] = 0;
     strip->count = 0;
@@ -412,11 +415,12 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
     if (job->mesh) {
         WrDepthTile tile = wr_tile_depth(job, job->samples, gx, gy, 1, 1, scratch);
         locate_mesh(job, rays, &tile, places, strip, &watch);
-    } else if (hit) {
+    } else if (round) {
         pour(places, strip);
-        hit(rays, &VIEWED(job->view, shape), 1, strip);
+        round->hit_at(rays, &VIEWED(job->view, shape), 1, strip);
+        round->params(&VIEWED(job->view, shape), strip);
     }
-    for (int i = 0; !hit && !job->mesh && i < job->view->quad_count && strip->count == 0; i++) {
+    for (int i = 0; !round && !job->mesh && i < job->view->quad_count && strip->count == 0; i++) {
         pour(places, strip);
         KERNELS_OF(job)->hit_quad_at(rays, &VIEWED(job->view, quads)[i], 1, strip);
         *face = job->view->quad_face[i];

@@ -43,6 +43,8 @@ typedef enum WrEffect {
     WR_EFFECT_ROUNDED,
     WR_EFFECT_DOUBLE,
     WR_EFFECT_HALF,
+    WR_EFFECT_PARAMETERS,
+    WR_EFFECT_TANGENTS,
     WR_EFFECT_COUNT
 } WrEffect;
 
@@ -50,6 +52,7 @@ typedef enum WrEffect {
 typedef enum WrStage {
     WR_STAGE_VISIBILITY, /* rays against closed forms, or triangles into the depth tile */
     WR_STAGE_NEWTON,
+    WR_STAGE_PARAMETERS, /* u and v of the points that rays met */
     WR_STAGE_GEOMETRY,
     WR_STAGE_CURVATURE,
     WR_STAGE_FOOTPRINT,

@@ -390,6 +390,35 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "the dial asks for normals and light in half precision");
 }
 
+/* ---- what of the surface ---- */
+
+static bool is_round(const WrPlanAsk *ask)
+{
+    const WrInversion inversion = surface_of(ask)->inversion;
+    return inversion == WR_INVERT_SPHERE || inversion == WR_INVERT_CYLINDER ||
+           inversion == WR_INVERT_CONE;
+}
+
+static WrVerdict decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!is_round(ask)) return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
+    if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR))
+        return say(WR_VERDICT_RUN, why, "table, formula or colour picture is looked up there");
+    if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
+        return say(WR_VERDICT_RUN, why, "second derivatives or bounds go by them");
+    return say(WR_VERDICT_SPARED, why, "nothing is looked up at u and v");
+}
+
+static WrVerdict decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!is_round(ask))
+        return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
+    if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
+    if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
+        return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
+    return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
+}
+
 /* ---- the table ---- */
 
 #define STAGE(name) (1U << WR_STAGE_##name)
@@ -469,4 +498,14 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_EFFECT_HALF] = { "E34", "half precision", WR_PROOF_POLICY, NULL,
                          "the dial does not ask for normals and light in half precision",
                          STAGE(HALF), .decide = decide_half },
+    [WR_EFFECT_PARAMETERS] = { "E54", "u and v", WR_PROOF_IDENTICAL, NULL,
+                               "on a sphere, a cylinder or a cone nothing is looked up there: no "
+                               "bump, no colour "
+                               "picture; other surfaces are met at u and v",
+                               STAGE(PARAMETERS), .only_way = true, .decide = decide_parameters },
+    [WR_EFFECT_TANGENTS] = { "E55", "tangents", WR_PROOF_IDENTICAL, NULL,
+                             "on a sphere, a cylinder or a cone no slope turns the normal; other "
+                             "surfaces give "
+                             "them with the point",
+                             0, .only_way = true, .decide = decide_tangents },
 };

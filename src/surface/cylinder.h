@@ -1,5 +1,18 @@
 /* cylinder.h - a tube without lids: P = (R c, R s, H (v - 1/2)), c, s of 2 pi u. */
 
+/* P, Pu, Pv, n, |N| of longitude (c, s) at height z. */
+static inline void FN(cylinder_frame)(const SHAPE *shape, REAL c, REAL s, REAL z, POINT *o)
+{
+    const REAL a = K_(2 * WR_PI);
+    REAL R = shape->value[0], H = shape->value[1];
+    VEC out = { c, s, 0 }, along = { -s, c, 0 };
+    o->p = (VEC){ R * c, R * s, z };
+    o->pu = v_scale(along, a * R);
+    o->pv = (VEC){ 0, 0, H };
+    o->n_len = a * R * H;
+    o->n_unit = out;
+}
+
 static inline void FN(cylinder_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
@@ -9,16 +22,19 @@ static inline void FN(cylinder_at)(const SHAPE *shape, int face, REAL u, REAL v,
     REAL s, c;
     r_sincos_turns(u, &s, &c);
     VEC out = { c, s, 0 }, along = { -s, c, 0 };
-    o->p = (VEC){ R * c, R * s, H * (v - K_(0.5)) };
-    o->pu = v_scale(along, a * R);
-    o->pv = (VEC){ 0, 0, H };
+    FN(cylinder_frame)(shape, c, s, H * (v - K_(0.5)), o);
     o->puu = v_scale(out, -a * a * R);
     o->puv = o->pvv = zero;
-    o->n_len = a * R * H;
     o->n = v_scale(out, o->n_len);
-    o->n_unit = out;
     o->n_u = v_scale(along, a);
     o->n_v = zero;
+}
+
+/* The same frame from a point of any distance from the axis, without (u,v). */
+static inline void FN(cylinder_from)(const SHAPE *shape, VEC p, POINT *o)
+{
+    REAL inv = K_(1) / r_sqrt(p.x * p.x + p.y * p.y);
+    FN(cylinder_frame)(shape, p.x * inv, p.y * inv, p.z, o);
 }
 
 #ifndef WR_FORMULA_FLOAT

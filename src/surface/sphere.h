@@ -2,6 +2,18 @@
    1. The unit normal is P/R without a division, so that the poles give (0, 0, -1) and (0, 0, 1)
    exactly in both precisions. */
 
+/* P, Pu, Pv, n, |N| of longitude (c, s) and latitude (cl, sl). */
+static inline void FN(sphere_frame)(REAL R, REAL c, REAL s, REAL cl, REAL sl, POINT *o)
+{
+    const REAL pi = K_(WR_PI), a = K_(2) * pi;
+    VEC n = { c * cl, s * cl, sl }, east = { -s, c, 0 }, north = { -c * sl, -s * sl, cl };
+    o->p = v_scale(n, R);
+    o->pu = v_scale(east, a * R * cl);
+    o->pv = v_scale(north, pi * R);
+    o->n_unit = n;
+    o->n_len = r_abs(K_(2) * pi * pi * R * R * cl);
+}
+
 static inline void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
@@ -11,20 +23,24 @@ static inline void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, P
     r_sincos_turns(u, &s, &c);
     r_sincos_turns(K_(0.5) * (v - K_(0.5)), &sl, &cl);
     cl = cl + K_(0); /* no negative zero */
-    VEC n = { c * cl, s * cl, sl };
     VEC east = { -s, c, 0 }, north = { -c * sl, -s * sl, cl };
-    REAL a = K_(2) * pi, len = K_(2) * pi * pi * R * R * cl;
-    o->p = v_scale(n, R);
-    o->pu = v_scale(east, a * R * cl);
-    o->pv = v_scale(north, pi * R);
+    REAL a = K_(2) * pi;
+    FN(sphere_frame)(R, c, s, cl, sl, o);
     o->puu = (VEC){ -a * a * R * cl * c, -a * a * R * cl * s, 0 };
     o->puv = v_scale(east, -a * pi * R * sl);
-    o->pvv = v_scale(n, -pi * pi * R);
-    o->n = v_scale(n, len);
-    o->n_unit = n;
-    o->n_len = r_abs(len);
+    o->pvv = v_scale(o->n_unit, -pi * pi * R);
+    o->n = v_scale(o->n_unit, K_(2) * pi * pi * R * R * cl);
     o->n_u = v_scale(east, a * cl);
     o->n_v = v_scale(north, pi);
+}
+
+/* The same frame from a point of any distance in that direction, without (u,v). */
+static inline void FN(sphere_from)(const SHAPE *shape, VEC p, POINT *o)
+{
+    REAL inv = K_(1) / r_sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+    REAL x = p.x * inv, y = p.y * inv;
+    REAL cl = r_sqrt(x * x + y * y), by = K_(1) / (cl > K_(0) ? cl : K_(1));
+    FN(sphere_frame)(shape->value[0], cl > K_(0) ? x * by : K_(1), y * by, cl, p.z * inv, o);
 }
 
 #ifndef WR_FORMULA_FLOAT
