@@ -416,6 +416,7 @@ static WrVerdict decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
         return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
+    if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
     return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
 }
 
