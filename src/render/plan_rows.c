@@ -1,6 +1,6 @@
 /* The table of effects: for each, when a scene calls for it and why, what its leaving out is proven by, the stages
    and the settings that it owns. In the order of the table: a row may ask those before it. */
-#include "render/plan.h"
+#include "render/plan_inner.h"
 
 #include "field/analytic.h"
 #include "image/image.h"
@@ -10,22 +10,6 @@
 
 /* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
 #define WIDE_FROM 1024.0
-
-static WrVerdict say(WrVerdict call, const char **why, const char *reason)
-{
-    *why = reason;
-    return call;
-}
-
-static bool runs(const WrPlan *plan, WrEffect effect)
-{
-    return wr_plan_runs(plan, effect);
-}
-
-static const WrSurfaceInfo *surface_of(const WrPlanAsk *ask)
-{
-    return wr_surfaces[ask->scene->shape.kind];
-}
 
 /* ---- light ---- */
 
@@ -272,64 +256,6 @@ static void settle_filter(WrPlan *plan, const WrPlanAsk *ask)
         runs(plan, WR_EFFECT_FILTER) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }
 
-/* ---- visibility ---- */
-
-static WrVerdict decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    const WrSurfaceInfo *info = surface_of(ask);
-    (void)plan;
-    if (!info->convex_closed && !(info->closed_u && info->closed_v))
-        return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
-    if (!ask->facts.outside)
-        return say(WR_VERDICT_RUN, why, "the eye may be inside the body: its inner walls are seen");
-    return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its own back");
-}
-
-static WrVerdict decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    (void)plan;
-    if (surface_of(ask)->inversion != WR_INVERT_MESH)
-        return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
-    return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
-}
-
-static void settle_depth(WrPlan *plan, const WrPlanAsk *ask)
-{
-    plan->inversion = surface_of(ask)->inversion;
-    if (runs(plan, WR_EFFECT_DEPTH)) plan->mesh = ask->dials->mesh;
-}
-
-static WrVerdict decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    (void)ask;
-    if (!runs(plan, WR_EFFECT_DEPTH))
-        return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
-    return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
-}
-
-static void settle_newton(WrPlan *plan, const WrPlanAsk *ask)
-{
-    if (!runs(plan, WR_EFFECT_NEWTON)) return;
-    plan->newton = ask->dials->newton;
-    plan->texels = ask->dials->texels;
-}
-
-static WrVerdict decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    (void)plan;
-    if (ask->scene->camera.orthographic)
-        return say(WR_VERDICT_NONE, why, "the camera is orthographic");
-    return say(WR_VERDICT_RUN, why, "the camera is in perspective");
-}
-
-/* Not under a bound, which looks at blocks of texels beyond those that the picture reads. */
-static WrVerdict decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    if (!ask->facts.rests || runs(plan, WR_EFFECT_BOUND))
-        return say(WR_VERDICT_RUN, why, "a new picture: every tile is rendered");
-    return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
-}
-
 static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     if (ask->dials->aa != WR_AA_MOMENTS)
@@ -390,36 +316,6 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanAsk *ask, const cha
     return say(WR_VERDICT_RUN, why, "the dial asks for normals and light in half precision");
 }
 
-/* ---- what of the surface ---- */
-
-static bool is_round(const WrPlanAsk *ask)
-{
-    const WrInversion inversion = surface_of(ask)->inversion;
-    return inversion == WR_INVERT_SPHERE || inversion == WR_INVERT_CYLINDER ||
-           inversion == WR_INVERT_CONE;
-}
-
-static WrVerdict decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    if (!is_round(ask)) return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
-    if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR))
-        return say(WR_VERDICT_RUN, why, "table, formula or colour picture is looked up there");
-    if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
-        return say(WR_VERDICT_RUN, why, "second derivatives or bounds go by them");
-    return say(WR_VERDICT_SPARED, why, "nothing is looked up at u and v");
-}
-
-static WrVerdict decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    if (!is_round(ask))
-        return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
-    if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
-    if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
-        return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
-    if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
-    return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
-}
-
 /* ---- the table ---- */
 
 #define STAGE(name) (1U << WR_STAGE_##name)
@@ -473,19 +369,19 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                            .settle = settle_filter },
     [WR_EFFECT_BACK] = { "E25", "back faces", WR_PROOF_IDENTICAL, NULL,
                          "a closed body seen from outside hides its own back", 0,
-                         .decide = decide_back },
+                         .decide = wr_decide_back },
     [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL, NULL,
                           "the nearest root of the ray is enough", STAGE(VISIBILITY),
-                          .only_way = true, .decide = decide_depth, .settle = settle_depth },
+                          .only_way = true, .decide = wr_decide_depth, .settle = wr_settle_depth },
     [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED, "rounding of u and v",
                            "rays meet the surface in closed form", STAGE(NEWTON),
-                           .decide = decide_newton, .settle = settle_newton },
+                           .decide = wr_decide_newton, .settle = wr_settle_newton },
     [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL, NULL,
                                 "the camera is orthographic", 0, .only_way = true,
-                                .decide = decide_perspective },
+                                .decide = wr_decide_perspective },
     [WR_EFFECT_AGAIN] = { "E29", "re-rendering", WR_PROOF_IDENTICAL, NULL,
                           "the view rests and no edit reaches the tile", 0, .only_way = true,
-                          .decide = decide_again },
+                          .decide = wr_decide_again },
     [WR_EFFECT_SPREAD] = { "E31", "spread of slopes", WR_PROOF_POLICY, NULL,
                            "the dials do not ask for moments, nothing is filtered, or there is no "
                            "highlight",
@@ -503,10 +399,11 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                "on a sphere, a cylinder or a cone nothing is looked up there: no "
                                "bump, no colour "
                                "picture; other surfaces are met at u and v",
-                               STAGE(PARAMETERS), .only_way = true, .decide = decide_parameters },
+                               STAGE(PARAMETERS), .only_way = true,
+                               .decide = wr_decide_parameters },
     [WR_EFFECT_TANGENTS] = { "E55", "tangents", WR_PROOF_IDENTICAL, NULL,
                              "on a sphere, a cylinder or a cone no slope turns the normal; other "
                              "surfaces give "
                              "them with the point",
-                             0, .only_way = true, .decide = decide_tangents },
+                             0, .only_way = true, .decide = wr_decide_tangents },
 };

@@ -1,0 +1,28 @@
+/* plan_inner.h - what the files of the plan's rows share.
+   Layer 5, private to src/render. */
+#pragma once
+#include "render/plan.h"
+#include "scene/scene.h"
+
+static inline WrVerdict say(WrVerdict call, const char **why, const char *reason)
+{
+    *why = reason;
+    return call;
+}
+
+static inline bool runs(const WrPlan *plan, WrEffect effect)
+{
+    return wr_plan_runs(plan, effect);
+}
+
+static inline const WrSurfaceInfo *surface_of(const WrPlanAsk *ask)
+{
+    return wr_surfaces[ask->scene->shape.kind];
+}
+
+/* As WrEffectInfo has them; these are in plan_sight.c. */
+typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
+typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
+WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
+    wr_decide_parameters, wr_decide_tangents;
+WrSettle wr_settle_depth, wr_settle_newton;

@@ -1,0 +1,92 @@
+/* What the plan decides about how rays meet the surface, and what of it is worked out there. */
+#include "render/plan_inner.h"
+
+#include "scene/scene.h"
+
+/* ---- visibility ---- */
+
+WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrSurfaceInfo *info = surface_of(ask);
+    (void)plan;
+    if (!info->convex_closed && !(info->closed_u && info->closed_v))
+        return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
+    if (!ask->facts.outside)
+        return say(WR_VERDICT_RUN, why, "the eye may be inside the body: its inner walls are seen");
+    return say(WR_VERDICT_SPARED, why, "a closed body seen from outside hides its own back");
+}
+
+WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (surface_of(ask)->inversion != WR_INVERT_MESH)
+        return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
+    return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
+}
+
+void wr_settle_depth(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->inversion = surface_of(ask)->inversion;
+    if (runs(plan, WR_EFFECT_DEPTH)) plan->mesh = ask->dials->mesh;
+}
+
+WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)ask;
+    if (!runs(plan, WR_EFFECT_DEPTH))
+        return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
+    return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
+}
+
+void wr_settle_newton(WrPlan *plan, const WrPlanAsk *ask)
+{
+    if (!runs(plan, WR_EFFECT_NEWTON)) return;
+    plan->newton = ask->dials->newton;
+    plan->texels = ask->dials->texels;
+}
+
+WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->scene->camera.orthographic)
+        return say(WR_VERDICT_NONE, why, "the camera is orthographic");
+    return say(WR_VERDICT_RUN, why, "the camera is in perspective");
+}
+
+/* Not under a bound, which looks at blocks of texels beyond those that the picture reads. */
+WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!ask->facts.rests || runs(plan, WR_EFFECT_BOUND))
+        return say(WR_VERDICT_RUN, why, "a new picture: every tile is rendered");
+    return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
+}
+
+/* ---- what of the surface ---- */
+
+static bool is_round(const WrPlanAsk *ask)
+{
+    const WrInversion inversion = surface_of(ask)->inversion;
+    return inversion == WR_INVERT_SPHERE || inversion == WR_INVERT_CYLINDER ||
+           inversion == WR_INVERT_CONE;
+}
+
+WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!is_round(ask)) return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
+    if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR))
+        return say(WR_VERDICT_RUN, why, "table, formula or colour picture is looked up there");
+    if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
+        return say(WR_VERDICT_RUN, why, "second derivatives or bounds go by them");
+    return say(WR_VERDICT_SPARED, why, "nothing is looked up at u and v");
+}
+
+WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!is_round(ask))
+        return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
+    if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
+    if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
+        return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
+    if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
+    return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
+}
