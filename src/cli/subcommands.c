@@ -12,8 +12,8 @@ const WrSubcommand wr_subcommands[] = {
       "relative\n"
       "to the script's folder and written relative to the current one.",
       wr_cli_run },
-    { "render", "render [FILE] -o OUT [--size WxH] [--frames A-B]", "a picture, or a turntable",
-      BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(FRAMES) | BIT(TURN),
+    { "render", "render [FILE] -o OUT [--size WxH] [--full] [--frames A-B]",
+      "a picture, or a turntable", BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(FRAMES) | BIT(TURN),
       "exr and tiff files hold linear float red, green, blue and coverage, others 8-bit sRGB over "
       "the\n"
       "scene's background. Frame f of a turntable is turned by f times --turn degrees.",
