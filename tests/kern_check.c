@@ -185,8 +185,8 @@ static bool run_round(const WrKernels *k, Bench *b, int member, int count)
     b->strip.count = count;
     switch (member % 3) {
     case 0: k->round[shapes[member / 3]].params(shape, &b->strip); break;
-    case 1: k->round[shapes[member / 3]].normals(shape, &b->strip); break;
-    default: k->round[shapes[member / 3]].frames(shape, &b->strip); break;
+    case 1: k->round[shapes[member / 3]].tangents(shape, &b->strip); break;
+    default: k->round[shapes[member / 3]].normals(shape, &b->strip); break;
     }
     return true;
 }

@@ -79,6 +79,14 @@ ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, RE
 ALWAYS int compact(int count, const bool spread, STRIP *strip)
 {
     int hits = 0;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        strip->index[i] = i;
+    }
+    for (int i = 0; i < count; i++) hits += strip->s[i] < MISS;
+    strip->count = hits;
+    if (hits == 0 || hits == count) return hits; /* nothing moves */
+    hits = 0;
     for (int i = 0; i < count; i++) {
         strip->index[hits] = i;
         strip->s[hits] = strip->s[i];
@@ -88,7 +96,6 @@ ALWAYS int compact(int count, const bool spread, STRIP *strip)
         }
         hits += strip->s[i] < MISS;
     }
-    strip->count = hits;
     return hits;
 }
 

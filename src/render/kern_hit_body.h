@@ -117,7 +117,8 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
 }
 
 /* ---- from the point that the ray met: of round surfaces u, v and the frame, each only where it is asked for.
-   Points are the hits' own: of the cone from its tip. ---- */
+   Points are the hits' own: of the cone from its tip. P and n come from one kernel whatever else is asked for, so that
+   they have the same bits. ---- */
 
 static inline REAL v_of_sphere(const SHAPE *shape, VEC p)
 {
@@ -163,22 +164,20 @@ static inline REAL v_of_cone(const SHAPE *shape, VEC p)
             normal_of_##name(shape, strip, i);                                                     \
         }                                                                                          \
     }                                                                                              \
-    static inline void frame_of_##name(const SHAPE *shape, STRIP *strip, int i)                    \
+    static inline void tangents_of_##name(const SHAPE *shape, STRIP *strip, int i)                 \
     {                                                                                              \
         POINT at;                                                                                  \
         FN(name##_from)(shape, LOAD3(strip, p, i), &at);                                           \
-        STORE3(strip, p, i, at.p);                                                                 \
         STORE3(strip, pu, i, at.pu);                                                               \
         STORE3(strip, pv, i, at.pv);                                                               \
-        STORE3(strip, n, i, at.n_unit);                                                            \
         strip->n_len[i] = at.n_len;                                                                \
     }                                                                                              \
-    FLAT static void kern_frames_##name(const SHAPE *shape, STRIP *strip)                          \
+    FLAT static void kern_tangents_##name(const SHAPE *shape, STRIP *strip)                        \
     {                                                                                              \
         const int count = strip->count;                                                            \
         SIMD for (int i = 0; i < count; i++)                                                       \
         {                                                                                          \
-            frame_of_##name(shape, strip, i);                                                      \
+            tangents_of_##name(shape, strip, i);                                                   \
         }                                                                                          \
     }
 ROUND_KERNELS(sphere)
@@ -232,6 +231,6 @@ HITS(quad, QUAD, quad)
 
 #define ROUND(name)                                                                                \
     {                                                                                              \
-        kern_hit_##name, kern_hit_##name##_at, kern_params_##name, kern_normals_##name,            \
-            kern_frames_##name                                                                     \
+        kern_hit_##name, kern_hit_##name##_at, kern_params_##name, kern_tangents_##name,           \
+            kern_normals_##name                                                                    \
     }

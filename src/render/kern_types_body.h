@@ -104,9 +104,10 @@ typedef int (*WR_T(WrHitAtKernel))(const WR_T(WrRays) * rays, const SHAPE *shape
 typedef struct WR_T(WrRound) {
     WR_T(WrHitKernel) hit; /* fills index, s, p of those that hit and returns how many */
     WR_T(WrHitAtKernel) hit_at;
-    void (*params)(const SHAPE *shape, WR_T(WrStrip) * strip);  /* u, v; before what follows */
-    void (*normals)(const SHAPE *shape, WR_T(WrStrip) * strip); /* P and n, or */
-    void (*frames)(const SHAPE *shape, WR_T(WrStrip) * strip);  /* P, Pu, Pv, n, |N| */
+    /* These read p; in this order, the last always. */
+    void (*params)(const SHAPE *shape, WR_T(WrStrip) * strip);   /* u, v */
+    void (*tangents)(const SHAPE *shape, WR_T(WrStrip) * strip); /* Pu, Pv, |N| */
+    void (*normals)(const SHAPE *shape, WR_T(WrStrip) * strip);  /* P in the place of p, and n */
 } WR_T(WrRound);
 
 typedef struct WR_T(WrKernels) {

@@ -155,14 +155,12 @@ static const WR_T(WrRound) * round_of(const WrTileJob *job)
 static void surface_strip(const WrTileJob *job, int face, Strip *strip, Watch *watch)
 {
     const WR_T(WrRound) *round = round_of(job);
-    if (!round) {
-        KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
-    } else if (runs(job, WR_EFFECT_TANGENTS)) {
-        round->frames(&VIEWED(job->view, shape), strip);
+    if (round && runs(job, WR_EFFECT_TANGENTS)) {
+        round->tangents(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
-    } else {
-        round->normals(&VIEWED(job->view, shape), strip);
     }
+    if (round) round->normals(&VIEWED(job->view, shape), strip);
+    else KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 
@@ -206,10 +204,27 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
     keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
 }
 
+/* Colours of neighbours, one after the other: how many of them were empty. */
+static int store_run(const Strip *strip, float *restrict out)
+{
+    int fresh = 0;
+    for (int i = 0; i < strip->count; i++) fresh += out[4 * i + 3] == 0.0f;
+    for (int i = 0; i < strip->count; i++) {
+        out[4 * i] = (float)strip->cr[i];
+        out[4 * i + 1] = (float)strip->cg[i];
+        out[4 * i + 2] = (float)strip->cb[i];
+        out[4 * i + 3] = 1.0f;
+    }
+    return fresh;
+}
+
 /* Finished strip -> its samples' places. */
 static void store(const WrSink *sink, const Strip *strip, WrTileScratch *scratch)
 {
-    for (int i = 0; i < strip->count && sink->rgba; i++) {
+    const int last = strip->count - 1;
+    const bool run = strip->index[last] - strip->index[0] == last;
+    if (sink->rgba && run) scratch->covered += store_run(strip, sink->rgba + 4 * strip->index[0]);
+    for (int i = 0; i < strip->count && sink->rgba && !run; i++) {
         float *out = sink->rgba + 4 * strip->index[i];
         out[0] = (float)strip->cr[i];
         out[1] = (float)strip->cg[i];
