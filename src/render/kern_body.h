@@ -51,9 +51,12 @@
 
 #ifdef WR_KERN_PLAIN
 #define SIMD
+#define SIMD_SUM(sum)
 #else
 #define SIMD _Pragma("omp simd")
+#define SIMD_SUM(sum) WR_PRAGMA(omp simd reduction(+ : sum))
 #endif
+#define WR_PRAGMA(text) _Pragma(#text)
 #define FLAT __attribute__((flatten)) /* a loop with a call left in it does not vectorise */
 #define MISS FLT_MAX
 #define STEEP 1e12f /* slopes beyond this are scaled down together with N: the direction stays */
@@ -83,7 +86,10 @@ ALWAYS int compact(int count, const bool spread, STRIP *strip)
     {
         strip->index[i] = i;
     }
-    for (int i = 0; i < count; i++) hits += strip->s[i] < MISS;
+    SIMD_SUM(hits) for (int i = 0; i < count; i++)
+    {
+        hits += strip->s[i] < MISS ? 1 : 0;
+    }
     strip->count = hits;
     if (hits == 0 || hits == count) return hits; /* nothing moves */
     hits = 0;
