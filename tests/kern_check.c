@@ -164,14 +164,16 @@ static void bench_fini(Bench *b)
 /* One kernel under test: which one is (family, member). Returns false past the last member. */
 typedef bool (*Run)(const WrKernels *k, Bench *b, int member, int count);
 
+static const int ways[] = { WR_INVERT_SPHERE, WR_INVERT_CYLINDER, WR_INVERT_CONE };
+
 static bool run_hit(const WrKernels *k, Bench *b, int member, int count)
 {
     const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
     if (member >= 8) return false;
     b->rays = some_rays(member & 1);
     if (member < 6)
-        k->round[shapes[member / 2]].hit(&b->rays, &b->shape[shapes[member / 2]], 3, 31, count,
-                                         &b->strip);
+        k->round[ways[member / 2]].hit(&b->rays, &b->shape[shapes[member / 2]], 3, 31, count,
+                                       &b->strip);
     else k->hit_quad(&b->rays, &b->quad, 3, 31, count, &b->strip);
     return true;
 }
@@ -184,9 +186,9 @@ static bool run_round(const WrKernels *k, Bench *b, int member, int count)
     const WrShapef *shape = &b->shape[shapes[member / 3]];
     b->strip.count = count;
     switch (member % 3) {
-    case 0: k->round[shapes[member / 3]].params(shape, &b->strip); break;
-    case 1: k->round[shapes[member / 3]].tangents(shape, &b->strip); break;
-    default: k->round[shapes[member / 3]].normals(shape, &b->strip); break;
+    case 0: k->round[ways[member / 3]].params(shape, &b->strip); break;
+    case 1: k->round[ways[member / 3]].tangents(shape, &b->strip); break;
+    default: k->round[ways[member / 3]].normals(shape, &b->strip); break;
     }
     return true;
 }
@@ -275,8 +277,8 @@ static bool run_hit_at(const WrKernels *k, Bench *b, int member, int count)
     if (member >= 8) return false;
     b->rays = some_rays(member & 1);
     if (member < 6)
-        k->round[shapes[member / 2]].hit_at(&b->rays, &b->shape[shapes[member / 2]], count,
-                                            &b->strip);
+        k->round[ways[member / 2]].hit_at(&b->rays, &b->shape[shapes[member / 2]], count,
+                                          &b->strip);
     else k->hit_quad_at(&b->rays, &b->quad, count, &b->strip);
     return true;
 }

@@ -518,16 +518,22 @@ static void what_a_journal_began_with_comes_back_or_nothing_does(void **state)
     wr_free(files), wr_free(journal), wr_free(path);
 }
 
+/* A document of one step is saved and let go; then a new session, with a journal. */
+static WrSession *after_saving(const char *path)
+{
+    WrSession *session = new_session(false);
+    run(session, five[0]);
+    save(session, path);
+    wr_session_free(session);
+    return new_session(true);
+}
+
 /* Written over before the journal began, its file says nothing of the document. */
 static void a_file_that_changed_before_the_first_step_is_no_beginning(void **state)
 {
     (void)state;
     char *path = in(folder, "my.exr");
-    WrSession *session = new_session(false);
-    run(session, five[0]);
-    save(session, path);
-    wr_session_free(session);
-    session = new_session(true);
+    WrSession *session = after_saving(path);
     assert_true(wr_session_open(session, path, NULL));
     write_other(path);
     run(session, five[1]);
@@ -593,11 +599,7 @@ static void another_document_has_another_journal(void **state)
 {
     (void)state;
     char *path = in(folder, "my.exr");
-    WrSession *session = new_session(false);
-    run(session, five[0]);
-    save(session, path);
-    wr_session_free(session);
-    session = new_session(true);
+    WrSession *session = after_saving(path);
     run(session, "table 32x32");
     run(session, "fill 7");
     assert_true(wr_session_open(session, path, NULL));

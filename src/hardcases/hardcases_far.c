@@ -378,14 +378,14 @@ bool wr_hard_hc169(WrHardGauge *g, WrError *err)
                                .s_min = -9.0 };
         for (int set = 0; set < g->all; set++) {
             const WrKernels *kernels = g->kernels[set];
-            const WrRound *body = &kernels->round[kinds[k % 3]];
+            const WrRound *body = &kernels->round[wr_surfaces[kinds[k % 3]]->inversion];
             const int hits = body->hit(&rays, &single, 0, 0, 1, g->strip);
             body->params(&single, g->strip);
             const double u = (double)g->strip->u[0], want = behind ? 0.5 : 0.0;
             const double off = fabs(u - want), round = fmin(off, 1.0 - off);
             wr_hard_holds(g, WR_HARD_FLOAT, hits == 1 && u >= 0.0 && u < 1.0 && round < 1e-6);
         }
-        const WrRoundd *body = &g->wide[1]->round[kinds[k % 3]];
+        const WrRoundd *body = &g->wide[1]->round[wr_surfaces[kinds[k % 3]]->inversion];
         const int hits = body->hit(&wide, &shape, 0, 0, 1, g->wide_strip);
         body->params(&shape, g->wide_strip);
         const double u = g->wide_strip->u[0], off = fabs(u - (behind ? 0.5 : 0.0));

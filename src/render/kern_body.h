@@ -155,9 +155,9 @@ const KERNELS WR_KERN_TABLE = {
     .hit_quad = kern_hit_quad,
     .hit_quad_at = kern_hit_quad_at,
     .round = {
-        [WR_SURFACE_sphere] = ROUND(sphere),
-        [WR_SURFACE_cylinder] = ROUND(cylinder),
-        [WR_SURFACE_cone] = ROUND(cone),
+        [WR_INVERT_SPHERE] = ROUND(sphere),
+        [WR_INVERT_CYLINDER] = ROUND(cylinder),
+        [WR_INVERT_CONE] = ROUND(cone),
     },
 #define WR_X(name) [WR_SURFACE_##name] = kern_polish_##name,
     .polish = {

@@ -138,31 +138,23 @@ static inline REAL v_of_cone(const SHAPE *shape, VEC p)
     return K_(1) + p.z / shape->value[1];
 }
 
+/* A kernel that does `one` for each sample. */
+#define ROUND_KERNEL(kernel, one)                                                                  \
+    FLAT static void kernel(const SHAPE *shape, STRIP *strip)                                      \
+    {                                                                                              \
+        const int count = strip->count;                                                            \
+        SIMD for (int i = 0; i < count; i++)                                                       \
+        {                                                                                          \
+            one(shape, strip, i);                                                                  \
+        }                                                                                          \
+    }
+
 #define ROUND_KERNELS(name)                                                                        \
-    FLAT static void kern_params_##name(const SHAPE *shape, STRIP *strip)                          \
+    static inline void params_of_##name(const SHAPE *shape, STRIP *strip, int i)                   \
     {                                                                                              \
-        const int count = strip->count;                                                            \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            VEC p = LOAD3(strip, p, i);                                                            \
-            strip->u[i] = r_atan2_turns(p.y, p.x);                                                 \
-            strip->v[i] = clamp01(v_of_##name(shape, p));                                          \
-        }                                                                                          \
-    }                                                                                              \
-    static inline void normal_of_##name(const SHAPE *shape, STRIP *strip, int i)                   \
-    {                                                                                              \
-        POINT at;                                                                                  \
-        FN(name##_from)(shape, LOAD3(strip, p, i), &at);                                           \
-        STORE3(strip, p, i, at.p);                                                                 \
-        STORE3(strip, n, i, at.n_unit);                                                            \
-    }                                                                                              \
-    FLAT static void kern_normals_##name(const SHAPE *shape, STRIP *strip)                         \
-    {                                                                                              \
-        const int count = strip->count;                                                            \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            normal_of_##name(shape, strip, i);                                                     \
-        }                                                                                          \
+        VEC p = LOAD3(strip, p, i);                                                                \
+        strip->u[i] = r_atan2_turns(p.y, p.x);                                                     \
+        strip->v[i] = clamp01(v_of_##name(shape, p));                                              \
     }                                                                                              \
     static inline void tangents_of_##name(const SHAPE *shape, STRIP *strip, int i)                 \
     {                                                                                              \
@@ -172,14 +164,16 @@ static inline REAL v_of_cone(const SHAPE *shape, VEC p)
         STORE3(strip, pv, i, at.pv);                                                               \
         strip->n_len[i] = at.n_len;                                                                \
     }                                                                                              \
-    FLAT static void kern_tangents_##name(const SHAPE *shape, STRIP *strip)                        \
+    static inline void normal_of_##name(const SHAPE *shape, STRIP *strip, int i)                   \
     {                                                                                              \
-        const int count = strip->count;                                                            \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            tangents_of_##name(shape, strip, i);                                                   \
-        }                                                                                          \
-    }
+        POINT at;                                                                                  \
+        FN(name##_from)(shape, LOAD3(strip, p, i), &at);                                           \
+        STORE3(strip, p, i, at.p);                                                                 \
+        STORE3(strip, n, i, at.n_unit);                                                            \
+    }                                                                                              \
+    ROUND_KERNEL(kern_params_##name, params_of_##name)                                             \
+    ROUND_KERNEL(kern_tangents_##name, tangents_of_##name)                                         \
+    ROUND_KERNEL(kern_normals_##name, normal_of_##name)
 ROUND_KERNELS(sphere)
 ROUND_KERNELS(cylinder)
 ROUND_KERNELS(cone)

@@ -120,7 +120,7 @@ typedef struct WR_T(WrKernels) {
                     int count, WR_T(WrStrip) * strip);
     int (*hit_quad_at)(const WR_T(WrRays) * rays, const WR_T(WrQuad) * quad, int count,
                        WR_T(WrStrip) * strip);
-    WR_T(WrRound) round[WR_SURFACE_COUNT]; /* zeros for all other surfaces */
+    WR_T(WrRound) round[WR_INVERSIONS]; /* zeros where rays meet a surface otherwise */
     /* Newton's method from the guesses in u, v of the samples at x, y: solves P(u,v) = q + s d by
        3 x 3 steps, no longer than `reach` in u and v, until a step is shorter than `enough` in u and v
        (0: never); keeps the guess where it does not improve. */

@@ -147,7 +147,7 @@ _Static_assert(sizeof normal_effects / sizeof *normal_effects == WR_BUMP_COUNT, 
 /* The kernels of a surface that rays meet in closed form; NULL: of another. */
 static const WR_T(WrRound) * round_of(const WrTileJob *job)
 {
-    const WR_T(WrRound) *round = &KERNELS_OF(job)->round[job->view->shape_d.kind];
+    const WR_T(WrRound) *round = &KERNELS_OF(job)->round[job->plan->inversion];
     return round->hit ? round : NULL;
 }
 

@@ -57,6 +57,7 @@ typedef enum WrInversion {
     WR_INVERT_CONE,
     WR_INVERT_CUBE
 } WrInversion;
+#define WR_INVERSIONS (WR_INVERT_CUBE + 1)
 
 typedef struct WrSurfaceParam {
     const char *name; /* as in commands: "R"; NULL ends the list */

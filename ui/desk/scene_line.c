@@ -14,8 +14,3 @@ void wr_scene_run(WrApp *app, WrText *line)
     wr_app_run_line(app, wr_text_get(line));
     wr_text_fini(line);
 }
-
-void wr_scene_live_number(WrApp *app, size_t place, double value)
-{
-    *(double *)((char *)wr_app_live(app) + place) = value;
-}

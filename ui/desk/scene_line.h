@@ -2,11 +2,7 @@
 #pragma once
 #include "ui/desk/desk.h"
 
-#include <stddef.h>
-
 typedef struct WrText WrText;
 
 /* Run a scene command whose value was being dragged; clears the line. */
 void wr_scene_run(WrApp *app, WrText *line);
-/* A number of the scene at `place` bytes, while it is being dragged. */
-void wr_scene_live_number(WrApp *app, size_t place, double value);

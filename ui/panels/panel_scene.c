@@ -13,7 +13,6 @@
 #include "surface/surface.h"
 
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -92,8 +91,8 @@ static void surface(WrApp *app)
     /* a drag goes by whole numbers, so that closed surfaces stay seamless; any can be typed */
     if (edit_u == WR_EDIT_LIVE) ru = rint(ru);
     if (edit_v == WR_EDIT_LIVE) rv = rint(rv);
-    if (edit_u != WR_EDIT_NONE) wr_scene_live_number(app, offsetof(WrScene, replicate_u), ru);
-    if (edit_v != WR_EDIT_NONE) wr_scene_live_number(app, offsetof(WrScene, replicate_v), rv);
+    if (edit_u != WR_EDIT_NONE || edit_v != WR_EDIT_NONE)
+        wr_scene_param_set(param, wr_app_live(app), (const double[]){ ru, rv });
     if (edit_u != WR_EDIT_DONE && edit_v != WR_EDIT_DONE) return;
     WrText line = { 0 };
     wr_text_add(&line, "replicate ");
