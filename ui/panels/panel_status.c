@@ -187,7 +187,7 @@ static void memory(WrApp *app)
 
 /* ---- the right end ---- */
 
-static void picture(const WrApp *app, char *text, size_t size)
+static void picture(const WrApp *app, bool with_stages, char *text, size_t size)
 {
     const WrPreviewPicture *p = wr_preview_picture(app->preview);
     double ms[WR_PICTURE_STAGES], all = wr_picture_time(p, ms);
@@ -201,7 +201,7 @@ static void picture(const WrApp *app, char *text, size_t size)
                         : app->settings->turning ? "  \xc2\xb7  turning: "
                                                  : "  \xc2\xb7  moving: ",
                         moving);
-    if (app->layout->status.w <= wr_gui_px(1400)) return;
+    if (!with_stages) return;
     used += snprintf(text + used, size - (size_t)used, "   ");
     stages(ms, all, text, size, used);
 }
@@ -227,6 +227,14 @@ static const char *saved_word(const WrApp *app)
                                               : "no changes";
 }
 
+/* What the left end may take: the same whatever it says, so that the right one does not change with the pointer. */
+static double left_width(void)
+{
+    return wr_gui_text_width(WR_FONT_TEXT,
+                             "u 0.000 v 0.000 F -0.00000 slope 00.0\xc2\xb0 zoom 0000 %") +
+           wr_gui_px(5 * 14 + 12);
+}
+
 static void right_side(WrApp *app)
 {
     const WrField *field = wr_app_field(app);
@@ -234,13 +242,18 @@ static void right_side(WrApp *app)
     char render[300], size[64];
     bool safe = wr_session_journal_safe(app->session, &reason);
     const char *journal = safe ? "journal safe" : "journal not safe";
-    picture(app, render, sizeof render);
+    picture(app, true, render, sizeof render);
     snprintf(size, sizeof size, "%d \xc3\x97 %d", wr_field_width(field), wr_field_height(field));
     double gap = wr_gui_px(18), memory_width = wr_gui_text_width(WR_FONT_TEXT, "8888 MB");
-    double width = memory_width + 4 * gap;
-    const char *const parts[] = { render, size, saved, journal };
-    for (int i = 0; i < 4; i++) width += wr_gui_text_width(WR_FONT_TEXT, parts[i]);
-    wr_gui_move_to(wr_gui_width() - width - wr_gui_px(12));
+    double others = memory_width + 4 * gap + wr_gui_px(12);
+    const char *const parts[] = { size, saved, journal };
+    for (int i = 0; i < 3; i++) others += wr_gui_text_width(WR_FONT_TEXT, parts[i]);
+    double width = others + wr_gui_text_width(WR_FONT_TEXT, render);
+    if (width + left_width() > wr_gui_width()) {
+        picture(app, false, render, sizeof render);
+        width = others + wr_gui_text_width(WR_FONT_TEXT, render);
+    }
+    wr_gui_move_to(wr_gui_width() - width);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, render);
     if (render[0]) picture_tip(app);
     wr_gui_same_line(18);
