@@ -66,17 +66,37 @@ void wr_renderer_free(WrRenderer *renderer)
     wr_free(renderer);
 }
 
-static bool resize(WrRenderer *renderer, int width, int height, WrError *err)
+static bool check_size(const WrFrameRequest *request, WrError *err)
 {
+    const int width = request->width, height = request->height;
     if (width < 1 || height < 1 || width > 16384 || height > 16384)
         return wr_fail(err, "picture size %dx%d: each side must be 1..16384", width, height);
-    if (renderer->rgba && renderer->width == width && renderer->height == height) return true;
-    float *rgba = wr_try_alloc((size_t)width * (size_t)height, 4 * sizeof(float), "picture", err);
-    if (!rgba) return false;
-    wr_free(renderer->rgba);
-    renderer->rgba = rgba;
+    if (request->first < 0 || request->rows < 0 || request->first > height - request->rows)
+        return wr_fail(err, "rows %d..%d of a picture of %d", request->first,
+                       request->first + request->rows - 1, height);
+    return true;
+}
+
+/* Memory for what is asked for. One band takes the next one's place. */
+static bool resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    if (!check_size(request, err)) return false;
+    const bool banded = request->rows > 0;
+    const int width = request->width, height = request->height;
+    const int rows = banded ? request->rows : height;
+    if (!renderer->rgba || renderer->width != width || renderer->height != height ||
+        renderer->banded != banded || renderer->room < rows) {
+        float *rgba = wr_try_alloc((size_t)width * (size_t)rows, 4 * sizeof(float), "picture", err);
+        if (!rgba) return false;
+        wr_free(renderer->rgba);
+        renderer->rgba = rgba;
+        renderer->room = rows;
+    }
     renderer->width = width;
     renderer->height = height;
+    renderer->banded = banded;
+    renderer->top = banded ? request->first : 0;
+    renderer->rows = rows;
     return true;
 }
 
@@ -117,7 +137,8 @@ static void render_tile(int index, int worker, void *ctx)
     WrTilePart part = { index % job->tiles_u * tile->tile_w, index / job->tiles_u * tile->tile_h, 0,
                         0 };
     part.w = least(tile->width - part.x, tile->tile_w);
-    part.h = least(tile->height - part.y, tile->tile_h);
+    part.h = least(tile->rows - part.y, tile->tile_h);
+    part.y += tile->top;
     if (job->cancel && *job->cancel) return;
     if (job->keep && !wr_keep_touches(job->keep, index)) return;
     const double start = wr_clock_seconds();
@@ -140,6 +161,8 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
                       .samples = renderer->samples,
                       .width = renderer->width,
                       .height = renderer->height,
+                      .top = renderer->top,
+                      .rows = renderer->rows,
                       .rgba = renderer->rgba };
     if (request) wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
     if (request) job.normals = request->normals;
@@ -174,11 +197,16 @@ static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bo
                            request->turn_deg, request->width, request->height, outside, err);
 }
 
+static bool may_keep(const WrFrameRequest *request)
+{
+    return request->keep && !request->only && !request->rows;
+}
+
 /* Does the last picture show what this request asks for, but for edits of the table? */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
 {
-    return request->keep && !request->only && !request->normals && same_view(renderer, request) &&
+    return may_keep(request) && !request->normals && same_view(renderer, request) &&
            renderer->kernels == kernels && wr_plan_same(before, &renderer->plan) &&
            wr_keep_compare(&renderer->keep, renderer->looked,
                            wr_schemes[renderer->plan.scheme].reach + 2);
@@ -229,14 +257,14 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
 static bool run_tiles(WrRenderer *renderer, const WrFrameRequest *request, FrameJob *job)
 {
     job->tiles_u = (request->width + job->tile.tile_w - 1) / job->tile.tile_w;
-    int tiles = job->tiles_u * ((request->height + job->tile.tile_h - 1) / job->tile.tile_h);
+    int tiles = job->tiles_u * ((job->tile.rows + job->tile.tile_h - 1) / job->tile.tile_h);
     job->only = request->only;
     if (!wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
         job->keep = &renderer->keep;
     } else {
         wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
         job->cancel = request->cancel;
-        if (request->keep && !request->only) {
+        if (may_keep(request)) {
             wr_keep_start(&renderer->keep, tiles);
             job->tile.seen = renderer->keep.seen;
         }
@@ -252,7 +280,7 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
     const WrKernels *kernels =
         wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, err);
-    if (!kernels || !resize(renderer, request->width, request->height, err)) return false;
+    if (!kernels || !resize(renderer, request, err)) return false;
     const WrPlan before = renderer->plan;
     WrPlanAsk ask = {
         .scene = request->scene, .dials = dials, .force = request->force, .full = request->full

@@ -20,7 +20,10 @@ typedef struct WrRenderer WrRenderer;
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */
     const WrScene *scene;
-    int width, height;    /* pixels, 1..16384 each */
+    int width, height; /* pixels, 1..16384 each */
+    /* A band of the picture: its rows [first, first + rows) alone, with the bits that they have in the
+       whole; rows 0: all. `keep` is as false then, and there is no `only`. */
+    int first, rows;
     double turn_deg;      /* turntable angle about the world's y axis */
     const WrDials *dials; /* NULL: the scene's */
     bool keep; /* the view rests: remember what each tile of the picture looks at, so that the
@@ -34,7 +37,7 @@ typedef struct WrFrameRequest {
        had them (0 in the first). NULL: all. */
     const unsigned char *only;
     /* n' at each pixel's centre, object space, towards the viewer's side, 0,0,0 where the object is not;
-       [height][width][3], the caller's; NULL: not wanted. One sample a pixel is taken, whatever the
+       [height or else rows][width][3], the caller's; NULL: not wanted. One sample a pixel is taken, whatever the
        dials say of supersampling. */
     float *normals;
     /* Effects that run, or do not, whatever the scene calls for: [WR_EFFECT_COUNT]; NULL: none. */
@@ -50,7 +53,7 @@ typedef struct
 } WrStageTimes;
 
 typedef struct WrFrame {
-    int width, height;
+    int width, height; /* a band's: its rows */
     float *rgba; /* [height][width][4] linear, premultiplied; A is coverage; owned by the renderer,
                     valid until its next frame */
     int64_t covered; /* pixels with coverage > 0 */

@@ -67,7 +67,7 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
     WrPlan *plan = &renderer->plan;
     const double total = wr_clock_seconds() - started;
     *frame = (WrFrame){
-        .width = renderer->width, .height = renderer->height, .rgba = renderer->rgba, .plan = plan
+        .width = renderer->width, .height = renderer->rows, .rgba = renderer->rgba, .plan = plan
     };
     for (int i = 0; i < renderer->threads; i++) {
         const WrTileScratch *s = renderer->scratch[i];

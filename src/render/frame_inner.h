@@ -36,8 +36,11 @@ struct WrRenderer {
     ColourCopy colour;
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
-    float *rgba; /* the last picture */
+    float *rgba; /* the last picture, or the last band of it */
     int width, height;
+    int top, rows; /* of the picture: what rgba holds */
+    int room;      /* rows that rgba has memory for */
+    bool banded;   /* it is a band */
     WrPlan plan;
     WrView view; /* of the last frame, for picking */
     WrScene *scene;

@@ -97,7 +97,7 @@ void wr_tile_mean(float *sample, int k, size_t step, float out[4])
 
 static float *pixel_at(const WrTileJob *job, int x, int y)
 {
-    return job->rgba + ((size_t)y * (size_t)job->width + (size_t)x) * 4;
+    return job->rgba + wr_tile_place(job, x, y) * 4;
 }
 
 /* Where the rows of a tile go. */
@@ -168,7 +168,7 @@ static void render_point(const WrTileJob *job, WrTilePart part, bool rgba, WrTil
     Rows out = { .rgba = rgba ? pixel_at(job, part.x, part.y) : NULL,
                  .rgba_step = 4 * wide,
                  .normals_step = 3 * wide };
-    if (job->normals) out.normals = job->normals + ((size_t)part.y * wide + (size_t)part.x) * 3;
+    if (job->normals) out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
     run_rows(job, 1, &tile, &out, scratch);
 }
 
@@ -204,7 +204,7 @@ static void clear(const WrTileJob *job, WrTilePart part)
     for (int y = part.y; y < part.y + part.h; y++) {
         memset(pixel_at(job, part.x, y), 0, (size_t)part.w * 4 * sizeof(float));
         if (job->normals)
-            memset(job->normals + ((size_t)y * (size_t)job->width + (size_t)part.x) * 3, 0,
+            memset(job->normals + wr_tile_place(job, part.x, y) * 3, 0,
                    (size_t)part.w * 3 * sizeof(float));
     }
 }

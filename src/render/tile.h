@@ -29,9 +29,10 @@ typedef struct WrTileJob {
     WrColourLook colour; /* rgba NULL: none */
     int samples;         /* K */
     int width, height;   /* pixels */
+    int top, rows;       /* the band of it that is wanted */
     int tile_w, tile_h;  /* pixels */
     int tiles_u;
-    float *rgba;    /* the picture */
+    float *rgba;    /* the picture's band */
     float *normals; /* WrFrameRequest's; or NULL */
     WrBlocks *seen; /* [tiles] to fill with what each tile looks at; NULL: not wanted */
 } WrTileJob;
@@ -87,6 +88,12 @@ static inline void wr_did(WrTileScratch *scratch, WrEffect effect)
     scratch->ran |= 1U << effect;
 }
 
+/* Where a pixel of the picture is stored. */
+static inline size_t wr_tile_place(const WrTileJob *job, int x, int y)
+{
+    return (size_t)(y - job->top) * (size_t)job->width + (size_t)x;
+}
+
 /* Pixels of the picture that a tile is made of. */
 typedef struct WrTilePart {
     int x, y, w, h;
@@ -95,7 +102,7 @@ typedef struct WrTilePart {
 /* Tile sizes for K x K samples: about 256 x 32 samples whatever K. blocks: as many blocks of WR_FRAME_BLOCK
    pixels beside each other, or a power of two that divides one, and no taller than one. */
 void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *tile_h);
-/* A tile or a part of one, within the picture; index: of the tile in job->seen. */
+/* A tile or a part of one, within the band; index: of the tile in job->seen. */
 void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch);
 /* (u,v) and face at one sample of the grid; false where nothing is. Uses scratch. */
 bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u,
