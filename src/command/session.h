@@ -40,7 +40,10 @@ typedef struct WrSessionOptions {
     bool
         composites; /* every command makes the composite too, so that nobody who looks at the document
                              afterwards has to: for the window */
-    bool smooth;    /* new documents have 2 x 2 samples a pixel, so that edges are no stairs;
+    size_t
+        picture_bytes; /* that the rows of a picture may take on its way into a file; 0: 64 MiB. Whatever it is,
+                             a strip of 64 rows is held */
+    bool smooth; /* new documents have 2 x 2 samples a pixel, so that edges are no stairs;
                              else one. What a file says of its dials holds either way */
 } WrSessionOptions;
 
@@ -183,7 +186,9 @@ const char *wr_chosen_recall(const char *kept, const WrFrameRequest *request, Wr
 void wr_chosen_write(const WrChoice *choice, const WrField *field, const WrScene *scene,
                      WrText *text);
 /* The same to a file: linear float R, G, B, A (premultiplied, background 0) for exr, tif and tiff, else
-   8-bit sRGB over the scene's background. Works whatever options.outputs says. */
+   8-bit sRGB over the scene's background. A large one is drawn and written by bands of rows, the same bits;
+   under a tolerance, which all of a picture keeps to together, it is held whole. Works whatever options.outputs
+   says. */
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
                        WrError *err);
 /* Save under that name; then path and saved_revision are set. Refuses to save over a file of a newer version

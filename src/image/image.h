@@ -133,6 +133,7 @@ typedef struct WrImageOut {
     size_t profile_size;
     WrRowSource rows;
     void *ctx;
+    bool tells; /* rows tells itself how far the part is: it is most of the work */
 } WrImageOut;
 
 /* Write a file as a whole replacement (base/file.h); the format goes by the ending. Several parts only

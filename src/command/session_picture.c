@@ -1,0 +1,205 @@
+/* Pictures of the document: in memory, and into files by bands of rows, so that no more of a large one than a
+   band lies in memory. */
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "command/inner.h"
+#include "document/document.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+
+#include <string.h>
+
+#define BAND_BYTES ((size_t)64 << 20) /* of rows that are held, unless the options say otherwise */
+#define DRAWN 0.8                     /* of a picture's work: drawing it; its file is the rest */
+
+static bool make_request(WrSession *session, int width, int height, double turn_deg,
+                         WrFrameRequest *out, WrError *err)
+{
+    if (!session->renderer)
+        session->renderer = wr_renderer_new(session->options.pool, session->options.isa, err);
+    if (!session->renderer) return false;
+    const WrProgress *here = wr_progress_here();
+    *out = (WrFrameRequest){ .field = wr_document_composite(session->state.document,
+                                                            session->options.pool),
+                             .scene = session->state.document->scene,
+                             .width = width,
+                             .height = height,
+                             .turn_deg = turn_deg,
+                             .full = session->options.full,
+                             .cancel = here ? here->cancel : NULL };
+    return true;
+}
+
+bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
+                      WrError *err)
+{
+    WrFrameRequest request;
+    if (!make_request(session, width, height, turn_deg, &request, err)) return false;
+    if (request.scene->tolerance.kind == WR_TOLERANCE_NONE)
+        return wr_renderer_frame(session->renderer, &request, frame, err);
+    wr_session_recall_chosen(session, &request);
+    return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
+}
+
+bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,
+                     WrError *err)
+{
+    WrFrameRequest request;
+    if (!make_request(session, width, height, turn_deg[0], &request, err)) return false;
+    if (request.scene->tolerance.kind == WR_TOLERANCE_NONE || count < 2) return true;
+    if (!wr_tolerance_turn(session->renderer, &request, turn_deg, count, &session->choice, err))
+        return false;
+    wr_session_note(session, "%s", session->choice.reason);
+    session->choice.told = true;
+    return true;
+}
+
+const WrChoice *wr_session_choice(const WrSession *session)
+{
+    return &session->choice;
+}
+
+/* ---- files ---- */
+
+/* A picture on its way into a file, from above. */
+typedef struct Picture {
+    WrSession *session;
+    WrFrameRequest request;
+    WrFrame frame; /* the rows at hand */
+    int first;     /* of them */
+    int step;      /* rows of a band */
+    double drawn;  /* of a band's work: drawing it; its place in the file is the rest */
+    bool linear;
+    int64_t replaced;
+} Picture;
+
+/* Rows of a band: whole strips, as files are written; all where they fit. */
+static int band_rows(const WrSession *session, int width, int height)
+{
+    const size_t most =
+        session->options.picture_bytes ? session->options.picture_bytes : BAND_BYTES;
+    const size_t row = (size_t)(width > 0 ? width : 1) * 4 * sizeof(float);
+    const size_t strips = most / row / WR_IMAGE_STRIP;
+    if (strips * WR_IMAGE_STRIP >= (size_t)height) return height;
+    return strips > 0 ? (int)strips * WR_IMAGE_STRIP : WR_IMAGE_STRIP;
+}
+
+/* How far the picture is when that much of the band at hand is done. */
+static double done_of(const Picture *picture, double share)
+{
+    return (picture->first + share * picture->frame.height) / picture->request.height;
+}
+
+static bool draw_band(Picture *picture, int y, WrError *err)
+{
+    WrProgressPart part;
+    const int left = picture->request.height - y;
+    picture->first = y;
+    picture->frame.height = left < picture->step ? left : picture->step;
+    picture->request.first = y;
+    picture->request.rows = picture->frame.height;
+    const WrProgress *whole =
+        wr_progress_enter(&part, done_of(picture, 0.0), done_of(picture, picture->drawn));
+    const bool good =
+        wr_renderer_frame(picture->session->renderer, &picture->request, &picture->frame, err);
+    wr_progress_set(whole);
+    return good;
+}
+
+/* Rows of the file: linear float, or 8-bit sRGB over the scene's background. */
+static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    Picture *picture = ctx;
+    if (y >= picture->first + picture->frame.height && !draw_band(picture, y, err)) return false;
+    const size_t width = (size_t)picture->request.width, row = width * 4 * sizeof(float);
+    WrFrame strip = picture->frame;
+    strip.rgba += (size_t)(y - picture->first) * width * 4;
+    strip.height = rows;
+    if (picture->linear) memcpy(out, strip.rgba, (size_t)rows * row);
+    else
+        picture->replaced += wr_frame_to_srgb8(&strip, picture->request.scene->background, false,
+                                               out, picture->session->options.pool);
+    const double share = (double)(y + rows - picture->first) / picture->frame.height;
+    return wr_progress_tell(done_of(picture, picture->drawn + (1 - picture->drawn) * share)) ||
+           wr_fail(err, "cancelled");
+}
+
+/* What is drawn before its file is begun: the whole picture where it is held anyway. A tolerance is kept to by all
+   of it together. */
+static bool draw_first(Picture *picture, WrError *err)
+{
+    const WrFrameRequest *request = &picture->request;
+    const bool whole = request->scene->tolerance.kind != WR_TOLERANCE_NONE;
+    if (picture->step < request->height && !whole) {
+        picture->drawn = DRAWN;
+        return true;
+    }
+    if (!wr_session_frame(picture->session, request->width, request->height, request->turn_deg,
+                          &picture->frame, err))
+        return false;
+    picture->step = request->height;
+    return true;
+}
+
+static void tell_choice(WrSession *session, const char *path)
+{
+    if (session->state.document->scene->tolerance.kind == WR_TOLERANCE_NONE ||
+        session->choice.count == 0 || session->choice.met || session->choice.told)
+        return;
+    wr_session_note(session, "%s: %s", path, session->choice.reason);
+    session->choice.told = true;
+}
+
+static bool write_picture(Picture *picture, const char *path, WrError *err)
+{
+    const WrImageOut out = { .width = picture->request.width,
+                             .height = picture->request.height,
+                             .channels = picture->linear ? 4 : 3,
+                             .type = picture->linear ? WR_PIXEL_F32 : WR_PIXEL_U8,
+                             .data = picture->linear,
+                             .rows = give_rows,
+                             .ctx = picture,
+                             .tells = true };
+    if (!wr_image_write(path, &out, 1, err)) return false;
+    if (picture->replaced)
+        wr_session_note(picture->session, "%s: %lld values were not finite and became 0", path,
+                        (long long)picture->replaced);
+    return true;
+}
+
+/* Whether a file can be written there, before a long computation. */
+static bool check_target(const char *path, WrError *err)
+{
+    WrFileTarget target = { 0 };
+    if (!wr_file_begin(&target, path, err)) return false;
+    wr_file_abort(&target);
+    return true;
+}
+
+bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
+                       WrError *err)
+{
+    char buffer[16];
+    const char *ending = wr_path_ending(path, buffer);
+    Picture picture = { .session = session, .step = band_rows(session, width, height) };
+    picture.linear =
+        strcmp(ending, "exr") == 0 || strcmp(ending, "tif") == 0 || strcmp(ending, "tiff") == 0;
+    const bool linear = picture.linear;
+    if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8, linear ? 4 : 3, linear, err))
+        return false;
+    if (!check_target(path, err) ||
+        !make_request(session, width, height, turn_deg, &picture.request, err))
+        return false;
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, DRAWN);
+    bool good = draw_first(&picture, err);
+    wr_progress_set(whole);
+    if (!good) return false;
+    tell_choice(session, path);
+    wr_progress_enter(&part, picture.drawn > 0 ? 0.0 : DRAWN, 1.0);
+    good = write_picture(&picture, path, err);
+    wr_progress_set(whole);
+    return good;
+}
