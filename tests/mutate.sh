@@ -99,17 +99,24 @@ plant "$folder/tree" || exit 1
 build "$folder/tree" "$folder/build"
 rows_program=
 is_hard && rows_program=$folder/build/hard_rows
+# NAME, PROGRAM and its argument, of the tests in C; what is not there is a script, and run by ctest.
+programs() {
+    local program
+    for program in "$folder"/build/run_*; do "$program" | sed "s|.*|&\t$program\t&|"; done
+    for program in "$folder"/build/test_*; do printf '%s\t%s\n' "${program##*/test_}" "$program"; done
+}
+is_hard || programs >"$folder/programs"
 rm -rf "$folder/told" && mkdir "$folder/told" || exit 1
 wrong=0
 
 # Those of the cases "$@" that fail, with the precisions that do, or that stop the program.
 failing() {
-    local id said
+    local id said command
     for id in "$@"; do
         if [[ -n $rows_program ]]; then
             said=$(timeout 120 "$rows_program" "$id" 2>/dev/null) || echo "${said:-$id float double}"
-        elif [[ -x $folder/build/test_$id ]]; then
-            (cd "$folder/build/tests" && timeout 300 "$folder/build/test_$id") >/dev/null 2>&1 || echo "$id"
+        elif IFS=$'\t' read -r -a command < <(sed -n "s/^$id\t//p" "$folder/programs"); then
+            (cd "$folder/build/tests" && timeout 300 "${command[@]}") >/dev/null 2>&1 || echo "$id"
         else
             ctest --test-dir "$folder/build" --timeout 300 -R "^$id\$" >/dev/null 2>&1 || echo "$id"
         fi

@@ -21,12 +21,12 @@ configure() {
 # ---- what was built outside the checkout finds what ships with the program; a copy elsewhere does not ----
 unset WRINKLE_DATA
 configure outside -DWR_TESTS=ON || complain "configuring outside the checkout: $(tail -n 5 "$folder/outside.log")"
-cmake --build "$folder/outside" --target test_data --parallel 2 >"$folder/build.log" 2>&1 ||
+cmake --build "$folder/outside" --target run_base --parallel 2 >"$folder/build.log" 2>&1 ||
     complain "building outside the checkout: $(tail -n 5 "$folder/build.log")"
-(cd / && "$folder/outside/test_data" >"$folder/data.log" 2>&1) || complain "$(cat "$folder/data.log")"
+(cd / && "$folder/outside/run_base" data >"$folder/data.log" 2>&1) || complain "$(cat "$folder/data.log")"
 mkdir "$folder/elsewhere"
-cp "$folder/outside/test_data" "$folder/elsewhere"
-(cd / && "$folder/elsewhere/test_data" >/dev/null 2>&1) && complain "a copy finds the checkout's files"
+cp "$folder/outside/run_base" "$folder/elsewhere"
+(cd / && "$folder/elsewhere/run_base" data >/dev/null 2>&1) && complain "a copy finds the checkout's files"
 
 # ---- without cmocka: no tests, unless they are asked for ----
 mkdir "$folder/bin"

@@ -13,6 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The tests of a room are one program: their main has another name each (wr_test in tests/CMakeLists.txt), and runner.c
+   calls it. */
+#ifdef main
+int main(void);
+#endif
+
 /* |a - b| <= tolerance, with the values in the message. */
 #define assert_near(a, b, tolerance)                                                               \
     do {                                                                                           \

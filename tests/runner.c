@@ -1,0 +1,32 @@
+/* runner.c - the tests of a room in one program: `run_ROOM NAME` runs tests/test_NAME.c, in this process alone;
+   without one it lists them. WR_TEST_ROWS is a file of WR_TEST(NAME) lines, made by wr_test in
+   tests/CMakeLists.txt, which also gives the main of each test file its name. */
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#define WR_TEST(name) int wr_test_main_##name(void);
+#include WR_TEST_ROWS
+#undef WR_TEST
+
+static const struct {
+    const char *name;
+    int (*run)(void);
+} tests[] = {
+#define WR_TEST(name) { #name, wr_test_main_##name },
+#include WR_TEST_ROWS
+#undef WR_TEST
+};
+enum { TESTS = sizeof tests / sizeof tests[0] };
+
+int main(int argc, char **argv)
+{
+    for (int i = 0; i < TESTS; i++) {
+        if (argc == 2 && strcmp(argv[1], tests[i].name) == 0) return tests[i].run();
+        if (argc < 2) puts(tests[i].name);
+    }
+    if (argc == 2)
+        fprintf(stderr, "%s has no test '%s'; without a name it lists them\n", argv[0], argv[1]);
+    if (argc > 2) fprintf(stderr, "%s takes one name, not %d\n", argv[0], argc - 1);
+    return 2; /* nothing was tested */
+}
