@@ -14,6 +14,7 @@
 #include "ui/canvas/canvas_range.h"
 #include "ui/gui/gui_icons.h"
 #include "ui/jobs/job.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/keys.h"
 #include "ui/desk/layout.h"
 #include "ui/preview/rotation.h"
@@ -311,32 +312,74 @@ static void a_key_that_is_held_has_a_name_and_no_event(void **state)
     wr_keys_free(map);
 }
 
+static const char *const actions[] = {
+#define WORD(name, keys) #name,
+    WR_ACTIONS(WORD) WR_FAMILY_ACTIONS(WORD)
+#undef WORD
+};
+
+/* `keys` as wr_keys_list tells them. */
+static void assert_each_finds(const WrKeyMap *map, const char *keys, const char *action)
+{
+    WrError err;
+    for (const char *at = keys; *at;) {
+        const char *end = strstr(at, "  ");
+        size_t length = end ? (size_t)(end - at) : strlen(at);
+        WrKey key;
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        for (char *c = name; *c; c++)
+            if (*c == ' ') *c = '_';
+        if (!wr_key_parse(name, length, &key, &err)) fail_msg("%s: %s", action, err.text);
+        SDL_Keymod mod = (SDL_Keymod)((key.mods & WR_MOD_CTRL ? KMOD_LCTRL : 0) |
+                                      (key.mods & WR_MOD_SHIFT ? KMOD_LSHIFT : 0) |
+                                      (key.mods & WR_MOD_ALT ? KMOD_LALT : 0));
+        const char *found = wr_keys_find(map, (SDL_Keysym){ .sym = key.code, .mod = mod });
+        if (!found || strcmp(found, action) != 0)
+            fail_msg("%s is the key of %s and of %s", name, action, found ? found : "none");
+        at += length + (end ? 2 : 0);
+    }
+}
+
 /* No two actions of a map may want the same key. */
 static void no_key_of_a_map_that_is_shipped_means_two_things(void **state)
 {
     (void)state;
     WrError err;
-    static const char *const actions[] = {
-        "brush",       "smooth",      "smear",         "clone",           "flood",
-        "ramp",        "shape_rect",  "shape_ellipse", "shape_polygon",   "shape_path",
-        "stamp",       "symmetry",    "erase_mode",    "reset_values",    "height_up",
-        "height_down", "preset_last", "preset_next",   "preset_previous", "swap_mode"
-    };
+    WrText keys = { 0 };
     for (int m = 0; m < WR_KEY_MAPS; m++) {
         WrKeyMap *map = wr_keys_new();
         assert_true(wr_keys_read(map, wr_key_maps[m].text, &err));
         for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
-            char label[32];
-            WrKey key;
-            wr_keys_label(map, actions[i], label);
-            assert_true(wr_key_parse(label, strlen(label), &key, &err));
-            SDL_Keymod mod = (SDL_Keymod)((key.mods & WR_MOD_CTRL ? KMOD_LCTRL : 0) |
-                                          (key.mods & WR_MOD_SHIFT ? KMOD_LSHIFT : 0));
-            const char *found = wr_keys_find(map, (SDL_Keysym){ .sym = key.code, .mod = mod });
-            assert_string_equal(found, actions[i]);
+            wr_text_clear(&keys);
+            wr_keys_list(map, actions[i], &keys);
+            assert_each_finds(map, wr_text_get(&keys), actions[i]);
         }
         wr_keys_free(map);
     }
+    wr_text_fini(&keys);
+}
+
+static bool is_action(const char *word, size_t length)
+{
+    static const char *const held[] = {
+#define WORD(name, keys) #name,
+        WR_HELD_ACTIONS(WORD)
+#undef WORD
+    };
+    for (size_t i = 0; i < sizeof held / sizeof *held; i++)
+        if (strlen(held[i]) == length && strncmp(word, held[i], length) == 0) return true;
+    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++)
+        if (strlen(actions[i]) == length && strncmp(word, actions[i], length) == 0) return true;
+    return false;
+}
+
+static void maps_that_are_shipped_name_actions_that_there_are(void **state)
+{
+    (void)state;
+    for (int m = 0; m < WR_KEY_MAPS; m++)
+        for (const char *at = wr_key_maps[m].text; *at; at += strcspn(at, "\n") + 1)
+            if (!is_action(at, strcspn(at, ":"))) fail_msg("no action: %.40s", at);
 }
 
 /* ---- the strip of tools ---- */
@@ -729,6 +772,7 @@ int main(void)
         cmocka_unit_test(keys_that_are_held_go_by_the_map),
         cmocka_unit_test(a_key_that_is_held_has_a_name_and_no_event),
         cmocka_unit_test(no_key_of_a_map_that_is_shipped_means_two_things),
+        cmocka_unit_test(maps_that_are_shipped_name_actions_that_there_are),
         cmocka_unit_test(a_strip_that_is_too_short_for_its_tools_has_two_columns),
         cmocka_unit_test(a_small_picture_shows_the_table_upright),
         cmocka_unit_test(a_layers_picture_tells_up_from_down_from_nothing),

@@ -6,7 +6,13 @@
 #include "ui/desk/dialog.h"
 #include "ui/desk/roster.h"
 #include "ui/tools/tool.h"
+#include "ui/desk/action_list.h"
+#include "ui/generate/generate_hand.h"
 #include "ui/jobs/files.h"
+
+#include "field/ops.h"
+
+#include <string.h>
 
 static const WrAction *action(const char *name)
 {
@@ -21,6 +27,21 @@ static void every_action_has_a_word_of_its_own_and_runs(void **state)
     for (const WrAction *a = wr_roster.actions; a->name; a++) {
         if (action(a->name) != a) fail_msg("action %s stands twice", a->name);
         if (!a->label || !a->run) fail_msg("action %s lacks its label, or does nothing", a->name);
+    }
+}
+
+/* Their words are made of those of other tables. */
+static void actions_of_families_are_there(void **state)
+{
+    (void)state;
+#define WORD(name, keys) #name,
+    static const char *const names[] = { WR_FAMILY_ACTIONS(WORD) };
+#undef WORD
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *rest = strchr(names[i], '_') + 1;
+        bool adjusts = strncmp(names[i], "adjust_", 7) == 0;
+        if (adjusts ? !wr_op_find(rest) : !wr_action_generator(names[i]))
+            fail_msg("%s is none of its family", names[i]);
     }
 }
 
@@ -52,6 +73,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_action_has_a_word_of_its_own_and_runs),
+        cmocka_unit_test(actions_of_families_are_there),
         cmocka_unit_test(every_tool_is_chosen_by_an_action),
         cmocka_unit_test(dialogs_tabs_parts_and_files_are_whole),
     };

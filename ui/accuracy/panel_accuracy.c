@@ -4,6 +4,7 @@
 #include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/settings.h"
@@ -75,7 +76,7 @@ static void no_error(WrApp *app)
     if (app->settings->turning) {
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                             "The patch turns: its error is measured while it rests.");
-        if (wr_gui_chip(WR_ICON_PAUSE, "Let it rest")) wr_action_run(app, "turn");
+        if (wr_gui_chip(WR_ICON_PAUSE, "Let it rest")) wr_action_run(app, WR_ACT(turn));
     } else if (a->error_of == a->state && a->error_why.text[0]) {
         wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_BAD, a->error_why.text);
     } else if (!a->error) {
@@ -202,7 +203,7 @@ void wr_panel_accuracy(WrApp *app)
     wr_panel_accuracy_dials(app);
     wr_gui_space(8);
     wr_gui_heading("HARD CASES");
-    if (wr_gui_button("Hard cases...", false)) wr_action_run(app, "hard_cases");
+    if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
     wr_gui_tip(
         "116 inputs at which a naive program fails: what must hold, and how far off this one is");
     if (a->inspector.shown && app->layout->lower.w <= 0) {

@@ -2,6 +2,7 @@
    them by measuring. */
 #include "ui/accuracy/accuracy.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
 #include "ui/desk/scene_line.h"
@@ -171,10 +172,10 @@ static void which_side(WrApp *app)
     wr_gui_segments("side", sides, NULL, 2, &a->chooses);
     wr_gui_tip("What the rows below, and a click in the plot, set");
     if (a->chooses == 0) return;
-    if (wr_gui_chip(NULL, "Take A's")) wr_action_run(app, "compare_take");
+    if (wr_gui_chip(NULL, "Take A's")) wr_action_run(app, WR_ACT(compare_take));
     wr_gui_tip("B gets the dials that the scene has now");
     wr_gui_same_line(6);
-    if (wr_gui_chip(NULL, "Swap A and B")) wr_action_run(app, "compare_swap");
+    if (wr_gui_chip(NULL, "Swap A and B")) wr_action_run(app, WR_ACT(compare_swap));
     wr_gui_tip("The scene gets B's dials, B the scene's");
 }
 

@@ -4,6 +4,7 @@
 #include "ui/accuracy/accuracy_plot.h"
 #include "ui/accuracy/accuracy_work.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
@@ -232,7 +233,7 @@ static void foot(WrApp *app)
         if (wr_gui_chip(NULL, "Stop")) wr_job_interrupt(a->measure);
         return;
     }
-    if (wr_gui_button("Measure", false)) wr_action_run(app, "accuracy_measure");
+    if (wr_gui_button("Measure", false)) wr_action_run(app, WR_ACT(accuracy_measure));
     wr_gui_tip("Render this very view with each rung of each dial and with their combinations, "
                "time them, compare "
                "each with the reference. It also begins by itself, when the view rests.");

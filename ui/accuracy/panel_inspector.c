@@ -2,6 +2,7 @@
 #include "ui/accuracy/accuracy.h"
 #include "ui/accuracy/accuracy_probe.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/layout.h"
@@ -89,14 +90,14 @@ void wr_panel_inspector(WrApp *app)
 {
     const WrInspector *in = &app->accuracy->inspector;
     if (wr_gui_chip(in->pinned ? WR_ICON_LOCK : WR_ICON_UNLOCK, in->pinned ? "pinned" : "follows"))
-        wr_action_run(app, "inspector_pin");
+        wr_action_run(app, WR_ACT(inspector_pin));
     wr_gui_tip("Follows the pointer over the patch and over the table, or keeps to its place while "
                "the scene "
                "changes");
     wr_gui_same_line(6);
     wr_gui_disable(!in->known);
     if (wr_gui_chip(WR_ICON_COPY, in->copied ? "copied" : "copy"))
-        wr_action_run(app, "inspector_copy");
+        wr_action_run(app, WR_ACT(inspector_copy));
     wr_gui_enable();
     wr_gui_tip("All of it with all digits, as text");
     if (!in->have || !in->known) {

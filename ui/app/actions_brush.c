@@ -246,22 +246,22 @@ static void set_keys(WrApp *app, int map)
 
 void wr_act_keys_paint(WrApp *app)
 {
-    set_keys(app, 0);
+    set_keys(app, WR_KEYS_PAINT);
 }
 
 void wr_act_keys_sculpt(WrApp *app)
 {
-    set_keys(app, 1);
+    set_keys(app, WR_KEYS_SCULPT);
 }
 
 bool wr_is_keys_paint(const WrApp *app)
 {
-    return app->settings->key_map == 0;
+    return app->settings->key_map == WR_KEYS_PAINT;
 }
 
 bool wr_is_keys_sculpt(const WrApp *app)
 {
-    return app->settings->key_map == 1;
+    return app->settings->key_map == WR_KEYS_SCULPT;
 }
 
 void wr_act_stamp_open(WrApp *app)

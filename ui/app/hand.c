@@ -3,6 +3,7 @@
 #include "ui/app/hand_events.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/hand.h"
@@ -87,7 +88,7 @@ static void press_canvas(WrApp *app, const WrPointer *at)
         return;
     }
     hand->grab = WR_GRAB_TOOL;
-    if (tool->paints && !hand->line && wr_keys_hold(app->keys, "hold_size", at->mods)) {
+    if (tool->paints && !hand->line && wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods)) {
         /* a drag sizes the brush, a click draws a line: known when it moves, or is let go */
         hand->grab = WR_GRAB_RESIZE;
         app->brush->resize_radius = app->settings->brush.radius;
@@ -360,7 +361,7 @@ static void space(WrApp *app, bool down)
 {
     WrHand *hand = app->hand;
     if (down && hand->on_patch) {
-        wr_action_run(app, "turn");
+        wr_action_run(app, WR_ACT(turn));
         return;
     }
     if (down && !hand->space) hand->space_used = false;
@@ -373,18 +374,18 @@ static void space(WrApp *app, bool down)
 static bool hold(WrApp *app, const char *action, const SDL_KeyboardEvent *event)
 {
     WrHand *hand = app->hand;
-    if (strcmp(action, "straight_line") == 0) {
+    if (strcmp(action, WR_ACT(straight_line)) == 0) {
         if (hand->grab == WR_GRAB_NONE) hand->line = true;
         hand->line_key = event->keysym.sym;
         return true;
     }
-    if (strcmp(action, "compare_hold") == 0) {
+    if (strcmp(action, WR_ACT(compare_hold)) == 0) {
         app->accuracy->hold_key = event->keysym.sym;
         app->accuracy->hold_b = true;
         wr_app_redraw(app);
         return true;
     }
-    if (strcmp(action, "paint_patch") == 0) {
+    if (strcmp(action, WR_ACT(paint_patch)) == 0) {
         if (event->repeat) return true;
         hand->quick_key = event->keysym.sym;
         hand->quick_at = wr_clock_seconds();
@@ -409,7 +410,7 @@ static void key_up(WrApp *app, const SDL_KeyboardEvent *event)
         bool was_held = wr_clock_seconds() - hand->quick_at > TAP_SECONDS ||
                         app->brush->strokes != hand->quick_events;
         hand->quick_at = 0.0;
-        if (was_held) wr_action_run(app, "paint_patch");
+        if (was_held) wr_action_run(app, WR_ACT(paint_patch));
     }
 }
 

@@ -5,6 +5,7 @@
    refused, and the bar says so. */
 #include "ui/desk/busy.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/keys.h"
 #include "ui/desk/later.h"
@@ -226,7 +227,7 @@ static bool wants_end(const Wait *wait, const SDL_Event *event)
     if (event->type == SDL_WINDOWEVENT) return event->window.event == SDL_WINDOWEVENT_CLOSE;
     if (event->type != SDL_KEYDOWN) return false;
     const char *action = wr_keys_find(wait->app->keys, event->key.keysym);
-    return action && strcmp(action, "quit") == 0;
+    return action && strcmp(action, WR_ACT(quit)) == 0;
 }
 
 /* Parts follow these even now. */

@@ -49,5 +49,5 @@ typedef struct WrKeyMapText {
 
 /* Paint, with the habits of painters: Ctrl picks a height, Shift sizes; and Sculpt: Ctrl turns raise and
  * lower round, Shift smooths. In each of them Alt does what the other does. */
-#define WR_KEY_MAPS 2
+enum { WR_KEYS_PAINT, WR_KEYS_SCULPT, WR_KEY_MAPS };
 extern const WrKeyMapText wr_key_maps[WR_KEY_MAPS];

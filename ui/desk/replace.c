@@ -2,6 +2,7 @@
    click that came too often replaces anything. */
 #include "ui/desk/replace.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/document.h"
@@ -113,7 +114,7 @@ void wr_dialog_replace(WrApp *app)
     else if (replaces) go_ahead(app);
     else if (other && changed) {
         wr_dialog_close(app);
-        wr_action_run(app, "save_as");
+        wr_action_run(app, WR_ACT(save_as));
     } else if (other) go_back(app);
     else if (cancel) {
         wr_dialog_close(app);

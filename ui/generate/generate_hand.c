@@ -1,6 +1,7 @@
 /* The generator in hand: its values, its command line, and what it would make. */
 #include "ui/generate/generate_hand.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
@@ -168,7 +169,7 @@ void wr_generate_open_last(WrApp *app)
 
 void wr_generate_changed(WrApp *app)
 {
-    int tool = wr_tool_find(app, "generate");
+    int tool = wr_tool_find(app, WR_ACT(generate));
     if (app->tool != tool) wr_tool_choose(app, tool); /* choosing lets go of what is dragged */
     app->generate->active = true;
     wr_app_redraw(app);

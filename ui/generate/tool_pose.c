@@ -1,6 +1,7 @@
 /* The place of what the Generate panel makes: dragged on the canvas, with a corner for its size and a ring
    for its turn, where its parameters say so. */
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/hand.h"
@@ -361,7 +362,7 @@ static void options(WrApp *app)
 /* ---- the row ---- */
 
 const WrTool wr_tool_generate = {
-    .action = "generate",
+    .action = WR_ACT(generate),
     .icon = WR_ICON_WAND,
     .help = "Patterns, noise, text and more from the Generate tab: drag what it makes, Enter puts "
             "it on the table, Escape gives up.",

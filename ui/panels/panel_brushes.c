@@ -1,6 +1,7 @@
 /* The Brushes tab: presets as pictures, by collection and group, with a search; below them the values of
    the brush in hand. Where there is no room for both, one of them at a time. */
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/search.h"
 #include "ui/desk/settings.h"
@@ -223,7 +224,8 @@ static void foot(WrApp *app)
         wr_settings_set_favourite(app->settings, id, !liked);
     wr_gui_tip("Favourites are chosen by the keys , and .");
     wr_gui_same_line(4);
-    if (wr_gui_glyph("save", WR_ICON_SAVE, 24, WR_COLOUR_LABEL)) wr_action_run(app, "preset_save");
+    if (wr_gui_glyph("save", WR_ICON_SAVE, 24, WR_COLOUR_LABEL))
+        wr_action_run(app, WR_ACT(preset_save));
     wr_gui_tip("Save the brush as a preset of your own");
     wr_gui_same_line(4);
     bool own = strncmp(id, "user/", 5) == 0;

@@ -1,5 +1,6 @@
 /* Dialogs: only where a decision is needed. */
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
@@ -32,7 +33,7 @@ void wr_dialog_unsaved(WrApp *app)
     bool key = !app->dialog->fresh;
     if (wr_gui_button("Save", true) || (key && wr_gui_return_pressed())) {
         wr_dialog_close(app);
-        wr_action_run(app, "save");
+        wr_action_run(app, WR_ACT(save));
     }
     wr_gui_same_line(8);
     if (wr_gui_button("Discard", false) || (key && wr_gui_letter_pressed(SDL_SCANCODE_D))) {

@@ -1,5 +1,6 @@
 /* What was done, as the commands that did it; a click goes there. */
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
@@ -77,7 +78,7 @@ void wr_panel_history(WrApp *app)
     wr_gui_same_line(8);
     wr_gui_move_to(wr_gui_width() - wide);
     wr_gui_disable(count == 0);
-    if (wr_gui_chip(NULL, "Save as script...")) wr_action_run(app, "save_history");
+    if (wr_gui_chip(NULL, "Save as script...")) wr_action_run(app, WR_ACT(save_history));
     wr_gui_enable();
     wr_gui_space(2);
     if (count == 0) {

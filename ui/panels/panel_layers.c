@@ -2,6 +2,7 @@
 #include "ui/panels/panel_layers.h"
 #include "ui/canvas/thumb.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/keys.h"
@@ -301,11 +302,20 @@ static void menu_item(WrApp *app, const char *name)
 
 static void menu(WrApp *app)
 {
-    static const char *const names[] = {
-        "layer_rename",  "layer_duplicate", "layer_delete", "-", "layer_merge",
-        "layer_flatten", "layer_clear",     "layer_solo",   "-", "mask_selection",
-        "mask_white",    "mask_black",      "mask_none",    NULL
-    };
+    static const char *const names[] = { WR_ACT(layer_rename),
+                                         WR_ACT(layer_duplicate),
+                                         WR_ACT(layer_delete),
+                                         "-",
+                                         WR_ACT(layer_merge),
+                                         WR_ACT(layer_flatten),
+                                         WR_ACT(layer_clear),
+                                         WR_ACT(layer_solo),
+                                         "-",
+                                         WR_ACT(mask_selection),
+                                         WR_ACT(mask_white),
+                                         WR_ACT(mask_black),
+                                         WR_ACT(mask_none),
+                                         NULL };
     if (app->layers->open) wr_gui_popup_open("layer");
     app->layers->open = false;
     if (!wr_gui_popup_begin("layer")) return;
@@ -331,9 +341,11 @@ static void foot(WrApp *app)
 {
     static const struct {
         const char *action, *icon;
-    } buttons[] = { { "layer_add", WR_ICON_PLUS },      { "layer_duplicate", WR_ICON_COPY },
-                    { "layer_delete", WR_ICON_DELETE }, { "layer_merge", WR_ICON_MERGE },
-                    { "layer_raise", WR_ICON_RAISE },   { "layer_lower", WR_ICON_LOWER } };
+    } buttons[] = {
+        { WR_ACT(layer_add), WR_ICON_PLUS },      { WR_ACT(layer_duplicate), WR_ICON_COPY },
+        { WR_ACT(layer_delete), WR_ICON_DELETE }, { WR_ACT(layer_merge), WR_ICON_MERGE },
+        { WR_ACT(layer_raise), WR_ICON_RAISE },   { WR_ACT(layer_lower), WR_ICON_LOWER }
+    };
     for (size_t i = 0; i < sizeof buttons / sizeof *buttons; i++) {
         const WrAction *action = wr_action_find(app, buttons[i].action);
         bool enabled = !action->enabled || action->enabled(app);

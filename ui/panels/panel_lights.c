@@ -1,5 +1,6 @@
 /* The scene's panel: lights, camera, quality. */
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
@@ -124,7 +125,7 @@ static void camera(WrApp *app)
         wr_text_addf(&line, "camera %s", wr_camera_names[kind]);
     if (!c->orthographic) wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_FOV]);
     wr_gui_label("");
-    if (wr_gui_chip(NULL, "Fit the object")) wr_action_run(app, "camera_reset");
+    if (wr_gui_chip(NULL, "Fit the object")) wr_action_run(app, WR_ACT(camera_reset));
     if (line.length) wr_scene_run(app, &line);
     wr_text_fini(&line);
 }

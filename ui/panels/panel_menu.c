@@ -1,4 +1,5 @@
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"
 #include "ui/desk/keys.h"
@@ -21,100 +22,153 @@
 #define FIND_UNITS 190 /* width of what opens the search */
 
 /* Names of actions; "-" is a line, "recent", "scale" and "operations" are made below. */
-static const char *const file_menu[] = { "new",     "open",         "recent", "-",      "save",
-                                         "save_as", "save_history", "-",      "import", "export",
-                                         "-",       "quit",         NULL };
-static const char *const edit_menu[] = { "undo",       "redo",        "search", "-",
-                                         "keys_paint", "keys_sculpt", NULL };
-static const char *const brush_menu[] = { "brushes",
-                                          "round_brush",
-                                          "preset_last",
-                                          "preset_next",
-                                          "preset_previous",
-                                          "favourite",
-                                          "preset_save",
-                                          "lock_size",
+static const char *const file_menu[] = { WR_ACT(new),
+                                         WR_ACT(open),
+                                         "recent",
+                                         "-",
+                                         WR_ACT(save),
+                                         WR_ACT(save_as),
+                                         WR_ACT(save_history),
+                                         "-",
+                                         WR_ACT(import),
+                                         WR_ACT(export),
+                                         "-",
+                                         WR_ACT(quit),
+                                         NULL };
+static const char *const edit_menu[] = { WR_ACT(undo), WR_ACT(redo),       WR_ACT(search),
+                                         "-",          WR_ACT(keys_paint), WR_ACT(keys_sculpt),
+                                         NULL };
+static const char *const brush_menu[] = { WR_ACT(brushes),
+                                          WR_ACT(round_brush),
+                                          WR_ACT(preset_last),
+                                          WR_ACT(preset_next),
+                                          WR_ACT(preset_previous),
+                                          WR_ACT(favourite),
+                                          WR_ACT(preset_save),
+                                          WR_ACT(lock_size),
                                           "-",
-                                          "size_up",
-                                          "size_down",
-                                          "hardness_up",
-                                          "hardness_down",
-                                          "strength_up",
-                                          "strength_down",
-                                          "swap_mode",
-                                          "erase_mode",
-                                          "level_mode",
-                                          "height_up",
-                                          "height_down",
-                                          "reset_values",
+                                          WR_ACT(size_up),
+                                          WR_ACT(size_down),
+                                          WR_ACT(hardness_up),
+                                          WR_ACT(hardness_down),
+                                          WR_ACT(strength_up),
+                                          WR_ACT(strength_down),
+                                          WR_ACT(swap_mode),
+                                          WR_ACT(erase_mode),
+                                          WR_ACT(level_mode),
+                                          WR_ACT(height_up),
+                                          WR_ACT(height_down),
+                                          WR_ACT(reset_values),
                                           "-",
-                                          "steady_off",
-                                          "steady_smooth",
-                                          "steady_string",
-                                          "steady_catch_up",
+                                          WR_ACT(steady_off),
+                                          WR_ACT(steady_smooth),
+                                          WR_ACT(steady_string),
+                                          WR_ACT(steady_catch_up),
                                           "-",
-                                          "pressure_up",
-                                          "pressure_down",
-                                          "pressure_speed",
+                                          WR_ACT(pressure_up),
+                                          WR_ACT(pressure_down),
+                                          WR_ACT(pressure_speed),
                                           "-",
-                                          "symmetry",
-                                          "symmetry_on",
+                                          WR_ACT(symmetry),
+                                          WR_ACT(symmetry_on),
                                           NULL };
-static const char *const tool_menu[] = {
-    "brush", "smooth",     "smear",      "clone",         "straight_line",  "paint_patch",  "-",
-    "flood", "ramp",       "shape_rect", "shape_ellipse", "shape_polygon",  "shape_path",   "-",
-    "stamp", "stamp_open", "-",          "select_rect",   "select_ellipse", "select_lasso", "pick",
-    "pan",   "zoom",       NULL
-};
-static const char *const layer_menu[] = { "layer_add",
-                                          "layer_duplicate",
-                                          "layer_delete",
-                                          "layer_rename",
+static const char *const tool_menu[] = { WR_ACT(brush),
+                                         WR_ACT(smooth),
+                                         WR_ACT(smear),
+                                         WR_ACT(clone),
+                                         WR_ACT(straight_line),
+                                         WR_ACT(paint_patch),
+                                         "-",
+                                         WR_ACT(flood),
+                                         WR_ACT(ramp),
+                                         WR_ACT(shape_rect),
+                                         WR_ACT(shape_ellipse),
+                                         WR_ACT(shape_polygon),
+                                         WR_ACT(shape_path),
+                                         "-",
+                                         WR_ACT(stamp),
+                                         WR_ACT(stamp_open),
+                                         "-",
+                                         WR_ACT(select_rect),
+                                         WR_ACT(select_ellipse),
+                                         WR_ACT(select_lasso),
+                                         WR_ACT(pick),
+                                         WR_ACT(pan),
+                                         WR_ACT(zoom),
+                                         NULL };
+static const char *const layer_menu[] = { WR_ACT(layer_add),
+                                          WR_ACT(layer_duplicate),
+                                          WR_ACT(layer_delete),
+                                          WR_ACT(layer_rename),
                                           "-",
-                                          "layer_raise",
-                                          "layer_lower",
-                                          "layer_above",
-                                          "layer_below",
+                                          WR_ACT(layer_raise),
+                                          WR_ACT(layer_lower),
+                                          WR_ACT(layer_above),
+                                          WR_ACT(layer_below),
                                           "-",
-                                          "layer_show",
-                                          "layer_lock",
-                                          "layer_solo",
+                                          WR_ACT(layer_show),
+                                          WR_ACT(layer_lock),
+                                          WR_ACT(layer_solo),
                                           "-",
-                                          "mask_selection",
-                                          "mask_white",
-                                          "mask_black",
-                                          "mask_none",
+                                          WR_ACT(mask_selection),
+                                          WR_ACT(mask_white),
+                                          WR_ACT(mask_black),
+                                          WR_ACT(mask_none),
                                           "-",
-                                          "layer_merge",
-                                          "layer_flatten",
-                                          "layer_clear",
+                                          WR_ACT(layer_merge),
+                                          WR_ACT(layer_flatten),
+                                          WR_ACT(layer_clear),
                                           NULL };
-static const char *const select_menu[] = { "select_all",
-                                           "select_none",
-                                           "select_invert",
+static const char *const select_menu[] = { WR_ACT(select_all),
+                                           WR_ACT(select_none),
+                                           WR_ACT(select_invert),
                                            "-",
-                                           "select_grow",
-                                           "select_shrink",
-                                           "select_feather",
+                                           WR_ACT(select_grow),
+                                           WR_ACT(select_shrink),
+                                           WR_ACT(select_feather),
                                            "-",
-                                           "select_height",
-                                           "select_slope",
+                                           WR_ACT(select_height),
+                                           WR_ACT(select_slope),
                                            "-",
-                                           "select_rect",
-                                           "select_ellipse",
-                                           "select_lasso",
-                                           "ants",
+                                           WR_ACT(select_rect),
+                                           WR_ACT(select_ellipse),
+                                           WR_ACT(select_lasso),
+                                           WR_ACT(ants),
                                            NULL };
-static const char *const table_menu[] = { "table_size", "fill",        "grid",       "import",
-                                          "-",          "offset_half", "operations", NULL };
-static const char *const view_menu[] = {
-    "look_grey",   "look_signed",  "range_auto",    "range_unit",   "range_marks", "-",
-    "zoom_in",     "zoom_out",     "zoom_100",      "fit",          "-",           "turn",
-    "view_back",   "view_forward", "pose_reset",    "camera_reset", "-",           "accuracy",
-    "compare",     "inspector",    "inspector_pin", "hard_cases",   "-",           "view_both",
-    "view_canvas", "view_patch",   "panels",        "fullscreen",   "scale",       NULL
-};
-static const char *const help_menu[] = { "help", "tablet", "about", NULL };
+static const char *const table_menu[] = { WR_ACT(table_size), WR_ACT(fill), WR_ACT(grid),
+                                          WR_ACT(import),     "-",          WR_ACT(offset_half),
+                                          "operations",       NULL };
+static const char *const view_menu[] = { WR_ACT(look_grey),
+                                         WR_ACT(look_signed),
+                                         WR_ACT(range_auto),
+                                         WR_ACT(range_unit),
+                                         WR_ACT(range_marks),
+                                         "-",
+                                         WR_ACT(zoom_in),
+                                         WR_ACT(zoom_out),
+                                         WR_ACT(zoom_100),
+                                         WR_ACT(fit),
+                                         "-",
+                                         WR_ACT(turn),
+                                         WR_ACT(view_back),
+                                         WR_ACT(view_forward),
+                                         WR_ACT(pose_reset),
+                                         WR_ACT(camera_reset),
+                                         "-",
+                                         WR_ACT(accuracy),
+                                         "compare",
+                                         WR_ACT(inspector),
+                                         WR_ACT(inspector_pin),
+                                         WR_ACT(hard_cases),
+                                         "-",
+                                         WR_ACT(view_both),
+                                         WR_ACT(view_canvas),
+                                         WR_ACT(view_patch),
+                                         WR_ACT(panels),
+                                         WR_ACT(fullscreen),
+                                         "scale",
+                                         NULL };
+static const char *const help_menu[] = { WR_ACT(help), WR_ACT(tablet), WR_ACT(about), NULL };
 
 static void recent(WrApp *app)
 {
@@ -189,7 +243,7 @@ static void generator_item(WrApp *app, const WrGenerator *generator)
 static void generators(WrApp *app)
 {
     if (!wr_gui_menu_begin("Generate")) return;
-    item(app, "generate");
+    item(app, WR_ACT(generate));
     wr_gui_menu_separator();
     for (const WrFamily *f = wr_families; f->name; f++) {
         if (!f->rows->family) continue;
@@ -207,10 +261,17 @@ static void generators(WrApp *app)
 /* What the patch shows besides its picture. */
 static void compare(WrApp *app)
 {
-    static const char *const names[] = {
-        "look_plain", "look_split", "look_flicker", "compare_hold", "compare_take", "compare_swap",
-        "-",          "look_error", "look_dropped", "look_tilt",    "look_level"
-    };
+    static const char *const names[] = { WR_ACT(look_plain),
+                                         WR_ACT(look_split),
+                                         WR_ACT(look_flicker),
+                                         WR_ACT(compare_hold),
+                                         WR_ACT(compare_take),
+                                         WR_ACT(compare_swap),
+                                         "-",
+                                         WR_ACT(look_error),
+                                         WR_ACT(look_dropped),
+                                         WR_ACT(look_tilt),
+                                         WR_ACT(look_level) };
     if (!wr_gui_menu_begin("Patch shows")) return;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();
@@ -239,8 +300,8 @@ static void find_field(WrApp *app)
     if (app->width < wr_gui_px(900)) return;
     wr_gui_move_to(app->width - wide - wr_gui_px(12));
     char keys[32];
-    if (wr_gui_find_button("Search actions", wr_keys_label(app->keys, "search", keys), wide))
-        wr_action_run(app, "search");
+    if (wr_gui_find_button("Search actions", wr_keys_label(app->keys, WR_ACT(search), keys), wide))
+        wr_action_run(app, WR_ACT(search));
 }
 
 void wr_panel_menu(WrApp *app)

@@ -1,6 +1,7 @@
 /* Finding an action by typing: all that the menus hold, every table operation, every generator. */
 #include "ui/panels/panel_search.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
 #include "ui/desk/keys.h"
@@ -47,7 +48,8 @@ static int find(const WrApp *app, Found found[FOUND_MAX])
     int count = 0;
     const char *query = app->finder->text;
     for (const WrAction *a = app->roster->actions; a->name; a++)
-        if (strcmp(a->name, "search") != 0) offer(found, &count, a->name, a->label, NULL, query);
+        if (strcmp(a->name, WR_ACT(search)) != 0)
+            offer(found, &count, a->name, a->label, NULL, query);
     for (const WrOpInfo *op = wr_ops; op->name; op++) {
         char name[64], label[80];
         snprintf(name, sizeof name, "adjust_%.50s", op->name);

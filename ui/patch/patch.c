@@ -1,6 +1,7 @@
 /* The patch's view: what is wished of the preview and when, and what is drawn. */
 #include "ui/patch/patch.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/layout.h"
@@ -265,14 +266,14 @@ void wr_patch_overlay(WrApp *app)
     bool turning = app->settings->turning;
     if (room->w > wr_gui_px(220)) {
         if (wr_gui_chip(WR_ICON_BRUSH, app->paint->on ? "painting" : "paint"))
-            wr_action_run(app, "paint_patch");
+            wr_action_run(app, WR_ACT(paint_patch));
         wr_gui_tip(app->paint->on ? "The brush paints on the object, which stands still under it. "
                                     "Click to turn it by hand again."
                                   : "Paint on the object itself.");
         wr_gui_same_line(6);
     }
     if (wr_gui_chip(turning ? WR_ICON_PAUSE : WR_ICON_PLAY, turning ? "turning" : "paused"))
-        wr_action_run(app, "turn");
+        wr_action_run(app, WR_ACT(turn));
     wr_gui_tip(
         "Space over the patch. Drag it to turn it by hand, drag with the right button to move "
         "the light, wheel to come closer.");

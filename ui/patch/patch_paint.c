@@ -3,6 +3,7 @@
    (patch_pick.h). Where the next step lies elsewhere in the table than the surface's slopes there say,
    something jumped: the outline of a nearer part, another face of the cube, an edge, a seam of a
    replication that does not close. The stroke ends there and another one begins. */
+#include "ui/desk/action_list.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -162,7 +163,7 @@ static void draw_to(WrApp *app, const WrPointer *at)
 void wr_patch_paint_press(WrApp *app, const WrPointer *at)
 {
     double u, v;
-    if (wr_keys_hold(app->keys, "hold_pick", at->mods)) {
+    if (wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods)) {
         WrPointer there = *at;
         if (wr_patch_paint_uv(app, at, &u, &v)) {
             there.u = u;

@@ -4,6 +4,7 @@
 
 #include "base/rows.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
@@ -201,7 +202,7 @@ void wr_option_symmetry(WrApp *app, double width)
     (void)width;
     wr_gui_centre(wr_gui_px(28));
     if (wr_gui_icon_button("symmetry", WR_ICON_FLOWER, 28, app->settings->symmetric))
-        wr_action_run(app, "symmetry");
+        wr_action_run(app, WR_ACT(symmetry));
     wr_gui_centre_end(wr_gui_px(28));
     wr_gui_tip(app->settings->symmetric ? "Symmetry is on" : "Symmetry: mirrors, turns, a lattice");
 }
@@ -259,7 +260,7 @@ static void thumbnail(WrApp *app)
     wr_gui_same_line(12);
     wr_gui_centre(side);
     if (wr_gui_tile("brush", wr_thumb_of(app, index, wr_gui_px(52)), side, false, false))
-        wr_action_run(app, "brushes");
+        wr_action_run(app, WR_ACT(brushes));
     wr_gui_centre_end(side);
     char tip[200];
     snprintf(tip, sizeof tip, "%.160s\nClick for the brushes", slash ? slash + 1 : "Round brush");

@@ -1,5 +1,6 @@
 /* Choosing the picture of the stamp tool. */
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
@@ -76,7 +77,8 @@ void wr_stamp_picker(WrApp *app)
     wr_gui_tip("Click to choose a picture; the wheel sizes the stamp");
     wr_gui_same_line(6);
     wr_gui_centre(wr_gui_px(28));
-    if (wr_gui_glyph("open", WR_ICON_FOLDER, 28, WR_COLOUR_LABEL)) wr_action_run(app, "stamp_open");
+    if (wr_gui_glyph("open", WR_ICON_FOLDER, 28, WR_COLOUR_LABEL))
+        wr_action_run(app, WR_ACT(stamp_open));
     wr_gui_centre_end(wr_gui_px(28));
     wr_gui_tip("Open a picture, a .gbr or a .gih as a stamp");
     if (!wr_gui_popup_begin("stamps")) return;

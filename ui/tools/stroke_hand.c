@@ -1,6 +1,7 @@
 /* Strokes by hand. Samples are handed to the session at once, which journals them; they are drawn for a few
    milliseconds before each picture, so that a large brush never keeps the pointer waiting. A stroke that
    is let go before it is drawn goes on being drawn; the next one waits its turn. */
+#include "ui/desk/action_list.h"
 #include "ui/tools/stroke_hand.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -54,8 +55,8 @@ WrBrush wr_strokes_brush(WrApp *app, const WrPointer *at)
 {
     WrBrush brush = app->settings->brush;
     if (at->eraser) brush.mode = WR_BRUSH_ERASE;
-    else if (wr_keys_hold(app->keys, "hold_smooth", at->mods)) brush.mode = WR_BRUSH_SMOOTH;
-    else if (wr_keys_hold(app->keys, "hold_invert", at->mods)) invert(app->settings, &brush);
+    else if (wr_keys_hold(app->keys, WR_ACT(hold_smooth), at->mods)) brush.mode = WR_BRUSH_SMOOTH;
+    else if (wr_keys_hold(app->keys, WR_ACT(hold_invert), at->mods)) invert(app->settings, &brush);
     brush.seed = wr_brush_chances(&brush) ? new_seed(app) : 0;
     return brush;
 }

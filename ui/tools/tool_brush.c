@@ -2,6 +2,7 @@
    by a key that is held, picking a height, sizing. */
 #include "ui/tools/tool_brush.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/keys.h"
@@ -140,11 +141,11 @@ void wr_brush_press(WrApp *app, const WrPointer *at)
         aim(app, at);
         return;
     }
-    if (wr_keys_hold(app->keys, "hold_pick", at->mods)) {
+    if (wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods)) {
         wr_brush_pick(app, at);
         return;
     }
-    bool joins = wr_keys_hold(app->keys, "hold_size", at->mods) && hand->have_last;
+    bool joins = wr_keys_hold(app->keys, WR_ACT(hold_size), at->mods) && hand->have_last;
     double u = hand->last_u, v = hand->last_v;
     WrBrush brush = wr_strokes_brush(app, at);
     if (!wr_strokes_begin(app, &brush, at)) {
@@ -166,7 +167,7 @@ void wr_brush_drag(WrApp *app, const WrPointer *at)
 {
     if (app->brush->straight) aim(app, at);
     else if (app->brush->drawing) wr_brush_steady_move(app, at, draw_at);
-    else if (wr_keys_hold(app->keys, "hold_pick", at->mods)) wr_brush_pick(app, at);
+    else if (wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods)) wr_brush_pick(app, at);
 }
 
 void wr_brush_release(WrApp *app, const WrPointer *at)
@@ -210,7 +211,7 @@ void wr_brush_options(WrApp *app)
 /* ---- the rows ---- */
 
 const WrTool wr_tool_brush = {
-    .action = "brush",
+    .action = WR_ACT(brush),
     .icon = WR_ICON_BRUSH,
     .help = "Paint heights. Ctrl picks a height, Shift and dragging sizes the brush, Shift and a "
             "click "
@@ -223,7 +224,7 @@ const WrTool wr_tool_brush = {
     .paints = true
 };
 
-const WrTool wr_tool_smooth = { .action = "smooth",
+const WrTool wr_tool_smooth = { .action = WR_ACT(smooth),
                                 .icon = WR_ICON_DROP,
                                 .help =
                                     "Let heights flow together under the brush; their mean stays.",
@@ -235,7 +236,7 @@ const WrTool wr_tool_smooth = { .action = "smooth",
                                 .paints = true,
                                 .mode = 1 + WR_BRUSH_SMOOTH };
 
-const WrTool wr_tool_smear = { .action = "smear",
+const WrTool wr_tool_smear = { .action = WR_ACT(smear),
                                .icon = WR_ICON_FINGER,
                                .help = "Drag heights along with the brush, as with a finger.",
                                .press = wr_brush_press,
@@ -246,7 +247,7 @@ const WrTool wr_tool_smear = { .action = "smear",
                                .paints = true,
                                .mode = 1 + WR_BRUSH_SMEAR };
 
-const WrTool wr_tool_pick = { .action = "pick",
+const WrTool wr_tool_pick = { .action = WR_ACT(pick),
                               .icon = WR_ICON_PICK,
                               .help = "Pick the height under the pointer and paint towards it.",
                               .press = wr_brush_pick,

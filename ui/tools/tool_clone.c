@@ -1,5 +1,6 @@
 /* Painting with heights from elsewhere: Ctrl or Alt and a click says where from; the first stroke after it
    ties that place to the pointer, and later strokes keep the distance. */
+#include "ui/desk/action_list.h"
 #include "ui/tools/tool_clone.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -95,7 +96,7 @@ static void marks(WrApp *app)
 /* ---- the row ---- */
 
 const WrTool wr_tool_clone = {
-    .action = "clone",
+    .action = WR_ACT(clone),
     .icon = WR_ICON_CLONE,
     .help = "Paint with heights from elsewhere: Ctrl and a click says from where.",
     .press = press,

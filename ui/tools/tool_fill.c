@@ -1,4 +1,5 @@
 /* Filling what is connected: a click does to all of it what the brush's mode does. */
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -86,7 +87,7 @@ static void options(WrApp *app)
 /* ---- the row ---- */
 
 const WrTool wr_tool_flood = {
-    .action = "flood",
+    .action = WR_ACT(flood),
     .icon = WR_ICON_BUCKET,
     .help = "Click to fill what is connected and as high as what is clicked.",
     .press = press,

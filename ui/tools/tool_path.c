@@ -2,6 +2,7 @@
    arms can be moved until Enter, or a double click, paints it. Backspace takes the last back, Escape gives
    up. */
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -33,7 +34,7 @@ enum { PART_ANCHOR, PART_IN, PART_OUT };
 
 static bool is_path(const WrApp *app)
 {
-    return strcmp(wr_tool_now(app)->action, "shape_path") == 0;
+    return strcmp(wr_tool_now(app)->action, WR_ACT(shape_path)) == 0;
 }
 
 static WrAnchor *last_of(WrDrawHand *draw)
@@ -277,7 +278,7 @@ static void marks(WrApp *app)
 /* ---- the rows ---- */
 
 const WrTool wr_tool_shape_polygon = {
-    .action = "shape_polygon",
+    .action = WR_ACT(shape_polygon),
     .icon = WR_ICON_POLYGON,
     .help = "Click the corners; Enter or a double click paints it, Backspace takes one back.",
     .press = press,
@@ -290,7 +291,7 @@ const WrTool wr_tool_shape_polygon = {
 };
 
 const WrTool wr_tool_shape_path = {
-    .action = "shape_path",
+    .action = WR_ACT(shape_path),
     .icon = WR_ICON_CURVE,
     .help = "Click anchors, drag for their arms, move both; Enter or a double click paints it.",
     .press = press,

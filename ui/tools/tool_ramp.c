@@ -1,6 +1,7 @@
 /* Ramps: a drag says from where to where heights lead from low to high. Shift keeps to multiples of 15
    degrees, Escape gives up. */
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -202,7 +203,7 @@ static void options(WrApp *app)
 /* ---- the row ---- */
 
 const WrTool wr_tool_ramp = {
-    .action = "ramp",
+    .action = WR_ACT(ramp),
     .icon = WR_ICON_RAMP,
     .help = "Drag from the low end of a slope to its high end; Shift keeps to 15 degrees.",
     .press = press,

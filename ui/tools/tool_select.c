@@ -2,6 +2,7 @@
 #include "ui/tools/tool_select.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -34,9 +35,9 @@ typedef enum Shape { SHAPE_RECT, SHAPE_ELLIPSE, SHAPE_LASSO } Shape;
 static Shape shape_of(const WrApp *app)
 {
     const char *name = wr_tool_now(app)->action;
-    return strcmp(name, "select_ellipse") == 0 ? SHAPE_ELLIPSE
-           : strcmp(name, "select_lasso") == 0 ? SHAPE_LASSO
-                                               : SHAPE_RECT;
+    return strcmp(name, WR_ACT(select_ellipse)) == 0 ? SHAPE_ELLIPSE
+           : strcmp(name, WR_ACT(select_lasso)) == 0 ? SHAPE_LASSO
+                                                     : SHAPE_RECT;
 }
 
 static void texel_at(const WrApp *app, const WrPointer *at, double *x, double *y)
@@ -224,7 +225,8 @@ static void options(WrApp *app)
     wr_gui_same_line(14);
     wr_gui_segments("join", joins, NULL, WR_SELECT_MODES, &app->settings->join);
     wr_gui_tip("Shift adds, Alt subtracts, both intersect");
-    static const char *const names[] = { "select_all", "select_none", "select_invert" };
+    static const char *const names[] = { WR_ACT(select_all), WR_ACT(select_none),
+                                         WR_ACT(select_invert) };
     wr_gui_same_line(16);
     for (int i = 0; i < 3; i++) {
         const WrAction *action = wr_action_find(app, names[i]);
@@ -242,7 +244,7 @@ static void options(WrApp *app)
 /* ---- the rows ---- */
 
 const WrTool wr_tool_select_rect = {
-    .action = "select_rect",
+    .action = WR_ACT(select_rect),
     .icon = WR_ICON_RECT,
     .help = "Drag a rectangle, across the cell's edges if need be: edits then keep to it.",
     .press = press,
@@ -251,7 +253,7 @@ const WrTool wr_tool_select_rect = {
     .options = options
 };
 
-const WrTool wr_tool_select_ellipse = { .action = "select_ellipse",
+const WrTool wr_tool_select_ellipse = { .action = WR_ACT(select_ellipse),
                                         .icon = WR_ICON_ELLIPSE,
                                         .help = "Drag an ellipse: edits then keep to it.",
                                         .press = press,
@@ -259,7 +261,7 @@ const WrTool wr_tool_select_ellipse = { .action = "select_ellipse",
                                         .release = release,
                                         .options = options };
 
-const WrTool wr_tool_select_lasso = { .action = "select_lasso",
+const WrTool wr_tool_select_lasso = { .action = WR_ACT(select_lasso),
                                       .icon = WR_ICON_LASSO,
                                       .help = "Draw an outline by hand: edits then keep to it.",
                                       .press = press,

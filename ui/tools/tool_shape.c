@@ -2,6 +2,7 @@
    Shift makes squares and circles, Ctrl begins in the middle, Escape gives up. */
 #include "ui/tools/tool_shape.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
@@ -50,7 +51,7 @@ void wr_draw_leave(WrApp *app)
 
 static bool is_round(const WrApp *app)
 {
-    return strcmp(wr_tool_now(app)->action, "shape_ellipse") == 0;
+    return strcmp(wr_tool_now(app)->action, WR_ACT(shape_ellipse)) == 0;
 }
 
 /* The two corners, by what is held. */
@@ -204,7 +205,7 @@ static void corner(WrApp *app, double width)
 
 void wr_shape_options(WrApp *app)
 {
-    bool rect = strcmp(wr_tool_now(app)->action, "shape_rect") == 0;
+    bool rect = strcmp(wr_tool_now(app)->action, WR_ACT(shape_rect)) == 0;
     const WrOption first[] = { { "", 0, 118, paint_what, true },
                                { "Corner", 74, 0, corner, rect } };
     wr_option_brush_row(app, first, 2);
@@ -213,7 +214,7 @@ void wr_shape_options(WrApp *app)
 /* ---- the rows ---- */
 
 const WrTool wr_tool_shape_rect = {
-    .action = "shape_rect",
+    .action = WR_ACT(shape_rect),
     .icon = WR_ICON_BOX,
     .help = "Drag a rectangle: Shift makes it a square, Ctrl begins in its middle.",
     .press = press,
@@ -226,7 +227,7 @@ const WrTool wr_tool_shape_rect = {
 };
 
 const WrTool wr_tool_shape_ellipse = {
-    .action = "shape_ellipse",
+    .action = WR_ACT(shape_ellipse),
     .icon = WR_ICON_ROUND,
     .help = "Drag an ellipse: Shift makes it a circle, Ctrl begins in its middle.",
     .press = press,

@@ -3,6 +3,7 @@
    and size, let go. The wheel sizes it, Enter puts it where the pointer is, Escape gives up. */
 #include "ui/tools/tool_stamp.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
@@ -310,7 +311,7 @@ static void options(WrApp *app)
 /* ---- the row ---- */
 
 const WrTool wr_tool_stamp = {
-    .action = "stamp",
+    .action = WR_ACT(stamp),
     .icon = WR_ICON_SEAL,
     .help = "Press where a picture goes, drag for its turn and size, let go; the wheel sizes it.",
     .press = press,

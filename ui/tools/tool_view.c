@@ -1,6 +1,7 @@
 /* Moving and zooming the canvas. */
 #include "ui/tools/tool_view.h"
 #include "ui/canvas/view.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
 #include "ui/desk/keys.h"
@@ -34,14 +35,14 @@ static void zoom_drag(WrApp *app, const WrPointer *at)
 /* ---- the rows ---- */
 
 const WrTool wr_tool_pan = {
-    .action = "pan",
+    .action = WR_ACT(pan),
     .icon = WR_ICON_HAND,
     .help = "Move the table. Space and dragging, or the middle button, does it in any tool.",
     .drag = wr_tool_pan_drag
 };
 
 const WrTool wr_tool_zoom = {
-    .action = "zoom",
+    .action = WR_ACT(zoom),
     .icon = WR_ICON_ZOOM,
     .help = "Click to zoom in, with Ctrl out; drag up and down to zoom smoothly. The wheel does "
             "it in "

@@ -1,0 +1,163 @@
+/* action_list.h - the words of all actions, each with the keys that it has until somebody gives it others: "Ctrl+Z Z".
+   Menus, tools, buttons and the guide's page of keys name actions by WR_ACT(undo), so that the compiler knows of each. */
+#pragma once
+
+/* Those of the table in app/actions.c. */
+#define WR_ACTIONS(X)                                                                              \
+    X(new, "Ctrl+N")                                                                               \
+    X(open, "Ctrl+O")                                                                              \
+    X(save, "Ctrl+S")                                                                              \
+    X(save_as, "Ctrl+Shift+S")                                                                     \
+    X(export, "Ctrl+E Ctrl+Shift+E")                                                               \
+    X(save_history, "")                                                                            \
+    X(quit, "Ctrl+Q")                                                                              \
+    X(undo, "Ctrl+Z Z")                                                                            \
+    X(redo, "Ctrl+Shift+Z Ctrl+Y Y")                                                               \
+    X(search, "Ctrl+Return")                                                                       \
+    X(brush, "B")                                                                                  \
+    X(smooth, "Shift+U")                                                                           \
+    X(smear, "S")                                                                                  \
+    X(clone, "C")                                                                                  \
+    X(flood, "G F")                                                                                \
+    X(ramp, "Shift+G")                                                                             \
+    X(shape_rect, "R")                                                                             \
+    X(shape_ellipse, "Q")                                                                          \
+    X(shape_polygon, "Shift+Q")                                                                    \
+    X(shape_path, "N")                                                                             \
+    X(stamp, "Shift+S")                                                                            \
+    X(stamp_open, "")                                                                              \
+    X(generate, "Shift+T")                                                                         \
+    X(select_rect, "Shift+R")                                                                      \
+    X(select_ellipse, "Shift+E")                                                                   \
+    X(select_lasso, "Shift+L")                                                                     \
+    X(pick, "P")                                                                                   \
+    X(pan, "H")                                                                                    \
+    X(zoom, "Shift+Z")                                                                             \
+    X(size_up, "]")                                                                                \
+    X(size_down, "[")                                                                              \
+    X(hardness_up, "Shift+]")                                                                      \
+    X(hardness_down, "Shift+[")                                                                    \
+    X(strength_up, "O")                                                                            \
+    X(strength_down, "I")                                                                          \
+    X(swap_mode, "X")                                                                              \
+    X(level_mode, "")                                                                              \
+    X(height_up, "L")                                                                              \
+    X(height_down, "K")                                                                            \
+    X(erase_mode, "E")                                                                             \
+    X(reset_values, "D")                                                                           \
+    X(brushes, "F5")                                                                               \
+    X(round_brush, "")                                                                             \
+    X(preset_last, "/")                                                                            \
+    X(preset_next, ".")                                                                            \
+    X(preset_previous, ",")                                                                        \
+    X(favourite, "")                                                                               \
+    X(preset_save, "")                                                                             \
+    X(lock_size, "")                                                                               \
+    X(symmetry, "U")                                                                               \
+    X(symmetry_on, "Shift+M")                                                                      \
+    X(keys_paint, "")                                                                              \
+    X(keys_sculpt, "")                                                                             \
+    X(straight_line, "V")                                                                          \
+    X(paint_patch, "A")                                                                            \
+    X(pressure_up, "Alt+Shift+S")                                                                  \
+    X(pressure_down, "Alt+Shift+A")                                                                \
+    X(pressure_speed, "")                                                                          \
+    X(steady_off, "")                                                                              \
+    X(steady_smooth, "")                                                                           \
+    X(steady_string, "")                                                                           \
+    X(steady_catch_up, "")                                                                         \
+    X(select_all, "Ctrl+A")                                                                        \
+    X(select_none, "Ctrl+Shift+A")                                                                 \
+    X(select_invert, "Ctrl+Shift+I")                                                               \
+    X(select_grow, "")                                                                             \
+    X(select_shrink, "")                                                                           \
+    X(select_feather, "")                                                                          \
+    X(select_height, "")                                                                           \
+    X(select_slope, "")                                                                            \
+    X(layer_add, "Ctrl+Shift+N Insert")                                                            \
+    X(layer_duplicate, "Ctrl+J")                                                                   \
+    X(layer_delete, "Shift+Delete")                                                                \
+    X(layer_rename, "")                                                                            \
+    X(layer_merge, "Ctrl+Alt+E")                                                                   \
+    X(layer_flatten, "Ctrl+Shift+F")                                                               \
+    X(layer_clear, "Delete")                                                                       \
+    X(layer_show, "")                                                                              \
+    X(layer_lock, "")                                                                              \
+    X(layer_solo, "")                                                                              \
+    X(layer_raise, "Ctrl+PageUp")                                                                  \
+    X(layer_lower, "Ctrl+PageDown")                                                                \
+    X(layer_above, "PageUp")                                                                       \
+    X(layer_below, "PageDown")                                                                     \
+    X(mask_selection, "")                                                                          \
+    X(mask_white, "")                                                                              \
+    X(mask_black, "")                                                                              \
+    X(mask_none, "")                                                                               \
+    X(table_size, "")                                                                              \
+    X(offset_half, "Ctrl+Shift+H")                                                                 \
+    X(fill, "")                                                                                    \
+    X(grid, "")                                                                                    \
+    X(import, "")                                                                                  \
+    X(zoom_in, "+ = Shift+= Ctrl++ Ctrl+= Keypad_+")                                               \
+    X(zoom_out, "- Ctrl+- Keypad_-")                                                               \
+    X(zoom_100, "1")                                                                               \
+    X(fit, "2 Ctrl+0")                                                                             \
+    X(pan_left, "Left")                                                                            \
+    X(pan_right, "Right")                                                                          \
+    X(pan_up, "Up")                                                                                \
+    X(pan_down, "Down")                                                                            \
+    X(panels, "Tab")                                                                               \
+    X(view_both, "F2")                                                                             \
+    X(view_canvas, "F3")                                                                           \
+    X(view_patch, "F4")                                                                            \
+    X(look_grey, "Alt+1")                                                                          \
+    X(look_signed, "Alt+2")                                                                        \
+    X(range_auto, "Alt+R")                                                                         \
+    X(range_unit, "")                                                                              \
+    X(range_marks, "")                                                                             \
+    X(ants, "")                                                                                    \
+    X(accuracy, "F6")                                                                              \
+    X(accuracy_measure, "")                                                                        \
+    X(inspector, "F7")                                                                             \
+    X(inspector_pin, "Shift+F7")                                                                   \
+    X(inspector_copy, "")                                                                          \
+    X(hard_cases, "")                                                                              \
+    X(look_plain, "Alt+5")                                                                         \
+    X(look_split, "Alt+6")                                                                         \
+    X(look_flicker, "Alt+7")                                                                       \
+    X(compare_hold, "W")                                                                           \
+    X(compare_take, "")                                                                            \
+    X(compare_swap, "")                                                                            \
+    X(look_error, "Alt+8")                                                                         \
+    X(look_dropped, "Alt+9")                                                                       \
+    X(look_tilt, "")                                                                               \
+    X(look_level, "")                                                                              \
+    X(turn, "Ctrl+Space")                                                                          \
+    X(view_back, "Alt+Left")                                                                       \
+    X(view_forward, "Alt+Right")                                                                   \
+    X(camera_reset, "")                                                                            \
+    X(pose_reset, "")                                                                              \
+    X(fullscreen, "F11")                                                                           \
+    X(tablet, "Ctrl+Shift+T")                                                                      \
+    X(help, "F1")                                                                                  \
+    X(about, "")
+
+/* Those of the hand: keys that are held while the pointer works. */
+#define WR_HELD_ACTIONS(X)                                                                         \
+    X(hold_pick, "Ctrl")                                                                           \
+    X(hold_size, "Shift")                                                                          \
+    X(hold_invert, "Alt")                                                                          \
+    X(hold_smooth, "Alt+Shift")
+
+/* Those of families, whose names come from other tables: adjust_OPERATION, generate_FAMILY. */
+#define WR_FAMILY_ACTIONS(X)                                                                       \
+    X(adjust_levels, "Ctrl+L")                                                                     \
+    X(adjust_invert, "Ctrl+I")                                                                     \
+    X(generate_text, "T")
+
+#define WR_ACTION_ID(name, keys) WR_ACTION_##name,
+enum { WR_ACTIONS(WR_ACTION_ID) WR_ACTION_COUNT };
+enum { WR_HELD_ACTIONS(WR_ACTION_ID) WR_FAMILY_ACTIONS(WR_ACTION_ID) };
+#undef WR_ACTION_ID
+
+/* The word itself, if it is one of these. */
+#define WR_ACT(name) (&#name[0 * WR_ACTION_##name])
