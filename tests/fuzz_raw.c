@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char text[32] = "";
     if (size < 2 || (size_t)(data[1] % 16) > size - 2) return 0;
-    WrRaw raw = { .kind = (WrRawKind)(data[0] % WR_RAW_KINDS), .big = data[0] & 0x80 };
+    WrRaw raw = { .kind = (WrRawKind)(data[0] % WR_RAW_COUNT), .big = data[0] & 0x80 };
     memcpy(text, data + 2, data[1] % 16);
     const uint8_t *bytes = data + 2 + data[1] % 16;
     size_t length = size - 2 - data[1] % 16;

@@ -29,7 +29,7 @@ static inline const char *noise_case_name(const WrNoise *noise)
 {
     static char text[80];
     snprintf(text, sizeof text, "%s %dD %s period %d", wr_noises[noise->kind].name, noise->dim,
-             wr_fades[noise->fade].name, noise->lattice.period[0]);
+             wr_fade_words[noise->fade], noise->lattice.period[0]);
     return text;
 }
 

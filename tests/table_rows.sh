@@ -12,12 +12,13 @@ fail() {
     exit 1
 }
 
-# One more: before the count that ends an enumeration, in a number, or in the list of surfaces.
+# One more: before the count that ends an enumeration, in a number, in the list of surfaces, or in one of words.
 add() {
     COUNT=$2 perl -0pi -e '
         my $n = $ENV{COUNT};
         s/\b$n(\s*\})/WR_ONE_MORE, $n$1/ or s/(#define $n) (\d+)\b/"$1 " . ($2 + 1)/e or
-            s/(\n$n\(\w+\))/$1\n$n(one_more)/ or exit 1;' "$1"
+            s/(\n$n\(\w+\))/$1\n$n(one_more)/ or
+            s/(#define $n\(X\))/$1 X(WR_ONE_MORE, "one more")/ or exit 1;' "$1"
 }
 
 check() {

@@ -359,7 +359,7 @@ static void each_profile_has_its_formula_on_a_straight_stem(void **state)
 {
     (void)state;
     WrField *like = table_of(128, 256);
-    for (int p = 0; p < WR_TEXT_PROFILES; p++) {
+    for (int p = 0; p <= WR_TEXT_ENGRAVED; p++) {
         const Setting more[] = { { "profile", p }, { "bevel", 8 }, { "height", 2 }, { NULL, 0 } };
         Text t = { "l", SANS, 256.0, 0.5, 0.5, more, NULL, 0, { 0 } };
         WrRelief r = relief_of(&t, like, NULL);

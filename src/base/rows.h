@@ -23,5 +23,13 @@
 #define WR_ROWS_END(table, count)                                                                  \
     _Static_assert(__COUNTER__ - table##_rows_ == (count), #table ": not a row for each")
 
+/* The words of an enumeration that has nothing beside them, in one list with its enumerators:
+
+       #define BONDS(X) X(RUNNING, "running") X(STACK, "stack")
+       typedef enum Bond { BONDS(WR_WORD_ID) } Bond;
+       static const char *const bonds[] = { BONDS(WR_WORD) NULL }; */
+#define WR_WORD_ID(id, word) id,
+#define WR_WORD(id, word) word,
+
 /* How many elements an array has. */
 #define WR_LENGTH(array) ((int)(sizeof(array) / sizeof *(array)))

@@ -16,11 +16,11 @@
         .low = -FLT_MAX, .high = FLT_MAX, .soft_low = -1, .soft_high = 2                           \
     }
 
-static const char *const invert_words[] = { "range", "zero", NULL };
+static const char *const invert_words[] = { WR_INVERT_ABOUTS(WR_WORD) NULL };
 static const char *const angle_words[] = { "90", "180", "270", NULL };
-static const char *const filter_words[] = { "box", "linear", "catmull", "lanczos3", NULL };
-static const char *const window_words[] = { "round", "square", NULL };
-static const char *const side_words[] = { "below", "above", "mean", NULL };
+static const char *const filter_words[] = { WR_RESIZE_FILTERS(WR_WORD) NULL };
+static const char *const window_words[] = { WR_WINDOWS(WR_WORD) NULL };
+static const char *const side_words[] = { WR_LIMIT_SIDES(WR_WORD) NULL };
 
 #define SIGMA(default_)                                                                            \
     {                                                                                              \
@@ -41,10 +41,11 @@ static const char *const side_words[] = { "below", "above", "mean", NULL };
         .name = name_, .label = label_, .help = help_, .unit = "texels", .fallback = fallback_,    \
         .low = low_, .high = high_, .soft_low = low_, .soft_high = high_, .whole = true            \
     }
-#define WORDS(name_, label_, help_, fallback_, words, last)                                        \
+#define WORDS(name_, label_, help_, fallback_, words)                                              \
     {                                                                                              \
         .name = name_, .label = label_, .help = help_, .unit = "", .fallback = fallback_,          \
-        .high = last, .soft_high = last, .whole = true, .choices = words                           \
+        .high = WR_LENGTH(words) - 2, .soft_high = WR_LENGTH(words) - 2, .whole = true,            \
+        .choices = words                                                                           \
     }
 
 const WrOpInfo wr_ops[] = {
@@ -72,7 +73,7 @@ const WrOpInfo wr_ops[] = {
       .reshapes = true,
       .moves = true,
       .run = wr_op_rotate,
-      .params = { WORDS("angle", "Angle", "degrees, counter-clockwise", 0, angle_words, 2) } },
+      .params = { WORDS("angle", "Angle", "degrees, counter-clockwise", 0, angle_words) } },
     { .name = "crop",
       .label = "Crop",
       .help = "make a rectangle of the table the new cell, periodic on both axes",
@@ -95,7 +96,7 @@ const WrOpInfo wr_ops[] = {
                   WORDS("filter", "Filter",
                         "box: mean of what a texel covers; linear, catmull, lanczos3: "
                         "ever sharper, the last two with overshoot",
-                        2, filter_words, 3) } },
+                        WR_RESIZE_CATMULL, filter_words) } },
     { .name = "levels",
       .label = "Levels",
       .help = "bring in-low to out-low and in-high to out-high, with a curve between them",
@@ -121,7 +122,7 @@ const WrOpInfo wr_ops[] = {
       .params = { WORDS("about", "About",
                         "range: the lowest and the highest change places; zero: "
                         "the sign changes",
-                        0, invert_words, 1) } },
+                        WR_INVERT_RANGE, invert_words) } },
     { .name = "normalise",
       .label = "Normalise",
       .help = "bring the table's lowest height to low and its highest to high; a flat table "
@@ -176,7 +177,8 @@ const WrOpInfo wr_ops[] = {
       .label = "Median",
       .help = "give each texel the middle height of a window: takes away specks, keeps edges",
       .run = wr_op_median,
-      .params = { RADIUS(32, 8), WORDS("window", "Window", "its shape", 0, window_words, 1) } },
+      .params = { RADIUS(32, 8),
+                  WORDS("window", "Window", "its shape", WR_WINDOW_ROUND, window_words) } },
     { .name = "dilate",
       .label = "Dilate",
       .help = "give each texel the largest height of a round window: bumps grow",
@@ -202,8 +204,8 @@ const WrOpInfo wr_ops[] = {
                     .soft_low = 0,
                     .soft_high = 1 },
                   WORDS("side", "Side",
-                        "below: only lower heights; above: only raise them; mean: half way", 2,
-                        side_words, 2) } },
+                        "below: only lower heights; above: only raise them; mean: half way",
+                        WR_SIDE_MEAN, side_words) } },
     { .name = NULL }
 };
 const int wr_op_count = sizeof wr_ops / sizeof *wr_ops - 1;

@@ -14,12 +14,22 @@
    - Heights that would pass float's range are clamped to it. Filters are exact as stated while heights
      are under 1e37. */
 #pragma once
+#include "base/rows.h"
+
 #include <stdbool.h>
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
+
+/* What `filter` of resize may be: box is the mean of what a texel covers. */
+#define WR_RESIZE_FILTERS(X)                                                                       \
+    X(WR_RESIZE_BOX, "box")                                                                        \
+    X(WR_RESIZE_LINEAR, "linear")                                                                  \
+    X(WR_RESIZE_CATMULL, "catmull")                                                                \
+    X(WR_RESIZE_LANCZOS3, "lanczos3")
+enum { WR_RESIZE_FILTERS(WR_WORD_ID) };
 
 #define WR_OP_PARAMS 6 /* parameters of one operation, at most */
 

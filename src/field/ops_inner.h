@@ -15,6 +15,15 @@
 #include "field/ops.h"
 #include "field/wrap.h"
 
+/* The words of what operations may be told. */
+#define WR_INVERT_ABOUTS(X) X(WR_INVERT_RANGE, "range") X(WR_INVERT_ZERO, "zero")
+enum { WR_INVERT_ABOUTS(WR_WORD_ID) };
+#define WR_WINDOWS(X) X(WR_WINDOW_ROUND, "round") X(WR_WINDOW_SQUARE, "square")
+enum { WR_WINDOWS(WR_WORD_ID) };
+#define WR_LIMIT_SIDES(X)                                                                          \
+    X(WR_SIDE_BELOW, "below") X(WR_SIDE_ABOVE, "above") X(WR_SIDE_MEAN, "mean")
+enum { WR_LIMIT_SIDES(WR_WORD_ID) };
+
 #define WR_OP_SIDE (4 * WR_TILE) /* texels along a block's side */
 
 /* One call of wr_op_run. */

@@ -156,7 +156,7 @@ static void make_median(const WrOpJob *job, const void *ctx, WrOpBlock b, float 
 WrField *wr_op_median(WrOpJob *job, const double *param)
 {
     double radius = param[0];
-    bool square = param[1] != 0.0;
+    bool square = param[1] == WR_WINDOW_SQUARE;
     Median median = { .reach = (int)floor(radius) };
     for (int d = -median.reach; d <= median.reach; d++) {
         int half = square ? median.reach : (int)floor(sqrt(radius * radius - (double)d * d));

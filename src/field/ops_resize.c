@@ -21,8 +21,6 @@
 
 #define SIDE WR_OP_SIDE
 
-enum { FILTER_BOX, FILTER_LINEAR, FILTER_CATMULL, FILTER_LANCZOS3 };
-
 /* One axis: output texel i sees taps[i].count input texels from taps[i].from on, which may lie outside;
    weights from weight + i * most. */
 typedef struct Taps {
@@ -55,8 +53,8 @@ static double lanczos3(double x)
 static double filter_value(int filter, double x)
 {
     double a = fabs(x);
-    if (filter == FILTER_LINEAR) return a < 1.0 ? 1.0 - a : 0.0;
-    if (filter == FILTER_CATMULL)
+    if (filter == WR_RESIZE_LINEAR) return a < 1.0 ? 1.0 - a : 0.0;
+    if (filter == WR_RESIZE_CATMULL)
         return a < 1.0   ? 1.0 + a * a * (1.5 * a - 2.5)
                : a < 2.0 ? 2.0 + a * (-4.0 + a * (2.5 - 0.5 * a))
                          : 0.0;
@@ -69,8 +67,8 @@ static double filter_value(int filter, double x)
 static double filter_reach(int filter, double ratio)
 {
     double stretch = ratio > 1.0 ? ratio : 1.0;
-    if (filter == FILTER_BOX) return 0.5 * ratio + 0.5;
-    return stretch * (filter == FILTER_LINEAR ? 1.0 : filter == FILTER_CATMULL ? 2.0 : 3.0);
+    if (filter == WR_RESIZE_BOX) return 0.5 * ratio + 0.5;
+    return stretch * (filter == WR_RESIZE_LINEAR ? 1.0 : filter == WR_RESIZE_CATMULL ? 2.0 : 3.0);
 }
 
 /* What of input texel k, which covers k - 1/2 .. k + 1/2, lies in low .. high. */
@@ -112,8 +110,8 @@ static void set_taps(Axis *axis, int index, int filter, int n, int out, WrWrap w
     taps->count = (int)floor(x + half) - taps->from + 1;
     for (int k = 0; k < taps->count; k++) {
         double at = (double)taps->from + k;
-        wide[k] = filter == FILTER_BOX ? covered(at, x - 0.5 * ratio, x + 0.5 * ratio)
-                                       : filter_value(filter, (at - x) / stretch);
+        wide[k] = filter == WR_RESIZE_BOX ? covered(at, x - 0.5 * ratio, x + 0.5 * ratio)
+                                          : filter_value(filter, (at - x) / stretch);
     }
     double *weight = axis->weight + (size_t)index * (size_t)axis->most;
     if (axis->folds) fold(taps, weight, wide, n, wrap);

@@ -18,8 +18,6 @@
 
 #include <math.h>
 
-enum { SIDE_BELOW, SIDE_ABOVE, SIDE_MEAN };
-
 typedef struct Sweep {
     const WrOpJob *job;
     WrOpPlane *plane;
@@ -202,10 +200,10 @@ WrField *wr_op_slope_limit(WrOpJob *job, const double *param)
 {
     int side = (int)param[1];
     WrOpPlane below = { 0 }, above = { 0 };
-    Sides sides = { side == SIDE_ABOVE ? NULL : &below, side == SIDE_BELOW ? NULL : &above };
-    double middle = side == SIDE_MEAN ? 0.45 : 0.9;
+    Sides sides = { side == WR_SIDE_ABOVE ? NULL : &below, side == WR_SIDE_BELOW ? NULL : &above };
+    double middle = side == WR_SIDE_MEAN ? 0.45 : 0.9;
     bool good = true;
-    job->to = side == SIDE_ABOVE ? 0.0 : middle;
+    job->to = side == WR_SIDE_ABOVE ? 0.0 : middle;
     if (sides.below)
         good = wr_op_plane_init(&below, job) && limit_plane(job, &below, param[0], false);
     job->from = job->to;

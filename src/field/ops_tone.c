@@ -85,7 +85,7 @@ static void map_invert(const Tone *tone, float *row, int count)
 WrField *wr_op_invert(WrOpJob *job, const double *param)
 {
     float low = 0.0f, high = 0.0f;
-    if (param[0] == 0.0) wr_field_range(job->in, &low, &high);
+    if (param[0] == WR_INVERT_RANGE) wr_field_range(job->in, &low, &high);
     Tone tone = { map_invert, { (double)low + high } };
     return run_tone(job, &tone);
 }

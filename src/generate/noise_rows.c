@@ -11,13 +11,25 @@
 #include <math.h>
 #include <string.h>
 
-static const char *const domains[] = { "plane", "slice", "along-u", "along-v", NULL };
-static const char *const ways[] = { "sheared", "torus", "slice", NULL };
-static const char *const modes[] = { "fbm", "turbulence", "billow", "ridged", NULL };
-_Static_assert(WR_LENGTH(modes) == WR_OCTAVES_MODE_COUNT + 1, "in the order of WrOctavesMode");
-static const char *const fades[] = { "linear", "cubic", "quintic", NULL };
-_Static_assert(WR_LENGTH(fades) == WR_FADE_COUNT + 1, "in the order of WrFade");
-static const char *const sources[] = { "hash", "lecture", NULL };
+#define DOMAINS(X)                                                                                 \
+    X(DOMAIN_PLANE, "plane")                                                                       \
+    X(DOMAIN_SLICE, "slice")                                                                       \
+    X(DOMAIN_U, "along-u")                                                                         \
+    X(DOMAIN_V, "along-v")
+typedef enum Domain { DOMAINS(WR_WORD_ID) } Domain;
+static const char *const domains[] = { DOMAINS(WR_WORD) NULL };
+/* The kinds of noise that are ways to tile. */
+#define WAYS(X)                                                                                    \
+    X(WR_NOISE_SHEARED, "sheared")                                                                 \
+    X(WR_NOISE_TORUS, "torus")                                                                     \
+    X(WR_NOISE_SIMPLEX, "slice")
+static const WrNoiseKind way_kinds[] = { WAYS(WR_WORD_ID) };
+static const char *const ways[] = { WAYS(WR_WORD) NULL };
+#define SOURCES(X)                                                                                 \
+    X(WR_LATTICE_HASH, "hash")                                                                     \
+    X(WR_LATTICE_LECTURE, "lecture")
+static const WrLatticeSource source_kinds[] = { SOURCES(WR_WORD_ID) };
+static const char *const sources[] = { SOURCES(WR_WORD) NULL };
 
 #define NOISE_PARAMS(count)                                                                        \
     WR_P_WHOLE("cells", "Cells", count, 1, 8192, 32, "of the first octave, across the table"),     \
@@ -29,7 +41,8 @@ static const char *const sources[] = { "hash", "lecture", NULL };
                    "each octave is so many times lower than the one before"),                      \
         WR_P_ABOVE("step", "Step", 2, 1, 64, 4, "",                                                \
                    "each octave has so many times more cells; rounded to whole cells"),            \
-        WR_P_CHOICE("mode", "Sum", 0, modes, "how octaves are summed"), WR_P_SEED,                 \
+        WR_P_CHOICE("mode", "Sum", WR_OCTAVES_FBM, wr_octaves_words, "how octaves are summed"),    \
+        WR_P_SEED,                                                                                 \
         WR_P_SWITCH("scatter", "Scattered", 1, "each octave is moved by an amount of its own"),    \
         WR_P_NUMBER("warp", "Warp", 0, -64, 64, 1, "cells",                                        \
                     "how far places are moved by a noise of their own"),                           \
@@ -49,8 +62,8 @@ static const char *const sources[] = { "hash", "lecture", NULL };
 
 static const WrParam cell_params[] = {
     NOISE_PARAMS(4),
-    WR_P_CHOICE("fade", "Fade", 2, fades, "how cells are blended"),
-    WR_P_CHOICE("domain", "Domain", 0, domains,
+    WR_P_CHOICE("fade", "Fade", WR_FADE_QUINTIC, wr_fade_words, "how cells are blended"),
+    WR_P_CHOICE("domain", "Domain", DOMAIN_PLANE, domains,
                 "the plane, a slice through space, or one coordinate alone"),
     SLICE,
     WR_P_CHOICE("source", "Random numbers", 0, sources,
@@ -80,14 +93,12 @@ static Described describe(const WrGenerator *row, const WrParamValue *values)
                     .dim = 2,
                     .cells = row->params == cell_params };
     if (d.cells) {
-        int domain = wr_param_whole(&d.params, "domain");
-        d.dim = domain == 0 ? 2 : domain == 1 ? 3 : 1;
-        d.axis = domain == 3;
+        Domain domain = (Domain)wr_param_whole(&d.params, "domain");
+        d.dim = domain == DOMAIN_PLANE ? 2 : domain == DOMAIN_SLICE ? 3 : 1;
+        d.axis = domain == DOMAIN_V;
     } else if (row->params == simplex_params) {
-        static const WrNoiseKind kinds[] = { WR_NOISE_SHEARED, WR_NOISE_TORUS, WR_NOISE_SIMPLEX };
-        int way = wr_param_whole(&d.params, "way");
-        d.kind = kinds[way];
-        d.dim = way == 2 ? 3 : 2;
+        d.kind = way_kinds[wr_param_whole(&d.params, "way")];
+        d.dim = d.kind == WR_NOISE_SIMPLEX ? 3 : 2;
     }
     return d;
 }
@@ -123,7 +134,7 @@ static WrOctaves octaves_of(const Described *d, int width, int height)
     count_cells(d, "cells", width, height, o.cells);
     if (d->cells) {
         o.fade = (WrFade)wr_param_whole(p, "fade");
-        o.source = wr_param_whole(p, "source") ? WR_LATTICE_LECTURE : WR_LATTICE_HASH;
+        o.source = source_kinds[wr_param_whole(p, "source")];
     }
     return o;
 }

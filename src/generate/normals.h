@@ -2,6 +2,7 @@
    same with free edges on a sheet.
    Layer 4, private to this room. */
 #pragma once
+#include "base/rows.h"
 #include "generate/fft.h"
 #include "generate/terrain.h"
 
@@ -12,11 +13,12 @@ typedef struct WrError WrError;
 typedef struct WrGenerateJob WrGenerateJob;
 typedef struct WrImage WrImage;
 
-typedef enum WrNormalCodes {
-    WR_NORMALS_AUTO,
-    WR_NORMALS_UNSIGNED, /* 0..1 stands for -1..1 */
-    WR_NORMALS_SIGNED    /* as they are; files of floats alone */
-} WrNormalCodes;
+/* Unsigned: 0..1 stands for -1..1; signed: as they are, in files of floats alone. */
+#define WR_NORMAL_CODES(X)                                                                         \
+    X(WR_NORMALS_AUTO, "auto")                                                                     \
+    X(WR_NORMALS_UNSIGNED, "unsigned")                                                             \
+    X(WR_NORMALS_SIGNED, "signed")
+typedef enum WrNormalCodes { WR_NORMAL_CODES(WR_WORD_ID) } WrNormalCodes;
 
 /* A map as slopes: scene units of height for each of width; y up is taken for granted. */
 typedef struct WrNormals {

@@ -10,13 +10,16 @@
 
 #define SURE 0.2 /* correlation of the curl under which a sign counts as guessed */
 
-enum { Y_AUTO, Y_UP, Y_DOWN };
-enum { SLOPES_AUTO, SLOPES_SMOOTH, SLOPES_CENTRAL };
-enum { EDGES_AUTO, EDGES_PERIODIC, EDGES_FREE };
-static const char *const ys[] = { "auto", "up", "down", NULL };
-static const char *const edges[] = { "auto", "periodic", "free", NULL };
-static const char *const ways[] = { "auto", "smooth", "central", NULL };
-static const char *const codes[] = { "auto", "unsigned", "signed", NULL };
+#define YS(X) X(Y_AUTO, "auto") X(Y_UP, "up") X(Y_DOWN, "down")
+#define EDGES(X) X(EDGES_AUTO, "auto") X(EDGES_PERIODIC, "periodic") X(EDGES_FREE, "free")
+#define SLOPES(X) X(SLOPES_AUTO, "auto") X(SLOPES_SMOOTH, "smooth") X(SLOPES_CENTRAL, "central")
+enum { YS(WR_WORD_ID) };
+enum { EDGES(WR_WORD_ID) };
+enum { SLOPES(WR_WORD_ID) };
+static const char *const ys[] = { YS(WR_WORD) NULL };
+static const char *const edges[] = { EDGES(WR_WORD) NULL };
+static const char *const ways[] = { SLOPES(WR_WORD) NULL };
+static const char *const codes[] = { WR_NORMAL_CODES(WR_WORD) NULL };
 
 const WrParam wr_params_normals[] = {
     WR_P_FILE("of the normal map"),

@@ -7,6 +7,7 @@
    times across the table, so that the pattern closes; and since a place is all that it knows, a moved
    origin rolls it bit for bit. */
 #pragma once
+#include "base/rows.h"
 #include "generate/build.h"
 #include "generate/param.h"
 #include "noise/noise.h"
@@ -54,14 +55,24 @@ double wr_chance(uint32_t seed, int i, int j, int use);
 /* Tell that rows are no multiple of `multiple`, if so: "the bond closes where ..." */
 void wr_note_rows(const WrGenerateJob *job, int rows, int multiple, const char *what);
 
+/* ---- which way pieces run ---- */
+
+#define WR_ALONGS(X)                                                                               \
+    X(WR_ALONG_U, "u")                                                                             \
+    X(WR_ALONG_V, "v")
+enum { WR_ALONGS(WR_WORD_ID) };
+extern const char *const wr_along_words[];
+#define WR_P_ALONG WR_P_CHOICE("along", "Along", WR_ALONG_U, wr_along_words, "which way they run")
+
 /* ---- edges ---- */
 
-typedef enum WrProfile {
-    WR_PROFILE_ROUND,   /* a quarter of a circle */
-    WR_PROFILE_SMOOTH,  /* 3 t^2 - 2 t^3 */
-    WR_PROFILE_CHAMFER, /* a straight slope */
-    WR_PROFILE_COVE     /* a quarter of a circle, hollow */
-} WrProfile;
+/* A quarter of a circle; 3 t^2 - 2 t^3; a straight slope; a quarter of a circle, hollow. */
+#define WR_PROFILES(X)                                                                             \
+    X(WR_PROFILE_ROUND, "round")                                                                   \
+    X(WR_PROFILE_SMOOTH, "smooth")                                                                 \
+    X(WR_PROFILE_CHAMFER, "chamfer")                                                               \
+    X(WR_PROFILE_COVE, "cove")
+typedef enum WrProfile { WR_PROFILES(WR_WORD_ID) } WrProfile;
 
 /* How a height rises from 0 at an edge to 1 at `bevel` texels inside of it. */
 typedef struct WrEdge {

@@ -38,12 +38,15 @@ static void way_to(const Points *p, double u, double v, int i, int j, double way
 
 /* ---- dots ---- */
 
-static const char *const layouts[] = { "square", "staggered", NULL };
+#define LAYOUTS(X) X(SQUARE, "square") X(STAGGERED, "staggered")
+enum { LAYOUTS(WR_WORD_ID) };
+static const char *const layouts[] = { LAYOUTS(WR_WORD) NULL };
 
 const WrParam wr_params_dots[] = {
     WR_P_ACROSS(8),
     WR_P_ROWS(8),
-    WR_P_CHOICE("layout", "Layout", 0, layouts, "rows above each other, or moved by half a cell"),
+    WR_P_CHOICE("layout", "Layout", SQUARE, layouts,
+                "rows above each other, or moved by half a cell"),
     WR_P_NUMBER("size", "Size", 0.8, 0, 2, 1, "", "diameter, of a cell's smaller side"),
     WR_P_PART("bevel", "Bevel", 1, "how much of the radius is edge; 1: up to the middle"),
     WR_P_PROFILE,
@@ -96,7 +99,7 @@ bool wr_pattern_dots(const WrParamValue *values, const WrGenerateJob *job, WrRel
                .bevel = wr_param_number(&params, "bevel"),
                .vary = wr_param_number(&params, "vary"),
                .profile = (WrProfile)wr_param_whole(&params, "profile"),
-               .staggered = wr_param_whole(&params, "layout") == 1,
+               .staggered = wr_param_whole(&params, "layout") == STAGGERED,
                .seed = wr_param_seed(&params) };
     const WrCells *c = &d.points.cells;
     double side = c->cell_width < c->cell_height ? c->cell_width : c->cell_height;
@@ -110,7 +113,9 @@ bool wr_pattern_dots(const WrParamValue *values, const WrGenerateJob *job, WrRel
 
 /* ---- the two nearest points ---- */
 
-typedef enum Metric { EUCLID, MANHATTAN, CHEBYSHEV } Metric;
+#define METRICS(X) X(EUCLID, "euclid") X(MANHATTAN, "manhattan") X(CHEBYSHEV, "chebyshev")
+typedef enum Metric { METRICS(WR_WORD_ID) } Metric;
+static const char *const metrics[] = { METRICS(WR_WORD) NULL };
 
 static double measured(Metric metric, const double way[2])
 {
@@ -185,16 +190,22 @@ static double to_borders(const Points *p, const Nearest *n, double u, double v)
 
 /* ---- Voronoi cells ---- */
 
-static const char *const values_words[] = { "f1", "f2", "f2-f1", "cells", "domes", NULL };
-static const char *const metrics[] = { "euclid", "manhattan", "chebyshev", NULL };
+#define SHOWN(X)                                                                                   \
+    X(FIRST, "f1")                                                                                 \
+    X(SECOND, "f2")                                                                                \
+    X(DIFFERENCE, "f2-f1")                                                                         \
+    X(CELLS, "cells")                                                                              \
+    X(DOMES, "domes")
+typedef enum Shown { SHOWN(WR_WORD_ID) } Shown;
+static const char *const shown[] = { SHOWN(WR_WORD) NULL };
 
 const WrParam wr_params_voronoi[] = {
     WR_P_ACROSS(8),
     WR_P_ROWS(8),
-    WR_P_CHOICE("value", "Value", 0, values_words,
+    WR_P_CHOICE("value", "Value", FIRST, shown,
                 "distance to the nearest point, the second, their difference, a height for each "
                 "cell, or domes"),
-    WR_P_CHOICE("metric", "Distance", 0, metrics, "how distance is measured"),
+    WR_P_CHOICE("metric", "Distance", EUCLID, metrics, "how distance is measured"),
     WR_P_PART("scatter", "Scatter", 0.9, "how far points stray in their cells"),
     WR_P_SEED,
     WR_P_HEIGHT,
@@ -205,7 +216,7 @@ const WrParam wr_params_voronoi[] = {
 typedef struct Voronoi {
     Points points;
     Metric metric;
-    int value;
+    Shown value;
     uint32_t seed;
 } Voronoi;
 
@@ -232,12 +243,13 @@ static double voronoi_at(const void *ctx, double x, double y)
     const WrCells *c = &w->points.cells;
     Nearest n = find_nearest(&w->points, w->metric, x / c->cell_width, y / c->cell_height);
     switch (w->value) {
-    case 0: return n.first;
-    case 1: return n.second;
-    case 2: return n.second - n.first;
-    case 3: return level_at(w, &n);
-    default: return 1.0 - n.first * n.first;
+    case FIRST: return n.first;
+    case SECOND: return n.second;
+    case DIFFERENCE: return n.second - n.first;
+    case CELLS: return level_at(w, &n);
+    case DOMES: break;
     }
+    return 1.0 - n.first * n.first;
 }
 
 bool wr_pattern_voronoi(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
@@ -246,7 +258,7 @@ bool wr_pattern_voronoi(const WrParamValue *values, const WrGenerateJob *job, Wr
     const WrParams params = { wr_params_voronoi, values };
     Voronoi w = { .points = { .cells = wr_cells_of(&params, job->like) },
                   .metric = (Metric)wr_param_whole(&params, "metric"),
-                  .value = wr_param_whole(&params, "value"),
+                  .value = (Shown)wr_param_whole(&params, "value"),
                   .seed = wr_param_seed(&params) };
     if (!place_points(&w.points, w.seed, wr_param_number(&params, "scatter"), err)) return false;
     bool good = wr_pattern_make(&params, job, voronoi_at, &w, 1, out, err);

@@ -7,8 +7,9 @@
 
 /* ---- weave ---- */
 
-static const char *const drafts[] = { "plain", "twill", "basket", "satin", NULL };
-typedef enum Draft { PLAIN, TWILL, BASKET, SATIN } Draft;
+#define DRAFTS(X) X(PLAIN, "plain") X(TWILL, "twill") X(BASKET, "basket") X(SATIN, "satin")
+typedef enum Draft { DRAFTS(WR_WORD_ID) } Draft;
+static const char *const drafts[] = { DRAFTS(WR_WORD) NULL };
 
 /* Threads after which a draft begins again, along both axes. */
 static const int repeats[] = { 2, 4, 4, 5 };
@@ -98,12 +99,10 @@ bool wr_pattern_weave(const WrParamValue *values, const WrGenerateJob *job, WrRe
 
 /* ---- rope ---- */
 
-static const char *const directions[] = { "u", "v", NULL };
-
 const WrParam wr_params_rope[] = {
     WR_P_WHOLE("across", "Across", 14, 1, WR_CELLS_MOST, 32, "strands along each rope"),
     WR_P_WHOLE("rows", "Rows", 6, 1, WR_CELLS_MOST, 32, "ropes side by side"),
-    WR_P_CHOICE("along", "Along", 0, directions, "which way they run"),
+    WR_P_ALONG,
     WR_P_PART("width", "Width", 0.94, "of a rope, of their distance"),
     WR_P_NUMBER("lay", "Lay", 1.8, -8, 8, 4, "", "how many strands one crosses the rope over"),
     WR_P_PART("groove", "Grooves", 0.45, "depth between strands, as a part of the height"),
@@ -143,7 +142,7 @@ bool wr_pattern_rope(const WrParamValue *values, const WrGenerateJob *job, WrRel
                      WrError *err)
 {
     const WrParams params = { wr_params_rope, values };
-    bool upwards = wr_param_whole(&params, "along") == 1;
+    bool upwards = wr_param_whole(&params, "along") == WR_ALONG_V;
     Rope r = { .cells =
                    upwards ? wr_cells_turned(&params, job->like) : wr_cells_of(&params, job->like),
                .width = wr_param_number(&params, "width"),

@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-const char *const wr_profile_words[] = { "round", "smooth", "chamfer", "cove", NULL };
+const char *const wr_along_words[] = { WR_ALONGS(WR_WORD) NULL };
+const char *const wr_profile_words[] = { WR_PROFILES(WR_WORD) NULL };
 
 WrEdge wr_edge_of(const WrParams *params)
 {

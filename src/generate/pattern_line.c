@@ -143,11 +143,13 @@ bool wr_pattern_stripes(const WrParamValue *values, const WrGenerateJob *job, Wr
 
 /* ---- waves ---- */
 
-static const char *const wave_shapes[] = { "sine", "triangle", "ripple", "dune", NULL };
+#define WAVES(X) X(SINE, "sine") X(TRIANGLE, "triangle") X(RIPPLE, "ripple") X(DUNE, "dune")
+typedef enum WaveShape { WAVES(WR_WORD_ID) } WaveShape;
+static const char *const wave_shapes[] = { WAVES(WR_WORD) NULL };
 
 const WrParam wr_params_waves[] = {
     DIRECTION(8, 0, "waves"),
-    WR_P_CHOICE("shape", "Shape", 0, wave_shapes,
+    WR_P_CHOICE("shape", "Shape", SINE, wave_shapes,
                 "of a wave; ripples have sharp crests, dunes lean"),
     WR_P_NUMBER("sway", "Sway", 0.3, 0, 16, 1, "", "how far the crests swing, in waves"),
     WR_P_WHOLE("swings", "Swings", 3, 0, 64, 16, "of the crests, along them"),
@@ -158,7 +160,8 @@ const WrParam wr_params_waves[] = {
 
 typedef struct Waves {
     Lines lines;
-    int shape, swings;
+    WaveShape shape;
+    int swings;
     double sway;
     double along_u, along_v; /* whole counts of the direction along the crests */
 } Waves;
@@ -174,13 +177,13 @@ static double wave_at(const void *ctx, double x, double y)
                             0.3 * wr_ripple((w->swings + 1) * along + 0.37));
     double part = phase - floor(phase);
     switch (w->shape) {
-    case 1: return 2.0 * to_whole(phase);
-    case 2: return 1.0 - wr_ripple(0.5 * part);
-    case 3: { /* up 70 % of a wave, down 30 %, smooth at both ends */
+    case TRIANGLE: return 2.0 * to_whole(phase);
+    case RIPPLE: return 1.0 - wr_ripple(0.5 * part);
+    case DUNE: { /* up 70 % of a wave, down 30 %, smooth at both ends */
         double t = part < 0.7 ? part / 0.7 : (1.0 - part) / 0.3;
         return t * t * (3.0 - 2.0 * t);
     }
-    default: break;
+    case SINE: break;
     }
     return 0.5 - 0.5 * wr_ripple(phase + 0.25);
 }
@@ -201,7 +204,7 @@ bool wr_pattern_waves(const WrParamValue *values, const WrGenerateJob *job, WrRe
                       WrError *err)
 {
     const WrParams params = { wr_params_waves, values };
-    Waves w = { .shape = wr_param_whole(&params, "shape"),
+    Waves w = { .shape = (WaveShape)wr_param_whole(&params, "shape"),
                 .swings = wr_param_whole(&params, "swings"),
                 .sway = wr_param_number(&params, "sway") };
     if (!read_direction(&params, "waves", &w.lines, job, err)) return false;

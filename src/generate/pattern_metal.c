@@ -5,12 +5,10 @@
 
 #include <math.h>
 
-static const char *const directions[] = { "u", "v", NULL };
-
 const WrParam wr_params_chain[] = {
     WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MOST, 32, "pairs of links along each chain"),
     WR_P_WHOLE("rows", "Rows", 4, 1, WR_CELLS_MOST, 32, "chains side by side"),
-    WR_P_CHOICE("along", "Along", 0, directions, "which way they run"),
+    WR_P_ALONG,
     WR_P_PART("width", "Width", 0.8, "of the flat links, of the distance of chains"),
     WR_P_NUMBER("wire", "Wire", 0.26, 0.02, 0.3, 0.3, "",
                 "thickness of the wire, of a link's width"),
@@ -73,7 +71,7 @@ bool wr_pattern_chain(const WrParamValue *values, const WrGenerateJob *job, WrRe
                       WrError *err)
 {
     const WrParams params = { wr_params_chain, values };
-    bool upwards = wr_param_whole(&params, "along") == 1;
+    bool upwards = wr_param_whole(&params, "along") == WR_ALONG_V;
     Chain c = { .cells =
                     upwards ? wr_cells_turned(&params, job->like) : wr_cells_of(&params, job->like),
                 .upwards = upwards };

@@ -8,9 +8,15 @@
 
 /* ---- bricks ---- */
 
-static const char *const bonds[] = { "running", "third",   "quarter", "stack",
-                                     "english", "flemish", NULL };
-typedef enum Bond { RUNNING, THIRD, QUARTER, STACK, ENGLISH, FLEMISH } Bond;
+#define BONDS(X)                                                                                   \
+    X(RUNNING, "running")                                                                          \
+    X(THIRD, "third")                                                                              \
+    X(QUARTER, "quarter")                                                                          \
+    X(STACK, "stack")                                                                              \
+    X(ENGLISH, "english")                                                                          \
+    X(FLEMISH, "flemish")
+typedef enum Bond { BONDS(WR_WORD_ID) } Bond;
+static const char *const bonds[] = { BONDS(WR_WORD) NULL };
 
 const WrParam wr_params_bricks[] = {
     WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MOST, 32, "bricks in a row"),
@@ -117,7 +123,10 @@ bool wr_pattern_bricks(const WrParamValue *values, const WrGenerateJob *job, WrR
 
 /* ---- tiles ---- */
 
-static const char *const tile_shapes[] = { "square", "octagon", "diamond", NULL };
+/* With what is cut off at a corner, of the half width. */
+#define TILES(X) X(1.0, "square") X(0.70710678118654752, "octagon") X(0.5, "diamond")
+static const double tile_cuts[] = { TILES(WR_WORD_ID) };
+static const char *const tile_shapes[] = { TILES(WR_WORD) NULL };
 
 const WrParam wr_params_tiles[] = { WR_P_ACROSS(6),
                                     WR_P_ROWS(6),
@@ -171,12 +180,11 @@ static double tile_at(const void *ctx, double x, double y)
 bool wr_pattern_tiles(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                       WrError *err)
 {
-    static const double cuts[] = { 1.0, 0.70710678118654752, 0.5 };
     const WrParams params = { wr_params_tiles, values };
     Tiles t = { .cells = wr_cells_of(&params, job->like),
                 .joint = wr_param_number(&params, "joint"),
                 .corner = wr_param_number(&params, "corner"),
-                .cut = cuts[wr_param_whole(&params, "shape")] };
+                .cut = tile_cuts[wr_param_whole(&params, "shape")] };
     t.pieces = wr_pieces_of(&params, &t.cells);
     return wr_pattern_make(&params, job, tile_at, &t, 1, out, err);
 }
@@ -272,12 +280,10 @@ bool wr_pattern_hexagons(const WrParamValue *values, const WrGenerateJob *job, W
 
 /* ---- planks ---- */
 
-static const char *const directions[] = { "u", "v", NULL };
-
 const WrParam wr_params_planks[] = {
     WR_P_WHOLE("across", "Across", 2, 1, WR_CELLS_MOST, 32, "planks end to end"),
     WR_P_WHOLE("rows", "Rows", 6, 1, WR_CELLS_MOST, 32, "planks side by side"),
-    WR_P_CHOICE("along", "Along", 0, directions, "which way they run"),
+    WR_P_ALONG,
     WR_P_TEXELS("joint", "Joint", 3, 64, "width of the gap"),
     WR_P_BEVEL(5),
     WR_P_PROFILE,
@@ -340,7 +346,7 @@ bool wr_pattern_planks(const WrParamValue *values, const WrGenerateJob *job, WrR
                        WrError *err)
 {
     const WrParams params = { wr_params_planks, values };
-    bool upwards = wr_param_whole(&params, "along") == 1;
+    bool upwards = wr_param_whole(&params, "along") == WR_ALONG_V;
     Planks p = { .cells = upwards ? wr_cells_turned(&params, job->like)
                                   : wr_cells_of(&params, job->like),
                  .joint = wr_param_number(&params, "joint"),

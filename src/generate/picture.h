@@ -1,6 +1,7 @@
 /* picture.h - heights out of pictures.
    Layer 4, private to this room. */
 #pragma once
+#include "base/rows.h"
 #include "generate/terrain.h"
 
 #include <stdbool.h>
@@ -19,15 +20,16 @@ typedef struct WrRelief WrRelief;
  * there is nothing to fill from, and a picture of NaN stays as it was; -2 where memory is gone, with err. */
 int64_t wr_picture_fill(WrSheet *sheet, WrError *err);
 
-/* How a picture is made to meet itself on the axes where the sheet is periodic. */
-typedef enum WrSeamless {
-    WR_SEAMLESS_OFF,
-    WR_SEAMLESS_BLEND, /* take away the smoothest function that has all of the jump at the edges: the
-                          periodic component of Moisan (J. Math. Imaging Vis. 39, 2011). Texels stay in
-                          their places; a slope across the whole picture goes */
-    WR_SEAMLESS_CUT /* overlap its ends, cut along the way of least difference, and even out what is left
-                          by the slopes on both sides (Poisson). Detail stays sharp */
-} WrSeamless;
+/* How a picture is made to meet itself on the axes where the sheet is periodic.
+   blend: take away the smoothest function that has all of the jump at the edges: the periodic component of Moisan
+   (J. Math. Imaging Vis. 39, 2011). Texels stay in their places; a slope across the whole picture goes.
+   cut: overlap its ends, cut along the way of least difference, and even out what is left by the slopes on both sides
+   (Poisson). Detail stays sharp. */
+#define WR_SEAMLESS_WAYS(X)                                                                        \
+    X(WR_SEAMLESS_OFF, "off")                                                                      \
+    X(WR_SEAMLESS_BLEND, "blend")                                                                  \
+    X(WR_SEAMLESS_CUT, "cut")
+typedef enum WrSeamless { WR_SEAMLESS_WAYS(WR_WORD_ID) } WrSeamless;
 extern const char *const wr_seamless_words[];
 
 /* The sheet's size stays for OFF and BLEND. CUT wants a picture that is larger by the overlap
@@ -64,8 +66,10 @@ double wr_picture_light(double code);
         .kind = WR_PARAM_TEXT, .fallback_text = ""                                                 \
     }
 /* Whether what the program wrote into a file of its own about its values counts. */
+#define WR_PICTURE_LABELS(X) X(WR_LABELS_READ, "read") X(WR_LABELS_IGNORE, "ignore")
+enum { WR_PICTURE_LABELS(WR_WORD_ID) };
 #define WR_P_LABELS                                                                                \
-    WR_P_CHOICE("labels", "Labels", 0, wr_picture_labels,                                          \
+    WR_P_CHOICE("labels", "Labels", WR_LABELS_READ, wr_picture_labels,                             \
                 "read: what export wrote into the file about its values counts; ignore: it does "  \
                 "not")
 extern const char *const wr_picture_labels[];

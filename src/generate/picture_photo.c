@@ -10,15 +10,24 @@
 
 #include <math.h>
 
-enum { LUMINANCE, RED, GREEN, BLUE, ALPHA, LARGEST };
-static const char *const channels[] = { "luminance", "red", "green", "blue", "alpha", "max", NULL };
-static const char *const lights[] = { "linear", "code", NULL };
+#define CHANNELS(X)                                                                                \
+    X(LUMINANCE, "luminance")                                                                      \
+    X(RED, "red")                                                                                  \
+    X(GREEN, "green")                                                                              \
+    X(BLUE, "blue")                                                                                \
+    X(ALPHA, "alpha")                                                                              \
+    X(LARGEST, "max")
+enum { CHANNELS(WR_WORD_ID) };
+static const char *const channels[] = { CHANNELS(WR_WORD) NULL };
+#define LIGHTS(X) X(LINEAR, "linear") X(CODE, "code")
+enum { LIGHTS(WR_WORD_ID) };
+static const char *const lights[] = { LIGHTS(WR_WORD) NULL };
 
 const WrParam wr_params_photo[] = {
     WR_P_FILE("of the picture"),
     WR_P_CHANNELS("layer"),
     WR_P_CHOICE("channel", "Channel", LUMINANCE, channels, "what counts as height"),
-    WR_P_CHOICE("light", "Light", 0, lights,
+    WR_P_CHOICE("light", "Light", LINEAR, lights,
                 "linear: codes of 8 and 16 bits are sRGB; code: they are numbers"),
     WR_P_SEAMLESS(WR_SEAMLESS_BLEND),
     WR_P_NUMBER("highpass", "High pass", 0, 0, 1000, 200, "texels",
@@ -36,7 +45,7 @@ const WrParam wr_params_photo[] = {
     WR_P_END
 };
 
-const char *const wr_picture_labels[] = { "read", "ignore", NULL };
+const char *const wr_picture_labels[] = { WR_PICTURE_LABELS(WR_WORD) NULL };
 
 double wr_picture_light(double code)
 {
@@ -62,7 +71,7 @@ const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *imag
 {
     const WrImageLabel *label = &image->label;
     const char *path = wr_param_value(params, "file")->text;
-    if (wr_param_whole(params, "labels") != 0) return NULL;
+    if (wr_param_whole(params, "labels") == WR_LABELS_IGNORE) return NULL;
     if (label->refused[0])
         wr_generate_note(job, "%s: its label %s makes no sense and is not used", path,
                          label->refused);
@@ -72,7 +81,7 @@ const WrImageLabel *wr_picture_label(const WrParams *params, const WrImage *imag
 /* A label of heights or normals tells that codes are numbers, no light. */
 static bool is_light(const WrParams *p, const WrImage *image, const WrGenerateJob *job)
 {
-    bool linear = wr_param_whole(p, "light") == 0;
+    bool linear = wr_param_whole(p, "light") == LINEAR;
     const WrImageLabel *label = wr_picture_label(p, image, job);
     if (!label || !linear || image->type == WR_PIXEL_F32) return linear;
     wr_generate_note(job,

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-const char *const wr_seamless_words[] = { "off", "blend", "cut", NULL };
+const char *const wr_seamless_words[] = { WR_SEAMLESS_WAYS(WR_WORD) NULL };
 
 static WrEnds ends_of(WrWrap wrap)
 {

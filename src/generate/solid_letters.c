@@ -6,10 +6,9 @@
 #include "generate/solid.h"
 #include "image/font.h"
 
-#define SANS_BOLD 3 /* of wr_font_names: outlines, not blocks */
-#define CHORD 0.02  /* texels that straight pieces may differ from the outlines' curves */
+#define CHORD 0.02 /* texels that straight pieces may differ from the outlines' curves */
 
-static const char *const bevels[] = { "round", "chamfer", NULL };
+static const char *const bevels[] = { WR_Z_BEVELS(WR_WORD) NULL };
 
 const WrParam wr_params_solid_letters[] = {
     { .name = "text",
@@ -23,7 +22,7 @@ const WrParam wr_params_solid_letters[] = {
       .help = "an installed font, where no file is named",
       .unit = "",
       .kind = WR_PARAM_CHOICE,
-      .fallback = { SANS_BOLD },
+      .fallback = { WR_FONT_SANS_BOLD }, /* outlines, not blocks */
       .words = wr_font_names },
     { .name = "file",
       .label = "Font file",
@@ -35,7 +34,7 @@ const WrParam wr_params_solid_letters[] = {
     WR_S_RADIUS("size", "Size", 96, "of the letters, as fonts count it"),
     WR_S_RADIUS("depth", "Depth", 16, "thickness of the plate"),
     WR_P_TEXELS("bevel", "Bevel", 4, 32, "width of the rounded edge; at most the depth"),
-    WR_P_CHOICE("profile", "Profile", 0, bevels, "of the edge"),
+    WR_P_CHOICE("profile", "Profile", WR_Z_BEVEL_ROUND, bevels, "of the edge"),
     WR_P_NUMBER("letters", "Letter spacing", 0, -4096, 4096, 32, "texels", "added between letters"),
     WR_P_NUMBER("lines", "Line spacing", 1, 0, 16, 2, "", "times the font's own"),
     WR_S_POSE,

@@ -104,9 +104,8 @@ WrField *wr_sheet_field(const WrSheet *sheet, WrError *err)
 static WrField *resized(const WrField *field, int width, int height, const WrGenerateJob *job,
                         WrError *err)
 {
-    enum { BOX = 0, CATMULL = 2 };
     bool fewer = width < wr_field_width(field) || height < wr_field_height(field);
-    const double param[] = { width, height, fewer ? BOX : CATMULL };
+    const double param[] = { width, height, fewer ? WR_RESIZE_BOX : WR_RESIZE_CATMULL };
     const WrProgress quiet = { .cancel = job->progress ? job->progress->cancel : NULL };
     const WrOpOptions options = { .pool = job->pool, .progress = &quiet };
     return wr_op_run(wr_op_find("resize"), field, param, &options, err);

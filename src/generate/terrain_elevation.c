@@ -11,11 +11,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLE_AUTO };             /* then WrRawKind + 1 */
-enum { AUTO, CODE, RANGE, REAL }; /* values= */
-static const char *const samples[] = { "auto", "u16", "i16", "f32", NULL };
-static const char *const orders[] = { "little", "big", NULL };
-static const char *const meanings[] = { "auto", "code", "range", "real", NULL };
+#define ORDERS(X) X(LITTLE, "little") X(BIG, "big")
+#define MEANINGS(X) X(AUTO, "auto") X(CODE, "code") X(RANGE, "range") X(REAL, "real")
+enum { SAMPLE_AUTO }; /* then WrRawKind + 1 */
+enum { ORDERS(WR_WORD_ID) };
+enum { MEANINGS(WR_WORD_ID) }; /* values= */
+static const char *const samples[] = { "auto", WR_RAW_KINDS(WR_WORD) NULL };
+static const char *const orders[] = { ORDERS(WR_WORD) NULL };
+static const char *const meanings[] = { MEANINGS(WR_WORD) NULL };
 
 const WrParam wr_params_elevation[] = {
     WR_P_FILE("a picture, SRTM elevations (.hgt), or bare numbers (.r16, .raw, .r32)"),
@@ -28,7 +31,7 @@ const WrParam wr_params_elevation[] = {
       .fallback_text = "" },
     WR_P_CHOICE("sample", "Numbers", SAMPLE_AUTO, samples,
                 "what bare numbers are; auto: u16, or f32 in a file .r32"),
-    WR_P_CHOICE("order", "Byte order", 0, orders, "of bare numbers"),
+    WR_P_CHOICE("order", "Byte order", LITTLE, orders, "of bare numbers"),
     WR_P_CHOICE("values", "Values", AUTO, meanings,
                 "what goes from low to high: all codes of the kind, or the range that is there; "
                 "real: heights are scale times the values; auto: code, or real for floats and i16"),
@@ -64,7 +67,7 @@ static bool read_raw(const WrParams *p, const char *path, const char *ending, co
     WrRaw raw = { .kind = sample                       ? (WrRawKind)(sample - 1)
                           : strcmp(ending, "r32") == 0 ? WR_RAW_F32
                                                        : WR_RAW_U16,
-                  .big = wr_param_whole(p, "order") == 1 };
+                  .big = wr_param_whole(p, "order") == BIG };
     char *bytes = NULL;
     size_t length = 0, limit = (size_t)WR_FIELD_MAX * WR_FIELD_MAX * wr_raw_bytes(raw.kind);
     if (!wr_file_read(path, limit, &bytes, &length, err)) return false;

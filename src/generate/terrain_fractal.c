@@ -15,13 +15,15 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "field/field.h"
 #include "noise/grid.h"
 
 #include <math.h>
 
-enum { FBM, BILLOW, RIDGED, HYBRID };
-static const char *const types[] = { "fbm", "billow", "ridged", "hybrid", NULL };
+#define TYPES(X) X(FBM, "fbm") X(BILLOW, "billow") X(RIDGED, "ridged") X(HYBRID, "hybrid")
+enum { TYPES(WR_WORD_ID) };
+static const char *const types[] = { TYPES(WR_WORD) NULL };
 
 const WrParam wr_params_fractal[] = {
     WR_P_CHOICE("type", "Type", RIDGED, types, "round hills, lumps, ridges, plains with mountains"),

@@ -2,12 +2,15 @@
    (.r16, .raw, .r32).
    Layer 4, private to this room. */
 #pragma once
+#include "base/rows.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
 typedef struct WrError WrError;
 
-typedef enum WrRawKind { WR_RAW_U16, WR_RAW_I16, WR_RAW_F32, WR_RAW_KINDS } WrRawKind;
+#define WR_RAW_KINDS(X) X(WR_RAW_U16, "u16") X(WR_RAW_I16, "i16") X(WR_RAW_F32, "f32")
+typedef enum WrRawKind { WR_RAW_KINDS(WR_WORD_ID) WR_RAW_COUNT } WrRawKind;
 
 typedef struct WrRaw {
     WrRawKind kind;

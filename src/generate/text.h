@@ -11,6 +11,7 @@
    neither the order of outlines nor where the table begins can change a bit. */
 #pragma once
 #include "base/array.h"
+#include "base/rows.h"
 #include "field/wrap.h"
 #include "generate/build.h"
 
@@ -83,14 +84,15 @@ void wr_text_distances(const WrTextShape *shape, const WrTextInside *inside,
 
 /* ---- profiles ---- */
 
-typedef enum WrTextProfile {
-    WR_TEXT_FLAT,     /* a plateau with steep walls */
-    WR_TEXT_ROUND,    /* a quarter of a circle, then a plateau */
-    WR_TEXT_CHISEL,   /* a straight slope, then a plateau */
-    WR_TEXT_RIDGE,    /* a straight slope up to the middle line */
-    WR_TEXT_ENGRAVED, /* the chisel's, downwards */
-    WR_TEXT_PROFILES
-} WrTextProfile;
+/* A plateau with steep walls; a quarter of a circle, then a plateau; a straight slope, then a plateau; a straight slope
+   up to the middle line; the chisel's, downwards. */
+#define WR_TEXT_PROFILES(X)                                                                        \
+    X(WR_TEXT_FLAT, "flat")                                                                        \
+    X(WR_TEXT_ROUND, "round")                                                                      \
+    X(WR_TEXT_CHISEL, "chisel")                                                                    \
+    X(WR_TEXT_RIDGE, "ridge")                                                                      \
+    X(WR_TEXT_ENGRAVED, "engraved")
+typedef enum WrTextProfile { WR_TEXT_PROFILES(WR_WORD_ID) } WrTextProfile;
 
 typedef struct WrTextFinish {
     WrTextProfile profile;

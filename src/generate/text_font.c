@@ -138,7 +138,7 @@ bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
     take_named(&fonts);
     bool good = find_first(&fonts, size, err);
     const char *kind = fonts.found ? wr_font_names[wr_param_whole(params, "font")] : "sans";
-    bool may_borrow = !fonts.ask.others[0] && wr_param_whole(params, "missing") == 0;
+    bool may_borrow = !fonts.ask.others[0] && wr_param_whole(params, "missing") == WR_TEXT_BORROW;
     good = good && wr_font_shape(fonts.file, &fonts.ask, &text, err);
     if (good && may_borrow && text.missing_count > 0) good = borrow(&fonts, kind, &text, err);
     if (good) {

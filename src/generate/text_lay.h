@@ -1,18 +1,24 @@
 /* text_lay.h - where a text's letters stand on the table: in lines, turned, on a path, around the table.
    Layer 4, private to this room. */
 #pragma once
+#include "base/rows.h"
 #include "generate/param.h"
 #include "generate/text.h"
 #include "image/font.h"
 
 #include <stdbool.h>
 
-typedef enum WrTextAnchor {
-    WR_TEXT_MIDDLE,   /* half way between the first line's ascent and the last one's descent */
-    WR_TEXT_BASELINE, /* of the first line */
-    WR_TEXT_TOP,
-    WR_TEXT_BOTTOM
-} WrTextAnchor;
+/* Half way between the first line's ascent and the last one's descent; of the first line. */
+#define WR_TEXT_ANCHORS(X)                                                                         \
+    X(WR_TEXT_MIDDLE, "middle")                                                                    \
+    X(WR_TEXT_BASELINE, "baseline")                                                                \
+    X(WR_TEXT_TOP, "top")                                                                          \
+    X(WR_TEXT_BOTTOM, "bottom")
+typedef enum WrTextAnchor { WR_TEXT_ANCHORS(WR_WORD_ID) } WrTextAnchor;
+
+/* Letters that the font lacks. */
+#define WR_TEXT_MISSING(X) X(WR_TEXT_BORROW, "borrow") X(WR_TEXT_SIGN, "sign")
+enum { WR_TEXT_MISSING(WR_WORD_ID) };
 
 typedef struct WrTextWish {
     WrFontAsk ask;
@@ -36,7 +42,7 @@ bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
                    const WrGenerateJob *job, WrFontText *out, WrError *err);
 /* Rows of those parameters but `font` and `file`. */
 #define WR_P_MISSING(n, words)                                                                     \
-    WR_P_CHOICE(n, "Missing letters", 0, words,                                                    \
+    WR_P_CHOICE(n, "Missing letters", WR_TEXT_BORROW, words,                                       \
                 "what the font lacks: from other installed fonts, or drawn as its sign for that")
 #define WR_P_FALLBACK(n, l, h)                                                                     \
     {                                                                                              \

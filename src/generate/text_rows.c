@@ -5,13 +5,17 @@
 
 #include <string.h>
 
-static const char *const align_words[] = { "left", "centre", "right", NULL };
-static const char *const anchor_words[] = { "middle", "baseline", "top", "bottom", NULL };
-static const char *const direction_words[] = { "auto", "left-to-right", "right-to-left", NULL };
-static const char *const around_words[] = { "off", "u", "v", "lattice", NULL };
-static const char *const missing_words[] = { "borrow", "sign", NULL };
-static const char *const edge_words[] = { "wrap", "clip", NULL };
-static const char *const profile_words[] = { "flat", "round", "chisel", "ridge", "engraved", NULL };
+#define AROUNDS(X) X(OFF, "off") X(ALONG_U, "u") X(ALONG_V, "v") X(LATTICE, "lattice")
+enum { AROUNDS(WR_WORD_ID) };
+#define EDGES(X) X(WRAPPED, "wrap") X(CLIPPED, "clip")
+enum { EDGES(WR_WORD_ID) };
+static const char *const align_words[] = { WR_FONT_ALIGNS(WR_WORD) NULL };
+static const char *const anchor_words[] = { WR_TEXT_ANCHORS(WR_WORD) NULL };
+static const char *const direction_words[] = { WR_FONT_DIRECTIONS(WR_WORD) NULL };
+static const char *const around_words[] = { AROUNDS(WR_WORD) NULL };
+static const char *const missing_words[] = { WR_TEXT_MISSING(WR_WORD) NULL };
+static const char *const edge_words[] = { EDGES(WR_WORD) NULL };
+static const char *const profile_words[] = { WR_TEXT_PROFILES(WR_WORD) NULL };
 
 static const WrParam params[] = {
     { .name = "text",
@@ -59,13 +63,14 @@ static const WrParam params[] = {
       .components = 2 },
     WR_P_CHOICE("align", "Alignment", WR_FONT_CENTRE, align_words,
                 "of the lines with one another and to the anchor"),
-    WR_P_CHOICE("anchor", "Anchor", 0, anchor_words, "what of the text's height stands there"),
+    WR_P_CHOICE("anchor", "Anchor", WR_TEXT_MIDDLE, anchor_words,
+                "what of the text's height stands there"),
     WR_P_NUMBER("letters", "Letter spacing", 0, -16384, 16384, 32, "texels",
                 "added between letters"),
     WR_P_NUMBER("lines", "Line spacing", 1, 0, 100, 3, "", "times the font's own"),
     WR_P_NUMBER("rotate", "Turn", 0, -36000, 36000, 180, "degrees",
                 "anticlockwise, about the anchor"),
-    WR_P_CHOICE("direction", "Direction", 0, direction_words,
+    WR_P_CHOICE("direction", "Direction", WR_FONT_AUTO, direction_words,
                 "of a line as a whole; auto: by its first letter"),
     { .name = "language",
       .label = "Language",
@@ -80,7 +85,7 @@ static const WrParam params[] = {
       .kind = WR_PARAM_POINTS,
       .low = -64,
       .high = 64 },
-    WR_P_CHOICE("around", "Around", 0, around_words,
+    WR_P_CHOICE("around", "Around", OFF, around_words,
                 "once round the table, the letters' spacing such that it closes: along u, v or the "
                 "lattice direction"),
     { .name = "lattice",
@@ -97,7 +102,7 @@ static const WrParam params[] = {
       .components = 2 },
     WR_P_WHOLE("repeats", "Repeats", 0, 0, 4096, 16,
                "around: how many times; 0: as many as fit best"),
-    WR_P_CHOICE("edge", "Edges", 0, edge_words,
+    WR_P_CHOICE("edge", "Edges", WRAPPED, edge_words,
                 "what passes a periodic edge comes back on the other side, or is cut off"),
     WR_P_CHOICE("profile", "Profile", WR_TEXT_FLAT, profile_words,
                 "how it rises from its rim; a ridge has bevel as its run for one height"),
@@ -122,18 +127,18 @@ static WrTextWish wish_of(const WrParams *p)
         .rotate_deg = wr_param_number(p, "rotate"),
         .points = path->points,
         .point_count = path->count,
-        .around = wr_param_whole(p, "around") != 0,
+        .around = wr_param_whole(p, "around") != OFF,
         .repeats = wr_param_whole(p, "repeats"),
-        .clip = wr_param_whole(p, "edge") == 1,
+        .clip = wr_param_whole(p, "edge") == CLIPPED,
     };
     wish.ask = (WrFontAsk){ .text = wr_param_value(p, "text")->text,
                             .face = wr_param_whole(p, "face"),
                             .direction = (WrFontDirection)wr_param_whole(p, "direction"),
                             .language = language && *language ? language : NULL,
                             .axes = axes && *axes ? axes : NULL };
-    wish.lattice[0] = wr_param_whole(p, "around") == 1 ? 1.0 : 0.0;
-    wish.lattice[1] = wr_param_whole(p, "around") == 2 ? 1.0 : 0.0;
-    for (int k = 0; k < 2 && wr_param_whole(p, "around") == 3; k++)
+    wish.lattice[0] = wr_param_whole(p, "around") == ALONG_U ? 1.0 : 0.0;
+    wish.lattice[1] = wr_param_whole(p, "around") == ALONG_V ? 1.0 : 0.0;
+    for (int k = 0; k < 2 && wr_param_whole(p, "around") == LATTICE; k++)
         wish.lattice[k] = lattice->number[k];
     return wish;
 }

@@ -7,11 +7,14 @@
    bevel - sqrt(bevel^2 - (bevel - d)^2) (round) or bevel - d (chamfer). The distance is the true one to the
    nearest outline, so thin strokes get a ridge and nothing ever folds over. */
 #pragma once
+#include "base/rows.h"
+
 #include <stdbool.h>
 
 typedef struct WrError WrError;
 
-typedef enum WrZBevel { WR_Z_BEVEL_ROUND, WR_Z_BEVEL_CHAMFER } WrZBevel;
+#define WR_Z_BEVELS(X) X(WR_Z_BEVEL_ROUND, "round") X(WR_Z_BEVEL_CHAMFER, "chamfer")
+typedef enum WrZBevel { WR_Z_BEVELS(WR_WORD_ID) } WrZBevel;
 
 typedef struct WrZContour {
     const double *points; /* [count][2]: p to the right, q up; closed by itself */

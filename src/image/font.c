@@ -1,6 +1,7 @@
 /* Asking the reader process for a shaped text, and fonts by name. */
 #include "base/error.h"
 #include "base/file.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "image/font_inner.h"
 #include "image/reader.h"
@@ -14,26 +15,34 @@
 
 /* ---- names ---- */
 
-const char *const wr_font_names[] = { "terminus", "terminus-bold", "sans", "sans-bold",
-                                      "serif",    "serif-bold",    "mono", "mono-bold",
-                                      "inter",    "inter-bold",    NULL };
+const char *const wr_font_names[] = { WR_FONT_FAMILIES(WR_WORD) NULL };
 
 typedef struct Place {
     const char *path, *package;
 } Place;
 
+WR_ROWS(places);
 static const Place places[] = {
-    { "n", "xfonts-terminus" },
-    { "b", "xfonts-terminus" },
-    { "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "fonts-dejavu-core" },
-    { "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf", "fonts-dejavu-core" },
-    { "/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf", "fonts-dejavu-core" },
-    { "/usr/share/fonts/truetype/dejavu/DejaVuSerif-Bold.ttf", "fonts-dejavu-core" },
-    { "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "fonts-dejavu-core" },
-    { "/usr/share/fonts/truetype/dejavu/DejaVuSansMono-Bold.ttf", "fonts-dejavu-core" },
-    { "/usr/share/fonts/opentype/inter/Inter-Regular.otf", "fonts-inter" },
-    { "/usr/share/fonts/opentype/inter/Inter-Bold.otf", "fonts-inter" },
+    [WR_ROW(WR_FONT_TERMINUS)] = { "n", "xfonts-terminus" },
+    [WR_ROW(WR_FONT_TERMINUS_BOLD)] = { "b", "xfonts-terminus" },
+    [WR_ROW(WR_FONT_SANS)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                               "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_SANS_BOLD)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf",
+                                    "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_SERIF)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf",
+                                "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_SERIF_BOLD)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSerif-Bold.ttf",
+                                     "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_MONO)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
+                               "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_MONO_BOLD)] = { "/usr/share/fonts/truetype/dejavu/DejaVuSansMono-Bold.ttf",
+                                    "fonts-dejavu-core" },
+    [WR_ROW(WR_FONT_INTER)] = { "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
+                                "fonts-inter" },
+    [WR_ROW(WR_FONT_INTER_BOLD)] = { "/usr/share/fonts/opentype/inter/Inter-Bold.otf",
+                                     "fonts-inter" },
 };
+WR_ROWS_END(places, WR_FONT_FAMILY_COUNT);
 
 static int terminus_dots(double size)
 {

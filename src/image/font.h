@@ -10,6 +10,7 @@
    directions by FriBidi; bitmaps in PCF, BDF, PSF 1 and 2, all also compressed by gzip. */
 #pragma once
 #include "base/array.h"
+#include "base/rows.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,6 +29,18 @@ typedef struct WrError WrError;
 
 /* The names of fonts that Debian packages put in known places; ends with NULL. The first is the default:
    a bitmap font. */
+#define WR_FONT_FAMILIES(X)                                                                        \
+    X(WR_FONT_TERMINUS, "terminus")                                                                \
+    X(WR_FONT_TERMINUS_BOLD, "terminus-bold")                                                      \
+    X(WR_FONT_SANS, "sans")                                                                        \
+    X(WR_FONT_SANS_BOLD, "sans-bold")                                                              \
+    X(WR_FONT_SERIF, "serif")                                                                      \
+    X(WR_FONT_SERIF_BOLD, "serif-bold")                                                            \
+    X(WR_FONT_MONO, "mono")                                                                        \
+    X(WR_FONT_MONO_BOLD, "mono-bold")                                                              \
+    X(WR_FONT_INTER, "inter")                                                                      \
+    X(WR_FONT_INTER_BOLD, "inter-bold")
+enum { WR_FONT_FAMILIES(WR_WORD_ID) WR_FONT_FAMILY_COUNT };
 extern const char *const wr_font_names[];
 /* The file of wr_font_names[index], for bitmap families the one that fits `size` texels best: the tallest
  * that goes into it a whole number of times, else the tallest that is not taller. Errors: not installed,
@@ -48,11 +61,13 @@ int wr_font_lenders(const uint32_t *characters, int count, const char *kind, con
 /* How many places of a text are not UTF-8. */
 int wr_font_strange_bytes(const char *text);
 
+/* Auto: of each line by its first letter that has one. */
+#define WR_FONT_DIRECTIONS(X)                                                                      \
+    X(WR_FONT_AUTO, "auto")                                                                        \
+    X(WR_FONT_LEFT_TO_RIGHT, "left-to-right")                                                      \
+    X(WR_FONT_RIGHT_TO_LEFT, "right-to-left")
 typedef enum WrFontDirection {
-    WR_FONT_AUTO, /* of each line by its first letter that has one */
-    WR_FONT_LEFT_TO_RIGHT,
-    WR_FONT_RIGHT_TO_LEFT,
-    WR_FONT_DIRECTIONS
+    WR_FONT_DIRECTIONS(WR_WORD_ID) WR_FONT_DIRECTION_COUNT
 } WrFontDirection;
 
 typedef struct WrFontAsk {
@@ -159,12 +174,11 @@ void wr_font_outline_fini(WrFontOutline *outline);
 bool wr_font_glyph_outline(const WrFontText *text, int glyph, double scale, double x, double y,
                            double tolerance, WrFontOutline *out, WrError *err);
 
-typedef enum WrFontAlign {
-    WR_FONT_LEFT,
-    WR_FONT_CENTRE,
-    WR_FONT_RIGHT,
-    WR_FONT_ALIGNS
-} WrFontAlign;
+#define WR_FONT_ALIGNS(X)                                                                          \
+    X(WR_FONT_LEFT, "left")                                                                        \
+    X(WR_FONT_CENTRE, "centre")                                                                    \
+    X(WR_FONT_RIGHT, "right")
+typedef enum WrFontAlign { WR_FONT_ALIGNS(WR_WORD_ID) } WrFontAlign;
 
 typedef struct WrFontSetting {
     double size;           /* texels of an em (bitmaps: of the dots' height) */

@@ -6,34 +6,15 @@
 #include <math.h>
 #include <string.h>
 
+const char *const wr_fade_words[] = { WR_FADES(WR_WORD) NULL };
+
 WR_ROWS(wr_fades);
 const WrFadeInfo wr_fades[WR_FADE_COUNT] = {
-    [WR_ROW(WR_FADE_LINEAR)] = { "linear",
-                                 "linear",
-                                 "Straight between lattice points: creased there, and "
-                                 "prescribed slopes are not met.",
-                                 0,
-                                 { 0, 1, 0, 0, 0, 0 } },
-    [WR_ROW(WR_FADE_CUBIC)] = { "cubic",
-                                "cubic",
-                                "Slopes are continuous and met; curvature jumps at cell "
-                                "borders, which bump shading can show.",
-                                1,
-                                { 0, 0, 3, -2, 0, 0 } },
-    [WR_ROW(WR_FADE_QUINTIC)] = { "quintic",
-                                  "quintic",
-                                  "Slopes and curvatures are continuous.",
-                                  2,
-                                  { 0, 0, 0, 10, -15, 6 } },
+    [WR_ROW(WR_FADE_LINEAR)] = { .continuity = 0, .c = { 0, 1, 0, 0, 0, 0 } },
+    [WR_ROW(WR_FADE_CUBIC)] = { .continuity = 1, .c = { 0, 0, 3, -2, 0, 0 } },
+    [WR_ROW(WR_FADE_QUINTIC)] = { .continuity = 2, .c = { 0, 0, 0, 10, -15, 6 } },
 };
 WR_ROWS_END(wr_fades, WR_FADE_COUNT);
-
-int wr_fade_find(const char *name)
-{
-    for (int k = 0; k < WR_FADE_COUNT; k++)
-        if (strcmp(wr_fades[k].name, name) == 0) return k;
-    return -1;
-}
 
 uint32_t wr_lattice_hash(uint32_t seed, const uint32_t *c, int dim)
 {

@@ -8,6 +8,7 @@
    overflows (HC61). */
 #pragma once
 #include "base/hash.h"
+#include "base/rows.h"
 
 #include <stdint.h>
 
@@ -17,12 +18,14 @@ typedef struct WrError WrError;
 #define WR_LATTICE_MOST (1 << 30) /* cells of a period at most */
 
 /* alpha(x), which goes from 0 at x = 0 to 1 at x = 1 with alpha(1 - x) = 1 - alpha(x). */
-typedef enum WrFade { WR_FADE_LINEAR, WR_FADE_CUBIC, WR_FADE_QUINTIC, WR_FADE_COUNT } WrFade;
+#define WR_FADES(X)                                                                                \
+    X(WR_FADE_LINEAR, "linear")                                                                    \
+    X(WR_FADE_CUBIC, "cubic")                                                                      \
+    X(WR_FADE_QUINTIC, "quintic")
+typedef enum WrFade { WR_FADES(WR_WORD_ID) WR_FADE_COUNT } WrFade;
+extern const char *const wr_fade_words[]; /* as in commands; ends with NULL */
 
 typedef struct WrFadeInfo {
-    const char *name;  /* as in commands: "quintic" */
-    const char *label; /* for people */
-    const char *help;  /* one sentence */
     int continuity; /* derivatives of value noise that are continuous everywhere: 0, 1, 2. Gradient
                           noise has as many, and prescribed slopes are met, when it is 1 or more */
     double c[6];    /* alpha(x) = sum of c[k] x^k */
@@ -30,8 +33,6 @@ typedef struct WrFadeInfo {
 
 /* x; 3 x^2 - 2 x^3; 10 x^3 - 15 x^4 + 6 x^5 (Perlin 2002). Indexed by WrFade. */
 extern const WrFadeInfo wr_fades[WR_FADE_COUNT];
-/* The fade of that name, or -1. */
-int wr_fade_find(const char *name);
 
 /* alpha(x); exactly 0, 1/2, 1 at x = 0, 1/2, 1. */
 static inline double wr_fade_alpha(const WrFadeInfo *fade, double x)

@@ -7,27 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-WR_ROWS(wr_octaves_modes);
-const WrOctavesInfo wr_octaves_modes[WR_OCTAVES_MODE_COUNT] = {
-    [WR_ROW(WR_OCTAVES_FBM)] = { "fbm", "fractional Brownian motion", "The sum of the octaves." },
-    [WR_ROW(WR_OCTAVES_TURBULENCE)] = { "turbulence", "turbulence",
-                                        "The sum of the octaves' absolute values: creased "
-                                        "valleys." },
-    [WR_ROW(WR_OCTAVES_BILLOW)] = { "billow", "billow",
-                                    "Turbulence about a ground level of 0: rounded hills between "
-                                    "creases." },
-    [WR_ROW(WR_OCTAVES_RIDGED)] = { "ridged", "ridged",
-                                    "Sharp ridges where the octaves are 0; finer octaves "
-                                    "on the ridges only." },
-};
-WR_ROWS_END(wr_octaves_modes, WR_OCTAVES_MODE_COUNT);
-
-int wr_octaves_mode_find(const char *name)
-{
-    for (int k = 0; k < WR_OCTAVES_MODE_COUNT; k++)
-        if (strcmp(wr_octaves_modes[k].name, name) == 0) return k;
-    return -1;
-}
+const char *const wr_octaves_words[] = { WR_OCTAVES_MODES(WR_WORD) NULL };
 
 WrOctaves wr_octaves_default(int dim)
 {
@@ -148,8 +128,11 @@ static double term_bound(const WrOctaves *octaves, double most)
     switch (octaves->mode) {
     case WR_OCTAVES_BILLOW: return fabs(2.0 * most - 1.0) > 1.0 ? fabs(2.0 * most - 1.0) : 1.0;
     case WR_OCTAVES_RIDGED: return far > o ? far * far : o * o;
-    default: return most;
+    case WR_OCTAVES_FBM:
+    case WR_OCTAVES_TURBULENCE:
+    case WR_OCTAVES_MODE_COUNT: break;
     }
+    return most;
 }
 
 bool wr_octaves_plan(const WrOctaves *octaves, const int *texels, WrOctavesPlan *plan, WrError *err)

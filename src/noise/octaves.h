@@ -17,6 +17,7 @@
    For r = s slopes do not fall off: the rms slope grows as the square root of the number of octaves
    while the rms height has long converged. For bumps choose r > s, or few octaves. */
 #pragma once
+#include "base/rows.h"
 #include "noise/noise.h"
 
 #include <stdbool.h>
@@ -27,23 +28,13 @@ typedef struct WrError WrError;
 
 #define WR_OCTAVES_MOST 32
 
-typedef enum WrOctavesMode {
-    WR_OCTAVES_FBM,
-    WR_OCTAVES_TURBULENCE,
-    WR_OCTAVES_BILLOW,
-    WR_OCTAVES_RIDGED,
-    WR_OCTAVES_MODE_COUNT
-} WrOctavesMode;
-
-typedef struct WrOctavesInfo {
-    const char *name;  /* as in commands: "ridged" */
-    const char *label; /* for people */
-    const char *help;  /* one sentence */
-} WrOctavesInfo;
-
-extern const WrOctavesInfo wr_octaves_modes[WR_OCTAVES_MODE_COUNT];
-/* The mode of that name, or -1. */
-int wr_octaves_mode_find(const char *name);
+#define WR_OCTAVES_MODES(X)                                                                        \
+    X(WR_OCTAVES_FBM, "fbm")                                                                       \
+    X(WR_OCTAVES_TURBULENCE, "turbulence")                                                         \
+    X(WR_OCTAVES_BILLOW, "billow")                                                                 \
+    X(WR_OCTAVES_RIDGED, "ridged")
+typedef enum WrOctavesMode { WR_OCTAVES_MODES(WR_WORD_ID) WR_OCTAVES_MODE_COUNT } WrOctavesMode;
+extern const char *const wr_octaves_words[]; /* as in commands; ends with NULL */
 
 /* What is asked for. Plain data; the caller's. */
 typedef struct WrOctaves {

@@ -54,7 +54,7 @@ static void shrink(const WrGenerator *generator, WrParamValue *values, int step)
 static WrField *resized(const WrField *field, int width, int height, WrPool *pool,
                         const WrProgress *progress, WrError *err)
 {
-    const double param[] = { width, height, 1 }; /* linear */
+    const double param[] = { width, height, WR_RESIZE_LINEAR };
     const WrOpOptions options = { .pool = pool, .progress = progress };
     return wr_op_run(wr_op_find("resize"), field, param, &options, err);
 }
