@@ -25,8 +25,8 @@ function(wr_fuzz name)
     endif()
     list(TRANSFORM FUZZ_UNPARSED_ARGUMENTS PREPEND ${PROJECT_SOURCE_DIR}/src/
          OUTPUT_VARIABLE sources)
+    set(targets wr_system)
     set(rooms "")
-    set(targets "")
     foreach(room ${FUZZ_ROOMS})
         list(APPEND rooms $<TARGET_FILE:wr_${room}>)
         list(APPEND targets wr_${room})
@@ -36,7 +36,7 @@ function(wr_fuzz name)
     add_custom_command(OUTPUT ${program}
         COMMAND ${WR_CLANG} ${fuzz_flags} -D_GNU_SOURCE -I${PROJECT_SOURCE_DIR}/src
                 ${CMAKE_CURRENT_SOURCE_DIR}/fuzz_${name}.c ${sources}
-                ${rooms} ${FUZZ_LIBRARIES} -lxxhash -lmd -lm -o ${program}
+                ${rooms} $<TARGET_FILE:wr_system> ${FUZZ_LIBRARIES} -lxxhash -lmd -lm -o ${program}
         DEPENDS fuzz_${name}.c ${sources} ${headers} ${targets} VERBATIM)
     add_custom_target(fuzz_${name} ALL DEPENDS ${program})
     add_test(NAME fuzz_${name} COMMAND ${program} -seed=1 -runs=100000 -max_len=2000 -max_total_time=10

@@ -4,13 +4,13 @@
 #include "base/error.h"
 #include "test.h"
 
-#include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "image/font.h"
 #include "image/image.h"
 #include "image/mesh.h"
+#include "system/clock.h"
 
 #include <dirent.h>
 #include <fcntl.h>

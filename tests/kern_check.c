@@ -4,12 +4,12 @@
    kern_check [--seed N]; kern_check --bench prints nanoseconds a sample instead. */
 #include "test.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "render/kern.h"
 #include "render/pyramid.h"
+#include "system/clock.h"
 
 #define FAST_BOUND 2e-4 /* relative to 1 or to the value, whichever is larger */
 

@@ -64,7 +64,7 @@ plant() {
     printf '%s\n' '#include <stdlib.h>' 'int wr_mutant;' \
         '__attribute__((constructor)) static void wr_mutant_read(void)' '{' \
         '    const char *text = getenv("WR_MUTANT");' '    wr_mutant = text ? atoi(text) : 0;' '}' \
-        >>"$tree/src/base/error.c"
+        >>"$tree/src/system/fd.c"
 }
 
 # What asks: the rows of the hard cases, or the tests that the table names and what they run.

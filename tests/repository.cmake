@@ -7,6 +7,7 @@ function(wr_check name script)
 endfunction()
 
 wr_check(rooms rooms.sh ${PROJECT_SOURCE_DIR})
+wr_check(system system.sh ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR})
 wr_check(headers headers.sh ${PROJECT_SOURCE_DIR})
 wr_check(format format.sh ${PROJECT_SOURCE_DIR})
 wr_check(arguments arguments.sh ${PROJECT_SOURCE_DIR})

@@ -8,7 +8,8 @@ cd "$1" || exit 1
     find src ui -name '*.c' -o -name '*.h' -o -name '*.cpp' -o -name '*.hpp'
 } | sort | xargs awk '
 BEGIN {
-    base = " base "
+    may["system"] = " system "
+    base = " system base "
     may["base"] = base
     may["field"] = may["noise"] = may["image"] = base
     may["surface"] = base "field "

@@ -1,8 +1,8 @@
-/* The cage of the reader process (src/image/cage.h): each thing that a caged process must not do, tried from
+/* The cage of the reader process (src/system/cage.h): each thing that a caged process must not do, tried from
    inside, with Landlock and without, for each has to hold alone. */
 #include "test.h"
 
-#include "image/cage.h"
+#include "system/cage.h"
 
 #include <linux/capability.h>
 #include <dlfcn.h>

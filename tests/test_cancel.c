@@ -6,7 +6,6 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/pool.h"
 #include "base/progress.h"
@@ -15,6 +14,7 @@
 #include "command/estimate.h"
 #include "command/session.h"
 #include "generate/generator.h"
+#include "system/clock.h"
 
 #include <dirent.h>
 #include <sys/stat.h>

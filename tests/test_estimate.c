@@ -3,11 +3,11 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "command/estimate.h"
 #include "command/session.h"
 #include "command/table.h"
+#include "system/clock.h"
 
 #include <fcntl.h>
 #include <malloc.h>

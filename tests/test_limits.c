@@ -4,13 +4,13 @@
 #include "test.h"
 #include "test_session_help.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/pool.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "command/call.h"
 #include "command/session.h"
+#include "system/clock.h"
 
 #include <pthread.h>
 #include <unistd.h>

@@ -6,11 +6,11 @@
 #include "test_folder.h"
 #include "test_session_help.h"
 
-#include "base/clock.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/brush.h"
 #include "command/session.h"
+#include "system/clock.h"
 
 #include "ui/canvas/outline.h"
 #include "ui/preview/preview.h"

@@ -2,10 +2,10 @@
 #include "test.h"
 #include "generate_help.h"
 
-#include "base/clock.h"
 #include "base/pool.h"
 #include "generate/zbuffer.h"
 #include "surface/surface.h"
+#include "system/clock.h"
 
 #include <unistd.h>
 

@@ -2,12 +2,12 @@
    same as what the command then makes. */
 #include "test.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include "ui/canvas/outline.h"
 #include "ui/jobs/trial.h"

@@ -5,13 +5,13 @@
 #include "test_folder.h"
 #include "test_window.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
 #include "command/inner.h"
+#include "system/clock.h"
 
 #include "ui/app/loop.h"
 #include "ui/app/store.h"

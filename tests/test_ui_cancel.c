@@ -5,10 +5,10 @@
 #include "test_folder.h"
 #include "test_window.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
+#include "system/clock.h"
 
 #include "ui/app/loop.h"
 #include "ui/app/store.h"
@@ -61,11 +61,11 @@ static void *press(void *arg)
 static double cancelled_after(WrApp *app, const char *line, double seconds)
 {
     Press p = { .app = app, .after = seconds };
-    pthread_t thread;
+    WrThread thread;
     assert_true(wr_thread_start(&thread, press, &p));
     bool good = wr_app_run_line(app, line);
     double end = wr_clock_seconds();
-    pthread_join(thread, NULL);
+    wr_thread_join(thread);
     SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
     if (good || !app->gave_up) {
         const WrMessages *m = app->messages;

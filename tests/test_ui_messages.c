@@ -1,9 +1,9 @@
 /* What the status line says, and what waits to be read. */
 #include "test.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "system/clock.h"
 
 #include "ui/app/store.h"
 #include "ui/desk/messages.h"

@@ -2,13 +2,13 @@
    work in the background. */
 #include "test.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include "ui/canvas/ants.h"
 #include "ui/canvas/canvas_range.h"

@@ -1,7 +1,6 @@
 /* Measure the rungs: times interleaved, errors against the reference. */
 #include "accuracy/ladder_inner.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -9,6 +8,8 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "system/clock.h"
+#include "system/thread.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,20 +18,6 @@
 #define RUNS_LEAST 3
 #define RUNS_MAX 64
 #define NOISE 1.02 /* an error that is smaller by less is no reason to take longer */
-
-/* ---- one processor ---- */
-
-/* The calling thread stays on the processor that it is on, so that caches and clock rate stay with it. */
-bool wr_bench_pin(cpu_set_t *before)
-{
-    cpu_set_t one;
-    if (sched_getaffinity(0, sizeof *before, before) != 0) return false;
-    const int here = sched_getcpu();
-    if (here < 0) return false;
-    CPU_ZERO(&one);
-    CPU_SET(here, &one);
-    return sched_setaffinity(0, sizeof one, &one) == 0;
-}
 
 /* ---- frames ---- */
 
@@ -312,7 +299,7 @@ bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *e
 {
     WrLadder ladder = { 0 };
     WrPool *all = wr_pool_new(0), *one = wr_pool_new(1);
-    cpu_set_t before;
+    WrPin pin;
     WrBench bench = { .request = request, .pool = request->threads == 1 ? one : all };
     bool good = wr_bench_reference(request, all, &ladder.reference, err);
     bench.renderer = good ? wr_renderer_new(bench.pool, NULL, err) : NULL;
@@ -325,9 +312,9 @@ bool wr_ladder_measure(const WrLadderRequest *request, WrLadder *out, WrError *e
         WrScene **scenes = wr_alloc((size_t)ladder.count, sizeof *scenes);
         for (int i = 0; i < ladder.count; i++)
             scenes[i] = wr_setting_apply(&ladder.rungs[i].setting, request->scene);
-        const bool pinned = request->threads == 1 && wr_bench_pin(&before);
+        const bool pinned = request->threads == 1 && wr_thread_pin(&pin);
         good = bench.normals && measure_all(&bench, scenes, &ladder, err);
-        if (pinned) sched_setaffinity(0, sizeof before, &before);
+        if (pinned) wr_thread_unpin(&pin);
         for (int i = 0; i < ladder.count; i++) wr_scene_free(scenes[i]);
         wr_free(scenes);
     }

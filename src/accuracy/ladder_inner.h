@@ -4,7 +4,6 @@
 #include "accuracy/ladder.h"
 #include "render/frame.h"
 
-#include <sched.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -15,9 +14,6 @@ typedef struct WrBench {
     float *normals;       /* [height][width][3], owned; NULL: not wanted */
 } WrBench;
 
-/* The calling thread stays on the processor that it is on, so that caches and clock rate stay with it.
-   *before: to give back with sched_setaffinity. False if it cannot be done. */
-bool wr_bench_pin(cpu_set_t *before);
 bool wr_bench_frame(const WrBench *bench, const WrScene *scene, float *normals, WrFrame *frame,
                     WrError *err);
 /* Seconds of one frame, after an untimed one. */

@@ -5,47 +5,42 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "image/image.h"
+#include "system/child.h"
+#include "system/fd.h"
+#include "system/process.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #define DRAWING_MAX ((size_t)256 << 20) /* bytes */
 
-extern char **environ;
-
 /* gnuplot, reading, drawing and complaining to open files. */
-static bool spawn(int in, int out, int complaints, pid_t *pid, WrError *err)
+static bool spawn(int in, int out, int complaints, WrPid *pid, WrError *err)
 {
-    posix_spawn_file_actions_t actions;
-    char *const arguments[] = { "gnuplot", "-d", "-", NULL }; /* -d: no start-up file */
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, complaints, STDERR_FILENO);
-    const int trouble = posix_spawnp(pid, "gnuplot", &actions, NULL, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    const char *const arguments[] = { "gnuplot", "-d", "-", NULL }; /* -d: no start-up file */
+    const WrChildStart it = { .program = "gnuplot",
+                              .arguments = arguments,
+                              .in = in,
+                              .out = out,
+                              .err = complaints,
+                              .search = true };
+    const int trouble = wr_child_start(&it, pid);
     if (trouble == ENOENT)
         return wr_fail(err, "plots are drawn by the program gnuplot, which is not installed "
                             "(Debian's package gnuplot-nox)");
     return trouble == 0 || wr_fail(err, "gnuplot cannot be started: %s", strerror(trouble));
 }
 
-static bool wait_for(pid_t pid, int complaints, WrError *err)
+static bool wait_for(WrPid pid, int complaints, WrError *err)
 {
     char words[300];
-    int status;
-    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
-    const ssize_t n = pread(complaints, words, sizeof words - 1, 0);
+    WrChildEnd end;
+    wr_child_wait(pid, &end);
+    const int64_t n = wr_fd_read_at(complaints, words, sizeof words - 1, 0);
     words[n > 0 ? n : 0] = '\0';
     for (char *c = words; *c; c++)
         if ((unsigned char)*c < ' ') *c = ' ';
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+    if (end.why == WR_CHILD_LEFT && end.number == 0) return true;
     return wr_fail(err, "gnuplot failed: %s", words[0] ? words : "it says nothing");
 }
 
@@ -53,18 +48,18 @@ static bool wait_for(pid_t pid, int complaints, WrError *err)
    other. */
 static int run(const WrText *script, WrError *err)
 {
-    pid_t pid;
+    WrPid pid;
     const int in = wr_fd_in_memory("plot", wr_text_get(script), script->length, err);
     if (in < 0) return -1;
-    const int complaints = memfd_create("complaints", MFD_CLOEXEC);
-    int drawing = memfd_create("drawing", MFD_CLOEXEC);
+    const int complaints = wr_fd_memory("complaints");
+    int drawing = wr_fd_memory("drawing");
     bool good = (complaints >= 0 && drawing >= 0) ||
                 wr_fail(err, "gnuplot cannot be started: %s", strerror(errno));
     good = good && spawn(in, drawing, complaints, &pid, err) && wait_for(pid, complaints, err);
-    close(in);
-    if (complaints >= 0) close(complaints);
+    wr_fd_close(in);
+    if (complaints >= 0) wr_fd_close(complaints);
     if (good || drawing < 0) return drawing;
-    close(drawing);
+    wr_fd_close(drawing);
     return -1;
 }
 
@@ -84,10 +79,11 @@ static bool check_whole(const char *path, const char *bytes, size_t length, bool
 
 static bool put_drawing(WrFileTarget *target, int drawing, bool png, WrError *err)
 {
-    char path[32], *bytes;
+    char path[WR_FD_NAME], *bytes;
     size_t length;
-    snprintf(path, sizeof path, "/proc/self/fd/%d", drawing);
-    if (!wr_file_read(path, DRAWING_MAX, &bytes, &length, err)) return false;
+    wr_fd_name(drawing, path);
+    if (wr_fd_seek(drawing, 0) != 0 || !wr_file_read(path, DRAWING_MAX, &bytes, &length, err))
+        return false;
     bool good = check_whole(target->path, bytes, length, png, err) &&
                 wr_file_put(target, bytes, length, err);
     if (good) wr_file_verified(target);
@@ -108,7 +104,7 @@ bool wr_report_plot(const WrLadder *ladder, const char *name, const char *path, 
     wr_report_plot_script(ladder, name, png ? "pngcairo" : "svg", &script);
     const int drawing = run(&script, err);
     bool good = drawing >= 0 && put_drawing(&target, drawing, png, err);
-    if (drawing >= 0) close(drawing);
+    if (drawing >= 0) wr_fd_close(drawing);
     if (good) good = wr_file_commit(&target, err);
     else wr_file_abort(&target);
     wr_text_fini(&script);

@@ -2,10 +2,10 @@
 #include "accuracy/tolerance.h"
 
 #include "accuracy/tolerance_inner.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include <math.h>
 

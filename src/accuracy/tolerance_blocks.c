@@ -1,9 +1,9 @@
 /* A picture as blocks, each with its pictures of one level after the other. */
 #include "accuracy/tolerance_inner.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,18 +1,18 @@
 /* How long a price takes on this machine: measured once and kept, so that the same time buys the same dials. */
 #include "accuracy/tolerance_inner.h"
 
-#include "base/clock.h"
 #include "base/cpu.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "field/field.h"
+#include "system/clock.h"
+#include "system/path.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #define RUNS 7
 #define SIDE 256
@@ -28,10 +28,11 @@ static bool find_file(WrText *path)
     else if (cache && cache[0] == '/') wr_text_addf(path, "%s", cache);
     else if (home && home[0] == '/') wr_text_addf(path, "%s/.cache", home);
     else return false;
-    mkdir(wr_text_get(path), 0700); /* there already, mostly; else the write fails */
+    wr_folder_make(wr_text_get(path),
+                   WR_FOLDER_FOR_ME); /* there already, mostly; else the write fails */
     if (!own || !*own) {
         wr_text_add(path, "/wrinkle");
-        mkdir(wr_text_get(path), 0700);
+        wr_folder_make(wr_text_get(path), WR_FOLDER_FOR_ME);
     }
     wr_text_add(path, "/speed");
     return true;

@@ -3,10 +3,10 @@
    tell. */
 #include "accuracy/tolerance_inner.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,16 +4,14 @@
 #include "base/memory.h"
 #include "base/stamp.h"
 #include "base/text.h"
+#include "system/fd.h"
+#include "system/path.h"
+#include "system/process.h"
 
 #include <ctype.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
 #include <stdint.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, WrError *err)
 {
@@ -24,8 +22,7 @@ bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, 
     char *block = wr_try_alloc(want + 1, 1, path, err);
     if (!block) goto fail;
     while (have < want) {
-        ssize_t n = read(fd, block + have, want - have);
-        if (n < 0 && errno == EINTR) continue;
+        int64_t n = wr_fd_read(fd, block + have, want - have);
         if (n < 0) {
             wr_fail(err, "%s: %s", path, strerror(errno));
             goto fail;
@@ -34,13 +31,13 @@ bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, 
         have += (size_t)n;
     }
     block[have] = '\0';
-    close(fd);
+    wr_fd_close(fd);
     *bytes = block;
     *length = have;
     return true;
 fail:
     wr_free(block);
-    close(fd);
+    wr_fd_close(fd);
     return false;
 }
 
@@ -71,36 +68,13 @@ const char *wr_path_ending(const char *path, char buffer[16])
     return buffer;
 }
 
-bool wr_fd_write(int fd, const void *bytes, size_t length)
-{
-    const char *from = bytes;
-    while (length > 0) {
-        ssize_t n = write(fd, from, length);
-        if (n < 0 && errno == EINTR) continue;
-        if (n == 0) errno = ENOSPC;
-        if (n <= 0) return false;
-        from += n;
-        length -= (size_t)n;
-    }
-    return true;
-}
-
 int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError *err)
 {
-    int fd = memfd_create("wrinkle", MFD_CLOEXEC);
-    if (fd >= 0 && wr_fd_write(fd, bytes, length) && lseek(fd, 0, SEEK_SET) == 0) return fd;
+    int fd = wr_fd_memory("wrinkle");
+    if (fd >= 0 && wr_fd_write(fd, bytes, length) && wr_fd_seek(fd, 0) == 0) return fd;
     wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
-    if (fd >= 0) close(fd);
+    if (fd >= 0) wr_fd_close(fd);
     return -1;
-}
-
-char *wr_program_folder(void)
-{
-    char exe[PATH_MAX];
-    ssize_t n = readlink("/proc/self/exe", exe, sizeof exe - 1);
-    if (n < 0) return wr_strdup(".");
-    exe[n] = '\0';
-    return wr_path_folder(exe);
 }
 
 /* Told by the build; a fuzzer that is made of single files has none. */
@@ -108,6 +82,13 @@ char *wr_program_folder(void)
 #define WR_BUILD_FOLDER ""
 #define WR_SOURCE_FOLDER ""
 #endif
+
+char *wr_program_folder(void)
+{
+    char exe[4096];
+    if (wr_process_program(exe, sizeof exe)) return wr_path_folder(exe);
+    return wr_strdup(*WR_BUILD_FOLDER ? WR_BUILD_FOLDER : "."); /* the system does not say */
+}
 
 /* The checkout that the program was made from, if it runs where it was built; else NULL. */
 static const char *source_folder(const char *program_folder)
@@ -131,7 +112,7 @@ bool wr_data_find(const char *name, WrText *path)
         if (!places[i].folder) continue;
         wr_text_clear(path);
         wr_text_addf(path, "%s%s/%s", places[i].folder, places[i].tail, name);
-        found = access(wr_text_get(path), R_OK) == 0;
+        found = wr_path_can_read(wr_text_get(path));
     }
     wr_free(folder);
     return found;

@@ -1,6 +1,8 @@
 /* file.h - whole files in, and files out that are there whole or not at all.
    Layer 0. */
 #pragma once
+#include "system/fd.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -37,7 +39,7 @@ typedef struct WrFileTarget {
     char *path;      /* what the user named, links resolved */
     char *temporary; /* ".NAME.PID-RANDOM.part.ending" beside it */
     int fd;        /* of the temporary file, to be written and read; libraries that take nothing but
-                        names get /proc/self/fd/N */
+                        names get wr_fd_name (system/fd.h) */
     bool verified; /* wr_file_verified */
 } WrFileTarget;
 
@@ -72,8 +74,6 @@ bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *
 /* Have a limit on file sizes be an error of write(), not the end of the program. */
 void wr_file_outlive_size_limit(void);
 
-/* Write all bytes to an open file, whatever interrupts it. False with errno on failure. */
-bool wr_fd_write(int fd, const void *bytes, size_t length);
 /* The bytes as an open file that lies in memory, at its beginning; -1 on failure. name: for the error. The
  * caller closes it. */
 int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError *err);

@@ -2,51 +2,50 @@
 #include "base/file.h"
 
 #include "base/error.h"
+#include "system/fd.h"
+#include "system/path.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-static const char *kind_of(mode_t mode)
-{
-    if (S_ISDIR(mode)) return "a folder";
-    if (S_ISFIFO(mode)) return "a pipe";
-    if (S_ISSOCK(mode)) return "a socket";
-    return S_ISCHR(mode) || S_ISBLK(mode) ? "a device" : "no regular file";
-}
+static const char *const kinds[] = {
+    [WR_KIND_FILE] = "a file",          [WR_KIND_FOLDER] = "a folder",
+    [WR_KIND_LINK] = "a link",          [WR_KIND_PIPE] = "a pipe",
+    [WR_KIND_SOCKET] = "a socket",      [WR_KIND_DEVICE] = "a device",
+    [WR_KIND_OTHER] = "no regular file"
+};
 
-static bool check_kind(const char *path, const struct stat *info, WrError *err)
+static bool check_kind(const char *path, const WrFileInfo *info, WrError *err)
 {
-    if (S_ISREG(info->st_mode)) return true;
-    return wr_fail(err, "%s: is %s; a file is needed", path, kind_of(info->st_mode));
+    if (info->kind == WR_KIND_FILE) return true;
+    return wr_fail(err, "%s: is %s; a file is needed", path, kinds[info->kind]);
 }
 
 /* Asked before it is opened, since opening a device may do things, and again after: it may be another now. */
-static int open_regular(const char *path, int flags, struct stat *info, WrError *err)
+static int open_regular(const char *path, unsigned how, WrFileInfo *info, WrError *err)
 {
-    bool there = stat(path, info) == 0;
+    bool there = wr_path_info(path, info);
     if (there && !check_kind(path, info, err)) return -1;
-    int fd = open(path, flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (fd < 0 || fstat(fd, info) != 0) wr_fail(err, "%s: %s", path, strerror(errno));
+    int fd = wr_fd_open(path, how | WR_OPEN_NO_WAIT);
+    if (fd < 0 || !wr_fd_info(fd, info)) wr_fail(err, "%s: %s", path, strerror(errno));
     else if (check_kind(path, info, err)) return fd;
-    if (fd >= 0) close(fd);
+    if (fd >= 0) wr_fd_close(fd);
     return -1;
 }
 
-static int open_to_read(const char *path, int flags, uint64_t limit, uint64_t *length, WrError *err)
+static int open_to_read(const char *path, unsigned how, uint64_t limit, uint64_t *length,
+                        WrError *err)
 {
-    struct stat info;
-    int fd = open_regular(path, O_RDONLY | flags, &info, err);
+    WrFileInfo info;
+    int fd = open_regular(path, WR_OPEN_READ | how, &info, err);
     if (fd < 0) return -1;
-    if ((uint64_t)info.st_size > limit) {
-        wr_fail(err, "%s: %.1f MB is over the limit of %.1f MB", path, (double)info.st_size / 1e6,
+    if ((uint64_t)info.bytes > limit) {
+        wr_fail(err, "%s: %.1f MB is over the limit of %.1f MB", path, (double)info.bytes / 1e6,
                 (double)limit / 1e6);
-        close(fd);
+        wr_fd_close(fd);
         return -1;
     }
-    if (length) *length = (uint64_t)info.st_size;
+    if (length) *length = (uint64_t)info.bytes;
     return fd;
 }
 
@@ -57,13 +56,12 @@ int wr_file_open(const char *path, uint64_t limit, uint64_t *length, WrError *er
 
 int wr_file_open_no_link(const char *path, uint64_t limit, uint64_t *length, WrError *err)
 {
-    return open_to_read(path, O_NOFOLLOW, limit, length, err);
+    return open_to_read(path, WR_OPEN_NO_LINK, limit, length, err);
 }
 
 int wr_file_create(const char *path, WrError *err)
 {
-    int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-    int fd = open(path, flags, 0666);
+    int fd = wr_fd_open(path, WR_OPEN_WRITE | WR_OPEN_CREATE | WR_OPEN_EMPTY | WR_OPEN_NO_WAIT);
     if (fd < 0) wr_fail(err, "%s: cannot be written: %s", path, strerror(errno));
     return fd;
 }
@@ -74,7 +72,7 @@ size_t wr_file_peek(const char *path, void *bytes, size_t count)
     uint64_t length;
     int fd = wr_file_open(path, WR_FILE_MOST, &length, &err);
     if (fd < 0) return 0;
-    ssize_t n = pread(fd, bytes, count < length ? count : (size_t)length, 0);
-    close(fd);
+    int64_t n = wr_fd_read_at(fd, bytes, count < length ? count : (size_t)length, 0);
+    wr_fd_close(fd);
     return n > 0 ? (size_t)n : 0;
 }

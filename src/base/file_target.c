@@ -4,27 +4,18 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "system/fd.h"
+#include "system/path.h"
+#include "system/process.h"
+#include "system/rights.h"
 
 #include <ctype.h>
-#include <dirent.h>
-#include <endian.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
-#include <signal.h>
 #include <stdint.h>
 #include <string.h>
-#include <sys/file.h>
-#include <sys/random.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/xattr.h>
-#include <unistd.h>
 
-#define ACL "system.posix_acl_access"
-#define ACL_PASSED_ON "system.posix_acl_default"
-#define ACL_MAX 65536 /* bytes of a list of rights */
-#define TRIES 16      /* at a name that nobody has */
+#define TRIES 16 /* at a name that nobody has */
 
 /* ---- names ---- */
 
@@ -33,10 +24,8 @@ static char *resolve_links(const char *path, WrError *err)
 {
     char *now = wr_strdup(path);
     for (int hops = 0; hops < 40; hops++) {
-        char link[PATH_MAX];
-        ssize_t n = readlink(now, link, sizeof link - 1);
-        if (n < 0) return now;
-        link[n] = '\0';
+        char link[4096];
+        if (!wr_path_read_link(now, link, sizeof link)) return now;
         char *folder = wr_path_folder(now), *next = wr_path_join(folder, link);
         wr_free(folder);
         wr_free(now);
@@ -54,8 +43,8 @@ static char *choose_name(const char *folder, const char *name)
     char ending[16];
     WrText text = { 0 };
     wr_path_ending(name, ending);
-    if (getrandom(&random, sizeof random, 0) != (ssize_t)sizeof random) return NULL;
-    wr_text_addf(&text, "%s/.%.100s.%ld-%016llx.part%s%s", folder, name, (long)getpid(),
+    if (!wr_random_bytes(&random, sizeof random)) return NULL;
+    wr_text_addf(&text, "%s/.%.100s.%ld-%016llx.part%s%s", folder, name, (long)wr_process_id(),
                  (unsigned long long)random, *ending ? "." : "", ending);
     return text.data;
 }
@@ -83,108 +72,21 @@ static long owner_by_name(const char *name)
     return pid > 0 && pid < INT_MAX ? pid : 0;
 }
 
-/* Remove one of those, if it is our user's, its process is gone and nobody holds it. */
-static void sweep_one(int folder, const char *name, long pid)
-{
-    struct stat info, named;
-    if (kill((pid_t)pid, 0) == 0 || errno != ESRCH) return;
-    int fd = openat(folder, name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY);
-    if (fd < 0) return;
-    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid() &&
-        flock(fd, LOCK_EX | LOCK_NB) == 0 &&
-        fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 && named.st_ino == info.st_ino &&
-        named.st_dev == info.st_dev)
-        unlinkat(folder, name, 0);
-    close(fd);
-}
-
 void wr_file_sweep(const char *folder)
 {
-    DIR *dir = opendir(folder);
-    for (struct dirent *entry; dir && (entry = readdir(dir));) {
-        long pid = owner_by_name(entry->d_name);
-        if (pid) sweep_one(dirfd(dir), entry->d_name, pid);
+    WrFolder *dir = wr_folder_open(folder);
+    for (const char *name; dir && (name = wr_folder_next(dir));) {
+        long pid = owner_by_name(name);
+        if (pid && !wr_process_lives(pid)) wr_folder_drop_unheld(dir, name);
     }
-    if (dir) closedir(dir);
-}
-
-/* ---- rights ---- */
-
-static mode_t read_umask(void)
-{
-    char text[2048];
-    int fd = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
-    ssize_t n = fd < 0 ? -1 : read(fd, text, sizeof text - 1);
-    if (fd >= 0) close(fd);
-    text[n > 0 ? n : 0] = '\0';
-    const char *line = strstr(text, "\nUmask:");
-    if (line) return (mode_t)strtoul(line + 7, NULL, 8);
-    mode_t mask = umask(0077); /* without /proc there is no other way to ask */
-    umask(mask);
-    return mask;
-}
-
-/* What a folder's list gives its new files, as a mode: owner, mask or else group, others. A list is a version of
-   32 bits and entries of 64: kind, rights, whose; linux/posix_acl_xattr.h. */
-static mode_t passed_on(const char *list, size_t length)
-{
-    mode_t owner = 0, group = 0, mask = 0, others = 0;
-    bool masked = false;
-    for (size_t at = 4; at + 8 <= length; at += 8) {
-        uint16_t kind, may;
-        memcpy(&kind, list + at, sizeof kind);
-        memcpy(&may, list + at + 2, sizeof may);
-        kind = le16toh(kind);
-        may = le16toh(may);
-        if (kind == 1) owner = may;
-        if (kind == 4) group = may;
-        if (kind == 16) mask = may;
-        if (kind == 32) others = may;
-        masked = masked || kind == 16;
-    }
-    return (owner & 7) << 6 | ((masked ? mask : group) & 7) << 3 | (others & 7);
-}
-
-/* A new file's: as if it had been created so. Where the folder has a list of what it passes on, that counts in
-   the place of the umask. */
-static bool give_new_rights(int fd, const char *path)
-{
-    char list[ACL_MAX], *folder = wr_path_folder(path);
-    ssize_t length = getxattr(folder, ACL_PASSED_ON, list, sizeof list);
-    wr_free(folder);
-    mode_t most = length > 0 ? passed_on(list, (size_t)length) : ~read_umask();
-    return fchmod(fd, 0666 & most) == 0;
-}
-
-/* Those of the file that is replaced: owner and group where we may give them, mode, list of rights. Rights of
- * a group that is another now, and those to act as the owner, are not passed on. */
-static bool give_old_rights(int fd, const char *path, const struct stat *old)
-{
-    struct stat now;
-    mode_t mode = old->st_mode & 07777;
-    char list[ACL_MAX];
-    if (fstat(fd, &now) != 0) return false;
-    if ((now.st_uid != old->st_uid || now.st_gid != old->st_gid) &&
-        fchown(fd, old->st_uid, old->st_gid) != 0 && fchown(fd, (uid_t)-1, old->st_gid) != 0)
-        mode &= (mode_t)~070;
-    if (fstat(fd, &now) != 0) return false;
-    if (now.st_uid != old->st_uid || now.st_gid != old->st_gid) mode &= (mode_t)~06000;
-    ssize_t length = getxattr(path, ACL, list, sizeof list);
-    if (length <= 0) fremovexattr(fd, ACL); /* which the folder may have passed on */
-    /* With such a list the mode's middle bits are no group's rights but the most that anyone has. */
-    else if (now.st_gid != old->st_gid || fsetxattr(fd, ACL, list, (size_t)length, 0) != 0)
-        mode &= (mode_t)~070;
-    return fchmod(fd, mode) == 0;
+    wr_folder_close(dir);
 }
 
 /* ---- writing ---- */
 
 void wr_file_outlive_size_limit(void)
 {
-    struct sigaction now;
-    if (sigaction(SIGXFSZ, NULL, &now) != 0 || now.sa_handler != SIG_DFL) return;
-    now.sa_handler = SIG_IGN;
-    sigaction(SIGXFSZ, &now, NULL);
+    wr_process_outlive_file_limit();
 }
 
 /* ---- what the system says ---- */
@@ -202,13 +104,13 @@ static const struct {
 
 const char *wr_file_why(int error, char text[WR_FILE_WHY])
 {
-    struct rlimit limit;
     const char *said = strerror(error), *help = NULL;
+    const uint64_t limit = wr_process_file_limit();
     for (size_t i = 0; i < sizeof helps / sizeof *helps; i++)
         if (helps[i].error == error) help = helps[i].help;
-    if (error == EFBIG && getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    if (error == EFBIG && limit != WR_LIMIT_NONE) {
         snprintf(text, WR_FILE_WHY, "%s: at most %llu bytes are allowed here (ulimit -f)", said,
-                 (unsigned long long)limit.rlim_cur);
+                 (unsigned long long)limit);
         return text;
     }
     snprintf(text, WR_FILE_WHY, "%s%s%s", said, help ? ": " : "", help ? help : "");
@@ -238,15 +140,15 @@ static bool fail_by_system(const WrFileTarget *target, WrError *err)
 
 static bool check_place(const char *path, const char *real, const char *folder, WrError *err)
 {
-    struct stat info;
-    bool exists = stat(real, &info) == 0;
-    if (exists && S_ISDIR(info.st_mode))
+    WrFileInfo info;
+    bool exists = wr_path_info(real, &info);
+    if (exists && info.kind == WR_KIND_FOLDER)
         return wr_fail(err, "%s: is a folder; a file name is needed", path);
-    if (exists && !S_ISREG(info.st_mode)) return wr_fail(err, "%s: is not a regular file", path);
-    if (access(folder, F_OK) != 0) return wr_fail(err, "%s: its folder does not exist", path);
-    if (access(folder, W_OK | X_OK) != 0)
+    if (exists && info.kind != WR_KIND_FILE) return wr_fail(err, "%s: is not a regular file", path);
+    if (!wr_path_is_there(folder)) return wr_fail(err, "%s: its folder does not exist", path);
+    if (!wr_path_can_write(folder) || !wr_path_can_run(folder))
         return wr_fail(err, "%s: its folder cannot be written (%s)", path, strerror(errno));
-    if (exists && access(real, W_OK) != 0)
+    if (exists && !wr_path_can_write(real))
         return wr_fail(err, "%s: cannot be written (%s)", path, strerror(errno));
     return true;
 }
@@ -255,22 +157,24 @@ static bool check_place(const char *path, const char *real, const char *folder, 
 static bool create(WrFileTarget *target, const char *folder, WrError *err)
 {
     const char *slash = strrchr(target->path, '/'), *name = slash ? slash + 1 : target->path;
+    const unsigned how =
+        WR_OPEN_READ | WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_NO_LINK | WR_OPEN_PRIVATE;
     errno = EEXIST;
     for (int i = 0; i < TRIES && target->fd < 0 && errno == EEXIST; i++) {
         wr_free(target->temporary);
         target->temporary = choose_name(folder, name);
         if (!target->temporary) break;
-        target->fd =
-            open(target->temporary, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+        target->fd = wr_fd_open(target->temporary, how);
     }
     if (target->fd < 0) return fail_by_system(target, err);
-    flock(target->fd, LOCK_EX | LOCK_NB); /* some file systems cannot; the name tells the process */
+    wr_fd_lock(target->fd,
+               WR_LOCK_ALONE); /* some file systems cannot; the name tells the process */
     return true;
 }
 
 static void release(WrFileTarget *target)
 {
-    if (target->path && target->fd >= 0) close(target->fd);
+    if (target->path && target->fd >= 0) wr_fd_close(target->fd);
     wr_free(target->path);
     wr_free(target->temporary);
     *target = (WrFileTarget){ 0 };
@@ -298,12 +202,11 @@ bool wr_file_put(WrFileTarget *target, const void *bytes, size_t length, WrError
     const char *from = bytes;
     char block[65536];
     if (!wr_fd_write(target->fd, bytes, length)) return fail_by_system(target, err);
-    off_t end = lseek(target->fd, 0, SEEK_CUR), at = end - (off_t)length;
-    if (end < (off_t)length) return wr_file_fail(target, "its size is wrong", err);
+    int64_t end = wr_fd_tell(target->fd), at = end - (int64_t)length;
+    if (end < (int64_t)length) return wr_file_fail(target, "its size is wrong", err);
     while (at < end) {
         size_t want = (size_t)(end - at) < sizeof block ? (size_t)(end - at) : sizeof block;
-        ssize_t n = pread(target->fd, block, want, at);
-        if (n < 0 && errno == EINTR) continue;
+        int64_t n = wr_fd_read_at(target->fd, block, want, at);
         if (n < 0) return fail_by_system(target, err);
         if (n == 0 || memcmp(block, from, (size_t)n) != 0)
             return wr_file_fail(target, "it does not read back as it was written", err);
@@ -321,31 +224,36 @@ void wr_file_verified(WrFileTarget *target)
 static void sync_folder(const char *path)
 {
     char *folder = wr_path_folder(path);
-    int fd = open(folder, O_RDONLY | O_CLOEXEC | O_DIRECTORY);
+    int fd = wr_fd_open(folder, WR_OPEN_READ);
     if (fd >= 0) {
-        fsync(fd); /* some file systems cannot; the rename itself stands */
-        close(fd);
+        wr_fd_sync(fd); /* some file systems cannot; the rename itself stands */
+        wr_fd_close(fd);
     }
     wr_free(folder);
 }
 
+static bool give_rights(const WrFileTarget *target)
+{
+    if (wr_path_is_there(target->path)) return wr_rights_give_old(target->fd, target->path);
+    char *folder = wr_path_folder(target->path);
+    bool good = wr_rights_give_new(target->fd, folder);
+    wr_free(folder);
+    return good;
+}
+
 bool wr_file_commit(WrFileTarget *target, WrError *err)
 {
-    struct stat old;
     WR_ASSERT(target->verified);
-    bool replaces = stat(target->path, &old) == 0;
-    bool good = (replaces ? give_old_rights(target->fd, target->path, &old)
-                          : give_new_rights(target->fd, target->path)) &&
-                fsync(target->fd) == 0;
+    bool good = give_rights(target) && wr_fd_sync(target->fd);
     int fd = target->fd;
     target->fd = -1;
     if (!good) {
         int saved = errno;
-        close(fd);
+        wr_fd_close(fd);
         errno = saved;
     }
     /* Only a file that was closed without trouble: some file systems tell then what went wrong. */
-    good = good && close(fd) == 0 && rename(target->temporary, target->path) == 0;
+    good = good && wr_fd_close(fd) && wr_path_rename(target->temporary, target->path);
     if (!good) {
         fail_by_system(target, err);
         wr_file_abort(target);
@@ -359,8 +267,8 @@ bool wr_file_commit(WrFileTarget *target, WrError *err)
 void wr_file_abort(WrFileTarget *target)
 {
     /* Once more where it will not go: nobody else removes it before this process has ended. */
-    if (target->temporary && unlink(target->temporary) != 0 && errno != ENOENT)
-        unlink(target->temporary);
+    if (target->temporary && !wr_path_remove(target->temporary) && errno != ENOENT)
+        wr_path_remove(target->temporary);
     release(target);
 }
 

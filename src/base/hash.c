@@ -3,11 +3,11 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
+#include "system/fd.h"
 
 #include <errno.h>
 #include <sha256.h>
 #include <string.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 WrHash wr_hash_bytes(const void *bytes, size_t count, WrHash seed)
@@ -50,15 +50,14 @@ bool wr_sha256_file(const char *path, char hex[65], WrError *err)
     uint8_t block[65536], digest[SHA256_DIGEST_LENGTH];
     SHA2_CTX ctx;
     SHA256Init(&ctx);
-    ssize_t n = 1;
+    int64_t n = 1;
     while (left > 0 && n != 0 && !wr_progress_stopped()) {
-        n = read(fd, block, left < sizeof block ? (size_t)left : sizeof block);
-        if (n < 0 && errno == EINTR) continue;
+        n = wr_fd_read(fd, block, left < sizeof block ? (size_t)left : sizeof block);
         if (n < 0) break;
         SHA256Update(&ctx, block, (size_t)n);
         left -= (uint64_t)n;
     }
-    close(fd);
+    wr_fd_close(fd);
     if (n < 0) return wr_fail(err, "%s: cannot be read (%s)", path, strerror(errno));
     if (wr_progress_stopped()) return wr_fail(err, "cancelled");
     SHA256Final(digest, &ctx);

@@ -4,7 +4,6 @@
 
 #include <stdint.h>
 #include <string.h>
-#include <sys/mman.h>
 
 /* Blocks above this come from mmap by way of malloc's own threshold; zeroing them by hand would touch
    every page, so calloc is asked for and its pointer aligned by hand. The original pointer is kept in

@@ -2,20 +2,18 @@
 
 #include "base/memory.h"
 #include "base/progress.h"
-
-#include <pthread.h>
-#include <unistd.h>
+#include "system/thread.h"
 
 typedef struct Worker {
     WrPool *pool;
     int id;
-    pthread_t thread;
+    WrThread thread;
 } Worker;
 
 struct WrPool {
-    pthread_mutex_t run_lock; /* one run at a time */
-    pthread_mutex_t lock;     /* guards what follows */
-    pthread_cond_t wake, done;
+    WrMutex run_lock; /* one run at a time */
+    WrMutex lock;     /* guards what follows */
+    WrCond wake, done;
     unsigned generation; /* counts runs */
     int active;          /* workers inside the present run */
     bool quit;
@@ -60,38 +58,37 @@ static void *worker_main(void *arg)
     Worker *self = arg;
     WrPool *pool = self->pool;
     unsigned seen = 0;
-    pthread_mutex_lock(&pool->lock);
+    wr_mutex_lock(&pool->lock);
     for (;;) {
-        while (pool->generation == seen && !pool->quit) pthread_cond_wait(&pool->wake, &pool->lock);
+        while (pool->generation == seen && !pool->quit) wr_cond_wait(&pool->wake, &pool->lock);
         if (pool->quit) break;
         seen = pool->generation;
-        pthread_mutex_unlock(&pool->lock);
+        wr_mutex_unlock(&pool->lock);
         wr_progress_set(&pool->quiet);
         take_pieces(pool, self->id);
         wr_progress_set(NULL);
-        pthread_mutex_lock(&pool->lock);
-        if (--pool->active == 0) pthread_cond_signal(&pool->done);
+        wr_mutex_lock(&pool->lock);
+        if (--pool->active == 0) wr_cond_wake(&pool->done);
     }
-    pthread_mutex_unlock(&pool->lock);
+    wr_mutex_unlock(&pool->lock);
     return NULL;
 }
 
 WrPool *wr_pool_new(int threads)
 {
-    if (threads <= 0) threads = (int)sysconf(_SC_NPROCESSORS_ONLN);
-    if (threads < 1) threads = 1;
+    if (threads <= 0) threads = wr_thread_processors();
     if (threads > 256) threads = 256;
     WrPool *pool = wr_alloc(1, sizeof *pool);
-    pthread_mutex_init(&pool->run_lock, NULL);
-    pthread_mutex_init(&pool->lock, NULL);
-    pthread_cond_init(&pool->wake, NULL);
-    pthread_cond_init(&pool->done, NULL);
+    wr_mutex_init(&pool->run_lock);
+    wr_mutex_init(&pool->lock);
+    wr_cond_init(&pool->wake);
+    wr_cond_init(&pool->done);
     pool->workers = wr_alloc((size_t)threads, sizeof *pool->workers);
     pool->threads = 1;
     for (int i = 1; i < threads; i++) {
         Worker *worker = &pool->workers[i];
         *worker = (Worker){ .pool = pool, .id = i };
-        if (pthread_create(&worker->thread, NULL, worker_main, worker) != 0) break;
+        if (!wr_thread_begin(&worker->thread, worker_main, worker)) break;
         pool->threads++;
     }
     return pool;
@@ -100,15 +97,15 @@ WrPool *wr_pool_new(int threads)
 void wr_pool_free(WrPool *pool)
 {
     if (!pool) return;
-    pthread_mutex_lock(&pool->lock);
+    wr_mutex_lock(&pool->lock);
     pool->quit = true;
-    pthread_cond_broadcast(&pool->wake);
-    pthread_mutex_unlock(&pool->lock);
-    for (int i = 1; i < pool->threads; i++) pthread_join(pool->workers[i].thread, NULL);
-    pthread_cond_destroy(&pool->done);
-    pthread_cond_destroy(&pool->wake);
-    pthread_mutex_destroy(&pool->lock);
-    pthread_mutex_destroy(&pool->run_lock);
+    wr_cond_wake_all(&pool->wake);
+    wr_mutex_unlock(&pool->lock);
+    for (int i = 1; i < pool->threads; i++) wr_thread_join(pool->workers[i].thread);
+    wr_cond_fini(&pool->done);
+    wr_cond_fini(&pool->wake);
+    wr_mutex_fini(&pool->lock);
+    wr_mutex_fini(&pool->run_lock);
     wr_free(pool->workers);
     wr_free(pool);
 }
@@ -121,17 +118,17 @@ int wr_pool_threads(const WrPool *pool)
 /* All on this thread. A pool of one still lets only one run in at a time: scratch memory goes by worker. */
 static void run_here(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
 {
-    if (pool) pthread_mutex_lock(&pool->run_lock);
+    if (pool) wr_mutex_lock(&pool->run_lock);
     for (int i = 0; i < count && run_piece(i, count, 0, told, piece, ctx); i++) {
     }
-    if (pool) pthread_mutex_unlock(&pool->run_lock);
+    if (pool) wr_mutex_unlock(&pool->run_lock);
 }
 
 static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)
 {
     const WrProgress *here = wr_progress_here();
-    pthread_mutex_lock(&pool->run_lock);
-    pthread_mutex_lock(&pool->lock);
+    wr_mutex_lock(&pool->run_lock);
+    wr_mutex_lock(&pool->lock);
     pool->piece = piece;
     pool->ctx = ctx;
     pool->count = count;
@@ -140,13 +137,13 @@ static void run_on_all(WrPool *pool, int count, WrPiece piece, void *ctx, bool t
     __atomic_store_n(&pool->next, 0, __ATOMIC_RELAXED);
     pool->active = pool->threads - 1;
     pool->generation++;
-    pthread_cond_broadcast(&pool->wake);
-    pthread_mutex_unlock(&pool->lock);
+    wr_cond_wake_all(&pool->wake);
+    wr_mutex_unlock(&pool->lock);
     take_pieces(pool, 0);
-    pthread_mutex_lock(&pool->lock);
-    while (pool->active > 0) pthread_cond_wait(&pool->done, &pool->lock);
-    pthread_mutex_unlock(&pool->lock);
-    pthread_mutex_unlock(&pool->run_lock);
+    wr_mutex_lock(&pool->lock);
+    while (pool->active > 0) wr_cond_wait(&pool->done, &pool->lock);
+    wr_mutex_unlock(&pool->lock);
+    wr_mutex_unlock(&pool->run_lock);
 }
 
 static bool run(WrPool *pool, int count, WrPiece piece, void *ctx, bool told)

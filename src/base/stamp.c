@@ -1,17 +1,17 @@
 #include "base/stamp.h"
 
-#include <sys/stat.h>
+#include "system/path.h"
 
 WrFileStamp wr_file_stamp(const char *path)
 {
-    struct stat info;
-    if (stat(path, &info) != 0) return (WrFileStamp){ 0 };
+    WrFileInfo info;
+    if (!wr_path_info(path, &info)) return (WrFileStamp){ 0 };
     return (WrFileStamp){ .there = true,
-                          .device = (uint64_t)info.st_dev,
-                          .inode = (uint64_t)info.st_ino,
-                          .bytes = (int64_t)info.st_size,
-                          .seconds = (int64_t)info.st_mtim.tv_sec,
-                          .nanoseconds = (int64_t)info.st_mtim.tv_nsec };
+                          .device = info.device,
+                          .inode = info.inode,
+                          .bytes = info.bytes,
+                          .seconds = info.seconds,
+                          .nanoseconds = info.nanoseconds };
 }
 
 bool wr_file_stamp_same(const WrFileStamp *a, const WrFileStamp *b)

@@ -1,9 +1,9 @@
 #include "base/text.h"
 
 #include "base/memory.h"
+#include "system/locale.h"
 
 #include <ctype.h>
-#include <locale.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -65,27 +65,10 @@ void wr_text_addf(WrText *text, const char *format, ...)
     va_end(again);
 }
 
-/* The C locale, whatever a library has set for the process. Made once and kept. */
-static locale_t c_locale(void)
-{
-    static locale_t made;
-    locale_t now = __atomic_load_n(&made, __ATOMIC_ACQUIRE);
-    if (now) return now;
-    locale_t mine = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!__atomic_compare_exchange_n(&made, &now, mine, false, __ATOMIC_ACQ_REL,
-                                     __ATOMIC_ACQUIRE)) {
-        freelocale(mine);
-        return now;
-    }
-    return mine;
-}
-
 /* Print with `digits` significant digits under the C locale. */
 static void print_digits(double value, int digits, char *buffer)
 {
-    locale_t old = uselocale(c_locale());
-    snprintf(buffer, WR_NUMBER_SIZE, "%.*g", digits, value);
-    uselocale(old);
+    wr_locale_print_plain(buffer, WR_NUMBER_SIZE, value, digits);
 }
 
 /* "4e+01" reads worse than "40": whole numbers below 1e15 are written out. */
@@ -103,14 +86,14 @@ char *wr_number_print(double value, char *buffer)
         if (digits > 6 && digits < 15)
             continue; /* few values stop there; saves most of the tries */
         print_digits(value, digits, buffer);
-        if (strtod_l(buffer, NULL, c_locale()) == value) break;
+        if (wr_locale_read_double(buffer, NULL) == value) break;
     }
     /* 15 digits may hide a shorter form of 7 to 14. */
     for (int digits = 7; digits < 15; digits++) {
         char shorter[WR_NUMBER_SIZE];
         if (strlen(buffer) <= 7) break;
         print_digits(value, digits, shorter);
-        if (strtod_l(shorter, NULL, c_locale()) == value)
+        if (wr_locale_read_double(shorter, NULL) == value)
             return write_out(value, strcpy(buffer, shorter));
     }
     return write_out(value, buffer);
@@ -121,7 +104,7 @@ char *wr_number_print_float(float value, char *buffer)
     if (!isfinite(value)) return wr_number_print((double)value, buffer);
     for (int digits = 1; digits <= 9; digits++) {
         print_digits((double)value, digits, buffer);
-        if (strtof_l(buffer, NULL, c_locale()) == value) break;
+        if (wr_locale_read_float(buffer, NULL) == value) break;
     }
     return write_out((double)value, buffer);
 }
@@ -160,7 +143,7 @@ bool wr_number_parse(const char *text, size_t length, double *value)
     if (length >= sizeof small) copy = wr_alloc(length + 1, 1);
     memcpy(copy, text, length);
     copy[length] = '\0';
-    double v = strtod_l(copy, NULL, c_locale());
+    double v = wr_locale_read_double(copy, NULL);
     if (copy != small) wr_free(copy);
     if (!isfinite(v)) return false;
     *value = v;
@@ -208,9 +191,21 @@ void wr_text_add_json_number(WrText *text, double value)
     else wr_text_add_number(text, value + 0.0); /* no negative zero */
 }
 
+bool wr_text_same_letters(const char *a, const char *b)
+{
+    while (*a && tolower((unsigned char)*a) == tolower((unsigned char)*b)) a++, b++;
+    return *a == *b;
+}
+
+static int length_of_word(const char *word)
+{
+    const char *end = memchr(word, '\0', WR_WORD_MAX);
+    return end ? (int)(end - word) : WR_WORD_MAX;
+}
+
 int wr_text_distance(const char *a, const char *b)
 {
-    int n = (int)strnlen(a, WR_WORD_MAX), m = (int)strnlen(b, WR_WORD_MAX);
+    int n = length_of_word(a), m = length_of_word(b);
     int d[WR_WORD_MAX + 1][WR_WORD_MAX + 1];
     for (int i = 0; i <= n; i++) d[i][0] = i;
     for (int j = 0; j <= m; j++) d[0][j] = j;

@@ -32,6 +32,8 @@ void wr_text_add_number(WrText *text, double value);
    inf or nan, no surrounding space. Values beyond the range of double are refused. */
 bool wr_number_parse(const char *text, size_t length, double *value);
 
+/* The same but for capitals among the letters A to Z. */
+bool wr_text_same_letters(const char *a, const char *b);
 /* Edits that make one word another: insertions, deletions, changes, swaps of neighbours. Of words longer
    than WR_WORD_MAX bytes only so much is compared. */
 #define WR_WORD_MAX 63

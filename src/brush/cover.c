@@ -1,9 +1,9 @@
 #include "brush/cover.h"
 
-#include "base/clock.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <stdalign.h>

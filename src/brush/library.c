@@ -4,12 +4,11 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "system/path.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #define DEEP 3        /* folders inside one another */
 #define MANY 20000    /* presets in all */
@@ -62,7 +61,7 @@ char *wr_library_user_folder(WrError *err)
         if (*slash != '/' && *slash) continue;
         char kept = *slash;
         *slash = '\0';
-        bool made = mkdir(folder, 0777) == 0 || errno == EEXIST;
+        bool made = wr_folder_make(folder, WR_FOLDER_FOR_ALL) || errno == EEXIST;
         if (!made) {
             wr_fail(err, "%s: cannot be made: %s", folder, strerror(errno));
             wr_free(folder);
@@ -107,8 +106,8 @@ static void read_order(WrLibrary *library, int first, char *text)
 
 static bool is_folder(const char *path)
 {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+    WrFileInfo info;
+    return wr_path_info(path, &info) && info.kind == WR_KIND_FOLDER;
 }
 
 static void add_preset(WrLibrary *library, int collection, const char *root, const char *name)
@@ -120,8 +119,8 @@ static void add_preset(WrLibrary *library, int collection, const char *root, con
     found.entry.path = text.data;
     text = (WrText){ 0 };
     wr_text_addf(&text, "%s/%.*s_prev.png", root, (int)stem, name);
-    struct stat info;
-    if (stat(text.data, &info) == 0 && S_ISREG(info.st_mode)) {
+    WrFileInfo info;
+    if (wr_path_info(text.data, &info) && info.kind == WR_KIND_FILE) {
         found.entry.picture = text.data;
     } else {
         wr_text_fini(&text);
@@ -142,10 +141,10 @@ static void look_through(WrLibrary *library, int collection, const char *root, c
                          int deep)
 {
     char *folder = *below ? wr_path_join(root, below) : wr_strdup(root);
-    DIR *dir = opendir(folder);
-    struct dirent *item;
-    while (dir && library->found.count < MANY && (item = readdir(dir))) {
-        const char *name = item->d_name;
+    WrFolder *dir = wr_folder_open(folder);
+    const char *item;
+    while (dir && library->found.count < MANY && (item = wr_folder_next(dir))) {
+        const char *name = item;
         size_t length = strlen(name);
         if (name[0] == '.') continue;
         WrText path = { 0 }, full = { 0 };
@@ -159,7 +158,7 @@ static void look_through(WrLibrary *library, int collection, const char *root, c
         wr_text_fini(&path);
         wr_text_fini(&full);
     }
-    if (dir) closedir(dir);
+    wr_folder_close(dir);
     wr_free(folder);
 }
 
@@ -271,9 +270,9 @@ static bool fail_find(const WrLibrary *library, const char *name, WrError *err)
 
 char *wr_library_find(const char *name, WrError *err)
 {
-    struct stat info;
+    WrFileInfo info;
     if (ends_in_myb(name)) {
-        if (stat(name, &info) == 0) return wr_strdup(name);
+        if (wr_path_info(name, &info)) return wr_strdup(name);
         wr_fail(err, "%s: %s", name, strerror(errno));
         return NULL;
     }

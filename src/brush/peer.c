@@ -1,12 +1,12 @@
 #include "brush/peer.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
 #include "brush/engine.h"
 #include "brush/preset.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include <libmypaint/mypaint-brush.h>
 #include <libmypaint/mypaint-fixed-tiled-surface.h>

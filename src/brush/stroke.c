@@ -1,10 +1,10 @@
-#include "base/clock.h"
 #include "base/memory.h"
 #include "brush/draw.h"
 #include "brush/engine.h"
 #include "brush/paint.h"
 #include "brush/spaced.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include <math.h>
 

@@ -1,5 +1,4 @@
 /* Documents: what an edit and its undo take, and saving and loading. */
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "cli/bench.h"
@@ -7,9 +6,10 @@
 #include "document/document.h"
 #include "document/document_file.h"
 #include "field/field.h"
+#include "system/clock.h"
+#include "system/path.h"
 
 #include <math.h>
-#include <unistd.h>
 
 static bool run(WrSession *session, const char *line, WrError *err)
 {
@@ -99,7 +99,7 @@ static double copy_with_oiiotool(const char *folder)
     bool good = system(command) == 0;
     double seconds = wr_clock_seconds() - start;
     snprintf(command, sizeof command, "%s/copy.exr", folder);
-    unlink(command);
+    wr_path_remove(command);
     return good ? seconds : 0;
 }
 
@@ -108,7 +108,7 @@ bool wr_bench_file(WrBenchFile *file, WrError *err)
     char folder[] = "/tmp/wrinkle-bench-XXXXXX", path[64];
     WrDocument *document = make_document(file->table, file->layers, err);
     if (!document) return false;
-    if (!mkdtemp(folder)) {
+    if (!wr_folder_make_temporary(folder)) {
         wr_document_free(document);
         return wr_fail(err, "%s: no folder can be made there", folder);
     }
@@ -126,7 +126,7 @@ bool wr_bench_file(WrBenchFile *file, WrError *err)
     wr_document_free(loaded.document);
     wr_free(loaded.scene_text);
     file->copy_seconds = good ? copy_with_oiiotool(folder) : 0;
-    unlink(path);
-    rmdir(folder);
+    wr_path_remove(path);
+    wr_folder_remove(folder);
     return good;
 }

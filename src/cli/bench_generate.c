@@ -3,7 +3,6 @@
  *
  * Ours is the time of the command in a running program, the composite brought up to date. A peer's is that
  * of its whole process less that of the same process that only loads the picture and saves it again. */
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -13,11 +12,11 @@
 #include "command/session.h"
 #include "document/document.h"
 #include "image/image.h"
+#include "system/clock.h"
+#include "system/path.h"
 
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define TABLE 4096
 #define CROP 1024 /* of the table, for oiiotool, which is slow */
@@ -170,7 +169,7 @@ static bool begin(Bench *b, WrError *err)
 {
     const WrSessionOptions options = { .pool = b->cli->pool, .outputs = true };
     strcpy(b->folder, "/tmp/wrinkle-bench-XXXXXX");
-    if (!mkdtemp(b->folder)) {
+    if (!wr_folder_make_temporary(b->folder)) {
         wr_fail(err, "%s: no folder can be made there", b->folder);
         b->folder[0] = 0;
         return false;
@@ -193,9 +192,9 @@ static void end(Bench *b)
     char path[64];
     for (size_t i = 0; i < sizeof files / sizeof *files && b->folder[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", b->folder, files[i]);
-        unlink(path);
+        wr_path_remove(path);
     }
-    if (b->folder[0]) rmdir(b->folder);
+    if (b->folder[0]) wr_folder_remove(b->folder);
     for (int i = 0; i < KIND_COUNT; i++) wr_text_fini(&b->lines[i]);
     wr_session_free(b->session);
 }

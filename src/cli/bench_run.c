@@ -1,4 +1,3 @@
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -8,6 +7,7 @@
 #include "field/field.h"
 #include "render/frame.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 
 #include <math.h>
 

@@ -7,9 +7,9 @@
 #include "cli/brushes.h"
 #include "image/image.h"
 #include "image/label.h"
+#include "system/process.h"
 
 #include <string.h>
-#include <unistd.h>
 
 #define WR_SHEET_MANY 96 /* presets, above which samples are small */
 #define WR_THUMBNAIL_W 128
@@ -27,7 +27,7 @@ typedef struct Sheet {
 
 static void note_progress(int index, int count)
 {
-    if (!isatty(STDERR_FILENO)) return;
+    if (!wr_process_has_terminal()) return;
     if (index < count) fprintf(stderr, "\rbrush %d of %d ", index + 1, count);
     else fputs("\n", stderr);
 }

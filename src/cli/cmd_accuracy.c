@@ -10,11 +10,11 @@
 #include "hardcases/hardcases.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "system/path.h"
+#include "system/process.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define SIDE 256       /* pixels, without --size: there the reference takes seconds, not minutes */
 #define FULL_SCALE 0.1 /* linear intensity that is white in a difference picture: the same in all */
@@ -74,7 +74,7 @@ static void report_progress(void *ctx, double fraction)
 
 static bool check_line(const WrCli *cli, WrError *err)
 {
-    struct stat info;
+    WrFileInfo info;
     if (find_axis(cli->axis) < 0)
         return wr_fail(err,
                        "--axis %.40s: must be derivative, normal, antialiasing, visibility or "
@@ -83,7 +83,7 @@ static bool check_line(const WrCli *cli, WrError *err)
     if (cli->sized && (cli->width > LARGEST || cli->height > LARGEST))
         return wr_fail(err, "--size %dx%d: the reference takes at most %d along a side", cli->width,
                        cli->height, LARGEST);
-    if (cli->differences && (stat(cli->differences, &info) != 0 || !S_ISDIR(info.st_mode)))
+    if (cli->differences && (!wr_path_info(cli->differences, &info) || info.kind != WR_KIND_FOLDER))
         return wr_fail(err, "--differences %.200s: is no folder", cli->differences);
     return true;
 }
@@ -121,7 +121,7 @@ typedef struct Work {
 static void prepare(const WrCli *cli, WrSession *session, Work *work)
 {
     const WrDocument *document = wr_session_document(session);
-    work->terminal = isatty(STDERR_FILENO);
+    work->terminal = wr_process_has_terminal();
     work->differences.folder = cli->differences;
     work->progress = (WrProgress){ (volatile int *)cli->cancel, report_progress, &work->terminal };
     work->request = (WrLadderRequest){ .field = wr_document_composite(document, cli->pool),

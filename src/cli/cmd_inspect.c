@@ -19,7 +19,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/types.h>
 
 /* Everything that the formulas know of one point, in double, object space. */
 typedef struct Quantities {

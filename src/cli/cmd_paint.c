@@ -4,9 +4,8 @@
 #include "base/text.h"
 
 #ifdef WR_HAVE_UI
+#include "system/process.h"
 #include "ui/app/app.h"
-
-#include <signal.h>
 
 static void keep_note(void *ctx, const char *text)
 {
@@ -40,9 +39,8 @@ int wr_cli_paint(const WrCli *cli)
                              .threads = cli->threads,
                              .isa = cli->isa,
                              .notes = &notes };
-        signal(SIGINT, SIG_DFL); /* the window library makes it a request to close */
-        signal(SIGTERM, SIG_DFL);
-        wr_cli_tell_no_more(); /* from here the window tells */
+        wr_process_drop_interrupts(); /* the window library makes it a request to close */
+        wr_cli_tell_no_more();        /* from here the window tells */
         status = wr_app_run(&app);
     } else {
         status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);

@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "command/recovery.h"
 #include "command/session.h"
+#include "system/clock.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ static void add_time(WrText *text, double seconds)
     time_t when = (time_t)seconds;
     struct tm parts;
     char line[32] = "?";
-    if (localtime_r(&when, &parts)) strftime(line, sizeof line, "%Y-%m-%d %H:%M:%S", &parts);
+    if (wr_clock_local(when, &parts)) strftime(line, sizeof line, "%Y-%m-%d %H:%M:%S", &parts);
     wr_text_add(text, line);
 }
 

@@ -4,11 +4,11 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/session.h"
+#include "system/process.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* OUT with its last run of # replaced by the number, zero-padded to the run's length. */
 static void frame_name(const char *out, int number, WrText *name)
@@ -42,7 +42,7 @@ static bool render_frames(const WrCli *cli, WrSession *session, WrError *err)
     WrText name = { 0 };
     int count = cli->last - cli->first + 1;
     double turn = cli->turned ? cli->turn_deg : 360.0 / count;
-    const bool terminal = isatty(STDERR_FILENO);
+    const bool terminal = wr_process_has_terminal();
     bool good = choose_for_all(cli, session, turn, err);
     for (int f = cli->first; good && f <= cli->last; f++) {
         frame_name(cli->out, f, &name);

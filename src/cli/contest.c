@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "field/analytic.h"
 #include "scene/scene.h"
+#include "system/thread.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -318,15 +319,15 @@ bool wr_contest_run(const WrLadderRequest *request, const WrTolerance *tolerance
     WrContest contest = { .count = count };
     WrPool *all = wr_pool_new(0), *one = wr_pool_new(1);
     WrBench bench = { .request = request, .pool = request->threads == 1 ? one : all };
-    cpu_set_t before;
+    WrPin pin;
     contest.rows = wr_alloc((size_t)count + 1, sizeof *contest.rows);
     for (int i = 0; i < count; i++) contest.rows[i].tolerance = tolerances[i];
     bool good = wr_bench_reference(request, all, &contest.reference, err);
     bench.renderer = good ? wr_renderer_new(bench.pool, NULL, err) : NULL;
     good = bench.renderer != NULL;
-    const bool pinned = good && request->threads == 1 && wr_bench_pin(&before);
+    const bool pinned = good && request->threads == 1 && wr_thread_pin(&pin);
     good = good && run(&bench, &contest, err);
-    if (pinned) sched_setaffinity(0, sizeof before, &before);
+    if (pinned) wr_thread_unpin(&pin);
     wr_renderer_free(bench.renderer);
     wr_pool_free(one);
     wr_pool_free(all);

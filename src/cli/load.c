@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "command/session.h"
 #include "render/frame.h"
+#include "system/process.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 static void print_note(void *ctx, const char *text)
 {
@@ -28,7 +28,7 @@ WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
     if (!wr_cli_check_isa(cli, err)) return NULL;
     WrSessionOptions options = { .pool = cli->pool,
                                  .note = print_note,
-                                 .foretell = isatty(STDERR_FILENO) != 0,
+                                 .foretell = wr_process_has_terminal(),
                                  .outputs = outputs,
                                  .full = cli->full,
                                  .isa = cli->isa,

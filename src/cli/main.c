@@ -3,49 +3,19 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "cli/cli.h"
+#include "system/process.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #define GRACE_SECONDS 5 /* for work to stop in order */
 
 /* The one thing that a signal handler can reach. */
 static volatile int interrupted;
 
-static void on_interrupt(int number)
+static void on_interrupt(void)
 {
-    (void)number;
     interrupted = 1;
-    alarm(GRACE_SECONDS);
-}
-
-/* Whatever hangs does not hear; the journal holds what was done. */
-static void on_alarm(int number)
-{
-    (void)number;
-    signal(SIGTERM, SIG_DFL);
-    kill(getpid(), SIGTERM);
-}
-
-static void catch_one(int number, void (*handler)(int))
-{
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = handler;
-    action.sa_flags = SA_RESETHAND;
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
-}
-
-/* The first interrupt asks the work to stop, and ends the program if it has not by then; a second one ends
-   it at once. No restart of system calls, so that reading a script from a terminal stops too. */
-static void catch_interrupts(void)
-{
-    catch_one(SIGINT, on_interrupt);
-    catch_one(SIGTERM, on_interrupt);
-    catch_one(SIGALRM, on_alarm);
 }
 
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
@@ -93,7 +63,9 @@ int main(int argc, char **argv)
     WrCli cli = { .cancel = &interrupted };
     WrError err;
     int status = WR_EXIT_USAGE;
-    catch_interrupts();
+    /* Whatever hangs does not hear; the journal holds what was done. */
+    wr_process_called(argv[0]);
+    wr_process_catch_interrupts(on_interrupt, GRACE_SECONDS);
     if (wr_cli_parse(argc, argv, &cli, &status, &err)) status = run(&cli);
     else status = wr_cli_fail(&cli, status, &err);
     wr_cli_fini(&cli);

@@ -5,10 +5,10 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/call.h"
+#include "system/path.h"
 
 #include <limits.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef bool (*SetOption)(WrCli *cli, const char *value, WrError *err);
 
@@ -427,9 +427,9 @@ static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, 
 /* A lone word that is neither a subcommand nor like a file name is a mistyped subcommand. */
 static bool check_default(const WrCli *cli, WrError *err)
 {
-    struct stat info;
+    WrFileInfo info;
     const char *word = cli->file;
-    if (!word || strpbrk(word, "./") || stat(word, &info) == 0) return true;
+    if (!word || strpbrk(word, "./") || wr_path_info(word, &info)) return true;
     const char *near = wr_nearest_word(word, subcommand_name, NULL);
     return wr_fail(err, "unknown subcommand \"%.60s\"%s%s: see `wrinkle --help`", word,
                    near ? ": did you mean " : "", near ? near : "");

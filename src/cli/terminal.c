@@ -1,10 +1,10 @@
 /* How far long work is, and how long it will still take, on the terminal's last line. */
-#include "base/clock.h"
 #include "base/progress.h"
 #include "cli/cli.h"
+#include "system/clock.h"
+#include "system/process.h"
 
 #include <stdio.h>
-#include <unistd.h>
 
 #define SILENT_SECONDS 1.0 /* what takes less says nothing */
 #define STEP_SECONDS 0.2
@@ -29,7 +29,7 @@ static void report(void *ctx, double fraction)
 
 void wr_cli_tell(WrProgress *progress)
 {
-    if (!isatty(STDERR_FILENO)) return;
+    if (!wr_process_has_terminal()) return;
     line.began = wr_clock_seconds();
     progress->report = report;
     line.progress = progress;

@@ -10,9 +10,9 @@
 #include "document/document_file.h"
 #include "document/ora.h"
 #include "export/export.h"
+#include "system/path.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 /* ---- pictures ---- */
 
@@ -35,9 +35,9 @@ static bool make_composite(WrSession *session, WrError *err)
 /* Do both names lead to one file? */
 static bool same_file(const char *a, const char *b)
 {
-    struct stat first, second;
-    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
-           first.st_ino == second.st_ino;
+    WrFileInfo first, second;
+    return wr_path_info(a, &first) && wr_path_info(b, &second) && first.device == second.device &&
+           first.inode == second.inode;
 }
 
 bool wr_session_save(WrSession *session, const char *path, WrError *err)

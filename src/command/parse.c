@@ -11,7 +11,7 @@
 
 static bool is_in_name(char c)
 {
-    return isascii((unsigned char)c) && (isalnum((unsigned char)c) || c == '_' || c == '-');
+    return (unsigned char)c < 128 && (isalnum((unsigned char)c) || c == '_' || c == '-');
 }
 
 /* Take the name of "name=" at *p, or NULL (and *p stays). The caller's. */

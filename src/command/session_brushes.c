@@ -7,25 +7,17 @@
 #include "base/memory.h"
 #include "brush/library.h"
 #include "brush/tip.h"
+#include "system/path.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 #define FILES_MAX 48 /* kept in memory */
-
-/* What changes when a file does. */
-typedef struct Stamp {
-    dev_t device;
-    ino_t inode;
-    off_t size;
-    struct timespec written, changed;
-} Stamp;
 
 typedef struct Entry {
     bool is_tip;
     char *key;  /* a bare name, or a file's path; owned */
     char *path; /* owned */
-    Stamp stamp;
+    WrFileInfo stamp;
     char sha256[65];
     WrPreset *preset; /* owned, or: */
     WrTip *tip;       /* owned */
@@ -63,26 +55,15 @@ void wr_session_forget_brushes(WrSession *session)
 
 /* ---- files ---- */
 
-static bool same_time(struct timespec a, struct timespec b)
-{
-    return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
-}
-
-static bool stamp_of(const char *path, Stamp *stamp)
-{
-    struct stat info;
-    if (stat(path, &info) != 0) return false;
-    *stamp = (Stamp){ info.st_dev, info.st_ino, info.st_size, info.st_mtim, info.st_ctim };
-    return true;
-}
-
+/* All that changes when a file does. */
 static bool is_fresh(const Entry *entry)
 {
-    Stamp now;
-    const Stamp *then = &entry->stamp;
-    return stamp_of(entry->path, &now) && now.device == then->device && now.inode == then->inode &&
-           now.size == then->size && same_time(now.written, then->written) &&
-           same_time(now.changed, then->changed);
+    WrFileInfo now;
+    const WrFileInfo *then = &entry->stamp;
+    return wr_path_info(entry->path, &now) && now.device == then->device &&
+           now.inode == then->inode && now.bytes == then->bytes && now.seconds == then->seconds &&
+           now.nanoseconds == then->nanoseconds && now.changed_seconds == then->changed_seconds &&
+           now.changed_nanoseconds == then->changed_nanoseconds;
 }
 
 /* Behind `"tip" :` the string that follows, or NULL; *p moves on. The caller frees it. A name with escapes
@@ -109,9 +90,9 @@ static char *tip_beside(const char *text, const char *folder)
 {
     char *name, *found = NULL;
     while (!found && (name = next_tip_name(&text))) {
-        struct stat info;
+        WrFileInfo info;
         char *path = wr_path_join(folder, name);
-        if (stat(path, &info) == 0 && S_ISREG(info.st_mode)) found = path;
+        if (wr_path_info(path, &info) && info.kind == WR_KIND_FILE) found = path;
         else wr_free(path);
         wr_free(name);
     }
@@ -176,7 +157,7 @@ static Entry *place_for(WrBrushFiles *files, Entry *old)
 /* The path (taken), absolute and without links where that can be said. */
 static char *absolute(char *path)
 {
-    char *real = path ? realpath(path, NULL) : NULL;
+    char *real = path ? wr_path_real(path) : NULL;
     if (!real) return path;
     wr_free(path);
     path = wr_strdup(real);
@@ -195,7 +176,7 @@ static bool take(WrSession *session, bool is_tip, const char *key, WrBrushFile *
                        .path = bare ? absolute(wr_library_find(key, err)) : wr_strdup(key) };
         /* The date first: a file that changes while it is read is then read again. */
         bool good = made.path != NULL;
-        if (good && !stamp_of(made.path, &made.stamp)) made.stamp = (Stamp){ .size = -1 };
+        if (good && !wr_path_info(made.path, &made.stamp)) made.stamp = (WrFileInfo){ .bytes = -1 };
         good = good && (is_tip ? read_tip(&made, err) : read_preset(&made, key, err));
         if (!good) {
             entry_fini(&made);

@@ -9,11 +9,12 @@
 #include "document/document.h"
 #include "document/document_file.h"
 #include "document/ora.h"
+#include "system/fd.h"
+#include "system/path.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #define LINE_MAX_BYTES (64 << 20) /* a stroke of a million samples is some 20 MB */
 
@@ -28,7 +29,7 @@ typedef struct Lines {
 
 static int next_byte(Lines *lines)
 {
-    return lines->left > 0 ? lines->left--, getc_unlocked(lines->stream) : EOF;
+    return lines->left > 0 ? lines->left--, wr_stream_byte(lines->stream) : EOF;
 }
 
 /* The next line without its end (LF or CR LF). */
@@ -103,9 +104,9 @@ bool wr_session_run_script(WrSession *session, const char *path, WrError *err)
     Lines lines;
     int fd = wr_file_open(path, WR_FILE_MOST, &lines.left, err);
     if (fd < 0) return false;
-    lines.stream = fdopen(fd, "r");
+    lines.stream = wr_fd_stream(fd, "r");
     if (!lines.stream) {
-        close(fd);
+        wr_fd_close(fd);
         return wr_fail(err, "%s: %s", path, strerror(errno));
     }
     char *outer = session->folder;
@@ -209,7 +210,7 @@ bool wr_session_reads_back(WrSession *session, const char *path, WrError *err)
 /* The command that opens the document again, for a script of what was done to it. */
 static bool note_origin(WrSession *session, const char *path, WrError *err)
 {
-    char hex[65], *full = realpath(path, NULL);
+    char hex[65], *full = wr_path_real(path);
     bool good = wr_sha256_file(path, hex, err);
     WrText line = { 0 };
     wr_text_add(&line, "open ");
@@ -261,7 +262,7 @@ static bool look_at_file(const char *path, bool *exr, WrError *err)
     char start[4];
     int fd = wr_file_open(path, WR_FILE_MOST, NULL, err);
     if (fd < 0) return false;
-    close(fd);
+    wr_fd_close(fd);
     *exr = wr_file_peek(path, start, sizeof start) == sizeof start &&
            memcmp(start, magic, sizeof magic) == 0;
     return true;

@@ -307,8 +307,7 @@ void wr_text_add_word(WrText *text, const char *word)
 {
     bool bare = *word != '\0';
     for (const char *p = word; *p && bare; p++)
-        bare =
-            isascii((unsigned char)*p) && (isalnum((unsigned char)*p) || strchr("_-./+:@%~^,", *p));
+        bare = (unsigned char)*p < 128 && (isalnum((unsigned char)*p) || strchr("_-./+:@%~^,", *p));
     if (bare) {
         wr_text_add(text, word);
         return;

@@ -4,18 +4,17 @@
 #include "base/memory.h"
 #include "document/compositor.h"
 #include "document/document.h"
-
-#include <pthread.h>
+#include "system/thread.h"
 
 struct WrComposite {
-    pthread_mutex_t lock;
+    WrMutex lock;
     WrCompositor *compositor;
 };
 
 static WrComposite *composite_of(WrCompositor *compositor)
 {
     WrComposite *composite = wr_alloc(1, sizeof *composite);
-    pthread_mutex_init(&composite->lock, NULL);
+    wr_mutex_init(&composite->lock);
     composite->compositor = compositor;
     return composite;
 }
@@ -28,9 +27,9 @@ WrComposite *wr_composite_new(void)
 WrComposite *wr_composite_share(const WrComposite *composite)
 {
     WrComposite *from = (WrComposite *)composite; /* only to lock it */
-    pthread_mutex_lock(&from->lock);
+    wr_mutex_lock(&from->lock);
     WrCompositor *copy = wr_compositor_share(from->compositor);
-    pthread_mutex_unlock(&from->lock);
+    wr_mutex_unlock(&from->lock);
     return composite_of(copy);
 }
 
@@ -38,7 +37,7 @@ void wr_composite_free(WrComposite *composite)
 {
     if (!composite) return;
     wr_compositor_free(composite->compositor);
-    pthread_mutex_destroy(&composite->lock);
+    wr_mutex_fini(&composite->lock);
     wr_free(composite);
 }
 
@@ -55,8 +54,8 @@ const WrField *wr_composite_update(WrComposite *composite, const WrLayer *layers
                                    .opacity = layers[i].opacity,
                                    .radius = layers[i].radius,
                                    .hidden = solo < 0 ? !layers[i].visible : i != solo };
-    pthread_mutex_lock(&composite->lock);
+    wr_mutex_lock(&composite->lock);
     const WrField *result = wr_compositor_update(composite->compositor, parts, count, pool);
-    pthread_mutex_unlock(&composite->lock);
+    wr_mutex_unlock(&composite->lock);
     return result;
 }

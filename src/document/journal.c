@@ -1,21 +1,19 @@
 #include "document/journal.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "document/journal_folder.h"
 #include "document/journal_line.h"
+#include "system/clock.h"
+#include "system/fd.h"
+#include "system/path.h"
+#include "system/process.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/file.h>
-#include <sys/random.h>
-#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 #ifndef WR_VERSION
 #define WR_VERSION "0"
@@ -61,11 +59,11 @@ static void report(WrJournal *journal, const char *text)
 static void mark_gap(WrJournal *journal)
 {
     if (journal->fd < 0 || journal->gap_marked) return;
-    if (ftruncate(journal->fd, journal->bytes) != 0) return; /* torn bytes: nothing may follow */
+    if (!wr_fd_cut(journal->fd, journal->bytes)) return; /* torn bytes: nothing may follow */
     wr_text_clear(&journal->line);
     wr_journal_print_line(&journal->line, journal->sequence, 'g', journal->reason);
     journal->gap_marked = wr_fd_write(journal->fd, journal->line.data, journal->line.length);
-    if (!journal->gap_marked && ftruncate(journal->fd, journal->bytes) != 0)
+    if (!journal->gap_marked && !wr_fd_cut(journal->fd, journal->bytes))
         return; /* the reader drops torn bytes */
 }
 
@@ -92,14 +90,14 @@ void wr_journal_break(WrJournal *journal, const char *reason)
 static bool probe(const WrJournal *journal)
 {
     if (!journal->path || !wr_journal_make_folder(journal->options.folder, NULL)) return false;
-    unlink(journal->temporary);
-    int fd = open(journal->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    wr_path_remove(journal->temporary);
+    int fd = wr_fd_open(journal->temporary, WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_PRIVATE);
     if (fd < 0) return false;
     char *block = wr_alloc(PROBE_BYTES, 1);
-    bool ok = wr_fd_write(fd, block, PROBE_BYTES) && fsync(fd) == 0;
+    bool ok = wr_fd_write(fd, block, PROBE_BYTES) && wr_fd_sync(fd);
     wr_free(block);
-    close(fd);
-    unlink(journal->temporary);
+    wr_fd_close(fd);
+    wr_path_remove(journal->temporary);
     return ok;
 }
 
@@ -116,14 +114,14 @@ static void retry(WrJournal *journal)
 
 static bool write_line(WrJournal *journal, WrError *err)
 {
-    struct stat info;
+    WrFileInfo info;
     int64_t length = (int64_t)journal->line.length;
     if (length > WR_JOURNAL_LINE_MAX)
         return wr_fail(err, "a line of %.0f MB is over the limit of %.0f MB", (double)length / 1e6,
                        (double)WR_JOURNAL_LINE_MAX / 1e6);
     if (journal->bytes + length >= WR_JOURNAL_FILE_MAX)
         return wr_fail(err, "%s: over %.0f MB", journal->path, (double)WR_JOURNAL_FILE_MAX / 1e6);
-    if (fstat(journal->fd, &info) != 0 || info.st_nlink == 0)
+    if (!wr_fd_info(journal->fd, &info) || info.links == 0)
         return wr_fail(err, "%s: was removed", journal->path);
     if (wr_fd_write(journal->fd, journal->line.data, (size_t)length)) return true;
     return wr_fail(err, "%s: %s", journal->path, strerror(errno));
@@ -199,7 +197,7 @@ bool wr_journal_note(WrJournal *journal, const char *text, WrError *err)
 /* Wherever the program goes later. Caller frees. */
 static char *absolute_path(const char *path)
 {
-    char *here = getcwd(NULL, 0), *whole = wr_path_join(here ? here : "/", path);
+    char *here = wr_path_here(), *whole = wr_path_join(here ? here : "/", path);
     free(here);
     return whole;
 }
@@ -221,7 +219,7 @@ bool wr_journal_saved(WrJournal *journal, const char *path, const WrHash *hash, 
 bool wr_journal_sync(WrJournal *journal, WrError *err)
 {
     WrError local;
-    struct stat mine, named;
+    WrFileInfo mine, named;
     if (!err) err = &local;
     if (journal->broken) {
         retry(journal);
@@ -229,10 +227,10 @@ bool wr_journal_sync(WrJournal *journal, WrError *err)
     }
     journal->synced_at = wr_clock_seconds();
     bool ok = true;
-    if (stat(journal->path, &named) != 0 || fstat(journal->fd, &mine) != 0 ||
-        named.st_ino != mine.st_ino || named.st_dev != mine.st_dev)
+    if (!wr_path_info(journal->path, &named) || !wr_fd_info(journal->fd, &mine) ||
+        named.inode != mine.inode || named.device != mine.device)
         ok = wr_fail(err, "%s: was removed or moved", journal->path);
-    else if (journal->unsynced && fdatasync(journal->fd) != 0)
+    else if (journal->unsynced && !wr_fd_sync_bytes(journal->fd))
         ok = wr_fail(err, "%s: cannot be written to the disk (%s)", journal->path, strerror(errno));
     journal->unsynced = false;
     if (!ok) become_unsafe(journal, err->text);
@@ -295,19 +293,21 @@ static bool print_start(WrJournal *journal, const WrJournalStart *start, char **
 /* A locked file with the header that is in journal->line, under its temporary name, on the disk. */
 static int create_file(const WrJournal *journal, WrError *err)
 {
-    unlink(journal->temporary);
-    int fd = open(journal->temporary, O_RDWR | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    wr_path_remove(journal->temporary);
+    const unsigned how =
+        WR_OPEN_READ | WR_OPEN_WRITE | WR_OPEN_APPEND | WR_OPEN_NEW | WR_OPEN_PRIVATE;
+    int fd = wr_fd_open(journal->temporary, how);
     if (fd < 0) {
         wr_fail(err, "%s: cannot be written (%s)", journal->path, strerror(errno));
         return -1;
     }
-    if (flock(fd, LOCK_EX | LOCK_NB) == 0 &&
-        wr_fd_write(fd, journal->line.data, journal->line.length) && fsync(fd) == 0 &&
-        rename(journal->temporary, journal->path) == 0)
+    if (wr_fd_lock(fd, WR_LOCK_ALONE) &&
+        wr_fd_write(fd, journal->line.data, journal->line.length) && wr_fd_sync(fd) &&
+        wr_path_rename(journal->temporary, journal->path))
         return fd;
     wr_fail(err, "%s: cannot be written (%s)", journal->path, strerror(errno));
-    unlink(journal->temporary);
-    close(fd);
+    wr_path_remove(journal->temporary);
+    wr_fd_close(fd);
     return -1;
 }
 
@@ -322,7 +322,8 @@ static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError 
     wr_free(absolute);
     if (fd < 0) return false;
     wr_journal_sync_path(journal->options.folder, NULL);
-    if (journal->fd >= 0) close(journal->fd); /* only now, so that the name was never unheld */
+    if (journal->fd >= 0)
+        wr_fd_close(journal->fd); /* only now, so that the name was never unheld */
     journal->fd = fd;
     journal->bytes = (int64_t)journal->line.length;
     journal->lines = 1;
@@ -340,14 +341,12 @@ static bool start_file(WrJournal *journal, const WrJournalStart *start, WrError 
 static void choose_paths(WrJournal *journal)
 {
     uint64_t random = 0;
-    if (getrandom(&random, sizeof random, 0) != (ssize_t)sizeof random)
-        random = (uint64_t)(wr_clock_seconds() * 1e9);
-    time_t now = time(NULL);
+    if (!wr_random_bytes(&random, sizeof random)) random = (uint64_t)(wr_clock_seconds() * 1e9);
     struct tm date = { 0 };
-    gmtime_r(&now, &date);
+    wr_clock_universal((int64_t)time(NULL), &date);
     char stamp[32], name[96];
     if (strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", &date) == 0) stamp[0] = '\0';
-    snprintf(name, sizeof name, "%s-%ld-%016llx", stamp, (long)getpid(),
+    snprintf(name, sizeof name, "%s-%ld-%016llx", stamp, (long)wr_process_id(),
              (unsigned long long)random);
     WrText path = { 0 }, temporary = { 0 };
     const char *folder = journal->options.folder;
@@ -431,7 +430,7 @@ bool wr_journal_snapshot_path(WrJournal *journal, WrText *path, WrError *err)
 
 static void free_journal(WrJournal *journal)
 {
-    if (journal->fd >= 0) close(journal->fd); /* and with it the lock */
+    if (journal->fd >= 0) wr_fd_close(journal->fd); /* and with it the lock */
     wr_free((char *)journal->options.folder);
     wr_free((char *)journal->options.program);
     wr_free(journal->path);
@@ -443,12 +442,12 @@ static void free_journal(WrJournal *journal)
 
 void wr_journal_finish(WrJournal *journal)
 {
-    struct stat mine, named;
+    WrFileInfo mine, named;
     if (!journal) return;
     /* The journal first: without it the files mean nothing, while it without them would mislead. */
-    if (journal->fd >= 0 && fstat(journal->fd, &mine) == 0 && stat(journal->path, &named) == 0 &&
-        mine.st_ino == named.st_ino && mine.st_dev == named.st_dev)
-        unlink(journal->path);
+    if (journal->fd >= 0 && wr_fd_info(journal->fd, &mine) && wr_path_info(journal->path, &named) &&
+        mine.inode == named.inode && mine.device == named.device)
+        wr_path_remove(journal->path);
     if (journal->path) wr_journal_clear_files(journal->files, NULL, NULL);
     free_journal(journal);
 }

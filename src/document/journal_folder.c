@@ -4,23 +4,18 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "system/fd.h"
+#include "system/path.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <pwd.h>
 #include <string.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 bool wr_journal_folder(WrText *path, WrError *err)
 {
     const char *own = getenv("WRINKLE_STATE"), *state = getenv("XDG_STATE_HOME");
     const char *home = getenv("HOME");
-    char buffer[4096];
-    struct passwd user, *found = NULL;
+    char known[1024];
     if (own && *own) {
         wr_text_addf(path, "%s/journals", own);
         return true;
@@ -29,9 +24,7 @@ bool wr_journal_folder(WrText *path, WrError *err)
         wr_text_addf(path, "%s/wrinkle/journals", state);
         return true;
     }
-    if ((!home || home[0] != '/') &&
-        getpwuid_r(getuid(), &user, buffer, sizeof buffer, &found) == 0 && found)
-        home = user.pw_dir;
+    if ((!home || home[0] != '/') && wr_path_home(known, sizeof known)) home = known;
     if (!home || home[0] != '/')
         return wr_fail(err, "no home folder for journals: set XDG_STATE_HOME to a folder");
     wr_text_addf(path, "%s/.local/state/wrinkle/journals", home);
@@ -47,15 +40,15 @@ bool wr_journal_make_folder(const char *path, WrError *err)
     for (char *slash = part + 1; ok; slash++) {
         slash = strchr(slash, '/');
         if (slash) *slash = '\0';
-        ok = mkdir(part, 0700) == 0 || errno == EEXIST;
+        ok = wr_folder_make(part, WR_FOLDER_FOR_ME) || errno == EEXIST;
         saved = errno;
-        if (!ok) ok = access(part, X_OK) == 0; /* EROFS, EACCES: but it is there */
+        if (!ok) ok = wr_path_can_run(part); /* EROFS, EACCES: but it is there */
         if (!slash) break;
         *slash = '/';
     }
     wr_free(part);
-    struct stat info;
-    if (ok && (stat(path, &info) != 0 || !S_ISDIR(info.st_mode))) {
+    WrFileInfo info;
+    if (ok && (!wr_path_info(path, &info) || info.kind != WR_KIND_FOLDER)) {
         ok = false;
         saved = ENOTDIR;
     }
@@ -75,16 +68,16 @@ char *wr_journal_files_folder(const char *journal_path)
 
 char *wr_journal_newest_snapshot(const char *files)
 {
-    DIR *dir = opendir(files);
-    struct dirent *entry;
+    WrFolder *dir = wr_folder_open(files);
+    const char *entry;
     int newest = 0;
-    while (dir && (entry = readdir(dir))) {
+    while (dir && (entry = wr_folder_next(dir))) {
         int number = 0, end = 0;
-        if (sscanf(entry->d_name, WR_JOURNAL_SNAPSHOT_NAME "%n", &number, &end) == 1 && end > 0 &&
-            !entry->d_name[end] && number > newest)
+        if (sscanf(entry, WR_JOURNAL_SNAPSHOT_NAME "%n", &number, &end) == 1 && end > 0 &&
+            !entry[end] && number > newest)
             newest = number;
     }
-    if (dir) closedir(dir);
+    wr_folder_close(dir);
     WrText name = { 0 };
     if (newest > 0) wr_text_addf(&name, WR_JOURNAL_SNAPSHOT_NAME, newest);
     return name.data;
@@ -92,11 +85,11 @@ char *wr_journal_newest_snapshot(const char *files)
 
 bool wr_journal_sync_path(const char *path, WrError *err)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    int fd = wr_fd_open(path, WR_OPEN_READ);
     if (fd < 0) return wr_fail(err, "%s: %s", path, strerror(errno));
-    bool ok = fsync(fd) == 0 || errno == EINVAL || errno == EROFS;
+    bool ok = wr_fd_sync(fd) || errno == EINVAL || errno == EROFS;
     if (!ok) wr_fail(err, "%s: cannot be written to the disk (%s)", path, strerror(errno));
-    close(fd);
+    wr_fd_close(fd);
     return ok;
 }
 
@@ -105,17 +98,14 @@ int wr_journal_open(const char *path, WrError *err)
     return wr_file_open_no_link(path, WR_FILE_MOST, NULL, err);
 }
 
-bool wr_journal_lock(int fd, const char *path, int how)
+bool wr_journal_lock(int fd, const char *path, WrLock how)
 {
-    struct stat mine, named;
-    int done;
-    do done = flock(fd, how | LOCK_NB);
-    while (done != 0 && errno == EINTR);
-    if (done != 0) return false;
-    if (fstat(fd, &mine) == 0 && stat(path, &named) == 0 && mine.st_ino == named.st_ino &&
-        mine.st_dev == named.st_dev)
+    WrFileInfo mine, named;
+    if (!wr_fd_lock(fd, how)) return false;
+    if (wr_fd_info(fd, &mine) && wr_path_info(path, &named) && mine.inode == named.inode &&
+        mine.device == named.device)
         return true;
-    flock(fd, LOCK_UN);
+    wr_fd_lock(fd, WR_LOCK_NONE);
     return false;
 }
 
@@ -134,15 +124,14 @@ static bool is_kept(const char *name, const char *keep)
 
 void wr_journal_clear_files(const char *files, const char *keep_a, const char *keep_b)
 {
-    DIR *dir = opendir(files);
-    struct dirent *entry;
-    while (dir && (entry = readdir(dir))) {
-        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
-        if (is_kept(entry->d_name, keep_a) || is_kept(entry->d_name, keep_b)) continue;
-        unlinkat(dirfd(dir), entry->d_name, 0);
+    WrFolder *dir = wr_folder_open(files);
+    const char *entry;
+    while (dir && (entry = wr_folder_next(dir))) {
+        if (is_kept(entry, keep_a) || is_kept(entry, keep_b)) continue;
+        wr_folder_drop(dir, entry);
     }
-    if (dir) closedir(dir);
-    rmdir(files);
+    wr_folder_close(dir);
+    wr_folder_remove(files);
 }
 
 /* A journal that was never finished being begun: no program holds it. */
@@ -150,8 +139,8 @@ static void sweep_new(const char *path)
 {
     int fd = wr_journal_open(path, NULL);
     if (fd < 0) return;
-    if (wr_journal_lock(fd, path, LOCK_EX)) unlink(path);
-    close(fd);
+    if (wr_journal_lock(fd, path, WR_LOCK_ALONE)) wr_path_remove(path);
+    wr_fd_close(fd);
 }
 
 /* Files whose journal is gone: its removal was cut short. */
@@ -160,28 +149,27 @@ static void sweep_files(const char *path)
     WrText journal = { 0 };
     wr_text_add_n(&journal, path, strlen(path) - strlen(WR_JOURNAL_FILES_ENDING));
     wr_text_add(&journal, WR_JOURNAL_ENDING);
-    if (access(wr_text_get(&journal), F_OK) != 0 && errno == ENOENT)
+    if (!wr_path_is_there(wr_text_get(&journal)) && errno == ENOENT)
         wr_journal_clear_files(path, NULL, NULL);
     wr_text_fini(&journal);
 }
 
 void wr_journal_sweep(const char *folder)
 {
-    DIR *dir = opendir(folder);
-    struct dirent *entry;
+    WrFolder *dir = wr_folder_open(folder);
+    const char *entry;
     time_t now = time(NULL);
-    while (dir && (entry = readdir(dir))) {
-        bool half = entry->d_name[0] == '.' && ends_in(entry->d_name, ".new");
-        bool files = entry->d_name[0] != '.' && ends_in(entry->d_name, WR_JOURNAL_FILES_ENDING);
-        struct stat info;
+    while (dir && (entry = wr_folder_next(dir))) {
+        bool half = entry[0] == '.' && ends_in(entry, ".new");
+        bool files = entry[0] != '.' && ends_in(entry, WR_JOURNAL_FILES_ENDING);
+        WrFileInfo info;
         if (!half && !files) continue;
-        if (fstatat(dirfd(dir), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 ||
-            now - info.st_mtime < WR_JOURNAL_LEFTOVER_SECONDS)
+        if (!wr_folder_info(dir, entry, &info) || now - info.seconds < WR_JOURNAL_LEFTOVER_SECONDS)
             continue;
-        char *path = wr_path_join(folder, entry->d_name);
+        char *path = wr_path_join(folder, entry);
         if (half) sweep_new(path);
-        else if (S_ISDIR(info.st_mode)) sweep_files(path);
+        else if (info.kind == WR_KIND_FOLDER) sweep_files(path);
         wr_free(path);
     }
-    if (dir) closedir(dir);
+    wr_folder_close(dir);
 }

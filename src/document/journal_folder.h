@@ -3,6 +3,8 @@
 #pragma once
 #include "document/recover.h"
 
+#include "system/fd.h"
+
 #include <stdbool.h>
 
 #define WR_JOURNAL_ENDING ".wj"
@@ -25,9 +27,9 @@ bool wr_journal_sync_path(const char *path, WrError *err);
 /* Open a journal without following a link or waiting for a pipe: -1 with an error unless it is a
    regular file. */
 int wr_journal_open(const char *path, WrError *err);
-/* Lock (LOCK_SH, LOCK_EX of <sys/file.h>) without waiting. False: another program has it, or `path`
+/* Lock without waiting. False: another program has it, or `path`
    no longer names this file. */
-bool wr_journal_lock(int fd, const char *path, int how);
+bool wr_journal_lock(int fd, const char *path, WrLock how);
 
 /* wr_journal_keep_file for the journal whose files are in `files`, one of those of `folder`. */
 bool wr_journal_keep(const char *folder, const char *files, const char *path, const char *sha256,

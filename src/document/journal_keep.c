@@ -8,14 +8,12 @@
 #include "base/text.h"
 #include "document/journal_line.h"
 #include "document/recover.h"
+#include "system/fd.h"
+#include "system/path.h"
 
 #include <ctype.h>
-#include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* SHA256, or SHA256.ending: readers of meshes and pictures go by the ending. */
 static void kept_name(WrText *name, const char *sha256, const char *named)
@@ -38,43 +36,34 @@ static bool content_is(const char *path, const char *sha256)
 static bool link_sibling(const char *folder, const char *target, const char *name,
                          const char *sha256)
 {
-    DIR *dir = opendir(folder);
-    struct dirent *entry;
+    WrFolder *dir = wr_folder_open(folder);
+    const char *entry;
     bool found = false;
-    while (dir && !found && (entry = readdir(dir))) {
-        size_t length = strlen(entry->d_name), ending = strlen(WR_JOURNAL_FILES_ENDING);
-        if (length <= ending ||
-            strcmp(entry->d_name + length - ending, WR_JOURNAL_FILES_ENDING) != 0)
+    while (dir && !found && (entry = wr_folder_next(dir))) {
+        size_t length = strlen(entry), ending = strlen(WR_JOURNAL_FILES_ENDING);
+        if (length <= ending || strcmp(entry + length - ending, WR_JOURNAL_FILES_ENDING) != 0)
             continue;
         WrText other = { 0 };
-        wr_text_addf(&other, "%s/%s/%s", folder, entry->d_name, name);
-        found = link(wr_text_get(&other), target) == 0;
+        wr_text_addf(&other, "%s/%s/%s", folder, entry, name);
+        found = wr_path_link(wr_text_get(&other), target);
         wr_text_fini(&other);
         if (found && !content_is(target, sha256)) {
-            unlink(target);
+            wr_path_remove(target);
             found = false;
         }
     }
-    if (dir) closedir(dir);
+    wr_folder_close(dir);
     return found;
 }
 
 /* By the file system itself where it can (shared blocks), else through memory. */
 static bool copy_bytes(int from, int to)
 {
-    bool any = false;
-    for (;;) {
-        ssize_t n = copy_file_range(from, NULL, to, NULL, (size_t)1 << 30, 0);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0 && any) return false;
-        if (n < 0 || (n == 0 && !any)) break;
-        if (n == 0) return true;
-        any = true;
-    }
+    int copied = wr_fd_copy_blocks(from, to);
+    if (copied != 0) return copied > 0;
     char block[65536];
     for (;;) {
-        ssize_t n = read(from, block, sizeof block);
-        if (n < 0 && errno == EINTR) continue;
+        int64_t n = wr_fd_read(from, block, sizeof block);
         if (n <= 0) return n == 0;
         if (!wr_fd_write(to, block, (size_t)n)) return false;
     }
@@ -89,18 +78,18 @@ static bool copy_file(const char *path, const char *target, const char *sha256, 
     WrText half = { 0 };
     wr_text_addf(&half, "%s.new", target);
     const char *temporary = wr_text_get(&half);
-    unlink(temporary);
-    int to = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    bool ok = to >= 0 && copy_bytes(from, to) && fsync(to) == 0;
+    wr_path_remove(temporary);
+    int to = wr_fd_open(temporary, WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_PRIVATE);
+    bool ok = to >= 0 && copy_bytes(from, to) && wr_fd_sync(to);
     if (!ok) wr_fail(err, "%s: no copy can be kept (%s)", path, strerror(errno));
-    close(from);
-    if (to >= 0) close(to);
+    wr_fd_close(from);
+    if (to >= 0) wr_fd_close(to);
     if (ok && !content_is(temporary, sha256))
         ok = wr_fail(err, "%s: no copy can be kept: its content is not %.12s... any more", path,
                      sha256);
-    if (ok && rename(temporary, target) != 0)
+    if (ok && !wr_path_rename(temporary, target))
         ok = wr_fail(err, "%s: no copy can be kept (%s)", path, strerror(errno));
-    if (!ok) unlink(temporary);
+    if (!ok) wr_path_remove(temporary);
     wr_text_fini(&half);
     return ok;
 }
@@ -113,7 +102,7 @@ bool wr_journal_keep(const char *folder, const char *files, const char *path, co
     WrText name = { 0 }, target = { 0 };
     kept_name(&name, sha256, path);
     wr_text_addf(&target, "%s/%s", files, wr_text_get(&name));
-    bool ok = access(wr_text_get(&target), F_OK) == 0;
+    bool ok = wr_path_is_there(wr_text_get(&target));
     if (!ok && wr_journal_make_folder(files, err))
         ok = link_sibling(folder, wr_text_get(&target), wr_text_get(&name), sha256) ||
              copy_file(path, wr_text_get(&target), sha256, err);
@@ -131,7 +120,7 @@ bool wr_journal_keep_as_named(const char *files, const char *path, WrError *err)
     WrText target = { 0 };
     wr_text_addf(&target, "%s/%s", files, slash ? slash + 1 : path);
     bool ok = wr_journal_make_folder(files, err);
-    if (ok && access(wr_text_get(&target), F_OK) != 0)
+    if (ok && !wr_path_is_there(wr_text_get(&target)))
         ok = copy_file(path, wr_text_get(&target), hex, err);
     else if (ok && !content_is(wr_text_get(&target), hex))
         ok = wr_fail(err, "%s: no copy can be kept: another file of that name is", path);
@@ -148,18 +137,18 @@ bool wr_journal_kept_file(const char *journal_path, const char *sha256, const ch
     char *files = wr_journal_files_folder(journal_path);
     WrText name = { 0 }, best = { 0 };
     kept_name(&name, sha256, named);
-    DIR *dir = opendir(files);
-    struct dirent *entry;
-    while (dir && (entry = readdir(dir))) {
-        bool exact = strcmp(entry->d_name, wr_text_get(&name)) == 0;
-        if (strncmp(entry->d_name, sha256, 64) != 0 || (!exact && best.length)) continue;
-        const char *dot = strrchr(entry->d_name, '.');
+    WrFolder *dir = wr_folder_open(files);
+    const char *entry;
+    while (dir && (entry = wr_folder_next(dir))) {
+        bool exact = strcmp(entry, wr_text_get(&name)) == 0;
+        if (strncmp(entry, sha256, 64) != 0 || (!exact && best.length)) continue;
+        const char *dot = strrchr(entry, '.');
         if (dot && strcmp(dot, ".new") == 0 && !exact) continue; /* a copy that was cut short */
         wr_text_clear(&best);
-        wr_text_add(&best, entry->d_name);
+        wr_text_add(&best, entry);
         if (exact) break;
     }
-    if (dir) closedir(dir);
+    wr_folder_close(dir);
     bool ok = best.length > 0;
     if (ok) wr_text_addf(path, "%s/%s", files, wr_text_get(&best));
     else wr_fail(err, "%s: keeps no copy of the file with SHA-256 %.12s...", journal_path, sha256);

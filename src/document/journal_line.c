@@ -82,7 +82,7 @@ static bool parse_hex(const char *text, int digits, uint64_t *value)
 bool wr_journal_parse_hash(const char *text, WrHash *hash)
 {
     WrHash h;
-    if (strnlen(text, HASH_DIGITS + 1) != HASH_DIGITS) return false;
+    if (memchr(text, '\0', HASH_DIGITS + 1) != text + HASH_DIGITS) return false;
     if (!parse_hex(text, 16, &h.high) || !parse_hex(text + 16, 16, &h.low)) return false;
     *hash = h;
     return true;
@@ -90,7 +90,7 @@ bool wr_journal_parse_hash(const char *text, WrHash *hash)
 
 bool wr_journal_is_sha256(const char *text)
 {
-    return strnlen(text, 65) == 64 && strspn(text, "0123456789abcdef") == 64;
+    return memchr(text, '\0', 65) == text + 64 && strspn(text, "0123456789abcdef") == 64;
 }
 
 bool wr_journal_is_name(const char *text)

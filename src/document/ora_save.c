@@ -14,11 +14,10 @@
 #include "image/image.h"
 #include "image/profile.h"
 #include "scene/scene.h"
+#include "system/fd.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <unistd.h>
 
 #define DOS_DATE 0x21 /* 1 January 1980: no file tells when it was saved */
 
@@ -450,9 +449,7 @@ static bool write_archive(Saving *to, int fd, WrError *err)
  * made. */
 static bool verify_archive(const Saving *to, const char *name, int fd, WrError *err)
 {
-    char path[32];
-    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-    int again = open(path, O_RDONLY | O_CLOEXEC);
+    int again = wr_fd_again(fd);
     if (again < 0) return wr_fail(err, "%s", strerror(errno));
     WrOraZip *zip = wr_ora_zip_take(name, again, err);
     bool good = zip != NULL;

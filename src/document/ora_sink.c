@@ -3,10 +3,10 @@
 #include "document/ora_zip.h"
 
 #include "base/error.h"
+#include "system/fd.h"
 
 #include <errno.h>
 #include <string.h>
-#include <unistd.h>
 
 static zip_int64_t answer_error(const WrOraSink *sink, void *data, zip_uint64_t length)
 {
@@ -28,18 +28,12 @@ static zip_int64_t answer_stat(void *data, zip_uint64_t length)
 
 static zip_int64_t write_bytes(WrOraSink *sink, const char *bytes, zip_uint64_t length)
 {
-    for (zip_uint64_t done = 0; done < length && !sink->error;) {
-        ssize_t n = pwrite(sink->fd, bytes + done, length - done, sink->at);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) {
-            sink->error = n < 0 ? errno : ENOSPC;
-            break;
-        }
-        done += (zip_uint64_t)n;
-        sink->at += n;
-        if (sink->at > sink->end) sink->end = sink->at;
-    }
-    return sink->error ? -1 : (zip_int64_t)length;
+    if (!sink->error && !wr_fd_write_at(sink->fd, bytes, (size_t)length, sink->at))
+        sink->error = errno;
+    if (sink->error) return -1;
+    sink->at += (int64_t)length;
+    if (sink->at > sink->end) sink->end = sink->at;
+    return (zip_int64_t)length;
 }
 
 static zip_int64_t move_to(WrOraSink *sink, void *data, zip_uint64_t length)

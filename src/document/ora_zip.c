@@ -4,9 +4,9 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "system/fd.h"
 
 #include <string.h>
-#include <unistd.h>
 #include <zip.h>
 
 #define ENTRIES_MAX 10000
@@ -33,7 +33,7 @@ WrOraZip *wr_ora_zip_take(const char *path, int fd, WrError *err)
     zip_t *archive = zip_fdopen(fd, 0, &trouble);
     if (!archive) {
         wr_fail(err, "%s: is not an OpenRaster file, truncated or damaged", path);
-        close(fd);
+        wr_fd_close(fd);
         return NULL;
     }
     zip_int64_t entries = zip_get_num_entries(archive, 0);

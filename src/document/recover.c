@@ -5,12 +5,11 @@
 #include "base/text.h"
 #include "document/journal_folder.h"
 #include "document/journal_line.h"
+#include "system/fd.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define HEADER_MAX 65536 /* bytes: some paths, escaped */
 #define FIRST_BUFFER 65536
@@ -59,9 +58,7 @@ static bool fill(Reader *reader, WrError *err)
         return wr_fail(err, "beyond %.0f MB, which is the most that is read",
                        (double)WR_JOURNAL_FILE_MAX / 1e6);
     if ((int64_t)room > left) room = (size_t)left;
-    ssize_t n;
-    do n = read(reader->fd, reader->buffer + reader->end, room);
-    while (n < 0 && errno == EINTR);
+    int64_t n = wr_fd_read(reader->fd, reader->buffer + reader->end, room);
     if (n < 0) return wr_fail(err, "cannot be read (%s)", strerror(errno));
     reader->ended = n == 0;
     reader->end += (size_t)n;
@@ -432,14 +429,14 @@ bool wr_journal_read_fd(int fd, const char *path, WrJournalRead *out, WrError *e
     WrJournalRead read = { 0 };
     WrJournalSeal seal = { 0 };
     WrError why = { "" };
-    struct stat info;
+    WrFileInfo info;
     int64_t good;
     bool ok = read_header(&reader, path, &read, &seal, &why, err);
     if (ok && read.headless) note_damage(&collector, &read, 1, why.text);
     if (ok) {
         int64_t whole = read_records(&reader, &collector, seal, &read, &good);
         if (read.headless && whole == 0) ok = wr_fail(err, "%s: %s", path, why.text);
-        if (fstat(fd, &info) == 0 && info.st_size > good) read.dropped_bytes = info.st_size - good;
+        if (wr_fd_info(fd, &info) && info.bytes > good) read.dropped_bytes = info.bytes - good;
         ok = ok && hand_over(&collector, &read, err);
     }
     wr_free(reader.buffer);
@@ -456,7 +453,7 @@ bool wr_journal_read(const char *path, WrJournalRead *out, WrError *err)
     int fd = wr_journal_open(path, err);
     if (fd < 0) return false;
     bool ok = wr_journal_read_fd(fd, path, out, err);
-    close(fd);
+    wr_fd_close(fd);
     return ok;
 }
 

@@ -6,14 +6,13 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "document/journal_folder.h"
+#include "system/fd.h"
+#include "system/path.h"
+#include "system/thread.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <string.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 static void fini_entry(WrJournalEntry *entry)
 {
@@ -62,18 +61,18 @@ static void describe(int fd, WrJournalCounts counts, WrJournalEntry *entry)
    and shared, so that two programs that look do not hide it from each other. */
 static bool look_at(const char *path, WrJournalCounts counts, WrJournalEntry *entry)
 {
-    struct stat info;
+    WrFileInfo info;
     int fd = wr_journal_open(path, NULL);
     if (fd < 0) return false;
-    bool left = wr_journal_lock(fd, path, LOCK_SH) && fstat(fd, &info) == 0;
+    bool left = wr_journal_lock(fd, path, WR_LOCK_SHARED) && wr_fd_info(fd, &info);
     if (left) {
-        flock(fd, LOCK_UN);
+        wr_fd_lock(fd, WR_LOCK_NONE);
         *entry = (WrJournalEntry){ .path = wr_strdup(path),
-                                   .written = (int64_t)info.st_mtime,
-                                   .bytes = (int64_t)info.st_size };
+                                   .written = (int64_t)info.seconds,
+                                   .bytes = (int64_t)info.bytes };
         describe(fd, counts, entry);
     }
-    close(fd);
+    wr_fd_close(fd);
     return left;
 }
 
@@ -108,16 +107,16 @@ bool wr_journal_list_that(const char *folder, WrJournalCounts counts, WrJournalL
     if (!folder && !wr_journal_folder(&usual, err)) return false;
     const char *place = folder ? folder : wr_text_get(&usual);
     WR_ARRAY(WrJournalEntry) found = { 0 };
-    DIR *dir = opendir(place);
+    WrFolder *dir = wr_folder_open(place);
     bool ok = dir || errno == ENOENT || wr_fail(err, "%s: %s", place, strerror(errno));
-    struct dirent *entry;
-    while (dir && (entry = readdir(dir))) {
-        size_t length = strlen(entry->d_name), ending = strlen(WR_JOURNAL_ENDING);
-        if (entry->d_name[0] == '.' || length <= ending ||
-            strcmp(entry->d_name + length - ending, WR_JOURNAL_ENDING) != 0)
+    const char *entry;
+    while (dir && (entry = wr_folder_next(dir))) {
+        size_t length = strlen(entry), ending = strlen(WR_JOURNAL_ENDING);
+        if (entry[0] == '.' || length <= ending ||
+            strcmp(entry + length - ending, WR_JOURNAL_ENDING) != 0)
             continue;
         WrJournalEntry one;
-        char *path = wr_path_join(place, entry->d_name);
+        char *path = wr_path_join(place, entry);
         bool left = look_at(path, counts, &one), old = left && is_old_and_empty(&one);
         if (old) {
             fini_entry(&one);
@@ -127,7 +126,7 @@ bool wr_journal_list_that(const char *folder, WrJournalCounts counts, WrJournalL
         }
         wr_free(path);
     }
-    if (dir) closedir(dir);
+    wr_folder_close(dir);
     wr_text_fini(&usual);
     if (!ok) return false;
     if (found.count > 1) qsort(found.data, (size_t)found.count, sizeof *found.data, newest_first);
@@ -151,8 +150,8 @@ struct WrJournalClaim {
 static bool lock_patiently(int fd, const char *path)
 {
     for (int tries = 0; tries < 10; tries++) {
-        if (wr_journal_lock(fd, path, LOCK_EX)) return true;
-        nanosleep(&(struct timespec){ .tv_nsec = 5000000 }, NULL);
+        if (wr_journal_lock(fd, path, WR_LOCK_ALONE)) return true;
+        wr_thread_sleep_ms(5);
     }
     return false;
 }
@@ -162,7 +161,7 @@ WrJournalClaim *wr_journal_claim(const char *path, WrError *err)
     int fd = wr_journal_open(path, err);
     if (fd < 0) return NULL;
     if (!lock_patiently(fd, path)) {
-        close(fd);
+        wr_fd_close(fd);
         wr_fail(err, "%s: in use by a running program", path);
         return NULL;
     }
@@ -174,14 +173,14 @@ WrJournalClaim *wr_journal_claim(const char *path, WrError *err)
 void wr_journal_claim_free(WrJournalClaim *claim)
 {
     if (!claim) return;
-    close(claim->fd);
+    wr_fd_close(claim->fd);
     wr_free(claim->path);
     wr_free(claim);
 }
 
 bool wr_journal_claim_remove(WrJournalClaim *claim, WrError *err)
 {
-    bool ok = unlink(claim->path) == 0 || errno == ENOENT ||
+    bool ok = wr_path_remove(claim->path) || errno == ENOENT ||
               wr_fail(err, "%s: cannot be removed (%s)", claim->path, strerror(errno));
     if (ok) {
         char *files = wr_journal_files_folder(claim->path);

@@ -5,9 +5,9 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "system/thread.h"
 
 #include <math.h>
-#include <pthread.h>
 
 /* Only formulas can give what is not finite. */
 int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out)
@@ -34,7 +34,7 @@ int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out)
 /* ---- the range of a formula: sampled like the file itself ---- */
 
 typedef struct Extent {
-    pthread_mutex_t lock;
+    WrMutex lock;
     double low, high;
 } Extent;
 
@@ -51,10 +51,10 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
         }
     }
     wr_free(row);
-    pthread_mutex_lock(&extent->lock);
+    wr_mutex_lock(&extent->lock);
     extent->low = low < extent->low ? low : extent->low;
     extent->high = high > extent->high ? high : extent->high;
-    pthread_mutex_unlock(&extent->lock);
+    wr_mutex_unlock(&extent->lock);
 }
 
 /* Smallest and largest F into the report. */
@@ -62,12 +62,12 @@ static void find_range(WrExportJob *job)
 {
     if (job->analytic) {
         Extent extent = { .low = INFINITY, .high = -INFINITY };
-        pthread_mutex_init(&extent.lock, NULL);
+        wr_mutex_init(&extent.lock);
         for (int y = 0; y < job->height; y += WR_IMAGE_STRIP) {
             int rows = job->height - y < WR_IMAGE_STRIP ? job->height - y : WR_IMAGE_STRIP;
             wr_export_run(job, y, rows, find_extent, &extent);
         }
-        pthread_mutex_destroy(&extent.lock);
+        wr_mutex_fini(&extent.lock);
         job->report.low = extent.low;
         job->report.high = extent.high;
     } else {

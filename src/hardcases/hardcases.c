@@ -1,12 +1,12 @@
 /* The table of hard cases and its runner. */
 #include "hardcases/hardcases.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/rows.h"
 #include "hardcases/hardcases_inner.h"
+#include "system/clock.h"
 
 #include <string.h>
 

@@ -5,7 +5,6 @@
 #include "image/image.h"
 
 #include <string.h>
-#include <strings.h>
 
 /* "diffuse.R": its layer "diffuse" has 7 letters, its own name is "R". */
 static int layer_length(const char *name)
@@ -26,7 +25,7 @@ static int find_in_layer(const WrImagePart *part, const char *layer, int length,
     for (int c = 0; c < part->channels; c++) {
         const char *name = part->channel_names[c];
         if (layer_length(name) == length && strncmp(name, layer, (size_t)length) == 0 &&
-            strcasecmp(own_name(name), own) == 0)
+            wr_text_same_letters(own_name(name), own))
             return c;
     }
     return -1;
@@ -58,7 +57,8 @@ static bool nameless(const WrImagePart *part)
 {
     for (int c = 0; c < part->channels; c++) {
         const char *name = part->channel_names[c];
-        if (strchr(name, '.') || strcasecmp(name, "z") == 0 || strcasecmp(name, "depth") == 0)
+        if (strchr(name, '.') || wr_text_same_letters(name, "z") ||
+            wr_text_same_letters(name, "depth"))
             return false;
     }
     return part->channels <= 4;

@@ -6,10 +6,10 @@
 #include "image/oiio.h"
 #include "image/plain.h"
 #include "image/png.h"
+#include "system/fd.h"
 
 #include <errno.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Of the library, or plain. */
 struct WrDecoder {
@@ -21,11 +21,11 @@ struct WrDecoder {
 /* The format by the file's first bytes, else by its ending; "plain" for what plain.h reads. */
 static const char *find_format(int fd, const char *ending, WrError *err)
 {
-    int copy = dup(fd);
-    FILE *file = copy < 0 ? NULL : fdopen(copy, "rb");
+    int copy = wr_fd_copy(fd);
+    FILE *file = copy < 0 ? NULL : wr_fd_stream(copy, "rb");
     if (!file) {
         wr_fail(err, "%s", strerror(errno));
-        if (copy >= 0) close(copy);
+        if (copy >= 0) wr_fd_close(copy);
         return NULL;
     }
     unsigned char bytes[WR_IMAGE_SNIFF];

@@ -3,24 +3,23 @@
 
 #include "base/error.h"
 #include "image/image.h"
+#include "system/fd.h"
 
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define MULTIPART 0x10 /* in the file's sixth byte */
 #define NAME_MAX_BYTES 255
 
 typedef struct Walk {
     int fd;
-    off_t at, size;
+    int64_t at, size;
     char text[NAME_MAX_BYTES + 1];
 } Walk;
 
 static bool take(Walk *walk, void *bytes, size_t length)
 {
-    if (pread(walk->fd, bytes, length, walk->at) != (ssize_t)length) return false;
-    walk->at += (off_t)length;
+    if (wr_fd_read_at(walk->fd, bytes, length, walk->at) != (int64_t)length) return false;
+    walk->at += (int64_t)length;
     return true;
 }
 
@@ -36,7 +35,7 @@ static bool take_number(Walk *walk, int bytes, uint64_t *value)
 /* A text that ends in NUL, into walk->text. */
 static bool take_name(Walk *walk)
 {
-    ssize_t n = pread(walk->fd, walk->text, sizeof walk->text, walk->at);
+    int64_t n = wr_fd_read_at(walk->fd, walk->text, sizeof walk->text, walk->at);
     const char *end = n > 0 ? memchr(walk->text, '\0', (size_t)n) : NULL;
     if (!end) return false;
     walk->at += end - walk->text + 1;
@@ -54,14 +53,14 @@ static bool take_header(Walk *walk, uint64_t *chunks)
         bool count = strcmp(walk->text, "chunkCount") == 0;
         if (!take_name(walk) || !take_number(walk, 4, &length)) return false;
         if (length > (uint64_t)(walk->size - walk->at)) return false;
-        off_t next = walk->at + (off_t)length;
+        int64_t next = walk->at + (int64_t)length;
         if (count && (length != 4 || !take_number(walk, 4, chunks))) return false;
         walk->at = next;
     }
 }
 
 /* One entry of the table at *table; *end is where its chunk must begin, and then where that ends. */
-static bool follow_chunk(Walk *walk, off_t *table, uint64_t part, off_t *end)
+static bool follow_chunk(Walk *walk, int64_t *table, uint64_t part, int64_t *end)
 {
     uint64_t place, number, y, length;
     walk->at = *table;
@@ -71,7 +70,7 @@ static bool follow_chunk(Walk *walk, off_t *table, uint64_t part, off_t *end)
     if (!take_number(walk, 4, &number) || number != part || !take_number(walk, 4, &y) ||
         !take_number(walk, 4, &length) || length > (uint64_t)(walk->size - walk->at))
         return false;
-    *end = walk->at + (off_t)length;
+    *end = walk->at + (int64_t)length;
     return true;
 }
 
@@ -87,7 +86,7 @@ static bool check(Walk *walk)
         counts[parts] = chunks;
         all += chunks;
     }
-    off_t table = walk->at, end = table + (off_t)(8 * all);
+    int64_t table = walk->at, end = table + (int64_t)(8 * all);
     for (int part = 0; part < parts; part++)
         for (uint64_t i = 0; i < counts[part]; i++)
             if (!follow_chunk(walk, &table, (uint64_t)part, &end)) return false;
@@ -96,11 +95,12 @@ static bool check(Walk *walk)
 
 bool wr_exr_check_chunks(int fd, WrError *err)
 {
-    struct stat info;
+    WrFileInfo info;
     unsigned char start[8];
-    if (fstat(fd, &info) != 0 || pread(fd, start, sizeof start, 0) != (ssize_t)sizeof start)
+    if (!wr_fd_info(fd, &info) ||
+        wr_fd_read_at(fd, start, sizeof start, 0) != (int64_t)sizeof start)
         return wr_fail(err, "it is truncated");
     if (!(start[5] & MULTIPART)) return true;
-    Walk walk = { .fd = fd, .at = sizeof start, .size = info.st_size };
+    Walk walk = { .fd = fd, .at = sizeof start, .size = info.bytes };
     return check(&walk) || wr_fail(err, "its tables are not whole");
 }

@@ -5,13 +5,12 @@
 #include "base/text.h"
 #include "image/font_inner.h"
 #include "image/reader.h"
+#include "system/fd.h"
+#include "system/map.h"
+#include "system/path.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* ---- names ---- */
 
@@ -66,7 +65,7 @@ char *wr_font_find(int index, double size, WrError *err)
                      terminus_dots(size), place->path);
     char *found = wr_strdup(wr_text_get(&path));
     wr_text_fini(&path);
-    if (access(found, R_OK) == 0) return found;
+    if (wr_path_can_read(found)) return found;
     wr_fail(err, "the font %s is not installed (%s): install the package %s", wr_font_names[index],
             found, place->package);
     wr_free(found);
@@ -92,15 +91,15 @@ typedef struct Files {
 static bool shape_inside(const Files *files, const WrFontAsk *ask, WrText *block, WrError *err)
 {
     WrFontFile parts[WR_FONT_FILES];
-    void *map = mmap(NULL, (size_t)files->total, PROT_READ, MAP_PRIVATE, files->fd, 0);
-    if (map == MAP_FAILED) return wr_fail(err, "%s: %s", files->name, strerror(errno));
+    void *map = wr_map(files->fd, (size_t)files->total, WR_MAP_READ);
+    if (!map) return wr_fail(err, "%s: %s", files->name, strerror(errno));
     const uint8_t *at = map;
     for (int i = 0; i < files->count; i++) {
         parts[i] = (WrFontFile){ at, (size_t)files->lengths[i] };
         at += files->lengths[i];
     }
     bool good = wr_font_make(parts, files->count, ask, block, err);
-    munmap(map, (size_t)files->total);
+    wr_map_end(map, (size_t)files->total);
     if (!good) wr_error_prefix(err, "%s: ", files->name);
     return good;
 }
@@ -129,14 +128,14 @@ static bool shape_outside(const Files *files, const WrFontAsk *ask, WrText *bloc
 /* Count a file in. */
 static bool take_file(Files *files, const char *name, int fd, WrError *err)
 {
-    struct stat info;
-    if (fstat(fd, &info) != 0) return wr_fail(err, "%s: %s", name, strerror(errno));
-    if (info.st_size == 0) return wr_fail(err, "%s: is empty", name);
-    if (info.st_size > WR_FONT_FILE_MAX)
+    WrFileInfo info;
+    if (!wr_fd_info(fd, &info)) return wr_fail(err, "%s: %s", name, strerror(errno));
+    if (info.bytes == 0) return wr_fail(err, "%s: is empty", name);
+    if (info.bytes > WR_FONT_FILE_MAX)
         return wr_fail(err, "%s: has %.0f MB: fonts of up to %d MB are read", name,
-                       (double)info.st_size / 1048576.0, WR_FONT_FILE_MAX >> 20);
-    files->lengths[files->count++] = (uint64_t)info.st_size;
-    files->total += (uint64_t)info.st_size;
+                       (double)info.bytes / 1048576.0, WR_FONT_FILE_MAX >> 20);
+    files->lengths[files->count++] = (uint64_t)info.bytes;
+    files->total += (uint64_t)info.bytes;
     return true;
 }
 
@@ -159,24 +158,24 @@ static bool append_file(Files *files, const char *name, int fd, WrError *err)
 {
     if (!take_file(files, name, fd, err)) return false;
     size_t length = (size_t)files->lengths[files->count - 1];
-    void *map = mmap(NULL, length, PROT_READ, MAP_PRIVATE, fd, 0);
-    bool good = map != MAP_FAILED && wr_fd_write(files->fd, map, length);
-    if (map != MAP_FAILED) munmap(map, length);
+    void *map = wr_map(fd, length, WR_MAP_READ);
+    bool good = map && wr_fd_write(files->fd, map, length);
+    wr_map_end(map, length);
     return good || wr_fail(err, "%s: no memory to read it from", name);
 }
 
 /* The first file and the others as one memory file. */
 static bool gather(Files *files, int fd, const WrFontAsk *ask, WrError *err)
 {
-    files->fd = memfd_create("wrinkle fonts", MFD_CLOEXEC);
+    files->fd = wr_fd_memory("wrinkle fonts");
     if (files->fd < 0) return wr_fail(err, "%s: no memory to read it from", files->name);
     bool good = append_file(files, files->name, fd, err);
     for (int i = 0; good && i < WR_FONT_OTHERS && ask->others[i]; i++) {
         int other = wr_file_open(ask->others[i], WR_FONT_FILE_MAX, NULL, err);
         good = other >= 0 && append_file(files, ask->others[i], other, err);
-        if (other >= 0) close(other);
+        if (other >= 0) wr_fd_close(other);
     }
-    if (!good) close(files->fd);
+    if (!good) wr_fd_close(files->fd);
     return good;
 }
 
@@ -189,7 +188,7 @@ static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *ou
     if (!(several ? gather(&files, fd, ask, err) : take_file(&files, name, fd, err))) return false;
     bool good = read_inside() ? shape_inside(&files, ask, &block, err)
                               : shape_outside(&files, ask, &block, err);
-    if (several) close(files.fd);
+    if (several) wr_fd_close(files.fd);
     if (!good) return false;
     if (wr_font_unpack(block.data, block.length, strlen(ask->text), out)) return true;
     wr_text_fini(&block);
@@ -202,7 +201,7 @@ bool wr_font_shape(const char *path, const WrFontAsk *ask, WrFontText *out, WrEr
     int fd = wr_file_open(path, WR_FONT_FILE_MAX, NULL, err);
     if (fd < 0) return false;
     bool good = shape(path, fd, ask, out, err);
-    close(fd);
+    wr_fd_close(fd);
     return good;
 }
 
@@ -212,6 +211,6 @@ bool wr_font_shape_bytes(const char *name, const void *bytes, size_t length, con
     int fd = wr_fd_in_memory(name, bytes, length, err);
     if (fd < 0) return false;
     bool good = shape(name, fd, ask, out, err);
-    close(fd);
+    wr_fd_close(fd);
     return good;
 }

@@ -2,11 +2,11 @@
 #include "base/aside.h"
 #include "base/memory.h"
 #include "image/font.h"
+#include "system/path.h"
 
 #include <fontconfig/fontconfig.h>
 
 #include <string.h>
-#include <sys/stat.h>
 
 /* Where it finds no list of the fonts that it made before, it looks into each: seconds, with some hundred. */
 static bool load_list(void *ctx, WrError *err)
@@ -46,7 +46,7 @@ static const char *usable(FcPattern *font)
 {
     FcChar8 *file = NULL;
     FcBool scalable = FcFalse, outline = FcFalse, coloured = FcFalse;
-    struct stat info;
+    WrFileInfo info;
     int index = 0;
     if (FcPatternGetString(font, FC_FILE, 0, &file) != FcResultMatch) return NULL;
     FcPatternGetBool(font, FC_SCALABLE, 0, &scalable);
@@ -54,7 +54,7 @@ static const char *usable(FcPattern *font)
     FcPatternGetBool(font, FC_COLOR, 0, &coloured);
     FcPatternGetInteger(font, FC_INDEX, 0, &index);
     if (!scalable || !outline || coloured || (index & 0xffff) != 0) return NULL;
-    if (stat((const char *)file, &info) != 0 || info.st_size > WR_FONT_FILE_MAX) return NULL;
+    if (!wr_path_info((const char *)file, &info) || info.bytes > WR_FONT_FILE_MAX) return NULL;
     return (const char *)file;
 }
 

@@ -6,10 +6,10 @@
 #include "base/text.h"
 #include "image/mesh_make.h"
 #include "image/reader.h"
+#include "system/fd.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- what came back ---- */
 
@@ -91,7 +91,7 @@ static int open_mesh(const char *path, WrError *err)
     int fd = wr_file_open(path, WR_MESH_FILE_MAX, &length, err);
     if (fd < 0 || length > 0) return fd;
     wr_fail(err, "%s: is empty", path);
-    close(fd);
+    wr_fd_close(fd);
     return -1;
 }
 
@@ -111,7 +111,7 @@ bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
     } else {
         good = read_outside(path, fd, out, err);
     }
-    close(fd);
+    wr_fd_close(fd);
     return good;
 }
 
@@ -124,6 +124,6 @@ bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMe
     int fd = wr_fd_in_memory(name, bytes, length, err);
     if (fd < 0) return false;
     bool good = read_outside(name, fd, out, err);
-    close(fd);
+    wr_fd_close(fd);
     return good;
 }

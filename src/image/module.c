@@ -5,10 +5,9 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "image/oiio.h"
-
-#include <dlfcn.h>
-#include <pthread.h>
-#include <unistd.h>
+#include "system/object.h"
+#include "system/path.h"
+#include "system/thread.h"
 
 /* Where the installed module lies, seen from the program's folder; the build sets it. */
 #ifndef WR_MODULE_FOLDER
@@ -37,17 +36,17 @@ static const void *load(const WrModule *module, WrError *err)
     for (int place = 0; place < WR_MODULE_PLACES && !table; place++) {
         if (!wr_module_path(place, module->file, &path)) continue;
         wr_text_addf(&looked, "%s%s", looked.length ? ", " : "", wr_text_get(&path));
-        if (access(wr_text_get(&path), F_OK) != 0) continue;
-        void *library = dlopen(wr_text_get(&path), RTLD_NOW | RTLD_LOCAL);
+        if (!wr_path_is_there(wr_text_get(&path))) continue;
+        void *library = wr_object_open(wr_text_get(&path));
         if (!library) {
-            wr_text_addf(&looked, " (%s)", dlerror());
+            wr_text_addf(&looked, " (%s)", wr_object_why());
             continue;
         }
-        table = dlsym(library, module->symbol);
+        table = wr_object_find(library, module->symbol);
         if (!table || *table != module->version) {
             table = NULL;
             wr_text_addf(&looked, " (of another version of the program)");
-            dlclose(library);
+            wr_object_close(library);
         }
     }
     if (!table)
@@ -60,23 +59,22 @@ static const void *load(const WrModule *module, WrError *err)
 
 static void *wait_for_all(void *lock)
 {
-    pthread_mutex_lock(lock);
-    pthread_mutex_unlock(lock);
+    wr_mutex_lock(lock);
+    wr_mutex_unlock(lock);
     return NULL;
 }
 
 /* Libraries behind the modules start a few as they are loaded, and end the program where they get none. */
 static bool threads_are_left(void)
 {
-    pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    pthread_t threads[WR_MODULE_THREADS];
+    WrMutex lock = WR_MUTEX_READY;
+    WrThread threads[WR_MODULE_THREADS];
     int count = 0;
-    pthread_mutex_lock(&lock);
-    while (count < WR_MODULE_THREADS &&
-           pthread_create(&threads[count], NULL, wait_for_all, &lock) == 0)
+    wr_mutex_lock(&lock);
+    while (count < WR_MODULE_THREADS && wr_thread_begin(&threads[count], wait_for_all, &lock))
         count++;
-    pthread_mutex_unlock(&lock);
-    for (int i = 0; i < count; i++) pthread_join(threads[i], NULL);
+    wr_mutex_unlock(&lock);
+    for (int i = 0; i < count; i++) wr_thread_join(threads[i]);
     return count == WR_MODULE_THREADS;
 }
 

@@ -16,11 +16,10 @@ extern "C" {
 #include "image/oiio_disk.hpp"
 #include "image/oiio_fail.hpp"
 #include "image/oiio_tiff.hpp"
+#include "system/fd.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-
-#include <fcntl.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -134,9 +133,9 @@ static void name_parts(WrOiioReader &reader)
 /* Where the reader may open nothing, most formats read from what is open. */
 static bool give_file(WrOiioReader &reader, char *reason)
 {
-    int copy = fcntl(reader.fd, F_DUPFD_CLOEXEC, 0);
-    reader.file.reset(copy < 0 ? nullptr : fdopen(copy, "rb"));
-    if (!reader.file || fseeko(reader.file.get(), 0, SEEK_SET) != 0)
+    int copy = wr_fd_copy(reader.fd);
+    reader.file.reset(copy < 0 ? nullptr : wr_fd_stream(copy, "rb"));
+    if (!reader.file || !wr_stream_seek(reader.file.get(), 0))
         return fail(reason, std::strerror(errno));
     reader.proxy =
         std::make_unique<Filesystem::IOFile>(reader.file.get(), Filesystem::IOProxy::Read);
@@ -174,13 +173,21 @@ static bool open_file(WrOiioReader &reader, const char *format, int most, char *
     return true;
 }
 
+/* For libraries that take nothing but names. */
+static std::string name_of(int fd)
+{
+    char name[WR_FD_NAME];
+    wr_fd_name(fd, name);
+    return name;
+}
+
 static WrOiioReader *reader_open(int fd, const char *format, int most, char *reason)
 {
     WrOiioReader *opened = nullptr;
     guarded(reason, [&] {
         auto reader = std::make_unique<WrOiioReader>();
         reader->fd = fd;
-        reader->path = "/proc/self/fd/" + std::to_string(fd);
+        reader->path = name_of(fd);
         if (!open_file(*reader, format, most, reason)) return false;
         opened = reader.release();
         return true;
@@ -415,7 +422,7 @@ static WrOiioWriter *writer_create(int file, const char *format, const WrImageOu
     WrOiioWriter *created = nullptr;
     guarded(reason, [&] {
         auto writer = std::make_unique<WrOiioWriter>();
-        writer->path = "/proc/self/fd/" + std::to_string(file);
+        writer->path = name_of(file);
         if (!create_file(*writer, file, format, parts, count, reason)) return false;
         created = writer.release();
         return true;

@@ -1,11 +1,12 @@
 /* oiio_disk.hpp - the file that a picture library writes to. C++, part of the module alone.
    Private to this room. */
 #pragma once
+#include "system/fd.h"
+
 #include <OpenImageIO/filesystem.h>
 
 #include <cerrno>
 #include <cstring>
-#include <unistd.h>
 #include <vector>
 
 /* An open file of the caller's for a library to write that takes everything and remembers the first
@@ -55,12 +56,7 @@ class Disk : public OIIO::Filesystem::IOProxy
     /* What is held back goes to the file; what comes next goes to where the library is now. */
     void empty()
     {
-        for (size_t done = 0; done < held && !error;) {
-            ssize_t n = ::pwrite(file, block.data() + done, held - done, at + done);
-            if (n < 0 && errno == EINTR) continue;
-            if (n <= 0) error = n < 0 ? errno : ENOSPC;
-            else done += static_cast<size_t>(n);
-        }
+        if (held > 0 && !error && !wr_fd_write_at(file, block.data(), held, at)) error = errno;
         held = 0;
         at = m_pos;
     }

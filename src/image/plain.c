@@ -2,13 +2,12 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "system/fd.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* ---- what there is of a file ---- */
 
@@ -19,7 +18,7 @@ struct WrPlain {
     int width, height, channels;
     Coding coding;
     double most;     /* the largest code */
-    off_t data;      /* where the pixels begin */
+    int64_t data;    /* where the pixels begin */
     uint16_t *codes; /* TEXT: all of them, owned; else NULL */
     uint8_t *row;    /* else: one row as it stands in the file, owned */
 };
@@ -87,7 +86,7 @@ static bool read_number(FILE *file, uint32_t *number)
     return true;
 }
 
-static bool read_text(WrPlain *p, off_t length, WrError *err)
+static bool read_text(WrPlain *p, int64_t length, WrError *err)
 {
     const size_t count = (size_t)p->width * (size_t)p->height * (size_t)p->channels;
     if ((uint64_t)length < 2 * (uint64_t)count - 1)
@@ -101,7 +100,7 @@ static bool read_text(WrPlain *p, off_t length, WrError *err)
     return p->codes != NULL;
 }
 
-static bool open_pnm(WrPlain *p, off_t length, WrError *err)
+static bool open_pnm(WrPlain *p, int64_t length, WrError *err)
 {
     uint32_t width, height, most;
     getc(p->file);
@@ -114,7 +113,7 @@ static bool open_pnm(WrPlain *p, off_t length, WrError *err)
     p->width = (int)width, p->height = (int)height, p->most = most;
     p->channels = kind == '3' || kind == '6' ? 3 : 1;
     p->coding = kind == '2' || kind == '3' ? TEXT : most > 255 ? CODES_16 : CODES_8;
-    p->data = ftello(p->file);
+    p->data = wr_stream_tell(p->file);
     return p->coding != TEXT || read_text(p, length, err);
 }
 
@@ -141,11 +140,11 @@ static bool open_pat(WrPlain *p, const unsigned char *bytes, WrError *err)
 
 /* ---- .hgt: nothing but metres, 16 bits with a sign, from the north-west eastwards ---- */
 
-static bool open_hgt(WrPlain *p, off_t length, WrError *err)
+static bool open_hgt(WrPlain *p, int64_t length, WrError *err)
 {
     static const int sides[] = { 1201, 3601 };
     for (int k = 0; k < 2; k++)
-        if (length == (off_t)2 * sides[k] * sides[k]) p->width = p->height = sides[k];
+        if (length == (int64_t)2 * sides[k] * sides[k]) p->width = p->height = sides[k];
     if (p->width == 0)
         return wr_fail(err,
                        "elevations (.hgt) of %lld bytes: must be 1201x1201 or 3601x3601 "
@@ -166,17 +165,17 @@ static size_t row_bytes(const WrPlain *p)
 static bool open_any(WrPlain *p, bool *memory, WrError *err)
 {
     unsigned char bytes[24];
-    struct stat info;
-    if (fseeko(p->file, 0, SEEK_SET) != 0 || fstat(fileno(p->file), &info) != 0)
+    WrFileInfo info;
+    if (!wr_stream_seek(p->file, 0) || !wr_stream_info(p->file, &info))
         return wr_fail(err, "%s", strerror(errno));
     const size_t count = fread(bytes, 1, sizeof bytes, p->file);
-    if (fseeko(p->file, 0, SEEK_SET) != 0) return wr_fail(err, "%s", strerror(errno));
-    if (!(is_pnm(bytes, count)   ? open_pnm(p, info.st_size, err)
+    if (!wr_stream_seek(p->file, 0)) return wr_fail(err, "%s", strerror(errno));
+    if (!(is_pnm(bytes, count)   ? open_pnm(p, info.bytes, err)
           : is_pat(bytes, count) ? open_pat(p, bytes, err)
-                                 : open_hgt(p, info.st_size, err)))
+                                 : open_hgt(p, info.bytes, err)))
         return false;
     if (p->coding == TEXT) return true;
-    if ((uint64_t)(info.st_size - p->data) < (uint64_t)row_bytes(p) * (uint64_t)p->height)
+    if ((uint64_t)(info.bytes - p->data) < (uint64_t)row_bytes(p) * (uint64_t)p->height)
         return truncated(err);
     p->row = wr_try_alloc(row_bytes(p), 1, "a row", err);
     if (!p->row && memory) *memory = true;
@@ -185,11 +184,11 @@ static bool open_any(WrPlain *p, bool *memory, WrError *err)
 
 WrPlain *wr_plain_open(int fd, bool *memory, WrError *err)
 {
-    const int copy = dup(fd);
-    FILE *file = copy < 0 ? NULL : fdopen(copy, "rb");
+    const int copy = wr_fd_copy(fd);
+    FILE *file = copy < 0 ? NULL : wr_fd_stream(copy, "rb");
     if (!file) {
         wr_fail(err, "%s", strerror(errno));
-        if (copy >= 0) close(copy);
+        if (copy >= 0) wr_fd_close(copy);
         return NULL;
     }
     WrPlain *plain = wr_alloc(1, sizeof *plain);
@@ -240,9 +239,8 @@ static float value_of(const WrPlain *p, size_t at, int y)
 bool wr_plain_read(WrPlain *p, int y, int rows, int channels, float *out, WrError *err)
 {
     for (int j = y; j < y + rows; j++) {
-        if (p->coding != TEXT &&
-            (fseeko(p->file, p->data + (off_t)row_bytes(p) * j, SEEK_SET) != 0 ||
-             fread(p->row, 1, row_bytes(p), p->file) != row_bytes(p)))
+        if (p->coding != TEXT && (!wr_stream_seek(p->file, p->data + (int64_t)row_bytes(p) * j) ||
+                                  fread(p->row, 1, row_bytes(p), p->file) != row_bytes(p)))
             return wr_fail(err, "cannot be read whole, truncated or damaged");
         for (int i = 0; i < p->width; i++)
             for (int c = 0; c < channels; c++)

@@ -6,10 +6,10 @@
 #include "image/process.h"
 #include "image/read_inner.h"
 #include "image/reader.h"
+#include "system/fd.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Strangers' files are read by the reader process; inside this one only where the environment says so. */
 struct WrImageFile {
@@ -37,7 +37,7 @@ static int open_regular(const char *path, WrError *err)
     int fd = wr_file_open(path, WR_FILE_MOST, &length, err);
     if (fd < 0 || length > 0) return fd;
     wr_fail(err, "%s: is empty", path);
-    close(fd);
+    wr_fd_close(fd);
     return -1;
 }
 
@@ -54,7 +54,7 @@ static WrImageFile *open_file(const char *name, int fd, int most, bool outside, 
     } else {
         file.reader = wr_reader_open(name, fd, most, err);
     }
-    if (file.fd < 0) close(fd);
+    if (file.fd < 0) wr_fd_close(fd);
     if (!file.reader && !file.decoder) return NULL;
     file.path = wr_strdup(name);
     WrImageFile *opened = wr_alloc(1, sizeof *opened);
@@ -78,7 +78,7 @@ void wr_image_file_close(WrImageFile *file)
     if (!file) return;
     wr_reader_close(file->reader);
     wr_decoder_close(file->decoder);
-    if (file->fd >= 0) close(file->fd);
+    if (file->fd >= 0) wr_fd_close(file->fd);
     wr_free(file->path);
     wr_free(file);
 }

@@ -1,20 +1,17 @@
 #include "image/reader.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "image/process.h"
+#include "system/channel.h"
+#include "system/child.h"
+#include "system/clock.h"
+#include "system/fd.h"
+#include "system/map.h"
 
-#include <fcntl.h>
-#include <signal.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #define SECONDS 60               /* without a sign of life */
 #define BLOCK_SECONDS 20         /* the same for files that are read in one go */
@@ -59,7 +56,7 @@ static unsigned setting(const char *name, unsigned otherwise)
 /* The end of this reading, whatever comes. Closing the channel ends the child if it still lives. */
 static bool die(WrReader *reader, const char *why)
 {
-    if (reader->channel >= 0) close(reader->channel);
+    if (reader->channel >= 0) wr_fd_close(reader->channel);
     reader->channel = -1;
     reader->dead = true;
     return wr_fail(&reader->end, "%s: %s", reader->name, why);
@@ -80,18 +77,18 @@ static bool die_of_time(WrReader *reader)
 
 static bool die_of_status(WrReader *reader, const Answer *answer)
 {
-    int32_t status;
+    WrWireDied told;
     char why[160];
-    if (answer->head.length != sizeof status) return die_of_nonsense(reader);
-    memcpy(&status, answer->bytes, sizeof status);
-    int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (number == SIGXCPU) return die_of_time(reader);
-    if (number == SIGKILL)
+    if (answer->head.length != sizeof told) return die_of_nonsense(reader);
+    memcpy(&told, answer->bytes, sizeof told);
+    const WrChildEnd end = { (WrChildWhy)told.why, told.number };
+    if (end.why == WR_CHILD_LATE) return die_of_time(reader);
+    if (end.why == WR_CHILD_KILLED)
         return die(reader, "the reader was killed while it read this file (by hand, or for want of "
                            "memory)");
-    const char *name = sigdescr_np(number);
+    const char *name = end.why == WR_CHILD_CRASHED ? wr_child_crash(end.number) : NULL;
     snprintf(why, sizeof why, "the reader crashed on this file%s%s%s; it is damaged or hostile",
-             number && name ? " (" : "", number && name ? name : "", number && name ? ")" : "");
+             name ? " (" : "", name ? name : "", name ? ")" : "");
     return die(reader, why);
 }
 
@@ -216,10 +213,10 @@ static bool take_parts(WrReader *reader, const Answer *answer, int most)
 static bool send_order(WrReader *reader, const WrWireOrder *order, int fd, WrError *err)
 {
     int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    if (!wr_channel_pair(ends, false))
         return wr_fail(err, "%s: no socket for the reader", reader->name);
     bool sent = wr_process_order(order, fd, ends[1], err);
-    close(ends[1]);
+    wr_fd_close(ends[1]);
     reader->channel = ends[0];
     reader->dead = false;
     if (!sent) wr_error_prefix(err, "%s: ", reader->name);
@@ -243,8 +240,8 @@ static bool open_once(WrReader *reader, const WrWireOrder *order, int fd, double
 
 static WrReader *new_reader(const char *name, int fd, WrWireTask task, int most, WrWireOrder *order)
 {
-    struct stat info;
-    double size = fstat(fd, &info) == 0 ? (double)info.st_size : 0.0;
+    WrFileInfo info;
+    double size = wr_fd_info(fd, &info) ? (double)info.bytes : 0.0;
     WrReader *reader = wr_alloc(1, sizeof *reader);
     reader->name = wr_strdup(name);
     reader->channel = -1;
@@ -268,7 +265,7 @@ WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
     double deadline = deadline_of(reader);
     bool gone, good = open_once(reader, &order, fd, deadline, &gone, err);
     if (!good && gone) {
-        if (reader->channel >= 0) close(reader->channel);
+        if (reader->channel >= 0) wr_fd_close(reader->channel);
         good = open_once(reader, &order, fd, deadline, &gone, err);
     }
     if (good) return reader;
@@ -279,8 +276,8 @@ WrReader *wr_reader_open(const char *name, int fd, int most, WrError *err)
 void wr_reader_close(WrReader *reader)
 {
     if (!reader) return;
-    if (reader->channel >= 0) close(reader->channel);
-    if (reader->shared) munmap((void *)reader->shared, reader->shared_bytes);
+    if (reader->channel >= 0) wr_fd_close(reader->channel);
+    wr_map_end(reader->shared, reader->shared_bytes);
     for (int i = 0; i < reader->attributes.count; i++) {
         wr_free(reader->attributes.data[i].name);
         wr_free(reader->attributes.data[i].text);
@@ -327,15 +324,12 @@ const char *wr_reader_attribute(WrReader *reader, int part, const char *name)
 static int share(WrReader *reader, size_t bytes, WrError *err)
 {
     if (reader->shared && reader->shared_bytes >= bytes) return -1;
-    if (reader->shared) munmap((void *)reader->shared, reader->shared_bytes);
+    wr_map_end(reader->shared, reader->shared_bytes);
     reader->shared = NULL;
-    int fd = memfd_create("wrinkle rows", MFD_CLOEXEC | MFD_ALLOW_SEALING);
-    void *map = MAP_FAILED;
-    if (fd >= 0 && ftruncate(fd, (off_t)bytes) == 0 &&
-        fcntl(fd, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0)
-        map = mmap(NULL, bytes, PROT_READ, MAP_SHARED, fd, 0);
-    if (map == MAP_FAILED) {
-        if (fd >= 0) close(fd);
+    int fd = wr_fd_memory_fixed("wrinkle rows", bytes);
+    const void *map = fd >= 0 ? wr_map(fd, bytes, WR_MAP_WATCH) : NULL;
+    if (!map) {
+        if (fd >= 0) wr_fd_close(fd);
         wr_fail(err, "%s: no memory for %.0f MB of rows", reader->name, (double)bytes / 1e6);
         return -2;
     }
@@ -371,7 +365,7 @@ static bool ask(WrReader *reader, const Rows *rows, int chunk, WrError *err)
                         .bytes = fd >= 0 ? reader->shared_bytes : 0 };
     /* If the child is gone, its last words are still to be read. */
     wr_wire_send(reader->channel, WR_WIRE_READ, &want, sizeof want, fd);
-    if (fd >= 0) close(fd);
+    if (fd >= 0) wr_fd_close(fd);
     return true;
 }
 
@@ -434,7 +428,7 @@ bool wr_reader_block(const char *name, int fd, WrWireTask task, const void *ask,
     double deadline = deadline_of(reader);
     bool good = false, gone = true;
     for (int attempt = 0; attempt < 2 && gone && !good; attempt++) {
-        if (reader->channel >= 0) close(reader->channel);
+        if (reader->channel >= 0) wr_fd_close(reader->channel);
         reader->channel = -1;
         gone = false;
         if (!send_order(reader, &order, fd, err)) break;

@@ -3,18 +3,17 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "image/cage.h"
 #include "image/decode.h"
 #include "image/font_inner.h"
 #include "image/mesh_make.h"
-#include "image/reopen.h"
+#include "system/cage.h"
+#include "system/fd.h"
+#include "system/map.h"
+#include "system/process.h"
+#include "system/reopen.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #define CHANNEL 3
 #define PICTURE WR_REOPEN_FILE
@@ -30,18 +29,17 @@ typedef struct Serving {
 /* Nothing stays open but the channel and the picture, under their numbers. */
 static void keep_two(int file, int channel)
 {
-    int far_file = fcntl(file, F_DUPFD, 100), far_channel = fcntl(channel, F_DUPFD, 100);
-    int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-    if (nothing >= 0) dup2(nothing, STDIN_FILENO); /* the control socket was there */
-    close_range(3, 99, 0);
-    dup2(far_channel, CHANNEL);
-    dup2(far_file, PICTURE);
-    close_range(5, ~0U, 0);
+    int far_file = wr_fd_copy_above(file, 100), far_channel = wr_fd_copy_above(channel, 100);
+    wr_fd_nowhere(WR_FD_IN); /* the control socket was there */
+    wr_fd_close_range(CHANNEL, 99);
+    wr_fd_place(far_channel, CHANNEL);
+    wr_fd_place(far_file, PICTURE);
+    wr_fd_close_range(PICTURE + 1, -1);
 }
 
 static void answer(WrWireKind kind, const void *bytes, size_t length)
 {
-    if (!wr_wire_send(CHANNEL, kind, bytes, length, -1)) _exit(0);
+    if (!wr_wire_send(CHANNEL, kind, bytes, length, -1)) wr_process_leave(0);
 }
 
 static void answer_failure(bool memory, const WrError *err)
@@ -72,11 +70,10 @@ static uint64_t answer_parts(const Serving *serving)
 
 static void map_pixels(Serving *serving, int fd, uint64_t length)
 {
-    if (serving->pixels) munmap(serving->pixels, serving->length);
-    void *map = mmap(NULL, length, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
-    serving->pixels = map == MAP_FAILED ? NULL : map;
+    wr_map_end(serving->pixels, serving->length);
+    serving->pixels = wr_map(fd, length, WR_MAP_SHARE);
     serving->length = serving->pixels ? length : 0;
-    close(fd);
+    wr_fd_close(fd);
 }
 
 static void read_rows(Serving *serving, const WrWireRead *want, int fd)
@@ -138,12 +135,13 @@ static void serve_requests(Serving *serving)
 /* The whole file. NULL and an error if there is no memory. */
 static char *read_file(size_t *length, WrError *err)
 {
-    off_t size = lseek(PICTURE, 0, SEEK_END);
-    char *bytes = wr_try_alloc((size_t)(size > 0 ? size : 0) + 1, 1, "the file", err);
+    WrFileInfo info;
+    int64_t size = wr_fd_info(PICTURE, &info) ? info.bytes : 0;
+    char *bytes = wr_try_alloc((size_t)size + 1, 1, "the file", err);
     *length = 0;
     while (bytes && *length < (size_t)size) {
-        ssize_t n = pread(PICTURE, bytes + *length, (size_t)size - *length, (off_t)*length);
-        if (n < 0 && errno == EINTR) continue;
+        int64_t n =
+            wr_fd_read_at(PICTURE, bytes + *length, (size_t)size - *length, (int64_t)*length);
         if (n <= 0) break;
         *length += (size_t)n;
     }
@@ -176,10 +174,10 @@ static bool make_font(const char *bytes, size_t length, const char *want, size_t
 static char *receive_ask(uint32_t *length)
 {
     WrWireHead head;
-    if (wr_wire_receive(CHANNEL, &head, sizeof head, 0.0, NULL) != WR_WIRE_GOT) _exit(0);
+    if (wr_wire_receive(CHANNEL, &head, sizeof head, 0.0, NULL) != WR_WIRE_GOT) wr_process_leave(0);
     char *ask = wr_alloc((size_t)head.length + 1, 1);
     if (head.length > 0 && wr_wire_receive(CHANNEL, ask, head.length, 0.0, NULL) != WR_WIRE_GOT)
-        _exit(0);
+        wr_process_leave(0);
     *length = head.length;
     return ask;
 }
@@ -212,9 +210,7 @@ void wr_serve(const WrWireOrder *order, int file, int channel)
     bool memory = false;
     keep_two(file, channel);
     uint64_t space = wr_cage_space();
-    sigset_t none;
-    sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, NULL);
+    wr_process_hear_signals();
     if (!wr_cage_enter(order->memory, order->seconds)) {
         wr_fail(&err, "cannot be read safely here: the system refuses to limit the reader process");
         answer_failure(false, &err);

@@ -5,19 +5,16 @@
 #include "image/exr_chunks.h"
 #include "image/image.h"
 #include "image/read_inner.h"
+#include "system/fd.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Another opening of the same file, so that neither moves the other's position. */
 static int open_again(int fd, WrError *err)
 {
-    char path[32];
-    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
-    int again = open(path, O_RDONLY | O_CLOEXEC);
+    int again = wr_fd_again(fd);
     if (again < 0) wr_fail(err, "%s", strerror(errno));
     return again;
 }

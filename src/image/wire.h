@@ -13,7 +13,7 @@
      program:  READ WrWireRead  -> child: DONE, FAILED, MEMORY
                DIGEST WrWireDigest -> child: DIGEST WrHash, FAILED, MEMORY
                TEXT WrWireText  -> child: TEXT (found: the text and a NUL; else nothing)
-     process:  DIED int32 (a wait status)
+     process:  DIED WrWireDied
 
    Files of other tasks than pictures are read in one go; there the program speaks first:
 
@@ -28,7 +28,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 4
+#define WR_WIRE_VERSION 5
 #define WR_WIRE_MAX (256U << 20) /* bytes of a message */
 
 /* What kind of file. */
@@ -75,6 +75,10 @@ typedef struct WrWireText {
     int32_t part;
     char name[124]; /* ends in NUL */
 } WrWireText;
+
+typedef struct WrWireDied {
+    int32_t why, number; /* as WrChildEnd has them */
+} WrWireDied;
 
 /* Send one message, with a descriptor (fd < 0: none). False when the other end is gone. Never raises
  * SIGPIPE. */

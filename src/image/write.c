@@ -6,14 +6,12 @@
 #include "image/decode.h"
 #include "image/oiio.h"
 #include "image/verify.h"
+#include "system/fd.h"
+#include "system/process.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define SPOOL_MB 1024 /* files of more go to the disk at once (choose_spool) */
 #define PIECE_BYTES (1 << 20)
@@ -50,10 +48,8 @@ static bool check_parts(const char *path, const WrImageOut *parts, int count, Wr
 /* A limit on file sizes holds for memory files as well, where libraries do not always tell of it. */
 static bool is_cut(int fd)
 {
-    struct stat info;
-    struct rlimit limit;
-    return fstat(fd, &info) == 0 && getrlimit(RLIMIT_FSIZE, &limit) == 0 &&
-           (rlim_t)info.st_size >= limit.rlim_cur;
+    WrFileInfo info;
+    return wr_fd_info(fd, &info) && (uint64_t)info.bytes >= wr_process_file_limit();
 }
 
 /* reason: of the library, which may have the system's in it. */
@@ -179,7 +175,7 @@ static int choose_spool(const WrFileTarget *target, const char *format, const Wr
     double most = SPOOL_MB;
     if (setting && !wr_number_parse(setting, strlen(setting), &most)) most = SPOOL_MB;
     if (!wr_oiio_by_name(format, count) || raw_bytes(parts, count) > most * 1e6) return target->fd;
-    int fd = memfd_create("wrinkle picture", MFD_CLOEXEC);
+    int fd = wr_fd_memory("wrinkle picture");
     return fd >= 0 ? fd : target->fd;
 }
 
@@ -188,12 +184,11 @@ static bool copy_file(int from, const WrFileTarget *target, WrError *err)
     static const size_t size = 1 << 18;
     char *block = wr_alloc(size, 1), why[WR_FILE_WHY];
     bool good = true;
-    off_t at = 0;
-    for (ssize_t n = 1; good && n != 0; at += n > 0 ? n : 0) {
+    int64_t at = 0;
+    for (int64_t n = 1; good && n != 0; at += n > 0 ? n : 0) {
         if (wr_progress_stopped()) good = wr_fail(err, "cancelled");
         if (!good) break;
-        n = pread(from, block, size, at);
-        if (n < 0 && errno == EINTR) continue;
+        n = wr_fd_read_at(from, block, size, at);
         good = n >= 0 && (n == 0 || wr_fd_write(target->fd, block, (size_t)n));
         if (!good) wr_file_fail(target, wr_file_why(errno, why), err);
     }
@@ -211,7 +206,7 @@ static bool write_target(WrFileTarget *target, const char *path, const WrImageFo
     bool good = write_file(path, spool, format->library, parts, count, digests, err) &&
                 (spool == target->fd || copy_file(spool, target, err));
     wr_progress_set(whole);
-    if (spool != target->fd) close(spool);
+    if (spool != target->fd) wr_fd_close(spool);
     if (!good) return false;
     if (wr_image_verify(path, target->fd, format, parts, count, digests, &inner)) {
         wr_file_verified(target);
@@ -237,14 +232,13 @@ bool wr_image_write(const char *path, const WrImageOut *parts, int count, WrErro
 /* Everything that was written to a memory file. */
 static bool take_bytes(const char *name, int fd, char **bytes, size_t *length, WrError *err)
 {
-    struct stat info;
-    if (fstat(fd, &info) != 0) return wr_fail(err, "%s: %s", name, strerror(errno));
-    size_t want = (size_t)info.st_size, have = 0;
+    WrFileInfo info;
+    if (!wr_fd_info(fd, &info)) return wr_fail(err, "%s: %s", name, strerror(errno));
+    size_t want = (size_t)info.bytes, have = 0;
     char *block = wr_try_alloc(want + 1, 1, name, err);
     if (!block) return false;
     while (have < want) {
-        ssize_t n = pread(fd, block + have, want - have, (off_t)have);
-        if (n < 0 && errno == EINTR) continue;
+        int64_t n = wr_fd_read_at(fd, block + have, want - have, (int64_t)have);
         if (n <= 0) {
             wr_free(block);
             return wr_fail(err, "%s: %s", name, strerror(n < 0 ? errno : EIO));
@@ -263,7 +257,7 @@ bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes
     const WrImageFormat *format = wr_image_format(name, err);
     if (strcmp(format->library, "tiff") == 0)
         return wr_fail(err, "%s: TIFF files cannot be written into memory", name);
-    int fd = memfd_create("wrinkle picture", MFD_CLOEXEC);
+    int fd = wr_fd_memory("wrinkle picture");
     if (fd < 0) return wr_fail(err, "%s: %s", name, strerror(errno));
     WrError inner = { "" };
     WrHash digest = { 0 };
@@ -271,7 +265,7 @@ bool wr_image_write_bytes(const char *name, const WrImageOut *part, char **bytes
     if (ok && !wr_image_verify(name, fd, format, part, 1, &digest, &inner))
         ok = fail_write(err, name, fd, inner.text);
     ok = ok && take_bytes(name, fd, bytes, length, err);
-    close(fd);
+    wr_fd_close(fd);
     return ok;
 }
 

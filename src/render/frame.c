@@ -1,6 +1,5 @@
 #include "render/frame.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -9,6 +8,7 @@
 #include "render/frame_inner.h"
 #include "render/pipe.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* What a frame cost, by stage and by effect. */
-#include "base/clock.h"
 #include "base/memory.h"
 #include "render/frame_inner.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <string.h>

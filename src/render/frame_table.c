@@ -1,5 +1,4 @@
 /* Tables that a renderer keeps up to date: copies of heights, pyramids, the colour picture. */
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
@@ -7,6 +6,7 @@
 #include "render/frame_inner.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
+#include "system/clock.h"
 
 static void drop_colour(ColourCopy *copy)
 {

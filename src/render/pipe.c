@@ -1,11 +1,11 @@
 /* The stages in single precision. */
 #include "render/pipe.h"
 
-#include "base/clock.h"
 #include "base/kernmath.h"
 #include "render/pyramid.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
+#include "system/clock.h"
 
 #include <float.h>
 

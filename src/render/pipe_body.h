@@ -36,6 +36,7 @@ static void did(const Watch *watch, WrEffect effect)
 }
 
 #include "render/pipe_look_body.h"
+#include "system/clock.h"
 
 /* ---- half precision ------------------------------------------------------------------------------ */
 

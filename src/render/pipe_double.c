@@ -1,10 +1,10 @@
 /* The stages in double precision. */
-#include "base/clock.h"
 #include "base/kernmath.h"
 #include "render/pipe.h"
 #include "render/pyramid.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
+#include "system/clock.h"
 
 #include <float.h>
 

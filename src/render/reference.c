@@ -1,11 +1,11 @@
 #include "render/reference.h"
 
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "render/frame.h"
 #include "render/reference_shade.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <string.h>

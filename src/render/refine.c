@@ -1,8 +1,8 @@
 /* Adaptive sampling: one sample at each pixel's centre, then 2 x 2, 4 x 4, ... K x K where they are called
    for (dials.h, WrRefine). A pixel that comes to K x K holds what `supersample` makes of it, bit for bit. */
-#include "base/clock.h"
 #include "render/pipe.h"
 #include "base/vec.h"
+#include "system/clock.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 #include "render/tile.h"
-#include "base/clock.h"
 #include "base/hash.h"
 #include "render/frame.h"
 #include "render/pipe.h"
+#include "system/clock.h"
 
 #include <string.h>
 

@@ -13,7 +13,6 @@
 
 #include "accuracy/ladder.h"
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -22,6 +21,7 @@
 #include "render/reference.h"
 #include "scene/dials.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

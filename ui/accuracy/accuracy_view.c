@@ -11,11 +11,11 @@
 
 #include "accuracy/metrics.h"
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/memory.h"
 #include "base/rows.h"
 #include "base/text.h"
 #include "render/reference.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

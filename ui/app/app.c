@@ -47,9 +47,9 @@
 #include "ui/jobs/trial.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "scene/scene.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

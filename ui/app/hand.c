@@ -24,7 +24,7 @@
 #include "ui/tools/tool_view.h"
 #include "ui/views/marks.h"
 
-#include "base/clock.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -13,13 +13,13 @@
 #include "ui/tools/stroke_hand.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "system/clock.h"
+#include "system/thread.h"
 
 #include <SDL.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 
 #define EVENTS_A_SECOND 125
@@ -39,7 +39,7 @@ struct WrLatency {
     SDL_Rect room; /* of the canvas */
     Uint32 window_id;
     volatile int stop; /* atomic */
-    pthread_t thread;
+    WrThread thread;
 };
 
 /* ---- the scribble ---- */
@@ -167,11 +167,11 @@ static bool measure(WrApp *app, WrLatency *latency, WrError *err)
     app->hand->events = 0;
     app->brush->taken = app->brush->shown = app->patch->seen = 0;
     if (latency->room.w <= 0) return wr_fail(err, "the window has no canvas");
-    if (pthread_create(&latency->thread, NULL, feed, latency) != 0)
+    if (!wr_thread_begin(&latency->thread, feed, latency))
         return wr_fail(err, "no thread can be started");
     while (app->hand->events < latency->count && !stopped(app)) wr_app_step(app);
     __atomic_store_n(&latency->stop, 1, __ATOMIC_RELAXED);
-    pthread_join(latency->thread, NULL);
+    wr_thread_join(latency->thread);
     if (stopped(app)) return wr_fail(err, "interrupted");
     double end = wr_clock_seconds() + LAST_SECONDS;
     wr_hand_let_go(app);

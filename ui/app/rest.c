@@ -11,13 +11,12 @@
 
 #include "base/array.h"
 #include "base/memory.h"
+#include "system/fd.h"
+#include "system/thread.h"
 
 #include <SDL.h>
-#include <fcntl.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 /* What a worker is done with may be taken one step later, and asks for pictures then. */
 #define CALM_STEPS 3
@@ -25,7 +24,7 @@
 struct WrRest {
     Uint32 ask_event;
     int fifo;
-    pthread_t thread;
+    WrThread thread;
     int asked, answered; /* questions; the window's thread */
     int calm;            /* steps at rest in a row since the newest question */
 };
@@ -41,20 +40,20 @@ static void *thread_main(void *ctx)
 {
     const WrRest *rest = ctx;
     char byte;
-    while (read(rest->fifo, &byte, 1) == 1 && byte != 'q') push(rest);
+    while (wr_fd_read(rest->fifo, &byte, 1) == 1 && byte != 'q') push(rest);
     return NULL;
 }
 
 WrRest *wr_rest_new(Uint32 ask_event)
 {
     const char *path = getenv("WRINKLE_REST");
-    int fifo = path && *path ? open(path, O_RDWR | O_CLOEXEC) : -1;
+    int fifo = path && *path ? wr_fd_open(path, WR_OPEN_READ | WR_OPEN_WRITE) : -1;
     if (fifo < 0) return NULL;
     WrRest *rest = wr_alloc(1, sizeof *rest);
     rest->ask_event = ask_event;
     rest->fifo = fifo;
-    if (pthread_create(&rest->thread, NULL, thread_main, rest) == 0) return rest;
-    close(fifo);
+    if (wr_thread_begin(&rest->thread, thread_main, rest)) return rest;
+    wr_fd_close(fifo);
     wr_free(rest);
     return NULL;
 }
@@ -62,8 +61,8 @@ WrRest *wr_rest_new(Uint32 ask_event)
 void wr_rest_free(WrRest *rest)
 {
     if (!rest) return;
-    if (write(rest->fifo, "q", 1) == 1) pthread_join(rest->thread, NULL);
-    close(rest->fifo);
+    if (wr_fd_write(rest->fifo, "q", 1)) wr_thread_join(rest->thread);
+    wr_fd_close(rest->fifo);
     wr_free(rest);
 }
 

@@ -5,8 +5,8 @@
 #include "ui/desk/settings.h"
 #include "ui/tools/shelf.h"
 
-#include "base/clock.h"
 #include "command/session.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 

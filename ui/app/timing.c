@@ -3,8 +3,8 @@
 #include "ui/desk/desk.h"
 #include "ui/preview/preview.h"
 
-#include "base/clock.h"
 #include "image/image.h"
+#include "system/clock.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* The window on the desktop: opened in whatever way the display knows, and kept on the screen. */
 #include "ui/app/window.h"
+#include "system/process.h"
 #include "ui/desk/app_options.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"
@@ -12,10 +13,8 @@
 
 #include <SDL.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 double wr_window_scale(SDL_Window *window)
 {
@@ -28,7 +27,7 @@ double wr_window_scale(SDL_Window *window)
 
 static bool has_gpu(void)
 {
-    return access("/dev/dri/renderD128", R_OK | W_OK) == 0;
+    return wr_process_has_gpu();
 }
 
 static SDL_Window *open_window(const WrApp *app)
@@ -90,8 +89,7 @@ bool wr_window_open(WrApp *app)
     SDL_SetHint(SDL_HINT_APP_NAME, "wrinkle");
     SDL_SetHint(SDL_HINT_QUIT_ON_LAST_WINDOW_CLOSE, "0");
     /* SDL turns these into SDL_QUIT, but only where nobody else has taken them. */
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
+    wr_process_drop_interrupts();
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0 || !open_screen(app)) return false;
     SDL_SetWindowMinimumSize(app->window, 640, 420);
     SDL_SetRenderDrawBlendMode(app->renderer, SDL_BLENDMODE_BLEND);

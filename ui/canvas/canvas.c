@@ -5,9 +5,9 @@
 #include "ui/gui/theme.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/memory.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -1,9 +1,9 @@
 #include "ui/canvas/canvas_cells.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/memory.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <string.h>

@@ -20,7 +20,6 @@
 #include "ui/jobs/trial.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -30,6 +29,7 @@
 #include "command/inner.h"
 #include "command/session.h"
 #include "document/document.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -12,11 +12,11 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "system/path.h"
 
 #include <SDL.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 void wr_app_redraw(WrApp *app)
 {
@@ -69,7 +69,7 @@ void wr_app_read_keys(WrApp *app)
     char *path = wr_config_path("keys.conf"), *text = NULL;
     size_t length;
     WrError err;
-    if (path && access(path, R_OK) == 0 && wr_file_read(path, 1 << 16, &text, &length, &err) &&
+    if (path && wr_path_can_read(path) && wr_file_read(path, 1 << 16, &text, &length, &err) &&
         !wr_keys_read(app->keys, text, &err)) {
         wr_error_prefix(&err, "%s: ", path);
         wr_app_fail(app, &err);

@@ -4,8 +4,8 @@
 #include "ui/desk/desk.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/memory.h"
+#include "system/clock.h"
 
 void wr_later(WrApp *app, WrLaterWork *work, const char *text)
 {

@@ -4,10 +4,10 @@
 #include "ui/desk/desk.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "system/clock.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -17,6 +17,7 @@
 #include "base/memory.h"
 #include "base/rows.h"
 #include "base/stamp.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <stdio.h>
@@ -48,7 +49,7 @@ static void describe(const WrReplace *replace, char *text, size_t size)
     time_t t = (time_t)stamp.seconds;
     double bytes = (double)stamp.bytes, unit = bytes < 1e3 ? 1.0 : bytes < 1e6 ? 1e3 : 1e6;
     const char *word = bytes < 1e3 ? "bytes" : bytes < 1e6 ? "kB" : "MB";
-    if (localtime_r(&t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M:%S", &parts);
+    if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M:%S", &parts);
     snprintf(text, size, "%.3g %s, written %s", bytes / unit, word, when + strspn(when, " "));
 }
 

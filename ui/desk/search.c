@@ -1,9 +1,9 @@
 #include "ui/desk/search.h"
 
+#include <SDL.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
-#include <strings.h>
 
 static bool is_letter(char c)
 {
@@ -16,7 +16,7 @@ static int word_score(const char *label, const char *word, size_t length)
 {
     int best = 0;
     for (const char *at = label; *at; at++) {
-        if (strncasecmp(at, word, length) != 0) continue;
+        if (SDL_strncasecmp(at, word, length) != 0) continue;
         int score = at == label ? 4 : !is_letter(at[-1]) ? 2 : 1;
         best = score > best ? score : best;
     }

@@ -7,11 +7,11 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/brush.h"
+#include "system/path.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 WrSettings wr_settings_default(void)
 {
@@ -271,10 +271,10 @@ static void make_folders(const char *path)
     for (char *c = copy + 1; *c; c++) {
         if (*c != '/') continue;
         *c = '\0';
-        mkdir(copy, 0700);
+        wr_folder_make(copy, WR_FOLDER_FOR_ME);
         *c = '/';
     }
-    mkdir(copy, 0700);
+    wr_folder_make(copy, WR_FOLDER_FOR_ME);
     wr_free(copy);
 }
 

@@ -6,12 +6,11 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "system/fd.h"
+#include "system/thread.h"
 
-#include <fcntl.h>
 #include <string.h>
-#include <sys/file.h>
 #include <time.h>
-#include <unistd.h>
 
 #define FILE_NAME "window.conf"
 #define LOCK_NAME "window.lock"
@@ -170,14 +169,16 @@ void wr_settings_merge(const WrSettings *base, const WrSettings *mine, WrSetting
 static int lock(bool now)
 {
     char *path = wr_config_path(LOCK_NAME);
-    int fd = path ? open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0600) : -1;
+    const unsigned how = WR_OPEN_READ | WR_OPEN_WRITE | WR_OPEN_CREATE | WR_OPEN_PRIVATE |
+                         WR_OPEN_NO_LINK | WR_OPEN_NO_WAIT;
+    int fd = path ? wr_fd_open(path, how) : -1;
     wr_free(path);
     for (int i = 0; fd >= 0; i++) {
-        if (flock(fd, LOCK_EX | LOCK_NB) == 0) return fd;
+        if (wr_fd_lock(fd, WR_LOCK_ALONE)) return fd;
         if (!now || i >= PATIENCE_TRIES) break;
-        nanosleep(&(struct timespec){ .tv_nsec = 1000000 }, NULL);
+        wr_thread_sleep_ms(1);
     }
-    if (fd >= 0) close(fd);
+    if (fd >= 0) wr_fd_close(fd);
     return -1;
 }
 
@@ -214,7 +215,7 @@ bool wr_settings_update(WrSettings *known, const WrSettings *now, bool last)
         wr_settings_fini(&merged);
         wr_text_fini(&text);
     }
-    if (held >= 0) close(held);
+    if (held >= 0) wr_fd_close(held);
     wr_free(path);
     return good;
 }

@@ -13,10 +13,10 @@
 #include "command/call.h"
 #include "command/generate.h"
 #include "generate/generator.h"
+#include "system/path.h"
 
 #include <SDL.h>
 #include <string.h>
-#include <unistd.h>
 
 #define FILE_MAX (1 << 22) /* bytes */
 
@@ -64,7 +64,7 @@ static bool read_file(WrApp *app, WrError *err)
 {
     char *path = wr_config_path("presets.wrinkle"), *bytes = NULL;
     size_t length;
-    bool there = path && access(path, F_OK) == 0;
+    bool there = path && wr_path_is_there(path);
     bool good = !there || wr_file_read(path, FILE_MAX, &bytes, &length, err);
     if (good) {
         forget(app->generate);

@@ -6,6 +6,7 @@ extern "C" {
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "system/path.h"
 #include "ui/gui/gui_icons.h"
 }
 
@@ -14,7 +15,6 @@ extern "C" {
 
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #define SYSTEM_FONTS "/usr/share/fonts"
 
@@ -25,7 +25,7 @@ static char *first_readable(const char *const *paths)
     for (; *paths; paths++) {
         char *path =
             folder ? wr_path_join(folder, *paths + sizeof SYSTEM_FONTS) : wr_strdup(*paths);
-        if (access(path, R_OK) == 0) return path;
+        if (wr_path_can_read(path)) return path;
         wr_free(path);
     }
     return nullptr;

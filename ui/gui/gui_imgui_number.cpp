@@ -3,7 +3,7 @@
 
 extern "C" {
 #include "base/text.h"
-#include "base/clock.h"
+#include "system/clock.h"
 }
 
 #include <imgui_internal.h>

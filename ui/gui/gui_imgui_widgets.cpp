@@ -2,7 +2,7 @@
 #include "ui/gui/gui_imgui.h"
 
 extern "C" {
-#include "base/clock.h"
+#include "system/clock.h"
 }
 
 #include <imgui_internal.h>

@@ -5,10 +5,10 @@
 #include "base/memory.h"
 #include "base/text.h"
 
+#include <SDL.h>
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /* ---- reading ---- */
 
@@ -315,7 +315,7 @@ static int rank_of(const WrGuideBlock *block, const char *query)
     char first[200];
     if (block->kind == WR_GUIDE_HEADING) return 0;
     wr_guide_plain(block, 0, first, sizeof first);
-    return strncasecmp(first, query, strlen(query)) == 0 ? 1 : 2;
+    return SDL_strncasecmp(first, query, strlen(query)) == 0 ? 1 : 2;
 }
 
 /* One pass over all pages, for one rank. */

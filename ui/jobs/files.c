@@ -9,25 +9,20 @@
 #include "base/rows.h"
 #include "base/text.h"
 #include "image/image.h"
+#include "system/child.h"
+#include "system/fd.h"
+#include "system/path.h"
+#include "system/process.h"
+#include "system/thread.h"
 
 #include <SDL.h>
-#include <dirent.h>
 #include <errno.h>
-#include <pthread.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #define PATH_SIZE 4096
 #define ENTRIES_MAX 4000 /* of a folder that the panel shows */
-
-extern char **environ;
 
 typedef struct Entry {
     char *name; /* owned */
@@ -41,9 +36,9 @@ struct WrFiles {
     bool agreed;            /* the native dialog asked before it gave a name that is taken */
     /* the native dialog */
     bool running;
-    pid_t child;
+    WrPid child;
     int pipe;
-    pthread_t waiter;
+    WrThread waiter;
     /* the panel */
     char folder[PATH_SIZE], field[PATH_SIZE];
     WR_ARRAY(Entry) entries;
@@ -106,7 +101,7 @@ static char *find_program(const char *name)
         size_t length = strcspn(path, ":");
         char *folder = wr_strndup(path, length), *full = wr_path_join(folder, name);
         wr_free(folder);
-        if (length > 0 && access(full, X_OK) == 0) return full;
+        if (length > 0 && wr_path_can_run(full)) return full;
         wr_free(full);
         path += length + (path[length] == ':');
     }
@@ -120,17 +115,15 @@ static void *wait_for_child(void *arg)
     char text[PATH_SIZE];
     size_t length = 0;
     for (;;) {
-        ssize_t got = read(files->pipe, text + length, sizeof text - 1 - length);
-        if (got < 0 && errno == EINTR) continue;
+        int64_t got = wr_fd_read(files->pipe, text + length, sizeof text - 1 - length);
         if (got <= 0) break;
         length += (size_t)got;
         if (length == sizeof text - 1) break;
     }
-    int status = 0;
-    while (waitpid(files->child, &status, 0) < 0 && errno == EINTR) {
-    }
+    WrChildEnd end;
+    wr_child_wait(files->child, &end);
     while (length > 0 && text[length - 1] == '\n') length--;
-    bool chosen = WIFEXITED(status) && WEXITSTATUS(status) == 0 && text[0] == '/' && length > 0;
+    bool chosen = end.why == WR_CHILD_LEFT && end.number == 0 && text[0] == '/' && length > 0;
     memcpy(files->answer, text, chosen ? length : 0);
     files->answer[chosen ? length : 0] = '\0';
     SDL_Event event = { .type = files->done_event };
@@ -139,30 +132,26 @@ static void *wait_for_child(void *arg)
 }
 
 /* Nobody would hear its answer. */
-static void dismiss(pid_t child)
+static void dismiss(WrPid child)
 {
-    kill(child, SIGTERM);
-    while (waitpid(child, NULL, 0) < 0 && errno == EINTR) {
-    }
+    WrChildEnd end;
+    wr_child_ask_to_end(child);
+    wr_child_wait(child, &end);
 }
 
 static bool start(WrFiles *files, const char *program, const char *const *arguments)
 {
     int ends[2];
-    if (pipe(ends) != 0) return false;
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_addclose(&actions, ends[0]);
-    posix_spawn_file_actions_addclose(&actions, ends[1]);
-    int trouble =
-        posix_spawn(&files->child, program, &actions, NULL, (char *const *)arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
+    if (!wr_fd_pipe(ends, true)) return false;
+    const WrChildStart it = {
+        .program = program, .arguments = arguments, .in = -1, .out = ends[1], .err = -1
+    };
+    int trouble = wr_child_start(&it, &files->child);
+    wr_fd_close(ends[1]);
     files->pipe = ends[0];
     files->running = trouble == 0 && wr_thread_start(&files->waiter, wait_for_child, files);
     if (trouble == 0 && !files->running) dismiss(files->child);
-    if (!files->running) close(ends[0]);
+    if (!files->running) wr_fd_close(ends[0]);
     return files->running;
 }
 
@@ -204,32 +193,32 @@ static int by_name(const void *a, const void *b)
 {
     const Entry *x = a, *y = b;
     if (x->folder != y->folder) return x->folder ? -1 : 1;
-    return strcasecmp(x->name, y->name);
+    return SDL_strcasecmp(x->name, y->name);
 }
 
 static bool is_folder(const char *path)
 {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+    WrFileInfo info;
+    return wr_path_info(path, &info) && info.kind == WR_KIND_FOLDER;
 }
 
 static void list_folder(WrFiles *files)
 {
     free_entries(files);
     files->trouble[0] = '\0';
-    DIR *dir = opendir(files->folder);
+    WrFolder *dir = wr_folder_open(files->folder);
     if (!dir) {
         snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", files->folder,
                  strerror(errno));
         return;
     }
-    for (struct dirent *e; (e = readdir(dir)) && files->entries.count < ENTRIES_MAX;) {
-        if (e->d_name[0] == '.') continue;
-        char *full = wr_path_join(files->folder, e->d_name);
-        wr_array_push(&files->entries, ((Entry){ wr_strdup(e->d_name), is_folder(full) }));
+    for (const char *e; (e = wr_folder_next(dir)) && files->entries.count < ENTRIES_MAX;) {
+        if (e[0] == '.') continue;
+        char *full = wr_path_join(files->folder, e);
+        wr_array_push(&files->entries, ((Entry){ wr_strdup(e), is_folder(full) }));
         wr_free(full);
     }
-    closedir(dir);
+    wr_folder_close(dir);
     if (files->entries.count > 1)
         qsort(files->entries.data, (size_t)files->entries.count, sizeof(Entry), by_name);
 }
@@ -262,7 +251,7 @@ static bool accept(WrFiles *files)
     if (is_folder(path)) {
         go_to(files, path);
         files->field[0] = '\0';
-    } else if (!wr_files_writes(files->purpose) && access(path, R_OK) != 0) {
+    } else if (!wr_files_writes(files->purpose) && !wr_path_can_read(path)) {
         snprintf(files->trouble, sizeof files->trouble, "%.400s: %s", path, strerror(errno));
     } else {
         char *full = with_ending(files, path);
@@ -313,8 +302,8 @@ bool wr_files_agreed(const WrFiles *files)
 const char *wr_files_answer(WrFiles *files, WrFilePurpose *purpose)
 {
     if (files->running) {
-        pthread_join(files->waiter, NULL);
-        close(files->pipe);
+        wr_thread_join(files->waiter);
+        wr_fd_close(files->pipe);
         files->running = false;
         take_native(files);
     }
@@ -326,7 +315,7 @@ void wr_files_free(WrFiles *files)
 {
     if (!files) return;
     WrFilePurpose unused;
-    if (files->running) kill(files->child, SIGTERM);
+    if (files->running) wr_child_ask_to_end(files->child);
     wr_files_answer(files, &unused);
     free_entries(files);
     wr_free(files);
@@ -365,7 +354,7 @@ static void warn_overwrite(const WrFiles *files)
 {
     if (!wr_files_writes(files->purpose) || files->field[0] == '\0') return;
     char *path = typed_path(files), *full = with_ending(files, path);
-    if (access(full, F_OK) == 0 && !is_folder(path))
+    if (wr_path_is_there(full) && !is_folder(path))
         wr_gui_text(WR_FONT_SMALL, WR_COLOUR_CELL, "There is a file of this name.");
     wr_free(full);
     wr_free(path);

@@ -2,20 +2,17 @@
 #include "ui/jobs/thread.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "system/clock.h"
+#include "system/thread.h"
 
 #include <SDL.h>
-#include <pthread.h>
-#include <sys/resource.h>
-
-#define NICENESS 5 /* so that the window's own thread goes first */
 
 struct WrJob {
-    pthread_mutex_t lock; /* guards what follows, up to the next blank line */
-    pthread_cond_t wake;
+    WrMutex lock; /* guards what follows, up to the next blank line */
+    WrCond wake;
     bool started, quit;
     void *next, *done;   /* owned; NULL: none */
     bool running, stale; /* stale: what runs is not wanted any more */
@@ -23,7 +20,7 @@ struct WrJob {
 
     volatile int cancel; /* atomic; read by the work */
     const WrJobKind *kind;
-    pthread_t thread;
+    WrThread thread;
     int threads;
     Uint32 done_event;
 };
@@ -31,8 +28,8 @@ struct WrJob {
 WrJob *wr_job_new(const WrJobKind *kind, int threads, Uint32 done_event)
 {
     WrJob *job = wr_alloc(1, sizeof *job);
-    pthread_mutex_init(&job->lock, NULL);
-    pthread_cond_init(&job->wake, NULL);
+    wr_mutex_init(&job->lock);
+    wr_cond_init(&job->wake);
     job->kind = kind;
     job->threads = threads;
     job->done_event = done_event;
@@ -44,9 +41,9 @@ WrJob *wr_job_new(const WrJobKind *kind, int threads, Uint32 done_event)
 static void note_fraction(void *ctx, double fraction)
 {
     WrJob *job = ctx;
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
     job->fraction = fraction;
-    pthread_mutex_unlock(&job->lock);
+    wr_mutex_unlock(&job->lock);
 }
 
 /* Take up what is next and do it. Called under the lock, which is let go meanwhile. */
@@ -58,33 +55,33 @@ static void do_next(WrJob *job, WrPool *pool, const WrProgress *progress)
     job->stale = false;
     job->fraction = 0.0;
     __atomic_store_n(&job->cancel, 0, __ATOMIC_RELAXED);
-    pthread_mutex_unlock(&job->lock);
+    wr_mutex_unlock(&job->lock);
     const WrProgress *before = wr_progress_set(progress);
     job->kind->run(work, pool, progress);
     wr_progress_set(before);
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
     job->running = false;
     bool wanted = !job->stale;
     if (wanted) job->done = work;
-    pthread_mutex_unlock(&job->lock);
+    wr_mutex_unlock(&job->lock);
     if (!wanted) job->kind->drop(work);
     SDL_Event event = { .type = job->done_event };
     if (wanted) SDL_PushEvent(&event);
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
 }
 
 static void *thread_main(void *arg)
 {
     WrJob *job = arg;
-    setpriority(PRIO_PROCESS, 0, NICENESS); /* on Linux this thread and those it starts */
+    wr_thread_step_back(); /* so that the window's own thread goes first */
     WrPool *pool = wr_pool_new(job->threads);
     WrProgress progress = { .cancel = &job->cancel, .report = note_fraction, .ctx = job };
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
     while (!job->quit) {
         if (job->next) do_next(job, pool, &progress);
-        else pthread_cond_wait(&job->wake, &job->lock);
+        else wr_cond_wait(&job->wake, &job->lock);
     }
-    pthread_mutex_unlock(&job->lock);
+    wr_mutex_unlock(&job->lock);
     wr_pool_free(pool);
     return NULL;
 }
@@ -103,7 +100,7 @@ static void do_in_place(WrJob *job)
 /* Replace all that is wanted by `work`, which may be NULL. */
 static void replace(WrJob *job, void *work)
 {
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
     void *waiting = job->next, *done = job->done;
     job->next = work;
     job->done = NULL;
@@ -113,8 +110,8 @@ static void replace(WrJob *job, void *work)
     job->fraction = 0.0;
     if (work && !job->started) job->started = wr_thread_start(&job->thread, thread_main, job);
     if (work && !job->started) do_in_place(job);
-    pthread_cond_signal(&job->wake);
-    pthread_mutex_unlock(&job->lock);
+    wr_cond_wake(&job->wake);
+    wr_mutex_unlock(&job->lock);
     if (waiting) job->kind->drop(waiting);
     if (done) job->kind->drop(done);
 }
@@ -136,20 +133,20 @@ void wr_job_interrupt(WrJob *job)
 
 void *wr_job_take(WrJob *job)
 {
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
     void *done = job->done;
     job->done = NULL;
-    pthread_mutex_unlock(&job->lock);
+    wr_mutex_unlock(&job->lock);
     return done;
 }
 
 bool wr_job_busy(WrJob *job, double *fraction, double *seconds)
 {
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
     bool busy = job->next || (job->running && !job->stale);
     if (fraction) *fraction = job->fraction;
     if (seconds) *seconds = wr_clock_seconds() - job->asked_at;
-    pthread_mutex_unlock(&job->lock);
+    wr_mutex_unlock(&job->lock);
     return busy;
 }
 
@@ -157,15 +154,15 @@ void wr_job_free(WrJob *job)
 {
     if (!job) return;
     replace(job, NULL);
-    pthread_mutex_lock(&job->lock);
+    wr_mutex_lock(&job->lock);
     job->quit = true;
-    pthread_cond_signal(&job->wake);
+    wr_cond_wake(&job->wake);
     bool started = job->started;
-    pthread_mutex_unlock(&job->lock);
-    if (started) pthread_join(job->thread, NULL);
+    wr_mutex_unlock(&job->lock);
+    if (started) wr_thread_join(job->thread);
     if (job->done) job->kind->drop(job->done);
     if (job->next) job->kind->drop(job->next);
-    pthread_cond_destroy(&job->wake);
-    pthread_mutex_destroy(&job->lock);
+    wr_cond_fini(&job->wake);
+    wr_mutex_fini(&job->lock);
     wr_free(job);
 }

@@ -1,13 +1,14 @@
 #include "ui/jobs/thread.h"
 
-#include <pthread.h>
+#include "system/thread.h"
+
 #include <stddef.h>
 
 static int refused; /* atomic; 1: still to be told, 2: told */
 
-bool wr_thread_start(pthread_t *thread, void *(*run)(void *), void *arg)
+bool wr_thread_start(WrThread *thread, void *(*run)(void *), void *arg)
 {
-    if (pthread_create(thread, NULL, run, arg) == 0) return true;
+    if (wr_thread_begin(thread, run, arg)) return true;
     int none = 0;
     __atomic_compare_exchange_n(&refused, &none, 1, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
     return false;

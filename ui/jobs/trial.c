@@ -3,7 +3,6 @@
 #include "ui/jobs/trial_generate.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -14,6 +13,7 @@
 #include "document/document.h"
 #include "field/field.h"
 #include "field/ops.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 

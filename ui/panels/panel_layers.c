@@ -14,13 +14,13 @@
 #include "ui/jobs/trial.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/text.h"
 #include "command/call.h"
 #include "command/session.h"
 #include "document/blend.h"
 #include "document/document.h"
 #include "field/field.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

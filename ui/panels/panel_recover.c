@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "command/inner.h"
 #include "command/recovery.h"
+#include "system/clock.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -72,7 +73,7 @@ static void describe(const WrRecoverable *r, char *name, size_t name_size, char 
     struct tm parts;
     time_t t = (time_t)r->written;
     const char *slash = strrchr(r->document, '/');
-    if (localtime_r(&t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M", &parts);
+    if (wr_clock_local(t, &parts)) strftime(when, sizeof when, "%e %B %Y, %H:%M", &parts);
     snprintf(name, name_size, "%.120s",
              r->document[0] == '\0' ? "never saved"
              : slash                ? slash + 1

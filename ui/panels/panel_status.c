@@ -16,7 +16,6 @@
 #include "ui/views/marks.h"
 #include "ui/jobs/trial.h"
 
-#include "base/clock.h"
 #include "base/exactmath.h"
 #include "command/session.h"
 #include "document/document.h"
@@ -24,11 +23,12 @@
 #include "field/scheme.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
+#include "system/clock.h"
+#include "system/process.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #define METER_SECONDS 2.0
 #define MOMENT_SECONDS 0.2 /* work that takes less shows no bar */
@@ -137,17 +137,6 @@ static int stages(const double ms[WR_PICTURE_STAGES], double all, char *text, si
 
 /* ---- memory ---- */
 
-/* Bytes of the process that are in memory. */
-static double resident(void)
-{
-    long pages = 0, in_memory = 0;
-    FILE *file = fopen("/proc/self/statm", "re");
-    if (!file) return 0.0;
-    int got = fscanf(file, "%ld %ld", &pages, &in_memory);
-    fclose(file);
-    return got == 2 ? (double)in_memory * (double)sysconf(_SC_PAGESIZE) : 0.0;
-}
-
 static double layer_bytes(const WrLayer *layer)
 {
     double bytes = (double)wr_field_bytes(layer->heights);
@@ -167,7 +156,7 @@ static void measure(WrApp *app)
     for (int i = 0; i < document->layer_count; i++)
         meter->tiles += layer_bytes(&document->layers[i]);
     meter->undo = (double)wr_session_history_bytes(app->session);
-    meter->all = resident();
+    meter->all = (double)wr_process_resident();
 }
 
 static void memory(WrApp *app)

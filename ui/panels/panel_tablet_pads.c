@@ -7,7 +7,7 @@
 #include "ui/pen/pen_curve.h"
 
 #include "base/array.h"
-#include "base/clock.h"
+#include "system/clock.h"
 
 #include <math.h>
 #include <stdarg.h>

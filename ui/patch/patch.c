@@ -16,13 +16,13 @@
 #include "ui/preview/rotation.h"
 #include "ui/tools/stroke_hand.h"
 
-#include "base/clock.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "base/error.h"
 #include "field/field.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

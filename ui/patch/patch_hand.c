@@ -9,12 +9,12 @@
 #include "ui/patch/patch.h"
 #include "ui/preview/rotation.h"
 
-#include "base/clock.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "surface/surface.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -5,9 +5,9 @@
 #include "ui/pen/pen_inner.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -118,7 +118,7 @@ void wr_pen_push(WrPen *pen, const WrPenEvent *event);
 /* A key or button of SDL's came. */
 void wr_pen_mark(WrPen *pen, const SDL_Event *event);
 
-/* ---- pen_x11.c ---- */
+/* ---- pen_x11.c, or pen_plain.c where a system has no such file ---- */
 /* NULL: there are no pens, and *why is a sentence that says why not. */
 WrPenX11 *wr_pen_x11_new(WrPen *pen, const char **why);
 void wr_pen_x11_free(WrPenX11 *x11);

@@ -3,19 +3,19 @@
 #include "ui/pen/pen_inner.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/rows.h"
 #include "base/text.h"
+#include "system/clock.h"
+#include "system/fd.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define FIRST_LINE "wrinkle-pen 1"
 #define FILE_MOST ((size_t)256 << 20) /* bytes */
@@ -45,9 +45,9 @@ bool wr_pen_record(WrPen *pen, const char *path, WrError *err)
     if (path[0] == '\0') return true;
     int fd = wr_file_create(path, err);
     if (fd < 0) return false;
-    FILE *file = fdopen(fd, "w");
+    FILE *file = wr_fd_stream(fd, "w");
     if (!file) {
-        close(fd);
+        wr_fd_close(fd);
         return wr_fail(err, "%s: cannot be written: %s", path, strerror(errno));
     }
     setvbuf(file, NULL, _IOLBF, 1 << 14);

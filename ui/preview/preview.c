@@ -4,7 +4,6 @@
 
 #include "accuracy/tolerance.h"
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/pool.h"
@@ -14,18 +13,17 @@
 #include "render/frame.h"
 #include "scene/dials.h"
 #include "scene/scene.h"
+#include "system/clock.h"
+#include "system/thread.h"
 
 #include <SDL.h>
 #include <math.h>
-#include <pthread.h>
 #include <string.h>
-#include <sys/resource.h>
 
 #define MOVING_SECONDS 0.016 /* that a picture may take while something moves */
 #define QUICK_SECONDS 0.005  /* and while it is painted on besides: seen within 1/60 s */
 #define EDIT_SECONDS                                                                               \
-    0.012          /* that a refresh after an edit may take before finer samples are given up */
-#define NICENESS 5 /* so that the window's own thread goes first */
+    0.012 /* that a refresh after an edit may take before finer samples are given up */
 
 typedef struct Wish {
     WrField *field; /* own shares; NULL: no wish */
@@ -38,8 +36,8 @@ typedef struct Wish {
 } Wish;
 
 struct WrPreview {
-    pthread_mutex_t lock; /* guards what follows, up to the next blank line */
-    pthread_cond_t wake;
+    WrMutex lock; /* guards what follows, up to the next blank line */
+    WrCond wake;
     bool started, quit;
     Wish next; /* not taken up yet */
     bool settled;
@@ -52,7 +50,7 @@ struct WrPreview {
     WrError error;
 
     volatile int cancel; /* atomic; read by the renderer */
-    pthread_t thread;
+    WrThread thread;
     int threads;
     char *isa; /* owned */
     Uint32 ready_event;
@@ -89,8 +87,8 @@ static void picture_free(WrPreviewPicture *picture)
 WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event)
 {
     WrPreview *preview = wr_alloc(1, sizeof *preview);
-    pthread_mutex_init(&preview->lock, NULL);
-    pthread_cond_init(&preview->wake, NULL);
+    wr_mutex_init(&preview->lock);
+    wr_cond_init(&preview->wake);
     preview->threads = threads;
     preview->isa = wr_strdup(isa);
     preview->ready_event = ready_event;
@@ -106,12 +104,12 @@ WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event)
 void wr_preview_free(WrPreview *preview)
 {
     if (!preview) return;
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     preview->quit = true;
     __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
-    pthread_cond_signal(&preview->wake);
-    pthread_mutex_unlock(&preview->lock);
-    if (preview->started) pthread_join(preview->thread, NULL);
+    wr_cond_wake(&preview->wake);
+    wr_mutex_unlock(&preview->lock);
+    if (preview->started) wr_thread_join(preview->thread);
     wr_choice_fini(&preview->choice);
     wr_renderer_free(preview->renderer);
     wr_pool_free(preview->pool);
@@ -121,8 +119,8 @@ void wr_preview_free(WrPreview *preview)
     picture_free(preview->shown);
     picture_free(preview->work);
     wr_free(preview->isa);
-    pthread_cond_destroy(&preview->wake);
-    pthread_mutex_destroy(&preview->lock);
+    wr_cond_fini(&preview->wake);
+    wr_mutex_fini(&preview->lock);
     wr_free(preview);
 }
 
@@ -130,10 +128,10 @@ void wr_preview_free(WrPreview *preview)
 
 static void fail(WrPreview *preview, const WrError *err)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     preview->failed = true;
     preview->error = *err;
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
 }
 
 static void notify(WrPreview *preview)
@@ -256,18 +254,18 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
 /* Look up the point asked for in the last picture. */
 static void answer_point(WrPreview *preview, WrRenderer *renderer, int width, int height)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     double x = preview->point_x, y = preview->point_y, u = 0.0, v = 0.0;
     preview->point_new = false;
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
     int face;
     bool hit = x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0 &&
                wr_renderer_pick(renderer, x * width, y * height, &u, &v, &face);
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     preview->point_hit = hit;
     preview->point_u = u;
     preview->point_v = v;
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
 }
 
 /* Does the wish ask for what is shown, but for an edit of the table? Then the sharp picture is brought up to
@@ -332,10 +330,10 @@ static void work(WrPreview *preview, WrPreviewLevel level)
         preview->last_height = preview->work->height;
         answer_point(preview, preview->renderer, preview->last_width, preview->last_height);
     }
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     preview->level = ok ? level : WR_PREVIEW_NONE;
     if (ok) publish(preview);
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
     if (ok || !cancelled) notify(preview);
 }
 
@@ -354,18 +352,18 @@ static bool step(WrPreview *preview)
     WrPreviewLevel level;
     if (preview->renderer && choose(preview, &level)) {
         preview->settled = false;
-        pthread_mutex_unlock(&preview->lock);
+        wr_mutex_unlock(&preview->lock);
         work(preview, level);
-        pthread_mutex_lock(&preview->lock);
+        wr_mutex_lock(&preview->lock);
         return true;
     }
     bool news = !preview->settled;
     preview->settled = true;
     if (preview->renderer && preview->point_new && preview->last_width > 0) {
-        pthread_mutex_unlock(&preview->lock);
+        wr_mutex_unlock(&preview->lock);
         answer_point(preview, preview->renderer, preview->last_width, preview->last_height);
         notify(preview);
-        pthread_mutex_lock(&preview->lock);
+        wr_mutex_lock(&preview->lock);
         return true;
     }
     if (news) notify(preview);
@@ -375,12 +373,12 @@ static bool step(WrPreview *preview)
 static void *thread_main(void *arg)
 {
     WrPreview *preview = arg;
-    setpriority(PRIO_PROCESS, 0, NICENESS); /* on Linux this thread and those it starts */
+    wr_thread_step_back(); /* so that the window's own thread goes first */
     begin(preview);
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     while (!preview->quit)
-        if (!step(preview)) pthread_cond_wait(&preview->wake, &preview->lock);
-    pthread_mutex_unlock(&preview->lock);
+        if (!step(preview)) wr_cond_wait(&preview->wake, &preview->lock);
+    wr_mutex_unlock(&preview->lock);
     return NULL;
 }
 
@@ -388,17 +386,17 @@ static void *thread_main(void *arg)
 static void work_in_place(WrPreview *preview)
 {
     begin(preview);
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     while (step(preview)) {
     }
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
 }
 
 /* ---- the window's side ---- */
 
 void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     wish_clear(&preview->next);
     preview->next = (Wish){ .field = wr_field_share(wish->field),
                             .scene = wr_scene_share(wish->scene),
@@ -415,62 +413,62 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
     if (!preview->started)
         preview->started = wr_thread_start(&preview->thread, thread_main, preview);
     bool alone = !preview->started;
-    pthread_cond_signal(&preview->wake);
-    pthread_mutex_unlock(&preview->lock);
+    wr_cond_wake(&preview->wake);
+    wr_mutex_unlock(&preview->lock);
     if (alone) work_in_place(preview);
 }
 
 void wr_preview_point(WrPreview *preview, double x, double y)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     if (x != preview->point_x || y != preview->point_y) {
         preview->point_x = x;
         preview->point_y = y;
         preview->point_new = true;
-        pthread_cond_signal(&preview->wake);
+        wr_cond_wake(&preview->wake);
     }
     bool alone = !preview->started && preview->pool && preview->point_new;
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
     if (alone) work_in_place(preview);
 }
 
 bool wr_preview_point_hit(WrPreview *preview, double *u, double *v)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     bool hit = preview->point_hit;
     *u = preview->point_u;
     *v = preview->point_v;
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
     return hit;
 }
 
 const WrPreviewPicture *wr_preview_picture(WrPreview *preview)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     if (preview->fresh) {
         WrPreviewPicture *newest = preview->done;
         preview->done = preview->shown;
         preview->shown = newest;
         preview->fresh = false;
     }
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
     return preview->shown;
 }
 
 bool wr_preview_settled(WrPreview *preview)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     bool settled = preview->settled;
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
     return settled;
 }
 
 bool wr_preview_error(WrPreview *preview, WrError *err)
 {
-    pthread_mutex_lock(&preview->lock);
+    wr_mutex_lock(&preview->lock);
     bool failed = preview->failed;
     if (failed) *err = preview->error;
     preview->failed = false;
-    pthread_mutex_unlock(&preview->lock);
+    wr_mutex_unlock(&preview->lock);
     return failed;
 }

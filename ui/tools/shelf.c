@@ -21,10 +21,10 @@
 #include "brush/preset.h"
 #include "brush/symmetry.h"
 #include "brush/tip.h"
+#include "system/path.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 const WrLibrary *wr_shelf_library(WrApp *app)
 {
@@ -213,7 +213,7 @@ static bool is_free_for(const char *path, const char *bytes, size_t length, WrEr
 {
     char *there = NULL;
     size_t size = 0;
-    if (access(path, F_OK) != 0) return true;
+    if (!wr_path_is_there(path)) return true;
     bool same = wr_file_read(path, TIP_MAX, &there, &size, NULL) && size == length &&
                 memcmp(there, bytes, size) == 0;
     wr_free(there);
@@ -315,7 +315,7 @@ bool wr_shelf_delete(WrApp *app, const char *id)
     int index = wr_shelf_find(app, id);
     if (index < 0 || strncmp(id, "user/", 5) != 0) return false;
     const WrPresetEntry *entry = wr_library_entry(app->shelf->library, index);
-    if (unlink(entry->path) != 0) {
+    if (!wr_path_remove(entry->path)) {
         wr_fail(&err, "%s: cannot be removed", entry->path);
         wr_app_fail(app, &err);
         return false;

@@ -9,13 +9,11 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "brush/library.h"
+#include "system/path.h"
 
 #include <SDL.h>
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define DEPTH_MAX 3     /* of folders in folders */
 #define STAMPS_MAX 2000 /* of all folders */
@@ -44,33 +42,45 @@ static bool is_thumbnail(const char *folder, const char *name)
     if (length > 5 && strncmp(dot - 5, "_prev", 5) == 0) return true;
     WrText preset = { 0 };
     wr_text_addf(&preset, "%s/%.*s.myb", folder, (int)length, name);
-    bool there = access(wr_text_get(&preset), F_OK) == 0;
+    bool there = wr_path_is_there(wr_text_get(&preset));
     wr_text_fini(&preset);
     return there;
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b)
+static int by_name(const void *a, const void *b)
 {
-    return SDL_strcasecmp((*a)->d_name, (*b)->d_name);
+    char *const *x = a, *const *y = b;
+    return SDL_strcasecmp(*x, *y);
+}
+
+typedef WR_ARRAY(char *) Names; /* owned */
+
+static Names list_folder(const char *path)
+{
+    Names names = { 0 };
+    WrFolder *folder = wr_folder_open(path);
+    for (const char *name; folder && (name = wr_folder_next(folder));)
+        if (name[0] != '.') wr_array_push(&names, wr_strdup(name));
+    wr_folder_close(folder);
+    if (names.count > 1) qsort(names.data, (size_t)names.count, sizeof *names.data, by_name);
+    return names;
 }
 
 static void search(WrApp *app, const char *folder, int depth)
 {
-    struct dirent **list = NULL;
-    int count = scandir(folder, &list, NULL, by_name);
-    for (int i = 0; i < count; i++) {
-        const char *name = list[i]->d_name;
-        struct stat about;
+    Names names = list_folder(folder);
+    for (int i = 0; i < names.count; i++) {
+        const char *name = names.data[i];
         char *path = wr_path_join(folder, name);
-        bool folder_too = name[0] != '.' && stat(path, &about) == 0 && S_ISDIR(about.st_mode);
+        bool folder_too = wr_path_is_folder(path);
         if (folder_too && depth < DEPTH_MAX) search(app, path, depth + 1);
-        bool takes = name[0] != '.' && !folder_too && is_picture(name) &&
-                     !is_thumbnail(folder, name) && app->stamp->stamps.count < STAMPS_MAX;
+        bool takes = !folder_too && is_picture(name) && !is_thumbnail(folder, name) &&
+                     app->stamp->stamps.count < STAMPS_MAX;
         if (takes) wr_array_push(&app->stamp->stamps, path);
         else wr_free(path);
-        free(list[i]);
+        wr_free(names.data[i]);
     }
-    free(list);
+    wr_array_free(&names);
 }
 
 void wr_stamps_find(WrApp *app)

@@ -14,13 +14,13 @@
 #include "ui/tools/shelf.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/brush.h"
 #include "brush/preset.h"
 #include "command/session.h"
+#include "system/clock.h"
 
 #include <math.h>
 

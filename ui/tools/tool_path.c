@@ -18,9 +18,9 @@
 #include "ui/views/overlay.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "base/text.h"
 #include "field/select.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

@@ -11,10 +11,10 @@
 #include "ui/gui/gui.h"
 
 #include "base/array.h"
-#include "base/clock.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
+#include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>

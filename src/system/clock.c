@@ -1,4 +1,4 @@
-#include "base/clock.h"
+#include "system/clock.h"
 
 #include <time.h>
 
@@ -22,4 +22,16 @@ double wr_clock_process_seconds(void)
 double wr_clock_thread_seconds(void)
 {
     return read(CLOCK_THREAD_CPUTIME_ID);
+}
+
+bool wr_clock_local(int64_t seconds, struct tm *date)
+{
+    const time_t when = (time_t)seconds;
+    return localtime_r(&when, date) != NULL;
+}
+
+bool wr_clock_universal(int64_t seconds, struct tm *date)
+{
+    const time_t when = (time_t)seconds;
+    return gmtime_r(&when, date) != NULL;
 }

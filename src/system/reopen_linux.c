@@ -5,7 +5,9 @@
 
    Weak, because they are not named as ours are. Under other names in C, because the headers' own
    declarations of them may be inline. */
-#include "image/reopen.h"
+#include "system/reopen.h"
+
+#include "system/fd.h"
 
 #include <dlfcn.h>
 #include <errno.h>
@@ -33,7 +35,9 @@ int wr_reopen_fstat64(int fd, struct stat *info) STANDS_FOR("fstat64");
 
 static bool is_the_file(const char *path)
 {
-    return strcmp(path, WR_REOPEN_PATH) == 0;
+    char name[WR_FD_NAME];
+    wr_fd_name(WR_REOPEN_FILE, name);
+    return strcmp(path, name) == 0;
 }
 
 /* From its beginning. The offset is shared with other copies: decoders open one at a time. */

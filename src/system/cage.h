@@ -1,5 +1,6 @@
 /* cage.h - what a child of the reader process gives up before it looks at a stranger's file.
-   Private to this room. Part of the reader process alone. */
+   Part of the reader process alone: a library of its own, wr_cage.
+   Belongs to one system (src/README.md). Layer 0. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
@@ -14,7 +15,7 @@
  *   no rights of root's
  *
  * With sanitizers, whose own needs are others, there is no limit on memory and no filter. False if the
- * filter cannot be set up: then the file must not be read. */
+ * filter cannot be set up, and on systems that have no cage here: then the file must not be read. */
 bool wr_cage_enter(uint64_t memory, unsigned seconds);
 
 /* The parts of it, in this order; each must hold without the one before. */

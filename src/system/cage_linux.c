@@ -1,4 +1,6 @@
-#include "image/cage.h"
+#include "system/cage.h"
+
+#include "system/process.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,7 +13,6 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
@@ -22,38 +23,14 @@
 #define SANITIZED 0
 #endif
 
-static void limit(int what, uint64_t most)
-{
-    struct rlimit now;
-    if (getrlimit((__rlimit_resource_t)what, &now) != 0) return;
-    if (now.rlim_max > most) now.rlim_max = most;
-    if (now.rlim_cur > now.rlim_max) now.rlim_cur = now.rlim_max;
-    setrlimit((__rlimit_resource_t)what, &now);
-}
-
-/* At the soft limit a signal says why; at the hard one, which may not be caught, the process ends. */
-static void limit_time(unsigned seconds)
-{
-    limit(RLIMIT_CPU, seconds + 1);
-    struct rlimit now;
-    if (getrlimit(RLIMIT_CPU, &now) != 0 || now.rlim_cur <= seconds) return;
-    now.rlim_cur = seconds;
-    setrlimit(RLIMIT_CPU, &now);
-}
-
 uint64_t wr_cage_space(void)
 {
-    unsigned long long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "re");
-    if (!file) return 0;
-    if (fscanf(file, "%llu", &pages) != 1) pages = 0;
-    fclose(file);
-    return pages * (uint64_t)sysconf(_SC_PAGESIZE);
+    return wr_process_space();
 }
 
 void wr_cage_memory(uint64_t space, uint64_t memory)
 {
-    if (memory > 0 && !SANITIZED) limit(RLIMIT_AS, space + memory);
+    if (memory > 0 && !SANITIZED) wr_process_limit(WR_LIMIT_SPACE, space + memory);
 }
 
 /* Root's rights go first: with them a limit could be raised again. */
@@ -68,10 +45,10 @@ void wr_cage_limit(uint64_t memory, unsigned seconds)
 {
     uint64_t space = wr_cage_space();
     drop_rights();
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_FSIZE, 0);
-    limit(RLIMIT_NOFILE, 64);
-    if (seconds > 0) limit_time(seconds);
+    wr_process_limit(WR_LIMIT_CORE, 0);
+    wr_process_limit(WR_LIMIT_FILE, 0);
+    wr_process_limit(WR_LIMIT_FILES, 64);
+    if (seconds > 0) wr_process_limit_time(seconds);
     wr_cage_memory(space, memory);
 }
 

@@ -1,0 +1,10 @@
+/* child_inner.h - what the files of processes know of one another.
+   Private to this room. */
+#pragma once
+#include "system/child.h"
+
+#include <spawn.h>
+
+WrChildEnd wr_child_end_of(int status);
+/* Ask for WrChildStart's `apart`, as far as the system can; returns the flags for it. */
+short wr_child_set_apart(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attributes);
