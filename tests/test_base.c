@@ -310,8 +310,8 @@ static void a_planted_link_is_not_written_through(void **state)
     assert_non_null(mkdtemp(folder));
     char *path = wr_path_join(folder, "a.exr"), *victim = wr_path_join(folder, "victim");
     assert_true(wr_file_write(victim, "whole", 5, &err));
-    snprintf(planted, sizeof planted, "%s/.a.exr.%ld-0707070707070707.part.exr", folder,
-             (long)getpid());
+    snprintf(planted, sizeof planted, "%s/.a.exr.%ld-%08x-0707070707070707.part.exr", folder,
+             (long)getpid(), (unsigned)wr_file_host());
     for (int hard = 0; hard < 2; hard++) {
         assert_int_equal(hard ? link(victim, planted) : symlink(victim, planted), 0);
         known_next = 1;
@@ -356,9 +356,13 @@ static void what_dead_processes_left_is_swept_and_nothing_else(void **state)
         const char *form;
         bool swept;
     } names[] = {
-        { ".a.exr.%d-0123456789abcdef.part.exr", true },
+        { ".a.exr.%d-%08x-0123456789abcdef.part.exr", true },
+        { ".a.exr.%d-%07x0-0123456789abcdef.part.exr", false }, /* another machine's */
+        { ".a.exr.%d-%08x-0123456789abcdef-1.part.exr", false },
+        { ".a.exr.%d-%08x-.part.exr", false },
+        { ".a.exr.%d-0123456789abcdef.part.exr", true }, /* of older versions, as the next two */
         { ".a.%d-f.part", true },
-        { ".a.part.exr.%d-17.part.exr", true }, /* as older versions named them */
+        { ".a.part.exr.%d-17.part.exr", true },
         { "a.exr.%d-0123456789abcdef.part.exr", false },
         { ".a.exr.%d-.part.exr", false },
         { ".a.exr.-12.part.exr", false },
@@ -369,7 +373,7 @@ static void what_dead_processes_left_is_swept_and_nothing_else(void **state)
         { ".%d.part", false },
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        snprintf(name, sizeof name, names[i].form, (int)dead);
+        snprintf(name, sizeof name, names[i].form, (int)dead, (unsigned)wr_file_host());
         if (stays(folder, name) == names[i].swept) fail_msg("%s", name);
     }
     snprintf(name, sizeof name, ".a.exr.%d-12.part.exr", (int)getppid()); /* lives */

@@ -37,7 +37,7 @@ bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, 
    a name that tells the process; wr_file_sweep removes it. */
 typedef struct WrFileTarget {
     char *path;      /* what the user named, links resolved */
-    char *temporary; /* ".NAME.PID-RANDOM.part.ending" beside it */
+    char *temporary; /* ".NAME.PID-HOST-RANDOM.part.ending" beside it */
     int fd;        /* of the temporary file, to be written and read; libraries that take nothing but
                         names get wr_fd_name (system/fd.h) */
     bool verified; /* wr_file_verified */
@@ -64,9 +64,11 @@ const char *wr_file_why(int error, char text[WR_FILE_WHY]);
 /* The same where a library tells of it in words of its own, among them the system's; else those words. */
 const char *wr_file_why_told(const char *reason, char text[WR_FILE_WHY]);
 
-/* Remove what killed programs of this user left half-written in a folder: the name must tell a process that
-   is gone, and nobody may hold the file. */
+/* Remove what killed programs of this user left half-written in a folder: the name must tell a process of this
+   machine that is gone, and nobody may hold the file. */
 void wr_file_sweep(const char *folder);
+/* A number of this machine, by its name: HOST above, in hexadecimal. */
+uint32_t wr_file_host(void);
 
 /* Write bytes to path as one whole replacement. */
 bool wr_file_write(const char *path, const void *bytes, size_t length, WrError *err);

@@ -2,6 +2,7 @@
    through here. */
 #include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "system/fd.h"
@@ -36,7 +37,14 @@ static char *resolve_links(const char *path, WrError *err)
     return NULL;
 }
 
-/* FOLDER/.NAME.PID-RANDOM.part.ending: whose it is, and what nobody can know beforehand. */
+uint32_t wr_file_host(void)
+{
+    char name[256];
+    if (!wr_process_machine(name, sizeof name)) return 0;
+    return (uint32_t)wr_hash_bytes(name, strlen(name), (WrHash){ .low = 0, .high = 0 }).low;
+}
+
+/* FOLDER/.NAME.PID-HOST-RANDOM.part.ending: whose it is, and what nobody can know beforehand. */
 static char *choose_name(const char *folder, const char *name)
 {
     uint64_t random = 0;
@@ -44,8 +52,8 @@ static char *choose_name(const char *folder, const char *name)
     WrText text = { 0 };
     wr_path_ending(name, ending);
     if (!wr_random_bytes(&random, sizeof random)) return NULL;
-    wr_text_addf(&text, "%s/.%.100s.%ld-%016llx.part%s%s", folder, name, (long)wr_process_id(),
-                 (unsigned long long)random, *ending ? "." : "", ending);
+    wr_text_addf(&text, "%s/.%.100s.%ld-%08x-%016llx.part%s%s", folder, name, (long)wr_process_id(),
+                 (unsigned)wr_file_host(), (unsigned long long)random, *ending ? "." : "", ending);
     return text.data;
 }
 
@@ -57,7 +65,8 @@ static const char *skip_digits(const char *text, int base)
     return p > text ? p : NULL;
 }
 
-/* The process whose file of half the way that is, by the name alone; 0: no such file. */
+/* The process of this machine whose file of half the way that is, by the name alone; 0: no such file. In a folder
+   that several machines write to, another's processes cannot be asked for. */
 static long owner_by_name(const char *name)
 {
     const char *tail = NULL;
@@ -68,6 +77,10 @@ static long owner_by_name(const char *name)
     while (dot > name && dot[-1] != '.') dot--;
     const char *dash = dot > name + 1 ? skip_digits(dot, 10) : NULL;
     const char *end = dash && *dash == '-' ? skip_digits(dash + 1, 16) : NULL;
+    if (end && *end == '-') { /* older versions wrote no host */
+        if (strtoull(dash + 1, NULL, 16) != wr_file_host()) return 0;
+        end = skip_digits(end + 1, 16);
+    }
     long pid = end == tail ? strtol(dot, NULL, 10) : 0;
     return pid > 0 && pid < INT_MAX ? pid : 0;
 }

@@ -16,6 +16,13 @@ bool wr_process_lives(WrPid process)
     return kill((pid_t)process, 0) == 0 || errno != ESRCH;
 }
 
+bool wr_process_machine(char *name, size_t size)
+{
+    if (gethostname(name, size) != 0) return false;
+    name[size - 1] = '\0'; /* of one that was cut */
+    return true;
+}
+
 bool wr_process_has_terminal(void)
 {
     return isatty(STDERR_FILENO) != 0;

@@ -9,6 +9,8 @@ typedef int64_t WrPid; /* the number of a process; over 0 */
 
 WrPid wr_process_id(void);
 bool wr_process_lives(WrPid process); /* also where it is not known */
+/* The name of the machine that it is a number on; false where the system does not say. */
+bool wr_process_machine(char *name, size_t size);
 
 /* Bytes of addresses that it has, bytes of it that are in memory; 0 where the system does not say. */
 uint64_t wr_process_space(void);
