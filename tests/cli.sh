@@ -81,6 +81,12 @@ expect 1 export --as height range=0,1 range=0,2 -o a.png
 expect 1 render -o a.png --frames 0-3
 has err '####'
 expect 1 render -o 'a####.png' --frames 3-1
+expect 2 render -o a.png --of 3
+has err 'needs --frames'
+expect 1 render -o 'a####.png' --frames 1-3 --of 0
+has err '1..1000000'
+expect 1 render -o a.png --memory 0.5
+expect 2 export -o a.png --missing
 expect 1 help nosuch
 expect 1 inspect nosuch.exr
 is 'missing file' "$(cat err)" 'wrinkle: nosuch.exr: No such file or directory'

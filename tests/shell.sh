@@ -9,5 +9,6 @@ fi
 # Those that are sourced have no first line of their own and are read where they are used.
 {
     find ui tests -name '*.sh' -exec grep -l '^#!' {} +
+    ls samples/*.sh
     printf '.ci/run\n'
 } | sort | xargs shellcheck --severity=warning --shell=bash --external-sources --check-sourced

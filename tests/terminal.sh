@@ -31,7 +31,7 @@ says() {
         [[ $SECONDS -lt $end ]] || { complain "$*: not how far it is: $(tr '\r' '\n' <said | tail -n 3)"; break; }
         sleep 0.1
     done
-    [[ $2 == paint ]] || # which opens the script: its lines are not foretold
+    [[ $2 != run ]] || # others have no lines that are foretold
         grep -qE 'note: noise perlin: about [0-9.]+ (s|min|h), [0-9.]+ [MG]B' said || complain "$*: no estimate before: $(cat said)"
     kill -KILL -- "-$talk" 2>/dev/null
     { wait "$talk"; } 2>/dev/null
@@ -39,6 +39,7 @@ says() {
 }
 says "$program" run long.wrinkle
 says "$program" paint long.wrinkle
+says "$program" render -o "'f##.png'" --size 8192x8192 --frames 1-2 --do "'dials aa=supersample samples=16'"
 
 # ---- into a file ----
 printf 'table 1024x1024\nnoise perlin cells=64 octaves=12 warp=0.3\n' >short.wrinkle

@@ -332,6 +332,20 @@ static void memory_is_near_the_peak_of_a_process(void **state)
 }
 
 /* Or it is done at once after all, as what is hidden costs nothing. */
+/* Of a large picture a band is held; under a tolerance, all of it. */
+static void large_pictures_take_the_memory_of_a_band(void **state)
+{
+    (void)state;
+    WrSession *s = table_of(64);
+    const WrEstimate small = estimate_of(s, "render a.png size=1024x1024");
+    const WrEstimate large = estimate_of(s, "render a.png size=16384x16384");
+    must_run(s, "tolerance rms=0.01");
+    const WrEstimate whole = estimate_of(s, "render a.png size=16384x16384");
+    assert_true(small.bytes > 16e6 && large.bytes > small.bytes);
+    assert_true(large.bytes < 80e6 && whole.bytes > 4e9);
+    wr_session_free(s);
+}
+
 static void what_runs_for_minutes_is_told(void **state)
 {
     (void)state;
@@ -386,6 +400,7 @@ int main(void)
         cmocka_unit_test(memory_is_near_what_tables_hold),
         cmocka_unit_test(files_are_near_what_they_take),
         cmocka_unit_test(memory_is_near_the_peak_of_a_process),
+        cmocka_unit_test(large_pictures_take_the_memory_of_a_band),
         cmocka_unit_test(what_runs_for_minutes_is_told),
         cmocka_unit_test(estimates_are_told_in_a_few_words),
     };

@@ -19,7 +19,7 @@ wr_test_packages=(
     xvfb xauth xdotool x11-utils openbox
     xserver-xorg-core xserver-xorg-dev xserver-xorg-video-dummy xinput
     imagemagick openimageio-tools
-    desktop-file-utils groff-base jq librsvg2-bin shellcheck
+    desktop-file-utils groff-base jq librsvg2-bin parallel shellcheck
 )
 
 wr_say() {

@@ -51,6 +51,9 @@ struct WrCli {
     int width, height; /* of it; 512x512 */
     bool framed;       /* --frames was given */
     int first, last;   /* of --frames */
+    int of;            /* --of; 0: not given */
+    bool missing;      /* --missing */
+    double memory;     /* --memory, MB; 0: not given */
     bool turned;       /* --turn was given */
     double turn_deg;   /* degrees a frame */
     int face;          /* --face */
@@ -84,8 +87,7 @@ typedef enum WrOption {
     WR_OPTION_AS,
     WR_OPTION_SIZE,
     WR_OPTION_FULL,
-    WR_OPTION_FRAMES,
-    WR_OPTION_TURN,
+    WR_OPTION_RENDER, /* --frames, --of, --turn, --missing, --memory */
     WR_OPTION_AT,
     WR_OPTION_NOISE,
     WR_OPTION_FACE,
@@ -126,12 +128,15 @@ bool wr_cli_run_dos(const WrCli *cli, WrSession *session, WrError *err);
 
 /* "wrinkle: MESSAGE" on standard error. Returns status, or 130 when an interrupt was the reason. */
 int wr_cli_fail(const WrCli *cli, int status, const WrError *err);
+/* "wrinkle: note: TEXT" there. */
+void wr_cli_note(const char *text);
 /* Write a result to standard output at once. Returns 0, or 1 with a message when that fails. */
 int wr_cli_print(const WrCli *cli, const WrText *text);
 
 /* From now on that progress is told on standard error, if that is a terminal; the line wiped until there is more
    to tell; and never more. */
 void wr_cli_tell(WrProgress *progress);
+void wr_cli_tell_again(void); /* what was told is done, and another piece of work begins */
 void wr_cli_tell_end(void);
 void wr_cli_tell_no_more(void);
 

@@ -5,13 +5,10 @@
 #include "render/frame.h"
 #include "system/process.h"
 
-#include <stdio.h>
-
 static void print_note(void *ctx, const char *text)
 {
     (void)ctx;
-    wr_cli_tell_end();
-    fprintf(stderr, "wrinkle: note: %s\n", text);
+    wr_cli_note(text);
 }
 
 bool wr_cli_check_isa(const WrCli *cli, WrError *err)
@@ -32,6 +29,7 @@ WrSession *wr_cli_session(const WrCli *cli, bool outputs, WrError *err)
                                  .outputs = outputs,
                                  .full = cli->full,
                                  .isa = cli->isa,
+                                 .picture_bytes = (size_t)(cli->memory * (1 << 20)),
                                  .smooth = true };
     return wr_session_new(&options);
 }

@@ -26,6 +26,12 @@ int wr_cli_fail(const WrCli *cli, int status, const WrError *err)
     return stopped ? WR_EXIT_INTERRUPTED : status;
 }
 
+void wr_cli_note(const char *text)
+{
+    wr_cli_tell_end();
+    fprintf(stderr, "wrinkle: note: %s\n", text);
+}
+
 int wr_cli_print(const WrCli *cli, const WrText *text)
 {
     WrError err;
@@ -47,7 +53,8 @@ static int run(WrCli *cli)
     }
     static WrProgress progress = { .cancel = &interrupted };
     if (cli->command->run == wr_cli_run || cli->command->run == wr_cli_export ||
-        cli->command->run == wr_cli_recover || cli->command->run == wr_cli_paint)
+        cli->command->run == wr_cli_render || cli->command->run == wr_cli_recover ||
+        cli->command->run == wr_cli_paint)
         wr_cli_tell(&progress);
     cli->pool = wr_pool_new(cli->threads);
     wr_progress_set(&progress);

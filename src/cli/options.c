@@ -79,6 +79,27 @@ static bool set_frames(WrCli *cli, const char *value, WrError *err)
                    value);
 }
 
+static bool set_of(WrCli *cli, const char *value, WrError *err)
+{
+    if (parse_whole(value, strlen(value), 1, 1000000, &cli->of)) return true;
+    return wr_fail(err, "--of %.40s: must be a whole number, 1..1000000", value);
+}
+
+static bool set_missing(WrCli *cli, const char *value, WrError *err)
+{
+    (void)value;
+    (void)err;
+    return cli->missing = true;
+}
+
+static bool set_memory(WrCli *cli, const char *value, WrError *err)
+{
+    if (wr_number_parse(value, strlen(value), &cli->memory) && cli->memory >= 1 &&
+        cli->memory <= 1e6)
+        return true;
+    return wr_fail(err, "--memory %.40s: must be MB, 1..1e6", value);
+}
+
 /* Of one picture. */
 static bool set_angle(WrCli *cli, const char *value, WrError *err)
 {
@@ -276,10 +297,18 @@ static const struct Option {
       set_angle },
     { "--full", NULL, NULL, WR_OPTION_FULL,
       "run what the plan would leave out too: the yardstick that it is measured by", set_full },
-    { "--frames", NULL, "A-B", WR_OPTION_FRAMES,
+    { "--frames", NULL, "A-B", WR_OPTION_RENDER,
       "a turntable: #### in OUT becomes the frame's number", set_frames },
-    { "--turn", NULL, "DEGREES", WR_OPTION_TURN,
+    { "--of", NULL, "N", WR_OPTION_RENDER,
+      "A-B are some of that many frames (all there are): the same files however they are cut",
+      set_of },
+    { "--turn", NULL, "DEGREES", WR_OPTION_RENDER,
       "a frame, about the world's y axis (360 over all frames)", set_turn },
+    { "--missing", NULL, NULL, WR_OPTION_RENDER,
+      "leave out what is there already, whole and of that size and kind, whatever it shows",
+      set_missing },
+    { "--memory", NULL, "MB", WR_OPTION_RENDER,
+      "for a picture's rows while it is written, 64 of them at least (64)", set_memory },
     { "--at", NULL, "U,V", WR_OPTION_AT, "a point; repeatable; - reads them from standard input",
       set_at },
     { "--noise", NULL, "COMMAND", WR_OPTION_NOISE,

@@ -35,6 +35,12 @@ void wr_cli_tell(WrProgress *progress)
     line.progress = progress;
 }
 
+void wr_cli_tell_again(void)
+{
+    wr_cli_tell_end();
+    line.began = line.told = wr_clock_seconds();
+}
+
 void wr_cli_tell_end(void)
 {
     if (line.shown) fprintf(stderr, "\r%*s\r", 24, "");

@@ -211,13 +211,15 @@ static bool is_many(WrAntialias aa)
     return aa == WR_AA_SUPERSAMPLE || aa == WR_AA_ADAPTIVE;
 }
 
-/* ns: a sample; bytes: a pixel. */
+/* ns: a sample; bytes: a pixel, of a picture that is held whole. */
 static void picture(const Job *job, const Price *p, WrEstimate *out)
 {
     const WrScene *scene = job->document->scene;
     double pixels = number(job, "size", 0) * number(job, "size", 1);
     double k = is_many(scene->dials.aa) ? scene->dials.samples : 1.0;
-    add(out, p->ns * pixels * k * k, p->bytes * pixels);
+    const bool whole = scene->tolerance.kind != WR_TOLERANCE_NONE;
+    const double bytes = p->bytes * pixels;
+    add(out, p->ns * pixels * k * k, whole ? bytes : fmin(bytes, WR_PICTURE_BYTES));
 }
 
 static void all_layers(const Job *job, const Price *p, WrEstimate *out)
@@ -343,7 +345,7 @@ static const Price prices[] = {
     { "export", "height", texels, .ns = 150, .bytes = 6 },
     { "export", "lines", drawing, .ns = 210, .bytes = 4.5, .more = 600 },
     { "export", "profile", drawing, .ns = 0, .bytes = 0, .more = 90 },
-    { "render", NULL, picture, .ns = 33, .bytes = 22 },
+    { "render", NULL, picture, .ns = 33, .bytes = 17 },
     { "script", NULL, .count = NULL },
 };
 

@@ -25,6 +25,8 @@ typedef struct WrSession WrSession;
 /* What a command has to say besides failing: "3 texels were not finite and became 0". */
 typedef void (*WrNoteSink)(void *ctx, const char *text);
 
+#define WR_PICTURE_BYTES ((size_t)64 << 20) /* see below */
+
 typedef struct WrSessionOptions {
     WrPool *pool;    /* borrowed; NULL: one thread */
     WrNoteSink note; /* may be NULL */
@@ -40,10 +42,9 @@ typedef struct WrSessionOptions {
     bool
         composites; /* every command makes the composite too, so that nobody who looks at the document
                              afterwards has to: for the window */
-    size_t
-        picture_bytes; /* that the rows of a picture may take on its way into a file; 0: 64 MiB. Whatever it is,
-                             a strip of 64 rows is held */
-    bool smooth; /* new documents have 2 x 2 samples a pixel, so that edges are no stairs;
+    size_t picture_bytes; /* that rows of a picture may take on its way into a file, 64 of them
+                             whatever it is; 0: WR_PICTURE_BYTES */
+    bool smooth;          /* new documents have 2 x 2 samples a pixel, so that edges are no stairs;
                              else one. What a file says of its dials holds either way */
 } WrSessionOptions;
 
@@ -191,6 +192,8 @@ void wr_chosen_write(const WrChoice *choice, const WrField *field, const WrScene
    says. */
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
                        WrError *err);
+/* Is such a picture's file there, of that size, and can it be read to its end? What it shows nobody knows. */
+bool wr_session_has_rendered(const char *path, int width, int height);
 /* Save under that name; then path and saved_revision are set. Refuses to save over a file of a newer version
    that was opened here. Works whatever options.outputs says. */
 bool wr_session_save(WrSession *session, const char *path, WrError *err);

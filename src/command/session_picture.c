@@ -8,11 +8,11 @@
 #include "document/document.h"
 #include "render/frame.h"
 #include "scene/scene.h"
+#include "system/path.h"
 
 #include <string.h>
 
-#define BAND_BYTES ((size_t)64 << 20) /* of rows that are held, unless the options say otherwise */
-#define DRAWN 0.8                     /* of a picture's work: drawing it; its file is the rest */
+#define DRAWN 0.8 /* of a picture's work: drawing it; its file is the rest */
 
 static bool make_request(WrSession *session, int width, int height, double turn_deg,
                          WrFrameRequest *out, WrError *err)
@@ -79,7 +79,7 @@ typedef struct Picture {
 static int band_rows(const WrSession *session, int width, int height)
 {
     const size_t most =
-        session->options.picture_bytes ? session->options.picture_bytes : BAND_BYTES;
+        session->options.picture_bytes ? session->options.picture_bytes : WR_PICTURE_BYTES;
     const size_t row = (size_t)(width > 0 ? width : 1) * 4 * sizeof(float);
     const size_t strips = most / row / WR_IMAGE_STRIP;
     if (strips * WR_IMAGE_STRIP >= (size_t)height) return height;
@@ -178,15 +178,37 @@ static bool check_target(const char *path, WrError *err)
     return true;
 }
 
-bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
-                       WrError *err)
+/* exr, tif and tiff hold linear float. */
+static bool is_linear(const char *path)
 {
     char buffer[16];
     const char *ending = wr_path_ending(path, buffer);
-    Picture picture = { .session = session, .step = band_rows(session, width, height) };
-    picture.linear =
-        strcmp(ending, "exr") == 0 || strcmp(ending, "tif") == 0 || strcmp(ending, "tiff") == 0;
-    const bool linear = picture.linear;
+    return strcmp(ending, "exr") == 0 || strcmp(ending, "tif") == 0 || strcmp(ending, "tiff") == 0;
+}
+
+bool wr_session_has_rendered(const char *path, int width, int height)
+{
+    static const WrImageWish as_it_is = { .keep_lost = true };
+    const bool linear = is_linear(path);
+    if (!wr_path_is_there(path)) return false; /* no reader is started for it */
+    WrImageRows *rows = wr_image_rows_open(path, &as_it_is, NULL);
+    if (!rows) return false;
+    const WrImage *head = wr_image_rows_head(rows);
+    bool whole = head->width == width && head->height == height &&
+                 head->channels == (linear ? 4 : 3) &&
+                 head->type == (linear ? WR_PIXEL_F32 : WR_PIXEL_U8);
+    for (int y = 0; whole && y < height; y++) whole = wr_image_rows_get(rows, y, NULL) != NULL;
+    wr_image_rows_close(rows);
+    return whole;
+}
+
+bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
+                       WrError *err)
+{
+    const bool linear = is_linear(path);
+    Picture picture = { .session = session,
+                        .step = band_rows(session, width, height),
+                        .linear = linear };
     if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8, linear ? 4 : 3, linear, err))
         return false;
     if (!check_target(path, err) ||
