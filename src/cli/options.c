@@ -8,6 +8,7 @@
 #include "system/path.h"
 
 #include <limits.h>
+#include <stddef.h>
 #include <string.h>
 
 typedef bool (*SetOption)(WrCli *cli, const char *value, WrError *err);
@@ -85,13 +86,6 @@ static bool set_of(WrCli *cli, const char *value, WrError *err)
     return wr_fail(err, "--of %.40s: must be a whole number, 1..1000000", value);
 }
 
-static bool set_missing(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->missing = true;
-}
-
 static bool set_memory(WrCli *cli, const char *value, WrError *err)
 {
     if (wr_number_parse(value, strlen(value), &cli->memory) && cli->memory >= 1 &&
@@ -139,20 +133,6 @@ static bool set_face(WrCli *cli, const char *value, WrError *err)
     return wr_fail(err, "--face %.40s: must be a whole number, 0..5", value);
 }
 
-static bool set_full(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->full = true;
-}
-
-static bool set_json(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->json = true;
-}
-
 static bool set_sheet(WrCli *cli, const char *value, WrError *err)
 {
     if (!*value) return wr_fail(err, "--sheet: the file name is empty");
@@ -172,13 +152,6 @@ static bool set_collection(WrCli *cli, const char *value, WrError *err)
     (void)err;
     cli->collection = value;
     return true;
-}
-
-static bool set_settings(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->settings = true;
 }
 
 static bool set_axis(WrCli *cli, const char *value, WrError *err)
@@ -230,55 +203,6 @@ static bool set_tolerance(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
-static bool set_hard_cases(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->hard_cases = true;
-}
-
-static bool set_beyond(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->beyond = true;
-}
-
-static bool set_script(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->script = true;
-}
-
-static bool set_in_place(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->in_place = true;
-}
-
-static bool set_markdown(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->markdown = true;
-}
-
-static bool set_help(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->help = true;
-}
-
-static bool set_version(WrCli *cli, const char *value, WrError *err)
-{
-    (void)value;
-    (void)err;
-    return cli->version = true;
-}
-
 /* ---- the options ---- */
 
 static const struct Option {
@@ -287,74 +211,89 @@ static const struct Option {
     WrOption bit;
     const char *help;
     SetOption set;
+    size_t flag; /* where set is NULL: of the member that becomes true */
 } options[] = {
-    { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write", set_out },
+    { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write", .set = set_out },
     { "--as", NULL, "KIND", WR_OPTION_AS, "what to export; `wrinkle help export` lists the kinds",
-      set_kind },
-    { "--size", NULL, "WxH", WR_OPTION_SIZE, "of the picture in pixels (512x512)", set_size },
-    { "--size", NULL, "WxH", WR_OPTION_ACCURACY, "of the pictures in pixels (256x256)", set_size },
+      .set = set_kind },
+    { "--size", NULL, "WxH", WR_OPTION_SIZE, "of the picture in pixels (512x512)",
+      .set = set_size },
+    { "--size", NULL, "WxH", WR_OPTION_ACCURACY, "of the pictures in pixels (256x256)",
+      .set = set_size },
     { "--turn", NULL, "DEGREES", WR_OPTION_ACCURACY, "of the object about the world's y axis (0)",
-      set_angle },
+      .set = set_angle },
     { "--full", NULL, NULL, WR_OPTION_FULL,
-      "run what the plan would leave out too: the yardstick that it is measured by", set_full },
+      "run what the plan would leave out too: the yardstick that it is measured by",
+      .flag = offsetof(WrCli, full) },
     { "--frames", NULL, "A-B", WR_OPTION_RENDER,
-      "a turntable: #### in OUT becomes the frame's number", set_frames },
+      "a turntable: #### in OUT becomes the frame's number", .set = set_frames },
     { "--of", NULL, "N", WR_OPTION_RENDER,
       "A-B are some of that many frames (all there are): the same files however they are cut",
-      set_of },
+      .set = set_of },
     { "--turn", NULL, "DEGREES", WR_OPTION_RENDER,
-      "a frame, about the world's y axis (360 over all frames)", set_turn },
+      "a frame, about the world's y axis (360 over all frames)", .set = set_turn },
     { "--missing", NULL, NULL, WR_OPTION_RENDER,
       "leave out what is there already, whole and of that size and kind, whatever it shows",
-      set_missing },
+      .flag = offsetof(WrCli, missing) },
     { "--memory", NULL, "MB", WR_OPTION_RENDER,
-      "for a picture's rows while it is written, 64 of them at least (64)", set_memory },
+      "for a picture's rows while it is written, 64 of them at least (64)", .set = set_memory },
     { "--at", NULL, "U,V", WR_OPTION_AT, "a point; repeatable; - reads them from standard input",
-      set_at },
+      .set = set_at },
     { "--noise", NULL, "COMMAND", WR_OPTION_NOISE,
-      "the noise of such a command at the points, in place of the surface", set_noise },
+      "the noise of such a command at the points, in place of the surface", .set = set_noise },
     { "--face", NULL, "N", WR_OPTION_FACE, "of a surface of several faces, the cube: 0..5",
-      set_face },
+      .set = set_face },
     { "--collection", NULL, "NAME", WR_OPTION_SHEET,
-      "only these: user, wrinkle, mypaint2, mypaint1, or mypaint for both", set_collection },
+      "only these: user, wrinkle, mypaint2, mypaint1, or mypaint for both", .set = set_collection },
     { "--sheet", NULL, "FILE", WR_OPTION_SHEET, "write a picture with a stroke of each preset",
-      set_sheet },
+      .set = set_sheet },
     { "--thumbnails", NULL, "FOLDER", WR_OPTION_SHEET,
       "write a small picture of each, NAME_prev.png; without names of our own presets",
-      set_thumbnails },
+      .set = set_thumbnails },
     { "--settings", NULL, NULL, WR_OPTION_SHEET,
-      "what each setting of MyPaint's presets means for heights, as a table", set_settings },
+      "what each setting of MyPaint's presets means for heights, as a table",
+      .flag = offsetof(WrCli, settings) },
     { "--axis", NULL, "NAME", WR_OPTION_ACCURACY,
-      "only this one: derivative, normal, antialiasing, visibility or arithmetic", set_axis },
-    { "--runs", NULL, "N", WR_OPTION_ACCURACY, "timed runs of each rung, 3..64 (9)", set_runs },
+      "only this one: derivative, normal, antialiasing, visibility or arithmetic",
+      .set = set_axis },
+    { "--runs", NULL, "N", WR_OPTION_ACCURACY, "timed runs of each rung, 3..64 (9)",
+      .set = set_runs },
     { "--budget", NULL, "SECONDS", WR_OPTION_ACCURACY,
-      "for all timed runs; they become fewer, never under 3", set_budget },
-    { "--csv", NULL, "FILE", WR_OPTION_ACCURACY, "write the table for spreadsheets", set_csv },
+      "for all timed runs; they become fewer, never under 3", .set = set_budget },
+    { "--csv", NULL, "FILE", WR_OPTION_ACCURACY, "write the table for spreadsheets",
+      .set = set_csv },
     { "--plot", NULL, "FILE", WR_OPTION_ACCURACY,
-      "write error against time as a .png or .svg; repeatable; needs gnuplot", set_plot },
+      "write error against time as a .png or .svg; repeatable; needs gnuplot", .set = set_plot },
     { "--differences", NULL, "FOLDER", WR_OPTION_ACCURACY,
-      "write a picture of each rung's error into the folder", set_differences },
+      "write a picture of each rung's error into the folder", .set = set_differences },
     { "--tolerance", NULL, "KIND=VALUE", WR_OPTION_ACCURACY,
       "instead: what rms=VALUE or max=VALUE chooses, beside the best of trying all; repeatable",
-      set_tolerance },
+      .set = set_tolerance },
     { "--hard-cases", NULL, NULL, WR_OPTION_ACCURACY,
-      "instead: every hard case, what must hold, and the worst that was measured", set_hard_cases },
+      "instead: every hard case, what must hold, and the worst that was measured",
+      .flag = offsetof(WrCli, hard_cases) },
     { "--beyond", NULL, NULL, WR_OPTION_RECOVER,
-      "go on behind what is damaged or fails; without it, the document up to there", set_beyond },
+      "go on behind what is damaged or fails; without it, the document up to there",
+      .flag = offsetof(WrCli, beyond) },
     { "--script", NULL, NULL, WR_OPTION_RECOVER,
-      "instead: all commands that can be read, as text, to OUT or standard output", set_script },
+      "instead: all commands that can be read, as text, to OUT or standard output",
+      .flag = offsetof(WrCli, script) },
     { "--in-place", NULL, NULL, WR_OPTION_RECOVER,
-      "save to the document's own file, if that is still what it was", set_in_place },
+      "save to the document's own file, if that is still what it was",
+      .flag = offsetof(WrCli, in_place) },
     { "--markdown", NULL, NULL, WR_OPTION_MARKDOWN,
-      "as the guide has it: of a VERB, of all verbs, subcommands or effects", set_markdown },
-    { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", set_json },
+      "as the guide has it: of a VERB, of all verbs, subcommands or effects",
+      .flag = offsetof(WrCli, markdown) },
+    { "--json", NULL, NULL, WR_OPTION_JSON, "for programs", .flag = offsetof(WrCli, json) },
     { "--do", NULL, "COMMAND", WR_OPTION_COMMON,
-      "run a command after FILE is loaded; repeatable, in order", set_do },
-    { "--threads", NULL, "N", WR_OPTION_COMMON, "to work on (one a processor)", set_threads },
+      "run a command after FILE is loaded; repeatable, in order", .set = set_do },
+    { "--threads", NULL, "N", WR_OPTION_COMMON, "to work on (one a processor)",
+      .set = set_threads },
     { "--isa", NULL, "NAME", WR_OPTION_COMMON, "instructions for pictures: ref v1 v2 v3 v4 auto",
-      set_isa },
-    { "--help", "-h", NULL, WR_OPTION_COMMON, "this text", set_help },
-    { "--version", NULL, NULL, WR_OPTION_COMMON, "of the program", set_version },
+      .set = set_isa },
+    { "--help", "-h", NULL, WR_OPTION_COMMON, "this text", .flag = offsetof(WrCli, help) },
+    { "--version", NULL, NULL, WR_OPTION_COMMON, "of the program",
+      .flag = offsetof(WrCli, version) },
 };
 #define OPTION_COUNT ((int)(sizeof options / sizeof *options))
 
@@ -450,7 +389,8 @@ static bool take_option(WrCli *cli, int argc, char **argv, int *i, int *status, 
         return wr_fail(err, "%s: needs a value, %s", o->name, o->value);
     if (o->value && !value) value = argv[++*i];
     *status = WR_EXIT_FAILED; /* a value that is wrong */
-    return o->set(cli, value, err);
+    if (o->set) return o->set(cli, value, err);
+    return *(bool *)((char *)cli + o->flag) = true;
 }
 
 /* A lone word that is neither a subcommand nor like a file name is a mistyped subcommand. */
