@@ -17,7 +17,9 @@ static const char *const kind_names[KIND_COUNT] = { [WR_ROW(KIND_EDGE)] = "edges
                                                     [WR_ROW(KIND_RELIEF)] = "relief",
                                                     [WR_ROW(KIND_ROUGH)] = "rough relief" };
 WR_ROWS_END(kind_names, KIND_COUNT);
-static const double kind_ends[] = { 0.006, 0.03 }; /* root mean square of linear intensity */
+/* Of those that are no edges: root mean square of linear intensity. */
+static const double kind_ends[] = { 0.006, 0.03 };
+_Static_assert(WR_LENGTH(kind_ends) == KIND_COUNT - KIND_CALM - 1, "an end between two kinds");
 
 static int kind_of(const Block *block)
 {

@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "system/path.h"
 
@@ -23,8 +24,9 @@ struct WrLibrary {
     WR_ARRAY(Found) found;
 };
 
-static const char *const collections[] = { "user", "wrinkle", "mypaint2", "mypaint1" };
-enum { COLLECTIONS = sizeof collections / sizeof *collections };
+#define NAMES(X) X(USER, "user") X(OURS, "wrinkle") X(MYPAINT2, "mypaint2") X(MYPAINT1, "mypaint1")
+typedef enum Collection { NAMES(WR_WORD_ID) COLLECTIONS } Collection;
+static const char *const collections[] = { NAMES(WR_WORD) };
 
 /* ---- folders ---- */
 
@@ -36,18 +38,20 @@ static char *user_folder(void)
 }
 
 /* NULL where there is none. The caller frees it. */
-static char *collection_folder(int collection)
+static char *collection_folder(Collection collection)
 {
     WrText path = { 0 };
     switch (collection) {
-    case 0: return user_folder();
-    case 1:
+    case USER: return user_folder();
+    case OURS:
         if (wr_data_find("brushes", &path)) return path.data;
         wr_text_fini(&path);
         return NULL;
-    case 2: return wr_strdup("/usr/share/mypaint-data/2.0/brushes");
-    default: return wr_strdup("/usr/share/mypaint-data/1.0/brushes");
+    case MYPAINT2: return wr_strdup("/usr/share/mypaint-data/2.0/brushes");
+    case MYPAINT1: return wr_strdup("/usr/share/mypaint-data/1.0/brushes");
+    case COLLECTIONS: break;
     }
+    return NULL;
 }
 
 char *wr_library_user_folder(WrError *err)

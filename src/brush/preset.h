@@ -58,9 +58,10 @@ bool wr_preset_is_colour_only(const WrPreset *preset);
 /* ---- settings ---- */
 
 typedef enum WrSettingUse {
-    WR_SETTING_USED,   /* as the library means it */
-    WR_SETTING_MAPPED, /* means something for heights instead: `meaning` */
-    WR_SETTING_IGNORED /* only colour */
+    WR_SETTING_USED,    /* as the library means it */
+    WR_SETTING_MAPPED,  /* means something for heights instead: `meaning` */
+    WR_SETTING_IGNORED, /* only colour */
+    WR_SETTING_USES
 } WrSettingUse;
 
 typedef struct WrSettingInfo {

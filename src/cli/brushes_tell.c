@@ -1,6 +1,7 @@
 /* One preset in words. */
 #include "cli/brushes.h"
 
+#include "base/rows.h"
 #include "base/text.h"
 #include "brush/tip.h"
 
@@ -74,7 +75,11 @@ static void settings_lines(const WrPreset *preset, WrSettingUse use, const char 
 
 static void setting_json(const WrPreset *preset, int index, WrText *text)
 {
-    static const char *const uses[] = { "used", "mapped", "ignored" };
+    WR_ROWS(uses);
+    static const char *const uses[] = { [WR_ROW(WR_SETTING_USED)] = "used",
+                                        [WR_ROW(WR_SETTING_MAPPED)] = "mapped",
+                                        [WR_ROW(WR_SETTING_IGNORED)] = "ignored" };
+    WR_ROWS_END(uses, WR_SETTING_USES);
     const WrSettingInfo *info = wr_preset_setting(index);
     wr_text_addf(text, "{\"name\":\"%s\",\"use\":\"%s\",\"meaning\":", info->name, uses[info->use]);
     wr_text_add_json_string(text, info->meaning);

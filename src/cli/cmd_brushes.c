@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 
 #include <string.h>
@@ -121,7 +122,11 @@ static bool check_line(const WrCli *cli, WrError *err)
 /* The table of brushes/README.md. */
 static void settings_table(WrText *text)
 {
-    static const char *const uses[] = { "as MyPaint means it", "something else", "nothing" };
+    WR_ROWS(uses);
+    static const char *const uses[] = { [WR_ROW(WR_SETTING_USED)] = "as MyPaint means it",
+                                        [WR_ROW(WR_SETTING_MAPPED)] = "something else",
+                                        [WR_ROW(WR_SETTING_IGNORED)] = "nothing" };
+    WR_ROWS_END(uses, WR_SETTING_USES);
     wr_text_add(text, "| setting | means for heights | from | to | |\n"
                       "| --- | --- | --- | --- | --- |\n");
     for (int i = 0; i < wr_preset_setting_count(); i++) {

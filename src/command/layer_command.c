@@ -1,6 +1,7 @@
 /* Layers and their masks. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -243,22 +244,42 @@ static bool layer_mask(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* By the names of the forms. */
-static const struct {
-    const char *form;
-    LayerHandler *run;
-} handlers[] = { { "add", layer_add },       { "delete", layer_delete },
-                 { "use", layer_use },       { "move", layer_move },
-                 { "rename", layer_rename }, { "set", layer_set },
-                 { "clear", layer_clear },   { "duplicate", layer_duplicate },
-                 { "merge", layer_merge },   { "flatten", layer_flatten },
-                 { "solo", layer_solo },     { "mask", layer_mask } };
+enum {
+    LAYER_ADD,
+    LAYER_DELETE,
+    LAYER_USE,
+    LAYER_MOVE,
+    LAYER_RENAME,
+    LAYER_SET,
+    LAYER_DUPLICATE,
+    LAYER_MERGE,
+    LAYER_FLATTEN,
+    LAYER_CLEAR,
+    LAYER_SOLO,
+    LAYER_MASK,
+    LAYER_FORMS
+};
+
+WR_ROWS(handlers);
+static LayerHandler *const handlers[] = {
+    [WR_ROW(LAYER_ADD)] = layer_add,
+    [WR_ROW(LAYER_DELETE)] = layer_delete,
+    [WR_ROW(LAYER_USE)] = layer_use,
+    [WR_ROW(LAYER_MOVE)] = layer_move,
+    [WR_ROW(LAYER_RENAME)] = layer_rename,
+    [WR_ROW(LAYER_SET)] = layer_set,
+    [WR_ROW(LAYER_DUPLICATE)] = layer_duplicate,
+    [WR_ROW(LAYER_MERGE)] = layer_merge,
+    [WR_ROW(LAYER_FLATTEN)] = layer_flatten,
+    [WR_ROW(LAYER_CLEAR)] = layer_clear,
+    [WR_ROW(LAYER_SOLO)] = layer_solo,
+    [WR_ROW(LAYER_MASK)] = layer_mask,
+};
+WR_ROWS_END(handlers, LAYER_FORMS);
 
 static bool run_layer(WrSession *session, WrCall *call, WrError *err)
 {
-    int i = 0;
-    while (strcmp(handlers[i].form, call->form_name) != 0) i++;
-    return handlers[i].run(session, call, err);
+    return handlers[call->form](session, call, err);
 }
 
 static const char *blend_name(int i)
@@ -288,68 +309,83 @@ static const char *const mask_sources[] = { "selection", "none", "white", "black
         .unit = "height units", .help = "of the smooth blends: how near heights must be to melt"   \
     }
 
+WR_ROWS(layer_forms);
 static const WrForm layer_forms[] = {
-    { .name = "add",
-      .help = "a new layer, empty and active",
-      .args = { { .name = "NAME",
-                  .type = WR_ARG_NAME,
-                  .positional = true,
-                  .help = "left out, \"layer 2\" and so on" },
-                LAYER_SETTINGS,
-                { .name = "above",
-                  .type = WR_ARG_LAYER,
-                  .help = "where it goes; left out, above the active one" } } },
-    { .name = "delete", .help = "remove a layer", .args = { LAYER_N } },
-    { .name = "use", .help = "edits go to this layer from now on", .args = { LAYER_N } },
-    { .name = "move",
-      .help = "bring a layer to another place in the stack",
-      .args = { LAYER_N,
-                { .name = "to",
-                  .type = WR_ARG_NUMBER,
-                  .required = true,
-                  .whole = true,
-                  .low = 1,
-                  .high = WR_LAYERS_MAX,
-                  .help = "its new number" } } },
-    { .name = "rename",
-      .help = "give a layer another name",
-      .args = { LAYER_N, { PLACE("NAME"), .type = WR_ARG_NAME, .help = "the new name" } } },
-    { .name = "set",
-      .help = "only what is given changes",
-      .args = { LAYER_N,
-                LAYER_SETTINGS,
-                { .name = "visible",
-                  .type = WR_ARG_CHOICE,
-                  .words = wr_off_on,
-                  .help = "whether it is in the composite" },
-                { .name = "lock",
-                  .type = WR_ARG_CHOICE,
-                  .words = wr_off_on,
-                  .help = "whether edits are refused" } } },
-    { .name = "duplicate", .help = "a copy above it, active", .args = { LAYER_N } },
-    { .name = "merge",
-      .help = "join a layer and the one below; the composite changes by rounding at most: not at "
-              "all onto layer 1, else by 2^-21 of the largest height that meets there",
-      .args = { LAYER_N } },
-    { .name = "flatten", .help = "one layer that holds the composite; hidden layers are lost" },
-    { .name = "clear",
-      .help = "heights 0, and nothing painted, inside the selection",
-      .args = { { .name = "N",
-                  .type = WR_ARG_LAYER,
-                  .positional = true,
-                  .help = "left out, the active layer" } } },
-    { .name = "solo",
-      .help = "show one layer alone, or all again",
-      .args = { { PLACE("N|off"), .type = WR_ARG_LAYER, .help = "the layer, or off" } } },
-    { .name = "mask",
-      .help = "how much of a layer shows, texel by texel",
-      .args = { LAYER_N,
-                { .name = "from",
-                  .type = WR_ARG_CHOICE,
-                  .required = true,
-                  .words = mask_sources,
-                  .help = "what is selected, no mask, a mask that shows all or nothing" } } },
+    [WR_ROW(
+        LAYER_ADD)] = { .name = "add",
+                        .help = "a new layer, empty and active",
+                        .args = { { .name = "NAME",
+                                    .type = WR_ARG_NAME,
+                                    .positional = true,
+                                    .help = "left out, \"layer 2\" and so on" },
+                                  LAYER_SETTINGS,
+                                  { .name = "above",
+                                    .type = WR_ARG_LAYER,
+                                    .help = "where it goes; left out, above the active one" } } },
+    [WR_ROW(LAYER_DELETE)] = { .name = "delete", .help = "remove a layer", .args = { LAYER_N } },
+    [WR_ROW(LAYER_USE)] = { .name = "use",
+                            .help = "edits go to this layer from now on",
+                            .args = { LAYER_N } },
+    [WR_ROW(LAYER_MOVE)] = { .name = "move",
+                             .help = "bring a layer to another place in the stack",
+                             .args = { LAYER_N,
+                                       { .name = "to",
+                                         .type = WR_ARG_NUMBER,
+                                         .required = true,
+                                         .whole = true,
+                                         .low = 1,
+                                         .high = WR_LAYERS_MAX,
+                                         .help = "its new number" } } },
+    [WR_ROW(LAYER_RENAME)] = { .name = "rename",
+                               .help = "give a layer another name",
+                               .args = { LAYER_N,
+                                         { PLACE("NAME"), .type = WR_ARG_NAME,
+                                           .help = "the new name" } } },
+    [WR_ROW(LAYER_SET)] = { .name = "set",
+                            .help = "only what is given changes",
+                            .args = { LAYER_N,
+                                      LAYER_SETTINGS,
+                                      { .name = "visible",
+                                        .type = WR_ARG_CHOICE,
+                                        .words = wr_off_on,
+                                        .help = "whether it is in the composite" },
+                                      { .name = "lock",
+                                        .type = WR_ARG_CHOICE,
+                                        .words = wr_off_on,
+                                        .help = "whether edits are refused" } } },
+    [WR_ROW(LAYER_DUPLICATE)] = { .name = "duplicate",
+                                  .help = "a copy above it, active",
+                                  .args = { LAYER_N } },
+    [WR_ROW(LAYER_MERGE)] = { .name = "merge",
+                              .help = "join a layer and the one below; the composite changes by "
+                                      "rounding at most: not at "
+                                      "all onto layer 1, else by 2^-21 of the largest height that "
+                                      "meets there",
+                              .args = { LAYER_N } },
+    [WR_ROW(LAYER_FLATTEN)] = { .name = "flatten",
+                                .help =
+                                    "one layer that holds the composite; hidden layers are lost" },
+    [WR_ROW(LAYER_CLEAR)] = { .name = "clear",
+                              .help = "heights 0, and nothing painted, inside the selection",
+                              .args = { { .name = "N",
+                                          .type = WR_ARG_LAYER,
+                                          .positional = true,
+                                          .help = "left out, the active layer" } } },
+    [WR_ROW(LAYER_SOLO)] = { .name = "solo",
+                             .help = "show one layer alone, or all again",
+                             .args = { { PLACE("N|off"), .type = WR_ARG_LAYER,
+                                         .help = "the layer, or off" } } },
+    [WR_ROW(LAYER_MASK)] = { .name = "mask",
+                             .help = "how much of a layer shows, texel by texel",
+                             .args = { LAYER_N,
+                                       { .name = "from",
+                                         .type = WR_ARG_CHOICE,
+                                         .required = true,
+                                         .words = mask_sources,
+                                         .help = "what is selected, no mask, a mask that shows all "
+                                                 "or nothing" } } },
 };
+WR_ROWS_END(layer_forms, LAYER_FORMS);
 
 WR_FORMS(form_layer, layer_forms)
 

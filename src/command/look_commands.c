@@ -41,10 +41,10 @@ static void print_dials(const WrScene *scene, WrText *text)
 
 static void print_tolerance(const WrScene *scene, WrText *text)
 {
-    static const char *const names[WR_TOLERANCE_COUNT] = { " off", " rms=", " max=", " time=" };
     const WrTolerance *tolerance = &scene->tolerance;
-    wr_text_addf(text, "tolerance%s", names[tolerance->kind]);
-    if (tolerance->kind != WR_TOLERANCE_NONE) wr_text_add_number(text, tolerance->value);
+    const bool valued = tolerance->kind != WR_TOLERANCE_NONE;
+    wr_text_addf(text, "tolerance %s%s", wr_tolerance_names[tolerance->kind], valued ? "=" : "");
+    if (valued) wr_text_add_number(text, tolerance->value);
     wr_text_add(text, tolerance->kind == WR_TOLERANCE_TIME ? "s\n" : "\n");
 }
 
@@ -178,7 +178,7 @@ static bool check_chosen(const void *ctx, const char *name, const char *value, W
 
 static bool run_tolerance(WrSession *session, WrCall *call, WrError *err)
 {
-    static const char *const names[] = { "off", "rms", "max", "time" };
+    const char *const *names = wr_tolerance_names;
     WrTolerance tolerance = { WR_TOLERANCE_NONE, 0 };
     int given = 0;
     for (int i = 0; i < WR_TOLERANCE_COUNT; i++) {

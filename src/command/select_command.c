@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/rows.h"
 #include "command/args.h"
 #include "command/commands.h"
 #include "document/document.h"
@@ -139,14 +140,41 @@ static WrField *select_feather(WrSession *session, const WrCall *call, WrError *
     return a ? wr_select_feather(a, wr_call_number(call, "by"), session->options.pool, err) : NULL;
 }
 
-/* In the order of form_select. */
+enum {
+    SELECT_ALL,
+    SELECT_NONE,
+    SELECT_INVERT,
+    SELECT_RECT,
+    SELECT_ELLIPSE,
+    SELECT_LASSO,
+    SELECT_HEIGHT,
+    SELECT_SLOPE,
+    SELECT_FLOOD,
+    SELECT_GROW,
+    SELECT_SHRINK,
+    SELECT_FEATHER,
+    SELECT_FORMS
+};
+
+WR_ROWS(makers);
 static const struct {
     Maker *make; /* NULL: nothing selected, so edits act everywhere */
     bool joins;  /* has mode= */
-} makers[] = { { select_all, false },   { NULL, false },          { select_invert, false },
-               { select_rect, true },   { select_ellipse, true }, { select_lasso, true },
-               { select_height, true }, { select_slope, true },   { select_flood, true },
-               { select_grow, false },  { select_shrink, false }, { select_feather, false } };
+} makers[] = {
+    [WR_ROW(SELECT_ALL)] = { select_all, false },
+    [WR_ROW(SELECT_NONE)] = { NULL, false },
+    [WR_ROW(SELECT_INVERT)] = { select_invert, false },
+    [WR_ROW(SELECT_RECT)] = { select_rect, true },
+    [WR_ROW(SELECT_ELLIPSE)] = { select_ellipse, true },
+    [WR_ROW(SELECT_LASSO)] = { select_lasso, true },
+    [WR_ROW(SELECT_HEIGHT)] = { select_height, true },
+    [WR_ROW(SELECT_SLOPE)] = { select_slope, true },
+    [WR_ROW(SELECT_FLOOD)] = { select_flood, true },
+    [WR_ROW(SELECT_GROW)] = { select_grow, false },
+    [WR_ROW(SELECT_SHRINK)] = { select_shrink, false },
+    [WR_ROW(SELECT_FEATHER)] = { select_feather, false },
+};
+WR_ROWS_END(makers, SELECT_FORMS);
 
 /* Join what was made (taken) to the present selection. */
 static WrField *join(WrSession *session, const WrCall *call, WrField *made, WrError *err)
@@ -200,92 +228,102 @@ static bool run_select(WrSession *session, WrCall *call, WrError *err)
         .unit = "degrees", .help = help_                                                           \
     }
 
-/* In the order of run_select.c. */
+WR_ROWS(select_forms);
 static const WrForm select_forms[] = {
-    { .name = "all", .help = "everything, as a selection that can be changed" },
-    { .name = "none", .help = "no selection: edits act everywhere" },
-    { .name = "invert", .help = "what is not selected; without a selection, all" },
-    { .name = "rect",
-      .help = "a rectangle; a corner beyond 0 or 1 crosses the table's edge",
-      .args = { POINT("from", "a corner"), POINT("to", "the corner across"), JOIN } },
-    { .name = "ellipse",
-      .help = "an ellipse, its sides along u and v",
-      .args = { POINT("centre", "its middle"),
-                { .name = "radii",
-                  .type = WR_ARG_TUPLE,
-                  .required = true,
-                  .components = 2,
-                  .shape = "ru,rv",
-                  .low = 0,
-                  .high = WR_SELECT_REACH,
-                  .help = "half its width and height, in parts of the cell as u and v" },
-                JOIN } },
-    { .name = "lasso",
-      .help = "a polygon",
-      .args = { { .name = "points",
-                  .type = WR_ARG_LIST,
-                  .required = true,
-                  .components = 2,
-                  .shape = "u,v;...",
-                  .rows_low = 3,
-                  .rows_high = WR_SELECT_POINTS,
-                  .low = -WR_SELECT_REACH,
-                  .high = WR_SELECT_REACH,
-                  .help = "its corners in order" },
-                JOIN } },
-    { .name = "height",
-      .help = "where the composited height lies in a range",
-      .args = { HEIGHT("low", "lower end"),
-                HEIGHT("high", "upper end"),
-                { .name = "soft",
-                  .type = WR_ARG_NUMBER,
-                  .low = 0,
-                  .high = WR_BIG_HEIGHT,
-                  .fallback = NUMBERS(0),
-                  .unit = "height units",
-                  .help = "over how much it fades beyond the ends" },
-                JOIN } },
-    { .name = "slope",
-      .help = "where the composite's slope lies in a range",
-      .args = { ANGLE("low", 0, "lower end"),
-                ANGLE("high", 90, "upper end"),
-                ANGLE("soft", 0, "over how much it fades beyond the ends"),
-                { .name = "relief",
-                  .type = WR_ARG_NUMBER,
-                  .low = 0,
-                  .above = true,
-                  .high = 1e30,
-                  .unit = "texels",
-                  .help = "how tall a height of 1 is; left out, as the scene's height makes it "
-                          "on a cell that is one scene unit wide" },
-                JOIN } },
-    { .name = "flood",
-      .help = "a connected part of the composite that is of about one height, without soft edge",
-      .args = { { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2, .low = -1e6, .high = 1e6,
-                  .help = "where it begins" },
-                { .name = "tolerance",
-                  .type = WR_ARG_NUMBER,
-                  .low = 0,
-                  .high = WR_BIG_HEIGHT,
-                  .fallback = NUMBERS(0.01),
-                  .unit = "height units",
-                  .help = "how far heights may be from the one at u,v" },
-                { .name = "diagonal",
-                  .type = WR_ARG_CHOICE,
-                  .words = wr_off_on,
-                  .fallback_text = "off",
-                  .help = "on: texels that meet at a corner are connected too" },
-                JOIN } },
-    { .name = "grow",
-      .help = "move its edge outwards",
-      .args = { TEXELS(WR_FIELD_MAX, "how far") } },
-    { .name = "shrink",
-      .help = "move its edge inwards",
-      .args = { TEXELS(WR_FIELD_MAX, "how far") } },
-    { .name = "feather",
-      .help = "blur its edge",
-      .args = { TEXELS(1024, "standard deviation of the Gaussian") } },
+    [WR_ROW(SELECT_ALL)] = { .name = "all",
+                             .help = "everything, as a selection that can be changed" },
+    [WR_ROW(SELECT_NONE)] = { .name = "none", .help = "no selection: edits act everywhere" },
+    [WR_ROW(SELECT_INVERT)] = { .name = "invert",
+                                .help = "what is not selected; without a selection, all" },
+    [WR_ROW(SELECT_RECT)] = { .name = "rect",
+                              .help =
+                                  "a rectangle; a corner beyond 0 or 1 crosses the table's edge",
+                              .args = { POINT("from", "a corner"), POINT("to", "the corner across"),
+                                        JOIN } },
+    [WR_ROW(SELECT_ELLIPSE)] = { .name = "ellipse",
+                                 .help = "an ellipse, its sides along u and v",
+                                 .args = { POINT("centre", "its middle"),
+                                           { .name = "radii",
+                                             .type = WR_ARG_TUPLE,
+                                             .required = true,
+                                             .components = 2,
+                                             .shape = "ru,rv",
+                                             .low = 0,
+                                             .high = WR_SELECT_REACH,
+                                             .help = "half its width and height, in parts of the "
+                                                     "cell as u and v" },
+                                           JOIN } },
+    [WR_ROW(SELECT_LASSO)] = { .name = "lasso",
+                               .help = "a polygon",
+                               .args = { { .name = "points",
+                                           .type = WR_ARG_LIST,
+                                           .required = true,
+                                           .components = 2,
+                                           .shape = "u,v;...",
+                                           .rows_low = 3,
+                                           .rows_high = WR_SELECT_POINTS,
+                                           .low = -WR_SELECT_REACH,
+                                           .high = WR_SELECT_REACH,
+                                           .help = "its corners in order" },
+                                         JOIN } },
+    [WR_ROW(SELECT_HEIGHT)] = { .name = "height",
+                                .help = "where the composited height lies in a range",
+                                .args = { HEIGHT("low", "lower end"),
+                                          HEIGHT("high", "upper end"),
+                                          { .name = "soft",
+                                            .type = WR_ARG_NUMBER,
+                                            .low = 0,
+                                            .high = WR_BIG_HEIGHT,
+                                            .fallback = NUMBERS(0),
+                                            .unit = "height units",
+                                            .help = "over how much it fades beyond the ends" },
+                                          JOIN } },
+    [WR_ROW(SELECT_SLOPE)] = { .name = "slope",
+                               .help = "where the composite's slope lies in a range",
+                               .args = { ANGLE("low", 0, "lower end"),
+                                         ANGLE("high", 90, "upper end"),
+                                         ANGLE("soft", 0, "over how much it fades beyond the ends"),
+                                         { .name = "relief",
+                                           .type = WR_ARG_NUMBER,
+                                           .low = 0,
+                                           .above = true,
+                                           .high = 1e30,
+                                           .unit = "texels",
+                                           .help = "how tall a height of 1 is; left out, as the "
+                                                   "scene's height makes it "
+                                                   "on a cell that is one scene unit wide" },
+                                         JOIN } },
+    [WR_ROW(
+        SELECT_FLOOD)] = { .name = "flood",
+                           .help = "a connected part of the composite that is of about one height, "
+                                   "without soft edge",
+                           .args = { { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2,
+                                       .low = -1e6, .high = 1e6, .help = "where it begins" },
+                                     { .name = "tolerance",
+                                       .type = WR_ARG_NUMBER,
+                                       .low = 0,
+                                       .high = WR_BIG_HEIGHT,
+                                       .fallback = NUMBERS(0.01),
+                                       .unit = "height units",
+                                       .help = "how far heights may be from the one at u,v" },
+                                     { .name = "diagonal",
+                                       .type = WR_ARG_CHOICE,
+                                       .words = wr_off_on,
+                                       .fallback_text = "off",
+                                       .help =
+                                           "on: texels that meet at a corner are connected too" },
+                                     JOIN } },
+    [WR_ROW(SELECT_GROW)] = { .name = "grow",
+                              .help = "move its edge outwards",
+                              .args = { TEXELS(WR_FIELD_MAX, "how far") } },
+    [WR_ROW(SELECT_SHRINK)] = { .name = "shrink",
+                                .help = "move its edge inwards",
+                                .args = { TEXELS(WR_FIELD_MAX, "how far") } },
+    [WR_ROW(SELECT_FEATHER)] = { .name = "feather",
+                                 .help = "blur its edge",
+                                 .args = { TEXELS(1024, "standard deviation of the Gaussian") } },
 };
+WR_ROWS_END(select_forms, SELECT_FORMS);
 
 WR_FORMS(form_select, select_forms)
 

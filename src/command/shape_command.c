@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/rows.h"
 #include "brush/preset.h"
 #include "command/args.h"
 #include "command/brush_args.h"
@@ -74,8 +75,16 @@ static bool path(const WrField *like, const WrCall *call, double tolerance, WrFi
     return good;
 }
 
-/* In the order of form_shape. */
-static Maker *const makers[] = { rectangle, ellipse, polygon, path };
+enum { SHAPE_RECTANGLE, SHAPE_ELLIPSE, SHAPE_POLYGON, SHAPE_PATH, SHAPE_FORMS };
+
+WR_ROWS(makers);
+static Maker *const makers[] = {
+    [WR_ROW(SHAPE_RECTANGLE)] = rectangle,
+    [WR_ROW(SHAPE_ELLIPSE)] = ellipse,
+    [WR_ROW(SHAPE_POLYGON)] = polygon,
+    [WR_ROW(SHAPE_PATH)] = path,
+};
+WR_ROWS_END(makers, SHAPE_FORMS);
 
 /* ---- outlines ---- */
 
@@ -319,48 +328,56 @@ static const char *const paints[] = { "outline", "fill", NULL };
         .help = "draw its outline with the brush, or cover its inside with what the mode does"     \
     }
 
-/* In the order of run_figure.c. */
+WR_ROWS(shape_forms);
 static const WrForm shape_forms[] = {
-    { .name = "rectangle",
-      .help = "between two corners",
-      .args = { POINT("a", "a corner"),
-                POINT("b", "the corner across"),
-                { .name = "corner",
-                  .type = WR_ARG_NUMBER,
-                  .low = 0,
-                  .high = 1e9,
-                  .fallback = NUMBERS(0),
-                  .unit = "texels",
-                  .help = "radius of its corners, at most half the shorter side" },
-                TURN,
-                PAINT } },
-    { .name = "ellipse",
-      .help = "about a point",
-      .args = { POINT("middle", "its middle"),
-                { .name = "radii",
-                  .type = WR_ARG_TUPLE,
-                  .required = true,
-                  .components = 2,
-                  .shape = "ru,rv",
-                  .low = 0,
-                  .high = WR_SELECT_REACH,
-                  .help = "half its width and height, in parts of the cell as u and v" },
-                TURN,
-                PAINT } },
-    { .name = "polygon",
-      .help = "through points, closed; inside is where a ray meets it an odd number of times",
-      .args = { POINTS(3, WR_SELECT_POINTS, "its corners in order"), PAINT } },
-    { .name = "path",
-      .help = "cubic Bezier curves, each from the end of the one before",
-      .args = { POINTS(4, 3 * 4096 + 1, "the start, then for each curve two handles and its end"),
-                { .name = "closed",
-                  .type = WR_ARG_CHOICE,
-                  .words = wr_off_on,
-                  .fallback_text = "off",
-                  .help = "on: the outline goes straight back from the end to the start; a fill "
-                          "always does" },
-                PAINT } },
+    [WR_ROW(SHAPE_RECTANGLE)] = { .name = "rectangle",
+                                  .help = "between two corners",
+                                  .args = { POINT("a", "a corner"),
+                                            POINT("b", "the corner across"),
+                                            { .name = "corner",
+                                              .type = WR_ARG_NUMBER,
+                                              .low = 0,
+                                              .high = 1e9,
+                                              .fallback = NUMBERS(0),
+                                              .unit = "texels",
+                                              .help = "radius of its corners, at most half the "
+                                                      "shorter side" },
+                                            TURN,
+                                            PAINT } },
+    [WR_ROW(SHAPE_ELLIPSE)] = { .name = "ellipse",
+                                .help = "about a point",
+                                .args = { POINT("middle", "its middle"),
+                                          { .name = "radii",
+                                            .type = WR_ARG_TUPLE,
+                                            .required = true,
+                                            .components = 2,
+                                            .shape = "ru,rv",
+                                            .low = 0,
+                                            .high = WR_SELECT_REACH,
+                                            .help = "half its width and height, in parts of the "
+                                                    "cell as u and v" },
+                                          TURN,
+                                          PAINT } },
+    [WR_ROW(SHAPE_POLYGON)] = { .name = "polygon",
+                                .help = "through points, closed; inside is where a ray meets it an "
+                                        "odd number of times",
+                                .args = { POINTS(3, WR_SELECT_POINTS, "its corners in order"),
+                                          PAINT } },
+    [WR_ROW(
+        SHAPE_PATH)] = { .name = "path",
+                         .help = "cubic Bezier curves, each from the end of the one before",
+                         .args = { POINTS(4, 3 * 4096 + 1,
+                                          "the start, then for each curve two handles and its end"),
+                                   { .name = "closed",
+                                     .type = WR_ARG_CHOICE,
+                                     .words = wr_off_on,
+                                     .fallback_text = "off",
+                                     .help = "on: the outline goes straight back from the end to "
+                                             "the start; a fill "
+                                             "always does" },
+                                   PAINT } },
 };
+WR_ROWS_END(shape_forms, SHAPE_FORMS);
 
 WR_FORMS(form_shape, shape_forms)
 

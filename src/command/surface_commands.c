@@ -1,6 +1,7 @@
 /* What carries the table and how it is wrinkled: surface, rotate, analytic, bump, replicate. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -114,17 +115,20 @@ static bool run_rotate(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+enum { FORM_POLY, FORM_FOURIER, FORM_OFF, ANALYTIC_FORMS };
+
 static bool run_analytic(WrSession *session, WrCall *call, WrError *err)
 {
     (void)err;
+    WR_ROWS(forms);
     static const struct {
-        const char *form, *list;
+        const char *list;
         WrAnalyticKind kind;
-    } forms[] = { { "poly", "c", WR_ANALYTIC_POLY },
-                  { "fourier", "terms", WR_ANALYTIC_FOURIER },
-                  { "off", NULL, WR_ANALYTIC_OFF } };
-    int which = 0;
-    while (strcmp(forms[which].form, call->form_name) != 0) which++;
+    } forms[] = { [WR_ROW(FORM_POLY)] = { "c", WR_ANALYTIC_POLY },
+                  [WR_ROW(FORM_FOURIER)] = { "terms", WR_ANALYTIC_FOURIER },
+                  [WR_ROW(FORM_OFF)] = { NULL, WR_ANALYTIC_OFF } };
+    WR_ROWS_END(forms, ANALYTIC_FORMS);
+    const int which = call->form;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_free(scene->analytic.terms);
     scene->analytic = (WrAnalytic){ .kind = forms[which].kind };
@@ -184,32 +188,35 @@ static const WrComponent fourier_parts[] = {
     { "phase_u", -1e9, 1e9, false }, { "phase_v", -1e9, 1e9, false },
 };
 
+WR_ROWS(analytic_forms);
 static const WrForm analytic_forms[] = {
-    { .name = "poly",
-      .help = "sum of a u^i v^j",
-      .args = { { .name = "c",
-                  .type = WR_ARG_LIST,
-                  .required = true,
-                  .components = 3,
-                  .parts = poly_parts,
-                  .rows_low = 1,
-                  .rows_high = WR_TERMS_MAX,
-                  .shape = "i,j,a;...",
-                  .help = "the terms" } } },
-    { .name = "fourier",
-      .help = "sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v), phases in degrees",
-      .args = { { .name = "terms",
-                  .type = WR_ARG_LIST,
-                  .required = true,
-                  .components = 5,
-                  .parts = fourier_parts,
-                  .counts = TUPLE_OF(3) | TUPLE_OF(5),
-                  .rows_low = 1,
-                  .rows_high = WR_TERMS_MAX,
-                  .shape = "k,l,a[,phase_u,phase_v];...",
-                  .help = "the terms" } } },
-    { .name = "off", .help = "the table again" },
+    [WR_ROW(FORM_POLY)] = { .name = "poly",
+                            .help = "sum of a u^i v^j",
+                            .args = { { .name = "c",
+                                        .type = WR_ARG_LIST,
+                                        .required = true,
+                                        .components = 3,
+                                        .parts = poly_parts,
+                                        .rows_low = 1,
+                                        .rows_high = WR_TERMS_MAX,
+                                        .shape = "i,j,a;...",
+                                        .help = "the terms" } } },
+    [WR_ROW(FORM_FOURIER)] = { .name = "fourier",
+                               .help = "sum of a cos(2 pi k u + phase_u) cos(2 pi l v + phase_v), "
+                                       "phases in degrees",
+                               .args = { { .name = "terms",
+                                           .type = WR_ARG_LIST,
+                                           .required = true,
+                                           .components = 5,
+                                           .parts = fourier_parts,
+                                           .counts = TUPLE_OF(3) | TUPLE_OF(5),
+                                           .rows_low = 1,
+                                           .rows_high = WR_TERMS_MAX,
+                                           .shape = "k,l,a[,phase_u,phase_v];...",
+                                           .help = "the terms" } } },
+    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "the table again" },
 };
+WR_ROWS_END(analytic_forms, ANALYTIC_FORMS);
 
 WR_FORMS(form_analytic, analytic_forms)
 

@@ -61,8 +61,7 @@ static double limited(double slope, bool *steep)
 static void decode_texel(const WrImage *image, const float *pixel, bool as_is, size_t k,
                          WrNormals *out)
 {
-    static const double codes[] = { [WR_PIXEL_U8] = 255.0, [WR_PIXEL_U16] = 65535.0 };
-    double most = image->type == WR_PIXEL_F32 ? 0.0 : codes[image->type], z;
+    double most = wr_pixel_last(image->type), z;
     double x = axis_of((double)pixel[0], most, as_is), y = axis_of((double)pixel[1], most, as_is);
     if (image->channels == 2) {
         double rest = 1.0 - x * x - y * y;

@@ -12,7 +12,11 @@ typedef enum Draft { DRAFTS(WR_WORD_ID) } Draft;
 static const char *const drafts[] = { DRAFTS(WR_WORD) NULL };
 
 /* Threads after which a draft begins again, along both axes. */
-static const int repeats[] = { 2, 4, 4, 5 };
+WR_ROWS(repeats);
+static const int repeats[] = {
+    [WR_ROW(PLAIN)] = 2, [WR_ROW(TWILL)] = 4, [WR_ROW(BASKET)] = 4, [WR_ROW(SATIN)] = 5
+};
+WR_ROWS_END(repeats, WR_LENGTH(drafts) - 1);
 
 const WrParam wr_params_weave[] = {
     WR_P_WHOLE("across", "Across", 20, 1, WR_CELLS_MOST, 64, "upright threads (the warp)"),

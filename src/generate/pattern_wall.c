@@ -18,6 +18,12 @@
 typedef enum Bond { BONDS(WR_WORD_ID) } Bond;
 static const char *const bonds[] = { BONDS(WR_WORD) NULL };
 
+/* Rows after which a bond begins again. */
+WR_ROWS(closes);
+static const int closes[] = { [WR_ROW(RUNNING)] = 2, [WR_ROW(THIRD)] = 3,   [WR_ROW(QUARTER)] = 2,
+                              [WR_ROW(STACK)] = 1,   [WR_ROW(ENGLISH)] = 2, [WR_ROW(FLEMISH)] = 2 };
+WR_ROWS_END(closes, WR_LENGTH(bonds) - 1);
+
 const WrParam wr_params_bricks[] = {
     WR_P_WHOLE("across", "Across", 4, 1, WR_CELLS_MOST, 32, "bricks in a row"),
     WR_P_ROWS(10),
@@ -109,7 +115,6 @@ bool wr_pattern_bricks(const WrParamValue *values, const WrGenerateJob *job, WrR
                  .joint = wr_param_number(&params, "joint"),
                  .corner = wr_param_number(&params, "corner"),
                  .wobble = wr_param_number(&params, "wobble") };
-    static const int closes[] = { 2, 3, 2, 1, 2, 2 };
     b.pieces = wr_pieces_of(&params, &b.cells);
     for (int k = 0; k < 2; k++) {
         double across = b.cells.across * (k == 0 ? 3.0 : 9.0);

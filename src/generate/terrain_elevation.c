@@ -106,9 +106,8 @@ static bool read_picture(const WrParams *p, const char *path, const WrWrap wrap[
     WrImage *image = wr_picture_read(p, "channel", true, job, err);
     if (!image) return false;
     bool good = wr_sheet_new(&out->sheet, image->width, image->height, wrap, err);
-    static const double codes[] = { [WR_PIXEL_U8] = 255.0, [WR_PIXEL_U16] = 65535.0 };
     out->labelled = good && apply_label(p, image, job);
-    out->most = image->type == WR_PIXEL_F32 || out->labelled ? 0.0 : codes[image->type];
+    out->most = out->labelled ? 0.0 : wr_pixel_last(image->type);
     out->least = 0.0;
     out->can_lack = image->type == WR_PIXEL_F32;
     size_t count = (size_t)image->width * (size_t)image->height;

@@ -80,7 +80,7 @@ int64_t wr_image_codes(WrPixelType type, const float *in, size_t count, void *ou
     if (type == WR_PIXEL_F32) {
         replaced = finite_floats(in, count, out);
     } else {
-        double last = type == WR_PIXEL_U8 ? 255.0 : 65535.0;
+        double last = wr_pixel_last(type);
         for (size_t i = 0; i < count; i++) {
             double x = in[i];
             replaced += !isfinite(x);

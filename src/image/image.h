@@ -9,6 +9,11 @@
 typedef struct WrError WrError;
 
 typedef enum WrPixelType { WR_PIXEL_U8, WR_PIXEL_U16, WR_PIXEL_F32 } WrPixelType;
+/* The largest code; of floats, which have none, 0. */
+static inline double wr_pixel_last(WrPixelType type)
+{
+    return type == WR_PIXEL_U8 ? 255.0 : type == WR_PIXEL_U16 ? 65535.0 : 0.0;
+}
 
 /* What this program wrote of an export of its own (export/export.h): checked, since a stranger may have. */
 typedef enum WrLabelKind {

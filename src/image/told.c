@@ -82,7 +82,7 @@ void wr_image_label_read(WrImageFile *file, int part, WrPixelType type, WrImageL
     if (!kind) return;
     if (strcmp(kind, "height") == 0) {
         label->kind = WR_LABEL_HEIGHT;
-        if (type != WR_PIXEL_F32) read_range(file, part, type == WR_PIXEL_U8 ? 255 : 65535, label);
+        if (type != WR_PIXEL_F32) read_range(file, part, wr_pixel_last(type), label);
     } else if (strcmp(kind, "normal+y") == 0 || strcmp(kind, "normal-y") == 0) {
         label->kind = kind[6] == '+' ? WR_LABEL_NORMAL_UP : WR_LABEL_NORMAL_DOWN;
         read_normals(file, part, label);
@@ -95,7 +95,7 @@ bool wr_image_apply_range(WrImage *image)
 {
     const WrImageLabel *label = &image->label;
     if (!label->ranged || image->type == WR_PIXEL_F32) return false;
-    const double last = image->type == WR_PIXEL_U8 ? 255 : 65535;
+    const double last = wr_pixel_last(image->type);
     const int channels = image->channels, heights = channels % 2 ? channels : channels - 1;
     const size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t k = 0; k < count; k++)

@@ -1,11 +1,17 @@
 #include "render/plan.h"
 
+#include "base/rows.h"
+
 #include <stdio.h>
 #include <string.h>
 
 const char *wr_proof_letter(WrProof proof)
 {
-    static const char *const letters[] = { "I", "B", "P" };
+    WR_ROWS(letters);
+    static const char *const letters[] = { [WR_ROW(WR_PROOF_IDENTICAL)] = "I",
+                                           [WR_ROW(WR_PROOF_BOUNDED)] = "B",
+                                           [WR_ROW(WR_PROOF_POLICY)] = "P" };
+    WR_ROWS_END(letters, WR_PROOF_COUNT);
     return letters[proof];
 }
 
@@ -55,45 +61,51 @@ bool wr_plan_same(const WrPlan *a, const WrPlan *b)
 
 /* ---- what it took ---- */
 
+WR_ROWS(wr_cost_names);
 const char *const wr_cost_names[WR_COST_COUNT] = {
-    [WR_COST_PREPARE] = "preparing", [WR_COST_VISIBILITY] = "visibility",
-    [WR_COST_GEOMETRY] = "geometry", [WR_COST_STORE] = "storing",
-    [WR_COST_CLEAR] = "clearing",    [WR_COST_REST] = "rest",
-    [WR_COST_WAIT] = "waiting",      [WR_COST_CHOOSE] = "choosing",
+    [WR_ROW(WR_COST_PREPARE)] = "preparing", [WR_ROW(WR_COST_VISIBILITY)] = "visibility",
+    [WR_ROW(WR_COST_GEOMETRY)] = "geometry", [WR_ROW(WR_COST_STORE)] = "storing",
+    [WR_ROW(WR_COST_CLEAR)] = "clearing",    [WR_ROW(WR_COST_REST)] = "rest",
+    [WR_ROW(WR_COST_WAIT)] = "waiting",      [WR_ROW(WR_COST_CHOOSE)] = "choosing",
 };
+WR_ROWS_END(wr_cost_names, WR_COST_COUNT);
 
+WR_ROWS(wr_cost_reasons);
 const char *const wr_cost_reasons[WR_COST_COUNT] = {
-    [WR_COST_PREPARE] = "copies of the table, pyramids, the view, the mesh",
-    [WR_COST_VISIBILITY] = "which samples the object covers",
-    [WR_COST_GEOMETRY] = "points, tangents and normals of the surface",
-    [WR_COST_STORE] = "colours are put together and stored",
-    [WR_COST_CLEAR] = "tiles are emptied; those that hold nothing are left out",
-    [WR_COST_REST] = "what lies between the stages: loops, the clock",
-    [WR_COST_WAIT] = "threads that found no tile to do",
-    [WR_COST_CHOOSE] = "estimates of the tolerance, blocks compared and put together",
+    [WR_ROW(WR_COST_PREPARE)] = "copies of the table, pyramids, the view, the mesh",
+    [WR_ROW(WR_COST_VISIBILITY)] = "which samples the object covers",
+    [WR_ROW(WR_COST_GEOMETRY)] = "points, tangents and normals of the surface",
+    [WR_ROW(WR_COST_STORE)] = "colours are put together and stored",
+    [WR_ROW(WR_COST_CLEAR)] = "tiles are emptied; those that hold nothing are left out",
+    [WR_ROW(WR_COST_REST)] = "what lies between the stages: loops, the clock",
+    [WR_ROW(WR_COST_WAIT)] = "threads that found no tile to do",
+    [WR_ROW(WR_COST_CHOOSE)] = "estimates of the tolerance, blocks compared and put together",
 };
+WR_ROWS_END(wr_cost_reasons, WR_COST_COUNT);
 
 /* Where a stage's time goes when none of its effects runs. */
+WR_ROWS(stage_costs);
 static const WrCost stage_costs[] = {
-    [WR_STAGE_VISIBILITY] = WR_COST_VISIBILITY,
-    [WR_STAGE_NEWTON] = WR_COST_VISIBILITY,
-    [WR_STAGE_GEOMETRY] = WR_COST_GEOMETRY,
-    [WR_STAGE_CURVATURE] = WR_COST_GEOMETRY,
-    [WR_STAGE_FOOTPRINT] = WR_COST_GEOMETRY,
-    [WR_STAGE_LOOK] = WR_COST_GEOMETRY,
-    [WR_STAGE_PYRAMID] = WR_COST_GEOMETRY,
-    [WR_STAGE_BUMP] = WR_COST_GEOMETRY,
-    [WR_STAGE_SPREAD] = WR_COST_GEOMETRY,
-    [WR_STAGE_COLOUR] = WR_COST_STORE,
-    [WR_STAGE_DIFFUSE] = WR_COST_STORE,
-    [WR_STAGE_SPECULAR] = WR_COST_STORE,
-    [WR_STAGE_BOUND] = WR_COST_REST,
-    [WR_STAGE_HALF] = WR_COST_STORE,
-    [WR_STAGE_RESOLVE] = WR_COST_STORE,
-    [WR_STAGE_STORE] = WR_COST_STORE,
-    [WR_STAGE_CLEAR] = WR_COST_CLEAR,
+    [WR_ROW(WR_STAGE_VISIBILITY)] = WR_COST_VISIBILITY,
+    [WR_ROW(WR_STAGE_NEWTON)] = WR_COST_VISIBILITY,
+    [WR_ROW(WR_STAGE_PARAMETERS)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_GEOMETRY)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_CURVATURE)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_FOOTPRINT)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_LOOK)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_PYRAMID)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_BUMP)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_SPREAD)] = WR_COST_GEOMETRY,
+    [WR_ROW(WR_STAGE_COLOUR)] = WR_COST_STORE,
+    [WR_ROW(WR_STAGE_DIFFUSE)] = WR_COST_STORE,
+    [WR_ROW(WR_STAGE_SPECULAR)] = WR_COST_STORE,
+    [WR_ROW(WR_STAGE_BOUND)] = WR_COST_REST,
+    [WR_ROW(WR_STAGE_HALF)] = WR_COST_STORE,
+    [WR_ROW(WR_STAGE_RESOLVE)] = WR_COST_STORE,
+    [WR_ROW(WR_STAGE_STORE)] = WR_COST_STORE,
+    [WR_ROW(WR_STAGE_CLEAR)] = WR_COST_CLEAR,
 };
-_Static_assert(sizeof stage_costs / sizeof *stage_costs == WR_STAGE_COUNT, "a cost a stage");
+WR_ROWS_END(stage_costs, WR_STAGE_COUNT);
 
 void wr_plan_charge(WrPlan *plan, WrStage stage, double seconds)
 {

@@ -17,7 +17,8 @@ typedef struct WrScene WrScene;
 typedef enum WrProof {
     WR_PROOF_IDENTICAL, /* I: the same bits */
     WR_PROOF_BOUNDED,   /* B: within a stated bound */
-    WR_PROOF_POLICY     /* P: changes the picture, by the user's choice */
+    WR_PROOF_POLICY,    /* P: changes the picture, by the user's choice */
+    WR_PROOF_COUNT
 } WrProof;
 
 /* What a row of the plan decides about; also the order in which `explain` prints. */

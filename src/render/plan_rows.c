@@ -1,6 +1,7 @@
 /* The table of effects: for each, when a scene calls for it and why, what its leaving out is proven by, the stages
    and the settings that it owns. In the order of the table: a row may ask those before it. */
 #include "render/plan_inner.h"
+#include "base/rows.h"
 
 #include "field/analytic.h"
 #include "image/image.h"
@@ -320,90 +321,109 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanAsk *ask, const cha
 
 #define STAGE(name) (1U << WR_STAGE_##name)
 
+WR_ROWS(wr_effects);
 const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
-    [WR_EFFECT_DIFFUSE] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
-                            "no light shines, diffuse is 0, or the colour is black", STAGE(DIFFUSE),
-                            .decide = decide_diffuse },
-    [WR_EFFECT_SPECULAR] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,
-                             "no light shines, or specular is 0", STAGE(SPECULAR),
-                             .decide = decide_specular },
-    [WR_EFFECT_COLOUR] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
-                           "there is none, or it is white everywhere", STAGE(COLOUR),
-                           .decide = decide_colour },
-    [WR_EFFECT_BUMP] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
-                         "the mode is none; height or replication is 0; all texels are equal; the "
-                         "scheme sees no slope anywhere; no light depends on the normal",
-                         STAGE(LOOK) | STAGE(BUMP), .decide = decide_bump, .settle = settle_bump },
-    [WR_EFFECT_GRADIENT] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
-                             "the scheme takes its slopes from the heights. For central and "
-                             "nearest one look-up of central differences equals the paper's four "
-                             "of F",
-                             STAGE(LOOK), .only_way = true, .decide = decide_gradient },
-    [WR_EFFECT_WIDE] = { "E10", "replication in double", WR_PROOF_BOUNDED,
-                         "a thousandth of a texel",
-                         "replication is under 1024, where single precision is right to a "
-                         "thousandth of a texel",
-                         0, .finer = true, .decide = decide_wide },
-    [WR_EFFECT_INVARIANT] = { "E11", "scale invariance", WR_PROOF_BOUNDED, "rounding of the normal",
-                              "the mode is not invariant; on the unit square it equals blinn",
-                              STAGE(BUMP), .decide = decide_invariant, .settle = settle_invariant },
-    [WR_EFFECT_EXACT] = { "E12", "exact normal", WR_PROOF_BOUNDED, "rounding of the normal",
-                          "the mode is not exact; on flat surfaces blinn is exact", STAGE(BUMP),
-                          .decide = decide_exact, .settle = settle_exact },
-    [WR_EFFECT_CURVATURE] = { "E13", "second derivatives", WR_PROOF_IDENTICAL, NULL,
-                              "E12 is left out", STAGE(CURVATURE), .only_way = true,
-                              .decide = decide_curvature, .settle = settle_curvature },
-    [WR_EFFECT_SAMPLES] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
-                            "one sample a pixel was asked for", STAGE(RESOLVE),
-                            .decide = decide_samples, .settle = settle_samples },
-    [WR_EFFECT_BOUND] = { "E16", "refinement by bound", WR_PROOF_BOUNDED, "`contrast`",
-                          "the dials do not ask for it, or no bound on the intensity's change over "
-                          "a pixel is known: other surfaces than plane, cube and sphere, slopes "
-                          "not from central or nearest, a normal other than blinn, a colour "
-                          "picture",
-                          STAGE(BOUND), .decide = decide_bound },
-    [WR_EFFECT_FILTER] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL, NULL,
-                           "the dials ask for no filtering, or no table is looked up; footprints "
-                           "up to one texel look up the table itself",
-                           STAGE(FOOTPRINT) | STAGE(PYRAMID), .decide = decide_filter,
-                           .settle = settle_filter },
-    [WR_EFFECT_BACK] = { "E25", "back faces", WR_PROOF_IDENTICAL, NULL,
-                         "a closed body seen from outside hides its own back", 0,
-                         .decide = wr_decide_back },
-    [WR_EFFECT_DEPTH] = { "E26", "depth buffer", WR_PROOF_IDENTICAL, NULL,
-                          "the nearest root of the ray is enough", STAGE(VISIBILITY),
-                          .only_way = true, .decide = wr_decide_depth, .settle = wr_settle_depth },
-    [WR_EFFECT_NEWTON] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED, "rounding of u and v",
-                           "rays meet the surface in closed form", STAGE(NEWTON),
-                           .decide = wr_decide_newton, .settle = wr_settle_newton },
-    [WR_EFFECT_PERSPECTIVE] = { "E28", "perspective divide", WR_PROOF_IDENTICAL, NULL,
-                                "the camera is orthographic", 0, .only_way = true,
-                                .decide = wr_decide_perspective },
-    [WR_EFFECT_AGAIN] = { "E29", "re-rendering", WR_PROOF_IDENTICAL, NULL,
-                          "the view rests and no edit reaches the tile", 0, .only_way = true,
-                          .decide = wr_decide_again },
-    [WR_EFFECT_SPREAD] = { "E31", "spread of slopes", WR_PROOF_POLICY, NULL,
-                           "the dials do not ask for moments, nothing is filtered, or there is no "
-                           "highlight",
-                           STAGE(SPREAD), .decide = decide_spread, .settle = settle_spread },
-    [WR_EFFECT_ROUNDED] = { "E32", "rounded heights", WR_PROOF_POLICY, NULL,
-                            "the dial keeps heights as they are", 0, .decide = decide_rounded,
-                            .settle = settle_rounded },
-    [WR_EFFECT_DOUBLE] = { "E33", "double precision", WR_PROOF_POLICY, NULL,
-                           "single precision was asked for", 0, .decide = decide_double,
-                           .settle = settle_double },
-    [WR_EFFECT_HALF] = { "E34", "half precision", WR_PROOF_POLICY, NULL,
-                         "the dial does not ask for normals and light in half precision",
-                         STAGE(HALF), .decide = decide_half },
-    [WR_EFFECT_PARAMETERS] = { "E54", "u and v", WR_PROOF_IDENTICAL, NULL,
-                               "on a sphere, a cylinder or a cone nothing is looked up there: no "
-                               "bump, no colour "
-                               "picture; other surfaces are met at u and v",
-                               STAGE(PARAMETERS), .only_way = true,
-                               .decide = wr_decide_parameters },
-    [WR_EFFECT_TANGENTS] = { "E55", "tangents", WR_PROOF_IDENTICAL, NULL,
-                             "on a sphere, a cylinder or a cone no slope turns the normal; other "
-                             "surfaces give "
-                             "them with the point",
-                             0, .only_way = true, .decide = wr_decide_tangents },
+    [WR_ROW(WR_EFFECT_DIFFUSE)] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
+                                    "no light shines, diffuse is 0, or the colour is black",
+                                    STAGE(DIFFUSE), .decide = decide_diffuse },
+    [WR_ROW(WR_EFFECT_SPECULAR)] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,
+                                     "no light shines, or specular is 0", STAGE(SPECULAR),
+                                     .decide = decide_specular },
+    [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
+                                   "there is none, or it is white everywhere", STAGE(COLOUR),
+                                   .decide = decide_colour },
+    [WR_ROW(WR_EFFECT_BUMP)] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
+                                 "the mode is none; height or replication is 0; all texels are "
+                                 "equal; the "
+                                 "scheme sees no slope anywhere; no light depends on the normal",
+                                 STAGE(LOOK) | STAGE(BUMP), .decide = decide_bump,
+                                 .settle = settle_bump },
+    [WR_ROW(
+        WR_EFFECT_GRADIENT)] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
+                                 "the scheme takes its slopes from the heights. For central and "
+                                 "nearest one look-up of central differences equals the paper's "
+                                 "four "
+                                 "of F",
+                                 STAGE(LOOK), .only_way = true, .decide = decide_gradient },
+    [WR_ROW(WR_EFFECT_WIDE)] = { "E10", "replication in double", WR_PROOF_BOUNDED,
+                                 "a thousandth of a texel",
+                                 "replication is under 1024, where single precision is right to a "
+                                 "thousandth of a texel",
+                                 0, .finer = true, .decide = decide_wide },
+    [WR_ROW(
+        WR_EFFECT_INVARIANT)] = { "E11", "scale invariance", WR_PROOF_BOUNDED,
+                                  "rounding of the normal",
+                                  "the mode is not invariant; on the unit square it equals blinn",
+                                  STAGE(BUMP), .decide = decide_invariant,
+                                  .settle = settle_invariant },
+    [WR_ROW(WR_EFFECT_EXACT)] = { "E12", "exact normal", WR_PROOF_BOUNDED, "rounding of the normal",
+                                  "the mode is not exact; on flat surfaces blinn is exact",
+                                  STAGE(BUMP), .decide = decide_exact, .settle = settle_exact },
+    [WR_ROW(WR_EFFECT_CURVATURE)] = { "E13", "second derivatives", WR_PROOF_IDENTICAL, NULL,
+                                      "E12 is left out", STAGE(CURVATURE), .only_way = true,
+                                      .decide = decide_curvature, .settle = settle_curvature },
+    [WR_ROW(WR_EFFECT_SAMPLES)] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
+                                    "one sample a pixel was asked for", STAGE(RESOLVE),
+                                    .decide = decide_samples, .settle = settle_samples },
+    [WR_ROW(
+        WR_EFFECT_BOUND)] = { "E16", "refinement by bound", WR_PROOF_BOUNDED, "`contrast`",
+                              "the dials do not ask for it, or no bound on the intensity's change "
+                              "over "
+                              "a pixel is known: other surfaces than plane, cube and sphere, "
+                              "slopes "
+                              "not from central or nearest, a normal other than blinn, a colour "
+                              "picture",
+                              STAGE(BOUND), .decide = decide_bound },
+    [WR_ROW(WR_EFFECT_FILTER)] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL, NULL,
+                                   "the dials ask for no filtering, or no table is looked up; "
+                                   "footprints "
+                                   "up to one texel look up the table itself",
+                                   STAGE(FOOTPRINT) | STAGE(PYRAMID), .decide = decide_filter,
+                                   .settle = settle_filter },
+    [WR_ROW(WR_EFFECT_BACK)] = { "E25", "back faces", WR_PROOF_IDENTICAL, NULL,
+                                 "a closed body seen from outside hides its own back", 0,
+                                 .decide = wr_decide_back },
+    [WR_ROW(WR_EFFECT_DEPTH)] = { "E26", "depth buffer", WR_PROOF_IDENTICAL, NULL,
+                                  "the nearest root of the ray is enough", STAGE(VISIBILITY),
+                                  .only_way = true, .decide = wr_decide_depth,
+                                  .settle = wr_settle_depth },
+    [WR_ROW(WR_EFFECT_NEWTON)] = { "E27", "inversion by Newton", WR_PROOF_BOUNDED,
+                                   "rounding of u and v", "rays meet the surface in closed form",
+                                   STAGE(NEWTON), .decide = wr_decide_newton,
+                                   .settle = wr_settle_newton },
+    [WR_ROW(WR_EFFECT_PERSPECTIVE)] = { "E28", "perspective divide", WR_PROOF_IDENTICAL, NULL,
+                                        "the camera is orthographic", 0, .only_way = true,
+                                        .decide = wr_decide_perspective },
+    [WR_ROW(WR_EFFECT_AGAIN)] = { "E29", "re-rendering", WR_PROOF_IDENTICAL, NULL,
+                                  "the view rests and no edit reaches the tile", 0,
+                                  .only_way = true, .decide = wr_decide_again },
+    [WR_ROW(WR_EFFECT_SPREAD)] = { "E31", "spread of slopes", WR_PROOF_POLICY, NULL,
+                                   "the dials do not ask for moments, nothing is filtered, or "
+                                   "there is no "
+                                   "highlight",
+                                   STAGE(SPREAD), .decide = decide_spread,
+                                   .settle = settle_spread },
+    [WR_ROW(WR_EFFECT_ROUNDED)] = { "E32", "rounded heights", WR_PROOF_POLICY, NULL,
+                                    "the dial keeps heights as they are", 0,
+                                    .decide = decide_rounded, .settle = settle_rounded },
+    [WR_ROW(WR_EFFECT_DOUBLE)] = { "E33", "double precision", WR_PROOF_POLICY, NULL,
+                                   "single precision was asked for", 0, .decide = decide_double,
+                                   .settle = settle_double },
+    [WR_ROW(WR_EFFECT_HALF)] = { "E34", "half precision", WR_PROOF_POLICY, NULL,
+                                 "the dial does not ask for normals and light in half precision",
+                                 STAGE(HALF), .decide = decide_half },
+    [WR_ROW(WR_EFFECT_PARAMETERS)] = { "E54", "u and v", WR_PROOF_IDENTICAL, NULL,
+                                       "on a sphere, a cylinder or a cone nothing is looked up "
+                                       "there: no "
+                                       "bump, no colour "
+                                       "picture; other surfaces are met at u and v",
+                                       STAGE(PARAMETERS), .only_way = true,
+                                       .decide = wr_decide_parameters },
+    [WR_ROW(WR_EFFECT_TANGENTS)] = { "E55", "tangents", WR_PROOF_IDENTICAL, NULL,
+                                     "on a sphere, a cylinder or a cone no slope turns the normal; "
+                                     "other "
+                                     "surfaces give "
+                                     "them with the point",
+                                     0, .only_way = true, .decide = wr_decide_tangents },
 };
+WR_ROWS_END(wr_effects, WR_EFFECT_COUNT);

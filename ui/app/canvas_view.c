@@ -1,5 +1,6 @@
 /* The table's view: its picture, and what lies on it. */
 #include "ui/app/canvas_view.h"
+#include "base/rows.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"
@@ -145,12 +146,16 @@ static void choose_way(WrApp *app, int way)
 
 static void range_popup(WrApp *app)
 {
-    static const char *const looks[] = { "Grey", "Signed" };
+    WR_ROWS(looks);
+    static const char *const looks[] = { [WR_ROW(WR_CANVAS_GREY)] = "Grey",
+                                         [WR_ROW(WR_CANVAS_SIGNED)] = "Signed" };
+    WR_ROWS_END(looks, WR_CANVAS_COLOURS);
     static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
     WrCanvasLook *look = &app->settings->look;
     int chosen = (int)look->colours, way = look->automatic ? 0 : is_unit(look) ? 1 : 2;
     if (!wr_gui_popup_begin("range")) return;
-    if (wr_gui_segments("look", looks, NULL, 2, &chosen)) look->colours = (WrCanvasColours)chosen;
+    if (wr_gui_segments("look", looks, NULL, WR_CANVAS_COLOURS, &chosen))
+        look->colours = (WrCanvasColours)chosen;
     if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
     ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
     ramp_tip(app);

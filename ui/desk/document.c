@@ -19,6 +19,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "command/call.h"
 #include "command/inner.h"
@@ -325,7 +326,11 @@ void wr_file_take_import(WrApp *app, const char *path)
 
 void wr_file_take_export(WrApp *app, const char *path)
 {
-    static const char *const ranges[] = { "auto", "0,1", "signed" };
+    WR_ROWS(ranges);
+    static const char *const ranges[] = { [WR_ROW(WR_RANGE_AUTO)] = "auto",
+                                          [WR_ROW(WR_RANGE_UNIT)] = "0,1",
+                                          [WR_ROW(WR_RANGE_SIGNED)] = "signed" };
+    WR_ROWS_END(ranges, WR_RANGES);
     const WrForms *forms = app->forms;
     const WrCommand *command = wr_command_find("export");
     WrForm form;

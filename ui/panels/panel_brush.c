@@ -165,8 +165,15 @@ static void pressure(WrApp *app)
 
 /* ---- settings of a preset ---- */
 
-static const char *const groups[] = { "DABS", "SCATTER", "HAND", "SHAPE", "DRAGGING", "MORE" };
-#define GROUPS ((int)(sizeof groups / sizeof *groups))
+#define GROUP_LIST(X)                                                                              \
+    X(DABS, "DABS")                                                                                \
+    X(SCATTER, "SCATTER")                                                                          \
+    X(HAND, "HAND")                                                                                \
+    X(SHAPE, "SHAPE")                                                                              \
+    X(DRAGGING, "DRAGGING")                                                                        \
+    X(MORE, "MORE")
+enum { GROUP_LIST(WR_WORD_ID) GROUPS };
+static const char *const groups[] = { GROUP_LIST(WR_WORD) };
 
 /* The group of a setting; -1: shown elsewhere, or nothing to heights. */
 static int group_of(const WrSettingInfo *info)
@@ -176,24 +183,24 @@ static int group_of(const WrSettingInfo *info)
         int group;
     } begins[] = { { "radius_logarithmic", -1 },
                    { "hardness", -1 },
-                   { "opaque", 0 },
-                   { "dabs_", 0 },
-                   { "anti_aliasing", 0 },
-                   { "radius_by_random", 1 },
-                   { "offset_", 1 },
-                   { "slow_tracking", 2 },
-                   { "tracking_noise", 2 },
-                   { "pressure_gain", 2 },
-                   { "stroke_", 2 },
-                   { "elliptical", 3 },
-                   { "direction_filter", 3 },
-                   { "snap_to_pixel", 3 },
-                   { "smudge", 4 } };
+                   { "opaque", DABS },
+                   { "dabs_", DABS },
+                   { "anti_aliasing", DABS },
+                   { "radius_by_random", SCATTER },
+                   { "offset_", SCATTER },
+                   { "slow_tracking", HAND },
+                   { "tracking_noise", HAND },
+                   { "pressure_gain", HAND },
+                   { "stroke_", HAND },
+                   { "elliptical", SHAPE },
+                   { "direction_filter", SHAPE },
+                   { "snap_to_pixel", SHAPE },
+                   { "smudge", DRAGGING } };
     if (info->use == WR_SETTING_IGNORED) return -1;
     for (size_t i = 0; i < sizeof begins / sizeof *begins; i++)
         if (strncmp(info->name, begins[i].name, strlen(begins[i].name)) == 0)
             return begins[i].group;
-    return GROUPS - 1;
+    return MORE;
 }
 
 static void setting(WrApp *app, int index)

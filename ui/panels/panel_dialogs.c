@@ -149,8 +149,11 @@ static void export_line(const WrApp *app, char *line, size_t size)
 
 void wr_dialog_export(WrApp *app)
 {
-    static const char *const ranges[] = { "Lowest to highest", "0 to 1, others clipped",
-                                          "Signed, 0 in the middle" };
+    WR_ROWS(ranges);
+    static const char *const ranges[] = { [WR_ROW(WR_RANGE_AUTO)] = "Lowest to highest",
+                                          [WR_ROW(WR_RANGE_UNIT)] = "0 to 1, others clipped",
+                                          [WR_ROW(WR_RANGE_SIGNED)] = "Signed, 0 in the middle" };
+    WR_ROWS_END(ranges, WR_RANGES);
     const char *kinds[WR_EXPORT_KIND_COUNT];
     WrForms *f = app->forms;
     if (!wr_gui_dialog_begin("Export", 440)) return;
@@ -160,7 +163,7 @@ void wr_dialog_export(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_export_kinds[f->kind].help);
     if (wr_export_kinds[f->kind].prepare) { /* it has a range */
         wr_gui_label("Codes hold");
-        wr_gui_choice("range", 0, ranges, 3, &f->range);
+        wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                         "The format goes by the file's ending: png and tif with 16 bits, exr with "

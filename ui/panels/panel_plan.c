@@ -5,13 +5,18 @@
 #include "ui/panels/panels.h"
 #include "ui/preview/preview.h"
 
+#include "base/rows.h"
 #include "render/plan.h"
 
 #include <stdio.h>
 
 static void effect(const WrPlanRow *e)
 {
-    static const char *const proofs[] = { "same bits", "bounded", "by choice" };
+    WR_ROWS(proofs);
+    static const char *const proofs[] = { [WR_ROW(WR_PROOF_IDENTICAL)] = "same bits",
+                                          [WR_ROW(WR_PROOF_BOUNDED)] = "bounded",
+                                          [WR_ROW(WR_PROOF_POLICY)] = "by choice" };
+    WR_ROWS_END(proofs, WR_PROOF_COUNT);
     char text[96];
     wr_gui_text(WR_FONT_TEXT, e->run ? WR_COLOUR_STRONG : 0xff868686u, e->name);
     wr_gui_same_line(8);

@@ -29,7 +29,9 @@ static const char *const event_names[WR_PEN_KINDS] = { [WR_ROW(WR_PEN_MOTION)] =
                                                        [WR_ROW(WR_PEN_UP)] = "up",
                                                        [WR_ROW(WR_PEN_LOST)] = "lost" };
 WR_ROWS_END(event_names, WR_PEN_KINDS);
-static const char *const device_names[] = { "pen", "eraser", "finger" };
+#define DEVICES(X) X(PEN, "pen") X(ERASER, "eraser") X(FINGER, "finger")
+enum { DEVICES(WR_WORD_ID) };
+static const char *const device_names[] = { DEVICES(WR_WORD) };
 
 /* ---- to a file ---- */
 
@@ -63,9 +65,9 @@ static void declare(WrPen *pen, int index, WrText *line)
     pen->recorded.data[index] = true;
     const WrPenDevice *d = &pen->units.data[index].shown;
     wr_text_addf(line, "device %d %s %d %d ", index,
-                 device_names[d->finger   ? 2
-                              : d->eraser ? 1
-                                          : 0],
+                 device_names[d->finger   ? FINGER
+                              : d->eraser ? ERASER
+                                          : PEN],
                  d->has_pressure, d->has_tilt);
     wr_text_add_number(line, d->pressure_low);
     wr_text_add(line, " ");
@@ -95,7 +97,7 @@ void wr_pen_record_event(WrPen *pen, const WrPenEvent *e)
 
 typedef struct FileDevice {
     bool declared;
-    int kind; /* of device_names */
+    int kind; /* PEN, ERASER, FINGER */
     bool has_pressure, has_tilt;
     double low, high;
     char name[96];
@@ -242,7 +244,7 @@ static bool read_event(Reader *reader, const Field *name, const char *at, const 
     FileDevice *d = &reader->devices[e.device];
     if (!d->declared) return wr_fail(err, "device %d: it is not declared before", e.device);
     e.held = (unsigned)held;
-    e.eraser = d->kind == 1;
+    e.eraser = d->kind == ERASER;
     e.finger = d->kind == 2;
     if (!follows(d, &e, err)) return false;
     wr_array_push(&reader->events, e);

@@ -22,7 +22,11 @@ const char *const wr_moving_names[] = { [WR_ROW(WR_MOVING_POINT)] = "1 \xc3\x97 
 WR_ROWS_END(wr_moving_names, WR_MOVING_WAYS);
 
 /* Times the way below, to reckon with before it is known. */
-static const double dearer[WR_MOVING_WAYS] = { 1, 1.8, 2 };
+WR_ROWS(dearer);
+static const double dearer[] = { [WR_ROW(WR_MOVING_POINT)] = 1,
+                                 [WR_ROW(WR_MOVING_EDGES)] = 1.8,
+                                 [WR_ROW(WR_MOVING_GRID)] = 2 };
+WR_ROWS_END(dearer, WR_MOVING_WAYS);
 
 void wr_moving_dials(WrMovingWay way, WrDials *dials)
 {
