@@ -7,6 +7,7 @@
 #include "image/read_inner.h"
 #include "image/reader.h"
 #include "system/fd.h"
+#include "system/process.h"
 
 #include <math.h>
 #include <string.h>
@@ -67,10 +68,11 @@ WrImageFile *wr_image_file_open(const char *path, WrError *err)
     return open_file(path, open_regular(path, err), WR_IMAGE_PARTS_MAX, !read_inside(), err);
 }
 
-/* Our own file: where there is no reader process to be had, it is not lost for that. */
+/* Our own file: where there is no reader process to be had, or no cage for it, it is not lost for that. */
 WrImageFile *wr_image_file_take(const char *name, int fd, WrError *err)
 {
-    return open_file(name, fd, WR_IMAGE_PARTS_MAX, !read_inside() && wr_process_start(NULL), err);
+    bool outside = !read_inside() && wr_process_has_cage() && wr_process_start(NULL);
+    return open_file(name, fd, WR_IMAGE_PARTS_MAX, outside, err);
 }
 
 void wr_image_file_close(WrImageFile *file)

@@ -1,7 +1,8 @@
 /* No cage: what a POSIX system has for limits does not keep a process from files, nor from other processes. So a
    stranger's file is refused, with a sentence that says why, unless the user has it read inside the program
-   (WRINKLE_READER=inside) and takes the risk. Systems have better: sandbox_init on macOS, pledge on OpenBSD, cap_enter
-   on FreeBSD; a cage of theirs is a file like this one. */
+   (WRINKLE_READER=inside) and takes the risk. Files that the program has just written itself are read back inside it.
+   Systems have better: sandbox_init on macOS, pledge on OpenBSD, cap_enter on FreeBSD; a cage of theirs is a file like
+   this one. */
 #include "system/cage.h"
 
 #include "system/process.h"

@@ -40,6 +40,9 @@ void wr_process_limit(WrLimit what, uint64_t most);
    it ends whatever it does. */
 void wr_process_limit_time(unsigned seconds);
 
+/* Whether a child can be kept from all that it is not given (system/cage.h). */
+bool wr_process_has_cage(void);
+
 /* ---- the end ---- */
 
 /* At once: nothing is written out, and nothing called that waits for the end. */

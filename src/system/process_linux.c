@@ -42,6 +42,11 @@ void wr_process_called(const char *argument)
     (void)argument;
 }
 
+bool wr_process_has_cage(void)
+{
+    return true;
+}
+
 bool wr_process_has_gpu(void)
 {
     static const char device[] = "/dev/dri/renderD128";

@@ -52,6 +52,11 @@ bool wr_process_program(char *path, size_t size)
     return program[0] && length > 0 && (size_t)length < size;
 }
 
+bool wr_process_has_cage(void)
+{
+    return false;
+}
+
 bool wr_process_has_gpu(void)
 {
     return true; /* the window library says otherwise by itself */

@@ -59,7 +59,7 @@ typedef struct WrTool WrTool;
 typedef struct WrTrial WrTrial;
 
 /* The window owns what these point to unless they say otherwise. Lengths are pixels of the window, times seconds of
-   base/clock.h. */
+   system/clock.h. */
 struct WrApp {
     const WrRoster *roster;      /* borrowed: what the window is made of */
     const WrAppOptions *options; /* borrowed */
