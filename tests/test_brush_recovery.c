@@ -18,15 +18,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static int setup(void **state)
-{
-    if (enter_folder(state) != 0 || mkdir("state", 0700) != 0) return -1;
-    char full[4096];
-    if (!getcwd(full, sizeof full - 10)) return -1;
-    strcat(full, "/state");
-    return setenv("WRINKLE_STATE", full, 1);
-}
-
 static void write_tip(const char *path, int shade)
 {
     uint8_t grey[16 * 16];
@@ -187,5 +178,5 @@ int main(void)
         cmocka_unit_test(killed_and_recovered_though_the_files_are_gone),
         cmocka_unit_test(a_journal_that_begins_anew_keeps_the_files_again),
     };
-    return cmocka_run_group_tests(tests, setup, remove_folder);
+    return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

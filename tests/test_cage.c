@@ -1,6 +1,7 @@
 /* The cage of the reader process (src/system/cage.h): each thing that a caged process must not do, tried from
    inside, with Landlock and without, for each has to hold alone. */
 #include "test.h"
+#include "test_folder.h"
 
 #include "system/cage.h"
 
@@ -445,20 +446,6 @@ static void processor_time_is_limited(void **state)
         assert_true(WIFSIGNALED(status));
         assert_int_equal(WTERMSIG(status), deaf ? SIGKILL : SIGXCPU);
     }
-}
-
-static int enter_folder(void **state)
-{
-    static char folder[] = "/tmp/wr_cage_XXXXXX";
-    *state = mkdtemp(folder);
-    return *state ? chdir(folder) : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(void)

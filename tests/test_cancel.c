@@ -456,15 +456,6 @@ static void opening_stops_and_keeps_what_was_open(void **state)
     wr_pool_free(pool);
 }
 
-/* Journals go into the folder too, where nobody looks for files left behind. */
-static int enter(void **state)
-{
-    if (enter_folder(state) != 0) return -1;
-    char path[128];
-    snprintf(path, sizeof path, "%s/state", (char *)*state);
-    return mkdir(path, 0700) == 0 ? setenv("WRINKLE_STATE", path, 1) : -1;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -473,5 +464,5 @@ int main(void)
         cmocka_unit_test(each_generator_stops_at_a_report_and_leaves_no_trace),
         cmocka_unit_test(opening_stops_and_keeps_what_was_open),
     };
-    return cmocka_run_group_tests(tests, enter, remove_folder);
+    return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

@@ -1,5 +1,6 @@
 /* Edits: what they refuse, how they keep to selections, table operations on layers. */
 #include "test.h"
+#include "test_folder.h"
 #include "test_session_help.h"
 
 #include "base/error.h"
@@ -282,21 +283,12 @@ static void table_starts_over_with_one_layer(void **state)
 }
 
 /* A picture that edits can read. */
-static int enter_folder(void **state)
+static int enter(void **state)
 {
-    static char folder[] = "/tmp/wr_edits_XXXXXX";
     uint8_t codes[12];
     for (int i = 0; i < 12; i++) codes[i] = (uint8_t)(17 * i);
-    *state = mkdtemp(folder);
-    if (!*state || chdir(folder) != 0) return -1;
+    if (enter_folder(state) != 0) return -1;
     return wr_image_write_pixels("g.png", 4, 3, 1, WR_PIXEL_U8, true, codes, NULL) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    return chdir("/") || system(command);
 }
 
 int main(void)
@@ -313,5 +305,5 @@ int main(void)
         cmocka_unit_test(resizing_takes_layers_masks_and_selection_along),
         cmocka_unit_test(table_starts_over_with_one_layer),
     };
-    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter, remove_folder);
 }

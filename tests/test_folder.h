@@ -1,6 +1,7 @@
 /* test_folder.h - a group of tests that runs in a folder of its own: cmocka_run_group_tests(tests,
    enter_folder, remove_folder). After test.h. */
 #pragma once
+#include <sys/stat.h>
 #include <unistd.h>
 
 static inline int enter_folder(void **state)
@@ -8,6 +9,15 @@ static inline int enter_folder(void **state)
     static char folder[] = "/tmp/wrinkle-test-XXXXXX";
     *state = mkdtemp(folder);
     return *state ? chdir(folder) : -1;
+}
+
+/* With a folder `state` in it for what the program keeps, where nobody looks for files left behind. */
+static inline int enter_state_folder(void **state)
+{
+    if (enter_folder(state) != 0) return -1;
+    char path[128];
+    snprintf(path, sizeof path, "%s/state", (char *)*state);
+    return mkdir(path, 0700) == 0 ? setenv("WRINKLE_STATE", path, 1) : -1;
 }
 
 static inline int remove_folder(void **state)

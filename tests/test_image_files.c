@@ -411,22 +411,12 @@ static void a_part_is_chosen_by_number_or_name(void **state)
     expect_channels("parts.exr", NULL, "middle", 0, "");
 }
 
-typedef struct Said {
-    char text[2000];
-} Said;
-
-static void hear(void *ctx, const char *text)
-{
-    Said *said = ctx;
-    snprintf(said->text + strlen(said->text), sizeof said->text - strlen(said->text), "%s\n", text);
-}
-
 static void commands_choose_and_tell_what_they_took(void **state)
 {
     (void)state;
     static const char *const names[] = { "Depth.Z", "diffuse.B", "diffuse.G", "diffuse.R" };
     Said said = { "" };
-    const WrSessionOptions options = { .note = hear, .note_ctx = &said };
+    const WrSessionOptions options = { .note = hear_note, .note_ctx = &said };
     WrSession *s = wr_session_new(&options);
     write_layers("scene.exr", names, 4, 1);
     must_run(s, "image scene.exr");

@@ -9,19 +9,9 @@
 #include "command/session.h"
 #include "image/image.h"
 
-typedef struct Said {
-    char text[2000];
-} Said;
-
-static void hear(void *ctx, const char *text)
-{
-    Said *said = ctx;
-    snprintf(said->text + strlen(said->text), sizeof said->text - strlen(said->text), "%s\n", text);
-}
-
 static WrSession *listening(Said *said)
 {
-    const WrSessionOptions options = { .note = hear, .note_ctx = said, .outputs = true };
+    const WrSessionOptions options = { .note = hear_note, .note_ctx = said, .outputs = true };
     said->text[0] = '\0';
     return wr_session_new(&options);
 }

@@ -116,19 +116,11 @@ static void the_same_from_the_file_that_was_saved(void **state)
     given_up(true);
 }
 
-static int enter(void **state)
-{
-    if (enter_folder(state) != 0) return -1;
-    char path[128];
-    snprintf(path, sizeof path, "%s/state", (char *)*state);
-    return mkdir(path, 0700) == 0 ? setenv("WRINKLE_STATE", path, 1) : -1;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_recovery_that_is_given_up_keeps_the_journal),
         cmocka_unit_test(the_same_from_the_file_that_was_saved),
     };
-    return cmocka_run_group_tests(tests, enter, remove_folder);
+    return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

@@ -13,16 +13,6 @@
 #define HIGH 38
 #define BOUND 1e-5 /* of linear intensity */
 
-/* Random mantissas, odd and unequal sides, no row like another. */
-static WrField *random_field(int w, int h, uint64_t seed)
-{
-    TestRandom random = { seed };
-    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int j = 0; j < h; j++)
-        for (int i = 0; i < w; i++) wr_field_set(field, i, j, (float)test_random(&random));
-    return field;
-}
-
 typedef struct Filter {
     const char *name;
     WrAntialias aa;

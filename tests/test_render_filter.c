@@ -11,15 +11,6 @@
 #include "scene/scene.h"
 #include "shade/bump.h"
 
-static WrField *random_field(int w, int h, uint64_t seed)
-{
-    TestRandom random = { seed };
-    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int j = 0; j < h; j++)
-        for (int i = 0; i < w; i++) wr_field_set(field, i, j, (float)test_random(&random));
-    return field;
-}
-
 static const float *texel_of(const WrPyramid *pyramid, int level, int i, int j)
 {
     const WrPyramidLevel *at = &pyramid->level[level];

@@ -23,6 +23,16 @@ static inline WrField *bumpy_field(int w, int h)
     return field;
 }
 
+/* Random mantissas, no row like another. */
+static inline WrField *random_field(int w, int h, uint64_t seed)
+{
+    TestRandom random = { seed };
+    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < h; j++)
+        for (int i = 0; i < w; i++) wr_field_set(field, i, j, (float)test_random(&random));
+    return field;
+}
+
 static inline WrScene *scene_of(const char *surface)
 {
     WrScene *scene = wr_scene_new();

@@ -43,3 +43,14 @@ static inline bool same_field(const WrField *a, const WrField *b)
 {
     return wr_hash_equal(wr_field_hash(a), wr_field_hash(b));
 }
+
+/* What a session notes: .note = hear_note, .note_ctx = &said. */
+typedef struct Said {
+    char text[2000];
+} Said;
+
+static inline void hear_note(void *ctx, const char *text)
+{
+    Said *said = ctx;
+    snprintf(said->text + strlen(said->text), sizeof said->text - strlen(said->text), "%s\n", text);
+}

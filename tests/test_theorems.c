@@ -100,14 +100,6 @@ static void a6_so_does_that_of_the_pictures_own_supersampling(void **state)
     wr_scene_free(scene);
 }
 
-static WrField *random_field(int w, int h, uint64_t seed)
-{
-    TestRandom random = { seed };
-    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
-    for (int i = 0; i < w * h; i++) wr_field_set(field, i % w, i / w, (float)test_random(&random));
-    return field;
-}
-
 static void a11_a_table_has_period_1_to_the_bit_under_every_scheme(void **state)
 {
     (void)state;

@@ -355,15 +355,6 @@ static void random_views_and_edits_recover_and_replay_bit_for_bit(void **state)
     assert_true(done > rounds * 30);
 }
 
-static int setup(void **state)
-{
-    if (enter_folder(state) != 0 || mkdir("state", 0700) != 0) return -1;
-    char *folder = realpath("state", NULL);
-    int good = setenv("WRINKLE_STATE", folder, 1);
-    free(folder);
-    return good;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -380,5 +371,5 @@ int main(void)
         cmocka_unit_test(undoing_an_open_of_a_script_is_recovered),
         cmocka_unit_test(random_views_and_edits_recover_and_replay_bit_for_bit),
     };
-    return cmocka_run_group_tests(tests, setup, remove_folder);
+    return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

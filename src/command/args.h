@@ -14,6 +14,28 @@
     }
 /* A required value without a name. */
 #define PLACE(x) .name = (x), .positional = true, .required = true
+/* Half the sides of an ellipse. */
+#define WR_ARG_RADII                                                                               \
+    {                                                                                              \
+        .name = "radii", .type = WR_ARG_TUPLE, .required = true, .components = 2,                  \
+        .shape = "ru,rv", .low = 0, .high = WR_SELECT_REACH,                                       \
+        .help = "half its width and height, in parts of the cell as u and v"                       \
+    }
+/* What is connected, and as high as a place. */
+#define WR_ARGS_FLOOD(of)                                                                          \
+    { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2,                                         \
+      .low = -1e6,  .high = 1e6,          .help = "where it begins" },                             \
+        { .name = "tolerance",                                                                     \
+          .type = WR_ARG_NUMBER,                                                                   \
+          .low = 0,                                                                                \
+          .high = WR_BIG_HEIGHT,                                                                   \
+          .fallback = NUMBERS(0.01),                                                               \
+          .unit = "height units",                                                                  \
+          .help = "how far " of " may be from the one at u,v" },                                   \
+    {                                                                                              \
+        .name = "diagonal", .type = WR_ARG_CHOICE, .words = wr_off_on, .fallback_text = "off",     \
+        .help = "on: texels that meet at a corner are connected too"                               \
+    }
 /* What of a picture file is taken (WrImageWish). */
 #define WR_ARGS_OF_FILE                                                                            \
     { .name = "channel",                                                                           \

@@ -93,24 +93,9 @@ static const char *ramp_blend(int i)
 
 /* ---- flood, ramp ---- */
 
-static const WrArgSpec args_flood[] = {
-    { PLACE("u,v"), .type = WR_ARG_TUPLE, .components = 2, .low = -1e6, .high = 1e6,
-      .help = "where it begins" },
-    { .name = "tolerance",
-      .type = WR_ARG_NUMBER,
-      .low = 0,
-      .high = WR_BIG_HEIGHT,
-      .fallback = NUMBERS(0.01),
-      .unit = "height units",
-      .help = "how far the composite's heights may be from the one at u,v" },
-    { .name = "diagonal",
-      .type = WR_ARG_CHOICE,
-      .words = wr_off_on,
-      .fallback_text = "off",
-      .help = "on: texels that meet at a corner are connected too" },
-    PAINT_ARGS,
-    { 0 }
-};
+static const WrArgSpec args_flood[] = { WR_ARGS_FLOOD("the composite's heights"),
+                                        PAINT_ARGS,
+                                        { 0 } };
 
 #define HEIGHT(name_, default_, help_)                                                             \
     {                                                                                              \

@@ -346,17 +346,7 @@ static const WrForm shape_forms[] = {
                                             PAINT } },
     [WR_ROW(SHAPE_ELLIPSE)] = { .name = "ellipse",
                                 .help = "about a point",
-                                .args = { POINT("middle", "its middle"),
-                                          { .name = "radii",
-                                            .type = WR_ARG_TUPLE,
-                                            .required = true,
-                                            .components = 2,
-                                            .shape = "ru,rv",
-                                            .low = 0,
-                                            .high = WR_SELECT_REACH,
-                                            .help = "half its width and height, in parts of the "
-                                                    "cell as u and v" },
-                                          TURN,
+                                .args = { POINT("middle", "its middle"), WR_ARG_RADII, TURN,
                                           PAINT } },
     [WR_ROW(SHAPE_POLYGON)] = { .name = "polygon",
                                 .help = "through points, closed; inside is where a ray meets it an "

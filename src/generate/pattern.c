@@ -84,10 +84,13 @@ WrCells wr_cells_of(const WrParams *params, const WrField *like)
     return wr_cells(like, wr_param_whole(params, "across"), wr_param_whole(params, "rows"));
 }
 
-WrCells wr_cells_turned(const WrParams *params, const WrField *like)
+WrCells wr_cells_along(const WrParams *params, const WrField *like)
 {
-    return cells(wr_field_height(like), wr_field_width(like), wr_param_whole(params, "across"),
-                 wr_param_whole(params, "rows"));
+    if (wr_param_whole(params, "along") == WR_ALONG_U) return wr_cells_of(params, like);
+    WrCells turned = cells(wr_field_height(like), wr_field_width(like),
+                           wr_param_whole(params, "across"), wr_param_whole(params, "rows"));
+    turned.turned = true;
+    return turned;
 }
 
 double wr_chance(uint32_t seed, int i, int j, int use)

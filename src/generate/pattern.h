@@ -31,13 +31,22 @@ typedef struct WrCells {
     double width, height;           /* of the table, texels */
     int across, rows;               /* cells, from 1 */
     double cell_width, cell_height; /* texels; need not be whole */
+    bool turned;                    /* for things that run upwards: the table on its side */
 } WrCells;
 
 WrCells wr_cells(const WrField *like, int across, int rows);
 /* By the parameters across and rows. */
 WrCells wr_cells_of(const WrParams *params, const WrField *like);
-/* The same with the table on its side, for things that run upwards. */
-WrCells wr_cells_turned(const WrParams *params, const WrField *like);
+/* The same for things that run the way that the parameter along tells. */
+WrCells wr_cells_along(const WrParams *params, const WrField *like);
+/* A place of the table as such things have it. */
+static inline void wr_cells_turn(const WrCells *cells, double *x, double *y)
+{
+    const double keep = *x;
+    if (!cells->turned) return;
+    *x = *y;
+    *y = keep;
+}
 
 #define WR_CELLS_MOST 1024 /* along an axis */
 #define WR_P_ACROSS(value) WR_P_WHOLE("across", "Across", value, 1, WR_CELLS_MOST, 32, "how many")

@@ -119,18 +119,13 @@ const WrParam wr_params_rope[] = {
 typedef struct Rope {
     WrCells cells;
     double width, lay, groove, fibre;
-    bool upwards;
 } Rope;
 
 /* A place on the rope's skin goes by the angle about its axis, so strands run steeper towards the sides. */
 static double rope_at(const void *ctx, double x, double y)
 {
     const Rope *r = ctx;
-    if (r->upwards) {
-        double keep = x;
-        x = y;
-        y = keep;
-    }
+    wr_cells_turn(&r->cells, &x, &y);
     double v = y / r->cells.cell_height;
     double s = 2.0 * (v - floor(v) - 0.5) / (r->width > 0.0 ? r->width : 1e-9);
     if (s * s >= 1.0) return 0.0;
@@ -146,13 +141,10 @@ bool wr_pattern_rope(const WrParamValue *values, const WrGenerateJob *job, WrRel
                      WrError *err)
 {
     const WrParams params = { wr_params_rope, values };
-    bool upwards = wr_param_whole(&params, "along") == WR_ALONG_V;
-    Rope r = { .cells =
-                   upwards ? wr_cells_turned(&params, job->like) : wr_cells_of(&params, job->like),
+    Rope r = { .cells = wr_cells_along(&params, job->like),
                .width = wr_param_number(&params, "width"),
                .lay = wr_param_number(&params, "lay"),
                .groove = wr_param_number(&params, "groove"),
-               .fibre = wr_param_number(&params, "fibre"),
-               .upwards = upwards };
+               .fibre = wr_param_number(&params, "fibre") };
     return wr_pattern_make(&params, job, rope_at, &r, WR_PATTERN_SAMPLES, out, err);
 }

@@ -19,7 +19,6 @@ const WrParam wr_params_chain[] = {
 
 typedef struct Chain {
     WrCells cells;
-    bool upwards;
     double wire;     /* radius of the wire, texels */
     double bend;     /* radius of a link's round ends, to the middle of the wire */
     double straight; /* half of a link's straight part */
@@ -50,11 +49,7 @@ static double upright_link(const Chain *c, double x, double y)
 static double chain_at(const void *ctx, double x, double y)
 {
     const Chain *c = ctx;
-    if (c->upwards) {
-        double keep = x;
-        x = y;
-        y = keep;
-    }
+    wr_cells_turn(&c->cells, &x, &y);
     double length = c->cells.cell_width, v = y / c->cells.cell_height;
     double dy = (v - floor(v) - 0.5) * c->cells.cell_height;
     double dx = x - length * floor(x / length); /* flat ones at 0 and length, upright at the half */
@@ -71,10 +66,7 @@ bool wr_pattern_chain(const WrParamValue *values, const WrGenerateJob *job, WrRe
                       WrError *err)
 {
     const WrParams params = { wr_params_chain, values };
-    bool upwards = wr_param_whole(&params, "along") == WR_ALONG_V;
-    Chain c = { .cells =
-                    upwards ? wr_cells_turned(&params, job->like) : wr_cells_of(&params, job->like),
-                .upwards = upwards };
+    Chain c = { .cells = wr_cells_along(&params, job->like) };
     double width = wr_param_number(&params, "width") * c.cells.cell_height;
     double pitch = 0.5 * c.cells.cell_width; /* from link to link */
     c.wire = 0.5 * width * wr_param_number(&params, "wire");

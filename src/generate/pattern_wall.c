@@ -305,7 +305,6 @@ typedef struct Planks {
     WrPieces pieces;
     double joint, wood;
     int rings;
-    bool upwards;
     WrNoise bend, fibre;
 } Planks;
 
@@ -328,11 +327,7 @@ static double plank_at(const void *ctx, double x, double y)
 {
     const Planks *p = ctx;
     const WrCells *c = &p->cells;
-    if (p->upwards) {
-        double keep = x;
-        x = y;
-        y = keep;
-    }
+    wr_cells_turn(&p->cells, &x, &y);
     double up = y / c->cell_height;
     int row = (int)floor(up);
     if (row >= c->rows) row = c->rows - 1;
@@ -351,13 +346,10 @@ bool wr_pattern_planks(const WrParamValue *values, const WrGenerateJob *job, WrR
                        WrError *err)
 {
     const WrParams params = { wr_params_planks, values };
-    bool upwards = wr_param_whole(&params, "along") == WR_ALONG_V;
-    Planks p = { .cells = upwards ? wr_cells_turned(&params, job->like)
-                                  : wr_cells_of(&params, job->like),
+    Planks p = { .cells = wr_cells_along(&params, job->like),
                  .joint = wr_param_number(&params, "joint"),
                  .wood = wr_param_number(&params, "wood"),
-                 .rings = wr_param_whole(&params, "rings"),
-                 .upwards = upwards };
+                 .rings = wr_param_whole(&params, "rings") };
     p.pieces = wr_pieces_of(&params, &p.cells);
     p.bend = wr_pattern_noise(p.pieces.seed + 7U, p.cells.across * 3.0, p.cells.rows * 2.0);
     double fine = p.cells.rows * 24.0; /* fibres of three texels or more */

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "generate/build.h"
 #include "generate/solid.h"
+#include "generate/text_lay.h"
 #include "image/font.h"
 
 #define CHORD 0.02 /* texels that straight pieces may differ from the outlines' curves */
@@ -17,20 +18,8 @@ const WrParam wr_params_solid_letters[] = {
       .unit = "",
       .kind = WR_PARAM_TEXT,
       .positional = true },
-    { .name = "font",
-      .label = "Font",
-      .help = "an installed font, where no file is named",
-      .unit = "",
-      .kind = WR_PARAM_CHOICE,
-      .fallback = { WR_FONT_SANS_BOLD }, /* outlines, not blocks */
-      .words = wr_font_names },
-    { .name = "file",
-      .label = "Font file",
-      .help = "a font: TrueType, OpenType, Type 1, PCF, BDF, PSF, also packed by gzip",
-      .unit = "",
-      .kind = WR_PARAM_FILE,
-      .fallback_text = "" },
-    WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "which of a collection of fonts in one file"),
+    WR_P_FONT(WR_FONT_SANS_BOLD), /* outlines, not blocks */
+    WR_P_FONT_FILE,
     WR_S_RADIUS("size", "Size", 96, "of the letters, as fonts count it"),
     WR_S_RADIUS("depth", "Depth", 16, "thickness of the plate"),
     WR_P_TEXELS("bevel", "Bevel", 4, 32, "width of the rounded edge; at most the depth"),

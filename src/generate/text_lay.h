@@ -40,7 +40,20 @@ typedef struct WrTextWish {
  * ask: all but its fonts. */
 bool wr_text_shape(const WrParams *params, const WrFontAsk *ask, double size,
                    const WrGenerateJob *job, WrFontText *out, WrError *err);
-/* Rows of those parameters but `font` and `file`. */
+/* Rows of those parameters, and of the others that say which font. */
+#define WR_P_FONT(value)                                                                           \
+    {                                                                                              \
+        .name = "font", .label = "Font", .help = "an installed font, where no file is named",      \
+        .unit = "", .kind = WR_PARAM_CHOICE, .fallback = { value }, .words = wr_font_names         \
+    }
+#define WR_P_FONT_FILE                                                                             \
+    { .name = "file",                                                                              \
+      .label = "Font file",                                                                        \
+      .help = "a font: TrueType, OpenType, Type 1, PCF, BDF, PSF, also packed by gzip",            \
+      .unit = "",                                                                                  \
+      .kind = WR_PARAM_FILE,                                                                       \
+      .fallback_text = "" },                                                                       \
+        WR_P_WHOLE("face", "Face", 0, 0, 65535, 15, "which of a collection of fonts in one file")
 #define WR_P_MISSING(n, words)                                                                     \
     WR_P_CHOICE(n, "Missing letters", WR_TEXT_BORROW, words,                                       \
                 "what the font lacks: from other installed fonts, or drawn as its sign for that")

@@ -7,6 +7,8 @@ extern "C" {
 #include "image/assimp.h"
 }
 
+#include "image/one_line.hpp"
+
 #include <assimp/Importer.hpp>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
@@ -29,14 +31,7 @@ struct WrAssimpMesh {
 /* The message as one line. */
 static bool fail(char *reason, const std::string &text)
 {
-    std::string line;
-    for (char c : text) {
-        bool space = static_cast<unsigned char>(c) <= ' ';
-        if (!space) line += c;
-        else if (!line.empty() && line.back() != ' ') line += ' ';
-    }
-    while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
-    snprintf(reason, WR_ASSIMP_REASON, "%s", line.c_str());
+    one_line(reason, WR_ASSIMP_REASON, text);
     return false;
 }
 

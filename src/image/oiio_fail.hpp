@@ -5,7 +5,8 @@ extern "C" {
 #include "image/oiio.h"
 }
 
-#include <cstdio>
+#include "image/one_line.hpp"
+
 #include <new>
 #include <string>
 
@@ -26,14 +27,7 @@ inline bool fail(char *reason, std::string text, const std::string &path = std::
             if (!path.empty()) say_instead(text, before + quoted, "the file");
         if (!path.empty()) say_instead(text, quoted, "the file");
     }
-    std::string line;
-    for (char c : text) {
-        bool space = static_cast<unsigned char>(c) <= ' ';
-        if (!space) line += c;
-        else if (!line.empty() && line.back() != ' ') line += ' ';
-    }
-    while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
-    snprintf(reason, WR_OIIO_REASON, "%s", line.c_str());
+    one_line(reason, WR_OIIO_REASON, text);
     return false;
 }
 

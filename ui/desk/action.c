@@ -13,10 +13,15 @@ const WrAction *wr_action_find(const WrApp *app, const char *name)
     return NULL;
 }
 
+bool wr_action_can(const WrApp *app, const WrAction *action)
+{
+    return !action->enabled || action->enabled(app);
+}
+
 static void run_now(WrApp *app, const char *name)
 {
     const WrAction *action = wr_action_find(app, name);
-    if (action && (!action->enabled || action->enabled(app))) action->run(app);
+    if (action && wr_action_can(app, action)) action->run(app);
     wr_app_redraw(app);
 }
 
@@ -25,7 +30,7 @@ void wr_action_run(WrApp *app, const char *name)
     const WrAction *action = wr_action_find(app, name);
     for (WrActionFamily *const *f = app->roster->families; !action && *f; f++)
         if ((*f)(app, name)) break;
-    if (!action || (action->enabled && !action->enabled(app))) return;
+    if (!action || !wr_action_can(app, action)) return;
     if (app->in_frame) wr_later(app, run_now, name); /* it may take long */
     else run_now(app, name);
 }

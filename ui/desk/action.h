@@ -13,5 +13,6 @@ struct WrAction {
 };
 
 const WrAction *wr_action_find(const WrApp *app, const char *name); /* NULL: none, or of a family */
+bool wr_action_can(const WrApp *app, const WrAction *action);       /* at present */
 /* At once, or after the picture of the window that is being made. */
 void wr_action_run(WrApp *app, const char *name);

@@ -7,6 +7,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/panels/panels.h"
+#include "ui/tools/option.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/tuning.h"
 
@@ -147,20 +148,9 @@ static void chance(WrApp *app)
 
 static void pressure(WrApp *app)
 {
-    WR_ROWS(names);
-    static const char *const names[WR_PRESSURE_COUNT] = {
-        [WR_ROW(WR_PRESSURE_STRENGTH)] = "Strength",
-        [WR_ROW(WR_PRESSURE_SIZE)] = "Size",
-        [WR_ROW(WR_PRESSURE_BOTH)] = "Both",
-        [WR_ROW(WR_PRESSURE_NONE)] = "Nothing",
-    };
-    WR_ROWS_END(names, WR_PRESSURE_COUNT);
-    int index = (int)app->settings->brush.pressure;
     if (app->settings->brush.preset) return; /* it has curves of its own */
     wr_gui_label("Pressure");
-    if (wr_gui_choice("pressure", 0, names, WR_PRESSURE_COUNT, &index))
-        app->settings->brush.pressure = (WrBrushPressure)index;
-    wr_gui_tip("What pressing harder turns");
+    wr_option_pressure(app, 0);
 }
 
 /* ---- settings of a preset ---- */

@@ -12,6 +12,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/jobs/trial.h"
+#include "ui/panels/panels.h"
 
 #include "base/array.h"
 #include "base/text.h"
@@ -290,16 +291,6 @@ static bool row(WrApp *app, int i)
 
 /* ---- the menu of a layer ---- */
 
-static void menu_item(WrApp *app, const char *name)
-{
-    char keys[32];
-    const WrAction *action = wr_action_find(app, name);
-    bool enabled = !action->enabled || action->enabled(app);
-    bool checked = action->checked && action->checked(app);
-    if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked, enabled))
-        wr_action_run(app, name);
-}
-
 static void menu(WrApp *app)
 {
     static const char *const names[] = { WR_ACT(layer_rename),
@@ -321,7 +312,7 @@ static void menu(WrApp *app)
     if (!wr_gui_popup_begin("layer")) return;
     for (int i = 0; names[i]; i++) {
         if (names[i][0] == '-') wr_gui_menu_separator();
-        else menu_item(app, names[i]);
+        else wr_menu_item(app, names[i]);
     }
     wr_gui_popup_end();
 }
@@ -348,7 +339,7 @@ static void foot(WrApp *app)
     };
     for (size_t i = 0; i < sizeof buttons / sizeof *buttons; i++) {
         const WrAction *action = wr_action_find(app, buttons[i].action);
-        bool enabled = !action->enabled || action->enabled(app);
+        bool enabled = wr_action_can(app, action);
         char keys[32], tip[96];
         if (i) wr_gui_same_line(8);
         wr_gui_disable(!enabled);

@@ -203,15 +203,15 @@ static void scale(WrApp *app)
     wr_gui_menu_end();
 }
 
-static void item(WrApp *app, const char *name)
+void wr_menu_item(WrApp *app, const char *name)
 {
     char keys[32];
     const WrAction *action = wr_action_find(app, name);
     WR_ASSERT(action);
     if (!action) return;
-    bool enabled = !action->enabled || action->enabled(app);
     bool checked = action->checked && action->checked(app);
-    if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked, enabled))
+    if (wr_gui_menu_item(action->label, wr_keys_label(app->keys, name, keys), checked,
+                         wr_action_can(app, action)))
         wr_action_run(app, name);
 }
 
@@ -243,7 +243,7 @@ static void generator_item(WrApp *app, const WrGenerator *generator)
 static void generators(WrApp *app)
 {
     if (!wr_gui_menu_begin("Generate")) return;
-    item(app, WR_ACT(generate));
+    wr_menu_item(app, WR_ACT(generate));
     wr_gui_menu_separator();
     for (const WrFamily *f = wr_families; f->name; f++) {
         if (!f->rows->family) continue;
@@ -275,7 +275,7 @@ static void compare(WrApp *app)
     if (!wr_gui_menu_begin("Patch shows")) return;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();
-        else item(app, names[i]);
+        else wr_menu_item(app, names[i]);
     wr_gui_menu_end();
 }
 
@@ -288,7 +288,7 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         else if (strcmp(*names, "scale") == 0) scale(app);
         else if (strcmp(*names, "operations") == 0) operations(app);
         else if (strcmp(*names, "compare") == 0) compare(app);
-        else item(app, *names);
+        else wr_menu_item(app, *names);
     }
     wr_gui_menu_end();
 }

@@ -78,7 +78,7 @@ static bool row(const WrApp *app, const Found *found, int i, bool chosen)
 {
     char keys[32];
     const WrAction *action = wr_action_find(app, found->name);
-    bool enabled = !action || !action->enabled || action->enabled(app);
+    bool enabled = !action || wr_action_can(app, action);
     WrRow r = wr_gui_row_begin(i, 26, chosen);
     wr_gui_row_at(wr_gui_px(14), 0);
     wr_gui_text_cut(WR_FONT_TEXT, enabled ? WR_COLOUR_TEXT : 0xff7a7a7au, found->label,

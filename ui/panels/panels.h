@@ -6,6 +6,7 @@
 #include <SDL.h>
 
 void wr_panel_menu(WrApp *app);
+void wr_menu_item(WrApp *app, const char *action); /* of any menu that is open */
 void wr_panel_options(WrApp *app);
 void wr_panel_tools(WrApp *app);
 void wr_panel_right(WrApp *app);

@@ -153,7 +153,7 @@ void wr_option_fill_mode(WrApp *app, double width)
     modes(app, width, true);
 }
 
-static void pressure(WrApp *app, double width)
+void wr_option_pressure(WrApp *app, double width)
 {
     WR_ROWS(names);
     static const char *const names[WR_PRESSURE_COUNT] = {
@@ -281,7 +281,7 @@ void wr_option_brush_row(WrApp *app, const WrOption *first, int first_count)
                                { "Opacity", 74, 0, wr_option_opacity, !strong },
                                { "Reach", 74, 0, reach, (uses & WR_USES_REACH) != 0 },
                                { "", 28, 0, wr_option_symmetry, true },
-                               { "Pressure", 86, 0, pressure, round && paints },
+                               { "Pressure", 86, 0, wr_option_pressure, round && paints },
                                { "Hand", 96, steadies ? 74 : 0, steady, paints },
                                { "Flow", 70, 0, flow, true },
                                { "Opacity", 74, 0, wr_option_opacity, strong } };

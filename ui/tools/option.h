@@ -26,5 +26,6 @@ void wr_option_strength(WrApp *app, double width);
 void wr_option_to_height(WrApp *app, double width);
 void wr_option_opacity(WrApp *app, double width);
 void wr_option_hardness(WrApp *app, double width);
+void wr_option_pressure(WrApp *app, double width);
 void wr_option_symmetry(WrApp *app, double width);
 const WrBrushModeInfo *wr_option_mode_of(const WrApp *app); /* what the brush's mode uses */

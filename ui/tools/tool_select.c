@@ -230,7 +230,7 @@ static void options(WrApp *app)
     wr_gui_same_line(16);
     for (int i = 0; i < 3; i++) {
         const WrAction *action = wr_action_find(app, names[i]);
-        wr_gui_disable(action->enabled && !action->enabled(app));
+        wr_gui_disable(!wr_action_can(app, action));
         if (wr_gui_chip(NULL, action->label)) wr_action_run(app, names[i]);
         wr_gui_enable();
         wr_gui_same_line(6);
