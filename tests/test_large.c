@@ -12,6 +12,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define SANITIZED 1
@@ -132,6 +133,26 @@ static void a_large_picture_takes_the_memory_of_a_band(void **state)
     wr_pool_free(pool);
 }
 
+/* All of it would be 4.3 GB. */
+static void a_tolerance_that_lacks_memory_tells_the_way_out(void **state)
+{
+    (void)state;
+    if (SANITIZED) skip(); /* they have terabytes of addresses */
+    static const char *const lines[] = { "tolerance rms=0.01", NULL };
+    WrError err = { "" };
+    struct rlimit was;
+    WrSession *s = session_with(NULL, 0, lines);
+    assert_int_equal(getrlimit(RLIMIT_AS, &was), 0);
+    const struct rlimit now = { .rlim_cur = 4000000000, .rlim_max = was.rlim_max };
+    assert_int_equal(setrlimit(RLIMIT_AS, &now), 0);
+    const bool good = wr_session_render(s, "tolerant.png", 16384, 16384, 0, &err);
+    assert_int_equal(setrlimit(RLIMIT_AS, &was), 0);
+    assert_false(good);
+    if (!strstr(err.text, "no memory for 4295 MB") || !strstr(err.text, "`tolerance off`"))
+        fail_msg("%s", err.text);
+    wr_session_free(s);
+}
+
 /* ---- giving up ---- */
 
 typedef struct Stop {
@@ -199,6 +220,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_by_bands_are_those_of_the_whole),
         cmocka_unit_test(a_large_picture_takes_the_memory_of_a_band),
+        cmocka_unit_test(a_tolerance_that_lacks_memory_tells_the_way_out),
         cmocka_unit_test(giving_up_leaves_nothing_and_progress_rises),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

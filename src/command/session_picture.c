@@ -137,8 +137,13 @@ static bool draw_first(Picture *picture, WrError *err)
         return true;
     }
     if (!wr_session_frame(picture->session, request->width, request->height, request->turn_deg,
-                          &picture->frame, err))
+                          &picture->frame, err)) {
+        if (whole && picture->step < request->height && !wr_progress_stopped())
+            wr_error_prefix(err,
+                            "under a tolerance a picture is held whole, without one (`tolerance "
+                            "off`) a band of it: ");
         return false;
+    }
     picture->step = request->height;
     return true;
 }
