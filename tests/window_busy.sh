@@ -87,6 +87,44 @@ becomes 'stroke *' "a stroke afterwards"
 key ctrl+z
 until_true 120 "the stroke undone" title_is after.exr
 
+# ---- a picture into a file: the command line's, and nothing is left of one that is given up ----
+ask_picture() {
+    xdotool key ctrl+Return
+    settle
+    xdotool type --delay 20 'render a picture'
+    home
+    key Return
+    home
+}
+ask_picture
+key Return # "Choose a file..."
+home
+key Return # picture.png
+until_true 120 "the picture" test -f picture.png
+rest
+"$program" render after.exr -o same.png --size 2048x2048 2>/dev/null
+cmp picture.png same.png || complain "the window's picture is another than the command line's"
+rm picture.png
+ask_picture
+for y in 349 378; do # width and height
+    xdotool mousemove $((X + 650)) $((Y + y)) keydown ctrl click 1 keyup ctrl
+    settle
+    key ctrl+a
+    xdotool type --delay 20 16384
+    key Return
+done
+home
+key Return
+home
+xdotool key Return
+halves() { find . -maxdepth 1 -name '.picture.png.*' | wc -l; }
+begun() { [[ $(halves) == 1 ]]; }
+until_true 120 "the large picture's file" begun
+until_true 120 "the bar of what takes long" shows_bar
+xdotool key Escape
+rest
+[[ $(halves) == 0 && ! -e picture.png ]] || complain "of a picture that was given up is left: $(find . -name '*picture*')"
+
 # ---- a wish to quit waits until it is done, or given up ----
 begin
 shot working

@@ -20,7 +20,7 @@ static bool run_render(WrSession *session, WrCall *call, WrError *err)
 {
     const double *size = wr_call_arg(call, "size")->numbers;
     return wr_session_render(session, wr_call_arg(call, "FILE")->text, (int)size[0], (int)size[1],
-                             0, err);
+                             wr_call_arg(call, "turn")->numbers[0], err);
 }
 
 /* ---- documents ---- */
@@ -134,6 +134,13 @@ static const WrArgSpec args_render[] = {
       .fallback = NUMBERS(512, 512),
       .unit = "pixels",
       .help = "of the picture" },
+    { .name = "turn",
+      .type = WR_ARG_NUMBER,
+      .low = -1e6,
+      .high = 1e6,
+      .fallback = NUMBERS(0),
+      .unit = "degrees",
+      .help = "of the object about the world's y axis" },
     { 0 }
 };
 

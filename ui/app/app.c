@@ -82,7 +82,12 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->pen = wr_pen_new(app->window);
     wr_tablet_start(app);
     app->keys = wr_keys_new();
-    *app->forms = (WrForms){ .cells_u = 8, .cells_v = 8, .line_width = 8, .high = 1 };
+    *app->forms = (WrForms){ .picture_width = 2048,
+                             .picture_height = 2048,
+                             .cells_u = 8,
+                             .cells_v = 8,
+                             .line_width = 8,
+                             .high = 1 };
     app->visible = true;
     wr_app_read_keys(app);
     wr_shelf_start(app);

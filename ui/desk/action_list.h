@@ -8,6 +8,7 @@
     X(open, "Ctrl+O")                                                                              \
     X(save, "Ctrl+S")                                                                              \
     X(save_as, "Ctrl+Shift+S")                                                                     \
+    X(render, "")                                                                                  \
     X(export, "Ctrl+E Ctrl+Shift+E")                                                               \
     X(save_history, "")                                                                            \
     X(quit, "Ctrl+Q")                                                                              \

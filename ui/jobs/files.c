@@ -54,6 +54,7 @@ static const struct {
     [WR_ROW(WR_FILE_OPEN)] = { "Open", "Open", NULL },
     [WR_ROW(WR_FILE_SAVE)] = { "Save as", "Save", ".exr" },
     [WR_ROW(WR_FILE_EXPORT)] = { "Export to", "Export", ".png" },
+    [WR_ROW(WR_FILE_RENDER)] = { "Render to", "Render", ".png" },
     [WR_ROW(WR_FILE_IMPORT)] = { "Import heights", "Import", NULL },
     [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle" },
     [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL },
@@ -270,7 +271,8 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     files->answer[0] = '\0';
     files->agreed = false;
     /* While the name is chosen. */
-    if (purpose == WR_FILE_SAVE || purpose == WR_FILE_EXPORT) wr_image_warm_writing();
+    if (purpose == WR_FILE_SAVE || purpose == WR_FILE_EXPORT || purpose == WR_FILE_RENDER)
+        wr_image_warm_writing();
     char *from = folder ? wr_strdup(folder) : realpath(".", NULL);
     char *start_at = wr_path_join(from ? from : "/", name);
     bool native = ask_native(files, start_at);

@@ -6,14 +6,17 @@
 #include "ui/desk/dialog.h"
 #include "ui/desk/document.h"
 #include "ui/desk/line.h"
+#include "ui/desk/messages.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/panels/panels.h"
+#include "ui/patch/patch.h"
 #include "ui/jobs/files.h"
 
 #include "base/rows.h"
 #include "base/text.h"
+#include "command/call.h"
 #include "document/document_file.h"
 #include "export/export.h"
 
@@ -142,9 +145,9 @@ void wr_dialog_import(WrApp *app)
 }
 
 /* What it will take does not go by the name. */
-static void export_line(const WrApp *app, char *line, size_t size)
+static void add_export_line(const WrApp *app, WrText *line)
 {
-    snprintf(line, size, "export %s x.png", wr_export_kinds[app->forms->kind].name);
+    wr_text_addf(line, "export %s x.png", wr_export_kinds[app->forms->kind].name);
 }
 
 void wr_dialog_export(WrApp *app)
@@ -168,21 +171,74 @@ void wr_dialog_export(WrApp *app)
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
                         "The format goes by the file's ending: png and tif with 16 bits, exr with "
                         "float, jpg with 8.");
-    char line[64];
-    export_line(app, line, sizeof line);
+    WrText line = { 0 };
+    add_export_line(app, &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
-    wr_panel_estimate(app, line);
+    wr_panel_estimate(app, wr_text_get(&line));
+    wr_text_fini(&line);
     if (agreed && !wr_files_ask(app->files, WR_FILE_EXPORT, NULL, "height.png"))
         wr_dialog_open(app, WR_DIALOG_FILE);
     wr_gui_dialog_end();
 }
 
+/* What makes that picture, turned as the view is. */
+static void add_render_line(const WrApp *app, const char *path, WrText *line)
+{
+    wr_text_add(line, "render ");
+    wr_text_add_word(line, path);
+    wr_text_addf(line, " size=%dx%d", (int)rint(app->forms->picture_width),
+                 (int)rint(app->forms->picture_height));
+    wr_line_number(line, "turn", app->patch->turn_deg);
+}
+
+void wr_dialog_render(WrApp *app)
+{
+    WrForms *f = app->forms;
+    WrText line = { 0 };
+    if (!wr_gui_dialog_begin("Render a picture", 440)) return;
+    wr_gui_text_wrapped(
+        WR_FONT_TEXT, WR_COLOUR_LABEL,
+        "Of the scene as it is, turned as the view is now. A large one takes no more "
+        "memory than a band of it.");
+    number("Width", 16, 4096, 1, 16384, 2048, 0, "pixels", &f->picture_width);
+    number("Height", 16, 4096, 1, 16384, 2048, 0, "pixels", &f->picture_height);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        "The format goes by the file's ending: exr and tif hold linear float with "
+                        "coverage, png, jpg and others 8-bit sRGB over the background.");
+    add_render_line(app, "x.png", &line);
+    const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
+    wr_panel_estimate(app, wr_text_get(&line));
+    wr_text_fini(&line);
+    if (agreed && !wr_files_ask(app->files, WR_FILE_RENDER, NULL, "picture.png"))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_gui_dialog_end();
+}
+
+void wr_file_take_render(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    add_render_line(app, path, &line);
+    if (wr_app_run_line(app, wr_text_get(&line)) && app->messages->list.count == 0)
+        wr_app_say(app, "Rendered %s", path);
+    wr_text_fini(&line);
+}
+
+/* The line that will take what it takes, whatever the file's name; "" where it is done at once. */
+static void file_line(const WrApp *app, WrText *line)
+{
+    const WrFilePurpose of = wr_files_purpose(app->files);
+    if (of == WR_FILE_SAVE) wr_text_add(line, "save x.exr");
+    if (of == WR_FILE_EXPORT) add_export_line(app, line);
+    if (of == WR_FILE_RENDER) add_render_line(app, "x.png", line);
+}
+
 void wr_dialog_file(WrApp *app)
 {
-    char takes[WR_EXPECTATION] = "", line[64] = "save x.exr";
-    WrFilePurpose of = wr_files_purpose(app->files);
-    if (of == WR_FILE_EXPORT) export_line(app, line, sizeof line);
-    if (of == WR_FILE_EXPORT || of == WR_FILE_SAVE) wr_expectation(app, line, takes);
+    char takes[WR_EXPECTATION] = "";
+    WrText line = { 0 };
+    file_line(app, &line);
+    if (line.length > 0) wr_expectation(app, wr_text_get(&line), takes);
+    wr_text_fini(&line);
     int answer = wr_files_panel(app->files, takes);
     if (answer == 0) return;
     wr_dialog_close(app);
