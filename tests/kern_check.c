@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "field/field.h"
 #include "render/kern.h"
+#include "render/srgb_codes.h"
 #include "render/pyramid.h"
 #include "system/clock.h"
 
@@ -271,6 +272,19 @@ static bool run_light(const WrKernels *k, Bench *b, int member, int count)
     }
 }
 
+/* All of a light at once, then codes of what came of it. */
+static bool run_shade(const WrKernels *k, Bench *b, int member, int count)
+{
+    if (member >= 32) return false;
+    const WrKernShine shine = { 0.4f, 17, member & 16 };
+    const WrKernMatter matter = { 0.1f, 0.7f, { 0.8f, 0.7f, 0.6f } };
+    b->strip.count = count;
+    b->rays = some_rays(member & 1);
+    k->shade[member >> 1 & 1][member & 1][member >> 2 & 1][member >> 3 & 1](
+        &b->rays, &b->light[member >> 1 & 1], &shine, &matter, &b->strip);
+    return true;
+}
+
 static bool run_hit_at(const WrKernels *k, Bench *b, int member, int count)
 {
     const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
@@ -343,7 +357,8 @@ static const struct {
     { "hit", run_hit },           { "round", run_round },         { "polish", run_polish },
     { "geometry", run_geometry }, { "curvature", run_curvature }, { "points", run_points },
     { "look", run_look },         { "bump", run_bump },           { "light", run_light },
-    { "hit at", run_hit_at },     { "filter", run_filter },       { "bound", run_bound },
+    { "shade", run_shade },       { "hit at", run_hit_at },       { "filter", run_filter },
+    { "bound", run_bound },
 };
 #define FAMILIES (int)(sizeof families / sizeof *families)
 
@@ -430,6 +445,38 @@ static void fast_kernels_stay_within_their_bound(void **state)
     }
 }
 
+/* Codes are whole numbers: every set gives the same, of strips and of premultiplied colours. */
+static void all_sets_make_the_same_codes(void **state)
+{
+    (void)state;
+    const char *const names[] = { "v1", "v2", "v3", "v4" };
+    static uint32_t bins[WR_CODE_BINS + 1], want[WR_SPAN], got[WR_SPAN];
+    static float rgba[WR_SPAN][4];
+    const float ground[3] = { 0.3f, 0.05f, 0.9f };
+    const WrKernels *ref = wr_kernels_get("ref", false, NULL);
+    TestRandom random = { seed };
+    WrStrip *strip = wr_alloc(1, sizeof *strip);
+    wr_code_bins_fill(bins);
+    for (int round = 0; round < 40; round++) {
+        const int count = round < 20 ? round : 237 + round % 20;
+        fill_strip(&random, strip);
+        strip->count = count;
+        for (int i = 0; i < WR_SPAN * 4; i++) rgba[i / 4][i % 4] = (float)test_random(&random);
+        strip->cg[3] = NAN, strip->cb[7] = -INFINITY, rgba[5][1] = INFINITY;
+        for (int i = 0; i < 4; i++) {
+            const WrKernels *set = wr_kernels_get(names[i], false, NULL);
+            if (!set) continue;
+            assert_int_equal(set->codes(bins, strip, got), ref->codes(bins, strip, want));
+            assert_memory_equal(got, want, (size_t)count * sizeof *got);
+            assert_int_equal(set->codes_over(bins, ground, count, rgba[0], got),
+                             ref->codes_over(bins, ground, count, rgba[0], want));
+            assert_memory_equal(got, want, (size_t)count * sizeof *got);
+        }
+        if (count > 7) assert_true(ref->codes(bins, strip, want) >= 2);
+    }
+    wr_free(strip);
+}
+
 static void unknown_sets_are_refused(void **state)
 {
     (void)state;
@@ -483,6 +530,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exact_kernels_give_the_bits_of_the_reference),
         cmocka_unit_test(fast_kernels_stay_within_their_bound),
+        cmocka_unit_test(all_sets_make_the_same_codes),
         cmocka_unit_test(unknown_sets_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

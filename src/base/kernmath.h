@@ -24,6 +24,14 @@ static inline int32_t wr_float_bits(float value)
     return u.i;
 }
 
+/* A power of two that brings m, finite and not negative, below 4, and what is not 0 to no less than 2^-22. */
+static inline float wr_scale_down_f(float m)
+{
+    const int32_t power = wr_float_bits(m) & 0x7f800000,
+                  most = 0x7e800000; /* 2^126: its reciprocal is normal */
+    return wr_bits_float(0x7f000000 - (power < most ? power : most));
+}
+
 /* The nearest IEEE binary16, ties to even; at most 65504, which infinities and no numbers become too. */
 static inline float wr_round_half(float x)
 {
@@ -103,7 +111,7 @@ static inline float wr_exp2_f(float x)
 {
     x = x < -126.0f ? -126.0f : x;
     x = x > 127.0f ? 127.0f : x;
-    float n = floorf(x + 0.5f), f = x - n;
+    float n = (float)((int32_t)(x + 126.5f) - 126), f = x - n; /* the nearest whole number */
     float p =
         1.0f + f * (0.693147182f +
                     f * (0.240226507f +
@@ -113,7 +121,8 @@ static inline float wr_exp2_f(float x)
 }
 
 /* x^s for 0 <= x <= 1 and s >= 0, with 1 - x as `below`: pow(0,0) = 1, pow(0,s) = 0, result 0..1 (HC89,
-   HC90). Values below 2^-126 become 0. */
+   HC90). Values below 2^-100 become 0: nobody sees them, and what they are multiplied with must not come to a number
+   that processors are slow at. */
 static inline float wr_pow_below_f(float x, float below, float s)
 {
     below = below > 0.0f ? below : 0.0f;
@@ -121,7 +130,7 @@ static inline float wr_pow_below_f(float x, float below, float s)
     float tiny = x > 1.2e-38f ? x : 1.2e-38f;
     float e = s * wr_log2_below_f(tiny, below);
     float p = wr_exp2_f(e);
-    p = e < -126.0f ? 0.0f : p;
+    p = e < -100.0f ? 0.0f : p;
     p = x > 1.2e-38f ? p : 0.0f;
     return s > 0.0f ? p : 1.0f;
 }

@@ -77,7 +77,8 @@ bool wr_bench_run(const WrCli *cli, WrBenchRow *rows, int count, int runs, bool 
                                        .scene = lanes[i].scene,
                                        .width = rows[i].size,
                                        .height = rows[i].size,
-                                       .turn_deg = 7.3 * run };
+                                       .turn_deg = 7.3 * run,
+                                       .codes = { .wanted = true } }; /* as it is shown */
             good = wr_renderer_frame(lanes[i].renderer, &request, &frame, err);
             if (good && run >= 0) lanes[i].ms[run] = frame.times.total * 1e3;
             if (good) rows[i].covered = frame.covered;

@@ -10,6 +10,7 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <string.h>
 
 #define WR_SAMPLE_POINTS 96
 #define WR_SAMPLE_SECONDS 1.2
@@ -22,7 +23,6 @@ struct WrSampler {
     WrScene *scene;
     WrRenderer *renderer;
     WrField *ridges; /* what brushes that need a ground are tried on */
-    uint8_t *rgb;
 };
 
 /* ---- the table ---- */
@@ -165,7 +165,6 @@ WrSampler *wr_sampler_new(const WrCli *cli, int width, int height, WrError *err)
     sampler->width = width;
     sampler->height = height;
     sampler->ridges = make_ridges();
-    sampler->rgb = wr_alloc((size_t)width * (size_t)height, 3);
     sampler->scene = make_scene(cli, err);
     if (sampler->scene) sampler->renderer = wr_renderer_new(cli->pool, cli->isa, err);
     if (sampler->renderer) return sampler;
@@ -179,7 +178,6 @@ void wr_sampler_free(WrSampler *sampler)
     wr_renderer_free(sampler->renderer);
     wr_scene_free(sampler->scene);
     wr_field_free(sampler->ridges);
-    wr_free(sampler->rgb);
     wr_free(sampler);
 }
 
@@ -191,11 +189,12 @@ bool wr_sampler_paint(WrSampler *sampler, const WrPreset *preset, uint8_t *grey,
     WrFrameRequest request = {
         .field = field, .scene = sampler->scene, .width = sampler->width, .height = sampler->height
     };
+    request.codes.wanted = true;
+    memcpy(request.codes.background, sampler->scene->background, sizeof request.codes.background);
     bool good = wr_renderer_frame(sampler->renderer, &request, &frame, err);
     if (good) {
         size_t count = (size_t)sampler->width * (size_t)sampler->height;
-        wr_frame_to_srgb8(&frame, sampler->scene->background, false, sampler->rgb, sampler->pool);
-        for (size_t i = 0; i < count; i++) grey[i] = sampler->rgb[3 * i];
+        for (size_t i = 0; i < count; i++) grey[i] = (uint8_t)(frame.codes[i] >> 16);
     }
     wr_field_free(field);
     return good;

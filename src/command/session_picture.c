@@ -75,12 +75,12 @@ typedef struct Picture {
     int64_t replaced;
 } Picture;
 
-/* Rows of a band: whole strips, as files are written; all where they fit. */
-static int band_rows(const WrSession *session, int width, int height)
+/* Rows of a band: whole strips, as files are written; all where they fit. pixel: bytes. */
+static int band_rows(const WrSession *session, int width, int height, size_t pixel)
 {
     const size_t most =
         session->options.picture_bytes ? session->options.picture_bytes : WR_PICTURE_BYTES;
-    const size_t row = (size_t)(width > 0 ? width : 1) * 4 * sizeof(float);
+    const size_t row = (size_t)(width > 0 ? width : 1) * pixel;
     const size_t strips = most / row / WR_IMAGE_STRIP;
     if (strips * WR_IMAGE_STRIP >= (size_t)height) return height;
     return strips > 0 ? (int)strips * WR_IMAGE_STRIP : WR_IMAGE_STRIP;
@@ -90,6 +90,14 @@ static int band_rows(const WrSession *session, int width, int height)
 static double done_of(const Picture *picture, double share)
 {
     return (picture->first + share * picture->frame.height) / picture->request.height;
+}
+
+static bool draw(Picture *picture, WrError *err)
+{
+    if (!wr_renderer_frame(picture->session->renderer, &picture->request, &picture->frame, err))
+        return false;
+    picture->replaced += picture->frame.wild;
+    return true;
 }
 
 static bool draw_band(Picture *picture, int y, WrError *err)
@@ -102,8 +110,7 @@ static bool draw_band(Picture *picture, int y, WrError *err)
     picture->request.rows = picture->frame.height;
     const WrProgress *whole =
         wr_progress_enter(&part, done_of(picture, 0.0), done_of(picture, picture->drawn));
-    const bool good =
-        wr_renderer_frame(picture->session->renderer, &picture->request, &picture->frame, err);
+    const bool good = draw(picture, err);
     wr_progress_set(whole);
     return good;
 }
@@ -114,10 +121,12 @@ static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
     Picture *picture = ctx;
     if (y >= picture->first + picture->frame.height && !draw_band(picture, y, err)) return false;
     const size_t width = (size_t)picture->request.width, row = width * 4 * sizeof(float);
+    const size_t before = (size_t)(y - picture->first) * width;
     WrFrame strip = picture->frame;
-    strip.rgba += (size_t)(y - picture->first) * width * 4;
+    if (strip.rgba) strip.rgba += 4 * before;
     strip.height = rows;
-    if (picture->linear) memcpy(out, strip.rgba, (size_t)rows * row);
+    if (strip.codes) wr_codes_to_rgb(strip.codes + before, (size_t)rows * width, out);
+    else if (picture->linear) memcpy(out, strip.rgba, (size_t)rows * row);
     else
         picture->replaced += wr_frame_to_srgb8(&strip, picture->request.scene->background, false,
                                                out, picture->session->options.pool);
@@ -136,8 +145,9 @@ static bool draw_first(Picture *picture, WrError *err)
         picture->drawn = DRAWN;
         return true;
     }
-    if (!wr_session_frame(picture->session, request->width, request->height, request->turn_deg,
-                          &picture->frame, err)) {
+    if (whole ? !wr_session_frame(picture->session, request->width, request->height,
+                                  request->turn_deg, &picture->frame, err)
+              : !draw(picture, err)) {
         if (whole && picture->step < request->height && !wr_progress_stopped())
             wr_error_prefix(err,
                             "under a tolerance a picture is held whole, without one (`tolerance "
@@ -211,14 +221,16 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
                        WrError *err)
 {
     const bool linear = is_linear(path);
-    Picture picture = { .session = session,
-                        .step = band_rows(session, width, height),
-                        .linear = linear };
+    Picture picture = { .session = session, .linear = linear };
     if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8, linear ? 4 : 3, linear, err))
         return false;
     if (!check_target(path, err) ||
         !make_request(session, width, height, turn_deg, &picture.request, err))
         return false;
+    const WrScene *scene = picture.request.scene;
+    picture.step = band_rows(session, width, height, linear ? 4 * sizeof(float) : sizeof(uint32_t));
+    picture.request.codes.wanted = !linear && scene->tolerance.kind == WR_TOLERANCE_NONE;
+    memcpy(picture.request.codes.background, scene->background, sizeof scene->background);
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, DRAWN);
     bool good = draw_first(&picture, err);

@@ -20,6 +20,7 @@ WrRenderer *wr_renderer_new(WrPool *pool, const char *isa, WrError *err)
     renderer->pool = pool;
     renderer->threads = wr_pool_threads(pool);
     renderer->scratch = wr_alloc((size_t)renderer->threads, sizeof *renderer->scratch);
+    wr_code_bins_fill(renderer->bins);
     snprintf(renderer->isa, sizeof renderer->isa, "%s", isa ? isa : "auto");
     wr_table_init(&renderer->table);
     return renderer;
@@ -63,6 +64,7 @@ void wr_renderer_free(WrRenderer *renderer)
     }
     wr_free(renderer->scratch);
     wr_free(renderer->rgba);
+    wr_free(renderer->codes);
     wr_free(renderer);
 }
 
@@ -77,21 +79,32 @@ static bool check_size(const WrFrameRequest *request, WrError *err)
     return true;
 }
 
+static void drop_picture(WrRenderer *renderer)
+{
+    wr_free(renderer->rgba);
+    wr_free(renderer->codes);
+    renderer->rgba = NULL;
+    renderer->codes = NULL;
+    renderer->width = renderer->height = 0;
+}
+
 /* Memory for what is asked for. One band takes the next one's place. */
 static bool resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     if (!check_size(request, err)) return false;
-    const bool banded = request->rows > 0;
+    const bool banded = request->rows > 0, codes = request->codes.wanted;
     const int width = request->width, height = request->height;
     const int rows = banded ? request->rows : height;
-    if (!renderer->rgba || renderer->width != width || renderer->height != height ||
-        renderer->banded != banded || renderer->room < rows) {
-        float *rgba = wr_try_alloc((size_t)width * (size_t)rows, 4 * sizeof(float), "picture", err);
-        if (!rgba) return false;
-        wr_free(renderer->rgba);
-        renderer->rgba = rgba;
-        renderer->room = rows;
-    }
+    if (renderer->width != width || renderer->height != height || renderer->banded != banded ||
+        renderer->room < rows)
+        drop_picture(renderer);
+    if (renderer->width == 0) renderer->room = rows;
+    const size_t room = (size_t)width * (size_t)renderer->room;
+    if (codes && !renderer->codes)
+        renderer->codes = wr_try_alloc(room, sizeof *renderer->codes, "picture", err);
+    if (!codes && !renderer->rgba)
+        renderer->rgba = wr_try_alloc(room, 4 * sizeof(float), "picture", err);
+    if (codes ? !renderer->codes : !renderer->rgba) return false;
     renderer->width = width;
     renderer->height = height;
     renderer->banded = banded;
@@ -147,6 +160,16 @@ static void render_tile(int index, int worker, void *ctx)
     job->scratch[worker]->all += wr_clock_seconds() - start;
 }
 
+static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJob *job)
+{
+    job->codes = renderer->codes;
+    job->rgba = NULL;
+    for (int c = 0; c < 3; c++) job->background[c] = (float)codes->background[c];
+    const float nothing[4] = { 0 };
+    job->coder->codes_over(job->bins, job->background, 1, nothing, &job->backdrop);
+    job->backdrop &= 0xffffffU; /* no alpha while nothing is there */
+}
+
 static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
                           const WrKernels *kernels)
 {
@@ -163,7 +186,12 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
                       .height = renderer->height,
                       .top = renderer->top,
                       .rows = renderer->rows,
-                      .rgba = renderer->rgba };
+                      .rgba = renderer->rgba,
+                      .rgba_pitch = (size_t)renderer->width,
+                      .y0 = renderer->top,
+                      .bins = renderer->bins,
+                      .coder = wr_kernels_get(renderer->isa, false, NULL) };
+    if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
     if (request) wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
     if (request) job.normals = request->normals;
     wr_tile_size(job.samples, plan->sampling == WR_SAMPLING_ADAPTIVE, request && request->only,
@@ -202,12 +230,19 @@ static bool may_keep(const WrFrameRequest *request)
     return request->keep && !request->only && !request->rows;
 }
 
+static bool same_output(const WrFrameCodes *a, const WrFrameCodes *b)
+{
+    return a->wanted == b->wanted &&
+           (!a->wanted || memcmp(a->background, b->background, sizeof a->background) == 0);
+}
+
 /* Does the last picture show what this request asks for, but for edits of the table? */
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
 {
     return may_keep(request) && !request->normals && same_view(renderer, request) &&
-           renderer->kernels == kernels && wr_plan_same(before, &renderer->plan) &&
+           same_output(&renderer->last.codes, &request->codes) && renderer->kernels == kernels &&
+           wr_plan_same(before, &renderer->plan) &&
            wr_keep_compare(&renderer->keep, renderer->looked,
                            wr_schemes[renderer->plan.scheme].reach + 2);
 }

@@ -5,6 +5,7 @@
 #include "render/plan.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef struct WrDials WrDials;
@@ -16,6 +17,12 @@ typedef struct WrScene WrScene;
 typedef struct WrRenderer WrRenderer;
 
 #define WR_FRAME_BLOCK 8 /* pixels */
+
+/* The picture as 8-bit sRGB over a background: a quarter of the memory, and each pixel is written once. */
+typedef struct WrFrameCodes {
+    bool wanted;          /* instead of rgba */
+    double background[3]; /* linear R, G, B */
+} WrFrameCodes;
 
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */
@@ -40,6 +47,7 @@ typedef struct WrFrameRequest {
        [height or else rows][width][3], the caller's; NULL: not wanted. One sample a pixel is taken, whatever the
        dials say of supersampling. */
     float *normals;
+    WrFrameCodes codes;
     /* Effects that run, or do not, whatever the scene calls for: [WR_EFFECT_COUNT]; NULL: none. */
     const WrForce *force;
     bool full; /* run whatever the plan could leave out without changing the picture */
@@ -55,7 +63,11 @@ typedef struct
 typedef struct WrFrame {
     int width, height; /* a band's: its rows */
     float *rgba; /* [height][width][4] linear, premultiplied; A is coverage; owned by the renderer,
-                    valid until its next frame */
+                    valid until its next frame; NULL where codes were wanted */
+    const uint32_t *
+        codes; /* [height][width] opaque 0xAARRGGBB, on little-endian machines B,G,R,A in memory; the same
+                              codes as wr_frame_to_srgb8 makes of rgba; or NULL; the renderer's, as rgba */
+    int64_t wild; /* of the numbers that this frame made codes of: not finite, taken as 0 (HC96) */
     int64_t covered; /* pixels with coverage > 0 */
     int64_t shaded;  /* samples shaded for this frame */
     WrStageTimes times;
@@ -78,6 +90,9 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
    opaque alpha in memory order B,G,R,A when bgra. Non-finite counts as 0; returns how many (HC96). */
 int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool bgra, uint8_t *out,
                           WrPool *pool);
+
+/* Codes as bytes R,G,B. */
+void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out);
 
 /* The (u,v) under a pixel position (from the top left, pixels) of the last frame; false where the
    object is not. face: 0 but on the cube. */

@@ -16,7 +16,7 @@ void wr_frame_start_counts(WrRenderer *renderer)
         memset(s->seconds, 0, sizeof s->seconds);
         memset(s->whole, 0, sizeof s->whole);
         s->all = s->all_strips = 0;
-        s->covered = s->shaded = s->tiles = s->wide_samples = 0;
+        s->covered = s->wild = s->shaded = s->tiles = s->wide_samples = 0;
         s->strips = 0;
         s->ran = 0;
     }
@@ -66,15 +66,16 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
     uint32_t ran = 0;
     WrPlan *plan = &renderer->plan;
     const double total = wr_clock_seconds() - started;
-    *frame = (WrFrame){
-        .width = renderer->width, .height = renderer->rows, .rgba = renderer->rgba, .plan = plan
-    };
+    *frame = (WrFrame){ .width = renderer->width, .height = renderer->rows, .plan = plan };
+    if (renderer->last.codes.wanted) frame->codes = renderer->codes;
+    else frame->rgba = renderer->rgba;
     for (int i = 0; i < renderer->threads; i++) {
         const WrTileScratch *s = renderer->scratch[i];
         rest += add_thread(s, seconds);
         busy += s->all;
         frame->covered += s->covered;
         frame->shaded += s->shaded;
+        frame->wild += s->wild;
         tiles += s->tiles;
         filtered += s->wide_samples;
         ran |= s->ran;
@@ -93,7 +94,8 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
         .geometry = seconds[WR_STAGE_GEOMETRY] + seconds[WR_STAGE_CURVATURE],
         .bump = seconds[WR_STAGE_FOOTPRINT] + seconds[WR_STAGE_LOOK] + seconds[WR_STAGE_PYRAMID] +
                 seconds[WR_STAGE_BUMP] + seconds[WR_STAGE_SPREAD],
-        .shade = seconds[WR_STAGE_COLOUR] + seconds[WR_STAGE_DIFFUSE] + seconds[WR_STAGE_SPECULAR],
+        .shade = seconds[WR_STAGE_COLOUR] + seconds[WR_STAGE_DIFFUSE] + seconds[WR_STAGE_SPECULAR] +
+                 seconds[WR_STAGE_LIGHT],
         .resolve = seconds[WR_STAGE_RESOLVE] + seconds[WR_STAGE_BOUND] + seconds[WR_STAGE_STORE],
         .pyramid = renderer->pyramid_seconds,
         .total = total,

@@ -6,6 +6,7 @@
 #include "render/keep.h"
 #include "render/pyramid.h"
 #include "render/rounded.h"
+#include "render/srgb_codes.h"
 #include "render/table.h"
 #include "render/tile.h"
 
@@ -36,7 +37,9 @@ struct WrRenderer {
     ColourCopy colour;
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
-    float *rgba; /* the last picture, or the last band of it */
+    float *rgba;     /* the last picture, or the last band of it ... */
+    uint32_t *codes; /* ... or the same as codes; each made when it is first wanted */
+    uint32_t bins[WR_CODE_BINS + 1];
     int width, height;
     int top, rows; /* of the picture: what rgba holds */
     int room;      /* rows that rgba has memory for */

@@ -11,6 +11,7 @@
 #include "surface/surface.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #define WR_SPAN 256 /* samples in a strip */
 

@@ -7,6 +7,7 @@
 #include "render/kern.h"
 #include "render/kern_double_math.h"
 #include "render/pyramid.h"
+#include "render/srgb_codes.h"
 
 #include <float.h>
 #include <stddef.h>
@@ -18,6 +19,7 @@
 #define r_sincos_turns wr_sincos_turns_r
 #define r_atan2_turns wr_atan2_turns_r
 #define r_pow_below wr_pow_below_r
+#define r_scale_down wr_scale_down_r
 #define r_floor floor
 #define ROUNDED K_(0x1p-46)
 #define STRIP WrStripd
@@ -26,6 +28,7 @@
 #define LOOK WrLookd
 #define LIGHT WrKernLightd
 #define SHINE WrKernShined
+#define MATTER WrKernMatterd
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
 #define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
@@ -34,6 +37,7 @@
 #include "surface/formula.h"
 #define r_atan2_turns wr_atan2_turns_f
 #define r_pow_below wr_pow_below_f
+#define r_scale_down wr_scale_down_f
 #define r_floor floorf
 #define ROUNDED K_(0x1p-18)
 #define STRIP WrStrip
@@ -42,6 +46,7 @@
 #define LOOK WrLook
 #define LIGHT WrKernLight
 #define SHINE WrKernShine
+#define MATTER WrKernMatter
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif
@@ -78,31 +83,41 @@ ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, RE
 #define RAY_Q(rays, gy, gx) affine((rays)->q0, (rays)->qy, (rays)->qx, gy, gx)
 #define RAY_D(rays, gy, gx) affine((rays)->d0, (rays)->dy, (rays)->dx, gy, gx)
 
-/* Keep the samples that hit, in order; s moves along, and with `spread` their places too. */
-ALWAYS int compact(int count, const bool spread, STRIP *strip)
+/* Keep the samples that hit, in order, with what `move` holds of them. Most hits are neighbours: whole runs move. */
+ALWAYS int compact(int count, STRIP *strip, REAL *const *move, const int moves)
 {
-    int hits = 0;
-    SIMD for (int i = 0; i < count; i++)
-    {
-        strip->index[i] = i;
-    }
+    int hits = 0, first = 0, run = 0;
     SIMD_SUM(hits) for (int i = 0; i < count; i++)
     {
         hits += strip->s[i] < MISS ? 1 : 0;
     }
     strip->count = hits;
-    if (hits == 0 || hits == count) return hits; /* nothing moves */
+    if (hits == 0) return 0;
+    while (!(strip->s[first] < MISS)) first++;
+    while (run < hits && strip->s[first + run] < MISS) run++;
+    if (run == hits) {
+        SIMD for (int i = 0; i < hits; i++)
+        {
+            strip->index[i] = first + i;
+        }
+        for (int k = 0; k < moves && first > 0; k++)
+            memmove(move[k], move[k] + first, (size_t)hits * sizeof *move[k]);
+        return hits;
+    }
     hits = 0;
     for (int i = 0; i < count; i++) {
         strip->index[hits] = i;
-        strip->s[hits] = strip->s[i];
-        if (spread) {
-            strip->x[hits] = strip->x[i];
-            strip->y[hits] = strip->y[i];
-        }
+        for (int k = 0; k < moves; k++) move[k][hits] = move[k][i];
         hits += strip->s[i] < MISS;
     }
     return hits;
+}
+
+/* The same of points; `spread`: their places too. */
+ALWAYS int compact_points(int count, const bool spread, STRIP *strip)
+{
+    REAL *const move[] = { strip->px, strip->py, strip->pz, strip->x, strip->y };
+    return compact(count, strip, move, spread ? 5 : 3);
 }
 
 static inline REAL clamp01(REAL x)
@@ -126,16 +141,15 @@ ALWAYS REAL longest(VEC a)
     return larger(larger(r_abs(a.x), r_abs(a.y)), r_abs(a.z));
 }
 
-/* a / |a|, `otherwise` where a is 0: scaled by its largest component first, so no square overflows. */
-static inline VEC unit_or(VEC a, VEC otherwise)
+/* a / |a|, `otherwise` where a is 0: scaled by a power of two first, so no square overflows. */
+ALWAYS VEC unit_or(VEC a, VEC otherwise)
 {
     REAL m = longest(a);
-    REAL k = m > 0.0f ? m : 1.0f;
-    REAL x = a.x / k, y = a.y / k, z = a.z / k;
-    REAL len = r_sqrt(x * x + y * y + z * z);
-    REAL inv = 1.0f / (m > 0.0f ? len : 1.0f);
-    return (VEC){ m > 0.0f ? x * inv : otherwise.x, m > 0.0f ? y * inv : otherwise.y,
-                  m > 0.0f ? z * inv : otherwise.z };
+    VEC b = v_scale(a, r_scale_down(m));
+    bool good = m > 0.0f;
+    REAL inv = K_(1) / r_sqrt(good ? v_dot(b, b) : K_(1));
+    return (VEC){ good ? b.x * inv : otherwise.x, good ? b.y * inv : otherwise.y,
+                  good ? b.z * inv : otherwise.z };
 }
 
 #include "render/kern_hit_body.h"
@@ -147,6 +161,7 @@ static inline VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_filter_body.h"
 #include "render/kern_moments_body.h"
 #include "render/kern_bound_body.h"
+#include "render/kern_store_body.h"
 
 WR_ROWS(kernels);
 const KERNELS WR_KERN_TABLE = {
@@ -201,7 +216,12 @@ const KERNELS WR_KERN_TABLE = {
     .specular = kern_specular,
     .specular_lean = kern_specular_lean,
     .specular_toksvig = kern_specular_toksvig,
+#ifndef WR_KERN_DOUBLE
+    .shade = { { SHADE_ROWS(0, 0), SHADE_ROWS(0, 1) }, { SHADE_ROWS(1, 0), SHADE_ROWS(1, 1) } },
+#endif
     .finish = kern_finish,
+    .codes = kern_codes,
+    .codes_over = kern_codes_over,
     .bound_sphere = kern_bound_sphere,
     .bound_quad = kern_bound_quad,
     .bound_slopes = kern_bound_slopes,

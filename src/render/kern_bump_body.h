@@ -18,6 +18,12 @@ static inline REAL side_of(Viewer viewer, const STRIP *strip, int i)
     return v_dot(LOAD3(strip, n, i), w) < 0.0f ? -1.0f : 1.0f;
 }
 
+/* What slopes beyond STEEP, and N with them, are multiplied by. */
+ALWAYS REAL eased(REAL steepest)
+{
+    return steepest > STEEP ? STEEP * r_scale_down(steepest) : K_(1);
+}
+
 #define BUMP_BEGIN(name)                                                                           \
     FLAT static void kern_bump_##name(const RAYS *rays, STRIP *strip)                              \
     {                                                                                              \
@@ -38,7 +44,7 @@ static inline REAL side_of(Viewer viewer, const STRIP *strip, int i)
     REAL fu = strip->fu[i], fv = strip->fv[i];                                                     \
     bool level = fu == 0.0f && fv == 0.0f;                                                         \
     REAL steepest = r_abs(fu) > r_abs(fv) ? r_abs(fu) : r_abs(fv);                                 \
-    REAL k = steepest > STEEP ? STEEP / steepest : 1.0f;                                           \
+    REAL k = eased(steepest);                                                                      \
     fu *= k;                                                                                       \
     fv *= k
 
@@ -89,7 +95,7 @@ VEC tu = v_add(pu, fnu), tv = v_add(pv, fnv);
 REAL turn_u = longest(fnu), turn_v = longest(fnv);
 REAL size_u = larger(longest(pu), turn_u), size_v = larger(longest(pv), turn_v);
 REAL size = larger(larger(size_u, size_v), larger(r_abs(fu), r_abs(fv)));
-REAL k = size > STEEP ? STEEP / size : 1.0f;
+REAL k = eased(size);
 tu = v_scale(tu, k);
 tv = v_scale(tv, k);
 fu *= k;

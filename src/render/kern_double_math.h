@@ -24,6 +24,12 @@ static inline int64_t wr_double_bits(double value)
     return u.i;
 }
 
+static inline double wr_scale_down_r(double m)
+{
+    const int64_t power = wr_double_bits(m) & 0x7ff0000000000000, most = 0x7fd0000000000000;
+    return wr_bits_double(0x7fe0000000000000 - (power < most ? power : most));
+}
+
 /* sin and cos of 2 pi u, u in turns, |u| < 2^30. Absolute error under 3e-16; exactly 0, 1 or -1 at whole,
    half and quarter turns. */
 static inline void wr_sincos_turns_r(double u, double *sine, double *cosine)

@@ -31,7 +31,7 @@ FLAT static void kern_footprint(const RAYS *rays, const LOOK *look, REAL pixel, 
     {
         VEC d = RAY_D(rays, strip->y[i], strip->x[i]);
         REAL least = K_(1e-6) * r_sqrt(v_dot(d, d)), size = v_dot(LOAD3(strip, n, i), d);
-        strip->s[i] = size > least ? size : size < -least ? size : least;
+        strip->s[i] = r_abs(size) > least ? size : least;
     }
     SIMD for (int i = 0; i < count; i++)
     {
@@ -147,14 +147,14 @@ ALWAYS Moments moments_between(const LOOK *look, bool moments, const STRIP *stri
 FLAT static void kern_look_pyramid(const LOOK *look, bool moments, STRIP *strip)
 {
     const int count = strip->count;
-    const REAL scale_f = look->scale_f, scale_u = look->scale_u, scale_v = look->scale_v;
+    const Scales by = scales_of(look);
     kern_reduce(look, strip);
     for (int k = 0; k < count; k++) {
         Moments m = moments_between(look, moments, strip, k);
-        STORE_LOOK(m.mean[2], m.mean[0], m.mean[1]);
+        put_look(strip, k, by, m.mean[2], m.mean[0], m.mean[1]);
         REAL in_u = strip->inside_u[k], in_v = strip->inside_v[k];
-        strip->suu[k] = bounded(m.spread[0] * scale_u * scale_u * in_u);
-        strip->suv[k] = bounded(m.spread[1] * scale_u * scale_v * in_u * in_v);
-        strip->svv[k] = bounded(m.spread[2] * scale_v * scale_v * in_v);
+        strip->suu[k] = bounded(m.spread[0] * by.u * by.u * in_u);
+        strip->suv[k] = bounded(m.spread[1] * by.u * by.v * in_u * in_v);
+        strip->svv[k] = bounded(m.spread[2] * by.v * by.v * in_v);
     }
 }

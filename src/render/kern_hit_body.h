@@ -1,9 +1,9 @@
 /* kern_hit_body.h - visibility in closed form. A part of kern_body.h. Each is written once for neighbours
    in a row, whose rays differ by one addition, and for samples anywhere (spread). */
 
-/* q and d of the sample that stands at place `i` of the strip, the n-th of its row. */
-#define RAY(i, n)                                                                                  \
-    REAL gx_ = spread ? strip->x[i] : gx + (REAL)(n), gy_ = spread ? strip->y[i] : gy;             \
+/* Where sample i of the strip stands. */
+#define RAY(i)                                                                                     \
+    REAL gx_ = spread ? strip->x[i] : gx + (REAL)(i), gy_ = spread ? strip->y[i] : gy;             \
     VEC q = RAY_Q(rays, gy_, gx_), d = RAY_D(rays, gy_, gx_)
 
 /* |q + s d| = R. With m = q.d / d.d the foot of the perpendicular is f = q - m d, and
@@ -14,23 +14,17 @@ ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, in
     const REAL r = shape->value[0], r2 = r * r, s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i, i);
+        RAY(i);
         REAL dd = v_dot(d, d), m = v_dot(q, d) / dd;
         VEC f = v_mad(q, d, -m);
         REAL left = r2 - v_dot(f, f);
         REAL half = r_sqrt((left > 0.0f ? left : 0.0f) / dd);
         REAL near = -half - m > s_min ? -half : half;
         strip->s[i] = left >= 0.0f && near - m > s_min ? near : MISS;
-    }
-    int hits = compact(count, spread, strip);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        RAY(i, strip->index[i]);
-        REAL m = v_dot(q, d) / v_dot(d, d);
-        VEC p = v_mad(v_mad(q, d, -m), d, strip->s[i]);
+        VEC p = v_mad(f, d, near);
         STORE3(strip, p, i, p);
     }
-    return hits;
+    return compact_points(count, spread, strip);
 }
 
 /* x^2 + y^2 = R^2, |z| <= H/2, open at both ends: the nearer root if it lies on the tube, else the other. */
@@ -41,7 +35,7 @@ ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, 
     const REAL s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i, i);
+        RAY(i);
         REAL dd = d.x * d.x + d.y * d.y;
         REAL inv = 1.0f / (dd > 1e-30f ? dd : 1.0f), m = (q.x * d.x + q.y * d.y) * inv;
         REAL fx = q.x - m * d.x, fy = q.y - m * d.y;
@@ -52,15 +46,10 @@ ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, 
         REAL second = z1 <= top && s1 > s_min ? s1 : MISS;
         REAL s = z0 <= top && s0 > s_min ? s0 : second;
         strip->s[i] = left >= 0.0f && dd > 1e-30f ? s : MISS;
-    }
-    int hits = compact(count, spread, strip);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        RAY(i, strip->index[i]);
-        VEC p = v_mad(q, d, strip->s[i]);
+        VEC p = v_mad(q, d, s);
         STORE3(strip, p, i, p);
     }
-    return hits;
+    return compact_points(count, spread, strip);
 }
 
 /* A ray about the cone's tip: x^2 + y^2 = k^2 w^2, k = R/H, w the depth under the tip. `foot` is its point
@@ -88,7 +77,7 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
     const REAL s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i, i);
+        RAY(i);
         TipRay ray = ray_of_tip(q, d, top);
         VEC f = ray.foot;
         REAL a = d.x * d.x + d.y * d.y - k2 * (d.z * d.z);
@@ -105,15 +94,10 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
         REAL second = z1 <= 0.0f && z1 >= -h && s1 - ray.m > s_min ? s1 : MISS;
         REAL s = z0 <= 0.0f && z0 >= -h && s0 - ray.m > s_min ? s0 : second;
         strip->s[i] = disc >= 0.0f ? s : MISS;
-    }
-    int hits = compact(count, spread, strip);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        RAY(i, strip->index[i]);
-        VEC p = v_mad(ray_of_tip(q, d, top).foot, d, strip->s[i]);
+        VEC p = v_mad(f, d, s);
         STORE3(strip, p, i, p);
     }
-    return hits;
+    return compact_points(count, spread, strip);
 }
 
 /* ---- from the point that the ray met: of round surfaces u, v and the frame, each only where it is asked for.
@@ -189,22 +173,19 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
     const REAL u0 = quad->u0, u1 = quad->u1, v0 = quad->v0, v1 = quad->v1;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i, i);
+        RAY(i);
         REAL dn = v_dot(d, n);
         REAL s = v_dot(v_sub(o, q), n) / (dn != 0.0f ? dn : 1.0f);
         VEC p = v_sub(v_mad(q, d, s), o);
         REAL u = v_dot(p, eu), v = v_dot(p, ev);
-        bool in = u >= u0 && u <= u1 && v >= v0 && v <= v1;
-        strip->px[i] = clamp01(u);
-        strip->py[i] = clamp01(v);
-        strip->s[i] = in && s > s_min && s < MISS && dn != 0.0f ? s : MISS;
+        bool in = (u >= u0) & (u <= u1) & (v >= v0) & (v <= v1);
+        bool met = (s > s_min) & (s < MISS) & (dn != 0.0f);
+        strip->u[i] = clamp01(u);
+        strip->v[i] = clamp01(v);
+        strip->s[i] = in & met ? s : MISS;
     }
-    int hits = compact(count, spread, strip);
-    for (int i = 0; i < hits; i++) {
-        strip->u[i] = strip->px[strip->index[i]];
-        strip->v[i] = strip->py[strip->index[i]];
-    }
-    return hits;
+    REAL *const move[] = { strip->u, strip->v, strip->x, strip->y };
+    return compact(count, strip, move, spread ? 4 : 2);
 }
 
 #define HITS(name, type, arg)                                                                      \

@@ -99,3 +99,64 @@ FLAT static void kern_finish(const REAL colour[3], STRIP *strip)
         strip->cb[i] = light_sum(b, strip->cb[i], strip->db[i], strip->sb[i]);
     }
 }
+
+/* ---- all of one light in one pass: with one light nothing needs to be put by between the stages. The same formulas
+   in the same order as those stages, so the same bits where arithmetic is exact. ---- */
+
+ALWAYS void shade_one(const RAYS *rays, const LIGHT *light, const SHINE *shine,
+                      const MATTER *matter, const bool point, const bool near, const bool shines,
+                      const bool pictured, STRIP *strip)
+{
+    const VEC where = { light->where[0], light->where[1], light->where[2] };
+    const REAL *from = near ? rays->eye : rays->toward;
+    const VEC viewer = { from[0], from[1], from[2] };
+    const REAL kd = matter->kd, ks = shine->ks, power = shine->shininess;
+    const REAL dr = kd * light->rgb[0], dg = kd * light->rgb[1], db = kd * light->rgb[2];
+    const REAL sr = ks * light->rgb[0], sg = ks * light->rgb[1], sb = ks * light->rgb[2];
+    const REAL r = matter->rgb[0], g = matter->rgb[1], b = matter->rgb[2];
+    const REAL ambient = matter->ambient;
+    const bool gate = shine->gate;
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        VEC p = LOAD3(strip, p, i), bent = LOAD3(strip, b, i);
+        VEC l = point ? light_toward(p, where) : where;
+        REAL n_dot_l = bent.x * l.x + bent.y * l.y + bent.z * l.z, lit = light_lit(n_dot_l);
+        REAL lobe = K_(0);
+        if (shines) {
+            VEC v = near ? light_toward(p, viewer) : viewer;
+            Half half = light_half(l, v, bent);
+            lobe = light_lobe(half.c, half.below, power);
+            lobe = light_shown(lobe, gate, n_dot_l, half.there);
+        }
+        REAL pr = pictured ? strip->cr[i] : K_(1), pg = pictured ? strip->cg[i] : K_(1);
+        REAL pb = pictured ? strip->cb[i] : K_(1);
+        strip->cr[i] = light_sum(r, pr, ambient + dr * lit, sr * lobe);
+        strip->cg[i] = light_sum(g, pg, ambient + dg * lit, sg * lobe);
+        strip->cb[i] = light_sum(b, pb, ambient + db * lit, sb * lobe);
+    }
+}
+
+#ifndef WR_KERN_DOUBLE
+#define SHADE(point, near, shines, pictured)                                                       \
+    FLAT static void kern_shade_##point##near##shines##pictured(                                   \
+        const RAYS *rays, const LIGHT *light, const SHINE *shine, const MATTER *matter,            \
+        STRIP *strip)                                                                              \
+    {                                                                                              \
+        shade_one(rays, light, shine, matter, point, near, shines, pictured, strip);               \
+    }
+#define SHADES(point, near)                                                                        \
+    SHADE(point, near, 0, 0)                                                                       \
+    SHADE(point, near, 0, 1) SHADE(point, near, 1, 0) SHADE(point, near, 1, 1)
+SHADES(0, 0)
+SHADES(0, 1)
+SHADES(1, 0)
+SHADES(1, 1)
+#define SHADE_ROWS(point, near)                                                                    \
+    {                                                                                              \
+        { kern_shade_##point##near##00, kern_shade_##point##near##01 },                            \
+        {                                                                                          \
+            kern_shade_##point##near##10, kern_shade_##point##near##11                             \
+        }                                                                                          \
+    }
+#endif

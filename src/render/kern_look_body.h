@@ -1,39 +1,49 @@
 /* kern_look_body.h - heights, slopes and colours looked up in the contiguous copies. A part of
    kern_body.h. */
 
-/* r t brought to the table: tu in 0..1, and 1 inside or 0 outside (a clamped axis is level there). One
-   loop a case: a choice that is the same for all samples keeps a loop from vectorising. */
+/* ---- places in the table ---- */
+
+/* What is left of whole turns, 0 <= t < 1. */
+ALWAYS REAL turned(REAL x)
+{
+    REAL turn = x - r_floor(x);
+    return turn < 1.0f ? turn : 0.0f;
+}
+
+/* 1 inside; 0 beyond the end of a clamped axis, which is level there. */
+ALWAYS REAL inside_ends(REAL x)
+{
+    return x >= 0.0f ? (x <= 1.0f ? 1.0f : 0.0f) : 0.0f;
+}
+
+/* r t before it is brought to the table; wide: reduced in double (E10). */
+ALWAYS REAL replicated(REAL t, REAL narrow, double r, const bool wide, const bool periodic)
+{
+    double x = r * (double)t, whole = periodic ? __builtin_floor(x) : 0.0;
+    return wide ? (REAL)(x - whole) : narrow * t;
+}
+
+/* A choice that is the same for all samples keeps a loop from vectorising: one loop a case. */
+ALWAYS void reduce_case(int count, const REAL *restrict t, double r, const bool wide,
+                        const bool periodic, REAL *restrict out, REAL *restrict inside)
+{
+    const REAL narrow = (REAL)r;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        REAL x = replicated(t[i], narrow, r, wide, periodic);
+        out[i] = periodic ? turned(x) : clamp01(x);
+        inside[i] = periodic ? K_(1) : inside_ends(x);
+    }
+}
+
+/* r t brought to the table: in 0..1. */
 static inline void reduce_axis(int count, const REAL *restrict t, double r, bool wide,
                                bool periodic, REAL *restrict out, REAL *restrict inside)
 {
-    const REAL narrow = (REAL)r;
-    if (wide) {
-        SIMD for (int i = 0; i < count; i++)
-        {
-            double x = r * (double)t[i], whole = periodic ? __builtin_floor(x) : 0.0;
-            out[i] = (REAL)(x - whole);
-        }
-    } else {
-        SIMD for (int i = 0; i < count; i++)
-        {
-            out[i] = narrow * t[i];
-        }
-    }
-    if (periodic) {
-        SIMD for (int i = 0; i < count; i++)
-        {
-            REAL turn = out[i] - r_floor(out[i]);
-            out[i] = turn < 1.0f ? turn : 0.0f;
-            inside[i] = 1.0f;
-        }
-    } else {
-        SIMD for (int i = 0; i < count; i++)
-        {
-            REAL x = out[i];
-            inside[i] = x >= 0.0f ? (x <= 1.0f ? 1.0f : 0.0f) : 0.0f;
-            out[i] = clamp01(x);
-        }
-    }
+    if (wide && periodic) reduce_case(count, t, r, true, true, out, inside);
+    else if (wide) reduce_case(count, t, r, true, false, out, inside);
+    else if (periodic) reduce_case(count, t, r, false, true, out, inside);
+    else reduce_case(count, t, r, false, false, out, inside);
 }
 
 FLAT static void kern_reduce(const LOOK *look, STRIP *strip)
@@ -44,21 +54,38 @@ FLAT static void kern_reduce(const LOOK *look, STRIP *strip)
                 strip->inside_v);
 }
 
-/* Where the taps of each sample begin: at[k] is the texel up and left of it, ta and tb the fractions past
-   that texel. A look-up is three loops: places (vectors), copies of the taps into rows of the strip
-   (scalar: hardware gathers are no faster and compilers do not agree on them), arithmetic (vectors). */
+/* Where the taps of sample k begin: at[k] is the texel up and left of it, ta and tb the fractions past
+   that texel. */
+ALWAYS void put_tap(STRIP *strip, int k, REAL x, REAL y, int pitch)
+{
+    REAL i = r_floor(x), j = r_floor(y);
+    strip->at[k] = ((int)j + WR_APRON) * pitch + (int)i + WR_APRON;
+    strip->ta[k] = x - i;
+    strip->tb[k] = y - j;
+}
+
+/* A look-up is three loops: places (vectors), copies of the taps into rows of the strip (four numbers at a time: no
+   slower than gathering them), arithmetic (vectors). A table that is periodic both ways is placed in one loop. */
 static inline void place_taps(const LOOK *look, STRIP *strip)
 {
     const int pitch = look->pitch, count = strip->count;
     const REAL W = (REAL)look->width, H = (REAL)look->height;
-    kern_reduce(look, strip);
+    if (look->wide || !look->periodic_u || !look->periodic_v) {
+        kern_reduce(look, strip);
+        SIMD for (int k = 0; k < count; k++)
+        {
+            put_tap(strip, k, W * strip->tu[k] - 0.5f, H * (1.0f - strip->tv[k]) - 0.5f, pitch);
+        }
+        return;
+    }
+    const REAL ru = (REAL)look->ru, rv = (REAL)look->rv;
     SIMD for (int k = 0; k < count; k++)
     {
-        REAL x = W * strip->tu[k] - 0.5f, y = H * (1.0f - strip->tv[k]) - 0.5f;
-        REAL i = r_floor(x), j = r_floor(y);
-        strip->at[k] = ((int)j + WR_APRON) * pitch + (int)i + WR_APRON;
-        strip->ta[k] = x - i;
-        strip->tb[k] = y - j;
+        REAL tu = turned(ru * strip->u[k]), tv = turned(rv * strip->v[k]);
+        strip->tu[k] = tu;
+        strip->tv[k] = tv;
+        strip->inside_u[k] = strip->inside_v[k] = K_(1);
+        put_tap(strip, k, W * tu - 0.5f, H * (1.0f - tv) - 0.5f, pitch);
     }
 }
 
@@ -68,15 +95,29 @@ static inline REAL bounded(REAL x)
     return x > -FLT_MAX ? x : -FLT_MAX;
 }
 
-#define STORE_LOOK(f_, fu_, fv_)                                                                   \
-    (strip->f[k] = bounded((f_)*scale_f),                                                          \
-     strip->fu[k] = bounded((fu_)*scale_u * strip->inside_u[k]),                                   \
-     strip->fv[k] = bounded((fv_)*scale_v * strip->inside_v[k]))
+/* What F, Fu and Fv are multiplied by. */
+typedef struct Scales {
+    REAL f, u, v;
+} Scales;
 
-#define LOOK_CONSTANTS                                                                             \
-    const int pitch = look->pitch, count = strip->count;                                           \
-    const REAL W = (REAL)look->width, H = (REAL)look->height;                                      \
-    const REAL scale_f = look->scale_f, scale_u = look->scale_u, scale_v = look->scale_v
+ALWAYS Scales scales_of(const LOOK *look)
+{
+    return (Scales){ look->scale_f, look->scale_u, look->scale_v };
+}
+
+ALWAYS void put_slopes(STRIP *strip, int k, Scales by, REAL fu, REAL fv)
+{
+    strip->fu[k] = bounded(fu * by.u * strip->inside_u[k]);
+    strip->fv[k] = bounded(fv * by.v * strip->inside_v[k]);
+}
+
+ALWAYS void put_look(STRIP *strip, int k, Scales by, REAL f, REAL fu, REAL fv)
+{
+    strip->f[k] = bounded(f * by.f);
+    put_slopes(strip, k, by, fu, fv);
+}
+
+/* ---- heights and slopes ---- */
 
 /* Four neighbouring texels at once. */
 typedef REAL Four __attribute__((vector_size(4 * sizeof(REAL))));
@@ -108,9 +149,11 @@ static inline void copy_pairs(const REAL *table, int pitch, int texel, STRIP *st
 
 FLAT static void kern_look_bilinear(const LOOK *look, STRIP *strip)
 {
-    LOOK_CONSTANTS;
+    const int count = strip->count;
+    const REAL W = (REAL)look->width, H = (REAL)look->height;
+    const Scales by = scales_of(look);
     place_taps(look, strip);
-    copy_pairs(look->heights, pitch, 1, strip);
+    copy_pairs(look->heights, look->pitch, 1, strip);
     SIMD for (int k = 0; k < count; k++)
     {
         REAL f00 = strip->top[2 * k], f10 = strip->top[2 * k + 1], a = strip->ta[k];
@@ -118,7 +161,7 @@ FLAT static void kern_look_bilinear(const LOOK *look, STRIP *strip)
         REAL d0 = f10 - f00, d1 = f11 - f01, e0 = f01 - f00, e1 = f11 - f10;
         REAL upper = f00 + a * d0, lower = f01 + a * d1;
         REAL fu = W * (d0 + b * (d1 - d0)), fv = -H * (e0 + a * (e1 - e0));
-        STORE_LOOK(upper + b * (lower - upper), fu, fv);
+        put_look(strip, k, by, upper + b * (lower - upper), fu, fv);
     }
 }
 
@@ -126,19 +169,21 @@ FLAT static void kern_look_bilinear(const LOOK *look, STRIP *strip)
    differences: one look-up in the gradient table instead of four FVALs. */
 static inline void slopes_central(const LOOK *look, STRIP *strip)
 {
-    LOOK_CONSTANTS;
-    (void)W, (void)H;
+    const int pitch = look->pitch, count = strip->count;
+    const Scales by = scales_of(look);
+    REAL *restrict const column = strip->top; /* Fu, Fv of the left texel, then of the right */
     place_taps(look, strip);
     for (int k = 0; k < count; k++) {
         const REAL *at = look->gradient + 2 * (size_t)strip->at[k];
         Four top = load_four(at), low = load_four(at + 2 * (size_t)pitch);
-        Four c = top + strip->tb[k] * (low - top); /* Fu, Fv of the left texel, then of the right */
-        strip->top[k] = c[0] + strip->ta[k] * (c[2] - c[0]);
-        strip->low[k] = c[1] + strip->ta[k] * (c[3] - c[1]);
+        Four both = top + strip->tb[k] * (low - top);
+        memcpy(column + 4 * k, &both, sizeof both);
     }
     SIMD for (int k = 0; k < count; k++)
     {
-        STORE_LOOK(0.0f, strip->top[k], strip->low[k]);
+        const REAL fu = strip->top[4 * k], fv = strip->top[4 * k + 1], a = strip->ta[k];
+        put_slopes(strip, k, by, fu + a * (strip->top[4 * k + 2] - fu),
+                   fv + a * (strip->top[4 * k + 3] - fv));
     }
 }
 
@@ -146,9 +191,12 @@ static inline void slopes_central(const LOOK *look, STRIP *strip)
 FLAT static void kern_look_central(const LOOK *look, STRIP *strip)
 {
     slopes_central(look, strip);
-    if (!look->heights) return;
     const int count = strip->count;
     const REAL scale_f = look->scale_f;
+    if (!look->heights) {
+        memset(strip->f, 0, (size_t)count * sizeof *strip->f);
+        return;
+    }
     copy_pairs(look->heights, look->pitch, 1, strip);
     SIMD for (int k = 0; k < count; k++)
     {
@@ -162,7 +210,9 @@ FLAT static void kern_look_central(const LOOK *look, STRIP *strip)
 /* The texel that holds the point, and the central difference there. */
 FLAT static void kern_look_nearest(const LOOK *look, STRIP *strip)
 {
-    LOOK_CONSTANTS;
+    const int pitch = look->pitch, count = strip->count;
+    const REAL W = (REAL)look->width, H = (REAL)look->height;
+    const Scales by = scales_of(look);
     kern_reduce(look, strip);
     SIMD for (int k = 0; k < count; k++)
     {
@@ -182,7 +232,7 @@ FLAT static void kern_look_nearest(const LOOK *look, STRIP *strip)
     }
     SIMD for (int k = 0; k < count; k++)
     {
-        STORE_LOOK(strip->low[k], strip->top[2 * k], strip->top[2 * k + 1]);
+        put_look(strip, k, by, strip->low[k], strip->top[2 * k], strip->top[2 * k + 1]);
     }
 }
 
@@ -217,28 +267,35 @@ static inline Weights catmull_weights(REAL t)
 /* 4 x 4 taps: first down the rows, four columns side by side, then across. Everything is the second tap
    plus weighted differences (the weights sum to 1), so that a flat table gives its own height and
    slopes of exactly 0 (HC47). Slopes are in texels. */
-#define CUBIC_LOOK(name, weights)                                                                  \
-    FLAT static void kern_look_##name(const LOOK *look, STRIP *strip)                              \
-    {                                                                                              \
-        LOOK_CONSTANTS;                                                                            \
-        place_taps(look, strip);                                                                   \
-        for (int k = 0; k < count; k++) {                                                          \
-            const REAL *at = look->heights + strip->at[k] - 1;                                     \
-            Four r0 = load_four(at - pitch), r1 = load_four(at);                                   \
-            Four r2 = load_four(at + pitch), r3 = load_four(at + 2 * (ptrdiff_t)pitch);            \
-            Weights a = weights(strip->ta[k]), b = weights(strip->tb[k]);                          \
-            Four c = r1 + (b.w0 * (r0 - r1) + (b.w2 * (r2 - r1) + b.w3 * (r3 - r1)));              \
-            Four e = b.d0 * (r1 - r0) + (b.d1 * (r2 - r1) + b.d2 * (r3 - r2));                     \
-            REAL f =                                                                               \
-                c[1] + (a.w0 * (c[0] - c[1]) + (a.w2 * (c[2] - c[1]) + a.w3 * (c[3] - c[1])));     \
-            REAL fu = a.d0 * (c[1] - c[0]) + (a.d1 * (c[2] - c[1]) + a.d2 * (c[3] - c[2]));        \
-            REAL fv = a.w0 * e[0] + a.w1 * e[1] + a.w2 * e[2] + a.w3 * e[3];                       \
-            STORE_LOOK(f, fu *W, fv * -H);                                                         \
-        }                                                                                          \
+ALWAYS void look_cubic(const LOOK *look, STRIP *strip, Weights (*const weights)(REAL t))
+{
+    const int pitch = look->pitch, count = strip->count;
+    const REAL W = (REAL)look->width, H = (REAL)look->height;
+    const Scales by = scales_of(look);
+    place_taps(look, strip);
+    for (int k = 0; k < count; k++) {
+        const REAL *at = look->heights + strip->at[k] - 1;
+        Four r0 = load_four(at - pitch), r1 = load_four(at);
+        Four r2 = load_four(at + pitch), r3 = load_four(at + 2 * (ptrdiff_t)pitch);
+        Weights a = weights(strip->ta[k]), b = weights(strip->tb[k]);
+        Four c = r1 + (b.w0 * (r0 - r1) + (b.w2 * (r2 - r1) + b.w3 * (r3 - r1)));
+        Four e = b.d0 * (r1 - r0) + (b.d1 * (r2 - r1) + b.d2 * (r3 - r2));
+        REAL f = c[1] + (a.w0 * (c[0] - c[1]) + (a.w2 * (c[2] - c[1]) + a.w3 * (c[3] - c[1])));
+        REAL fu = a.d0 * (c[1] - c[0]) + (a.d1 * (c[2] - c[1]) + a.d2 * (c[3] - c[2]));
+        REAL fv = a.w0 * e[0] + a.w1 * e[1] + a.w2 * e[2] + a.w3 * e[3];
+        put_look(strip, k, by, f, fu * W, fv * -H);
     }
+}
 
-CUBIC_LOOK(bspline, bspline_weights)
-CUBIC_LOOK(catmull, catmull_weights)
+FLAT static void kern_look_bspline(const LOOK *look, STRIP *strip)
+{
+    look_cubic(look, strip, bspline_weights);
+}
+
+FLAT static void kern_look_catmull(const LOOK *look, STRIP *strip)
+{
+    look_cubic(look, strip, catmull_weights);
+}
 
 /* Bilinear C(u,v): Catmull's texturing, with the table's replication. */
 FLAT static void kern_colour(const WrColourLook *look, STRIP *strip)
@@ -248,15 +305,28 @@ FLAT static void kern_colour(const WrColourLook *look, STRIP *strip)
     const REAL W = (REAL)look->width, H = (REAL)look->height;
     reduce_axis(count, strip->u, look->ru, false, look->periodic_u, strip->tu, strip->inside_u);
     reduce_axis(count, strip->v, look->rv, false, look->periodic_v, strip->tv, strip->inside_v);
-    for (int k = 0; k < count; k++) {
+    SIMD for (int k = 0; k < count; k++)
+    {
         REAL x = W * strip->tu[k] - 0.5f, y = H * (1.0f - strip->tv[k]) - 0.5f;
-        REAL i = r_floor(x), j = r_floor(y), a = x - i, b = y - j;
-        const float *top = rgba + 4 * (((ptrdiff_t)j + 1) * pitch + (ptrdiff_t)i + 1);
-        const float *low = top + 4 * (ptrdiff_t)pitch;
+        REAL i = r_floor(x), j = r_floor(y);
+        strip->at[k] = ((int)j + 1) * pitch + (int)i + 1;
+        strip->ta[k] = x - i;
+        strip->tb[k] = y - j;
+    }
+    REAL *restrict const texel = strip->top;
+    for (int k = 0; k < count; k++) {
+        const float *top = rgba + 4 * (ptrdiff_t)strip->at[k], *low = top + 4 * (ptrdiff_t)pitch;
+        const REAL a = strip->ta[k], b = strip->tb[k];
         Four t0 = load_floats(top), t1 = load_floats(top + 4);
         Four l0 = load_floats(low), l1 = load_floats(low + 4);
         Four upper = t0 + a * (t1 - t0), lower = l0 + a * (l1 - l0);
         Four c = upper + b * (lower - upper);
-        strip->cr[k] = c[0], strip->cg[k] = c[1], strip->cb[k] = c[2];
+        memcpy(texel + 4 * k, &c, sizeof c);
+    }
+    SIMD for (int k = 0; k < count; k++)
+    {
+        strip->cr[k] = texel[4 * k];
+        strip->cg[k] = texel[4 * k + 1];
+        strip->cb[k] = texel[4 * k + 2];
     }
 }

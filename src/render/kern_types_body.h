@@ -93,6 +93,16 @@ typedef struct WR_T(WrKernShine) {
     bool gate;
 } WR_T(WrKernShine);
 
+/* What a material and its ambient light come to. */
+typedef struct WR_T(WrKernMatter) {
+    REAL ambient, kd;
+    REAL rgb[3]; /* its colour */
+} WR_T(WrKernMatter);
+
+typedef void (*WR_T(WrShadeKernel))(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
+                                    const WR_T(WrKernShine) * shine,
+                                    const WR_T(WrKernMatter) * matter, WR_T(WrStrip) * strip);
+
 typedef int (*WR_T(WrHitKernel))(const WR_T(WrRays) * rays, const SHAPE *shape, REAL gx, REAL gy,
                                  int count, WR_T(WrStrip) * strip);
 /* The same for samples anywhere: strip->x, y [count], which move with the hits. */
@@ -160,7 +170,15 @@ typedef struct WR_T(WrKernels) {
                           WR_T(WrStrip) * strip);
     void (*specular_toksvig)(const WR_T(WrKernLight) * light, const WR_T(WrKernShine) * shine,
                              WR_T(WrStrip) * strip);
+    /* begin, view, light, diffuse, specular and finish of a single light in one pass, from n' and P: [the light is near]
+       [the eye is near] [it shines] [C is a picture's, which `colour` has brought]. NULL in double precision. */
+    WR_T(WrShadeKernel) shade[2][2][2][2];
     void (*finish)(const REAL colour[3], WR_T(WrStrip) * strip);
+    /* Finished colours as opaque 8-bit codes (srgb_codes.h), out [count]; of premultiplied ones, [count][4], over a
+       background. What is not finite counts as 0; how many numbers were not. */
+    int (*codes)(const uint32_t *bins, const WR_T(WrStrip) * strip, uint32_t *out);
+    int (*codes_over)(const uint32_t *bins, const float background[3], int count, const float *rgba,
+                      uint32_t *out);
 
     /* Bounds over the pixel of side `pixel` samples about x, y (dials.h, refine=bound): where the pixel
        lies on the surface; how far its slopes and its normal move; what a light adds. */

@@ -33,6 +33,6 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
    overwritten. */
 void wr_tile_mean(float *sample, int k, size_t step, float out[4]);
 
-/* Clock readings cost as much as a short stage, so one strip in eight is timed: what all strips took is shared among
+/* Clock readings cost as much as a short stage, so one strip in sixteen is timed: what all strips took is shared among
    the stages as it was on those. */
-#define WR_TIMED 8
+#define WR_TIMED 16

@@ -56,72 +56,13 @@ static void keep_half3(const WrTileJob *job, REAL *x, REAL *y, REAL *z, int coun
     watch_lap(watch, WR_STAGE_HALF);
 }
 
-/* ---- light -------------------------------------------------------------------------------------- */
-
-static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip)
+/* Is light worked out? */
+static bool lit(const WrSink *sink)
 {
-    const Kernels *k = KERNELS_OF(job);
-    const WrMaterial *m = &job->scene->material;
-    const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
-    if (!runs(job, WR_EFFECT_SPREAD))
-        k->specular(light, shine.ks, shine.shininess, shine.gate, strip);
-    else if (job->plan->lean) k->specular_lean(light, &shine, strip);
-    else k->specular_toksvig(light, &shine, strip);
+    return sink->rgba || sink->codes;
 }
 
-static void bound_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
-                        Strip *strip)
-{
-    const WrMaterial *m = &job->scene->material;
-    const WR_T(WrKernShine) shine = { runs(job, WR_EFFECT_SPECULAR) ? (REAL)m->specular : (REAL)0,
-                                      (REAL)m->shininess, m->gate };
-    double most = fmax(m->colour.x, fmax(m->colour.y, m->colour.z));
-    KERNELS_OF(job)->bound_light(rays, light, &shine, (REAL)(m->diffuse * most), strip);
-}
-
-/* What one light adds. */
-static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
-                       const WrSink *sink, Strip *strip, Watch *watch)
-{
-    const Kernels *k = KERNELS_OF(job);
-    k->light(light, strip);
-    watch_lap(watch, WR_STAGE_DIFFUSE);
-    if (runs(job, WR_EFFECT_HALF)) keep_half(strip->n_dot_l, strip->count);
-    keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
-    if (runs(job, WR_EFFECT_DIFFUSE)) {
-        k->diffuse(light, (REAL)job->scene->material.diffuse, strip);
-        did(watch, WR_EFFECT_DIFFUSE);
-    }
-    watch_lap(watch, WR_STAGE_DIFFUSE);
-    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
-    if (runs(job, WR_EFFECT_SPECULAR)) {
-        shine_strip(job, light, strip);
-        did(watch, WR_EFFECT_SPECULAR);
-        watch_lap(watch, WR_STAGE_SPECULAR);
-        keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
-    }
-    if (sink->bound) bound_strip(job, rays, light, strip);
-    watch_lap(watch, WR_STAGE_BOUND);
-}
-
-static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink, Strip *strip,
-                        Watch *watch)
-{
-    const Kernels *k = KERNELS_OF(job);
-    const bool specular = runs(job, WR_EFFECT_SPECULAR);
-    k->begin((REAL)job->scene->material.ambient, strip);
-    if (runs(job, WR_EFFECT_COLOUR)) {
-        k->colour(&job->colour, strip);
-        did(watch, WR_EFFECT_COLOUR);
-        watch_lap(watch, WR_STAGE_COLOUR);
-    }
-    if (specular || sink->bound) k->view(rays, strip);
-    watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
-    if (specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
-    if (!specular && !runs(job, WR_EFFECT_DIFFUSE)) return;
-    for (int i = 0; i < job->view->light_count; i++)
-        lamp_strip(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
-}
+#include "render/pipe_light_body.h"
 
 /* Where on the surface each pixel lies, and how far its normal turns there. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
@@ -189,7 +130,7 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
         k->bump[plan->bump](rays, strip);
         scratch->ran |= normal_effects[plan->bump];
         watch_lap(watch, WR_STAGE_BUMP);
-        if (runs(job, WR_EFFECT_SPREAD) && sink->rgba) {
+        if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
             k->widen(plan->bump == WR_BUMP_INVARIANT, strip);
             did(watch, WR_EFFECT_SPREAD);
             watch_lap(watch, WR_STAGE_SPREAD);
@@ -198,10 +139,8 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
     }
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
-    if (!sink->rgba) return;
+    if (!lit(sink)) return;
     light_strip(job, rays, sink, strip, watch);
-    const WrVec3 c = job->scene->material.colour;
-    k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
     keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
 }
 
@@ -219,11 +158,33 @@ static int store_run(const Strip *strip, float *restrict out)
     return fresh;
 }
 
+/* The same as codes, whose alpha is 0 where nothing is yet. */
+static void store_codes(const WrTileJob *job, const Strip *strip, bool run, uint32_t *restrict out,
+                        WrTileScratch *scratch)
+{
+    uint32_t codes[WR_SPAN];
+    int fresh = 0;
+    scratch->wild += KERNELS_OF(job)->codes(job->bins, strip, codes);
+    if (run) {
+        const uint32_t *at = out + strip->index[0];
+        for (int i = 0; i < strip->count; i++) fresh += at[i] >> 24 == 0;
+        memcpy(out + strip->index[0], codes, (size_t)strip->count * sizeof *codes);
+    } else {
+        for (int i = 0; i < strip->count; i++) {
+            fresh += out[strip->index[i]] >> 24 == 0;
+            out[strip->index[i]] = codes[i];
+        }
+    }
+    scratch->covered += fresh;
+}
+
 /* Finished strip -> its samples' places. */
-static void store(const WrSink *sink, const Strip *strip, WrTileScratch *scratch)
+static void store(const WrTileJob *job, const WrSink *sink, const Strip *strip,
+                  WrTileScratch *scratch)
 {
     const int last = strip->count - 1;
     const bool run = strip->index[last] - strip->index[0] == last;
+    if (sink->codes) store_codes(job, strip, run, sink->codes, scratch);
     if (sink->rgba && run) scratch->covered += store_run(strip, sink->rgba + 4 * strip->index[0]);
     for (int i = 0; i < strip->count && sink->rgba && !run; i++) {
         float *out = sink->rgba + 4 * strip->index[i];
@@ -258,9 +219,9 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
     if (strip->count == 0) return;
     note_view(job, rays, scratch);
     shade_strip(job, rays, quad, sink, strip, scratch, watch);
-    store(sink, strip, scratch);
+    store(job, sink, strip, scratch);
     watch_lap(watch, WR_STAGE_STORE);
-    if (sink->rgba) scratch->shaded += strip->count;
+    if (lit(sink)) scratch->shaded += strip->count;
 }
 
 /* ---- visibility ---------------------------------------------------------------------------------- */

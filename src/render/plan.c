@@ -64,9 +64,10 @@ bool wr_plan_same(const WrPlan *a, const WrPlan *b)
 WR_ROWS(wr_cost_names);
 const char *const wr_cost_names[WR_COST_COUNT] = {
     [WR_ROW(WR_COST_PREPARE)] = "preparing", [WR_ROW(WR_COST_VISIBILITY)] = "visibility",
-    [WR_ROW(WR_COST_GEOMETRY)] = "geometry", [WR_ROW(WR_COST_STORE)] = "storing",
-    [WR_ROW(WR_COST_CLEAR)] = "clearing",    [WR_ROW(WR_COST_REST)] = "rest",
-    [WR_ROW(WR_COST_WAIT)] = "waiting",      [WR_ROW(WR_COST_CHOOSE)] = "choosing",
+    [WR_ROW(WR_COST_GEOMETRY)] = "geometry", [WR_ROW(WR_COST_LIGHT)] = "light",
+    [WR_ROW(WR_COST_STORE)] = "storing",     [WR_ROW(WR_COST_CLEAR)] = "clearing",
+    [WR_ROW(WR_COST_REST)] = "rest",         [WR_ROW(WR_COST_WAIT)] = "waiting",
+    [WR_ROW(WR_COST_CHOOSE)] = "choosing",
 };
 WR_ROWS_END(wr_cost_names, WR_COST_COUNT);
 
@@ -75,6 +76,7 @@ const char *const wr_cost_reasons[WR_COST_COUNT] = {
     [WR_ROW(WR_COST_PREPARE)] = "copies of the table, pyramids, the view, the mesh",
     [WR_ROW(WR_COST_VISIBILITY)] = "which samples the object covers",
     [WR_ROW(WR_COST_GEOMETRY)] = "points, tangents and normals of the surface",
+    [WR_ROW(WR_COST_LIGHT)] = "diffuse light and highlight of the one light, in one pass",
     [WR_ROW(WR_COST_STORE)] = "colours are put together and stored",
     [WR_ROW(WR_COST_CLEAR)] = "tiles are emptied; those that hold nothing are left out",
     [WR_ROW(WR_COST_REST)] = "what lies between the stages: loops, the clock",
@@ -99,6 +101,7 @@ static const WrCost stage_costs[] = {
     [WR_ROW(WR_STAGE_COLOUR)] = WR_COST_STORE,
     [WR_ROW(WR_STAGE_DIFFUSE)] = WR_COST_STORE,
     [WR_ROW(WR_STAGE_SPECULAR)] = WR_COST_STORE,
+    [WR_ROW(WR_STAGE_LIGHT)] = WR_COST_LIGHT,
     [WR_ROW(WR_STAGE_BOUND)] = WR_COST_REST,
     [WR_ROW(WR_STAGE_HALF)] = WR_COST_STORE,
     [WR_ROW(WR_STAGE_RESOLVE)] = WR_COST_STORE,

@@ -64,6 +64,7 @@ typedef enum WrStage {
     WR_STAGE_COLOUR,
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
+    WR_STAGE_LIGHT, /* all of a single light in one pass */
     WR_STAGE_BOUND,
     WR_STAGE_HALF, /* rounding to half precision */
     WR_STAGE_RESOLVE,
@@ -90,6 +91,7 @@ typedef enum WrCost {
     WR_COST_PREPARE,    /* copies of the table, pyramids, the view, the mesh */
     WR_COST_VISIBILITY, /* which samples the object covers, in closed form */
     WR_COST_GEOMETRY,   /* points, tangents and normals of the surface */
+    WR_COST_LIGHT,      /* diffuse light and highlight of a single light, in one pass */
     WR_COST_STORE,      /* colours put together and stored */
     WR_COST_CLEAR,      /* tiles emptied, and those left out that hold nothing */
     WR_COST_REST,       /* what lies between the stages: samples moved, loops */

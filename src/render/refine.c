@@ -250,8 +250,7 @@ static void sample_part(Refiner *r, WrTilePart part, int k, bool last)
             unsigned char *open = &s->open[part.y + y][part.x + x];
             if (!*open) continue;
             float *sample = s->sample[y * k][x * k], mean[4];
-            const int px = r->part.x + part.x + x, py = r->part.y + part.y + y;
-            float *pixel = r->job->rgba + 4 * wr_tile_place(r->job, px, py);
+            float *pixel = wr_tile_pixel(r->job, r->part.x + part.x + x, r->part.y + part.y + y);
             const float range = last ? 0 : range_of(sample, k, step);
             wr_tile_mean(sample, k, step, mean); /* spoils the samples */
             const bool more = (*open == OPEN_BESIDE && k == 2) ||
@@ -295,8 +294,8 @@ static bool open_pixels(Refiner *r)
             else open = !surely_empty(r, x, y);
             s->open[y][x] = open;
             any |= open;
-            const size_t at = wr_tile_place(r->job, r->part.x + x, r->part.y + y);
-            memcpy(r->job->rgba + 4 * at, s->centre[y + 1][x + 1], 4 * sizeof(float));
+            memcpy(wr_tile_pixel(r->job, r->part.x + x, r->part.y + y), s->centre[y + 1][x + 1],
+                   4 * sizeof(float));
         }
     return any && r->job->samples > 1;
 }
@@ -329,8 +328,7 @@ void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScra
     }
     scratch->covered = covered;
     for (int j = y; j < y + h; j++)
-        for (int i = x; i < x + w; i++)
-            scratch->covered += job->rgba[4 * wr_tile_place(job, i, j) + 3] > 0;
+        for (int i = x; i < x + w; i++) scratch->covered += wr_tile_pixel(job, i, j)[3] > 0;
     scratch->whole[WR_STAGE_RESOLVE] +=
         wr_clock_seconds() - start - (told_elsewhere(scratch) - before);
 }

@@ -1,38 +1,30 @@
 #include "base/pool.h"
 #include "render/frame.h"
+#include "render/kern.h"
 #include "render/srgb_codes.h"
 
 #include <math.h>
+#include <string.h>
 
-/* Linear light cut into BINS: the code of a bin's lower end, and the code's own border, give the right
-   code of any value: nowhere does the curve rise by more than one code in a bin (12.92 * 255 / 4096). */
-#define BINS 4096
-
-typedef struct ResolveJob {
-    const WrFrame *frame;
-    float background[3];
-    bool bgra;
-    uint8_t *out;
-    int64_t bad; /* atomic */
-    uint8_t bins[BINS + 1];
-} ResolveJob;
-
-static void fill_bins(uint8_t bins[BINS + 1])
+void wr_code_bins_fill(uint32_t bins[WR_CODE_BINS + 1])
 {
-    int code = 0;
-    for (int i = 0; i <= BINS; i++) {
-        while (code < 255 && (float)i / BINS >= wr_srgb_borders[code + 1]) code++;
-        bins[i] = (uint8_t)code;
+    uint32_t code = 0;
+    for (int i = 0; i <= WR_CODE_BINS; i++) {
+        while (code < 255 && (float)i / WR_CODE_BINS >= wr_srgb_borders[code + 1]) code++;
+        const float next = code < 255 ? wr_srgb_borders[code + 1] * WR_CODE_BINS - (float)i : 1.0f;
+        bins[i] = code | (uint32_t)(fminf(next, 1.0f) * WR_CODE_STEPS) << 8;
     }
 }
 
-static uint8_t code_of(const ResolveJob *job, float x)
-{
-    x = x > 0.0f ? x : 0.0f;
-    x = x < 1.0f ? x : 1.0f;
-    int code = job->bins[(int)(x * BINS)];
-    return (uint8_t)(code + (code < 255 && x >= wr_srgb_borders[code < 255 ? code + 1 : 255]));
-}
+typedef struct ResolveJob {
+    const WrFrame *frame;
+    const WrKernels *kernels;
+    float background[3];
+    bool bgra;
+    uint8_t *out;
+    int64_t wild; /* atomic */
+    uint32_t bins[WR_CODE_BINS + 1];
+} ResolveJob;
 
 static void resolve_row(int y, int worker, void *ctx)
 {
@@ -41,28 +33,34 @@ static void resolve_row(int y, int worker, void *ctx)
     const int width = job->frame->width, channels = job->bgra ? 4 : 3;
     const float *in = job->frame->rgba + (size_t)y * (size_t)width * 4;
     uint8_t *out = job->out + (size_t)y * (size_t)width * (size_t)channels;
-    uint8_t backdrop[3];
-    int64_t bad = 0;
-    for (int c = 0; c < 3; c++) backdrop[c] = code_of(job, job->background[c]);
-    for (int x = 0; x < width; x++, in += 4, out += channels) {
-        float a = in[3];
-        for (int c = 0; c < 3; c++) {
-            float light = in[c] + (1.0f - a) * job->background[c];
-            if (!isfinite(light)) light = 0.0f, bad++;
-            uint8_t code = a == 0.0f ? backdrop[c] : code_of(job, light);
-            out[job->bgra ? 2 - c : c] = code;
-        }
-        if (job->bgra) out[3] = 255;
+    int64_t wild = 0;
+    for (int x = 0; x < width; x += WR_SPAN) {
+        uint32_t codes[WR_SPAN];
+        const int count = width - x < WR_SPAN ? width - x : WR_SPAN;
+        wild +=
+            job->kernels->codes_over(job->bins, job->background, count, in + 4 * (size_t)x, codes);
+        if (job->bgra) memcpy(out + 4 * (size_t)x, codes, (size_t)count * sizeof *codes);
+        else wr_codes_to_rgb(codes, (size_t)count, out + 3 * (size_t)x);
     }
-    if (bad) __atomic_fetch_add(&job->bad, bad, __ATOMIC_RELAXED);
+    if (wild) __atomic_fetch_add(&job->wild, wild, __ATOMIC_RELAXED);
+}
+
+void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[3 * i] = (uint8_t)(codes[i] >> 16);
+        out[3 * i + 1] = (uint8_t)(codes[i] >> 8);
+        out[3 * i + 2] = (uint8_t)codes[i];
+    }
 }
 
 int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool bgra, uint8_t *out,
                           WrPool *pool)
 {
     ResolveJob job = { .frame = frame, .bgra = bgra, .out = out };
+    job.kernels = wr_kernels_get(NULL, false, NULL);
     for (int c = 0; c < 3; c++) job.background[c] = (float)background[c];
-    fill_bins(job.bins);
+    wr_code_bins_fill(job.bins);
     wr_pool_run(pool, frame->height, resolve_row, &job);
-    return job.bad;
+    return job.wild;
 }

@@ -95,16 +95,39 @@ void wr_tile_mean(float *sample, int k, size_t step, float out[4])
     for (int c = 0; c < 4; c++) out[c] = sample[c] * share;
 }
 
-static float *pixel_at(const WrTileJob *job, int x, int y)
+static uint32_t *code_at(const WrTileJob *job, int x, int y)
 {
-    return job->rgba + wr_tile_place(job, x, y) * 4;
+    return job->codes + wr_tile_place(job, x, y);
 }
 
 /* Where the rows of a tile go. */
 typedef struct Rows {
     float *rgba, *normals;          /* of the first row; NULL: not wanted */
     size_t rgba_step, normals_step; /* floats a row */
+    uint32_t *codes;
+    size_t codes_step;
 } Rows;
+
+static WrSink row_sink(const Rows *rows, int y)
+{
+    const size_t row = (size_t)y;
+    return (WrSink){ .rgba = rows->rgba ? rows->rgba + row * rows->rgba_step : NULL,
+                     .normals = rows->normals ? rows->normals + row * rows->normals_step : NULL,
+                     .codes = rows->codes ? rows->codes + row * rows->codes_step : NULL };
+}
+
+/* A finished row of codes to its place, opaque: alpha told where nothing was yet. */
+static void put_codes(const uint32_t *restrict from, int count, uint32_t *restrict to)
+{
+#pragma omp simd
+    for (int x = 0; x < count; x++) to[x] = from[x] | 0xff000000U;
+}
+
+static void fill_codes(uint32_t *to, int count, uint32_t code)
+{
+#pragma omp simd
+    for (int x = 0; x < count; x++) to[x] = code;
+}
 
 /* Several short rows in one strip. */
 static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, const Rows *out,
@@ -113,6 +136,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
     WrScatter *places = &scratch->scatter;
     const int many = WR_SPAN / tile->w;
     float rgba[WR_SPAN][4], normals[WR_SPAN][3];
+    uint32_t codes[WR_SPAN];
     for (int top = 0; top < tile->h; top += many) {
         const double start = wr_clock_seconds();
         const int rows = tile->h - top < many ? tile->h - top : many;
@@ -124,10 +148,12 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
             places->y[places->count] = tile->y + y + (shift ? shift[1] / 256.0 : 0);
             places->cell[places->count++] = y * tile->w + x;
         }
-        memset(rgba, 0, sizeof rgba);
-        memset(normals, 0, sizeof normals);
+        if (out->rgba) memset(rgba, 0, sizeof rgba);
+        if (out->normals) memset(normals, 0, sizeof normals);
+        if (out->codes) fill_codes(codes, rows * tile->w, job->backdrop);
         WrSink sink = { .rgba = out->rgba ? rgba[0] : NULL,
-                        .normals = out->normals ? normals[0] : NULL };
+                        .normals = out->normals ? normals[0] : NULL,
+                        .codes = out->codes ? codes : NULL };
         const double packed = wr_clock_seconds();
         job->pipe->points(job, k, tile, &sink, scratch);
         const double ready = wr_clock_seconds();
@@ -137,6 +163,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
             if (out->rgba) memcpy(out->rgba + to * out->rgba_step, rgba[from], w * sizeof rgba[0]);
             if (out->normals)
                 memcpy(out->normals + to * out->normals_step, normals[from], w * sizeof normals[0]);
+            if (out->codes) put_codes(codes + from, tile->w, out->codes + to * out->codes_step);
         }
         scratch->whole[WR_STAGE_STORE] += wr_clock_seconds() - ready + packed - start;
     }
@@ -151,23 +178,25 @@ static void run_rows(const WrTileJob *job, int k, const WrDepthTile *tile, const
         return;
     }
     const double start = wr_clock_seconds();
+    uint32_t codes[WR_SPAN];
     for (int y = 0; y < tile->h; y++) {
-        WrSink sink = { .rgba = out->rgba ? out->rgba + (size_t)y * out->rgba_step : NULL,
-                        .normals =
-                            out->normals ? out->normals + (size_t)y * out->normals_step : NULL };
+        WrSink sink = row_sink(out, y);
+        uint32_t *to = sink.codes;
+        if (to) fill_codes(sink.codes = codes, tile->w, job->backdrop);
         job->pipe->row(job, k, tile, y, &sink, scratch);
+        if (to) put_codes(codes, tile->w, to);
     }
     scratch->all_strips += wr_clock_seconds() - start;
 }
 
-/* One sample a pixel, straight into the picture. rgba false: n' alone. */
-static void render_point(const WrTileJob *job, WrTilePart part, bool rgba, WrTileScratch *scratch)
+/* One sample a pixel, straight into the picture. light false: n' alone. */
+static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTileScratch *scratch)
 {
     WrDepthTile tile = wr_tile_depth(job, 1, part.x, part.y, part.w, part.h, scratch);
     const size_t wide = (size_t)job->width;
-    Rows out = { .rgba = rgba ? pixel_at(job, part.x, part.y) : NULL,
-                 .rgba_step = 4 * wide,
-                 .normals_step = 3 * wide };
+    Rows out = { .rgba_step = 4 * job->rgba_pitch, .normals_step = 3 * wide, .codes_step = wide };
+    if (light && job->codes) out.codes = code_at(job, part.x, part.y);
+    else if (light) out.rgba = wr_tile_pixel(job, part.x, part.y);
     if (job->normals) out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
     run_rows(job, 1, &tile, &out, scratch);
 }
@@ -189,7 +218,7 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     start = wr_clock_seconds();
     const float share = 1.0f / (float)(k * k);
     for (int y = 0; y < part.h; y++) {
-        float *pixel = pixel_at(job, part.x, part.y + y);
+        float *pixel = wr_tile_pixel(job, part.x, part.y + y);
         fold(scratch->sample[y * k][0], part.w, k, step);
         const float *folded = scratch->sample[y * k][0];
         for (int i = 0; i < 4 * part.w; i++) pixel[i] = folded[i] * share;
@@ -198,14 +227,32 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
-/* Nothing anywhere on the tile yet. */
-static void clear(const WrTileJob *job, WrTilePart part)
+/* Codes are written once: here only those beside `part`, which the object may be on. */
+static void clear_codes(const WrTileJob *job, WrTilePart whole, WrTilePart part)
 {
-    for (int y = part.y; y < part.y + part.h; y++) {
-        memset(pixel_at(job, part.x, y), 0, (size_t)part.w * 4 * sizeof(float));
+    const uint32_t backdrop = job->backdrop | 0xff000000U;
+    const int left = part.x - whole.x, right = whole.x + whole.w - part.x - part.w;
+    for (int y = whole.y; y < whole.y + whole.h; y++) {
+        uint32_t *row = code_at(job, whole.x, y);
+        if (part.w <= 0 || y < part.y || y >= part.y + part.h) {
+            fill_codes(row, whole.w, backdrop);
+            continue;
+        }
+        fill_codes(row, left, backdrop);
+        fill_codes(row + whole.w - right, right, backdrop);
+    }
+}
+
+/* Nothing anywhere on the tile yet. */
+static void clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
+{
+    if (job->codes) clear_codes(job, whole, part);
+    for (int y = whole.y; y < whole.y + whole.h; y++) {
+        if (!job->codes)
+            memset(wr_tile_pixel(job, whole.x, y), 0, (size_t)whole.w * 4 * sizeof(float));
         if (job->normals)
-            memset(job->normals + wr_tile_place(job, part.x, y) * 3, 0,
-                   (size_t)part.w * 3 * sizeof(float));
+            memset(job->normals + wr_tile_place(job, whole.x, y) * 3, 0,
+                   (size_t)whole.w * 3 * sizeof(float));
     }
 }
 
@@ -226,20 +273,44 @@ static WrTilePart touched(const WrTileJob *job, WrTilePart part)
     return part;
 }
 
-void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch)
+/* Several samples a pixel. */
+static void render_many(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
+{
+    if (job->plan->sampling == WR_SAMPLING_ALL) render_samples(job, part, scratch);
+    else wr_refine_tile(job, part.x, part.y, part.w, part.h, scratch);
+}
+
+/* The same as codes, by way of the tile's own floats. */
+static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
+{
+    WrTileJob own = *job;
+    own.rgba = scratch->mean[0];
+    own.rgba_pitch = (size_t)part.w;
+    own.x0 = part.x, own.y0 = part.y;
+    memset(scratch->mean, 0, (size_t)part.w * (size_t)part.h * sizeof *scratch->mean);
+    render_many(&own, part, scratch);
+    const double start = wr_clock_seconds();
+    for (int y = part.y; y < part.y + part.h; y++)
+        scratch->wild +=
+            job->coder->codes_over(job->bins, job->background, part.w,
+                                   wr_tile_pixel(&own, part.x, y), code_at(job, part.x, y));
+    scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+}
+
+void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScratch *scratch)
 {
     const int64_t before = scratch->shaded;
     const double start = wr_clock_seconds();
     scratch->seen = job->seen ? &job->seen[index] : NULL;
-    clear(job, part);
-    part = touched(job, part);
+    const WrTilePart part = touched(job, whole);
+    clear(job, whole, part);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
-    if (part.w <= 0 || part.h <= 0) return;
-    const WrSampling how = job->plan->sampling;
-    if (how == WR_SAMPLING_ONE) render_point(job, part, true, scratch);
-    else if (job->normals) render_point(job, part, false, scratch);
-    if (how == WR_SAMPLING_ALL) render_samples(job, part, scratch);
-    if (how == WR_SAMPLING_ADAPTIVE) wr_refine_tile(job, part.x, part.y, part.w, part.h, scratch);
+    if (part.w > 0 && part.h > 0) {
+        const bool one = job->plan->sampling == WR_SAMPLING_ONE;
+        if (one || job->normals) render_point(job, part, one, scratch);
+        if (!one && job->codes) render_many_codes(job, part, scratch);
+        else if (!one) render_many(job, part, scratch);
+    }
     scratch->tiles += scratch->shaded > before;
 }
 

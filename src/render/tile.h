@@ -32,17 +32,26 @@ typedef struct WrTileJob {
     int top, rows;       /* the band of it that is wanted */
     int tile_w, tile_h;  /* pixels */
     int tiles_u;
-    float *rgba;    /* the picture's band */
-    float *normals; /* WrFrameRequest's; or NULL */
-    WrBlocks *seen; /* [tiles] to fill with what each tile looks at; NULL: not wanted */
+    float *
+        rgba; /* the picture's band, or a part of it from (x0, y0) on; NULL: codes alone are wanted */
+    size_t rgba_pitch; /* pixels a row */
+    int x0, y0;
+    uint32_t *codes; /* the band as 8-bit codes over `background`; or NULL */
+    const uint32_t *bins;
+    const WrKernels *coder; /* that makes codes: of the exact ones, whatever the others are */
+    float background[3];
+    uint32_t backdrop; /* the background's code */
+    float *normals;    /* WrFrameRequest's; or NULL */
+    WrBlocks *seen;    /* [tiles] to fill with what each tile looks at; NULL: not wanted */
 } WrTileJob;
 
 /* Where a strip's results go, by the samples' index; members that are not wanted are NULL. */
 typedef struct WrSink {
-    float *rgba;    /* 4 a sample; NULL: no light is worked out */
-    float *normals; /* 3 a sample: n' */
-    float *bound;   /* how far the intensity may change over the pixel */
-    double pixel;   /* of the bound, samples a side */
+    float *rgba;     /* 4 a sample */
+    uint32_t *codes; /* one a sample: rgba as 8-bit codes; with neither, no light is worked out */
+    float *normals;  /* 3 a sample: n' */
+    float *bound;    /* how far the intensity may change over the pixel */
+    double pixel;    /* of the bound, samples a side */
 } WrSink;
 
 /* Samples anywhere in a grid, by their places. */
@@ -64,6 +73,8 @@ typedef struct WrTileScratch {
     float u[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H], v[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H];
     signed char shift[2 * WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H]; /* jittered */
     float sample[WR_TILE_SAMPLES_H][WR_TILE_SAMPLES_W][4];        /* R, G, B, A */
+    float mean[WR_TILE_SAMPLES_W * 32 / 2]
+              [4]; /* several samples a pixel: a tile's pixels, before they become codes */
     float centre[WR_REFINE_H + 2][WR_REFINE_W + 2]
                 [4]; /* adaptive: first samples, one pixel round */
     float bound[WR_REFINE_H + 2][WR_REFINE_W + 2];
@@ -74,6 +85,7 @@ typedef struct WrTileScratch {
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */
     int64_t tiles;                  /* that held anything */
+    int64_t wild;                   /* numbers that were not finite, among codes */
     int64_t wide_samples;           /* filter, moments: that looked above level 0 */
     uint32_t ran;                   /* bits of WrEffect: noted by what does it, where it is done */
     WrBlocks *seen;                 /* of the tile at hand; NULL: not wanted */
@@ -92,6 +104,11 @@ static inline void wr_did(WrTileScratch *scratch, WrEffect effect)
 static inline size_t wr_tile_place(const WrTileJob *job, int x, int y)
 {
     return (size_t)(y - job->top) * (size_t)job->width + (size_t)x;
+}
+
+static inline float *wr_tile_pixel(const WrTileJob *job, int x, int y)
+{
+    return job->rgba + ((size_t)(y - job->y0) * job->rgba_pitch + (size_t)(x - job->x0)) * 4;
 }
 
 /* Pixels of the picture that a tile is made of. */

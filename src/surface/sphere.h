@@ -2,11 +2,11 @@
    1. The unit normal is P/R without a division, so that the poles give (0, 0, -1) and (0, 0, 1)
    exactly in both precisions. */
 
-/* P, Pu, Pv, n, |N| of longitude (c, s) and latitude (cl, sl). */
-static inline void FN(sphere_frame)(REAL R, REAL c, REAL s, REAL cl, REAL sl, POINT *o)
+/* P, Pu, Pv, n, |N| of n, which is that of longitude (c, s) and latitude (cl, sl). */
+static inline void FN(sphere_frame)(REAL R, VEC n, REAL c, REAL s, REAL cl, REAL sl, POINT *o)
 {
     const REAL pi = K_(WR_PI), a = K_(2) * pi;
-    VEC n = { c * cl, s * cl, sl }, east = { -s, c, 0 }, north = { -c * sl, -s * sl, cl };
+    VEC east = { -s, c, 0 }, north = { -c * sl, -s * sl, cl };
     o->p = v_scale(n, R);
     o->pu = v_scale(east, a * R * cl);
     o->pv = v_scale(north, pi * R);
@@ -25,7 +25,7 @@ static inline void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, P
     cl = cl + K_(0); /* no negative zero */
     VEC east = { -s, c, 0 }, north = { -c * sl, -s * sl, cl };
     REAL a = K_(2) * pi;
-    FN(sphere_frame)(R, c, s, cl, sl, o);
+    FN(sphere_frame)(R, (VEC){ c * cl, s * cl, sl }, c, s, cl, sl, o);
     o->puu = (VEC){ -a * a * R * cl * c, -a * a * R * cl * s, 0 };
     o->puv = v_scale(east, -a * pi * R * sl);
     o->pvv = v_scale(o->n_unit, -pi * pi * R);
@@ -38,9 +38,9 @@ static inline void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, P
 static inline void FN(sphere_from)(const SHAPE *shape, VEC p, POINT *o)
 {
     REAL inv = K_(1) / r_sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-    REAL x = p.x * inv, y = p.y * inv;
-    REAL cl = r_sqrt(x * x + y * y), by = K_(1) / (cl > K_(0) ? cl : K_(1));
-    FN(sphere_frame)(shape->value[0], cl > K_(0) ? x * by : K_(1), y * by, cl, p.z * inv, o);
+    VEC n = v_scale(p, inv);
+    REAL cl = r_sqrt(n.x * n.x + n.y * n.y), by = K_(1) / (cl > K_(0) ? cl : K_(1));
+    FN(sphere_frame)(shape->value[0], n, cl > K_(0) ? n.x * by : K_(1), n.y * by, cl, n.z, o);
 }
 
 #ifndef WR_FORMULA_FLOAT

@@ -198,6 +198,7 @@ static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPre
     WrChoice *choice = &preview->choice;
     WrFrameRequest request = *wanted;
     request.dials = NULL;
+    request.codes.wanted = false; /* its blocks are put together as floats */
     request.keep = false;
     wr_chosen_recall(preview->now.chosen, &request, choice);
     if (!wr_tolerance_frame(preview->renderer, &request, choice, frame, err)) return false;
@@ -226,6 +227,8 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .dials = &dials,
                                .keep = level > WR_PREVIEW_MOVING,
                                .cancel = &preview->cancel };
+    request.codes.wanted = true;
+    memcpy(request.codes.background, surround, sizeof surround);
     WrFrame frame;
     WrPreviewPicture *out = preview->work;
     out->chosen.any = false;
@@ -236,7 +239,8 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                     : wr_renderer_frame(renderer, &request, &frame, err);
     if (!good) return false;
     if (!make_room(out, frame.width, frame.height, err)) return false;
-    wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
+    if (frame.codes) memcpy(out->bgra, frame.codes, 4 * (size_t)frame.width * (size_t)frame.height);
+    else wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
     out->level = level;
     out->way = way;
     out->scale = scale;

@@ -1,0 +1,110 @@
+/* pipe_light_body.h - the lights on a strip: a single one in one pass, several stage by stage. A part of pipe_body.h. */
+
+static void shine_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const WrMaterial *m = &job->scene->material;
+    const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
+    if (!runs(job, WR_EFFECT_SPREAD))
+        k->specular(light, shine.ks, shine.shininess, shine.gate, strip);
+    else if (job->plan->lean) k->specular_lean(light, &shine, strip);
+    else k->specular_toksvig(light, &shine, strip);
+}
+
+static void bound_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
+                        Strip *strip)
+{
+    const WrMaterial *m = &job->scene->material;
+    const WR_T(WrKernShine) shine = { runs(job, WR_EFFECT_SPECULAR) ? (REAL)m->specular : (REAL)0,
+                                      (REAL)m->shininess, m->gate };
+    double most = fmax(m->colour.x, fmax(m->colour.y, m->colour.z));
+    KERNELS_OF(job)->bound_light(rays, light, &shine, (REAL)(m->diffuse * most), strip);
+}
+
+/* What one light adds. */
+static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
+                       const WrSink *sink, Strip *strip, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    k->light(light, strip);
+    watch_lap(watch, WR_STAGE_DIFFUSE);
+    if (runs(job, WR_EFFECT_HALF)) keep_half(strip->n_dot_l, strip->count);
+    keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
+    if (runs(job, WR_EFFECT_DIFFUSE)) {
+        k->diffuse(light, (REAL)job->scene->material.diffuse, strip);
+        did(watch, WR_EFFECT_DIFFUSE);
+    }
+    watch_lap(watch, WR_STAGE_DIFFUSE);
+    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
+    if (runs(job, WR_EFFECT_SPECULAR)) {
+        shine_strip(job, light, strip);
+        did(watch, WR_EFFECT_SPECULAR);
+        watch_lap(watch, WR_STAGE_SPECULAR);
+        keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
+    }
+    if (sink->bound) bound_strip(job, rays, light, strip);
+    watch_lap(watch, WR_STAGE_BOUND);
+}
+
+/* One light, and nothing that looks at what its stages leave: the pass that does them at once; else NULL. */
+static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, const WrSink *sink)
+{
+    const bool shines = runs(job, WR_EFFECT_SPECULAR);
+    if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
+    if (!shines && !runs(job, WR_EFFECT_DIFFUSE)) return NULL;
+    if (shines && runs(job, WR_EFFECT_SPREAD)) return NULL;
+    return KERNELS_OF(job)->shade[VIEWED(job->view, lights)->point][rays->perspective][shines]
+                                 [runs(job, WR_EFFECT_COLOUR)];
+}
+
+static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKernel) shade,
+                          Strip *strip, Watch *watch)
+{
+    const WrMaterial *m = &job->scene->material;
+    const bool diffuse = runs(job, WR_EFFECT_DIFFUSE), shines = runs(job, WR_EFFECT_SPECULAR);
+    const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
+    const WR_T(WrKernMatter)
+        matter = { (REAL)m->ambient,
+                   diffuse ? (REAL)m->diffuse : (REAL)0,
+                   { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z } };
+    shade(rays, VIEWED(job->view, lights), &shine, &matter, strip);
+    if (diffuse) did(watch, WR_EFFECT_DIFFUSE);
+    if (shines) did(watch, WR_EFFECT_SPECULAR);
+    watch_lap(watch, WR_STAGE_LIGHT);
+}
+
+static void lookup_colour(const WrTileJob *job, Strip *strip, Watch *watch)
+{
+    KERNELS_OF(job)->colour(&job->colour, strip);
+    did(watch, WR_EFFECT_COLOUR);
+    watch_lap(watch, WR_STAGE_COLOUR);
+}
+
+/* The sums of all lights, stage by stage, then the colour. */
+static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink *sink,
+                            Strip *strip, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const bool specular = runs(job, WR_EFFECT_SPECULAR);
+    const WrVec3 c = job->scene->material.colour;
+    k->begin((REAL)job->scene->material.ambient, strip);
+    if (runs(job, WR_EFFECT_COLOUR)) lookup_colour(job, strip, watch);
+    if (specular || sink->bound) k->view(rays, strip);
+    watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
+    if (specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
+    for (int i = 0; i < job->view->light_count && (specular || runs(job, WR_EFFECT_DIFFUSE)); i++)
+        lamp_strip(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
+    k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
+}
+
+static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink, Strip *strip,
+                        Watch *watch)
+{
+    const WR_T(WrShadeKernel) shade = single_pass(job, rays, sink);
+    if (!shade) {
+        light_by_stages(job, rays, sink, strip, watch);
+        return;
+    }
+    if (runs(job, WR_EFFECT_COLOUR)) lookup_colour(job, strip, watch);
+    light_at_once(job, rays, shade, strip, watch);
+}

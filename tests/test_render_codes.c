@@ -1,0 +1,227 @@
+/* Pictures as 8-bit codes: the same as those made of the float picture, whatever way they are drawn; and the pass that
+   does all of one light. */
+#include "test.h"
+#include "test_render_cases.h"
+
+#include "render/kern.h"
+#include "render/srgb_codes.h"
+
+/* ---- the codes themselves ---- */
+
+/* By the definition: how many borders a value has reached. */
+static uint32_t counted(float x)
+{
+    uint32_t code = 0;
+    while (code < 255 && x >= wr_srgb_borders[code + 1]) code++;
+    return code;
+}
+
+static void expect_code(const uint32_t *bins, float x)
+{
+    const uint32_t got = wr_code_at(bins, wr_code_place(x)), want = counted(x);
+    if (got != want) fail_msg("%a: code %u, not %u", (double)x, got, want);
+}
+
+static void every_value_has_the_code_of_the_borders(void **state)
+{
+    (void)state;
+    static uint32_t bins[WR_CODE_BINS + 1];
+    TestRandom random = { 5 };
+    wr_code_bins_fill(bins);
+    for (int code = 0; code < 256; code++) {
+        float below = wr_srgb_borders[code], above = below;
+        for (int k = 0; k < 40; k++) {
+            expect_code(bins, below);
+            expect_code(bins, above);
+            below = nextafterf(below, -1);
+            above = nextafterf(above, 2);
+        }
+    }
+    for (int k = 0; k < 200000; k++) {
+        expect_code(bins, (float)test_random(&random));
+        expect_code(bins, (float)(0.004 * test_random(&random)));
+    }
+    for (int i = 0; i <= WR_CODE_BINS; i++) {
+        expect_code(bins, (float)i / WR_CODE_BINS);
+        expect_code(bins, nextafterf((float)i / WR_CODE_BINS, 0));
+    }
+    static const float ends[] = { -1,         -0.0f, 1e-45f,   1e-30f,   1,
+                                  1.0000001f, 3e38f, INFINITY, -INFINITY };
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) expect_code(bins, ends[i]);
+    assert_int_equal(wr_code_at(bins, wr_code_place(NAN)), 0);
+}
+
+/* ---- pictures ---- */
+
+static const double grounds[][3] = { { 0, 0, 0 }, { 0.13, 0.4, 0.021 }, { 1, 0.7, 0.00012 } };
+
+static void expect_codes(const WrFrame *frame, const uint8_t *bytes, const char *what)
+{
+    assert_null(frame->rgba);
+    for (int i = 0; i < frame->width * frame->height; i++) {
+        const uint32_t code = frame->codes[i];
+        const uint8_t *b = bytes + 4 * (size_t)i;
+        if (code != (0xff000000U | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0]))
+            fail_msg("%s: pixel %d,%d is %08x, not %02x%02x%02x", what, i % frame->width,
+                     i / frame->width, code, b[2], b[1], b[0]);
+    }
+}
+
+/* The float picture made into codes. */
+static uint8_t *bytes_of(const WrFrame *frame, const double ground[3], int64_t *wild)
+{
+    uint8_t *bytes = wr_alloc((size_t)frame->width * (size_t)frame->height, 4);
+    *wild = wr_frame_to_srgb8(frame, ground, true, bytes, NULL);
+    return bytes;
+}
+
+static void try_case(const Case *c, const WrField *field, WrField *edited, TestRandom *random,
+                     const char *isa, bool fast)
+{
+    static const int threads[] = { 1, 2, 7 };
+    WrError err = { "" };
+    WrScene *scene = scene_for(c);
+    WrFrame frame;
+    scene->dials.arithmetic = fast ? WR_ARITHMETIC_FAST : WR_ARITHMETIC_EXACT;
+    WrFrameRequest request = { .field = field,
+                               .scene = scene,
+                               .width = 41 + (int)(300 * test_random(random)),
+                               .height = 37 + (int)(60 * test_random(random)),
+                               .turn_deg = 25 };
+    const double *ground = grounds[(int)(3 * test_random(random))];
+    WrPool *pool = wr_pool_new(threads[(int)(3 * test_random(random))]);
+    WrRenderer *floats = wr_renderer_new(pool, isa, &err),
+               *codes = wr_renderer_new(pool, isa, &err);
+    for (int step = 0; step < 3; step++) { /* whole, whole again, and after an edit */
+        int64_t wild = 0;
+        char what[80];
+        request.field = step == 2 ? edited : field;
+        request.keep = true;
+        request.codes.wanted = false;
+        if (!wr_renderer_frame(floats, &request, &frame, &err)) fail_msg("%s", err.text);
+        const int64_t covered = frame.covered;
+        uint8_t *bytes = bytes_of(&frame, ground, &wild);
+        request.codes.wanted = true;
+        memcpy(request.codes.background, ground, sizeof request.codes.background);
+        if (!wr_renderer_frame(codes, &request, &frame, &err)) fail_msg("%s", err.text);
+        snprintf(what, sizeof what, "%s aa=%d %dx%d %s%s, step %d", c->surface, (int)c->aa,
+                 request.width, request.height, isa, fast ? " fast" : "", step);
+        expect_codes(&frame, bytes, what);
+        assert_true(frame.covered == covered);
+        assert_true(frame.wild == 0 && wild == 0);
+        wr_free(bytes);
+    }
+    wr_renderer_free(floats);
+    wr_renderer_free(codes);
+    wr_pool_free(pool);
+    wr_scene_free(scene);
+}
+
+static void codes_are_those_of_the_float_picture(void **state)
+{
+    (void)state;
+    static const char *const sets[] = { "ref", "v1", "v2", "v3", "v4" };
+    const bool full = getenv("WR_FULL");
+    TestRandom random = { 3 };
+    WrField *field = bumpy_field(61, 37), *edited = wr_field_share(field);
+    for (int i = 20; i < 27; i++) wr_field_set(edited, i, 11, 0.7f);
+    for (int s = 0; s < 5; s++)
+        for (int i = 0; i < CASES; i++) {
+            if (!wr_kernels_get(sets[s], false, NULL)) continue;
+            if (!full && i % 5 != s) continue;
+            try_case(&cases[i], field, edited, &random, sets[s], false);
+            if (s >= 3) try_case(&cases[i], field, edited, &random, sets[s], true);
+        }
+    wr_field_free(field);
+    wr_field_free(edited);
+}
+
+/* A renderer that is asked for both by turns, and for another background. */
+static void codes_and_floats_leave_each_other_alone(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    WrField *field = bumpy_field(61, 37);
+    WrScene *scene = scene_of("sphere");
+    WrRenderer *renderer = wr_renderer_new(NULL, NULL, &err);
+    Shot fresh = shoot(scene, field, 301, 50, 1, "auto", false);
+    for (int step = 0; step < 12; step++) {
+        const double *ground = grounds[step / 2 % 3];
+        int64_t wild;
+        WrFrame frame;
+        WrFrameRequest request = { .field = field,
+                                   .scene = scene,
+                                   .width = 301,
+                                   .height = 50,
+                                   .turn_deg = 15,
+                                   .keep = true,
+                                   .codes.wanted = step % 4 != 3 };
+        memcpy(request.codes.background, ground, sizeof request.codes.background);
+        assert_true(wr_renderer_frame(renderer, &request, &frame, &err));
+        uint8_t *bytes = bytes_of(&fresh.frame, ground, &wild);
+        if (request.codes.wanted) expect_codes(&frame, bytes, "by turns");
+        else assert_memory_equal(frame.rgba, fresh.frame.rgba, frame_bytes(&frame));
+        wr_free(bytes);
+    }
+    wr_renderer_free(renderer);
+    put_away(&fresh);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+/* ---- one light in one pass ---- */
+
+static void some_light(WrLight *light, TestRandom *random)
+{
+    light->kind = test_random(random) < 0.5 ? WR_LIGHT_POINT : WR_LIGHT_DIRECTIONAL;
+    light->where = (WrVec3){ 4 * test_random(random) - 2, 3 * test_random(random),
+                             1 + 2 * test_random(random) };
+    light->colour = (WrVec3){ test_random(random), test_random(random), test_random(random) };
+    light->strength = 0.5 + test_random(random);
+}
+
+/* A second light of next to nothing leaves the picture to the stages of several lights. */
+static void one_light_in_one_pass_has_the_bits_of_the_stages(void **state)
+{
+    (void)state;
+    TestRandom random = { 8 };
+    WrField *field = bumpy_field(61, 37);
+    for (int k = 0; k < (getenv("WR_FULL") ? 400 : 60); k++) {
+        WrScene *scene = scene_of(k % 3 == 0 ? "sphere" : k % 3 == 1 ? "torus" : "plane");
+        scene->camera.orthographic = k & 1;
+        scene->material.gate = k & 2;
+        scene->material.ambient = test_random(&random);
+        scene->material.specular = k % 5 ? test_random(&random) : 0;
+        scene->material.diffuse = k % 7 ? test_random(&random) : 0;
+        scene->material.shininess = 1 + 60 * test_random(&random);
+        scene->material.colour =
+            (WrVec3){ test_random(&random), test_random(&random), test_random(&random) };
+        if (k & 8) scene->colour = spots();
+        wr_free(scene->lights);
+        scene->lights = wr_alloc(2, sizeof *scene->lights);
+        scene->light_count = 1;
+        some_light(&scene->lights[0], &random);
+        Shot one = shoot(scene, field, 97, 61, 1, "auto", false);
+        scene->lights[1] = scene->lights[0];
+        scene->lights[1].strength = 1e-30;
+        scene->light_count = 2;
+        Shot two = shoot(scene, field, 97, 61, 1, "auto", false);
+        const float off = worst_difference(&one, &two);
+        if (!(off <= 1e-25f)) fail_msg("scene %d: off by %g", k, (double)off);
+        put_away(&one);
+        put_away(&two);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_value_has_the_code_of_the_borders),
+        cmocka_unit_test(codes_are_those_of_the_float_picture),
+        cmocka_unit_test(codes_and_floats_leave_each_other_alone),
+        cmocka_unit_test(one_light_in_one_pass_has_the_bits_of_the_stages),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
