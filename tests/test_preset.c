@@ -5,14 +5,9 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "brush/preset.h"
+#include "preset_help.h"
 
 #include <libmypaint/mypaint-brush-settings.h>
-
-static WrPreset *parse(const char *text, WrError *err)
-{
-    err->text[0] = '\0';
-    return wr_preset_parse(text, strlen(text), "toy", NULL, err);
-}
 
 /* A preset with these settings, which must be right. */
 static WrPreset *with_settings(const char *settings)
@@ -22,15 +17,6 @@ static WrPreset *with_settings(const char *settings)
     wr_text_addf(&text, "{\"version\": 3, \"settings\": {%s}}", settings);
     WrPreset *preset = parse(text.data, &err);
     if (!preset) fail_msg("%s: %s", text.data, err.text);
-    wr_text_fini(&text);
-    return preset;
-}
-
-static WrPreset *with_relief(const char *relief, WrError *err)
-{
-    WrText text = { 0 };
-    wr_text_addf(&text, "{\"version\": 3, \"settings\": {}, \"wrinkle\": %s}", relief);
-    WrPreset *preset = parse(text.data, err);
     wr_text_fini(&text);
     return preset;
 }

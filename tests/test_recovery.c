@@ -2,6 +2,7 @@
    journal and is killed; the parent recovers and compares hashes with those that the commands gave when
    nobody was killed. WR_FULL=1 takes the full counts, else a tenth. */
 #include "test.h"
+#include "recovery_help.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -207,13 +208,7 @@ static char *left_behind(const Plan *plan)
     for (int i = 0; i < COMMANDS; i++) assert_true(wr_session_run(session, plan->lines[i], NULL));
     wr_session_journal_leave(session);
     wr_session_free(session);
-    WrRecoverable *found;
-    int count;
-    assert_true(wr_recovery_list(&found, &count, NULL));
-    assert_int_equal(count, 1);
-    char *path = wr_strdup(found[0].journal);
-    wr_recovery_list_free(found, count);
-    return path;
+    return only_journal();
 }
 
 static void write_file(const char *path, const char *bytes, size_t length)

@@ -2,6 +2,7 @@
    back; and that nothing is removed before all of it is safe. WR_FULL=1 takes the full counts, else a tenth. */
 #include "test.h"
 #include "journal_help.h"
+#include "recovery_help.h"
 
 #include "base/error.h"
 #include "command/inner.h"
@@ -55,18 +56,6 @@ static void leave(WrSession *session)
 {
     wr_session_journal_leave(session);
     wr_session_free(session);
-}
-
-/* The one journal there is. Caller frees. */
-static char *only_journal(void)
-{
-    WrRecoverable *found;
-    int count;
-    assert_true(wr_recovery_list(&found, &count, NULL));
-    assert_int_equal(count, 1);
-    char *path = wr_strdup(found[0].journal);
-    wr_recovery_list_free(found, count);
-    return path;
 }
 
 static int journals(void)

@@ -74,12 +74,6 @@ char *wr_font_find(int index, double size, WrError *err)
 
 /* ---- shaping ---- */
 
-static bool read_inside(void)
-{
-    const char *where = getenv("WRINKLE_READER");
-    return where && strcmp(where, "inside") == 0;
-}
-
 /* The fonts' files, the first one's descriptor borrowed. */
 typedef struct Files {
     const char *name; /* the first one's */
@@ -186,8 +180,8 @@ static bool shape(const char *name, int fd, const WrFontAsk *ask, WrFontText *ou
     bool several = ask->others[0] != NULL;
     if (!check_ask(name, ask, err)) return false;
     if (!(several ? gather(&files, fd, ask, err) : take_file(&files, name, fd, err))) return false;
-    bool good = read_inside() ? shape_inside(&files, ask, &block, err)
-                              : shape_outside(&files, ask, &block, err);
+    bool good = wr_reader_inside() ? shape_inside(&files, ask, &block, err)
+                                   : shape_outside(&files, ask, &block, err);
     if (several) wr_fd_close(files.fd);
     if (!good) return false;
     if (wr_font_unpack(block.data, block.length, strlen(ask->text), out)) return true;

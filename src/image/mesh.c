@@ -58,13 +58,7 @@ void wr_mesh_fini(WrMesh *mesh)
 
 /* ---- files ---- */
 
-/* Within this process, for debugging; see wr_image_warm. */
-static bool is_inside(void)
-{
-    const char *where = getenv("WRINKLE_READER");
-    return where && strcmp(where, "inside") == 0;
-}
-
+/* Within this process, for debugging. */
 static bool read_inside(const char *name, const void *bytes, size_t length, WrMesh *out,
                         WrError *err)
 {
@@ -85,22 +79,12 @@ static bool read_outside(const char *name, int fd, WrMesh *out, WrError *err)
            take(name, block, length, out, err);
 }
 
-static int open_mesh(const char *path, WrError *err)
-{
-    uint64_t length;
-    int fd = wr_file_open(path, WR_MESH_FILE_MAX, &length, err);
-    if (fd < 0 || length > 0) return fd;
-    wr_fail(err, "%s: is empty", path);
-    wr_fd_close(fd);
-    return -1;
-}
-
 bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
 {
-    int fd = open_mesh(path, err);
+    int fd = wr_reader_file(path, WR_MESH_FILE_MAX, err);
     if (fd < 0) return false;
     bool good;
-    if (is_inside()) {
+    if (wr_reader_inside()) {
         char *bytes;
         size_t length;
         good = wr_file_read(path, WR_MESH_FILE_MAX, &bytes, &length, err);
@@ -120,7 +104,7 @@ bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMe
 {
     if (length == 0 || length > WR_MESH_FILE_MAX)
         return wr_fail(err, "%s: %zu bytes: must be 1..%zu", name, length, WR_MESH_FILE_MAX);
-    if (is_inside()) return read_inside(name, bytes, length, out, err);
+    if (wr_reader_inside()) return read_inside(name, bytes, length, out, err);
     int fd = wr_fd_in_memory(name, bytes, length, err);
     if (fd < 0) return false;
     bool good = read_outside(name, fd, out, err);

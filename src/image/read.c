@@ -20,26 +20,9 @@ struct WrImageFile {
     int fd;     /* of the decoder; -1: the reader has its own */
 };
 
-static bool read_inside(void)
-{
-    const char *where = getenv("WRINKLE_READER");
-    return where && strcmp(where, "inside") == 0;
-}
-
 void wr_image_warm(void)
 {
-    if (!read_inside()) wr_process_start(NULL);
-}
-
-/* The file, open, if it can be a picture file at all; -1 if not. */
-static int open_regular(const char *path, WrError *err)
-{
-    uint64_t length;
-    int fd = wr_file_open(path, WR_FILE_MOST, &length, err);
-    if (fd < 0 || length > 0) return fd;
-    wr_fail(err, "%s: is empty", path);
-    wr_fd_close(fd);
-    return -1;
+    if (!wr_reader_inside()) wr_process_start(NULL);
 }
 
 /* Takes the descriptor over; -1 passes a failure on. */
@@ -65,13 +48,14 @@ static WrImageFile *open_file(const char *name, int fd, int most, bool outside, 
 
 WrImageFile *wr_image_file_open(const char *path, WrError *err)
 {
-    return open_file(path, open_regular(path, err), WR_IMAGE_PARTS_MAX, !read_inside(), err);
+    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_IMAGE_PARTS_MAX,
+                     !wr_reader_inside(), err);
 }
 
 /* Our own file: where there is no reader process to be had, or no cage for it, it is not lost for that. */
 WrImageFile *wr_image_file_take(const char *name, int fd, WrError *err)
 {
-    bool outside = !read_inside() && wr_process_has_cage() && wr_process_start(NULL);
+    bool outside = !wr_reader_inside() && wr_process_has_cage() && wr_process_start(NULL);
     return open_file(name, fd, WR_IMAGE_PARTS_MAX, outside, err);
 }
 
@@ -161,7 +145,7 @@ static int most_parts(const char *name, const WrImageWish *wish)
 
 static WrImageRows *open_rows(const char *name, int fd, const WrImageWish *wish, WrError *err)
 {
-    WrImageFile *file = open_file(name, fd, most_parts(name, wish), !read_inside(), err);
+    WrImageFile *file = open_file(name, fd, most_parts(name, wish), !wr_reader_inside(), err);
     return file ? wr_image_rows_take(file, wish, err) : NULL;
 }
 
@@ -175,7 +159,7 @@ static WrImage *read_whole(const char *name, int fd, const WrImageWish *wish, Wr
 
 WrImageRows *wr_image_rows_open(const char *path, const WrImageWish *wish, WrError *err)
 {
-    return open_rows(path, open_regular(path, err), wish, err);
+    return open_rows(path, wr_reader_file(path, WR_FILE_MOST, err), wish, err);
 }
 
 WrImage *wr_image_read(const char *path, WrError *err)
@@ -186,7 +170,7 @@ WrImage *wr_image_read(const char *path, WrError *err)
 
 WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err)
 {
-    return read_whole(path, open_regular(path, err), wish, err);
+    return read_whole(path, wr_reader_file(path, WR_FILE_MOST, err), wish, err);
 }
 
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err)

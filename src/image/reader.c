@@ -11,6 +11,7 @@
 #include "system/fd.h"
 #include "system/map.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define SECONDS 60               /* without a sign of life */
@@ -37,6 +38,22 @@ struct WrReader {
     bool dead; /* the child is gone, for the reason in `end` */
     WrError end;
 };
+
+bool wr_reader_inside(void)
+{
+    const char *where = getenv("WRINKLE_READER");
+    return where && strcmp(where, "inside") == 0;
+}
+
+int wr_reader_file(const char *path, uint64_t limit, WrError *err)
+{
+    uint64_t length;
+    int fd = wr_file_open(path, limit, &length, err);
+    if (fd < 0 || length > 0) return fd;
+    wr_fail(err, "%s: is empty", path);
+    wr_fd_close(fd);
+    return -1;
+}
 
 typedef struct Answer {
     WrWireHead head;

@@ -12,8 +12,14 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct WrReader WrReader;
+
+/* Is reading done in this process (WRINKLE_READER=inside)? */
+bool wr_reader_inside(void);
+/* A file of at most `limit` bytes that may be worth reading, open: -1 and an error if it cannot be opened or is empty. */
+int wr_reader_file(const char *path, uint64_t limit, WrError *err);
 
 /* Open a picture.
  *

@@ -1,0 +1,16 @@
+/* recovery_help.h - what there is to recover. After test.h. */
+#pragma once
+#include "base/memory.h"
+#include "command/recovery.h"
+
+/* The one journal there is. Caller frees. */
+static inline char *only_journal(void)
+{
+    WrRecoverable *found;
+    int count;
+    assert_true(wr_recovery_list(&found, &count, NULL));
+    assert_int_equal(count, 1);
+    char *path = wr_strdup(found[0].journal);
+    wr_recovery_list_free(found, count);
+    return path;
+}
