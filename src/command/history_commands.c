@@ -7,6 +7,7 @@
 #include "command/commands.h"
 #include "document/document.h"
 #include "scene/scene.h"
+#include "system/path.h"
 
 #include <string.h>
 
@@ -87,7 +88,7 @@ static void add_line(void *ctx, const char *line, const char *folder)
 
 bool wr_session_save_history(WrSession *session, const char *path, WrError *err)
 {
-    char *folder = wr_path_folder(path), *real = realpath(folder, NULL);
+    char *folder = wr_path_folder(path), *real = wr_path_real(folder);
     Script script = { .home = real ? real : "" };
     if (session->state.origin) add_line(&script, session->state.origin, NULL);
     wr_session_lines(session, add_line, &script);

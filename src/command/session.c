@@ -9,6 +9,7 @@
 #include "field/field.h"
 #include "render/frame.h"
 #include "scene/scene.h"
+#include "system/path.h"
 
 #include <ctype.h>
 #include <stdarg.h>
@@ -90,7 +91,7 @@ static char *folder_of(const WrSession *session, const WrCall *call)
     bool names = false;
     for (int i = 0; i < call->count; i++) names |= wr_call_names_file(call, i);
     if (!names) return NULL;
-    char *full = realpath(session->folder ? session->folder : ".", NULL);
+    char *full = wr_path_real(session->folder ? session->folder : ".");
     char *kept = wr_strdup(full);
     free(full);
     return kept;

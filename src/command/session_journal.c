@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "document/document_file.h"
 #include "scene/scene.h"
+#include "system/path.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -62,7 +63,7 @@ static bool file_of(WrSession *session, const WrCall *call, int index, const cha
         memcpy(hex, file.sha256, 65);
         return true;
     }
-    char *seen = wr_path_join(folder ? folder : ".", word), *full = realpath(seen, NULL);
+    char *seen = wr_path_join(folder ? folder : ".", word), *full = wr_path_real(seen);
     bool good = full && wr_sha256_file(full, hex, NULL);
     if (good) wr_text_add(path, full);
     free(full);

@@ -25,13 +25,14 @@
 #include "command/inner.h"
 #include "command/session.h"
 #include "command/table.h"
+#include "system/path.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static void note_recent(WrApp *app, const char *path)
 {
-    char *full = realpath(path, NULL);
+    char *full = wr_path_real(path);
     if (full) wr_settings_note_recent(app->settings, full);
     free(full);
 }

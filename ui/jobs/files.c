@@ -226,7 +226,7 @@ static void list_folder(WrFiles *files)
 
 static void go_to(WrFiles *files, const char *folder)
 {
-    char *full = realpath(folder, NULL);
+    char *full = wr_path_real(folder);
     snprintf(files->folder, sizeof files->folder, "%s", full ? full : folder);
     free(full);
     list_folder(files);
@@ -273,7 +273,7 @@ bool wr_files_ask(WrFiles *files, WrFilePurpose purpose, const char *folder, con
     /* While the name is chosen. */
     if (purpose == WR_FILE_SAVE || purpose == WR_FILE_EXPORT || purpose == WR_FILE_RENDER)
         wr_image_warm_writing();
-    char *from = folder ? wr_strdup(folder) : realpath(".", NULL);
+    char *from = folder ? wr_strdup(folder) : wr_path_real(".");
     char *start_at = wr_path_join(from ? from : "/", name);
     bool native = ask_native(files, start_at);
     if (!native) {
