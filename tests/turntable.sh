@@ -48,6 +48,10 @@ rm -rf whole cut
 frames whole --frames 1-7 --turn 33
 for part in 6-7 1-5; do frames cut --frames "$part" --turn 33; done
 same cut 'with --turn'
+{ cat s.wrinkle && echo 'render one.png size=50x40 turn=66'; } >one.wrinkle
+"$program" run one.wrinkle 2>err || complain "$(cat err)"
+cmp one.png whole/f02.png || complain 'the command turns it otherwise'
+rm one.png
 
 # Dials are chosen for the whole turn, also by who makes but one frame of it.
 rm -rf whole cut
