@@ -3,7 +3,7 @@
 #   - no file outside includes a header that neither C17, C++17 nor a library has;
 #   - the build gives nobody but src/system more names than those;
 #   - in src/system, what only Linux has is in NAME_linux.c with NAME_plain.c beside it; all other files are content with
-#     what POSIX says.
+#     what POSIX says, and the plain ones have the same functions.
 # There is no list of exceptions.  system.sh SOURCE-FOLDER BUILD-FOLDER
 set -uo pipefail
 build=$(cd "$2" && pwd) || exit 1
@@ -40,15 +40,29 @@ fi
 
 # ---- the room itself ----
 
-for file in src/system/*_linux.c src/system/*_plain.c; do
-    other=${file/_linux.c/_plain.c}
-    [[ $other != "$file" ]] || other=${file/_plain.c/_linux.c}
-    [[ -f $other ]] || complain "$file: has no $other beside it"
-done
+trial=$(mktemp -d) || exit 1
+trap 'rm -rf "$trial"' EXIT
+
+# compiled FILE NAMES...: as it would be with these names declared; its own global functions.
+compiled() {
+    local file=$1
+    shift
+    "${CC:-cc}" -std=c17 "$@" -DWR_PLAIN_SYSTEM=1 -Isrc -c -o "$trial/one.o" -Wall -Wextra -Werror=implicit-function-declaration "$file" &&
+        nm --extern-only --defined-only "$trial/one.o" | awk '$2 == "T" && $3 ~ /^wr_/ { print $3 }' | sort
+}
+
+posix=(-D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700)
 for file in src/system/*.c; do
     [[ $file != *_linux.c ]] || continue
-    "${CC:-cc}" -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DWR_PLAIN_SYSTEM=1 -Isrc -fsyntax-only -Wall -Wextra \
-        -Werror=implicit-function-declaration "$file" || complain "$file: wants more than POSIX says"
+    compiled "$file" "${posix[@]}" >"$trial/plain" || complain "$file: wants more than POSIX says"
+    [[ $file == *_plain.c ]] || continue
+    other=${file/_plain.c/_linux.c}
+    [[ -f $other ]] || { complain "$file: has no $other beside it"; continue; }
+    compiled "$other" -D_GNU_SOURCE >"$trial/linux" || complain "$other: is not for this system"
+    diff "$trial/linux" "$trial/plain" || complain "$file: has not the functions of $other"
+done
+for file in src/system/*_linux.c; do
+    [[ -f ${file/_linux.c/_plain.c} ]] || complain "$file: has no plain form beside it"
 done
 for file in src/system/*.h; do
     grep -q 'Belongs to one system\|Private to this room' "$file" || complain "$file: does not say that it belongs to one system"
@@ -56,8 +70,6 @@ done
 
 # ---- would it tell? ----
 
-trial=$(mktemp -d) || exit 1
-trap 'rm -rf "$trial"' EXIT
 for header in unistd.h sys/stat.h pthread.h linux/landlock.h windows.h; do
     printf '#include <string.h>\n#  include <%s>\n' "$header" >"$trial/one.c"
     strangers "$trial/one.c" >/dev/null || complain "this check does not notice <$header>"
