@@ -74,8 +74,8 @@ static bool check_size(const WrFrameRequest *request, WrError *err)
     if (width < 1 || height < 1 || width > 16384 || height > 16384)
         return wr_fail(err, "picture size %dx%d: each side must be 1..16384", width, height);
     if (request->first < 0 || request->rows < 0 || request->first > height - request->rows)
-        return wr_fail(err, "rows %d..%d of a picture of %d", request->first,
-                       request->first + request->rows - 1, height);
+        return wr_fail(err, "%d rows from row %d on, of a picture of %d", request->rows,
+                       request->first, height);
     return true;
 }
 
