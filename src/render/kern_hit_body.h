@@ -1,10 +1,16 @@
 /* kern_hit_body.h - visibility in closed form. A part of kern_body.h. Each is written once for neighbours
    in a row, whose rays differ by one addition, and for samples anywhere (spread). */
 
-/* Where sample i of the strip stands. */
-#define RAY(i)                                                                                     \
-    REAL gx_ = spread ? strip->x[i] : gx + (REAL)(i), gy_ = spread ? strip->y[i] : gy;             \
-    VEC q = RAY_Q(rays, gy_, gx_), d = RAY_D(rays, gy_, gx_)
+/* The ray of sample i of the strip: of neighbours from (gx, gy) on, or wherever it stands. */
+typedef struct Ray {
+    VEC q, d;
+} Ray;
+
+ALWAYS Ray ray_of(const RAYS *rays, const STRIP *strip, int i, REAL gx, REAL gy, const bool spread)
+{
+    REAL x = spread ? strip->x[i] : gx + (REAL)i, y = spread ? strip->y[i] : gy;
+    return (Ray){ RAY_Q(rays, y, x), RAY_D(rays, y, x) };
+}
 
 /* |q + s d| = R. With m = q.d / d.d the foot of the perpendicular is f = q - m d, and
    s = -m -+ sqrt((R^2 - f.f) / d.d): no difference of large squares. s is kept relative to the foot. */
@@ -14,7 +20,8 @@ ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, in
     const REAL r = shape->value[0], r2 = r * r, s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i);
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
         REAL dd = v_dot(d, d), m = v_dot(q, d) / dd;
         VEC f = v_mad(q, d, -m);
         REAL left = r2 - v_dot(f, f);
@@ -35,7 +42,8 @@ ALWAYS int hit_cylinder(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, 
     const REAL s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i);
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
         REAL dd = d.x * d.x + d.y * d.y;
         REAL inv = 1.0f / (dd > 1e-30f ? dd : 1.0f), m = (q.x * d.x + q.y * d.y) * inv;
         REAL fx = q.x - m * d.x, fy = q.y - m * d.y;
@@ -77,9 +85,10 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
     const REAL s_min = rays->s_min;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i);
-        TipRay ray = ray_of_tip(q, d, top);
-        VEC f = ray.foot;
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
+        TipRay tip = ray_of_tip(q, d, top);
+        VEC f = tip.foot;
         REAL a = d.x * d.x + d.y * d.y - k2 * (d.z * d.z);
         REAL b = f.x * d.x + f.y * d.y - k2 * (f.z * d.z);
         REAL c = f.x * f.x + f.y * f.y - k2 * (f.z * f.z);
@@ -91,8 +100,8 @@ ALWAYS int hit_cone(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int 
         REAL sa = a != 0.0f ? t / a : MISS, sc = t != 0.0f ? c / t : 0.0f;
         REAL s0 = sa < sc ? sa : sc, s1 = sa < sc ? sc : sa;
         REAL z0 = f.z + s0 * d.z, z1 = f.z + s1 * d.z;
-        REAL second = z1 <= 0.0f && z1 >= -h && s1 - ray.m > s_min ? s1 : MISS;
-        REAL s = z0 <= 0.0f && z0 >= -h && s0 - ray.m > s_min ? s0 : second;
+        REAL second = z1 <= 0.0f && z1 >= -h && s1 - tip.m > s_min ? s1 : MISS;
+        REAL s = z0 <= 0.0f && z0 >= -h && s0 - tip.m > s_min ? s0 : second;
         strip->s[i] = disc >= 0.0f ? s : MISS;
         VEC p = v_mad(f, d, s);
         STORE3(strip, p, i, p);
@@ -122,42 +131,70 @@ static inline REAL v_of_cone(const SHAPE *shape, VEC p)
     return K_(1) + p.z / shape->value[1];
 }
 
-/* A kernel that does `one` for each sample. */
-#define ROUND_KERNEL(kernel, one)                                                                  \
-    FLAT static void kernel(const SHAPE *shape, STRIP *strip)                                      \
-    {                                                                                              \
-        const int count = strip->count;                                                            \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            one(shape, strip, i);                                                                  \
-        }                                                                                          \
-    }
+/* A surface's frame from a point, and its v of it. */
+typedef void FrameFrom(const SHAPE *shape, VEC p, POINT *at);
+typedef REAL VOf(const SHAPE *shape, VEC p);
 
+ALWAYS void params_strip(VOf *const v_of, const SHAPE *shape, STRIP *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        VEC p = LOAD3(strip, p, i);
+        strip->u[i] = r_atan2_turns(p.y, p.x);
+        strip->v[i] = clamp01(v_of(shape, p));
+    }
+}
+
+ALWAYS void put_tangents(FrameFrom *const from, const SHAPE *shape, STRIP *strip, int i)
+{
+    POINT at;
+    from(shape, LOAD3(strip, p, i), &at);
+    STORE3(strip, pu, i, at.pu);
+    STORE3(strip, pv, i, at.pv);
+    strip->n_len[i] = at.n_len;
+}
+
+ALWAYS void tangents_strip(FrameFrom *const from, const SHAPE *shape, STRIP *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        put_tangents(from, shape, strip, i);
+    }
+}
+
+ALWAYS void put_normal(FrameFrom *const from, const SHAPE *shape, STRIP *strip, int i)
+{
+    POINT at;
+    from(shape, LOAD3(strip, p, i), &at);
+    STORE3(strip, p, i, at.p);
+    STORE3(strip, n, i, at.n_unit);
+}
+
+ALWAYS void normals_strip(FrameFrom *const from, const SHAPE *shape, STRIP *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        put_normal(from, shape, strip, i);
+    }
+}
+
+/* Each round surface's kernels. */
 #define ROUND_KERNELS(name)                                                                        \
-    static inline void params_of_##name(const SHAPE *shape, STRIP *strip, int i)                   \
+    FLAT static void kern_params_##name(const SHAPE *shape, STRIP *strip)                          \
     {                                                                                              \
-        VEC p = LOAD3(strip, p, i);                                                                \
-        strip->u[i] = r_atan2_turns(p.y, p.x);                                                     \
-        strip->v[i] = clamp01(v_of_##name(shape, p));                                              \
+        params_strip(v_of_##name, shape, strip);                                                   \
     }                                                                                              \
-    static inline void tangents_of_##name(const SHAPE *shape, STRIP *strip, int i)                 \
+    FLAT static void kern_tangents_##name(const SHAPE *shape, STRIP *strip)                        \
     {                                                                                              \
-        POINT at;                                                                                  \
-        FN(name##_from)(shape, LOAD3(strip, p, i), &at);                                           \
-        STORE3(strip, pu, i, at.pu);                                                               \
-        STORE3(strip, pv, i, at.pv);                                                               \
-        strip->n_len[i] = at.n_len;                                                                \
+        tangents_strip(FN(name##_from), shape, strip);                                             \
     }                                                                                              \
-    static inline void normal_of_##name(const SHAPE *shape, STRIP *strip, int i)                   \
+    FLAT static void kern_normals_##name(const SHAPE *shape, STRIP *strip)                         \
     {                                                                                              \
-        POINT at;                                                                                  \
-        FN(name##_from)(shape, LOAD3(strip, p, i), &at);                                           \
-        STORE3(strip, p, i, at.p);                                                                 \
-        STORE3(strip, n, i, at.n_unit);                                                            \
-    }                                                                                              \
-    ROUND_KERNEL(kern_params_##name, params_of_##name)                                             \
-    ROUND_KERNEL(kern_tangents_##name, tangents_of_##name)                                         \
-    ROUND_KERNEL(kern_normals_##name, normal_of_##name)
+        normals_strip(FN(name##_from), shape, strip);                                              \
+    }
 ROUND_KERNELS(sphere)
 ROUND_KERNELS(cylinder)
 ROUND_KERNELS(cone)
@@ -173,7 +210,8 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
     const REAL u0 = quad->u0, u1 = quad->u1, v0 = quad->v0, v1 = quad->v1;
     SIMD for (int i = 0; i < count; i++)
     {
-        RAY(i);
+        Ray ray = ray_of(rays, strip, i, gx, gy, spread);
+        VEC q = ray.q, d = ray.d;
         REAL dn = v_dot(d, n);
         REAL s = v_dot(v_sub(o, q), n) / (dn != 0.0f ? dn : 1.0f);
         VEC p = v_sub(v_mad(q, d, s), o);

@@ -33,106 +33,133 @@ static inline bool all_stand(int count, const REAL *moves)
     return !(any > K_(0));
 }
 
-/* One sample of each kernel is a function of its own: a POINT declared inside a simd loop
-   would be kept in memory for all lanes, and the loop would not vectorise. */
-#define SURFACE_KERNELS(name)                                                                      \
-    static inline VEC point_##name(const SHAPE *shape, REAL u, REAL v)                             \
-    {                                                                                              \
-        POINT at;                                                                                  \
-        FN(name##_at)(shape, 0, u, v, &at);                                                        \
-        return at.p;                                                                               \
-    }                                                                                              \
-    FLAT static void kern_points_##name(const SHAPE *shape, int count, const REAL *u,              \
-                                        const REAL *v, REAL *x, REAL *y, REAL *z)                  \
-    {                                                                                              \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            VEC p = point_##name(shape, u[i], v[i]);                                               \
-            x[i] = p.x, y[i] = p.y, z[i] = p.z;                                                    \
-        }                                                                                          \
-    }                                                                                              \
-    static inline void frame_##name(const SHAPE *shape, int face, STRIP *strip, int i)             \
-    {                                                                                              \
-        POINT at;                                                                                  \
-        FN(name##_at)(shape, face, strip->u[i], strip->v[i], &at);                                 \
-        STORE3(strip, p, i, at.p);                                                                 \
-        STORE3(strip, pu, i, at.pu);                                                               \
-        STORE3(strip, pv, i, at.pv);                                                               \
-        STORE3(strip, n, i, at.n_unit);                                                            \
-        strip->n_len[i] = at.n_len;                                                                \
-    }                                                                                              \
-    FLAT static void kern_geometry_##name(const SHAPE *shape, int face, STRIP *strip)              \
-    {                                                                                              \
-        const int count = strip->count;                                                            \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            frame_##name(shape, face, strip, i);                                                   \
-        }                                                                                          \
-    }                                                                                              \
-    static inline void turn_##name(const SHAPE *shape, int face, STRIP *strip, int i)              \
-    {                                                                                              \
-        POINT at;                                                                                  \
-        FN(name##_at)(shape, face, strip->u[i], strip->v[i], &at);                                 \
-        STORE3(strip, nu, i, at.n_u);                                                              \
-        STORE3(strip, nv, i, at.n_v);                                                              \
-    }                                                                                              \
-    FLAT static void kern_curvature_##name(const SHAPE *shape, int face, STRIP *strip)             \
-    {                                                                                              \
-        const int count = strip->count;                                                            \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            turn_##name(shape, face, strip, i);                                                    \
-        }                                                                                          \
-    }                                                                                              \
-    POLISH(name)
+/* A surface's formula: fills all of *at. Kernels of all surfaces are one text, into which each surface's own is inlined.
+   One sample of each is a function: a POINT declared inside a simd loop would be kept in memory for all lanes, and the
+   loop would not vectorise. */
+typedef void Formula(const SHAPE *shape, int face, REAL u, REAL v, POINT *at);
+
+ALWAYS VEC point_at(Formula *const formula, const SHAPE *shape, REAL u, REAL v)
+{
+    POINT at;
+    formula(shape, 0, u, v, &at);
+    return at.p;
+}
+
+ALWAYS void points_strip(Formula *const formula, const SHAPE *shape, int count, const REAL *u,
+                         const REAL *v, REAL *x, REAL *y, REAL *z)
+{
+    SIMD for (int i = 0; i < count; i++)
+    {
+        VEC p = point_at(formula, shape, u[i], v[i]);
+        x[i] = p.x, y[i] = p.y, z[i] = p.z;
+    }
+}
+
+ALWAYS void put_frame(Formula *const formula, const SHAPE *shape, int face, STRIP *strip, int i)
+{
+    POINT at;
+    formula(shape, face, strip->u[i], strip->v[i], &at);
+    STORE3(strip, p, i, at.p);
+    STORE3(strip, pu, i, at.pu);
+    STORE3(strip, pv, i, at.pv);
+    STORE3(strip, n, i, at.n_unit);
+    strip->n_len[i] = at.n_len;
+}
+
+ALWAYS void geometry_strip(Formula *const formula, const SHAPE *shape, int face, STRIP *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        put_frame(formula, shape, face, strip, i);
+    }
+}
+
+ALWAYS void put_turn(Formula *const formula, const SHAPE *shape, int face, STRIP *strip, int i)
+{
+    POINT at;
+    formula(shape, face, strip->u[i], strip->v[i], &at);
+    STORE3(strip, nu, i, at.n_u);
+    STORE3(strip, nv, i, at.n_v);
+}
+
+ALWAYS void curvature_strip(Formula *const formula, const SHAPE *shape, int face, STRIP *strip)
+{
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        put_turn(formula, shape, face, strip, i);
+    }
+}
 
 /* Newton on w(u,v,s) = P - q - s d: with N = Pu x Pv, du = -(w . (Pv x d)) / (d . N) and
    dv = -(w . (d x Pu)) / (d . N). Quadratic where d . N is not small; at silhouettes the step is
    limited and, if it does not bring P nearer to the ray, not taken. */
-#define POLISH(name)                                                                               \
-    static inline Param2 newton_##name(const SHAPE *shape, VEC q, VEC d, Param2 at, Param2 reach,  \
-                                       Param2 closed)                                              \
+ALWAYS Param2 newton_step(Formula *const formula, const SHAPE *shape, VEC q, VEC d, Param2 at,
+                          Param2 reach, Param2 closed)
+{
+    POINT here;
+    formula(shape, 0, at.u, at.v, &here);
+    VEC w = v_sub(here.p, q), n = v_cross(here.pu, here.pv);
+    REAL dn = v_dot(d, n), inv = 1.0f / (dn != 0.0f ? dn : 1.0f);
+    REAL du = limit(-v_dot(w, v_cross(here.pv, d)) * inv, reach.u);
+    REAL dv = limit(-v_dot(w, v_cross(d, here.pu)) * inv, reach.v);
+    REAL u = settle(at.u + du, closed.u), v = settle(at.v + dv, closed.v);
+    REAL before = miss2(here.p, q, d), after = miss2(point_at(formula, shape, u, v), q, d);
+    bool better = dn != 0.0f && after <= before;
+    return (Param2){ better ? u : at.u, better ? v : at.v };
+}
+
+ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *shape,
+                         const NEWTON *how, STRIP *strip)
+{
+    const Param2 reach = { how->reach_u, how->reach_v };
+    const Param2 closed = { how->closed_u ? K_(1) : K_(0), how->closed_v ? K_(1) : K_(0) };
+    const REAL enough_u = how->enough_u, enough_v = how->enough_v;
+    const int count = strip->count;
+    const bool watched = (enough_u > K_(0)) | (enough_v > K_(0));
+    SIMD for (int i = 0; i < count; i++)
+    {
+        strip->s[i] = K_(1); /* while the sample moves */
+    }
+    for (int step = 0; step < how->steps; step++) {
+        SIMD for (int i = 0; i < count; i++)
+        {
+            REAL gx = strip->x[i], gy = strip->y[i], moves = strip->s[i];
+            VEC q = RAY_Q(rays, gy, gx), d = RAY_D(rays, gy, gx);
+            Param2 at = { strip->u[i], strip->v[i] };
+            Param2 to = newton_step(formula, shape, q, d, at, reach, closed);
+            REAL du = r_abs(to.u - at.u), dv = r_abs(to.v - at.v);
+            du = du > K_(0.5) ? K_(1) - du : du; /* across the seam */
+            dv = dv > K_(0.5) ? K_(1) - dv : dv;
+            REAL far_u = du > enough_u ? K_(1) : K_(0), far_v = dv > enough_v ? K_(1) : K_(0);
+            strip->u[i] = moves > K_(0) ? to.u : at.u;
+            strip->v[i] = moves > K_(0) ? to.v : at.v;
+            strip->s[i] = moves * (far_u > far_v ? far_u : far_v);
+        }
+        if (watched && all_stand(count, strip->s)) break;
+    }
+}
+
+/* Each surface's kernels. */
+#define SURFACE_KERNELS(name)                                                                      \
+    FLAT static void kern_points_##name(const SHAPE *shape, int count, const REAL *u,              \
+                                        const REAL *v, REAL *x, REAL *y, REAL *z)                  \
     {                                                                                              \
-        POINT here;                                                                                \
-        FN(name##_at)(shape, 0, at.u, at.v, &here);                                                \
-        VEC w = v_sub(here.p, q), n = v_cross(here.pu, here.pv);                                   \
-        REAL dn = v_dot(d, n), inv = 1.0f / (dn != 0.0f ? dn : 1.0f);                              \
-        REAL du = limit(-v_dot(w, v_cross(here.pv, d)) * inv, reach.u);                            \
-        REAL dv = limit(-v_dot(w, v_cross(d, here.pu)) * inv, reach.v);                            \
-        REAL u = settle(at.u + du, closed.u), v = settle(at.v + dv, closed.v);                     \
-        REAL before = miss2(here.p, q, d), after = miss2(point_##name(shape, u, v), q, d);         \
-        bool better = dn != 0.0f && after <= before;                                               \
-        return (Param2){ better ? u : at.u, better ? v : at.v };                                   \
+        points_strip(FN(name##_at), shape, count, u, v, x, y, z);                                  \
+    }                                                                                              \
+    FLAT static void kern_geometry_##name(const SHAPE *shape, int face, STRIP *strip)              \
+    {                                                                                              \
+        geometry_strip(FN(name##_at), shape, face, strip);                                         \
+    }                                                                                              \
+    FLAT static void kern_curvature_##name(const SHAPE *shape, int face, STRIP *strip)             \
+    {                                                                                              \
+        curvature_strip(FN(name##_at), shape, face, strip);                                        \
     }                                                                                              \
     FLAT static void kern_polish_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,   \
                                         STRIP *strip)                                              \
     {                                                                                              \
-        const Param2 reach = { how->reach_u, how->reach_v };                                       \
-        const Param2 closed = { how->closed_u ? K_(1) : K_(0), how->closed_v ? K_(1) : K_(0) };    \
-        const REAL enough_u = how->enough_u, enough_v = how->enough_v;                             \
-        const int count = strip->count;                                                            \
-        const bool watched = (enough_u > K_(0)) | (enough_v > K_(0));                              \
-        SIMD for (int i = 0; i < count; i++)                                                       \
-        {                                                                                          \
-            strip->s[i] = K_(1); /* while the sample moves */                                      \
-        }                                                                                          \
-        for (int step = 0; step < how->steps; step++) {                                            \
-            SIMD for (int i = 0; i < count; i++)                                                   \
-            {                                                                                      \
-                REAL gx = strip->x[i], gy = strip->y[i], moves = strip->s[i];                      \
-                VEC q = RAY_Q(rays, gy, gx), d = RAY_D(rays, gy, gx);                              \
-                Param2 at = { strip->u[i], strip->v[i] };                                          \
-                Param2 to = newton_##name(shape, q, d, at, reach, closed);                         \
-                REAL du = r_abs(to.u - at.u), dv = r_abs(to.v - at.v);                             \
-                du = du > K_(0.5) ? K_(1) - du : du; /* across the seam */                         \
-                dv = dv > K_(0.5) ? K_(1) - dv : dv;                                               \
-                REAL far_u = du > enough_u ? K_(1) : K_(0), far_v = dv > enough_v ? K_(1) : K_(0); \
-                strip->u[i] = moves > K_(0) ? to.u : at.u;                                         \
-                strip->v[i] = moves > K_(0) ? to.v : at.v;                                         \
-                strip->s[i] = moves * (far_u > far_v ? far_u : far_v);                             \
-            }                                                                                      \
-            if (watched && all_stand(count, strip->s)) break;                                      \
-        }                                                                                          \
+        polish_strip(FN(name##_at), rays, shape, how, strip);                                      \
     }
 
 #define WR_X(name) SURFACE_KERNELS(name)

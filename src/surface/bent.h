@@ -3,7 +3,7 @@
      N = (-b v c_z, -a u c_z, ab + a u c_y + b v c_x)
    N = 0 only where the patch folds over: such a c is refused. */
 
-static inline void FN(bent_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(bent_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const VEC zero = { 0, 0, 0 };

@@ -4,7 +4,7 @@
    l = sqrt(R^2 + H^2). */
 
 /* P, Pu, Pv, n, |N| of longitude (c, s) at height z, which is w H under the apex. */
-static inline void FN(cone_frame)(const SHAPE *shape, REAL c, REAL s, REAL w, REAL z, POINT *o)
+R_INLINE void FN(cone_frame)(const SHAPE *shape, REAL c, REAL s, REAL w, REAL z, POINT *o)
 {
     const REAL a = K_(2 * WR_PI);
     REAL R = shape->value[0], H = shape->value[1];
@@ -19,7 +19,7 @@ static inline void FN(cone_frame)(const SHAPE *shape, REAL c, REAL s, REAL w, RE
     o->n_u = v_scale(along, a * y * inv);
 }
 
-static inline void FN(cone_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(cone_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const REAL a = K_(2 * WR_PI);
@@ -37,7 +37,7 @@ static inline void FN(cone_at)(const SHAPE *shape, int face, REAL u, REAL v, POI
 }
 
 /* The same frame from a point, given from the apex, without (u,v); at the apex that of u = 0. */
-static inline void FN(cone_from)(const SHAPE *shape, VEC p, POINT *o)
+R_INLINE void FN(cone_from)(const SHAPE *shape, VEC p, POINT *o)
 {
     REAL H = shape->value[1], w = -p.z / H;
     REAL rho = r_sqrt(p.x * p.x + p.y * p.y), by = K_(1) / (rho > K_(0) ? rho : K_(1));

@@ -3,7 +3,7 @@
    runs up on the four upright faces and u to the right seen from outside; the lid's lower edge
    meets the front face, and so does the upper edge of the bottom. */
 
-static inline void FN(cube_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(cube_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     static const signed char frame[6][9] = {
         /* c = outward, e = along u, f = along v */

@@ -8,7 +8,7 @@
    An isometry: Pu.Pu = Pv.Pv = 1, Pu.Pv = 0, |N| = 1. The curvature jumps at the line, where the
    second derivatives are those of the flat side. */
 
-static inline void FN(curl_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(curl_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const REAL h = K_(0.70710678118654752440);        /* 1 / sqrt 2 */

@@ -1,7 +1,7 @@
 /* cylinder.h - a tube without lids: P = (R c, R s, H (v - 1/2)), c, s of 2 pi u. */
 
 /* P, Pu, Pv, n, |N| of longitude (c, s) at height z. */
-static inline void FN(cylinder_frame)(const SHAPE *shape, REAL c, REAL s, REAL z, POINT *o)
+R_INLINE void FN(cylinder_frame)(const SHAPE *shape, REAL c, REAL s, REAL z, POINT *o)
 {
     const REAL a = K_(2 * WR_PI);
     REAL R = shape->value[0], H = shape->value[1];
@@ -13,7 +13,7 @@ static inline void FN(cylinder_frame)(const SHAPE *shape, REAL c, REAL s, REAL z
     o->n_unit = out;
 }
 
-static inline void FN(cylinder_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(cylinder_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const REAL a = K_(2 * WR_PI);
@@ -31,7 +31,7 @@ static inline void FN(cylinder_at)(const SHAPE *shape, int face, REAL u, REAL v,
 }
 
 /* The same frame from a point of any distance from the axis, without (u,v). */
-static inline void FN(cylinder_from)(const SHAPE *shape, VEC p, POINT *o)
+R_INLINE void FN(cylinder_from)(const SHAPE *shape, VEC p, POINT *o)
 {
     REAL inv = K_(1) / r_sqrt(p.x * p.x + p.y * p.y);
     FN(cylinder_frame)(shape, p.x * inv, p.y * inv, p.z, o);

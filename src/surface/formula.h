@@ -3,7 +3,7 @@
    so that loops over them vectorise: choose with ?:).
    Include with WR_FORMULA_FLOAT defined or not, then surface_list.h with WR_SURFACE_FORMULAS. A
    surface file has no include guard and defines
-       static inline void FN(torus_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
+       R_INLINE void FN(torus_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
    which fills every member of *o, and, in double only (#ifndef WR_FORMULA_FLOAT), its row
        static const WrSurfaceInfo torus_row = { ... .at = torus_at_d ... };
 

@@ -1,7 +1,7 @@
 /* plane.h - the flat patch: P = (a u, b v, 0), N = (0, 0, ab).
    Blinn's N' is exact on it, whatever F. */
 
-static inline void FN(plane_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(plane_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const VEC zero = { 0, 0, 0 }, up = { 0, 0, 1 };

@@ -4,7 +4,7 @@
      N = (-2 pi t w W - 2 pi k A W cos 2 pi k u cos beta, -L W sin beta, L W cos beta)
    |N| >= L W, so that it is never degenerate. */
 
-static inline void FN(ribbon_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(ribbon_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const VEC zero = { 0, 0, 0 };

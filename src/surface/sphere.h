@@ -3,7 +3,7 @@
    exactly in both precisions. */
 
 /* P, Pu, Pv, n, |N| of n, which is that of longitude (c, s) and latitude (cl, sl). */
-static inline void FN(sphere_frame)(REAL R, VEC n, REAL c, REAL s, REAL cl, REAL sl, POINT *o)
+R_INLINE void FN(sphere_frame)(REAL R, VEC n, REAL c, REAL s, REAL cl, REAL sl, POINT *o)
 {
     const REAL pi = K_(WR_PI), a = K_(2) * pi;
     VEC east = { -s, c, 0 }, north = { -c * sl, -s * sl, cl };
@@ -14,7 +14,7 @@ static inline void FN(sphere_frame)(REAL R, VEC n, REAL c, REAL s, REAL cl, REAL
     o->n_len = r_abs(K_(2) * pi * pi * R * R * cl);
 }
 
-static inline void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const REAL pi = K_(WR_PI);
@@ -35,7 +35,7 @@ static inline void FN(sphere_at)(const SHAPE *shape, int face, REAL u, REAL v, P
 }
 
 /* The same frame from a point of any distance in that direction, without (u,v). */
-static inline void FN(sphere_from)(const SHAPE *shape, VEC p, POINT *o)
+R_INLINE void FN(sphere_from)(const SHAPE *shape, VEC p, POINT *o)
 {
     REAL inv = K_(1) / r_sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
     VEC n = v_scale(p, inv);

@@ -5,7 +5,7 @@
    or, on the inner part of a spindle where w < 0, points the other way: it
    keeps the sign of w, the unit normal does not. */
 
-static inline void FN(torus_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
+R_INLINE void FN(torus_at)(const SHAPE *shape, int face, REAL u, REAL v, POINT *o)
 {
     (void)face;
     const REAL a = K_(2 * WR_PI);
