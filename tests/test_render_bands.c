@@ -5,6 +5,7 @@
 
 typedef struct Picture {
     float *rgba, *normals;
+    uint32_t *codes; /* in the place of rgba; or NULL */
     int64_t covered;
 } Picture;
 
@@ -30,7 +31,9 @@ static void bands(const WrFrameRequest *whole, const Picture *expected, int thre
         assert_int_equal(frame.height, request.rows);
         const size_t at = (size_t)request.first * width, n = (size_t)request.rows * width;
         covered += frame.covered;
-        if (memcmp(frame.rgba, expected->rgba + 4 * at, 4 * n * sizeof(float)) != 0)
+        assert_true((frame.codes != NULL) == (expected->codes != NULL));
+        if (frame.codes ? memcmp(frame.codes, expected->codes + at, n * sizeof *frame.codes) != 0
+                        : memcmp(frame.rgba, expected->rgba + 4 * at, 4 * n * sizeof(float)) != 0)
             fail_msg("%s: rows %d..%d are other than the whole picture's, %d threads", what,
                      request.first, request.first + request.rows - 1, threads);
         if (normals && memcmp(normals, expected->normals + 3 * at, 3 * n * sizeof(float)) != 0)
@@ -42,7 +45,9 @@ static void bands(const WrFrameRequest *whole, const Picture *expected, int thre
     wr_pool_free(pool);
 }
 
-static void try_case(const Case *c, const WrField *field, TestRandom *random, bool normals)
+typedef enum Kind { LIGHT, NORMALS, CODES, KINDS } Kind;
+
+static void try_case(const Case *c, const WrField *field, TestRandom *random, Kind kind)
 {
     static const int threads[] = { 1, 2, 7 };
     WrError err = { "" };
@@ -51,21 +56,27 @@ static void try_case(const Case *c, const WrField *field, TestRandom *random, bo
     const int width = 41 + (int)(60 * test_random(random));
     const int height = 37 + (int)(70 * test_random(random));
     snprintf(what, sizeof what, "%s aa=%d samples=%d, %dx%d%s", c->surface, (int)c->aa, c->samples,
-             width, height, normals ? ", normals" : "");
+             width, height,
+             kind == NORMALS ? ", normals"
+             : kind == CODES ? ", codes"
+                             : "");
     const size_t pixels = (size_t)width * (size_t)height;
-    Picture expected = { .normals = normals ? wr_alloc(pixels * 3, sizeof(float)) : NULL };
+    Picture expected = { .normals = kind == NORMALS ? wr_alloc(pixels * 3, sizeof(float)) : NULL };
     const WrFrameRequest request = { .field = field,
                                      .scene = scene,
                                      .width = width,
                                      .height = height,
                                      .turn_deg = 25,
-                                     .normals = expected.normals };
+                                     .normals = expected.normals,
+                                     .codes.wanted = kind == CODES,
+                                     .codes.background = { 0.2, 0.1, 0.4 } };
     WrFrame frame;
     WrPool *pool = wr_pool_new(2);
     WrRenderer *renderer = wr_renderer_new(pool, NULL, &err);
     if (!wr_renderer_frame(renderer, &request, &frame, &err)) fail_msg("%s: %s", what, err.text);
     assert_true(frame.covered > 0);
     expected.rgba = frame.rgba;
+    expected.codes = (uint32_t *)frame.codes;
     expected.covered = frame.covered;
     for (int k = 0; k < 3; k++) {
         const double share = k == 1 ? 1 : test_random(random), most = k ? height : 9;
@@ -85,8 +96,8 @@ static void bands_hold_the_bits_of_the_whole_picture(void **state)
     WrField *field = bumpy_field(60, 40);
     for (int round = 0; round < (getenv("WR_FULL") ? 10 : 1); round++)
         for (int i = 0; i < CASES; i++)
-            for (int normals = 0; normals < 2; normals++)
-                try_case(&cases[i], field, &random, normals);
+            for (int kind = 0; kind < KINDS; kind++)
+                try_case(&cases[i], field, &random, (Kind)kind);
     wr_field_free(field);
 }
 

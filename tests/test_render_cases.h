@@ -30,7 +30,7 @@ static const Case cases[] = {
     { "curl", WR_AA_FILTER, 1, 0, 0, false, true, 0 },
     { "cylinder", WR_AA_MOMENTS, 1, 0, 0, false, false, 0 },
     { "plane", WR_AA_ADAPTIVE, 16, WR_SPREAD_JITTERED, WR_REFINE_CONTRAST, true, true, 0.3 },
-    { "torus", WR_AA_ADAPTIVE, 4, 0, WR_REFINE_CONTRAST, true, false, 0.3 },
+    { "torus", WR_AA_ADAPTIVE, 4, 0, WR_REFINE_CONTRAST, true, false, 1.5 },
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
