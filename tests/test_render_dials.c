@@ -39,15 +39,16 @@ typedef void (*Visit)(const WrScene *scene, const WrField *field, const char *wh
 /* Call for each rung of each dial, alone and with others that it needs to matter. */
 static void each_rung(const char *surface, const WrField *field, double height, Visit visit)
 {
-    static const WrAntialias bases[] = { WR_AA_POINT, WR_AA_MOMENTS, WR_AA_ADAPTIVE };
+    static const WrAntialias bases[] = { WR_AA_POINT, WR_AA_MOMENTS, WR_AA_ADAPTIVE, WR_AA_POINT };
     for (int d = 0; d < WR_DIAL_COUNT; d++) {
         const WrDial *dial = &wr_dials[d];
-        for (int base = 0; base < 3; base++)
+        for (int base = 0; base < 4; base++) /* the last with fast arithmetic */
             for (int rung = 0; rung < 16; rung++) {
                 WrScene *scene = scene_of(surface);
                 scene->height = height;
                 scene->dials.aa = bases[base];
                 scene->dials.samples = 3;
+                if (base == 3) scene->dials.arithmetic = WR_ARITHMETIC_FAST;
                 double value = rung;
                 if (dial->choices == 0 && isnan(dial->rungs[rung])) value = NAN;
                 else if (dial->choices == 0) value = dial->rungs[rung];
@@ -60,8 +61,8 @@ static void each_rung(const char *surface, const WrField *field, double height, 
                 dial->set(scene, value);
                 if (base == 0 || (dial->matters && dial->matters(scene))) {
                     char what[80];
-                    snprintf(what, sizeof what, "%s %s=%g aa=%d", surface, dial->name, value,
-                             (int)scene->dials.aa);
+                    snprintf(what, sizeof what, "%s %s=%g aa=%d%s", surface, dial->name, value,
+                             (int)scene->dials.aa, base == 3 ? " fast" : "");
                     visit(scene, field, what);
                 }
                 wr_scene_free(scene);

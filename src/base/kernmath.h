@@ -4,6 +4,7 @@
    Layer 0. Polynomials: interpolation at Chebyshev nodes, checked in tests/test_base.c. */
 #pragma once
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 static inline float wr_bits_float(int32_t bits)
@@ -22,6 +23,12 @@ static inline int32_t wr_float_bits(float value)
         int32_t i;
     } u = { value };
     return u.i;
+}
+
+/* Asked of the bits: compilers that may take it for granted do not look at those. */
+static inline bool wr_is_finite_f(float x)
+{
+    return (wr_float_bits(x) & INT32_MAX) < 0x7f800000;
 }
 
 /* A power of two that brings m, finite and not negative, below 4, and what is not 0 to no less than 2^-22. */

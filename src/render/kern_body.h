@@ -20,6 +20,7 @@
 #define r_atan2_turns wr_atan2_turns_r
 #define r_pow_below wr_pow_below_r
 #define r_scale_down wr_scale_down_r
+#define r_is_finite wr_is_finite_r
 #define r_floor floor
 #define ROUNDED K_(0x1p-46)
 #define STRIP WrStripd
@@ -38,6 +39,7 @@
 #define r_atan2_turns wr_atan2_turns_f
 #define r_pow_below wr_pow_below_f
 #define r_scale_down wr_scale_down_f
+#define r_is_finite wr_is_finite_f
 #define r_floor floorf
 #define ROUNDED K_(0x1p-18)
 #define STRIP WrStrip
@@ -141,12 +143,12 @@ ALWAYS REAL longest(VEC a)
     return larger(larger(r_abs(a.x), r_abs(a.y)), r_abs(a.z));
 }
 
-/* a / |a|, `otherwise` where a is 0: scaled by a power of two first, so no square overflows. */
+/* a / |a|, `otherwise` where a is 0 or as long as no number is: scaled by a power of two first, so no square overflows. */
 ALWAYS VEC unit_or(VEC a, VEC otherwise)
 {
     REAL m = longest(a);
     VEC b = v_scale(a, r_scale_down(m));
-    bool good = m > 0.0f;
+    bool good = (m > 0.0f) & r_is_finite(m);
     REAL inv = K_(1) / r_sqrt(good ? v_dot(b, b) : K_(1));
     return (VEC){ good ? b.x * inv : otherwise.x, good ? b.y * inv : otherwise.y,
                   good ? b.z * inv : otherwise.z };

@@ -21,7 +21,8 @@ static inline REAL side_of(Viewer viewer, const STRIP *strip, int i)
 /* What slopes beyond STEEP, and N with them, are multiplied by. */
 ALWAYS REAL eased(REAL steepest)
 {
-    return steepest > STEEP ? STEEP * r_scale_down(steepest) : K_(1);
+    REAL k = steepest > STEEP ? STEEP * r_scale_down(steepest) : K_(1);
+    return r_is_finite(steepest) ? k : K_(0);
 }
 
 ALWAYS VEC choose(bool condition, VEC a, VEC b)

@@ -24,6 +24,11 @@ static inline int64_t wr_double_bits(double value)
     return u.i;
 }
 
+static inline bool wr_is_finite_r(double x)
+{
+    return (wr_double_bits(x) & INT64_MAX) < 0x7ff0000000000000;
+}
+
 static inline double wr_scale_down_r(double m)
 {
     const int64_t power = wr_double_bits(m) & 0x7ff0000000000000, most = 0x7fd0000000000000;
