@@ -138,6 +138,11 @@ ALWAYS REAL smaller(REAL a, REAL b)
     return a < b ? a : b;
 }
 
+ALWAYS VEC choose(bool condition, VEC a, VEC b)
+{
+    return (VEC){ condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z };
+}
+
 ALWAYS REAL longest(VEC a)
 {
     return larger(larger(r_abs(a.x), r_abs(a.y)), r_abs(a.z));

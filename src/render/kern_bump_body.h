@@ -25,11 +25,6 @@ ALWAYS REAL eased(REAL steepest)
     return r_is_finite(steepest) ? k : K_(0);
 }
 
-ALWAYS VEC choose(bool condition, VEC a, VEC b)
-{
-    return (VEC){ condition ? a.x : b.x, condition ? a.y : b.y, condition ? a.z : b.z };
-}
-
 /* The slopes of a sample, and what they and N are scaled by. */
 typedef struct Slopes {
     REAL fu, fv, k;

@@ -95,21 +95,51 @@ ALWAYS void curvature_strip(Formula *const formula, const SHAPE *shape, int face
 /* Newton on w(u,v,s) = P - q - s d: with N = Pu x Pv, du = -(w . (Pv x d)) / (d . N) and
    dv = -(w . (d x Pu)) / (d . N). Quadratic where d . N is not small; at silhouettes the step is
    limited and, if it does not bring P nearer to the ray, not taken. */
-ALWAYS Param2 newton_step(Formula *const formula, const SHAPE *shape, VEC q, VEC d, Param2 at,
-                          Param2 reach, Param2 closed)
+ALWAYS Param2 newton_step(VEC p, VEC pu, VEC pv, Ray ray, Param2 at, Param2 reach, Param2 closed)
 {
-    POINT here;
-    formula(shape, 0, at.u, at.v, &here);
-    VEC w = v_sub(here.p, q), n = v_cross(here.pu, here.pv);
-    REAL dn = v_dot(d, n), inv = 1.0f / (dn != 0.0f ? dn : 1.0f);
-    REAL du = limit(-v_dot(w, v_cross(here.pv, d)) * inv, reach.u);
-    REAL dv = limit(-v_dot(w, v_cross(d, here.pu)) * inv, reach.v);
-    REAL u = settle(at.u + du, closed.u), v = settle(at.v + dv, closed.v);
-    REAL before = miss2(here.p, q, d), after = miss2(point_at(formula, shape, u, v), q, d);
-    bool better = dn != 0.0f && after <= before;
-    return (Param2){ better ? u : at.u, better ? v : at.v };
+    VEC w = v_sub(p, ray.q), n = v_cross(pu, pv);
+    REAL dn = v_dot(ray.d, n), inv = 1.0f / (dn != 0.0f ? dn : 1.0f);
+    REAL du = limit(-v_dot(w, v_cross(pv, ray.d)) * inv, reach.u);
+    REAL dv = limit(-v_dot(w, v_cross(ray.d, pu)) * inv, reach.v);
+    return (Param2){ settle(at.u + (dn != 0.0f ? du : K_(0)), closed.u),
+                     settle(at.v + (dn != 0.0f ? dv : K_(0)), closed.v) };
 }
 
+#define KEEP3(strip, name, i, taken, vec)                                                          \
+    STORE3(strip, name, i, choose(taken, vec, LOAD3(strip, name, i)))
+
+/* P, Pu, Pv: what a step looks at. */
+ALWAYS void put_tangent_plane(Formula *const formula, const SHAPE *shape, STRIP *strip, int i)
+{
+    POINT at;
+    formula(shape, 0, strip->u[i], strip->v[i], &at);
+    STORE3(strip, p, i, at.p);
+    STORE3(strip, pu, i, at.pu);
+    STORE3(strip, pv, i, at.pv);
+}
+
+/* One step of sample i, whose P, Pu, Pv stand in the strip, as it does afterwards; how far it moved. */
+ALWAYS Param2 polish_sample(Formula *const formula, const SHAPE *shape, Ray ray, Param2 reach,
+                            Param2 closed, STRIP *strip, int i)
+{
+    VEC p = LOAD3(strip, p, i), pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
+    Param2 at = { strip->u[i], strip->v[i] };
+    Param2 to = newton_step(p, pu, pv, ray, at, reach, closed);
+    POINT there;
+    formula(shape, 0, to.u, to.v, &there);
+    bool taken = (miss2(there.p, ray.q, ray.d) <= miss2(p, ray.q, ray.d)) & (strip->s[i] > K_(0));
+    KEEP3(strip, p, i, taken, there.p);
+    KEEP3(strip, pu, i, taken, there.pu);
+    KEEP3(strip, pv, i, taken, there.pv);
+    strip->u[i] = taken ? to.u : at.u;
+    strip->v[i] = taken ? to.v : at.v;
+    REAL du = r_abs(to.u - at.u), dv = r_abs(to.v - at.v);
+    du = du > K_(0.5) ? K_(1) - du : du; /* across the seam */
+    dv = dv > K_(0.5) ? K_(1) - dv : dv;
+    return (Param2){ taken ? du : K_(0), taken ? dv : K_(0) };
+}
+
+/* A step evaluates the surface once: at its end, which is the next one's start. */
 ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *shape,
                          const NEWTON *how, STRIP *strip)
 {
@@ -121,21 +151,15 @@ ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *
     SIMD for (int i = 0; i < count; i++)
     {
         strip->s[i] = K_(1); /* while the sample moves */
+        put_tangent_plane(formula, shape, strip, i);
     }
     for (int step = 0; step < how->steps; step++) {
         SIMD for (int i = 0; i < count; i++)
         {
-            REAL gx = strip->x[i], gy = strip->y[i], moves = strip->s[i];
-            VEC q = RAY_Q(rays, gy, gx), d = RAY_D(rays, gy, gx);
-            Param2 at = { strip->u[i], strip->v[i] };
-            Param2 to = newton_step(formula, shape, q, d, at, reach, closed);
-            REAL du = r_abs(to.u - at.u), dv = r_abs(to.v - at.v);
-            du = du > K_(0.5) ? K_(1) - du : du; /* across the seam */
-            dv = dv > K_(0.5) ? K_(1) - dv : dv;
-            REAL far_u = du > enough_u ? K_(1) : K_(0), far_v = dv > enough_v ? K_(1) : K_(0);
-            strip->u[i] = moves > K_(0) ? to.u : at.u;
-            strip->v[i] = moves > K_(0) ? to.v : at.v;
-            strip->s[i] = moves * (far_u > far_v ? far_u : far_v);
+            Ray ray = ray_of(rays, strip, i, K_(0), K_(0), true);
+            Param2 moved = polish_sample(formula, shape, ray, reach, closed, strip, i);
+            bool on = (moved.u > enough_u) | (moved.v > enough_v);
+            strip->s[i] = on ? strip->s[i] : K_(0);
         }
         if (watched && all_stand(count, strip->s)) break;
     }

@@ -133,7 +133,7 @@ typedef struct WR_T(WrKernels) {
     WR_T(WrRound) round[WR_INVERSIONS]; /* zeros where rays meet a surface otherwise */
     /* Newton's method from the guesses in u, v of the samples at x, y: solves P(u,v) = q + s d by
        3 x 3 steps, no longer than `reach` in u and v, until a step is shorter than `enough` in u and v
-       (0: never); keeps the guess where it does not improve. */
+       (0: never); keeps the guess where it does not improve. Leaves P, Pu, Pv there. */
     void (*polish[WR_SURFACE_COUNT])(const WR_T(WrRays) * rays, const SHAPE *shape,
                                      const WR_T(WrNewton) * how, WR_T(WrStrip) * strip);
     /* Points only, for meshes. */
