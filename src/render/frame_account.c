@@ -17,6 +17,7 @@ void wr_frame_start_counts(WrRenderer *renderer)
         memset(s->whole, 0, sizeof s->whole);
         s->all = s->all_strips = 0;
         s->covered = s->wild = s->shaded = s->tiles = s->wide_samples = 0;
+        s->level_samples = s->level_tiles = 0;
         s->strips = 0;
         s->ran = 0;
     }
@@ -24,18 +25,32 @@ void wr_frame_start_counts(WrRenderer *renderer)
 
 /* ---- where each stage's time goes ---- */
 
-/* What each effect cost and touched, into the plan's rows. */
-static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], int64_t tiles,
-                    int64_t shaded, int64_t filtered, uint32_t ran)
+/* What a frame's threads counted. */
+typedef struct Counts {
+    int64_t tiles, shaded, filtered, level_tiles, level;
+    uint32_t ran;
+} Counts;
+
+/* Effects that a run of samples without a slope is spared. */
+static bool is_of_slopes(int effect)
 {
+    return effect == WR_EFFECT_BUMP || effect == WR_EFFECT_GRADIENT ||
+           effect == WR_EFFECT_INVARIANT || effect == WR_EFFECT_TANGENTS;
+}
+
+/* What each effect cost and touched, into the plan's rows. */
+static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Counts *counts)
+{
+    const int64_t shaded = counts->shaded;
     for (int c = 0; c < WR_COST_COUNT; c++) plan->cost[c] = 0;
     for (int e = 0; e < WR_EFFECT_COUNT; e++) {
         WrPlanRow *row = &plan->rows[e];
         row->seconds = 0;
-        row->ran = ran >> e & 1;
+        row->ran = counts->ran >> e & 1;
         if (!row->run) continue;
-        row->tiles = tiles;
-        row->pixels = e == WR_EFFECT_FILTER ? filtered : shaded;
+        row->tiles = counts->tiles - (is_of_slopes(e) ? counts->level_tiles : 0);
+        row->pixels = e == WR_EFFECT_FILTER ? counts->filtered
+                                            : shaded - (is_of_slopes(e) ? counts->level : 0);
     }
     for (int stage = 0; stage < WR_STAGE_COUNT; stage++)
         wr_plan_charge(plan, (WrStage)stage, seconds[stage]);
@@ -62,8 +77,7 @@ static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame)
 {
     double seconds[WR_STAGE_COUNT] = { 0 }, rest = 0, busy = 0;
-    int64_t tiles = 0, filtered = 0;
-    uint32_t ran = 0;
+    Counts counts = { 0 };
     WrPlan *plan = &renderer->plan;
     const double total = wr_clock_seconds() - started;
     *frame = (WrFrame){ .width = renderer->width, .height = renderer->rows, .plan = plan };
@@ -76,14 +90,17 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
         frame->covered += s->covered;
         frame->shaded += s->shaded;
         frame->wild += s->wild;
-        tiles += s->tiles;
-        filtered += s->wide_samples;
-        ran |= s->ran;
+        counts.tiles += s->tiles;
+        counts.filtered += s->wide_samples;
+        counts.level += s->level_samples;
+        counts.level_tiles += s->level_tiles;
+        counts.ran |= s->ran;
     }
     if (!wr_plan_runs(plan, WR_EFFECT_AGAIN))
         frame->covered = renderer->covered; /* heights do not move the outline */
     renderer->covered = frame->covered;
-    account(plan, seconds, tiles, frame->shaded, filtered, ran);
+    counts.shaded = frame->shaded;
+    account(plan, seconds, &counts);
     plan->work = prepared + renderer->threads * (total - prepared);
     plan->cost[WR_COST_PREPARE] += prepared;
     plan->cost[WR_COST_REST] += rest;

@@ -166,6 +166,37 @@ static uint32_t looks_of(const WrFrameRequest *request, const WrRenderer *render
            (renderer->looked != request->field ? 1U << WR_EFFECT_ROUNDED : 0);
 }
 
+/* Is the bump of places without a slope to be spared? Where most of the table has slopes, asking is not worth it. */
+static bool asks_for_slopes(const WrRenderer *renderer, const WrFrameRequest *request)
+{
+    const WrPlan *plan = &renderer->plan;
+    const WrTable *table = &renderer->table;
+    const bool bends = plan->bump == WR_BUMP_BLINN || plan->bump == WR_BUMP_INVARIANT;
+    if (request->full || (request->force && request->force[WR_EFFECT_BUMP] == WR_FORCE_ON))
+        return false;
+    if (!bends || plan->source != WR_SOURCE_TABLE || !wr_plan_runs(plan, WR_EFFECT_GRADIENT) ||
+        wr_plan_runs(plan, WR_EFFECT_FILTER) || table->precision != WR_PRECISION_SINGLE)
+        return false;
+    const int tiles = wr_field_tiles_u(request->field) * wr_field_tiles_v(request->field);
+    int sloped = 0;
+    for (int i = 0; i < tiles; i++) sloped += table->sloped[i];
+    return 4 * sloped < 3 * tiles;
+}
+
+static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
+{
+    if (!asks_for_slopes(renderer, request)) return;
+    job->level = (WrLevel){ .sloped = renderer->table.sloped,
+                            .tiles_u = wr_field_tiles_u(request->field),
+                            .tiles_v = wr_field_tiles_v(request->field),
+                            .width = job->look.width,
+                            .height = job->look.height,
+                            .ru = job->look.ru,
+                            .rv = job->look.rv,
+                            .periodic_u = job->look.periodic_u,
+                            .periodic_v = job->look.periodic_v };
+}
+
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {
@@ -194,6 +225,7 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
                           .pyramid = look.pyramid,
                           .range = look.range };
     job->looks = looks_of(request, renderer, &look);
+    fill_level(renderer, request, job);
     if (!wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) return;
     const WrImage *image = request->scene->colour;
     job->colour = (WrColourLook){ .rgba = renderer->colour.rgba,

@@ -93,11 +93,29 @@ static const WR_T(WrRound) * round_of(const WrTileJob *job)
     return round->hit ? round : NULL;
 }
 
+/* Do all samples of the strip lie where the table has no slope? Their n' is n, then, to the bit. Not while notes are
+   taken of what tiles look at. */
+static bool is_level(const WrTileJob *job, const Strip *strip, WrTileScratch *scratch)
+{
+    if (!job->level.sloped || scratch->seen) return false;
+    REAL u0 = strip->u[0], u1 = u0, v0 = strip->v[0], v1 = v0;
+#pragma omp simd reduction(min : u0, v0) reduction(max : u1, v1)
+    for (int i = 0; i < strip->count; i++) {
+        u0 = strip->u[i] < u0 ? strip->u[i] : u0;
+        u1 = strip->u[i] > u1 ? strip->u[i] : u1;
+        v0 = strip->v[i] < v0 ? strip->v[i] : v0;
+        v1 = strip->v[i] > v1 ? strip->v[i] : v1;
+    }
+    if (!wr_level_box(&job->level, (double)u0, (double)u1, (double)v0, (double)v1)) return false;
+    scratch->level_samples += strip->count;
+    return true;
+}
+
 /* P, n, and what else of the surface's frame the plan asks for. */
-static void surface_strip(const WrTileJob *job, int face, Strip *strip, Watch *watch)
+static void surface_strip(const WrTileJob *job, int face, bool level, Strip *strip, Watch *watch)
 {
     const WR_T(WrRound) *round = round_of(job);
-    if (round && runs(job, WR_EFFECT_TANGENTS)) {
+    if (round && runs(job, WR_EFFECT_TANGENTS) && !level) {
         round->tangents(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
     }
@@ -120,15 +138,17 @@ static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const 
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
     if (plan->normals) {
-        surface_strip(job, face, strip, watch);
+        const bool level = plan->bump != WR_BUMP_NONE && is_level(job, strip, scratch);
+        const WrBumpMode bump = level ? WR_BUMP_NONE : plan->bump;
+        surface_strip(job, face, level, strip, watch);
         if (runs(job, WR_EFFECT_CURVATURE)) {
             k->curvature[kind](&VIEWED(job->view, shape), face, strip);
             did(watch, WR_EFFECT_CURVATURE);
             watch_lap(watch, WR_STAGE_CURVATURE);
         }
-        if (plan->bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
-        k->bump[plan->bump](rays, strip);
-        scratch->ran |= normal_effects[plan->bump];
+        if (bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
+        k->bump[bump](rays, strip);
+        scratch->ran |= normal_effects[bump];
         watch_lap(watch, WR_STAGE_BUMP);
         if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
             k->widen(plan->bump == WR_BUMP_INVARIANT, strip);

@@ -299,7 +299,7 @@ static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScrat
 
 void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScratch *scratch)
 {
-    const int64_t before = scratch->shaded;
+    const int64_t before = scratch->shaded, level = scratch->level_samples;
     const double start = wr_clock_seconds();
     scratch->seen = job->seen ? &job->seen[index] : NULL;
     const WrTilePart part = touched(job, whole);
@@ -312,6 +312,8 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
         else if (!one) render_many(job, part, scratch);
     }
     scratch->tiles += scratch->shaded > before;
+    scratch->level_tiles +=
+        scratch->shaded > before && scratch->level_samples - level == scratch->shaded - before;
 }
 
 bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u,

@@ -3,6 +3,7 @@
    Layer 5, private to the renderer. */
 #pragma once
 #include "render/keep.h"
+#include "render/level.h"
 #include "render/mesh.h"
 #include "render/plan.h"
 
@@ -26,6 +27,7 @@ typedef struct WrTileJob {
     WrLook look;
     WrLookd look_double; /* where kernels_double looks */
     uint32_t looks; /* bits of WrEffect: what a look-up in the table does, by what it was given */
+    WrLevel level;  /* where the table has no slope; only where that spares the bump */
     WrColourLook colour; /* rgba NULL: none */
     int samples;         /* K */
     int width, height;   /* pixels */
@@ -86,10 +88,12 @@ typedef struct WrTileScratch {
     int64_t covered, shaded;        /* pixels, samples */
     int64_t tiles;                  /* that held anything */
     int64_t wild;                   /* numbers that were not finite, among codes */
-    int64_t wide_samples;           /* filter, moments: that looked above level 0 */
-    uint32_t ran;                   /* bits of WrEffect: noted by what does it, where it is done */
-    WrBlocks *seen;                 /* of the tile at hand; NULL: not wanted */
-    unsigned strips;                /* counts strips: one in eight is timed */
+    int64_t level_samples,
+        level_tiles;      /* whose bump was spared; tiles of which it was everywhere */
+    int64_t wide_samples; /* filter, moments: that looked above level 0 */
+    uint32_t ran;         /* bits of WrEffect: noted by what does it, where it is done */
+    WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
+    unsigned strips;      /* counts strips: one in eight is timed */
 } WrTileScratch;
 
 _Static_assert(WR_EFFECT_COUNT <= 32, "a bit for each effect");

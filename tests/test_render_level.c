@@ -1,0 +1,174 @@
+/* Samples where the table has no slope are spared the bump: the picture is that of all of it, to the bit. */
+#include "test.h"
+#include "test_render_scenes.h"
+
+#include "render/level.h"
+
+/* Level but for a few texels, often beside a tile's border or the table's end. */
+static WrField *spotted_field(int w, int h, TestRandom *random)
+{
+    const WrWrap u = test_random(random) < 0.5 ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP;
+    const WrWrap v = test_random(random) < 0.5 ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP;
+    const float ground = (float)(test_random(random) - 0.5);
+    WrField *field = wr_field_new(w, h, u, v, ground, NULL);
+    for (int k = 0; k < 3; k++) {
+        const bool edge = test_random(random) < 0.6;
+        int i = (int)(w * test_random(random)), j = (int)(h * test_random(random));
+        if (edge) i = i / WR_TILE * WR_TILE - (int)(2 * test_random(random));
+        if (edge) j = j / WR_TILE * WR_TILE - (int)(2 * test_random(random));
+        i = (i + w) % w, j = (j + h) % h;
+        wr_field_set(field, i, j, ground + (float)test_random(random));
+    }
+    return field;
+}
+
+static WrScene *some_scene(TestRandom *random)
+{
+    static const char *const surfaces[] = { "sphere", "plane", "cube", "torus", "cylinder" };
+    static const double replications[] = { 1, 1, -1, 2, 0.37, -2.61, 7 };
+    WrScene *scene = scene_of(surfaces[(int)(5 * test_random(random))]);
+    scene->replicate_u = replications[(int)(7 * test_random(random))];
+    scene->replicate_v = replications[(int)(7 * test_random(random))];
+    scene->scheme = test_random(random) < 0.7 ? WR_SCHEME_CENTRAL : WR_SCHEME_NEAREST;
+    scene->bump = test_random(random) < 0.7 ? WR_BUMP_BLINN : WR_BUMP_INVARIANT;
+    scene->height = 0.2;
+    scene->camera.orthographic = test_random(random) < 0.5;
+    scene->camera.size = test_random(random) < 0.5 ? 0.5 : 2.2;
+    scene->dials.aa = test_random(random) < 0.6 ? WR_AA_POINT : WR_AA_SUPERSAMPLE;
+    scene->dials.samples = 3;
+    return scene;
+}
+
+static void what_is_spared_shows_nowhere(void **state)
+{
+    (void)state;
+    TestRandom random = { 21 };
+    int spared = 0, partly = 0;
+    for (int k = 0; k < (getenv("WR_FULL") ? 1500 : 150); k++) {
+        const int w = 70 + (int)(500 * test_random(&random)),
+                  h = 65 + (int)(400 * test_random(&random));
+        WrField *field = spotted_field(w, h, &random);
+        WrScene *scene = some_scene(&random);
+        const int size = 40 + (int)(90 * test_random(&random));
+        Shot planned = shoot(scene, field, 3 * size, size, 1 + k % 3, "auto", false);
+        Shot full = shoot(scene, field, 3 * size, size, 1, "auto", true);
+        const WrPlanRow *bump = &planned.frame.plan->rows[WR_EFFECT_BUMP];
+        const bool even =
+            scene->bump == WR_BUMP_BLINN || planned.frame.plan->bump == WR_BUMP_INVARIANT;
+        if (even && !same_picture(&planned, &full))
+            fail_msg("table %d: off by %g", k, (double)worst_difference(&planned, &full));
+        assert_int_equal(full.frame.plan->rows[WR_EFFECT_BUMP].pixels, full.frame.shaded);
+        assert_in_range(bump->pixels, 0, planned.frame.shaded);
+        spared += bump->run && bump->pixels < planned.frame.shaded;
+        partly += bump->pixels > 0 && bump->pixels < planned.frame.shaded;
+        put_away(&planned);
+        put_away(&full);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+    assert_in_range(spared, 15, 1500); /* or nothing was tried */
+    assert_in_range(partly, 10, 1500);
+}
+
+/* The box against every texel that it could read. */
+static void a_box_is_level_only_where_no_tile_of_it_has_a_slope(void **state)
+{
+    (void)state;
+    TestRandom random = { 9 };
+    int yes = 0;
+    for (int k = 0; k < 20000; k++) {
+        unsigned char sloped[4 * 3] = { 0 };
+        WrLevel level = { .sloped = sloped,
+                          .width = 193 + (int)(60 * test_random(&random)),
+                          .height = 130 + (int)(60 * test_random(&random)),
+                          .ru = 6 * test_random(&random) - 3,
+                          .rv = 6 * test_random(&random) - 3,
+                          .periodic_u = k & 1,
+                          .periodic_v = k & 2 };
+        level.tiles_u = 4, level.tiles_v = 3;
+        for (int i = 0; i < 12; i++) sloped[i] = test_random(&random) < 0.2;
+        const double u0 = test_random(&random), u1 = u0 + 0.2 * test_random(&random);
+        const double v0 = test_random(&random), v1 = v0 + 0.2 * test_random(&random);
+        if (!wr_level_box(&level, u0, u1, v0, v1)) continue;
+        yes++;
+        for (int s = 0; s < 100; s++) {
+            double u = level.ru * (u0 + (u1 - u0) * test_random(&random));
+            double v = level.rv * (v0 + (v1 - v0) * test_random(&random));
+            u = level.periodic_u ? u - floor(u) : fmin(fmax(u, 0), 1);
+            v = level.periodic_v ? v - floor(v) : fmin(fmax(v, 0), 1);
+            for (int tap = 0; tap < 4; tap++) {
+                int i = (int)floor(level.width * u - 0.5) + tap % 2;
+                int j = (int)floor(level.height * (1 - v) - 0.5) + tap / 2;
+                i = level.periodic_u ? (i + level.width) % level.width : i < 0 ? 0 : i;
+                j = level.periodic_v ? (j + level.height) % level.height : j < 0 ? 0 : j;
+                i = i < level.width ? i : level.width - 1;
+                j = j < level.height ? j : level.height - 1;
+                if (sloped[j / WR_TILE * 4 + i / WR_TILE])
+                    fail_msg("box %d reads texel %d,%d, whose tile has a slope", k, i, j);
+            }
+        }
+    }
+    assert_in_range(yes, 500, 20000);
+    const WrLevel none = { .sloped = (unsigned char[1]){ 0 },
+                           .tiles_u = 1,
+                           .tiles_v = 1,
+                           .width = 8,
+                           .height = 8,
+                           .ru = 1,
+                           .rv = 1 };
+    assert_true(wr_level_box(&none, 0, 1, 0, 1));
+    assert_false(wr_level_box(&none, NAN, 1, 0, 1));
+    assert_false(wr_level_box(&none, 0, 1, 0, NAN));
+}
+
+/* Edits anywhere, where all was level too, corners and ends among them: every pixel is that of a new picture. */
+static void edits_show_wherever_they_are(void **state)
+{
+    (void)state;
+    TestRandom random = { 33 };
+    WrError err = { "" };
+    const int rounds = getenv("WR_FULL") ? 10 : 2;
+    for (int k = 0; k < rounds; k++) {
+        const int w = 70 + (int)(300 * test_random(&random)),
+                  h = 65 + (int)(200 * test_random(&random));
+        WrField *field = spotted_field(w, h, &random);
+        WrScene *scene = some_scene(&random);
+        WrPool *pool = wr_pool_new(1 + k % 3);
+        WrRenderer *renderer = wr_renderer_new(pool, NULL, &err);
+        for (int edit = 0; edit < 50; edit++) {
+            WrFrame frame;
+            const WrFrameRequest request = { .field = field,
+                                             .scene = scene,
+                                             .width = 150,
+                                             .height = 70,
+                                             .turn_deg = 15,
+                                             .keep = true };
+            if (!wr_renderer_frame(renderer, &request, &frame, &err)) fail_msg("%s", err.text);
+            Shot fresh = shoot(scene, field, 150, 70, 1, "auto", false);
+            if (memcmp(frame.rgba, fresh.frame.rgba, frame_bytes(&frame)) != 0)
+                fail_msg("table %d (%dx%d), after edit %d", k, w, h, edit);
+            put_away(&fresh);
+            WrField *next = wr_field_share(field);
+            const int i = edit % 5 == 0 ? (edit % 2) * (w - 1) : (int)(w * test_random(&random));
+            const int j = edit % 7 == 0 ? (edit % 2) * (h - 1) : (int)(h * test_random(&random));
+            const float old = wr_field_get(next, i, j);
+            wr_field_set(next, i, j, old + (float)(test_random(&random) - 0.5));
+            wr_field_free(field);
+            field = next;
+        }
+        wr_renderer_free(renderer);
+        wr_pool_free(pool);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_spared_shows_nowhere),
+        cmocka_unit_test(edits_show_wherever_they_are),
+        cmocka_unit_test(a_box_is_level_only_where_no_tile_of_it_has_a_slope),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
