@@ -260,10 +260,22 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
     wr_raster_clipped(view, corner, tile);
 }
 
-static void raster_cell(const WrViewMesh *mesh, const WrView *view, int i, int j, WrDepthTile *tile)
+/* Do all four corners lie beyond the same side of the tile? */
+static bool cell_misses(const int32_t *top, const int32_t *low, int64_t from, int64_t to)
+{
+    const int64_t a = top[0], b = top[1], c = low[0], d = low[1];
+    return (a < from && b < from && c < from && d < from) || (a > to && b > to && c > to && d > to);
+}
+
+static void raster_cell(const WrViewMesh *mesh, const WrView *view, const Bounds *bounds, int i,
+                        int j, WrDepthTile *tile)
 {
     size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i, next = at + (size_t)mesh->mu + 1;
-    if (mesh->out[at] | mesh->out[at + 1] | mesh->out[next] | mesh->out[next + 1]) {
+    const bool out = mesh->out[at] | mesh->out[at + 1] | mesh->out[next] | mesh->out[next + 1];
+    if (!out && (cell_misses(mesh->sy + at, mesh->sy + next, bounds->y0, bounds->y1) ||
+                 cell_misses(mesh->sx + at, mesh->sx + next, bounds->x0, bounds->x1)))
+        return;
+    if (out) {
         raster_clipped(mesh, view, (const int[3][2]){ { i, j }, { i + 1, j }, { i + 1, j + 1 } },
                        tile);
         raster_clipped(mesh, view, (const int[3][2]){ { i, j }, { i + 1, j + 1 }, { i, j + 1 } },
@@ -284,6 +296,7 @@ void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile
         if (!block_meets(&mesh->blocks[b], &bounds)) continue;
         int i0 = b % mesh->blocks_u * WR_MESH_BLOCK, j0 = b / mesh->blocks_u * WR_MESH_BLOCK;
         for (int j = j0; j < j0 + WR_MESH_BLOCK; j++)
-            for (int i = i0; i < i0 + WR_MESH_BLOCK; i++) raster_cell(mesh, view, i, j, tile);
+            for (int i = i0; i < i0 + WR_MESH_BLOCK; i++)
+                raster_cell(mesh, view, &bounds, i, j, tile);
     }
 }

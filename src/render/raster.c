@@ -84,27 +84,32 @@ typedef struct Walk {
     int32_t x0, y0, x1, y1; /* samples of the tile */
 } Walk;
 
-/* Sample `cell`, at which the edges are fa, fb, fc. */
-static inline void take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, size_t cell,
+/* Sample `cell`, at which the edges are fa, fb, fc; false outside. */
+static inline bool take(const Walk *walk, int64_t fa, int64_t fb, int64_t fc, size_t cell,
                         WrDepthTile *tile)
 {
-    if ((fa | fb | fc) < 0) return;
+    if ((fa | fb | fc) < 0) return false;
     float l1 = (float)fb * walk->inv, l2 = (float)fc * walk->inv;
     float near = walk->close.base + l1 * walk->close.d1 + l2 * walk->close.d2;
-    if (!(near > tile->close[cell])) return;
+    if (!(near > tile->close[cell])) return true;
     float w = walk->perspective ? 1.0f / near : 1.0f;
     tile->close[cell] = near;
     tile->u[cell] = (walk->u.base + l1 * walk->u.d1 + l2 * walk->u.d2) * w;
     tile->v[cell] = (walk->v.base + l1 * walk->v.d1 + l2 * walk->v.d2) * w;
+    return true;
 }
 
+/* Row by row; past a triangle's far side nothing more of it comes. */
 static void cover(Walk *walk, WrDepthTile *tile)
 {
     for (int32_t y = walk->y0; y < walk->y1; y++) {
         int64_t fa = walk->a.at, fb = walk->b.at, fc = walk->c.at;
         size_t row = (size_t)y * (size_t)tile->w;
+        bool within = false;
         for (int32_t x = walk->x0; x < walk->x1; x++) {
-            take(walk, fa, fb, fc, row + (size_t)x, tile);
+            const bool in = take(walk, fa, fb, fc, row + (size_t)x, tile);
+            if (within && !in) break;
+            within = in;
             fa += walk->a.step_x, fb += walk->b.step_x, fc += walk->c.step_x;
         }
         walk->a.at += walk->a.step_y, walk->b.at += walk->b.step_y, walk->c.at += walk->c.step_y;
@@ -124,8 +129,8 @@ static void cover_shifted(Walk *walk, WrDepthTile *tile)
         size_t row = (size_t)y * (size_t)tile->w;
         for (int32_t x = walk->x0; x < walk->x1; x++) {
             const signed char *shift = tile->shift + 2 * (row + (size_t)x);
-            take(walk, shifted(&walk->a, fa, shift), shifted(&walk->b, fb, shift),
-                 shifted(&walk->c, fc, shift), row + (size_t)x, tile);
+            (void)take(walk, shifted(&walk->a, fa, shift), shifted(&walk->b, fb, shift),
+                       shifted(&walk->c, fc, shift), row + (size_t)x, tile);
             fa += walk->a.step_x, fb += walk->b.step_x, fc += walk->c.step_x;
         }
         walk->a.at += walk->a.step_y, walk->b.at += walk->b.step_y, walk->c.at += walk->c.step_y;
