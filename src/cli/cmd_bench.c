@@ -3,6 +3,7 @@
 #include "base/pool.h"
 #include "base/text.h"
 #include "cli/bench.h"
+#include "cli/bench_sections.h"
 
 #include <string.h>
 
@@ -10,22 +11,46 @@
 
 typedef struct Options {
     bool lines, exact, quick, made;
+    uint64_t sections; /* bit i: wr_bench_sections[i] */
 } Options;
+
+static bool unknown_word(const char *word, WrError *err)
+{
+    WrText parts = { 0 };
+    for (int i = 0; wr_bench_sections[i].name; i++)
+        wr_text_addf(&parts, "%s, ", wr_bench_sections[i].name);
+    wr_fail(err, "bench: unknown word %.60s: must be generate, all, %s--lines, --exact or --quick",
+            word, wr_text_get(&parts));
+    wr_text_fini(&parts);
+    return false;
+}
+
+static bool read_word(const char *word, Options *options, WrError *err)
+{
+    const int section = wr_bench_section_find(word);
+    if (section >= 0) options->sections |= (uint64_t)1 << section;
+    else if (strcmp(word, "all") == 0) options->sections = ~(uint64_t)0;
+    else if (strcmp(word, "--lines") == 0) options->lines = true;
+    else if (strcmp(word, "--exact") == 0) options->exact = true;
+    else if (strcmp(word, "--quick") == 0) options->quick = true;
+    else if (strcmp(word, "generate") == 0) options->made = true;
+    else return unknown_word(word, err);
+    return true;
+}
 
 static bool read_options(const WrCli *cli, Options *options, WrError *err)
 {
-    *options = (Options){ false, false, false, false };
-    for (int i = 0; i < cli->word_count; i++) {
-        const char *word = cli->words[i];
-        if (strcmp(word, "--lines") == 0) options->lines = true;
-        else if (strcmp(word, "--exact") == 0) options->exact = true;
-        else if (strcmp(word, "--quick") == 0) options->quick = true;
-        else if (strcmp(word, "generate") == 0) options->made = true;
-        else
-            return wr_fail(
-                err, "bench: unknown word %s: must be generate, --lines, --exact or --quick", word);
-    }
-    return true;
+    *options = (Options){ .sections = 0 };
+    for (int i = 0; i < cli->word_count; i++)
+        if (!read_word(cli->words[i], options, err)) return false;
+    if (cli->json && !options->sections && !options->made)
+        options->sections = ~(uint64_t)0, options->lines = true;
+    if (options->made && options->sections)
+        return wr_fail(err, "bench: generate stands alone, without other parts");
+    if ((cli->sized && !options->sections) || (options->sections && options->lines && !cli->json))
+        return wr_fail(err, cli->sized ? "bench: --size is of the parts: name one, or all"
+                                       : "bench: --lines beside parts needs --json");
+    return wr_cli_check_isa(cli, err);
 }
 
 static int all_threads(const WrCli *cli)
@@ -169,13 +194,59 @@ static bool bench_table(const WrCli *cli, const Options *options, WrText *text, 
            wr_bench_window(cli, options->quick, text, err);
 }
 
+/* The sections that are asked for, one after another. */
+static bool bench_sections(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    WrBenchSections *all = wr_alloc(1, sizeof *all);
+    all->cli = cli;
+    all->width = cli->width;
+    all->height = cli->height;
+    all->rounds = options->quick ? 5 : 15;
+    all->fast = !options->exact;
+    bool good = wr_peaks_measure(cli->pool, options->quick, &all->peaks, err), any = false;
+    if (good && cli->json) wr_bench_head_json(all, text);
+    else if (good) wr_bench_peaks_print(all, text);
+    for (int i = 0; wr_bench_sections[i].name && good; i++) {
+        if (!(options->sections >> i & 1)) continue;
+        good = wr_bench_section_measure(all, &wr_bench_sections[i], err);
+        if (good && cli->json) wr_text_add(text, any ? ",\n" : ",\n\"sections\": [\n");
+        if (good && cli->json) wr_bench_section_json(all, text);
+        else if (good) wr_bench_section_print(all, text);
+        any = true;
+        wr_bench_section_clear(all);
+    }
+    if (cli->json && any) wr_text_add(text, "]");
+    wr_free(all);
+    return good;
+}
+
+/* One object: sections, and what --lines prints. */
+static bool bench_json(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    WrText lines = { 0 };
+    bool good = true;
+    wr_text_add(text, "{");
+    if (options->sections) good = bench_sections(cli, options, text, err);
+    if (good && options->made) good = wr_bench_generate(cli, options->quick, true, &lines, err);
+    else if (good && options->lines) good = bench_lines(cli, options, &lines, err);
+    if (good && (options->made || options->lines)) {
+        wr_text_addf(text, "%s\"lines\": ", options->sections ? ",\n" : "");
+        wr_bench_lines_json(wr_text_get(&lines), text);
+    }
+    wr_text_add(text, "}\n");
+    wr_text_fini(&lines);
+    return good;
+}
+
 int wr_cli_bench(const WrCli *cli)
 {
     WrError err = { "" };
     Options options;
     WrText text = { 0 };
     if (!read_options(cli, &options, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
-    bool good = options.made    ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
+    bool good = cli->json          ? bench_json(cli, &options, &text, &err)
+                : options.sections ? bench_sections(cli, &options, &text, &err)
+                : options.made  ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
                 : options.lines ? bench_lines(cli, &options, &text, &err)
                                 : bench_table(cli, &options, &text, &err);
     int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);

@@ -1,0 +1,24 @@
+/* bench_peak.h - what this machine can do at best, to set beside what pictures reach: sums of products, and bytes copied.
+   Layer 7. Measured with the threads of the pool; the best of the rounds. */
+#pragma once
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+typedef struct WrPool WrPool;
+
+#define WR_PEAK_BUILDS 3
+#define WR_PEAK_LEVELS 3
+
+typedef struct WrPeaks {
+    /* GFLOP/s of x k + c in single precision, counted as two operations; 0: not of this processor. */
+    double gflops[WR_PEAK_BUILDS];
+    /* GB/s of copies, bytes read and bytes written both counted. */
+    double gbytes[WR_PEAK_LEVELS];
+    double bytes[WR_PEAK_LEVELS]; /* source and copy together, of one thread */
+} WrPeaks;
+
+extern const char *const wr_peak_builds[WR_PEAK_BUILDS]; /* "v1", "v3", "v4" */
+extern const char *const wr_peak_levels[WR_PEAK_LEVELS]; /* "L1", "L2", "DRAM" */
+
+bool wr_peaks_measure(WrPool *pool, bool quick, WrPeaks *peaks, WrError *err);

@@ -1,0 +1,134 @@
+/* The pictures of a section, measured by turns. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "cli/bench.h"
+#include "cli/bench_sections.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "render/frame.h"
+#include "scene/scene.h"
+#include "system/clock.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DAB 64 /* texels each way */
+
+typedef struct Lane {
+    WrRenderer *renderer;
+    WrField *field;
+    uint8_t *bytes; /* where floats are made codes of */
+    double *ms;     /* [rounds] */
+} Lane;
+
+static const char *isa_of(const WrBenchSections *all, const WrBenchPicture *p)
+{
+    return p->isa ? p->isa : all->cli->isa;
+}
+
+static WrField *field_of(const WrBenchSections *all, const Lane *lanes, int index, WrError *err)
+{
+    for (int i = 0; i < index; i++)
+        if (all->picture[i].table == all->picture[index].table)
+            return wr_field_share(lanes[i].field);
+    return wr_bench_field(all->picture[index].table, err);
+}
+
+static bool lane_init(const WrBenchSections *all, int index, Lane *lanes, WrError *err)
+{
+    const WrBenchPicture *p = &all->picture[index];
+    Lane *lane = &lanes[index];
+    lane->ms = wr_alloc((size_t)all->rounds, sizeof *lane->ms);
+    lane->field = field_of(all, lanes, index, err);
+    if (!lane->field) return false;
+    if (p->out == WR_BENCH_CONVERTED) {
+        lane->bytes =
+            wr_try_alloc((size_t)all->width * (size_t)all->height, 4, "a picture's codes", err);
+        if (!lane->bytes) return false;
+    }
+    lane->renderer = wr_renderer_new(all->cli->pool, isa_of(all, p), err);
+    return lane->renderer;
+}
+
+static void lane_fini(Lane *lane)
+{
+    wr_renderer_free(lane->renderer);
+    wr_field_free(lane->field);
+    wr_free(lane->bytes);
+    wr_free(lane->ms);
+}
+
+/* A dab of square texels, a little higher each round, on the side that is seen. */
+static void paint(WrField *field, int size, int round)
+{
+    const int side = size < DAB ? size : DAB;
+    for (int j = 0; j < side; j++)
+        for (int i = 0; i < side; i++)
+            wr_field_set(field, (size / 4 + i) % size, (size / 2 + j) % size,
+                         1e-4f * (float)(round + 2));
+}
+
+/* The bytes that a picture takes at least: its own, written once; and what it looks up, the whole table or four
+   texels a sample where these are fewer. */
+static double bytes_of(const WrBenchSections *all, const WrBenchPicture *p, const WrFrame *frame)
+{
+    const double pixels = (double)all->width * all->height, samples = (double)frame->shaded;
+    if (p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS) return 0;
+    double bytes = pixels * (p->out == WR_BENCH_CODES    ? 4
+                             : p->out == WR_BENCH_FLOATS ? 16
+                                                         : 16 + 16 + 3);
+    if (wr_plan_runs(frame->plan, WR_EFFECT_BUMP))
+        bytes += 4 * fmin((double)p->table * p->table, 4 * samples);
+    const WrImage *colour = p->scene->colour;
+    if (colour && wr_plan_runs(frame->plan, WR_EFFECT_COLOUR))
+        bytes += 16 * fmin((double)colour->width * colour->height, 4 * samples);
+    return bytes;
+}
+
+static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int round, WrError *err)
+{
+    static const double background[3] = { 0, 0, 0 };
+    const bool rests = p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS;
+    const WrFrameRequest request = { .field = lane->field,
+                                     .scene = p->scene,
+                                     .width = all->width,
+                                     .height = all->height,
+                                     .turn_deg = rests ? 0 : 7.3 * round,
+                                     .keep = rests,
+                                     .force = p->force,
+                                     .full = p->full,
+                                     .codes = { .wanted = p->out == WR_BENCH_CODES } };
+    WrFrame frame;
+    if (p->view == WR_BENCH_PAINTS) paint(lane->field, p->table, round);
+    if (p->view == WR_BENCH_FIRST) wr_renderer_free(lane->renderer), lane->renderer = NULL;
+    const double start = wr_clock_seconds();
+    if (!lane->renderer) lane->renderer = wr_renderer_new(all->cli->pool, isa_of(all, p), err);
+    if (!lane->renderer || !wr_renderer_frame(lane->renderer, &request, &frame, err)) return false;
+    if (lane->bytes) wr_frame_to_srgb8(&frame, background, false, lane->bytes, all->cli->pool);
+    if (round >= 0) lane->ms[round] = 1e3 * (wr_clock_seconds() - start);
+    p->samples = frame.shaded;
+    p->bytes = bytes_of(all, p, &frame);
+    p->ran = p->effect >= 0 && frame.plan->rows[p->effect].ran;
+    return true;
+}
+
+bool wr_bench_section_measure(WrBenchSections *all, const WrBenchSection *section, WrError *err)
+{
+    all->section = section;
+    wr_bench_section_clear(all);
+    if (!section->fill(all, err)) return false;
+    Lane *lanes = wr_alloc((size_t)all->count, sizeof *lanes);
+    bool good = true;
+    for (int i = 0; i < all->count && good; i++) good = lane_init(all, i, lanes, err);
+    for (int round = -1; round < all->rounds && good; round++) /* the first fills caches */
+        for (int i = 0; i < all->count && good; i++) {
+            good = draw(all, &all->picture[i], &lanes[i], round, err);
+            if (good && all->cli->cancel && *all->cli->cancel) good = wr_fail(err, "interrupted");
+        }
+    for (int i = 0; i < all->count; i++) {
+        if (good) all->picture[i].ms = wr_bench_median(lanes[i].ms, all->rounds);
+        lane_fini(&lanes[i]);
+    }
+    wr_free(lanes);
+    return good;
+}

@@ -1,0 +1,369 @@
+/* The table of sections, and the pictures that each compares. */
+#include "cli/bench_sections.h"
+#include "base/error.h"
+#include "base/rows.h"
+#include "cli/bench.h"
+#include "render/kern.h"
+#include "scene/dials.h"
+#include "scene/scene.h"
+
+#include <string.h>
+
+#define TABLE 512
+
+/* A row of the reference scene; NULL and an error without memory. */
+static WrBenchPicture *add(WrBenchSections *all, const char *name, int base, const char *surface,
+                           WrBenchMode mode, WrError *err)
+{
+    WrScene *scene = wr_bench_scene(surface, mode, all->fast, err);
+    if (!scene) return NULL;
+    WrBenchPicture *p = &all->picture[all->count++];
+    *p = (WrBenchPicture){ .base = base, .scene = scene, .table = TABLE, .effect = -1 };
+    snprintf(p->name, sizeof p->name, "%s", name);
+    return p;
+}
+
+static WrBenchPicture *add_bump(WrBenchSections *all, const char *name, int base, WrError *err)
+{
+    return add(all, name, base, "sphere", WR_BENCH_BUMP, err);
+}
+
+static const char *const surfaces[] = { "sphere", "bezier", "torus" };
+
+static bool fill_surfaces(WrBenchSections *all, WrError *err)
+{
+    static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_TEXTURE, WR_BENCH_BUMP,
+                                         WR_BENCH_BUMP_TEXTURE };
+    for (int s = 0; s < 3; s++) {
+        const int smooth = all->count;
+        for (int m = 0; m < 4; m++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s %s", surfaces[s],
+                     m == 0 ? "smooth" : wr_bench_modes[modes[m]]);
+            if (!add(all, name, smooth, surfaces[s], modes[m], err)) return false;
+        }
+    }
+    return true;
+}
+
+static bool fill_schemes(WrBenchSections *all, WrError *err)
+{
+    for (int s = 0; s < WR_SCHEME_COUNT; s++) {
+        WrBenchPicture *p = add_bump(all, wr_schemes[s].name, WR_SCHEME_CENTRAL, err);
+        if (!p) return false;
+        p->scene->scheme = (WrScheme)s;
+    }
+    return true;
+}
+
+static bool fill_normals(WrBenchSections *all, WrError *err)
+{
+    for (int m = 0; m < WR_BUMP_COUNT; m++) {
+        WrBenchPicture *p = add_bump(all, wr_bumps[m].name, WR_BUMP_BLINN, err);
+        if (!p) return false;
+        p->scene->bump = (WrBumpMode)m;
+    }
+    return true;
+}
+
+/* ---- against aliasing ---- */
+
+typedef struct Aliasing {
+    const char *name;
+    WrAntialias aa;
+    int samples;
+    WrSpread spread;
+    WrFootprint footprint;
+    WrMoments moments;
+    WrRefine refine;
+} Aliasing;
+
+static const Aliasing aliasing[] = {
+    { .name = "point", WR_AA_POINT, 1 },
+    { .name = "filter, isotropic", WR_AA_FILTER, 1 },
+    { .name = "filter, anisotropic", WR_AA_FILTER, 1, .footprint = WR_FOOTPRINT_ANISOTROPIC },
+    { .name = "moments, toksvig", WR_AA_MOMENTS, 1 },
+    { .name = "moments, lean", WR_AA_MOMENTS, 1, .moments = WR_MOMENTS_LEAN },
+    { .name = "moments, lean, anisotropic",
+      WR_AA_MOMENTS,
+      1,
+      .footprint = WR_FOOTPRINT_ANISOTROPIC,
+      .moments = WR_MOMENTS_LEAN },
+    { .name = "supersample 2x2", WR_AA_SUPERSAMPLE, 2 },
+    { .name = "supersample 4x4", WR_AA_SUPERSAMPLE, 4 },
+    { .name = "supersample 4x4, jittered", WR_AA_SUPERSAMPLE, 4, .spread = WR_SPREAD_JITTERED },
+    { .name = "adaptive to 4x4, contrast", WR_AA_ADAPTIVE, 4 },
+    { .name = "adaptive to 4x4, bound", WR_AA_ADAPTIVE, 4, .refine = WR_REFINE_BOUND },
+};
+
+static void take_aliasing(WrDials *dials, const Aliasing *a)
+{
+    dials->aa = a->aa;
+    dials->samples = a->samples;
+    dials->spread = a->spread;
+    dials->footprint = a->footprint;
+    dials->moments = a->moments;
+    dials->refine = a->refine;
+}
+
+static bool fill_aliasing(WrBenchSections *all, WrError *err)
+{
+    for (size_t i = 0; i < sizeof aliasing / sizeof *aliasing; i++) {
+        WrBenchPicture *p = add_bump(all, aliasing[i].name, 0, err);
+        if (!p) return false;
+        take_aliasing(&p->scene->dials, &aliasing[i]);
+    }
+    return true;
+}
+
+/* ---- effects ---- */
+
+typedef void (*Change)(WrScene *scene);
+
+static void same(WrScene *scene)
+{
+    (void)scene;
+}
+
+static void bilinear(WrScene *scene)
+{
+    scene->scheme = WR_SCHEME_BILINEAR;
+}
+
+static void far_replicated(WrScene *scene)
+{
+    scene->replicate_u = scene->replicate_v = 2048;
+}
+
+static void invariant(WrScene *scene)
+{
+    scene->bump = WR_BUMP_INVARIANT;
+}
+
+static void exact(WrScene *scene)
+{
+    scene->bump = WR_BUMP_EXACT;
+}
+
+static void supersampled(WrScene *scene)
+{
+    scene->dials.aa = WR_AA_SUPERSAMPLE;
+    scene->dials.samples = 4;
+}
+
+static void bounded(WrScene *scene)
+{
+    scene->dials.aa = WR_AA_ADAPTIVE;
+    scene->dials.samples = 4;
+    scene->dials.refine = WR_REFINE_BOUND;
+}
+
+static void filtered(WrScene *scene)
+{
+    scene->dials.aa = WR_AA_FILTER;
+}
+
+static void moments(WrScene *scene)
+{
+    scene->dials.aa = WR_AA_MOMENTS;
+}
+
+static void orthographic(WrScene *scene)
+{
+    scene->camera.orthographic = true;
+    scene->camera.size = 2;
+}
+
+static void rounded(WrScene *scene)
+{
+    scene->dials.heights = WR_HEIGHTS_HALF;
+}
+
+static void doubled(WrScene *scene)
+{
+    scene->dials.shading = WR_SHADING_DOUBLE;
+}
+
+static void halved(WrScene *scene)
+{
+    scene->dials.shading = WR_SHADING_HALF;
+}
+
+/* A picture with each effect, and the same without. Where `without` is NULL the effect is forced off; where it is a
+   surface's name, that surface has no need of it; `forced`: the scene has no need of it and it runs by force. */
+typedef struct EffectCase {
+    const char *surface;
+    WrBenchMode mode;
+    Change with, without;
+    const char *other;
+    bool forced;
+} EffectCase;
+
+#define BUMPED .surface = "sphere", .mode = WR_BENCH_BUMP
+#define SMOOTH .surface = "sphere", .mode = WR_BENCH_PHONG
+
+WR_ROWS(effects);
+static const EffectCase effects[WR_EFFECT_COUNT] = {
+    [WR_ROW(WR_EFFECT_DIFFUSE)] = { BUMPED, .with = same },
+    [WR_ROW(WR_EFFECT_SPECULAR)] = { BUMPED, .with = same },
+    [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
+    [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
+    [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
+    [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },
+    [WR_ROW(WR_EFFECT_INVARIANT)] = { BUMPED, .with = invariant },
+    [WR_ROW(WR_EFFECT_EXACT)] = { BUMPED, .with = exact },
+    [WR_ROW(WR_EFFECT_CURVATURE)] = { BUMPED, .with = exact, .without = same },
+    [WR_ROW(WR_EFFECT_SAMPLES)] = { BUMPED, .with = supersampled },
+    [WR_ROW(WR_EFFECT_BOUND)] = { BUMPED, .with = bounded },
+    [WR_ROW(WR_EFFECT_FILTER)] = { BUMPED, .with = filtered },
+    [WR_ROW(WR_EFFECT_BACK)] = { BUMPED, .with = same, .forced = true },
+    [WR_ROW(WR_EFFECT_DEPTH)] = { .surface = "torus",
+                                  .mode = WR_BENCH_PHONG,
+                                  .with = same,
+                                  .other = "sphere" },
+    [WR_ROW(WR_EFFECT_NEWTON)] = { .surface = "torus", .mode = WR_BENCH_BUMP, .with = same },
+    [WR_ROW(WR_EFFECT_PERSPECTIVE)] = { BUMPED, .with = same, .without = orthographic },
+    [WR_ROW(WR_EFFECT_AGAIN)] = { BUMPED, .with = same, .without = same },
+    [WR_ROW(WR_EFFECT_SPREAD)] = { BUMPED, .with = moments },
+    [WR_ROW(WR_EFFECT_ROUNDED)] = { BUMPED, .with = rounded },
+    [WR_ROW(WR_EFFECT_DOUBLE)] = { BUMPED, .with = doubled },
+    [WR_ROW(WR_EFFECT_HALF)] = { BUMPED, .with = halved },
+    [WR_ROW(WR_EFFECT_PARAMETERS)] = { SMOOTH, .with = same, .forced = true },
+    [WR_ROW(WR_EFFECT_TANGENTS)] = { SMOOTH, .with = same, .forced = true },
+};
+WR_ROWS_END(effects, WR_EFFECT_COUNT);
+
+static bool add_effect(WrBenchSections *all, int effect, bool with, WrError *err)
+{
+    const EffectCase *e = &effects[effect];
+    const char *surface = !with && e->other ? e->other : e->surface;
+    char name[64];
+    snprintf(name, sizeof name, "%s%s", with ? "" : "without ", wr_effects[effect].name);
+    WrBenchPicture *p = add(all, name, all->count - (with ? 1 : 0), surface, e->mode, err);
+    if (!p) return false;
+    p->effect = effect;
+    (with || !e->without ? e->with : e->without)(p->scene);
+    if (with && e->forced) p->force[effect] = WR_FORCE_ON;
+    if (!with && !e->forced && !e->without && !e->other) p->force[effect] = WR_FORCE_OFF;
+    if (!with && effect == WR_EFFECT_AGAIN) p->view = WR_BENCH_RESTS;
+    return true;
+}
+
+static bool fill_effects(WrBenchSections *all, WrError *err)
+{
+    for (int e = 0; e < WR_EFFECT_COUNT; e++)
+        if (!add_effect(all, e, false, err) || !add_effect(all, e, true, err)) return false;
+    return true;
+}
+
+/* ---- the rest ---- */
+
+static bool fill_isa(WrBenchSections *all, WrError *err)
+{
+    static const char *const names[] = { "ref", "v1", "v2", "v3", "v4" };
+    for (int fast = 0; fast < 2; fast++)
+        for (size_t i = fast ? 3 : 0; i < sizeof names / sizeof *names; i++) {
+            WrError lacks;
+            char name[64];
+            if (!wr_kernels_get(names[i], fast, &lacks)) continue;
+            snprintf(name, sizeof name, "%s, %s", names[i], fast ? "fast" : "exact");
+            WrBenchPicture *p = add_bump(all, name, 0, err);
+            if (!p) return false;
+            p->isa = names[i];
+            p->scene->dials.arithmetic = fast ? WR_ARITHMETIC_FAST : WR_ARITHMETIC_EXACT;
+        }
+    return true;
+}
+
+static bool fill_plan(WrBenchSections *all, WrError *err)
+{
+    static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_BUMP };
+    for (int s = 0; s < 3; s++)
+        for (int m = 0; m < 2; m++)
+            for (int planned = 0; planned < 2; planned++) {
+                char name[64];
+                snprintf(name, sizeof name, "%s %s, %s", surfaces[s], m ? "bump" : "smooth",
+                         planned ? "planned" : "full");
+                WrBenchPicture *p =
+                    add(all, name, all->count - planned, surfaces[s], modes[m], err);
+                if (!p) return false;
+                p->full = !planned;
+            }
+    return true;
+}
+
+static bool fill_views(WrBenchSections *all, const WrBenchView *views, const char *const *names,
+                       int count, WrError *err)
+{
+    static const int tables[] = { 512, 4096 };
+    for (int t = 0; t < 2; t++) {
+        const int base = all->count;
+        for (int i = 0; i < count; i++) {
+            char name[64];
+            snprintf(name, sizeof name, "table %d, %s", tables[t], names[i]);
+            WrBenchPicture *p = add_bump(all, name, base, err);
+            if (!p) return false;
+            p->table = tables[t];
+            p->view = views[i];
+        }
+    }
+    return true;
+}
+
+static bool fill_still(WrBenchSections *all, WrError *err)
+{
+    static const WrBenchView views[] = { WR_BENCH_TURNS, WR_BENCH_RESTS, WR_BENCH_PAINTS };
+    static const char *const names[] = { "turning", "at rest", "at rest, a dab each time" };
+    return fill_views(all, views, names, 3, err);
+}
+
+static bool fill_first(WrBenchSections *all, WrError *err)
+{
+    static const WrBenchView views[] = { WR_BENCH_TURNS, WR_BENCH_FIRST };
+    static const char *const names[] = { "the next frame", "the first frame" };
+    return fill_views(all, views, names, 2, err);
+}
+
+static bool fill_output(WrBenchSections *all, WrError *err)
+{
+    static const char *const names[] = { [WR_BENCH_CODES] = "8-bit codes",
+                                         [WR_BENCH_FLOATS] = "floats",
+                                         [WR_BENCH_CONVERTED] = "floats, then 8-bit codes" };
+    for (int m = 0; m < 2; m++)
+        for (int k = 0; k < 3; k++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s, %s", m ? "bump" : "smooth", names[k]);
+            WrBenchPicture *p =
+                add(all, name, 3 * m, "sphere", m ? WR_BENCH_BUMP : WR_BENCH_PHONG, err);
+            if (!p) return false;
+            p->out = (WrBenchOut)k;
+        }
+    return true;
+}
+
+const WrBenchSection wr_bench_sections[] = {
+    { "surfaces", "what is shown on which surface, beside smooth shading", fill_surfaces },
+    { "schemes", "how the table is looked up, beside central", fill_schemes },
+    { "normals", "the formula of the normal, beside blinn", fill_normals },
+    { "aliasing", "what is done against aliasing, beside one sample", fill_aliasing },
+    { "effects", "each effect, beside the picture without it", fill_effects },
+    { "isa", "the set of instructions, beside the plain text", fill_isa },
+    { "plan", "only what the picture needs, beside all that it could leave out", fill_plan },
+    { "still", "a view at rest, beside one that turns", fill_still },
+    { "first", "a new renderer's first frame, beside the next", fill_first },
+    { "output", "floats, beside 8-bit codes", fill_output },
+    { .name = NULL },
+};
+
+int wr_bench_section_find(const char *name)
+{
+    for (int i = 0; wr_bench_sections[i].name; i++)
+        if (strcmp(wr_bench_sections[i].name, name) == 0) return i;
+    return -1;
+}
+
+void wr_bench_section_clear(WrBenchSections *all)
+{
+    for (int i = 0; i < all->count; i++) wr_scene_free(all->picture[i].scene);
+    all->count = 0;
+}

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# `wrinkle bench` with parts: the JSON and the table, tiny; what each row says of itself. How long anything took is
+# nobody's business here.  bench.sh PROGRAM
+set -uo pipefail
+program=$1
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+complain() {
+    printf '%s\n' "$*"
+    failures=$((failures + 1))
+}
+says() {
+    jq -e "$2" json >/dev/null || complain "not so: $1"
+}
+
+"$program" bench all --json --quick --size 48x32 --threads 2 >json 2>err || complain "bench fails: $(cat err)"
+says 'the head' '.width == 48 and .height == 32 and .threads == 2 and .rounds > 0 and .isa == "auto" and
+    .arithmetic == "fast" and (has("lines") | not)'
+says 'the peaks' '(.peaks.sums | length >= 1 and .[0].isa == "v1" and all(.gflops > 0)) and
+    ([.peaks.copies[].level] == ["L1", "L2", "DRAM"]) and (.peaks.copies | all(.bytes > 0 and .gbytes > 0))'
+says 'the parts' '[.sections[].name] == ["surfaces", "schemes", "normals", "aliasing", "effects", "isa", "plan",
+    "still", "first", "output"]'
+says 'each row is measured' '[.sections[].rows[] | .ms > 0 and .ratio > 0 and .table > 0] | all and length > 80'
+says 'a base is a row of its part, and beside itself 1' '.sections | all(. as $s | .rows | all(. as $r |
+    ($s.rows | map(select(.name == $r.base)) | length) == 1 and (.name != .base or .ratio == 1)))'
+says 'each ratio is that of two times' '.sections | all(. as $s | .rows | all(. as $r |
+    ($s.rows[] | select(.name == $r.base).ms) as $b | ($r.ms / $b / $r.ratio - 1) | fabs < 1e-9))'
+says 'rows have names of their own' '.sections | all([.rows[].name] | length == (unique | length))'
+says 'rates belong to counts' '[.sections[].rows[] |
+    ((.bytes == null) == (.gbytes == null)) and ((.flops_per_sample == null) == (.gflops == null)) and
+    ((.samples == 0) == (.ns_per_sample == null))] | all'
+says 'bytes of a turning picture' '[.sections[] | select(.name == "schemes").rows[] |
+    .bytes == 4 * 48 * 32 + 16 * .samples] | all'
+says 'each scheme' '.sections[1].rows | length == 6 and all(.base == "central")'
+says 'surfaces with and without colour' '[.sections[0].rows[].name] | contains(["bezier texture",
+    "bezier bump+texture", "torus texture", "torus bump+texture"])'
+# Every effect ran where the row says so, and did not in the row beside it.
+says 'each effect' '.sections[4].rows | length == 46 and
+    all(.ran == (.name | startswith("without ") | not)) and (map(.effect) | unique | length == 23)'
+says 'a view at rest draws nothing, and with a dab less than all' '[.sections[7].rows[].samples] |
+    .[1] == 0 and .[2] > 0 and .[2] <= .[0] and .[4] == 0'
+says 'full pictures take as many samples' '[.sections[6].rows[] | .samples > 0] | all'
+
+"$program" bench schemes output --quick --size 16x16 >table 2>err || complain "no table: $(cat err)"
+[[ $(grep -cE '^(schemes|output): ' table) == 2 ]] || complain "not two parts: $(cat table)"
+grep -q '^this machine at its best: .* GFLOP/s; copying L1 .* GB/s$' table || complain 'no peaks'
+[[ $(grep -cE '^  .* +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.-]+$' table) == 12 ]] || complain "not twelve rows: $(cat table)"
+
+"$program" bench schemes --exact --isa v1 --quick --size 16x16 --json >json || complain 'not with --exact'
+says 'arithmetic and isa' '.arithmetic == "exact" and .isa == "v1" and (.sections | length) == 1'
+
+refuse() {
+    "$program" bench "${@:2}" >out 2>err
+    [[ $? == 2 && ! -s out ]] || complain "not refused: ${*:2}"
+    grep -qF -- "$1" err || complain "'${*:2}' does not say: $1, but: $(cat err)"
+}
+refuse 'must be generate, all, surfaces, schemes' scheme
+refuse 'stands alone' generate schemes
+refuse '--size' --size 16x16
+refuse 'needs --json' schemes --lines
+refuse 'v9' schemes --isa v9
+
+exit $((failures > 0))
