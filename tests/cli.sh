@@ -288,6 +288,27 @@ rm -f planned.exr full.exr
 expect 0 explain work.wrinkle --size 16x16
 has out 'reason'
 has out 'of all threads together'
+# What each effect costs and what leaving it out saves: in both forms, under a tolerance too; no time is judged.
+expect 0 explain work.wrinkle --measure --size 16x16
+has out 'costs ms  saved ms    spread   tiles    pixels  measured'
+has out 'cannot be forced: there is no picture without it'
+has out 'cannot be forced: nothing in the scene asks for it'
+[[ $(grep -c ' [0-9]* runs' out) -ge 5 ]] || complain "explain --measure: $(cat out)"
+for words in 'surface torus' 'dials aa=moments' 'tolerance rms=0.05'; do
+    expect 0 explain work.wrinkle --measure --json --size 32x32 --do "$words"
+    jq -e 'def measured: map(select(.measured.why_not | not));
+        ([.effects[] | select(.measured.why_not == null and .measured.runs < 3)] | length) == 0 and
+        (.effects | measured | length) >= 4 and
+        (.effects | measured | all((.run and .measured.saved_seconds == null and (.measured.costs_seconds | type) == "number")
+            or (.run == false and .measured.costs_seconds == null and (.measured.saved_seconds | type) == "number"))) and
+        (.effects | measured | all(.measured.tiles > 0 and .measured.pixels > 0 and .measured.spread_seconds >= 0)) and
+        (.effects[] | select(.rule == "E28") | .measured.why_not | contains("no picture without it")) and
+        (.effects[] | select(.rule == "E34") | .measured.why_not | contains("nothing in the scene asks for it"))' \
+        out >/dev/null || complain "explain --measure, $words: $(cat out)"
+done
+# Without being asked nothing is measured.
+expect 0 explain work.wrinkle --json --size 16x16
+jq -e '[.effects[] | select(has("measured"))] | length == 0' out >/dev/null || complain 'explain measures unasked'
 expect 0 explain work.wrinkle --json --size 32x32 --do 'tolerance rms=0.05'
 grep -q '"chosen":\[{"blocks":[0-9]*,"share":[0-9.e-]*,"where":"[^"]*","bump":"[^"\\]*","dials":"[^"\\]*"}' out ||
     complain "explain tells the choice as $(cat out)"

@@ -77,6 +77,7 @@ struct WrCli {
     bool script;     /* --script */
     bool in_place;   /* --in-place */
     bool markdown;   /* --markdown */
+    bool measure;    /* --measure */
 
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
@@ -97,6 +98,7 @@ typedef enum WrOption {
     WR_OPTION_RECOVER,   /* --beyond, --script, --in-place */
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_MARKDOWN,  /* --markdown */
+    WR_OPTION_EXPLAIN,   /* --measure */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;

@@ -1,5 +1,6 @@
 #include "cli/cli.h"
 
+#include "accuracy/saving.h"
 #include "accuracy/tolerance.h"
 #include "base/error.h"
 #include "base/text.h"
@@ -73,8 +74,53 @@ static void add_json_costs(WrText *text, const WrPlan *plan)
     wr_text_add_json_number(text, plan->work);
 }
 
-static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice, const WrFrame *frame)
+/* What is printed. */
+typedef struct Told {
+    const WrPlan *plan;
+    const WrChoice *choice;
+    const WrFrame *frame;
+    const WrSaving *savings; /* [WR_EFFECT_COUNT]; NULL: not asked for */
+} Told;
+
+static void add_json_seconds(WrText *text, const char *name, bool there, double seconds)
 {
+    wr_text_addf(text, "\"%s\":", name);
+    if (there) wr_text_add_json_number(text, seconds);
+    else wr_text_add(text, "null");
+    wr_text_add(text, ",");
+}
+
+/* ,"measured":{"costs_seconds":0.001,"saved_seconds":null, ...} or {"why_not":"..."} */
+static void add_json_saving(WrText *text, const WrSaving *saving)
+{
+    wr_text_add(text, ",\"measured\":{");
+    if (saving->why_not) {
+        wr_text_add(text, "\"why_not\":");
+        wr_text_add_json_string(text, saving->why_not);
+        wr_text_add(text, "}");
+        return;
+    }
+    add_json_seconds(text, "costs_seconds", saving->run, saving->seconds);
+    add_json_seconds(text, "saved_seconds", !saving->run, saving->seconds);
+    add_json_seconds(text, "spread_seconds", true, saving->spread);
+    add_json_seconds(text, "planned_seconds", true, saving->planned);
+    add_json_seconds(text, "forced_seconds", true, saving->forced);
+    wr_text_addf(text, "\"within_noise\":%s,\"runs\":%d,\"tiles\":%lld,\"pixels\":%lld,\"also\":[",
+                 saving->noise ? "true" : "false", saving->runs, (long long)saving->tiles,
+                 (long long)saving->pixels);
+    const char *gap = "";
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        if (!(saving->also >> e & 1)) continue;
+        wr_text_addf(text, "%s\"%s\"", gap, wr_effects[e].rule);
+        gap = ",";
+    }
+    wr_text_add(text, "]}");
+}
+
+static void add_json(WrText *text, const Told *told)
+{
+    const WrPlan *plan = told->plan;
+    const WrFrame *frame = told->frame;
     wr_text_add(text, "{\"effects\":[");
     for (int i = 0; i < WR_EFFECT_COUNT; i++) {
         const WrPlanRow *e = &plan->rows[i];
@@ -90,13 +136,14 @@ static void add_json(WrText *text, const WrPlan *plan, const WrChoice *choice, c
         wr_text_add_json_number(text, e->ns_per_pixel);
         wr_text_add(text, ",\"seconds\":");
         wr_text_add_json_number(text, e->seconds);
+        if (told->savings) add_json_saving(text, &told->savings[i]);
         wr_text_add(text, "}");
     }
     add_json_costs(text, plan);
     wr_text_addf(text, ",\"width\":%d,\"height\":%d,\"covered\":%lld,\"samples\":%lld,\"seconds\":",
                  frame->width, frame->height, (long long)frame->covered, (long long)frame->shaded);
     wr_text_add_json_number(text, frame->times.total);
-    if (choice->count > 0) add_json_choice(text, choice);
+    if (told->choice->count > 0) add_json_choice(text, told->choice);
     wr_text_add(text, "}\n");
 }
 
@@ -112,9 +159,43 @@ static void add_costs(WrText *text, const WrPlan *plan)
                  "", "", plan->work * pixel, 1e3 * plan->work);
 }
 
-static void add_table(WrText *text, const WrPlan *plan, const WrChoice *choice,
-                      const WrFrame *frame)
+/* "costs" or "saved", in ms, and what there is to say of it. */
+static void add_saving(WrText *text, const WrSaving *saving)
 {
+    char costs[32] = "-", saved[32] = "-";
+    snprintf(saving->run ? costs : saved, sizeof costs, "%.3f", 1e3 * saving->seconds);
+    wr_text_addf(text, " %9s %9s %9.3f %7lld %9lld  %d runs", costs, saved, 1e3 * saving->spread,
+                 (long long)saving->tiles, (long long)saving->pixels, saving->runs);
+    if (saving->noise) wr_text_add(text, "; within noise");
+    const char *gap = saving->run ? "; without it goes " : "; with it comes ";
+    for (int e = 0; e < WR_EFFECT_COUNT; e++) {
+        if (!(saving->also >> e & 1)) continue;
+        wr_text_addf(text, "%s%s", gap, wr_effects[e].rule);
+        gap = ", ";
+    }
+}
+
+static void add_savings(WrText *text, const Told *told)
+{
+    wr_text_addf(text, "\n%-5s %-24s %-4s %9s %9s %9s %7s %9s  %s\n", "rule", "effect", "run",
+                 "costs ms", "saved ms", "spread", "tiles", "pixels", "measured");
+    for (int i = 0; i < WR_EFFECT_COUNT; i++) {
+        const WrPlanRow *e = &told->plan->rows[i];
+        const WrSaving *saving = &told->savings[i];
+        wr_text_addf(text, "%-5s %-24s %-4s", e->rule, e->name, e->run ? "yes" : "no");
+        if (saving->why_not)
+            wr_text_addf(text, " %9s %9s %9s %7s %9s  %s", "-", "-", "-", "-", "-",
+                         saving->why_not);
+        else add_saving(text, saving);
+        wr_text_add(text, "\n");
+    }
+}
+
+static void add_table(WrText *text, const Told *told)
+{
+    const WrPlan *plan = told->plan;
+    const WrChoice *choice = told->choice;
+    const WrFrame *frame = told->frame;
     wr_text_addf(text, "%-5s %-24s %-4s %-5s %9s  %s\n", "rule", "effect", "run", "class",
                  "ns/pixel", "reason");
     for (int i = 0; i < WR_EFFECT_COUNT; i++) {
@@ -125,6 +206,7 @@ static void add_table(WrText *text, const WrPlan *plan, const WrChoice *choice,
                      e->run ? "yes" : "no", wr_proof_letter(e->proof), price, e->reason);
     }
     add_costs(text, plan);
+    if (told->savings) add_savings(text, told);
     if (choice->count > 0) {
         wr_text_addf(text, "\n%s\n", choice->reason);
         wr_choice_print(choice, text);
@@ -139,12 +221,17 @@ int wr_cli_explain(const WrCli *cli)
     WrError err;
     WrText text = { 0 };
     WrFrame frame;
+    WrSaving savings[WR_EFFECT_COUNT];
     WrSession *session = wr_cli_load(cli, false, &err);
     bool good = session && wr_session_frame(session, cli->width, cli->height, 0, &frame, &err);
+    if (good && cli->measure)
+        good = wr_session_savings(session, cli->width, cli->height, 0, savings, &err);
     int status;
     if (good) {
-        if (cli->json) add_json(&text, frame.plan, wr_session_choice(session), &frame);
-        else add_table(&text, frame.plan, wr_session_choice(session), &frame);
+        const Told told = { frame.plan, wr_session_choice(session), &frame,
+                            cli->measure ? savings : NULL };
+        if (cli->json) add_json(&text, &told);
+        else add_table(&text, &told);
         status = wr_cli_print(cli, &text);
     } else {
         status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);

@@ -30,11 +30,18 @@ const WrSubcommand wr_subcommands[] = {
       "double\n"
       "precision; F, Fu, Fv carry the bump's height and the replication.",
       wr_cli_inspect },
-    { "explain", "explain [FILE] [--full] [--json] [--size WxH]",
-      "the plan of a picture, with reasons", BIT(JSON) | BIT(SIZE) | BIT(FULL),
+    { "explain", "explain [FILE] [--measure] [--full] [--json] [--size WxH]",
+      "the plan of a picture, with reasons", BIT(JSON) | BIT(SIZE) | BIT(FULL) | BIT(EXPLAIN),
       "Renders once and prints what was simulated and what was left out. class I: leaving it out "
       "gives\n"
-      "the same bits; B: within a stated bound; P: a choice that changes the picture.",
+      "the same bits; B: within a stated bound; P: a choice that changes the picture.\n"
+      "--measure takes some seconds: frames as planned and with one effect forced the other way, "
+      "by "
+      "turns.\n"
+      "costs: what the frame takes less without an effect that runs; saved: what it would take "
+      "more "
+      "with one\n"
+      "that was left out.",
       wr_cli_explain },
     { "accuracy", "accuracy [FILE] [--size WxH] [--plot FILE]... [--csv FILE] [--json]",
       "what each approximation costs: error against time", BIT(JSON) | BIT(ACCURACY),

@@ -6,6 +6,7 @@
    the journal and all files. A script keeps what its finished lines did, as after any other failure.
    Layer 6. A session belongs to one thread; snapshots of it may be read by any. */
 #pragma once
+#include "accuracy/saving.h"
 #include "accuracy/tolerance.h"
 
 #include <stdbool.h>
@@ -170,6 +171,10 @@ WrHash wr_session_hash(const WrSession *session);
    y axis. *frame is borrowed until the session's next picture. */
 bool wr_session_frame(WrSession *session, int width, int height, double turn_deg, WrFrame *frame,
                       WrError *err);
+/* What each effect costs that picture, and what leaving it out saves: takes seconds. Under a tolerance of its dials as
+   they were chosen, without the choosing. */
+bool wr_session_savings(WrSession *session, int width, int height, double turn_deg,
+                        WrSaving savings[WR_EFFECT_COUNT], WrError *err);
 /* Where the scene has a tolerance: choose its dials once for all pictures of a turn, which the next ones of that size
    then have; a note tells what was chosen on which. */
 bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,

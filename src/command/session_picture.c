@@ -43,6 +43,24 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
     return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
 }
 
+bool wr_session_savings(WrSession *session, int width, int height, double turn_deg,
+                        WrSaving savings[WR_EFFECT_COUNT], WrError *err)
+{
+    WrFrameRequest request;
+    WrFrame frame;
+    if (!make_request(session, width, height, turn_deg, &request, err)) return false;
+    WrSavingRequest ask = { .pool = session->options.pool,
+                            .isa = session->options.isa,
+                            .frame = &request };
+    if (request.scene->tolerance.kind != WR_TOLERANCE_NONE) {
+        ask.choice = &session->choice;
+        if (!wr_choice_fits(ask.choice, &request) &&
+            !wr_session_frame(session, width, height, turn_deg, &frame, err))
+            return false;
+    }
+    return wr_savings_measure(&ask, savings, err);
+}
+
 bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,
                      WrError *err)
 {

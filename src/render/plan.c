@@ -27,6 +27,7 @@ static void decide(WrPlan *plan, WrEffect effect, const WrPlanAsk *ask)
     *row = (WrPlanRow){ .rule = info->rule,
                         .name = info->name,
                         .proof = info->proof,
+                        .verdict = verdict,
                         .run = verdict == WR_VERDICT_RUN };
     const bool on = force == WR_FORCE_ON || (ask->full && !info->finer);
     if (verdict == WR_VERDICT_SPARED && on) row->run = true;
@@ -132,6 +133,7 @@ void wr_plan_add(WrPlan *sum, const WrPlan *more)
         WrPlanRow row = more->rows[e];
         const WrPlanRow *before = &sum->rows[e];
         if (!row.run && before->run) row = *before;
+        if (row.verdict < before->verdict) row.verdict = before->verdict;
         row.ran = before->ran || more->rows[e].ran;
         row.seconds = before->seconds + more->rows[e].seconds;
         row.tiles = before->tiles + more->rows[e].tiles;

@@ -73,11 +73,19 @@ typedef enum WrStage {
     WR_STAGE_COUNT
 } WrStage;
 
+/* What a row says of a scene. */
+typedef enum WrVerdict {
+    WR_VERDICT_NONE,   /* nothing in the scene asks for it: there is nothing to run */
+    WR_VERDICT_SPARED, /* it could run, and by the row's proof need not */
+    WR_VERDICT_RUN
+} WrVerdict;
+
 typedef struct WrPlanRow {
-    const char *rule; /* "E6" */
-    const char *name; /* "bump" */
-    bool run;         /* decided: all that the renderer asks */
-    bool ran;         /* recorded by what did it, in the last frame */
+    const char *rule;  /* "E6" */
+    const char *name;  /* "bump" */
+    WrVerdict verdict; /* whatever is forced */
+    bool run;          /* decided: all that the renderer asks */
+    bool ran;          /* recorded by what did it, in the last frame */
     WrProof proof;
     char reason[160]; /* one sentence */
     int64_t tiles,
@@ -179,13 +187,6 @@ typedef struct WrPlanFacts {
     bool outside;    /* the eye is outside a closed surface, for certain */
     bool rests; /* the last picture is kept, and was made by the same plan of the same request */
 } WrPlanFacts;
-
-/* What a row says of a scene. */
-typedef enum WrVerdict {
-    WR_VERDICT_NONE,   /* nothing in the scene asks for it: there is nothing to run */
-    WR_VERDICT_SPARED, /* it could run, and by the row's proof need not */
-    WR_VERDICT_RUN
-} WrVerdict;
 
 /* Against the planner, for tests and as a yardstick. */
 typedef enum WrForce {
