@@ -11,6 +11,9 @@ static WrField *spotted_field(int w, int h, TestRandom *random)
     const WrWrap v = test_random(random) < 0.5 ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP;
     const float ground = (float)(test_random(random) - 0.5);
     WrField *field = wr_field_new(w, h, u, v, ground, NULL);
+    const int step = test_random(random) < 0.4 ? WR_TILE : 0; /* all of one tile higher */
+    for (int j = 0; j < step; j++)
+        for (int i = 0; i < step; i++) wr_field_set(field, i, j, ground + 0.3f);
     for (int k = 0; k < 3; k++) {
         const bool edge = test_random(random) < 0.6;
         int i = (int)(w * test_random(random)), j = (int)(h * test_random(random));
@@ -29,7 +32,7 @@ static WrScene *some_scene(TestRandom *random)
     WrScene *scene = scene_of(surfaces[(int)(5 * test_random(random))]);
     scene->replicate_u = replications[(int)(7 * test_random(random))];
     scene->replicate_v = replications[(int)(7 * test_random(random))];
-    scene->scheme = test_random(random) < 0.7 ? WR_SCHEME_CENTRAL : WR_SCHEME_NEAREST;
+    scene->scheme = (WrScheme)(WR_SCHEME_COUNT * test_random(random));
     scene->bump = test_random(random) < 0.7 ? WR_BUMP_BLINN : WR_BUMP_INVARIANT;
     scene->height = 0.2;
     scene->camera.orthographic = test_random(random) < 0.5;

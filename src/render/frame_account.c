@@ -59,7 +59,7 @@ static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Co
         plan->rows[e].ns_per_pixel = shaded > 0 ? 1e9 * plan->rows[e].seconds / (double)shaded : 0;
 }
 
-/* A thread's stages: what its strips took is shared among theirs as it was on the eighth of them that is measured. What
+/* A thread's stages: what its strips took is shared among theirs as it was on the sixteenth of them that is measured. What
    is left of its tiles' time. */
 static double add_thread(const WrTileScratch *s, double seconds[WR_STAGE_COUNT])
 {

@@ -174,19 +174,27 @@ static bool asks_for_slopes(const WrRenderer *renderer, const WrFrameRequest *re
     const bool bends = plan->bump == WR_BUMP_BLINN || plan->bump == WR_BUMP_INVARIANT;
     if (request->full || (request->force && request->force[WR_EFFECT_BUMP] == WR_FORCE_ON))
         return false;
-    if (!bends || plan->source != WR_SOURCE_TABLE || !wr_plan_runs(plan, WR_EFFECT_GRADIENT) ||
+    const bool fitted =
+        wr_schemes[plan->scheme].taps == WR_TAPS_FITTED; /* reads all of the table */
+    if (!bends || fitted || plan->source != WR_SOURCE_TABLE ||
         wr_plan_runs(plan, WR_EFFECT_FILTER) || table->precision != WR_PRECISION_SINGLE)
         return false;
     const int tiles = wr_field_tiles_u(request->field) * wr_field_tiles_v(request->field);
+    const bool gradient = wr_plan_runs(plan, WR_EFFECT_GRADIENT);
     int sloped = 0;
-    for (int i = 0; i < tiles; i++) sloped += table->sloped[i];
+    for (int i = 0; i < tiles; i++)
+        sloped += gradient ? table->sloped[i] : table->low[i] != table->high[i];
     return 4 * sloped < 3 * tiles;
 }
 
 static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
 {
     if (!asks_for_slopes(renderer, request)) return;
-    job->level = (WrLevel){ .sloped = renderer->table.sloped,
+    const bool gradient = wr_plan_runs(&renderer->plan, WR_EFFECT_GRADIENT);
+    job->level = (WrLevel){ .asked = true,
+                            .sloped = gradient ? renderer->table.sloped : NULL,
+                            .low = renderer->table.low,
+                            .high = renderer->table.high,
                             .tiles_u = wr_field_tiles_u(request->field),
                             .tiles_v = wr_field_tiles_v(request->field),
                             .width = job->look.width,

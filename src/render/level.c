@@ -44,17 +44,26 @@ static int next_tile(int i, int size)
     return i + (end < size ? end : size) - at;
 }
 
+/* Has tile `at` no slope of its own, nor one to tile `first`? */
+static bool tile_is_level(const WrLevel *level, int at, int first)
+{
+    if (level->sloped) return !level->sloped[at];
+    return level->low[at] == level->high[at] && level->low[at] == level->low[first];
+}
+
 bool wr_level_box(const WrLevel *level, double u0, double u1, double v0, double v1)
 {
     if (!(u0 <= u1 && v0 <= v1)) return false; /* also what is no number */
     const int width = level->width, height = level->height;
     const Run x = run_of(level->ru * u0, level->ru * u1, width, level->periodic_u, false);
     const Run y = run_of(level->rv * v0, level->rv * v1, height, level->periodic_v, true);
-    int tiles = 0;
+    int tiles = 0, first = -1;
     for (int j = y.from; j <= y.to; j = next_tile(j, height))
         for (int i = x.from; i <= x.to; i = next_tile(i, width)) {
             const int tu = around(i, width) / WR_TILE, tv = around(j, height) / WR_TILE;
-            if (++tiles > TILES_MOST || level->sloped[tv * level->tiles_u + tu]) return false;
+            const int at = tv * level->tiles_u + tu;
+            first = first < 0 ? at : first;
+            if (++tiles > TILES_MOST || !tile_is_level(level, at, first)) return false;
         }
     return true;
 }

@@ -4,8 +4,11 @@
 #include <stdbool.h>
 
 typedef struct WrLevel {
-    const unsigned char
-        *sloped; /* [tiles_v][tiles_u] of the table: is there a slope? Borrowed; NULL: not asked */
+    bool asked; /* false: nothing is known */
+    /* Of each tile of the table, [tiles_v][tiles_u], borrowed: is there a central difference that is not 0? Or, NULL, its
+       least and largest height: slopes of other schemes are 0 where all that they read is equal (HC47). */
+    const unsigned char *sloped;
+    const float *low, *high;
     int tiles_u, tiles_v;
     int width, height; /* of the table, texels */
     double ru, rv;     /* replication */

@@ -97,7 +97,7 @@ static const WR_T(WrRound) * round_of(const WrTileJob *job)
    taken of what tiles look at. */
 static bool is_level(const WrTileJob *job, const Strip *strip, WrTileScratch *scratch)
 {
-    if (!job->level.sloped || scratch->seen) return false;
+    if (!job->level.asked || scratch->seen) return false;
     REAL u0 = strip->u[0], u1 = u0, v0 = strip->v[0], v1 = v0;
 #pragma omp simd reduction(min : u0, v0) reduction(max : u1, v1)
     for (int i = 0; i < strip->count; i++) {

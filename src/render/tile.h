@@ -81,7 +81,7 @@ typedef struct WrTileScratch {
                 [4]; /* adaptive: first samples, one pixel round */
     float bound[WR_REFINE_H + 2][WR_REFINE_W + 2];
     unsigned char open[WR_REFINE_H][WR_REFINE_W]; /* adaptive: the pixel needs more */
-    double seconds[WR_STAGE_COUNT]; /* of strips, in what ratio: an eighth of them is measured */
+    double seconds[WR_STAGE_COUNT]; /* of strips, in what ratio: a sixteenth of them is measured */
     double all_strips;              /* what they took together */
     double whole[WR_STAGE_COUNT];   /* of what is measured each time */
     double all;                     /* of all its tiles */
@@ -93,7 +93,7 @@ typedef struct WrTileScratch {
     int64_t wide_samples; /* filter, moments: that looked above level 0 */
     uint32_t ran;         /* bits of WrEffect: noted by what does it, where it is done */
     WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
-    unsigned strips;      /* counts strips: one in eight is timed */
+    unsigned strips;      /* counts strips: one in sixteen is timed */
 } WrTileScratch;
 
 _Static_assert(WR_EFFECT_COUNT <= 32, "a bit for each effect");
