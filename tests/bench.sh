@@ -33,6 +33,11 @@ says 'rates belong to counts' '[.sections[].rows[] |
     ((.samples == 0) == (.ns_per_sample == null))] | all'
 says 'bytes of a turning picture' '[.sections[] | select(.name == "schemes").rows[] |
     .bytes == 4 * 48 * 32 + 16 * .samples] | all'
+says 'operations where they are counted' '[.sections[0].rows[] | {(.name): .flops_per_sample}] | add |
+    .["sphere smooth"] == 182 and .["sphere bump"] == 329 and ([.[] | select(. != null)] | length) == 2'
+says 'rates of operations' '[.sections[].rows[] | select(.gflops) |
+    (.gflops * .ms * 1e6 / .samples / .flops_per_sample - 1) | fabs < 1e-9] | all and length > 10'
+says 'the least is not above the median' '[.sections[].rows[] | .least_ms > 0 and .least_ms <= .ms] | all'
 says 'each scheme' '.sections[1].rows | length == 6 and all(.base == "central")'
 says 'surfaces with and without colour' '[.sections[0].rows[].name] | contains(["bezier texture",
     "bezier bump+texture", "torus texture", "torus bump+texture"])'
@@ -46,10 +51,18 @@ says 'full pictures take as many samples' '[.sections[6].rows[] | .samples > 0] 
 "$program" bench schemes output --quick --size 16x16 >table 2>err || complain "no table: $(cat err)"
 [[ $(grep -cE '^(schemes|output): ' table) == 2 ]] || complain "not two parts: $(cat table)"
 grep -q '^this machine at its best: .* GFLOP/s; copying L1 .* GB/s$' table || complain 'no peaks'
-[[ $(grep -cE '^  .* +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.-]+$' table) == 12 ]] || complain "not twelve rows: $(cat table)"
+[[ $(grep -cE '^  .*( +[0-9.]+){5} +[0-9.-]+$' table) == 12 ]] || complain "not twelve rows: $(cat table)"
 
 "$program" bench schemes --exact --isa v1 --quick --size 16x16 --json >json || complain 'not with --exact'
 says 'arithmetic and isa' '.arithmetic == "exact" and .isa == "v1" and (.sections | length) == 1'
+
+# All at once takes a minute: what --lines prints is there too.
+if [[ ${WR_FULL-} == 1 ]]; then
+    "$program" bench --json --quick --size 16x16 >json 2>err || complain "bench --json fails: $(cat err)"
+    says 'lines beside all parts' '(.sections | length) == 10 and (.lines | length > 40) and
+        (.lines | all(.ms >= 0 and .table >= 0 and .threads > 0)) and
+        ([.lines[].what] | contains(["sphere", "bezier", "brush", "make"]))'
+fi
 
 refuse() {
     "$program" bench "${@:2}" >out 2>err

@@ -55,12 +55,12 @@ static void add_rate(WrText *text, int width, int digits, double x)
 
 void wr_bench_section_print(const WrBenchSections *all, WrText *text)
 {
-    wr_text_addf(text, "\n%s: %s\n%-38s %9s %7s %10s %7s %8s\n", all->section->name,
-                 all->section->varies, "", "ms", "ratio", "ns/sample", "GB/s", "GFLOP/s");
+    wr_text_addf(text, "\n%s: %s\n%-38s %9s %9s %7s %10s %7s %8s\n", all->section->name,
+                 all->section->varies, "", "ms", "least", "ratio", "ns/sample", "GB/s", "GFLOP/s");
     for (int i = 0; i < all->count; i++) {
         const WrBenchPicture *p = &all->picture[i];
         const Rates r = rates_of(all, p);
-        wr_text_addf(text, "  %-36s %9.3f", p->name, p->ms);
+        wr_text_addf(text, "  %-36s %9.3f %9.3f", p->name, p->ms, p->least_ms);
         add_rate(text, 7, 2, r.ratio);
         add_rate(text, 10, 2, r.ns);
         add_rate(text, 7, 2, r.gbytes);
@@ -114,6 +114,7 @@ static void row_json(const WrBenchSections *all, const WrBenchPicture *p, WrText
     string_member(text, "base", all->picture[p->base].name);
     member(text, "table", p->table);
     member(text, "ms", p->ms);
+    member(text, "least_ms", p->least_ms);
     member(text, "ratio", r.ratio);
     member(text, "samples", (double)p->samples);
     member(text, "ns_per_sample", r.ns);
@@ -142,15 +143,17 @@ void wr_bench_section_json(const WrBenchSections *all, WrText *text)
 void wr_bench_lines_json(const char *lines, WrText *text)
 {
     char word[6][32];
+    const char *comma = "", *end;
     wr_text_add(text, "[");
-    for (const char *line = lines; line && *line; line = strchr(line, '\n') + 1) {
+    for (const char *line = lines; (end = strchr(line, '\n')); line = end + 1) {
         if (sscanf(line, "%31s %31s %31s %31s %31s %31s", word[0], word[1], word[2], word[3],
                    word[4], word[5]) != 6)
             continue;
         wr_text_addf(text,
                      "%s\n  {\"what\": \"%s\", \"of\": \"%s\", \"how\": \"%s\", \"table\": %s, "
                      "\"threads\": %s, \"ms\": %s}",
-                     line > lines ? "," : "", word[0], word[1], word[2], word[3], word[4], word[5]);
+                     comma, word[0], word[1], word[2], word[3], word[4], word[5]);
+        comma = ",";
     }
     wr_text_add(text, "]");
 }

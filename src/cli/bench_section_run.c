@@ -4,13 +4,11 @@
 #include "cli/bench.h"
 #include "cli/bench_sections.h"
 #include "field/field.h"
-#include "image/image.h"
 #include "render/frame.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 
-#include <math.h>
-#include <string.h>
+#include <stdint.h>
 
 #define DAB 64 /* texels each way */
 
@@ -68,23 +66,6 @@ static void paint(WrField *field, int size, int round)
                          1e-4f * (float)(round + 2));
 }
 
-/* The bytes that a picture takes at least: its own, written once; and what it looks up, the whole table or four
-   texels a sample where these are fewer. */
-static double bytes_of(const WrBenchSections *all, const WrBenchPicture *p, const WrFrame *frame)
-{
-    const double pixels = (double)all->width * all->height, samples = (double)frame->shaded;
-    if (p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS) return 0;
-    double bytes = pixels * (p->out == WR_BENCH_CODES    ? 4
-                             : p->out == WR_BENCH_FLOATS ? 16
-                                                         : 16 + 16 + 3);
-    if (wr_plan_runs(frame->plan, WR_EFFECT_BUMP))
-        bytes += 4 * fmin((double)p->table * p->table, 4 * samples);
-    const WrImage *colour = p->scene->colour;
-    if (colour && wr_plan_runs(frame->plan, WR_EFFECT_COLOUR))
-        bytes += 16 * fmin((double)colour->width * colour->height, 4 * samples);
-    return bytes;
-}
-
 static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int round, WrError *err)
 {
     static const double background[3] = { 0, 0, 0 };
@@ -107,7 +88,7 @@ static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int 
     if (lane->bytes) wr_frame_to_srgb8(&frame, background, false, lane->bytes, all->cli->pool);
     if (round >= 0) lane->ms[round] = 1e3 * (wr_clock_seconds() - start);
     p->samples = frame.shaded;
-    p->bytes = bytes_of(all, p, &frame);
+    wr_bench_picture_count(all, p, &frame);
     p->ran = p->effect >= 0 && frame.plan->rows[p->effect].ran;
     return true;
 }
@@ -126,7 +107,8 @@ bool wr_bench_section_measure(WrBenchSections *all, const WrBenchSection *sectio
             if (good && all->cli->cancel && *all->cli->cancel) good = wr_fail(err, "interrupted");
         }
     for (int i = 0; i < all->count; i++) {
-        if (good) all->picture[i].ms = wr_bench_median(lanes[i].ms, all->rounds);
+        if (good) all->picture[i].ms = wr_bench_median(lanes[i].ms, all->rounds); /* sorts them */
+        if (good) all->picture[i].least_ms = lanes[i].ms[0];
         lane_fini(&lanes[i]);
     }
     wr_free(lanes);

@@ -10,6 +10,7 @@
 
 typedef struct WrCli WrCli;
 typedef struct WrError WrError;
+typedef struct WrFrame WrFrame;
 typedef struct WrScene WrScene;
 typedef struct WrText WrText;
 
@@ -39,6 +40,7 @@ typedef struct WrBenchPicture {
     WrForce force[WR_EFFECT_COUNT];
     /* Filled by measuring: */
     double ms;       /* median */
+    double least_ms; /* of the shortest round */
     int64_t samples; /* shaded, of the last picture */
     double bytes;    /* picture and tables, as the guide counts them; 0: not counted */
     double flops;    /* operations a sample, where they are counted; else 0 */
@@ -71,6 +73,10 @@ int wr_bench_section_find(const char *name);     /* or -1 */
 /* Fill and measure one section; clear frees its scenes. */
 bool wr_bench_section_measure(WrBenchSections *all, const WrBenchSection *section, WrError *err);
 void wr_bench_section_clear(WrBenchSections *all);
+
+/* What a picture of this frame reads, writes and works out: bytes and flops, 0 where they are not counted. */
+void wr_bench_picture_count(const WrBenchSections *all, WrBenchPicture *picture,
+                            const WrFrame *frame);
 
 /* As tables, and as members of one JSON object. */
 void wr_bench_peaks_print(const WrBenchSections *all, WrText *text);
