@@ -306,6 +306,21 @@ for words in 'surface torus' 'dials aa=moments' 'tolerance rms=0.05'; do
         (.effects[] | select(.rule == "E34") | .measured.why_not | contains("nothing in the scene asks for it"))' \
         out >/dev/null || complain "explain --measure, $words: $(cat out)"
 done
+# Where each effect ran, as a picture whose colours are told: those of all pixels, and no others.
+for words in 'surface torus' 'dials aa=adaptive samples=8' 'dials aa=moments' 'tolerance rms=0.05'; do
+    expect 0 explain work.wrinkle --map map.png --size 40x32 --do "$words"
+    [[ $(sed -n '/^colour  *pixels/,/^$/s/^#[0-9a-f]* *\([0-9]*\)  .*/\1/p' out | paste -sd+ | bc) == $((40 * 32)) ]] ||
+        complain "explain --map, $words: $(cat out)"
+    expect 0 inspect map.png
+    has out '40x32'
+    expect 0 explain work.wrinkle --map map.png --json --size 40x32 --do "$words"
+    jq -e '([.map[].pixels] | add) == 40 * 32 and ([.map[].colour] | unique | length) == (.map | length) and
+        all(.map[]; .colour | test("^#[0-9a-f]{6}$"))' out >/dev/null || complain "explain --map --json, $words: $(cat out)"
+done
+expect 1 explain work.wrinkle --map map.txt
+expect 1 explain work.wrinkle --map nofolder/map.png
+expect 1 explain work.wrinkle --map ''
+rm -f map.png
 # Without being asked nothing is measured.
 expect 0 explain work.wrinkle --json --size 16x16
 jq -e '[.effects[] | select(has("measured"))] | length == 0' out >/dev/null || complain 'explain measures unasked'

@@ -78,6 +78,7 @@ struct WrCli {
     bool in_place;   /* --in-place */
     bool markdown;   /* --markdown */
     bool measure;    /* --measure */
+    const char *map; /* --map */
 
     WrPool *pool;               /* made by main; owned by it */
     const volatile int *cancel; /* set by an interrupt */
@@ -98,7 +99,7 @@ typedef enum WrOption {
     WR_OPTION_RECOVER,   /* --beyond, --script, --in-place */
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_MARKDOWN,  /* --markdown */
-    WR_OPTION_EXPLAIN,   /* --measure */
+    WR_OPTION_EXPLAIN,   /* --measure, --map */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;

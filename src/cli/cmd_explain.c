@@ -4,6 +4,7 @@
 #include "accuracy/tolerance.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "cli/explain_map.h"
 #include "command/session.h"
 #include "render/frame.h"
 #include "render/plan.h"
@@ -80,6 +81,7 @@ typedef struct Told {
     const WrChoice *choice;
     const WrFrame *frame;
     const WrSaving *savings; /* [WR_EFFECT_COUNT]; NULL: not asked for */
+    const WrMapCounts *map;  /* likewise */
 } Told;
 
 static void add_json_seconds(WrText *text, const char *name, bool there, double seconds)
@@ -144,6 +146,11 @@ static void add_json(WrText *text, const Told *told)
                  frame->width, frame->height, (long long)frame->covered, (long long)frame->shaded);
     wr_text_add_json_number(text, frame->times.total);
     if (told->choice->count > 0) add_json_choice(text, told->choice);
+    if (told->map) {
+        wr_text_add(text, ",\"map\":[");
+        wr_map_legend_json(told->map, text);
+        wr_text_add(text, "]");
+    }
     wr_text_add(text, "}\n");
 }
 
@@ -211,31 +218,38 @@ static void add_table(WrText *text, const Told *told)
         wr_text_addf(text, "\n%s\n", choice->reason);
         wr_choice_print(choice, text);
     }
+    if (told->map) wr_map_legend(told->map, text);
     wr_text_addf(text, "\n%dx%d pixels, %lld covered, %lld samples shaded, %.2f ms\n", frame->width,
                  frame->height, (long long)frame->covered, (long long)frame->shaded,
                  frame->times.total * 1e3);
+}
+
+/* The picture, and what was asked for besides. */
+static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError *err)
+{
+    WrFrame frame;
+    WrPlan plan;
+    WrSaving savings[WR_EFFECT_COUNT];
+    WrMapCounts map;
+    if (!wr_session_frame(session, cli->width, cli->height, 0, &frame, err)) return false;
+    plan = *frame.plan; /* of the first picture, whatever is drawn after it */
+    if (cli->measure && !wr_session_savings(session, cli->width, cli->height, 0, savings, err))
+        return false;
+    if (cli->map && !wr_map_write(cli, session, &map, err)) return false;
+    const Told told = { &plan, wr_session_choice(session), &frame, cli->measure ? savings : NULL,
+                        cli->map ? &map : NULL };
+    if (cli->json) add_json(text, &told);
+    else add_table(text, &told);
+    return true;
 }
 
 int wr_cli_explain(const WrCli *cli)
 {
     WrError err;
     WrText text = { 0 };
-    WrFrame frame;
-    WrSaving savings[WR_EFFECT_COUNT];
-    WrSession *session = wr_cli_load(cli, false, &err);
-    bool good = session && wr_session_frame(session, cli->width, cli->height, 0, &frame, &err);
-    if (good && cli->measure)
-        good = wr_session_savings(session, cli->width, cli->height, 0, savings, &err);
-    int status;
-    if (good) {
-        const Told told = { frame.plan, wr_session_choice(session), &frame,
-                            cli->measure ? savings : NULL };
-        if (cli->json) add_json(&text, &told);
-        else add_table(&text, &told);
-        status = wr_cli_print(cli, &text);
-    } else {
-        status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
-    }
+    WrSession *session = wr_map_check(cli, &err) ? wr_cli_load(cli, false, &err) : NULL;
+    const bool good = session && explain(cli, session, &text, &err);
+    const int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&text);
     wr_session_free(session);
     return status;

@@ -154,6 +154,13 @@ static bool set_collection(WrCli *cli, const char *value, WrError *err)
     return true;
 }
 
+static bool set_map(WrCli *cli, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "--map: the file name is empty");
+    cli->map = value;
+    return true;
+}
+
 static bool set_axis(WrCli *cli, const char *value, WrError *err)
 {
     (void)err;
@@ -228,6 +235,8 @@ static const struct Option {
     { "--measure", NULL, NULL, WR_OPTION_EXPLAIN,
       "render with each effect forced the other way too, and tell what it costs or saves",
       .flag = offsetof(WrCli, measure) },
+    { "--map", NULL, "FILE", WR_OPTION_EXPLAIN,
+      "write a picture of where each effect ran, in colours that are listed", .set = set_map },
     { "--frames", NULL, "A-B", WR_OPTION_RENDER,
       "a turntable: #### in OUT becomes the frame's number", .set = set_frames },
     { "--of", NULL, "N", WR_OPTION_RENDER,

@@ -30,7 +30,7 @@ const WrSubcommand wr_subcommands[] = {
       "double\n"
       "precision; F, Fu, Fv carry the bump's height and the replication.",
       wr_cli_inspect },
-    { "explain", "explain [FILE] [--measure] [--full] [--json] [--size WxH]",
+    { "explain", "explain [FILE] [--measure] [--map FILE] [--full] [--json] [--size WxH]",
       "the plan of a picture, with reasons", BIT(JSON) | BIT(SIZE) | BIT(FULL) | BIT(EXPLAIN),
       "Renders once and prints what was simulated and what was left out. class I: leaving it out "
       "gives\n"

@@ -175,6 +175,10 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
    they were chosen, without the choosing. */
 bool wr_session_savings(WrSession *session, int width, int height, double turn_deg,
                         WrSaving savings[WR_EFFECT_COUNT], WrError *err);
+/* Draw it once more, and note what each pixel took: map [height][width], bits of WrMapBit; 0 where blocks are left out
+   that show nothing. */
+bool wr_session_map(WrSession *session, int width, int height, double turn_deg, uint8_t *map,
+                    WrError *err);
 /* Where the scene has a tolerance: choose its dials once for all pictures of a turn, which the next ones of that size
    then have; a note tells what was chosen on which. */
 bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,

@@ -43,22 +43,44 @@ bool wr_session_frame(WrSession *session, int width, int height, double turn_deg
     return wr_tolerance_frame(session->renderer, &request, &session->choice, frame, err);
 }
 
+/* The dials of a picture that is drawn again: under a tolerance those that were chosen for it, else NULL, its own. */
+static bool choice_for(WrSession *session, const WrFrameRequest *request, const WrChoice **out,
+                       WrError *err)
+{
+    WrFrame frame;
+    *out = NULL;
+    if (request->scene->tolerance.kind == WR_TOLERANCE_NONE) return true;
+    *out = &session->choice;
+    return wr_choice_fits(*out, request) ||
+           wr_session_frame(session, request->width, request->height, request->turn_deg, &frame,
+                            err);
+}
+
 bool wr_session_savings(WrSession *session, int width, int height, double turn_deg,
                         WrSaving savings[WR_EFFECT_COUNT], WrError *err)
 {
     WrFrameRequest request;
-    WrFrame frame;
     if (!make_request(session, width, height, turn_deg, &request, err)) return false;
     WrSavingRequest ask = { .pool = session->options.pool,
                             .isa = session->options.isa,
                             .frame = &request };
-    if (request.scene->tolerance.kind != WR_TOLERANCE_NONE) {
-        ask.choice = &session->choice;
-        if (!wr_choice_fits(ask.choice, &request) &&
-            !wr_session_frame(session, width, height, turn_deg, &frame, err))
-            return false;
-    }
-    return wr_savings_measure(&ask, savings, err);
+    return choice_for(session, &request, &ask.choice, err) &&
+           wr_savings_measure(&ask, savings, err);
+}
+
+bool wr_session_map(WrSession *session, int width, int height, double turn_deg, uint8_t *map,
+                    WrError *err)
+{
+    WrFrameRequest request;
+    WrFrame frame;
+    const WrChoice *choice;
+    if (!make_request(session, width, height, turn_deg, &request, err) ||
+        !choice_for(session, &request, &choice, err))
+        return false;
+    request.map = map;
+    memset(map, 0, (size_t)width * (size_t)height);
+    return choice ? wr_choice_frame(session->renderer, &request, choice, &frame, err)
+                  : wr_renderer_frame(session->renderer, &request, &frame, err);
 }
 
 bool wr_session_turn(WrSession *session, int width, int height, const double *turn_deg, int count,

@@ -193,7 +193,7 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
                       .coder = wr_kernels_get(renderer->isa, false, NULL) };
     if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
     if (request) wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
-    if (request) job.normals = request->normals;
+    if (request) job.normals = request->normals, job.map = request->map;
     wr_tile_size(job.samples, plan->sampling == WR_SAMPLING_ADAPTIVE, request && request->only,
                  &job.tile_w, &job.tile_h);
     return job;

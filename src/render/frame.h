@@ -24,6 +24,15 @@ typedef struct WrFrameCodes {
     double background[3]; /* linear R, G, B */
 } WrFrameCodes;
 
+/* What a pixel took. */
+typedef enum WrMapBit {
+    WR_MAP_RENDERED = 1, /* its tile was rendered in this frame */
+    WR_MAP_COVERED = 2,  /* a sample met the object */
+    WR_MAP_LOOKED = 4,   /* a sample looked F up: bump ran */
+    WR_MAP_WIDE = 8,     /* in the pyramid, or several times (E17) */
+    WR_MAP_SAMPLES = 16 /* from here on: samples a side, 1, up to 2, 4, 8, ... as 0, 1, 2, 3, ... */
+} WrMapBit;
+
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */
     const WrScene *scene;
@@ -48,6 +57,9 @@ typedef struct WrFrameRequest {
        dials say of supersampling. */
     float *normals;
     WrFrameCodes codes;
+    /* What each pixel took, bits of WrMapBit; [height or else rows][width], the caller's; pixels that are not rendered
+       stay as they are. NULL: not wanted. */
+    uint8_t *map;
     /* Effects that run, or do not, whatever the scene calls for: [WR_EFFECT_COUNT]; NULL: none. */
     const WrForce *force;
     bool full; /* run whatever the plan could leave out without changing the picture */

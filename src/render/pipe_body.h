@@ -232,13 +232,38 @@ static void note_view(const WrTileJob *job, const Rays *rays, WrTileScratch *scr
     if (sizeof(REAL) == sizeof(double)) wr_did(scratch, WR_EFFECT_DOUBLE);
 }
 
+/* Samples a side of the grid that these rays are of. */
+static int grid_of(const WrView *view, const Rays *rays)
+{
+    int i = 0;
+    while (i + 1 < view->grid_count && &VIEWED(&view->grids[i], rays) != rays) i++;
+    return view->grids[i].k;
+}
+
+/* What the strip's pixels took; level: no bump was looked up. */
+static void note_map(const WrTileJob *job, const Rays *rays, bool level, const Strip *strip,
+                     const WrTileScratch *scratch)
+{
+    const int k = grid_of(job->view, rays);
+    const bool looked = job->plan->bump != WR_BUMP_NONE && !level;
+    const bool filtered = looked && runs(job, WR_EFFECT_FILTER);
+    for (int i = 0; i < strip->count; i++) {
+        const bool wide = filtered && (strip->level[i] > (REAL)0 || strip->taps[i] > 1);
+        const int bits = WR_MAP_COVERED | (looked ? WR_MAP_LOOKED : 0) | (wide ? WR_MAP_WIDE : 0);
+        wr_tile_map(job, scratch, (int)(strip->x[i] + (REAL)0.5) / k,
+                    (int)(strip->y[i] + (REAL)0.5) / k, (uint8_t)bits);
+    }
+}
+
 static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                          WrTileScratch *scratch, Watch *watch)
 {
     Strip *strip = STRIP_OF(scratch);
+    const int64_t level = scratch->level_samples;
     if (strip->count == 0) return;
     note_view(job, rays, scratch);
     shade_strip(job, rays, quad, sink, strip, scratch, watch);
+    if (job->map) note_map(job, rays, scratch->level_samples > level, strip, scratch);
     store(job, sink, strip, scratch);
     watch_lap(watch, WR_STAGE_STORE);
     if (lit(sink)) scratch->shaded += strip->count;
@@ -355,7 +380,7 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 /* Places of what hit, where a later stage asks for them. */
 static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
 {
-    if (!runs(job, WR_EFFECT_FILTER) && !sink->bound) return;
+    if (!runs(job, WR_EFFECT_FILTER) && !sink->bound && !job->map) return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];
         strip->y[i] = gy;

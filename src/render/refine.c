@@ -233,6 +233,13 @@ static void sample_rows(const Refiner *r, WrTilePart part, int k, const WrDepthT
     empty_queue(&queue);
 }
 
+/* The last level's number in the place of the one before. */
+static void map_samples(const Refiner *r, int x, int y, int k)
+{
+    uint8_t *at = &r->job->map[wr_tile_place(r->job, r->part.x + x, r->part.y + y)];
+    *at = (uint8_t)(*at % WR_MAP_SAMPLES | wr_tile_map_samples(k));
+}
+
 /* k x k samples for the open pixels of a part of the tile; those that need no more are closed. */
 static void sample_part(Refiner *r, WrTilePart part, int k, bool last)
 {
@@ -249,6 +256,7 @@ static void sample_part(Refiner *r, WrTilePart part, int k, bool last)
         for (int x = 0; x < part.w; x++) {
             unsigned char *open = &s->open[part.y + y][part.x + x];
             if (!*open) continue;
+            if (r->job->map) map_samples(r, part.x + x, part.y + y, k);
             float *sample = s->sample[y * k][x * k], mean[4];
             float *pixel = wr_tile_pixel(r->job, r->part.x + part.x + x, r->part.y + part.y + y);
             const float range = last ? 0 : range_of(sample, k, step);

@@ -256,6 +256,16 @@ static void clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
     }
 }
 
+/* What all of the tile takes whatever it shows. */
+static void start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch)
+{
+    const int all = job->plan->sampling == WR_SAMPLING_ALL ? job->samples : 1;
+    scratch->mapped = whole;
+    for (int y = whole.y; y < whole.y + whole.h; y++)
+        memset(job->map + wr_tile_place(job, whole.x, y),
+               WR_MAP_RENDERED | wr_tile_map_samples(all), (size_t)whole.w);
+}
+
 /* The part of it that the object may be on; w or h 0: none. */
 static WrTilePart touched(const WrTileJob *job, WrTilePart part)
 {
@@ -303,6 +313,7 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
     const double start = wr_clock_seconds();
     scratch->seen = job->seen ? &job->seen[index] : NULL;
     const WrTilePart part = touched(job, whole);
+    if (job->map) start_map(job, whole, scratch);
     clear(job, whole, part);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     if (part.w > 0 && part.h > 0) {

@@ -2,6 +2,7 @@
    the samples of each pixel.
    Layer 5, private to the renderer. */
 #pragma once
+#include "render/frame.h"
 #include "render/keep.h"
 #include "render/level.h"
 #include "render/mesh.h"
@@ -44,6 +45,7 @@ typedef struct WrTileJob {
     float background[3];
     uint32_t backdrop; /* the background's code */
     float *normals;    /* WrFrameRequest's; or NULL */
+    uint8_t *map;      /* likewise */
     WrBlocks *seen;    /* [tiles] to fill with what each tile looks at; NULL: not wanted */
 } WrTileJob;
 
@@ -62,6 +64,11 @@ typedef struct WrScatter {
     double x[WR_SPAN], y[WR_SPAN]; /* grid samples */
     int cell[WR_SPAN];             /* place in the depth tile (mesh) */
 } WrScatter;
+
+/* Pixels of the picture that a tile is made of. */
+typedef struct WrTilePart {
+    int x, y, w, h;
+} WrTilePart;
 
 #define WR_REFINE_W 64 /* pixels of a tile of `adaptive` */
 #define WR_REFINE_H 32
@@ -93,6 +100,7 @@ typedef struct WrTileScratch {
     int64_t wide_samples; /* filter, moments: that looked above level 0 */
     uint32_t ran;         /* bits of WrEffect: noted by what does it, where it is done */
     WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
+    WrTilePart mapped;    /* pixels whose map is this thread's: those of its tile */
     unsigned strips;      /* counts strips: one in sixteen is timed */
 } WrTileScratch;
 
@@ -115,10 +123,22 @@ static inline float *wr_tile_pixel(const WrTileJob *job, int x, int y)
     return job->rgba + ((size_t)(y - job->y0) * job->rgba_pitch + (size_t)(x - job->x0)) * 4;
 }
 
-/* Pixels of the picture that a tile is made of. */
-typedef struct WrTilePart {
-    int x, y, w, h;
-} WrTilePart;
+/* Samples a side as a pixel's map has them. */
+static inline uint8_t wr_tile_map_samples(int k)
+{
+    int level = 0;
+    while (1 << level < k) level++;
+    return (uint8_t)(level * WR_MAP_SAMPLES);
+}
+
+/* Add bits to a pixel's map; not to those of other tiles, which other threads have. */
+static inline void wr_tile_map(const WrTileJob *job, const WrTileScratch *scratch, int x, int y,
+                               uint8_t bits)
+{
+    const WrTilePart *own = &scratch->mapped;
+    if (x < own->x || y < own->y || x >= own->x + own->w || y >= own->y + own->h) return;
+    job->map[wr_tile_place(job, x, y)] |= bits;
+}
 
 /* Tile sizes for K x K samples: about 256 x 32 samples whatever K. blocks: as many blocks of WR_FRAME_BLOCK
    pixels beside each other, or a power of two that divides one, and no taller than one. */
