@@ -66,5 +66,7 @@ void wr_view_mesh_fini(WrViewMesh *mesh);
 /* Rasterise what falls on the tile. Watertight: neighbouring cells share edges in whole numbers with a
    top-left rule (HC85); of equal depths the first cell stays. */
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile);
-/* True if the tile can hold something: cheaper than rasterising it. */
-bool wr_view_mesh_touches(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile);
+/* Samples of the view's grid, x0, y0, x1, y1, beyond which nothing of the mesh that meets the tile lies; false where
+   nothing does. */
+bool wr_view_mesh_box(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile,
+                      double box[4]);

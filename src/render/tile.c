@@ -4,6 +4,7 @@
 #include "render/pipe.h"
 #include "system/clock.h"
 
+#include <math.h>
 #include <string.h>
 
 /* The largest power of two up to x. */
@@ -266,6 +267,15 @@ static void start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scr
                WR_MAP_RENDERED | wr_tile_map_samples(all), (size_t)whole.w);
 }
 
+/* The pixels from a to b, with one more at each end, that lie in the run at *from. */
+static void crop(double a, double b, int *from, int *count)
+{
+    const int end = *from + *count;
+    const double first = floor(a) - 1, last = floor(b) + 2;
+    *from = first > *from ? (first < end ? (int)first : end) : *from;
+    *count = (last < end ? (last > *from ? (int)last : *from) : end) - *from;
+}
+
 /* The part of it that the object may be on; w or h 0: none. */
 static WrTilePart touched(const WrTileJob *job, WrTilePart part)
 {
@@ -274,8 +284,13 @@ static WrTilePart touched(const WrTileJob *job, WrTilePart part)
     const WrDepthTile tile = {
         .x = part.x * K - K, .y = part.y * K - K, .w = (part.w + 2) * K, .h = (part.h + 2) * K
     };
-    if (job->mesh)
-        return wr_view_mesh_touches(job->mesh, view, &tile) ? part : (WrTilePart){ 0, 0, 0, 0 };
+    if (job->mesh) {
+        double box[4];
+        if (!wr_view_mesh_box(job->mesh, view, &tile, box)) return (WrTilePart){ 0, 0, 0, 0 };
+        crop(box[0] / K, box[2] / K, &part.x, &part.w);
+        crop(box[1] / K, box[3] / K, &part.y, &part.h);
+        return part;
+    }
     part.x = part.x > view->x0 ? part.x : view->x0;
     part.y = part.y > view->y0 ? part.y : view->y0;
     part.w = (x1 < view->x1 ? x1 : view->x1) - part.x;
