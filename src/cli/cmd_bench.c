@@ -170,30 +170,6 @@ static bool bench_files(const Options *options, WrText *text, WrError *err)
     return true;
 }
 
-static bool bench_table(const WrCli *cli, const Options *options, WrText *text, WrError *err)
-{
-    static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_TEXTURE, WR_BENCH_BUMP };
-    static const char *const surfaces[] = { "sphere", "bezier", "torus" };
-    const int threads[] = { 1, all_threads(cli) };
-    WrBenchRow rows[ROWS_MAX];
-    int count = 0;
-    for (int s = 0; s < 3; s++)
-        for (int size = 512; size <= (options->quick ? 512 : 1024); size *= 2)
-            for (int t = 0; t < (threads[1] > 1 ? 2 : 1); t++)
-                count = add_rows(rows, count, surfaces[s], size, 512, threads[t], modes, 3);
-    wr_text_addf(text, "table 512x512, %s arithmetic, medians of interleaved runs\n\n",
-                 options->exact ? "exact" : "fast");
-    if (!wr_bench_run(cli, rows, count, options->quick ? 5 : 15, !options->exact, err))
-        return false;
-    print_frames(text, rows, count);
-    print_ratios(text, rows, count);
-    return bench_strokes(cli, options, text, err) &&
-           wr_bench_brush_table(cli, options->quick, text, err) &&
-           wr_bench_generate(cli, options->quick, false, text, err) &&
-           bench_edits(cli, options, text, err) && bench_files(options, text, err) &&
-           wr_bench_window(cli, options->quick, text, err);
-}
-
 /* The sections that are asked for, one after another. */
 static bool bench_sections(const WrCli *cli, const Options *options, WrText *text, WrError *err)
 {
@@ -218,6 +194,34 @@ static bool bench_sections(const WrCli *cli, const Options *options, WrText *tex
     if (cli->json && any) wr_text_add(text, "]");
     wr_free(all);
     return good;
+}
+
+static bool bench_table(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_TEXTURE, WR_BENCH_BUMP };
+    static const char *const surfaces[] = { "sphere", "bezier", "torus" };
+    const int threads[] = { 1, all_threads(cli) };
+    WrBenchRow rows[ROWS_MAX];
+    int count = 0;
+    for (int s = 0; s < 3; s++)
+        for (int size = 512; size <= (options->quick ? 512 : 1024); size *= 2)
+            for (int t = 0; t < (threads[1] > 1 ? 2 : 1); t++)
+                count = add_rows(rows, count, surfaces[s], size, 512, threads[t], modes, 3);
+    wr_text_addf(text, "table 512x512, %s arithmetic, medians of interleaved runs\n\n",
+                 options->exact ? "exact" : "fast");
+    if (!wr_bench_run(cli, rows, count, options->quick ? 5 : 15, !options->exact, err))
+        return false;
+    print_frames(text, rows, count);
+    print_ratios(text, rows, count);
+    const Options parts = { .sections = ~(uint64_t)0,
+                            .quick = options->quick,
+                            .exact = options->exact };
+    wr_text_add(text, "\n");
+    return bench_sections(cli, &parts, text, err) && bench_strokes(cli, options, text, err) &&
+           wr_bench_brush_table(cli, options->quick, text, err) &&
+           wr_bench_generate(cli, options->quick, false, text, err) &&
+           bench_edits(cli, options, text, err) && bench_files(options, text, err) &&
+           wr_bench_window(cli, options->quick, text, err);
 }
 
 /* One object: sections, and what --lines prints. */

@@ -72,18 +72,17 @@ const WrSubcommand wr_subcommands[] = {
 #ifdef WR_HAVE_BENCH
     { "bench", "bench [PART...|all|generate] [--quick] [--exact] [--lines] [--size WxH] [--json]",
       "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS),
-      "Pictures, documents, brushes and the window; with generate: what fills a table, beside gegl "
-      "and\n"
-      "oiiotool where they are installed. A PART compares pictures that differ in one thing, "
-      "beside "
-      "the\n"
+      "Pictures, documents, brushes and the window; with generate alone what fills a table, beside "
+      "gegl\n"
+      "and oiiotool where they are installed. A PART alone: pictures that differ in one thing, "
+      "beside the\n"
       "machine's peaks of the same run: surfaces, schemes, normals, aliasing, effects, isa, plan, "
       "still,\n"
-      "first, output; all: each of them. --quick: fewer and smaller; --exact: exact arithmetic in "
-      "place of\n"
-      "fast; --lines: one line a measurement, for programs; --json: all parts and these lines, or "
-      "what is\n"
-      "named.",
+      "first, output; all: each of them, half a minute. --quick: fewer and smaller; --exact: "
+      "exact\n"
+      "arithmetic in place of fast; --lines: one line a measurement, for programs; --json: all "
+      "parts and\n"
+      "these lines, or what is named.",
       wr_cli_bench },
 #endif
     { "help", "help [VERB...] [--json|--markdown]", "the commands of scripts and --do",
