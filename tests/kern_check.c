@@ -277,11 +277,11 @@ static bool run_shade(const WrKernels *k, Bench *b, int member, int count)
 {
     if (member >= 32) return false;
     const WrKernShine shine = { 0.4f, 17, member & 16 };
-    const WrKernMatter matter = { 0.1f, 0.7f, { 0.8f, 0.7f, 0.6f } };
+    const WrKernMaterial material = { 0.1f, 0.7f, { 0.8f, 0.7f, 0.6f } };
     b->strip.count = count;
     b->rays = some_rays(member & 1);
     k->shade[member >> 1 & 1][member & 1][member >> 2 & 1][member >> 3 & 1](
-        &b->rays, &b->light[member >> 1 & 1], &shine, &matter, &b->strip);
+        &b->rays, &b->light[member >> 1 & 1], &shine, &material, &b->strip);
     return true;
 }
 

@@ -68,10 +68,10 @@ static void expect_codes(const WrFrame *frame, const uint8_t *bytes, const char 
 }
 
 /* The float picture made into codes. */
-static uint8_t *bytes_of(const WrFrame *frame, const double ground[3], int64_t *wild)
+static uint8_t *bytes_of(const WrFrame *frame, const double ground[3], int64_t *not_finite)
 {
     uint8_t *bytes = wr_alloc((size_t)frame->width * (size_t)frame->height, 4);
-    *wild = wr_frame_to_srgb8(frame, ground, true, bytes, NULL);
+    *not_finite = wr_frame_to_srgb8(frame, ground, true, bytes, NULL);
     return bytes;
 }
 
@@ -93,14 +93,14 @@ static void try_case(const Case *c, const WrField *field, WrField *edited, TestR
     WrRenderer *floats = wr_renderer_new(pool, isa, &err),
                *codes = wr_renderer_new(pool, isa, &err);
     for (int step = 0; step < 3; step++) { /* whole, whole again, and after an edit */
-        int64_t wild = 0;
+        int64_t not_finite = 0;
         char what[80];
         request.field = step == 2 ? edited : field;
         request.keep = true;
         request.codes.wanted = false;
         if (!wr_renderer_frame(floats, &request, &frame, &err)) fail_msg("%s", err.text);
         const int64_t covered = frame.covered;
-        uint8_t *bytes = bytes_of(&frame, ground, &wild);
+        uint8_t *bytes = bytes_of(&frame, ground, &not_finite);
         request.codes.wanted = true;
         memcpy(request.codes.background, ground, sizeof request.codes.background);
         if (!wr_renderer_frame(codes, &request, &frame, &err)) fail_msg("%s", err.text);
@@ -108,7 +108,7 @@ static void try_case(const Case *c, const WrField *field, WrField *edited, TestR
                  request.width, request.height, isa, fast ? " fast" : "", step);
         expect_codes(&frame, bytes, what);
         assert_true(frame.covered == covered);
-        assert_true(frame.wild == 0 && wild == 0);
+        assert_true(frame.not_finite == 0 && not_finite == 0);
         wr_free(bytes);
     }
     wr_renderer_free(floats);
@@ -147,7 +147,7 @@ static void codes_and_floats_leave_each_other_alone(void **state)
     Shot fresh = shoot(scene, field, 301, 50, 1, "auto", false);
     for (int step = 0; step < 12; step++) {
         const double *ground = grounds[step / 2 % 3];
-        int64_t wild;
+        int64_t not_finite;
         WrFrame frame;
         WrFrameRequest request = { .field = field,
                                    .scene = scene,
@@ -158,7 +158,7 @@ static void codes_and_floats_leave_each_other_alone(void **state)
                                    .codes.wanted = step % 4 != 3 };
         memcpy(request.codes.background, ground, sizeof request.codes.background);
         assert_true(wr_renderer_frame(renderer, &request, &frame, &err));
-        uint8_t *bytes = bytes_of(&fresh.frame, ground, &wild);
+        uint8_t *bytes = bytes_of(&fresh.frame, ground, &not_finite);
         if (request.codes.wanted) expect_codes(&frame, bytes, "by turns");
         else assert_memory_equal(frame.rgba, fresh.frame.rgba, frame_bytes(&frame));
         wr_free(bytes);

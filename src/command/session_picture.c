@@ -136,7 +136,7 @@ static bool draw(Picture *picture, WrError *err)
 {
     if (!wr_renderer_frame(picture->session->renderer, &picture->request, &picture->frame, err))
         return false;
-    picture->replaced += picture->frame.wild;
+    picture->replaced += picture->frame.not_finite;
     return true;
 }
 

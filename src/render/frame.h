@@ -56,7 +56,7 @@ typedef struct WrFrameRequest {
        [height or else rows][width][3], the caller's; NULL: not wanted. One sample a pixel is taken, whatever the
        dials say of supersampling. */
     float *normals;
-    WrFrameCodes codes;
+    WrFrameCodes codes; /* 8-bit pixels instead of float ones */
     /* What each pixel took, bits of WrMapBit; [height or else rows][width], the caller's; pixels that are not rendered
        stay as they are. NULL: not wanted. */
     uint8_t *map;
@@ -76,12 +76,12 @@ typedef struct WrFrame {
     int width, height; /* a band's: its rows */
     float *rgba; /* [height][width][4] linear, premultiplied; A is coverage; owned by the renderer,
                     valid until its next frame; NULL where codes were wanted */
-    const uint32_t *
-        codes; /* [height][width] opaque 0xAARRGGBB, on little-endian machines B,G,R,A in memory; the same
-                              codes as wr_frame_to_srgb8 makes of rgba; or NULL; the renderer's, as rgba */
-    int64_t wild; /* of the numbers that this frame made codes of: not finite, taken as 0 (HC96) */
-    int64_t covered; /* pixels with coverage > 0 */
-    int64_t shaded;  /* samples shaded for this frame */
+    /* [height][width] opaque 0xAARRGGBB, on little-endian machines B,G,R,A in memory: the same codes as
+       wr_frame_to_srgb8 makes of rgba; or NULL. The renderer's, as rgba. */
+    const uint32_t *codes;
+    int64_t not_finite; /* numbers that this frame made codes of: taken as 0 (HC96) */
+    int64_t covered;    /* pixels with coverage > 0 */
+    int64_t shaded;     /* samples shaded for this frame */
     WrStageTimes times;
     const WrPlan *plan; /* with what each effect cost; owned by the renderer, as rgba */
 } WrFrame;
@@ -103,7 +103,7 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
 int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool bgra, uint8_t *out,
                           WrPool *pool);
 
-/* Codes as bytes R,G,B. */
+/* `count` of them as bytes R,G,B; out [count][3]. */
 void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out);
 
 /* The (u,v) under a pixel position (from the top left, pixels) of the last frame; false where the

@@ -16,7 +16,7 @@ void wr_frame_start_counts(WrRenderer *renderer)
         memset(s->seconds, 0, sizeof s->seconds);
         memset(s->whole, 0, sizeof s->whole);
         s->all = s->all_strips = 0;
-        s->covered = s->wild = s->shaded = s->tiles = s->wide_samples = 0;
+        s->covered = s->not_finite = s->shaded = s->tiles = s->wide_samples = 0;
         s->level_samples = s->level_tiles = 0;
         s->strips = 0;
         s->ran = 0;
@@ -31,13 +31,6 @@ typedef struct Counts {
     uint32_t ran;
 } Counts;
 
-/* Effects that a run of samples without a slope is spared. */
-static bool is_of_slopes(int effect)
-{
-    return effect == WR_EFFECT_BUMP || effect == WR_EFFECT_GRADIENT ||
-           effect == WR_EFFECT_INVARIANT || effect == WR_EFFECT_TANGENTS;
-}
-
 /* What each effect cost and touched, into the plan's rows. */
 static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Counts *counts)
 {
@@ -48,9 +41,9 @@ static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Co
         row->seconds = 0;
         row->ran = counts->ran >> e & 1;
         if (!row->run) continue;
-        row->tiles = counts->tiles - (is_of_slopes(e) ? counts->level_tiles : 0);
+        row->tiles = counts->tiles - (wr_effects[e].by_run ? counts->level_tiles : 0);
         row->pixels = e == WR_EFFECT_FILTER ? counts->filtered
-                                            : shaded - (is_of_slopes(e) ? counts->level : 0);
+                                            : shaded - (wr_effects[e].by_run ? counts->level : 0);
     }
     for (int stage = 0; stage < WR_STAGE_COUNT; stage++)
         wr_plan_charge(plan, (WrStage)stage, seconds[stage]);
@@ -89,7 +82,7 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
         busy += s->all;
         frame->covered += s->covered;
         frame->shaded += s->shaded;
-        frame->wild += s->wild;
+        frame->not_finite += s->not_finite;
         counts.tiles += s->tiles;
         counts.filtered += s->wide_samples;
         counts.level += s->level_samples;

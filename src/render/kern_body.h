@@ -29,7 +29,7 @@
 #define LOOK WrLookd
 #define LIGHT WrKernLightd
 #define SHINE WrKernShined
-#define MATTER WrKernMatterd
+#define MATERIAL WrKernMateriald
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
 #define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
@@ -48,7 +48,7 @@
 #define LOOK WrLook
 #define LIGHT WrKernLight
 #define SHINE WrKernShine
-#define MATTER WrKernMatter
+#define MATERIAL WrKernMaterial
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif

@@ -104,17 +104,17 @@ FLAT static void kern_finish(const REAL colour[3], STRIP *strip)
    in the same order as those stages, so the same bits where arithmetic is exact. ---- */
 
 ALWAYS void shade_one(const RAYS *rays, const LIGHT *light, const SHINE *shine,
-                      const MATTER *matter, const bool point, const bool near, const bool shines,
-                      const bool pictured, STRIP *strip)
+                      const MATERIAL *material, const bool point, const bool near,
+                      const bool shines, const bool pictured, STRIP *strip)
 {
     const VEC where = { light->where[0], light->where[1], light->where[2] };
     const REAL *from = near ? rays->eye : rays->toward;
     const VEC viewer = { from[0], from[1], from[2] };
-    const REAL kd = matter->kd, ks = shine->ks, power = shine->shininess;
+    const REAL kd = material->kd, ks = shine->ks, power = shine->shininess;
     const REAL dr = kd * light->rgb[0], dg = kd * light->rgb[1], db = kd * light->rgb[2];
     const REAL sr = ks * light->rgb[0], sg = ks * light->rgb[1], sb = ks * light->rgb[2];
-    const REAL r = matter->rgb[0], g = matter->rgb[1], b = matter->rgb[2];
-    const REAL ambient = matter->ambient;
+    const REAL r = material->rgb[0], g = material->rgb[1], b = material->rgb[2];
+    const REAL ambient = material->ambient;
     const bool gate = shine->gate;
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
@@ -140,10 +140,10 @@ ALWAYS void shade_one(const RAYS *rays, const LIGHT *light, const SHINE *shine,
 #ifndef WR_KERN_DOUBLE
 #define SHADE(point, near, shines, pictured)                                                       \
     FLAT static void kern_shade_##point##near##shines##pictured(                                   \
-        const RAYS *rays, const LIGHT *light, const SHINE *shine, const MATTER *matter,            \
+        const RAYS *rays, const LIGHT *light, const SHINE *shine, const MATERIAL *material,        \
         STRIP *strip)                                                                              \
     {                                                                                              \
-        shade_one(rays, light, shine, matter, point, near, shines, pictured, strip);               \
+        shade_one(rays, light, shine, material, point, near, shines, pictured, strip);             \
     }
 #define SHADES(point, near)                                                                        \
     SHADE(point, near, 0, 0)                                                                       \

@@ -31,14 +31,14 @@ FLAT static int kern_codes(const uint32_t *bins, const STRIP *strip, uint32_t *o
 {
     const int count = strip->count;
     Places places;
-    int wild = 0;
-    SIMD_SUM(wild) for (int i = 0; i < count; i++)
+    int not_finite = 0;
+    SIMD_SUM(not_finite) for (int i = 0; i < count; i++)
     {
-        wild +=
+        not_finite +=
             note_places(&places, i, (float)strip->cr[i], (float)strip->cg[i], (float)strip->cb[i]);
     }
     codes_of_places(bins, &places, count, out);
-    return wild;
+    return not_finite;
 }
 
 /* The same of premultiplied colours [count][4] over a background. */
@@ -47,13 +47,13 @@ FLAT static int kern_codes_over(const uint32_t *bins, const float background[3],
 {
     const float r0 = background[0], g0 = background[1], b0 = background[2];
     Places places;
-    int wild = 0;
-    SIMD_SUM(wild) for (int i = 0; i < count; i++)
+    int not_finite = 0;
+    SIMD_SUM(not_finite) for (int i = 0; i < count; i++)
     {
         const float left = 1.0f - rgba[4 * i + 3];
-        wild += note_places(&places, i, rgba[4 * i] + left * r0, rgba[4 * i + 1] + left * g0,
-                            rgba[4 * i + 2] + left * b0);
+        not_finite += note_places(&places, i, rgba[4 * i] + left * r0, rgba[4 * i + 1] + left * g0,
+                                  rgba[4 * i + 2] + left * b0);
     }
     codes_of_places(bins, &places, count, out);
-    return wild;
+    return not_finite;
 }

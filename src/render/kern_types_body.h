@@ -94,14 +94,14 @@ typedef struct WR_T(WrKernShine) {
 } WR_T(WrKernShine);
 
 /* What a material and its ambient light come to. */
-typedef struct WR_T(WrKernMatter) {
+typedef struct WR_T(WrKernMaterial) {
     REAL ambient, kd;
     REAL rgb[3]; /* its colour */
-} WR_T(WrKernMatter);
+} WR_T(WrKernMaterial);
 
 typedef void (*WR_T(WrShadeKernel))(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
                                     const WR_T(WrKernShine) * shine,
-                                    const WR_T(WrKernMatter) * matter, WR_T(WrStrip) * strip);
+                                    const WR_T(WrKernMaterial) * material, WR_T(WrStrip) * strip);
 
 typedef int (*WR_T(WrHitKernel))(const WR_T(WrRays) * rays, const SHAPE *shape, REAL gx, REAL gy,
                                  int count, WR_T(WrStrip) * strip);

@@ -233,34 +233,21 @@ static bool block_meets(const WrViewMeshBlock *b, const Bounds *tile)
            (b->x1 >= tile->x0 && b->x0 <= tile->x1 && b->y1 >= tile->y0 && b->y0 <= tile->y1);
 }
 
-static double least(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static double most(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 bool wr_view_mesh_box(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile,
                       double box[4])
 {
     const Bounds bounds = bounds_of(tile, view->samples);
-    bool any = false;
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
     for (int i = 0; i < mesh->blocks_u * mesh->blocks_v; i++) {
         const WrViewMeshBlock *b = &mesh->blocks[i];
         if (!block_meets(b, &bounds)) continue;
-        const bool bound = !b->clipped;
-        const double x0 = bound ? b->x0 / 256.0 : -INFINITY, x1 = bound ? b->x1 / 256.0 : INFINITY;
-        const double y0 = bound ? b->y0 / 256.0 : -INFINITY, y1 = bound ? b->y1 / 256.0 : INFINITY;
-        box[0] = any ? least(box[0], x0) : x0;
-        box[1] = any ? least(box[1], y0) : y0;
-        box[2] = any ? most(box[2], x1) : x1;
-        box[3] = any ? most(box[3], y1) : y1;
-        any = true;
+        box[0] = fmin(box[0], b->clipped ? -INFINITY : b->x0 / 256.0);
+        box[1] = fmin(box[1], b->clipped ? -INFINITY : b->y0 / 256.0);
+        box[2] = fmax(box[2], b->clipped ? INFINITY : b->x1 / 256.0);
+        box[3] = fmax(box[3], b->clipped ? INFINITY : b->y1 / 256.0);
     }
-    return any;
+    return box[0] <= box[2];
 }
 
 static WrRasterVertex vertex_at(const WrViewMesh *mesh, int i, int j)

@@ -184,7 +184,7 @@ static void store_codes(const WrTileJob *job, const Strip *strip, bool run, uint
 {
     uint32_t codes[WR_SPAN];
     int fresh = 0;
-    scratch->wild += KERNELS_OF(job)->codes(job->bins, strip, codes);
+    scratch->not_finite += KERNELS_OF(job)->codes(job->bins, strip, codes);
     if (run) {
         const uint32_t *at = out + strip->index[0];
         for (int i = 0; i < strip->count; i++) fresh += at[i] >> 24 == 0;

@@ -63,11 +63,11 @@ static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKe
     const WrMaterial *m = &job->scene->material;
     const bool diffuse = runs(job, WR_EFFECT_DIFFUSE), shines = runs(job, WR_EFFECT_SPECULAR);
     const WR_T(WrKernShine) shine = { (REAL)m->specular, (REAL)m->shininess, m->gate };
-    const WR_T(WrKernMatter)
-        matter = { (REAL)m->ambient,
-                   diffuse ? (REAL)m->diffuse : (REAL)0,
-                   { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z } };
-    shade(rays, VIEWED(job->view, lights), &shine, &matter, strip);
+    const WR_T(WrKernMaterial)
+        material = { (REAL)m->ambient,
+                     diffuse ? (REAL)m->diffuse : (REAL)0,
+                     { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z } };
+    shade(rays, VIEWED(job->view, lights), &shine, &material, strip);
     if (diffuse) did(watch, WR_EFFECT_DIFFUSE);
     if (shines) did(watch, WR_EFFECT_SPECULAR);
     watch_lap(watch, WR_STAGE_LIGHT);

@@ -211,6 +211,8 @@ typedef struct WrEffectInfo {
     const char *left_out; /* when, for the guide */
     unsigned stages; /* bits of WrStage; of one that several own the last that runs has the time */
     bool only_way;   /* where it runs there is no picture without it */
+    /* Where it runs, samples are spared it whose part of the table has no slope (level.h). */
+    bool by_run;
     bool finer; /* run where it could be left out, it makes the picture more exact: other bits */
     /* Does the scene call for it, and why? Rows before it are decided. */
     WrVerdict (*decide)(const WrPlan *plan, const WrPlanAsk *ask, const char **why);

@@ -336,7 +336,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "the mode is none; height or replication is 0; all texels are "
                                  "equal; the "
                                  "scheme sees no slope anywhere; no light depends on the normal",
-                                 STAGE(LOOK) | STAGE(BUMP), .decide = decide_bump,
+                                 STAGE(LOOK) | STAGE(BUMP), .by_run = true, .decide = decide_bump,
                                  .settle = settle_bump },
     [WR_ROW(
         WR_EFFECT_GRADIENT)] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
@@ -344,7 +344,8 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "nearest one look-up of central differences equals the paper's "
                                  "four "
                                  "of F",
-                                 STAGE(LOOK), .only_way = true, .decide = decide_gradient },
+                                 STAGE(LOOK), .only_way = true, .by_run = true,
+                                 .decide = decide_gradient },
     [WR_ROW(WR_EFFECT_WIDE)] = { "E10", "replication in double", WR_PROOF_BOUNDED,
                                  "a thousandth of a texel",
                                  "replication is under 1024, where single precision is right to a "
@@ -354,7 +355,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
         WR_EFFECT_INVARIANT)] = { "E11", "scale invariance", WR_PROOF_BOUNDED,
                                   "rounding of the normal",
                                   "the mode is not invariant; on the unit square it equals blinn",
-                                  STAGE(BUMP), .decide = decide_invariant,
+                                  STAGE(BUMP), .by_run = true, .decide = decide_invariant,
                                   .settle = settle_invariant },
     [WR_ROW(WR_EFFECT_EXACT)] = { "E12", "exact normal", WR_PROOF_BOUNDED, "rounding of the normal",
                                   "the mode is not exact; on flat surfaces blinn is exact",
@@ -424,6 +425,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                      "other "
                                      "surfaces give "
                                      "them with the point",
-                                     0, .only_way = true, .decide = wr_decide_tangents },
+                                     0, .only_way = true, .by_run = true,
+                                     .decide = wr_decide_tangents },
 };
 WR_ROWS_END(wr_effects, WR_EFFECT_COUNT);

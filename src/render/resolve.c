@@ -22,7 +22,7 @@ typedef struct ResolveJob {
     float background[3];
     bool bgra;
     uint8_t *out;
-    int64_t wild; /* atomic */
+    int64_t not_finite; /* atomic */
     uint32_t bins[WR_CODE_BINS + 1];
 } ResolveJob;
 
@@ -33,16 +33,16 @@ static void resolve_row(int y, int worker, void *ctx)
     const int width = job->frame->width, channels = job->bgra ? 4 : 3;
     const float *in = job->frame->rgba + (size_t)y * (size_t)width * 4;
     uint8_t *out = job->out + (size_t)y * (size_t)width * (size_t)channels;
-    int64_t wild = 0;
+    int64_t not_finite = 0;
     for (int x = 0; x < width; x += WR_SPAN) {
         uint32_t codes[WR_SPAN];
         const int count = width - x < WR_SPAN ? width - x : WR_SPAN;
-        wild +=
+        not_finite +=
             job->kernels->codes_over(job->bins, job->background, count, in + 4 * (size_t)x, codes);
         if (job->bgra) memcpy(out + 4 * (size_t)x, codes, (size_t)count * sizeof *codes);
         else wr_codes_to_rgb(codes, (size_t)count, out + 3 * (size_t)x);
     }
-    if (wild) __atomic_fetch_add(&job->wild, wild, __ATOMIC_RELAXED);
+    if (not_finite) __atomic_fetch_add(&job->not_finite, not_finite, __ATOMIC_RELAXED);
 }
 
 void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out)
@@ -62,5 +62,5 @@ int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool
     for (int c = 0; c < 3; c++) job.background[c] = (float)background[c];
     wr_code_bins_fill(job.bins);
     wr_pool_run(pool, frame->height, resolve_row, &job);
-    return job.wild;
+    return job.not_finite;
 }

@@ -316,7 +316,7 @@ static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScrat
     render_many(&own, part, scratch);
     const double start = wr_clock_seconds();
     for (int y = part.y; y < part.y + part.h; y++)
-        scratch->wild +=
+        scratch->not_finite +=
             job->coder->codes_over(job->bins, job->background, part.w,
                                    wr_tile_pixel(&own, part.x, y), code_at(job, part.x, y));
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;

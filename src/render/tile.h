@@ -94,7 +94,7 @@ typedef struct WrTileScratch {
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */
     int64_t tiles;                  /* that held anything */
-    int64_t wild;                   /* numbers that were not finite, among codes */
+    int64_t not_finite;             /* numbers that were not finite, among codes */
     int64_t level_samples,
         level_tiles;      /* whose bump was spared; tiles of which it was everywhere */
     int64_t wide_samples; /* filter, moments: that looked above level 0 */
