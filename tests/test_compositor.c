@@ -358,6 +358,29 @@ static void painting_the_base_under_a_small_layer_does_not_copy_the_base(void **
     free_stack(&s);
 }
 
+static void a_base_that_changes_in_many_tiles_is_shared_again(void **state)
+{
+    (void)state;
+    Stack s;
+    big_stack(&s);
+    WrCompositor *c = wr_compositor_new(), *fresh = wr_compositor_new();
+    for (int n = 0; n < 5; n++) {
+        wr_compositor_update(c, s.layers, s.count, NULL);
+        for (int k = 0; k < 500; k++)
+            wr_field_set(s.own[0].heights, k * 37 % 256 * 64 + n, k / 10 * 64, (float)(n + k));
+        const WrField *f = wr_compositor_update(c, s.layers, s.count, NULL);
+        assert_int_equal(tiles_not_shared(f, s.own[0].heights), 30);
+        wr_field_set(s.own[0].heights, 3, 3,
+                     -1.0f - (float)n); /* not to be seen before the next update */
+        assert_true(wr_field_get(f, 3, 3) != -1.0f - (float)n);
+    }
+    assert_true(wr_hash_equal(wr_field_hash(wr_compositor_update(c, s.layers, s.count, NULL)),
+                              wr_field_hash(wr_compositor_update(fresh, s.layers, s.count, NULL))));
+    wr_compositor_free(c);
+    wr_compositor_free(fresh);
+    free_stack(&s);
+}
+
 static void a_share_of_a_compositor_goes_its_own_way(void **state)
 {
     (void)state;
@@ -468,6 +491,7 @@ int main(void)
         cmocka_unit_test(levels_alone_make_no_tiles),
         cmocka_unit_test(an_edit_or_setting_redoes_only_the_tiles_that_it_concerns),
         cmocka_unit_test(painting_the_base_under_a_small_layer_does_not_copy_the_base),
+        cmocka_unit_test(a_base_that_changes_in_many_tiles_is_shared_again),
         cmocka_unit_test(a_share_of_a_compositor_goes_its_own_way),
         cmocka_unit_test(tables_of_another_size_start_anew),
         cmocka_unit_test(tiles_full_of_the_level_count_as_none),

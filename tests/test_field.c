@@ -359,6 +359,52 @@ static void many_threads_may_share_one_table_and_write_to_their_own(void **state
     wr_field_free(source);
 }
 
+/* Edges of tiles that are not full, equal and different levels. */
+static void a_shared_tile_is_the_others_until_one_is_written(void **state)
+{
+    (void)state;
+    for (int same = 0; same < 2; same++) {
+        WrField *from = random_field(200, 100, WR_WRAP_PERIODIC, WR_WRAP_CLAMP, 7);
+        WrField *to = new_field(200, 100, WR_WRAP_CLAMP, WR_WRAP_PERIODIC, same ? 0.0f : 2.5f);
+        wr_field_tile_drop(from, 1, 1);
+        uint64_t key = wr_field_key(to);
+        for (int k = 0; k < 8; k++) wr_field_tile_share(to, from, k % 4, k / 4);
+        assert_true(wr_field_key(to) != key);
+        for (int j = 0; j < 100; j++)
+            for (int i = 0; i < 200; i++)
+                assert_true(same_bits(wr_field_get(to, i, j), wr_field_get(from, i, j)));
+        assert_ptr_equal(wr_field_tile(to, 0, 0), wr_field_tile(from, 0, 0));
+        assert_true((wr_field_tile(to, 3, 0) == wr_field_tile(from, 3, 0)) == same);
+        const float *last = wr_field_tile(to, 3, 1); /* 8 columns and 36 rows are in use */
+        assert_true(last[63] == wr_field_level(to) && last[63 * 64] == wr_field_level(to));
+        float was = wr_field_get(from, 5, 6);
+        wr_field_set(to, 5, 6, was + 1.0f);
+        assert_true(wr_field_get(from, 5, 6) == was && wr_field_get(to, 5, 6) == was + 1.0f);
+        wr_field_free(from);
+        assert_true(wr_field_get(to, 5, 6) == was + 1.0f);
+        wr_field_free(to);
+    }
+}
+
+static void a_fresh_tile_is_no_ones_else_and_a_dropped_one_has_the_level(void **state)
+{
+    (void)state;
+    WrField *field = random_field(128, 128, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 8);
+    WrField *share = wr_field_share(field);
+    float was = wr_field_get(share, 70, 3);
+    float *fresh = wr_field_tile_fresh(field, 1, 0);
+    for (int k = 0; k < WR_TILE * WR_TILE; k++) fresh[k] = (float)k;
+    assert_true(wr_field_get(share, 70, 3) == was && wr_field_get(field, 70, 3) == 3 * 64 + 6);
+    assert_ptr_equal(wr_field_tile_fresh(field, 1, 0), fresh);
+    wr_field_tile_drop(field, 1, 0);
+    assert_null(wr_field_tile(field, 1, 0));
+    assert_true(wr_field_get(field, 70, 3) == 0.0f && wr_field_get(share, 70, 3) == was);
+    wr_field_tile_drop(share, 0, 1);
+    assert_non_null(wr_field_tile(field, 0, 1));
+    wr_field_free(field);
+    wr_field_free(share);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -379,6 +425,8 @@ int main(void)
         cmocka_unit_test(the_range_counts_the_level_only_where_it_shows),
         cmocka_unit_test(writing_what_is_there_makes_no_tile),
         cmocka_unit_test(many_threads_may_share_one_table_and_write_to_their_own),
+        cmocka_unit_test(a_shared_tile_is_the_others_until_one_is_written),
+        cmocka_unit_test(a_fresh_tile_is_no_ones_else_and_a_dropped_one_has_the_level),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -230,6 +230,32 @@ static void what_a_generator_has_to_say_reaches_the_sessions_notes(void **state)
     wr_session_free(s);
 }
 
+/* A made tile may take the old one's place as it is, but where the layer has another level at the table's edge. */
+static void what_replaces_a_layer_is_the_same_whatever_lay_there(void **state)
+{
+    (void)state;
+    static const char *const sizes[] = { "table 128x128", "table 100x70", "table 1x1",
+                                         "table 65x200" };
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        const char *plain[] = { sizes[k], "noise perlin cells=3 level=0.2", NULL };
+        const char *over[] = { sizes[k], "fill 0.7", "formula poly c=1,0,1",
+                               "noise perlin cells=3 level=0.2", NULL };
+        const char *filled[] = { sizes[k], "fill 0.7", "noise perlin cells=3 level=0.2", NULL };
+        WrSession *s[3] = { session_of(plain), session_of(over), session_of(filled) };
+        WrHash hash = wr_field_hash(doc(s[0])->layers[0].heights);
+        for (int n = 1; n < 3; n++) {
+            WrHash other = wr_field_hash(doc(s[n])->layers[0].heights);
+            assert_memory_equal(&hash, &other, sizeof hash);
+        }
+        must_run(s[0], "formula poly c=0,0,-0 blend=replace");
+        assert_true(same_bits(f_at(s[0], 0, 0), 0.0)); /* never -0 */
+        must_run(s[0], "undo");
+        WrHash back = wr_field_hash(doc(s[0])->layers[0].heights);
+        assert_memory_equal(&hash, &back, sizeof hash);
+        for (int n = 0; n < 3; n++) wr_session_free(s[n]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -244,6 +270,7 @@ int main(void)
         cmocka_unit_test(each_family_with_rows_is_a_verb),
         cmocka_unit_test(a_cancelled_generator_leaves_everything_as_it_was),
         cmocka_unit_test(what_a_generator_has_to_say_reaches_the_sessions_notes),
+        cmocka_unit_test(what_replaces_a_layer_is_the_same_whatever_lay_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

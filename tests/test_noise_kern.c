@@ -89,11 +89,73 @@ static void the_plain_set_is_always_there_and_the_best_one_is_among_them(void **
     assert_true(found);
 }
 
+/* Rows of texels counted in at once, against the steps one by one with the plain set. */
+static void counting_rows_in_at_once_gives_the_bits_of_the_steps(void **state)
+{
+    (void)state;
+    static const int cells[] = { 1, 7, 50, 64, 110, 127, 200, 255, 256 };
+    static Made made;
+    static WrNoiseRows rows;
+    for (int index = 0; wr_noise_kernels_at(index); index++)
+        for (int c = 0; c < 9; c++)
+            for (int count = 1; count <= WR_NOISE_STRIP; count += count < 20 ? 1 : 11) {
+                const WrNoiseKernels *kern = wr_noise_kernels_at(index);
+                WrOctave octave = octave_of(WR_NOISE_GRADIENT, WR_FADE_QUINTIC, cells[c]);
+                make(&wr_noise_kernels_v1, &octave, count * 5, 512, count, &made);
+                assert_true(made.columns.narrow);
+                rows.count = 9;
+                kern->stand(&wr_fades[WR_FADE_CUBIC], cells[c], 0.21, 100, 333, &rows);
+                for (int m = 0; m < 2; m++) {
+                    float sums[9][WR_NOISE_STRIP + 1], steps[9][WR_NOISE_STRIP + 1];
+                    WrNoiseShare share = { .factor = 0.3f, .below = 0.1f, .magnitude = m };
+                    for (int k = 0; k < 9 * (WR_NOISE_STRIP + 1); k++)
+                        sums[k / (WR_NOISE_STRIP + 1)][k % (WR_NOISE_STRIP + 1)] = (float)k * 0.01f;
+                    memcpy(steps, sums, sizeof steps);
+                    kern->sum(&made.columns, &made.near, &made.far, &rows, 2, 5, share, sums[2],
+                              WR_NOISE_STRIP + 1);
+                    for (int j = 2; j < 7; j++) {
+                        const WrNoiseKernels *plain = &wr_noise_kernels_v1;
+                        plain->blend(made.columns.points, &made.near, &made.far, rows.y[j],
+                                     rows.alpha[j], rows.rate[j], &made.blended);
+                        plain->heights(&made.columns, &made.blended, made.f);
+                        if (m) plain->add_magnitude(0.3f, 0.1f, made.f, count, steps[j]);
+                        else plain->add(0.3f, made.f, count, steps[j]);
+                    }
+                    assert_memory_equal(sums, steps, sizeof sums);
+                }
+            }
+}
+
+/* Places of rows, and heights brought to their range. */
+static void rows_and_scales_are_their_formulas(void **state)
+{
+    (void)state;
+    static WrNoiseRows rows;
+    for (int index = 0; wr_noise_kernels_at(index); index++)
+        for (int count = 1; count <= WR_NOISE_BAND; count++) {
+            rows.count = count;
+            wr_noise_kernels_at(index)->stand(&wr_fades[WR_FADE_QUINTIC], 37, 0.21, 100, 333,
+                                              &rows);
+            float f[WR_NOISE_BAND + 1];
+            for (int k = 0; k <= count; k++) f[k] = (float)k * 0.37f - 3.0f;
+            wr_noise_kernels_at(index)->scale(0.1, 1e30, count, f);
+            for (int k = 0; k < count; k++) {
+                double t = 37 * (1.0 - (100 + k + 0.5) / 333) + 0.21, y = t - floor(t);
+                assert_true(rows.whole[k] == floor(t) && rows.y[k] == (float)y);
+                assert_true(rows.alpha[k] == (float)wr_fade_alpha(&wr_fades[WR_FADE_QUINTIC], y));
+                assert_true(f[k] == (float)(0.1 + 1e30 * (double)((float)k * 0.37f - 3.0f)));
+            }
+            assert_true(f[count] == (float)count * 0.37f - 3.0f);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_instruction_sets_give_the_same_bits),
         cmocka_unit_test(the_plain_set_is_always_there_and_the_best_one_is_among_them),
+        cmocka_unit_test(counting_rows_in_at_once_gives_the_bits_of_the_steps),
+        cmocka_unit_test(rows_and_scales_are_their_formulas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

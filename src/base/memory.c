@@ -8,20 +8,21 @@
 /* Blocks above this come from mmap by way of malloc's own threshold; zeroing them by hand would touch
    every page, so calloc is asked for and its pointer aligned by hand. The original pointer is kept in
    the word before the block. */
-static void *zeroed_aligned(size_t bytes)
+static void *aligned(size_t bytes, bool zeroed)
 {
     if (bytes > SIZE_MAX - WR_ALIGN - sizeof(void *)) return NULL;
-    char *raw = calloc(1, bytes + WR_ALIGN + sizeof(void *));
+    size_t whole = bytes + WR_ALIGN + sizeof(void *);
+    char *raw = zeroed ? calloc(1, whole) : malloc(whole);
     if (!raw) return NULL;
     uintptr_t start = ((uintptr_t)raw + sizeof(void *) + WR_ALIGN - 1) & ~(uintptr_t)(WR_ALIGN - 1);
     ((void **)start)[-1] = raw;
     return (void *)start;
 }
 
-void *wr_alloc(size_t count, size_t size)
+static void *alloc(size_t count, size_t size, bool zeroed)
 {
     size_t bytes;
-    void *block = __builtin_mul_overflow(count, size, &bytes) ? NULL : zeroed_aligned(bytes);
+    void *block = __builtin_mul_overflow(count, size, &bytes) ? NULL : aligned(bytes, zeroed);
     if (!block) {
         fprintf(stderr, "wrinkle: out of memory (%zu x %zu bytes)\n", count, size);
         abort();
@@ -29,11 +30,21 @@ void *wr_alloc(size_t count, size_t size)
     return block;
 }
 
+void *wr_alloc(size_t count, size_t size)
+{
+    return alloc(count, size, true);
+}
+
+void *wr_alloc_unset(size_t count, size_t size)
+{
+    return alloc(count, size, false);
+}
+
 void *wr_try_alloc(size_t count, size_t size, const char *what, WrError *err)
 {
     size_t bytes;
     void *block = NULL;
-    if (!__builtin_mul_overflow(count, size, &bytes)) block = zeroed_aligned(bytes);
+    if (!__builtin_mul_overflow(count, size, &bytes)) block = aligned(bytes, true);
     if (!block) wr_fail(err, "%s: no memory for %.0f MB", what, (double)count * (double)size / 1e6);
     return block;
 }

@@ -12,7 +12,10 @@ typedef struct WrError WrError;
    For things of a bounded, small size. Free with wr_free. */
 void *wr_alloc(size_t count, size_t size);
 
-/* The same for sizes that come from the user: NULL and an error that names `what` and the bytes
+/* The same with whatever the memory held before: for what is written whole at once. */
+void *wr_alloc_unset(size_t count, size_t size);
+
+/* As wr_alloc for sizes that come from the user: NULL and an error that names `what` and the bytes
    when count * size overflows or memory is gone. Large blocks come zeroed from the system and
    untouched. */
 void *wr_try_alloc(size_t count, size_t size, const char *what, WrError *err);

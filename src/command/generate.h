@@ -10,6 +10,7 @@ typedef struct WrField WrField;
 typedef struct WrGenerator WrGenerator;
 typedef struct WrLayer WrLayer;
 typedef struct WrParamValue WrParamValue;
+typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 typedef struct WrRelief WrRelief;
 
@@ -31,4 +32,4 @@ char *wr_generator_text(const char *text);
 /* What the line's generator made joins a layer, as the line's other arguments say, within `selection` (NULL:
  * everywhere). False: cancelled, and the layer is half done. */
 bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
-                  WrLayer *layer, const WrProgress *progress, WrError *err);
+                  WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err);

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "base/progress.h"
 #include "document/blend.h"
 #include "document/document.h"
@@ -11,9 +12,19 @@
 #include "generate/generator.h"
 
 #include <float.h>
+#include <stdint.h>
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
+
+#define BATCH 64 /* tiles that are joined together */
+
+/* What becomes of a tile of the layer. */
+typedef enum Fate {
+    STAYS,
+    SHARED, /* becomes the made one, by reference */
+    JOINED
+} Fate;
 
 typedef struct Joining {
     WrBlend blend;
@@ -21,6 +32,11 @@ typedef struct Joining {
     double offset;
     const WrField *heights, *weight; /* weight NULL: 1 everywhere */
     WrField *layer;
+    WrPool *pool;
+    int first; /* tile of the batch */
+    Fate fate[BATCH];
+    float *out[BATCH];       /* of joined tiles */
+    float (*result)[TEXELS]; /* [BATCH] */
 } Joining;
 
 static float bounded(double x)
@@ -42,46 +58,123 @@ static bool is_nothing(const WrField *weight, int tx, int ty)
     return true;
 }
 
-/* A tile that comes out as it was stays the very tile. */
-static void join_tile(const Joining *join, int tx, int ty)
+typedef struct Place {
+    int tx, ty;
+    int columns, rows; /* in use */
+} Place;
+
+static Place place_of(const Joining *join, int index)
 {
-    if (join->weight && is_nothing(join->weight, tx, ty)) return;
-    float heights[TEXELS], result[TEXELS];
-    const float *made = wr_field_tile(join->heights, tx, ty);
-    const float *old = wr_field_tile(join->layer, tx, ty);
-    float level = wr_field_level(join->heights), old_level = wr_field_level(join->layer);
-    for (int i = 0; i < TEXELS; i++) {
-        heights[i] = bounded((double)(made ? made[i] : level) + join->offset);
-        result[i] = old ? old[i] : old_level;
-    }
+    int tiles_u = wr_field_tiles_u(join->layer), at = join->first + index;
+    Place p = { .tx = at % tiles_u, .ty = at / tiles_u };
+    int columns = wr_field_width(join->layer) - p.tx * WR_TILE;
+    int rows = wr_field_height(join->layer) - p.ty * WR_TILE;
+    p.columns = columns < WR_TILE ? columns : WR_TILE;
+    p.rows = rows < WR_TILE ? rows : WR_TILE;
+    return p;
+}
+
+/* What the made heights are before they join; never -0. */
+static void lift(const Joining *join, const Place *p, float *heights)
+{
+    const float *made = wr_field_tile(join->heights, p->tx, p->ty);
+    float level = wr_field_level(join->heights);
+    double offset = join->offset;
+    for (int i = 0; i < TEXELS; i++)
+        heights[i] = bounded((double)(made ? made[i] : level) + offset);
+}
+
+static void blend_tile(const Joining *join, const Place *p, const float *old, float *result)
+{
+    float heights[TEXELS], old_level = wr_field_level(join->layer);
+    lift(join, p, heights);
+    for (int i = 0; i < TEXELS; i++) result[i] = old ? old[i] : old_level;
     WrBlendTile tile = { .heights = heights, .cover_level = 1.0f, .mask_level = 1.0f };
     if (join->weight) {
-        tile.mask = wr_field_tile(join->weight, tx, ty);
+        tile.mask = wr_field_tile(join->weight, p->tx, p->ty);
         tile.mask_level = wr_field_level(join->weight);
     }
     wr_blend_tile(join->blend, 1.0f, join->radius, &tile, TEXELS, result);
-    int columns = wr_field_width(join->layer) - tx * WR_TILE;
-    int rows = wr_field_height(join->layer) - ty * WR_TILE;
-    columns = columns < WR_TILE ? columns : WR_TILE;
-    rows = rows < WR_TILE ? rows : WR_TILE;
-    float *out = NULL;
-    for (int y = 0; y < rows; y++) {
-        const float *row = result + y * WR_TILE;
-        for (int x = 0; x < columns && !out; x++) {
-            float was = old ? old[y * WR_TILE + x] : old_level;
-            if (memcmp(&row[x], &was, sizeof was) != 0)
-                out = wr_field_tile_write(join->layer, tx, ty);
-        }
-        if (out) memcpy(out + y * WR_TILE, row, (size_t)columns * sizeof *row);
+}
+
+static bool differs(const Joining *join, const Place *p, const float *old, const float *result)
+{
+    float level[WR_TILE];
+    for (int x = 0; x < WR_TILE; x++) level[x] = wr_field_level(join->layer);
+    for (int y = 0; y < p->rows; y++)
+        if (memcmp(result + y * WR_TILE, old ? old + y * WR_TILE : level,
+                   (size_t)p->columns * sizeof *result) != 0)
+            return true;
+    return false;
+}
+
+/* Whether the made tile itself is what comes out: it takes the old one's place, and no height is -0, which
+ * would become 0. */
+static bool is_result(const Joining *join, const float *made)
+{
+    if (!made || join->weight || join->offset != 0.0 ||
+        (join->blend != WR_BLEND_REPLACE && join->blend != WR_BLEND_MIX))
+        return false;
+    int minus = 0;
+#pragma omp simd reduction(| : minus)
+    for (int i = 0; i < TEXELS; i++) {
+        int32_t bits;
+        memcpy(&bits, &made[i], sizeof bits);
+        minus |= bits == INT32_MIN;
+    }
+    return !minus;
+}
+
+/* A tile that comes out as it was stays the very tile. */
+static void judge_tile(int index, int worker, void *ctx)
+{
+    (void)worker;
+    Joining *join = ctx;
+    Place p = place_of(join, index);
+    const float *made = wr_field_tile(join->heights, p.tx, p.ty);
+    const float *old = wr_field_tile(join->layer, p.tx, p.ty);
+    join->fate[index] = STAYS;
+    if (join->weight && is_nothing(join->weight, p.tx, p.ty)) return;
+    bool itself = is_result(join, made);
+    if (!itself) blend_tile(join, &p, old, join->result[index]);
+    if (differs(join, &p, old, itself ? made : join->result[index]))
+        join->fate[index] = itself ? SHARED : JOINED;
+}
+
+static void write_tile(int index, int worker, void *ctx)
+{
+    (void)worker;
+    const Joining *join = ctx;
+    Place p = place_of(join, index);
+    for (int y = 0; y < p.rows && join->out[index]; y++)
+        memcpy(join->out[index] + y * WR_TILE, join->result[index] + y * WR_TILE,
+               (size_t)p.columns * sizeof(float));
+}
+
+/* The tree of tiles is this thread's alone to change. */
+static void fetch_tiles(Joining *join, int count)
+{
+    for (int k = 0; k < count; k++) {
+        Place p = place_of(join, k);
+        bool whole = p.columns == WR_TILE && p.rows == WR_TILE;
+        join->out[k] = NULL;
+        if (join->fate[k] == SHARED) wr_field_tile_share(join->layer, join->heights, p.tx, p.ty);
+        if (join->fate[k] == JOINED)
+            join->out[k] =
+                (whole ? wr_field_tile_fresh : wr_field_tile_write)(join->layer, p.tx, p.ty);
     }
 }
 
-static bool join_all(const Joining *join, const WrProgress *progress, WrError *err)
+static bool join_all(Joining *join, const WrProgress *progress, WrError *err)
 {
-    for (int ty = 0; ty < wr_field_tiles_v(join->layer); ty++) {
-        if (!wr_progress_step(progress, (double)ty / wr_field_tiles_v(join->layer)))
+    int tiles = wr_field_tiles_u(join->layer) * wr_field_tiles_v(join->layer);
+    for (join->first = 0; join->first < tiles; join->first += BATCH) {
+        if (!wr_progress_step(progress, (double)join->first / tiles))
             return wr_fail(err, "cancelled");
-        for (int tx = 0; tx < wr_field_tiles_u(join->layer); tx++) join_tile(join, tx, ty);
+        int count = tiles - join->first < BATCH ? tiles - join->first : BATCH;
+        if (!wr_pool_run(join->pool, count, judge_tile, join)) return wr_fail(err, "cancelled");
+        fetch_tiles(join, count);
+        if (!wr_pool_run(join->pool, count, write_tile, join)) return wr_fail(err, "cancelled");
     }
     return true;
 }
@@ -105,8 +198,10 @@ static WrField *weight_of(const WrField *cover, const WrField *selection)
 }
 
 bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *selection,
-                  WrLayer *layer, const WrProgress *progress, WrError *err)
+                  WrLayer *layer, WrPool *pool, const WrProgress *progress, WrError *err)
 {
+    float(*result)[TEXELS] = wr_try_alloc(BATCH, sizeof *result, "tiles to be joined", err);
+    if (!result) return false;
     const WrGenerator *generator = wr_call_generator(call);
     WrField *weight = weight_of(relief->cover, selection);
     Joining joining = {
@@ -116,9 +211,12 @@ bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *sel
         .heights = relief->heights,
         .weight = weight,
         .layer = layer->heights,
+        .pool = pool,
+        .result = result,
     };
     bool good = join_all(&joining, progress, err);
     if (good) wr_edit_mark(layer->cover, weight);
     wr_field_free(weight);
+    wr_free(result);
     return good;
 }

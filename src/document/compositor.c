@@ -3,10 +3,10 @@
 
    A tile is "bare" if no more than the floor shows there: the floor is the lowest part where that is
    taken as it is, else an empty table at the composite's level. The composite starts as a share of the
-   floor, so bare tiles cost nothing. A bare tile that changes later has to be copied, since single
-   tiles cannot be shared between tables; once there are more such strays than blended tiles, the
-   composite starts anew from the floor and takes the blended ones along, so that a stray costs one
-   copied tile more and memory stays in bounds. */
+   floor, so bare tiles cost nothing. Of bare tiles that change later many at once are shared with the
+   floor again. A few, as under a brush, are copied: the next dab would copy a shared one anyway, and in memory
+   that is new each time. Once there are more such strays than blended tiles, the composite starts anew
+   from the floor and takes the blended ones along, so that memory stays in bounds. */
 #include "document/compositor.h"
 
 #include "base/array.h"
@@ -19,7 +19,7 @@
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
-#define STRAYS 64 /* that many are never worth a new start */
+#define STRAYS 64 /* that many are a few, and never worth a new start */
 
 typedef struct Part {
     WrBlendLayer layer; /* in compositor->parts the fields are owned shares, else borrowed */
@@ -306,6 +306,8 @@ static void repaint(Update *update, WrPool *pool)
         if (!is_bare(update, tx, ty)) {
             Job job = { tx, ty, wr_field_tile_write(c->result, tx, ty) };
             wr_array_push(&update->jobs, job);
+        } else if (update->dirty.count > STRAYS) {
+            wr_field_tile_share(c->result, update->floor, tx, ty);
         } else if (wr_field_tile(c->result, tx, ty) != wr_field_tile(update->floor, tx, ty)) {
             copy_tile(c->result, update->floor, tx, ty);
             c->strays++;
@@ -324,7 +326,7 @@ static void gather_tile(int tx, int ty, void *ctx)
 {
     Gathering *g = ctx;
     if (is_bare(g->update, tx, ty)) return;
-    copy_tile(g->fresh, g->update->compositor->result, tx, ty);
+    wr_field_tile_share(g->fresh, g->update->compositor->result, tx, ty);
     g->blended++;
 }
 

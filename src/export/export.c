@@ -65,8 +65,6 @@ void wr_export_store_code(const WrExportJob *job, void *out, size_t i, double x,
     else ((uint16_t *)out)[i] = (uint16_t)code;
 }
 
-#define PIECE_ROWS 16
-
 typedef struct Run {
     WrExportJob *job;
     int y, rows;
@@ -78,14 +76,16 @@ static void run_piece(int index, int worker, void *ctx)
 {
     (void)worker;
     const Run *run = ctx;
-    int first = index * PIECE_ROWS, left = run->rows - first;
-    run->piece(run->job, run->y + first, left < PIECE_ROWS ? left : PIECE_ROWS, run->ctx);
+    int first = index * WR_EXPORT_PIECE_ROWS, left = run->rows - first;
+    run->piece(run->job, run->y + first, left < WR_EXPORT_PIECE_ROWS ? left : WR_EXPORT_PIECE_ROWS,
+               run->ctx);
 }
 
 void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void *ctx)
 {
     Run run = { job, y, rows, piece, ctx };
-    wr_pool_run(job->pool, (rows + PIECE_ROWS - 1) / PIECE_ROWS, run_piece, &run);
+    wr_pool_run(job->pool, (rows + WR_EXPORT_PIECE_ROWS - 1) / WR_EXPORT_PIECE_ROWS, run_piece,
+                &run);
 }
 
 WrText *wr_export_attribute(WrExportJob *job, const char *name)

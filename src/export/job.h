@@ -42,6 +42,7 @@ void wr_export_store_code(const WrExportJob *job, void *out, size_t i, double x,
                           WrExportTexel at);
 
 /* Call piece(job, y, rows, ctx) for stretches of [y, y + rows), on the job's pool. */
+#define WR_EXPORT_PIECE_ROWS 16 /* at most in one */
 typedef void (*WrExportPiece)(WrExportJob *job, int y, int rows, void *ctx);
 void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void *ctx);
 

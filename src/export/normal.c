@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/vec.h"
+#include "export/normal_kern.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "field/scheme.h"
@@ -17,39 +18,6 @@
  * so no position is rounded and no branch depends on one. dF/dV = -H * (slope downwards). */
 
 #define APRON 1
-
-/* Differences along x of the three rows about `at`, or along y of the three columns. */
-static double difference(const double *at, ptrdiff_t step, bool forward)
-{
-    double after = at[step];
-    return forward ? after - at[0] : 0.5 * (after - at[-step]);
-}
-
-static void table_slope(const double *at, ptrdiff_t pitch, WrScheme scheme, double *right,
-                        double *down)
-{
-    switch (scheme) {
-    case WR_SCHEME_BSPLINE:
-    case WR_SCHEME_BSPLINE_FIT:
-        *right = (difference(at - pitch, 1, false) + 4.0 * difference(at, 1, false) +
-                  difference(at + pitch, 1, false)) /
-                 6.0;
-        *down = (difference(at - 1, pitch, false) + 4.0 * difference(at, pitch, false) +
-                 difference(at + 1, pitch, false)) /
-                6.0;
-        return;
-    case WR_SCHEME_BILINEAR:
-        *right = difference(at, 1, true);
-        *down = difference(at, pitch, true);
-        return;
-    case WR_SCHEME_NEAREST:
-    case WR_SCHEME_CENTRAL:
-    case WR_SCHEME_CATMULL:
-    case WR_SCHEME_COUNT: break;
-    }
-    *right = difference(at, 1, false);
-    *down = difference(at, pitch, false);
-}
 
 /* normalise(x, y, 1) of x = -height Fu / cell_w, y = -height Fv / cell_h; straight up and counted where
  * one is not finite. */
@@ -81,110 +49,108 @@ typedef struct Strip {
     void *out;
 } Strip;
 
-/* Whether a row's slopes are such that plain products give the bits of v3_unit, which scales by powers of
- * two against overflow. What is not finite is not. */
-#define PLAIN 1e100
-
-/* -height Fu / cell_w and -height Fv / cell_h of a row of texels. */
-static bool row_tilts(const WrExportJob *job, const double *at, ptrdiff_t pitch,
-                      double *restrict tx, double *restrict ty)
+static WrNormalStencil stencil_of(WrScheme scheme)
 {
-    WrScheme scheme = (WrScheme)job->options.scheme;
-    double height = job->scene->height, cell_w = job->options.cell_w, cell_h = job->options.cell_h;
-    double width = job->width, rows = job->height, largest = 0.0;
-    for (int i = 0; i < job->width; i++) {
-        double right, down;
-        table_slope(at + i, pitch, scheme, &right, &down);
-        tx[i] = -height * (width * right) / cell_w;
-        ty[i] = -height * (-rows * down) / cell_h;
+    switch (scheme) {
+    case WR_SCHEME_BSPLINE:
+    case WR_SCHEME_BSPLINE_FIT: return WR_STENCIL_SPLINE;
+    case WR_SCHEME_BILINEAR: return WR_STENCIL_FORWARD;
+    case WR_SCHEME_NEAREST:
+    case WR_SCHEME_CENTRAL:
+    case WR_SCHEME_CATMULL:
+    case WR_SCHEME_COUNT: break;
     }
-    bool plain = true;
-#pragma omp simd reduction(max : largest)
-    for (int i = 0; i < job->width; i++) {
-        double far = fabs(tx[i]) > fabs(ty[i]) ? fabs(tx[i]) : fabs(ty[i]);
-        largest = far > largest ? far : largest;
-    }
-    for (int i = 0; i < job->width; i++) plain &= tx[i] == tx[i] && ty[i] == ty[i];
-    return plain && largest < PLAIN;
+    return WR_STENCIL_CENTRAL;
 }
 
-/* round(last (n/2 + 1/2)) of what is not negative. */
-static inline int32_t code_of(double last, double n)
-{
-    double x = last * (n / 2.0 + 0.5);
-    int32_t whole = (int32_t)x;
-    return whole + (x - whole >= 0.5 ? 1 : 0);
-}
+/* A piece of the table's rows. */
+typedef struct Piece {
+    WrExportJob *job;
+    WrNormalJob normal;
+    const WrNormalKernels *kernels;
+    const Strip *strip;
+    int y, rows;
+    int64_t replaced;
+} Piece;
 
-/* Whole codes of a row without dither: what normal_of and store do. */
-static void plain_row(const WrExportJob *job, const double *restrict tx, const double *restrict ty,
-                      int32_t *restrict codes)
+/* Texels x .. x + count - 1 of the piece's row j; at: the first one's tap. What is not plain, and dithered codes, go
+ * one by one. */
+static void finish_run(Piece *piece, int x, int count, int j, const double *at, size_t pitch)
 {
-    double last = wr_export_last_code(job), green = job->kind->green;
-    int width = job->width;
-    int32_t *x = codes, *y = codes + width, *z = codes + 2 * (size_t)width;
-#pragma omp simd
-    for (int i = 0; i < width; i++) {
-        double inverse = 1.0 / sqrt(tx[i] * tx[i] + ty[i] * ty[i] + 1.0);
-        x[i] = code_of(last, tx[i] * inverse);
-        y[i] = code_of(last, green * (ty[i] * inverse));
-        z[i] = code_of(last, inverse);
-    }
-}
-
-static void store_row(const WrExportJob *job, const int32_t *codes, void *out, size_t texel)
-{
-    size_t width = (size_t)job->width;
-    if (job->options.depth == 8) {
-        uint8_t *to = (uint8_t *)out + 3 * texel;
-        for (size_t i = 0; i < width; i++)
-            for (size_t c = 0; c < 3; c++) to[3 * i + c] = (uint8_t)codes[c * width + i];
+    const WrExportJob *job = piece->job;
+    const WrNormalKernels *kernels = piece->kernels;
+    double tx[WR_NORMAL_STRIP], ty[WR_NORMAL_STRIP];
+    size_t texel = (size_t)(piece->y - piece->strip->y + j) * (size_t)job->width + (size_t)x;
+    void *out = piece->strip->out;
+    bool plain = kernels->tilts(&piece->normal, at, (ptrdiff_t)pitch, count, tx, ty);
+    if (!plain || job->options.dither) {
+        for (int i = 0; i < count; i++)
+            store(job, out, texel + (size_t)i, normal_of(tx[i], ty[i], &piece->replaced), x + i,
+                  piece->y + j);
         return;
     }
-    uint16_t *to = (uint16_t *)out + 3 * texel;
-    for (size_t i = 0; i < width; i++)
-        for (size_t c = 0; c < 3; c++) to[3 * i + c] = (uint16_t)codes[c * width + i];
+    switch (job->options.depth) {
+    case 8: kernels->codes8(&piece->normal, tx, ty, count, (uint8_t *)out + 3 * texel); break;
+    case 16: kernels->codes16(&piece->normal, tx, ty, count, (uint16_t *)out + 3 * texel); break;
+    default: kernels->floats(&piece->normal, tx, ty, count, (float *)out + 3 * texel); break;
+    }
 }
 
-/* The taps of rows y .. and one texel around them: heights, or coefficients that are not rounded, which at a high
-   level would lose the slopes. */
-static double *read_taps(const WrExportJob *job, int y, int rows, size_t pitch)
+static int run_length(const WrExportJob *job, int x)
 {
-    const int tall = rows + 2 * APRON, wide = (int)pitch;
-    const size_t count = pitch * (size_t)tall;
-    double *taps = wr_alloc(count, sizeof *taps);
-    if (wr_schemes[job->options.scheme].taps == WR_TAPS_FITTED) {
-        wr_field_read_fitted_double(job->field, -APRON, y - APRON, wide, tall, taps, pitch);
-        return taps;
-    }
-    float *texels = wr_alloc(count, sizeof *texels);
-    wr_field_read(job->field, -APRON, y - APRON, wide, tall, texels, pitch);
-    for (size_t k = 0; k < count; k++) taps[k] = texels[k];
-    wr_free(texels);
-    return taps;
+    return job->width - x < WR_NORMAL_STRIP ? job->width - x : WR_NORMAL_STRIP;
 }
 
-static void table_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
+/* The taps are heights: run by run of columns, so that they stay in the nearest cache. */
+static void table_rows(Piece *piece)
 {
-    size_t pitch = (size_t)job->width + 2 * APRON, width = (size_t)job->width;
-    bool whole = job->options.depth < 32 && !job->options.dither;
-    double *taps = read_taps(job, y, rows, pitch);
-    double *tx = wr_alloc(2 * width, sizeof *tx), *ty = tx + width;
-    int32_t *codes = wr_alloc(3 * width, sizeof *codes);
-    for (int j = 0; j < rows; j++) {
-        const double *at = taps + (size_t)(j + APRON) * pitch + APRON;
-        size_t texel = (size_t)(y - strip->y + j) * width;
-        if (row_tilts(job, at, (ptrdiff_t)pitch, tx, ty) && whole) {
-            plain_row(job, tx, ty, codes);
-            store_row(job, codes, strip->out, texel);
-            continue;
-        }
-        for (int i = 0; i < job->width; i++)
-            store(job, strip->out, texel + (size_t)i, normal_of(tx[i], ty[i], replaced), i, y + j);
+    enum { PITCH = WR_NORMAL_STRIP + 2 * APRON, TALL = WR_EXPORT_PIECE_ROWS + 2 * APRON };
+    float texels[PITCH * TALL];
+    double taps[PITCH * TALL];
+    for (int x = 0; x < piece->job->width; x += WR_NORMAL_STRIP) {
+        int count = run_length(piece->job, x);
+        wr_field_read(piece->job->field, x - APRON, piece->y - APRON, count + 2 * APRON,
+                      piece->rows + 2 * APRON, texels, PITCH);
+        for (int j = 0; j < piece->rows + 2 * APRON; j++)
+            piece->kernels->widen(texels + j * PITCH, count + 2 * APRON, taps + j * PITCH);
+        for (int j = 0; j < piece->rows; j++)
+            finish_run(piece, x, count, j, taps + (j + APRON) * PITCH + APRON, PITCH);
     }
-    wr_free(codes);
-    wr_free(tx);
+}
+
+/* The taps are coefficients that are not rounded, since at a high level that would lose the slopes. */
+static void fitted_rows(Piece *piece)
+{
+    size_t pitch = (size_t)piece->job->width + 2 * APRON;
+    int tall = piece->rows + 2 * APRON;
+    double *taps = wr_alloc_unset(pitch * (size_t)tall, sizeof *taps);
+    wr_field_read_fitted_double(piece->job->field, -APRON, piece->y - APRON, (int)pitch, tall, taps,
+                                pitch);
+    for (int j = 0; j < piece->rows; j++)
+        for (int x = 0; x < piece->job->width; x += WR_NORMAL_STRIP)
+            finish_run(piece, x, run_length(piece->job, x), j,
+                       taps + (size_t)(j + APRON) * pitch + (size_t)(x + APRON), pitch);
     wr_free(taps);
+}
+
+static void table_piece(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
+{
+    Piece piece = { .job = job,
+                    .normal = { .stencil = stencil_of((WrScheme)job->options.scheme),
+                                .height = job->scene->height,
+                                .cell_w = job->options.cell_w,
+                                .cell_h = job->options.cell_h,
+                                .width = job->width,
+                                .rows = job->height,
+                                .last = wr_export_last_code(job),
+                                .green = job->kind->green },
+                    .kernels = wr_normal_kernels(),
+                    .strip = strip,
+                    .y = y,
+                    .rows = rows };
+    bool fitted = wr_schemes[job->options.scheme].taps == WR_TAPS_FITTED;
+    (fitted ? fitted_rows : table_rows)(&piece);
+    *replaced += piece.replaced;
 }
 
 static void formula_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
@@ -207,7 +173,7 @@ static void normal_piece(WrExportJob *job, int y, int rows, void *ctx)
 {
     int64_t replaced = 0;
     if (job->analytic) formula_rows(job, y, rows, ctx, &replaced);
-    else table_rows(job, y, rows, ctx, &replaced);
+    else table_piece(job, y, rows, ctx, &replaced);
     __atomic_fetch_add(&job->report.replaced, replaced, __ATOMIC_RELAXED);
 }
 

@@ -13,6 +13,8 @@
 #include <math.h>
 #include <stdalign.h>
 #include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 #define TEXELS (WR_TILE * WR_TILE)
@@ -96,15 +98,21 @@ static Node *own_node(Counted **slot, int depth)
     return node;
 }
 
+static Tile *new_tile(void)
+{
+    Tile *tile = wr_alloc_unset(1, sizeof *tile);
+    atomic_init(&tile->counted.refs, 1);
+    return tile;
+}
+
 static Tile *own_tile(Counted **slot, float level)
 {
     if (is_ours(*slot)) return (Tile *)*slot;
-    Tile *tile = wr_alloc(1, sizeof *tile);
-    atomic_init(&tile->counted.refs, 1);
+    Tile *tile = new_tile();
     if (*slot) {
         memcpy(tile->texels, ((Tile *)*slot)->texels, sizeof tile->texels);
         release(*slot, 0);
-    } else if (!same_float(level, 0.0f)) {
+    } else {
         for (int i = 0; i < TEXELS; i++) tile->texels[i] = level;
     }
     *slot = &tile->counted;
@@ -201,14 +209,37 @@ const float *wr_field_tile(const WrField *field, int tx, int ty)
     return thing ? ((const Tile *)thing)->texels : NULL;
 }
 
-float *wr_field_tile_write(WrField *field, int tx, int ty)
+/* Where the tile hangs, in nodes that are this table's own; for a write. */
+static Counted **own_slot(WrField *field, int tx, int ty)
 {
     WR_ASSERT(tx >= 0 && tx < wr_field_tiles_u(field) && ty >= 0 && ty < wr_field_tiles_v(field));
     Counted **slot = &field->root;
     for (int below = field->depth - 1; below >= 0; below--)
         slot = &own_node(slot, below + 1)->child[child_of(tx, ty, below)];
     field->key = next_key();
-    return own_tile(slot, field->level)->texels;
+    return slot;
+}
+
+float *wr_field_tile_write(WrField *field, int tx, int ty)
+{
+    return own_tile(own_slot(field, tx, ty), field->level)->texels;
+}
+
+float *wr_field_tile_fresh(WrField *field, int tx, int ty)
+{
+    Counted **slot = own_slot(field, tx, ty);
+    if (!is_ours(*slot)) {
+        release(*slot, 0);
+        *slot = &new_tile()->counted;
+    }
+    return ((Tile *)*slot)->texels;
+}
+
+void wr_field_tile_drop(WrField *field, int tx, int ty)
+{
+    Counted **slot = own_slot(field, tx, ty);
+    release(*slot, 0);
+    *slot = NULL;
 }
 
 float wr_field_get(const WrField *field, int i, int j)
@@ -273,6 +304,32 @@ static int used(int t, int n)
 {
     int rest = n - t * WR_TILE;
     return rest < WR_TILE ? rest : WR_TILE;
+}
+
+static void copy_tile(WrField *to, const WrField *from, int tx, int ty)
+{
+    const float *tile = wr_field_tile(from, tx, ty);
+    float *out = wr_field_tile_write(to, tx, ty);
+    int count_i = used(tx, to->width), count_j = used(ty, to->height);
+    for (int j = 0; j < count_j; j++)
+        for (int i = 0; i < count_i; i++)
+            out[j * WR_TILE + i] = tile ? tile[j * WR_TILE + i] : from->level;
+}
+
+void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty)
+{
+    WR_ASSERT(to->width == from->width && to->height == from->height);
+    const float *tile = wr_field_tile(from, tx, ty);
+    bool whole = used(tx, to->width) == WR_TILE && used(ty, to->height) == WR_TILE;
+    if (!same_float(to->level, from->level) && (!tile || !whole)) {
+        copy_tile(to, from, tx, ty);
+        return;
+    }
+    Counted **slot = own_slot(to, tx, ty), *shared = NULL;
+    if (tile) shared = (Counted *)((char *)(uintptr_t)tile - offsetof(Tile, texels));
+    retain(shared);
+    release(*slot, 0);
+    *slot = shared;
 }
 
 /* A tile is named by its used texels alone: by the one height that they all have, or by their bytes. */

@@ -52,6 +52,14 @@ float wr_field_level(const WrField *field);
    are; heights written must be finite. Not for several threads at once on one field (fetch all
    pointers first, then fill them in parallel). */
 float *wr_field_tile_write(WrField *field, int tx, int ty);
+/* The same with whatever texels the memory held before: the caller writes all of them, the unused ones
+   with the level. */
+float *wr_field_tile_fresh(WrField *field, int tx, int ty);
+/* Tile (tx, ty) of `to` becomes that of `from`, a table of the same size; later writes to either do not show in the
+   other. By reference, but where unused texels stand for another level. */
+void wr_field_tile_share(WrField *to, const WrField *from, int tx, int ty);
+/* The tile's texels have the level again, without memory. */
+void wr_field_tile_drop(WrField *field, int tx, int ty);
 int wr_field_tiles_u(const WrField *field); /* ceil(W / 64) */
 int wr_field_tiles_v(const WrField *field);
 

@@ -1,31 +1,37 @@
 #include "generate/build.h"
 
 #include "base/error.h"
-#include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <string.h>
 
 #define BATCH 64 /* tiles between two reports */
 #define TEXELS (WR_TILE * WR_TILE)
 
+/* Of a batch, one field's tiles: where they are made, and which came out +0 throughout. */
+typedef struct Made {
+    WrField *field;
+    float *tile[BATCH];
+    bool empty[BATCH];
+} Made;
+
 typedef struct Build {
     WrGenerateFill fill;
     const void *ctx;
     const WrProgress *progress;
-    WrRelief *relief;
     int tiles_u, first;
-    float (*heights)[TEXELS]; /* [BATCH] */
-    float (*cover)[TEXELS];   /* [BATCH] or NULL */
+    Made made[2]; /* heights, cover; no field: there is none */
 } Build;
 
 static WrGenerateBlock block_at(const Build *build, int tile)
 {
-    const WrField *field = build->relief->heights;
+    const WrField *field = build->made[0].field;
     WrGenerateBlock b = { .width = wr_field_width(field), .height = wr_field_height(field) };
     b.i = tile % build->tiles_u * WR_TILE;
     b.j = tile / build->tiles_u * WR_TILE;
@@ -34,14 +40,31 @@ static WrGenerateBlock block_at(const Build *build, int tile)
     return b;
 }
 
-static void keep_finite(const WrGenerateBlock *b, float *texels)
+static void mend(float *texels)
 {
-    for (int y = 0; y < b->count_j; y++)
-        for (int x = 0; x < b->count_i; x++) {
-            float h = texels[y * WR_TILE + x];
-            h = h > FLT_MAX ? FLT_MAX : h < -FLT_MAX ? -FLT_MAX : h;
-            texels[y * WR_TILE + x] = h == h ? h : 0.0f;
-        }
+    for (int k = 0; k < TEXELS; k++) {
+        float h = texels[k];
+        h = h > FLT_MAX ? FLT_MAX : h < -FLT_MAX ? -FLT_MAX : h;
+        texels[k] = h == h ? h : 0.0f;
+    }
+}
+
+/* True if all are +0. */
+static bool keep_finite(float *texels)
+{
+    uint32_t bits = 0, beyond = 0;
+#pragma omp simd reduction(| : bits, beyond)
+    for (int k = 0; k < TEXELS; k++) {
+        uint32_t word;
+        memcpy(&word, &texels[k], sizeof word);
+        bits |= word;
+        beyond |= (word & 0x7f800000U) == 0x7f800000U;
+    }
+    if (!beyond) return bits == 0;
+    mend(texels);
+    for (int k = 0; k < TEXELS; k++)
+        if (texels[k] != 0.0f || signbit(texels[k])) return false;
+    return true;
 }
 
 static void make_tile(int index, int worker, void *ctx)
@@ -49,20 +72,30 @@ static void make_tile(int index, int worker, void *ctx)
     Build *build = ctx;
     if (wr_progress_cancelled(build->progress)) return;
     WrGenerateBlock b = block_at(build, build->first + index);
-    float *heights = build->heights[index], *cover = build->cover ? build->cover[index] : NULL;
-    memset(heights, 0, sizeof *build->heights);
-    if (cover) memset(cover, 0, sizeof *build->cover);
-    build->fill(build->ctx, &b, worker, heights, cover);
-    keep_finite(&b, heights);
-    if (cover) keep_finite(&b, cover);
+    for (int k = 0; k < 2 && build->made[k].field; k++)
+        memset(build->made[k].tile[index], 0, sizeof(float) * TEXELS);
+    build->fill(build->ctx, &b, worker, build->made[0].tile[index],
+                build->made[1].field ? build->made[1].tile[index] : NULL);
+    for (int k = 0; k < 2 && build->made[k].field; k++)
+        build->made[k].empty[index] = keep_finite(build->made[k].tile[index]);
 }
 
-/* Tiles that are +0 throughout stay without memory. */
-static void keep_tile(WrField *field, int tx, int ty, const float *texels)
+/* Tiles are made where they stay; those that are +0 throughout go without memory again. */
+static bool run_batch(Build *build, WrPool *pool, int count)
 {
-    static const float nothing[TEXELS];
-    if (memcmp(texels, nothing, sizeof nothing) == 0) return;
-    memcpy(wr_field_tile_write(field, tx, ty), texels, sizeof nothing);
+    int u = build->tiles_u;
+    for (int n = 0; n < 2 && build->made[n].field; n++)
+        for (int k = 0; k < count; k++)
+            build->made[n].tile[k] = wr_field_tile_fresh(
+                build->made[n].field, (build->first + k) % u, (build->first + k) / u);
+    if (!wr_pool_run(pool, count, make_tile, build) || wr_progress_cancelled(build->progress))
+        return false;
+    for (int n = 0; n < 2 && build->made[n].field; n++)
+        for (int k = 0; k < count; k++)
+            if (build->made[n].empty[k])
+                wr_field_tile_drop(build->made[n].field, (build->first + k) % u,
+                                   (build->first + k) / u);
+    return true;
 }
 
 static bool run(Build *build, WrPool *pool, int tiles, double from)
@@ -70,14 +103,8 @@ static bool run(Build *build, WrPool *pool, int tiles, double from)
     for (build->first = 0; build->first < tiles; build->first += BATCH) {
         double done = (double)build->first / tiles;
         if (!wr_progress_step(build->progress, from + (1.0 - from) * done)) return false;
-        int count = tiles - build->first < BATCH ? tiles - build->first : BATCH;
-        wr_pool_run(pool, count, make_tile, build);
-        if (wr_progress_cancelled(build->progress)) return false;
-        for (int k = 0; k < count; k++) {
-            int tx = (build->first + k) % build->tiles_u, ty = (build->first + k) / build->tiles_u;
-            keep_tile(build->relief->heights, tx, ty, build->heights[k]);
-            if (build->cover) keep_tile(build->relief->cover, tx, ty, build->cover[k]);
-        }
+        if (!run_batch(build, pool, tiles - build->first < BATCH ? tiles - build->first : BATCH))
+            return false;
     }
     return wr_progress_step(build->progress, 1.0);
 }
@@ -93,18 +120,16 @@ bool wr_generate_build(const WrGenerateJob *job, WrGenerateFill fill, const void
 {
     WrRelief relief = { empty_like(job->like, err), NULL };
     if (relief.heights && covered) relief.cover = empty_like(job->like, err);
-    Build build = { .fill = fill, .ctx = ctx, .progress = job->progress, .relief = &relief };
+    Build build = { .fill = fill,
+                    .ctx = ctx,
+                    .progress = job->progress,
+                    .made = { { .field = relief.heights }, { .field = relief.cover } } };
     bool good = relief.heights && (!covered || relief.cover);
     if (good) {
         build.tiles_u = wr_field_tiles_u(relief.heights);
-        build.heights = wr_try_alloc(BATCH, sizeof *build.heights, "a generated relief", err);
-        if (covered) build.cover = wr_try_alloc(BATCH, sizeof *build.cover, "its coverage", err);
-        good = build.heights && (!covered || build.cover);
+        good = run(&build, job->pool, build.tiles_u * wr_field_tiles_v(relief.heights), from) ||
+               wr_fail(err, "cancelled");
     }
-    if (good && !run(&build, job->pool, build.tiles_u * wr_field_tiles_v(relief.heights), from))
-        good = wr_fail(err, "cancelled");
-    wr_free(build.heights);
-    wr_free(build.cover);
     if (good) *out = relief;
     else wr_relief_fini(&relief);
     return good;

@@ -279,10 +279,7 @@ static void fill(const void *ctx, const WrGenerateBlock *b, int worker, float *h
     else fill_noise(filling, b, heights);
     double level = filling->maker.level, amplitude = filling->maker.amplitude;
     for (int y = 0; y < b->count_j; y++)
-        for (int x = 0; x < b->count_i; x++) {
-            float *h = &heights[y * WR_TILE + x];
-            *h = (float)(level + amplitude * (double)*h);
-        }
+        wr_octaves_scale(level, amplitude, b->count_i, heights + y * WR_TILE);
 }
 
 /* Move every octave by part of a texel. */

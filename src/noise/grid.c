@@ -22,15 +22,22 @@ static inline float sign(float f)
     return (f > 0.0f ? 1.0f : 0.0f) - (f < 0.0f ? 1.0f : 0.0f);
 }
 
-/* The modes other than ridged are factor f - below, with the factor's sign that of f where |f| is what
- * is added. */
+/* How an octave counts in the modes other than ridged. */
+static WrNoiseShare share_of(WrOctavesMode mode, float amplitude)
+{
+    bool billow = mode == WR_OCTAVES_BILLOW;
+    return (WrNoiseShare){ .factor = billow ? 2.0f * amplitude : amplitude,
+                           .below = billow ? amplitude : 0.0f,
+                           .magnitude = mode != WR_OCTAVES_FBM };
+}
+
+/* With the factor's sign that of f where |f| is what is added. */
 static void add_heights(WrOctavesMode mode, float amplitude, const float *f, const Row *row)
 {
     const WrNoiseKernels *kern = wr_noise_kernels();
-    if (mode == WR_OCTAVES_FBM) kern->add(amplitude, f, row->count, row->n);
-    else if (mode == WR_OCTAVES_BILLOW)
-        kern->add_magnitude(2.0f * amplitude, amplitude, f, row->count, row->n);
-    else kern->add_magnitude(amplitude, 0.0f, f, row->count, row->n);
+    WrNoiseShare share = share_of(mode, amplitude);
+    if (share.magnitude) kern->add_magnitude(share.factor, share.below, f, row->count, row->n);
+    else kern->add(share.factor, f, row->count, row->n);
 }
 
 static void add_slopes(WrOctavesMode mode, float amplitude, float frequency,
@@ -97,12 +104,10 @@ static void add_row(const WrOctavesPlan *plan, const WrOctave *octave, const WrN
     add_slopes(plan->mode, amplitude, frequency[1], band->f[j], band->fy[j], row->count, row->nv);
 }
 
-static void start_row(const Row *row)
+static void start_row(const Row *row, bool ridged)
 {
-    for (int i = 0; i < row->count; i++) {
-        row->n[i] = 0.0f;
-        row->w[i] = 1.0f;
-    }
+    for (int i = 0; i < row->count; i++) row->n[i] = 0.0f;
+    for (int i = 0; ridged && i < row->count; i++) row->w[i] = 1.0f;
     for (int i = 0; row->nu && i < row->count; i++)
         row->nu[i] = row->nv[i] = row->wu[i] = row->wv[i] = 0.0f;
 }
@@ -118,9 +123,12 @@ static void fill_piece(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float
         size_t at = (size_t)j * pitch;
         rows[j] = (Row){ grid->count_i, f + at,        fu ? fu + at : NULL, fv ? fv + at : NULL,
                          weights.w[j],  weights.wu[j], weights.wv[j] };
-        start_row(&rows[j]);
+        start_row(&rows[j], plan->mode == WR_OCTAVES_RIDGED);
     }
+    bool plain = !fu && plan->mode != WR_OCTAVES_RIDGED; /* heights alone, one added to another */
     for (int k = 0; k < plan->used; k++) {
+        WrNoiseShare share = share_of(plan->mode, (float)plan->octave[k].amplitude);
+        if (plain && wr_noise_sum(&plan->octave[k], grid, share, f, pitch)) continue;
         wr_noise_band(&plan->octave[k], grid, fu != NULL, &band);
         for (int j = 0; j < grid->count_j; j++) add_row(plan, &plan->octave[k], &band, j, &rows[j]);
     }
@@ -143,6 +151,11 @@ void wr_octaves_grid(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float *
             else piece.count_j = WR_NOISE_BAND;
             fill_piece(plan, &piece, f + at, fu ? fu + at : NULL, fv ? fv + at : NULL, pitch);
         }
+}
+
+void wr_octaves_scale(double level, double amplitude, int count, float *f)
+{
+    wr_noise_kernels()->scale(level, amplitude, count, f);
 }
 
 void wr_octaves_warped_grid(const WrOctavesPlan *plan, const WrOctavesPlan *const *warp,

@@ -36,6 +36,9 @@ typedef struct WrNoiseGrid {
 void wr_octaves_grid(const WrOctavesPlan *plan, const WrNoiseGrid *grid, float *f, float *fu,
                      float *fv, size_t pitch);
 
+/* f[i] = level + amplitude f[i], in double and rounded once. */
+void wr_octaves_scale(double level, double amplitude, int count, float *f);
+
 /* The same for wr_octaves_warped_at: point by point in double, some 100 ns a texel and octave. */
 void wr_octaves_warped_grid(const WrOctavesPlan *plan, const WrOctavesPlan *const *warp,
                             double amount, const WrNoiseGrid *grid, float *f, float *fu, float *fv,

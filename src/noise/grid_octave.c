@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <math.h>
+#include <string.h>
 
 /* One octave over a piece of a grid (grid.h), with the loops of kern.h. */
 
@@ -53,28 +54,75 @@ static void fill_row(const WrNoiseKernels *kern, const WrNoise *noise,
     }
 }
 
+/* What one octave on square cells goes through: rows of texels in order, and the two rows of the lattice that
+ * they lie between. */
+typedef struct Cells {
+    const WrNoiseKernels *kern;
+    const WrOctave *octave;
+    WrNoiseColumns columns;
+    WrNoiseRows rows;
+    WrNoiseLattice lattice[2]; /* the even and the odd row */
+} Cells;
+
+static void begin_cells(Cells *cells, const WrOctave *octave, const WrNoiseGrid *grid)
+{
+    cells->kern = wr_noise_kernels();
+    cells->octave = octave;
+    memset(cells->lattice, 0, sizeof cells->lattice); /* whole vectors are read */
+    cells->lattice[0].index = cells->lattice[1].index = NAN;
+    fill_columns(cells->kern, octave, grid, &cells->columns);
+    cells->rows.count = grid->count_j;
+    cells->kern->stand(&wr_fades[octave->noise.fade], octave->frequency[1], octave->offset[1],
+                       grid->j, grid->height, &cells->rows);
+}
+
+/* The rows of the lattice on either side of texel row j. */
+static void enclose(Cells *cells, int j, const WrNoiseLattice **near, const WrNoiseLattice **far)
+{
+    double whole = cells->rows.whole[j];
+    int odd = (int)((int64_t)whole & 1);
+    WrNoiseLattice *below = &cells->lattice[odd], *above = &cells->lattice[1 - odd];
+    const WrNoise *noise = &cells->octave->noise;
+    if (below->index != whole) fill_row(cells->kern, noise, &cells->columns, whole, below);
+    if (above->index != whole + 1.0)
+        fill_row(cells->kern, noise, &cells->columns, whole + 1.0, above);
+    *near = below;
+    *far = above;
+}
+
 static void band_of_cells(const WrOctave *octave, const WrNoiseGrid *grid, bool slopes,
                           WrNoiseBand *band)
 {
-    const WrFadeInfo *fade = &wr_fades[octave->noise.fade];
-    const WrNoiseKernels *kern = wr_noise_kernels();
-    WrNoiseColumns columns;
-    WrNoiseLattice rows[2] = { { .index = NAN },
-                               { .index = NAN } }; /* the lattice's even and odd */
+    Cells cells;
     WrNoiseBlended blended = { .a = { 0 } };
-    fill_columns(kern, octave, grid, &columns);
+    begin_cells(&cells, octave, grid);
+    const WrNoiseRows *rows = &cells.rows;
     for (int j = 0; j < grid->count_j; j++) {
-        double t = octave->frequency[1] * wr_noise_grid_v(grid, grid->j + j) + octave->offset[1];
-        double whole = floor(t), y = t - whole;
-        int odd = (int)((int64_t)whole & 1);
-        WrNoiseLattice *near = &rows[odd], *far = &rows[1 - odd];
-        if (near->index != whole) fill_row(kern, &octave->noise, &columns, whole, near);
-        if (far->index != whole + 1.0) fill_row(kern, &octave->noise, &columns, whole + 1.0, far);
-        kern->blend(columns.points, near, far, (float)y, (float)wr_fade_alpha(fade, y),
-                    (float)wr_fade_slope(fade, y), &blended);
-        kern->heights(&columns, &blended, band->f[j]);
-        if (slopes) kern->slopes(&columns, &blended, band->fx[j], band->fy[j]);
+        const WrNoiseLattice *near, *far;
+        enclose(&cells, j, &near, &far);
+        cells.kern->blend(cells.columns.points, near, far, rows->y[j], rows->alpha[j],
+                          rows->rate[j], &blended);
+        cells.kern->heights(&cells.columns, &blended, band->f[j]);
+        if (slopes) cells.kern->slopes(&cells.columns, &blended, band->fx[j], band->fy[j]);
     }
+}
+
+bool wr_noise_sum(const WrOctave *octave, const WrNoiseGrid *grid, WrNoiseShare share, float *n,
+                  size_t pitch)
+{
+    if (!wr_noises[octave->noise.kind].cells || 2.0 * octave->frequency[0] > grid->width)
+        return false;
+    Cells cells;
+    begin_cells(&cells, octave, grid);
+    const double *whole = cells.rows.whole;
+    for (int j = 0, count; j < grid->count_j; j += count) {
+        const WrNoiseLattice *near, *far;
+        enclose(&cells, j, &near, &far);
+        for (count = 1; j + count < grid->count_j && whole[j + count] == whole[j];) count++;
+        cells.kern->sum(&cells.columns, near, far, &cells.rows, j, count, share,
+                        n + (size_t)j * pitch, pitch);
+    }
+    return true;
 }
 
 /* Any kind: point by point. */

@@ -41,6 +41,20 @@ typedef struct WrNoiseBlended {
     float a[WR_NOISE_POINTS], b[WR_NOISE_POINTS], c[WR_NOISE_POINTS], d[WR_NOISE_POINTS];
 } WrNoiseBlended;
 
+/* A piece's rows of texels, from the top: v falls, and so do the lattice's rows. */
+typedef struct WrNoiseRows {
+    int count;
+    double whole[WR_NOISE_BAND]; /* the lattice row below, not reduced */
+    float y[WR_NOISE_BAND];      /* place above it */
+    float alpha[WR_NOISE_BAND], rate[WR_NOISE_BAND];
+} WrNoiseRows;
+
+/* How an octave counts: n += factor f, or n += factor |f| - below. */
+typedef struct WrNoiseShare {
+    float factor, below;
+    bool magnitude;
+} WrNoiseShare;
+
 typedef struct WrNoiseKernels {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
 
@@ -48,6 +62,9 @@ typedef struct WrNoiseKernels {
      * offset; blocks are filled up with texels beyond. */
     void (*place)(const WrFadeInfo *fade, double frequency, double offset, int i, int width,
                   WrNoiseColumns *columns);
+    /* The same along v for rows->count rows from `j` on of `height`. */
+    void (*stand)(const WrFadeInfo *fade, double frequency, double offset, int j, int height,
+                  WrNoiseRows *rows);
     /* f, gx, gy of a hashed lattice's row; `part` is the row's part of the hash. */
     void (*prescribe)(WrNoiseKind kind, const WrNoiseColumns *columns, uint32_t part,
                       WrNoiseLattice *row);
@@ -56,10 +73,21 @@ typedef struct WrNoiseKernels {
                   float alpha, float rate, WrNoiseBlended *out);
     void (*heights)(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *f);
     void (*slopes)(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *fx, float *fy);
+    /* Rows first .. first + count - 1, all between `near` and `far`, into n: what blend, heights and add do. Columns
+     * must be narrow. n: the first of these rows, columns->count texels of each are written. */
+    void (*sum)(const WrNoiseColumns *columns, const WrNoiseLattice *near,
+                const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
+                WrNoiseShare share, float *n, size_t pitch);
+    /* f[i] = level + amplitude f[i], in double and rounded. */
+    void (*scale)(double level, double amplitude, int count, float *f);
     /* n[i] += factor f[i]; n[i] += factor |f[i]| - below. Whole blocks of f are read, count of n. */
     void (*add)(float factor, const float *f, int count, float *n);
     void (*add_magnitude)(float factor, float below, const float *f, int count, float *n);
 } WrNoiseKernels;
+
+/* One octave over a piece, counted into n at once. False, and nothing done, where this has no fast way. */
+bool wr_noise_sum(const WrOctave *octave, const WrNoiseGrid *grid, WrNoiseShare share, float *n,
+                  size_t pitch);
 
 extern const WrNoiseKernels wr_noise_kernels_v1, wr_noise_kernels_v3, wr_noise_kernels_v4;
 

@@ -24,6 +24,21 @@ static void place(const WrFadeInfo *fade, double frequency, double offset, int i
     }
 }
 
+static void stand(const WrFadeInfo *fade, double frequency, double offset, int j, int height,
+                  WrNoiseRows *rows)
+{
+    const WrFadeInfo alpha = *fade;
+#pragma omp simd
+    for (int k = 0; k < rows->count; k++) {
+        double t = frequency * (1.0 - (j + k + 0.5) / height) + offset, whole = floor(t);
+        double y = t - whole;
+        rows->whole[k] = whole;
+        rows->y[k] = (float)y;
+        rows->alpha[k] = (float)wr_fade_alpha(&alpha, y);
+        rows->rate[k] = (float)wr_fade_slope(&alpha, y);
+    }
+}
+
 /* wr_lattice_number in float: exact. */
 static inline float number(uint32_t h)
 {
@@ -93,7 +108,12 @@ typedef __m512i Lanes;
 #define V_SUB _mm512_sub_ps
 #define V_MUL _mm512_mul_ps
 #define V_ONE _mm512_set1_ps(1.0f)
-#define V_DEAL(from, lanes) _mm512_permutexvar_ps(lanes, _mm512_loadu_ps(from))
+#define V_SET _mm512_set1_ps
+#define V_ABS _mm512_abs_ps
+#define V_TAKE(from, lanes) _mm512_permutexvar_ps(lanes, from)
+#define V_DEAL(from, lanes) V_TAKE(_mm512_loadu_ps(from), lanes)
+#define V_LANES(cell) _mm512_loadu_si512(cell)
+#define V_NEXT(lanes) _mm512_add_epi32(lanes, _mm512_set1_epi32(1))
 static inline Lanes lanes_of(const int32_t *cell)
 {
     return _mm512_sub_epi32(_mm512_loadu_si512(cell), _mm512_set1_epi32(cell[0]));
@@ -108,7 +128,12 @@ typedef __m256i Lanes;
 #define V_SUB _mm256_sub_ps
 #define V_MUL _mm256_mul_ps
 #define V_ONE _mm256_set1_ps(1.0f)
-#define V_DEAL(from, lanes) _mm256_permutevar8x32_ps(_mm256_loadu_ps(from), lanes)
+#define V_SET _mm256_set1_ps
+#define V_ABS(x) _mm256_andnot_ps(_mm256_set1_ps(-0.0f), x)
+#define V_TAKE(from, lanes) _mm256_permutevar8x32_ps(from, lanes)
+#define V_DEAL(from, lanes) V_TAKE(_mm256_loadu_ps(from), lanes)
+#define V_LANES(cell) _mm256_loadu_si256((const __m256i *)(cell))
+#define V_NEXT(lanes) _mm256_add_epi32(lanes, _mm256_set1_epi32(1))
 static inline Lanes lanes_of(const int32_t *cell)
 {
     return _mm256_sub_epi32(_mm256_loadu_si256((const __m256i *)cell), _mm256_set1_epi32(cell[0]));
@@ -132,6 +157,100 @@ static void heights(const WrNoiseColumns *columns, const WrNoiseBlended *in, flo
     }
 #endif
     plain_heights(columns, in, f);
+}
+
+/* a and b of a row of the lattice; blend does the same. */
+static inline void blend_heights(int points, const WrNoiseLattice *near, const WrNoiseLattice *far,
+                                 float y, float alpha, WrNoiseBlended *out)
+{
+#pragma omp simd
+    for (int k = 0; k < points; k++) {
+        float p = near->f[k] + near->gy[k] * y, q = far->f[k] + far->gy[k] * (y - 1.0f);
+        out->a[k] = p + alpha * (q - p);
+        out->b[k] = near->gx[k] + alpha * (far->gx[k] - near->gx[k]);
+    }
+}
+
+static inline void count_in(WrNoiseShare share, const float *restrict f, int count,
+                            float *restrict n)
+{
+    if (share.magnitude) {
+#pragma omp simd
+        for (int i = 0; i < count; i++) n[i] += share.factor * fabsf(f[i]) - share.below;
+        return;
+    }
+#pragma omp simd
+    for (int i = 0; i < count; i++) n[i] += share.factor * f[i];
+}
+
+#ifdef LANES
+/* Few points: they stay in registers, so that a row is blended once for all its texels. */
+static inline Vec v_share(WrNoiseShare share, Vec f, Vec n)
+{
+    if (!share.magnitude) return V_ADD(n, V_MUL(V_SET(share.factor), f));
+    return V_ADD(n, V_SUB(V_MUL(V_SET(share.factor), V_ABS(f)), V_SET(share.below)));
+}
+
+static inline void sum_row(const WrNoiseColumns *columns, const Vec a, const Vec b,
+                           WrNoiseShare share, float *restrict n)
+{
+    int count = columns->count;
+    for (int i = 0; i < count; i += LANES) {
+        Lanes at = V_LANES(columns->cell + i), next = V_NEXT(at);
+        Vec x = V_LOAD(columns->x + i), alpha = V_LOAD(columns->alpha + i);
+        Vec p = V_ADD(V_TAKE(a, at), V_MUL(V_TAKE(b, at), x));
+        Vec q = V_ADD(V_TAKE(a, next), V_MUL(V_TAKE(b, next), V_SUB(x, V_ONE)));
+        Vec f = V_ADD(p, V_MUL(alpha, V_SUB(q, p)));
+        if (i + LANES <= count) {
+            V_STORE(n + i, v_share(share, f, V_LOAD(n + i)));
+            continue;
+        }
+        float rest[LANES];
+        V_STORE(rest, f);
+        count_in(share, rest, count - i, n + i);
+    }
+}
+
+static void sum_few(const WrNoiseColumns *columns, const WrNoiseLattice *near,
+                    const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
+                    WrNoiseShare share, float *n, size_t pitch)
+{
+    Vec f0 = V_LOAD(near->f), gx0 = V_LOAD(near->gx), gy0 = V_LOAD(near->gy);
+    Vec f1 = V_LOAD(far->f), gy1 = V_LOAD(far->gy), dx = V_SUB(V_LOAD(far->gx), gx0);
+    for (int j = first; j < first + count; j++, n += pitch) {
+        Vec alpha = V_SET(rows->alpha[j]);
+        Vec p = V_ADD(f0, V_MUL(gy0, V_SET(rows->y[j])));
+        Vec q = V_ADD(f1, V_MUL(gy1, V_SET(rows->y[j] - 1.0f)));
+        Vec a = V_ADD(p, V_MUL(alpha, V_SUB(q, p))), b = V_ADD(gx0, V_MUL(alpha, dx));
+        sum_row(columns, a, b, share, n);
+    }
+}
+#endif
+
+static void sum(const WrNoiseColumns *columns, const WrNoiseLattice *near,
+                const WrNoiseLattice *far, const WrNoiseRows *rows, int first, int count,
+                WrNoiseShare share, float *n, size_t pitch)
+{
+#ifdef LANES
+    if (columns->points <= LANES) {
+        sum_few(columns, near, far, rows, first, count, share, n, pitch);
+        return;
+    }
+#endif
+    WrNoiseBlended blended;
+    float f[WR_NOISE_STRIP];
+    for (int k = columns->points; k < WR_NOISE_POINTS; k++) blended.a[k] = blended.b[k] = 0.0f;
+    for (int j = first; j < first + count; j++, n += pitch) {
+        blend_heights(columns->points, near, far, rows->y[j], rows->alpha[j], &blended);
+        heights(columns, &blended, f);
+        count_in(share, f, columns->count, n);
+    }
+}
+
+static void scale(double level, double amplitude, int count, float *restrict f)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) f[i] = (float)(level + amplitude * (double)f[i]);
 }
 
 static void slopes(const WrNoiseColumns *columns, const WrNoiseBlended *in, float *restrict fx,
@@ -164,10 +283,13 @@ static void add_magnitude(float factor, float below, const float *restrict f, in
 const WrNoiseKernels WR_NOISE_TABLE = {
     .name = WR_NOISE_NAME,
     .place = place,
+    .stand = stand,
     .prescribe = prescribe,
     .blend = blend,
     .heights = heights,
     .slopes = slopes,
+    .sum = sum,
+    .scale = scale,
     .add = add,
     .add_magnitude = add_magnitude,
 };

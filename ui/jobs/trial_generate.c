@@ -121,7 +121,7 @@ bool wr_trial_generate(WrDocument *document, const char *line, bool rough, WrPoo
     if (!wr_call_parse(line, false, &call, err)) return false;
     bool good = wr_call_generator(call) ? make(call, &job, &relief, err)
                                         : wr_fail(err, "%s: must be a generator's line", line);
-    good = good && wr_call_join(call, &relief, document->selection, layer, progress, err);
+    good = good && wr_call_join(call, &relief, document->selection, layer, pool, progress, err);
     wr_relief_fini(&relief);
     wr_call_free(call);
     return good;

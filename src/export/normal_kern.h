@@ -1,0 +1,52 @@
+/* normal_kern.h - the inner loops of normal maps, compiled once per instruction set. All sets give the same
+   bits: only + - * / sqrt, comparisons and conversions, without contraction.
+   Layer 6. Private to this room. */
+#pragma once
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define WR_NORMAL_STRIP 256 /* texels of a row at most */
+
+/* Whether slopes are such that plain products give the bits of v3_unit, which scales by powers of two
+ * against overflow. What is not finite is not. */
+#define WR_NORMAL_PLAIN 1e100
+
+/* The stencil that gives a scheme's slopes at texel centres (normal.c). */
+typedef enum WrNormalStencil {
+    WR_STENCIL_CENTRAL,
+    WR_STENCIL_FORWARD,
+    WR_STENCIL_SPLINE
+} WrNormalStencil;
+
+typedef struct WrNormalJob {
+    WrNormalStencil stencil;
+    double height, cell_w, cell_h; /* of the scene; of the cell */
+    double width, rows;            /* texels */
+    double last, green;            /* the largest code; sign of the second component */
+} WrNormalJob;
+
+typedef struct WrNormalKernels {
+    const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
+
+    /* Exact. */
+    void (*widen)(const float *in, int count, double *out);
+    /* x = -height Fu / cell_w and y = -height Fv / cell_h of `count` texels. at: the first one's tap, with one more
+     * before and after each row; the rows beside it are `pitch` away. True if all are plain. */
+    bool (*tilts)(const WrNormalJob *job, const double *at, ptrdiff_t pitch, int count, double *x,
+                  double *y);
+    /* Of plain tilts: the normal's three codes, or floats, texel after texel. */
+    void (*codes8)(const WrNormalJob *job, const double *x, const double *y, int count,
+                   uint8_t *out);
+    void (*codes16)(const WrNormalJob *job, const double *x, const double *y, int count,
+                    uint16_t *out);
+    void (*floats)(const WrNormalJob *job, const double *x, const double *y, int count, float *out);
+} WrNormalKernels;
+
+extern const WrNormalKernels wr_normal_kernels_v1, wr_normal_kernels_v3, wr_normal_kernels_v4;
+
+/* Those that this processor runs best. */
+const WrNormalKernels *wr_normal_kernels(void);
+
+/* One after another for index = 0, 1, ...; NULL where this processor cannot run it, or there is none. */
+const WrNormalKernels *wr_normal_kernels_at(int index);

@@ -1,0 +1,139 @@
+/* normal_kern_body.h - the text of normal_kern.h's loops, included once by each normal_v*.c, which defines
+   WR_NORMAL_TABLE and WR_NORMAL_NAME. A header without a guard, by intention. */
+#include "export/normal_kern.h"
+
+#include <math.h>
+#include <string.h>
+
+#define ALWAYS static inline __attribute__((always_inline))
+
+static void widen(const float *restrict in, int count, double *restrict out)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) out[i] = in[i];
+}
+
+/* Of three taps in a row or in a column, `step` apart. */
+ALWAYS double difference(WrNormalStencil stencil, const double *at, ptrdiff_t step)
+{
+    return stencil == WR_STENCIL_FORWARD ? at[step] - at[0] : 0.5 * (at[step] - at[-step]);
+}
+
+ALWAYS double slope(WrNormalStencil stencil, const double *at, ptrdiff_t along, ptrdiff_t aside)
+{
+    if (stencil != WR_STENCIL_SPLINE) return difference(stencil, at, along);
+    return (difference(stencil, at - aside, along) + 4.0 * difference(stencil, at, along) +
+            difference(stencil, at + aside, along)) /
+           6.0;
+}
+
+/* Multiplying by the inverse of a power of two gives the quotient's bits, and costs much less. */
+static bool is_power(double cell)
+{
+    int exponent;
+    return frexp(cell, &exponent) == 0.5 && exponent > -500 && exponent < 500;
+}
+
+ALWAYS bool tilts_of(const WrNormalJob *job, WrNormalStencil stencil, bool divides,
+                     const double *restrict at, ptrdiff_t pitch, int count, double *restrict x,
+                     double *restrict y)
+{
+    double height = job->height, width = job->width, rows = job->rows;
+    double cell_w = job->cell_w, cell_h = job->cell_h, over_w = 1.0 / cell_w, over_h = 1.0 / cell_h;
+    double wild = 0.0;
+#pragma omp simd reduction(+ : wild)
+    for (int i = 0; i < count; i++) {
+        double tx = -height * (width * slope(stencil, at + i, 1, pitch));
+        double ty = -height * (-rows * slope(stencil, at + i, pitch, 1));
+        tx = divides ? tx / cell_w : tx * over_w;
+        ty = divides ? ty / cell_h : ty * over_h;
+        x[i] = tx;
+        y[i] = ty;
+        double far = fabs(tx) + fabs(ty); /* not a number where either is none */
+        wild += far < WR_NORMAL_PLAIN ? 0.0 : 1.0;
+    }
+    return wild == 0.0;
+}
+
+static bool tilts(const WrNormalJob *job, const double *at, ptrdiff_t pitch, int count, double *x,
+                  double *y)
+{
+    bool divides = !is_power(job->cell_w) || !is_power(job->cell_h);
+    switch (job->stencil) {
+    case WR_STENCIL_FORWARD: return tilts_of(job, WR_STENCIL_FORWARD, true, at, pitch, count, x, y);
+    case WR_STENCIL_SPLINE: return tilts_of(job, WR_STENCIL_SPLINE, true, at, pitch, count, x, y);
+    case WR_STENCIL_CENTRAL: break;
+    }
+    return divides ? tilts_of(job, WR_STENCIL_CENTRAL, true, at, pitch, count, x, y)
+                   : tilts_of(job, WR_STENCIL_CENTRAL, false, at, pitch, count, x, y);
+}
+
+/* round(last (n/2 + 1/2)) of what is not negative. */
+ALWAYS int32_t code_of(double last, double n)
+{
+    double x = last * (n / 2.0 + 0.5);
+    int32_t whole = (int32_t)x;
+    return whole + (x - whole >= 0.5 ? 1 : 0);
+}
+
+/* The three codes, in planes. */
+ALWAYS void codes(const WrNormalJob *job, const double *restrict x, const double *restrict y,
+                  int count, int32_t (*restrict plane)[WR_NORMAL_STRIP])
+{
+    double last = job->last, green = job->green;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        double inverse = 1.0 / sqrt(x[i] * x[i] + y[i] * y[i] + 1.0);
+        plane[0][i] = code_of(last, x[i] * inverse);
+        plane[1][i] = code_of(last, green * (y[i] * inverse));
+        plane[2][i] = code_of(last, inverse);
+    }
+}
+
+static void codes8(const WrNormalJob *job, const double *x, const double *y, int count,
+                   uint8_t *restrict out)
+{
+    int32_t plane[3][WR_NORMAL_STRIP];
+    codes(job, x, y, count, plane);
+    int i = 0;
+    for (; i + 1 < count; i++) { /* four bytes a texel; the last is the next one's */
+        uint32_t word =
+            (uint32_t)plane[0][i] | (uint32_t)plane[1][i] << 8 | (uint32_t)plane[2][i] << 16;
+        memcpy(out + 3 * i, &word, sizeof word);
+    }
+    for (int c = 0; c < 3 && i < count; c++) out[3 * i + c] = (uint8_t)plane[c][i];
+}
+
+static void codes16(const WrNormalJob *job, const double *x, const double *y, int count,
+                    uint16_t *restrict out)
+{
+    int32_t plane[3][WR_NORMAL_STRIP];
+    codes(job, x, y, count, plane);
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) out[3 * i + c] = (uint16_t)plane[c][i];
+}
+
+static void floats(const WrNormalJob *job, const double *restrict x, const double *restrict y,
+                   int count, float *restrict out)
+{
+    float plane[3][WR_NORMAL_STRIP];
+    double green = job->green;
+#pragma omp simd
+    for (int i = 0; i < count; i++) {
+        double inverse = 1.0 / sqrt(x[i] * x[i] + y[i] * y[i] + 1.0);
+        plane[0][i] = (float)(x[i] * inverse / 2.0 + 0.5);
+        plane[1][i] = (float)(green * (y[i] * inverse) / 2.0 + 0.5);
+        plane[2][i] = (float)(inverse / 2.0 + 0.5);
+    }
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) out[3 * i + c] = plane[c][i];
+}
+
+const WrNormalKernels WR_NORMAL_TABLE = {
+    .name = WR_NORMAL_NAME,
+    .widen = widen,
+    .tilts = tilts,
+    .codes8 = codes8,
+    .codes16 = codes16,
+    .floats = floats,
+};

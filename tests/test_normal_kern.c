@@ -1,0 +1,131 @@
+/* The inner loops of normal maps: every instruction set against the formulas, one texel at a time. */
+#include "test.h"
+
+#include "export/normal_kern.h"
+
+#define COUNT WR_NORMAL_STRIP
+#define PITCH (COUNT + 5)
+
+static float texels[3][PITCH];
+static double taps[3][PITCH];
+
+static void fill(double size, uint64_t seed)
+{
+    TestRandom random = { seed };
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < PITCH; i++) {
+            texels[j][i] = (float)((test_random(&random) - 0.5) * size);
+            taps[j][i] = texels[j][i];
+        }
+}
+
+static double step(WrNormalStencil stencil, int j, int i, int dj, int di)
+{
+    return stencil == WR_STENCIL_FORWARD ? taps[j + dj][i + di] - taps[j][i]
+                                         : 0.5 * (taps[j + dj][i + di] - taps[j - dj][i - di]);
+}
+
+static void tilt(const WrNormalJob *job, int i, double *x, double *y)
+{
+    double right = step(job->stencil, 1, i, 0, 1), down = step(job->stencil, 1, i, 1, 0);
+    if (job->stencil == WR_STENCIL_SPLINE) {
+        right =
+            (step(job->stencil, 0, i, 0, 1) + 4.0 * right + step(job->stencil, 2, i, 0, 1)) / 6.0;
+        down =
+            (step(job->stencil, 1, i - 1, 1, 0) + 4.0 * down + step(job->stencil, 1, i + 1, 1, 0)) /
+            6.0;
+    }
+    *x = -job->height * (job->width * right) / job->cell_w;
+    *y = -job->height * (-job->rows * down) / job->cell_h;
+}
+
+/* What a code is, but where it lies on the edge between two. */
+static void check_code(int code, long double last, long double n)
+{
+    long double exact = last * (n / 2 + 0.5L), part = exact - floorl(exact);
+    if (fabsl(part - 0.5L) > 1e-9L) assert_int_equal(code, (int)floorl(exact + 0.5L));
+}
+
+static void check_codes(const WrNormalKernels *kern, WrNormalJob *job, const double *x,
+                        const double *y, int count)
+{
+    uint8_t bytes[3 * COUNT + 1];
+    uint16_t words[3 * COUNT + 1];
+    float floats[3 * COUNT + 1];
+    bytes[3 * count] = 77, words[3 * count] = 777, floats[3 * count] = 7.0f;
+    job->last = 255.0;
+    kern->codes8(job, x, y, count, bytes);
+    job->last = 65535.0;
+    kern->codes16(job, x, y, count, words);
+    kern->floats(job, x, y, count, floats);
+    for (int i = 0; i < count; i++) {
+        long double length = sqrtl((long double)x[i] * x[i] + (long double)y[i] * y[i] + 1.0L);
+        const long double n[3] = { x[i] / length, job->green * (y[i] / length), 1.0L / length };
+        for (int c = 0; c < 3; c++) {
+            check_code(bytes[3 * i + c], 255.0L, n[c]);
+            check_code(words[3 * i + c], 65535.0L, n[c]);
+            assert_near(floats[3 * i + c], (double)(n[c] / 2 + 0.5L), 0x1p-24);
+        }
+    }
+    assert_true(bytes[3 * count] == 77 && words[3 * count] == 777 && floats[3 * count] == 7.0f);
+}
+
+static void tilts_and_codes_are_their_formulas_for_any_count(void **state)
+{
+    (void)state;
+    static const double cells[][2] = { { 1, 1 }, { 2, 0.25 }, { 1, 0.7 }, { 3, 1 } };
+    static const double sizes[] = { 1e-40, 1e-6, 1.0, 1e30 };
+    for (int index = 0; wr_normal_kernels_at(index); index++)
+        for (int stencil = 0; stencil < 3; stencil++)
+            for (int k = 0; k < 16; k++)
+                for (int count = 1; count <= COUNT; count += count < 40 ? 1 : 31) {
+                    const WrNormalKernels *kern = wr_normal_kernels_at(index);
+                    WrNormalJob job = { .stencil = (WrNormalStencil)stencil,
+                                        .height = 0.3,
+                                        .cell_w = cells[k % 4][0],
+                                        .cell_h = cells[k % 4][1],
+                                        .width = 100,
+                                        .rows = 33,
+                                        .green = k % 3 ? -1.0 : 1.0 };
+                    double x[COUNT], y[COUNT], wide[PITCH];
+                    fill(sizes[k / 4], (uint64_t)k);
+                    kern->widen(texels[1], PITCH, wide);
+                    assert_memory_equal(wide, taps[1], sizeof wide);
+                    assert_true(kern->tilts(&job, &taps[1][2], PITCH, count, x, y));
+                    for (int i = 0; i < count; i++) {
+                        double right, up;
+                        tilt(&job, i + 2, &right, &up);
+                        assert_true(same_bits(x[i], right) && same_bits(y[i], up));
+                    }
+                    check_codes(kern, &job, x, y, count);
+                }
+}
+
+/* Wherever one stands, and only within the count. */
+static void one_slope_beyond_all_bounds_is_told(void **state)
+{
+    (void)state;
+    const double bad[] = { NAN, INFINITY, -INFINITY, 1e300, -1e101 };
+    for (int index = 0; wr_normal_kernels_at(index); index++)
+        for (int at = 0; at < 40; at++)
+            for (int k = 0; k < 5; k++) {
+                WrNormalJob job = { .height = 1, .cell_w = 1, .cell_h = 1, .width = 1, .rows = 1 };
+                double x[COUNT], y[COUNT];
+                fill(1.0, 3);
+                taps[1][at + 3] = bad[k]; /* to the right of texel at */
+                assert_false(
+                    wr_normal_kernels_at(index)->tilts(&job, &taps[1][2], PITCH, at + 1, x, y));
+                if (at > 0)
+                    assert_true(
+                        wr_normal_kernels_at(index)->tilts(&job, &taps[1][2], PITCH, at, x, y));
+            }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tilts_and_codes_are_their_formulas_for_any_count),
+        cmocka_unit_test(one_slope_beyond_all_bounds_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
