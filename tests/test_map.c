@@ -110,7 +110,8 @@ static void one_sample_is_counted_as_the_rows_count(void **state)
     wr_field_free(fields[1]);
 }
 
-/* Where it is said that one sample was taken the picture is that of one sample; where K x K, that of K x K. */
+/* Where it is said that one sample was taken the picture is that of one sample, moved by what its neighbours tell but
+   not over an outline; where K x K, that of K x K. */
 static void samples_are_those_that_were_taken(void **state)
 {
     WrField *field = bumpy_field(64, 64);
@@ -132,7 +133,9 @@ static void samples_are_those_that_were_taken(void **state)
             const int level = adaptive->map[i] / WR_MAP_SAMPLES;
             assert_in_range(level, 0, 2);
             of[level]++;
-            if (level == 0 && closed) assert_true(same_pixel(adaptive, one, i));
+            const float *a = pixel(adaptive, i), *b = pixel(one, i);
+            for (int c = 0; c < 4 && level == 0 && closed; c++)
+                assert_true(fabsf(a[c] - b[c]) <= (c < 3 ? 0.02f : 0));
             if (level == 2) assert_true(same_pixel(adaptive, all, i));
             if (pixel(adaptive, i)[3] > 0) assert_true(adaptive->map[i] & WR_MAP_COVERED);
             assert_int_equal(all->map[i] / WR_MAP_SAMPLES, 2);

@@ -333,9 +333,10 @@ static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(vo
         if (k == 5) scene->dials.heights = WR_HEIGHTS_8;
         if (k == 6) scene->dials.shading = WR_SHADING_DOUBLE;
         scene->replicate_u = scene->replicate_v = 1;
-        Shot kept = shoot(scene, field, 70, 56, 2, "auto", false);
+        const int w = 140, h = 112; /* more than a tile, also of `adaptive` */
+        Shot kept = shoot(scene, field, w, h, 2, "auto", false);
         WrFrameRequest request = {
-            .field = field, .scene = scene, .width = 70, .height = 56, .turn_deg = 15, .keep = true
+            .field = field, .scene = scene, .width = w, .height = h, .turn_deg = 15, .keep = true
         };
         assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
         int64_t whole = kept.frame.shaded, least = whole;
@@ -345,7 +346,7 @@ static void a_resting_filtered_view_is_refreshed_to_the_bits_of_a_new_picture(vo
             int j = step == 1 ? 199 : (int)(200 * test_random(&random));
             wr_field_set(field, i, j, (float)(2 * test_random(&random)));
             assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
-            Shot fresh = shoot(scene, field, 70, 56, 2, "auto", false);
+            Shot fresh = shoot(scene, field, w, h, 2, "auto", false);
             if (!same_picture(&kept, &fresh)) fail_msg("case %d, step %d", k, step);
             least = kept.frame.shaded < least ? kept.frame.shaded : least;
             put_away(&fresh);

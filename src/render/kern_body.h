@@ -169,6 +169,9 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_moments_body.h"
 #include "render/kern_bound_body.h"
 #include "render/kern_store_body.h"
+#ifndef WR_KERN_DOUBLE
+#include "render/kern_smooth_body.h"
+#endif
 
 WR_ROWS(kernels);
 const KERNELS WR_KERN_TABLE = {
@@ -225,6 +228,7 @@ const KERNELS WR_KERN_TABLE = {
     .specular_toksvig = kern_specular_toksvig,
 #ifndef WR_KERN_DOUBLE
     .shade = { { SHADE_ROWS(0, 0), SHADE_ROWS(0, 1) }, { SHADE_ROWS(1, 0), SHADE_ROWS(1, 1) } },
+    .smooth = kern_smooth,
 #endif
     .finish = kern_finish,
     .codes = kern_codes,

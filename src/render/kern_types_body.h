@@ -180,6 +180,13 @@ typedef struct WR_T(WrKernels) {
     int (*codes_over)(const uint32_t *bins, const float background[3], int count, const float *rgba,
                       uint32_t *out);
 
+    /* Of `count` pixels the means that one sample each and its neighbours give, and how far they may be off; row[2] holds
+       the samples, RGBA, with two more on either side, the others the rows above and below. weight: of second
+       differences; slope: of first ones, in `off`. A pixel with a neighbour of other coverage is off by 1e9. NULL in
+       double precision. */
+    void (*smooth)(const float *const row[5], int count, float weight, float slope, float *rgba,
+                   float *off);
+
     /* Bounds over the pixel of side `pixel` samples about x, y (dials.h, refine=bound): where the pixel
        lies on the surface; how far its slopes and its normal move; what a light adds. */
     void (*bound_sphere)(const WR_T(WrRays) * rays, const SHAPE *shape, REAL pixel,

@@ -249,6 +249,7 @@ static void note_map(const WrTileJob *job, const Rays *rays, bool level, const S
     const bool filtered = looked && runs(job, WR_EFFECT_FILTER);
     for (int i = 0; i < strip->count; i++) {
         const bool wide = filtered && (strip->level[i] > (REAL)0 || strip->taps[i] > 1);
+        if (strip->x[i] < (REAL)-0.5 || strip->y[i] < (REAL)-0.5) continue; /* beyond the picture */
         const int bits = WR_MAP_COVERED | (looked ? WR_MAP_LOOKED : 0) | (wide ? WR_MAP_WIDE : 0);
         wr_tile_map(job, scratch, (int)(strip->x[i] + (REAL)0.5) / k,
                     (int)(strip->y[i] + (REAL)0.5) / k, (uint8_t)bits);

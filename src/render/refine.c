@@ -1,21 +1,24 @@
-/* Adaptive sampling: one sample at each pixel's centre, then 2 x 2, 4 x 4, ... K x K where they are called
-   for (dials.h, WrRefine). A pixel that comes to K x K holds what `supersample` makes of it, bit for bit. */
+/* Adaptive sampling (dials.h, WrRefine). By contrast: one sample a pixel; where light bends evenly the pixel follows
+   from that and its neighbours (kern_smooth_body.h); elsewhere K of the K x K, which are all wherever those do not
+   agree with what the neighbours told. By bound: one sample, or all. A pixel that comes to K x K holds what
+   `supersample` makes of it, bit for bit; none depends on how the picture is cut into tiles. */
 #include "render/pipe.h"
 #include "base/vec.h"
 #include "system/clock.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Of k x k samples that lie apart by d the mean is off by d / 2k at most, mostly by far less, and by what it moved from
-   the level before: `contrast` lets as much pass as it moved, and so many times k of d. */
-#define EDGE_STEPS 4
-#define EDGE_BESIDE 8.0f
-enum {
-    OPEN = 1,
-    OPEN_BESIDE = 2
-}; /* a pixel needs more; at least 4 x 4, for an edge that may pass beside */
+#define RING WR_REFINE_RING
+#define MOST WR_TILE_SAMPLES_H /* K at most */
+/* The K samples may each be off what the neighbours tell by so many times `contrast`, their mean by that. */
+#define SAMPLE_OFF 4.0f
+/* Where coverage differs one sample is off by more than any contrast (kern_smooth_body.h). */
+#define OUTLINE 1e6f
+/* The mean of one place anywhere in each of K x K cells is off by about 0.29 / K^2 of the slope; four times that. */
+#define JITTER 1.16
+
+enum { OPEN = 1, OPEN_ALL = 2 }; /* a pixel needs more; all */
 
 typedef struct Refiner {
     const WrTileJob *job;
@@ -23,77 +26,34 @@ typedef struct Refiner {
     WrTilePart part;
     float contrast;
     bool by_bound;
+    bool some;                /* K of the samples are tried before all */
+    unsigned char rook[MOST]; /* the column of the one in each row */
 } Refiner;
 
 /* ---- the first samples -------------------------------------------------------------------------- */
 
-/* One sample a pixel, a ring of one pixel round the tile included: so what is refined does not depend on
-   how the picture is cut into tiles. */
+/* One sample a pixel, with a ring of two pixels round the tile, also beyond the picture: so what is refined does not
+   depend on how the picture is cut into tiles. */
 static void first_samples(Refiner *r)
 {
     WrTileScratch *s = r->scratch;
     const WrTileJob *job = r->job;
-    const int ring = r->by_bound ? 0 : 1;
-    int x0 = r->part.x - ring, y0 = r->part.y - ring;
-    int x1 = r->part.x + r->part.w + ring, y1 = r->part.y + r->part.h + ring;
-    x0 = x0 < 0 ? 0 : x0, y0 = y0 < 0 ? 0 : y0;
-    x1 = x1 > job->width ? job->width : x1, y1 = y1 > job->height ? job->height : y1;
-    WrDepthTile tile = wr_tile_depth(job, 1, x0, y0, x1 - x0, y1 - y0, s);
-    memset(s->centre, 0, sizeof s->centre);
+    const WrTilePart *p = &r->part;
+    const int ring = r->by_bound ? 0 : RING;
+    WrDepthTile tile =
+        wr_tile_depth(job, 1, p->x - ring, p->y - ring, p->w + 2 * ring, p->h + 2 * ring, s);
     const double start = wr_clock_seconds();
-    for (int y = y0; y < y1; y++) {
-        const int at_y = y - r->part.y + 1, at_x = x0 - r->part.x + 1;
-        WrSink sink = { .rgba = s->centre[at_y][at_x] };
-        for (int x = 0; x < WR_REFINE_W + 2; x++) s->bound[at_y][x] = INFINITY;
-        if (r->by_bound) sink.bound = &s->bound[at_y][at_x], sink.pixel = 1;
-        job->pipe->row(job, 1, &tile, y - y0, &sink, s);
+    for (int y = 0; y < tile.h; y++) {
+        float(*row)[4] = s->centre[y + RING - ring] + (RING - ring);
+        memset(row, 0, (size_t)tile.w * sizeof *row);
+        WrSink sink = { .rgba = row[0] };
+        if (r->by_bound) {
+            for (int x = 0; x < p->w; x++) s->bound[y][x] = INFINITY;
+            sink.bound = s->bound[y], sink.pixel = 1;
+        }
+        job->pipe->row(job, 1, &tile, y, &sink, s);
     }
     s->all_strips += wr_clock_seconds() - start;
-}
-
-/* The largest difference of any channel; what is no number differs by infinity. */
-static float apart(const float a[4], const float b[4])
-{
-    float most = 0;
-    for (int c = 0; c < 4; c++) {
-        const float d = fabsf(a[c] - b[c]);
-        most = d <= most ? most : d <= FLT_MAX ? d : INFINITY;
-    }
-    return most;
-}
-
-/* An even slope has its mean in its middle: what counts is how far a pixel is from the mean of two opposite
-   neighbours, twice that, so that an edge counts for its height. At the picture's border and where an outline
-   passes, where nothing tells a slope from an edge: how far from either. */
-static float bend(const float a[4], const float pixel[4], const float b[4])
-{
-    float middle[4];
-    if (a[3] != pixel[3] || b[3] != pixel[3]) return fmaxf(apart(a, pixel), apart(b, pixel));
-    for (int c = 0; c < 4; c++) middle[c] = 2 * pixel[c] - a[c];
-    return apart(middle, b);
-}
-
-/* How far the pixel stands out from its eight neighbours. */
-static float stands_out(const Refiner *r, int x, int y)
-{
-    static const int ways[4][2] = { { 1, 0 }, { 0, 1 }, { 1, 1 }, { 1, -1 } };
-    const WrTileScratch *s = r->scratch;
-    const float *pixel = s->centre[y + 1][x + 1];
-    float most = 0;
-    for (int way = 0; way < 4; way++) {
-        const float *sides[2] = { NULL, NULL };
-        for (int side = 0; side < 2; side++) {
-            const int dx = side ? -ways[way][0] : ways[way][0];
-            const int dy = side ? -ways[way][1] : ways[way][1];
-            const int px = r->part.x + x + dx, py = r->part.y + y + dy;
-            if (px < 0 || py < 0 || px >= r->job->width || py >= r->job->height) continue;
-            sides[side] = s->centre[y + 1 + dy][x + 1 + dx];
-        }
-        if (sides[0] && sides[1]) most = fmaxf(most, bend(sides[0], pixel, sides[1]));
-        else if (sides[0] || sides[1])
-            most = fmaxf(most, apart(sides[0] ? sides[0] : sides[1], pixel));
-    }
-    return most;
 }
 
 /* ---- pixels that the object leaves out ----------------------------------------------------------- */
@@ -159,153 +119,296 @@ static bool surely_empty(const Refiner *r, int x, int y)
     return true;
 }
 
-/* ---- more samples -------------------------------------------------------------------------------- */
+/* ---- which pixels need more ---------------------------------------------------------------------- */
 
-/* How far the k x k samples lie apart. */
-static float range_of(const float *sample, int k, size_t step)
+static void open_by_bound(const Refiner *r)
 {
-    float low[4], high[4];
-    memcpy(low, sample, sizeof low);
-    memcpy(high, sample, sizeof high);
-    for (int y = 0; y < k; y++)
-        for (int x = 0; x < k; x++)
-            for (int c = 0; c < 4; c++) {
-                const float at = sample[(size_t)y * step + 4 * (size_t)x + (size_t)c];
-                if (!(at >= low[c])) low[c] = at;
-                if (!(at <= high[c])) high[c] = at;
-            }
-    return apart(low, high);
-}
-
-/* One row of the k x k samples of pixel px of the part into the scatter. */
-static void scatter_run(const WrDepthTile *tile, int k, int px, int row, WrScatter *out)
-{
-    for (int i = 0; i < k; i++) {
-        const int cell = row * tile->w + px * k + i, at = out->count++;
-        const signed char *shift = tile->shift ? tile->shift + 2 * cell : NULL;
-        out->x[at] = tile->x + px * k + i + (shift ? shift[0] / 256.0 : 0);
-        out->y[at] = tile->y + row + (shift ? shift[1] / 256.0 : 0);
-        out->cell[at] = cell;
+    WrTileScratch *s = r->scratch;
+    for (int y = 0; y < r->part.h; y++) {
+        const float(*row)[4] = (const float(*)[4])s->centre[y + RING] + RING;
+        for (int x = 0; x < r->part.w; x++) {
+            const bool closed =
+                row[x][3] > 0.0f ? s->bound[y][x] <= r->contrast : surely_empty(r, x, y);
+            s->open[y][x] = closed ? 0 : OPEN_ALL;
+        }
+        memcpy(wr_tile_pixel(r->job, r->part.x, r->part.y + y), row,
+               (size_t)r->part.w * sizeof *row);
     }
 }
 
-/* Runs of k neighbouring samples that wait for a full strip. */
+/* Has the light steps where texels meet, and not only bends (kern_smooth_body.h)? */
+static bool slopes_jump(const WrPlan *plan)
+{
+    return plan->source == WR_SOURCE_TABLE &&
+           (plan->scheme == WR_SCHEME_NEAREST || plan->scheme == WR_SCHEME_BILINEAR);
+}
+
+static void open_by_contrast(const Refiner *r)
+{
+    WrTileScratch *s = r->scratch;
+    const float cells = (float)(r->job->samples * r->job->samples);
+    const bool jittered = r->job->plan->spread == WR_SPREAD_JITTERED;
+    const float weight = (jittered ? 1.0f : 1.0f - 1.0f / cells) / 24.0f;
+    const float slope = jittered ? (float)JITTER / 2 / cells : 0;
+    const float most = slopes_jump(r->job->plan) ? r->contrast / 2 : r->contrast;
+    for (int y = 0; y < r->part.h; y++) {
+        const float *rows[5];
+        for (int k = 0; k < 5; k++) rows[k] = s->centre[y + k][0];
+        r->job->kernels->smooth(rows, r->part.w, weight, slope,
+                                wr_tile_pixel(r->job, r->part.x, r->part.y + y), s->bound[y]);
+        for (int x = 0; x < r->part.w; x++)
+            s->open[y][x] = s->bound[y][x] <= most                 ? 0
+                            : !r->some || s->bound[y][x] > OUTLINE ? OPEN_ALL
+                                                                   : OPEN;
+    }
+}
+
+/* ---- more samples -------------------------------------------------------------------------------- */
+
+/* For K = 4, 8, 12, ...: one place in each row and column, such that a quarter turn keeps them: their mean is that of
+   all K x K of whatever bends evenly. */
+static bool place_rooks(Refiner *r)
+{
+    const int k = r->job->samples, quarter = k / 4;
+    if (k % 4 != 0 || r->job->plan->spread == WR_SPREAD_JITTERED) return false;
+    for (int c = 0; c < quarter; c++) {
+        const int x = c, y = c & 1 ? k - 1 - (c + quarter) : c + quarter;
+        r->rook[x] = (unsigned char)y;
+        r->rook[y] = (unsigned char)(k - 1 - x);
+        r->rook[k - 1 - x] = (unsigned char)(k - 1 - y);
+        r->rook[k - 1 - y] = (unsigned char)x;
+    }
+    return true;
+}
+
+/* Samples that wait for a full strip, and where they go. */
 typedef struct Queue {
     const Refiner *r;
     const WrDepthTile *tile;
-    int k, count;
-    struct {
-        int row, x; /* samples of the part */
-    } run[WR_SPAN];
+    float (*to[WR_SPAN])[4];
 } Queue;
 
 static void empty_queue(Queue *queue)
 {
     WrTileScratch *s = queue->r->scratch;
-    const int k = queue->k;
+    const WrTileJob *job = queue->r->job;
     float line[WR_SPAN][4];
-    if (queue->count == 0) return;
-    memset(line, 0, (size_t)s->scatter.count * sizeof line[0]);
+    const int count = s->scatter.count;
+    if (count == 0) return;
+    memset(line, 0, (size_t)count * sizeof line[0]);
     WrSink sink = { .rgba = line[0] };
     const double start = wr_clock_seconds();
-    queue->r->job->pipe->points(queue->r->job, k, queue->tile, &sink, s);
+    job->pipe->points(job, job->samples, queue->tile, &sink, s);
     s->all_strips += wr_clock_seconds() - start;
-    for (int i = 0; i < queue->count; i++)
-        memcpy(s->sample[queue->run[i].row][queue->run[i].x], line[i * k],
-               (size_t)k * sizeof line[0]);
-    queue->count = s->scatter.count = 0;
+    for (int i = 0; i < count; i++) memcpy(queue->to[i], line[i], sizeof line[i]);
+    s->scatter.count = 0;
 }
 
-/* The samples of all open pixels of the part. */
-static void sample_rows(const Refiner *r, WrTilePart part, int k, const WrDepthTile *tile)
+/* Sample (i, j) of the tile's pixel (x, y). */
+static void queue_sample(Queue *queue, const unsigned char at[2], int i, int j, float (*to)[4])
 {
-    WrTileScratch *s = r->scratch;
-    Queue queue = { .r = r, .tile = tile, .k = k };
-    s->scatter.count = 0;
-    for (int row = 0; row < part.h * k; row++)
-        for (int p = 0; p < part.w; p++) {
-            if (!s->open[part.y + row / k][part.x + p]) continue;
-            if (s->scatter.count + k > WR_SPAN) empty_queue(&queue);
-            queue.run[queue.count].row = row;
-            queue.run[queue.count++].x = p * k;
-            scatter_run(tile, k, p, row, &s->scatter);
-        }
+    const Refiner *r = queue->r;
+    const WrDepthTile *tile = queue->tile;
+    WrScatter *places = &r->scratch->scatter;
+    const int k = r->job->samples, n = places->count;
+    const int x = (r->part.x + at[0]) * k + i, y = (r->part.y + at[1]) * k + j;
+    const int cell = (y - tile->y) * tile->w + x - tile->x;
+    const signed char *shift = tile->shift ? tile->shift + 2 * cell : NULL;
+    places->x[n] = x + (shift ? shift[0] / 256.0 : 0);
+    places->y[n] = y + (shift ? shift[1] / 256.0 : 0);
+    places->cell[n] = cell;
+    queue->to[n] = to;
+    if (++places->count == WR_SPAN) empty_queue(queue);
+}
+
+/* The samples of `count` pixels of the list, K x K each, one pixel's after the other. */
+static float (*samples_of(const Refiner *r, int at))[4]
+{
+    const int k = r->job->samples;
+    return &r->scratch->sample[0][0] + (size_t)at * (size_t)(k * k);
+}
+
+static void sample_rooks(const Refiner *r, const WrDepthTile *tile, int first, int count)
+{
+    Queue queue = { .r = r, .tile = tile };
+    const int k = r->job->samples;
+    r->scratch->scatter.count = 0;
+    for (int n = 0; n < count; n++)
+        for (int j = 0; j < k; j++)
+            queue_sample(&queue, r->scratch->list[first + n], r->rook[j], j,
+                         samples_of(r, n) + j * k + r->rook[j]);
     empty_queue(&queue);
 }
 
-/* The last level's number in the place of the one before. */
-static void map_samples(const Refiner *r, int x, int y, int k)
+/* All, or those that are none of the K; of pixels that are open still. */
+static void sample_rest(const Refiner *r, const WrDepthTile *tile, int first, int count)
 {
-    uint8_t *at = &r->job->map[wr_tile_place(r->job, r->part.x + x, r->part.y + y)];
-    *at = (uint8_t)(*at % WR_MAP_SAMPLES | wr_tile_map_samples(k));
+    Queue queue = { .r = r, .tile = tile };
+    const WrTileScratch *s = r->scratch;
+    const int k = r->job->samples;
+    r->scratch->scatter.count = 0;
+    for (int n = 0; n < count; n++) {
+        const unsigned char *at = s->list[first + n];
+        if (!s->open[at[1]][at[0]]) continue;
+        for (int j = 0; j < k; j++)
+            for (int i = 0; i < k; i++)
+                if (!r->some || i != r->rook[j])
+                    queue_sample(&queue, at, i, j, samples_of(r, n) + j * k + i);
+    }
+    empty_queue(&queue);
 }
 
-/* k x k samples for the open pixels of a part of the tile; those that need no more are closed. */
-static void sample_part(Refiner *r, WrTilePart part, int k, bool last)
+/* The sum of count colours, in pairs, into the first; they are overwritten. */
+static void sum_pairs(float (*x)[4], int count)
+{
+    for (; count > 1; count = (count + 1) / 2) {
+        for (int i = 0; i < count / 2; i++)
+            for (int c = 0; c < 4; c++) x[i][c] = x[2 * i][c] + x[2 * i + 1][c];
+        if (count & 1) memcpy(x[count / 2], x[count - 1], sizeof *x);
+    }
+}
+
+/* What the neighbours tell of light about a pixel's centre. */
+typedef struct Bend {
+    float x[4], y[4], xx[4], yy[4], xy[4];
+} Bend;
+
+static Bend bend_at(const WrTileScratch *s, int x, int y)
+{
+    const float(*up)[4] = (const float(*)[4])s->centre[y + RING - 1] + x + RING;
+    const float(*mid)[4] = (const float(*)[4])s->centre[y + RING] + x + RING;
+    const float(*low)[4] = (const float(*)[4])s->centre[y + RING + 1] + x + RING;
+    Bend b;
+    for (int c = 0; c < 4; c++) {
+        b.x[c] = (mid[1][c] - mid[-1][c]) / 2, b.y[c] = (low[0][c] - up[0][c]) / 2;
+        b.xx[c] = (mid[1][c] + mid[-1][c]) / 2 - mid[0][c];
+        b.yy[c] = (low[0][c] + up[0][c]) / 2 - mid[0][c];
+        b.xy[c] = ((low[1][c] - low[-1][c]) - (up[1][c] - up[-1][c])) / 4;
+    }
+    return b;
+}
+
+/* Is the mean of the K samples enough? Then it is the pixel's. */
+static bool rooks_agree(const Refiner *r, const unsigned char at[2], float (*sample)[4])
+{
+    const int k = r->job->samples;
+    const float *centre = r->scratch->centre[at[1] + RING][at[0] + RING];
+    const Bend bend = bend_at(r->scratch, at[0], at[1]);
+    float rook[MOST][4];
+    float most = 0, *pixel = wr_tile_pixel(r->job, r->part.x + at[0], r->part.y + at[1]);
+    for (int j = 0; j < k; j++) {
+        const float dx = ((float)r->rook[j] + 0.5f) / (float)k - 0.5f;
+        const float dy = ((float)j + 0.5f) / (float)k - 0.5f;
+        memcpy(rook[j], sample[j * k + r->rook[j]], sizeof rook[j]);
+        for (int c = 0; c < 4; c++) {
+            const float told = centre[c] + dx * (bend.x[c] + dx * bend.xx[c] + dy * bend.xy[c]) +
+                               dy * (bend.y[c] + dy * bend.yy[c]);
+            const float off = fabsf(rook[j][c] - told);
+            most = off <= most ? most : off; /* what is no number stays */
+        }
+        if (rook[j][3] != centre[3]) return false;
+    }
+    if (!(most <= SAMPLE_OFF * r->contrast)) return false;
+    sum_pairs(rook, k);
+    for (int c = 0; c < 4; c++) {
+        rook[0][c] /= (float)k;
+        if (!(fabsf(rook[0][c] - pixel[c]) <= r->contrast)) return false;
+    }
+    memcpy(pixel, rook[0], sizeof rook[0]);
+    return true;
+}
+
+/* The last level's number in the place of the one before. */
+static void map_samples(const Refiner *r, const unsigned char at[2], int k)
+{
+    if (!r->job->map) return;
+    uint8_t *map = &r->job->map[wr_tile_place(r->job, r->part.x + at[0], r->part.y + at[1])];
+    *map = (uint8_t)(*map % WR_MAP_SAMPLES | wr_tile_map_samples(k));
+}
+
+static void finish_rooks(const Refiner *r, int first, int count)
 {
     WrTileScratch *s = r->scratch;
-    const size_t step = sizeof s->sample[0] / sizeof(float);
-    bool any = false;
-    for (int y = 0; y < part.h; y++)
-        for (int x = 0; x < part.w; x++) any |= s->open[part.y + y][part.x + x];
-    if (!any) return;
-    WrDepthTile tile = wr_tile_depth(r->job, k, (r->part.x + part.x) * k, (r->part.y + part.y) * k,
-                                     part.w * k, part.h * k, s);
-    sample_rows(r, part, k, &tile);
-    for (int y = 0; y < part.h; y++)
-        for (int x = 0; x < part.w; x++) {
-            unsigned char *open = &s->open[part.y + y][part.x + x];
-            if (!*open) continue;
-            if (r->job->map) map_samples(r, part.x + x, part.y + y, k);
-            float *sample = s->sample[y * k][x * k], mean[4];
-            float *pixel = wr_tile_pixel(r->job, r->part.x + part.x + x, r->part.y + part.y + y);
-            const float range = last ? 0 : range_of(sample, k, step);
-            wr_tile_mean(sample, k, step, mean); /* spoils the samples */
-            const bool more = (*open == OPEN_BESIDE && k == 2) ||
-                              apart(pixel, mean) > r->contrast ||
-                              range > (float)(EDGE_STEPS * k) * r->contrast;
-            *open = !last && more ? *open : 0;
-            memcpy(pixel, mean, sizeof mean);
-        }
+    int side = 1;
+    while (side * side < r->job->samples) side++;
+    for (int n = 0; n < count; n++) {
+        const unsigned char *at = s->list[first + n];
+        if (s->open[at[1]][at[0]] == OPEN_ALL || !rooks_agree(r, at, samples_of(r, n))) continue;
+        s->open[at[1]][at[0]] = 0;
+        map_samples(r, at, side);
+    }
 }
 
-static void sample_level(Refiner *r, int k, bool last)
+static void finish_all(const Refiner *r, int first, int count)
 {
-    const int most_w = WR_TILE_SAMPLES_W / k, most_h = k < 32 ? 32 / k : 1;
+    WrTileScratch *s = r->scratch;
+    const int k = r->job->samples;
+    for (int n = 0; n < count; n++) {
+        const unsigned char *at = s->list[first + n];
+        if (!s->open[at[1]][at[0]]) continue;
+        wr_tile_mean(samples_of(r, n)[0], k, 4 * (size_t)k,
+                     wr_tile_pixel(r->job, r->part.x + at[0], r->part.y + at[1]));
+        map_samples(r, at, k);
+    }
+}
+
+/* As many pixels of the list at once as there is room for samples. */
+static void sample_list(const Refiner *r, const WrDepthTile *tile, int count)
+{
+    const int room = WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H / (r->job->samples * r->job->samples);
+    for (int first = 0; first < count; first += room) {
+        const int some = count - first < room ? count - first : room;
+        if (r->some) {
+            sample_rooks(r, tile, first, some);
+            finish_rooks(r, first, some);
+        }
+        sample_rest(r, tile, first, some);
+        finish_all(r, first, some);
+    }
+}
+
+/* The open pixels of a part of the tile into the list; the part becomes their box. */
+static int list_open(const Refiner *r, WrTilePart *part)
+{
+    WrTileScratch *s = r->scratch;
+    int count = 0, x0 = WR_REFINE_W, x1 = 0, y0 = WR_REFINE_H, y1 = 0;
+    for (int y = part->y; y < part->y + part->h; y++)
+        for (int x = part->x; x < part->x + part->w; x++) {
+            if (!s->open[y][x]) continue;
+            s->list[count][0] = (unsigned char)x;
+            s->list[count++][1] = (unsigned char)y;
+            x0 = x < x0 ? x : x0, x1 = x >= x1 ? x + 1 : x1;
+            y0 = y < y0 ? y : y0, y1 = y + 1;
+        }
+    *part = (WrTilePart){ x0, y0, x1 - x0, y1 - y0 };
+    return count;
+}
+
+static void sample_part(const Refiner *r, WrTilePart part)
+{
+    const int k = r->job->samples, count = list_open(r, &part);
+    WrDepthTile tile = { 0 };
+    if (count == 0) return;
+    if (r->job->mesh || r->job->plan->spread == WR_SPREAD_JITTERED)
+        tile = wr_tile_depth(r->job, k, (r->part.x + part.x) * k, (r->part.y + part.y) * k,
+                             part.w * k, part.h * k, r->scratch);
+    sample_list(r, &tile, count);
+}
+
+/* All open pixels; by parts, where samples have a depth tile. */
+static void sample_open(const Refiner *r)
+{
+    const int k = r->job->samples;
+    const bool tiled = r->job->mesh || r->job->plan->spread == WR_SPREAD_JITTERED;
+    const int most_w = tiled ? WR_TILE_SAMPLES_W / 2 / k : r->part.w;
+    const int most_h = tiled ? WR_TILE_SAMPLES_H / k : r->part.h;
     for (int y = 0; y < r->part.h; y += most_h)
         for (int x = 0; x < r->part.w; x += most_w) {
             WrTilePart part = { x, y, most_w, most_h };
             part.w = r->part.w - x < part.w ? r->part.w - x : part.w;
             part.h = r->part.h - y < part.h ? r->part.h - y : part.h;
-            sample_part(r, part, k, last);
+            sample_part(r, part);
         }
-}
-
-/* By how far a pixel stands out. An edge's pixels stand out by its height; it may cut an eighth of one that the 2 x 2
-   samples do not see. */
-static unsigned char how_open(const Refiner *r, float out)
-{
-    return out > EDGE_BESIDE * r->contrast ? OPEN_BESIDE : out > r->contrast ? OPEN : 0;
-}
-
-/* Which pixels the first samples leave open. */
-static bool open_pixels(Refiner *r)
-{
-    WrTileScratch *s = r->scratch;
-    bool any = false;
-    for (int y = 0; y < r->part.h; y++)
-        for (int x = 0; x < r->part.w; x++) {
-            unsigned char open;
-            if (!r->by_bound) open = how_open(r, stands_out(r, x, y));
-            else if (s->centre[y + 1][x + 1][3] > 0.0f)
-                open = !(s->bound[y + 1][x + 1] <= r->contrast);
-            else open = !surely_empty(r, x, y);
-            s->open[y][x] = open;
-            any |= open;
-            memcpy(wr_tile_pixel(r->job, r->part.x + x, r->part.y + y), s->centre[y + 1][x + 1],
-                   4 * sizeof(float));
-        }
-    return any && r->job->samples > 1;
 }
 
 /* What strips and rays took so far, which is told elsewhere. */
@@ -317,23 +420,23 @@ static double told_elsewhere(const WrTileScratch *scratch)
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch)
 {
     const WrPlan *plan = job->plan;
-    Refiner r = {
-        job, scratch, { x, y, w, h }, (float)plan->contrast, plan->refine == WR_REFINE_BOUND
-    };
+    Refiner r = { .job = job,
+                  .scratch = scratch,
+                  .part = { x, y, w, h },
+                  .contrast = (float)plan->contrast,
+                  .by_bound = plan->refine == WR_REFINE_BOUND };
     const double start = wr_clock_seconds(), before = told_elsewhere(scratch);
     wr_did(scratch, WR_EFFECT_SAMPLES);
     const int64_t covered = scratch->covered;
-    const int K = job->samples;
+    r.some = !r.by_bound && !slopes_jump(plan) && place_rooks(&r);
     if (!r.by_bound || wr_plan_runs(plan, WR_EFFECT_BOUND)) {
         first_samples(&r);
-        const bool more = open_pixels(&r);
-        if (!r.by_bound)
-            for (int k = 2; k < K && more; k *= 2) sample_level(&r, k, false);
-        if (more) sample_level(&r, K, true);
+        if (r.by_bound) open_by_bound(&r);
+        else open_by_contrast(&r);
     } else { /* no bound is known in this scene: K x K everywhere */
-        memset(scratch->open, 1, sizeof scratch->open);
-        sample_level(&r, K, true);
+        memset(scratch->open, OPEN_ALL, sizeof scratch->open);
     }
+    sample_open(&r);
     scratch->covered = covered;
     for (int j = y; j < y + h; j++)
         for (int i = x; i < x + w; i++) scratch->covered += wr_tile_pixel(job, i, j)[3] > 0;

@@ -70,8 +70,11 @@ typedef struct WrTilePart {
     int x, y, w, h;
 } WrTilePart;
 
-#define WR_REFINE_W 64 /* pixels of a tile of `adaptive` */
-#define WR_REFINE_H 32
+/* Pixels of a tile of `adaptive`, and of the ring about it: the larger, the less the ring counts, and the more is
+   rendered again for an edit. */
+#define WR_REFINE_RING 2
+#define WR_REFINE_W 124
+#define WR_REFINE_H 60
 
 /* One thread's memory and counts. */
 typedef struct WrTileScratch {
@@ -82,12 +85,13 @@ typedef struct WrTileScratch {
     float u[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H], v[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H];
     signed char shift[2 * WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H]; /* jittered */
     float sample[WR_TILE_SAMPLES_H][WR_TILE_SAMPLES_W][4];        /* R, G, B, A */
-    float mean[WR_TILE_SAMPLES_W * 32 / 2]
+    float mean[WR_REFINE_W * WR_REFINE_H]
               [4]; /* several samples a pixel: a tile's pixels, before they become codes */
-    float centre[WR_REFINE_H + 2][WR_REFINE_W + 2]
-                [4]; /* adaptive: first samples, one pixel round */
-    float bound[WR_REFINE_H + 2][WR_REFINE_W + 2];
-    unsigned char open[WR_REFINE_H][WR_REFINE_W]; /* adaptive: the pixel needs more */
+    /* adaptive: first samples, with the ring of pixels round the tile */
+    float centre[WR_REFINE_H + 2 * WR_REFINE_RING][WR_REFINE_W + 2 * WR_REFINE_RING][4];
+    float bound[WR_REFINE_H][WR_REFINE_W];            /* adaptive: how far one sample may be off */
+    unsigned char open[WR_REFINE_H][WR_REFINE_W];     /* adaptive: the pixel needs more */
+    unsigned char list[WR_REFINE_W * WR_REFINE_H][2]; /* adaptive: x, y of those at hand */
     double seconds[WR_STAGE_COUNT]; /* of strips, in what ratio: a sixteenth of them is measured */
     double all_strips;              /* what they took together */
     double whole[WR_STAGE_COUNT];   /* of what is measured each time */
@@ -104,6 +108,11 @@ typedef struct WrTileScratch {
     unsigned strips;      /* counts strips: one in sixteen is timed */
 } WrTileScratch;
 
+_Static_assert(WR_REFINE_W + 2 * WR_REFINE_RING <= WR_SPAN, "a row of a tile is a strip");
+_Static_assert((WR_REFINE_W + 2 * WR_REFINE_RING) * (WR_REFINE_H + 2 * WR_REFINE_RING) <=
+                   WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H,
+               "a tile is a depth tile");
+_Static_assert(WR_REFINE_W *WR_REFINE_H >= WR_TILE_SAMPLES_W * 32 / 2, "tiles of 2 x 2 and more");
 _Static_assert(WR_EFFECT_COUNT <= 32, "a bit for each effect");
 
 /* A record beside the plan: this was done. */

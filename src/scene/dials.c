@@ -18,7 +18,7 @@ WR_ROWS_END(wr_axis_labels, WR_AXIS_COUNT);
 
 WrDials wr_dials_default(void)
 {
-    return (WrDials){ .samples = 4, .contrast = 0.02, .newton = -1, .heights = WR_HEIGHTS_FLOAT };
+    return (WrDials){ .samples = 4, .contrast = 0.002, .newton = -1, .heights = WR_HEIGHTS_FLOAT };
 }
 
 void wr_dials_smooth(WrDials *dials)
@@ -119,7 +119,7 @@ static bool with_mesh(const WrScene *scene)
 /* ---- the table ---- */
 
 static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
-static const double contrast_rungs[] = { 0.1, 0.05, 0.02, 0.01, 0.005, NAN };
+static const double contrast_rungs[] = { 0.05, 0.02, 0.005, 0.002, 0.0005, NAN };
 static const double mesh_rungs[] = { -2, -1, 0, 1, NAN };
 static const double newton_rungs[] = { 0, 1, 2, 3, NAN };
 static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
@@ -157,12 +157,12 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                   CHOICES(moments, WR_MOMENTS_COUNT), MEMBERS(moments),
                                   .matters = with_moments },
     [WR_ROW(WR_DIAL_REFINE)] = { "refine", "dials", WR_AXIS_ANTIALIASING, "Refine where",
-                                 "neighbours disagree, or a bound on the error says so",
+                                 "an estimate of the error says so, or unless a bound rules it out",
                                  CHOICES(refine, WR_REFINE_COUNT), MEMBERS(refine),
                                  .matters = with_adaptive },
     [WR_ROW(WR_DIAL_CONTRAST)] = { "contrast", "dials", WR_AXIS_ANTIALIASING, "Contrast",
-                                   "linear intensity that adaptive lets pass", .low = 0, .high = 1,
-                                   MEMBERS(contrast), .matters = with_adaptive,
+                                   "how far from all samples adaptive may be, linear intensity",
+                                   .low = 0, .high = 1, MEMBERS(contrast), .matters = with_adaptive,
                                    .rungs = contrast_rungs },
     [WR_ROW(WR_DIAL_MESH)] = { "mesh", "dials", WR_AXIS_VISIBILITY, "Mesh",
                                "curved surfaces' grid is 2^mesh times as fine each way", .low = -4,

@@ -52,9 +52,11 @@ typedef enum WrSpread {
 
 /* adaptive: what decides that a pixel needs more. */
 typedef enum WrRefine {
-    /* 2 x 2 where a pixel is off the mean of two opposite neighbours by more than half of `contrast`: an even slope
-       of light is not refined, an edge of that height is. 4 x 4, .. K x K while the mean moves by more than
-       `contrast`, or the k x k samples lie apart by more than 4 k times that. May miss features. */
+    /* One sample a pixel; where light bends evenly about it, the mean over the pixel follows from that sample and
+       its neighbours. Where third differences say that this may be off by more than `contrast`, and along every
+       outline: of K x K first K, one in each row and column, where 4 divides K and places are regular; the others
+       too unless each of those is as the neighbours told, to four times `contrast`, and their mean to once. An
+       estimate: what falls between the first samples is missed. */
     WR_REFINE_CONTRAST,
     /* K x K but where a bound on the intensity's change over the pixel is within `contrast`: then no pixel is
        farther from that of K x K than `contrast`. A bound is known on plane, cube and sphere with slopes by
@@ -98,7 +100,7 @@ typedef struct WrDials {
     WrFootprint footprint;
     WrMoments moments;
     WrRefine refine;
-    double contrast; /* adaptive: linear intensity, 0..1 */
+    double contrast; /* adaptive: how far from K x K, linear intensity, 0..1 */
     int mesh;        /* -4..4: curved surfaces' grid is 2^mesh times as fine each way */
     int newton;      /* most steps of the inversion, 0..8; -1: as many as the mesh calls for */
     double texels; /* the inversion stops where its step is shorter than so many texels; 0: never */

@@ -36,7 +36,7 @@ void wr_moving_dials(WrMovingWay way, WrDials *dials)
     dials->samples = way == WR_MOVING_POINT ? 1 : way == WR_MOVING_EDGES ? 4 : 2;
     dials->spread = WR_SPREAD_REGULAR;
     dials->refine = WR_REFINE_CONTRAST;
-    dials->contrast = 0.2;
+    dials->contrast = 0.05;
 }
 
 static void follow(double *known, double measured)
