@@ -92,7 +92,11 @@ static const Aliasing aliasing[] = {
     { .name = "supersample 2x2", WR_AA_SUPERSAMPLE, 2 },
     { .name = "supersample 4x4", WR_AA_SUPERSAMPLE, 4 },
     { .name = "supersample 4x4, jittered", WR_AA_SUPERSAMPLE, 4, .spread = WR_SPREAD_JITTERED },
+    { .name = "supersample 8x8", WR_AA_SUPERSAMPLE, 8 },
+    { .name = "adaptive to 2x2, contrast", WR_AA_ADAPTIVE, 2 },
     { .name = "adaptive to 4x4, contrast", WR_AA_ADAPTIVE, 4 },
+    { .name = "adaptive to 4x4, jittered", WR_AA_ADAPTIVE, 4, .spread = WR_SPREAD_JITTERED },
+    { .name = "adaptive to 8x8, contrast", WR_AA_ADAPTIVE, 8 },
     { .name = "adaptive to 4x4, bound", WR_AA_ADAPTIVE, 4, .refine = WR_REFINE_BOUND },
 };
 

@@ -247,6 +247,35 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
                            wr_schemes[renderer->plan.scheme].reach + 2);
 }
 
+/* Is the view of the last picture, with its mesh, this one's? */
+static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *request,
+                        const WrPlan *before, const WrPlanAsk *ask)
+{
+    WrPlan lively = renderer->plan;
+    WrPlanAsk other = *ask;
+    if (!same_view(renderer, request)) return false;
+    if (wr_plan_same(before, &renderer->plan)) return true;
+    other.facts.lively = true;
+    wr_plan_samples(&lively, &other);
+    return wr_plan_same(before, &lively);
+}
+
+/* Where adaptive sampling does not pay, or no bound that it shall go by is known, all samples are taken. */
+static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request,
+                          const WrKernels *kernels, WrPlanAsk *ask)
+{
+    WrPlan *plan = &renderer->plan;
+    const WrForce *force = request->force;
+    if (plan->sampling != WR_SAMPLING_ADAPTIVE || (force && force[WR_EFFECT_BOUND])) return;
+    ask->facts.lively = plan->refine == WR_REFINE_BOUND && !wr_plan_runs(plan, WR_EFFECT_BOUND);
+    if (!ask->facts.lively) {
+        wr_frame_start_counts(renderer);
+        const WrTileJob job = make_job(renderer, request, kernels);
+        ask->facts.lively = !wr_refine_pays(&job, renderer->scratch[0]);
+    }
+    if (ask->facts.lively) wr_plan_samples(plan, ask);
+}
+
 /* Passes of one picture, which hold what they make, differ in their samples: each number keeps its mesh. */
 static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels)
@@ -324,12 +353,15 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
     if (!find_outside(renderer, request, &ask.facts.outside, err)) return false;
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
     if (!wr_frame_prepare_colour(renderer, request, err)) return false;
+    const bool stands = view_stands(renderer, request, &before, &ask);
+    if (stands) look_for_life(renderer, request, kernels, &ask);
     ask.facts.rests = rests(renderer, request, &before, kernels);
     wr_plan_again(&renderer->plan, &ask);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
         wr_keep_fini(&renderer->keep);
         renderer->outside = ask.facts.outside;
         if (!prepare_view(renderer, request, kernels, err)) return false;
+        if (!stands) look_for_life(renderer, request, kernels, &ask);
     }
     wr_frame_start_counts(renderer);
     FrameJob job = { .tile = make_job(renderer, request, kernels), .scratch = renderer->scratch };

@@ -24,6 +24,9 @@ extern const WrPipe wr_pipe, wr_pipe_double;
 
 /* Refine a tile by dials.h's rule: a first sample at each centre, then k x k where it is called for. */
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch);
+/* Is that for less than K x K everywhere? Told from a few blocks of the picture, whatever part of it is wanted. The
+   scratch's counts are spoilt. */
+bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch);
 /* Fill tile->shift for a grid of k x k a pixel (spread=jittered). */
 void wr_tile_jitter(WrDepthTile *tile, int k, signed char *shift);
 /* A depth tile of w x h samples at (x, y) of the grid of k a pixel; rasterised where there is a mesh. */

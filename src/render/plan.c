@@ -46,6 +46,12 @@ void wr_plan_build(WrPlan *plan, const WrPlanAsk *ask)
     for (int e = 0; e < WR_EFFECT_COUNT; e++) decide(plan, (WrEffect)e, ask);
 }
 
+void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask)
+{
+    decide(plan, WR_EFFECT_SAMPLES, ask);
+    decide(plan, WR_EFFECT_BOUND, ask);
+}
+
 void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask)
 {
     decide(plan, WR_EFFECT_AGAIN, ask);

@@ -185,6 +185,7 @@ typedef struct WrPlanFacts {
     bool slope_free; /* the gradient table is 0 everywhere, though the table is not flat */
     bool normals;    /* the caller wants n' itself */
     bool outside;    /* the eye is outside a closed surface, for certain */
+    bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
     bool rests; /* the last picture is kept, and was made by the same plan of the same request */
 } WrPlanFacts;
 
@@ -224,6 +225,8 @@ extern const WrEffectInfo wr_effects[WR_EFFECT_COUNT];
 void wr_plan_build(WrPlan *plan, const WrPlanAsk *ask);
 /* The row about rendering tiles again (E29) once more: its fact is known when plans have been compared. */
 void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask);
+/* The rows about samples once more: whether a view is lively is known when it has been looked at. */
+void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask);
 /* Do both make the same picture of one scene? All that rows own is compared, but E29's. */
 bool wr_plan_same(const WrPlan *a, const WrPlan *b);
 /* Of frames that make one picture: costs are added, a row runs that ran in any. */

@@ -193,6 +193,9 @@ static WrVerdict decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const 
     if (!takes_grid(dials))
         return say(WR_VERDICT_NONE, why, "the dial says one sample at the pixel's centre");
     if (dials->samples == 1) return say(WR_VERDICT_NONE, why, "one sample a pixel was asked for");
+    if (dials->aa == WR_AA_ADAPTIVE && ask->facts.lively)
+        return say(WR_VERDICT_RUN, why,
+                   "up to K x K were asked for: here fewer would cost more, so all are taken");
     return say(WR_VERDICT_RUN, why,
                dials->aa == WR_AA_SUPERSAMPLE
                    ? "the dial asks for the mean of K x K intensities"
@@ -204,9 +207,8 @@ static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)
     const WrDials *dials = ask->dials;
     const bool run = runs(plan, WR_EFFECT_SAMPLES);
     plan->samples = run ? dials->samples : 1;
-    plan->sampling = !run                          ? WR_SAMPLING_ONE
-                     : dials->aa == WR_AA_ADAPTIVE ? WR_SAMPLING_ADAPTIVE
-                                                   : WR_SAMPLING_ALL;
+    const bool adaptive = dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively;
+    plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
     if (!run) return;
     plan->spread = dials->spread;
     plan->refine = dials->refine;
@@ -233,10 +235,13 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
 
 static WrVerdict decide_bound(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    if (plan->sampling != WR_SAMPLING_ADAPTIVE || plan->refine != WR_REFINE_BOUND)
+    if (ask->dials->aa != WR_AA_ADAPTIVE || plan->refine != WR_REFINE_BOUND)
         return say(WR_VERDICT_NONE, why, "the dials do not ask for a bound");
     const char *reason = no_bound(plan, ask);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (ask->facts.lively)
+        return say(WR_VERDICT_NONE, why,
+                   "bounds would spare too little of this view: K x K everywhere");
     return say(WR_VERDICT_RUN, why,
                "K x K only where the intensity may change by more than `contrast`");
 }

@@ -1,0 +1,81 @@
+/* Does adaptive sampling pay in this view? A few small blocks of the picture are refined and counted. */
+#include "render/pipe.h"
+
+#include <math.h>
+#include <string.h>
+
+#define BLOCK_W 16 /* pixels */
+#define BLOCK_H 8
+#define APART 128 /* pixels from block to block, about, ... */
+#define LEAST 3   /* ... and how many there are along each side */
+#define MOST 6
+
+/* What is spent, in samples of plain supersampling. Measured. */
+#define FIRST 1.7       /* a first sample, its share of the ring, and looking at it */
+#define FIRST_BOUND 7.0 /* with a bound */
+#define MORE 1.2        /* each further sample: their places lie apart */
+#define DEPTH 0.15      /* a place in the depth tile, which is filled for all of them */
+#define GAIN 0.95       /* of plain supersampling's cost: more is not worth it */
+
+typedef struct Spent {
+    double adaptive, plain;
+} Spent;
+
+/* The first samples of the block that met something: within it, and with the ring. */
+static void count_first(const WrTileScratch *scratch, int w, int h, int ring, int *within, int *all)
+{
+    *within = *all = 0;
+    for (int y = -ring; y < h + ring; y++)
+        for (int x = -ring; x < w + ring; x++) {
+            const bool met = scratch->centre[y + WR_REFINE_RING][x + WR_REFINE_RING][3] > 0;
+            *all += met;
+            *within += met && y >= 0 && y < h && x >= 0 && x < w;
+        }
+}
+
+static void spend_block(const WrTileJob *job, int x, int y, WrTileScratch *scratch, Spent *spent)
+{
+    WrTileJob own = *job;
+    const int w = job->width < BLOCK_W ? job->width : BLOCK_W;
+    const int h = job->height < BLOCK_H ? job->height : BLOCK_H;
+    const bool bound = job->plan->refine == WR_REFINE_BOUND;
+    const double cells = (double)job->samples * job->samples;
+    const int64_t shaded = scratch->shaded;
+    int within, all;
+    own.rgba = scratch->mean[0];
+    own.rgba_pitch = (size_t)w;
+    own.x0 = x < 0 ? 0 : x > job->width - w ? job->width - w : x;
+    own.y0 = y < 0 ? 0 : y > job->height - h ? job->height - h : y;
+    memset(scratch->mean, 0, (size_t)(w * h) * sizeof *scratch->mean);
+    wr_refine_tile(&own, own.x0, own.y0, w, h, scratch);
+    count_first(scratch, w, h, bound ? 0 : WR_REFINE_RING, &within, &all);
+    const double more = (double)(scratch->shaded - shaded - all);
+    double area = 0;
+    for (int i = 0; i < w * h; i++) area += (double)scratch->mean[i][3];
+    spent->plain += cells * area;
+    spent->adaptive += (bound ? FIRST_BOUND : FIRST) * within + MORE * more +
+                       (job->mesh && more > 0 ? DEPTH * cells * area : 0);
+}
+
+static int blocks_along(int pixels)
+{
+    const int count = pixels / APART;
+    return count < LEAST ? LEAST : count > MOST ? MOST : count;
+}
+
+bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
+{
+    const WrView *view = job->view;
+    const int w = view->x1 - view->x0, h = view->y1 - view->y0;
+    if (w < LEAST * BLOCK_W || h < LEAST * BLOCK_W) return true; /* too little to tell */
+    WrTileJob own = *job;
+    Spent spent = { 0 };
+    own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
+    scratch->seen = NULL;
+    const int across = blocks_along(w), down = blocks_along(h);
+    for (int j = 0; j < down; j++)
+        for (int i = 0; i < across; i++)
+            spend_block(&own, view->x0 + (2 * i + 1) * w / (2 * across) - BLOCK_W / 2,
+                        view->y0 + (2 * j + 1) * h / (2 * down) - BLOCK_H / 2, scratch, &spent);
+    return !(spent.adaptive > GAIN * spent.plain);
+}
