@@ -33,10 +33,31 @@ typedef struct WrColourLook {
 typedef struct WrNewton {
     float reach_u, reach_v;   /* longest step */
     float enough_u, enough_v; /* a step shorter than both is the last; 0: none is */
-    bool closed_u, closed_v;  /* the parameter goes round */
-    int steps;                /* at most */
+    /* A step during which Pu or Pv changes by no more than the `last` part of itself is the last, and P follows it
+       along them; 0: none is. By |Puu|, |Puv|, |Pvv| at most. */
+    float uu, uv, vv, last;
+    bool closed_u, closed_v; /* the parameter goes round */
+    int steps;               /* at most */
 } WrNewton;
 typedef WrNewton WrNewtond;
+
+/* What a triangle interpolates: base + l1 d1 + l2 d2, of its second and third corner's shares l1, l2. */
+typedef struct WrPlane {
+    float base, d1, d2;
+} WrPlane;
+
+/* A triangle over the samples x0 <= x < x1, y0 <= y < y1 of a tile, so small that its edges are 32-bit numbers: a
+   sample is in it where none of the three is negative. */
+typedef struct WrWalk {
+    int32_t at[3], step_x[3], step_y[3]; /* 1/256 sample squared: at (x0, y0), and a sample on */
+    float inv;                           /* 1 / twice the area */
+    bool perspective;                    /* u and v are divided by depth */
+    WrPlane close, u, v;
+    int x0, y0, x1, y1;
+    int pitch; /* samples a row of the tile */
+} WrWalk;
+
+#define WR_WALK_PAD 16 /* samples past a tile's end that `cover` may write back as they were */
 
 #define REAL float
 #define SHAPE WrShapef

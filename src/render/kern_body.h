@@ -66,6 +66,9 @@
 #define WR_PRAGMA(text) _Pragma(#text)
 #define FLAT __attribute__((flatten)) /* a loop with a call left in it does not vectorise */
 #define MISS FLT_MAX
+#define LANES 16 /* samples at once of a triangle's row */
+#define ROUND_OF                                                                                   \
+    64 /* samples that Newton's method goes on with while one of them moves; divides WR_SPAN */
 #define STEEP 1e12f /* slopes beyond this are scaled down together with N: the direction stays */
 
 #define LOAD3(strip, name, i) ((VEC){ strip->name##x[i], strip->name##y[i], strip->name##z[i] })
@@ -160,6 +163,7 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 }
 
 #include "render/kern_hit_body.h"
+#include "render/kern_mesh_body.h"
 #include "render/kern_surface_body.h"
 #include "render/kern_look_body.h"
 #include "render/kern_bump_body.h"
@@ -184,12 +188,20 @@ const KERNELS WR_KERN_TABLE = {
         [WR_INVERT_CYLINDER] = ROUND(cylinder),
         [WR_INVERT_CONE] = ROUND(cone),
     },
+#ifndef WR_KERN_DOUBLE
+    .cover = kern_cover,
+#endif
+    .covered = kern_covered,
 #define WR_X(name) [WR_SURFACE_##name] = kern_polish_##name,
     .polish = {
 #include "surface/surface_list.h"
     },
 #define WR_X(name) [WR_SURFACE_##name] = kern_points_##name,
     .points = {
+#include "surface/surface_list.h"
+    },
+#define WR_X(name) [WR_SURFACE_##name] = kern_frame_##name,
+    .frame = {
 #include "surface/surface_list.h"
     },
 #define WR_X(name) [WR_SURFACE_##name] = kern_geometry_##name,

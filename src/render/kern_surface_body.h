@@ -1,11 +1,11 @@
 /* kern_surface_body.h - points, frames and Newton's method of every surface. A part of kern_body.h. */
 
-/* Into 0..1: round a closed parameter, stop at the edge of an open one. */
-static inline REAL settle(REAL t, REAL closed)
+/* Into 0..1: round a closed parameter, stop at the edge of an open one. closed is 0 or 1. */
+ALWAYS REAL settle(REAL t, REAL closed)
 {
-    REAL turn = t - r_floor(t);
-    turn = turn < 1.0f ? turn : 0.0f;
-    return closed * turn + (1.0f - closed) * clamp01(t); /* closed is 0 or 1 */
+    REAL turn = t - closed * r_floor(t);
+    turn = clamp01(turn);
+    return turn * closed < K_(1) ? turn : K_(0);
 }
 
 static inline REAL limit(REAL x, REAL reach)
@@ -14,24 +14,14 @@ static inline REAL limit(REAL x, REAL reach)
     return x > -reach ? x : -reach;
 }
 
-/* Squared distance of p from the ray. */
-static inline REAL miss2(VEC p, VEC q, VEC d)
-{
-    VEC w = v_sub(p, q);
-    VEC r = v_mad(w, d, -v_dot(w, d) / v_dot(d, d));
-    return v_dot(r, r);
-}
-
 typedef struct Param2 {
     REAL u, v;
 } Param2;
 
-static inline bool all_stand(int count, const REAL *moves)
-{
-    REAL any = K_(0);
-    for (int i = 0; i < count; i++) any = moves[i] > any ? moves[i] : any;
-    return !(any > K_(0));
-}
+/* 1 for a parameter that goes round, else 0. */
+typedef struct Closed {
+    REAL u, v;
+} Closed;
 
 /* A surface's formula: fills all of *at. Kernels of all surfaces are one text, into which each surface's own is inlined.
    One sample of each is a function: a POINT declared inside a simd loop would be kept in memory for all lanes, and the
@@ -92,77 +82,224 @@ ALWAYS void curvature_strip(Formula *const formula, const SHAPE *shape, int face
     }
 }
 
-/* Newton on w(u,v,s) = P - q - s d: with N = Pu x Pv, du = -(w . (Pv x d)) / (d . N) and
-   dv = -(w . (d x Pu)) / (d . N). Quadratic where d . N is not small; at silhouettes the step is
-   limited and, if it does not bring P nearer to the ray, not taken. */
-ALWAYS Param2 newton_step(VEC p, VEC pu, VEC pv, Ray ray, Param2 at, Param2 reach, Param2 closed)
+/* w x d, w = p - q: |w x d| / |d| is the distance of p from the ray. */
+ALWAYS VEC off_ray(VEC p, Ray ray)
 {
-    VEC w = v_sub(p, ray.q), n = v_cross(pu, pv);
-    REAL dn = v_dot(ray.d, n), inv = 1.0f / (dn != 0.0f ? dn : 1.0f);
-    REAL du = limit(-v_dot(w, v_cross(pv, ray.d)) * inv, reach.u);
-    REAL dv = limit(-v_dot(w, v_cross(ray.d, pu)) * inv, reach.v);
-    return (Param2){ settle(at.u + (dn != 0.0f ? du : K_(0)), closed.u),
-                     settle(at.v + (dn != 0.0f ? dv : K_(0)), closed.v) };
+    return v_cross(v_sub(p, ray.q), ray.d);
+}
+
+/* Newton on w(u,v,s) = P - q - s d: with N = Pu x Pv and c = w x d, du = (Pv . c) / (d . N) and
+   dv = -(Pu . c) / (d . N). Quadratic where d . N is not small; at silhouettes the step is
+   limited and, if it does not bring P nearer to the ray, not taken. */
+ALWAYS Param2 newton_step(VEC c, VEC pu, VEC pv, VEC d, Param2 reach)
+{
+    REAL dn = v_dot(d, v_cross(pu, pv));
+    REAL inv = dn != 0.0f ? 1.0f / (dn != 0.0f ? dn : 1.0f) : 0.0f;
+    return (Param2){ limit(v_dot(pv, c) * inv, reach.u), limit(-v_dot(pu, c) * inv, reach.v) };
 }
 
 #define KEEP3(strip, name, i, taken, vec)                                                          \
     STORE3(strip, name, i, choose(taken, vec, LOAD3(strip, name, i)))
 
-/* P, Pu, Pv: what a step looks at. */
-ALWAYS void put_tangent_plane(Formula *const formula, const SHAPE *shape, STRIP *strip, int i)
+/* What a patch is evaluated from: its formula, or points made ready. */
+typedef struct Patch {
+    const SHAPE *shape;
+    const FN(BezierPlane) * ready;
+} Patch;
+
+/* P, Pu, Pv: what a step looks at; of a formula n and |N| too. */
+ALWAYS POINT tangent_plane(Formula *const formula, const Patch *patch, const bool late, REAL u,
+                           REAL v)
 {
     POINT at;
-    formula(shape, 0, strip->u[i], strip->v[i], &at);
+    if (late) FN(bezier_plane)(patch->ready, u, v, &at);
+    else formula(patch->shape, 0, u, v, &at);
+    return at;
+}
+
+ALWAYS void put_tangent_plane(Formula *const formula, const Patch *patch, const bool late,
+                              STRIP *strip, int i)
+{
+    POINT at = tangent_plane(formula, patch, late, strip->u[i], strip->v[i]);
     STORE3(strip, p, i, at.p);
     STORE3(strip, pu, i, at.pu);
     STORE3(strip, pv, i, at.pv);
+    if (late) return;
+    STORE3(strip, n, i, at.n_unit);
+    strip->n_len[i] = at.n_len;
 }
 
-/* One step of sample i, whose P, Pu, Pv stand in the strip, as it does afterwards; how far it moved. */
-ALWAYS Param2 polish_sample(Formula *const formula, const SHAPE *shape, Ray ray, Param2 reach,
-                            Param2 closed, STRIP *strip, int i)
+/* What ends Newton's method. */
+typedef struct Enough {
+    REAL u, v;       /* steps shorter than these */
+    REAL uu, uv, vv; /* WrNewton's, over its `last` */
+} Enough;
+
+/* Does a step change the tangents by next to nothing? By Taylor: |Pu| by no more than |Puu| |du| + |Puv| |dv|. */
+ALWAYS bool turns_nothing(VEC pu, VEC pv, Enough enough, REAL du, REAL dv)
+{
+    REAL a = enough.uu * r_abs(du) + enough.uv * r_abs(dv);
+    REAL b = enough.uv * r_abs(du) + enough.vv * r_abs(dv);
+    return (a * a < v_dot(pu, pu)) & (b * b < v_dot(pv, pv));
+}
+
+/* The step of sample i from the P, Pu, Pv that stand in the strip: its end in tu, tv, the way there in ta, tb, and
+   how far it starts from the ray in fv. f: 0 where it does not move on, 1 a last step, 2 one at whose end the surface is
+   evaluated. */
+ALWAYS void aim_step(Ray ray, Param2 reach, Closed closed, Enough enough, STRIP *strip, int i)
 {
     VEC p = LOAD3(strip, p, i), pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
-    Param2 at = { strip->u[i], strip->v[i] };
-    Param2 to = newton_step(p, pu, pv, ray, at, reach, closed);
-    POINT there;
-    formula(shape, 0, to.u, to.v, &there);
-    bool taken = (miss2(there.p, ray.q, ray.d) <= miss2(p, ray.q, ray.d)) & (strip->s[i] > K_(0));
+    VEC c = off_ray(p, ray);
+    REAL u = strip->u[i], v = strip->v[i];
+    Param2 by = newton_step(c, pu, pv, ray.d, reach);
+    Param2 to = { settle(u + by.u, closed.u), settle(v + by.v, closed.v) };
+    REAL du = closed.u * by.u + (K_(1) - closed.u) * (to.u - u);
+    REAL dv = closed.v * by.v + (K_(1) - closed.v) * (to.v - v);
+    REAL how = turns_nothing(pu, pv, enough, du, dv) ? K_(1) : K_(2);
+    strip->tu[i] = to.u;
+    strip->tv[i] = to.v;
+    strip->ta[i] = du;
+    strip->tb[i] = dv;
+    strip->fv[i] = v_dot(c, c);
+    strip->f[i] = strip->s[i] > K_(0) ? how : K_(0);
+}
+
+/* Does the end of a step lie nearer to the ray, or as near? Then u, v go there. */
+ALWAYS bool go(Ray ray, VEC end, bool moves, STRIP *strip, int i)
+{
+    VEC c = off_ray(end, ray);
+    bool taken = (v_dot(c, c) <= strip->fv[i]) & moves;
+    strip->u[i] = taken ? strip->tu[i] : strip->u[i];
+    strip->v[i] = taken ? strip->tv[i] : strip->v[i];
+    return taken;
+}
+
+/* A last step: P follows it along the tangents. */
+ALWAYS void land(Ray ray, STRIP *strip, int i)
+{
+    VEC p = LOAD3(strip, p, i), pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
+    VEC end = v_mad(v_mad(p, pu, strip->ta[i]), pv, strip->tb[i]);
+    bool taken = go(ray, end, strip->f[i] == K_(1), strip, i);
+    KEEP3(strip, p, i, taken, end);
+}
+
+/* Any other: the surface is evaluated at its end. s: 1 while the sample moves. */
+ALWAYS void arrive(Formula *const formula, const Patch *patch, Ray ray, Enough enough,
+                   const bool late, STRIP *strip, int i)
+{
+    POINT there = tangent_plane(formula, patch, late, strip->tu[i], strip->tv[i]);
+    bool taken = go(ray, there.p, strip->f[i] > K_(1), strip, i);
+    bool short_one = (r_abs(strip->ta[i]) <= enough.u) & (r_abs(strip->tb[i]) <= enough.v);
     KEEP3(strip, p, i, taken, there.p);
     KEEP3(strip, pu, i, taken, there.pu);
     KEEP3(strip, pv, i, taken, there.pv);
-    strip->u[i] = taken ? to.u : at.u;
-    strip->v[i] = taken ? to.v : at.v;
-    REAL du = r_abs(to.u - at.u), dv = r_abs(to.v - at.v);
-    du = du > K_(0.5) ? K_(1) - du : du; /* across the seam */
-    dv = dv > K_(0.5) ? K_(1) - dv : dv;
-    return (Param2){ taken ? du : K_(0), taken ? dv : K_(0) };
+    strip->s[i] = taken & !short_one ? K_(1) : K_(0);
+    if (late) return;
+    KEEP3(strip, n, i, taken, there.n_unit);
+    strip->n_len[i] = taken ? there.n_len : strip->n_len[i];
 }
 
-/* A step evaluates the surface once: at its end, which is the next one's start. */
-ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *shape,
-                         const NEWTON *how, STRIP *strip)
+/* Is one of ROUND_OF samples to take a step of that kind? */
+ALWAYS bool any_aims(const REAL *f, REAL kind)
+{
+    int any = 0;
+    SIMD_SUM(any) for (int i = 0; i < ROUND_OF; i++)
+    {
+        any += f[i] == kind ? 1 : 0;
+    }
+    return any > 0;
+}
+
+/* ROUND_OF samples from `first` on. A step evaluates the surface once: at its end, which is the next one's start. */
+ALWAYS void polish_lanes(Formula *const formula, const Patch *patch, const RAYS *rays,
+                         const NEWTON *how, Enough enough, const bool late, int first, STRIP *strip)
 {
     const Param2 reach = { how->reach_u, how->reach_v };
-    const Param2 closed = { how->closed_u ? K_(1) : K_(0), how->closed_v ? K_(1) : K_(0) };
-    const REAL enough_u = how->enough_u, enough_v = how->enough_v;
-    const int count = strip->count;
-    const bool watched = (enough_u > K_(0)) | (enough_v > K_(0));
-    SIMD for (int i = 0; i < count; i++)
+    const Closed closed = { how->closed_u ? K_(1) : K_(0), how->closed_v ? K_(1) : K_(0) };
+    SIMD for (int i = first; i < first + ROUND_OF; i++)
     {
-        strip->s[i] = K_(1); /* while the sample moves */
-        put_tangent_plane(formula, shape, strip, i);
+        strip->s[i] = K_(1);
+        put_tangent_plane(formula, patch, late, strip, i);
     }
     for (int step = 0; step < how->steps; step++) {
-        SIMD for (int i = 0; i < count; i++)
+        SIMD for (int i = first; i < first + ROUND_OF; i++)
+        {
+            aim_step(ray_of(rays, strip, i, K_(0), K_(0), true), reach, closed, enough, strip, i);
+        }
+        const bool goes_on = any_aims(strip->f + first, K_(2)),
+                   lands = any_aims(strip->f + first, K_(1));
+        if (lands) {
+            SIMD for (int i = first; i < first + ROUND_OF; i++)
+            {
+                land(ray_of(rays, strip, i, K_(0), K_(0), true), strip, i);
+            }
+        }
+        if (!goes_on) break;
+        SIMD for (int i = first; i < first + ROUND_OF; i++)
         {
             Ray ray = ray_of(rays, strip, i, K_(0), K_(0), true);
-            Param2 moved = polish_sample(formula, shape, ray, reach, closed, strip, i);
-            bool on = (moved.u > enough_u) | (moved.v > enough_v);
-            strip->s[i] = on ? strip->s[i] : K_(0);
+            arrive(formula, patch, ray, enough, late, strip, i);
         }
-        if (watched && all_stand(count, strip->s)) break;
     }
+}
+
+/* The last sample again up to a whole number of ROUND_OF. */
+ALWAYS void fill_lanes(STRIP *strip)
+{
+    const int count = strip->count, last = count - 1;
+    for (int i = count; i % ROUND_OF != 0; i++) {
+        strip->u[i] = strip->u[last], strip->v[i] = strip->v[last];
+        strip->x[i] = strip->x[last], strip->y[i] = strip->y[last];
+    }
+}
+
+ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *shape,
+                         const NEWTON *how, const bool late, STRIP *strip)
+{
+    const REAL per = how->last > 0.0f ? K_(1) / how->last : K_(MISS);
+    const Enough enough = { how->enough_u, how->enough_v, how->uu * per, how->uv * per,
+                            how->vv * per };
+    const SHAPE own = *shape; /* that no store changes, as far as a compiler can see */
+    const RAYS seen = *rays;
+    FN(BezierPlane) ready;
+    const Patch patch = { &own, &ready };
+    if (late) FN(bezier_ready)(shape, &ready);
+    fill_lanes(strip);
+    for (int first = 0; first < strip->count; first += ROUND_OF)
+        polish_lanes(formula, &patch, &seen, how, enough, late, first, strip);
+}
+
+/* n and |N| of sample i, of Pu x Pv; 1 where that is so short that the way into the point decides. */
+ALWAYS int put_cross(REAL noise, STRIP *strip, int i)
+{
+    const VEC none = { 0, 0, 0 };
+    POINT at;
+    VEC n = v_cross(LOAD3(strip, pu, i), LOAD3(strip, pv, i));
+    FN(frame_from_n)(n, none, none, &at);
+    STORE3(strip, n, i, at.n_unit);
+    strip->n_len[i] = at.n_len;
+    return r_abs(n.x) + r_abs(n.y) + r_abs(n.z) > noise ? 0 : 1;
+}
+
+/* The same of all; false if one is so short. */
+ALWAYS bool cross_strip(REAL noise, STRIP *strip)
+{
+    const int count = strip->count;
+    int thin = 0;
+    SIMD_SUM(thin) for (int i = 0; i < count; i++)
+    {
+        thin += put_cross(noise, strip, i);
+    }
+    return thin == 0;
+}
+
+/* The normal of which surfaces costs more than the rest of them: it is worked out when Newton has ended. */
+#define LATE(name) (WR_SURFACE_##name == WR_SURFACE_bezier)
+
+/* n and |N|, which `polish` left to this. */
+ALWAYS void frame_strip(Formula *const formula, const SHAPE *shape, STRIP *strip)
+{
+    if (!cross_strip(FN(bezier_noise)(shape), strip)) geometry_strip(formula, shape, 0, strip);
 }
 
 /* Each surface's kernels. */
@@ -183,7 +320,11 @@ ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *
     FLAT static void kern_polish_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,   \
                                         STRIP *strip)                                              \
     {                                                                                              \
-        polish_strip(FN(name##_at), rays, shape, how, strip);                                      \
+        polish_strip(FN(name##_at), rays, shape, how, LATE(name), strip);                          \
+    }                                                                                              \
+    FLAT static void kern_frame_##name(const SHAPE *shape, STRIP *strip)                           \
+    {                                                                                              \
+        if (LATE(name)) frame_strip(FN(name##_at), shape, strip);                                  \
     }
 
 #define WR_X(name) SURFACE_KERNELS(name)

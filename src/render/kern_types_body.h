@@ -131,14 +131,21 @@ typedef struct WR_T(WrKernels) {
     int (*hit_quad_at)(const WR_T(WrRays) * rays, const WR_T(WrQuad) * quad, int count,
                        WR_T(WrStrip) * strip);
     WR_T(WrRound) round[WR_INVERSIONS]; /* zeros where rays meet a surface otherwise */
+    /* The triangle's nearest samples into a tile [rows][walk->pitch] and WR_WALK_PAD more. NULL in double precision. */
+    void (*cover)(const WrWalk *walk, float *close, float *u, float *v);
+    /* The samples of a row from (gx, gy) on that something covers: index, u, v, x, y. */
+    int (*covered)(const float *close, const float *u, const float *v, REAL gx, REAL gy, int count,
+                   WR_T(WrStrip) * strip);
     /* Newton's method from the guesses in u, v of the samples at x, y: solves P(u,v) = q + s d by
-       3 x 3 steps, no longer than `reach` in u and v, until a step is shorter than `enough` in u and v
-       (0: never); keeps the guess where it does not improve. Leaves P, Pu, Pv there. */
+       3 x 3 steps, no longer than `reach` in u and v, until a step is shorter than `enough` in u and v or the
+       `last`; keeps the guess where it does not improve. Leaves P, Pu, Pv there, for `frame`. */
     void (*polish[WR_SURFACE_COUNT])(const WR_T(WrRays) * rays, const SHAPE *shape,
                                      const WR_T(WrNewton) * how, WR_T(WrStrip) * strip);
     /* Points only, for meshes. */
     void (*points[WR_SURFACE_COUNT])(const SHAPE *shape, int count, const REAL *u, const REAL *v,
                                      REAL *x, REAL *y, REAL *z);
+    /* n and |N| at P, Pu, Pv, u, v as `polish` left them. */
+    void (*frame[WR_SURFACE_COUNT])(const SHAPE *shape, WR_T(WrStrip) * strip);
     /* P, Pu, Pv, n, |N|; and n_u, n_v. */
     void (*geometry[WR_SURFACE_COUNT])(const SHAPE *shape, int face, WR_T(WrStrip) * strip);
     void (*curvature[WR_SURFACE_COUNT])(const SHAPE *shape, int face, WR_T(WrStrip) * strip);

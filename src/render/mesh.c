@@ -162,7 +162,7 @@ static void allocate(WrViewMesh *mesh, int mu, int mv)
     mesh->blocks = wr_alloc((size_t)(mesh->blocks_u * mesh->blocks_v), sizeof *mesh->blocks);
 }
 
-static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info,
+static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info, double scale,
                               const WrMeshAsk *ask)
 {
     const int enough = mesh->mu < 64 || mesh->mv < 64 ? 3 : 2;
@@ -170,6 +170,9 @@ static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info,
                        .reach_v = 1.0f / (float)mesh->mv,
                        .enough_u = (float)fmin(ask->texels / fmax(ask->table_w, 1e-9), 1.0),
                        .enough_v = (float)fmin(ask->texels / fmax(ask->table_h, 1e-9), 1.0),
+                       .uu = (float)(mesh->uu * scale),
+                       .uv = (float)(mesh->uv * scale),
+                       .vv = (float)(mesh->vv * scale),
                        .closed_u = info->closed_u,
                        .closed_v = info->closed_v,
                        .steps = ask->newton < 0 ? enough : ask->newton };
@@ -204,7 +207,7 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
         mesh->shape = view->shape;
         wr_pool_run(pool, mv + 1, make_row, &job);
     }
-    mesh->newton = choose_newton(mesh, wr_surfaces[shape->kind], ask);
+    mesh->newton = choose_newton(mesh, wr_surfaces[shape->kind], view->scale, ask);
     const WrViewSight sight = sight_of(view);
     if (same && memcmp(&mesh->sight, &sight, sizeof sight) == 0) return;
     mesh->sight = sight;

@@ -49,6 +49,7 @@ typedef struct WrDepthTile {
     /* The grid's samples a pixel; 0: the view's K. Vertices are brought to it from K's, rounded. */
     int k;
     const signed char *shift; /* [h][w][2], x and y in 1/256 samples; NULL: none is shifted */
+    const WrKernels *kernels; /* that cover it */
 } WrDepthTile;
 
 /* What the scene asks of the mesh. */

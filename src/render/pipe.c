@@ -20,4 +20,5 @@
 #define LOOK_OF(job) (&(job)->look)
 #define VIEWED(view, member) ((view)->member)
 #define MORE_STEPS 0 /* more steps of Newton's method than single precision needs */
+#define TURN 0x1p-18 /* part of a tangent that Newton's last step may change it by */
 #include "render/pipe_body.h"

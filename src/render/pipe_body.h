@@ -120,6 +120,8 @@ static void surface_strip(const WrTileJob *job, int face, bool level, Strip *str
         did(watch, WR_EFFECT_TANGENTS);
     }
     if (round) round->normals(&VIEWED(job->view, shape), strip);
+    else if (runs(job, WR_EFFECT_NEWTON))
+        KERNELS_OF(job)->frame[job->view->shape_d.kind](&VIEWED(job->view, shape), strip);
     else KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
@@ -279,6 +281,7 @@ static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *
     if (strip->count == 0 || !runs(job, WR_EFFECT_NEWTON)) return;
     WR_T(WrNewton) how = job->mesh->newton;
     if (job->plan->newton < 0) how.steps += MORE_STEPS;
+    how.last = job->plan->newton < 0 ? (float)TURN : 0.0f;
     KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
     did(watch, WR_EFFECT_NEWTON);
     watch_lap(watch, WR_STAGE_NEWTON);
@@ -307,17 +310,8 @@ static void locate_row(const WrTileJob *job, const Rays *rays, const WrDepthTile
                        Strip *strip, Watch *watch)
 {
     const size_t at = (size_t)y * (size_t)tile->w;
-    const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
-    int count = 0;
-    for (int x = 0; x < tile->w; x++) {
-        if (tile->close[at + (size_t)x] == -FLT_MAX) continue;
-        strip->index[count] = x;
-        strip->x[count] = gx + (REAL)x;
-        strip->y[count] = gy;
-        strip->u[count] = (REAL)tile->u[at + (size_t)x];
-        strip->v[count++] = (REAL)tile->v[at + (size_t)x];
-    }
-    strip->count = count;
+    KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
+                             (REAL)(tile->y + y), tile->w, strip);
     polish(job, rays, strip, watch);
 }
 

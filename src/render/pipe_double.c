@@ -20,4 +20,5 @@
 #define LOOK_OF(job) (&(job)->look_double)
 #define VIEWED(view, member) ((view)->member##_d)
 #define MORE_STEPS 1 /* one step of Newton's method more: twice the digits */
+#define TURN 0x1p-47 /* part of a tangent that Newton's last step may change it by */
 #include "render/pipe_body.h"

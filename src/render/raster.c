@@ -66,19 +66,15 @@ static int64_t max3(int64_t a, int64_t b, int64_t c)
 }
 
 /* What is interpolated: q = value / depth is affine on the screen, so is closeness. */
-typedef struct Plane {
-    float base, d1, d2;
-} Plane;
-
-static Plane plane_of(float a, float b, float c)
+static WrPlane plane_of(float a, float b, float c)
 {
-    return (Plane){ a, b - a, c - a };
+    return (WrPlane){ a, b - a, c - a };
 }
 
 /* A triangle ready to be walked over: what rises from sample to sample, and what is interpolated. */
 typedef struct Walk {
     Edge a, b, c;
-    Plane close, u, v;
+    WrPlane close, u, v;
     float inv;
     bool perspective;
     int32_t x0, y0, x1, y1; /* samples of the tile */
@@ -114,6 +110,31 @@ static void cover(Walk *walk, WrDepthTile *tile)
         }
         walk->a.at += walk->a.step_y, walk->b.at += walk->b.step_y, walk->c.at += walk->c.step_y;
     }
+}
+
+/* The largest side L of a triangle, 1/256 samples, whose edges are 32-bit numbers over its box, a vector to its right and
+   a row below: 2 L (L + 18 * 256) < 2^31. */
+#define SMALL_SIDE 30000
+
+static void cover_small(const Walk *walk, WrDepthTile *tile)
+{
+    const Edge *edges[3] = { &walk->a, &walk->b, &walk->c };
+    WrWalk small = { .inv = walk->inv,
+                     .perspective = walk->perspective,
+                     .close = walk->close,
+                     .u = walk->u,
+                     .v = walk->v,
+                     .x0 = walk->x0,
+                     .y0 = walk->y0,
+                     .x1 = walk->x1,
+                     .y1 = walk->y1,
+                     .pitch = tile->w };
+    for (int k = 0; k < 3; k++) {
+        small.at[k] = (int32_t)edges[k]->at;
+        small.step_x[k] = (int32_t)edges[k]->step_x;
+        small.step_y[k] = (int32_t)edges[k]->step_y;
+    }
+    tile->kernels->cover(&small, tile->close, tile->u, tile->v);
 }
 
 static int64_t shifted(const Edge *edge, int64_t at, const signed char *shift)
@@ -182,10 +203,12 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
     if (view->perspective) farthest_first(&a, &b, &c);
     const int more = tile->shift ? 128 : 0;
     Walk walk = { .perspective = view->perspective, .inv = 1.0f / (float)area };
-    int32_t x0 = floor_sample(min3(a.x, b.x, c.x) - 128 - more) - tile->x;
-    int32_t x1 = floor_sample(max3(a.x, b.x, c.x) - 128 + more) + 1 - tile->x;
-    int32_t y0 = floor_sample(min3(a.y, b.y, c.y) - 128 - more) - tile->y;
-    int32_t y1 = floor_sample(max3(a.y, b.y, c.y) - 128 + more) + 1 - tile->y;
+    const int64_t left = min3(a.x, b.x, c.x), right = max3(a.x, b.x, c.x);
+    const int64_t top = min3(a.y, b.y, c.y), low = max3(a.y, b.y, c.y);
+    int32_t x0 = floor_sample(left - 128 - more) - tile->x;
+    int32_t x1 = floor_sample(right - 128 + more) + 1 - tile->x;
+    int32_t y0 = floor_sample(top - 128 - more) - tile->y;
+    int32_t y1 = floor_sample(low - 128 + more) + 1 - tile->y;
     walk.x0 = x0 < 0 ? 0 : x0, walk.y0 = y0 < 0 ? 0 : y0;
     walk.x1 = x1 > tile->w ? tile->w : x1, walk.y1 = y1 > tile->h ? tile->h : y1;
     if (walk.x0 >= walk.x1 || walk.y0 >= walk.y1) return;
@@ -201,6 +224,7 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
     walk.u = plane_of(a.u * wa, b.u * wb, c.u * wc);
     walk.v = plane_of(a.v * wa, b.v * wb, c.v * wc);
     if (tile->shift) cover_shifted(&walk, tile);
+    else if (right - left <= SMALL_SIDE && low - top <= SMALL_SIDE) cover_small(&walk, tile);
     else cover(&walk, tile);
 }
 

@@ -50,7 +50,8 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .close = scratch->close,
                          .u = scratch->u,
                          .v = scratch->v,
-                         .k = k };
+                         .k = k,
+                         .kernels = job->kernels };
     if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
     if (job->mesh) {
         double start = wr_clock_seconds();

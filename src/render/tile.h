@@ -13,6 +13,7 @@
 
 #define WR_TILE_SAMPLES_W 256 /* at most, along a tile */
 #define WR_TILE_SAMPLES_H 64
+#define WR_TILE_ROOM (WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H + WR_WALK_PAD)
 
 typedef struct WrPipe WrPipe;
 
@@ -81,8 +82,7 @@ typedef struct WrTileScratch {
     WrStrip strip, near, far; /* near, far: look-ups of filtered slopes */
     WrStripd *wide;           /* [3], the same in double; made on first use */
     WrScatter scatter;
-    float close[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H];
-    float u[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H], v[WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H];
+    float close[WR_TILE_ROOM], u[WR_TILE_ROOM], v[WR_TILE_ROOM];
     signed char shift[2 * WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H]; /* jittered */
     float sample[WR_TILE_SAMPLES_H][WR_TILE_SAMPLES_W][4];        /* R, G, B, A */
     float mean[WR_REFINE_W * WR_REFINE_H]
