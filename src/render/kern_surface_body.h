@@ -131,8 +131,8 @@ ALWAYS void put_tangent_plane(Formula *const formula, const Patch *patch, const 
 
 /* What ends Newton's method. */
 typedef struct Enough {
-    REAL u, v;       /* steps shorter than these */
-    REAL uu, uv, vv; /* WrNewton's, over its `last` */
+    REAL u, v;              /* steps shorter than these */
+    REAL uu, uv, vv, last2; /* WrNewton's; `last` squared */
 } Enough;
 
 /* Does a step change the tangents by next to nothing? By Taylor: |Pu| by no more than |Puu| |du| + |Puv| |dv|. */
@@ -140,7 +140,7 @@ ALWAYS bool turns_nothing(VEC pu, VEC pv, Enough enough, REAL du, REAL dv)
 {
     REAL a = enough.uu * r_abs(du) + enough.uv * r_abs(dv);
     REAL b = enough.uv * r_abs(du) + enough.vv * r_abs(dv);
-    return (a * a < v_dot(pu, pu)) & (b * b < v_dot(pv, pv));
+    return (a * a < enough.last2 * v_dot(pu, pu)) & (b * b < enough.last2 * v_dot(pv, pv));
 }
 
 /* The step of sample i from the P, Pu, Pv that stand in the strip: its end in tu, tv, the way there in ta, tb, and
@@ -256,9 +256,8 @@ ALWAYS void fill_lanes(STRIP *strip)
 ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *shape,
                          const NEWTON *how, const bool late, STRIP *strip)
 {
-    const REAL per = how->last > 0.0f ? K_(1) / how->last : K_(MISS);
-    const Enough enough = { how->enough_u, how->enough_v, how->uu * per, how->uv * per,
-                            how->vv * per };
+    const REAL last = how->last;
+    const Enough enough = { how->enough_u, how->enough_v, how->uu, how->uv, how->vv, last * last };
     const SHAPE own = *shape; /* that no store changes, as far as a compiler can see */
     const RAYS seen = *rays;
     FN(BezierPlane) ready;

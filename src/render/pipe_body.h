@@ -281,7 +281,9 @@ static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *
     if (strip->count == 0 || !runs(job, WR_EFFECT_NEWTON)) return;
     WR_T(WrNewton) how = job->mesh->newton;
     if (job->plan->newton < 0) how.steps += MORE_STEPS;
-    how.last = job->plan->newton < 0 ? (float)TURN : 0.0f;
+    /* Exact normals set Pu and Pv off against n_u and n_v: all of one place, whether the plan runs those or not. */
+    const bool off = job->plan->newton >= 0 || job->scene->bump == WR_BUMP_EXACT;
+    how.last = off ? 0.0f : (float)TURN;
     KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
     did(watch, WR_EFFECT_NEWTON);
     watch_lap(watch, WR_STAGE_NEWTON);
