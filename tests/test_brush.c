@@ -598,10 +598,50 @@ static void every_set_of_kernels_gives_the_same_bits(void **state)
             assert_int_equal(plain->grows(a[2], a[0], count), k->grows(b[2], b[0], count));
             assert_int_equal(plain->below(a[0], 0.5f, count), k->below(b[0], 0.5f, count));
             plain->add(0.3, a[2], a[0], count, a[2]), k->add(0.3, b[2], b[0], count, b[2]);
-            plain->dab_add(&c, y, x, count, -0.7, a[2]), k->dab_add(&c, y, x, count, -0.7, b[2]);
             plain->join(a[0], a[1], count), k->join(b[0], b[1], count);
             for (int q = 0; q < 3; q++)
                 assert_memory_equal(a[q], b[q], sizeof(float) * (size_t)count);
+        }
+    }
+}
+
+/* A dab's part in one tile against its coverage row by row, added; also where columns beside the part must stay, far
+ * off, and with heights of every size. */
+static void a_dab_in_a_tile_is_its_rows_coverage_added(void **state)
+{
+    (void)state;
+    TestRandom random = { 51 };
+    const double sizes[] = { 0, 1e-40, 1.0, 1e30, 3e38 };
+    for (int set = 0; set < WR_BRUSH_KERNELS; set++) {
+        const WrBrushKernels *plain = wr_brush_kernels_at(0), *k = wr_brush_kernels_at(set);
+        if (!k) continue;
+        for (int n = 0; n < 2000; n++) {
+            double radius = n % 5 ? 1 + 60 * test_random(&random) : 1 + 3000 * test_random(&random);
+            WrBrush brush = brush_of(radius, n % 7 ? test_random(&random) : n % 2, 1);
+            double strength = n % 3 ? test_random(&random) - 0.5 : -1e30;
+            int x = (int)(16384 * test_random(&random)) - 8000,
+                y = (int)(200 * test_random(&random));
+            WrCapsule c = wr_capsule(&brush, x + 64 * test_random(&random) + (n % 2 ? radius : 0),
+                                     y + 64 * test_random(&random), 0, 0, 1, n % 4 ? 1 : 0.3);
+            static WrDabRows rows;
+            WrDabPart part = { .rows = &rows, .y = y, .x = x };
+            part.count = 1 + (int)(64 * test_random(&random));
+            part.low = n % 2 ? 0 : (int)(64 * test_random(&random));
+            part.high = n % 2 ? 63 : part.low + (int)((64 - part.low) * test_random(&random));
+            static float a[WR_TILE * WR_TILE], b[WR_TILE * WR_TILE];
+            for (int i = 0; i < WR_TILE * WR_TILE; i++)
+                a[i] = b[i] = (float)(sizes[n % 5] * (1 - 2 * test_random(&random)));
+            a[100] = b[100] = -0.0f;
+            k->dab_rows(&c, y, part.count, &rows);
+            k->dab_tile(&c, &part, strength, a);
+            for (int row = 0; row < part.count; row++) {
+                float cover[WR_TILE], made[WR_TILE];
+                plain->dab(&c, y + row, x, WR_TILE, cover);
+                plain->add(strength, b + row * WR_TILE, cover, WR_TILE, made);
+                memcpy(b + row * WR_TILE + part.low, made + part.low,
+                       (size_t)(part.high - part.low + 1) * sizeof *made);
+            }
+            assert_memory_equal(a, b, sizeof a);
         }
     }
 }
@@ -648,6 +688,7 @@ int main(void)
         cmocka_unit_test(texels_without_coverage_keep_their_bits),
         cmocka_unit_test(the_table_is_free_of_seams_where_its_edge_cuts_a_tile),
         cmocka_unit_test(every_set_of_kernels_gives_the_same_bits),
+        cmocka_unit_test(a_dab_in_a_tile_is_its_rows_coverage_added),
         cmocka_unit_test(coverage_is_1_inside_and_0_outside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #define WR_BRUSH_BLOCK 16    /* texels */
+#define WR_DAB_BLOCK 8       /* texels: a vector of doubles */
 #define WR_BRUSH_STRONG 1e30 /* table units */
 
 /* A dab that is not round, or whose falloff is libmypaint's. */
@@ -23,6 +24,21 @@ typedef struct WrEllipse {
     bool rounded; /* the round brush's falloff */
 } WrEllipse;
 
+/* Columns, not wrapped; low > high: none. Cut to +-2^30. */
+typedef struct WrDabRows {
+    int low[WR_TILE], high[WR_TILE];           /* all */
+    int flat_low[WR_TILE], flat_high[WR_TILE]; /* of equal coverage */
+} WrDabRows;
+
+/* What of a dab lies in one tile. */
+typedef struct WrDabPart {
+    const WrDabRows *rows;
+    int y, count; /* unwrapped row of the first one; rows, of which row k is rows' k */
+    int x;        /* unwrapped column of the tile's column 0 */
+    int low,
+        high; /* columns of the tile, 0..WR_TILE - 1, of which it may change any; best whole WR_DAB_BLOCKs */
+} WrDabPart;
+
 typedef struct WrBrushKernels {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
 
@@ -34,9 +50,13 @@ typedef struct WrBrushKernels {
     void (*ellipse)(const WrEllipse *ellipse, double y, double x, int count, float *cover);
     void (*soft)(const WrEllipse *ellipse, double y, double x, int count, float *cover);
 
-    /* What `dab` and then `add` do to heights[i]. */
-    void (*dab_add)(const WrCapsule *capsule, double y, double x, int count, double strength,
-                    float *heights);
+    /* Where the rows y .. y + count - 1 of a dab lie: all that it reaches, and what lies within its inner
+     * radius; a little wide and a little narrow. */
+    void (*dab_rows)(const WrCapsule *capsule, double y, int count, WrDabRows *rows);
+    /* What `dab` and then `add` do to one tile's texels. heights: the texel of that tile in the first row and
+     * column 0. Texels beside the part that the dab reaches keep their bits. */
+    void (*dab_tile)(const WrCapsule *capsule, const WrDabPart *part, double strength,
+                     float *heights);
 
     /* Whether any cover[i] < fresh[i]; whether any cover[i] < most. */
     bool (*grows)(const float *cover, const float *fresh, int count);

@@ -3,6 +3,9 @@
 #include "brush/kern.h"
 
 #include <math.h>
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
 
 /* Smoothstep of how far the distance, here squared, has come from the radius to the inner radius. It is
  * cut to those two before the root is taken, where sqrt(r r) is r again, so that no constant of 0 or 1
@@ -63,21 +66,127 @@ static void dab(const WrCapsule *capsule, double y, double x, int count, float *
     }
 }
 
-static void dab_add(const WrCapsule *capsule, double y, double x, int count, double strength,
-                    float *restrict heights)
+static inline double cut(double x)
+{
+    x = x < 0x1p30 ? x : 0x1p30;
+    return x > -0x1p30 ? x : -0x1p30;
+}
+
+static void dab_rows(const WrCapsule *capsule, double y, int count, WrDabRows *rows)
 {
     const WrCapsule c = *capsule;
-    double ey = y - c.y, ey2 = ey * ey;
-    for (int b = 0; b < count; b += WR_BRUSH_BLOCK) {
-        if (is_flat(&c, ey2, x + b)) {
+    const double slack = 1e-3; /* texels: above all rounding, below all cost */
+    double low[WR_TILE], high[WR_TILE], flat_low[WR_TILE], flat_high[WR_TILE];
+    count = (count + WR_DAB_BLOCK - 1) & -WR_DAB_BLOCK; /* whole vectors */
 #pragma omp simd
-            for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
-                heights[i] = raised(strength, heights[i], c.most);
-            continue;
+    for (int k = 0; k < count; k++) {
+        double ey = (y + steps[k]) - c.y, outer = c.radius2 - ey * ey, inner = c.inner2 - ey * ey;
+        double half = sqrt(outer > 0.0 ? outer : 0.0) + slack;
+        double flat = sqrt(inner > 0.0 ? inner : 0.0) - slack;
+        half = outer > 0.0 ? half : -2.0;
+        flat = inner > 0.0 ? flat : -2.0;
+        low[k] = floor(cut(c.x - half));
+        high[k] = floor(cut(c.x + half));
+        flat_low[k] = floor(cut(c.x - flat));
+        flat_high[k] = floor(cut(c.x + flat));
+    }
+#pragma omp simd
+    for (int k = 0; k < count; k++) {
+        rows->low[k] = (int)low[k];
+        rows->high[k] = (int)high[k];
+        rows->flat_low[k] = (int)flat_low[k] + 1;
+        rows->flat_high[k] = (int)flat_high[k];
+    }
+}
+
+/* The square of a column's distance; that sum is exact, so a texel gets the same bits in whatever tile. */
+static inline void squares(const WrCapsule *c, double x, double *restrict ex2)
+{
+#pragma omp simd
+    for (int i = 0; i < WR_TILE; i++) {
+        double ex = (x + steps[i]) - c->x;
+        ex2[i] = ex * ex;
+    }
+}
+
+/* Blocks of texels some of which lie between the radii. */
+#if defined __AVX512F__ && defined __AVX512VL__
+/* The same as below in whole vectors of doubles, of which compilers take two halves. */
+static inline void raise_edge(const WrCapsule *c, const double *restrict ex2, double ey2,
+                              double strength, float *restrict heights, int from, int to)
+{
+    const __m512d radius = _mm512_set1_pd(c->radius), inverse = _mm512_set1_pd(c->inverse_edge);
+    const __m512d most = _mm512_set1_pd(c->radius2), least = _mm512_set1_pd(c->inner2);
+    const __m512d pressure = _mm512_set1_pd(c->pressure), by = _mm512_set1_pd(strength);
+    const __m512d row = _mm512_set1_pd(ey2), three = _mm512_set1_pd(3.0);
+    for (int b = from; b < to; b += WR_DAB_BLOCK) {
+        __m512d d2 = _mm512_add_pd(_mm512_loadu_pd(ex2 + b), row);
+        d2 = _mm512_max_pd(_mm512_min_pd(d2, most), least);
+        __m512d s = _mm512_mul_pd(_mm512_sub_pd(radius, _mm512_sqrt_pd(d2)), inverse);
+        __m512d smooth = _mm512_sub_pd(three, _mm512_add_pd(s, s));
+        smooth = _mm512_mul_pd(_mm512_mul_pd(s, s), smooth);
+        __m256 cover = _mm512_cvtpd_ps(_mm512_mul_pd(pressure, smooth));
+        __m256 start = _mm256_loadu_ps(heights + b);
+        __mmask8 any = _mm256_cmp_ps_mask(cover, _mm256_setzero_ps(), _CMP_GT_OQ);
+        __m512d made = _mm512_mul_pd(by, _mm512_cvtps_pd(cover));
+        made = _mm512_add_pd(_mm512_cvtps_pd(start), made);
+        _mm256_storeu_ps(heights + b, _mm256_mask_mov_ps(start, any, _mm512_cvtpd_ps(made)));
+    }
+}
+#else
+static inline void raise_edge(const WrCapsule *c, const double *restrict ex2, double ey2,
+                              double strength, float *restrict heights, int from, int to)
+{
+    for (int b = from; b < to; b += WR_DAB_BLOCK)
+#pragma omp simd
+        for (int i = b; i < b + WR_DAB_BLOCK; i++) {
+            float cover = (float)(c->pressure * profile(c, ex2[i] + ey2));
+            heights[i] = raised(strength, heights[i], cover);
         }
+}
+#endif
+
+/* The same one by one, where blocks must not be widened. */
+static inline void raise_some(const WrCapsule *c, const double *ex2, double ey2, double strength,
+                              float *heights, int from, int to)
+{
+    for (int i = from; i < to; i++)
+        heights[i] = raised(strength, heights[i], (float)(c->pressure * profile(c, ex2[i] + ey2)));
+}
+
+static inline void raise_by(double by, float *restrict heights, int from, int to)
+{
 #pragma omp simd
-        for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
-            heights[i] = raised(strength, heights[i], dab_cover(&c, ey2, x, i));
+    for (int i = from; i < to; i++) heights[i] = (float)(heights[i] + by);
+}
+
+static void dab_tile(const WrCapsule *capsule, const WrDabPart *part, double strength,
+                     float *restrict heights)
+{
+    enum { B = WR_DAB_BLOCK };
+    const WrCapsule c = *capsule;
+    const WrDabRows *rows = part->rows;
+    double ex2[WR_TILE], by = strength * c.most;
+    int first = (part->low + B - 1) & -B, last = (part->high + 1) & -B; /* whole blocks */
+    squares(&c, part->x, ex2);
+    for (int k = 0; k < part->count; k++, heights += WR_TILE) {
+        double ey = (part->y + steps[k]) - c.y, ey2 = ey * ey;
+        if (first > part->low || last <= part->high) {
+            int head = first <= part->high ? first : part->high + 1;
+            raise_some(&c, ex2, ey2, strength, heights, part->low, head);
+            if (last >= first) raise_some(&c, ex2, ey2, strength, heights, last, part->high + 1);
+        }
+        int low = rows->low[k] - part->x, high = rows->high[k] - part->x;
+        low = (low > first ? low : first) & -B;
+        high = ((high < last ? high : last - 1) | (B - 1)) + 1;
+        if (low >= high) continue;
+        int flat_low = rows->flat_low[k] - part->x, flat_high = rows->flat_high[k] + 1 - part->x;
+        flat_low = ((flat_low > low ? flat_low : low) + B - 1) & -B;
+        flat_high = (flat_high < high ? flat_high : high) & -B;
+        if (!(c.most > 0.0f) || flat_low >= flat_high) flat_low = flat_high = high;
+        raise_edge(&c, ex2, ey2, strength, heights, low, flat_low);
+        raise_by(by, heights, flat_low, flat_high);
+        raise_edge(&c, ex2, ey2, strength, heights, flat_high, high);
     }
 }
 
@@ -224,7 +333,8 @@ static void add(double strength, const float *start, const float *cover, int cou
 const WrBrushKernels WR_BRUSH_TABLE = {
     .name = WR_BRUSH_NAME,
     .dab = dab,
-    .dab_add = dab_add,
+    .dab_rows = dab_rows,
+    .dab_tile = dab_tile,
     .motion = motion,
     .ellipse = ellipse,
     .soft = soft,

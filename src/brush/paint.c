@@ -90,7 +90,6 @@ typedef struct Spot {
     WrField *field;
     const WrModeWork *work;
     WrModeArgs args;
-    double strength; /* what is plainly added; 0: not so plain */
     float opacity;
 } Spot;
 
@@ -107,18 +106,76 @@ static void visit(void *ctx, const WrDabShape *shape, const WrScanPatch *patch)
     float *out = NULL; /* fetched with the first texel that changes */
     for (int k = 0; k < patch->count; k++) {
         const WrRun *run = &patch->runs[k];
-        if (out && spot->strength != 0.0 && shape->kind == WR_SHAPE_DAB && !run->head &&
-            !run->tail) {
-            shape->kernels->dab_add(&shape->capsule, run->y, run->x, run->count, spot->strength,
-                                    out + run->at);
-            continue;
-        }
         alignas(WR_ALIGN) float fresh[WR_TILE];
         wr_run_cover(shape, run, fresh);
         if (!out && !any_cover(fresh, run->count)) continue;
         if (!out) out = wr_field_tile_write(spot->field, patch->tx, patch->ty);
         for (int i = 0; i < run->count; i++) fresh[i] *= spot->opacity;
         spot->work->cover(&spot->args, out + run->at, fresh, NULL, run->count, out + run->at);
+    }
+}
+
+/* ---- what is plainly added, tile by tile ---- */
+
+/* The nearest to p of low .. high. */
+static double nearest(double p, int low, int high)
+{
+    return p < low ? low : p > high ? high : rint(p);
+}
+
+/* Whether the dab covers any texel of a rectangle; as the kernels do it. */
+static bool covers(const WrCapsule *c, int i, int j, int count_i, int count_j)
+{
+    double ex = nearest(c->x, i, i + count_i - 1) - c->x;
+    double ey = nearest(c->y, j, j + count_j - 1) - c->y, d2 = ex * ex + ey * ey;
+    return d2 < c->radius2 && c->radius - sqrt(d2) > 0.0;
+}
+
+/* Whether columns may be widened to whole blocks. That would meet another image's texels where the dab spans the
+ * table, and unused ones where that ends within a block. */
+static bool may_widen(const WrField *field, const WrDabShape *shape)
+{
+    int width = wr_field_width(field);
+    bool spans =
+        wr_field_wrap_u(field) == WR_WRAP_PERIODIC && shape->reach_x >= 0.5 * width - WR_DAB_BLOCK;
+    return !spans && width % WR_DAB_BLOCK == 0;
+}
+
+static void add_band(WrField *field, const WrDabShape *shape, double strength, WrWindow columns,
+                     const WrDabRows *rows, int j, int count_j, int texel_j)
+{
+    bool widens = may_widen(field, shape);
+    WrDabPart part = { .rows = rows, .y = j, .count = count_j };
+    for (int i = columns.low, count; i <= columns.high; i += count) {
+        int texel;
+        count = wr_tile_run(i, columns.high, wr_field_width(field), &texel);
+        if (!covers(&shape->capsule, i, j, count, count_j)) continue;
+        part.x = i - texel % WR_TILE;
+        part.low = i - part.x;
+        part.high = part.low + count - 1;
+        if (widens) {
+            part.low &= -WR_DAB_BLOCK;
+            part.high |= WR_DAB_BLOCK - 1;
+        }
+        float *tile = wr_field_tile_write(field, texel / WR_TILE, texel_j / WR_TILE);
+        shape->kernels->dab_tile(&shape->capsule, &part, strength,
+                                 tile + texel_j % WR_TILE * WR_TILE);
+    }
+}
+
+static void add_dab(WrField *field, const WrDabShape *shape, double strength)
+{
+    WrWindow columns =
+        wr_window(shape->x, 0.0, shape->reach_x, wr_field_width(field), wr_field_wrap_u(field));
+    WrWindow rows =
+        wr_window(shape->y, 0.0, shape->reach_y, wr_field_height(field), wr_field_wrap_v(field));
+    if (columns.low > columns.high) return;
+    for (int j = rows.low, count; j <= rows.high; j += count) {
+        WrDabRows spans;
+        int texel;
+        count = wr_tile_run(j, rows.high, wr_field_height(field), &texel);
+        shape->kernels->dab_rows(&shape->capsule, j, count, &spans);
+        add_band(field, shape, strength, columns, &spans, j, count, texel);
     }
 }
 
@@ -131,12 +188,13 @@ void wr_paint_dab(WrField *field, const WrBrush *brush, double x, double y)
     if (!(brush->opacity > 0.0) || !(brush->radius > 0.0) ||
         (spot.work->as_strong && brush->strength == 0.0))
         return;
-    bool plain = brush->opacity == 1.0 && fabs(brush->strength) <= WR_BRUSH_STRONG;
-    if (plain && brush->mode == WR_BRUSH_RAISE) spot.strength = brush->strength;
-    if (plain && brush->mode == WR_BRUSH_LOWER) spot.strength = -brush->strength;
     WrDabShape shape;
     bool there = brush->radius <= WR_THIN
                      ? wr_shape_of_texel(field, x, y, 1.0, &shape)
                      : wr_shape_of_motion(field, brush, x, y, 0.0, 0.0, 1.0, 1.0, &shape);
-    if (there) wr_scan(field, &shape, NULL, NULL, visit, &spot);
+    bool plain = brush->opacity == 1.0 && fabs(brush->strength) <= WR_BRUSH_STRONG &&
+                 (brush->mode == WR_BRUSH_RAISE || brush->mode == WR_BRUSH_LOWER);
+    double strength = brush->mode == WR_BRUSH_RAISE ? brush->strength : -brush->strength;
+    if (there && plain && shape.kind == WR_SHAPE_DAB) add_dab(field, &shape, strength);
+    else if (there) wr_scan(field, &shape, NULL, NULL, visit, &spot);
 }

@@ -2,8 +2,11 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "brush/brush.h"
 #include "brush/peer.h"
 #include "cli/bench.h"
+#include "field/field.h"
+#include "system/clock.h"
 
 #include <math.h>
 
@@ -57,6 +60,46 @@ bool wr_bench_brush_lines(const WrCli *cli, bool quick, WrText *text, WrError *e
     return true;
 }
 
+/* Nanoseconds of one round dab, always over the same few tiles in the table's middle. */
+static double time_dab(WrField *field)
+{
+    enum { DABS = 4000 };
+    double side = wr_field_width(field), start = wr_clock_seconds();
+    WrBrush brush = wr_brush_default();
+    brush.radius = 32.0;
+    for (int i = 0; i < DABS; i++)
+        wr_brush_dab(field, &brush, 0.5 + i * 16 % 200 / side, 0.5 + i * 7 % 150 / side);
+    return 1e9 * (wr_clock_seconds() - start) / DABS;
+}
+
+/* The same dabs on a small and on a large table, by turns. */
+static bool add_sizes(bool quick, WrText *text, WrError *err)
+{
+    static const int sides[2] = { 512, 16384 };
+    WrField *fields[2] = { NULL, NULL };
+    double times[2][ROUNDS_MAX], median[2];
+    int rounds = quick ? 5 : ROUNDS_MAX;
+    bool good = true;
+    for (int t = 0; t < 2 && good; t++) {
+        fields[t] = wr_field_new(sides[t], sides[t], WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, err);
+        good = fields[t] != NULL;
+    }
+    for (int k = -1; k < rounds && good; k++)
+        for (int t = 0; t < 2; t++) {
+            double ns = time_dab(fields[t]);
+            if (k >= 0) times[t][k] = ns;
+        }
+    for (int t = 0; t < 2 && good; t++) median[t] = wr_bench_median(times[t], rounds);
+    if (good)
+        wr_text_addf(text,
+                     "  a dab of radius 32 takes %.0f ns on a table of %dx%d, %.0f on %dx%d: %.2f "
+                     "times as long\n",
+                     median[0], sides[0], sides[0], median[1], sides[1], sides[1],
+                     median[1] / median[0]);
+    for (int t = 0; t < 2; t++) wr_field_free(fields[t]);
+    return good;
+}
+
 bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *err)
 {
     wr_text_addf(text, "\ndabs a second         %12s %8s %12s %8s %6s %12s %8s %6s\n", "libmypaint",
@@ -70,5 +113,5 @@ bool wr_bench_brush_table(const WrCli *cli, bool quick, WrText *text, WrError *e
                      b.radius, b.peer, b.peer * mega, b.engine, b.engine * mega, b.engine / b.peer,
                      b.round, b.round * mega, b.round / b.peer);
     }
-    return true;
+    return add_sizes(quick, text, err);
 }

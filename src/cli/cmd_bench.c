@@ -10,7 +10,7 @@
 #define ROWS_MAX 128
 
 typedef struct Options {
-    bool lines, exact, quick, made;
+    bool lines, exact, quick, made, brushes;
     uint64_t sections; /* bit i: wr_bench_sections[i] */
 } Options;
 
@@ -19,8 +19,10 @@ static bool unknown_word(const char *word, WrError *err)
     WrText parts = { 0 };
     for (int i = 0; wr_bench_sections[i].name; i++)
         wr_text_addf(&parts, "%s, ", wr_bench_sections[i].name);
-    wr_fail(err, "bench: unknown word %.60s: must be generate, all, %s--lines, --exact or --quick",
-            word, wr_text_get(&parts));
+    wr_fail(
+        err,
+        "bench: unknown word %.60s: must be generate, brushes, all, %s--lines, --exact or --quick",
+        word, wr_text_get(&parts));
     wr_text_fini(&parts);
     return false;
 }
@@ -34,6 +36,7 @@ static bool read_word(const char *word, Options *options, WrError *err)
     else if (strcmp(word, "--exact") == 0) options->exact = true;
     else if (strcmp(word, "--quick") == 0) options->quick = true;
     else if (strcmp(word, "generate") == 0) options->made = true;
+    else if (strcmp(word, "brushes") == 0) options->brushes = true;
     else return unknown_word(word, err);
     return true;
 }
@@ -43,10 +46,13 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
     *options = (Options){ .sections = 0 };
     for (int i = 0; i < cli->word_count; i++)
         if (!read_word(cli->words[i], options, err)) return false;
-    if (cli->json && !options->sections && !options->made)
+    if (cli->json && !options->sections && !options->made && !options->brushes)
         options->sections = ~(uint64_t)0, options->lines = true;
-    if (options->made && options->sections)
-        return wr_fail(err, "bench: generate stands alone, without other parts");
+    if (options->made + options->brushes + (options->sections != 0) > 1)
+        return wr_fail(err, "bench: %s stands alone, without other parts",
+                       options->made ? "generate" : "brushes");
+    if (cli->json && options->brushes)
+        return wr_fail(err, "bench: brushes has no --json; --lines is for programs");
     if ((cli->sized && !options->sections) || (options->sections && options->lines && !cli->json))
         return wr_fail(err, cli->sized ? "bench: --size is of the parts: name one, or all"
                                        : "bench: --lines beside parts needs --json");
@@ -242,6 +248,12 @@ static bool bench_json(const WrCli *cli, const Options *options, WrText *text, W
     return good;
 }
 
+static bool bench_brushes(const WrCli *cli, const Options *options, WrText *text, WrError *err)
+{
+    return options->lines ? wr_bench_brush_lines(cli, options->quick, text, err)
+                          : wr_bench_brush_table(cli, options->quick, text, err);
+}
+
 int wr_cli_bench(const WrCli *cli)
 {
     WrError err = { "" };
@@ -250,9 +262,10 @@ int wr_cli_bench(const WrCli *cli)
     if (!read_options(cli, &options, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
     bool good = cli->json          ? bench_json(cli, &options, &text, &err)
                 : options.sections ? bench_sections(cli, &options, &text, &err)
-                : options.made  ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
-                : options.lines ? bench_lines(cli, &options, &text, &err)
-                                : bench_table(cli, &options, &text, &err);
+                : options.made ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
+                : options.brushes ? bench_brushes(cli, &options, &text, &err)
+                : options.lines   ? bench_lines(cli, &options, &text, &err)
+                                  : bench_table(cli, &options, &text, &err);
     int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&text);
     return status;

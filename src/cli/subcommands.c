@@ -70,11 +70,13 @@ const WrSubcommand wr_subcommands[] = {
       "--sheet paints the same stroke with each and shows them lit, with their names.",
       wr_cli_brushes },
 #ifdef WR_HAVE_BENCH
-    { "bench", "bench [PART...|all|generate] [--quick] [--exact] [--lines] [--size WxH] [--json]",
+    { "bench",
+      "bench [PART...|all|generate|brushes] [--quick] [--exact] [--lines] [--size WxH] [--json]",
       "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS),
       "Pictures, documents, brushes and the window; with generate alone what fills a table, beside "
       "gegl\n"
-      "and oiiotool where they are installed. A PART alone: pictures that differ in one thing, "
+      "and oiiotool where they are installed, with brushes alone dabs beside libmypaint. A PART "
+      "alone: pictures that differ in one thing, "
       "beside the\n"
       "machine's peaks of the same run: surfaces, schemes, normals, aliasing, effects, isa, plan, "
       "still,\n"
