@@ -172,6 +172,16 @@ static void moments(WrScene *scene)
     scene->dials.aa = WR_AA_MOMENTS;
 }
 
+static void smooth(WrScene *scene)
+{
+    scene->bump = WR_BUMP_NONE;
+}
+
+static void from_behind(WrScene *scene)
+{
+    scene->lights[0].where = (WrVec3){ 0.2, 0.9, -1 };
+}
+
 static void orthographic(WrScene *scene)
 {
     scene->camera.orthographic = true;
@@ -228,12 +238,15 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_NEWTON)] = { .surface = "torus", .mode = WR_BENCH_BUMP, .with = same },
     [WR_ROW(WR_EFFECT_PERSPECTIVE)] = { BUMPED, .with = same, .without = orthographic },
     [WR_ROW(WR_EFFECT_AGAIN)] = { BUMPED, .with = same, .without = same },
+    [WR_ROW(WR_EFFECT_BESIDE)] = { BUMPED, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_SPREAD)] = { BUMPED, .with = moments },
     [WR_ROW(WR_EFFECT_ROUNDED)] = { BUMPED, .with = rounded },
     [WR_ROW(WR_EFFECT_DOUBLE)] = { BUMPED, .with = doubled },
     [WR_ROW(WR_EFFECT_HALF)] = { BUMPED, .with = halved },
     [WR_ROW(WR_EFFECT_PARAMETERS)] = { SMOOTH, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_TANGENTS)] = { SMOOTH, .with = same, .forced = true },
+    [WR_ROW(WR_EFFECT_DARK)] = { BUMPED, .with = from_behind, .forced = true },
+    [WR_ROW(WR_EFFECT_GROUND)] = { BUMPED, .with = same, .without = smooth },
 };
 WR_ROWS_END(effects, WR_EFFECT_COUNT);
 

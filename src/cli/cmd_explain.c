@@ -8,6 +8,7 @@
 #include "command/session.h"
 #include "render/frame.h"
 #include "render/plan.h"
+#include "render/ran.h"
 #include "scene/dials.h"
 
 /* {"blocks":n,"share":0.12,"where":"edges","bump":"mode=...","dials":"aa=..."} */
@@ -81,7 +82,7 @@ typedef struct Told {
     const WrChoice *choice;
     const WrFrame *frame;
     const WrSaving *savings; /* [WR_EFFECT_COUNT]; NULL: not asked for */
-    const WrMapCounts *map;  /* likewise */
+    const WrRanCounts *map;  /* likewise */
 } Told;
 
 static void add_json_seconds(WrText *text, const char *name, bool there, double seconds)
@@ -230,7 +231,7 @@ static bool explain(const WrCli *cli, WrSession *session, WrText *text, WrError 
     WrFrame frame;
     WrPlan plan;
     WrSaving savings[WR_EFFECT_COUNT];
-    WrMapCounts map;
+    WrRanCounts map;
     if (!wr_session_frame(session, cli->width, cli->height, 0, &frame, err)) return false;
     plan = *frame.plan; /* of the first picture, whatever is drawn after it */
     if (cli->measure && !wr_session_savings(session, cli->width, cli->height, 0, savings, err))

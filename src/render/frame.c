@@ -240,7 +240,8 @@ static bool same_output(const WrFrameCodes *a, const WrFrameCodes *b)
 static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrPlan *before,
                   const WrKernels *kernels)
 {
-    return may_keep(request) && !request->normals && same_view(renderer, request) &&
+    const bool mapped = !request->map || request->map == renderer->last.map;
+    return may_keep(request) && !request->normals && mapped && same_view(renderer, request) &&
            same_output(&renderer->last.codes, &request->codes) && renderer->kernels == kernels &&
            wr_plan_same(before, &renderer->plan) &&
            wr_keep_compare(&renderer->keep, renderer->looked,

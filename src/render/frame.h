@@ -30,7 +30,8 @@ typedef enum WrMapBit {
     WR_MAP_COVERED = 2,  /* a sample met the object */
     WR_MAP_LOOKED = 4,   /* a sample looked F up: bump ran */
     WR_MAP_WIDE = 8,     /* in the pyramid, or several times (E17) */
-    WR_MAP_SAMPLES = 16 /* from here on: samples a side, 1, up to 2, 4, 8, ... as 0, 1, 2, 3, ... */
+    WR_MAP_LIT = 16,     /* light was worked out: it does not lie on the dark side (E18) */
+    WR_MAP_SAMPLES = 32 /* from here on: samples a side, 1, up to 2, 4, 8, ... as 0, 1, 2, 3, ... */
 } WrMapBit;
 
 typedef struct WrFrameRequest {
@@ -58,7 +59,7 @@ typedef struct WrFrameRequest {
     float *normals;
     WrFrameCodes codes; /* 8-bit pixels instead of float ones */
     /* What each pixel took, bits of WrMapBit; [height or else rows][width], the caller's; pixels that are not rendered
-       stay as they are. NULL: not wanted. */
+       stay as they are: a view that rests gives the same memory each time, as it was left. NULL: not wanted. */
     uint8_t *map;
     /* Effects that run, or do not, whatever the scene calls for: [WR_EFFECT_COUNT]; NULL: none. */
     const WrForce *force;

@@ -17,7 +17,8 @@ void wr_frame_start_counts(WrRenderer *renderer)
         memset(s->whole, 0, sizeof s->whole);
         s->all = s->all_strips = 0;
         s->covered = s->not_finite = s->shaded = s->tiles = s->wide_samples = 0;
-        s->level_samples = s->level_tiles = 0;
+        memset(s->spared, 0, sizeof s->spared);
+        memset(s->spared_tiles, 0, sizeof s->spared_tiles);
         s->strips = 0;
         s->ran = 0;
     }
@@ -27,7 +28,8 @@ void wr_frame_start_counts(WrRenderer *renderer)
 
 /* What a frame's threads counted. */
 typedef struct Counts {
-    int64_t tiles, shaded, filtered, level_tiles, level;
+    int64_t tiles, shaded, filtered;
+    int64_t spared[WR_RUN_KINDS], spared_tiles[WR_RUN_KINDS]; /* as WrTileScratch has them */
     uint32_t ran;
 } Counts;
 
@@ -41,9 +43,11 @@ static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Co
         row->seconds = 0;
         row->ran = counts->ran >> e & 1;
         if (!row->run) continue;
-        row->tiles = counts->tiles - (wr_effects[e].by_run ? counts->level_tiles : 0);
-        row->pixels = e == WR_EFFECT_FILTER ? counts->filtered
-                                            : shaded - (wr_effects[e].by_run ? counts->level : 0);
+        const unsigned spared = wr_effects[e].spared;
+        row->tiles = counts->tiles - counts->spared_tiles[spared];
+        row->pixels = e == WR_EFFECT_FILTER ? counts->filtered : shaded;
+        for (unsigned run = 0; run < WR_RUN_KINDS; run++)
+            if (run & spared) row->pixels -= counts->spared[run];
     }
     for (int stage = 0; stage < WR_STAGE_COUNT; stage++)
         wr_plan_charge(plan, (WrStage)stage, seconds[stage]);
@@ -85,8 +89,10 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
         frame->not_finite += s->not_finite;
         counts.tiles += s->tiles;
         counts.filtered += s->wide_samples;
-        counts.level += s->level_samples;
-        counts.level_tiles += s->level_tiles;
+        for (int run = 0; run < WR_RUN_KINDS; run++) {
+            counts.spared[run] += s->spared[run];
+            counts.spared_tiles[run] += s->spared_tiles[run];
+        }
         counts.ran |= s->ran;
     }
     if (!wr_plan_runs(plan, WR_EFFECT_AGAIN))

@@ -8,6 +8,8 @@
 #include "shade/slope.h"
 #include "system/clock.h"
 
+#include <math.h>
+
 static void drop_colour(ColourCopy *copy)
 {
     wr_image_free((WrImage *)copy->source);
@@ -102,6 +104,19 @@ static bool round_heights(WrRenderer *renderer, const WrFrameRequest *request, W
     return renderer->looked != NULL;
 }
 
+/* The share of the table's tiles that have slopes. */
+static double sloped_share(const WrRenderer *renderer, const WrField *field)
+{
+    const WrTable *table = &renderer->table;
+    const bool gradient = wr_plan_runs(&renderer->plan, WR_EFFECT_GRADIENT);
+    const int tiles = wr_field_tiles_u(field) * wr_field_tiles_v(field);
+    int sloped = 0;
+    for (int i = 0; i < tiles; i++)
+        sloped += gradient ? table->steep[i][0] > 0 || table->steep[i][1] > 0
+                           : table->low[i] != table->high[i];
+    return (double)sloped / tiles;
+}
+
 bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask,
                             WrError *err)
 {
@@ -123,6 +138,8 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     const double started = wr_clock_seconds();
     if (!bring_pyramids(renderer, request->hold, err)) return false;
     renderer->pyramid_seconds = wr_clock_seconds() - started;
+    const bool looked = plan->source == WR_SOURCE_TABLE && plan->precision == WR_PRECISION_SINGLE;
+    facts->sloped = looked ? sloped_share(renderer, field) : -1;
     return true;
 }
 
@@ -166,43 +183,38 @@ static uint32_t looks_of(const WrFrameRequest *request, const WrRenderer *render
            (renderer->looked != request->field ? 1U << WR_EFFECT_ROUNDED : 0);
 }
 
-/* Is the bump of places without a slope to be spared? Where most of the table has slopes, asking is not worth it. */
-static bool asks_for_slopes(const WrRenderer *renderer, const WrFrameRequest *request)
+/* Was this row asked about, and left out? */
+static bool spares(const WrPlan *plan, WrEffect effect)
 {
-    const WrPlan *plan = &renderer->plan;
-    const WrTable *table = &renderer->table;
-    const bool bends = plan->bump == WR_BUMP_BLINN || plan->bump == WR_BUMP_INVARIANT;
-    if (request->full || (request->force && request->force[WR_EFFECT_BUMP] == WR_FORCE_ON))
-        return false;
-    const bool fitted =
-        wr_schemes[plan->scheme].taps == WR_TAPS_FITTED; /* reads all of the table */
-    if (!bends || fitted || plan->source != WR_SOURCE_TABLE ||
-        wr_plan_runs(plan, WR_EFFECT_FILTER) || table->precision != WR_PRECISION_SINGLE)
-        return false;
-    const int tiles = wr_field_tiles_u(request->field) * wr_field_tiles_v(request->field);
-    const bool gradient = wr_plan_runs(plan, WR_EFFECT_GRADIENT);
-    int sloped = 0;
-    for (int i = 0; i < tiles; i++)
-        sloped += gradient ? table->sloped[i] : table->low[i] != table->high[i];
-    return 4 * sloped < 3 * tiles;
+    return plan->rows[effect].verdict == WR_VERDICT_SPARED && !wr_plan_runs(plan, effect);
 }
 
 static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
 {
-    if (!asks_for_slopes(renderer, request)) return;
-    const bool gradient = wr_plan_runs(&renderer->plan, WR_EFFECT_GRADIENT);
-    job->level = (WrLevel){ .asked = true,
-                            .sloped = gradient ? renderer->table.sloped : NULL,
-                            .low = renderer->table.low,
-                            .high = renderer->table.high,
-                            .tiles_u = wr_field_tiles_u(request->field),
-                            .tiles_v = wr_field_tiles_v(request->field),
-                            .width = job->look.width,
-                            .height = job->look.height,
-                            .ru = job->look.ru,
-                            .rv = job->look.rv,
-                            .periodic_u = job->look.periodic_u,
-                            .periodic_v = job->look.periodic_v };
+    const WrPlan *plan = &renderer->plan;
+    job->ground = spares(plan, WR_EFFECT_GROUND);
+    job->dark = spares(plan, WR_EFFECT_DARK);
+    if (!wr_plan_runs(plan, WR_EFFECT_BUMP) || !(job->ground || job->dark)) return;
+    const bool gradient = wr_plan_runs(plan, WR_EFFECT_GRADIENT);
+    WrLevel *level = &job->level;
+    *level = (WrLevel){ .steep = gradient ? (const float(*)[2])renderer->table.steep : NULL,
+                        .low = renderer->table.low,
+                        .high = renderer->table.high,
+                        .steepest = { gradient ? 0 : INFINITY, gradient ? 0 : INFINITY },
+                        .tiles_u = wr_field_tiles_u(request->field),
+                        .tiles_v = wr_field_tiles_v(request->field),
+                        .width = job->look.width,
+                        .height = job->look.height,
+                        .ru = job->look.ru,
+                        .rv = job->look.rv,
+                        .periodic_u = job->look.periodic_u,
+                        .periodic_v = job->look.periodic_v };
+    for (int i = 0; gradient && i < level->tiles_u * level->tiles_v; i++)
+        for (int c = 0; c < 2; c++) {
+            const float steep = level->steep[i][c];
+            level->steepest[c] = fmaxf(level->steepest[c], steep);
+            level->gentlest[c] = fminf(i ? level->gentlest[c] : steep, steep);
+        }
 }
 
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,

@@ -169,6 +169,7 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_bump_body.h"
 #include "shade/light_body.h"
 #include "render/kern_light_body.h"
+#include "render/kern_dark_body.h"
 #include "render/kern_filter_body.h"
 #include "render/kern_moments_body.h"
 #include "render/kern_bound_body.h"
@@ -243,6 +244,10 @@ const KERNELS WR_KERN_TABLE = {
     .smooth = kern_smooth,
 #endif
     .finish = kern_finish,
+    .reach = kern_reach,
+    .behind = kern_behind,
+    .behind_bumped = kern_behind_bumped,
+    .ambient = kern_ambient,
     .codes = kern_codes,
     .codes_over = kern_codes_over,
     .bound_sphere = kern_bound_sphere,

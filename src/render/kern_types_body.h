@@ -181,6 +181,16 @@ typedef struct WR_T(WrKernels) {
        [the eye is near] [it shines] [C is a picture's, which `colour` has brought]. NULL in double precision. */
     WR_T(WrShadeKernel) shade[2][2][2][2];
     void (*finish)(const REAL colour[3], WR_T(WrStrip) * strip);
+    /* u0, u1, v0, v1 of the strip. */
+    void (*reach)(const WR_T(WrStrip) * strip, double box[4]);
+    /* Is the light for certain behind every step-th sample, n' being n? The same of Blinn's n' whatever slopes it has
+       up to these, either sign. */
+    bool (*behind)(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light, int step,
+                   const WR_T(WrStrip) * strip);
+    bool (*behind_bumped)(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
+                          const REAL steepest[2], int step, const WR_T(WrStrip) * strip);
+    /* All of the light where all lights are behind; pictured: `colour` has brought C. */
+    void (*ambient)(const WR_T(WrKernMaterial) * material, bool pictured, WR_T(WrStrip) * strip);
     /* Finished colours as opaque 8-bit codes (srgb_codes.h), out [count]; of premultiplied ones, [count][4], over a
        background. What is not finite counts as 0; how many numbers were not. */
     int (*codes)(const uint32_t *bins, const WR_T(WrStrip) * strip, uint32_t *out);

@@ -44,26 +44,34 @@ static int next_tile(int i, int size)
     return i + (end < size ? end : size) - at;
 }
 
-/* Has tile `at` no slope of its own, nor one to tile `first`? */
-static bool tile_is_level(const WrLevel *level, int at, int first)
+/* The slopes of tile `at`, those to tile `first` among them. */
+static void add_tile(const WrLevel *level, int at, int first, float steepest[2])
 {
-    if (level->sloped) return !level->sloped[at];
-    return level->low[at] == level->high[at] && level->low[at] == level->low[first];
+    const bool even =
+        !level->steep && level->low[at] == level->high[at] && level->low[at] == level->low[first];
+    for (int c = 0; c < 2; c++) {
+        const float steep = level->steep ? level->steep[at][c] : even ? 0 : INFINITY;
+        steepest[c] = steep > steepest[c] ? steep : steepest[c];
+    }
 }
 
-bool wr_level_box(const WrLevel *level, double u0, double u1, double v0, double v1)
+void wr_level_box(const WrLevel *level, double u0, double u1, double v0, double v1,
+                  float steepest[2])
 {
-    if (!(u0 <= u1 && v0 <= v1)) return false; /* also what is no number */
     const int width = level->width, height = level->height;
+    for (int c = 0; c < 2; c++) steepest[c] = level->steepest[c];
+    if (!(u0 <= u1 && v0 <= v1)) return; /* also what is no number */
     const Run x = run_of(level->ru * u0, level->ru * u1, width, level->periodic_u, false);
     const Run y = run_of(level->rv * v0, level->rv * v1, height, level->periodic_v, true);
+    float most[2] = { 0, 0 };
     int tiles = 0, first = -1;
     for (int j = y.from; j <= y.to; j = next_tile(j, height))
         for (int i = x.from; i <= x.to; i = next_tile(i, width)) {
             const int tu = around(i, width) / WR_TILE, tv = around(j, height) / WR_TILE;
             const int at = tv * level->tiles_u + tu;
             first = first < 0 ? at : first;
-            if (++tiles > TILES_MOST || !tile_is_level(level, at, first)) return false;
+            if (++tiles > TILES_MOST) return;
+            add_tile(level, at, first, most);
         }
-    return true;
+    for (int c = 0; c < 2; c++) steepest[c] = most[c];
 }

@@ -1,20 +1,23 @@
-/* level.h - where a table has no slope: what is shaded there alone needs no bump (E6, for a run of samples).
+/* level.h - how steep a table is where a run of samples reads it: where it has no slope they need no bump, and bounds of
+   slopes bound their normals.
    Layer 5, private to the renderer. */
 #pragma once
 #include <stdbool.h>
 
 typedef struct WrLevel {
-    bool asked; /* false: nothing is known */
-    /* Of each tile of the table, [tiles_v][tiles_u], borrowed: is there a central difference that is not 0? Or, NULL, its
-       least and largest height: slopes of other schemes are 0 where all that they read is equal (HC47). */
-    const unsigned char *sloped;
+    /* Of each tile of the table, [tiles_v][tiles_u], borrowed: its largest central differences, dF/du and dF/dv. Or,
+       NULL, its least and largest height: slopes of other schemes are 0 where all that they read is equal (HC47), and
+       else not known. */
+    const float (*steep)[2];
     const float *low, *high;
+    float steepest[2], gentlest[2]; /* of all tiles */
     int tiles_u, tiles_v;
     int width, height; /* of the table, texels */
     double ru, rv;     /* replication */
     bool periodic_u, periodic_v;
 } WrLevel;
 
-/* Is every slope 0 that is looked up from u0 .. u1, v0 .. v1? Certain where true: a box over many tiles is not looked
-   through. */
-bool wr_level_box(const WrLevel *level, double u0, double u1, double v0, double v1);
+/* No slope dF/du, dF/dv that is looked up from u0 .. u1, v0 .. v1 is larger than this, either sign; INFINITY: not known.
+   A box over many tiles is not looked through: it is as steep as any. */
+void wr_level_box(const WrLevel *level, double u0, double u1, double v0, double v1,
+                  float steepest[2]);

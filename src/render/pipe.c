@@ -8,6 +8,7 @@
 #include "system/clock.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #define REAL float

@@ -63,6 +63,7 @@ static bool lit(const WrSink *sink)
 }
 
 #include "render/pipe_light_body.h"
+#include "render/pipe_dark_body.h"
 
 /* Where on the surface each pixel lies, and how far its normal turns there. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
@@ -93,24 +94,6 @@ static const WR_T(WrRound) * round_of(const WrTileJob *job)
     return round->hit ? round : NULL;
 }
 
-/* Do all samples of the strip lie where the table has no slope? Their n' is n, then, to the bit. Not while notes are
-   taken of what tiles look at. */
-static bool is_level(const WrTileJob *job, const Strip *strip, WrTileScratch *scratch)
-{
-    if (!job->level.asked || scratch->seen) return false;
-    REAL u0 = strip->u[0], u1 = u0, v0 = strip->v[0], v1 = v0;
-#pragma omp simd reduction(min : u0, v0) reduction(max : u1, v1)
-    for (int i = 0; i < strip->count; i++) {
-        u0 = strip->u[i] < u0 ? strip->u[i] : u0;
-        u1 = strip->u[i] > u1 ? strip->u[i] : u1;
-        v0 = strip->v[i] < v0 ? strip->v[i] : v0;
-        v1 = strip->v[i] > v1 ? strip->v[i] : v1;
-    }
-    if (!wr_level_box(&job->level, (double)u0, (double)u1, (double)v0, (double)v1)) return false;
-    scratch->level_samples += strip->count;
-    return true;
-}
-
 /* P, n, and what else of the surface's frame the plan asks for. */
 static void surface_strip(const WrTileJob *job, int face, bool level, Strip *strip, Watch *watch)
 {
@@ -126,44 +109,66 @@ static void surface_strip(const WrTileJob *job, int face, bool level, Strip *str
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 
-/* All stages of the plan from the hit to the colour. quad: of a planar surface, or -1. */
-static void shade_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
-                        Strip *strip, WrTileScratch *scratch, Watch *watch)
+/* n' of the samples, from the table's slopes where it has any. */
+static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const WrSink *sink,
+                       Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
-    const WrPlan *plan = job->plan;
-    const WrSurfaceKind kind = job->view->shape_d.kind;
+    const WrBumpMode bump = level ? WR_BUMP_NONE : job->plan->bump;
+    if (bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
+    k->bump[bump](rays, strip);
+    scratch->ran |= normal_effects[bump];
+    watch_lap(watch, WR_STAGE_BUMP);
+    if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
+        k->widen(job->plan->bump == WR_BUMP_INVARIANT, strip);
+        did(watch, WR_EFFECT_SPREAD);
+        watch_lap(watch, WR_STAGE_SPREAD);
+    }
+    keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
+}
+
+/* P, n and n' of the samples, as far as light asks for them. Returns what they were spared, bits of WrRun. */
+static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, const WrSink *sink,
+                             Strip *strip, WrTileScratch *scratch, Watch *watch)
+{
+    const bool level = is_level(job, strip);
+    surface_strip(job, face, level, strip, watch);
+    const bool dark = is_dark(job, rays, level, strip);
+    const unsigned spared = (level ? WR_RUN_LEVEL : 0) | (dark ? WR_RUN_DARK : 0);
+    if (runs(job, WR_EFFECT_GROUND) && !dark) did(watch, WR_EFFECT_GROUND);
+    if (spared && scratch->seen && job->plan->bump != WR_BUMP_NONE)
+        note_spared(job, strip, scratch->seen);
+    if (dark) return spared;
+    if (runs(job, WR_EFFECT_CURVATURE)) {
+        const WrSurfaceKind kind = job->view->shape_d.kind;
+        KERNELS_OF(job)->curvature[kind](&VIEWED(job->view, shape), face, strip);
+        did(watch, WR_EFFECT_CURVATURE);
+        watch_lap(watch, WR_STAGE_CURVATURE);
+    }
+    bend_strip(job, rays, level, sink, strip, scratch, watch);
+    return spared;
+}
+
+/* All stages of the plan from the hit to the colour. quad: of a planar surface, or -1. Returns what the samples were
+   spared, bits of WrRun. */
+static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
+                            Strip *strip, WrTileScratch *scratch, Watch *watch)
+{
     const int face = quad >= 0 ? job->view->quad_face[quad] : 0;
+    unsigned spared = 0;
     if (runs(job, WR_EFFECT_PARAMETERS)) {
         round_of(job)->params(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_PARAMETERS);
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
-    if (plan->normals) {
-        const bool level = plan->bump != WR_BUMP_NONE && is_level(job, strip, scratch);
-        const WrBumpMode bump = level ? WR_BUMP_NONE : plan->bump;
-        surface_strip(job, face, level, strip, watch);
-        if (runs(job, WR_EFFECT_CURVATURE)) {
-            k->curvature[kind](&VIEWED(job->view, shape), face, strip);
-            did(watch, WR_EFFECT_CURVATURE);
-            watch_lap(watch, WR_STAGE_CURVATURE);
-        }
-        if (bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
-        k->bump[bump](rays, strip);
-        scratch->ran |= normal_effects[bump];
-        watch_lap(watch, WR_STAGE_BUMP);
-        if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
-            k->widen(plan->bump == WR_BUMP_INVARIANT, strip);
-            did(watch, WR_EFFECT_SPREAD);
-            watch_lap(watch, WR_STAGE_SPREAD);
-        }
-        keep_half3(job, strip->bx, strip->by, strip->bz, strip->count, watch);
-    }
+    if (job->plan->normals) spared = normal_strip(job, rays, face, sink, strip, scratch, watch);
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
-    if (!lit(sink)) return;
-    light_strip(job, rays, sink, strip, watch);
+    if (!lit(sink)) return spared;
+    if (spared & WR_RUN_DARK) ambient_strip(job, strip, watch);
+    else light_strip(job, rays, sink, strip, watch);
     keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
+    return spared;
 }
 
 /* Colours of neighbours, one after the other: how many of them were empty. */
@@ -242,17 +247,20 @@ static int grid_of(const WrView *view, const Rays *rays)
     return view->grids[i].k;
 }
 
-/* What the strip's pixels took; level: no bump was looked up. */
-static void note_map(const WrTileJob *job, const Rays *rays, bool level, const Strip *strip,
+/* What the strip's pixels took. */
+static void note_map(const WrTileJob *job, const Rays *rays, unsigned spared, const Strip *strip,
                      const WrTileScratch *scratch)
 {
     const int k = grid_of(job->view, rays);
-    const bool looked = job->plan->bump != WR_BUMP_NONE && !level;
+    const bool looked = job->plan->bump != WR_BUMP_NONE && !spared;
+    const bool shone = runs(job, WR_EFFECT_DIFFUSE) || runs(job, WR_EFFECT_SPECULAR);
+    const int light = shone && !(spared & WR_RUN_DARK) ? WR_MAP_LIT : 0;
     const bool filtered = looked && runs(job, WR_EFFECT_FILTER);
     for (int i = 0; i < strip->count; i++) {
         const bool wide = filtered && (strip->level[i] > (REAL)0 || strip->taps[i] > 1);
         if (strip->x[i] < (REAL)-0.5 || strip->y[i] < (REAL)-0.5) continue; /* beyond the picture */
-        const int bits = WR_MAP_COVERED | (looked ? WR_MAP_LOOKED : 0) | (wide ? WR_MAP_WIDE : 0);
+        const int bits =
+            WR_MAP_COVERED | light | (looked ? WR_MAP_LOOKED : 0) | (wide ? WR_MAP_WIDE : 0);
         wr_tile_map(job, scratch, (int)(strip->x[i] + (REAL)0.5) / k,
                     (int)(strip->y[i] + (REAL)0.5) / k, (uint8_t)bits);
     }
@@ -262,11 +270,11 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
                          WrTileScratch *scratch, Watch *watch)
 {
     Strip *strip = STRIP_OF(scratch);
-    const int64_t level = scratch->level_samples;
     if (strip->count == 0) return;
     note_view(job, rays, scratch);
-    shade_strip(job, rays, quad, sink, strip, scratch, watch);
-    if (job->map) note_map(job, rays, scratch->level_samples > level, strip, scratch);
+    const unsigned spared = shade_strip(job, rays, quad, sink, strip, scratch, watch);
+    if (lit(sink)) scratch->spared[spared] += strip->count;
+    if (job->map) note_map(job, rays, spared, strip, scratch);
     store(job, sink, strip, scratch);
     watch_lap(watch, WR_STAGE_STORE);
     if (lit(sink)) scratch->shaded += strip->count;

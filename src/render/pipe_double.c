@@ -7,6 +7,7 @@
 #include "system/clock.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #define WR_PIPE_DOUBLE

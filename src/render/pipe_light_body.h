@@ -97,10 +97,23 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
 }
 
+/* Where no light comes. */
+static void ambient_strip(const WrTileJob *job, Strip *strip, Watch *watch)
+{
+    const WrMaterial *m = &job->scene->material;
+    const WR_T(WrKernMaterial) material = {
+        (REAL)m->ambient, (REAL)0, { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z }
+    };
+    if (runs(job, WR_EFFECT_COLOUR)) lookup_colour(job, strip, watch);
+    KERNELS_OF(job)->ambient(&material, runs(job, WR_EFFECT_COLOUR), strip);
+    watch_lap(watch, WR_STAGE_LIGHT);
+}
+
 static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink, Strip *strip,
                         Watch *watch)
 {
     const WR_T(WrShadeKernel) shade = single_pass(job, rays, sink);
+    if (runs(job, WR_EFFECT_DARK)) did(watch, WR_EFFECT_DARK);
     if (!shade) {
         light_by_stages(job, rays, sink, strip, watch);
         return;

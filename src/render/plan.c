@@ -50,17 +50,19 @@ void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask)
 {
     decide(plan, WR_EFFECT_SAMPLES, ask);
     decide(plan, WR_EFFECT_BOUND, ask);
+    decide(plan, WR_EFFECT_DARK, ask); /* goes by the bound */
 }
 
 void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask)
 {
-    decide(plan, WR_EFFECT_AGAIN, ask);
+    for (int e = 0; e < WR_EFFECT_COUNT; e++)
+        if (wr_effects[e].manner) decide(plan, (WrEffect)e, ask);
 }
 
 bool wr_plan_same(const WrPlan *a, const WrPlan *b)
 {
     for (int e = 0; e < WR_EFFECT_COUNT; e++)
-        if (e != WR_EFFECT_AGAIN && a->rows[e].run != b->rows[e].run) return false;
+        if (!wr_effects[e].manner && a->rows[e].run != b->rows[e].run) return false;
 #define WR_PLAN_DIFFERS(effect, type, name) || a->name != b->name
     return !(false WR_PLAN_SETTINGS(WR_PLAN_DIFFERS));
 #undef WR_PLAN_DIFFERS

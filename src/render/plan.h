@@ -40,12 +40,15 @@ typedef enum WrEffect {
     WR_EFFECT_NEWTON,
     WR_EFFECT_PERSPECTIVE,
     WR_EFFECT_AGAIN,
+    WR_EFFECT_BESIDE,
     WR_EFFECT_SPREAD,
     WR_EFFECT_ROUNDED,
     WR_EFFECT_DOUBLE,
     WR_EFFECT_HALF,
     WR_EFFECT_PARAMETERS,
     WR_EFFECT_TANGENTS,
+    WR_EFFECT_DARK,
+    WR_EFFECT_GROUND,
     WR_EFFECT_COUNT
 } WrEffect;
 
@@ -178,6 +181,13 @@ static inline bool wr_plan_runs(const WrPlan *plan, WrEffect effect)
     return plan->rows[effect].run;
 }
 
+/* Why a run of samples may be spared what the plan runs. */
+typedef enum WrRun {
+    WR_RUN_LEVEL = 1, /* no slope of the table is near */
+    WR_RUN_DARK = 2,  /* all lights are behind it, however the table bends its normals */
+    WR_RUN_KINDS = 4  /* both of them, either, neither */
+} WrRun;
+
 /* What the planner may ask of the table, the view and the last frame; the renderer answers. */
 typedef struct WrPlanFacts {
     bool flat;       /* every texel equal */
@@ -186,7 +196,8 @@ typedef struct WrPlanFacts {
     bool normals;    /* the caller wants n' itself */
     bool outside;    /* the eye is outside a closed surface, for certain */
     bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
-    bool rests; /* the last picture is kept, and was made by the same plan of the same request */
+    bool rests;    /* the last picture is kept, and was made by the same plan of the same request */
+    double sloped; /* the share of the table's tiles that have a slope; below 0: not known */
 } WrPlanFacts;
 
 /* Against the planner, for tests and as a yardstick. */
@@ -212,8 +223,9 @@ typedef struct WrEffectInfo {
     const char *left_out; /* when, for the guide */
     unsigned stages; /* bits of WrStage; of one that several own the last that runs has the time */
     bool only_way;   /* where it runs there is no picture without it */
-    /* Where it runs, samples are spared it whose part of the table has no slope (level.h). */
-    bool by_run;
+    unsigned spared; /* bits of WrRun: runs of samples that are spared it where it runs */
+    bool
+        manner; /* it settles how a picture is made, never which: plans that differ in it make the same */
     bool finer; /* run where it could be left out, it makes the picture more exact: other bits */
     /* Does the scene call for it, and why? Rows before it are decided. */
     WrVerdict (*decide)(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
@@ -223,11 +235,12 @@ typedef struct WrEffectInfo {
 extern const WrEffectInfo wr_effects[WR_EFFECT_COUNT];
 
 void wr_plan_build(WrPlan *plan, const WrPlanAsk *ask);
-/* The row about rendering tiles again (E29) once more: its fact is known when plans have been compared. */
+/* The rows once more that go by what is known when plans have been compared, and copies of the table made: those that
+   settle how the picture is made. */
 void wr_plan_again(WrPlan *plan, const WrPlanAsk *ask);
 /* The rows about samples once more: whether a view is lively is known when it has been looked at. */
 void wr_plan_samples(WrPlan *plan, const WrPlanAsk *ask);
-/* Do both make the same picture of one scene? All that rows own is compared, but E29's. */
+/* Do both make the same picture of one scene? All that rows own is compared, but how it is made. */
 bool wr_plan_same(const WrPlan *a, const WrPlan *b);
 /* Of frames that make one picture: costs are added, a row runs that ran in any. */
 void wr_plan_add(WrPlan *sum, const WrPlan *more);

@@ -330,10 +330,11 @@ WR_ROWS(wr_effects);
 const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
                                     "no light shines, diffuse is 0, or the colour is black",
-                                    STAGE(DIFFUSE), .decide = decide_diffuse },
+                                    STAGE(DIFFUSE), .spared = WR_RUN_DARK,
+                                    .decide = decide_diffuse },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,
                                      "no light shines, or specular is 0", STAGE(SPECULAR),
-                                     .decide = decide_specular },
+                                     .spared = WR_RUN_DARK, .decide = decide_specular },
     [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
                                    "there is none, or it is white everywhere", STAGE(COLOUR),
                                    .decide = decide_colour },
@@ -341,16 +342,16 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "the mode is none; height or replication is 0; all texels are "
                                  "equal; the "
                                  "scheme sees no slope anywhere; no light depends on the normal",
-                                 STAGE(LOOK) | STAGE(BUMP), .by_run = true, .decide = decide_bump,
-                                 .settle = settle_bump },
+                                 STAGE(LOOK) | STAGE(BUMP), .spared = WR_RUN_LEVEL | WR_RUN_DARK,
+                                 .decide = decide_bump, .settle = settle_bump },
     [WR_ROW(
         WR_EFFECT_GRADIENT)] = { "E9", "gradient table", WR_PROOF_BOUNDED, "rounding of the slopes",
                                  "the scheme takes its slopes from the heights. For central and "
                                  "nearest one look-up of central differences equals the paper's "
                                  "four "
                                  "of F",
-                                 STAGE(LOOK), .only_way = true, .by_run = true,
-                                 .decide = decide_gradient },
+                                 STAGE(LOOK), .only_way = true,
+                                 .spared = WR_RUN_LEVEL | WR_RUN_DARK, .decide = decide_gradient },
     [WR_ROW(WR_EFFECT_WIDE)] = { "E10", "replication in double", WR_PROOF_BOUNDED,
                                  "a thousandth of a texel",
                                  "replication is under 1024, where single precision is right to a "
@@ -360,7 +361,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
         WR_EFFECT_INVARIANT)] = { "E11", "scale invariance", WR_PROOF_BOUNDED,
                                   "rounding of the normal",
                                   "the mode is not invariant; on the unit square it equals blinn",
-                                  STAGE(BUMP), .by_run = true, .decide = decide_invariant,
+                                  STAGE(BUMP), .spared = WR_RUN_LEVEL, .decide = decide_invariant,
                                   .settle = settle_invariant },
     [WR_ROW(WR_EFFECT_EXACT)] = { "E12", "exact normal", WR_PROOF_BOUNDED, "rounding of the normal",
                                   "the mode is not exact; on flat surfaces blinn is exact",
@@ -402,7 +403,12 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                         .decide = wr_decide_perspective },
     [WR_ROW(WR_EFFECT_AGAIN)] = { "E29", "re-rendering", WR_PROOF_IDENTICAL, NULL,
                                   "the view rests and no edit reaches the tile", 0,
-                                  .only_way = true, .decide = wr_decide_again },
+                                  .only_way = true, .manner = true, .decide = wr_decide_again },
+    [WR_ROW(WR_EFFECT_BESIDE)] = { "E30", "tiles beside the object", WR_PROOF_IDENTICAL, NULL,
+                                   "beyond the object's outline tiles, and parts of tiles, are "
+                                   "cleared and no more",
+                                   0, .only_way = true, .manner = true,
+                                   .decide = wr_decide_beside },
     [WR_ROW(WR_EFFECT_SPREAD)] = { "E31", "spread of slopes", WR_PROOF_POLICY, NULL,
                                    "the dials do not ask for moments, nothing is filtered, or "
                                    "there is no "
@@ -430,7 +436,19 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                      "other "
                                      "surfaces give "
                                      "them with the point",
-                                     0, .only_way = true, .by_run = true,
+                                     0, .only_way = true, .spared = WR_RUN_LEVEL,
                                      .decide = wr_decide_tangents },
+    [WR_ROW(WR_EFFECT_DARK)] = { "E18", "light on the dark side", WR_PROOF_IDENTICAL, NULL,
+                                 "all lights are behind a run of samples, however the slopes that "
+                                 "it could read bend its normals: it has the ambient light alone, "
+                                 "and no bump. Asked where the highlight is gated, of blinn's "
+                                 "normals from a gradient table, and where nothing is bent",
+                                 0, .only_way = true, .manner = true, .decide = wr_decide_dark },
+    [WR_ROW(WR_EFFECT_GROUND)] = { "E63", "bump on level ground", WR_PROOF_IDENTICAL, NULL,
+                                   "no tile of the table that a run of samples could read has a "
+                                   "slope: n' is n there. Asked where less than three quarters of "
+                                   "the table's tiles have slopes",
+                                   0, .only_way = true, .manner = true,
+                                   .decide = wr_decide_ground },
 };
 WR_ROWS_END(wr_effects, WR_EFFECT_COUNT);

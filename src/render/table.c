@@ -8,6 +8,7 @@
 #include "field/field.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 /* How a copy is made: texels [i, i + w) x [j, j + h), indices outside the table included. */
@@ -116,8 +117,8 @@ void wr_table_drop(WrTable *table, WrCopyKind kind)
     wr_free(copy->fine);
     *copy = (WrTableCopy){ 0 };
     if (kind != WR_COPY_GRADIENT) return;
-    wr_free(table->sloped);
-    table->sloped = NULL;
+    wr_free(table->steep);
+    table->steep = NULL;
 }
 
 void wr_table_fini(WrTable *table)
@@ -232,18 +233,51 @@ static void refresh(CopyJob *job, int i, int j, int w, int h)
     __atomic_fetch_add(&job->table->texels_refreshed, (int64_t)w * h, __ATOMIC_RELAXED);
 }
 
-static void mark_sloped(CopyJob *job, int tx, int ty)
+/* Of numbers that are not negative the bits are in the same order; those of no number come last. */
+static int32_t magnitude(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return (int32_t)(bits & 0x7fffffffU);
+}
+
+/* The largest of `count` pairs, as bits. */
+static void add_steepest(const float *slopes, int count, int32_t most[2])
+{
+    int32_t u = most[0], v = most[1];
+#pragma omp simd reduction(max : u, v)
+    for (int i = 0; i < count; i++) {
+        const int32_t su = magnitude(slopes[2 * i]), sv = magnitude(slopes[2 * i + 1]);
+        u = su > u ? su : u;
+        v = sv > v ? sv : v;
+    }
+    most[0] = u, most[1] = v;
+}
+
+static bool any_slope(const double *slopes, int count)
+{
+    for (int i = 0; i < 2 * count; i++)
+        if (slopes[i] != 0.0) return true;
+    return false;
+}
+
+static void mark_steep(CopyJob *job, int tx, int ty)
 {
     const WrField *field = job->field;
     int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
-    bool any = false;
-    for (int y = 0; y < h && y < WR_TILE && !any; y++) {
+    w = w < WR_TILE ? w : WR_TILE, h = h < WR_TILE ? h : WR_TILE;
+    const int32_t unknown = magnitude(INFINITY);
+    int32_t most[2] = { 0, 0 };
+    for (int y = 0; y < h; y++) {
         const size_t row = place(job, tx * WR_TILE, ty * WR_TILE + y);
-        const float *data = job->copy->data;
-        for (size_t x = row; x < row + 2 * (size_t)w && x < row + 2 * WR_TILE; x++)
-            any |= data ? data[x] != 0.0f : job->copy->fine[x] != 0.0;
+        if (job->copy->data) add_steepest(job->copy->data + row, w, most);
+        else if (any_slope(job->copy->fine + row, w)) most[0] = most[1] = unknown;
     }
-    job->table->sloped[ty * wr_field_tiles_u(field) + tx] = any;
+    float *steep = job->table->steep[ty * wr_field_tiles_u(field) + tx];
+    for (int c = 0; c < 2; c++) {
+        most[c] = most[c] < unknown ? most[c] : unknown;
+        memcpy(&steep[c], &most[c], sizeof steep[c]);
+    }
 }
 
 /* A strip of tile rows of a full build, apron columns included. */
@@ -257,7 +291,7 @@ static void build_strip(int strip, int worker, void *ctx)
     int to = bottom == h ? h + WR_APRON : bottom;
     refresh(job, -WR_APRON, from, w + 2 * WR_APRON, to - from);
     if (job->kind == WR_COPY_GRADIENT)
-        for (int tx = 0; tx < wr_field_tiles_u(job->field); tx++) mark_sloped(job, tx, strip);
+        for (int tx = 0; tx < wr_field_tiles_u(job->field); tx++) mark_steep(job, tx, strip);
 }
 
 /* Refresh [a, b) of one axis in pieces that lie inside [0, n): a periodic axis wraps. */
@@ -301,7 +335,7 @@ static void refresh_tile(int tx, int ty, void *ctx)
             if (job->kind != WR_COPY_GRADIENT) continue;
             for (int y = pj.from[b] / WR_TILE; y <= (pj.to[b] - 1) / WR_TILE; y++)
                 for (int x = pi.from[a] / WR_TILE; x <= (pi.to[a] - 1) / WR_TILE; x++)
-                    mark_sloped(job, x, y);
+                    mark_steep(job, x, y);
         }
     if (tx * WR_TILE < edge || i1 > w - edge || ty * WR_TILE < edge || j1 > h - edge)
         job->border = true;
@@ -339,7 +373,7 @@ static bool allocate(CopyJob *job, WrError *err)
     job->copy->precision = job->table->precision;
     job->copy->pitch = pitch;
     if (job->kind == WR_COPY_GRADIENT)
-        job->table->sloped = wr_alloc((size_t)tile_count(job->field), 1);
+        job->table->steep = wr_alloc((size_t)tile_count(job->field), sizeof *job->table->steep);
     return true;
 }
 
@@ -375,6 +409,6 @@ bool wr_table_slope_free(const WrTable *table)
     const WrTableCopy *copy = &table->copies[WR_COPY_GRADIENT];
     if (!copy->seen) return false;
     for (int i = 0; i < tile_count(copy->seen); i++)
-        if (table->sloped[i]) return false;
+        if (table->steep[i][0] > 0 || table->steep[i][1] > 0) return false;
     return true;
 }

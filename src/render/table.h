@@ -31,9 +31,10 @@ typedef struct WrTableCopy {
 typedef struct WrTable {
     WrPrecision precision; /* of the copies to be brought; the caller's to set */
     WrTableCopy copies[WR_COPY_COUNT];
-    WrField *ranged;          /* snapshot that low and high were made from */
-    float *low, *high;        /* [tiles] of each field tile */
-    unsigned char *sloped;    /* [tiles] the gradient copy has a slope there */
+    WrField *ranged;   /* snapshot that low and high were made from */
+    float *low, *high; /* [tiles] of each field tile */
+    float (*steep)
+        [2]; /* [tiles] the gradient copy's largest |dF/du|, |dF/dv| there; INFINITY: not known */
     int64_t texels_refreshed; /* by the last bring-up: what an edit cost */
 } WrTable;
 

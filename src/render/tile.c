@@ -323,12 +323,27 @@ static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScrat
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
+/* Was the tile spared something in every run? `before`: the samples before it. */
+static void count_spared(WrTileScratch *scratch, const int64_t before[WR_RUN_KINDS])
+{
+    for (int bits = 1; bits < WR_RUN_KINDS; bits++) {
+        bool all = true;
+        for (int run = 0; run < WR_RUN_KINDS; run++)
+            all &= (run & bits) != 0 || scratch->spared[run] == before[run];
+        scratch->spared_tiles[bits] += all;
+    }
+}
+
 void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScratch *scratch)
 {
-    const int64_t before = scratch->shaded, level = scratch->level_samples;
+    const int64_t before = scratch->shaded;
+    int64_t spared[WR_RUN_KINDS];
+    memcpy(spared, scratch->spared, sizeof spared);
     const double start = wr_clock_seconds();
     scratch->seen = job->seen ? &job->seen[index] : NULL;
-    const WrTilePart part = touched(job, whole);
+    const bool beside = wr_plan_runs(job->plan, WR_EFFECT_BESIDE);
+    if (beside) wr_did(scratch, WR_EFFECT_BESIDE);
+    const WrTilePart part = beside ? whole : touched(job, whole);
     if (job->map) start_map(job, whole, scratch);
     clear(job, whole, part);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
@@ -339,8 +354,7 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
         else if (!one) render_many(job, part, scratch);
     }
     scratch->tiles += scratch->shaded > before;
-    scratch->level_tiles +=
-        scratch->shaded > before && scratch->level_samples - level == scratch->shaded - before;
+    if (scratch->shaded > before) count_spared(scratch, spared);
 }
 
 bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u,

@@ -29,7 +29,9 @@ typedef struct WrTileJob {
     WrLook look;
     WrLookd look_double; /* where kernels_double looks */
     uint32_t looks; /* bits of WrEffect: what a look-up in the table does, by what it was given */
-    WrLevel level;  /* where the table has no slope; only where that spares the bump */
+    WrLevel level;  /* how steep the table is where; only for one of the next two */
+    bool ground,
+        dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
     WrColourLook colour; /* rgba NULL: none */
     int samples;         /* K */
     int width, height;   /* pixels */
@@ -99,13 +101,14 @@ typedef struct WrTileScratch {
     int64_t covered, shaded;        /* pixels, samples */
     int64_t tiles;                  /* that held anything */
     int64_t not_finite;             /* numbers that were not finite, among codes */
-    int64_t level_samples,
-        level_tiles;      /* whose bump was spared; tiles of which it was everywhere */
-    int64_t wide_samples; /* filter, moments: that looked above level 0 */
-    uint32_t ran;         /* bits of WrEffect: noted by what does it, where it is done */
-    WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
-    WrTilePart mapped;    /* pixels whose map is this thread's: those of its tile */
-    unsigned strips;      /* counts strips: one in sixteen is timed */
+    int64_t spared[WR_RUN_KINDS];   /* samples that were spared that, by bits of WrRun */
+    int64_t
+        spared_tiles[WR_RUN_KINDS]; /* tiles whose samples were all spared for one of those bits */
+    int64_t wide_samples;           /* filter, moments: that looked above level 0 */
+    uint32_t ran;                   /* bits of WrEffect: noted by what does it, where it is done */
+    WrBlocks *seen;                 /* of the tile at hand; NULL: not wanted */
+    WrTilePart mapped;              /* pixels whose map is this thread's: those of its tile */
+    unsigned strips;                /* counts strips: one in sixteen is timed */
 } WrTileScratch;
 
 _Static_assert(WR_REFINE_W + 2 * WR_REFINE_RING <= WR_SPAN, "a row of a tile is a strip");
