@@ -125,6 +125,20 @@ done
 key alt+5
 until_true 120 "the picture without a map" shows plain $patch
 
+# ---- where effects ran: the picture itself in other colours, with their names, live while it is painted on ----
+count() { # pixels of that colour in the newest picture of the window
+    shot now
+    convert now.ppm -crop $patch +repage -fill black +opaque "$1" -fill white -opaque "$1" -format '%[fx:mean*w*h]' info:
+}
+has() { [[ $(count "$1" | cut -d . -f 1) -gt "$2" ]]; }
+key alt+0
+until_true 120 "the bump's colour on the object" has '#00c8ff' 8000
+rest
+shot map
+much plain map 290x70+545+690 "the names of the colours"
+key alt+5
+until_true 120 "the picture without colours" shows plain $patch
+
 # ---- the tolerance is a command; the inspector follows the pointer ----
 shot layers
 key F7

@@ -31,6 +31,7 @@ typedef enum WrPatchLook {
     WR_PATCH_DROPPED, /* what the small-F approximation leaves out, degrees */
     WR_PATCH_TILT,    /* between n and n', degrees */
     WR_PATCH_LEVEL,   /* mip level */
+    WR_PATCH_RAN,     /* where each effect ran: the preview's own picture, live as that is */
     WR_PATCH_LOOKS
 } WrPatchLook;
 extern const char *const wr_patch_look_names[WR_PATCH_LOOKS]; /* for people */
@@ -177,6 +178,7 @@ void wr_act_look_error(WrApp *app);
 void wr_act_look_dropped(WrApp *app);
 void wr_act_look_tilt(WrApp *app);
 void wr_act_look_level(WrApp *app);
+void wr_act_look_ran(WrApp *app);
 void wr_act_accuracy_measure(WrApp *app);
 void wr_act_compare_take(WrApp *app);
 void wr_act_compare_swap(WrApp *app);
@@ -192,6 +194,7 @@ bool wr_is_look_error(const WrApp *app);
 bool wr_is_look_dropped(const WrApp *app);
 bool wr_is_look_tilt(const WrApp *app);
 bool wr_is_look_level(const WrApp *app);
+bool wr_is_look_ran(const WrApp *app);
 bool wr_is_compare_hold(const WrApp *app);
 
 extern const WrPart wr_part_accuracy;

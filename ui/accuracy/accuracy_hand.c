@@ -246,7 +246,7 @@ static bool compares(const WrAccuracy *a)
 static bool look_missing(const WrAccuracy *a)
 {
     if (a->look == WR_PATCH_ERROR && !a->hold_b) return false;
-    if (!compares(a) && a->look == WR_PATCH_PLAIN) return false;
+    if (!compares(a) && (a->look == WR_PATCH_PLAIN || a->look == WR_PATCH_RAN)) return false;
     int kind = compares(a) ? WR_PATCH_SPLIT : (int)a->look;
     return a->look_of != a->state || a->look_kind != kind ||
            (compares(a) && a->look_serial != a->b_serial);

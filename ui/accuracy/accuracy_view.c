@@ -8,6 +8,8 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/patch/patch.h"
+#include "ui/preview/preview.h"
 
 #include "accuracy/metrics.h"
 #include "base/array.h"
@@ -29,7 +31,7 @@ const char *const wr_patch_look_names[WR_PATCH_LOOKS] = {
     [WR_ROW(WR_PATCH_PLAIN)] = "Picture",        [WR_ROW(WR_PATCH_SPLIT)] = "Split A | B",
     [WR_ROW(WR_PATCH_FLICKER)] = "Flicker A, B", [WR_ROW(WR_PATCH_ERROR)] = "Error",
     [WR_ROW(WR_PATCH_DROPPED)] = "Dropped term", [WR_ROW(WR_PATCH_TILT)] = "Tilt",
-    [WR_ROW(WR_PATCH_LEVEL)] = "Mip level",
+    [WR_ROW(WR_PATCH_LEVEL)] = "Mip level",      [WR_ROW(WR_PATCH_RAN)] = "What ran",
 };
 WR_ROWS_END(wr_patch_look_names, WR_PATCH_LOOKS);
 
@@ -39,7 +41,8 @@ void wr_accuracy_show(WrApp *app, WrPatchLook look)
     a->look = look;
     a->look_of = 0;
     a->flicker_since = wr_clock_seconds();
-    if (look != WR_PATCH_PLAIN)
+    app->patch->ran = look == WR_PATCH_RAN;
+    if (look != WR_PATCH_PLAIN && look != WR_PATCH_RAN)
         app->settings->turning = false; /* what is compared must stand still */
     wr_app_redraw(app);
 }
@@ -271,6 +274,54 @@ static void draw_scale(const WrApp *app)
     }
 }
 
+/* ---- what ran: colours and their meaning ---- */
+
+#define RAN_LINES 12 /* at most */
+
+/* The colour in words, and what ran there; false: there is no such line. */
+static bool ran_line(const WrPreviewPicture *picture, int i, WrRanLine *line, WrText *text)
+{
+    if (i >= RAN_LINES || !wr_ran_line(&picture->counts, i, line)) return false;
+    wr_ran_colour(line, text);
+    wr_text_add(text, ": ");
+    wr_ran_words(line, text);
+    return true;
+}
+
+static void draw_ran(const WrApp *app)
+{
+    const WrPreviewPicture *picture = wr_preview_picture(app->preview);
+    const SDL_Rect *room = &app->layout->patch;
+    const double s = wr_gui_scale(), pad = 10 * s, high = wr_gui_line_height(WR_FONT_SMALL) + 4 * s;
+    const double swatch = 12 * s, most = room->w - 56 * s;
+    WrText text[RAN_LINES] = { { 0 } };
+    WrRanLine line[RAN_LINES];
+    double wide = 0;
+    int count = 0;
+    while (picture->ran && ran_line(picture, count, &line[count], &text[count])) {
+        wide = fmax(wide, wr_gui_text_width(WR_FONT_SMALL, wr_text_get(&text[count])));
+        count++;
+    }
+    wide = fmin(wide + swatch + 8 * s + 2 * pad, most);
+    const double tall = count * high + 2 * pad - 4 * s;
+    const double left = room->x + 12 * s, top = room->y + room->h - 12 * s - tall;
+    const bool fits = count > 0 && wide > 60 * s && tall < room->h - 24 * s;
+    if (fits) wr_gui_draw_fill(left, top, wide, tall, WR_COLOUR_CHIP, 3 * s);
+    for (int i = 0; i < count; i++) {
+        const double y = top + pad + i * high;
+        const WrColour colour = 0xff000000u | (WrColour)line[i].rgb[0] << 16 |
+                                (WrColour)line[i].rgb[1] << 8 | line[i].rgb[2];
+        if (fits) {
+            const double middle = y + (high - 4 * s - swatch) / 2 + s;
+            wr_gui_draw_fill(left + pad, middle, swatch, swatch, colour, 2 * s);
+            wr_gui_draw_rect(left + pad, middle, swatch, swatch, 0xff8a8a8au, 1);
+            wr_gui_draw_text(left + pad + swatch + 8 * s, y, WR_FONT_SMALL, WR_COLOUR_TEXT,
+                             wr_text_get(&text[i]));
+        }
+        wr_text_fini(&text[i]);
+    }
+}
+
 static const char *waiting(const WrApp *app)
 {
     if (app->settings->turning) return "when the patch rests";
@@ -285,6 +336,11 @@ void wr_accuracy_overlay(WrApp *app)
     bool pair = a->look == WR_PATCH_SPLIT || a->look == WR_PATCH_FLICKER || a->hold_b;
     if (room->w <= 0 || (!pair && a->look == WR_PATCH_PLAIN)) return;
     wr_gui_draw_clip(*room);
+    if (!pair && a->look == WR_PATCH_RAN) {
+        draw_ran(app);
+        wr_gui_draw_unclip();
+        return;
+    }
     bool ready = pair ? pair_ready(a) : map_ready(a);
     if (!ready) {
         char text[96];

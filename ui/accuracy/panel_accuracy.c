@@ -32,7 +32,8 @@ static void show(WrApp *app)
         "over the patch: its distance from the reference, what the small-F approximation of the "
         "paper "
         "leaves out, how far the normal turns, how many texels fall into a pixel. The patch stands "
-        "still for all of them.");
+        "still for all of them. What ran has the colours of the plan's effects, and is as "
+        "live as the picture.");
 }
 
 /* ---- numbers in two columns ---- */

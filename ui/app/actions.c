@@ -471,6 +471,7 @@ const WrAction wr_actions[] = {
     ROW(look_dropped, "Map of the dropped term", wr_act_look_dropped, NULL, wr_is_look_dropped),
     ROW(look_tilt, "Map of the tilt", wr_act_look_tilt, NULL, wr_is_look_tilt),
     ROW(look_level, "Map of the mip level", wr_act_look_level, NULL, wr_is_look_level),
+    ROW(look_ran, "Map of what ran", wr_act_look_ran, NULL, wr_is_look_ran),
     ROW(turn, "Turning patch", turn, NULL, is_turning),
     ROW(view_back, "Patch as it was looked at before", view_back, can_view_back, NULL),
     ROW(view_forward, "Patch as it was looked at after", view_forward, can_view_forward, NULL),

@@ -132,6 +132,7 @@
     X(look_dropped, "Alt+9")                                                                       \
     X(look_tilt, "")                                                                               \
     X(look_level, "")                                                                              \
+    X(look_ran, "Alt+0")                                                                           \
     X(turn, "Ctrl+Space")                                                                          \
     X(view_back, "Alt+Left")                                                                       \
     X(view_forward, "Alt+Right")                                                                   \

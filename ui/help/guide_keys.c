@@ -76,6 +76,7 @@ static const Row looking[] = { { "*Wheel*", "zoom at the pointer" },
                                { WR_ACT(look_split), "two settings of the dials side by side" },
                                { WR_ACT(compare_hold), "held: the other setting" },
                                { WR_ACT(look_error), "where the picture is off" },
+                               { WR_ACT(look_ran), "where each effect ran" },
                                { WR_ACT(inspector), "every quantity under the pointer" },
                                { NULL, NULL } };
 static const Row layers[] = { { WR_ACT(select_rect),

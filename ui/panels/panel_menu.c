@@ -272,7 +272,8 @@ static void compare(WrApp *app)
                                          WR_ACT(look_error),
                                          WR_ACT(look_dropped),
                                          WR_ACT(look_tilt),
-                                         WR_ACT(look_level) };
+                                         WR_ACT(look_level),
+                                         WR_ACT(look_ran) };
     if (!wr_gui_menu_begin("Patch shows")) return;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();

@@ -77,7 +77,8 @@ static bool differs(const WrApp *app)
     const WrPatch *p = app->patch;
     return !p->wished_field || wr_field_key(p->wished_field) != wr_field_key(wr_app_field(app)) ||
            p->wished_scene != wr_app_scene(app) || p->wished_turn != p->turn_deg ||
-           p->wished_w != app->layout->patch.w || p->wished_h != app->layout->patch.h;
+           p->wished_w != app->layout->patch.w || p->wished_h != app->layout->patch.h ||
+           p->wished_ran != p->ran;
 }
 
 /* Only the table differs from what a resting, finished picture shows (or is being refreshed to show): the
@@ -87,7 +88,7 @@ static bool only_edited(const WrApp *app)
     const WrPatch *p = app->patch;
     return p->wished_field && !p->wished_moving && p->wished_scene == wr_app_scene(app) &&
            p->wished_turn == p->turn_deg && p->wished_w == app->layout->patch.w &&
-           p->wished_h == app->layout->patch.h &&
+           p->wished_h == app->layout->patch.h && p->wished_ran == p->ran &&
            (p->refreshing || wr_preview_settled(app->preview));
 }
 
@@ -103,7 +104,8 @@ static void wish(WrApp *app, bool moving)
                         .tag = app->brush->shown,
                         .chosen = moving ? NULL : wr_session_chosen(app->session),
                         .moving = moving,
-                        .painting = is_painted(app) };
+                        .painting = is_painted(app),
+                        .ran = p->ran };
     wr_preview_want(app->preview, &w);
     wr_field_free(p->wished_field);
     if (p->wished_scene) wr_scene_free(p->wished_scene);
@@ -114,6 +116,7 @@ static void wish(WrApp *app, bool moving)
     p->wished_h = room->h;
     p->wished_moving = moving;
     p->wished_painted = is_painted(app);
+    p->wished_ran = p->ran;
     p->outstanding = moving;
     p->refreshing = false;
     p->wished_at = wr_clock_seconds();

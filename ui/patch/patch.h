@@ -24,7 +24,8 @@ typedef struct WrPatch {
     WrScene *wished_scene;
     double wished_turn;
     int wished_w, wished_h;
-    bool wished_moving, wished_painted;
+    bool wished_moving, wished_painted, wished_ran;
+    bool ran;         /* it shows where each effect ran */
     bool refreshing;  /* sharp pictures are being brought up to date by an edit */
     bool outstanding; /* a moving picture was wished for and has not come */
     bool held;        /* it stands still to be painted on */

@@ -1,5 +1,6 @@
 #include "ui/preview/preview.h"
 #include "ui/preview/accuracy_choice.h"
+#include "ui/preview/picture_ran.h"
 #include "ui/jobs/thread.h"
 
 #include "accuracy/tolerance.h"
@@ -32,7 +33,7 @@ typedef struct Wish {
     int width, height;
     int64_t tag;
     char *chosen; /* owned */
-    bool moving, painting;
+    bool moving, painting, ran;
 } Wish;
 
 struct WrPreview {
@@ -62,6 +63,7 @@ struct WrPreview {
     WrPreviewPicture *work; /* owned */
     WrPreviewLevel level;   /* reached for `now` */
     WrMoving moving;
+    WrPictureRan ran;    /* of the last picture that showed where effects ran */
     WrChoice choice;     /* of the last picture under a tolerance */
     double edit_seconds; /* of the last refresh after an edit with more than one sample a pixel */
     bool edited;         /* the picture under way is such a refresh */
@@ -118,6 +120,7 @@ void wr_preview_free(WrPreview *preview)
     picture_free(preview->done);
     picture_free(preview->shown);
     picture_free(preview->work);
+    wr_free(preview->ran.map);
     wr_free(preview->isa);
     wr_cond_fini(&preview->wake);
     wr_mutex_fini(&preview->lock);
@@ -201,7 +204,11 @@ static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPre
     request.codes.wanted = false; /* its blocks are put together as floats */
     request.keep = false;
     wr_chosen_recall(preview->now.chosen, &request, choice);
+    request.map = NULL;
     if (!wr_tolerance_frame(preview->renderer, &request, choice, frame, err)) return false;
+    request.map = wanted->map;
+    if (request.map && !wr_choice_frame(preview->renderer, &request, choice, frame, err))
+        return false;
     wr_chosen_from(choice, &out->chosen);
     wr_chosen_write(choice, request.field, request.scene, &text);
     out->kept = wr_strdup(wr_text_get(&text));
@@ -234,12 +241,18 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     out->chosen.any = false;
     wr_free(out->kept);
     out->kept = NULL;
+    out->ran = wish->ran;
+    if (wish->ran && !wr_picture_ran_room(&preview->ran, request.width, request.height, err))
+        return false;
+    if (wish->ran) request.map = preview->ran.map;
     bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
                     ? by_tolerance(preview, &request, out, &frame, err)
                     : wr_renderer_frame(renderer, &request, &frame, err);
     if (!good) return false;
     if (!make_room(out, frame.width, frame.height, err)) return false;
-    if (frame.codes) memcpy(out->bgra, frame.codes, 4 * (size_t)frame.width * (size_t)frame.height);
+    if (wish->ran) wr_picture_ran_show(&preview->ran, out);
+    else if (frame.codes)
+        memcpy(out->bgra, frame.codes, 4 * (size_t)frame.width * (size_t)frame.height);
     else wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
     out->level = level;
     out->way = way;
@@ -278,7 +291,7 @@ static bool only_edited(const WrPreview *preview)
 {
     const Wish *now = &preview->now, *next = &preview->next;
     return now->field && preview->level > WR_PREVIEW_MOVING && !next->moving && !now->moving &&
-           now->scene == next->scene && now->turn_deg == next->turn_deg &&
+           now->ran == next->ran && now->scene == next->scene && now->turn_deg == next->turn_deg &&
            now->width == next->width && now->height == next->height;
 }
 
@@ -410,7 +423,8 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
                             .tag = wish->tag,
                             .chosen = wish->chosen ? wr_strdup(wish->chosen) : NULL,
                             .moving = wish->moving,
-                            .painting = wish->painting };
+                            .painting = wish->painting,
+                            .ran = wish->ran };
     /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
     if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     preview->settled = false;

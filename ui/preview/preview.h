@@ -8,6 +8,7 @@
 
 #include "render/frame.h"
 #include "render/plan.h"
+#include "render/ran.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -45,6 +46,7 @@ typedef struct WrPreviewWish {
     const char *
         chosen; /* the dials that the document keeps for its tolerance; NULL: none; copied by the call */
     bool painting; /* edits follow one another: be quick rather than fine, and do not refine yet */
+    bool ran;      /* show where each effect ran, in false colours, instead */
     bool moving;   /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
 } WrPreviewWish;
 
@@ -66,7 +68,9 @@ typedef struct WrPreviewPicture {
     double seconds; /* wall time, conversion included */
     WrStageTimes times;
     WrPlan plan;
-    WrChosen chosen; /* what the scene's tolerance chose for it */
+    bool ran;           /* it shows where each effect ran, ... */
+    WrRanCounts counts; /* ... on so many pixels */
+    WrChosen chosen;    /* what the scene's tolerance chose for it */
     char *
         kept; /* the same as the document keeps it (wr_choice_write); owned; NULL: nothing was chosen */
     WrMovingWay way; /* of WR_PREVIEW_MOVING ... */
