@@ -140,6 +140,7 @@ static void open_by_bound(const Refiner *r)
 static bool slopes_jump(const WrPlan *plan)
 {
     return plan->source == WR_SOURCE_TABLE &&
+           plan->rows[WR_EFFECT_BUMP].verdict == WR_VERDICT_RUN && /* forced, it has no slopes */
            (plan->scheme == WR_SCHEME_NEAREST || plan->scheme == WR_SCHEME_BILINEAR);
 }
 
