@@ -438,6 +438,7 @@ void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScra
         memset(scratch->open, OPEN_ALL, sizeof scratch->open);
     }
     sample_open(&r);
+    scratch->met = scratch->covered - covered;
     scratch->covered = covered;
     for (int j = y; j < y + h; j++)
         for (int i = x; i < x + w; i++) scratch->covered += wr_tile_pixel(job, i, j)[3] > 0;

@@ -40,7 +40,6 @@ static void spend_block(const WrTileJob *job, int x, int y, WrTileScratch *scrat
     const int h = job->height < BLOCK_H ? job->height : BLOCK_H;
     const bool bound = job->plan->refine == WR_REFINE_BOUND;
     const double cells = (double)job->samples * job->samples;
-    const int64_t shaded = scratch->shaded;
     int within, all;
     own.rgba = scratch->mean[0];
     own.rgba_pitch = (size_t)w;
@@ -49,7 +48,7 @@ static void spend_block(const WrTileJob *job, int x, int y, WrTileScratch *scrat
     memset(scratch->mean, 0, (size_t)(w * h) * sizeof *scratch->mean);
     wr_refine_tile(&own, own.x0, own.y0, w, h, scratch);
     count_first(scratch, w, h, bound ? 0 : WR_REFINE_RING, &within, &all);
-    const double more = (double)(scratch->shaded - shaded - all);
+    const double more = (double)(scratch->met - all);
     double area = 0;
     for (int i = 0; i < w * h; i++) area += (double)scratch->mean[i][3];
     spent->plain += cells * area;

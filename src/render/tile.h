@@ -99,9 +99,10 @@ typedef struct WrTileScratch {
     double whole[WR_STAGE_COUNT];   /* of what is measured each time */
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */
-    int64_t tiles;                  /* that held anything */
-    int64_t not_finite;             /* numbers that were not finite, among codes */
-    int64_t spared[WR_RUN_KINDS];   /* samples that were spared that, by bits of WrRun */
+    int64_t met;   /* samples of the last tile that was refined that met something, however often */
+    int64_t tiles; /* that held anything */
+    int64_t not_finite;           /* numbers that were not finite, among codes */
+    int64_t spared[WR_RUN_KINDS]; /* samples that were spared that, by bits of WrRun */
     int64_t
         spared_tiles[WR_RUN_KINDS]; /* tiles whose samples were all spared for one of those bits */
     int64_t wide_samples;           /* filter, moments: that looked above level 0 */
