@@ -62,6 +62,23 @@ static void all_instruction_sets_give_the_same_bits_for_any_count_and_reach(void
             }
 }
 
+static void smoothing_adds_the_sum_to_the_height(void **state)
+{
+    (void)state;
+    const ptrdiff_t steps[] = { 1, PITCH };
+    for (int index = 0; wr_taps_at(index); index++)
+        for (int count = 1; count <= COUNT; count += count < 70 ? 1 : 7)
+            for (int s = 0; s < 2; s++) {
+                const float *centre = &heights[REACH][REACH + 2];
+                float sum[COUNT], smooth[COUNT + 1];
+                smooth[count] = 77.0f;
+                wr_taps_v1.add(weights, REACH, centre, steps[s], count, sum);
+                wr_taps_at(index)->smooth(weights, REACH, centre, steps[s], count, smooth);
+                for (int i = 0; i < count; i++) assert_true(smooth[i] == centre[i] + sum[i]);
+                assert_true(smooth[count] == 77.0f);
+            }
+}
+
 static void a_flat_neighbourhood_adds_exactly_nothing(void **state)
 {
     (void)state;
@@ -78,6 +95,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_texel_gets_its_taps_along_rows_and_columns),
         cmocka_unit_test(all_instruction_sets_give_the_same_bits_for_any_count_and_reach),
+        cmocka_unit_test(smoothing_adds_the_sum_to_the_height),
         cmocka_unit_test(a_flat_neighbourhood_adds_exactly_nothing),
     };
     return cmocka_run_group_tests(tests, fill, NULL);

@@ -52,12 +52,13 @@ static void finish_strip(const Blur *blur, const WrOpBlock *b, int x, const floa
         const float *centre = mid + (y + r) * MID_PITCH + x;
         const float *was = in + (y + r) * READ_PITCH + r + x;
         float *row = out + (size_t)y * pitch + x, sum[WR_TAPS_STRIP];
+        if (blur->amount == 1.0f) {
+            taps->smooth(blur->weight, r, centre, MID_PITCH, count, row);
+            continue;
+        }
         taps->add(blur->weight, r, centre, MID_PITCH, count, sum);
-        if (blur->amount == 1.0f)
-            for (int k = 0; k < count; k++) row[k] = centre[k] + sum[k];
-        else
-            for (int k = 0; k < count; k++)
-                row[k] = was[k] + blur->amount * ((centre[k] - was[k]) + sum[k]);
+        for (int k = 0; k < count; k++)
+            row[k] = was[k] + blur->amount * ((centre[k] - was[k]) + sum[k]);
     }
 }
 
@@ -67,12 +68,11 @@ static void make_blurred(const WrOpJob *job, const void *ctx, WrOpBlock b, float
     const Blur *blur = ctx;
     const WrTaps *taps = wr_taps();
     int r = blur->reach, rows = b.count_j + 2 * r;
-    float *in = scratch, *mid = in + READ_PITCH * WIDE, *sum = mid + MID_PITCH * WIDE;
+    float *in = scratch, *mid = in + READ_PITCH * WIDE;
     wr_op_read(job->in, b.i - r, b.j - r, b.count_i + 2 * r, rows, in, READ_PITCH);
     for (int y = 0; y < rows; y++) {
         const float *centre = in + y * READ_PITCH + r;
-        taps->add(blur->weight, r, centre, 1, b.count_i, sum);
-        for (int x = 0; x < b.count_i; x++) mid[y * MID_PITCH + x] = centre[x] + sum[x];
+        taps->smooth(blur->weight, r, centre, 1, b.count_i, mid + y * MID_PITCH);
     }
     for (int x = 0; x < b.count_i; x += WR_TAPS_STRIP)
         finish_strip(blur, &b, x, in, mid, out, pitch);
@@ -107,7 +107,8 @@ static WrField *run_blur(WrOpJob *job, double sigma, double amount)
         blur.reach = wr_op_gauss(sigma, blur.weight);
         WrOpWork work = { .make = make_blurred,
                           .ctx = &blur,
-                          .scratch = sizeof(float) * (READ_PITCH * WIDE + MID_PITCH * (WIDE + 1)),
+                          .scratch = sizeof(float) * (READ_PITCH * WIDE + MID_PITCH * WIDE),
+                          .input = { (size_t)blur.reach * (READ_PITCH + 1), READ_PITCH },
                           .reach = blur.reach };
         return wr_op_build_same(job, &work);
     }

@@ -9,6 +9,7 @@
 #include "field/field.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #define SIDE WR_OP_SIDE
@@ -25,6 +26,7 @@ typedef struct Build {
     const WrOpJob *job;
     const WrOpWork *work;
     WrField *out;
+    bool same;   /* out is the input but for what was made */
     bool blends; /* out is a share of the input: the mask applies */
     int blocks_u, first;
     float (*result)[SIDE * SIDE]; /* [BATCH] */
@@ -119,13 +121,62 @@ static void keep_equal(const float *restrict before, float *restrict row, int co
     for (int i = 0; i < count; i++) row[i] = row[i] == before[i] ? before[i] : row[i];
 }
 
-static bool tile_differs(const float *before, const float *now, WrOpBlock b, int x, int y)
+static bool row_differs(const float *restrict before, const float *restrict row, int count)
 {
-    size_t bytes = sizeof *now * (size_t)min_int(WR_TILE, b.count_i - x);
-    int end = min_int(y + WR_TILE, b.count_j);
-    for (; y < end; y++)
-        if (memcmp(before + y * SIDE + x, now + y * SIDE + x, bytes) != 0) return true;
-    return false;
+    uint32_t differs = 0;
+#pragma omp simd reduction(| : differs)
+    for (int i = 0; i < count; i++) {
+        uint32_t was, is;
+        memcpy(&was, &before[i], sizeof was);
+        memcpy(&is, &row[i], sizeof is);
+        differs |= was ^ is;
+    }
+    return differs != 0;
+}
+
+/* A filter's row without a mask: the steps above in one. */
+static bool settle_row(const float *restrict before, float *restrict row, int count)
+{
+    uint32_t differs = 0;
+#pragma omp simd reduction(| : differs)
+    for (int i = 0; i < count; i++) {
+        float x = row[i], was = before[i];
+        x = x > FLT_MAX ? FLT_MAX : x;
+        x = x < -FLT_MAX ? -FLT_MAX : x;
+        bool changes = x < was || x > was; /* not where x is not a number */
+        x = changes ? x : was;
+        uint32_t old, now;
+        memcpy(&old, &was, sizeof old);
+        memcpy(&now, &x, sizeof now);
+        differs |= old ^ now;
+        row[i] = x;
+    }
+    return differs != 0;
+}
+
+/* What the block was, and its pitch. */
+static const float *read_before(const Build *build, const WrOpBlock *b, const char *scratch,
+                                Bench *bench, size_t *pitch)
+{
+    const WrOpWork *work = build->work;
+    *pitch = SIDE;
+    if (work->input.pitch && build->same) {
+        *pitch = work->input.pitch;
+        return (const float *)(const void *)scratch + work->input.at;
+    }
+    wr_field_read(build->out, b->i, b->j, b->count_i, b->count_j, bench->before, SIDE);
+    return bench->before;
+}
+
+/* One tile's part of a row. True if any height of it changed. */
+static bool finish_part(const Build *build, const float *before, const float *mask, float *row,
+                        int count)
+{
+    if (!mask && !build->work->moves) return settle_row(before, row, count);
+    keep_finite(before, row, count);
+    if (mask) blend(mask, before, row, count);
+    if (!build->work->moves) keep_equal(before, row, count);
+    return row_differs(before, row, count);
 }
 
 static void make_block(int index, int worker, void *ctx)
@@ -135,24 +186,28 @@ static void make_block(int index, int worker, void *ctx)
     WrOpBlock b = block_at(build, build->first + index);
     float *now = build->result[index];
     Bench *bench = &build->bench[worker];
+    char *scratch = build->scratch + (size_t)worker * build->scratch_pitch;
     memset(build->changed[index], 0, sizeof build->changed[index]);
     if (nothing_to_do(build, b)) return;
-    work->make(build->job, work->ctx, b, now, SIDE,
-               build->scratch + (size_t)worker * build->scratch_pitch);
-    wr_field_read(build->out, b.i, b.j, b.count_i, b.count_j, bench->before, SIDE);
+    work->make(build->job, work->ctx, b, now, SIDE, scratch);
+    size_t pitch;
+    const float *before = read_before(build, &b, scratch, bench, &pitch);
     bool masked = build->blends && build->job->mask;
     if (masked) wr_field_read(build->job->mask, b.i, b.j, b.count_i, b.count_j, bench->mask, SIDE);
-    for (int y = 0; y < b.count_j; y++) {
-        const float *before = bench->before + y * SIDE;
-        float *row = now + y * SIDE;
-        keep_finite(before, row, b.count_i);
-        if (masked) blend(bench->mask + y * SIDE, before, row, b.count_i);
-        if (!work->moves) keep_equal(before, row, b.count_i);
-    }
-    for (int y = 0; y < b.count_j; y += WR_TILE)
+    for (int y = 0; y < b.count_j; y++)
         for (int x = 0; x < b.count_i; x += WR_TILE)
-            build->changed[index][y / WR_TILE * ACROSS + x / WR_TILE] =
-                tile_differs(bench->before, now, b, x, y);
+            build->changed[index][y / WR_TILE * ACROSS + x / WR_TILE] |= finish_part(
+                build, before + (size_t)y * pitch + x, masked ? bench->mask + y * SIDE + x : NULL,
+                now + y * SIDE + x, min_int(WR_TILE, b.count_i - x));
+}
+
+/* A tile that is written whole need not be copied before. */
+static float *open_tile(Build *build, WrOpBlock b, int t)
+{
+    int x = t % ACROSS, y = t / ACROSS;
+    bool whole = b.count_i >= (x + 1) * WR_TILE && b.count_j >= (y + 1) * WR_TILE;
+    return (whole ? wr_field_tile_fresh : wr_field_tile_write)(build->out, b.i / WR_TILE + x,
+                                                               b.j / WR_TILE + y);
 }
 
 static void fetch_tiles(Build *build, int count)
@@ -160,11 +215,7 @@ static void fetch_tiles(Build *build, int count)
     for (int index = 0; index < count; index++) {
         WrOpBlock b = block_at(build, build->first + index);
         for (int t = 0; t < BLOCK_TILES; t++)
-            build->tile[index][t] =
-                !build->changed[index][t]
-                    ? NULL
-                    : wr_field_tile_write(build->out, b.i / WR_TILE + t % ACROSS,
-                                          b.j / WR_TILE + t / ACROSS);
+            build->tile[index][t] = build->changed[index][t] ? open_tile(build, b, t) : NULL;
     }
 }
 
@@ -212,11 +263,13 @@ WrField *wr_op_base(const WrOpJob *job, int width, int height, WrWrap wrap_u, Wr
 WrField *wr_op_build(const WrOpJob *job, WrField *base, const WrOpWork *work)
 {
     if (!base) return NULL;
+    bool same = wr_field_key(base) == wr_field_key(job->in);
     size_t threads = (size_t)wr_pool_threads(job->pool);
     Build *build = wr_alloc(1, sizeof *build);
     build->job = job;
     build->work = work;
     build->out = base;
+    build->same = same;
     build->blends = wr_field_width(base) == wr_field_width(job->in) &&
                     wr_field_height(base) == wr_field_height(job->in);
     build->blocks_u = (wr_field_width(base) + SIDE - 1) / SIDE;

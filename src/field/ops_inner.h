@@ -50,6 +50,10 @@ typedef struct WrOpWork {
                  void *scratch);
     const void *ctx;
     size_t scratch;
+    /* Where in the scratch `make` leaves the block as it was, in floats; pitch 0: nowhere. */
+    struct {
+        size_t at, pitch;
+    } input;
     int reach;  /* input texels farther away than this do not matter; -1: not known */
     bool moves; /* copies texels: -0 stays -0. Else a texel that comes out equal keeps its bits */
 } WrOpWork;

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #define WR_TAPS_STRIP                                                                              \
-    32 /* of a row that filters along v, so that all rows stay in the nearest cache */
+    64 /* of a row that filters along v, so that all rows stay in the nearest cache */
 
 typedef struct WrTaps {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
@@ -14,6 +14,9 @@ typedef struct WrTaps {
      * taps first, for i = 0..count-1. c lies in rows with reach step floats before and after. */
     void (*add)(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
                 float *sum);
+    /* The same, and c[i] added. */
+    void (*smooth)(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
+                   float *out);
 } WrTaps;
 
 extern const WrTaps wr_taps_v1, wr_taps_v3, wr_taps_v4;

@@ -75,4 +75,12 @@ static void add(const float *weight, int reach, const float *c, ptrdiff_t step, 
     for (; i < count; i++) sum[i] = one(weight, reach, c + i, step);
 }
 
-const WrTaps WR_TAPS_TABLE = { .name = WR_TAPS_NAME, .add = add };
+static void smooth(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
+                   float *restrict out)
+{
+    add(weight, reach, c, step, count, out);
+#pragma omp simd
+    for (int i = 0; i < count; i++) out[i] = c[i] + out[i];
+}
+
+const WrTaps WR_TAPS_TABLE = { .name = WR_TAPS_NAME, .add = add, .smooth = smooth };
