@@ -1,4 +1,4 @@
-/* plan_inner.h - what the files of the plan's rows share.
+/* plan_inner.h - what the files of the plan's rows share, and what of it the view goes by.
    Layer 5, private to src/render. */
 #pragma once
 #include "render/plan.h"
@@ -13,6 +13,12 @@ static inline WrVerdict say(WrVerdict call, const char **why, const char *reason
 static inline bool runs(const WrPlan *plan, WrEffect effect)
 {
     return wr_plan_runs(plan, effect);
+}
+
+static inline bool light_shines(const WrLight *light)
+{
+    const WrVec3 c = light->colour;
+    return light->strength != 0 && (c.x != 0 || c.y != 0 || c.z != 0);
 }
 
 static inline const WrSurfaceInfo *surface_of(const WrPlanAsk *ask)

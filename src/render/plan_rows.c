@@ -16,12 +16,8 @@
 
 static bool any_light(const WrScene *scene)
 {
-    for (int i = 0; i < scene->light_count; i++) {
-        const WrLight *light = &scene->lights[i];
-        if (light->strength != 0 &&
-            (light->colour.x != 0 || light->colour.y != 0 || light->colour.z != 0))
-            return true;
-    }
+    for (int i = 0; i < scene->light_count; i++)
+        if (light_shines(&scene->lights[i])) return true;
     return false;
 }
 
@@ -329,7 +325,8 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanAsk *ask, const cha
 WR_ROWS(wr_effects);
 const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
-                                    "no light shines, diffuse is 0, or the colour is black",
+                                    "no light shines, diffuse is 0, or the colour is black; of "
+                                    "several lights those that do not shine",
                                     STAGE(DIFFUSE), .spared = WR_RUN_DARK,
                                     .decide = decide_diffuse },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,

@@ -1,4 +1,5 @@
 #include "render/view.h"
+#include "render/plan_inner.h"
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -265,14 +266,19 @@ bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int w
     return true;
 }
 
+/* Those that shine; where none does all of them, for who forces light. */
 static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *place)
 {
     const WrVec3 ahead = { 0, 0, 1 };
     view->lights = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights);
     view->lights_d = wr_alloc((size_t)scene->light_count + 1, sizeof *view->lights_d);
-    view->light_count = scene->light_count;
-    for (int i = 0; i < scene->light_count; i++) {
-        const WrLight *light = &scene->lights[i];
+    bool any = false;
+    for (int i = 0; i < scene->light_count; i++) any |= light_shines(&scene->lights[i]);
+    view->light_count = 0;
+    for (int k = 0; k < scene->light_count; k++) {
+        const WrLight *light = &scene->lights[k];
+        if (any && !light_shines(light)) continue;
+        const int i = view->light_count++;
         WrKernLightd *out = &view->lights_d[i];
         out->point = light->kind == WR_LIGHT_POINT;
         WrVec3 where = out->point ? bring_in(place, view->scale, light->where)
