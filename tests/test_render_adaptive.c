@@ -243,6 +243,34 @@ static void contrast_keeps_near_all_samples(void **state)
     wr_field_free(field);
 }
 
+/* Scratches narrower than a pixel, far from each other: most of them lie between the first samples, which are all
+   alike. They are found all the same: pixels are known to hold several texels. */
+static void detail_between_the_first_samples_is_found(void **state)
+{
+    (void)state;
+    const char *const surfaces[] = { "plane", "sphere", "torus" };
+    WrField *field = wr_field_new(512, 512, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < 512; j++)
+        for (int i = 0; i < 512; i++)
+            if ((i + j / 8) % 61 < 2 || (j - i / 16 + 512) % 83 < 2) wr_field_set(field, i, j, 1);
+    for (int s = 0; s < 3; s++) {
+        WrScene *scene = scene_of(surfaces[s]);
+        scene->replicate_u = scene->replicate_v = 1;
+        scene->height = 0.002;
+        const double within = 1.0 / 512;
+        Shot all = with_dials(scene, field, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, 8, within);
+        Shot some = with_dials(scene, field, WR_AA_ADAPTIVE, WR_REFINE_CONTRAST, 8, within);
+        double most;
+        const double off = share_off(&all, &some, within, &most);
+        if (off > 0.006 || most > 0.02)
+            fail_msg("%s: %g of the pixels off, %g at most", surfaces[s], off, most);
+        put_away(&all);
+        put_away(&some);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
 /* A view that rests, while edits make it lively and gentle again: its pictures are those of a new renderer. */
 static void a_resting_view_follows_from_few_samples_to_all(void **state)
 {
@@ -356,6 +384,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounded_refinement_keeps_within_its_contrast),
+        cmocka_unit_test(detail_between_the_first_samples_is_found),
         cmocka_unit_test(what_would_spare_nothing_takes_all_at_once),
         cmocka_unit_test(a_resting_view_follows_from_few_samples_to_all),
         cmocka_unit_test(refined_pixels_have_the_bits_of_supersampling),

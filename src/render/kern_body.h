@@ -242,6 +242,7 @@ const KERNELS WR_KERN_TABLE = {
 #ifndef WR_KERN_DOUBLE
     .shade = { { SHADE_ROWS(0, 0), SHADE_ROWS(0, 1) }, { SHADE_ROWS(1, 0), SHADE_ROWS(1, 1) } },
     .smooth = kern_smooth,
+    .texels = kern_texels,
 #endif
     .finish = kern_finish,
     .reach = kern_reach,

@@ -48,3 +48,17 @@ FLAT static void kern_smooth(const float *const row[5], int count, float weight,
         off[x] = sum - sum == 0.0f ? larger(larger(r, g), larger(b, a)) : INFINITY;
     }
 }
+
+FLAT static void kern_texels(const float *const row[3], int count, const float of[2],
+                             float *restrict out)
+{
+    const float *up = row[0], *mid = row[1], *low = row[2];
+    const float by_u = 0.5f * of[0], by_v = 0.5f * of[1];
+    SIMD for (int x = 0; x < count; x++)
+    {
+        const int i = 2 * x;
+        const float u = r_abs(mid[i + 4] - mid[i]) + r_abs(low[i + 2] - up[i + 2]);
+        const float v = r_abs(mid[i + 5] - mid[i + 1]) + r_abs(low[i + 3] - up[i + 3]);
+        out[x] = larger(by_u * u, by_v * v);
+    }
+}

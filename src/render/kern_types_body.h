@@ -204,6 +204,10 @@ typedef struct WR_T(WrKernels) {
     void (*smooth)(const float *const row[5], int count, float weight, float slope, float *rgba,
                    float *off);
 
+    /* Texels along each of `count` pixels, from u and v of the rows above, of the pixels, with one more on either side,
+       and below; all of u and all of v are so many. NULL in double precision. */
+    void (*texels)(const float *const row[3], int count, const float of[2], float *out);
+
     /* Bounds over the pixel of side `pixel` samples about x, y (dials.h, refine=bound): where the pixel
        lies on the surface; how far its slopes and its normal move; what a light adds. */
     void (*bound_sphere)(const WR_T(WrRays) * rays, const SHAPE *shape, REAL pixel,

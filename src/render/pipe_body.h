@@ -94,6 +94,14 @@ static const WR_T(WrRound) * round_of(const WrTileJob *job)
     return round->hit ? round : NULL;
 }
 
+static void store_parameters(const WrSink *sink, const Strip *strip)
+{
+    for (int i = 0; i < strip->count; i++) {
+        sink->uv[2 * strip->index[i]] = (float)strip->u[i];
+        sink->uv[2 * strip->index[i] + 1] = (float)strip->v[i];
+    }
+}
+
 /* P, n, and what else of the surface's frame the plan asks for. */
 static void surface_strip(const WrTileJob *job, int face, bool level, Strip *strip, Watch *watch)
 {
@@ -161,6 +169,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         did(watch, WR_EFFECT_PARAMETERS);
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
+    if (sink->uv) store_parameters(sink, strip);
     if (job->plan->normals) spared = normal_strip(job, rays, face, sink, strip, scratch, watch);
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);

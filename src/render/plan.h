@@ -181,6 +181,12 @@ static inline bool wr_plan_runs(const WrPlan *plan, WrEffect effect)
     return plan->rows[effect].run;
 }
 
+/* Does the scene itself call for it, whatever is forced? For what decides about a picture's bits. */
+static inline bool wr_plan_calls(const WrPlan *plan, WrEffect effect)
+{
+    return plan->rows[effect].verdict == WR_VERDICT_RUN;
+}
+
 /* Why a run of samples may be spared what the plan runs. */
 typedef enum WrRun {
     WR_RUN_LEVEL = 1, /* no slope of the table is near */

@@ -13,6 +13,9 @@
 #define MOST WR_TILE_SAMPLES_H /* K at most */
 /* The K samples may each be off what the neighbours tell by so many times `contrast`, their mean by that. */
 #define SAMPLE_OFF 4.0f
+/* Of pixels with more texels than that along them the neighbours say little: K samples are taken, which have to agree better. */
+#define FINE 2.0f
+#define FINE_OFF 1.5f
 /* Where coverage differs one sample is off by more than any contrast (kern_smooth_body.h). */
 #define OUTLINE 1e6f
 /* The mean of one place anywhere in each of K x K cells is off by about 0.29 / K^2 of the slope; four times that. */
@@ -27,8 +30,21 @@ typedef struct Refiner {
     float contrast;
     bool by_bound;
     bool some;                /* K of the samples are tried before all */
+    float texels[2];          /* along u and v, of what is looked up */
     unsigned char rook[MOST]; /* the column of the one in each row */
 } Refiner;
+
+/* Texels along u and v, of the table or of the colour picture, whichever are finer; 0: none is looked up. */
+static void count_texels(const WrTileJob *job, float texels[2])
+{
+    const bool colour = wr_plan_calls(job->plan, WR_EFFECT_COLOUR);
+    const bool table =
+        wr_plan_calls(job->plan, WR_EFFECT_BUMP) && job->plan->source == WR_SOURCE_TABLE;
+    const int w = table ? job->look.width : 0, h = table ? job->look.height : 0;
+    const int cw = colour ? job->colour.width : 0, ch = colour ? job->colour.height : 0;
+    texels[0] = (float)(fabs(job->look.ru) * (w > cw ? w : cw));
+    texels[1] = (float)(fabs(job->look.rv) * (h > ch ? h : ch));
+}
 
 /* ---- the first samples -------------------------------------------------------------------------- */
 
@@ -50,6 +66,9 @@ static void first_samples(Refiner *r)
         if (r->by_bound) {
             for (int x = 0; x < p->w; x++) s->bound[y][x] = INFINITY;
             sink.bound = s->bound[y], sink.pixel = 1;
+        } else if (r->texels[0] > 0 || r->texels[1] > 0) {
+            sink.uv = s->uv[y][0];
+            memset(sink.uv, 0, (size_t)tile.w * sizeof s->uv[0][0]);
         }
         job->pipe->row(job, 1, &tile, y, &sink, s);
     }
@@ -140,7 +159,7 @@ static void open_by_bound(const Refiner *r)
 static bool slopes_jump(const WrPlan *plan)
 {
     return plan->source == WR_SOURCE_TABLE &&
-           plan->rows[WR_EFFECT_BUMP].verdict == WR_VERDICT_RUN && /* forced, it has no slopes */
+           wr_plan_calls(plan, WR_EFFECT_BUMP) && /* forced, it has no slopes */
            (plan->scheme == WR_SCHEME_NEAREST || plan->scheme == WR_SCHEME_BILINEAR);
 }
 
@@ -153,14 +172,19 @@ static void open_by_contrast(const Refiner *r)
     const float slope = jittered ? (float)JITTER / 2 / cells : 0;
     const float most = slopes_jump(r->job->plan) ? r->contrast / 2 : r->contrast;
     for (int y = 0; y < r->part.h; y++) {
-        const float *rows[5];
+        const float *rows[5], *uv[3];
         for (int k = 0; k < 5; k++) rows[k] = s->centre[y + k][0];
+        for (int k = 0; k < 3; k++) uv[k] = s->uv[y + RING - 1 + k][RING - 1];
+        if (r->texels[0] > 0 || r->texels[1] > 0)
+            r->job->kernels->texels(uv, r->part.w, r->texels, s->texels[y]);
+        else memset(s->texels[y], 0, (size_t)r->part.w * sizeof s->texels[y][0]);
         r->job->kernels->smooth(rows, r->part.w, weight, slope,
                                 wr_tile_pixel(r->job, r->part.x, r->part.y + y), s->bound[y]);
-        for (int x = 0; x < r->part.w; x++)
-            s->open[y][x] = s->bound[y][x] <= most                 ? 0
-                            : !r->some || s->bound[y][x] > OUTLINE ? OPEN_ALL
-                                                                   : OPEN;
+        for (int x = 0; x < r->part.w; x++) {
+            const float off = s->bound[y][x];
+            const bool closed = off <= most && s->texels[y][x] <= FINE;
+            s->open[y][x] = closed ? 0 : !r->some || off > OUTLINE ? OPEN_ALL : OPEN;
+        }
     }
 }
 
@@ -309,7 +333,8 @@ static bool rooks_agree(const Refiner *r, const unsigned char at[2], float (*sam
         }
         if (rook[j][3] != centre[3]) return false;
     }
-    if (!(most <= SAMPLE_OFF * r->contrast)) return false;
+    const bool fine = r->scratch->texels[at[1]][at[0]] > FINE;
+    if (!(most <= (fine ? FINE_OFF : SAMPLE_OFF) * r->contrast)) return false;
     sum_pairs(rook, k);
     for (int c = 0; c < 4; c++) {
         rook[0][c] /= (float)k;
@@ -429,6 +454,7 @@ void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScra
     const double start = wr_clock_seconds(), before = told_elsewhere(scratch);
     wr_did(scratch, WR_EFFECT_SAMPLES);
     const int64_t covered = scratch->covered;
+    count_texels(job, r.texels);
     r.some = !r.by_bound && !slopes_jump(plan) && place_rooks(&r);
     if (!r.by_bound || wr_plan_runs(plan, WR_EFFECT_BOUND)) {
         first_samples(&r);

@@ -9,6 +9,8 @@
 #define APART 128 /* pixels from block to block, about, ... */
 #define LEAST 3   /* ... and how many there are along each side */
 #define MOST 6
+#define STRIDE 7 /* blocks that follow each other lie apart; prime to all counts */
+#define SURE 3   /* after so many the answer may be clear */
 
 /* What is spent, in samples of plain supersampling. Measured. */
 #define FIRST 1.7       /* a first sample, its share of the ring, and looking at it */
@@ -62,6 +64,13 @@ static int blocks_along(int pixels)
     return count < LEAST ? LEAST : count > MOST ? MOST : count;
 }
 
+/* Would more blocks hardly change the answer? */
+static bool clear(const Spent *spent)
+{
+    return spent->plain > 0 &&
+           (spent->adaptive > 1.3 * spent->plain || spent->adaptive < 0.5 * spent->plain);
+}
+
 bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 {
     const WrView *view = job->view;
@@ -71,10 +80,12 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
     Spent spent = { 0 };
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
     scratch->seen = NULL;
-    const int across = blocks_along(w), down = blocks_along(h);
-    for (int j = 0; j < down; j++)
-        for (int i = 0; i < across; i++)
-            spend_block(&own, view->x0 + (2 * i + 1) * w / (2 * across) - BLOCK_W / 2,
-                        view->y0 + (2 * j + 1) * h / (2 * down) - BLOCK_H / 2, scratch, &spent);
+    const int across = blocks_along(w), down = blocks_along(h), count = across * down;
+    for (int k = 0; k < count; k++) {
+        const int i = STRIDE * k % count % across, j = STRIDE * k % count / across;
+        spend_block(&own, view->x0 + (2 * i + 1) * w / (2 * across) - BLOCK_W / 2,
+                    view->y0 + (2 * j + 1) * h / (2 * down) - BLOCK_H / 2, scratch, &spent);
+        if (k >= SURE && clear(&spent)) break;
+    }
     return !(spent.adaptive > GAIN * spent.plain);
 }

@@ -59,6 +59,9 @@ typedef struct WrSink {
     float *normals;  /* 3 a sample: n' */
     float *bound;    /* how far the intensity may change over the pixel */
     double pixel;    /* of the bound, samples a side */
+    float *uv;       /* 2 a sample: u and v, where table or colour picture are looked up */
+    float *
+        texels; /* how many of table and colour picture lie along a pixel, at most; only those that are not 0 */
 } WrSink;
 
 /* Samples anywhere in a grid, by their places. */
@@ -91,6 +94,8 @@ typedef struct WrTileScratch {
               [4]; /* several samples a pixel: a tile's pixels, before they become codes */
     /* adaptive: first samples, with the ring of pixels round the tile */
     float centre[WR_REFINE_H + 2 * WR_REFINE_RING][WR_REFINE_W + 2 * WR_REFINE_RING][4];
+    float uv[WR_REFINE_H + 2 * WR_REFINE_RING][WR_REFINE_W + 2 * WR_REFINE_RING][2]; /* theirs */
+    float texels[WR_REFINE_H][WR_REFINE_W];           /* adaptive: along a pixel */
     float bound[WR_REFINE_H][WR_REFINE_W];            /* adaptive: how far one sample may be off */
     unsigned char open[WR_REFINE_H][WR_REFINE_W];     /* adaptive: the pixel needs more */
     unsigned char list[WR_REFINE_W * WR_REFINE_H][2]; /* adaptive: x, y of those at hand */

@@ -53,10 +53,11 @@ typedef enum WrSpread {
 /* adaptive: what decides that a pixel needs more. */
 typedef enum WrRefine {
     /* One sample a pixel; where light bends evenly about it, the mean over the pixel follows from that sample and
-       its neighbours. Where third differences say that this may be off by more than `contrast`, and along every
-       outline: of K x K first K, one in each row and column, where 4 divides K and places are regular; the others
-       too unless each of those is as the neighbours told, to four times `contrast`, and their mean to once. An
-       estimate: what falls between the first samples is missed. */
+       its neighbours. Where third differences say that this may be off by more than `contrast`, along every outline
+       and where a pixel holds more than two texels: of K x K first K, one in each row and column, where 4 divides K
+       and places are regular; the others too unless each of those is as the neighbours told, to a few times
+       `contrast`, and their mean to once. An estimate: what falls between the samples is missed. Where a few blocks
+       of the view tell that more would be taken than spared, all are taken at once. */
     WR_REFINE_CONTRAST,
     /* K x K but where a bound on the intensity's change over the pixel is within `contrast`: then no pixel is
        farther from that of K x K than `contrast`. A bound is known on plane, cube and sphere with slopes by
