@@ -37,9 +37,9 @@ typedef struct Row {
 
 WR_ROWS(rows);
 static const Row rows[KIND_COUNT] = {
-    [WR_ROW(NOISE)] = { "noise", "gradient noise, 8 octaves", "noise gradient cells=8 octaves=8",
+    [WR_ROW(NOISE)] = { "noise", "gradient noise, 6 octaves", "noise gradient cells=8 octaves=6",
                         "-o out.tif -- gegl:perlin-noise alpha=1.2 scale=1.8 "
-                        "n=8 gegl:crop width=4096 height=4096",
+                        "n=6 gegl:crop width=4096 height=4096",
                         "in.tif -o out.tif" },
     [WR_ROW(BLUR)] = { "blur", "Gaussian blur, sigma 10.67", "adjust blur sigma=10.67",
                        "in.tif -o out.tif -- gegl:gaussian-blur std-dev-x=10.67 std-dev-y=10.67 "
