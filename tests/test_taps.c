@@ -79,6 +79,68 @@ static void smoothing_adds_the_sum_to_the_height(void **state)
             }
 }
 
+/* Whole numbers, so that sums are exact in any order. */
+static void boxes_are_their_sums_to_the_nearest_whole_number(void **state)
+{
+    (void)state;
+    enum { L = WR_BOX_LANES, N = 60 };
+    for (int index = 0; wr_taps_at(index); index++)
+        for (int r = 0; r < 20; r++) {
+            const WrBox box = { r, 0.3 + 0.03 * r, 1.0 / (2 * r + 1 + 2 * (0.3 + 0.03 * r)) };
+            static double in[(N + 60) * L], out[(N + 1) * L];
+            for (int k = 0; k < (N + 60) * L; k++)
+                in[k] = (double)((int64_t)wr_mix32((uint32_t)(k + r)) << 8) - 0x1p39;
+            out[N * L] = 77.0;
+            wr_taps_at(index)->box(&box, in, N, out);
+            for (int i = 0; i < N; i++)
+                for (int lane = 0; lane < L; lane++) {
+                    double sum = 0;
+                    for (int k = 1; k <= 2 * r + 1; k++) sum += in[(i + k) * L + lane];
+                    double ends = in[i * L + lane] + in[(i + 2 * r + 2) * L + lane];
+                    assert_true(out[i * L + lane] == rint((sum + box.end * ends) * box.inverse));
+                }
+            assert_true(out[N * L] == 77.0);
+        }
+}
+
+static void steps_go_to_and_from_heights_alike_along_and_across(void **state)
+{
+    (void)state;
+    enum { L = WR_BOX_LANES };
+    const double scales[] = { 0x1p40, 0x1p-88, 0x1p160 };
+    for (int index = 0; wr_taps_at(index); index++)
+        for (int n = 0; n < 3; n++) {
+            const double scale = scales[n], step = 1.0 / scale;
+            double row[40 * L], across[L], both[40 * L];
+            float was[40], along[40], side[L];
+            for (int k = 0; k < 40; k++) was[k] = along[k] = heights[n][k] * (float)(0x1p38 * step);
+            wr_taps_at(index)->to_steps(scale, was, 40, row);
+            for (int k = 0; k < 40; k++) {
+                assert_true(row[k * L] == rint((double)was[k] * scale));
+                both[k * L] = k % 3 ? 2.0 * row[k * L] + (double)(k * 1001) : 2.0 * row[k * L];
+            }
+            wr_taps_at(index)->add_steps(scale, step, both, 40, along);
+            for (int k = 0; k < 40; k++) {
+                double x = (double)was[k] + (0.5 * both[k * L] - row[k * L]) * step;
+                assert_true(along[k] == (float)x && (k % 3 || along[k] == was[k]));
+            }
+            wr_taps_at(index)->to_steps_across(scale, was, across);
+            for (int k = 0; k < L; k++) {
+                assert_true(across[k] == row[k * L]);
+                side[k] = was[k];
+                across[k] = both[k * L];
+            }
+            wr_taps_at(index)->add_steps_across(scale, step, across, side);
+            for (int k = 0; k < L; k++) assert_true(side[k] == along[k]);
+            float end = -3e38f;
+            along[0] = side[0] = end;
+            both[0] = across[0] = -1e300;
+            wr_taps_at(index)->add_steps(0x1p-88, 0x1p88, both, 1, along);
+            wr_taps_at(index)->add_steps_across(0x1p-88, 0x1p88, across, side);
+            assert_true(along[0] == -3.4028234663852886e38f && side[0] == along[0]);
+        }
+}
+
 static void a_flat_neighbourhood_adds_exactly_nothing(void **state)
 {
     (void)state;
@@ -95,6 +157,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_texel_gets_its_taps_along_rows_and_columns),
         cmocka_unit_test(all_instruction_sets_give_the_same_bits_for_any_count_and_reach),
+        cmocka_unit_test(boxes_are_their_sums_to_the_nearest_whole_number),
+        cmocka_unit_test(steps_go_to_and_from_heights_alike_along_and_across),
         cmocka_unit_test(smoothing_adds_the_sum_to_the_height),
         cmocka_unit_test(a_flat_neighbourhood_adds_exactly_nothing),
     };

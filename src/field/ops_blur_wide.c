@@ -17,59 +17,34 @@
 
 #include "base/memory.h"
 #include "field/field.h"
+#include "field/taps.h"
 
 #include <math.h>
 
-#define LANES 16 /* rows (or columns) that are filtered side by side */
+#define LANES WR_BOX_LANES
 #define BOXES 4
 #define CHAINS 2
 #define BITS 40
-/* Adding and subtracting this rounds |x| < 2^51 to a whole number. */
-#define ROUNDER 0x1.8p52
-
-typedef struct Box {
-    int r;
-    double end, inverse; /* weight of the texels at the ends; 1 / the sum of all weights */
-} Box;
 
 typedef struct WideBlur {
     const WrField *in;
     WrOpPlane *plane;
-    Box box[CHAINS];
+    WrBox box[CHAINS];
+    const WrTaps *taps;
     int apron;            /* texels read on either side of a row */
     double scale, step;   /* steps in a table unit, and its inverse; powers of two */
     double *work;         /* [threads][pitch] */
     size_t pitch, length; /* doubles; `length` of one row of LANES with its aprons */
 } WideBlur;
 
-static Box box_of(double variance)
+static WrBox box_of(double variance)
 {
     int r = (int)((sqrt(1.0 + 12.0 * variance) - 1.0) / 2.0);
     while (r > 0 && r * (r + 1.0) / 3.0 > variance) r--;
     while ((r + 1.0) * (r + 2.0) / 3.0 <= variance) r++;
     double whole = 2.0 * r + 1.0, next = (r + 1.0) * (r + 1.0);
     double end = whole * (variance - r * (r + 1.0) / 3.0) / (2.0 * (next - variance));
-    return (Box){ r, end, 1.0 / (whole + 2.0 * end) };
-}
-
-/* out[i] = box around in[i + r + 1], for i = 0 .. count - 1; elements are LANES doubles. */
-static void run_box(const Box *box, const double *restrict in, int count, double *restrict out)
-{
-    double sum[LANES] = { 0 };
-    for (int i = 1; i <= 2 * box->r + 1; i++)
-        for (int lane = 0; lane < LANES; lane++) sum[lane] += in[(size_t)i * LANES + lane];
-    double end = box->end, inverse = box->inverse;
-    for (int i = 0; i < count; i++) {
-        const double *left = in + (size_t)i * LANES;
-        const double *right = left + (2 * (size_t)box->r + 2) * LANES;
-        double *to = out + (size_t)i * LANES;
-#pragma omp simd
-        for (int lane = 0; lane < LANES; lane++) {
-            double x = (sum[lane] + end * (left[lane] + right[lane])) * inverse;
-            to[lane] = (x + ROUNDER) - ROUNDER;
-            sum[lane] += right[lane] - left[LANES + lane];
-        }
-    }
+    return (WrBox){ r, end, 1.0 / (whole + 2.0 * end) };
 }
 
 /* Filter `count` elements of LANES steps each; row begins with the apron. Returns where the sum of both
@@ -78,29 +53,18 @@ static const double *run_chains(const WideBlur *wide, double *row, int count)
 {
     double *a = row + wide->length, *b = a + wide->length, *sum = b + wide->length;
     for (int chain = 0; chain < CHAINS; chain++) {
-        const Box *box = &wide->box[chain];
+        const WrBox *box = &wide->box[chain];
         int ring = box->r + 1, skip = wide->apron - BOXES * ring;
         const double *from = row + (size_t)skip * LANES;
         for (int pass = 1; pass <= BOXES; pass++) {
             double *to = pass == BOXES && chain == 0 ? sum : pass % 2 ? a : b;
-            run_box(box, from, count + 2 * ring * (BOXES - pass), to);
+            wide->taps->box(box, from, count + 2 * ring * (BOXES - pass), to);
             from = to;
         }
         if (chain > 0)
             for (size_t i = 0; i < (size_t)count * LANES; i++) sum[i] += from[i];
     }
     return sum;
-}
-
-static double to_steps(const WideBlur *wide, float height)
-{
-    return ((double)height * wide->scale + ROUNDER) - ROUNDER;
-}
-
-/* The height plus what the blur adds to it, so that where that is nothing the bits stay. */
-static float blurred(const WideBlur *wide, float height, double both)
-{
-    return wr_op_float((double)height + (0.5 * both - to_steps(wide, height)) * wide->step);
 }
 
 static void blur_rows(int index, int worker, void *ctx)
@@ -113,14 +77,13 @@ static void blur_rows(int index, int worker, void *ctx)
     float *texels = (float *)(row + 4 * wide->length);
     for (int lane = 0; lane < rows; lane++) {
         wr_op_read(wide->in, -wide->apron, j + lane, across, 1, texels, (size_t)across);
-        for (int i = 0; i < across; i++) row[(size_t)i * LANES + lane] = to_steps(wide, texels[i]);
+        wide->taps->to_steps(wide->scale, texels, across, row + lane);
     }
     const double *sum = run_chains(wide, row, plane->width);
     for (int lane = 0; lane < rows; lane++) {
         float *to = plane->at + (size_t)(j + lane) * plane->pitch;
         wr_field_read(wide->in, 0, j + lane, plane->width, 1, to, plane->pitch);
-        for (int i = 0; i < plane->width; i++)
-            to[i] = blurred(wide, to[i], sum[(size_t)i * LANES + lane]);
+        wide->taps->add_steps(wide->scale, wide->step, sum + lane, plane->width, to);
     }
 }
 
@@ -136,18 +99,16 @@ static void blur_columns(int index, int worker, void *ctx)
 {
     const WideBlur *wide = ctx;
     const WrOpPlane *plane = wide->plane;
-    int i = index * LANES, columns = plane->width - i < LANES ? plane->width - i : LANES;
+    int i = index * LANES; /* the last ones may reach into the gap between rows */
     double *row = wide->work + (size_t)worker * wide->pitch;
     for (int y = 0; y < plane->height + 2 * wide->apron; y++) {
         const float *from = plane->at + (size_t)row_of(wide, y - wide->apron) * plane->pitch + i;
-        for (int lane = 0; lane < columns; lane++)
-            row[(size_t)y * LANES + lane] = to_steps(wide, from[lane]);
+        wide->taps->to_steps_across(wide->scale, from, row + (size_t)y * LANES);
     }
     const double *sum = run_chains(wide, row, plane->height);
     for (int y = 0; y < plane->height; y++) {
         float *to = plane->at + (size_t)y * plane->pitch + i;
-        for (int lane = 0; lane < columns; lane++)
-            to[lane] = blurred(wide, to[lane], sum[(size_t)y * LANES + lane]);
+        wide->taps->add_steps_across(wide->scale, wide->step, sum + (size_t)y * LANES, to);
     }
 }
 
@@ -175,7 +136,7 @@ static bool run_axes(const WrOpJob *job, WideBlur *wide)
 
 bool wr_op_blur_wide(const WrOpJob *job, double sigma, WrOpPlane *plane)
 {
-    WideBlur wide = { .in = job->in, .plane = plane };
+    WideBlur wide = { .in = job->in, .plane = plane, .taps = wr_taps() };
     double third = sigma * sigma / 3.0;
     wide.box[0] = box_of(2.0 * third / BOXES);
     wide.box[1] = box_of(4.0 * third / BOXES);

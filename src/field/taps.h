@@ -1,4 +1,4 @@
-/* taps.h - the inner loop of narrow blurs (ops_blur.c), compiled once per instruction set. All sets give the
+/* taps.h - the inner loops of blurs (ops_blur.c, ops_blur_wide.c), compiled once per instruction set. All sets give the
    same bits: only + - *, in the same order, without contraction.
    Layer 1, private to this room. */
 #pragma once
@@ -6,6 +6,16 @@
 
 #define WR_TAPS_STRIP                                                                              \
     64 /* of a row that filters along v, so that all rows stay in the nearest cache */
+
+/* Rows (or columns) that boxes filter side by side: a vector of doubles, where all that one piece of work holds
+ * stays in the second cache. */
+#define WR_BOX_LANES 8
+
+/* 2r + 1 texels of weight 1 and one more on either side of weight `end`. */
+typedef struct WrBox {
+    int r;
+    double end, inverse; /* the latter: 1 / the sum of all weights */
+} WrBox;
 
 typedef struct WrTaps {
     const char *name; /* "v1", "v3", "v4": levels of x86-64; v1 is plain C everywhere */
@@ -17,6 +27,15 @@ typedef struct WrTaps {
     /* The same, and c[i] added. */
     void (*smooth)(const float *weight, int reach, const float *c, ptrdiff_t step, int count,
                    float *out);
+    /* out[i] = box around in[i + r + 1], rounded to a whole number, for i = 0 .. count - 1; elements are
+     * WR_BOX_LANES whole numbers below 2^51. */
+    void (*box)(const WrBox *box, const double *in, int count, double *out);
+    /* Texels to steps, whole numbers, one lane of a row; and the blurred height of the sum of two boxes. */
+    void (*to_steps)(double scale, const float *texels, int count, double *row);
+    void (*add_steps)(double scale, double step, const double *both, int count, float *heights);
+    /* The same of WR_BOX_LANES texels that lie side by side. */
+    void (*to_steps_across)(double scale, const float *texels, double *element);
+    void (*add_steps_across)(double scale, double step, const double *both, float *heights);
 } WrTaps;
 
 extern const WrTaps wr_taps_v1, wr_taps_v3, wr_taps_v4;

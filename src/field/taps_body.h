@@ -2,6 +2,7 @@
    WR_TAPS_NAME. A header without a guard, by intention. */
 #include "field/taps.h"
 
+#include <float.h>
 #include <string.h>
 
 /* Vectors by name, since the sums of several must stay in registers while all taps are added, which no
@@ -83,4 +84,75 @@ static void smooth(const float *weight, int reach, const float *c, ptrdiff_t ste
     for (int i = 0; i < count; i++) out[i] = c[i] + out[i];
 }
 
-const WrTaps WR_TAPS_TABLE = { .name = WR_TAPS_NAME, .add = add, .smooth = smooth };
+/* Adding and subtracting this rounds |x| < 2^51 to a whole number. */
+#define ROUNDER 0x1.8p52
+#define SIDE_BY_SIDE WR_BOX_LANES
+
+static void box(const WrBox *b, const double *restrict in, int count, double *restrict out)
+{
+    double sum[SIDE_BY_SIDE] = { 0 }, end = b->end, inverse = b->inverse;
+    for (int i = 1; i <= 2 * b->r + 1; i++)
+#pragma omp simd
+        for (int lane = 0; lane < SIDE_BY_SIDE; lane++) sum[lane] += in[i * SIDE_BY_SIDE + lane];
+    const double *left = in, *right = in + (2 * (size_t)b->r + 2) * SIDE_BY_SIDE;
+    for (int i = 0; i < count; i++) {
+#pragma omp simd
+        for (int lane = 0; lane < SIDE_BY_SIDE; lane++) {
+            double x = (sum[lane] + end * (left[lane] + right[lane])) * inverse;
+            out[lane] = (x + ROUNDER) - ROUNDER;
+            sum[lane] += right[lane] - left[SIDE_BY_SIDE + lane];
+        }
+        left += SIDE_BY_SIDE, right += SIDE_BY_SIDE, out += SIDE_BY_SIDE;
+    }
+}
+
+static inline double steps_of(double scale, float height)
+{
+    return ((double)height * scale + ROUNDER) - ROUNDER;
+}
+
+/* The height plus what the blur adds to it, so that where that is nothing the bits stay. */
+static inline float blurred(double scale, double step, float height, double both)
+{
+    double x = (double)height + (0.5 * both - steps_of(scale, height)) * step;
+    x = x > FLT_MAX ? FLT_MAX : x;
+    x = x < -FLT_MAX ? -FLT_MAX : x;
+    return (float)x;
+}
+
+static void to_steps(double scale, const float *restrict texels, int count, double *restrict row)
+{
+    for (int i = 0; i < count; i++) row[(size_t)i * SIDE_BY_SIDE] = steps_of(scale, texels[i]);
+}
+
+static void add_steps(double scale, double step, const double *restrict both, int count,
+                      float *restrict heights)
+{
+    for (int i = 0; i < count; i++)
+        heights[i] = blurred(scale, step, heights[i], both[(size_t)i * SIDE_BY_SIDE]);
+}
+
+static void to_steps_across(double scale, const float *restrict texels, double *restrict element)
+{
+#pragma omp simd
+    for (int lane = 0; lane < SIDE_BY_SIDE; lane++) element[lane] = steps_of(scale, texels[lane]);
+}
+
+static void add_steps_across(double scale, double step, const double *restrict both,
+                             float *restrict heights)
+{
+#pragma omp simd
+    for (int lane = 0; lane < SIDE_BY_SIDE; lane++)
+        heights[lane] = blurred(scale, step, heights[lane], both[lane]);
+}
+
+const WrTaps WR_TAPS_TABLE = {
+    .name = WR_TAPS_NAME,
+    .add = add,
+    .smooth = smooth,
+    .box = box,
+    .to_steps = to_steps,
+    .add_steps = add_steps,
+    .to_steps_across = to_steps_across,
+    .add_steps_across = add_steps_across,
+};
