@@ -92,12 +92,12 @@ cat >"$words" <<'END'
   "aa=filter": "one look at a table that is blurred to the pixel's size",
   "aa=moments": "one look at the blurred table and at how its slopes scatter",
   "aa=supersample": "the mean of looks on a grid in each pixel",
-  "aa=adaptive": "more looks only where neighbours differ",
+  "aa=adaptive": "more looks only where one and its neighbours tell too little",
   "spread=regular": "looks on an even grid", "spread=jittered": "looks at random places, so that stairs become grain",
   "footprint=isotropic": "the pixel's shape in the table taken for a square",
   "footprint=anisotropic": "the pixel's shape in the table followed, long and thin where it is",
   "moments=toksvig": "the slopes' scatter as one number", "moments=lean": "the slopes' scatter in both directions",
-  "refine=contrast": "where neighbours differ", "refine=bound": "wherever nothing proves that it is not needed",
+  "refine=contrast": "where an estimate calls for them", "refine=bound": "wherever nothing proves that it is not needed",
   "newton=-1": "the point on the surface solved until it is right",
   "newton=0": "the point on the surface taken from the grid, not solved",
   "newton=1": "the point on the surface solved by one step", "newton=2": "the point on the surface solved by two steps",
@@ -181,7 +181,7 @@ tell_front() {
     say '| ---: | --- | ---: | ---: | ---: | ---: | --- |'
     jq -r --slurpfile words "$words" "$functions"'
         def word: . as $w | $words[0][$w] // (if startswith("samples=") then "\($w[8:]) x \($w[8:]) looks a pixel"
-            elif startswith("contrast=") then "differences below \($w[9:]) let pass"
+            elif startswith("contrast=") then "off by about \($w[9:]) from all looks"
             elif startswith("mesh=") then "the surface'"'"'s grid 2^\($w[5:]) times as fine"
             elif startswith("texels=") then "the point on the surface solved to \($w[7:]) texels"
             else error("no words for \($w)") end);
