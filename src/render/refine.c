@@ -3,7 +3,7 @@
    agree with what the neighbours told. By bound: one sample, or all. A pixel that comes to K x K holds what
    `supersample` makes of it, bit for bit; none depends on how the picture is cut into tiles. */
 #include "render/pipe.h"
-#include "base/vec.h"
+#include "render/outline.h"
 #include "system/clock.h"
 
 #include <math.h>
@@ -16,6 +16,8 @@
 /* Of pixels with more texels than that along them the neighbours say little: K samples are taken, which have to agree better. */
 #define FINE 2.0f
 #define FINE_OFF 1.5f
+#define EDGES_ALONE                                                                                \
+    0.02f /* a `contrast` of as much is for pictures in a hurry: there they are believed */
 /* Where coverage differs one sample is off by more than any contrast (kern_smooth_body.h). */
 #define OUTLINE 1e6f
 /* The mean of one place anywhere in each of K x K cells is off by about 0.29 / K^2 of the slope; four times that. */
@@ -75,69 +77,6 @@ static void first_samples(Refiner *r)
     s->all_strips += wr_clock_seconds() - start;
 }
 
-/* ---- pixels that the object leaves out ----------------------------------------------------------- */
-
-static WrVec3 sum3(const double a[3], const double b[3], double x, const double c[3], double y)
-{
-    return (WrVec3){ a[0] + x * b[0] + y * c[0], a[1] + x * b[1] + y * c[1],
-                     a[2] + x * b[2] + y * c[2] };
-}
-
-/* A ray passes the ball farther off than rays of the pixel lie apart. */
-static bool misses_ball(const WrView *view, const WrRaysd *rays, double x, double y)
-{
-    const double R = view->shape_d.value[0];
-    WrVec3 d = sum3(rays->d0, rays->dx, x, rays->dy, y),
-           q = sum3(rays->q0, rays->qx, x, rays->qy, y);
-    double dd = v3_dot(d, d), m = v3_dot(q, d) / dd, near = -m;
-    WrVec3 foot = v3_mad(q, d, near);
-    const double zero[3] = { 0 };
-    WrVec3 across =
-        v3_mad(sum3(rays->qx, zero, 0, zero, 0), sum3(rays->dx, zero, 0, zero, 0), near);
-    WrVec3 down = v3_mad(sum3(rays->qy, zero, 0, zero, 0), sum3(rays->dy, zero, 0, zero, 0), near);
-    double slack = 0.51 * (v3_len(across) + v3_len(down));
-    return v3_len(foot) - slack > R * (1 + 1e-5);
-}
-
-/* All four corners lie beyond the same edge of the quad, or none meets its plane in front. */
-static bool misses_quad(const WrView *view, const WrRaysd *rays, const WrQuadd *quad, double x,
-                        double y)
-{
-    int left = 0, right = 0, below = 0, above = 0, behind = 0;
-    const double zero[3] = { 0 };
-    WrVec3 o = sum3(quad->origin, zero, 0, zero, 0), n = sum3(quad->normal, zero, 0, zero, 0);
-    double first = 0;
-    (void)view;
-    for (int k = 0; k < 4; k++) {
-        double cx = x + (k & 1 ? 0.501 : -0.501), cy = y + (k & 2 ? 0.501 : -0.501);
-        WrVec3 d = sum3(rays->d0, rays->dx, cx, rays->dy, cy);
-        WrVec3 q = sum3(rays->q0, rays->qx, cx, rays->qy, cy);
-        double dn = v3_dot(d, n);
-        if (k == 0) first = dn;
-        if (dn * first <= 0) return false; /* the horizon crosses the pixel */
-        double s = v3_dot(v3_sub(o, q), n) / dn;
-        WrVec3 p = v3_sub(v3_mad(q, d, s), o);
-        double u = p.x * quad->eu[0] + p.y * quad->eu[1] + p.z * quad->eu[2];
-        double v = p.x * quad->ev[0] + p.y * quad->ev[1] + p.z * quad->ev[2];
-        left += u<-1e-6, right += u> 1 + 1e-6, below += v<-1e-6, above += v> 1 + 1e-6;
-        behind += s <= rays->s_min;
-    }
-    if (behind > 0) return behind == 4;
-    return left == 4 || right == 4 || below == 4 || above == 4;
-}
-
-/* Is a pixel whose centre shows nothing empty for certain? */
-static bool surely_empty(const Refiner *r, int x, int y)
-{
-    const WrView *view = r->job->view;
-    const WrRaysd *rays = &wr_view_grid(view, 1)->rays_d;
-    double gx = r->part.x + x, gy = r->part.y + y;
-    if (r->job->plan->inversion == WR_INVERT_SPHERE) return misses_ball(view, rays, gx, gy);
-    for (int i = 0; i < view->quad_count; i++)
-        if (!misses_quad(view, rays, &view->quads_d[i], gx, gy)) return false;
-    return true;
-}
-
 /* ---- which pixels need more ---------------------------------------------------------------------- */
 
 static void open_by_bound(const Refiner *r)
@@ -146,8 +85,9 @@ static void open_by_bound(const Refiner *r)
     for (int y = 0; y < r->part.h; y++) {
         const float(*row)[4] = (const float(*)[4])s->centre[y + RING] + RING;
         for (int x = 0; x < r->part.w; x++) {
-            const bool closed =
-                row[x][3] > 0.0f ? s->bound[y][x] <= r->contrast : surely_empty(r, x, y);
+            const bool closed = row[x][3] > 0.0f
+                                    ? s->bound[y][x] <= r->contrast
+                                    : wr_outline_misses(r->job, r->part.x + x, r->part.y + y);
             s->open[y][x] = closed ? 0 : OPEN_ALL;
         }
         memcpy(wr_tile_pixel(r->job, r->part.x, r->part.y + y), row,
@@ -161,6 +101,25 @@ static bool slopes_jump(const WrPlan *plan)
     return plan->source == WR_SOURCE_TABLE &&
            wr_plan_calls(plan, WR_EFFECT_BUMP) && /* forced, it has no slopes */
            (plan->scheme == WR_SCHEME_NEAREST || plan->scheme == WR_SCHEME_BILINEAR);
+}
+
+/* The pixels about a point of the picture, in 1/256 samples. */
+static void open_about(const Refiner *r, const WrRasterVertex *point)
+{
+    const double per = 256.0 * r->job->samples;
+    const double px = floor(point->x / per) - r->part.x, py = floor(point->y / per) - r->part.y;
+    for (int k = 0; k < 9; k++) {
+        const double x = px + k % 3 - 1, y = py + k / 3 - 1;
+        if (x >= 0 && y >= 0 && x < r->part.w && y < r->part.h)
+            r->scratch->open[(int)y][(int)x] = OPEN_ALL;
+    }
+}
+
+static void open_tips(const Refiner *r)
+{
+    WrRasterVertex tips[WR_OUTLINE_TIPS];
+    const int count = wr_outline_tips(r->job, tips);
+    for (int k = 0; k < count; k++) open_about(r, &tips[k]);
 }
 
 static void open_by_contrast(const Refiner *r)
@@ -454,12 +413,12 @@ void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScra
     const double start = wr_clock_seconds(), before = told_elsewhere(scratch);
     wr_did(scratch, WR_EFFECT_SAMPLES);
     const int64_t covered = scratch->covered;
-    count_texels(job, r.texels);
+    if (r.contrast < EDGES_ALONE) count_texels(job, r.texels);
     r.some = !r.by_bound && !slopes_jump(plan) && place_rooks(&r);
     if (!r.by_bound || wr_plan_runs(plan, WR_EFFECT_BOUND)) {
         first_samples(&r);
         if (r.by_bound) open_by_bound(&r);
-        else open_by_contrast(&r);
+        else open_by_contrast(&r), open_tips(&r);
     } else { /* no bound is known in this scene: K x K everywhere */
         memset(scratch->open, OPEN_ALL, sizeof scratch->open);
     }
