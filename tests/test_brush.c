@@ -660,6 +660,28 @@ static void coverage_is_1_inside_and_0_outside(void **state)
     assert_true(wr_brush_coverage(&brush, 0.2) == 1 && wr_brush_coverage(&brush, 0.4) == 0);
 }
 
+/* Near corners of tiles, where a dab's square reaches tiles that the dab itself does not. */
+static void a_dab_makes_no_tile_that_it_does_not_change(void **state)
+{
+    (void)state;
+    TestRandom random = { 77 };
+    for (int n = 0; n < 3000; n++) {
+        WrField *field = torus(256, 200);
+        double radius = 1 + 20 * test_random(&random), far = radius * 1.6;
+        WrBrush brush = brush_of(radius, test_random(&random), 0.5);
+        double x = 128 + far * (test_random(&random) - 0.5),
+               y = 64 + far * (test_random(&random) - 0.5);
+        wr_brush_dab(field, &brush, x / 256, 1 - y / 200);
+        for (int t = 0; t < 16; t++) {
+            const float *tile = wr_field_tile(field, t % 4, t / 4);
+            bool any = false;
+            for (int k = 0; tile && k < WR_TILE * WR_TILE; k++) any |= tile[k] != 0.0f;
+            assert_int_equal(tile != NULL, any);
+        }
+        wr_field_free(field);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -689,6 +711,7 @@ int main(void)
         cmocka_unit_test(the_table_is_free_of_seams_where_its_edge_cuts_a_tile),
         cmocka_unit_test(every_set_of_kernels_gives_the_same_bits),
         cmocka_unit_test(a_dab_in_a_tile_is_its_rows_coverage_added),
+        cmocka_unit_test(a_dab_makes_no_tile_that_it_does_not_change),
         cmocka_unit_test(coverage_is_1_inside_and_0_outside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -289,11 +289,35 @@ static void closing_twice_is_closing_once(void **state)
     wr_field_free(twice);
 }
 
+/* Beyond the table's edges, whatever lay in the memory of a tile that is written. */
+static void unused_texels_of_a_filtered_table_hold_the_level(void **state)
+{
+    (void)state;
+    const int sizes[][2] = { { 70, 64 }, { 64, 70 }, { 270, 300 }, { 5, 5 } };
+    for (int k = 0; k < 4; k++) {
+        int width = sizes[k][0], height = sizes[k][1];
+        WrField *full = noisy_table(2048, 2048, P, P, 4);
+        WrField *in = noisy_table(width, height, P, P, 3);
+        wr_field_free(full); /* what the next tiles are made of */
+        WrField *out = run("blur", in, 2.0);
+        for (int t = 0; t < wr_field_tiles_u(out) * wr_field_tiles_v(out); t++) {
+            int tx = t % wr_field_tiles_u(out), ty = t / wr_field_tiles_u(out);
+            const float *tile = wr_field_tile(out, tx, ty);
+            for (int n = 0; tile && n < WR_TILE * WR_TILE; n++)
+                if (tx * WR_TILE + n % WR_TILE >= width || ty * WR_TILE + n / WR_TILE >= height)
+                    assert_true(same_bits(tile[n], wr_field_level(out)));
+        }
+        wr_field_free(in);
+        wr_field_free(out);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_blur_is_the_sum_of_gaussian_weights),
         cmocka_unit_test(a_blur_is_exact_but_for_what_lies_beyond_four_sigma),
+        cmocka_unit_test(unused_texels_of_a_filtered_table_hold_the_level),
         cmocka_unit_test(hc77_a_blur_keeps_the_mean),
         cmocka_unit_test(hc77_a_blur_never_passes_the_range),
         cmocka_unit_test(the_kernel_of_a_wide_blur_has_its_variance_and_shape),
