@@ -160,6 +160,38 @@ static void every_set_of_kernels_gives_the_same_bits(void **state)
     }
 }
 
+/* A circle has a shorter way, which `soft` has not; near and far, small and as large as there are. */
+static void the_short_way_of_circles_gives_the_bits_of_the_long_one(void **state)
+{
+    (void)state;
+    TestRandom random = { 32 };
+    for (int set = 0; set < WR_BRUSH_KERNELS; set++) {
+        const WrBrushKernels *k = wr_brush_kernels_at(set);
+        for (int n = 0; k && n < 2000; n++) {
+            double r = n % 3 ? 1 + 300 * test_random(&random) : 1e9 * test_random(&random) + 1;
+            double hardness = 0.01 + 0.98 * test_random(&random);
+            WrEllipse e = { .x = n % 7 ? 16384 * test_random(&random) : 20,
+                            .y = 9 * test_random(&random) };
+            e.ux = e.aspect = 1;
+            e.uy = n % 2 ? -0.0 : 0.0;
+            e.alpha = (float)test_random(&random);
+            e.hardness = (float)hardness;
+            e.slope_in = (float)(1 / hardness - 1);
+            e.slope_out = (float)(hardness / (1 - hardness));
+            e.inverse_radius2 = (float)(1 / (r * r));
+            double x = floor(e.x + (2 * test_random(&random) - 1) * (r < 400 ? r : 400)),
+                   y = n % 20;
+            float a[64], b[64], fresh[64];
+            fill_random(&random, 64, a);
+            memcpy(b, a, sizeof a);
+            k->soft(&e, y, x, 64, fresh);
+            k->over(a, fresh, 64);
+            k->soft_over(&e, y, x, 64, b);
+            assert_memory_equal(a, b, sizeof a);
+        }
+    }
+}
+
 /* `over` and then `soft` is `soft_over`. */
 static void the_joined_kernel_does_what_its_two_parts_do(void **state)
 {
@@ -396,6 +428,7 @@ int main(void)
         cmocka_unit_test(an_abandoned_stroke_draws_nothing_more),
         cmocka_unit_test(several_threads_give_the_same_bits),
         cmocka_unit_test(every_set_of_kernels_gives_the_same_bits),
+        cmocka_unit_test(the_short_way_of_circles_gives_the_bits_of_the_long_one),
         cmocka_unit_test(the_joined_kernel_does_what_its_two_parts_do),
         cmocka_unit_test(what_is_painted_with_a_mirror_is_its_own_mirror_image),
         cmocka_unit_test(quarter_turns_are_exact),

@@ -226,10 +226,16 @@ static void ellipse(const WrEllipse *ellipse, double y, double x, int count, flo
             cover[i] = (float)(alpha * profile(&c, ellipse_d2(&e, (x + steps[i]) - e.x, ey)));
 }
 
-/* libmypaint's falloff of q = (d/R)^2: two straight lines that meet at q = hardness. */
-static inline float soft_at(const WrEllipse *e, double ex, double ey)
+/* Whether it is a circle that nothing turns: then ellipse_d2 is ex ex + ey ey, bit for bit. */
+static inline bool is_round(const WrEllipse *e)
 {
-    float q = (float)ellipse_d2(e, ex, ey) * e->inverse_radius2;
+    return e->ux == 1.0 && e->uy == 0.0 && e->aspect == 1.0;
+}
+
+/* libmypaint's falloff of q = (d/R)^2: two straight lines that meet at q = hardness. */
+static inline float soft_of(const WrEllipse *e, double d2)
+{
+    float q = (float)d2 * e->inverse_radius2;
     float near = 1.0f - q * e->slope_in, far = (1.0f - q) * e->slope_out;
     float value = q <= e->hardness ? near : far;
     return e->alpha * (value > 0.0f ? value : 0.0f);
@@ -242,18 +248,27 @@ static void soft(const WrEllipse *ellipse, double y, double x, int count, float 
     for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
 #pragma omp simd
         for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
-            cover[i] = soft_at(&e, (x + steps[i]) - e.x, ey);
+            cover[i] = soft_of(&e, ellipse_d2(&e, (x + steps[i]) - e.x, ey));
 }
 
 static void soft_over(const WrEllipse *ellipse, double y, double x, int count,
                       float *restrict cover)
 {
     const WrEllipse e = *ellipse;
-    double ey = y - e.y;
+    double ey = y - e.y, ey2 = ey * ey;
+    if (is_round(&e)) {
+        for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
+#pragma omp simd
+            for (int i = b; i < b + WR_BRUSH_BLOCK; i++) {
+                double ex = (x + steps[i]) - e.x;
+                cover[i] += (1.0f - cover[i]) * soft_of(&e, ex * ex + ey2);
+            }
+        return;
+    }
     for (int b = 0; b < count; b += WR_BRUSH_BLOCK)
 #pragma omp simd
         for (int i = b; i < b + WR_BRUSH_BLOCK; i++)
-            cover[i] += (1.0f - cover[i]) * soft_at(&e, (x + steps[i]) - e.x, ey);
+            cover[i] += (1.0f - cover[i]) * soft_of(&e, ellipse_d2(&e, (x + steps[i]) - e.x, ey));
 }
 
 static void over(float *restrict cover, const float *restrict fresh, int count)
