@@ -58,6 +58,7 @@ void wr_renderer_free(WrRenderer *renderer)
     wr_keep_fini(&renderer->keep);
     wr_frame_drop_tables(renderer);
     drop_meshes(renderer, NULL);
+    wr_sight_fini(&renderer->sight);
     for (int i = 0; i < renderer->threads; i++) {
         if (renderer->scratch[i]) wr_free(renderer->scratch[i]->wide);
         wr_free(renderer->scratch[i]);
@@ -180,7 +181,8 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
                       .pipe = plan->shading_double ? &wr_pipe_double : &wr_pipe,
                       .kernels = kernels,
                       .kernels_double = wr_kernels_double(renderer->isa, NULL),
-                      .mesh = wr_plan_runs(plan, WR_EFFECT_DEPTH) ? renderer->mesh : NULL,
+                      .mesh = renderer->mesh,
+                      .newton = renderer->mesh && plan->newton != 0,
                       .samples = renderer->samples,
                       .width = renderer->width,
                       .height = renderer->height,
@@ -318,6 +320,30 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     return wr_fail(err, "cancelled");
 }
 
+#define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
+
+/* What the samples of a resting view look at: known from before, or noted from now on. One a pixel, in single precision;
+   not against the planner. */
+static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request,
+                        const WrKernels *kernels)
+{
+    const WrPlan *plan = &renderer->plan;
+    const WrForce *force = request->force;
+    WrSightKey key;
+    if (!renderer->mesh) wr_sight_fini(&renderer->sight);
+    const bool small = (int64_t)request->width * request->height <= SIGHT_MOST;
+    renderer->sighting = small && may_keep(request) && renderer->mesh && plan->newton != 0 &&
+                         plan->sampling == WR_SAMPLING_ONE && !plan->shading_double &&
+                         !request->full &&
+                         !(force && (force[WR_EFFECT_DEPTH] || force[WR_EFFECT_NEWTON]));
+    if (!renderer->sighting) return false;
+    const WrTileJob job = { .plan = plan, .scene = renderer->scene };
+    wr_sight_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), kernels);
+    if (wr_sight_bring(&renderer->sight, &key)) return true;
+    renderer->sighting = renderer->sight.u != NULL && wr_plan_runs(plan, WR_EFFECT_AGAIN);
+    return false;
+}
+
 /* Render the tiles. False if told to stop. */
 static bool run_tiles(WrRenderer *renderer, const WrFrameRequest *request, FrameJob *job)
 {
@@ -364,13 +390,18 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
         if (!prepare_view(renderer, request, kernels, err)) return false;
         if (!stands) look_for_life(renderer, request, kernels, &ask);
     }
+    ask.facts.sighted = bring_sight(renderer, request, kernels);
+    wr_plan_again(&renderer->plan, &ask);
     wr_frame_start_counts(renderer);
     FrameJob job = { .tile = make_job(renderer, request, kernels), .scratch = renderer->scratch };
+    if (renderer->sighting) job.tile.sight = &renderer->sight;
+    job.tile.seen_before = ask.facts.sighted;
     const double prepared = wr_clock_seconds() - started;
     if (!run_tiles(renderer, request, &job)) {
         wr_keep_fini(&renderer->keep);
         return wr_fail(err, "cancelled");
     }
+    if (renderer->sighting) renderer->sight.whole = true;
     if (renderer->keep.seen) wr_keep_field(&renderer->keep, renderer->looked);
     renderer->kernels = kernels;
     wr_frame_account(renderer, prepared, started, frame);

@@ -35,6 +35,7 @@ struct WrRenderer {
     WrViewMesh meshes[WR_HELD_MESHES],
         *mesh; /* mesh: of the last frame; the others, of frames that hold */
     ColourCopy colour;
+    WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
     float *rgba;     /* the last picture, or the last band of it ... */
@@ -51,8 +52,9 @@ struct WrRenderer {
     int samples;
     WrShape sized; /* whose radius this is; 0: of none */
     double radius;
-    bool seen;    /* view and scene are set */
-    bool outside; /* the eye of that view is outside the surface */
+    bool seen;     /* view and scene are set */
+    bool sighting; /* this frame uses or fills `sight` */
+    bool outside;  /* the eye of that view is outside the surface */
     WrKeep keep;
     WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
     const WrKernels *kernels; /* that it was made with */

@@ -66,9 +66,7 @@
 #define WR_PRAGMA(text) _Pragma(#text)
 #define FLAT __attribute__((flatten)) /* a loop with a call left in it does not vectorise */
 #define MISS FLT_MAX
-#define LANES 16 /* samples at once of a triangle's row */
-#define ROUND_OF                                                                                   \
-    64 /* samples that Newton's method goes on with while one of them moves; divides WR_SPAN */
+#define LANES 16    /* samples at once where it matters; divides WR_SPAN */
 #define STEEP 1e12f /* slopes beyond this are scaled down together with N: the direction stays */
 
 #define LOAD3(strip, name, i) ((VEC){ strip->name##x[i], strip->name##y[i], strip->name##z[i] })
@@ -199,6 +197,11 @@ const KERNELS WR_KERN_TABLE = {
     },
 #define WR_X(name) [WR_SURFACE_##name] = kern_points_##name,
     .points = {
+#include "surface/surface_list.h"
+    },
+    .recall = kern_recall,
+#define WR_X(name) [WR_SURFACE_##name] = kern_resume_##name,
+    .resume = {
 #include "surface/surface_list.h"
     },
 #define WR_X(name) [WR_SURFACE_##name] = kern_frame_##name,

@@ -101,3 +101,25 @@ FLAT static int kern_covered(const float *close, const float *u, const float *v,
     }
     return hits;
 }
+
+/* Samples of a row that were noted, from (gx, gy) on. */
+FLAT static int kern_recall(const float *u, const float *v, REAL gx, REAL gy, int count,
+                            STRIP *strip)
+{
+    SIMD for (int i = 0; i < count; i++)
+    {
+        const float at = wr_bits_float(wr_float_bits(u[i]) & INT32_MAX);
+        strip->s[i] = at <= 1.0f ? K_(0) : K_(MISS);
+        strip->u[i] = (REAL)at;
+        strip->v[i] = (REAL)v[i];
+        strip->wx[i] = wr_float_bits(u[i]) < 0 ? K_(0) : K_(1);
+    }
+    REAL *const move[] = { strip->u, strip->v, strip->wx };
+    const int hits = compact(count, strip, move, 3);
+    SIMD for (int i = 0; i < hits; i++)
+    {
+        strip->x[i] = gx + (REAL)strip->index[i];
+        strip->y[i] = gy;
+    }
+    return hits;
+}

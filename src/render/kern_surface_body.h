@@ -107,40 +107,35 @@ typedef struct Patch {
     const FN(BezierPlane) * ready;
 } Patch;
 
-/* P, Pu, Pv: what a step looks at; of a formula n and |N| too. */
-ALWAYS POINT tangent_plane(Formula *const formula, const Patch *patch, const bool late, REAL u,
-                           REAL v)
+/* What a step looks at, at tu, tv: P, Pu, Pv, and of a formula n and |N|, into rows that later stages fill: b, l, v, d
+   and n_dot_l. */
+ALWAYS void put_there(Formula *const formula, const Patch *patch, const bool late, STRIP *strip,
+                      int i)
 {
     POINT at;
-    if (late) FN(bezier_plane)(patch->ready, u, v, &at);
-    else formula(patch->shape, 0, u, v, &at);
-    return at;
-}
-
-ALWAYS void put_tangent_plane(Formula *const formula, const Patch *patch, const bool late,
-                              STRIP *strip, int i)
-{
-    POINT at = tangent_plane(formula, patch, late, strip->u[i], strip->v[i]);
-    STORE3(strip, p, i, at.p);
-    STORE3(strip, pu, i, at.pu);
-    STORE3(strip, pv, i, at.pv);
+    if (late) FN(bezier_plane)(patch->ready, strip->tu[i], strip->tv[i], &at);
+    else formula(patch->shape, 0, strip->tu[i], strip->tv[i], &at);
+    STORE3(strip, b, i, at.p);
+    STORE3(strip, l, i, at.pu);
+    STORE3(strip, v, i, at.pv);
     if (late) return;
-    STORE3(strip, n, i, at.n_unit);
-    strip->n_len[i] = at.n_len;
+    strip->dr[i] = at.n_unit.x, strip->dg[i] = at.n_unit.y, strip->db[i] = at.n_unit.z;
+    strip->n_dot_l[i] = at.n_len;
 }
 
 /* What ends Newton's method. */
 typedef struct Enough {
-    REAL u, v;              /* steps shorter than these */
-    REAL uu, uv, vv, last2; /* WrNewton's; `last` squared */
+    REAL u, v;             /* steps shorter than these */
+    REAL uu, uv, vv, last; /* WrNewton's */
 } Enough;
 
-/* Does a step change the tangents by next to nothing? By Taylor: |Pu| by no more than |Puu| |du| + |Puv| |dv|. */
+/* Does a step change the tangents by next to nothing? By Taylor: |Pu| by no more than |Puu| |du| + |Puv| |dv|. No
+   squares: after a good guess they would be denormal numbers. */
 ALWAYS bool turns_nothing(VEC pu, VEC pv, Enough enough, REAL du, REAL dv)
 {
     REAL a = enough.uu * r_abs(du) + enough.uv * r_abs(dv);
     REAL b = enough.uv * r_abs(du) + enough.vv * r_abs(dv);
-    return (a * a < enough.last2 * v_dot(pu, pu)) & (b * b < enough.last2 * v_dot(pv, pv));
+    return (a < enough.last * longest(pu)) & (b < enough.last * longest(pv));
 }
 
 /* The step of sample i from the P, Pu, Pv that stand in the strip: its end in tu, tv, the way there in ta, tb, and
@@ -183,89 +178,148 @@ ALWAYS void land(Ray ray, STRIP *strip, int i)
     KEEP3(strip, p, i, taken, end);
 }
 
-/* Any other: the surface is evaluated at its end. s: 1 while the sample moves. */
-ALWAYS void arrive(Formula *const formula, const Patch *patch, Ray ray, Enough enough,
-                   const bool late, STRIP *strip, int i)
+/* Any other: the surface was evaluated at its end. s: 1 while the sample moves. */
+ALWAYS void arrive(Ray ray, Enough enough, STRIP *strip, int i)
 {
-    POINT there = tangent_plane(formula, patch, late, strip->tu[i], strip->tv[i]);
-    bool taken = go(ray, there.p, strip->f[i] > K_(1), strip, i);
+    VEC p = LOAD3(strip, b, i);
+    bool taken = go(ray, p, strip->f[i] > K_(1), strip, i);
     bool short_one = (r_abs(strip->ta[i]) <= enough.u) & (r_abs(strip->tb[i]) <= enough.v);
-    KEEP3(strip, p, i, taken, there.p);
-    KEEP3(strip, pu, i, taken, there.pu);
-    KEEP3(strip, pv, i, taken, there.pv);
+    VEC n = { strip->dr[i], strip->dg[i], strip->db[i] };
+    KEEP3(strip, p, i, taken, p);
+    KEEP3(strip, pu, i, taken, LOAD3(strip, l, i));
+    KEEP3(strip, pv, i, taken, LOAD3(strip, v, i));
+    KEEP3(strip, n, i, taken, n);
+    strip->n_len[i] = taken ? strip->n_dot_l[i] : strip->n_len[i];
+    strip->rx[i] = taken ? strip->u[i] : strip->rx[i];
+    strip->ry[i] = taken ? strip->v[i] : strip->ry[i];
     strip->s[i] = taken & !short_one ? K_(1) : K_(0);
-    if (late) return;
-    KEEP3(strip, n, i, taken, there.n_unit);
-    strip->n_len[i] = taken ? there.n_len : strip->n_len[i];
 }
 
-/* Is one of ROUND_OF samples to take a step of that kind? */
-ALWAYS bool any_aims(const REAL *f, REAL kind)
+/* Is one of the samples to take a step of that kind? */
+static bool any_aims(const STRIP *strip, REAL kind)
 {
+    const int count = strip->count;
     int any = 0;
-    SIMD_SUM(any) for (int i = 0; i < ROUND_OF; i++)
+    SIMD_SUM(any) for (int i = 0; i < count; i++)
     {
-        any += f[i] == kind ? 1 : 0;
+        any += strip->f[i] == kind ? 1 : 0;
     }
     return any > 0;
 }
 
-/* ROUND_OF samples from `first` on. A step evaluates the surface once: at its end, which is the next one's start. */
-ALWAYS void polish_lanes(Formula *const formula, const Patch *patch, const RAYS *rays,
-                         const NEWTON *how, Enough enough, const bool late, int first, STRIP *strip)
+/* ---- of a strip. Functions, not inlined: what `polish` and `resume` share is one code, whose bits are the same in both
+   however it contracts; by whole vectors, for the same reason. ---- */
+
+#define EACH(i, strip)                                                                             \
+    for (int at_##i = 0; at_##i < strip->count; at_##i += LANES)                                   \
+    SIMD for (int i = at_##i; i < at_##i + LANES; i++)
+
+#define APART __attribute__((noinline))
+
+/* To where the surface was evaluated first. */
+APART FLAT static void begin_strip(STRIP *strip)
+{
+    EACH(i, strip)
+    {
+        VEC n = { strip->dr[i], strip->dg[i], strip->db[i] };
+        STORE3(strip, p, i, LOAD3(strip, b, i));
+        STORE3(strip, pu, i, LOAD3(strip, l, i));
+        STORE3(strip, pv, i, LOAD3(strip, v, i));
+        STORE3(strip, n, i, n);
+        strip->n_len[i] = strip->n_dot_l[i];
+        strip->rx[i] = strip->u[i];
+        strip->ry[i] = strip->v[i];
+        strip->s[i] = K_(1);
+    }
+}
+
+APART FLAT static void aim_strip(const RAYS *rays, const NEWTON *how, STRIP *strip)
 {
     const Param2 reach = { how->reach_u, how->reach_v };
     const Closed closed = { how->closed_u ? K_(1) : K_(0), how->closed_v ? K_(1) : K_(0) };
-    SIMD for (int i = first; i < first + ROUND_OF; i++)
+    const Enough enough = { how->enough_u, how->enough_v, how->uu, how->uv, how->vv, how->last };
+    EACH(i, strip)
     {
-        strip->s[i] = K_(1);
-        put_tangent_plane(formula, patch, late, strip, i);
-    }
-    for (int step = 0; step < how->steps; step++) {
-        SIMD for (int i = first; i < first + ROUND_OF; i++)
-        {
-            aim_step(ray_of(rays, strip, i, K_(0), K_(0), true), reach, closed, enough, strip, i);
-        }
-        const bool goes_on = any_aims(strip->f + first, K_(2)),
-                   lands = any_aims(strip->f + first, K_(1));
-        if (lands) {
-            SIMD for (int i = first; i < first + ROUND_OF; i++)
-            {
-                land(ray_of(rays, strip, i, K_(0), K_(0), true), strip, i);
-            }
-        }
-        if (!goes_on) break;
-        SIMD for (int i = first; i < first + ROUND_OF; i++)
-        {
-            Ray ray = ray_of(rays, strip, i, K_(0), K_(0), true);
-            arrive(formula, patch, ray, enough, late, strip, i);
-        }
+        aim_step(ray_of(rays, strip, i, K_(0), K_(0), true), reach, closed, enough, strip, i);
     }
 }
 
-/* The last sample again up to a whole number of ROUND_OF. */
-ALWAYS void fill_lanes(STRIP *strip)
+APART FLAT static void land_strip(const RAYS *rays, STRIP *strip)
+{
+    EACH(i, strip)
+    {
+        land(ray_of(rays, strip, i, K_(0), K_(0), true), strip, i);
+    }
+}
+
+APART FLAT static void arrive_strip(const RAYS *rays, const NEWTON *how, STRIP *strip)
+{
+    const Enough enough = { .u = how->enough_u, .v = how->enough_v };
+    EACH(i, strip)
+    {
+        arrive(ray_of(rays, strip, i, K_(0), K_(0), true), enough, strip, i);
+    }
+}
+
+/* A surface's evaluation of a round. */
+typedef void Evaluate(const SHAPE *shape, STRIP *strip);
+
+/* Up to a whole number of vectors the last sample again. */
+static void fill_lanes(STRIP *strip)
 {
     const int count = strip->count, last = count - 1;
-    for (int i = count; i % ROUND_OF != 0; i++) {
+    for (int i = count; i % LANES != 0; i++) {
         strip->u[i] = strip->u[last], strip->v[i] = strip->v[last];
         strip->x[i] = strip->x[last], strip->y[i] = strip->y[last];
+        strip->wx[i] = strip->wx[last];
     }
 }
 
-ALWAYS void polish_strip(Formula *const formula, const RAYS *rays, const SHAPE *shape,
-                         const NEWTON *how, const bool late, STRIP *strip)
+static void begin(Evaluate *evaluate, const SHAPE *shape, STRIP *strip)
 {
-    const REAL last = how->last;
-    const Enough enough = { how->enough_u, how->enough_v, how->uu, how->uv, how->vv, last * last };
-    const SHAPE own = *shape; /* that no store changes, as far as a compiler can see */
-    const RAYS seen = *rays;
-    FN(BezierPlane) ready;
-    const Patch patch = { &own, &ready };
-    if (late) FN(bezier_ready)(shape, &ready);
     fill_lanes(strip);
-    for (int first = 0; first < strip->count; first += ROUND_OF)
-        polish_lanes(formula, &patch, &seen, how, enough, late, first, strip);
+    EACH(i, strip)
+    {
+        strip->tu[i] = strip->u[i];
+        strip->tv[i] = strip->v[i];
+    }
+    evaluate(shape, strip);
+    begin_strip(strip);
+}
+
+/* A step evaluates the surface once: at its end, which is the next one's start. */
+static void polish_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
+                         const NEWTON *how, STRIP *strip)
+{
+    begin(evaluate, shape, strip);
+    EACH(i, strip)
+    {
+        strip->wx[i] = K_(0);
+    }
+    for (int step = 0; step < how->steps; step++) {
+        aim_strip(rays, how, strip);
+        if (any_aims(strip, K_(1))) land_strip(rays, strip);
+        EACH(i, strip)
+        {
+            strip->wx[i] = strip->f[i] == K_(1) ? K_(1) : strip->wx[i];
+        }
+        if (!any_aims(strip, K_(2))) break;
+        evaluate(shape, strip);
+        arrive_strip(rays, how, strip);
+    }
+}
+
+/* Where `polish` was before its last step, in u, v: that step again where wx says that there was one. */
+static void resume_strip(Evaluate *evaluate, const SHAPE *shape, const RAYS *rays,
+                         const NEWTON *how, STRIP *strip)
+{
+    begin(evaluate, shape, strip);
+    aim_strip(rays, how, strip);
+    EACH(i, strip)
+    {
+        strip->f[i] = strip->wx[i];
+    }
+    land_strip(rays, strip);
 }
 
 /* n and |N| of sample i, of Pu x Pv; 1 where that is so short that the way into the point decides. */
@@ -316,10 +370,26 @@ ALWAYS void frame_strip(Formula *const formula, const SHAPE *shape, STRIP *strip
     {                                                                                              \
         curvature_strip(FN(name##_at), shape, face, strip);                                        \
     }                                                                                              \
-    FLAT static void kern_polish_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,   \
-                                        STRIP *strip)                                              \
+    APART FLAT static void evaluate_##name(const SHAPE *shape, STRIP *strip)                       \
     {                                                                                              \
-        polish_strip(FN(name##_at), rays, shape, how, LATE(name), strip);                          \
+        const SHAPE own = *shape; /* that no store changes, as far as a compiler can see */        \
+        FN(BezierPlane) ready;                                                                     \
+        const Patch still = { &own, &ready };                                                      \
+        if (LATE(name)) FN(bezier_ready)(&own, &ready);                                            \
+        EACH(i, strip)                                                                             \
+        {                                                                                          \
+            put_there(FN(name##_at), &still, LATE(name), strip, i);                                \
+        }                                                                                          \
+    }                                                                                              \
+    static void kern_polish_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,        \
+                                   STRIP *strip)                                                   \
+    {                                                                                              \
+        polish_strip(evaluate_##name, shape, rays, how, strip);                                    \
+    }                                                                                              \
+    static void kern_resume_##name(const RAYS *rays, const SHAPE *shape, const NEWTON *how,        \
+                                   STRIP *strip)                                                   \
+    {                                                                                              \
+        resume_strip(evaluate_##name, shape, rays, how, strip);                                    \
     }                                                                                              \
     FLAT static void kern_frame_##name(const SHAPE *shape, STRIP *strip)                           \
     {                                                                                              \

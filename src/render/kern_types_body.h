@@ -138,8 +138,15 @@ typedef struct WR_T(WrKernels) {
                    WR_T(WrStrip) * strip);
     /* Newton's method from the guesses in u, v of the samples at x, y: solves P(u,v) = q + s d by
        3 x 3 steps, no longer than `reach` in u and v, until a step is shorter than `enough` in u and v or the
-       `last`; keeps the guess where it does not improve. Leaves P, Pu, Pv there, for `frame`. */
+       `last`; keeps the guess where it does not improve. Leaves P, Pu, Pv there, for `frame`; in rx, ry where the
+       surface was evaluated last; wx 1 where a last step was left from there, else 0. */
     void (*polish[WR_SURFACE_COUNT])(const WR_T(WrRays) * rays, const SHAPE *shape,
+                                     const WR_T(WrNewton) * how, WR_T(WrStrip) * strip);
+    /* The samples of a row from (gx, gy) on that were noted (sight.h): index, u, v, wx, x, y. */
+    int (*recall)(const float *u, const float *v, REAL gx, REAL gy, int count,
+                  WR_T(WrStrip) * strip);
+    /* From u, v, wx and x, y to what `polish` left when it had rx, ry, wx, with the same bits. */
+    void (*resume[WR_SURFACE_COUNT])(const WR_T(WrRays) * rays, const SHAPE *shape,
                                      const WR_T(WrNewton) * how, WR_T(WrStrip) * strip);
     /* Points only, for meshes. */
     void (*points[WR_SURFACE_COUNT])(const SHAPE *shape, int count, const REAL *u, const REAL *v,

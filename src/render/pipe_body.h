@@ -111,7 +111,7 @@ static void surface_strip(const WrTileJob *job, int face, bool level, Strip *str
         did(watch, WR_EFFECT_TANGENTS);
     }
     if (round) round->normals(&VIEWED(job->view, shape), strip);
-    else if (runs(job, WR_EFFECT_NEWTON))
+    else if (job->mesh && job->newton)
         KERNELS_OF(job)->frame[job->view->shape_d.kind](&VIEWED(job->view, shape), strip);
     else KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
     watch_lap(watch, WR_STAGE_GEOMETRY);
@@ -291,48 +291,7 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
 
 /* ---- visibility ---------------------------------------------------------------------------------- */
 
-/* Make the parameters of what the mesh covers exact. */
-static void polish(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
-{
-    watch_lap(watch, WR_STAGE_VISIBILITY);
-    if (strip->count == 0 || !runs(job, WR_EFFECT_NEWTON)) return;
-    WR_T(WrNewton) how = job->mesh->newton;
-    if (job->plan->newton < 0) how.steps += MORE_STEPS;
-    /* Exact normals set Pu and Pv off against n_u and n_v: all of one place, whether the plan runs those or not. */
-    const bool off = job->plan->newton >= 0 || job->scene->bump == WR_BUMP_EXACT;
-    how.last = off ? 0.0f : (float)TURN;
-    KERNELS_OF(job)->polish[job->view->shape_d.kind](rays, &VIEWED(job->view, shape), &how, strip);
-    did(watch, WR_EFFECT_NEWTON);
-    watch_lap(watch, WR_STAGE_NEWTON);
-}
-
-/* The samples of the scatter that the mesh covers. */
-static void locate_mesh(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile,
-                        const WrScatter *places, Strip *strip, Watch *watch)
-{
-    int count = 0;
-    for (int i = 0; i < places->count; i++) {
-        int cell = places->cell[i];
-        if (tile->close[cell] == -FLT_MAX) continue;
-        strip->index[count] = i;
-        strip->x[count] = (REAL)places->x[i];
-        strip->y[count] = (REAL)places->y[i];
-        strip->u[count] = (REAL)tile->u[cell];
-        strip->v[count++] = (REAL)tile->v[cell];
-    }
-    strip->count = count;
-    polish(job, rays, strip, watch);
-}
-
-/* The same for the whole row y. */
-static void locate_row(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile, int y,
-                       Strip *strip, Watch *watch)
-{
-    const size_t at = (size_t)y * (size_t)tile->w;
-    KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
-                             (REAL)(tile->y + y), tile->w, strip);
-    polish(job, rays, strip, watch);
-}
+#include "render/pipe_mesh_body.h"
 
 static void pour(const WrScatter *places, Strip *strip)
 {
@@ -358,7 +317,8 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
     Watch watch = watch_start(scratch);
     if (places->count == 0) return;
     if (job->mesh) {
-        locate_mesh(job, rays, tile, places, strip, &watch);
+        if (job->seen_before) recall_mesh(job, rays, tile, places, strip, &watch);
+        else locate_mesh(job, rays, tile, places, strip, &watch);
         finish_strip(job, rays, -1, sink, scratch, &watch);
         return;
     }
@@ -416,7 +376,8 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     Watch watch = watch_start(scratch);
     const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
     if (job->mesh) {
-        locate_row(job, rays, tile, y, strip, &watch);
+        if (job->seen_before) recall_row(job, rays, tile, y, strip, &watch);
+        else locate_row(job, rays, tile, y, strip, &watch);
         finish_strip(job, rays, -1, sink, scratch, &watch);
         return;
     }

@@ -202,6 +202,7 @@ typedef struct WrPlanFacts {
     bool normals;    /* the caller wants n' itself */
     bool outside;    /* the eye is outside a closed surface, for certain */
     bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
+    bool sighted;    /* what the view's samples look at is known from the last picture */
     bool rests;    /* the last picture is kept, and was made by the same plan of the same request */
     double sloped; /* the share of the table's tiles that have a slope; below 0: not known */
 } WrPlanFacts;

@@ -21,20 +21,22 @@ WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char *
     (void)plan;
     if (surface_of(ask)->inversion != WR_INVERT_MESH)
         return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
+    if (ask->facts.sighted)
+        return say(WR_VERDICT_SPARED, why, "the view rests: what it looks at is known");
     return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
 }
 
 void wr_settle_depth(WrPlan *plan, const WrPlanAsk *ask)
 {
     plan->inversion = surface_of(ask)->inversion;
-    if (runs(plan, WR_EFFECT_DEPTH)) plan->mesh = ask->dials->mesh;
+    if (plan->inversion == WR_INVERT_MESH) plan->mesh = ask->dials->mesh;
 }
 
 WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    (void)ask;
-    if (!runs(plan, WR_EFFECT_DEPTH))
+    if (plan->inversion != WR_INVERT_MESH)
         return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
+    if (ask->facts.sighted) return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
     return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
 }
 

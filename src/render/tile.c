@@ -53,7 +53,7 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .k = k,
                          .kernels = job->kernels };
     if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
-    if (job->mesh) {
+    if (job->mesh && !job->seen_before) {
         double start = wr_clock_seconds();
         wr_view_mesh_raster(job->mesh, job->view, &tile);
         wr_did(scratch, WR_EFFECT_DEPTH);

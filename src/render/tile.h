@@ -3,10 +3,12 @@
    Layer 5, private to the renderer. */
 #pragma once
 #include "render/frame.h"
+#include "scene/scene.h"
 #include "render/keep.h"
 #include "render/level.h"
 #include "render/mesh.h"
 #include "render/plan.h"
+#include "render/sight.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -26,6 +28,10 @@ typedef struct WrTileJob {
     const WrKernels *kernels;
     const WrKernelsd *kernels_double; /* shading or heights in double; else NULL */
     const WrViewMesh *mesh;           /* NULL: closed form */
+    const WrSight
+        *sight;       /* what the view's samples look at, or where that is noted; NULL: neither */
+    bool seen_before; /* it is known */
+    bool newton;      /* the mesh's parameters are made exact */
     WrLook look;
     WrLookd look_double; /* where kernels_double looks */
     uint32_t looks; /* bits of WrEffect: what a look-up in the table does, by what it was given */
@@ -139,6 +145,13 @@ static inline size_t wr_tile_place(const WrTileJob *job, int x, int y)
 static inline float *wr_tile_pixel(const WrTileJob *job, int x, int y)
 {
     return job->rgba + ((size_t)(y - job->y0) * job->rgba_pitch + (size_t)(x - job->x0)) * 4;
+}
+
+/* Does Newton's method evaluate the surface at its end too? A number of steps that was given is kept to; exact normals set Pu and Pv off against n_u and n_v, all of one
+   place, whether the plan runs those or not. */
+static inline bool wr_tile_exact(const WrTileJob *job)
+{
+    return job->plan->newton >= 0 || job->scene->bump == WR_BUMP_EXACT;
 }
 
 /* Samples a side as a pixel's map has them. */
