@@ -195,7 +195,8 @@ static WrVerdict decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const 
     return say(WR_VERDICT_RUN, why,
                dials->aa == WR_AA_SUPERSAMPLE
                    ? "the dial asks for the mean of K x K intensities"
-                   : "the dial asks for up to K x K where one is not enough");
+                   : "up to K x K where one is not enough for `contrast`; a smooth view may be as "
+                     "near with fewer");
 }
 
 static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)

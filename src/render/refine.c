@@ -130,6 +130,8 @@ static void open_by_contrast(const Refiner *r)
     const float weight = (jittered ? 1.0f : 1.0f - 1.0f / cells) / 24.0f;
     const float slope = jittered ? (float)JITTER / 2 / cells : 0;
     const float most = slopes_jump(r->job->plan) ? r->contrast / 2 : r->contrast;
+    const float finest =
+        FINE * sqrtf((float)r->job->samples); /* K samples are about so much nearer */
     for (int y = 0; y < r->part.h; y++) {
         const float *rows[5], *uv[3];
         for (int k = 0; k < 5; k++) rows[k] = s->centre[y + k][0];
@@ -141,8 +143,9 @@ static void open_by_contrast(const Refiner *r)
                                 wr_tile_pixel(r->job, r->part.x, r->part.y + y), s->bound[y]);
         for (int x = 0; x < r->part.w; x++) {
             const float off = s->bound[y][x];
-            const bool closed = off <= most && s->texels[y][x] <= FINE;
-            s->open[y][x] = closed ? 0 : !r->some || off > OUTLINE ? OPEN_ALL : OPEN;
+            const float fine = s->texels[y][x];
+            const bool all = !r->some || off > OUTLINE || fine > finest;
+            s->open[y][x] = off <= most && fine <= FINE ? 0 : all ? OPEN_ALL : OPEN;
         }
     }
 }

@@ -1,23 +1,24 @@
 /* Does adaptive sampling pay in this view? A few small blocks of the picture are refined and counted. */
 #include "render/pipe.h"
 
-#include <math.h>
 #include <string.h>
 
 #define BLOCK_W 16 /* pixels */
 #define BLOCK_H 8
-#define APART 128 /* pixels from block to block, about, ... */
-#define LEAST 3   /* ... and how many there are along each side */
-#define MOST 6
-#define STRIDE 7 /* blocks that follow each other lie apart; prime to all counts */
-#define SURE 3   /* after so many the answer may be clear */
+#define AREA 6000 /* pixels of the view for each block, ... */
+#define LEAST 16  /* ... and how many there are */
+#define MOST 64
+#define SURE 12 /* after so many the answer may be clear */
 
-/* What is spent, in samples of plain supersampling. Measured. */
-#define FIRST 1.7       /* a first sample, its share of the ring, and looking at it */
+/* What is spent, in samples of plain supersampling. Measured. With a mesh each sample is dearer, so that the rest counts
+   for less. */
+#define FIRST 1.9 /* a first sample, its share of the ring, and looking at it */
+#define FIRST_MESH 1.7
 #define FIRST_BOUND 7.0 /* with a bound */
-#define MORE 1.2        /* each further sample: their places lie apart */
-#define DEPTH 0.15      /* a place in the depth tile, which is filled for all of them */
-#define GAIN 0.95       /* of plain supersampling's cost: more is not worth it */
+#define MORE 1.6        /* each further sample: their places lie apart */
+#define MORE_MESH 1.2
+#define DEPTH 0.15 /* a place in the depth tile, which is filled for all of them */
+#define GAIN 0.95  /* of plain supersampling's cost: more is not worth it */
 
 typedef struct Spent {
     double adaptive, plain;
@@ -54,14 +55,9 @@ static void spend_block(const WrTileJob *job, int x, int y, WrTileScratch *scrat
     double area = 0;
     for (int i = 0; i < w * h; i++) area += (double)scratch->mean[i][3];
     spent->plain += cells * area;
-    spent->adaptive += (bound ? FIRST_BOUND : FIRST) * within + MORE * more +
+    const double first = bound ? FIRST_BOUND : job->mesh ? FIRST_MESH : FIRST;
+    spent->adaptive += first * within + (job->mesh ? MORE_MESH : MORE) * more +
                        (job->mesh && more > 0 ? DEPTH * cells * area : 0);
-}
-
-static int blocks_along(int pixels)
-{
-    const int count = pixels / APART;
-    return count < LEAST ? LEAST : count > MOST ? MOST : count;
 }
 
 /* Would more blocks hardly change the answer? */
@@ -71,21 +67,29 @@ static bool clear(const Spent *spent)
            (spent->adaptive > 1.3 * spent->plain || spent->adaptive < 0.5 * spent->plain);
 }
 
+/* Blocks lie evenly over the view, but in no rows, in which relief may repeat: at multiples of 1/p and 1/p^2, p the plastic
+   number. */
+#define ACROSS 0xc13fa9a9U /* of 2^32 */
+#define DOWN 0x91e10da5U
+
+static int place(int k, uint32_t step, int room)
+{
+    return (int)(((uint64_t)((uint32_t)(k + 1) * step) * (uint64_t)room) >> 32);
+}
+
 bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 {
     const WrView *view = job->view;
     const int w = view->x1 - view->x0, h = view->y1 - view->y0;
-    if (w < LEAST * BLOCK_W || h < LEAST * BLOCK_W) return true; /* too little to tell */
+    if (w < 3 * BLOCK_W || h < 3 * BLOCK_W) return true; /* too little to tell */
     WrTileJob own = *job;
     Spent spent = { 0 };
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
     scratch->seen = NULL;
-    const int across = blocks_along(w), down = blocks_along(h), count = across * down;
-    for (int k = 0; k < count; k++) {
-        const int i = STRIDE * k % count % across, j = STRIDE * k % count / across;
-        spend_block(&own, view->x0 + (2 * i + 1) * w / (2 * across) - BLOCK_W / 2,
-                    view->y0 + (2 * j + 1) * h / (2 * down) - BLOCK_H / 2, scratch, &spent);
-        if (k >= SURE && clear(&spent)) break;
-    }
+    const int64_t area = (int64_t)w * h / AREA;
+    const int count = area < LEAST ? LEAST : area > MOST ? MOST : (int)area;
+    for (int k = 0; k < count && !(k >= SURE && clear(&spent)); k++)
+        spend_block(&own, view->x0 + place(k, ACROSS, w - BLOCK_W),
+                    view->y0 + place(k, DOWN, h - BLOCK_H), scratch, &spent);
     return !(spent.adaptive > GAIN * spent.plain);
 }
