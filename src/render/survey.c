@@ -3,11 +3,11 @@
 
 #include <string.h>
 
-#define BLOCK_W 16 /* pixels */
-#define BLOCK_H 8
-#define AREA 6000 /* pixels of the view for each block, ... */
+#define BLOCK_W 8 /* pixels */
+#define BLOCK_H 4
+#define AREA 3000 /* pixels of the view for each block, ... */
 #define LEAST 16  /* ... and how many there are */
-#define MOST 64
+#define MOST 128
 #define SURE 12 /* after so many the answer may be clear */
 
 /* What is spent, in samples of plain supersampling. Measured. With a mesh each sample is dearer, so that the rest counts
@@ -18,7 +18,7 @@
 #define MORE 1.6        /* each further sample: their places lie apart */
 #define MORE_MESH 1.2
 #define DEPTH 0.15 /* a place in the depth tile, which is filled for all of them */
-#define GAIN 0.95  /* of plain supersampling's cost: more is not worth it */
+#define GAIN 0.85  /* of plain supersampling's cost: more is not worth it */
 
 typedef struct Spent {
     double adaptive, plain;
@@ -81,7 +81,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 {
     const WrView *view = job->view;
     const int w = view->x1 - view->x0, h = view->y1 - view->y0;
-    if (w < 3 * BLOCK_W || h < 3 * BLOCK_W) return true; /* too little to tell */
+    if (w < 6 * BLOCK_W || h < 6 * BLOCK_W) return true; /* too little to tell */
     WrTileJob own = *job;
     Spent spent = { 0 };
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
