@@ -377,7 +377,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                               "a pixel is known: other surfaces than plane, cube and sphere, "
                               "slopes "
                               "not from central or nearest, a normal other than blinn, a colour "
-                              "picture",
+                              "picture; or bounds would spare too little of the view",
                               STAGE(BOUND), .decide = decide_bound },
     [WR_ROW(WR_EFFECT_FILTER)] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL, NULL,
                                    "the dials ask for no filtering, or no table is looked up; "
