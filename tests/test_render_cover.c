@@ -5,8 +5,10 @@
 #include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/pool.h"
 #include "render/kern.h"
 #include "render/raster.h"
+#include "scene/scene.h"
 
 #include <float.h>
 
@@ -154,11 +156,52 @@ static void neighbours_share_no_sample(void **state)
     }
 }
 
+/* However near the eye is, only blocks that straddle the near plane have no box, though many vertices lie far outside the
+   view. */
+static void blocks_keep_their_boxes_near_the_eye(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    WrPool *pool = wr_pool_new(2);
+    const WrKernels *kernels = wr_kernels_get(NULL, false, &err);
+    for (int k = 0; k < 5; k++) {
+        WrScene *scene = wr_scene_new();
+        WrPlan plan;
+        WrView view;
+        WrViewMesh mesh = { .mu = 0 };
+        wr_shape_default(WR_SURFACE_torus, &scene->shape);
+        scene->camera.fit = false;
+        scene->camera.eye = (WrVec3){ 0, 1.5 - 0.2 * k, 0.03 };
+        scene->camera.target = (WrVec3){ 0, 0, 0 };
+        scene->camera.up = (WrVec3){ 0, 0, 1 };
+        const WrPlanAsk ask = { .scene = scene, .dials = &scene->dials };
+        wr_plan_build(&plan, &ask);
+        assert_true(
+            wr_view_init(&view, scene, wr_shape_radius(&scene->shape), &plan, 0, 512, 401, &err));
+        const WrMeshAsk asked = { .newton = -1, .table_w = 64, .table_h = 64 };
+        wr_view_mesh_prepare(&mesh, &scene->shape, &view, &asked, kernels, pool);
+        int out = 0, behind = 0, clipped = 0;
+        for (int i = 0; i < (mesh.mu + 1) * (mesh.mv + 1); i++) {
+            out += mesh.out[i] == WR_VERTEX_OUT;
+            behind += mesh.out[i] == WR_VERTEX_BEHIND;
+        }
+        for (int i = 0; i < mesh.blocks_u * mesh.blocks_v; i++) clipped += mesh.blocks[i].clipped;
+        assert_true(out > 100000);
+        if (behind == 0) assert_int_equal(clipped, 0);
+        assert_in_range(clipped, 0, mesh.blocks_u * mesh.blocks_v / 40);
+        wr_view_mesh_fini(&mesh);
+        wr_view_fini(&view);
+        wr_scene_free(scene);
+    }
+    wr_pool_free(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangles_cover_what_whole_numbers_say),
         cmocka_unit_test(neighbours_share_no_sample),
+        cmocka_unit_test(blocks_keep_their_boxes_near_the_eye),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,7 +89,7 @@ ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, RE
 /* Keep the samples that hit, in order, with what `move` holds of them. Most hits are neighbours: whole runs move. */
 ALWAYS int compact(int count, STRIP *strip, REAL *const *move, const int moves)
 {
-    int hits = 0, first = 0, run = 0;
+    int hits = 0, first = 0, last = count - 1;
     SIMD_SUM(hits) for (int i = 0; i < count; i++)
     {
         hits += strip->s[i] < MISS ? 1 : 0;
@@ -97,8 +97,8 @@ ALWAYS int compact(int count, STRIP *strip, REAL *const *move, const int moves)
     strip->count = hits;
     if (hits == 0) return 0;
     while (!(strip->s[first] < MISS)) first++;
-    while (run < hits && strip->s[first + run] < MISS) run++;
-    if (run == hits) {
+    while (!(strip->s[last] < MISS)) last--;
+    if (last - first + 1 == hits) {
         SIMD for (int i = 0; i < hits; i++)
         {
             strip->index[i] = first + i;

@@ -117,7 +117,10 @@ static void project_row(int j, int worker, void *ctx)
         size_t at = row + (size_t)i;
         WrVec3 p = { mesh->x[at], mesh->y[at], mesh->z[at] };
         WrRasterVertex vertex;
-        mesh->out[at] = !wr_raster_project(job->view, p, 0, 0, &vertex);
+        mesh->out[at] = WR_VERTEX_IN;
+        if (!wr_raster_project(job->view, p, 0, 0, &vertex))
+            mesh->out[at] = wr_raster_bound(job->view, p, &vertex.x, &vertex.y) ? WR_VERTEX_OUT
+                                                                                : WR_VERTEX_BEHIND;
         mesh->sx[at] = vertex.x;
         mesh->sy[at] = vertex.y;
         mesh->close[at] = vertex.close;
@@ -132,16 +135,22 @@ static void bound_row(int by, int worker, void *ctx)
     const int pitch = mesh->mu + 1;
     for (int bx = 0; bx < mesh->blocks_u; bx++) {
         WrViewMeshBlock b = { INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, false };
+        int behind = 0;
         for (int y = 0; y <= WR_MESH_BLOCK; y++)
             for (int x = 0; x <= WR_MESH_BLOCK; x++) {
                 size_t at = (size_t)(by * WR_MESH_BLOCK + y) * (size_t)pitch +
                             (size_t)(bx * WR_MESH_BLOCK + x);
-                b.clipped |= mesh->out[at];
+                if (mesh->out[at] == WR_VERTEX_BEHIND) {
+                    behind++;
+                    continue;
+                }
                 b.x0 = mesh->sx[at] < b.x0 ? mesh->sx[at] : b.x0;
                 b.x1 = mesh->sx[at] > b.x1 ? mesh->sx[at] : b.x1;
                 b.y0 = mesh->sy[at] < b.y0 ? mesh->sy[at] : b.y0;
                 b.y1 = mesh->sy[at] > b.y1 ? mesh->sy[at] : b.y1;
             }
+        /* Of a block wholly behind nothing is left: no tile meets its box. */
+        b.clipped = behind > 0 && behind < (WR_MESH_BLOCK + 1) * (WR_MESH_BLOCK + 1);
         mesh->blocks[by * mesh->blocks_u + bx] = b;
     }
 }
@@ -283,9 +292,13 @@ static void raster_cell(const WrViewMesh *mesh, const WrView *view, const Bounds
                         int j, WrDepthTile *tile)
 {
     size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i, next = at + (size_t)mesh->mu + 1;
-    const bool out = mesh->out[at] | mesh->out[at + 1] | mesh->out[next] | mesh->out[next + 1];
-    if (!out && (cell_misses(mesh->sy + at, mesh->sy + next, bounds->y0, bounds->y1) ||
-                 cell_misses(mesh->sx + at, mesh->sx + next, bounds->x0, bounds->x1)))
+    const unsigned char *top = mesh->out + at, *low = mesh->out + next;
+    const bool out = top[0] | top[1] | low[0] | low[1];
+    const int behind = (top[0] == WR_VERTEX_BEHIND) + (top[1] == WR_VERTEX_BEHIND) +
+                       (low[0] == WR_VERTEX_BEHIND) + (low[1] == WR_VERTEX_BEHIND);
+    if (behind == 4) return;
+    if (behind == 0 && (cell_misses(mesh->sy + at, mesh->sy + next, bounds->y0, bounds->y1) ||
+                        cell_misses(mesh->sx + at, mesh->sx + next, bounds->x0, bounds->x1)))
         return;
     if (out) {
         raster_clipped(mesh, view, (const int[3][2]){ { i, j }, { i + 1, j }, { i + 1, j + 1 } },

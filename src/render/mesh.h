@@ -14,8 +14,15 @@ typedef struct WrPool WrPool;
 
 typedef struct WrViewMeshBlock { /* bounds of a block's vertices, 1/256 samples */
     int32_t x0, y0, x1, y1;
-    bool clipped; /* some vertex is near, behind or far outside: bounds say nothing */
+    bool clipped; /* some vertex is behind the near plane, but not all are: bounds say nothing */
 } WrViewMeshBlock;
+
+/* Of a projected vertex. */
+typedef enum WrVertexPlace {
+    WR_VERTEX_IN,
+    WR_VERTEX_OUT, /* beyond the guard band: its triangles need clipping, its place is a bound alone */
+    WR_VERTEX_BEHIND /* not before the near plane: it has no place */
+} WrVertexPlace;
 
 /* All that projecting asks of a view. */
 typedef struct WrViewSight {
@@ -35,7 +42,7 @@ typedef struct WrViewMesh {
     WrViewSight sight;       /* what the rest was projected for */
     int32_t *sx, *sy;        /* projected, 1/256 samples */
     float *close;            /* 1/depth (perspective) or -depth: larger is nearer */
-    unsigned char *out;      /* vertex needs clipping */
+    unsigned char *out;      /* WrVertexPlace */
     WrViewMeshBlock *blocks; /* [blocks_v][blocks_u] */
     int blocks_u, blocks_v;
     WrNewton newton; /* how its guesses are made exact */

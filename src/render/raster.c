@@ -34,6 +34,22 @@ bool wr_raster_project(const WrView *view, WrVec3 p, double u, double v, WrRaste
     return true;
 }
 
+static int32_t within_int(double x)
+{
+    return (int32_t)fmin(fmax(x, -0x1p30), 0x1p30);
+}
+
+bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y)
+{
+    const WrClipVertex c = wr_raster_clip_vertex(view, p, 0, 0);
+    *x = *y = 0;
+    if (!(c.depth >= view->near)) return false;
+    const double inv = view->perspective ? 1.0 / c.depth : 1.0;
+    *x = within_int(256.0 * (0.5 + 0.5 * c.x * inv / view->half_w) * view->grid_w);
+    *y = within_int(256.0 * (0.5 - 0.5 * c.y * inv / view->half_h) * view->grid_h);
+    return true;
+}
+
 /* Edge from (ax, ay) to (bx, by): e(x, y) > 0 to its left; whole numbers, 1/256 sample squared. Samples
    on the edge belong to it only if it is a top or left one. */
 typedef struct Edge {

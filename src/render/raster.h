@@ -24,6 +24,8 @@ WrClipVertex wr_raster_clip_vertex(const WrView *view, WrVec3 p, double u, doubl
    zeros and the triangle has to be clipped. */
 #define WR_GUARD 2.0
 bool wr_raster_project(const WrView *view, WrVec3 p, double u, double v, WrRasterVertex *out);
+/* Where a vertex beyond the guard band lies, 1/256 samples, to 2^30 of them; false where it is not before the near plane. */
+bool wr_raster_bound(const WrView *view, WrVec3 p, int32_t *x, int32_t *y);
 void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
                         WrDepthTile *tile);
 /* Clip against the near plane and the guard band, before any division (HC82, HC83). */
