@@ -8,7 +8,9 @@
 #define AREA 3000 /* pixels of the view for each block, ... */
 #define LEAST 16  /* ... and how many there are */
 #define MOST 128
-#define SURE 12 /* after so many the answer may be clear */
+#define HEAVY 4096 /* blocks of a mesh: each look goes through them, so it is ... */
+#define FEW 5      /* ... at so many places */
+#define SURE 12    /* after so many the answer may be clear */
 
 /* What is spent, in samples of plain supersampling. Measured. With a mesh each sample is dearer, so that the rest counts
    for less. */
@@ -87,7 +89,8 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
     scratch->seen = NULL;
     const int64_t area = (int64_t)w * h / AREA;
-    const int count = area < LEAST ? LEAST : area > MOST ? MOST : (int)area;
+    const bool heavy = job->mesh && job->mesh->blocks_u * job->mesh->blocks_v > HEAVY;
+    const int count = heavy ? FEW : area < LEAST ? LEAST : area > MOST ? MOST : (int)area;
     for (int k = 0; k < count && !(k >= SURE && clear(&spent)); k++)
         spend_block(&own, view->x0 + place(k, ACROSS, w - BLOCK_W),
                     view->y0 + place(k, DOWN, h - BLOCK_H), scratch, &spent);
