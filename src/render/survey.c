@@ -79,6 +79,15 @@ static int place(int k, uint32_t step, int room)
     return (int)(((uint64_t)((uint32_t)(k + 1) * step) * (uint64_t)room) >> 32);
 }
 
+/* Does each look take long? Cells that have to be clipped, near the eye, are met by every one. */
+static bool is_heavy(const WrViewMesh *mesh)
+{
+    const int count = mesh->blocks_u * mesh->blocks_v;
+    for (int i = 0; i < count; i++)
+        if (mesh->blocks[i].clipped) return true;
+    return count > HEAVY;
+}
+
 bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
 {
     const WrView *view = job->view;
@@ -89,7 +98,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
     scratch->seen = NULL;
     const int64_t area = (int64_t)w * h / AREA;
-    const bool heavy = job->mesh && job->mesh->blocks_u * job->mesh->blocks_v > HEAVY;
+    const bool heavy = job->mesh && is_heavy(job->mesh);
     const int count = heavy ? FEW : area < LEAST ? LEAST : area > MOST ? MOST : (int)area;
     for (int k = 0; k < count && !(k >= SURE && clear(&spent)); k++)
         spend_block(&own, view->x0 + place(k, ACROSS, w - BLOCK_W),
