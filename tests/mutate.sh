@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Do the hard cases notice what they guard, and the tests of files and recovery? Every line of mutations.txt breaks
 # one thing in the program's own code - a sign, a bound, a fallback, an epsilon - and names the cases that must then
-# fail. mutations_files.txt does so for what writes, reads and recovers files, and names tests.
+# fail. mutations_files.txt does so for what writes, reads and recovers files, mutations_plan.txt for what the plan
+# leaves out; they name tests.
 #   mutate.sh SOURCE check [TABLE]       the table alone: its texts are there, its files are, the page tells its counts
 #   mutate.sh SOURCE tell                the sentence about them that the page has
 #   mutate.sh SOURCE run FOLDER [TABLE]  build all of them at once in FOLDER, and break one after the other

@@ -177,12 +177,50 @@ static void tiles_rendered_again_are_told(void **state)
     wr_field_free(field);
 }
 
+/* A view that rests without a map is drawn whole for one. */
+static void a_map_of_a_resting_view_is_whole(void **state)
+{
+    WrField *field = bumpy_field(64, 64);
+    WrScene *scene = scene_of("sphere");
+    Mapped *mapped = start(2);
+    (void)state;
+    draw(mapped, scene, field, true, false);
+    draw(mapped, scene, field, true, true);
+    assert_int_equal(count_of(mapped, WR_MAP_RENDERED), PIXELS);
+    draw(mapped, scene, field, true, true);
+    assert_int_equal(count_of(mapped, WR_MAP_RENDERED), 0);
+    stop(mapped);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+/* What the dark side is spared: counted as the rows count it, and told from light without bump. */
+static void the_dark_side_is_told(void **state)
+{
+    WrField *field = mostly_level();
+    WrScene *scene = scene_of("sphere");
+    Mapped *mapped = start(3);
+    (void)state;
+    scene->lights[0].where = (WrVec3){ 0.2, 1, -0.5 };
+    draw(mapped, scene, field, false, true);
+    const WrPlanRow *rows = mapped->shot.frame.plan->rows;
+    assert_int_equal(count_of(mapped, WR_MAP_LIT), rows[WR_EFFECT_DIFFUSE].pixels);
+    assert_in_range(rows[WR_EFFECT_DIFFUSE].pixels, 1, mapped->shot.frame.shaded - 1);
+    for (int i = 0; i < PIXELS; i++)
+        if (mapped->map[i] & WR_MAP_LOOKED) assert_true(mapped->map[i] & WR_MAP_LIT);
+    stop(mapped);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_sample_is_counted_as_the_rows_count),
         cmocka_unit_test(samples_are_those_that_were_taken),
         cmocka_unit_test(tiles_rendered_again_are_told),
+        cmocka_unit_test(a_map_of_a_resting_view_is_whole),
+        cmocka_unit_test(the_dark_side_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
