@@ -148,6 +148,37 @@ static void one_texel_brings_the_light_back(void **state)
     wr_field_free(field);
 }
 
+/* A bar across the table, with slopes along one parameter alone, that alone brings the light. */
+static void slopes_along_either_parameter_count(void **state)
+{
+    (void)state;
+    for (int along = 0; along < 2; along++) {
+        WrField *field = wr_field_new(256, 256, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+        WrScene *scene = scene_of("plane");
+        for (int i = 0; i < 256 * 12; i++) {
+            const int across = i % 256, at = 100 + i / 256;
+            wr_field_set(field, along ? across : at, along ? at : across, 1);
+        }
+        scene->replicate_u = scene->replicate_v = 1;
+        scene->posed = true;
+        scene->lights[0] = (WrLight){ .colour = { 1, 1, 1 }, .strength = 1 };
+        scene->lights[0].where =
+            along ? (WrVec3){ 0, 1, -0.3 } : (WrVec3){ 0.9659, 0, -0.2588 - 0.3 };
+        Shot planned = shoot(scene, field, 200, 200, 2, "auto", false);
+        Shot full = shoot(scene, field, 200, 200, 2, "auto", true);
+        float brightest = 0;
+        for (int i = 0; i < 200 * 200; i++) brightest = fmaxf(brightest, full.frame.rgba[4 * i]);
+        assert_true(brightest > 0.2f);
+        assert_true(same_picture(&planned, &full));
+        assert_in_range(planned.frame.plan->rows[WR_EFFECT_DIFFUSE].pixels, 1,
+                        planned.frame.shaded);
+        put_away(&planned);
+        put_away(&full);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
 /* A view that rests: what was dark may come to light by an edit. */
 static void edits_bring_the_light_back(void **state)
 {
@@ -191,6 +222,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_dark_side_has_the_bits_of_all_of_it),
         cmocka_unit_test(one_texel_brings_the_light_back),
+        cmocka_unit_test(slopes_along_either_parameter_count),
         cmocka_unit_test(edits_bring_the_light_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
