@@ -543,7 +543,7 @@ static void the_guide_lists_them(void **state)
     assert_true(wr_file_read(WR_SOURCE_DIR "/ui/guide/plan.md", 1 << 20, &page, &length, NULL));
     int awaiting = 0;
     for (int s = 1; s <= 32; s++) {
-        char id[16];
+        char id[24];
         snprintf(id, sizeof id, "\n| S%02d |", s);
         const char *row = strstr(page, id);
         if (!row) fail_msg("no row%s", id);
