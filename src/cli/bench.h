@@ -16,7 +16,9 @@ typedef enum WrBenchMode {
     WR_BENCH_TEXTURE,
     WR_BENCH_BUMP, /* blinn, central */
     WR_BENCH_BUMP_TEXTURE,
-    WR_BENCH_SS16, /* bump, 4 x 4 samples */
+    WR_BENCH_MIP,      /* bump, filtered slopes */
+    WR_BENCH_SS16,     /* bump, 4 x 4 samples */
+    WR_BENCH_ADAPTIVE, /* bump, up to 4 x 4 samples where a pixel needs them */
     WR_BENCH_MODE_COUNT
 } WrBenchMode;
 extern const char *const wr_bench_modes[WR_BENCH_MODE_COUNT];

@@ -15,9 +15,10 @@
 
 WR_ROWS(wr_bench_modes);
 const char *const wr_bench_modes[WR_BENCH_MODE_COUNT] = {
-    [WR_ROW(WR_BENCH_PHONG)] = "phong", [WR_ROW(WR_BENCH_TEXTURE)] = "texture",
-    [WR_ROW(WR_BENCH_BUMP)] = "bump",   [WR_ROW(WR_BENCH_BUMP_TEXTURE)] = "bump+texture",
-    [WR_ROW(WR_BENCH_SS16)] = "ss16",
+    [WR_ROW(WR_BENCH_PHONG)] = "phong",         [WR_ROW(WR_BENCH_TEXTURE)] = "texture",
+    [WR_ROW(WR_BENCH_BUMP)] = "bump",           [WR_ROW(WR_BENCH_BUMP_TEXTURE)] = "bump+texture",
+    [WR_ROW(WR_BENCH_MIP)] = "bump_mip",        [WR_ROW(WR_BENCH_SS16)] = "ss16",
+    [WR_ROW(WR_BENCH_ADAPTIVE)] = "adaptive16",
 };
 WR_ROWS_END(wr_bench_modes, WR_BENCH_MODE_COUNT);
 
@@ -94,10 +95,13 @@ WrScene *wr_bench_scene(const char *surface, WrBenchMode mode, bool fast, WrErro
     scene->lights[0] =
         (WrLight){ WR_LIGHT_DIRECTIONAL, { 0.36514837, 0.54772256, 0.75592895 }, { 1, 1, 1 }, 1 };
     scene->height = 1;
-    bool bump = mode == WR_BENCH_BUMP || mode == WR_BENCH_BUMP_TEXTURE || mode == WR_BENCH_SS16;
+    const bool bump = mode != WR_BENCH_PHONG && mode != WR_BENCH_TEXTURE;
     scene->bump = bump ? WR_BUMP_BLINN : WR_BUMP_NONE;
     scene->dials.arithmetic = fast ? WR_ARITHMETIC_FAST : WR_ARITHMETIC_EXACT;
-    if (mode == WR_BENCH_SS16) scene->dials.aa = WR_AA_SUPERSAMPLE, scene->dials.samples = 4;
+    scene->dials.samples = 4;
+    if (mode == WR_BENCH_MIP) scene->dials.aa = WR_AA_FILTER;
+    if (mode == WR_BENCH_SS16) scene->dials.aa = WR_AA_SUPERSAMPLE;
+    if (mode == WR_BENCH_ADAPTIVE) scene->dials.aa = WR_AA_ADAPTIVE;
     if (mode == WR_BENCH_TEXTURE || mode == WR_BENCH_BUMP_TEXTURE) {
         scene->colour = bench_colour(err);
         if (!scene->colour) {

@@ -65,7 +65,8 @@ static double bytes_of(const WrBenchSections *all, const WrBenchPicture *p, cons
         [WR_BENCH_CODES] = 4, [WR_BENCH_FLOATS] = 16, [WR_BENCH_CONVERTED] = 16 + 16 + 3
     };
     const double samples = (double)frame->shaded;
-    if (p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS) return 0;
+    if (p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS || p->view == WR_BENCH_RELIT)
+        return 0;
     double bytes = (double)all->width * all->height * own[p->out];
     if (wr_plan_runs(frame->plan, WR_EFFECT_BUMP))
         bytes += 4 * fmin((double)p->table * p->table, 4 * samples);

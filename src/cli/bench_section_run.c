@@ -66,12 +66,23 @@ static void paint(WrField *field, int size, int round)
                          1e-4f * (float)(round + 2));
 }
 
+/* The picture's scene, of a material of each round's own where that is what changes. The caller's to free. */
+static WrScene *scene_of_round(const WrBenchPicture *p, int round)
+{
+    if (p->view != WR_BENCH_RELIT) return wr_scene_share(p->scene);
+    WrScene *scene = wr_scene_clone(p->scene);
+    scene->material.diffuse *= round % 2 ? 0.9 : 0.95;
+    return scene;
+}
+
 static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int round, WrError *err)
 {
     static const double background[3] = { 0, 0, 0 };
-    const bool rests = p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS;
+    const bool rests =
+        p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS || p->view == WR_BENCH_RELIT;
+    WrScene *scene = scene_of_round(p, round);
     const WrFrameRequest request = { .field = lane->field,
-                                     .scene = p->scene,
+                                     .scene = scene,
                                      .width = all->width,
                                      .height = all->height,
                                      .turn_deg = rests ? 0 : 7.3 * round,
@@ -84,7 +95,9 @@ static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int 
     if (p->view == WR_BENCH_FIRST) wr_renderer_free(lane->renderer), lane->renderer = NULL;
     const double start = wr_clock_seconds();
     if (!lane->renderer) lane->renderer = wr_renderer_new(all->cli->pool, isa_of(all, p), err);
-    if (!lane->renderer || !wr_renderer_frame(lane->renderer, &request, &frame, err)) return false;
+    const bool drawn = lane->renderer && wr_renderer_frame(lane->renderer, &request, &frame, err);
+    wr_scene_free(scene);
+    if (!drawn) return false;
     if (lane->bytes) wr_frame_to_srgb8(&frame, background, false, lane->bytes, all->cli->pool);
     if (round >= 0) lane->ms[round] = 1e3 * (wr_clock_seconds() - start);
     p->samples = frame.shaded;

@@ -327,11 +327,26 @@ static bool fill_views(WrBenchSections *all, const WrBenchView *views, const cha
     return true;
 }
 
+/* Surfaces whose (u,v) take longest: still they are kept. */
+static bool fill_relit(WrBenchSections *all, WrError *err)
+{
+    for (int s = 1; s < 3; s++)
+        for (int relit = 0; relit < 2; relit++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s, %s", surfaces[s],
+                     relit ? "at rest, another material each time" : "turning");
+            WrBenchPicture *p = add(all, name, all->count - relit, surfaces[s], WR_BENCH_BUMP, err);
+            if (!p) return false;
+            p->view = relit ? WR_BENCH_RELIT : WR_BENCH_TURNS;
+        }
+    return true;
+}
+
 static bool fill_still(WrBenchSections *all, WrError *err)
 {
     static const WrBenchView views[] = { WR_BENCH_TURNS, WR_BENCH_RESTS, WR_BENCH_PAINTS };
     static const char *const names[] = { "turning", "at rest", "at rest, a dab each time" };
-    return fill_views(all, views, names, 3, err);
+    return fill_views(all, views, names, 3, err) && fill_relit(all, err);
 }
 
 static bool fill_first(WrBenchSections *all, WrError *err)

@@ -18,6 +18,7 @@ typedef enum WrBenchView {
     WR_BENCH_TURNS,  /* another view each time */
     WR_BENCH_RESTS,  /* the same, and nothing has changed */
     WR_BENCH_PAINTS, /* the same, after a dab of 64 x 64 texels */
+    WR_BENCH_RELIT,  /* the same, of another material */
     WR_BENCH_FIRST   /* by a new renderer, the making of it counted */
 } WrBenchView;
 

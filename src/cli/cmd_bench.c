@@ -79,8 +79,10 @@ static int add_rows(WrBenchRow *rows, int count, const char *surface, int size, 
 /* 'surface view mode table threads ms', one line a measurement, for comparing with other renderers. */
 static bool bench_lines(const WrCli *cli, const Options *options, WrText *text, WrError *err)
 {
-    static const WrBenchMode modes[] = { WR_BENCH_PHONG, WR_BENCH_TEXTURE, WR_BENCH_BUMP,
-                                         WR_BENCH_BUMP_TEXTURE, WR_BENCH_SS16 };
+    static const WrBenchMode modes[] = { WR_BENCH_PHONG,        WR_BENCH_TEXTURE, WR_BENCH_BUMP,
+                                         WR_BENCH_BUMP_TEXTURE, WR_BENCH_MIP,     WR_BENCH_SS16,
+                                         WR_BENCH_ADAPTIVE };
+    const int all = (int)(sizeof modes / sizeof *modes);
     static const char *const surfaces[] = { "sphere", "bezier" };
     static const int sizes[] = { 512, 1024, 2048 }, tables[] = { 512, 4096 };
     const int threads[] = { 1, all_threads(cli) };
@@ -92,7 +94,7 @@ static bool bench_lines(const WrCli *cli, const Options *options, WrText *text, 
             for (int t = 0; t < (threads[1] > 1 ? 2 : 1); t++)
                 for (int k = 0; k < table_count; k++)
                     count = add_rows(rows, count, surfaces[s], sizes[z], tables[k], threads[t],
-                                     modes + (k > 0), k > 0 ? 3 : 5);
+                                     modes + (k > 0), k > 0 ? 4 : all);
             if (!wr_bench_run(cli, rows, count, options->quick ? 5 : 9, !options->exact, err))
                 return false;
             for (int i = 0; i < count; i++)

@@ -76,15 +76,14 @@ const WrSubcommand wr_subcommands[] = {
       "Pictures, documents, brushes and the window; with generate alone what fills a table, beside "
       "gegl\n"
       "and oiiotool where they are installed, with brushes alone dabs beside libmypaint. A PART "
-      "alone: pictures that differ in one thing, "
-      "beside the\n"
-      "machine's peaks of the same run: surfaces, schemes, normals, aliasing, effects, isa, plan, "
-      "still,\n"
-      "first, output; all: each of them, half a minute. --quick: fewer and smaller; --exact: "
-      "exact\n"
-      "arithmetic in place of fast; --lines: one line a measurement, for programs; --json: all "
-      "parts and\n"
-      "these lines, or what is named.",
+      "alone:\n"
+      "pictures that differ in one thing, beside the machine's peaks of the same run: surfaces, "
+      "schemes,\n"
+      "normals, aliasing, effects, isa, plan, still, first, output; all: each of them, half a "
+      "minute.\n"
+      "--quick: fewer and smaller; --exact: exact arithmetic in place of fast; --lines: one line "
+      "a\n"
+      "measurement, for programs; --json: all parts and these lines, or what is named.",
       wr_cli_bench },
 #endif
     { "help", "help [VERB...] [--json|--markdown]", "the commands of scripts and --do",
