@@ -3,6 +3,7 @@
 #include "test_render_scenes.h"
 
 #include "render/level.h"
+#include "render/table.h"
 
 /* Level but for a few texels, often beside a tile's border or the table's end. */
 static WrField *spotted_field(int w, int h, TestRandom *random)
@@ -181,11 +182,57 @@ static void edits_show_wherever_they_are(void **state)
     }
 }
 
+/* A tile is as steep as what look-ups in it read, at a clamped end also what is extrapolated past it. */
+static void check_steep(const WrTable *table, const WrField *field, int k)
+{
+    const WrTableCopy *copy = &table->copies[WR_COPY_GRADIENT];
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    const int out_u = wr_field_wrap_u(field) == WR_WRAP_CLAMP;
+    const int out_v = wr_field_wrap_v(field) == WR_WRAP_CLAMP;
+    for (int j = -out_v; j < h + out_v; j++)
+        for (int i = -out_u; i < w + out_u; i++) {
+            const int x = i < 0 ? 0 : i < w ? i : w - 1, y = j < 0 ? 0 : j < h ? j : h - 1;
+            const int tile = y / WR_TILE * wr_field_tiles_u(field) + x / WR_TILE;
+            const float *slope = copy->data + 2 * ((size_t)(j + WR_APRON) * (size_t)copy->pitch +
+                                                   (size_t)(i + WR_APRON));
+            if (fabsf(slope[0]) > table->steep[tile][0] || fabsf(slope[1]) > table->steep[tile][1])
+                fail_msg("table %d: texel %d,%d is steeper than its tile", k, i, j);
+        }
+}
+
+static void tiles_are_as_steep_as_what_is_read_of_them(void **state)
+{
+    (void)state;
+    TestRandom random = { 759 };
+    WrError err = { "" };
+    WrPool *pool = wr_pool_new(2);
+    for (int k = 0; k < 24; k++) {
+        WrTable table;
+        WrField *field = spotted_field(65 + 3 * k, 130 + k, &random);
+        wr_table_init(&table);
+        for (int edit = 0; edit < 6; edit++) {
+            assert_true(wr_table_bring(&table, WR_COPY_GRADIENT, field, pool, &err));
+            check_steep(&table, field, k);
+            WrField *next = wr_field_share(field);
+            const int w = wr_field_width(field), h = wr_field_height(field);
+            const int i = edit % 2 ? (int)(w * test_random(&random)) : (edit % 4 / 2) * (w - 1);
+            const int j = edit % 3 ? (int)(h * test_random(&random)) : (edit % 2) * (h - 1);
+            wr_field_set(next, i, j, (float)test_random(&random));
+            wr_field_free(field);
+            field = next;
+        }
+        wr_table_fini(&table);
+        wr_field_free(field);
+    }
+    wr_pool_free(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_spared_shows_nowhere),
         cmocka_unit_test(edits_show_wherever_they_are),
+        cmocka_unit_test(tiles_are_as_steep_as_what_is_read_of_them),
         cmocka_unit_test(no_tile_that_a_box_reads_is_steeper_than_it_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -261,15 +261,29 @@ static bool any_slope(const double *slopes, int count)
     return false;
 }
 
+/* The texels of a tile along one axis, from <= to; at the ends of a clamped one two more, which look-ups near the end
+   read: what is extrapolated there may be steeper than all of the table. */
+typedef struct Reach {
+    int from, to;
+} Reach;
+
+static Reach reach_of(int tile, int size, WrWrap wrap)
+{
+    const int from = tile * WR_TILE, end = from + WR_TILE < size ? from + WR_TILE : size;
+    const int more = wrap == WR_WRAP_PERIODIC ? 0 : 2;
+    return (Reach){ tile == 0 ? -more : from, end == size ? end + more : end };
+}
+
 static void mark_steep(CopyJob *job, int tx, int ty)
 {
     const WrField *field = job->field;
-    int w = wr_field_width(field) - tx * WR_TILE, h = wr_field_height(field) - ty * WR_TILE;
-    w = w < WR_TILE ? w : WR_TILE, h = h < WR_TILE ? h : WR_TILE;
+    const Reach x = reach_of(tx, wr_field_width(field), wr_field_wrap_u(field));
+    const Reach y = reach_of(ty, wr_field_height(field), wr_field_wrap_v(field));
     const int32_t unknown = magnitude(INFINITY);
     int32_t most[2] = { 0, 0 };
-    for (int y = 0; y < h; y++) {
-        const size_t row = place(job, tx * WR_TILE, ty * WR_TILE + y);
+    for (int j = y.from; j < y.to; j++) {
+        const size_t row = place(job, x.from, j);
+        const int w = x.to - x.from;
         if (job->copy->data) add_steepest(job->copy->data + row, w, most);
         else if (any_slope(job->copy->fine + row, w)) most[0] = most[1] = unknown;
     }
@@ -297,11 +311,12 @@ static void build_strip(int strip, int worker, void *ctx)
 /* Refresh [a, b) of one axis in pieces that lie inside [0, n): a periodic axis wraps. */
 typedef struct Pieces {
     int from[3], to[3], count;
+    bool border; /* near an end of the axis */
 } Pieces;
 
 static Pieces cut(int a, int b, int n, WrWrap wrap)
 {
-    Pieces p = { { 0 }, { 0 }, 0 };
+    Pieces p = { .count = 0 };
     if (wrap == WR_WRAP_PERIODIC && b - a >= n) {
         p.from[0] = 0, p.to[0] = n, p.count = 1;
         return p;
@@ -318,27 +333,44 @@ static Pieces cut(int a, int b, int n, WrWrap wrap)
     return p;
 }
 
+/* The parts of the copy that a changed tile of the field reaches. */
+static void reached(const CopyJob *job, int tx, int ty, Pieces *u, Pieces *v)
+{
+    const WrField *field = job->field;
+    const int w = wr_field_width(field), h = wr_field_height(field), reach = kinds[job->kind].reach;
+    const int i1 = (tx + 1) * WR_TILE < w ? (tx + 1) * WR_TILE : w;
+    const int j1 = (ty + 1) * WR_TILE < h ? (ty + 1) * WR_TILE : h;
+    const int edge = reach + WR_APRON;
+    *u = cut(tx * WR_TILE - reach, i1 + reach, w, wr_field_wrap_u(field));
+    *v = cut(ty * WR_TILE - reach, j1 + reach, h, wr_field_wrap_v(field));
+    u->border = tx * WR_TILE < edge || i1 > w - edge;
+    v->border = ty * WR_TILE < edge || j1 > h - edge;
+}
+
 static void refresh_tile(int tx, int ty, void *ctx)
 {
     CopyJob *job = ctx;
+    Pieces u, v;
     if (wr_progress_stopped()) return;
-    const WrField *field = job->field;
-    const int w = wr_field_width(field), h = wr_field_height(field), reach = kinds[job->kind].reach;
-    const int edge = reach + WR_APRON;
-    int i1 = (tx + 1) * WR_TILE < w ? (tx + 1) * WR_TILE : w;
-    int j1 = (ty + 1) * WR_TILE < h ? (ty + 1) * WR_TILE : h;
-    Pieces pi = cut(tx * WR_TILE - reach, i1 + reach, w, wr_field_wrap_u(field));
-    Pieces pj = cut(ty * WR_TILE - reach, j1 + reach, h, wr_field_wrap_v(field));
-    for (int b = 0; b < pj.count; b++)
-        for (int a = 0; a < pi.count; a++) {
-            refresh(job, pi.from[a], pj.from[b], pi.to[a] - pi.from[a], pj.to[b] - pj.from[b]);
-            if (job->kind != WR_COPY_GRADIENT) continue;
-            for (int y = pj.from[b] / WR_TILE; y <= (pj.to[b] - 1) / WR_TILE; y++)
-                for (int x = pi.from[a] / WR_TILE; x <= (pi.to[a] - 1) / WR_TILE; x++)
+    reached(job, tx, ty, &u, &v);
+    for (int b = 0; b < v.count; b++)
+        for (int a = 0; a < u.count; a++)
+            refresh(job, u.from[a], v.from[b], u.to[a] - u.from[a], v.to[b] - v.from[b]);
+    if (u.border || v.border) job->border = true;
+}
+
+/* Once the apron is right too. */
+static void mark_tile(int tx, int ty, void *ctx)
+{
+    CopyJob *job = ctx;
+    Pieces u, v;
+    if (wr_progress_stopped()) return;
+    reached(job, tx, ty, &u, &v);
+    for (int b = 0; b < v.count; b++)
+        for (int a = 0; a < u.count; a++)
+            for (int y = v.from[b] / WR_TILE; y <= (v.to[b] - 1) / WR_TILE; y++)
+                for (int x = u.from[a] / WR_TILE; x <= (u.to[a] - 1) / WR_TILE; x++)
                     mark_steep(job, x, y);
-        }
-    if (tx * WR_TILE < edge || i1 > w - edge || ty * WR_TILE < edge || j1 > h - edge)
-        job->border = true;
 }
 
 static void refresh_apron(CopyJob *job)
@@ -391,6 +423,7 @@ bool wr_table_bring(WrTable *table, WrCopyKind kind, const WrField *field, WrPoo
     if (same_layout(copy->seen, field) && job.changed <= tile_count(field) / 2) {
         wr_field_changes(copy->seen, field, refresh_tile, &job);
         if (job.border) refresh_apron(&job);
+        if (kind == WR_COPY_GRADIENT) wr_field_changes(copy->seen, field, mark_tile, &job);
     } else {
         if (!same_layout(copy->seen, field) && !allocate(&job, err)) return false;
         wr_pool_run(pool, wr_field_tiles_v(field), build_strip, &job);
