@@ -261,7 +261,7 @@ APART FLAT static void arrive_strip(const RAYS *rays, const NEWTON *how, STRIP *
     }
 }
 
-/* A surface's evaluation of a round. */
+/* A surface's evaluation at all of a strip's tu, tv. */
 typedef void Evaluate(const SHAPE *shape, STRIP *strip);
 
 /* Up to a whole number of vectors the last sample again. */
