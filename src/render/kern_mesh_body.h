@@ -82,6 +82,17 @@ FLAT static void kern_cover(const WrWalk *walk, float *close, float *u, float *v
 }
 #endif
 
+/* The places of the hits of a row from (gx, gy) on, by their index; `hits` again. */
+ALWAYS int put_places(REAL gx, REAL gy, int hits, STRIP *strip)
+{
+    SIMD for (int i = 0; i < hits; i++)
+    {
+        strip->x[i] = gx + (REAL)strip->index[i];
+        strip->y[i] = gy;
+    }
+    return hits;
+}
+
 /* Samples of a row that something covers, from (gx, gy) on. */
 FLAT static int kern_covered(const float *close, const float *u, const float *v, REAL gx, REAL gy,
                              int count, STRIP *strip)
@@ -94,12 +105,7 @@ FLAT static int kern_covered(const float *close, const float *u, const float *v,
     }
     REAL *const move[] = { strip->u, strip->v };
     const int hits = compact(count, strip, move, 2);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        strip->x[i] = gx + (REAL)strip->index[i];
-        strip->y[i] = gy;
-    }
-    return hits;
+    return put_places(gx, gy, hits, strip);
 }
 
 /* Samples of a row that were noted, from (gx, gy) on. */
@@ -116,10 +122,5 @@ FLAT static int kern_recall(const float *u, const float *v, REAL gx, REAL gy, in
     }
     REAL *const move[] = { strip->u, strip->v, strip->wx };
     const int hits = compact(count, strip, move, 3);
-    SIMD for (int i = 0; i < hits; i++)
-    {
-        strip->x[i] = gx + (REAL)strip->index[i];
-        strip->y[i] = gy;
-    }
-    return hits;
+    return put_places(gx, gy, hits, strip);
 }

@@ -61,8 +61,9 @@ typedef struct WrDepthTile {
 
 /* What the scene asks of the mesh. */
 typedef struct WrMeshAsk {
-    int mesh; /* WrDials: 2^mesh times as fine */
-    int newton; /* steps, or -1: two, or three from a coarse mesh: Newton doubles the digits at each */
+    int mesh;   /* WrDials: 2^mesh times as fine */
+    int newton; /* steps; or -1: at most two, or three from a coarse mesh: Newton doubles the digits at each, and ends
+                   earlier where the tangents stand still */
     double texels;           /* 0, or the step that is short enough; of a table of ... */
     double table_w, table_h; /* ... so many texels along u and v, replication included */
 } WrMeshAsk;
