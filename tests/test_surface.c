@@ -27,10 +27,14 @@ static WrShape random_shape(WrSurfaceKind kind, TestRandom *random)
     return shape;
 }
 
-/* Not within `far` of the line where the curl's curvature jumps. */
+/* Not within `far` of the line where the curl's curvature jumps, nor of those where the capsule's does. */
 static bool smooth_here(const WrShape *shape, double u, double v, double far)
 {
-    return shape->kind != WR_SURFACE_curl || fabs(u + v - shape->value[1]) > far;
+    const double *value = shape->value;
+    if (shape->kind == WR_SURFACE_curl) return fabs(u + v - value[1]) > far;
+    if (shape->kind != WR_SURFACE_capsule) return true;
+    const double joint = WR_PI * value[0] / 2 / (WR_PI * value[0] + value[1]);
+    return fabs(fmin(v, 1 - v) - joint) > far;
 }
 
 static WrVec3 difference(const WrShape *shape, int face, double u, double v, double du, double dv,
@@ -118,6 +122,8 @@ static void normals_point_outward_or_up(void **state)
             WrVec3 out = { 0, 0, 1 };
             switch ((WrSurfaceKind)kind) {
             case WR_SURFACE_sphere:
+            case WR_SURFACE_capsule:
+            case WR_SURFACE_superellipsoid:
             case WR_SURFACE_cube: out = o.p; break;
             case WR_SURFACE_cylinder:
             case WR_SURFACE_cone: out = (WrVec3){ o.p.x, o.p.y, 0 }; break;

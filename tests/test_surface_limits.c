@@ -321,6 +321,185 @@ static void hc11_nearly_parallel_tangents_keep_what_precision_allows(void **stat
     assert_near(angle_to_reference(o.n_unit), 0, 8 * 0x1p-52 / sine);
 }
 
+/* ---- disc, capsule, superellipsoid ---- */
+
+static void the_disc_faces_up_at_its_centre_and_the_capsule_out_at_its_poles(void **state)
+{
+    (void)state;
+    for (int i = 0; i <= 16; i++) {
+        WrShape disc, capsule;
+        WrSurfacePoint o;
+        WrSurfacePointf of;
+        wr_shape_default(WR_SURFACE_disc, &disc);
+        wr_shape_default(WR_SURFACE_capsule, &capsule);
+        both(&disc, 0, (float)i / 16, 1, &o, &of);
+        assert_true(o.n_unit.z == 1 && (double)of.n_unit.z == 1 && v3_len(o.p) == 0);
+        capsule.value[1] = i % 3 == 0 ? 0 : 1e-3 * pow(10, i % 7); /* no tube; a bead; a needle */
+        for (int pole = 0; pole < 2; pole++) {
+            both(&capsule, 0, (float)i / 16, (float)pole, &o, &of);
+            const double z = pole ? 1 : -1;
+            assert_true(o.n_unit.x == 0 && o.n_unit.y == 0 && o.n_unit.z == z);
+            assert_true(of.n_unit.x == 0 && of.n_unit.y == 0 && (double)of.n_unit.z == z);
+            wr_surface_at(&capsule, 0, i / 16.0, pole, &o);
+            assert_near(o.p.z, z * (capsule.value[0] + capsule.value[1] / 2), 1e-15 * fabs(o.p.z));
+        }
+        assert_finite_everywhere(&capsule, true);
+    }
+}
+
+/* Steps of equal size in v are equal lengths, on the balls and between them. */
+static void the_capsule_goes_by_arc_length_and_is_smooth_at_its_joints(void **state)
+{
+    (void)state;
+    WrShape shape;
+    wr_shape_default(WR_SURFACE_capsule, &shape);
+    shape.value[0] = 0.3712, shape.value[1] = 0.8173;
+    const double length = WR_PI * shape.value[0] + shape.value[1];
+    const double joint = WR_PI * shape.value[0] / 2 / length;
+    for (int side = 0; side < 2; side++) {
+        const double v = side ? 1 - joint : joint;
+        WrSurfacePoint a, b;
+        wr_surface_at(&shape, 0, 0.137, v - 1e-9, &a);
+        wr_surface_at(&shape, 0, 0.137, v + 1e-9, &b);
+        assert_near(v3_len(v3_sub(a.p, b.p)), 2e-9 * length, 1e-15);
+        assert_near(v3_len(v3_sub(a.n_unit, b.n_unit)), 0, 1e-8);
+    }
+    for (int k = 0; k <= 97; k++) {
+        WrSurfacePoint o;
+        wr_surface_at(&shape, 0, 0.7, k / 97.0, &o);
+        assert_near(v3_len(o.pv), length, 1e-14);
+    }
+}
+
+static WrShape super(double e1, double e2)
+{
+    WrShape shape;
+    wr_shape_default(WR_SURFACE_superellipsoid, &shape);
+    const double value[5] = { 0.813, 1.127, 0.641, e1, e2 };
+    memcpy(shape.value, value, sizeof value);
+    return shape;
+}
+
+static double signed_power(double x, double y)
+{
+    return x < 0 ? -pow(-x, y) : pow(x, y);
+}
+
+/* Barr's normal of a point of the surface: the implicit function's gradient. */
+static WrVec3 gradient(const WrShape *shape, WrVec3 p)
+{
+    const double *a = shape->value, e1 = a[3], e2 = a[4];
+    const double x = p.x / a[0], y = p.y / a[1], z = p.z / a[2];
+    const double round = pow(fabs(x), 2 / e2) + pow(fabs(y), 2 / e2), by = pow(round, e2 / e1 - 1);
+    const WrVec3 g = { by * signed_power(x, 2 / e2 - 1) / a[0],
+                       by * signed_power(y, 2 / e2 - 1) / a[1],
+                       signed_power(z, 2 / e1 - 1) / a[2] };
+    return v3_unit(g, (WrVec3){ 0, 0, 1 });
+}
+
+static const double forms[] = { 0.1, 0.37, 1, 1.4, 2, 2.71, 3.9, 4 };
+
+static void superellipsoids_are_barrs_and_face_along_his_normal(void **state)
+{
+    (void)state;
+    TestRandom random = { 31 };
+    for (int k = 0; k < 64 * 40; k++) {
+        const WrShape shape = super(forms[k % 8], forms[k / 8 % 8]);
+        const double *a = shape.value, e1 = a[3], e2 = a[4];
+        WrSurfacePoint o;
+        wr_surface_at(&shape, 0, test_random(&random), test_random(&random), &o);
+        const double round = pow(fabs(o.p.x / a[0]), 2 / e2) + pow(fabs(o.p.y / a[1]), 2 / e2);
+        assert_near(pow(round, e2 / e1) + pow(fabs(o.p.z / a[2]), 2 / e1), 1, 2e-13);
+        assert_near(v3_len(v3_sub(gradient(&shape, o.p), o.n_unit)), 0, 1e-11);
+        assert_true(v3_dot(o.n, o.n_unit) > 0);
+    }
+}
+
+/* Derivatives in random points, the step short against the way to the next axis plane. */
+static void superellipsoids_of_every_form_have_their_derivatives(void **state)
+{
+    (void)state;
+    TestRandom random = { 32 };
+    static const int rules[][3] = {
+        { 0, P, PU },   { 1, P, PV },   { 0, PU, PUU },  { 1, PU, PUV },
+        { 1, PV, PVV }, { 0, PV, PUV }, { 0, UNIT, NU }, { 1, UNIT, NV }
+    };
+    for (int k = 0; k < 64 * 12; k++) {
+        const WrShape shape = super(forms[k % 8], forms[k / 8 % 8]);
+        const double u = (k % 4 + 0.1 + 0.8 * test_random(&random)) / 4;
+        const double v = (k % 2 + 0.1 + 0.8 * test_random(&random)) / 2, h = 1e-4;
+        for (int r = 0; r < 8; r++) {
+            WrSurfacePoint o, a[4];
+            wr_surface_at(&shape, 0, u, v, &o);
+            for (int i = 0; i < 4; i++) {
+                const double by = h * (const double[]){ 1, -1, 2, -2 }[i];
+                wr_surface_at(&shape, 0, rules[r][0] ? u : u + by, rules[r][0] ? v + by : v, &a[i]);
+            }
+            const WrVec3 one = v3_sub(member(&a[0], rules[r][1]), member(&a[1], rules[r][1]));
+            const WrVec3 two = v3_sub(member(&a[2], rules[r][1]), member(&a[3], rules[r][1]));
+            const WrVec3 got = v3_scale(v3_sub(v3_scale(one, 8), two), 1 / (12 * h));
+            const WrVec3 told = member(&o, rules[r][2]);
+            if (v3_len(v3_sub(got, told)) > 1e-5 * (10 + v3_len(told)))
+                fail_msg("e1 %g e2 %g at %g,%g: %s of %s: %g for %g", shape.value[3],
+                         shape.value[4], u, v, member_names[rules[r][2]], member_names[rules[r][1]],
+                         v3_len(got), v3_len(told));
+        }
+    }
+}
+
+/* In the planes of the axes the normal is what it tends to from the side that counts. */
+static void hc143_superellipsoids_keep_their_limits_at_the_axes(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 64; k++) {
+        const WrShape shape = super(forms[k % 8], forms[k / 8 % 8]);
+        assert_finite_everywhere(&shape, true);
+        for (int i = 0; i < 3 * 4; i++) {
+            const double us[3] = { 0, 0.25, 0.1371 }, vs[4] = { 0, 0.3173, 0.5, 1 };
+            const double u = us[i % 3], v = vs[i / 3], near = 1e-13;
+            WrSurfacePoint o, from;
+            wr_surface_at(&shape, 0, u, v, &o);
+            assert_true(all_finite(&o));
+            /* Towards where both coordinates are positive; the poles from within. */
+            const double du = i % 3 == 1 ? -near : near, dv = v == 1 ? -near : near;
+            wr_surface_at(&shape, 0, u + du, v + dv, &from);
+            const double e1 = shape.value[3], e2 = shape.value[4];
+            /* Normals tend to it as near^|2/e - 1|; on an edge between cusps there is none for
+               all ways at a pole, nor where another edge crosses. */
+            const bool quick = fabs(2 / e1 - 1) > 0.4 && fabs(2 / e2 - 1) > 0.4;
+            const bool many = e2 > 2 && i % 3 < 2 && (i / 3 % 3 == 0 || (e1 > 2 && v == 0.5));
+            if ((quick || (e1 == 2 && e2 == 2)) && !many)
+                assert_near(v3_len(v3_sub(o.n_unit, from.n_unit)), 0, 2e-5);
+        }
+        WrSurfacePoint top, arm;
+        wr_surface_at(&shape, 0, 0.1371, 1, &top);
+        wr_surface_at(&shape, 0, 0, 0.5, &arm);
+        if (shape.value[3] < 2) assert_true(top.n_unit.z == 1);
+        if (shape.value[3] > 2) assert_true(top.n_unit.z == 0);
+        if (shape.value[3] < 2 && shape.value[4] < 2) assert_true(arm.n_unit.x == 1);
+    }
+}
+
+/* Of the divergence theorem: the integral of P . N / 3. V = 2 a b c e1 e2 B(e1/2 + 1, e1) B(e2/2, e2/2). */
+static void superellipsoids_have_their_volume(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 64; k++) {
+        const WrShape shape = super(forms[k % 8], forms[k / 8 % 8]);
+        const double *a = shape.value, e1 = a[3], e2 = a[4];
+        enum { ACROSS = 200, UP = 100 };
+        double sum = 0;
+        for (int i = 0; i < ACROSS * UP; i++) {
+            WrSurfacePoint o;
+            wr_surface_at(&shape, 0, (i % ACROSS + 0.5) / ACROSS, (i / ACROSS + 0.5) / UP, &o);
+            sum += v3_dot(o.p, o.n) / 3 / (ACROSS * UP);
+        }
+        const double b1 = tgamma(e1 / 2 + 1) * tgamma(e1) / tgamma(1.5 * e1 + 1);
+        const double b2 = tgamma(e2 / 2) * tgamma(e2 / 2) / tgamma(e2);
+        assert_near(sum / (2 * a[0] * a[1] * a[2] * e1 * e2 * b1 * b2), 1, 6e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -335,6 +514,12 @@ int main(void)
         cmocka_unit_test(hc07_a_patch_that_is_a_line_gives_a_defined_normal),
         cmocka_unit_test(hc10_tangents_of_very_different_length_stay_perpendicular_to_n),
         cmocka_unit_test(hc11_nearly_parallel_tangents_keep_what_precision_allows),
+        cmocka_unit_test(the_disc_faces_up_at_its_centre_and_the_capsule_out_at_its_poles),
+        cmocka_unit_test(the_capsule_goes_by_arc_length_and_is_smooth_at_its_joints),
+        cmocka_unit_test(superellipsoids_are_barrs_and_face_along_his_normal),
+        cmocka_unit_test(superellipsoids_of_every_form_have_their_derivatives),
+        cmocka_unit_test(hc143_superellipsoids_keep_their_limits_at_the_axes),
+        cmocka_unit_test(superellipsoids_have_their_volume),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

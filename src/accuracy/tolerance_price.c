@@ -7,11 +7,13 @@
    matters is how they compare. */
 WR_ROWS(surface_price);
 static const double surface_price[] = {
-    [WR_ROW(WR_SURFACE_plane)] = 10.5, [WR_ROW(WR_SURFACE_bent)] = 28,
-    [WR_ROW(WR_SURFACE_curl)] = 40,    [WR_ROW(WR_SURFACE_bezier)] = 48,
-    [WR_ROW(WR_SURFACE_sphere)] = 15,  [WR_ROW(WR_SURFACE_cylinder)] = 14,
-    [WR_ROW(WR_SURFACE_cone)] = 21,    [WR_ROW(WR_SURFACE_torus)] = 40,
-    [WR_ROW(WR_SURFACE_cube)] = 18,    [WR_ROW(WR_SURFACE_ribbon)] = 43,
+    [WR_ROW(WR_SURFACE_plane)] = 10.5,        [WR_ROW(WR_SURFACE_bent)] = 28,
+    [WR_ROW(WR_SURFACE_curl)] = 40,           [WR_ROW(WR_SURFACE_bezier)] = 48,
+    [WR_ROW(WR_SURFACE_sphere)] = 15,         [WR_ROW(WR_SURFACE_cylinder)] = 14,
+    [WR_ROW(WR_SURFACE_cone)] = 21,           [WR_ROW(WR_SURFACE_torus)] = 40,
+    [WR_ROW(WR_SURFACE_cube)] = 18,           [WR_ROW(WR_SURFACE_ribbon)] = 43,
+    [WR_ROW(WR_SURFACE_disc)] = 32,           [WR_ROW(WR_SURFACE_capsule)] = 42,
+    [WR_ROW(WR_SURFACE_superellipsoid)] = 90,
 };
 WR_ROWS_END(surface_price, WR_SURFACE_COUNT);
 

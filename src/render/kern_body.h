@@ -17,6 +17,10 @@
 #include "surface/formula.h"
 #undef r_sincos_turns
 #define r_sincos_turns wr_sincos_turns_r
+#undef r_pow01
+#undef r_pow_near
+#define r_pow01(x, s) wr_pow_below_r(x, 1.0 - (x), s)
+#define r_pow_near(x, s) wr_exp2_r((s)*wr_log2_below_r(x, 1.0 - (x)))
 #define r_atan2_turns wr_atan2_turns_r
 #define r_pow_below wr_pow_below_r
 #define r_scale_down wr_scale_down_r

@@ -25,6 +25,8 @@
 #undef R_LEAST
 #undef R_NOISE
 #undef r_sincos_turns
+#undef r_pow01
+#undef r_pow_near
 #undef r_sqrt
 #undef r_abs
 #ifdef WR_FORMULA_FLOAT
@@ -37,6 +39,8 @@
 #define R_LEAST 0x1p-125f  /* above it a reciprocal is finite */
 #define R_NOISE 0x1p-23f   /* a cross product under this share of its factors is rounding */
 #define r_sincos_turns wr_sincos_turns_f
+#define r_pow01(x, s) wr_pow01_f(x, s)               /* 0 <= x <= 1, s >= 0; pow(0, 0) = 1 */
+#define r_pow_near(x, s) wr_exp2_f((s)*wr_log2_f(x)) /* x > 0 and not far from 1, any s */
 #define r_sqrt sqrtf
 #define r_abs fabsf
 #else
@@ -49,6 +53,8 @@
 #define R_LEAST 0x1p-1021
 #define R_NOISE 0x1p-47
 #define r_sincos_turns wr_sincos_turns
+#define r_pow01(x, s) wr_pow(x, s)
+#define r_pow_near(x, s) wr_pow(x, s)
 #define r_sqrt sqrt
 #define r_abs fabs
 #endif

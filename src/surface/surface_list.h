@@ -12,6 +12,9 @@ WR_X(cone)
 WR_X(torus)
 WR_X(cube)
 WR_X(ribbon)
+WR_X(disc)
+WR_X(capsule)
+WR_X(superellipsoid)
 #undef WR_X
 #endif
 #ifdef WR_SURFACE_FORMULAS
@@ -26,4 +29,7 @@ WR_X(ribbon)
 #include "surface/torus.h"
 #include "surface/cube.h"
 #include "surface/ribbon.h"
+#include "surface/disc.h"
+#include "surface/capsule.h"
+#include "surface/superellipsoid.h"
 #endif

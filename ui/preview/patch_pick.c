@@ -11,7 +11,7 @@
 #include <math.h>
 
 #define NET 96  /* cells along a side of a curved surface */
-#define FLAT 8  /* of a flat one */
+#define FLAT 8  /* of a flat one with straight edges */
 #define BLOCK 8 /* cells along a block's side */
 #define NEWTON_STEPS 12
 #define HAIR 0.3          /* pixels */
@@ -148,7 +148,9 @@ WrPatchPick *wr_patch_pick_new(const WrScene *scene, double turn_deg, int width,
     pick->middle_y = height / 2.0;
     pick->scale_x = pick->middle_x / (at.half_height * aspect);
     pick->scale_y = pick->middle_y / at.half_height;
-    pick->cells = pick->info->flat ? FLAT : NET;
+    const WrInversion inversion = pick->info->inversion;
+    const bool straight = inversion == WR_INVERT_PLANE || inversion == WR_INVERT_CUBE;
+    pick->cells = straight ? FLAT : NET;
     make_net(pick);
     return pick;
 }
