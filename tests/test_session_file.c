@@ -417,9 +417,41 @@ static void a_document_holds_no_commands_but_of_its_scene(void **state)
     assert_int_not_equal(access("stolen.exr", F_OK), 0);
 }
 
+/* What a surface is given by in words goes where its numbers go: undo, documents, scene text. */
+static void a_surfaces_texts_travel_with_the_document(void **state)
+{
+    (void)state;
+    WrError err;
+    Notes notes = { 0 };
+    WrText before = { 0 }, after = { 0 };
+    WrSession *s = new_session(&notes, true), *other = new_session(&notes, true);
+    must_run(s, "table 8x8");
+    must_run(s, "surface revolution profile=0.5,-1;0.75,0;0.25,1");
+    const uint64_t key = doc(s)->scene->shape.key;
+    wr_session_scene_text(s, &before);
+    assert_non_null(
+        strstr(wr_text_get(&before), "surface revolution profile=\"0.5,-1;0.75,0;0.25,1\"\n"));
+    must_fail(s, "surface revolution profile=1,0;-1,0", "point 2");
+    must_run(s, "surface revolution");
+    must_run(s, "surface sphere");
+    must_run(s, "undo 2");
+    assert_true(doc(s)->scene->shape.key == key);
+    if (!wr_session_save(s, "a.exr", &err)) fail_msg("%s", err.text);
+    must_run(other, "open a.exr");
+    wr_session_scene_text(other, &after);
+    assert_string_equal(wr_text_get(&before), wr_text_get(&after));
+    assert_true(doc(other)->scene->shape.key == key);
+    wr_session_free(s);
+    wr_session_free(other);
+    wr_text_fini(&before);
+    wr_text_fini(&after);
+    wr_text_fini(&notes.text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        IN_FOLDER(a_surfaces_texts_travel_with_the_document),
         IN_FOLDER(script_errors_carry_file_and_line),
         IN_FOLDER(a_script_with_mark_and_crlf_runs_and_one_with_nul_does_not),
         IN_FOLDER(opening_a_script_writes_nothing_and_says_so),

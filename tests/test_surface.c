@@ -27,11 +27,14 @@ static WrShape random_shape(WrSurfaceKind kind, TestRandom *random)
     return shape;
 }
 
-/* Not within `far` of the line where the curl's curvature jumps, nor of those where the capsule's does. */
+/* Not within `far` of the line where the curl's curvature jumps, nor of those where the capsule's does, nor of a
+   profile's points, where its third derivative does. */
 static bool smooth_here(const WrShape *shape, double u, double v, double far)
 {
     const double *value = shape->value;
     if (shape->kind == WR_SURFACE_curl) return fabs(u + v - value[1]) > far;
+    for (int k = 1; shape->kind == WR_SURFACE_revolution && k < shape->data->profile_d.count; k++)
+        if (fabs(v - shape->data->profile_d.from[k]) < far) return false;
     if (shape->kind != WR_SURFACE_capsule) return true;
     const double joint = WR_PI * value[0] / 2 / (WR_PI * value[0] + value[1]);
     return fabs(fmin(v, 1 - v) - joint) > far;
@@ -127,6 +130,10 @@ static void normals_point_outward_or_up(void **state)
             case WR_SURFACE_cube: out = o.p; break;
             case WR_SURFACE_cylinder:
             case WR_SURFACE_cone: out = (WrVec3){ o.p.x, o.p.y, 0 }; break;
+            case WR_SURFACE_revolution: /* of a vase, but for its foot: away from its axis */
+                if (v > 0.3) out = (WrVec3){ o.p.x, o.p.y, 0 };
+                else out = o.p;
+                break;
             case WR_SURFACE_torus: { /* away from the ring inside the tube */
                 double ring = shape.value[0] / hypot(o.p.x, o.p.y);
                 out = (WrVec3){ o.p.x - o.p.x * ring, o.p.y - o.p.y * ring, o.p.z };

@@ -10,6 +10,7 @@
 #include "field/analytic.h"
 #include "scene/param.h"
 #include "scene/scene.h"
+#include "surface/data.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,6 +27,10 @@ static void print_surface(const WrScene *scene, WrText *text)
             if (i > 0) wr_text_add(text, i % point == 0 ? ";" : ",");
             wr_text_add_number(text, *value++);
         }
+    }
+    for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name; k++) {
+        wr_text_addf(text, " %s=", info->texts[k].name);
+        wr_text_add_word(text, scene->shape.data->text[k]);
     }
     wr_text_add(text, "\n");
 }
@@ -84,20 +89,36 @@ static void warn_seam(WrSession *session, const WrScene *scene)
             info->name);
 }
 
+/* What a surface's texts make; *made stays NULL without texts. */
+static bool make_data(const WrCall *call, WrSurfaceKind kind, WrSurfaceData **made, WrError *err)
+{
+    const WrSurfaceInfo *info = wr_surfaces[kind];
+    const char *text[WR_SURFACE_TEXTS] = { NULL };
+    if (!info->make) return true;
+    for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name; k++)
+        if (wr_call_given(call, info->texts[k].name))
+            text[k] = wr_call_arg(call, info->texts[k].name)->text;
+    *made = wr_surface_data_make(kind, text, err);
+    return *made != NULL;
+}
+
 static bool run_surface(WrSession *session, WrCall *call, WrError *err)
 {
+    WrSurfaceData *data = NULL;
     WrShape shape = { .kind = (WrSurfaceKind)call->form };
     wr_shape_default(shape.kind, &shape);
     for (int i = 0; i < call->count; i++) {
         if (!call->args[i].given) continue;
         int offset = wr_surface_param_offset(shape.kind, call->specs[i].name);
-        WR_ASSERT(offset >= 0);
+        if (offset < 0) continue; /* a text */
         memcpy(shape.value + offset, call->args[i].numbers,
                (size_t)call->args[i].rows * (size_t)wr_arg_width(&call->specs[i]) * sizeof(double));
     }
-    if (!wr_shape_check(&shape, err)) return false;
+    if (!wr_shape_check(&shape, err) || !make_data(call, shape.kind, &data, err)) return false;
+    if (data) wr_shape_take_data(&shape, data);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    scene->shape = shape;
+    wr_scene_set_shape(scene, &shape);
+    wr_surface_data_free(data);
     warn_seam(session, scene);
     wr_session_replace_scene(session, scene);
     return true;
@@ -226,6 +247,7 @@ static bool form_surface(int i, WrForm *out)
     if (i >= WR_SURFACE_COUNT) return false;
     const WrSurfaceInfo *info = wr_surfaces[i];
     *out = (WrForm){ .name = info->name, .help = info->help };
+    int count = 0;
     for (int k = 0; k < WR_SURFACE_PARAMS && info->params[k].name; k++) {
         const WrSurfaceParam *p = &info->params[k];
         WrArgSpec spec = { .name = p->name,
@@ -241,8 +263,14 @@ static bool form_surface(int i, WrForm *out)
             spec.rows_low = spec.rows_high = spec.fallback_rows = p->components / 3;
             spec.shape = "x,y,z;...";
         }
-        out->args[k] = spec;
+        out->args[count++] = spec;
     }
+    for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name; k++)
+        out->args[count++] = (WrArgSpec){ .name = info->texts[k].name,
+                                          .type = WR_ARG_TEXT,
+                                          .shape = info->texts[k].shape,
+                                          .fallback_text = info->texts[k].fallback,
+                                          .help = info->texts[k].help };
     return true;
 }
 

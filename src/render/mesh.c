@@ -11,6 +11,7 @@
 
 static void free_points(WrViewMesh *mesh)
 {
+    wr_free(mesh->v);
     wr_free(mesh->x);
     wr_free(mesh->y);
     wr_free(mesh->z);
@@ -50,15 +51,19 @@ static int round_cells(double want, int most)
     return sizes[count - 1];
 }
 
+#define WR_MESH_CORNERS 64
+
 /* Largest |Puu|, |Puv|, |Pvv| over the surface (sampled), in object units; kept while the shape stays. */
 static void measure_bend(WrViewMesh *mesh, const WrShape *shape)
 {
     if (mesh->measured && memcmp(&mesh->source, shape, sizeof *shape) == 0) return;
     mesh->uu = mesh->uv = mesh->vv = 0;
-    for (int j = 0; j <= 16; j++)
-        for (int i = 0; i <= 16; i++) {
+    const int across = 16,
+              up = shape->data ? 128 : 16; /* a curve of the user's own may bend in short pieces */
+    for (int j = 0; j <= up; j++)
+        for (int i = 0; i <= across; i++) {
             WrSurfacePoint at;
-            wr_surface_at(shape, 0, i / 16.0, j / 16.0, &at);
+            wr_surface_at(shape, 0, (double)i / across, (double)j / up, &at);
             mesh->uu = fmax(mesh->uu, v3_len(at.puu));
             mesh->uv = fmax(mesh->uv, v3_len(at.puv));
             mesh->vv = fmax(mesh->vv, v3_len(at.pvv));
@@ -99,11 +104,28 @@ static void make_row(int j, int worker, void *ctx)
         int n = mesh->mu + 1 - from < WR_SPAN ? mesh->mu + 1 - from : WR_SPAN;
         for (int i = 0; i < n; i++) {
             u[i] = (float)(from + i) / (float)mesh->mu;
-            v[i] = (float)j / (float)mesh->mv;
+            v[i] = mesh->v[j];
         }
         size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)from;
         job->kernels->points[mesh->kind](&mesh->shape, n, u, v, mesh->x + at, mesh->y + at,
                                          mesh->z + at);
+    }
+}
+
+/* Rows lie evenly; the one next to a corner lies on it, else cells would cut it off. */
+static void place_rows(WrViewMesh *mesh, const WrShape *shape)
+{
+    double corner[WR_MESH_CORNERS];
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    const int corners = info->corners ? info->corners(shape, corner, WR_MESH_CORNERS) : 0;
+    for (int j = 0; j <= mesh->mv; j++) mesh->v[j] = (float)j / (float)mesh->mv;
+    for (int k = 0, last = 0; k < corners; k++) {
+        int j = (int)(corner[k] * mesh->mv + 0.5);
+        j = j > last ? j : last + 1; /* two corners, one row: the next one moves */
+        if (j >= mesh->mv) break;
+        mesh->v[j] = (float)corner[k];
+        for (int i = j + 1; i < mesh->mv && mesh->v[i] <= mesh->v[j]; i++) mesh->v[i] = mesh->v[j];
+        last = j;
     }
 }
 
@@ -161,6 +183,7 @@ static void allocate(WrViewMesh *mesh, int mu, int mv)
     free_points(mesh);
     mesh->mu = mu, mesh->mv = mv;
     mesh->blocks_u = mu / WR_MESH_BLOCK, mesh->blocks_v = mv / WR_MESH_BLOCK;
+    mesh->v = wr_alloc((size_t)mv + 1, sizeof *mesh->v);
     mesh->x = wr_alloc(count, sizeof *mesh->x);
     mesh->y = wr_alloc(count, sizeof *mesh->y);
     mesh->z = wr_alloc(count, sizeof *mesh->z);
@@ -214,6 +237,7 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
         allocate(mesh, mu, mv);
         mesh->kind = shape->kind;
         mesh->shape = view->shape;
+        place_rows(mesh, shape);
         wr_pool_run(pool, mv + 1, make_row, &job);
     }
     mesh->newton = choose_newton(mesh, wr_surfaces[shape->kind], view->scale, ask);
@@ -266,7 +290,7 @@ static WrRasterVertex vertex_at(const WrViewMesh *mesh, int i, int j)
 {
     size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i;
     return (WrRasterVertex){ mesh->sx[at], mesh->sy[at], mesh->close[at],
-                             (float)i / (float)mesh->mu, (float)j / (float)mesh->mv };
+                             (float)i / (float)mesh->mu, mesh->v[j] };
 }
 
 static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int ij[3][2],
@@ -276,7 +300,7 @@ static void raster_clipped(const WrViewMesh *mesh, const WrView *view, const int
     for (int k = 0; k < 3; k++) {
         size_t at = (size_t)ij[k][1] * (size_t)(mesh->mu + 1) + (size_t)ij[k][0];
         corner[k] = wr_raster_clip_vertex(view, (WrVec3){ mesh->x[at], mesh->y[at], mesh->z[at] },
-                                          (double)ij[k][0] / mesh->mu, (double)ij[k][1] / mesh->mv);
+                                          (double)ij[k][0] / mesh->mu, (double)mesh->v[ij[k][1]]);
     }
     wr_raster_clipped(view, corner, tile);
 }

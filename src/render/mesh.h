@@ -37,7 +37,8 @@ typedef struct WrViewMesh {
     double uu, uv, vv;  /* largest |Puu|, |Puv|, |Pvv| */
     WrSurfaceKind kind; /* what the points were made for */
     WrShapef shape;
-    int mu, mv;              /* cells along u and v; 0: nothing yet */
+    int mu, mv; /* cells along u and v; 0: nothing yet */
+    float *v; /* [mv + 1] of the rows, owned: even, but for those that corners draw to themselves */
     float *x, *y, *z;        /* [(mv + 1)(mu + 1)] kernel units, owned */
     WrViewSight sight;       /* what the rest was projected for */
     int32_t *sx, *sy;        /* projected, 1/256 samples */

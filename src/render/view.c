@@ -296,6 +296,7 @@ static void scale_shape(const WrShape *shape, double scale, WrShape *out)
 {
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
     *out = *shape;
+    out->scale = shape->scale * scale;
     int at = 0;
     for (int p = 0; p < WR_SURFACE_PARAMS && info->params[p].name; p++)
         for (int i = 0; i < info->params[p].components; i++, at++)

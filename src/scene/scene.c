@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "scene/param.h"
 #include "shade/slope.h"
+#include "surface/data.h"
 
 #include <float.h>
 #include <string.h>
@@ -56,7 +57,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
 {
     WrScene *clone = wr_alloc(1, sizeof *clone);
     clone->refs = 1;
-    clone->shape = scene->shape;
+    wr_scene_set_shape(clone, &scene->shape);
     clone->posed = scene->posed;
     clone->rotate_deg = scene->rotate_deg;
     clone->bump = scene->bump;
@@ -91,11 +92,20 @@ WrScene *wr_scene_share(const WrScene *scene)
 void wr_scene_free(WrScene *scene)
 {
     if (!scene || __atomic_sub_fetch(&scene->refs, 1, __ATOMIC_ACQ_REL) > 0) return;
+    wr_surface_data_free((WrSurfaceData *)scene->shape.data);
     wr_free(scene->analytic.terms);
     if (scene->colour) wr_image_free(scene->colour);
     wr_free(scene->colour_path);
     wr_free(scene->lights);
     wr_free(scene);
+}
+
+void wr_scene_set_shape(WrScene *scene, const WrShape *shape)
+{
+    const WrSurfaceData *old = scene->shape.data, *shared = wr_surface_data_share(shape->data);
+    scene->shape = *shape;
+    wr_shape_take_data(&scene->shape, shared);
+    wr_surface_data_free((WrSurfaceData *)old);
 }
 
 WrSceneView wr_scene_view(const WrScene *scene)

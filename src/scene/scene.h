@@ -53,8 +53,8 @@ typedef struct WrTolerance {
 } WrTolerance;
 
 struct WrScene {
-    int refs; /* atomic; private to scene.c */
-    WrShape shape;
+    int refs;          /* atomic; private to scene.c */
+    WrShape shape;     /* its data is shared with it: set by wr_scene_set_shape */
     bool posed;        /* rotate was given; else the surface's own pose holds */
     WrVec3 rotate_deg; /* about the world's x, then y, then z */
     WrBumpMode bump;
@@ -85,6 +85,8 @@ WrScene *wr_scene_new(void);
 WrScene *wr_scene_clone(const WrScene *scene);
 WrScene *wr_scene_share(const WrScene *scene); /* constant time */
 void wr_scene_free(WrScene *scene);
+/* Take a shape; what it borrows is shared from now on. */
+void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
 
 /* The near plane's depth before the eye, in radii of the object: what lies nearer is not seen. */
 #define WR_NEAR_PLANE 1e-10

@@ -13,12 +13,14 @@
 #include "base/exactmath.h"
 #include "base/kernmath.h"
 #include "base/vec.h"
+#include "surface/data.h"
 #include "surface/surface.h"
 
 #undef REAL
 #undef VEC
 #undef POINT
 #undef SHAPE
+#undef PROFILE
 #undef FN
 #undef K_
 #undef R_INLINE
@@ -34,6 +36,7 @@
 #define VEC WrVec3f
 #define POINT WrSurfacePointf
 #define SHAPE WrShapef
+#define PROFILE WrProfilef
 #define FN(name) name##_f
 #define K_(x) ((float)(x)) /* a constant */
 #define R_LEAST 0x1p-125f  /* above it a reciprocal is finite */
@@ -48,6 +51,7 @@
 #define VEC WrVec3
 #define POINT WrSurfacePoint
 #define SHAPE WrShape
+#define PROFILE WrProfiled
 #define FN(name) name##_d
 #define K_(x) ((double)(x)) /* never an integer: K_(1) / K_(6) is a sixth */
 #define R_LEAST 0x1p-1021

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "surface/data.h"
 #include "surface/formula.h"
 #define WR_SURFACE_FORMULAS
 #include "surface/surface_list.h"
@@ -42,6 +43,8 @@ void wr_shape_default(WrSurfaceKind kind, WrShape *shape)
     WR_ASSERT(kind_exists(kind));
     memset(shape, 0, sizeof *shape);
     shape->kind = kind;
+    shape->scale = 1;
+    wr_shape_take_data(shape, wr_surface_data_default(kind));
     double *value = shape->value;
     const WrSurfaceParam *param = NULL;
     while ((param = next_param(wr_surfaces[kind], param))) {
@@ -98,6 +101,7 @@ WrVec3 wr_shape_centre(const WrShape *shape)
 {
     WR_ASSERT(kind_exists(shape->kind));
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    if (shape->data) return v3_scale(shape->data->centre, shape->scale);
     WrVec3 centre = { info->centre[0], info->centre[1], info->centre[2] };
     if (info->centre_half_ab) {
         centre.x += shape->value[wr_surface_param_offset(shape->kind, "a")] / 2;
@@ -126,7 +130,9 @@ double wr_shape_radius(const WrShape *shape)
 {
     WR_ASSERT(kind_exists(shape->kind));
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
-    double radius = info->radius ? info->radius(shape) : sampled_radius(shape);
+    double radius = shape->data    ? shape->data->radius * shape->scale
+                    : info->radius ? info->radius(shape)
+                                   : sampled_radius(shape);
     return radius > 0 ? radius : 1;
 }
 
@@ -141,6 +147,9 @@ void wr_shape_scaled(const WrShape *shape, double scale, WrShapef *out)
 {
     WR_ASSERT(kind_exists(shape->kind));
     memset(out, 0, sizeof *out);
+    out->data = shape->data;
+    out->key = shape->key;
+    out->scale = (float)(shape->scale * scale);
     int k = 0;
     const WrSurfaceParam *param = NULL;
     while ((param = next_param(wr_surfaces[shape->kind], param))) {

@@ -6,11 +6,15 @@
 #include "base/vec.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrSurfaceData WrSurfaceData;
 
 #define WR_SURFACE_VALUES 48 /* numbers that describe a surface; a bicubic patch needs 16 points */
 #define WR_SURFACE_PARAMS 6
+#define WR_SURFACE_TEXTS 3
+#define WR_SURFACE_TEXT_MAX 4000 /* bytes of each */
 #define WR_LENGTH_MIN 1e-30 /* scene units; |N|^2 stays within double's range between the two */
 #define WR_LENGTH_MAX 1e30
 
@@ -20,15 +24,23 @@ typedef enum WrSurfaceKind {
     WR_SURFACE_COUNT
 } WrSurfaceKind;
 
-/* A surface with its numbers: the values of its row's params, one after the other. */
+/* A surface with its numbers: the values of its row's params, one after the other. Compared byte by byte, after
+   wr_shape_default has set all of them. */
 typedef struct WrShape {
     WrSurfaceKind kind;
     double value[WR_SURFACE_VALUES];
+    const WrSurfaceData
+        *data;    /* made of its texts (surface/data.h), borrowed; NULL: its row has none */
+    uint64_t key; /* the data's: it tells other data at the same address */
+    double scale; /* that lengths in the data are to be multiplied by: 1 outside the renderer */
 } WrShape;
 
 /* The same in single precision, scaled for the renderer. */
 typedef struct WrShapef {
     float value[WR_SURFACE_VALUES];
+    const WrSurfaceData *data;
+    uint64_t key;
+    float scale;
 } WrShapef;
 
 /* Everything that the formulas need at one point. N is not unit, as in the paper. Where N = 0,
@@ -68,18 +80,30 @@ typedef struct WrSurfaceParam {
     const char *help; /* a few words, with the unit */
 } WrSurfaceParam;
 
+/* A text that a surface is given by. */
+typedef struct WrSurfaceText {
+    const char *name;     /* as in commands: "profile"; NULL ends the list */
+    const char *label;    /* in the window */
+    const char *fallback; /* the default */
+    const char *help;
+    const char *shape; /* how it is written: "r,z;..." */
+} WrSurfaceText;
+
 typedef struct WrSurfaceInfo {
     const char *name, *label, *help;
     WrSurfaceParam params[WR_SURFACE_PARAMS];
-    double pose_deg[3];      /* rotation x, y, z in which it first shows itself well */
-    double centre[3];        /* what turns stay about: a constant plus ... */
-    bool centre_half_ab;     /* ... (a/2, b/2, 0) where this is set (plane, bent) */
-    bool closed_u, closed_v; /* P has period 1: replication should be whole */
-    bool open;               /* a sheet: half way round, one looks at its back */
-    int faces;               /* 1; cube 6, each with its own (u,v) */
-    bool flat;               /* shape operator 0 everywhere: blinn is exact */
-    bool unit_sized;         /* fixed size (curl): not rescaled by the renderer */
-    bool convex_closed;      /* a closed convex body: front faces hide all else */
+    WrSurfaceText texts[WR_SURFACE_TEXTS];
+    bool (*make)(WrSurfaceData *data,
+                 WrError *err); /* what is made of data->text; NULL without texts */
+    double pose_deg[3];         /* rotation x, y, z in which it first shows itself well */
+    double centre[3];           /* what turns stay about: a constant plus ... */
+    bool centre_half_ab;        /* ... (a/2, b/2, 0) where this is set (plane, bent) */
+    bool closed_u, closed_v;    /* P has period 1: replication should be whole */
+    bool open;                  /* a sheet: half way round, one looks at its back */
+    int faces;                  /* 1; cube 6, each with its own (u,v) */
+    bool flat;                  /* shape operator 0 everywhere: blinn is exact */
+    bool unit_sized;            /* fixed size (curl): not rescaled by the renderer */
+    bool convex_closed;         /* a closed convex body: front faces hide all else */
     WrInversion inversion;
     /* The point and all derivatives, in double. face is 0..faces-1. */
     void (*at)(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);
@@ -87,12 +111,15 @@ typedef struct WrSurfaceInfo {
     bool (*check)(const WrShape *shape, WrError *err);
     /* Radius of a ball about the centre that holds the surface; NULL: found by sampling. */
     double (*radius)(const WrShape *shape);
+    /* Where Pv may jump, 0 < v < 1: how many, at most `most`; NULL: nowhere but at quarters. */
+    int (*corners)(const WrShape *shape, double *v, int most);
 } WrSurfaceInfo;
 
 extern const WrSurfaceInfo *const wr_surfaces[WR_SURFACE_COUNT];
 
-int wr_surface_find(const char *name);                     /* kind, or -1 */
-void wr_shape_default(WrSurfaceKind kind, WrShape *shape); /* every param at its fallback */
+int wr_surface_find(const char *name); /* kind, or -1 */
+void wr_shape_default(WrSurfaceKind kind,
+                      WrShape *shape); /* every param and text at its fallback */
 /* Where param `name` starts in shape->value, or -1. */
 int wr_surface_param_offset(WrSurfaceKind kind, const char *name);
 /* Check ranges, finiteness and the surface's own rule. */

@@ -15,6 +15,7 @@ WR_X(ribbon)
 WR_X(disc)
 WR_X(capsule)
 WR_X(superellipsoid)
+WR_X(revolution)
 #undef WR_X
 #endif
 #ifdef WR_SURFACE_FORMULAS
@@ -32,4 +33,5 @@ WR_X(superellipsoid)
 #include "surface/disc.h"
 #include "surface/capsule.h"
 #include "surface/superellipsoid.h"
+#include "surface/revolution.h"
 #endif

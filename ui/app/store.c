@@ -17,6 +17,7 @@
 #include "ui/desk/settings.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
+#include "ui/panels/panel_scene.h"
 #include "ui/panels/panel_search.h"
 #include "ui/panels/panel_status.h"
 #include "ui/patch/patch.h"
@@ -48,6 +49,7 @@ typedef struct Store {
     WrMarks marks;
     WrSelectHand select;
     WrLayersHand layers;
+    WrSurfaceHand surface;
     WrAdjust adjust;
     WrOutlineAsk selecting;
     WrFinder finder;
@@ -83,6 +85,7 @@ WrApp *wr_store_new(void)
     app->marks = &store->marks;
     app->select = &store->select;
     app->layers = &store->layers;
+    app->surface = &store->surface;
     app->adjust = &store->adjust;
     app->selecting = &store->selecting;
     app->finder = &store->finder;

@@ -53,6 +53,7 @@ typedef struct WrSession WrSession;
 typedef struct WrSettings WrSettings;
 typedef struct WrShelf WrShelf;
 typedef struct WrStampHand WrStampHand;
+typedef struct WrSurfaceHand WrSurfaceHand;
 typedef struct WrTester WrTester;
 typedef struct WrTiming WrTiming;
 typedef struct WrTool WrTool;
@@ -122,6 +123,7 @@ struct WrApp {
     WrMarks *marks;
     WrSelectHand *select;
     WrLayersHand *layers;
+    WrSurfaceHand *surface;
     WrAdjust *adjust;
     WrOutlineAsk *selecting; /* of the dialogs that change the selection */
     WrFinder *finder;

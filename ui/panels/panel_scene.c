@@ -4,12 +4,15 @@
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/panels/panel_scene.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
 #include "base/text.h"
+#include "command/call.h"
 #include "scene/param.h"
 #include "scene/scene.h"
+#include "surface/data.h"
 #include "surface/surface.h"
 
 #include <math.h>
@@ -18,7 +21,8 @@
 
 /* ---- surface ---- */
 
-static void run_surface(WrApp *app, const WrShape *shape)
+/* text: of the row's texts; NULL: the defaults. */
+static void run_surface(WrApp *app, const WrShape *shape, const char *const *text)
 {
     WrText line = { 0 };
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -32,7 +36,41 @@ static void run_surface(WrApp *app, const WrShape *shape)
             wr_text_add_number(&line, *value++);
         }
     }
+    for (int k = 0; text && k < WR_SURFACE_TEXTS && info->texts[k].name; k++) {
+        wr_text_addf(&line, " %s=", info->texts[k].name);
+        wr_text_add_word(&line, text[k]);
+    }
     wr_scene_run(app, &line);
+}
+
+/* What a surface is given by in words, each in a field that runs the command when it is left changed. */
+static void surface_texts(WrApp *app)
+{
+    const WrShape *shape = &wr_app_scene(app)->shape;
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    WrSurfaceHand *hand = app->surface;
+    const char *text[WR_SURFACE_TEXTS] = { NULL };
+    bool done = false, left = false;
+    if (!shape->data) return;
+    for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name; k++) {
+        if (hand->key != shape->key)
+            snprintf(hand->text[k], sizeof hand->text[k], "%s", shape->data->text[k]);
+        char id[16];
+        snprintf(id, sizeof id, "##text%d", k);
+        wr_gui_label(info->texts[k].label);
+        if (wr_gui_text_field(id, 0, hand->text[k], sizeof hand->text[k], false)) done = true;
+        if (wr_gui_field_left()) left = true;
+        wr_gui_tip(info->texts[k].help);
+        text[k] = hand->text[k];
+    }
+    hand->key = shape->key;
+    if (!done && !left) return;
+    if (left && wr_gui_escape_pressed()) hand->key = 0; /* taken anew */
+    for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name && hand->key; k++) {
+        if (strcmp(hand->text[k], shape->data->text[k]) == 0) continue;
+        run_surface(app, shape, text);
+        return;
+    }
 }
 
 static void surface_params(WrApp *app)
@@ -60,7 +98,8 @@ static void surface_params(WrApp *app)
             WrEdit edit = wr_gui_number(label, 0, &spec, &shape.value[offset + i]);
             if (edit == WR_EDIT_LIVE && wr_shape_check(&shape, NULL))
                 wr_app_live(app)->shape = shape;
-            if (edit == WR_EDIT_DONE) run_surface(app, &shape);
+            if (edit == WR_EDIT_DONE)
+                run_surface(app, &shape, shape.data ? (const char *const *)shape.data->text : NULL);
         }
         offset += p->components;
     }
@@ -76,10 +115,11 @@ static void surface(WrApp *app)
     if (wr_gui_choice("patch", 0, labels, WR_SURFACE_COUNT, &kind)) {
         WrShape shape;
         wr_shape_default((WrSurfaceKind)kind, &shape);
-        run_surface(app, &shape);
+        run_surface(app, &shape, NULL);
     }
     wr_gui_tip(wr_surfaces[kind]->help);
     surface_params(app);
+    surface_texts(app);
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_REPLICATE];
     const WrNumber spec = wr_param_slider(param);
     double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;

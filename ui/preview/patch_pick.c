@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/vec.h"
 #include "scene/scene.h"
+#include "surface/data.h"
 #include "surface/surface.h"
 
 #include <float.h>
@@ -130,6 +131,7 @@ WrPatchPick *wr_patch_pick_new(const WrScene *scene, double turn_deg, int width,
     if (!wr_scene_place(scene, turn_deg, aspect, &at, err)) return NULL;
     WrPatchPick *pick = wr_alloc(1, sizeof *pick);
     pick->shape = scene->shape;
+    wr_shape_take_data(&pick->shape, wr_surface_data_share(scene->shape.data));
     pick->info = wr_surfaces[scene->shape.kind];
     pick->orthographic = at.orthographic;
     pick->radius = at.radius;
@@ -158,6 +160,7 @@ WrPatchPick *wr_patch_pick_new(const WrScene *scene, double turn_deg, int width,
 void wr_patch_pick_free(WrPatchPick *pick)
 {
     if (!pick) return;
+    wr_surface_data_free((WrSurfaceData *)pick->shape.data);
     wr_free(pick->knots);
     wr_free(pick->bounds);
     wr_free(pick);
