@@ -279,6 +279,16 @@ typedef struct Off {
     double apart; /* how far a picture may be off when the effect is forced; or NOTHING */
 } Off;
 
+/* A wall before the sphere; beside it both are seen. */
+static void one_behind(Stage *stage)
+{
+    WrScene *scene = stage->scene, *wall = wr_scene_clone(scene);
+    wr_shape_default(WR_SURFACE_plane, &wall->shape);
+    wall->at = (WrVec3){ -0.6, 0, 1.2 };
+    scene->others = wr_alloc(1, sizeof *scene->others);
+    scene->others[scene->other_count++] = wall;
+}
+
 typedef struct Case {
     Change on; /* NULL: it runs by force alone */
     Off off[5];
@@ -332,6 +342,8 @@ static const Case cases[WR_EFFECT_COUNT] = {
                            { smooth_cone, 0 },
                            { dark, NOTHING } } },
     [WR_EFFECT_GROUND] = { keep_all, { { mostly_level, 0 }, { smooth, NOTHING } } },
+    [WR_EFFECT_HIDDEN] = { NULL, { { one_behind, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_BETWEEN] = { one_behind, { { keep_all, NOTHING } } },
 };
 
 static Stage stage_of(Change change)

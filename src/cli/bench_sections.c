@@ -1,6 +1,7 @@
 /* The table of sections, and the pictures that each compares. */
 #include "cli/bench_sections.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/rows.h"
 #include "cli/bench.h"
 #include "render/kern.h"
@@ -182,6 +183,26 @@ static void from_behind(WrScene *scene)
     scene->lights[0].where = (WrVec3){ 0.2, 0.9, -1 };
 }
 
+/* One more of it there. */
+static void add_another(WrScene *scene, WrVec3 at, double size)
+{
+    WrScene *other = wr_scene_clone(scene);
+    other->at = at;
+    other->size = size;
+    scene->others = wr_alloc(1, sizeof *scene->others);
+    scene->others[scene->other_count++] = other;
+}
+
+static void beside(WrScene *scene)
+{
+    add_another(scene, (WrVec3){ 0.6, 0.1, -0.4 }, 1);
+}
+
+static void behind(WrScene *scene)
+{
+    add_another(scene, (WrVec3){ 0, 0, -2 }, 0.5);
+}
+
 static void orthographic(WrScene *scene)
 {
     scene->camera.orthographic = true;
@@ -247,6 +268,8 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_TANGENTS)] = { SMOOTH, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_DARK)] = { BUMPED, .with = from_behind, .forced = true },
     [WR_ROW(WR_EFFECT_GROUND)] = { BUMPED, .with = same, .without = smooth },
+    [WR_ROW(WR_EFFECT_HIDDEN)] = { BUMPED, .with = behind, .forced = true },
+    [WR_ROW(WR_EFFECT_BETWEEN)] = { BUMPED, .with = beside, .without = same },
 };
 WR_ROWS_END(effects, WR_EFFECT_COUNT);
 

@@ -126,7 +126,7 @@ static void put_view(const WrSceneView *view, WrLineSink *sink, void *ctx)
     WrText text = { 0 };
     WrScene *scene = wr_scene_new();
     wr_scene_set_view(scene, view);
-    if (!view->posed) wr_text_add(&text, "rotate pose=own\n");
+    if (view->of_one && !view->posed) wr_text_add(&text, "rotate pose=own\n");
     wr_print_rotate(scene, &text);
     wr_print_camera(scene, &text);
     for (const char *p = wr_text_get(&text); *p;) {

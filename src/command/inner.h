@@ -223,7 +223,14 @@ WrHandler wr_run_undo, wr_run_redo, wr_run_view; /* history_commands.c */
 /* The scene's canonical lines: each command's row prints its own. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
 WrScenePrinter wr_print_rotate, wr_print_camera, wr_print_colour;
-/* All of them; a colour picture as what its content is, wherever its file lies. */
+void wr_print_object(const WrScene *scene, int i,
+                     WrText *text);                       /* of several: adds it, with its place */
+void wr_print_chosen(const WrScene *scene, WrText *text); /* where that is not the last one */
+/* All of them; of several objects each one's own lines, then those that all share. after: is called after each command's
+   lines, or NULL. */
+typedef void WrScenePart(void *ctx, const WrCommand *command, WrText *text);
+void wr_print_scene(const WrScene *scene, WrScenePart *after, void *ctx, WrText *text);
+/* The same; a colour picture as what its content is, wherever its file lies. */
 void wr_print_identity(const WrScene *scene, WrText *text);
 
 /* Words of choices, index past the last gives NULL. */

@@ -286,6 +286,7 @@ const WrCommand wr_command_material = { .name = "material",
                                         .row = row_material,
                                         .run = run_material,
                                         .print = print_material,
+                                        .of_object = true,
                                         .help = "what the surface reflects",
                                         .details = "Only what is given changes.",
                                         .example =
@@ -297,6 +298,7 @@ const WrCommand wr_command_colour = {
     .args = args_colour,
     .run = run_colour,
     .print = wr_print_colour,
+    .of_object = true,
     .help = "a colour picture on the surface",
     .details =
         "8-bit and 16-bit pictures are decoded from sRGB, float ones taken as linear; alpha is "

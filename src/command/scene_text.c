@@ -4,7 +4,8 @@
 #include "command/inner.h"
 
 #include "base/text.h"
-#include "scene/scene.h"
+#include "command/commands.h"
+#include "scene/objects.h"
 
 #include <string.h>
 
@@ -15,10 +16,51 @@ static void print_colour_content(const WrScene *scene, WrText *text)
     else wr_print_colour(scene, text);
 }
 
+typedef void Printer(const WrCommand *command, const WrScene *scene, WrText *text);
+
+static void print_named(const WrCommand *command, const WrScene *scene, WrText *text)
+{
+    command->print(scene, text);
+}
+
+static void print_content(const WrCommand *command, const WrScene *scene, WrText *text)
+{
+    if (command == &wr_command_colour) print_colour_content(scene, text);
+    else command->print(scene, text);
+}
+
+/* Lines of the object's own; its turn is told with its place. */
+static void print_own(const WrScene *scene, int object, Printer *printer, WrText *text)
+{
+    wr_print_object(scene, object, text);
+    for (int i = 0; i < wr_command_count; i++) {
+        const WrCommand *command = wr_commands[i];
+        if (command->of_object && command != &wr_command_rotate && command != &wr_command_object)
+            printer(command, wr_scene_object(scene, object), text);
+    }
+}
+
+static void print_scene(const WrScene *scene, Printer *printer, WrScenePart *after, void *ctx,
+                        WrText *text)
+{
+    const bool several = wr_scene_object_count(scene) > 1;
+    for (int i = 0; several && i < wr_scene_object_count(scene); i++)
+        print_own(scene, i, printer, text);
+    for (int i = 0; i < wr_command_count; i++) {
+        const WrCommand *command = wr_commands[i];
+        if (!command->print || (several && command->of_object)) continue;
+        printer(command, scene, text);
+        if (after) after(ctx, command, text);
+    }
+    wr_print_chosen(scene, text);
+}
+
+void wr_print_scene(const WrScene *scene, WrScenePart *after, void *ctx, WrText *text)
+{
+    print_scene(scene, print_named, after, ctx, text);
+}
+
 void wr_print_identity(const WrScene *scene, WrText *text)
 {
-    for (int i = 0; i < wr_command_count; i++) {
-        if (strcmp(wr_commands[i]->name, "colour") == 0) print_colour_content(scene, text);
-        else if (wr_commands[i]->print) wr_commands[i]->print(scene, text);
-    }
+    print_scene(scene, print_content, NULL, NULL, text);
 }

@@ -392,8 +392,7 @@ const char *wr_session_path(const WrSession *session)
 
 void wr_session_scene_text(const WrSession *session, WrText *text)
 {
-    for (int i = 0; i < wr_command_count; i++)
-        if (wr_commands[i]->print) wr_commands[i]->print(session->state.document->scene, text);
+    wr_print_scene(session->state.document->scene, NULL, NULL, text);
 }
 
 WrHash wr_session_hash_with(const WrSession *session, const WrScene *scene)

@@ -84,15 +84,16 @@ static void add_chosen(WrSession *session, WrText *text)
     wr_text_fini(&chosen);
 }
 
+/* The line of a tolerance goes on. */
+static void go_on(void *ctx, const WrCommand *command, WrText *text)
+{
+    if (strcmp(command->name, "tolerance") != 0) return;
+    text->data[--text->length] = '\0';
+    add_chosen(ctx, text);
+    wr_text_add(text, "\n");
+}
+
 void wr_session_kept_text(WrSession *session, WrText *text)
 {
-    const WrScene *scene = session->state.document->scene;
-    for (int i = 0; i < wr_command_count; i++) {
-        if (!wr_commands[i]->print) continue;
-        wr_commands[i]->print(scene, text);
-        if (strcmp(wr_commands[i]->name, "tolerance") != 0) continue;
-        text->data[--text->length] = '\0'; /* the line goes on */
-        add_chosen(session, text);
-        wr_text_add(text, "\n");
-    }
+    wr_print_scene(session->state.document->scene, go_on, (void *)session, text);
 }

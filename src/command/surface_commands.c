@@ -9,7 +9,7 @@
 #include "document/document.h"
 #include "field/analytic.h"
 #include "scene/param.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 #include "surface/data.h"
 
 #include <math.h>
@@ -127,6 +127,12 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
 static bool run_rotate(WrSession *session, WrCall *call, WrError *err)
 {
     bool own = wr_call_given(call, "pose"), turned = wr_call_given(call, "x,y,z");
+    const int objects = wr_scene_object_count(session->state.document->scene);
+    if (objects > 1)
+        return wr_fail(err,
+                       "the scene has %d objects: `object set turn=x,y,z` turns the chosen one, "
+                       "`camera` looks from elsewhere",
+                       objects);
     if (own == turned) return wr_fail(err, "needs one of x,y,z and pose=own");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     scene->posed = turned;
@@ -320,6 +326,7 @@ const WrCommand wr_command_surface = { .name = "surface",
                                        .form = form_surface,
                                        .run = run_surface,
                                        .print = print_surface,
+                                       .of_object = true,
                                        .help = "the surface that the table wrinkles",
                                        .details =
                                            "Parameters that are left out take their defaults.",
@@ -331,6 +338,7 @@ const WrCommand wr_command_rotate = {
     .row = row_rotate,
     .run = run_rotate,
     .print = wr_print_rotate,
+    .of_object = true,
     .help = "the object's orientation",
     .details =
         "It replaces the pose in which the surface first shows itself, and turns about the "
@@ -346,6 +354,7 @@ const WrCommand wr_command_analytic = {
     .form = form_analytic,
     .run = run_analytic,
     .print = print_analytic,
+    .of_object = true,
     .help = "a formula in place of the table",
     .details = "It is evaluated at (ru u, rv v) reduced to [0,1), like a table, with exact "
                "derivatives.",
@@ -357,6 +366,7 @@ const WrCommand wr_command_bump = { .name = "bump",
                                     .row = row_bump,
                                     .run = run_bump,
                                     .print = print_bump,
+                                    .of_object = true,
                                     .help = "how the table turns the normal",
                                     .details = "Only what is given changes.",
                                     .example = "bump mode=exact height=0.05" };
@@ -366,5 +376,6 @@ const WrCommand wr_command_replicate = { .name = "replicate",
                                          .row = row_replicate,
                                          .run = run_replicate,
                                          .print = print_replicate,
+                                         .of_object = true,
                                          .help = "how often the table repeats over the surface",
                                          .example = "replicate 6,3" };

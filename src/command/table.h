@@ -108,6 +108,7 @@ typedef struct WrCommand {
     bool (*run)(WrSession *session, WrCall *call, WrError *err);
     /* Scene commands and views: the canonical lines that restore this part of a scene, each with its line end. */
     void (*print)(const WrScene *scene, WrText *text);
+    bool of_object; /* scene commands: it is about the object at hand, else about all */
 } WrCommand;
 
 /* In the order of help; the scene's in the order in which a document keeps them. */

@@ -7,7 +7,7 @@
 #include "field/field.h"
 #include "render/frame_inner.h"
 #include "render/pipe.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 #include "system/clock.h"
 
 #include <math.h>
@@ -51,16 +51,25 @@ static void drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
         if (&renderer->meshes[i] != but) wr_view_mesh_fini(&renderer->meshes[i]);
 }
 
-void wr_renderer_free(WrRenderer *renderer)
+void wr_renderer_forget(WrRenderer *renderer)
 {
-    if (!renderer) return;
     forget_view(renderer);
     wr_keep_fini(&renderer->keep);
     wr_frame_drop_tables(renderer);
     drop_meshes(renderer, NULL);
     wr_sight_fini(&renderer->sight);
+}
+
+void wr_renderer_free(WrRenderer *renderer)
+{
+    if (!renderer) return;
+    wr_renderer_forget(renderer);
+    wr_group_free(renderer);
     for (int i = 0; i < renderer->threads; i++) {
-        if (renderer->scratch[i]) wr_free(renderer->scratch[i]->wide);
+        if (renderer->scratch[i]) {
+            wr_free(renderer->scratch[i]->wide);
+            wr_free(renderer->scratch[i]->nearest);
+        }
         wr_free(renderer->scratch[i]);
     }
     wr_free(renderer->scratch);
@@ -89,10 +98,9 @@ static void drop_picture(WrRenderer *renderer)
     renderer->width = renderer->height = 0;
 }
 
-/* Memory for what is asked for. One band takes the next one's place. */
-static bool resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+/* One band takes the next one's place. */
+static bool bring_memory(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
-    if (!check_size(request, err)) return false;
     const bool banded = request->rows > 0, codes = request->codes.wanted;
     const int width = request->width, height = request->height;
     const int rows = banded ? request->rows : height;
@@ -105,27 +113,39 @@ static bool resize(WrRenderer *renderer, const WrFrameRequest *request, WrError 
         renderer->codes = wr_try_alloc(room, sizeof *renderer->codes, "picture", err);
     if (!codes && !renderer->rgba)
         renderer->rgba = wr_try_alloc(room, 4 * sizeof(float), "picture", err);
-    if (codes ? !renderer->codes : !renderer->rgba) return false;
-    renderer->width = width;
-    renderer->height = height;
-    renderer->banded = banded;
-    renderer->top = banded ? request->first : 0;
-    renderer->rows = rows;
-    return true;
+    return codes ? renderer->codes != NULL : renderer->rgba != NULL;
 }
 
-typedef struct FrameJob {
-    WrTileJob tile;
-    WrTileScratch **scratch;
-    int tiles_u;
-    const unsigned char *only; /* WrFrameRequest's */
-    const WrKeep *keep;        /* render only what this one's changes touch; NULL: all */
-    const volatile int *cancel;
-} FrameJob;
+bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    if (!check_size(request, err)) return false;
+    if (!renderer->among && !bring_memory(renderer, request, err)) return false;
+    renderer->banded = request->rows > 0;
+    renderer->width = request->width;
+    renderer->height = request->height;
+    renderer->top = renderer->banded ? request->first : 0;
+    renderer->rows = renderer->banded ? request->rows : request->height;
+    return true;
+}
 
 static int least(int a, int b)
 {
     return a < b ? a : b;
+}
+
+static void render_part(const FrameJob *job, WrTilePart part, int index, WrTileScratch *scratch)
+{
+    if (job->objects)
+        wr_tile_render_group(&job->tile, job->objects, job->count, part, index, scratch);
+    else wr_tile_render(&job->tile, part, index, scratch);
+}
+
+/* Do the changes of a resting view's tables reach the tile? */
+static bool touches(const FrameJob *job, int index)
+{
+    bool any = job->keep_count == 0;
+    for (int i = 0; i < job->keep_count && !any; i++) any = wr_keep_touches(job->keeps[i], index);
+    return any;
 }
 
 /* The tile's blocks that are asked for, those beside each other at once: long rows are faster. */
@@ -139,8 +159,7 @@ static void render_asked(const FrameJob *job, WrTilePart tile, int index, WrTile
         next = x;
         while (next < end && (row[next / WR_FRAME_BLOCK] != 0) == asked)
             next = least(end, (next / WR_FRAME_BLOCK + 1) * WR_FRAME_BLOCK);
-        if (asked)
-            wr_tile_render(&job->tile, (WrTilePart){ x, tile.y, next - x, tile.h }, index, scratch);
+        if (asked) render_part(job, (WrTilePart){ x, tile.y, next - x, tile.h }, index, scratch);
     }
 }
 
@@ -154,10 +173,10 @@ static void render_tile(int index, int worker, void *ctx)
     part.h = least(tile->rows - part.y, tile->tile_h);
     part.y += tile->top;
     if (job->cancel && *job->cancel) return;
-    if (job->keep && !wr_keep_touches(job->keep, index)) return;
+    if (!touches(job, index)) return;
     const double start = wr_clock_seconds();
     if (job->only) render_asked(job, part, index, job->scratch[worker]);
-    else wr_tile_render(tile, part, index, job->scratch[worker]);
+    else render_part(job, part, index, job->scratch[worker]);
     job->scratch[worker]->all += wr_clock_seconds() - start;
 }
 
@@ -171,15 +190,15 @@ static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJo
     job->backdrop &= 0xffffffU; /* no alpha while nothing is there */
 }
 
-static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
-                          const WrKernels *kernels)
+WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrPlan *plan = &renderer->plan;
     WrTileJob job = { .view = &renderer->view,
                       .plan = plan,
                       .scene = renderer->scene,
                       .pipe = plan->shading_double ? &wr_pipe_double : &wr_pipe,
-                      .kernels = kernels,
+                      .kernels =
+                          request ? renderer->kernels : wr_kernels_get(renderer->isa, false, NULL),
                       .kernels_double = wr_kernels_double(renderer->isa, NULL),
                       .mesh = renderer->mesh,
                       .newton = renderer->mesh && plan->newton != 0,
@@ -194,10 +213,16 @@ static WrTileJob make_job(WrRenderer *renderer, const WrFrameRequest *request,
                       .bins = renderer->bins,
                       .coder = wr_kernels_get(renderer->isa, false, NULL) };
     if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
-    if (request) wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
     if (request) job.normals = request->normals, job.map = request->map;
     wr_tile_size(job.samples, plan->sampling == WR_SAMPLING_ADAPTIVE, request && request->only,
                  &job.tile_w, &job.tile_h);
+    return job;
+}
+
+WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
+{
+    WrTileJob job = wr_frame_canvas(renderer, request);
+    if (request) wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
     return job;
 }
 
@@ -227,12 +252,12 @@ static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bo
                            request->turn_deg, request->width, request->height, outside, err);
 }
 
-static bool may_keep(const WrFrameRequest *request)
+bool wr_frame_may_keep(const WrFrameRequest *request)
 {
     return request->keep && !request->only && !request->rows;
 }
 
-static bool same_output(const WrFrameCodes *a, const WrFrameCodes *b)
+bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
 {
     return a->wanted == b->wanted &&
            (!a->wanted || memcmp(a->background, b->background, sizeof a->background) == 0);
@@ -243,9 +268,10 @@ static bool rests(WrRenderer *renderer, const WrFrameRequest *request, const WrP
                   const WrKernels *kernels)
 {
     const bool mapped = !request->map || request->map == renderer->last.map;
-    return may_keep(request) && !request->normals && mapped && same_view(renderer, request) &&
-           same_output(&renderer->last.codes, &request->codes) && renderer->kernels == kernels &&
-           wr_plan_same(before, &renderer->plan) &&
+    return wr_frame_may_keep(request) && !request->normals && mapped &&
+           same_view(renderer, request) &&
+           wr_frame_same_output(&renderer->last.codes, &request->codes) &&
+           renderer->kernels == kernels && wr_plan_same(before, &renderer->plan) &&
            wr_keep_compare(&renderer->keep, renderer->looked,
                            wr_schemes[renderer->plan.scheme].reach + 2);
 }
@@ -264,8 +290,7 @@ static bool view_stands(const WrRenderer *renderer, const WrFrameRequest *reques
 }
 
 /* Where adaptive sampling does not pay, or no bound that it shall go by is known, all samples are taken. */
-static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request,
-                          const WrKernels *kernels, WrPlanAsk *ask)
+static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask)
 {
     WrPlan *plan = &renderer->plan;
     const WrForce *force = request->force;
@@ -273,7 +298,7 @@ static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request,
     ask->facts.lively = plan->refine == WR_REFINE_BOUND && !wr_plan_runs(plan, WR_EFFECT_BOUND);
     if (!ask->facts.lively) {
         wr_frame_start_counts(renderer);
-        const WrTileJob job = make_job(renderer, request, kernels);
+        const WrTileJob job = wr_frame_job(renderer, request);
         ask->facts.lively = !wr_refine_pays(&job, renderer->scratch[0]);
     }
     if (ask->facts.lively) wr_plan_samples(plan, ask);
@@ -332,9 +357,9 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request,
     WrSightKey key;
     if (!renderer->mesh) wr_sight_fini(&renderer->sight);
     const bool small = (int64_t)request->width * request->height <= SIGHT_MOST;
-    renderer->sighting = small && may_keep(request) && renderer->mesh && plan->newton != 0 &&
-                         plan->sampling == WR_SAMPLING_ONE && !plan->shading_double &&
-                         !request->full &&
+    renderer->sighting = small && !renderer->among && wr_frame_may_keep(request) &&
+                         renderer->mesh && plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&
+                         !plan->shading_double && !request->full &&
                          !(force && (force[WR_EFFECT_DEPTH] || force[WR_EFFECT_NEWTON]));
     if (!renderer->sighting) return false;
     const WrTileJob job = { .plan = plan, .scene = renderer->scene };
@@ -344,76 +369,119 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request,
     return false;
 }
 
-/* Render the tiles. False if told to stop. */
-static bool run_tiles(WrRenderer *renderer, const WrFrameRequest *request, FrameJob *job)
+static int tiles_across(const WrTileJob *tile)
 {
-    job->tiles_u = (request->width + job->tile.tile_w - 1) / job->tile.tile_w;
-    int tiles = job->tiles_u * ((job->tile.rows + job->tile.tile_h - 1) / job->tile.tile_h);
-    job->only = request->only;
-    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
-        job->keep = &renderer->keep;
-    } else {
-        wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
-        job->cancel = request->cancel;
-        if (may_keep(request)) {
-            wr_keep_start(&renderer->keep, tiles);
-            job->tile.seen = renderer->keep.seen;
-        }
-    }
-    const bool whole = wr_pool_run_told(renderer->pool, tiles, render_tile, job);
+    return (tile->width + tile->tile_w - 1) / tile->tile_w;
+}
+
+int wr_frame_tiles(const WrTileJob *tile)
+{
+    return tiles_across(tile) * ((tile->rows + tile->tile_h - 1) / tile->tile_h);
+}
+
+bool wr_frame_run(WrRenderer *renderer, FrameJob *job)
+{
+    job->tiles_u = tiles_across(&job->tile);
+    const bool whole =
+        wr_pool_run_told(renderer->pool, wr_frame_tiles(&job->tile), render_tile, job);
     return whole && (!job->cancel || !*job->cancel);
 }
 
-bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
-                       WrError *err)
+bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
-    const double started = wr_clock_seconds();
     const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
     const WrKernels *kernels =
         wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, err);
-    if (!kernels || !resize(renderer, request, err)) return false;
+    if (!kernels) return false;
     const WrPlan before = renderer->plan;
     WrPlanAsk ask = {
         .scene = request->scene, .dials = dials, .force = request->force, .full = request->full
     };
     ask.facts.normals = request->normals;
+    ask.facts.among = renderer->among;
     if (!find_outside(renderer, request, &ask.facts.outside, err)) return false;
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
     if (!wr_frame_prepare_colour(renderer, request, err)) return false;
     const bool stands = view_stands(renderer, request, &before, &ask);
-    if (stands) look_for_life(renderer, request, kernels, &ask);
-    ask.facts.rests = rests(renderer, request, &before, kernels);
+    ask.facts.rests = false;
+    const WrKernels *last = renderer->kernels;
+    renderer->kernels = kernels;
+    if (stands) look_for_life(renderer, request, &ask);
+    ask.facts.rests = rests(renderer, request, &before, last);
     wr_plan_again(&renderer->plan, &ask);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
         wr_keep_fini(&renderer->keep);
         renderer->outside = ask.facts.outside;
         if (!prepare_view(renderer, request, kernels, err)) return false;
-        if (!stands) look_for_life(renderer, request, kernels, &ask);
+        if (!stands) look_for_life(renderer, request, &ask);
     }
-    ask.facts.sighted = bring_sight(renderer, request, kernels);
+    ask.facts.sighted = renderer->sighted = bring_sight(renderer, request, kernels);
     wr_plan_again(&renderer->plan, &ask);
+    return true;
+}
+
+/* The tiles of a resting view that its edits reach, or all; then what those look at is noted. */
+static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, FrameJob *job,
+                       const WrKeep *const *own)
+{
+    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
+        job->keeps = own, job->keep_count = 1;
+        return;
+    }
+    wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
+    job->cancel = request->cancel;
+    if (!wr_frame_may_keep(request)) return;
+    wr_keep_start(&renderer->keep, wr_frame_tiles(&job->tile));
+    job->tile.seen = renderer->keep.seen;
+}
+
+void wr_frame_shown(WrRenderer *renderer)
+{
+    if (renderer->sighting) renderer->sight.whole = true;
+    if (renderer->keep.seen) wr_keep_field(&renderer->keep, renderer->looked);
+}
+
+bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
+                       WrError *err)
+{
+    if (wr_scene_object_count(request->scene) > 1 || request->scene->hidden)
+        return wr_group_frame(renderer, request, frame, err);
+    const double started = wr_clock_seconds();
+    const WrKeep *const own = &renderer->keep;
+    wr_group_free(renderer);
+    if (!wr_frame_resize(renderer, request, err)) return false;
+    if (!wr_frame_prepare(renderer, request, err)) return false;
     wr_frame_start_counts(renderer);
-    FrameJob job = { .tile = make_job(renderer, request, kernels), .scratch = renderer->scratch };
+    FrameJob job = { .tile = wr_frame_job(renderer, request),
+                     .scratch = renderer->scratch,
+                     .only = request->only };
     if (renderer->sighting) job.tile.sight = &renderer->sight;
-    job.tile.seen_before = ask.facts.sighted;
+    job.tile.seen_before = renderer->sighted;
+    start_keep(renderer, request, &job, &own);
     const double prepared = wr_clock_seconds() - started;
-    if (!run_tiles(renderer, request, &job)) {
+    if (!wr_frame_run(renderer, &job)) {
         wr_keep_fini(&renderer->keep);
         return wr_fail(err, "cancelled");
     }
-    if (renderer->sighting) renderer->sight.whole = true;
-    if (renderer->keep.seen) wr_keep_field(&renderer->keep, renderer->looked);
-    renderer->kernels = kernels;
+    wr_frame_shown(renderer);
     wr_frame_account(renderer, prepared, started, frame);
     return true;
 }
 
 bool wr_renderer_pick(WrRenderer *renderer, double x, double y, double *u, double *v, int *face)
 {
-    if (!renderer->seen || !(x >= 0 && y >= 0 && x < renderer->width && y < renderer->height))
-        return false;
-    const WrKernels *kernels = wr_kernels_get(renderer->isa, false, NULL);
-    WrTileJob job = make_job(renderer, NULL, kernels);
+    int object;
+    return wr_renderer_pick_object(renderer, x, y, &object, u, v, face);
+}
+
+bool wr_renderer_pick_object(WrRenderer *renderer, double x, double y, int *object, double *u,
+                             double *v, int *face)
+{
+    if (!(x >= 0 && y >= 0 && x < renderer->width && y < renderer->height)) return false;
+    if (renderer->group) return wr_group_pick(renderer, x, y, object, u, v, face);
+    *object = 0;
+    if (!renderer->seen) return false;
+    WrTileJob job = wr_frame_job(renderer, NULL);
     return wr_tile_pick(&job, (int)(x * renderer->samples), (int)(y * renderer->samples),
                         renderer->scratch[0], u, v, face);
 }

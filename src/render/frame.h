@@ -36,6 +36,8 @@ typedef enum WrMapBit {
 
 typedef struct WrFrameRequest {
     const WrField *field; /* borrowed for the call */
+    /* The tables of a scene's objects (objects.h), in their order, [objects]; NULL entries, and NULL: `field`. */
+    const WrField *const *fields;
     const WrScene *scene;
     int width, height; /* pixels, 1..16384 each */
     /* A band of the picture: its rows [first, first + rows) alone, with the bits that they have in the
@@ -110,3 +112,6 @@ void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out);
 /* The (u,v) under a pixel position (from the top left, pixels) of the last frame; false where the
    object is not. face: 0 but on the cube. */
 bool wr_renderer_pick(WrRenderer *renderer, double x, double y, double *u, double *v, int *face);
+/* The same, and which of the scene's objects it is that is seen there. */
+bool wr_renderer_pick_object(WrRenderer *renderer, double x, double y, int *object, double *u,
+                             double *v, int *face);

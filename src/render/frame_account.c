@@ -13,6 +13,8 @@ void wr_frame_start_counts(WrRenderer *renderer)
         WrTileScratch *s = renderer->scratch[i];
         const bool wide = wr_plan_runs(&renderer->plan, WR_EFFECT_DOUBLE);
         if (wide && !s->wide) s->wide = wr_alloc(3, sizeof *s->wide);
+        if (renderer->group && !s->nearest)
+            s->nearest = wr_alloc(WR_TILE_SAMPLES_H, sizeof *s->nearest);
         memset(s->seconds, 0, sizeof s->seconds);
         memset(s->whole, 0, sizeof s->whole);
         s->all = s->all_strips = 0;

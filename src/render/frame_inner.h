@@ -1,5 +1,5 @@
 /* frame_inner.h - what a renderer holds from frame to frame.
-   Layer 5, private to frame.c, frame_table.c, frame_account.c. */
+   Layer 5, private to frame.c, frame_table.c, frame_account.c, group.c. */
 #pragma once
 #include "field/wrap.h"
 #include "render/frame.h"
@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 typedef struct WrImage WrImage;
+typedef struct WrGroup WrGroup;
 
 #define WR_HELD_MESHES 5 /* for 1, 2, 4, 8 and 16 samples a side */
 
@@ -53,13 +54,56 @@ struct WrRenderer {
     WrShape sized; /* whose radius this is; 0: of none */
     double radius;
     bool seen;     /* view and scene are set */
+    bool sighted;  /* `sight` knows what it looks at */
     bool sighting; /* this frame uses or fills `sight` */
     bool outside;  /* the eye of that view is outside the surface */
     WrKeep keep;
     WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
-    const WrKernels *kernels; /* that it was made with */
+    const WrKernels *kernels; /* of this frame, once it is prepared; then of the last */
     int64_t covered;
+    WrGroup *group; /* of several objects; NULL: none yet. Owned */
+    int among;      /* a part of a group: objects that are shown; else 0 */
 };
+
+/* A frame of tiles: of one object, or of several, whose jobs are in the order in which they are drawn. */
+typedef struct FrameJob {
+    WrTileJob tile;             /* of several objects: where pixels go */
+    const WrTileJob *objects;   /* [count]; NULL: `tile` is the one object's */
+    const WrKeep *const *keeps; /* [keep_count]: render only what their changes touch ... */
+    int count, keep_count;      /* ... 0: all */
+    WrTileScratch **scratch;
+    int tiles_u;
+    const unsigned char *only; /* WrFrameRequest's */
+    const volatile int *cancel;
+} FrameJob;
+
+/* A picture of several objects (group.c): each is a part, a renderer of its own that borrows this one's threads, scratch
+   and picture. */
+bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
+                    WrError *err);
+bool wr_group_pick(WrRenderer *renderer, double x, double y, int *object, double *u, double *v,
+                   int *face);
+void wr_group_free(WrRenderer *renderer);
+
+/* ---- frame.c ---- */
+
+/* Memory for the picture that is asked for, or, of a part, its numbers alone. */
+bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+/* All that a frame of one object needs before its tiles; false where it cannot be. */
+bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+/* Where its tiles go, and of what size they are; request NULL: for picking. */
+WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request);
+/* The same, and what they look up. */
+WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request);
+/* The picture shows the table as it is now. */
+void wr_frame_shown(WrRenderer *renderer);
+int wr_frame_tiles(const WrTileJob *tile); /* of the picture */
+/* Render the tiles. False if told to stop. */
+bool wr_frame_run(WrRenderer *renderer, FrameJob *job);
+bool wr_frame_may_keep(const WrFrameRequest *request);
+bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b);
+void wr_renderer_forget(
+    WrRenderer *renderer); /* all that a renderer holds but its threads' scratch */
 
 /* Decide, make what the decision needs, and decide again once the gradient table is known. ask: its facts of the
    table are filled in. */

@@ -64,6 +64,7 @@ static bool lit(const WrSink *sink)
 
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"
+#include "render/pipe_depth_body.h"
 
 /* Where on the surface each pixel lies, and how far its normal turns there. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
@@ -141,6 +142,8 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
 {
     const bool level = is_level(job, strip);
     surface_strip(job, face, level, strip, watch);
+    if (sink->nearest) keep_near(job, sink, strip, watch);
+    if (strip->count == 0) return 0;
     const bool dark = is_dark(job, rays, level, strip);
     const unsigned spared = (level ? WR_RUN_LEVEL : 0) | (dark ? WR_RUN_DARK : 0);
     if (runs(job, WR_EFFECT_GROUND) && !dark) did(watch, WR_EFFECT_GROUND);
@@ -170,7 +173,13 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
     if (sink->uv) store_parameters(sink, strip);
-    if (job->plan->normals) spared = normal_strip(job, rays, face, sink, strip, scratch, watch);
+    if (job->plan->normals) {
+        spared = normal_strip(job, rays, face, sink, strip, scratch, watch);
+    } else if (sink->nearest) {
+        surface_strip(job, face, true, strip, watch);
+        keep_near(job, sink, strip, watch);
+    }
+    if (strip->count == 0) return spared;
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
     if (!lit(sink)) return spared;
@@ -282,6 +291,7 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
     if (strip->count == 0) return;
     note_view(job, rays, scratch);
     const unsigned spared = shade_strip(job, rays, quad, sink, strip, scratch, watch);
+    if (strip->count == 0) return;
     if (lit(sink)) scratch->spared[spared] += strip->count;
     if (job->map) note_map(job, rays, spared, strip, scratch);
     store(job, sink, strip, scratch);

@@ -116,6 +116,7 @@ static const WrCost stage_costs[] = {
     [WR_ROW(WR_STAGE_RESOLVE)] = WR_COST_STORE,
     [WR_ROW(WR_STAGE_STORE)] = WR_COST_STORE,
     [WR_ROW(WR_STAGE_CLEAR)] = WR_COST_CLEAR,
+    [WR_ROW(WR_STAGE_BETWEEN)] = WR_COST_VISIBILITY,
 };
 WR_ROWS_END(stage_costs, WR_STAGE_COUNT);
 

@@ -49,6 +49,8 @@ typedef enum WrEffect {
     WR_EFFECT_TANGENTS,
     WR_EFFECT_DARK,
     WR_EFFECT_GROUND,
+    WR_EFFECT_HIDDEN,
+    WR_EFFECT_BETWEEN,
     WR_EFFECT_COUNT
 } WrEffect;
 
@@ -73,6 +75,7 @@ typedef enum WrStage {
     WR_STAGE_RESOLVE,
     WR_STAGE_STORE,
     WR_STAGE_CLEAR,
+    WR_STAGE_BETWEEN, /* depths of several objects compared */
     WR_STAGE_COUNT
 } WrStage;
 
@@ -203,6 +206,7 @@ typedef struct WrPlanFacts {
     bool outside;    /* the eye is outside a closed surface, for certain */
     bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
     bool sighted;    /* what the view's samples look at is known from the last picture */
+    int among;       /* objects that are shown; 0 or 1: this one alone */
     bool rests;    /* the last picture is kept, and was made by the same plan of the same request */
     double sloped; /* the share of the table's tiles that have a slope; below 0: not known */
 } WrPlanFacts;

@@ -189,6 +189,9 @@ static WrVerdict decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const 
     if (!takes_grid(dials))
         return say(WR_VERDICT_NONE, why, "the dial says one sample at the pixel's centre");
     if (dials->samples == 1) return say(WR_VERDICT_NONE, why, "one sample a pixel was asked for");
+    if (dials->aa == WR_AA_ADAPTIVE && ask->facts.among > 1)
+        return say(WR_VERDICT_RUN, why,
+                   "up to K x K were asked for: of several objects all are taken");
     if (dials->aa == WR_AA_ADAPTIVE && ask->facts.lively)
         return say(WR_VERDICT_RUN, why,
                    "up to K x K were asked for: here fewer would cost more, so all are taken");
@@ -204,7 +207,8 @@ static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)
     const WrDials *dials = ask->dials;
     const bool run = runs(plan, WR_EFFECT_SAMPLES);
     plan->samples = run ? dials->samples : 1;
-    const bool adaptive = dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively;
+    const bool adaptive =
+        dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && ask->facts.among <= 1;
     plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
     if (!run) return;
     plan->spread = dials->spread;
@@ -236,6 +240,8 @@ static WrVerdict decide_bound(const WrPlan *plan, const WrPlanAsk *ask, const ch
         return say(WR_VERDICT_NONE, why, "the dials do not ask for a bound");
     const char *reason = no_bound(plan, ask);
     if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (ask->facts.among > 1)
+        return say(WR_VERDICT_NONE, why, "no bound is known of several objects: K x K everywhere");
     if (ask->facts.lively)
         return say(WR_VERDICT_NONE, why,
                    "bounds would spare too little of this view: K x K everywhere");
@@ -451,5 +457,16 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "the table's tiles have slopes",
                                    0, .only_way = true, .manner = true,
                                    .decide = wr_decide_ground },
+    [WR_ROW(WR_EFFECT_HIDDEN)] = { "E52", "hidden objects", WR_PROOF_IDENTICAL, NULL,
+                                   "one object is shown. Of several, drawn from the front, one "
+                                   "is left out of each tile that nearer ones fill",
+                                   0, .only_way = true, .manner = true,
+                                   .decide = wr_decide_hidden },
+    [WR_ROW(WR_EFFECT_BETWEEN)] = { "E53", "depth between objects", WR_PROOF_IDENTICAL, NULL,
+                                    "one object is shown, and in tiles that only one object's "
+                                    "bound meets. Where several do, a sample that another hides "
+                                    "goes before its light is worked out",
+                                    STAGE(BETWEEN), .only_way = true, .manner = true,
+                                    .decide = wr_decide_between },
 };
 WR_ROWS_END(wr_effects, WR_EFFECT_COUNT);

@@ -92,3 +92,20 @@ WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const cha
     if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
     return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
 }
+
+/* ---- among several objects ---- */
+
+WrVerdict wr_decide_hidden(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
+    return say(WR_VERDICT_SPARED, why,
+               "objects are drawn from the front; where one fills a tile, what lies behind is not");
+}
+
+WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
+    return say(WR_VERDICT_RUN, why, "objects may hide others where their outlines meet");
+}

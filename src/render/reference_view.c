@@ -8,11 +8,20 @@
 
 #include <math.h>
 
+/* Of directions. */
 static WrVec3 world_to_object(const WrPlacement *place, WrVec3 w)
 {
     const double *m = place->rotation;
     return (WrVec3){ m[0] * w.x + m[3] * w.y + m[6] * w.z, m[1] * w.x + m[4] * w.y + m[7] * w.z,
                      m[2] * w.x + m[5] * w.y + m[8] * w.z };
+}
+
+/* Of points: w = position + size M (p - centre). */
+static WrVec3 point_to_object(const WrPlacement *place, WrVec3 w)
+{
+    const WrVec3 away = world_to_object(place, v3_sub(w, place->position));
+    return (WrVec3){ away.x / place->size + place->centre.x, away.y / place->size + place->centre.y,
+                     away.z / place->size + place->centre.z };
 }
 
 static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPlacement *place)
@@ -22,9 +31,10 @@ static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPla
     for (int i = 0; i < scene->light_count; i++) {
         const WrLight *light = &scene->lights[i];
         WrReferenceLight *out = &view->lights[i];
-        const WrVec3 turned = world_to_object(place, light->where), ahead = { 0, 0, 1 };
+        const WrVec3 ahead = { 0, 0, 1 };
         out->point = light->kind == WR_LIGHT_POINT;
-        out->where = out->point ? v3_add(turned, place->centre) : v3_unit(turned, ahead);
+        out->where = out->point ? point_to_object(place, light->where)
+                                : v3_unit(world_to_object(place, light->where), ahead);
         out->rgb[0] = light->colour.x * light->strength;
         out->rgb[1] = light->colour.y * light->strength;
         out->rgb[2] = light->colour.z * light->strength;
@@ -57,13 +67,13 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     const double aspect = (double)width / height;
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
     view->perspective = !place.orthographic;
-    view->eye = v3_add(world_to_object(&place, place.eye), place.centre);
+    view->eye = point_to_object(&place, place.eye);
     view->right = world_to_object(&place, place.right);
     view->up = world_to_object(&place, place.up);
     view->forward = world_to_object(&place, place.forward);
     view->toward = v3_neg(view->forward);
-    view->half_h = place.half_height;
-    view->half_w = place.half_height * aspect;
+    view->half_h = place.half_height / (view->perspective ? 1 : place.size);
+    view->half_w = view->half_h * aspect;
     const WrVec3 from_eye = v3_sub(place.centre, view->eye);
     view->depth = v3_dot(from_eye, view->forward);
     view->middle = v3_mad(view->eye, view->forward, view->depth);

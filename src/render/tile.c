@@ -2,6 +2,7 @@
 #include "base/hash.h"
 #include "render/frame.h"
 #include "render/pipe.h"
+#include "render/tile_inner.h"
 #include "system/clock.h"
 
 #include <math.h>
@@ -97,25 +98,28 @@ void wr_tile_mean(float *sample, int k, size_t step, float out[4])
     for (int c = 0; c < 4; c++) out[c] = sample[c] * share;
 }
 
+int wr_tile_means(int k, int width, float *sample, size_t step, float *pixel)
+{
+    const float share = 1.0f / (float)(k * k);
+    int covered = 0;
+    fold(sample, width, k, step);
+    for (int i = 0; i < 4 * width; i++) pixel[i] = sample[i] * share;
+    for (int p = 0; p < width; p++) covered += pixel[4 * p + 3] > 0.0f;
+    return covered;
+}
+
 static uint32_t *code_at(const WrTileJob *job, int x, int y)
 {
     return job->codes + wr_tile_place(job, x, y);
 }
 
-/* Where the rows of a tile go. */
-typedef struct Rows {
-    float *rgba, *normals;          /* of the first row; NULL: not wanted */
-    size_t rgba_step, normals_step; /* floats a row */
-    uint32_t *codes;
-    size_t codes_step;
-} Rows;
-
-static WrSink row_sink(const Rows *rows, int y)
+static WrSink row_sink(const WrTileRows *rows, int y)
 {
     const size_t row = (size_t)y;
     return (WrSink){ .rgba = rows->rgba ? rows->rgba + row * rows->rgba_step : NULL,
                      .normals = rows->normals ? rows->normals + row * rows->normals_step : NULL,
-                     .codes = rows->codes ? rows->codes + row * rows->codes_step : NULL };
+                     .codes = rows->codes ? rows->codes + row * rows->codes_step : NULL,
+                     .nearest = rows->nearest ? rows->nearest + row * rows->nearest_step : NULL };
 }
 
 /* A finished row of codes to its place, opaque: alpha told where nothing was yet. */
@@ -131,14 +135,28 @@ static void fill_codes(uint32_t *to, int count, uint32_t code)
     for (int x = 0; x < count; x++) to[x] = code;
 }
 
+/* What other objects have left there, for rows that are packed. */
+static void bring_packed(const WrTileRows *out, int top, int rows, int width, float rgba[][4],
+                         float normals[][3], WrNearest *nearest)
+{
+    for (int y = 0; y < rows; y++) {
+        const size_t to = (size_t)(y * width), w = (size_t)width, from = (size_t)(top + y);
+        memcpy(nearest + to, out->nearest + from * out->nearest_step, w * sizeof *nearest);
+        if (out->rgba) memcpy(rgba[to], out->rgba + from * out->rgba_step, w * sizeof rgba[0]);
+        if (out->normals)
+            memcpy(normals[to], out->normals + from * out->normals_step, w * sizeof normals[0]);
+    }
+}
+
 /* Several short rows in one strip. */
-static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, const Rows *out,
+static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                        WrTileScratch *scratch)
 {
     WrScatter *places = &scratch->scatter;
     const int many = WR_SPAN / tile->w;
     float rgba[WR_SPAN][4], normals[WR_SPAN][3];
     uint32_t codes[WR_SPAN];
+    WrNearest nearest[WR_SPAN];
     for (int top = 0; top < tile->h; top += many) {
         const double start = wr_clock_seconds();
         const int rows = tile->h - top < many ? tile->h - top : many;
@@ -150,12 +168,14 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
             places->y[places->count] = tile->y + y + (shift ? shift[1] / 256.0 : 0);
             places->cell[places->count++] = y * tile->w + x;
         }
-        if (out->rgba) memset(rgba, 0, sizeof rgba);
-        if (out->normals) memset(normals, 0, sizeof normals);
+        if (out->nearest) bring_packed(out, top, rows, tile->w, rgba, normals, nearest);
+        else if (out->rgba) memset(rgba, 0, sizeof rgba);
+        if (!out->nearest && out->normals) memset(normals, 0, sizeof normals);
         if (out->codes) fill_codes(codes, rows * tile->w, job->backdrop);
         WrSink sink = { .rgba = out->rgba ? rgba[0] : NULL,
                         .normals = out->normals ? normals[0] : NULL,
-                        .codes = out->codes ? codes : NULL };
+                        .codes = out->codes ? codes : NULL,
+                        .nearest = out->nearest ? nearest : NULL };
         const double packed = wr_clock_seconds();
         job->pipe->points(job, k, tile, &sink, scratch);
         const double ready = wr_clock_seconds();
@@ -166,13 +186,14 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
             if (out->normals)
                 memcpy(out->normals + to * out->normals_step, normals[from], w * sizeof normals[0]);
             if (out->codes) put_codes(codes + from, tile->w, out->codes + to * out->codes_step);
+            if (out->nearest)
+                memcpy(out->nearest + to * out->nearest_step, nearest + from, w * sizeof *nearest);
         }
         scratch->whole[WR_STAGE_STORE] += wr_clock_seconds() - ready + packed - start;
     }
 }
 
-/* All samples of a tile. */
-static void run_rows(const WrTileJob *job, int k, const WrDepthTile *tile, const Rows *out,
+void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                      WrTileScratch *scratch)
 {
     if (tile->w <= WR_SPAN / 2 && tile->h > 1) {
@@ -196,11 +217,13 @@ static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTi
 {
     WrDepthTile tile = wr_tile_depth(job, 1, part.x, part.y, part.w, part.h, scratch);
     const size_t wide = (size_t)job->width;
-    Rows out = { .rgba_step = 4 * job->rgba_pitch, .normals_step = 3 * wide, .codes_step = wide };
+    WrTileRows out = { .rgba_step = 4 * job->rgba_pitch,
+                       .normals_step = 3 * wide,
+                       .codes_step = wide };
     if (light && job->codes) out.codes = code_at(job, part.x, part.y);
     else if (light) out.rgba = wr_tile_pixel(job, part.x, part.y);
     if (job->normals) out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
-    run_rows(job, 1, &tile, &out, scratch);
+    wr_tile_samples(job, 1, &tile, &out, scratch);
 }
 
 /* The mean of K x K. */
@@ -210,22 +233,17 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     const size_t step = sizeof scratch->sample[0] / sizeof(float);
     WrDepthTile tile = wr_tile_depth(job, k, part.x * k, part.y * k, w, h, scratch);
     const int64_t covered = scratch->covered;
-    const Rows out = { .rgba = scratch->sample[0][0], .rgba_step = step };
+    const WrTileRows out = { .rgba = scratch->sample[0][0], .rgba_step = step };
     double start = wr_clock_seconds();
     for (int y = 0; y < h; y++) memset(scratch->sample[y], 0, (size_t)w * sizeof(float[4]));
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
-    run_rows(job, k, &tile, &out, scratch);
+    wr_tile_samples(job, k, &tile, &out, scratch);
     scratch->covered = covered; /* that was samples */
     wr_did(scratch, WR_EFFECT_SAMPLES);
     start = wr_clock_seconds();
-    const float share = 1.0f / (float)(k * k);
-    for (int y = 0; y < part.h; y++) {
-        float *pixel = wr_tile_pixel(job, part.x, part.y + y);
-        fold(scratch->sample[y * k][0], part.w, k, step);
-        const float *folded = scratch->sample[y * k][0];
-        for (int i = 0; i < 4 * part.w; i++) pixel[i] = folded[i] * share;
-        for (int p = 0; p < part.w; p++) scratch->covered += pixel[4 * p + 3] > 0.0f;
-    }
+    for (int y = 0; y < part.h; y++)
+        scratch->covered += wr_tile_means(k, part.w, scratch->sample[y * k][0], step,
+                                          wr_tile_pixel(job, part.x, part.y + y));
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 
@@ -245,8 +263,7 @@ static void clear_codes(const WrTileJob *job, WrTilePart whole, WrTilePart part)
     }
 }
 
-/* Nothing anywhere on the tile yet. */
-static void clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
+void wr_tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
 {
     if (job->codes) clear_codes(job, whole, part);
     for (int y = whole.y; y < whole.y + whole.h; y++) {
@@ -258,8 +275,7 @@ static void clear(const WrTileJob *job, WrTilePart whole, WrTilePart part)
     }
 }
 
-/* What all of the tile takes whatever it shows. */
-static void start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch)
+void wr_tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch)
 {
     const int all = job->plan->sampling == WR_SAMPLING_ALL ? job->samples : 1;
     scratch->mapped = whole;
@@ -277,8 +293,7 @@ static void crop(double a, double b, int *from, int *count)
     *count = (last < end ? (last > *from ? (int)last : *from) : end) - *from;
 }
 
-/* The part of it that the object may be on; w or h 0: none. */
-static WrTilePart touched(const WrTileJob *job, WrTilePart part)
+WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part)
 {
     const WrView *view = job->view;
     const int K = job->samples, x1 = part.x + part.w, y1 = part.y + part.h;
@@ -343,9 +358,9 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
     scratch->seen = job->seen ? &job->seen[index] : NULL;
     const bool beside = wr_plan_runs(job->plan, WR_EFFECT_BESIDE);
     if (beside) wr_did(scratch, WR_EFFECT_BESIDE);
-    const WrTilePart part = beside ? whole : touched(job, whole);
-    if (job->map) start_map(job, whole, scratch);
-    clear(job, whole, part);
+    const WrTilePart part = beside ? whole : wr_tile_touched(job, whole);
+    if (job->map) wr_tile_start_map(job, whole, scratch);
+    wr_tile_clear(job, whole, part);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     if (part.w > 0 && part.h > 0) {
         const bool one = job->plan->sampling == WR_SAMPLING_ONE;

@@ -56,16 +56,24 @@ typedef struct WrTileJob {
     float *normals;    /* WrFrameRequest's; or NULL */
     uint8_t *map;      /* likewise */
     WrBlocks *seen;    /* [tiles] to fill with what each tile looks at; NULL: not wanted */
+    int object;        /* which of the scene's it draws */
 } WrTileJob;
+
+/* What a sample of several objects shows. */
+typedef struct WrNearest {
+    float depth; /* by the view's `deep`; INFINITY: nothing yet */
+    int object;  /* its place among the scene's: of equal depths the lower one is seen */
+} WrNearest;
 
 /* Where a strip's results go, by the samples' index; members that are not wanted are NULL. */
 typedef struct WrSink {
     float *rgba;     /* 4 a sample */
     uint32_t *codes; /* one a sample: rgba as 8-bit codes; with neither, no light is worked out */
     float *normals;  /* 3 a sample: n' */
-    float *bound;    /* how far the intensity may change over the pixel */
-    double pixel;    /* of the bound, samples a side */
-    float *uv;       /* 2 a sample: u and v, where table or colour picture are looked up */
+    WrNearest *nearest; /* one a sample; what lies behind it is not stored */
+    float *bound;       /* how far the intensity may change over the pixel */
+    double pixel;       /* of the bound, samples a side */
+    float *uv;          /* 2 a sample: u and v, where table or colour picture are looked up */
     float *
         texels; /* how many of table and colour picture lie along a pixel, at most; only those that are not 0 */
 } WrSink;
@@ -90,8 +98,9 @@ typedef struct WrTilePart {
 
 /* One thread's memory and counts. */
 typedef struct WrTileScratch {
-    WrStrip strip, near, far; /* near, far: look-ups of filtered slopes */
-    WrStripd *wide;           /* [3], the same in double; made on first use */
+    WrStrip strip, near, far;                /* near, far: look-ups of filtered slopes */
+    WrStripd *wide;                          /* [3], the same in double; made on first use */
+    WrNearest (*nearest)[WR_TILE_SAMPLES_W]; /* [WR_TILE_SAMPLES_H], of several objects; likewise */
     WrScatter scatter;
     float close[WR_TILE_ROOM], u[WR_TILE_ROOM], v[WR_TILE_ROOM];
     signed char shift[2 * WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H]; /* jittered */
@@ -176,6 +185,10 @@ static inline void wr_tile_map(const WrTileJob *job, const WrTileScratch *scratc
 void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *tile_h);
 /* A tile or a part of one, within the band; index: of the tile in job->seen. */
 void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch);
+/* The same of several objects, jobs[count] in the order in which they are drawn, the nearest first; all are of one
+   picture and one number of samples, not adaptive. canvas: where its pixels go. */
+void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int count,
+                          WrTilePart part, int index, WrTileScratch *scratch);
 /* (u,v) and face at one sample of the grid; false where nothing is. Uses scratch. */
 bool wr_tile_pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, double *u,
                   double *v, int *face);

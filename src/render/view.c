@@ -8,18 +8,10 @@
 
 #include <math.h>
 
-/* World direction -> object direction: the transpose of the placement's rotation. */
-static WrVec3 turn_back(const WrPlacement *place, WrVec3 w)
-{
-    const double *m = place->rotation;
-    return (WrVec3){ m[0] * w.x + m[3] * w.y + m[6] * w.z, m[1] * w.x + m[4] * w.y + m[7] * w.z,
-                     m[2] * w.x + m[5] * w.y + m[8] * w.z };
-}
-
 /* World position -> kernel position. */
 static WrVec3 bring_in(const WrPlacement *place, double scale, WrVec3 w)
 {
-    return v3_scale(v3_add(turn_back(place, w), place->centre), scale);
+    return v3_scale(wr_place_object(place, w), scale);
 }
 
 static void store(double out[3], WrVec3 a)
@@ -258,12 +250,22 @@ bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int w
     const WrVec3 eye = bring_in(&place, scale, place.eye);
     if (planar(info)) {
         *outside = find_facing(&scene->shape, scale, place.orthographic ? NULL : &eye,
-                               turn_back(&place, place.forward), facing);
+                               wr_place_turn_back(&place, place.forward), facing);
         return true;
     }
     const WrVec3 away = v3_sub(eye, v3_scale(place.centre, scale));
     *outside = place.orthographic || v3_len(away) > place.radius * scale;
     return true;
+}
+
+static void find_depth(WrView *view, const WrCamera *camera, const WrPlacement *place)
+{
+    const WrVec3 centre = v3_scale(place->centre, view->scale);
+    const WrVec3 deep = v3_scale(view->forward, place->size / view->scale);
+    const double middle = v3_dot(place->forward, v3_sub(place->position, camera->target));
+    store(view->deep, deep);
+    view->deep_from = middle - v3_dot(deep, centre);
+    view->nearest = middle - place->radius * place->size;
 }
 
 /* Those that shine; where none does all of them, for who forces light. */
@@ -282,7 +284,7 @@ static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *p
         WrKernLightd *out = &view->lights_d[i];
         out->point = light->kind == WR_LIGHT_POINT;
         WrVec3 where = out->point ? bring_in(place, view->scale, light->where)
-                                  : v3_unit(turn_back(place, light->where), ahead);
+                                  : v3_unit(wr_place_turn_back(place, light->where), ahead);
         store(out->where, where);
         store(out->rgb, v3_scale(light->colour, light->strength));
         view->lights[i].point = out->point;
@@ -318,10 +320,10 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
     view->scale = scale_of(info, &place);
     view->radius = place.radius * view->scale;
     view->eye = bring_in(&place, view->scale, place.eye);
-    view->right = turn_back(&place, place.right);
-    view->up = turn_back(&place, place.up);
-    view->forward = turn_back(&place, place.forward);
-    view->half_h = place.half_height * (view->perspective ? 1.0 : view->scale);
+    view->right = wr_place_turn_back(&place, place.right);
+    view->up = wr_place_turn_back(&place, place.up);
+    view->forward = wr_place_turn_back(&place, place.forward);
+    view->half_h = place.half_height * (view->perspective ? 1.0 : view->scale / place.size);
     view->half_w = view->half_h * aspect;
     view->near = WR_NEAR_PLANE * view->radius;
     wr_shape_scaled(&scene->shape, view->scale, &view->shape);
@@ -330,6 +332,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
     if (planar(info)) make_quads(view, &scene->shape);
     find_bounds(view, v3_scale(place.centre, view->scale), width, height);
     make_lights(view, scene, &place);
+    find_depth(view, &scene->camera, &place);
     return true;
 }
 

@@ -33,7 +33,11 @@ typedef struct WrView {
     bool perspective;
     int x0, y0, x1, y1; /* pixels x0 <= x < x1 that the object can cover, two more on each side */
     bool cull;          /* back faces are left out (E25) */
-    WrQuad quads[6];    /* planar surfaces: those that can be seen, such as look away first */
+    /* How far a point p of kernel space lies behind the plane through the camera's target that faces it, in the world:
+       deep_from + deep . p. Of whatever object. */
+    double deep[3], deep_from;
+    double nearest;  /* of the ball that holds the object */
+    WrQuad quads[6]; /* planar surfaces: those that can be seen, such as look away first */
     WrQuadd quads_d[6];
     int quad_face[6];
     int quad_count;

@@ -17,10 +17,11 @@ typedef struct WrCamera {
 /* As in commands: "perspective", "orthographic". */
 extern const char *const wr_camera_names[2];
 
-/* How a scene is looked at: the object's orientation and the camera. Not part of the work: it has a
+/* How a scene is looked at: the orientation of its one object and the camera. Not part of the work: it has a
    history of its own (document/views.h). */
 typedef struct WrSceneView {
-    bool posed; /* as in WrScene */
+    bool of_one; /* the scene holds one object; of several each is turned by an edit of its own */
+    bool posed;  /* as in WrScene; of one object */
     WrVec3 rotate_deg;
     WrCamera camera;
 } WrSceneView;

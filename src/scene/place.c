@@ -1,4 +1,4 @@
-#include "scene/scene.h"
+#include "scene/objects.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"
@@ -40,8 +40,14 @@ static void turn(int axis, double deg, const double in[9], double out[9])
     multiply(m, in, out);
 }
 
-/* Turntable Ry(turn) after the pose Rz Ry Rx. */
-static void place_object(const WrScene *scene, double turn_deg, double rotation[9])
+static WrVec3 turned(const double m[9], WrVec3 p)
+{
+    return (WrVec3){ m[0] * p.x + m[1] * p.y + m[2] * p.z, m[3] * p.x + m[4] * p.y + m[5] * p.z,
+                     m[6] * p.x + m[7] * p.y + m[8] * p.z };
+}
+
+/* Turntable Ry(turn) after the pose Rz Ry Rx; it carries the object's place with it. */
+static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out)
 {
     const double *pose = wr_surfaces[scene->shape.kind]->pose_deg;
     WrVec3 deg = scene->posed ? scene->rotate_deg : (WrVec3){ pose[0], pose[1], pose[2] };
@@ -50,7 +56,10 @@ static void place_object(const WrScene *scene, double turn_deg, double rotation[
     turn(0, deg.x, same, a);
     turn(1, deg.y, a, b);
     turn(2, deg.z, b, a);
-    turn(1, turn_deg, a, rotation);
+    turn(1, turn_deg, a, out->rotation);
+    turn(1, turn_deg, same, a);
+    out->position = turned(a, scene->at);
+    out->size = scene->size;
 }
 
 /* Where `up` says nothing, because it is 0 or lies along the view: the far side is up when looking
@@ -106,8 +115,8 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
 {
     WrVec3 back = v3_unit(v3_sub(camera->eye, camera->target), (WrVec3){ 0, 0, 1 });
     place_axes(camera, v3_neg(back), out);
-    /* The object's ball is about the world's origin; this one is about the target and holds it. */
-    double ball = out->radius + v3_len(camera->target);
+    /* The objects' ball is about the world's origin; this one is about the target and holds it. */
+    double ball = out->ball + v3_len(camera->target);
     out->orthographic = camera->orthographic;
     if (camera->orthographic) {
         double fitted = MARGIN * ball * (aspect < 1 ? 1 / aspect : 1);
@@ -138,8 +147,29 @@ bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, 
     memset(&placed, 0, sizeof placed);
     placed.centre = wr_shape_centre(&scene->shape);
     placed.radius = radius;
-    place_object(scene, turn_deg, placed.rotation);
+    place_object(scene, turn_deg, &placed);
+    const bool one = scene->other_count == 0;
+    placed.ball = one ? v3_len(scene->at) + scene->size * radius : wr_scene_ball(scene);
     place_camera(&scene->camera, aspect, &placed);
     *out = placed;
     return true;
+}
+
+WrVec3 wr_place_world(const WrPlacement *place, WrVec3 p)
+{
+    const WrVec3 own = turned(place->rotation, v3_sub(p, place->centre));
+    return v3_mad(place->position, own, place->size);
+}
+
+WrVec3 wr_place_turn_back(const WrPlacement *place, WrVec3 w)
+{
+    const double *m = place->rotation;
+    return (WrVec3){ m[0] * w.x + m[3] * w.y + m[6] * w.z, m[1] * w.x + m[4] * w.y + m[7] * w.z,
+                     m[2] * w.x + m[5] * w.y + m[8] * w.z };
+}
+
+WrVec3 wr_place_object(const WrPlacement *place, WrVec3 world)
+{
+    const WrVec3 own = wr_place_turn_back(place, v3_sub(world, place->position));
+    return v3_add(v3_scale(own, 1 / place->size), place->centre);
 }

@@ -34,6 +34,7 @@ WrScene *wr_scene_new(void)
     wr_shape_default(WR_SURFACE_plane, &scene->shape);
     scene->bump = WR_BUMP_BLINN;
     scene->scheme = WR_SCHEME_CENTRAL;
+    scene->size = 1;
     wr_scene_params_reset(scene, false);
     scene->lights = wr_alloc(1, sizeof *scene->lights);
     scene->lights[0].kind = WR_LIGHT_DIRECTIONAL;
@@ -72,14 +73,29 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->colour = scene->colour ? wr_image_share(scene->colour) : NULL;
     clone->colour_path = wr_strdup(scene->colour_path);
     memcpy(clone->colour_sha256, scene->colour_sha256, sizeof clone->colour_sha256);
-    clone->lights_given = scene->lights_given;
-    clone->lights = copied(scene->lights, scene->light_count, sizeof *scene->lights);
-    clone->light_count = scene->light_count;
-    clone->camera = scene->camera;
-    clone->dials = scene->dials;
-    clone->tolerance = scene->tolerance;
-    memcpy(clone->background, scene->background, sizeof clone->background);
+    clone->name = wr_strdup(scene->name);
+    clone->at = scene->at;
+    clone->size = scene->size;
+    clone->hidden = scene->hidden;
+    clone->layer = wr_strdup(scene->layer);
+    clone->others = copied(scene->others, scene->other_count, sizeof *scene->others);
+    for (int i = 0; i < scene->other_count; i++) wr_scene_share(scene->others[i]);
+    clone->other_count = scene->other_count;
+    clone->chosen = scene->chosen;
+    wr_scene_take_shared(clone, scene);
     return clone;
+}
+
+void wr_scene_take_shared(WrScene *scene, const WrScene *from)
+{
+    wr_free(scene->lights);
+    scene->lights_given = from->lights_given;
+    scene->lights = copied(from->lights, from->light_count, sizeof *from->lights);
+    scene->light_count = from->light_count;
+    scene->camera = from->camera;
+    scene->dials = from->dials;
+    scene->tolerance = from->tolerance;
+    memcpy(scene->background, from->background, sizeof scene->background);
 }
 
 WrScene *wr_scene_share(const WrScene *scene)
@@ -96,6 +112,10 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene->analytic.terms);
     if (scene->colour) wr_image_free(scene->colour);
     wr_free(scene->colour_path);
+    wr_free(scene->name);
+    wr_free(scene->layer);
+    for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);
+    wr_free(scene->others);
     wr_free(scene->lights);
     wr_free(scene);
 }
@@ -110,14 +130,18 @@ void wr_scene_set_shape(WrScene *scene, const WrShape *shape)
 
 WrSceneView wr_scene_view(const WrScene *scene)
 {
-    return (WrSceneView){ scene->posed, scene->rotate_deg, scene->camera };
+    const bool one = scene->other_count == 0;
+    WrSceneView view = { .of_one = one, .camera = scene->camera };
+    if (one) view.posed = scene->posed, view.rotate_deg = scene->rotate_deg;
+    return view;
 }
 
 void wr_scene_set_view(WrScene *scene, const WrSceneView *view)
 {
+    scene->camera = view->camera;
+    if (!view->of_one || scene->other_count > 0) return;
     scene->posed = view->posed;
     scene->rotate_deg = view->rotate_deg;
-    scene->camera = view->camera;
 }
 
 static bool equal3(WrVec3 a, WrVec3 b)
@@ -128,7 +152,8 @@ static bool equal3(WrVec3 a, WrVec3 b)
 bool wr_scene_view_equal(const WrSceneView *a, const WrSceneView *b)
 {
     const WrCamera *p = &a->camera, *q = &b->camera;
-    return a->posed == b->posed && (!a->posed || equal3(a->rotate_deg, b->rotate_deg)) &&
+    return a->of_one == b->of_one && a->posed == b->posed &&
+           (!a->posed || equal3(a->rotate_deg, b->rotate_deg)) &&
            p->orthographic == q->orthographic && p->fit == q->fit && equal3(p->eye, q->eye) &&
            equal3(p->target, q->target) && equal3(p->up, q->up) && p->fov_deg == q->fov_deg &&
            p->size == q->size;

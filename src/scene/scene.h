@@ -1,5 +1,7 @@
 /* scene.h - all that a picture of a table depends on besides the table: surface, bump, material,
    lights, camera, dials. Plain data with defaults and checks.
+   A scene may hold several objects (objects.h). What stands here of one (surface to place) is of the one at
+   hand, which commands act on; the others are scenes of one object each.
    Layer 4. A scene that is shared is never written to: edits clone it (wr_scene_clone), so a
    snapshot is one pointer. World space is right-handed, y up; colours are linear; angles here in
    degrees. */
@@ -66,6 +68,14 @@ struct WrScene {
     WrImage *colour;   /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
     char *colour_path; /* as the command named it; owned; NULL without */
     char colour_sha256[65];
+    char *name;       /* of the object; owned; NULL: it was given none */
+    WrVec3 at;        /* where the object's centre stands, world; within 1e9 */
+    double size;      /* world units per unit of the object, 1e-9..1e9 */
+    bool hidden;      /* not in pictures */
+    char *layer;      /* of the document, whose heights are its table; owned; NULL: all layers' */
+    WrScene **others; /* [other_count], owned shares: the other objects, in their order */
+    int other_count;
+    int chosen;        /* place of the one at hand among all: 0..other_count */
     bool lights_given; /* false: `lights` holds the one default light */
     WrLight *lights;   /* [light_count], owned */
     int light_count;
@@ -73,6 +83,7 @@ struct WrScene {
     WrDials dials;
     WrTolerance tolerance;
     double background[3]; /* linear RGB behind 8-bit pictures */
+    double radius;        /* of the shape, once it was found, of one of `others`; private */
 };
 
 WrSceneView wr_scene_view(const WrScene *scene);
@@ -84,6 +95,8 @@ WrScene *wr_scene_new(void);
 /* A deep copy that the caller may change until it shares it. */
 WrScene *wr_scene_clone(const WrScene *scene);
 WrScene *wr_scene_share(const WrScene *scene); /* constant time */
+/* What all objects have in common, lights to background, from another scene: for one that may be changed. */
+void wr_scene_take_shared(WrScene *scene, const WrScene *from);
 void wr_scene_free(WrScene *scene);
 /* Take a shape; what it borrows is shared from now on. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
@@ -92,25 +105,29 @@ void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
 #define WR_NEAR_PLANE 1e-10
 
 /* Where things are for a picture. A point of the object stands in the world at
- *   rotation * (P - centre),   rotation = Ry(turn_deg) Rz Ry Rx  (pose, then the turntable). */
+ *   position + size * rotation * (P - centre),   rotation = Ry(turn_deg) Rz Ry Rx  (pose, then the turntable, which
+ *   turns all objects about the world's y axis). */
 typedef struct WrPlacement {
     /* Row-major object -> world, orthonormal: rebuilt from angles each time, so it cannot drift
        (HC88). */
     double rotation[9];
-    WrVec3 centre; /* object point that stands at the world's origin */
-    WrVec3 eye;    /* world; with `fit` resolved */
+    WrVec3 centre;   /* object point that stands at `position` */
+    WrVec3 position; /* world */
+    double size;     /* world units per unit of the object */
+    WrVec3 eye;      /* world; with `fit` resolved */
     /* World; orthonormal, right x up = -forward: the camera looks down its own -Z. */
     WrVec3 right, up, forward;
     double half_height; /* tan(fov/2), or size/2; half the width is this times the aspect */
     bool orthographic;
-    double radius; /* of the object about its centre */
+    double radius; /* of the object about its centre, in its units */
+    double ball;   /* of all objects about the world's origin (objects.h) */
 } WrPlacement;
 
 /* The placement for a picture `aspect` times as wide as high, after a turn about the world's y.
  *
  * turn_deg   any finite value; whole turns are taken off exactly (HC87)
  * fit        the eye stands so far from the target that the ball about the target which holds the
- *            object's ball keeps a few percent from the picture's nearer pair of borders
+ *            objects' balls keeps a few percent from the picture's nearer pair of borders, however they turn
  * up         where it is 0 or along the view, another axis takes its place
  * Errors     eye = target; an angle, position, field of view or aspect that is no number or out of
  *            range */
@@ -119,6 +136,12 @@ bool wr_scene_place(const WrScene *scene, double turn_deg, double aspect, WrPlac
 /* The same where the shape's radius (wr_shape_radius) is known: that of a free form takes longer than all else. */
 bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, double aspect,
                           WrPlacement *out, WrError *err);
+
+/* A point of the object in the world, and back. */
+WrVec3 wr_place_world(const WrPlacement *place, WrVec3 p);
+WrVec3 wr_place_object(const WrPlacement *place, WrVec3 world);
+/* A direction of the world along the object's axes; its length stays. */
+WrVec3 wr_place_turn_back(const WrPlacement *place, WrVec3 world);
 
 /* F = height * table(ru u, rv v) and its derivatives with respect to the PATCH parameters, in
  * double, from the table or the analytic function (field may then be NULL). On a periodic axis ru

@@ -23,12 +23,7 @@ static bool project(const WrWork *work, WrVec3 p, double *x, double *y)
     WrPlacement at;
     if (!wr_scene_place(work->scene, work->turn_deg, (double)work->width / work->height, &at, NULL))
         return false;
-    const WrVec3 o = v3_sub(p, at.centre);
-    const double *r = at.rotation;
-    const WrVec3 world = { r[0] * o.x + r[1] * o.y + r[2] * o.z,
-                           r[3] * o.x + r[4] * o.y + r[5] * o.z,
-                           r[6] * o.x + r[7] * o.y + r[8] * o.z };
-    const WrVec3 from = v3_sub(world, at.eye);
+    const WrVec3 from = v3_sub(wr_place_world(&at, p), at.eye);
     const double depth = v3_dot(from, at.forward);
     if (!(depth > 0)) return false;
     const double half = at.orthographic ? at.half_height : at.half_height * depth;

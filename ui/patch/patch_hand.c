@@ -181,7 +181,7 @@ void wr_patch_wheel(WrApp *app, double steps)
     WrScene *scene = wr_app_live(app);
     WrCamera *camera = &scene->camera;
     WrVec3 back = v3_sub(at.eye, camera->target);
-    double far_off = 400.0 * at.radius, near_by = 1.02 * at.radius;
+    double far_off = 400.0 * at.ball, near_by = 1.02 * at.ball;
     double distance = v3_len(back), wanted = distance * factor;
     wanted = wanted > far_off ? far_off : wanted < near_by && distance > near_by ? near_by : wanted;
     if (camera->orthographic) camera->size = 2.0 * at.half_height * factor;

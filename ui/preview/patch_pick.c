@@ -134,18 +134,18 @@ WrPatchPick *wr_patch_pick_new(const WrScene *scene, double turn_deg, int width,
     wr_shape_take_data(&pick->shape, wr_surface_data_share(scene->shape.data));
     pick->info = wr_surfaces[scene->shape.kind];
     pick->orthographic = at.orthographic;
-    pick->radius = at.radius;
+    pick->radius = at.radius * at.size;
     const WrVec3 axes[3] = { at.right, at.up, at.forward };
     for (int k = 0; k < 3; k++) {
         const double *r = at.rotation;
         WrVec3 a = axes[k];
         for (int c = 0; c < 3; c++)
-            pick->axes[3 * k + c] = a.x * r[c] + a.y * r[3 + c] + a.z * r[6 + c];
+            pick->axes[3 * k + c] = at.size * (a.x * r[c] + a.y * r[3 + c] + a.z * r[6 + c]);
     }
-    WrVec3 centre = turned(pick, at.centre);
-    pick->shift[0] = -centre.x - v3_dot(at.right, at.eye);
-    pick->shift[1] = -centre.y - v3_dot(at.up, at.eye);
-    pick->shift[2] = -centre.z - v3_dot(at.forward, at.eye);
+    const WrVec3 centre = turned(pick, at.centre), from = v3_sub(at.position, at.eye);
+    pick->shift[0] = v3_dot(at.right, from) - centre.x;
+    pick->shift[1] = v3_dot(at.up, from) - centre.y;
+    pick->shift[2] = v3_dot(at.forward, from) - centre.z;
     pick->middle_x = width / 2.0;
     pick->middle_y = height / 2.0;
     pick->scale_x = pick->middle_x / (at.half_height * aspect);

@@ -1,0 +1,273 @@
+/* The objects of a scene: added, chosen, placed, removed. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/rows.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "command/scene_args.h"
+#include "document/document.h"
+#include "scene/objects.h"
+#include "scene/param.h"
+
+#include <string.h>
+
+enum { FORM_ADD, FORM_COPY, FORM_CHOOSE, FORM_SET, FORM_REMOVE, OBJECT_FORMS };
+
+#define ALL "all"
+#define OWN "own"
+
+/* ---- as lines ---- */
+
+/* What is said of the object besides its name. */
+static void print_settings(const WrScene *object, WrText *text)
+{
+    wr_scene_print_params("object", "set", object, text);
+    wr_text_add(text, " turn=");
+    if (object->posed) wr_scene_print_value(&wr_scene_params[WR_SCENE_PARAM_ROTATE], object, text);
+    else wr_text_add(text, OWN);
+    wr_text_add(text, " layer=");
+    wr_text_add_word(text, object->layer ? object->layer : ALL);
+    wr_text_add(text, "\n");
+}
+
+void wr_print_object(const WrScene *scene, int i, WrText *text)
+{
+    const WrScene *object = wr_scene_object(scene, i);
+    char buffer[WR_OBJECT_LABEL];
+    const char *label = wr_scene_object_label(scene, i, buffer);
+    wr_text_add(text, i > 0 ? "object add " : "object set");
+    if (i > 0) wr_text_add_word(text, label);
+    if (i == 0 && object->name) {
+        wr_text_add(text, " name=");
+        wr_text_add_word(text, object->name);
+    }
+    print_settings(object, text);
+}
+
+/* Of a scene's one object, whose turn is a view: nothing, where it is as in an empty document. */
+static void print_object(const WrScene *scene, WrText *text)
+{
+    const bool plain = v3_len(scene->at) == 0 && scene->size == 1 && !scene->hidden;
+    if (scene->other_count > 0 || (plain && !scene->name && !scene->layer)) return;
+    wr_text_add(text, "object set");
+    if (scene->name) {
+        wr_text_add(text, " name=");
+        wr_text_add_word(text, scene->name);
+    }
+    wr_scene_print_params("object", "set", scene, text);
+    wr_text_add(text, " layer=");
+    wr_text_add_word(text, scene->layer ? scene->layer : ALL);
+    wr_text_add(text, "\n");
+}
+
+void wr_print_chosen(const WrScene *scene, WrText *text)
+{
+    char buffer[WR_OBJECT_LABEL];
+    if (scene->other_count == 0 || scene->chosen == scene->other_count) return;
+    wr_text_add(text, "object choose ");
+    wr_text_add_word(text, wr_scene_object_label(scene, scene->chosen, buffer));
+    wr_text_add(text, "\n");
+}
+
+/* ---- finding ---- */
+
+/* The object that the line names, else the one at hand. */
+static bool find(const WrScene *scene, const WrCall *call, int *index, WrError *err)
+{
+    const WrArg *name = wr_call_arg(call, "NAME");
+    char buffer[WR_OBJECT_LABEL], last[WR_OBJECT_LABEL];
+    *index = name->given ? wr_scene_object_find(scene, name->text) : scene->chosen;
+    if (*index >= 0) return true;
+    const int count = wr_scene_object_count(scene);
+    if (count == 1)
+        return wr_fail(err, "there is no object \"%s\"; the only one is \"%s\"", name->text,
+                       wr_scene_object_label(scene, 0, buffer));
+    return wr_fail(err, "there is no object \"%s\"; there are %d, from \"%s\" to \"%s\"",
+                   name->text, count, wr_scene_object_label(scene, 0, buffer),
+                   wr_scene_object_label(scene, count - 1, last));
+}
+
+/* May object `own` (-1: one more) have that name? */
+static bool check_name(const WrScene *scene, int own, const char *name, WrError *err)
+{
+    const int other = wr_scene_object_find(scene, name);
+    if (other < 0 || other == own) return true;
+    return wr_fail(err, "there is an object \"%s\" already: each needs a name of its own", name);
+}
+
+/* ---- changing ---- */
+
+static bool take_layer(const WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
+{
+    const char *word = wr_call_given(call, "layer") ? wr_call_arg(call, "layer")->text : NULL;
+    int index;
+    if (!word) return true;
+    char *layer = NULL;
+    if (strcmp(word, ALL) != 0) {
+        if (!session->loading && !wr_session_find_layer(session, word, &index, err)) return false;
+        layer = wr_strdup(session->loading ? word : session->state.document->layers[index].name);
+    }
+    wr_free(scene->layer);
+    scene->layer = layer;
+    return true;
+}
+
+static bool take_turn(const WrCall *call, WrScene *scene, WrError *err)
+{
+    const WrArg *turn = wr_call_arg(call, "turn");
+    if (!turn->given) return true;
+    scene->posed = strcmp(turn->text, OWN) != 0;
+    scene->rotate_deg = (WrVec3){ 0 };
+    if (!scene->posed) return true;
+    WrError why;
+    WrArg numbers = { .choice = -1 };
+    const WrArgSpec spec = { .name = "turn",
+                             .type = WR_ARG_TUPLE,
+                             .components = 3,
+                             .low = -1e9,
+                             .high = 1e9,
+                             .shape = "x,y,z" };
+    if (!wr_arg_parse(&spec, "turn", turn->text, &numbers, &why))
+        return wr_fail(err, "%s, or " OWN, why.text);
+    scene->rotate_deg = (WrVec3){ numbers.numbers[0], numbers.numbers[1], numbers.numbers[2] };
+    wr_arg_fini(&numbers);
+    return true;
+}
+
+/* What the line says of the object at hand. The scene is taken. */
+static bool put(WrSession *session, const WrCall *call, const char *name, WrScene *scene,
+                WrError *err)
+{
+    if (wr_call_given(call, "turn") && scene->other_count == 0 && !session->loading) {
+        wr_scene_free(scene);
+        return wr_fail(err, "turn= is for one of several objects; `rotate` turns the only one");
+    }
+    if (!take_layer(session, call, scene, err) || !take_turn(call, scene, err)) {
+        wr_scene_free(scene);
+        return false;
+    }
+    if (name) {
+        wr_free(scene->name);
+        scene->name = wr_strdup(name);
+    }
+    wr_scene_take(call, "set", scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool run_add(WrSession *session, WrCall *call, bool copy, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    const char *name = wr_call_arg(call, "NAME")->text;
+    if (wr_scene_object_count(scene) == WR_OBJECTS_MAX)
+        return wr_fail(err, "a scene holds at most %d objects", WR_OBJECTS_MAX);
+    if (!check_name(scene, -1, name, err)) return false;
+    return put(session, call, name, wr_scene_add_object(scene, copy), err);
+}
+
+static bool run_set(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    const char *name = wr_call_given(call, "name") ? wr_call_arg(call, "name")->text : NULL;
+    if (name && !check_name(scene, scene->chosen, name, err)) return false;
+    return put(session, call, name, wr_scene_clone(scene), err);
+}
+
+static bool run_remove(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    int index;
+    if (!find(scene, call, &index, err)) return false;
+    if (wr_scene_object_count(scene) == 1)
+        return wr_fail(err, "the last object stays: a scene has at least one");
+    wr_session_replace_scene(session, wr_scene_remove_object(scene, index));
+    return true;
+}
+
+static bool run_choose(WrSession *session, const WrCall *call, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    int index;
+    if (!find(scene, call, &index, err)) return false;
+    wr_session_replace_scene(session, wr_scene_choose(scene, index));
+    return true;
+}
+
+static bool run_object(WrSession *session, WrCall *call, WrError *err)
+{
+    switch (call->form) {
+    case FORM_ADD: return run_add(session, call, false, err);
+    case FORM_COPY: return run_add(session, call, true, err);
+    case FORM_CHOOSE: return run_choose(session, call, err);
+    case FORM_SET: return run_set(session, call, err);
+    default: return run_remove(session, call, err);
+    }
+}
+
+/* ---- the row ---- */
+
+WR_ROWS(object_forms);
+static const struct {
+    const char *name, *help;
+    bool named;    /* NAME must be given */
+    bool renames;  /* name= */
+    bool settings; /* place, size and so on */
+} object_forms[] = {
+    [WR_ROW(FORM_ADD)] = { "add", "one more, a plane as in an empty document; it is chosen", true,
+                           .settings = true },
+    [WR_ROW(FORM_COPY)] = { "copy", "one more, like the chosen one; it is chosen then", true,
+                            .settings = true },
+    [WR_ROW(FORM_CHOOSE)] = { "choose", "commands are about this one from now on", true },
+    [WR_ROW(FORM_SET)] = { "set", "only what is given changes, of the chosen one", .renames = true,
+                           .settings = true },
+    [WR_ROW(FORM_REMOVE)] = { "remove", "take one away; left out, the chosen one" },
+};
+WR_ROWS_END(object_forms, OBJECT_FORMS);
+
+static bool form_object(int i, WrForm *out)
+{
+    static const WrArgSpec name = { PLACE("NAME"), .type = WR_ARG_NAME, .help = "of the object" };
+    static const WrArgSpec rename = { .name = "name", .type = WR_ARG_NAME, .help = "its new name" };
+    static const WrArgSpec turn = { .name = "turn",
+                                    .type = WR_ARG_TEXT,
+                                    .shape = "x,y,z or " OWN,
+                                    .help =
+                                        "degrees about the world's x, then y, then z axis; own: "
+                                        "the pose in which its surface first shows itself" };
+    static const WrArgSpec layer = { .name = "layer",
+                                     .type = WR_ARG_LAYER,
+                                     .help = "whose heights alone are its table; " ALL
+                                             ": all layers as they are joined" };
+    int count = 0;
+    if (i >= OBJECT_FORMS) return false;
+    *out = (WrForm){ .name = object_forms[i].name, .help = object_forms[i].help };
+    if (!object_forms[i].renames) {
+        out->args[count] = name;
+        out->args[count++].required = object_forms[i].named;
+    } else {
+        out->args[count++] = rename;
+    }
+    if (!object_forms[i].settings) return true;
+    count += wr_scene_args("object", "set", out->args + count);
+    out->args[count++] = turn;
+    out->args[count++] = layer;
+    return true;
+}
+
+const WrCommand wr_command_object = {
+    .name = "object",
+    .kind = WR_CLASS_SCENE,
+    .form_word = "WHAT",
+    .form = form_object,
+    .run = run_object,
+    .print = print_object,
+    .of_object = true,
+    .help = "several objects in one scene",
+    .details = "Each has surface, bump, replication, material, colour picture, place and size of "
+               "its own; lights, camera and dials are the scene's. An object without a name is "
+               "called object 1, object 2 and so on. Of several objects `object set turn=` turns "
+               "one, and `camera` looks from elsewhere; the turntable turns all about the "
+               "world's y axis.",
+    .example = "object add bricks at=1.2,0,0 size=0.8"
+};

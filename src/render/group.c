@@ -1,0 +1,255 @@
+/* A picture of several objects: each is prepared as a picture of its own, then all are drawn tile by tile. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "render/frame_inner.h"
+#include "scene/objects.h"
+#include "system/clock.h"
+
+#include <string.h>
+
+/* One object that is shown. */
+typedef struct Part {
+    WrRenderer *renderer; /* owned, but for what the group's lends it */
+    WrScene *scene;       /* the object alone, as the picture has it; owned */
+    int object;           /* its place among the scene's */
+} Part;
+
+struct WrGroup {
+    WrScene *scene; /* of the last picture; own share */
+    double aspect;
+    Part parts[WR_OBJECTS_MAX];
+    int count; /* that are shown */
+    int made;  /* parts that have a renderer */
+    WrFrameRequest last;
+    bool whole; /* the last picture was finished */
+};
+
+static void free_part(Part *part)
+{
+    if (part->renderer) wr_renderer_forget(part->renderer);
+    wr_free(part->renderer);
+    wr_scene_free(part->scene);
+    *part = (Part){ 0 };
+}
+
+void wr_group_free(WrRenderer *renderer)
+{
+    WrGroup *group = renderer->group;
+    if (!group) return;
+    for (int i = 0; i < group->made; i++) free_part(&group->parts[i]);
+    wr_scene_free(group->scene);
+    wr_free(group);
+    renderer->group = NULL;
+}
+
+/* A renderer that draws with the group's threads and memory. */
+static WrRenderer *new_part(const WrRenderer *group)
+{
+    WrRenderer *part = wr_alloc(1, sizeof *part);
+    part->pool = group->pool;
+    part->threads = group->threads;
+    part->scratch = group->scratch;
+    memcpy(part->bins, group->bins, sizeof part->bins);
+    memcpy(part->isa, group->isa, sizeof part->isa);
+    wr_table_init(&part->table);
+    return part;
+}
+
+/* Which of the old scenes' parts has this object? Its renderer holds copies of the object's table. */
+static void take_renderer(WrGroup *group, int i, int object, const WrRenderer *renderer)
+{
+    for (int k = i; k < group->made; k++) {
+        if (group->parts[k].object != object) continue;
+        const Part found = group->parts[k];
+        group->parts[k] = group->parts[i];
+        group->parts[i] = found;
+        return;
+    }
+    if (i < group->made && group->made == WR_OBJECTS_MAX) return;
+    if (i < group->made) group->parts[group->made] = group->parts[i];
+    group->made++;
+    group->parts[i] = (Part){ .renderer = new_part(renderer) };
+}
+
+/* The scene's objects that are shown, each with a renderer and a scene of its own. */
+static void bring_parts(WrRenderer *renderer, const WrFrameRequest *request)
+{
+    WrGroup *group = renderer->group;
+    const double aspect = (double)request->width / request->height;
+    if (group->scene == request->scene && group->aspect == aspect) return;
+    WrScene *scene = wr_scene_share(request->scene);
+    wr_scene_free(group->scene);
+    group->scene = scene;
+    group->aspect = aspect;
+    group->whole = false;
+    group->count = 0;
+    for (int i = 0; i < wr_scene_object_count(scene) && group->count < WR_OBJECTS_MAX; i++) {
+        if (wr_scene_object(scene, i)->hidden) continue;
+        take_renderer(group, group->count, i, renderer);
+        Part *part = &group->parts[group->count++];
+        wr_scene_free(part->scene);
+        part->scene = wr_scene_part(scene, i, aspect);
+        part->object = i;
+    }
+    for (int i = group->count; i < group->made; i++) free_part(&group->parts[i]);
+    group->made = group->count;
+}
+
+static WrFrameRequest request_of(const Part *part, const WrFrameRequest *request)
+{
+    WrFrameRequest own = *request;
+    const WrField *field = request->fields ? request->fields[part->object] : NULL;
+    own.scene = part->scene;
+    own.dials = request->dials ? request->dials : &request->scene->dials;
+    own.field = field ? field : request->field;
+    own.fields = NULL;
+    own.codes = (WrFrameCodes){ 0 };
+    return own;
+}
+
+static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    WrGroup *group = renderer->group;
+    for (int i = 0; i < group->count; i++) {
+        Part *part = &group->parts[i];
+        const WrFrameRequest own = request_of(part, request);
+        part->renderer->among = group->count;
+        if (!wr_frame_resize(part->renderer, &own, err)) return false;
+        if (!wr_frame_prepare(part->renderer, &own, err)) return false;
+    }
+    return true;
+}
+
+/* The plan of all: a row runs that runs for any. Where none is shown: what the object at hand would take. */
+static void join_plans(WrRenderer *renderer, const WrFrameRequest *request)
+{
+    const WrGroup *group = renderer->group;
+    const WrPlanAsk ask = { .scene = request->scene,
+                            .dials = request->dials ? request->dials : &request->scene->dials };
+    if (group->count == 0) wr_plan_build(&renderer->plan, &ask);
+    for (int i = 0; i < group->count; i++) {
+        const WrPlan *own = &group->parts[i].renderer->plan;
+        if (i == 0) renderer->plan = *own;
+        else wr_plan_add(&renderer->plan, own);
+    }
+}
+
+/* Does the last picture show what this request asks for, but for edits of the tables? */
+static bool group_rests(const WrRenderer *renderer, const WrFrameRequest *request)
+{
+    const WrGroup *group = renderer->group;
+    bool rest = group->whole && group->count > 0 && wr_frame_may_keep(request) &&
+                wr_frame_may_keep(&group->last) &&
+                wr_frame_same_output(&group->last.codes, &request->codes);
+    for (int i = 0; i < group->count && rest; i++)
+        rest = !wr_plan_runs(&group->parts[i].renderer->plan, WR_EFFECT_AGAIN);
+    return rest;
+}
+
+/* Where the group's pixels go. */
+static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request)
+{
+    const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
+    const WrGroup *group = renderer->group;
+    renderer->samples = group->count > 0 ? group->parts[0].renderer->samples : 1;
+    renderer->kernels =
+        wr_kernels_get(renderer->isa, dials->arithmetic == WR_ARITHMETIC_FAST, NULL);
+    return wr_frame_canvas(renderer, request);
+}
+
+/* The parts' jobs, the nearest first. */
+static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool rests,
+                     WrTileJob jobs[WR_OBJECTS_MAX], const WrKeep *keeps[WR_OBJECTS_MAX])
+{
+    WrGroup *group = renderer->group;
+    for (int i = 0; i < group->count; i++) {
+        Part *part = &group->parts[i];
+        WrRenderer *own = part->renderer;
+        const WrFrameRequest asked = request_of(part, request);
+        WrTileJob job = wr_frame_job(own, &asked);
+        if (wr_frame_may_keep(request) && !own->keep.seen)
+            wr_keep_start(&own->keep, wr_frame_tiles(&job));
+        job.seen = wr_frame_may_keep(request) && !rests ? own->keep.seen : NULL;
+        job.object = part->object;
+        keeps[i] = &own->keep;
+        int k = i;
+        for (; k > 0 && jobs[k - 1].view->nearest > job.view->nearest; k--) jobs[k] = jobs[k - 1];
+        jobs[k] = job;
+    }
+    return group->count;
+}
+
+static void drop_keeps(WrRenderer *renderer)
+{
+    WrGroup *group = renderer->group;
+    group->whole = false;
+    for (int i = 0; i < group->count; i++) wr_keep_fini(&group->parts[i].renderer->keep);
+}
+
+bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
+                    WrError *err)
+{
+    const double started = wr_clock_seconds();
+    if (!renderer->group) {
+        wr_renderer_forget(renderer);
+        renderer->group = wr_alloc(1, sizeof *renderer->group);
+    }
+    WrGroup *group = renderer->group;
+    if (!wr_frame_resize(renderer, request, err)) return false;
+    bring_parts(renderer, request);
+    if (!prepare_parts(renderer, request, err)) {
+        drop_keeps(renderer);
+        return false;
+    }
+    const bool rests = group_rests(renderer, request);
+    join_plans(renderer, request);
+    wr_frame_start_counts(renderer);
+    if (!rests) wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
+    WrTileJob jobs[WR_OBJECTS_MAX];
+    const WrKeep *keeps[WR_OBJECTS_MAX];
+    FrameJob job = { .tile = make_canvas(renderer, request),
+                     .objects = jobs,
+                     .keeps = keeps,
+                     .scratch = renderer->scratch,
+                     .only = request->only,
+                     .cancel = rests ? NULL : request->cancel };
+    job.count = make_jobs(renderer, request, rests, jobs, keeps);
+    job.keep_count = rests ? job.count : 0;
+    renderer->last = *request;
+    const double prepared = wr_clock_seconds() - started;
+    if (!wr_frame_run(renderer, &job)) {
+        drop_keeps(renderer);
+        return wr_fail(err, "cancelled");
+    }
+    for (int i = 0; i < group->count; i++) wr_frame_shown(group->parts[i].renderer);
+    group->last = *request;
+    group->whole = true;
+    wr_frame_account(renderer, prepared, started, frame);
+    return true;
+}
+
+bool wr_group_pick(WrRenderer *renderer, double x, double y, int *object, double *u, double *v,
+                   int *face)
+{
+    WrGroup *group = renderer->group;
+    double nearest = INFINITY;
+    for (int i = 0; i < group->count; i++) {
+        WrRenderer *part = group->parts[i].renderer;
+        const WrView *view = &part->view;
+        double at_u, at_v;
+        int at_face;
+        if (!part->seen) continue;
+        WrTileJob job = wr_frame_job(part, NULL);
+        if (!wr_tile_pick(&job, (int)(x * part->samples), (int)(y * part->samples),
+                          renderer->scratch[0], &at_u, &at_v, &at_face))
+            continue;
+        WrSurfacePoint p;
+        wr_surface_at(&view->shape_d, at_face, at_u, at_v, &p);
+        const double depth =
+            view->deep_from + view->deep[0] * p.p.x + view->deep[1] * p.p.y + view->deep[2] * p.p.z;
+        if (!(depth < nearest)) continue;
+        nearest = depth;
+        *u = at_u, *v = at_v, *face = at_face, *object = group->parts[i].object;
+    }
+    return nearest < INFINITY;
+}

@@ -1,0 +1,124 @@
+/* One tile of several objects: drawn from the front, each sample the nearest's (E51-E53). */
+#include "render/pipe.h"
+#include "render/tile_inner.h"
+#include "scene/objects.h"
+#include "system/clock.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Those whose bound meets the tile, nearest first as the jobs are. */
+typedef struct Touching {
+    const WrTileJob *job[WR_OBJECTS_MAX];
+    WrTilePart part[WR_OBJECTS_MAX];
+    int count;
+} Touching;
+
+static void find_touching(const WrTileJob *jobs, int count, WrTilePart whole, Touching *out)
+{
+    out->count = 0;
+    for (int i = 0; i < count; i++) {
+        const bool beside = wr_plan_runs(jobs[i].plan, WR_EFFECT_BESIDE);
+        const WrTilePart part = beside ? whole : wr_tile_touched(&jobs[i], whole);
+        if (part.w <= 0 || part.h <= 0) continue;
+        out->job[out->count] = &jobs[i];
+        out->part[out->count++] = part;
+    }
+}
+
+/* Emptied samples of a tile, k x k a pixel. */
+static void empty(int k, WrTilePart whole, bool nearest, WrTileScratch *scratch)
+{
+    const size_t width = (size_t)(whole.w * k);
+    for (int y = 0; y < whole.h * k; y++) {
+        memset(scratch->sample[y], 0, width * sizeof(float[4]));
+        if (!nearest) continue;
+        for (size_t x = 0; x < width; x++) scratch->nearest[y][x] = (WrNearest){ INFINITY, 0 };
+    }
+}
+
+/* The farthest that any sample of the tile shows; INFINITY: not all show something. */
+static float farthest(int k, WrTilePart whole, const WrTileScratch *scratch)
+{
+    float depth = -INFINITY;
+    for (int y = 0; y < whole.h * k; y++) {
+        for (int x = 0; x < whole.w * k; x++) depth = fmaxf(depth, scratch->nearest[y][x].depth);
+        if (depth == INFINITY) break;
+    }
+    return depth;
+}
+
+/* All objects' samples into scratch->sample, and, where wanted, n' into the picture. */
+static void draw(const Touching *touching, int k, WrTilePart whole, bool light, int index,
+                 WrTileScratch *scratch)
+{
+    const bool several = touching->count > 1;
+    for (int i = 0; i < touching->count; i++) {
+        const WrTileJob *job = touching->job[i];
+        const WrTilePart part = touching->part[i];
+        /* What follows is no nearer: no more is seen (E52). */
+        if (i > 0 && !wr_plan_runs(job->plan, WR_EFFECT_HIDDEN) &&
+            farthest(k, whole, scratch) <
+                (float)job->view->nearest - FLT_EPSILON * fabsf((float)job->view->nearest))
+            break;
+        if (i > 0 && wr_plan_runs(job->plan, WR_EFFECT_HIDDEN)) wr_did(scratch, WR_EFFECT_HIDDEN);
+        const int x = (part.x - whole.x) * k, y = (part.y - whole.y) * k;
+        WrTileRows out = { .rgba_step = 4 * WR_TILE_SAMPLES_W,
+                           .normals_step = 3 * (size_t)job->width,
+                           .nearest_step = WR_TILE_SAMPLES_W };
+        if (light) out.rgba = scratch->sample[y][x];
+        if (job->normals && k == 1)
+            out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
+        if (several) out.nearest = &scratch->nearest[y][x];
+        scratch->seen = job->seen ? &job->seen[index] : NULL;
+        const WrDepthTile tile =
+            wr_tile_depth(job, k, part.x * k, part.y * k, part.w * k, part.h * k, scratch);
+        wr_tile_samples(job, k, &tile, &out, scratch);
+    }
+}
+
+/* Means of the samples to where the picture keeps them. */
+static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *scratch)
+{
+    const int k = canvas->samples;
+    const size_t step = sizeof scratch->sample[0] / sizeof(float);
+    float row[WR_TILE_SAMPLES_W][4];
+    for (int y = 0; y < whole.h; y++) {
+        float *to = canvas->codes ? row[0] : wr_tile_pixel(canvas, whole.x, whole.y + y);
+        scratch->covered += wr_tile_means(k, whole.w, scratch->sample[y * k][0], step, to);
+        if (canvas->codes)
+            scratch->not_finite += canvas->coder->codes_over(
+                canvas->bins, canvas->background, whole.w, row[0],
+                canvas->codes + wr_tile_place(canvas, whole.x, whole.y + y));
+    }
+}
+
+void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int count,
+                          WrTilePart whole, int index, WrTileScratch *scratch)
+{
+    const int64_t before = scratch->shaded;
+    const int k = canvas->samples;
+    const WrTilePart none = { whole.x, whole.y, 0, 0 };
+    Touching touching;
+    double start = wr_clock_seconds();
+    find_touching(jobs, count, whole, &touching);
+    if (canvas->map) wr_tile_start_map(canvas, whole, scratch);
+    const bool drawn = touching.count > 0;
+    wr_tile_clear(canvas, whole, drawn ? whole : none);
+    if (drawn) empty(k, whole, touching.count > 1, scratch);
+    scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
+    if (!drawn) return;
+    if (canvas->normals && k > 1) {
+        draw(&touching, 1, whole, false, index, scratch);
+        empty(k, whole, touching.count > 1, scratch);
+    }
+    const int64_t covered = scratch->covered;
+    draw(&touching, k, whole, true, index, scratch);
+    scratch->covered = covered; /* that was samples */
+    if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
+    start = wr_clock_seconds();
+    resolve(canvas, whole, scratch);
+    scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+    scratch->tiles += scratch->shaded > before;
+}

@@ -1,0 +1,31 @@
+/* tile_inner.h - what a tile of one object and one of several do alike.
+   Layer 5, private to tile.c, tile_group.c. */
+#pragma once
+#include "render/tile.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Where the rows of a tile go. */
+typedef struct WrTileRows {
+    float *rgba, *normals;          /* of the first row; NULL: not wanted */
+    size_t rgba_step, normals_step; /* floats a row */
+    uint32_t *codes;
+    size_t codes_step;
+    WrNearest *nearest;
+    size_t nearest_step;
+} WrTileRows;
+
+/* All samples of a tile of the grid of k a pixel. */
+void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
+                     WrTileScratch *scratch);
+/* The part of it that the object may be on; w or h 0: none. */
+WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part);
+/* What all of the tile takes whatever it shows, into its map. */
+void wr_tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch);
+/* Nothing anywhere on the tile yet; of codes those beside `part` alone, which are written once. */
+void wr_tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part);
+/* The means of a row of `width` pixels, from k rows of samples at `step` floats, which are overwritten. How many are
+   covered. */
+int wr_tile_means(int k, int width, float *sample, size_t step, float *pixel);

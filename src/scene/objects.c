@@ -1,0 +1,164 @@
+#include "scene/objects.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+int wr_scene_object_count(const WrScene *scene)
+{
+    return scene->other_count + 1;
+}
+
+const WrScene *wr_scene_object(const WrScene *scene, int i)
+{
+    WR_ASSERT(i >= 0 && i <= scene->other_count);
+    if (i == scene->chosen) return scene;
+    return scene->others[i < scene->chosen ? i : i - 1];
+}
+
+const char *wr_scene_object_label(const WrScene *scene, int i, char buffer[WR_OBJECT_LABEL])
+{
+    const char *name = wr_scene_object(scene, i)->name;
+    if (name) return name;
+    snprintf(buffer, WR_OBJECT_LABEL, "object %d", i + 1);
+    return buffer;
+}
+
+int wr_scene_object_find(const WrScene *scene, const char *name)
+{
+    char buffer[WR_OBJECT_LABEL];
+    for (int i = 0; i < wr_scene_object_count(scene); i++)
+        if (strcmp(wr_scene_object_label(scene, i, buffer), name) == 0) return i;
+    return -1;
+}
+
+int wr_scene_shown_count(const WrScene *scene)
+{
+    int shown = 0;
+    for (int i = 0; i < wr_scene_object_count(scene); i++)
+        shown += !wr_scene_object(scene, i)->hidden;
+    return shown;
+}
+
+static void drop_others(WrScene *scene)
+{
+    for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);
+    wr_free(scene->others);
+    scene->others = NULL;
+    scene->other_count = 0;
+    scene->chosen = 0;
+}
+
+/* The object alone, for `others`. */
+static WrScene *alone(const WrScene *scene, int i)
+{
+    if (i != scene->chosen) return wr_scene_share(wr_scene_object(scene, i));
+    WrScene *object = wr_scene_clone(scene);
+    drop_others(object);
+    return object;
+}
+
+/* The scene's lights, camera, dials and what else is one for all, beside an object's own. */
+static WrScene *under(const WrScene *scene, const WrScene *object)
+{
+    WrScene *made = wr_scene_clone(object);
+    drop_others(made);
+    wr_scene_take_shared(made, scene);
+    return made;
+}
+
+/* `object` at hand in place `chosen`, the rest from list [count], which is taken. */
+static WrScene *join(const WrScene *scene, const WrScene *object, WrScene **list, int count,
+                     int chosen)
+{
+    WrScene *made = under(scene, object);
+    made->others = list;
+    made->other_count = count;
+    made->chosen = chosen;
+    return made;
+}
+
+/* All objects but `without` (-1: all), each a share. */
+static WrScene **list_of(const WrScene *scene, int without, int *count)
+{
+    const int all = wr_scene_object_count(scene);
+    WrScene **list = wr_alloc((size_t)all, sizeof(WrScene *));
+    *count = 0;
+    for (int i = 0; i < all; i++)
+        if (i != without) list[(*count)++] = alone(scene, i);
+    return list;
+}
+
+WrScene *wr_scene_choose(const WrScene *scene, int i)
+{
+    int count;
+    if (i == scene->chosen) return wr_scene_clone(scene);
+    WrScene **list = list_of(scene, i, &count);
+    return join(scene, wr_scene_object(scene, i), list, count, i);
+}
+
+WrScene *wr_scene_add_object(const WrScene *scene, bool copy)
+{
+    int count;
+    WrScene **list = list_of(scene, -1, &count);
+    WrScene *empty = copy ? NULL : wr_scene_new();
+    WrScene *made = join(scene, copy ? scene : empty, list, count, count);
+    wr_scene_free(empty);
+    wr_free(made->name);
+    made->name = NULL;
+    return made;
+}
+
+WrScene *wr_scene_remove_object(const WrScene *scene, int i)
+{
+    const int at_hand = scene->chosen == i ? (i > 0 ? i - 1 : i + 1) : scene->chosen;
+    WrScene **list = wr_alloc((size_t)scene->other_count, sizeof(WrScene *));
+    int count = 0;
+    for (int k = 0; k <= scene->other_count; k++)
+        if (k != i && k != at_hand) list[count++] = alone(scene, k);
+    return join(scene, wr_scene_object(scene, at_hand), list, count, at_hand - (at_hand > i));
+}
+
+/* Of one that hangs in a scene and is written to no more: found once. */
+static double kept_radius(WrScene *object)
+{
+    double radius;
+    __atomic_load(&object->radius, &radius, __ATOMIC_RELAXED);
+    if (radius > 0) return radius;
+    radius = wr_shape_radius(&object->shape);
+    __atomic_store(&object->radius, &radius, __ATOMIC_RELAXED); /* each finds the same */
+    return radius;
+}
+
+static double radius_of(const WrScene *scene, int i)
+{
+    if (i == scene->chosen) return wr_shape_radius(&scene->shape);
+    return kept_radius(scene->others[i < scene->chosen ? i : i - 1]);
+}
+
+double wr_scene_ball(const WrScene *scene)
+{
+    const bool all = wr_scene_shown_count(scene) == 0;
+    double ball = 0;
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const WrScene *object = wr_scene_object(scene, i);
+        if (object->hidden && !all) continue;
+        ball = fmax(ball, v3_len(object->at) + object->size * radius_of(scene, i));
+    }
+    return ball;
+}
+
+WrScene *wr_scene_part(const WrScene *scene, int i, double aspect)
+{
+    WrPlacement place;
+    WrScene *part = under(scene, wr_scene_object(scene, i));
+    if (!part->camera.fit && !part->camera.orthographic) return part;
+    if (!wr_scene_place(scene, 0, aspect, &place, NULL)) return part;
+    part->camera.fit = false;
+    part->camera.eye = place.eye;
+    if (part->camera.orthographic) part->camera.size = 2 * place.half_height;
+    return part;
+}

@@ -1,0 +1,37 @@
+/* objects.h - the objects of a scene: each with surface, pose, place, material and table of its own, under the same lights
+   and camera. Layer 4.
+
+   Objects are numbered from 0 in the order in which they were added. One is at hand: its properties are the members of
+   WrScene, and commands act on it. The others hang in `others` as scenes of one object each, whose lights, camera and
+   dials nobody reads. All changes make a new scene; an object that stays is shared. */
+#pragma once
+#include "scene/scene.h"
+
+#include <stdbool.h>
+
+#define WR_OBJECTS_MAX 64 /* of a scene */
+
+int wr_scene_object_count(const WrScene *scene); /* 1 or more */
+/* Object i, 0..count - 1, as a scene of which only the object is read: the scene itself for the one at hand. Borrowed. */
+const WrScene *wr_scene_object(const WrScene *scene, int i);
+/* What it is called: its name, else "object" and its number from 1. Valid as long as the scene and the buffer. */
+#define WR_OBJECT_LABEL 24
+const char *wr_scene_object_label(const WrScene *scene, int i, char buffer[WR_OBJECT_LABEL]);
+/* The object of that name or label; its index, or -1. */
+int wr_scene_object_find(const WrScene *scene, const char *name);
+int wr_scene_shown_count(const WrScene *scene); /* objects that are not hidden */
+
+/* These give a new scene, the caller's, of count 1. */
+WrScene *wr_scene_choose(const WrScene *scene, int i);
+/* One more object, at hand and without a name: as the one at hand, or as that of an empty document. */
+WrScene *wr_scene_add_object(const WrScene *scene, bool copy);
+/* Without object i of several. The one before it (else after it) comes to hand where that was at hand. */
+WrScene *wr_scene_remove_object(const WrScene *scene, int i);
+
+/* The radius of the ball about the world's origin that holds all objects that are shown, however the turntable turns
+   them; of all, where none is. */
+double wr_scene_ball(const WrScene *scene);
+
+/* Object i alone as it stands among the others: with the scene's lights, background and dials, and a camera whose eye is
+   where the scene's is in a picture of that aspect. What a picture of one object is made from. */
+WrScene *wr_scene_part(const WrScene *scene, int i, double aspect);
