@@ -87,6 +87,13 @@ static inline float wr_atan2_turns_f(float y, float x)
     return a < 1.0f ? a : 0.0f;
 }
 
+/* The same in radians, -pi < result <= pi. */
+static inline float wr_atan2_f(float y, float x)
+{
+    const float turns = wr_atan2_turns_f(y, x);
+    return (turns > 0.5f ? turns - 1.0f : turns) * 6.28318548f;
+}
+
 /* log2 of a positive normal number, whose 1 - x is `below`: near 1 that is what counts, and x itself tells
    it to 6e-8 alone. Relative error under 1.5e-7 of the true log2(1 - below) from 0.71 to 1.41. */
 static inline float wr_log2_below_f(float x, float below)

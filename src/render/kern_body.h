@@ -13,12 +13,24 @@
 #include <stddef.h>
 #include <string.h>
 
+#ifdef WR_KERN_PLAIN
+#define R_EACH
+#else
+#define R_EACH _Pragma("omp simd")
+#endif
 #ifdef WR_KERN_DOUBLE
 #include "surface/formula.h"
 #undef r_sincos_turns
 #define r_sincos_turns wr_sincos_turns_r
+#undef r_exp2
+#undef r_log2
+#undef r_atan2
+#undef r_is_finite
 #undef r_pow01
 #undef r_pow_near
+#define r_exp2 wr_exp2_r
+#define r_log2(x) wr_log2_below_r(x, 1.0 - (x))
+#define r_atan2 wr_atan2_r
 #define r_pow01(x, s) wr_pow_below_r(x, 1.0 - (x), s)
 #define r_pow_near(x, s) wr_exp2_r((s)*wr_log2_below_r(x, 1.0 - (x)))
 #define r_atan2_turns wr_atan2_turns_r
@@ -43,7 +55,6 @@
 #define r_atan2_turns wr_atan2_turns_f
 #define r_pow_below wr_pow_below_f
 #define r_scale_down wr_scale_down_f
-#define r_is_finite wr_is_finite_f
 #define r_floor floorf
 #define ROUNDED K_(0x1p-18)
 #define STRIP WrStrip

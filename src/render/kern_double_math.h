@@ -80,6 +80,13 @@ static inline double wr_atan2_turns_r(double y, double x)
     return a < 1.0 ? a : 0.0;
 }
 
+/* The same in radians, -pi < result <= pi. */
+static inline double wr_atan2_r(double y, double x)
+{
+    const double turns = wr_atan2_turns_r(y, x);
+    return (turns > 0.5 ? turns - 1.0 : turns) * 6.283185307179586;
+}
+
 /* log2 of a positive normal number, whose 1 - x is `below` (wr_log2_below_f): 2 atanh((m - 1) / (m + 1)) /
    ln 2 of its mantissa m in sqrt(1/2) .. sqrt(2). Relative error under 4e-16, also near 1. */
 static inline double wr_log2_below_r(double x, double below)

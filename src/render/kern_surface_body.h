@@ -355,23 +355,97 @@ ALWAYS void frame_strip(Formula *const formula, const SHAPE *shape, STRIP *strip
     if (!cross_strip(FN(bezier_noise)(shape), strip)) geometry_strip(formula, shape, 0, strip);
 }
 
+/* Which surface is a program, that goes over many samples at a time. */
+#define RUNS(name) (WR_SURFACE_##name == WR_SURFACE_formula)
+
+/* Up to LANES samples of such a one, from u, v on; those that are missing are the last again. */
+static void run_lanes(const SHAPE *shape, int count, const REAL *u, const REAL *v, POINT *at)
+{
+    REAL own_u[LANES], own_v[LANES];
+    for (int i = 0; i < LANES; i++) {
+        const int from = i < count ? i : count - 1;
+        own_u[i] = u[from], own_v[i] = v[from];
+    }
+    FN(formula_many)(shape, LANES, own_u, own_v, at);
+}
+
+static void run_points(const SHAPE *shape, int count, const REAL *u, const REAL *v, REAL *x,
+                       REAL *y, REAL *z)
+{
+    POINT at[LANES];
+    for (int from = 0; from < count; from += LANES) {
+        const int n = count - from < LANES ? count - from : LANES;
+        run_lanes(shape, n, u + from, v + from, at);
+        for (int i = 0; i < n; i++)
+            x[from + i] = at[i].p.x, y[from + i] = at[i].p.y, z[from + i] = at[i].p.z;
+    }
+}
+
+/* turns: n_u and n_v; else the frame. */
+static void run_geometry(const SHAPE *shape, bool turns, STRIP *strip)
+{
+    POINT at[LANES];
+    const int count = strip->count;
+    for (int from = 0; from < count; from += LANES) {
+        const int n = count - from < LANES ? count - from : LANES;
+        run_lanes(shape, n, strip->u + from, strip->v + from, at);
+        for (int k = 0; k < n; k++) {
+            const int i = from + k;
+            if (turns) {
+                STORE3(strip, nu, i, at[k].n_u);
+                STORE3(strip, nv, i, at[k].n_v);
+                continue;
+            }
+            STORE3(strip, p, i, at[k].p);
+            STORE3(strip, pu, i, at[k].pu);
+            STORE3(strip, pv, i, at[k].pv);
+            STORE3(strip, n, i, at[k].n_unit);
+            strip->n_len[i] = at[k].n_len;
+        }
+    }
+}
+
+/* As put_there, for a strip filled up to whole vectors. */
+static void run_there(const SHAPE *shape, STRIP *strip)
+{
+    POINT at[LANES];
+    for (int from = 0; from < strip->count; from += LANES) {
+        run_lanes(shape, LANES, strip->tu + from, strip->tv + from, at);
+        for (int k = 0; k < LANES; k++) {
+            const int i = from + k;
+            STORE3(strip, b, i, at[k].p);
+            STORE3(strip, l, i, at[k].pu);
+            STORE3(strip, v, i, at[k].pv);
+            strip->dr[i] = at[k].n_unit.x, strip->dg[i] = at[k].n_unit.y;
+            strip->db[i] = at[k].n_unit.z, strip->n_dot_l[i] = at[k].n_len;
+        }
+    }
+}
+
 /* Each surface's kernels. */
 #define SURFACE_KERNELS(name)                                                                      \
     FLAT static void kern_points_##name(const SHAPE *shape, int count, const REAL *u,              \
                                         const REAL *v, REAL *x, REAL *y, REAL *z)                  \
     {                                                                                              \
-        points_strip(FN(name##_at), shape, count, u, v, x, y, z);                                  \
+        if (RUNS(name)) run_points(shape, count, u, v, x, y, z);                                   \
+        else points_strip(FN(name##_at), shape, count, u, v, x, y, z);                             \
     }                                                                                              \
     FLAT static void kern_geometry_##name(const SHAPE *shape, int face, STRIP *strip)              \
     {                                                                                              \
-        geometry_strip(FN(name##_at), shape, face, strip);                                         \
+        if (RUNS(name)) run_geometry(shape, false, strip);                                         \
+        else geometry_strip(FN(name##_at), shape, face, strip);                                    \
     }                                                                                              \
     FLAT static void kern_curvature_##name(const SHAPE *shape, int face, STRIP *strip)             \
     {                                                                                              \
-        curvature_strip(FN(name##_at), shape, face, strip);                                        \
+        if (RUNS(name)) run_geometry(shape, true, strip);                                          \
+        else curvature_strip(FN(name##_at), shape, face, strip);                                   \
     }                                                                                              \
     APART FLAT static void evaluate_##name(const SHAPE *shape, STRIP *strip)                       \
     {                                                                                              \
+        if (RUNS(name)) {                                                                          \
+            run_there(shape, strip);                                                               \
+            return;                                                                                \
+        }                                                                                          \
         const SHAPE own = *shape; /* that no store changes, as far as a compiler can see */        \
         FN(BezierPlane) ready;                                                                     \
         const Patch still = { &own, &ready };                                                      \

@@ -2,6 +2,7 @@
    for all samples. Shared and never changed.
    Layer 2. Owned by the scene that a shape belongs to (wr_scene_set_shape); shapes borrow it. */
 #pragma once
+#include "surface/expression.h"
 #include "surface/profile.h"
 #include "surface/surface.h"
 
@@ -18,6 +19,7 @@ struct WrSurfaceData {
     double radius;                /* of the ball about it that holds the surface */
     WrProfiled profile_d;         /* revolution */
     WrProfilef profile_f;
+    WrProgram program; /* formula */
 };
 
 /* Made of the row's texts; NULL in their place: the defaults. Errors name the surface, the text and where in it. */

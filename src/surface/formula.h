@@ -27,6 +27,10 @@
 #undef R_LEAST
 #undef R_NOISE
 #undef r_sincos_turns
+#undef r_exp2
+#undef r_log2
+#undef r_atan2
+#undef r_is_finite
 #undef r_pow01
 #undef r_pow_near
 #undef r_sqrt
@@ -42,6 +46,10 @@
 #define R_LEAST 0x1p-125f  /* above it a reciprocal is finite */
 #define R_NOISE 0x1p-23f   /* a cross product under this share of its factors is rounding */
 #define r_sincos_turns wr_sincos_turns_f
+#define r_exp2 wr_exp2_f
+#define r_log2 wr_log2_f
+#define r_atan2 wr_atan2_f
+#define r_is_finite wr_is_finite_f
 #define r_pow01(x, s) wr_pow01_f(x, s)               /* 0 <= x <= 1, s >= 0; pow(0, 0) = 1 */
 #define r_pow_near(x, s) wr_exp2_f((s)*wr_log2_f(x)) /* x > 0 and not far from 1, any s */
 #define r_sqrt sqrtf
@@ -57,10 +65,18 @@
 #define R_LEAST 0x1p-1021
 #define R_NOISE 0x1p-47
 #define r_sincos_turns wr_sincos_turns
+#define r_exp2 wr_exp2
+#define r_log2 wr_log2
+#define r_atan2 wr_atan2
+#define r_is_finite isfinite
 #define r_pow01(x, s) wr_pow(x, s)
 #define r_pow_near(x, s) wr_pow(x, s)
 #define r_sqrt sqrt
 #define r_abs fabs
+#endif
+/* Before a loop over samples that shall become vectors; the kernels say how. */
+#ifndef R_EACH
+#define R_EACH
 #endif
 /* For the larger helpers, which compilers would else leave as calls inside a span loop. */
 #define R_INLINE static inline __attribute__((always_inline))

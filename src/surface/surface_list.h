@@ -16,6 +16,7 @@ WR_X(disc)
 WR_X(capsule)
 WR_X(superellipsoid)
 WR_X(revolution)
+WR_X(formula)
 #undef WR_X
 #endif
 #ifdef WR_SURFACE_FORMULAS
@@ -34,4 +35,5 @@ WR_X(revolution)
 #include "surface/capsule.h"
 #include "surface/superellipsoid.h"
 #include "surface/revolution.h"
+#include "surface/equation.h"
 #endif
