@@ -8,6 +8,7 @@
 #include "command/session.h"
 #include "document/history.h"
 #include "document/journal.h"
+#include "document/tables.h"
 #include "document/views.h"
 #include "image/image.h"
 
@@ -67,7 +68,9 @@ struct WrSession {
     int64_t view_base, view_top;   /* and numbers of views */
     WrImage *embedded;    /* while loading: the document's colour picture; borrowed; NULL: none */
     WrRenderer *renderer; /* made on first use; owned */
-    WrChoice choice;      /* of the last picture under a tolerance */
+    WrTables *tables;     /* of the objects of its last picture; owned */
+    WrTableCache table_cache;
+    WrChoice choice; /* of the last picture under a tolerance */
 
     WrStroke *stroke;    /* open stroke, or NULL; owned */
     WrCall *stroke_call; /* its line so far; owned */

@@ -61,6 +61,8 @@ void wr_session_free(WrSession *session)
     wr_session_journal_drop(session);
     state_fini(&session->state);
     wr_renderer_free(session->renderer);
+    wr_tables_free(session->tables);
+    wr_table_cache_fini(&session->table_cache);
     wr_choice_fini(&session->choice);
     wr_brush_files_free(session->brush_files);
     wr_free((char *)session->options.isa);

@@ -21,9 +21,13 @@ static bool make_request(WrSession *session, int width, int height, double turn_
         session->renderer = wr_renderer_new(session->options.pool, session->options.isa, err);
     if (!session->renderer) return false;
     const WrProgress *here = wr_progress_here();
-    *out = (WrFrameRequest){ .field = wr_document_composite(session->state.document,
-                                                            session->options.pool),
-                             .scene = session->state.document->scene,
+    const WrDocument *document = session->state.document;
+    wr_tables_free(session->tables);
+    session->tables =
+        wr_document_tables(document, document->scene, &session->table_cache, session->options.pool);
+    *out = (WrFrameRequest){ .field = wr_document_composite(document, session->options.pool),
+                             .fields = wr_tables_fields(session->tables),
+                             .scene = document->scene,
                              .width = width,
                              .height = height,
                              .turn_deg = turn_deg,

@@ -441,11 +441,10 @@ void wr_frame_shown(WrRenderer *renderer)
     if (renderer->keep.seen) wr_keep_field(&renderer->keep, renderer->looked);
 }
 
-bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
-                       WrError *err)
+/* A picture of one object. */
+static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
+                         WrError *err)
 {
-    if (wr_scene_object_count(request->scene) > 1 || request->scene->hidden)
-        return wr_group_frame(renderer, request, frame, err);
     const double started = wr_clock_seconds();
     const WrKeep *const own = &renderer->keep;
     wr_group_free(renderer);
@@ -466,6 +465,16 @@ bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFr
     wr_frame_shown(renderer);
     wr_frame_account(renderer, prepared, started, frame);
     return true;
+}
+
+bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
+                       WrError *err)
+{
+    if (wr_scene_object_count(request->scene) > 1 || request->scene->hidden)
+        return wr_group_frame(renderer, request, frame, err);
+    WrFrameRequest own = *request;
+    if (own.fields && own.fields[0]) own.field = own.fields[0];
+    return single_frame(renderer, &own, frame, err);
 }
 
 bool wr_renderer_pick(WrRenderer *renderer, double x, double y, double *u, double *v, int *face)

@@ -72,13 +72,28 @@ static bool turns(const WrApp *app)
            app->hand->grab != WR_GRAB_ORBIT && app->hand->grab != WR_GRAB_LIGHT;
 }
 
+/* The tables of the scene's objects, where not all have that of all layers. The caller's. */
+static WrTables *tables_of(const WrApp *app)
+{
+    return wr_document_tables(wr_app_document(app), wr_app_scene(app), &app->patch->table_cache,
+                              NULL);
+}
+
+static bool other_tables(const WrApp *app)
+{
+    WrTables *tables = tables_of(app);
+    const bool other = !wr_tables_same(app->patch->wished_tables, tables);
+    wr_tables_free(tables);
+    return other;
+}
+
 static bool differs(const WrApp *app)
 {
     const WrPatch *p = app->patch;
     return !p->wished_field || wr_field_key(p->wished_field) != wr_field_key(wr_app_field(app)) ||
-           p->wished_scene != wr_app_scene(app) || p->wished_turn != p->turn_deg ||
-           p->wished_w != app->layout->patch.w || p->wished_h != app->layout->patch.h ||
-           p->wished_ran != p->ran;
+           other_tables(app) || p->wished_scene != wr_app_scene(app) ||
+           p->wished_turn != p->turn_deg || p->wished_w != app->layout->patch.w ||
+           p->wished_h != app->layout->patch.h || p->wished_ran != p->ran;
 }
 
 /* Only the table differs from what a resting, finished picture shows (or is being refreshed to show): the
@@ -96,8 +111,10 @@ static void wish(WrApp *app, bool moving)
 {
     WrPatch *p = app->patch;
     const SDL_Rect *room = &app->layout->patch;
+    WrTables *tables = tables_of(app);
     WrPreviewWish w = { .field = wr_app_field(app),
                         .scene = wr_app_scene(app),
+                        .tables = tables,
                         .turn_deg = p->turn_deg,
                         .width = room->w,
                         .height = room->h,
@@ -108,6 +125,8 @@ static void wish(WrApp *app, bool moving)
                         .ran = p->ran };
     wr_preview_want(app->preview, &w);
     wr_field_free(p->wished_field);
+    wr_tables_free(p->wished_tables);
+    p->wished_tables = tables;
     if (p->wished_scene) wr_scene_free(p->wished_scene);
     p->wished_field = wr_field_share(w.field);
     p->wished_scene = wr_scene_share(w.scene);
@@ -220,6 +239,8 @@ void wr_patch_free(WrApp *app)
 {
     WrPatch *p = app->patch;
     wr_field_free(p->wished_field);
+    wr_tables_free(p->wished_tables);
+    wr_table_cache_fini(&p->table_cache);
     if (p->wished_scene) wr_scene_free(p->wished_scene);
     if (p->texture) SDL_DestroyTexture(p->texture);
     *p = (WrPatch){ 0 };

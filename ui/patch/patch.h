@@ -4,6 +4,8 @@
 #include "ui/desk/roster.h"
 #include "ui/preview/rotation.h"
 
+#include "document/tables.h"
+
 #include <SDL.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -21,6 +23,8 @@ typedef struct WrPatch {
     double rock;           /* where a rocking sheet is on its way, radians (rotation.h) */
     double turned_at;      /* clock at the last step of the turn */
     WrField *wished_field; /* own shares of what was wished for last */
+    WrTables *wished_tables;
+    WrTableCache table_cache;
     WrScene *wished_scene;
     double wished_turn;
     int wished_w, wished_h;

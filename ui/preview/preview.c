@@ -10,6 +10,7 @@
 #include "base/pool.h"
 #include "base/text.h"
 #include "command/session.h"
+#include "document/tables.h"
 #include "field/field.h"
 #include "render/frame.h"
 #include "scene/dials.h"
@@ -28,6 +29,7 @@
 
 typedef struct Wish {
     WrField *field; /* own shares; NULL: no wish */
+    WrTables *tables;
     WrScene *scene;
     double turn_deg;
     int width, height;
@@ -74,6 +76,7 @@ struct WrPreview {
 static void wish_clear(Wish *wish)
 {
     wr_field_free(wish->field);
+    wr_tables_free(wish->tables);
     if (wish->scene) wr_scene_free(wish->scene);
     wr_free(wish->chosen);
     *wish = (Wish){ 0 };
@@ -227,6 +230,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     double scale = level == WR_PREVIEW_MOVING ? preview->moving.scale : 1.0;
     WrDials dials = dials_for(wish, level, way);
     WrFrameRequest request = { .field = wish->field,
+                               .fields = wr_tables_fields(wish->tables),
                                .scene = wish->scene,
                                .width = (int)fmax(1.0, rint(wish->width * scale)),
                                .height = (int)fmax(1.0, rint(wish->height * scale)),
@@ -416,6 +420,7 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
     wr_mutex_lock(&preview->lock);
     wish_clear(&preview->next);
     preview->next = (Wish){ .field = wr_field_share(wish->field),
+                            .tables = wr_tables_share(wish->tables),
                             .scene = wr_scene_share(wish->scene),
                             .turn_deg = wish->turn_deg,
                             .width = wish->width,

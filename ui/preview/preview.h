@@ -17,6 +17,7 @@
 typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrScene WrScene;
+typedef struct WrTables WrTables;
 
 typedef struct WrPreview WrPreview;
 
@@ -40,6 +41,7 @@ void wr_preview_free(WrPreview *preview);
 typedef struct WrPreviewWish {
     const WrField *field; /* shared by the call, as is the scene */
     const WrScene *scene;
+    const WrTables *tables; /* of its objects; NULL: `field` is that of all */
     double turn_deg;
     int width, height; /* of the view, pixels */
     int64_t tag;       /* comes back with the picture */

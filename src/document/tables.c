@@ -1,0 +1,86 @@
+#include "document/tables.h"
+
+#include "base/memory.h"
+#include "document/document.h"
+#include "field/field.h"
+
+#include <string.h>
+
+static int layer_of(const WrDocument *document, const char *name)
+{
+    int i = document->layer_count - 1;
+    while (i >= 0 && strcmp(document->layers[i].name, name) != 0) i--;
+    return i;
+}
+
+/* What the layer's heights alone are: they themselves, where all of them show as they are. */
+static bool is_plain(const WrLayer *layer)
+{
+    return !layer->cover && !layer->mask && layer->opacity == 1.0f && layer->blend == WR_BLEND_ADD;
+}
+
+static WrField *field_of(const WrDocument *document, int index, WrDocument **cached, WrPool *pool)
+{
+    if (is_plain(&document->layers[index])) return wr_field_share(document->layers[index].heights);
+    WrDocument *alone = wr_document_snapshot(document);
+    alone->solo = index;
+    if (cached && *cached) wr_document_swap_composites(alone, *cached);
+    WrField *field = wr_field_share(wr_document_composite(alone, pool));
+    if (cached) wr_document_free(*cached);
+    if (cached) *cached = alone;
+    else wr_document_free(alone);
+    return field;
+}
+
+WrTables *wr_document_tables(const WrDocument *document, const WrScene *scene, WrTableCache *cache,
+                             WrPool *pool)
+{
+    WrTables *tables = NULL;
+    const int count = wr_scene_object_count(scene);
+    for (int i = 0; i < count && i < WR_OBJECTS_MAX; i++) {
+        const char *name = wr_scene_object(scene, i)->layer;
+        const int index = name ? layer_of(document, name) : -1;
+        if (index < 0) continue;
+        if (!tables) tables = wr_alloc(1, sizeof *tables);
+        tables->refs = 1;
+        tables->count = count;
+        tables->fields[i] = field_of(document, index, cache ? &cache->alone[i] : NULL, pool);
+    }
+    return tables;
+}
+
+WrTables *wr_tables_share(const WrTables *tables)
+{
+    WrTables *shared = (WrTables *)tables; /* only the count changes */
+    if (shared) __atomic_fetch_add(&shared->refs, 1, __ATOMIC_RELAXED);
+    return shared;
+}
+
+void wr_tables_free(WrTables *tables)
+{
+    if (!tables || __atomic_sub_fetch(&tables->refs, 1, __ATOMIC_ACQ_REL) > 0) return;
+    for (int i = 0; i < tables->count; i++) wr_field_free((WrField *)tables->fields[i]);
+    wr_free(tables);
+}
+
+bool wr_tables_same(const WrTables *a, const WrTables *b)
+{
+    if (!a || !b) return a == b;
+    bool same = a->count == b->count;
+    for (int i = 0; i < a->count && same; i++) {
+        const WrField *p = a->fields[i], *q = b->fields[i];
+        same = p && q ? wr_field_key(p) == wr_field_key(q) : p == q;
+    }
+    return same;
+}
+
+const WrField *const *wr_tables_fields(const WrTables *tables)
+{
+    return tables ? tables->fields : NULL;
+}
+
+void wr_table_cache_fini(WrTableCache *cache)
+{
+    for (int i = 0; i < WR_OBJECTS_MAX; i++) wr_document_free(cache->alone[i]);
+    *cache = (WrTableCache){ 0 };
+}

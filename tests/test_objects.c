@@ -1,0 +1,195 @@
+/* The command `object`: what it changes, that it can be undone, and that scripts and documents bring it back. */
+#include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
+
+#include "base/text.h"
+#include "document/tables.h"
+#include "render/frame.h"
+#include "scene/objects.h"
+
+static const char *const three[] = { "table 70x33",
+                                     "noise gradient cells=5 amplitude=0.7",
+                                     "layer add marks",
+                                     "dab 0.3,0.6 radius=9 strength=1.25",
+                                     "object set name=ball",
+                                     "surface sphere R=0.8",
+                                     "bump mode=invariant height=0.037",
+                                     "object add band at=-1.2,0.31,0.07 size=0.73 layer=marks",
+                                     "surface ribbon",
+                                     "replicate 2,3",
+                                     "material diffuse=0.61 colour=0.2,0.9,0.4",
+                                     "object copy box at=0.9,-0.6,0.4 turn=12.5,-40,7 layer=all",
+                                     "surface cube s=0.9",
+                                     "analytic poly c=1,2,0.3",
+                                     "light directional to=1,2,3",
+                                     "camera orthographic eye=0.3,0.4,5 size=4",
+                                     NULL };
+
+static const WrScene *scene_of(const WrSession *session)
+{
+    return doc(session)->scene;
+}
+
+static const WrScene *object_of(const WrSession *session, const char *name)
+{
+    const int i = wr_scene_object_find(scene_of(session), name);
+    assert_in_range(i, 0, 9);
+    return wr_scene_object(scene_of(session), i);
+}
+
+static void commands_are_about_the_chosen_one(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(three);
+    assert_int_equal(wr_scene_object_count(scene_of(session)), 3);
+    const WrScene *ball = object_of(session, "ball"), *band = object_of(session, "band"),
+                  *box = object_of(session, "box");
+    assert_int_equal(ball->shape.kind, WR_SURFACE_sphere);
+    assert_int_equal(ball->bump, WR_BUMP_INVARIANT);
+    assert_true(ball->replicate_u == 1 && ball->material.diffuse == 0.72 && ball->size == 1);
+    assert_int_equal(band->shape.kind, WR_SURFACE_ribbon);
+    assert_int_equal(band->bump,
+                     WR_BUMP_BLINN); /* one that is added begins as in an empty document */
+    assert_true(band->replicate_v == 3 && band->at.x == -1.2 && band->size == 0.73);
+    assert_string_equal(band->layer, "marks");
+    assert_int_equal(box->shape.kind, WR_SURFACE_cube); /* a copy has all else of what it copies */
+    assert_true(box->replicate_v == 3 && box->material.diffuse == 0.61 && box->size == 0.73);
+    assert_true(box->posed && box->rotate_deg.y == -40 && !box->layer);
+    assert_int_equal(band->analytic.kind, WR_ANALYTIC_OFF);
+    must_run(session, "object choose band");
+    must_run(session, "material diffuse=0.5");
+    assert_true(object_of(session, "band")->material.diffuse == 0.5);
+    assert_true(object_of(session, "box")->material.diffuse == 0.61);
+    must_run(session, "object set hidden=on name=strip");
+    assert_int_equal(wr_scene_shown_count(scene_of(session)), 2);
+    assert_int_equal(wr_scene_object_find(scene_of(session), "band"), -1);
+    must_run(session, "object remove ball");
+    assert_int_equal(wr_scene_object_count(scene_of(session)), 2);
+    assert_true(scene_of(session)->material.diffuse == 0.5); /* still at hand */
+    must_run(session, "object remove");
+    assert_int_equal(wr_scene_object_count(scene_of(session)), 1);
+    assert_true(scene_of(session)->material.diffuse == 0.61);
+    wr_session_free(session);
+}
+
+static void what_cannot_be_is_told(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(three);
+    must_fail(session, "object add ball", "already");
+    must_fail(session, "object choose bell", "from \"ball\" to \"box\"");
+    must_fail(session, "object set name=band", "already");
+    must_fail(session, "object set layer=none", "none");
+    must_fail(session, "object set size=0", "size");
+    must_fail(session, "object set at=1,2", "at");
+    must_fail(session, "object set turn=1,2", "own");
+    must_fail(session, "object add", "NAME");
+    must_fail(session, "rotate 1,2,3", "object set turn=");
+    must_run(session, "object remove box");
+    must_run(session, "object remove band");
+    must_fail(session, "object remove", "at least one");
+    must_fail(session, "object set turn=1,2,3", "rotate");
+    must_fail(session, "object choose box", "only one");
+    must_run(session, "rotate 1,2,3");
+    char line[64];
+    for (int i = 1; i < WR_OBJECTS_MAX; i++) {
+        snprintf(line, sizeof line, "object add n%d", i);
+        must_run(session, line);
+    }
+    must_fail(session, "object copy more", "at most 64");
+    wr_session_free(session);
+}
+
+static void each_can_be_undone(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(three);
+    WrHash hash[32];
+    int count = 0;
+    while (wr_session_history_position(session) > 0) {
+        hash[count++] = wr_session_hash(session);
+        must_run(session, "undo");
+    }
+    assert_int_equal(wr_scene_object_count(scene_of(session)), 1);
+    while (count > 0) {
+        must_run(session, "redo");
+        assert_true(wr_hash_equal(wr_session_hash(session), hash[--count]));
+    }
+    wr_session_free(session);
+}
+
+static void draw(WrSession *session, float *out)
+{
+    WrFrame frame;
+    WrError err = { "" };
+    if (!wr_session_frame(session, 60, 40, 20, &frame, &err)) fail_msg("%s", err.text);
+    memcpy(out, frame.rgba, 60 * 40 * 4 * sizeof *out);
+}
+
+/* By its lines, by a document, and by an OpenRaster file: the same hash and picture. */
+static void files_bring_them_back(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    static const char *const names[] = { "set.exr", "set.ora", "set.wrinkle" };
+    WrSession *session = session_of(three);
+    float before[60 * 40 * 4], after[60 * 40 * 4];
+    must_run(session, "object choose band"); /* not the last one */
+    draw(session, before);
+    for (int i = 0; i < 3; i++) {
+        char path[300];
+        snprintf(path, sizeof path, "./%s", names[i]);
+        const bool good = i < 2 ? wr_session_save(session, path, &err)
+                                : wr_session_save_history(session, path, &err);
+        if (!good) fail_msg("%s", err.text);
+        WrSession *other = wr_session_new(NULL);
+        if (!wr_session_open(other, path, &err)) fail_msg("%s", err.text);
+        assert_true(wr_hash_equal(wr_session_hash(session), wr_session_hash(other)));
+        assert_int_equal(scene_of(other)->chosen, 1);
+        draw(other, after);
+        assert_memory_equal(before, after, sizeof before);
+        WrText a = { 0 }, b = { 0 };
+        wr_session_scene_text(session, &a);
+        wr_session_scene_text(other, &b);
+        assert_string_equal(wr_text_get(&a), wr_text_get(&b));
+        wr_text_fini(&a);
+        wr_text_fini(&b);
+        wr_session_free(other);
+    }
+    wr_session_free(session);
+}
+
+/* A layer of an object's own is drawn there alone, as if nothing else were in the document. */
+static void a_layer_of_its_own_shows_alone(void **state)
+{
+    (void)state;
+    float own[60 * 40 * 4], alone[60 * 40 * 4];
+    WrSession *session = session_of(three);
+    must_run(session, "object remove ball");
+    must_run(session, "object remove box");
+    must_run(session, "layer set marks opacity=0.4");
+    draw(session, own);
+    must_run(session, "layer set 1 visible=off");
+    must_run(session, "object set layer=all");
+    draw(session, alone);
+    assert_memory_equal(own, alone, sizeof own);
+    must_run(session, "undo");
+    must_run(session, "layer delete marks"); /* it is gone: all layers', and no failure */
+    must_run(session, "layer set 1 visible=on");
+    draw(session, own);
+    assert_memory_not_equal(own, alone, sizeof own);
+    wr_session_free(session);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(commands_are_about_the_chosen_one),
+        cmocka_unit_test(what_cannot_be_is_told),
+        cmocka_unit_test(each_can_be_undone),
+        cmocka_unit_test(files_bring_them_back),
+        cmocka_unit_test(a_layer_of_its_own_shows_alone),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}
