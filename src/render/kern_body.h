@@ -1,5 +1,5 @@
 /* kern_body.h - the bodies of all span kernels. Included once by each kern_*.c, which defines
-   WR_KERN_TABLE, WR_KERN_NAME and WR_KERN_EXACT for the table at its end, and WR_KERN_DOUBLE where the
+   WR_KERN_TABLE, WR_KERN_NAME and WR_KERN_EXACT for the table at its end, WR_KERN_FAST for fast arithmetic, and WR_KERN_DOUBLE where the
    kernels shall work in double. Plain loops over structure-of-arrays strips; no branch inside but ?: on
    scalars, no library call that does not vectorise.
    A header without a guard, by intention. */
@@ -53,7 +53,11 @@
 #define WR_FORMULA_FLOAT
 #include "surface/formula.h"
 #define r_atan2_turns wr_atan2_turns_f
+#ifdef WR_KERN_FAST
+#define r_pow_below wr_pow_below_fast_f
+#else
 #define r_pow_below wr_pow_below_f
+#endif
 #define r_scale_down wr_scale_down_f
 #define r_floor floorf
 #define ROUNDED K_(0x1p-18)
@@ -74,14 +78,20 @@
 #ifdef WR_KERN_PLAIN
 #define SIMD
 #define SIMD_SUM(sum)
+#define SIMD_RUN(sum, least, most)
 #else
 #define SIMD _Pragma("omp simd")
 #define SIMD_SUM(sum) WR_PRAGMA(omp simd reduction(+ : sum))
+#define SIMD_RUN(sum, least, most)                                                                 \
+    WR_PRAGMA(omp simd reduction(+ : sum) reduction(min : least) reduction(max : most))
 #endif
 #define WR_PRAGMA(text) _Pragma(#text)
 #define FLAT __attribute__((flatten)) /* a loop with a call left in it does not vectorise */
 #define MISS FLT_MAX
-#define LANES 16    /* samples at once where it matters; divides WR_SPAN */
+#define LANES 16 /* samples at once where it matters; divides WR_SPAN */
+/* What long loops run up to: what is left beside whole vectors takes as long as many of them. They write what nobody
+   reads into places past the strip's count. */
+#define WHOLE(count) (((count) + LANES - 1) & -LANES)
 #define STEEP 1e12f /* slopes beyond this are scaled down together with N: the direction stays */
 
 #define LOAD3(strip, name, i) ((VEC){ strip->name##x[i], strip->name##y[i], strip->name##z[i] })
@@ -104,15 +114,17 @@ ALWAYS VEC affine(const REAL o[3], const REAL y[3], const REAL x[3], REAL gy, RE
 /* Keep the samples that hit, in order, with what `move` holds of them. Most hits are neighbours: whole runs move. */
 ALWAYS int compact(int count, STRIP *strip, REAL *const *move, const int moves)
 {
-    int hits = 0, first = 0, last = count - 1;
-    SIMD_SUM(hits) for (int i = 0; i < count; i++)
+    int hits = 0, first = count, last = 0;
+    SIMD_RUN(hits, first, last) for (int i = 0; i < count; i++)
     {
-        hits += strip->s[i] < MISS ? 1 : 0;
+        const bool hit = strip->s[i] < MISS;
+        const int from = hit ? i : count, to = hit ? i : 0;
+        hits += hit ? 1 : 0;
+        first = from < first ? from : first;
+        last = to > last ? to : last;
     }
     strip->count = hits;
     if (hits == 0) return 0;
-    while (!(strip->s[first] < MISS)) first++;
-    while (!(strip->s[last] < MISS)) last--;
     if (last - first + 1 == hits) {
         SIMD for (int i = 0; i < hits; i++)
         {
@@ -170,7 +182,8 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
     REAL m = longest(a);
     VEC b = v_scale(a, r_scale_down(m));
     bool good = (m > 0.0f) & r_is_finite(m);
-    REAL inv = K_(1) / r_sqrt(good ? v_dot(b, b) : K_(1));
+    REAL inv =
+        K_(1) / r_sqrt(v_dot(b, b)); /* not chosen before the division: one under a mask is slow */
     return (VEC){ good ? b.x * inv : otherwise.x, good ? b.y * inv : otherwise.y,
                   good ? b.z * inv : otherwise.z };
 }
@@ -248,6 +261,9 @@ const KERNELS WR_KERN_TABLE = {
         [WR_ROW(WR_BUMP_INVARIANT)] = kern_bump_invariant,
         [WR_ROW(WR_BUMP_EXACT)] = kern_bump_exact,
     },
+#ifdef WR_KERN_FAST
+    .bend = { [WR_INVERT_SPHERE] = kern_bend_sphere },
+#endif
     .widen = kern_widen,
     .colour = kern_colour,
     .view = kern_view,

@@ -39,10 +39,14 @@ ALWAYS Slopes slopes_of(const STRIP *strip, int i)
 }
 
 /* D = n x (Fu Pv - Fv Pu) */
+ALWAYS VEC bend_by(VEC pu, VEC pv, VEC n, Slopes at)
+{
+    return v_cross(n, v_sub(v_scale(pv, at.fu), v_scale(pu, at.fv)));
+}
+
 ALWAYS VEC bend_of(const STRIP *strip, int i, VEC n, Slopes at)
 {
-    VEC pu = LOAD3(strip, pu, i), pv = LOAD3(strip, pv, i);
-    return v_cross(n, v_sub(v_scale(pv, at.fu), v_scale(pu, at.fv)));
+    return bend_by(LOAD3(strip, pu, i), LOAD3(strip, pv, i), n, at);
 }
 
 /* ---- n' of one sample, by each formula ---- */
@@ -115,7 +119,7 @@ typedef VEC Bump(const STRIP *strip, int i, VEC n);
 ALWAYS void bump_strip(Bump *const bump, const RAYS *rays, STRIP *strip)
 {
     const Viewer viewer = viewer_of(rays);
-    const int count = strip->count;
+    const int count = WHOLE(strip->count);
     SIMD for (int i = 0; i < count; i++)
     {
         VEC bent = bump(strip, i, LOAD3(strip, n, i));
@@ -133,3 +137,33 @@ BUMP(none)
 BUMP(blinn)
 BUMP(invariant)
 BUMP(exact)
+
+#ifdef WR_KERN_FAST
+/* Blinn's n' of a sphere from n and the slopes alone. Pu is 2 pi R cl along east, Pv pi R along north: N' times
+   cl / (pi R) has no quotient in it. At the very poles n. */
+ALWAYS VEC bend_sphere(REAL R, VEC n, Slopes at)
+{
+    REAL cl2 = n.x * n.x + n.y * n.y, m = K_(2) * K_(WR_PI) * R * cl2 * at.k;
+    REAL q = K_(2) * at.fv * r_sqrt(cl2), qz = m + q * n.z;
+    return (VEC){ qz * n.x + at.fu * n.y, qz * n.y - at.fu * n.x, m * n.z - q * cl2 };
+}
+
+/* In two loops, as the light's are (kern_light_body.h). */
+FLAT static void kern_bend_sphere(const RAYS *rays, const SHAPE *shape, STRIP *strip)
+{
+    const Viewer viewer = viewer_of(rays);
+    const REAL R = shape->value[0];
+    const int count = WHOLE(strip->count);
+    SIMD for (int i = 0; i < count; i++)
+    {
+        VEC bent = bend_sphere(R, LOAD3(strip, n, i), slopes_of(strip, i));
+        STORE3(strip, b, i, bent);
+    }
+    SIMD for (int i = 0; i < count; i++)
+    {
+        VEC bent = unit_or(LOAD3(strip, b, i), LOAD3(strip, n, i));
+        bent = v_scale(bent, side_of(viewer, strip, i));
+        STORE3(strip, b, i, bent);
+    }
+}
+#endif

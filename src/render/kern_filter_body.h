@@ -31,7 +31,9 @@ FLAT static void kern_footprint(const RAYS *rays, const LOOK *look, REAL pixel, 
     {
         VEC d = RAY_D(rays, strip->y[i], strip->x[i]);
         REAL least = K_(1e-6) * r_sqrt(v_dot(d, d)), size = v_dot(LOAD3(strip, n, i), d);
-        strip->s[i] = r_abs(size) > least ? size : least;
+        REAL most =
+            larger(r_abs(size), least); /* the size of n . d, kept away from 0: along the surface */
+        strip->s[i] = size == -most ? -most : most;
     }
     SIMD for (int i = 0; i < count; i++)
     {

@@ -13,21 +13,31 @@ ALWAYS Ray ray_of(const RAYS *rays, const STRIP *strip, int i, REAL gx, REAL gy,
 }
 
 /* |q + s d| = R. With m = q.d / d.d the foot of the perpendicular is f = q - m d, and
-   s = -m -+ sqrt((R^2 - f.f) / d.d): no difference of large squares. s is kept relative to the foot. */
+   s = -m -+ sqrt((R^2 - f.f) / d.d): no difference of large squares. s is kept relative to the foot. Two
+   short loops: a processor looks only so far ahead, and the two roots wait for what comes before them. */
 ALWAYS int hit_sphere(const RAYS *rays, const SHAPE *shape, REAL gx, REAL gy, int count,
                       const bool spread, STRIP *strip)
 {
     const REAL r = shape->value[0], r2 = r * r, s_min = rays->s_min;
-    SIMD for (int i = 0; i < count; i++)
+    REAL foot[WR_SPAN], part[WR_SPAN]; /* m; (R^2 - f.f) / d.d */
+    const int whole = WHOLE(count);
+    SIMD for (int i = 0; i < whole; i++)
     {
         Ray ray = ray_of(rays, strip, i, gx, gy, spread);
         VEC q = ray.q, d = ray.d;
         REAL dd = v_dot(d, d), m = v_dot(q, d) / dd;
         VEC f = v_mad(q, d, -m);
         REAL left = r2 - v_dot(f, f);
-        REAL half = r_sqrt((left > 0.0f ? left : 0.0f) / dd);
+        foot[i] = m;
+        part[i] = left / dd;
+        STORE3(strip, p, i, f);
+    }
+    SIMD for (int i = 0; i < whole; i++)
+    {
+        VEC d = ray_of(rays, strip, i, gx, gy, spread).d, f = LOAD3(strip, p, i);
+        REAL m = foot[i], half = r_sqrt(part[i] > 0.0f ? part[i] : 0.0f);
         REAL near = -half - m > s_min ? -half : half;
-        strip->s[i] = left >= 0.0f && near - m > s_min ? near : MISS;
+        strip->s[i] = part[i] >= 0.0f && near - m > s_min ? near : MISS;
         VEC p = v_mad(f, d, near);
         STORE3(strip, p, i, p);
     }
@@ -137,7 +147,7 @@ typedef REAL VOf(const SHAPE *shape, VEC p);
 
 ALWAYS void params_strip(VOf *const v_of, const SHAPE *shape, STRIP *strip)
 {
-    const int count = strip->count;
+    const int count = WHOLE(strip->count);
     SIMD for (int i = 0; i < count; i++)
     {
         VEC p = LOAD3(strip, p, i);
@@ -157,7 +167,7 @@ ALWAYS void put_tangents(FrameFrom *const from, const SHAPE *shape, STRIP *strip
 
 ALWAYS void tangents_strip(FrameFrom *const from, const SHAPE *shape, STRIP *strip)
 {
-    const int count = strip->count;
+    const int count = WHOLE(strip->count);
     SIMD for (int i = 0; i < count; i++)
     {
         put_tangents(from, shape, strip, i);
@@ -174,7 +184,7 @@ ALWAYS void put_normal(FrameFrom *const from, const SHAPE *shape, STRIP *strip, 
 
 ALWAYS void normals_strip(FrameFrom *const from, const SHAPE *shape, STRIP *strip)
 {
-    const int count = strip->count;
+    const int count = WHOLE(strip->count);
     SIMD for (int i = 0; i < count; i++)
     {
         put_normal(from, shape, strip, i);
@@ -213,7 +223,7 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
         Ray ray = ray_of(rays, strip, i, gx, gy, spread);
         VEC q = ray.q, d = ray.d;
         REAL dn = v_dot(d, n);
-        REAL s = v_dot(v_sub(o, q), n) / (dn != 0.0f ? dn : 1.0f);
+        REAL s = v_dot(v_sub(o, q), n) / dn; /* where dn is 0 none that counts */
         VEC p = v_sub(v_mad(q, d, s), o);
         REAL u = v_dot(p, eu), v = v_dot(p, ev);
         bool in = (u >= u0) & (u <= u1) & (v >= v0) & (v <= v1);

@@ -103,32 +103,62 @@ FLAT static void kern_finish(const REAL colour[3], STRIP *strip)
 /* ---- all of one light in one pass: with one light nothing needs to be put by between the stages. The same formulas
    in the same order as those stages, so the same bits where arithmetic is exact. ---- */
 
+ALWAYS REAL bent_dot(const STRIP *strip, int i, VEC l)
+{
+    return strip->bx[i] * l.x + strip->by[i] * l.y + strip->bz[i] * l.z;
+}
+
+/* Highlights, and what they are powers of. Short loops, each of a few dozen operations: a processor looks only so far
+   ahead, and one long chain of operations a sample leaves it waiting. */
+typedef struct Lobes {
+    REAL c[WR_SPAN], below[WR_SPAN]; /* of `half` */
+    REAL shown[WR_SPAN];             /* 1, or 0 where nothing shines */
+    REAL lobe[WR_SPAN];
+} Lobes;
+
+ALWAYS void find_lobes(const RAYS *rays, const LIGHT *light, const SHINE *shine, const bool point,
+                       const bool near, const STRIP *strip, Lobes *lobes)
+{
+    const VEC where = { light->where[0], light->where[1], light->where[2] };
+    const REAL *from = near ? rays->eye : rays->toward;
+    const VEC viewer = { from[0], from[1], from[2] };
+    const REAL power = shine->shininess;
+    const bool gate = shine->gate;
+    const int count = WHOLE(strip->count);
+    SIMD for (int i = 0; i < count; i++)
+    {
+        VEC p = LOAD3(strip, p, i), bent = LOAD3(strip, b, i);
+        VEC l = point ? light_toward(p, where) : where;
+        VEC v = near ? light_toward(p, viewer) : viewer;
+        Half half = light_half(l, v, bent);
+        lobes->c[i] = half.c;
+        lobes->below[i] = half.below;
+        lobes->shown[i] = light_shown(K_(1), gate, bent_dot(strip, i, l), half.there);
+    }
+    SIMD for (int i = 0; i < count; i++)
+    {
+        REAL lobe = light_lobe(lobes->c[i], lobes->below[i], power);
+        lobes->lobe[i] = lobes->shown[i] != K_(0) ? lobe : K_(0);
+    }
+}
+
 ALWAYS void shade_one(const RAYS *rays, const LIGHT *light, const SHINE *shine,
                       const MATERIAL *material, const bool point, const bool near,
                       const bool shines, const bool pictured, STRIP *strip)
 {
     const VEC where = { light->where[0], light->where[1], light->where[2] };
-    const REAL *from = near ? rays->eye : rays->toward;
-    const VEC viewer = { from[0], from[1], from[2] };
-    const REAL kd = material->kd, ks = shine->ks, power = shine->shininess;
+    const REAL kd = material->kd, ks = shine->ks;
     const REAL dr = kd * light->rgb[0], dg = kd * light->rgb[1], db = kd * light->rgb[2];
     const REAL sr = ks * light->rgb[0], sg = ks * light->rgb[1], sb = ks * light->rgb[2];
     const REAL r = material->rgb[0], g = material->rgb[1], b = material->rgb[2];
     const REAL ambient = material->ambient;
-    const bool gate = shine->gate;
-    const int count = strip->count;
+    const int count = WHOLE(strip->count);
+    Lobes lobes;
+    if (shines) find_lobes(rays, light, shine, point, near, strip, &lobes);
     SIMD for (int i = 0; i < count; i++)
     {
-        VEC p = LOAD3(strip, p, i), bent = LOAD3(strip, b, i);
-        VEC l = point ? light_toward(p, where) : where;
-        REAL n_dot_l = bent.x * l.x + bent.y * l.y + bent.z * l.z, lit = light_lit(n_dot_l);
-        REAL lobe = K_(0);
-        if (shines) {
-            VEC v = near ? light_toward(p, viewer) : viewer;
-            Half half = light_half(l, v, bent);
-            lobe = light_lobe(half.c, half.below, power);
-            lobe = light_shown(lobe, gate, n_dot_l, half.there);
-        }
+        VEC l = point ? light_toward(LOAD3(strip, p, i), where) : where;
+        REAL lit = light_lit(bent_dot(strip, i, l)), lobe = shines ? lobes.lobe[i] : K_(0);
         REAL pr = pictured ? strip->cr[i] : K_(1), pg = pictured ? strip->cg[i] : K_(1);
         REAL pb = pictured ? strip->cb[i] : K_(1);
         strip->cr[i] = light_sum(r, pr, ambient + dr * lit, sr * lobe);

@@ -171,10 +171,11 @@ static inline void slopes_central(const LOOK *look, STRIP *strip)
 {
     const int pitch = look->pitch, count = strip->count;
     const Scales by = scales_of(look);
+    const REAL *const gradient = look->gradient;
     REAL *restrict const column = strip->top; /* Fu, Fv of the left texel, then of the right */
     place_taps(look, strip);
     for (int k = 0; k < count; k++) {
-        const REAL *at = look->gradient + 2 * (size_t)strip->at[k];
+        const REAL *at = gradient + 2 * (size_t)strip->at[k];
         Four top = load_four(at), low = load_four(at + 2 * (size_t)pitch);
         Four both = top + strip->tb[k] * (low - top);
         memcpy(column + 4 * k, &both, sizeof both);

@@ -168,6 +168,10 @@ typedef struct WR_T(WrKernels) {
     void (*look_pyramid)(const WR_T(WrLook) * look, bool moments, WR_T(WrStrip) * strip);
     /* n' from n and the slopes, turned to the viewer's side. */
     void (*bump[WR_BUMP_COUNT])(const WR_T(WrRays) * rays, WR_T(WrStrip) * strip);
+    /* The same as bump[WR_BUMP_BLINN] of a round surface from n, without its tangents; NULL: there is none, as in exact
+       sets, for the bits differ. */
+    void (*bend[WR_INVERSIONS])(const WR_T(WrRays) * rays, const SHAPE *shape,
+                                WR_T(WrStrip) * strip);
     /* see, sef, sff from suu, suv, svv; after bump. unit_tangents: slopes are angles whatever |Pu|, |Pv|
        are (invariant). */
     void (*widen)(bool unit_tangents, WR_T(WrStrip) * strip);

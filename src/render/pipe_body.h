@@ -103,11 +103,19 @@ static void store_parameters(const WrSink *sink, const Strip *strip)
     }
 }
 
+/* Is n' worked out from n and the slopes at once, and nothing else looks at the tangents? */
+static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
+{
+    return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
+           !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_SPREAD) && !sink->bound;
+}
+
 /* P, n, and what else of the surface's frame the plan asks for. */
-static void surface_strip(const WrTileJob *job, int face, bool level, Strip *strip, Watch *watch)
+static void surface_strip(const WrTileJob *job, int face, bool level, const WrSink *sink,
+                          Strip *strip, Watch *watch)
 {
     const WR_T(WrRound) *round = round_of(job);
-    if (round && runs(job, WR_EFFECT_TANGENTS) && !level) {
+    if (round && runs(job, WR_EFFECT_TANGENTS) && !level && !bends_at_once(job, sink)) {
         round->tangents(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
     }
@@ -125,7 +133,10 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     const Kernels *k = KERNELS_OF(job);
     const WrBumpMode bump = level ? WR_BUMP_NONE : job->plan->bump;
     if (bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
-    k->bump[bump](rays, strip);
+    if (bump != WR_BUMP_NONE && bends_at_once(job, sink)) {
+        k->bend[job->plan->inversion](rays, &VIEWED(job->view, shape), strip);
+        did(watch, WR_EFFECT_TANGENTS);
+    } else k->bump[bump](rays, strip);
     scratch->ran |= normal_effects[bump];
     watch_lap(watch, WR_STAGE_BUMP);
     if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
@@ -141,7 +152,7 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
                              Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
     const bool level = is_level(job, strip);
-    surface_strip(job, face, level, strip, watch);
+    surface_strip(job, face, level, sink, strip, watch);
     if (sink->nearest) keep_near(job, sink, strip, watch);
     if (strip->count == 0) return 0;
     const bool dark = is_dark(job, rays, level, strip);
@@ -176,7 +187,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
     if (job->plan->normals) {
         spared = normal_strip(job, rays, face, sink, strip, scratch, watch);
     } else if (sink->nearest) {
-        surface_strip(job, face, true, strip, watch);
+        surface_strip(job, face, true, sink, strip, watch);
         keep_near(job, sink, strip, watch);
     }
     if (strip->count == 0) return spared;
@@ -203,24 +214,20 @@ static int store_run(const Strip *strip, float *restrict out)
     return fresh;
 }
 
-/* The same as codes, whose alpha is 0 where nothing is yet. */
-static void store_codes(const WrTileJob *job, const Strip *strip, bool run, uint32_t *restrict out,
+/* The same as codes, whose alpha is 0 where nothing is yet; once: each to its place at once. */
+static void store_codes(const WrTileJob *job, const Strip *strip, bool run, const WrSink *sink,
                         WrTileScratch *scratch)
 {
-    uint32_t codes[WR_SPAN];
+    uint32_t codes[WR_SPAN], *restrict out = sink->codes;
+    const bool direct = sink->once && run;
+    uint32_t *to = direct ? out + strip->index[0] : codes;
     int fresh = 0;
-    scratch->not_finite += KERNELS_OF(job)->codes(job->bins, strip, codes);
-    if (run) {
-        const uint32_t *at = out + strip->index[0];
-        for (int i = 0; i < strip->count; i++) fresh += at[i] >> 24 == 0;
-        memcpy(out + strip->index[0], codes, (size_t)strip->count * sizeof *codes);
-    } else {
-        for (int i = 0; i < strip->count; i++) {
-            fresh += out[strip->index[i]] >> 24 == 0;
-            out[strip->index[i]] = codes[i];
-        }
+    scratch->not_finite += KERNELS_OF(job)->codes(job->bins, strip, to);
+    for (int i = 0; i < strip->count && !direct; i++) {
+        fresh += out[strip->index[i]] >> 24 == 0;
+        out[strip->index[i]] = codes[i];
     }
-    scratch->covered += fresh;
+    scratch->covered += sink->once ? strip->count : fresh;
 }
 
 /* Finished strip -> its samples' places. */
@@ -229,7 +236,7 @@ static void store(const WrTileJob *job, const WrSink *sink, const Strip *strip,
 {
     const int last = strip->count - 1;
     const bool run = strip->index[last] - strip->index[0] == last;
-    if (sink->codes) store_codes(job, strip, run, sink->codes, scratch);
+    if (sink->codes) store_codes(job, strip, run, sink, scratch);
     if (sink->rgba && run) scratch->covered += store_run(strip, sink->rgba + 4 * strip->index[0]);
     for (int i = 0; i < strip->count && sink->rgba && !run; i++) {
         float *out = sink->rgba + 4 * strip->index[i];

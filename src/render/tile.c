@@ -205,9 +205,11 @@ void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const
     for (int y = 0; y < tile->h; y++) {
         WrSink sink = row_sink(out, y);
         uint32_t *to = sink.codes;
-        if (to) fill_codes(sink.codes = codes, tile->w, job->backdrop);
+        sink.once = to && !sink.nearest && job->view->quad_count < 2;
+        if (sink.once) fill_codes(to, tile->w, job->backdrop | 0xff000000U);
+        else if (to) fill_codes(sink.codes = codes, tile->w, job->backdrop);
         job->pipe->row(job, k, tile, y, &sink, scratch);
-        if (to) put_codes(codes, tile->w, to);
+        if (to && !sink.once) put_codes(codes, tile->w, to);
     }
     scratch->all_strips += wr_clock_seconds() - start;
 }

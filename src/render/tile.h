@@ -69,6 +69,7 @@ typedef struct WrNearest {
 typedef struct WrSink {
     float *rgba;     /* 4 a sample */
     uint32_t *codes; /* one a sample: rgba as 8-bit codes; with neither, no light is worked out */
+    bool once;       /* no sample is met twice: codes are the picture's own, opaque everywhere */
     float *normals;  /* 3 a sample: n' */
     WrNearest *nearest; /* one a sample; what lies behind it is not stored */
     float *bound;       /* how far the intensity may change over the pixel */
