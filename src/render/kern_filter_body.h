@@ -26,14 +26,14 @@ FLAT static void kern_footprint(const RAYS *rays, const LOOK *look, REAL pixel, 
     const VEC qy = { rays->qy[0], rays->qy[1], rays->qy[2] };
     const VEC dx = { rays->dx[0], rays->dx[1], rays->dx[2] };
     const VEC dy = { rays->dy[0], rays->dy[1], rays->dy[2] };
+    const VEC d0 = { rays->d0[0], rays->d0[1],
+                     rays->d0[2] }; /* read in the loop it would not be in vectors */
     const int count = strip->count;
     SIMD for (int i = 0; i < count; i++)
     {
-        VEC d = RAY_D(rays, strip->y[i], strip->x[i]);
+        VEC d = v_mad(v_mad(d0, dy, strip->y[i]), dx, strip->x[i]);
         REAL least = K_(1e-6) * r_sqrt(v_dot(d, d)), size = v_dot(LOAD3(strip, n, i), d);
-        REAL most =
-            larger(r_abs(size), least); /* the size of n . d, kept away from 0: along the surface */
-        strip->s[i] = size == -most ? -most : most;
+        strip->s[i] = r_abs(size) > least ? size : least;
     }
     SIMD for (int i = 0; i < count; i++)
     {

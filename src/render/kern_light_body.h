@@ -114,6 +114,7 @@ typedef struct Lobes {
     REAL c[WR_SPAN], below[WR_SPAN]; /* of `half` */
     REAL shown[WR_SPAN];             /* 1, or 0 where nothing shines */
     REAL lobe[WR_SPAN];
+    REAL vx[WR_SPAN], vy[WR_SPAN], vz[WR_SPAN]; /* unit, towards the viewer */
 } Lobes;
 
 ALWAYS void find_lobes(const RAYS *rays, const LIGHT *light, const SHINE *shine, const bool point,
@@ -125,11 +126,18 @@ ALWAYS void find_lobes(const RAYS *rays, const LIGHT *light, const SHINE *shine,
     const REAL power = shine->shininess;
     const bool gate = shine->gate;
     const int count = WHOLE(strip->count);
+    if (near) {
+        SIMD for (int i = 0; i < count; i++)
+        {
+            VEC v = light_toward(LOAD3(strip, p, i), viewer);
+            lobes->vx[i] = v.x, lobes->vy[i] = v.y, lobes->vz[i] = v.z;
+        }
+    }
     SIMD for (int i = 0; i < count; i++)
     {
         VEC p = LOAD3(strip, p, i), bent = LOAD3(strip, b, i);
         VEC l = point ? light_toward(p, where) : where;
-        VEC v = near ? light_toward(p, viewer) : viewer;
+        VEC v = near ? LOAD3(lobes, v, i) : viewer;
         Half half = light_half(l, v, bent);
         lobes->c[i] = half.c;
         lobes->below[i] = half.below;
