@@ -213,6 +213,41 @@ static void every_surface_can_be_seen_from_above(void **state)
     wr_field_free(like);
 }
 
+/* Those that are given by words: a cone of a profile is the cone, a flat disc of formulas lies flat. */
+static void surfaces_of_words_can_be_seen_from_above(void **state)
+{
+    (void)state;
+    WrField *like = table_of(64, 64);
+    static const char *const same[2][2] = {
+        { "cone R=0.5 H=1", "revolution profile=0.5,-0.5;0,0.5;0,0.5" },
+        { "sphere R=2", "formula  x=2*cos(2*pi*u)*cos(pi*(v-0.5)) y=2*sin(2*pi*u)*cos(pi*(v-0.5)) "
+                        "z=2*sin(pi*(v-0.5))" }
+    };
+    for (int k = 0; k < 2; k++) {
+        WrRelief relief[2];
+        for (int i = 0; i < 2; i++) {
+            Asked asked = ask("surface", NULL);
+            value_of(asked.row, asked.values, "shape")->text = same[k][i];
+            set(&asked, "size", 40, 0, 0);
+            relief[i] = make(&asked, like, NULL);
+        }
+        for (int t = 0; t < 64 * 64; t++)
+            assert_near((double)wr_field_get(relief[0].heights, t % 64, t / 64),
+                        (double)wr_field_get(relief[1].heights, t % 64, t / 64), 2e-3);
+        for (int i = 0; i < 2; i++) wr_relief_fini(&relief[i]);
+    }
+    static const char *const wrong[][2] = { { "revolution profile=1,0", "2 to 65" },
+                                            { "formula x=1+ y=u", "column 3" },
+                                            { "revolution profil=1,0", "NAME=VALUE" },
+                                            { "formula z=sqrt(u)", "no slope" } };
+    for (int k = 0; k < 4; k++) {
+        Asked asked = ask("surface", NULL);
+        value_of(asked.row, asked.values, "shape")->text = wrong[k][0];
+        refuse(&asked, wrong[k][1]);
+    }
+    wr_field_free(like);
+}
+
 /* A slanted square in a file: a plane, fitted by its box. */
 static void a_mesh_is_fitted_to_its_size_and_stands_on_the_ground(void **state)
 {
@@ -335,6 +370,7 @@ int main(void)
         cmocka_unit_test(the_seed_alone_decides_about_accidents),
         cmocka_unit_test(a_surface_is_what_its_formula_says_within_a_fiftieth_of_a_texel),
         cmocka_unit_test(every_surface_can_be_seen_from_above),
+        cmocka_unit_test(surfaces_of_words_can_be_seen_from_above),
         cmocka_unit_test(a_mesh_is_fitted_to_its_size_and_stands_on_the_ground),
         cmocka_unit_test(letters_are_level_on_top_and_bevelled_at_their_edges),
         cmocka_unit_test(letters_turned_by_half_a_turn_are_upside_down),

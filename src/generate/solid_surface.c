@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "generate/build.h"
 #include "generate/solid.h"
+#include "surface/data.h"
 #include "surface/surface.h"
 
 #include <string.h>
@@ -57,29 +58,57 @@ static bool set_value(WrShape *shape, const char *word, size_t length, WrError *
     return true;
 }
 
-/* "torus R=1 r=0.35" */
-static bool read_shape(const char *text, WrShape *shape, WrError *err)
+/* A text of the surface, "profile=0,0;1,1": which one; -1: it is none. */
+static int text_of(const WrSurfaceInfo *info, const char *word, size_t length)
 {
-    bool named = false;
-    for (const char *at = text; *at;) {
-        size_t length = strcspn(at, " ");
-        char name[32] = "";
-        if (length > 0 && !named) {
-            if (length < sizeof name) memcpy(name, at, length);
-            int kind = wr_surface_find(name);
-            if (kind < 0)
-                return wr_fail(err, "solid surface: shape: %.*s: is no surface",
-                               (int)(length < 60 ? length : 60), at);
-            wr_shape_default((WrSurfaceKind)kind, shape);
-            named = true;
-        } else if (length > 0 && !set_value(shape, at, length, err)) {
-            return false;
+    for (int i = 0; i < WR_SURFACE_TEXTS && info->texts[i].name; i++) {
+        const size_t name = strlen(info->texts[i].name);
+        if (length > name && word[name] == '=' && strncmp(word, info->texts[i].name, name) == 0)
+            return i;
+    }
+    return -1;
+}
+
+/* The words after the surface's name. text: what they give of its texts, owned by the caller. */
+static bool read_words(const char *at, WrShape *shape, char *text[WR_SURFACE_TEXTS], WrError *err)
+{
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    for (at += strspn(at, " "); *at; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+        const int i = text_of(info, at, length);
+        if (i < 0 && !set_value(shape, at, length, err)) return false;
+        if (i >= 0) {
+            const size_t skip = strlen(info->texts[i].name) + 1;
+            wr_free(text[i]);
+            text[i] = wr_alloc(length - skip + 1, 1);
+            memcpy(text[i], at + skip, length - skip);
         }
         at += length;
-        while (*at == ' ') at++;
     }
-    if (!named) return wr_fail(err, "solid surface: shape is empty: must be a surface's name");
-    return wr_shape_check(shape, err);
+    return true;
+}
+
+/* "torus R=1 r=0.35", "revolution profile=0,0;1,1". What it borrows is the caller's to free. */
+static bool read_shape(const char *text, WrShape *shape, WrError *err)
+{
+    char name[32] = "", *texts[WR_SURFACE_TEXTS] = { NULL };
+    text += strspn(text, " ");
+    const size_t length = strcspn(text, " ");
+    if (length == 0) return wr_fail(err, "solid surface: shape is empty: must be a surface's name");
+    if (length < sizeof name) memcpy(name, text, length);
+    const int kind = wr_surface_find(name);
+    if (kind < 0)
+        return wr_fail(err, "solid surface: shape: %.*s: is no surface",
+                       (int)(length < 60 ? length : 60), text);
+    wr_shape_default((WrSurfaceKind)kind, shape);
+    bool good = read_words(text + length, shape, texts, err) && wr_shape_check(shape, err);
+    if (good && wr_surfaces[kind]->make) {
+        WrSurfaceData *data = wr_surface_data_make(shape->kind, (const char *const *)texts, err);
+        good = data != NULL;
+        if (good) wr_shape_take_data(shape, data);
+    }
+    for (int i = 0; i < WR_SURFACE_TEXTS; i++) wr_free(texts[i]);
+    return good;
 }
 
 /* ---- the net ---- */
@@ -210,6 +239,7 @@ bool wr_solid_surface(const WrParamValue *values, const WrGenerateJob *job, WrRe
                              .point_count = made.point_count,
                              .count = made.count };
     good = good && wr_solid_draw_net(&params, &net, job, out, err);
+    wr_surface_data_free((WrSurfaceData *)shape.data);
     wr_free(made.points);
     wr_free(made.corners);
     return good;

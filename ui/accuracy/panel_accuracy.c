@@ -206,7 +206,7 @@ void wr_panel_accuracy(WrApp *app)
     wr_gui_heading("HARD CASES");
     if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
     wr_gui_tip(
-        "116 inputs at which a naive program fails: what must hold, and how far off this one is");
+        "120 inputs at which a naive program fails: what must hold, and how far off this one is");
     if (a->inspector.shown && app->layout->lower.w <= 0) {
         wr_gui_space(8);
         wr_gui_heading("INSPECTOR");
