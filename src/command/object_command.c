@@ -12,7 +12,16 @@
 
 #include <string.h>
 
-enum { FORM_ADD, FORM_COPY, FORM_CHOOSE, FORM_SET, FORM_REMOVE, OBJECT_FORMS };
+enum {
+    FORM_ADD,
+    FORM_COPY,
+    FORM_CHOOSE,
+    FORM_SET,
+    FORM_HIDE,
+    FORM_SHOW,
+    FORM_REMOVE,
+    OBJECT_FORMS
+};
 
 #define ALL "all"
 #define OWN "own"
@@ -194,6 +203,15 @@ static bool run_choose(WrSession *session, const WrCall *call, WrError *err)
     return true;
 }
 
+static bool run_hide(WrSession *session, const WrCall *call, bool hidden, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    int index;
+    if (!find(scene, call, &index, err)) return false;
+    wr_session_replace_scene(session, wr_scene_hide(scene, index, hidden));
+    return true;
+}
+
 static bool run_object(WrSession *session, WrCall *call, WrError *err)
 {
     switch (call->form) {
@@ -201,6 +219,8 @@ static bool run_object(WrSession *session, WrCall *call, WrError *err)
     case FORM_COPY: return run_add(session, call, true, err);
     case FORM_CHOOSE: return run_choose(session, call, err);
     case FORM_SET: return run_set(session, call, err);
+    case FORM_HIDE:
+    case FORM_SHOW: return run_hide(session, call, call->form == FORM_HIDE, err);
     default: return run_remove(session, call, err);
     }
 }
@@ -221,13 +241,17 @@ static const struct {
     [WR_ROW(FORM_CHOOSE)] = { "choose", "commands are about this one from now on", true },
     [WR_ROW(FORM_SET)] = { "set", "only what is given changes, of the chosen one", .renames = true,
                            .settings = true },
-    [WR_ROW(FORM_REMOVE)] = { "remove", "take one away; left out, the chosen one" },
+    [WR_ROW(FORM_HIDE)] = { "hide", "leave it out of pictures; NAME left out, the chosen one" },
+    [WR_ROW(FORM_SHOW)] = { "show", "bring it back into pictures" },
+    [WR_ROW(FORM_REMOVE)] = { "remove", "take one away" },
 };
 WR_ROWS_END(object_forms, OBJECT_FORMS);
 
 static bool form_object(int i, WrForm *out)
 {
-    static const WrArgSpec name = { PLACE("NAME"), .type = WR_ARG_NAME, .help = "of the object" };
+    static const WrArgSpec name = { PLACE("NAME"), .type = WR_ARG_NAME,
+                                    .help =
+                                        "of the object; where it may be left out, the chosen one" };
     static const WrArgSpec rename = { .name = "name", .type = WR_ARG_NAME, .help = "its new name" };
     static const WrArgSpec turn = { .name = "turn",
                                     .type = WR_ARG_TEXT,

@@ -112,6 +112,21 @@ WrScene *wr_scene_add_object(const WrScene *scene, bool copy)
     return made;
 }
 
+WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden)
+{
+    WrScene *made = wr_scene_clone(scene);
+    if (i == scene->chosen) {
+        made->hidden = hidden;
+        return made;
+    }
+    WrScene **place = &made->others[i < scene->chosen ? i : i - 1];
+    WrScene *other = wr_scene_clone(*place);
+    other->hidden = hidden;
+    wr_scene_free(*place);
+    *place = other;
+    return made;
+}
+
 WrScene *wr_scene_remove_object(const WrScene *scene, int i)
 {
     const int at_hand = scene->chosen == i ? (i > 0 ? i - 1 : i + 1) : scene->chosen;

@@ -325,6 +325,10 @@ static void pose_reset(WrApp *app)
 {
     const double *pose = wr_surfaces[wr_app_scene(app)->shape.kind]->pose_deg;
     WrText line = { 0 };
+    if (wr_app_scene(app)->other_count > 0) {
+        if (wr_app_run_line(app, "object set turn=own")) app->patch->turn_deg = 0.0;
+        return;
+    }
     wr_text_add(&line, "rotate ");
     wr_line_plain_vec(&line, (WrVec3){ pose[0], pose[1], pose[2] });
     if (wr_app_run_line(app, wr_text_get(&line))) app->patch->turn_deg = 0.0;

@@ -17,6 +17,7 @@
 #include "ui/desk/settings.h"
 #include "ui/panels/panel_adjust.h"
 #include "ui/panels/panel_layers.h"
+#include "ui/panels/panel_objects.h"
 #include "ui/panels/panel_scene.h"
 #include "ui/panels/panel_search.h"
 #include "ui/panels/panel_status.h"
@@ -50,6 +51,7 @@ typedef struct Store {
     WrSelectHand select;
     WrLayersHand layers;
     WrSurfaceHand surface;
+    WrObjectsHand objects;
     WrAdjust adjust;
     WrOutlineAsk selecting;
     WrFinder finder;
@@ -86,6 +88,7 @@ WrApp *wr_store_new(void)
     app->select = &store->select;
     app->layers = &store->layers;
     app->surface = &store->surface;
+    app->objects = &store->objects;
     app->adjust = &store->adjust;
     app->selecting = &store->selecting;
     app->finder = &store->finder;

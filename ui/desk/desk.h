@@ -54,6 +54,7 @@ typedef struct WrSettings WrSettings;
 typedef struct WrShelf WrShelf;
 typedef struct WrStampHand WrStampHand;
 typedef struct WrSurfaceHand WrSurfaceHand;
+typedef struct WrObjectsHand WrObjectsHand;
 typedef struct WrTester WrTester;
 typedef struct WrTiming WrTiming;
 typedef struct WrTool WrTool;
@@ -124,6 +125,7 @@ struct WrApp {
     WrSelectHand *select;
     WrLayersHand *layers;
     WrSurfaceHand *surface;
+    WrObjectsHand *objects;
     WrAdjust *adjust;
     WrOutlineAsk *selecting; /* of the dialogs that change the selection */
     WrFinder *finder;

@@ -29,7 +29,8 @@ typedef enum WrGrab {
     WR_GRAB_PANELS,   /* the line between the panels on the right */
     WR_GRAB_SYMMETRY, /* its centre */
     WR_GRAB_ORBIT,
-    WR_GRAB_LIGHT
+    WR_GRAB_LIGHT,
+    WR_GRAB_HANDLE /* of the chosen object, on the patch */
 } WrGrab;
 
 typedef struct WrHand {

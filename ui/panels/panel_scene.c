@@ -144,6 +144,7 @@ static void surface(WrApp *app)
 
 void wr_panel_scene(WrApp *app)
 {
+    wr_panel_objects(app);
     surface(app);
     wr_panel_material(app);
     wr_panel_lights(app);

@@ -13,6 +13,7 @@ void wr_panel_right(WrApp *app);
 void wr_panel_brushes(WrApp *app, SDL_Rect room);
 void wr_panel_brush(WrApp *app); /* the values of the brush in hand */
 void wr_panel_scene(WrApp *app);
+void wr_panel_objects(WrApp *app);  /* its upper part */
 void wr_panel_material(WrApp *app); /* its lower parts */
 void wr_panel_lights(WrApp *app);
 void wr_panel_plan(WrApp *app);

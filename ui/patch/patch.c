@@ -69,7 +69,8 @@ static void hold_still(WrApp *app)
 static bool turns(const WrApp *app)
 {
     return app->settings->turning && !is_held(app) && app->visible && app->layout->patch.w > 0 &&
-           app->hand->grab != WR_GRAB_ORBIT && app->hand->grab != WR_GRAB_LIGHT;
+           app->hand->grab != WR_GRAB_ORBIT && app->hand->grab != WR_GRAB_LIGHT &&
+           app->hand->grab != WR_GRAB_HANDLE;
 }
 
 /* The tables of the scene's objects, where not all have that of all layers. The caller's. */
@@ -282,6 +283,7 @@ void wr_patch_overlay(WrApp *app)
     if (room->w <= 0) return;
     wr_gui_draw_clip(*room);
     wr_patch_draw_lights(app);
+    wr_patch_handles_draw(app);
     draw_ring(app, wr_preview_picture(app->preview));
     wr_gui_draw_unclip();
     int gap = wr_gui_px(12);

@@ -2,9 +2,11 @@
 #pragma once
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
+#include "ui/patch/patch_objects.h"
 #include "ui/preview/rotation.h"
 
 #include "document/tables.h"
+#include "scene/camera.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -37,7 +39,12 @@ typedef struct WrPatch {
     double still_since;
     /* of a drag */
     WrRotation from; /* the object's own rotation at the start */
-    int light;       /* index of the light being moved */
+    WrVec3 from_at;  /* its place and size there */
+    double from_size;
+    WrCamera from_camera; /* and the camera, its eye where it stood */
+    WrHandle handle;      /* of the chosen object */
+    bool pans;            /* the drag moves the camera sideways */
+    int light;            /* index of the light being moved */
     double light_x, light_y;
     double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
 } WrPatch;

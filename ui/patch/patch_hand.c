@@ -2,6 +2,7 @@
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
+#include "ui/desk/keys.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/line.h"
 #include "ui/desk/session_view.h"
@@ -9,6 +10,7 @@
 #include "ui/patch/patch.h"
 #include "ui/preview/rotation.h"
 
+#include "base/exactmath.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "scene/scene.h"
@@ -20,6 +22,7 @@
 #include <math.h>
 
 #define ZOOM_COMMIT_SECONDS 0.4
+#define CLICK 3.0 /* pixels: shorter drags are clicks */
 
 /* ---- the light ---- */
 
@@ -100,33 +103,96 @@ static void commit_light(WrApp *app)
     wr_text_fini(&line);
 }
 
-/* ---- turning by hand ---- */
+/* ---- turning by hand ----
+
+   One object is turned itself; among several the camera goes round its target, and one of them turns by its handles. */
+
+static bool several(const WrApp *app)
+{
+    return wr_app_scene(app)->other_count > 0;
+}
 
 static void start_orbit(WrApp *app)
 {
     const WrScene *scene = wr_app_scene(app);
     const double *pose = wr_surfaces[scene->shape.kind]->pose_deg;
     WrVec3 deg = scene->posed ? scene->rotate_deg : (WrVec3){ pose[0], pose[1], pose[2] };
+    WrPlacement at;
     app->patch->from = wr_rotation_from_deg(deg);
+    app->patch->from_camera = scene->camera;
+    if (place(app, &at)) app->patch->from_camera.eye = at.eye;
+}
+
+/* Half a turn for a drag across the view, about the world's y axis and across it; never over the top. */
+static void orbit_camera(WrApp *app, double dx, double dy, double span)
+{
+    const WrCamera *from = &app->patch->from_camera;
+    const WrVec3 back = v3_sub(from->eye, from->target);
+    const double away = v3_len(back), most = 0.4999 * WR_PI, turn = WR_PI / span;
+    const double round = atan2(back.x, back.z) - turn * dx;
+    const double up = fmin(most, fmax(-most, asin(back.y / away) + turn * dy));
+    const WrVec3 to = { cos(up) * sin(round), sin(up), cos(up) * cos(round) };
+    WrCamera *camera = &wr_app_live(app)->camera;
+    camera->eye = v3_mad(from->target, to, away);
+    camera->up = (WrVec3){ 0, 1, 0 };
+}
+
+static void pan_camera(WrApp *app, const WrPlacement *at, double dx, double dy)
+{
+    const WrCamera *from = &app->patch->from_camera;
+    const double away = v3_len(v3_sub(from->eye, from->target));
+    const double pixel = 2 * at->half_height * (at->orthographic ? 1 : away) / app->layout->patch.h;
+    const WrVec3 by = v3_mad(v3_scale(at->right, -dx * pixel), at->up, dy * pixel);
+    WrCamera *camera = &wr_app_live(app)->camera;
+    camera->fit = false; /* the target's distance would change its own */
+    camera->eye = v3_add(from->eye, by);
+    camera->target = v3_add(from->target, by);
 }
 
 static void orbit(WrApp *app, const WrPointer *p)
 {
     WrPlacement at;
-    if (!place(app, &at)) return;
+    const double dx = p->x - app->hand->start.x, dy = p->y - app->hand->start.y;
+    if (!place(app, &at) || (!app->live && hypot(dx, dy) < CLICK)) return;
     const SDL_Rect *r = &app->layout->patch;
-    WrRotation now = wr_rotation_dragged(&app->patch->from, app->patch->turn_deg, at.right, at.up,
-                                         p->x - app->hand->start.x, p->y - app->hand->start.y,
-                                         r->w < r->h ? r->w : r->h);
+    const double span = r->w < r->h ? r->w : r->h;
+    if (app->patch->pans) pan_camera(app, &at, dx, dy);
+    else if (several(app)) orbit_camera(app, dx, dy, span);
+    if (app->patch->pans || several(app)) return;
+    WrRotation now =
+        wr_rotation_dragged(&app->patch->from, app->patch->turn_deg, at.right, at.up, dx, dy, span);
     WrVec3 deg = wr_rotation_to_deg(&now);
     WrScene *scene = wr_app_live(app);
     scene->posed = true;
     scene->rotate_deg = wr_line_round_vec(deg, 2);
 }
 
+/* Eye, target and size of the camera as it was dragged. */
+static void commit_camera(WrApp *app)
+{
+    const WrCamera *camera = &app->live->camera;
+    WrText line = { 0 };
+    wr_text_addf(&line, "camera %s", wr_camera_names[camera->orthographic]);
+    wr_line_vec(&line, "eye", wr_line_round_vec(camera->eye, 4));
+    wr_line_vec(&line, "target", wr_line_round_vec(camera->target, 4));
+    wr_line_vec(&line, "up", camera->up);
+    if (camera->orthographic) wr_line_number(&line, "size", wr_line_round(camera->size, 4));
+    if (camera->fit) wr_text_add(&line, " fit=on");
+    wr_app_live_end(app);
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
 static void commit_orbit(WrApp *app)
 {
-    if (!app->live) return;
+    if (!app->live) {
+        if (!app->patch->pans && several(app)) wr_patch_choose(app, &app->hand->start);
+        return;
+    }
+    if (app->patch->pans || several(app)) {
+        commit_camera(app);
+        return;
+    }
     WrVec3 deg = app->live->rotate_deg;
     WrText line = { 0 };
     wr_text_add(&line, "rotate ");
@@ -152,7 +218,13 @@ bool wr_patch_press(WrApp *app, const WrPointer *at)
         return true;
     }
     if (right) return false;
+    if (at->button == SDL_BUTTON_LEFT && wr_patch_handle_under(app, at) != WR_HANDLE_NONE) {
+        app->hand->grab = WR_GRAB_HANDLE;
+        wr_patch_handle_press(app, at);
+        return true;
+    }
     app->hand->grab = WR_GRAB_ORBIT;
+    p->pans = (at->mods & WR_MOD_SHIFT) != 0;
     start_orbit(app);
     return true;
 }
@@ -162,12 +234,14 @@ void wr_patch_drag(WrApp *app, const WrPointer *at)
     if (app->hand->grab == WR_GRAB_LIGHT)
         move_light(app, app->patch->light_x + at->x - app->hand->start.x,
                    app->patch->light_y + at->y - app->hand->start.y);
+    else if (app->hand->grab == WR_GRAB_HANDLE) wr_patch_handle_drag(app, at);
     else orbit(app, at);
 }
 
 void wr_patch_release(WrApp *app)
 {
     if (app->hand->grab == WR_GRAB_LIGHT) commit_light(app);
+    else if (app->hand->grab == WR_GRAB_HANDLE) wr_patch_handle_release(app);
     else commit_orbit(app);
 }
 

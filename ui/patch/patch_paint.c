@@ -14,6 +14,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/patch/patch.h"
+#include "ui/patch/patch_objects.h"
 #include "ui/pen/steady.h"
 #include "ui/preview/patch_pick.h"
 #include "ui/tools/brush_outline.h"
@@ -35,39 +36,26 @@
 #define JUMP_TEXELS 4.0 /* and in any case */
 #define RING_STEPS 3    /* of the outline on the object: one of its points in between */
 
-/* The picker for the picture that is shown; made anew when another one is. */
+/* Of the chosen object. */
 static const WrPatchPick *picker(WrApp *app)
 {
-    WrPatchPaint *p = app->paint;
-    const SDL_Rect *room = &app->layout->patch;
-    const WrScene *scene = wr_app_scene(app);
-    double turn = app->patch->turn_deg;
-    bool same = p->picker && p->scene == scene && p->turn_deg == turn && p->room.w == room->w &&
-                p->room.h == room->h;
-    if (same || room->w <= 0) return room->w > 0 ? p->picker : NULL;
-    wr_patch_paint_free(app);
-    p->picker = wr_patch_pick_new(scene, turn, room->w, room->h, NULL);
-    p->scene = wr_scene_share(scene);
-    p->turn_deg = turn;
-    p->room = *room;
-    return p->picker;
+    const WrPatchPicks *picks = wr_patch_picks(app);
+    return picks ? wr_patch_picks_of(picks, wr_app_scene(app)->chosen) : NULL;
 }
 
 void wr_patch_paint_free(WrApp *app)
 {
-    WrPatchPaint *p = app->paint;
-    wr_patch_pick_free(p->picker);
-    if (p->scene) wr_scene_free(p->scene);
-    p->picker = NULL;
-    p->scene = NULL;
+    wr_patch_picks_forget(app);
 }
 
+/* Where the chosen object is seen there. */
 static bool spot_under(WrApp *app, double x, double y, WrPatchSpot *spot)
 {
-    const WrPatchPick *pick = picker(app);
+    const WrPatchPicks *picks = wr_patch_picks(app);
     const SDL_Rect *room = &app->layout->patch;
-    return pick && x >= room->x && x < room->x + room->w && y >= room->y && y < room->y + room->h &&
-           wr_patch_pick_at(pick, x - room->x, y - room->y, spot);
+    return picks && x >= room->x && x < room->x + room->w && y >= room->y &&
+           y < room->y + room->h &&
+           wr_patch_picks_at(picks, x - room->x, y - room->y, spot) == wr_app_scene(app)->chosen;
 }
 
 bool wr_patch_paint_uv(WrApp *app, const WrPointer *at, double *u, double *v)
@@ -173,6 +161,7 @@ void wr_patch_paint_press(WrApp *app, const WrPointer *at)
         app->hand->grab = WR_GRAB_PICK;
         return;
     }
+    wr_patch_choose(app, at);
     app->paint->inside = false;
     app->paint->at = *at;
     wr_brush_steady_begin(app, at);

@@ -2,7 +2,7 @@
 #pragma once
 #include "ui/desk/desk.h"
 #include "ui/desk/hand.h"
-#include "ui/preview/patch_pick.h"
+#include "ui/preview/patch_picks.h"
 
 #include <SDL.h>
 #include <stdbool.h>
@@ -10,8 +10,8 @@
 /* Painting on the patch (patch_paint.c). */
 typedef struct WrPatchPaint {
     bool on;             /* the pointer over the patch paints instead of turning it */
-    WrPatchPick *picker; /* owned */
-    WrScene *scene;      /* own share; what the picker was made for */
+    WrPatchPicks *picks; /* owned */
+    WrScene *scene;      /* own share; what they were made for */
     double turn_deg;
     SDL_Rect room;
     bool inside; /* the last step lay on the object */

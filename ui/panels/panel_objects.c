@@ -1,0 +1,223 @@
+/* The scene's objects: which there are, which is at hand, and where that one stands. Every act is a command line. */
+#include "ui/panels/panel_objects.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/line.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/param_row.h"
+
+#include "base/text.h"
+#include "command/call.h"
+#include "scene/objects.h"
+#include "scene/param.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define ROW_UNITS 26
+
+/* ---- the list ---- */
+
+/* "object choose NAME" and the like. */
+static void run_named(WrApp *app, const char *what, int i)
+{
+    char buffer[WR_OBJECT_LABEL];
+    WrText line = { 0 };
+    wr_text_addf(&line, "object %s ", what);
+    wr_text_add_word(&line, wr_scene_object_label(wr_app_scene(app), i, buffer));
+    wr_scene_run(app, &line);
+}
+
+/* True if a line was run: the objects are others now. */
+static bool row(WrApp *app, int i)
+{
+    const WrScene *scene = wr_app_scene(app), *object = wr_scene_object(scene, i);
+    const bool chosen = i == scene->chosen;
+    char buffer[WR_OBJECT_LABEL];
+    const char *kind = wr_surfaces[object->shape.kind]->label;
+    const WrRow r = wr_gui_row_begin(i, ROW_UNITS, chosen);
+    const double right = wr_gui_row_width() - wr_gui_px(8);
+    wr_gui_row_at(wr_gui_px(4), wr_gui_px(20));
+    const bool eye = wr_gui_glyph("eye", object->hidden ? WR_ICON_EYE_OFF : WR_ICON_EYE, 20,
+                                  object->hidden ? 0xff8a8a8au : WR_COLOUR_TEXT);
+    wr_gui_tip(object->hidden ? "Show it" : "Hide it");
+    const double wide = wr_gui_text_width(WR_FONT_SMALL, kind), x = wr_gui_px(32);
+    wr_gui_row_at(x, 0);
+    wr_gui_text_cut(WR_FONT_TEXT,
+                    object->hidden ? 0xff8a8a8au
+                    : chosen       ? WR_COLOUR_STRONG
+                                   : WR_COLOUR_TEXT,
+                    wr_scene_object_label(scene, i, buffer), right - x - wide - wr_gui_px(8));
+    wr_gui_row_at(right - wide, 0);
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, kind);
+    wr_gui_row_end();
+    if (eye) run_named(app, object->hidden ? "show" : "hide", i);
+    else if (r.clicked && !chosen) run_named(app, "choose", i);
+    return eye || (r.clicked && !chosen);
+}
+
+/* ---- adding ---- */
+
+/* "object 4": the first number from the count on that none has yet. */
+static void free_name(const WrScene *scene, WrText *text)
+{
+    int number = wr_scene_object_count(scene) + 1;
+    do {
+        wr_text_clear(text);
+        wr_text_addf(text, "object %d", number++);
+    } while (wr_scene_object_find(scene, wr_text_get(text)) >= 0);
+}
+
+/* Beside all others, to the right. */
+static void add(WrApp *app, const char *what)
+{
+    const WrScene *scene = wr_app_scene(app);
+    WrText line = { 0 }, name = { 0 };
+    free_name(scene, &name);
+    wr_text_addf(&line, "object %s ", what);
+    wr_text_add_word(&line, wr_text_get(&name));
+    WrVec3 at = scene->at;
+    at.x += 1.15 * scene->size * 2 * wr_shape_radius(&scene->shape);
+    wr_line_vec(&line, "at", wr_line_round_vec(at, 3));
+    wr_text_fini(&name);
+    wr_scene_run(app, &line);
+}
+
+static void buttons(WrApp *app)
+{
+    if (wr_gui_icon_button("add", WR_ICON_PLUS, 26, false)) add(app, "add");
+    wr_gui_tip("Add an object: a plane, beside the chosen one; its surface is chosen below");
+    wr_gui_same_line(4);
+    if (wr_gui_icon_button("copy", WR_ICON_COPY, 26, false)) add(app, "copy");
+    wr_gui_tip("A copy of the chosen object, beside it");
+    wr_gui_same_line(4);
+    wr_gui_disable(wr_scene_object_count(wr_app_scene(app)) == 1);
+    if (wr_gui_icon_button("remove", WR_ICON_DELETE, 26, false))
+        wr_app_run_linef(app, "object remove");
+    wr_gui_tip("Remove the chosen object");
+    wr_gui_enable();
+}
+
+/* ---- the one at hand ---- */
+
+static void name_row(WrApp *app)
+{
+    WrObjectsHand *hand = app->objects;
+    const WrScene *scene = wr_app_scene(app);
+    char buffer[WR_OBJECT_LABEL];
+    const char *label = wr_scene_object_label(scene, scene->chosen, buffer);
+    if (strcmp(hand->of, label) != 0) {
+        snprintf(hand->of, sizeof hand->of, "%s", label);
+        snprintf(hand->name, sizeof hand->name, "%s", label);
+    }
+    wr_gui_label("Name");
+    const bool done = wr_gui_text_field("##object", 0, hand->name, sizeof hand->name, false);
+    const bool left = wr_gui_field_left() && !wr_gui_escape_pressed();
+    if (!(done || left) || !hand->name[0] || strcmp(hand->name, hand->of) == 0) return;
+    WrText line = { 0 };
+    wr_text_add(&line, "object set");
+    wr_line_text(&line, "name", hand->name);
+    hand->of[0] = '\0';
+    wr_scene_run(app, &line);
+}
+
+/* Three numbers in a row. */
+static WrEdit vector(const char *label, const char *const id[3], const WrNumber *spec, double v[3])
+{
+    WrEdit edit = WR_EDIT_NONE;
+    wr_gui_label(label);
+    const double third = (wr_gui_available() - wr_gui_px(8)) / 3;
+    for (int i = 0; i < 3; i++) {
+        const WrEdit own = wr_gui_number(id[i], third, spec, &v[i]);
+        if (own > edit) edit = own;
+        if (i < 2) wr_gui_same_line(4);
+    }
+    return edit;
+}
+
+static void place(WrApp *app)
+{
+    static const char *const ids[3] = { "atx", "aty", "atz" }, *const turns[3] = { "rx", "ry",
+                                                                                   "rz" };
+    static const WrNumber away = {
+        .low = -3,
+        .high = 3,
+        .hard_low = -1e9,
+        .hard_high = 1e9,
+        .decimals = 3,
+        .tip = "Where its centre stands: x to the right, y up, z to the viewer"
+    };
+    static const WrNumber deg = { .low = -180,
+                                  .high = 180,
+                                  .hard_low = -1e9,
+                                  .hard_high = 1e9,
+                                  .decimals = 1,
+                                  .unit = "\xc2\xb0",
+                                  .tip = "Turned about the world's x, then y, then z axis" };
+    const WrScene *scene = wr_app_scene(app);
+    const double *own = wr_surfaces[scene->shape.kind]->pose_deg;
+    double at[3] = { scene->at.x, scene->at.y, scene->at.z };
+    double turn[3] = { own[0], own[1], own[2] };
+    if (scene->posed)
+        turn[0] = scene->rotate_deg.x, turn[1] = scene->rotate_deg.y, turn[2] = scene->rotate_deg.z;
+    WrEdit edit = vector("Place", ids, &away, at);
+    if (edit != WR_EDIT_NONE) wr_app_live(app)->at = (WrVec3){ at[0], at[1], at[2] };
+    if (edit == WR_EDIT_DONE) {
+        WrText line = { 0 };
+        wr_text_add(&line, "object set");
+        wr_line_vec(&line, "at", (WrVec3){ at[0], at[1], at[2] });
+        wr_scene_run(app, &line);
+        return;
+    }
+    edit = vector("Turn", turns, &deg, turn);
+    if (edit != WR_EDIT_NONE) {
+        WrScene *live = wr_app_live(app);
+        live->posed = true;
+        live->rotate_deg = (WrVec3){ turn[0], turn[1], turn[2] };
+    }
+    if (edit != WR_EDIT_DONE) return;
+    WrText line = { 0 };
+    wr_text_add(&line, "object set");
+    wr_line_vec(&line, "turn", (WrVec3){ turn[0], turn[1], turn[2] });
+    wr_scene_run(app, &line);
+}
+
+static void table(WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    const WrScene *scene = wr_app_scene(app);
+    const char *labels[WR_LAYERS_MAX + 1] = { "All layers" };
+    int now = 0;
+    for (int i = 0; i < document->layer_count; i++) {
+        labels[i + 1] = document->layers[i].name;
+        if (scene->layer && strcmp(scene->layer, labels[i + 1]) == 0) now = i + 1;
+    }
+    const int before = now;
+    wr_gui_label("Table");
+    if (wr_gui_choice("table", 0, labels, document->layer_count + 1, &now) && now != before) {
+        if (now > 0) wr_app_run_linef(app, "object set layer=%d", now);
+        else wr_app_run_linef(app, "object set layer=all");
+    }
+    wr_gui_tip("The heights that it wears: all layers as they are joined, or one layer alone");
+}
+
+void wr_panel_objects(WrApp *app)
+{
+    const WrScene *scene = wr_app_scene(app);
+    const int count = wr_scene_object_count(scene);
+    wr_gui_heading("OBJECTS");
+    for (int i = 0; i < count; i++)
+        if (row(app, i)) return;
+    buttons(app);
+    if (count > 1 || scene->name) name_row(app);
+    if (count > 1) place(app);
+    if (count > 1 || scene->size != 1) wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_SIZE]);
+    if (count > 1 || scene->layer) table(app);
+    wr_gui_space(8);
+}

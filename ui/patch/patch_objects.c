@@ -1,0 +1,212 @@
+#include "ui/patch/patch_objects.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/layout.h"
+#include "ui/desk/line.h"
+#include "ui/desk/session_view.h"
+#include "ui/desk/settings.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/patch/patch.h"
+#include "ui/patch/patch_paint.h"
+#include "ui/preview/rotation.h"
+
+#include "base/text.h"
+#include "command/call.h"
+#include "document/document.h"
+#include "scene/objects.h"
+
+#include <math.h>
+#include <string.h>
+
+#define REACH 9.0 /* units: as near a handle is under the pointer */
+
+/* ---- picking ---- */
+
+const WrPatchPicks *wr_patch_picks(WrApp *app)
+{
+    WrPatchPaint *p = app->paint;
+    const SDL_Rect *room = &app->layout->patch;
+    const WrScene *scene = wr_app_scene(app);
+    const double turn = app->patch->turn_deg;
+    const bool same = p->picks && p->scene == scene && p->turn_deg == turn &&
+                      p->room.w == room->w && p->room.h == room->h;
+    if (same || room->w <= 0) return room->w > 0 ? p->picks : NULL;
+    wr_patch_picks_forget(app);
+    p->picks = wr_patch_picks_new(scene, turn, room->w, room->h, NULL);
+    p->scene = wr_scene_share(scene);
+    p->turn_deg = turn;
+    p->room = *room;
+    return p->picks;
+}
+
+void wr_patch_picks_forget(WrApp *app)
+{
+    WrPatchPaint *p = app->paint;
+    wr_patch_picks_free(p->picks);
+    if (p->scene) wr_scene_free(p->scene);
+    p->picks = NULL;
+    p->scene = NULL;
+}
+
+/* Painting reaches the table that the object wears. */
+static void use_layer(WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    const char *name = document->scene->layer;
+    for (int i = document->layer_count - 1; name && i >= 0; i--) {
+        if (strcmp(document->layers[i].name, name) != 0) continue;
+        if (i != document->active) wr_app_run_linef(app, "layer use %d", i + 1);
+        return;
+    }
+}
+
+bool wr_patch_choose(WrApp *app, const WrPointer *at)
+{
+    const SDL_Rect *room = &app->layout->patch;
+    const WrPatchPicks *picks = wr_patch_picks(app);
+    const WrScene *scene = wr_app_scene(app);
+    char buffer[WR_OBJECT_LABEL];
+    WrPatchSpot spot;
+    const int object =
+        picks ? wr_patch_picks_at(picks, at->x - room->x, at->y - room->y, &spot) : -1;
+    if (object < 0) return false;
+    if (object != scene->chosen) {
+        WrText line = { 0 };
+        wr_text_add(&line, "object choose ");
+        wr_text_add_word(&line, wr_scene_object_label(scene, object, buffer));
+        wr_app_run_line(app, wr_text_get(&line));
+        wr_text_fini(&line);
+    }
+    use_layer(app);
+    return true;
+}
+
+/* ---- the handles ---- */
+
+/* The chosen object's ball in the view. */
+typedef struct Ball {
+    WrPlacement at;
+    double x, y, radius; /* pixels of the window; radius at least that of a hand's reach */
+    double pixel;        /* world units, at its centre's depth */
+} Ball;
+
+static bool find_ball(const WrApp *app, Ball *ball)
+{
+    const SDL_Rect *r = &app->layout->patch;
+    const WrScene *scene = wr_app_scene(app);
+    if (scene->other_count == 0 || r->w <= 0 || app->settings->turning) return false;
+    if (!wr_scene_place(scene, app->patch->turn_deg, (double)r->w / r->h, &ball->at, NULL))
+        return false;
+    const WrPlacement *at = &ball->at;
+    const WrVec3 from = v3_sub(at->position, at->eye);
+    const double depth = v3_dot(from, at->forward);
+    if (!(depth > 0)) return false;
+    const double half = at->orthographic ? at->half_height : at->half_height * depth;
+    ball->pixel = 2 * half / r->h;
+    ball->x = r->x + r->w / 2.0 + v3_dot(from, at->right) / ball->pixel;
+    ball->y = r->y + r->h / 2.0 - v3_dot(from, at->up) / ball->pixel;
+    ball->radius = fmax(at->radius * at->size / ball->pixel, 3 * REACH * wr_gui_scale());
+    return true;
+}
+
+/* The square stands to the lower right. */
+static void size_spot(const Ball *ball, double *x, double *y)
+{
+    *x = ball->x + ball->radius * sqrt(0.5);
+    *y = ball->y + ball->radius * sqrt(0.5);
+}
+
+WrHandle wr_patch_handle_under(const WrApp *app, const WrPointer *at)
+{
+    Ball ball;
+    double x, y;
+    const double reach = REACH * wr_gui_scale();
+    if (!find_ball(app, &ball)) return WR_HANDLE_NONE;
+    size_spot(&ball, &x, &y);
+    if (hypot(at->x - x, at->y - y) <= reach) return WR_HANDLE_SIZE;
+    if (hypot(at->x - ball.x, at->y - ball.y) <= reach) return WR_HANDLE_MOVE;
+    const double away = fabs(hypot(at->x - ball.x, at->y - ball.y) - ball.radius);
+    return away <= 0.6 * reach ? WR_HANDLE_TURN : WR_HANDLE_NONE;
+}
+
+static WrVec3 turn_of(const WrScene *scene)
+{
+    const double *own = wr_surfaces[scene->shape.kind]->pose_deg;
+    return scene->posed ? scene->rotate_deg : (WrVec3){ own[0], own[1], own[2] };
+}
+
+void wr_patch_handle_press(WrApp *app, const WrPointer *at)
+{
+    const WrScene *scene = wr_app_scene(app);
+    app->patch->handle = wr_patch_handle_under(app, at);
+    app->patch->from = wr_rotation_from_deg(turn_of(scene));
+    app->patch->from_at = scene->at;
+    app->patch->from_size = scene->size;
+}
+
+/* World -> before the turntable turned. */
+static WrVec3 turned_back(WrVec3 v, double turn_deg)
+{
+    const WrRotation back = wr_rotation_axis((WrVec3){ 0, 1, 0 }, -turn_deg);
+    return wr_rotation_apply(&back, v);
+}
+
+void wr_patch_handle_drag(WrApp *app, const WrPointer *at)
+{
+    const WrPatch *p = app->patch;
+    const SDL_Rect *r = &app->layout->patch;
+    const double dx = at->x - app->hand->start.x, dy = at->y - app->hand->start.y;
+    Ball ball;
+    if (!find_ball(app, &ball)) return;
+    WrScene *scene = wr_app_live(app);
+    if (p->handle == WR_HANDLE_MOVE) {
+        WrVec3 by = v3_mad(v3_scale(ball.at.right, dx * ball.pixel), ball.at.up, -dy * ball.pixel);
+        by = turned_back(by, p->turn_deg);
+        scene->at = wr_line_round_vec(v3_add(p->from_at, by), 4);
+    } else if (p->handle == WR_HANDLE_SIZE) {
+        const double before = hypot(app->hand->start.x - ball.x, app->hand->start.y - ball.y);
+        const double now = hypot(at->x - ball.x, at->y - ball.y);
+        scene->size = fmax(1e-3, wr_line_round(p->from_size * now / fmax(before, 1), 4));
+    } else {
+        const WrRotation now =
+            wr_rotation_dragged(&p->from, p->turn_deg, ball.at.right, ball.at.up, dx, dy,
+                                fmin(r->w < r->h ? r->w : r->h, 2 * ball.radius));
+        scene->posed = true;
+        scene->rotate_deg = wr_line_round_vec(wr_rotation_to_deg(&now), 2);
+    }
+}
+
+void wr_patch_handle_release(WrApp *app)
+{
+    if (!app->live) return;
+    WrText line = { 0 };
+    wr_text_add(&line, "object set");
+    if (app->patch->handle == WR_HANDLE_MOVE) wr_line_vec(&line, "at", app->live->at);
+    else if (app->patch->handle == WR_HANDLE_SIZE) wr_line_number(&line, "size", app->live->size);
+    else wr_line_vec(&line, "turn", app->live->rotate_deg);
+    wr_app_live_end(app);
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
+void wr_patch_handles_draw(const WrApp *app)
+{
+    Ball ball;
+    double x, y;
+    const double s = wr_gui_scale();
+    const WrHand *hand = app->hand;
+    if (!find_ball(app, &ball) || wr_patch_paints(app)) return;
+    if (!hand->on_patch && hand->grab != WR_GRAB_HANDLE) return;
+    const WrHandle over =
+        hand->grab == WR_GRAB_HANDLE ? app->patch->handle : wr_patch_handle_under(app, &hand->at);
+    size_spot(&ball, &x, &y);
+    const WrColour ring = over == WR_HANDLE_TURN ? WR_COLOUR_ACCENT : 0xa0f0f0f0u;
+    wr_gui_draw_circle(ball.x, ball.y, ball.radius, 0x60000000u, 3.0 * s);
+    wr_gui_draw_circle(ball.x, ball.y, ball.radius, ring, 1.3 * s);
+    wr_gui_draw_disc(ball.x, ball.y, 6.0 * s, 0xb0000000u);
+    wr_gui_draw_disc(ball.x, ball.y, 4.5 * s,
+                     over == WR_HANDLE_MOVE ? WR_COLOUR_ACCENT : 0xfff0f0f0u);
+    wr_gui_draw_fill(x - 6 * s, y - 6 * s, 12 * s, 12 * s, 0xb0000000u, 2 * s);
+    wr_gui_draw_fill(x - 4.5 * s, y - 4.5 * s, 9 * s, 9 * s,
+                     over == WR_HANDLE_SIZE ? WR_COLOUR_ACCENT : 0xfff0f0f0u, 1.5 * s);
+}
