@@ -338,6 +338,8 @@ static bool run_filter(const WrKernels *k, Bench *b, int member, int count)
     case 11: k->specular_lean(&b->light[member & 1], &shine, s); return true;
     case 12:
     case 13: k->specular_toksvig(&b->light[member & 1], &shine, s); return true;
+    case 14:
+    case 15: k->colour_pyramid(&look, s); return true;
     default: return false;
     }
 }

@@ -3,6 +3,8 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
+#include "image/image.h"
+
 #define SIDE 160
 #define PIXELS (SIDE * SIDE)
 
@@ -66,6 +68,14 @@ static WrField *mostly_level(void)
     return field;
 }
 
+/* Black and white, texel by texel. */
+static WrImage *checker(int width, int height)
+{
+    WrImage *image = wr_image_new(width, height, 1, NULL);
+    for (int i = 0; i < width * height; i++) image->data[i] = (float)((i % width + i / width) & 1);
+    return image;
+}
+
 /* One sample a pixel: the rows' counts are the map's, and where the picture has something. */
 static void check_counts(WrScene *scene, const WrField *field)
 {
@@ -86,6 +96,8 @@ static void check_counts(WrScene *scene, const WrField *field)
     else assert_int_equal(count_of(one, WR_MAP_LOOKED), 0);
     if (wr_plan_runs(plan, WR_EFFECT_FILTER))
         assert_int_equal(count_of(one, WR_MAP_WIDE), plan->rows[WR_EFFECT_FILTER].pixels);
+    else if (wr_plan_runs(plan, WR_EFFECT_TINT))
+        assert_int_equal(count_of(one, WR_MAP_WIDE), plan->rows[WR_EFFECT_TINT].pixels);
     else assert_int_equal(count_of(one, WR_MAP_WIDE), 0);
     stop(one);
     stop(four);
@@ -103,6 +115,7 @@ static void one_sample_is_counted_as_the_rows_count(void **state)
         scene->dials.aa = aas[k / SURFACES % 3];
         scene->dials.shading = k % 7 == 0 ? WR_SHADING_DOUBLE : scene->dials.shading;
         scene->bump = k % 11 == 0 ? WR_BUMP_NONE : WR_BUMP_BLINN;
+        if (k % 3 == 0 || k % 11 == 0) scene->colour = checker(64 + k, 33);
         check_counts(scene, fields[k / SURFACES / 3]);
         wr_scene_free(scene);
     }

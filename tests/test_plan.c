@@ -155,6 +155,24 @@ static void filtered(Stage *stage)
     stage->scene->dials.aa = WR_AA_FILTER;
 }
 
+static void tinted(Stage *stage)
+{
+    coloured(stage);
+    filtered(stage);
+}
+
+static void tinted_evenly(Stage *stage)
+{
+    tinted(stage);
+    for (int i = 0; i < 8 * 8 * 3; i++) stage->scene->colour->data[i] = 0.1f * (float)(i % 3 + 1);
+}
+
+static void tinted_still(Stage *stage)
+{
+    tinted(stage);
+    stage->scene->colour_own = true; /* 0 times */
+}
+
 static void filtered_still(Stage *stage)
 {
     exact(stage);
@@ -298,6 +316,11 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_DIFFUSE] = { keep_all, { { no_diffuse, 0 }, { dark, 0 }, { black, 0 } } },
     [WR_EFFECT_SPECULAR] = { keep_all, { { no_specular, 0 }, { dark, 0 } } },
     [WR_EFFECT_COLOUR] = { coloured, { { white, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_TINT] = { tinted,
+                         { { tinted_evenly, 0 },
+                           { tinted_still, 0 },
+                           { coloured, NOTHING },
+                           { filtered, NOTHING } } },
     [WR_EFFECT_BUMP] = { keep_all,
                          { { no_height, 0 },
                            { no_replication, 0 },

@@ -273,13 +273,17 @@ static void a_document_carries_its_colour_picture(void **state)
     assert_true(colour->data[0] == 1 && colour->data[1] == 0);
     assert_near(colour->data[2], 10 / 255.0 / 12.92, 1e-7);
     assert_near(colour->data[3], pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-6);
+    must_run(a, "colour c.png repeat=2,-0.5");
     must_run(a, "save d.exr");
     assert_int_equal(unlink("c.png"), 0);
     if (!wr_session_open(b, "d.exr", &err)) fail_msg("%s", err.text);
     assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
     const WrImage *loaded = wr_session_document(b)->scene->colour;
     assert_int_equal(loaded->width, 2);
-    assert_memory_equal(loaded->data, colour->data, 6 * sizeof(float));
+    const WrScene *scene = wr_session_document(b)->scene;
+    assert_true(scene->colour_own && scene->colour_ru == 2 && scene->colour_rv == -0.5);
+    assert_memory_equal(loaded->data, wr_session_document(a)->scene->colour->data,
+                        6 * sizeof(float));
     must_run(b, "colour off");
     assert_null(wr_session_document(b)->scene->colour);
     wr_session_free(a);

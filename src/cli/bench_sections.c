@@ -242,6 +242,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
+    [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
     [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },

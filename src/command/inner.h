@@ -225,7 +225,9 @@ WrHandler wr_run_undo, wr_run_redo, wr_run_view; /* history_commands.c */
 
 /* The scene's canonical lines: each command's row prints its own. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
-WrScenePrinter wr_print_rotate, wr_print_camera, wr_print_colour;
+WrScenePrinter wr_print_rotate, wr_print_camera;
+/* named: with the file's name; else by its content alone. */
+void wr_print_colour(const WrScene *scene, bool named, WrText *text);
 void wr_print_object(const WrScene *scene, int i,
                      WrText *text);                       /* of several: adds it, with its place */
 void wr_print_chosen(const WrScene *scene, WrText *text); /* where that is not the last one */

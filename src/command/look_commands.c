@@ -11,6 +11,7 @@
 #include "document/document_file.h"
 #include "scene/scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #define LOOK 16384 /* pixels between two looks at whether it should stop */
@@ -22,13 +23,27 @@ static void print_material(const WrScene *scene, WrText *text)
     wr_text_add(text, "\n");
 }
 
-void wr_print_colour(const WrScene *scene, WrText *text)
+void wr_print_colour(const WrScene *scene, bool named, WrText *text)
 {
+    const double ru = scene->colour_ru, rv = scene->colour_rv;
     if (!scene->colour) return;
-    wr_text_add(text, "colour ");
-    wr_text_add_word(text, scene->colour_path);
+    wr_text_add(text, "colour");
+    if (named) wr_text_add(text, " "), wr_text_add_word(text, scene->colour_path);
     if (*scene->colour_sha256) wr_text_addf(text, " sha256=%s", scene->colour_sha256);
+    if (scene->colour_own && ru == 1 && rv == 1) {
+        wr_text_add(text, " repeat=once");
+    } else if (scene->colour_own) {
+        wr_text_add(text, " repeat=");
+        wr_text_add_number(text, ru);
+        wr_text_add(text, ",");
+        wr_text_add_number(text, rv);
+    }
     wr_text_add(text, "\n");
+}
+
+static void print_colour(const WrScene *scene, WrText *text)
+{
+    wr_print_colour(scene, true, text);
 }
 
 static void print_dials(const WrScene *scene, WrText *text)
@@ -111,12 +126,38 @@ static bool find_colour(WrSession *session, WrCall *call, const char *name, WrIm
     return *colour != NULL;
 }
 
+/* How often a picture is laid: as the table, once, or so often. own: not as the table. */
+typedef struct Repeat {
+    bool own;
+    double ru, rv;
+} Repeat;
+
+static bool repeat_parse(const char *text, Repeat *repeat)
+{
+    const char *comma = strchr(text, ',');
+    *repeat = (Repeat){ strcmp(text, "table") != 0, 1, 1 };
+    if (!repeat->own || strcmp(text, "once") == 0) return true;
+    return comma && wr_number_parse(text, (size_t)(comma - text), &repeat->ru) &&
+           wr_number_parse(comma + 1, strlen(comma + 1), &repeat->rv) && fabs(repeat->ru) <= 1e9 &&
+           fabs(repeat->rv) <= 1e9;
+}
+
+static bool check_repeat(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    Repeat repeat;
+    (void)ctx;
+    if (repeat_parse(value, &repeat)) return true;
+    return wr_fail(err, "%s=%.40s: must be table, once, or two numbers ru,rv, -1e9..1e9", name,
+                   value);
+}
+
 static bool run_colour(WrSession *session, WrCall *call, WrError *err)
 {
     const char *name = wr_call_arg(call, "FILE|off")->text;
     bool off = strcmp(name, "off") == 0;
     WrImage *colour = NULL;
     if (off && wr_call_given(call, "sha256")) return wr_fail(err, "off takes no sha256=");
+    if (off && wr_call_given(call, "repeat")) return wr_fail(err, "off takes no repeat=");
     if (!off && !find_colour(session, call, name, &colour, err)) return false;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_image_free(scene->colour);
@@ -126,6 +167,12 @@ static bool run_colour(WrSession *session, WrCall *call, WrError *err)
     memset(scene->colour_sha256, 0, sizeof scene->colour_sha256);
     const char *hex = wr_call_arg(call, "sha256")->text;
     if (hex) memcpy(scene->colour_sha256, hex, 64);
+    Repeat repeat = { 0 };
+    if (!off && wr_call_given(call, "repeat"))
+        repeat_parse(wr_call_arg(call, "repeat")->text, &repeat);
+    scene->colour_own = repeat.own;
+    scene->colour_ru = repeat.own ? repeat.ru : 0;
+    scene->colour_rv = repeat.own ? repeat.rv : 0;
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -211,8 +258,13 @@ static bool row_material(WrForm *out)
 
 static const WrArgSpec args_colour[] = {
     { PLACE("FILE|off"), .type = WR_ARG_PATH,
-      .help = "a picture that is laid over u and v as often as replicate says, like the table, or "
-              "off (a file of that name is ./off)" },
+      .help = "a picture that is laid over u and v, or off (a file of that name is ./off)" },
+    { .name = "repeat",
+      .type = WR_ARG_TEXT,
+      .shape = "table|once|ru,rv",
+      .check = check_repeat,
+      .help = "how often it is laid along u and v: as often as replicate says, like the table; "
+              "once; or so often. Left out: table" },
     WR_ARGS_OF_FILE,
     { .name = "sha256",
       .type = WR_ARG_SHA256,
@@ -297,13 +349,15 @@ const WrCommand wr_command_colour = {
     .kind = WR_CLASS_SCENE,
     .args = args_colour,
     .run = run_colour,
-    .print = wr_print_colour,
+    .print = print_colour,
     .of_object = true,
     .help = "a colour picture on the surface",
     .details =
         "8-bit and 16-bit pictures are decoded from sRGB, float ones taken as linear; alpha is "
-        "left out. The picture is saved inside the document.",
-    .example = "colour peel.png"
+        "left out. Beyond its ends it goes on as the table does. Under dials aa=filter and "
+        "aa=moments each pixel has the mean of what it covers of the picture. It is saved inside "
+        "the document.",
+    .example = "colour peel.png repeat=once"
 };
 
 const WrCommand wr_command_dials = { .name = "dials",

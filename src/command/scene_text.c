@@ -9,13 +9,6 @@
 
 #include <string.h>
 
-static void print_colour_content(const WrScene *scene, WrText *text)
-{
-    if (scene->colour && *scene->colour_sha256)
-        wr_text_addf(text, "colour sha256=%s\n", scene->colour_sha256);
-    else wr_print_colour(scene, text);
-}
-
 typedef void Printer(const WrCommand *command, const WrScene *scene, WrText *text);
 
 static void print_named(const WrCommand *command, const WrScene *scene, WrText *text)
@@ -25,7 +18,7 @@ static void print_named(const WrCommand *command, const WrScene *scene, WrText *
 
 static void print_content(const WrCommand *command, const WrScene *scene, WrText *text)
 {
-    if (command == &wr_command_colour) print_colour_content(scene, text);
+    if (command == &wr_command_colour) wr_print_colour(scene, !*scene->colour_sha256, text);
     else command->print(scene, text);
 }
 

@@ -29,7 +29,7 @@ typedef enum WrMapBit {
     WR_MAP_RENDERED = 1, /* its tile was rendered in this frame */
     WR_MAP_COVERED = 2,  /* a sample met the object */
     WR_MAP_LOOKED = 4,   /* a sample looked F up: bump ran */
-    WR_MAP_WIDE = 8,     /* in the pyramid, or several times (E17) */
+    WR_MAP_WIDE = 8,     /* in the pyramid, or several times (E17); without bump: C so (E64) */
     WR_MAP_LIT = 16,     /* light was worked out: it does not lie on the dark side (E18) */
     WR_MAP_SAMPLES = 32 /* from here on: samples a side, 1, up to 2, 4, 8, ... as 0, 1, 2, 3, ... */
 } WrMapBit;

@@ -18,7 +18,7 @@ void wr_frame_start_counts(WrRenderer *renderer)
         memset(s->seconds, 0, sizeof s->seconds);
         memset(s->whole, 0, sizeof s->whole);
         s->all = s->all_strips = 0;
-        s->covered = s->not_finite = s->shaded = s->tiles = s->wide_samples = 0;
+        s->covered = s->not_finite = s->shaded = s->tiles = s->wide_samples = s->wide_tints = 0;
         memset(s->spared, 0, sizeof s->spared);
         memset(s->spared_tiles, 0, sizeof s->spared_tiles);
         s->strips = 0;
@@ -30,7 +30,7 @@ void wr_frame_start_counts(WrRenderer *renderer)
 
 /* What a frame's threads counted. */
 typedef struct Counts {
-    int64_t tiles, shaded, filtered;
+    int64_t tiles, shaded, filtered, tinted;
     int64_t spared[WR_RUN_KINDS], spared_tiles[WR_RUN_KINDS]; /* as WrTileScratch has them */
     uint32_t ran;
 } Counts;
@@ -47,7 +47,9 @@ static void account(WrPlan *plan, const double seconds[WR_STAGE_COUNT], const Co
         if (!row->run) continue;
         const unsigned spared = wr_effects[e].spared;
         row->tiles = counts->tiles - counts->spared_tiles[spared];
-        row->pixels = e == WR_EFFECT_FILTER ? counts->filtered : shaded;
+        row->pixels = e == WR_EFFECT_FILTER ? counts->filtered
+                      : e == WR_EFFECT_TINT ? counts->tinted
+                                            : shaded;
         for (unsigned run = 0; run < WR_RUN_KINDS; run++)
             if (run & spared) row->pixels -= counts->spared[run];
     }
@@ -91,6 +93,7 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
         frame->not_finite += s->not_finite;
         counts.tiles += s->tiles;
         counts.filtered += s->wide_samples;
+        counts.tinted += s->wide_tints;
         for (int run = 0; run < WR_RUN_KINDS; run++) {
             counts.spared[run] += s->spared[run];
             counts.spared_tiles[run] += s->spared_tiles[run];
@@ -112,8 +115,8 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
         .geometry = seconds[WR_STAGE_GEOMETRY] + seconds[WR_STAGE_CURVATURE],
         .bump = seconds[WR_STAGE_FOOTPRINT] + seconds[WR_STAGE_LOOK] + seconds[WR_STAGE_PYRAMID] +
                 seconds[WR_STAGE_BUMP] + seconds[WR_STAGE_SPREAD],
-        .shade = seconds[WR_STAGE_COLOUR] + seconds[WR_STAGE_DIFFUSE] + seconds[WR_STAGE_SPECULAR] +
-                 seconds[WR_STAGE_LIGHT],
+        .shade = seconds[WR_STAGE_COLOUR] + seconds[WR_STAGE_TINT] + seconds[WR_STAGE_DIFFUSE] +
+                 seconds[WR_STAGE_SPECULAR] + seconds[WR_STAGE_LIGHT],
         .resolve = seconds[WR_STAGE_RESOLVE] + seconds[WR_STAGE_BOUND] + seconds[WR_STAGE_STORE],
         .pyramid = renderer->pyramid_seconds,
         .total = total,

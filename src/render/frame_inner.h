@@ -1,7 +1,6 @@
 /* frame_inner.h - what a renderer holds from frame to frame.
    Layer 5, private to frame.c, frame_table.c, frame_account.c, group.c. */
 #pragma once
-#include "field/wrap.h"
 #include "render/frame.h"
 #include "render/keep.h"
 #include "render/pyramid.h"
@@ -9,22 +8,14 @@
 #include "render/srgb_codes.h"
 #include "render/table.h"
 #include "render/tile.h"
+#include "render/tint.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct WrImage WrImage;
 typedef struct WrGroup WrGroup;
 
 #define WR_HELD_MESHES 5 /* for 1, 2, 4, 8 and 16 samples a side */
-
-/* The colour picture as the kernels want it. */
-typedef struct ColourCopy {
-    const WrImage *source; /* shared; what rgba was made from */
-    WrWrap wrap_u, wrap_v;
-    float *rgba; /* apron of one texel */
-    int pitch;
-} ColourCopy;
 
 struct WrRenderer {
     WrPool *pool;
@@ -35,7 +26,7 @@ struct WrRenderer {
     const WrField *looked; /* what this frame looks up: the request's field, or its rounded form */
     WrViewMesh meshes[WR_HELD_MESHES],
         *mesh; /* mesh: of the last frame; the others, of frames that hold */
-    ColourCopy colour;
+    WrTint tint;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;

@@ -10,52 +10,13 @@
 
 #include <math.h>
 
-static void drop_colour(ColourCopy *copy)
-{
-    wr_image_free((WrImage *)copy->source);
-    wr_free(copy->rgba);
-    *copy = (ColourCopy){ 0 };
-}
-
-/* Index of a texel of the apron: round, or the edge. */
-static int wrap(int i, int n, WrWrap how)
-{
-    if (how == WR_WRAP_PERIODIC) return (i % n + n) % n;
-    return i < 0 ? 0 : i >= n ? n - 1 : i;
-}
-
-static bool bring_colour(ColourCopy *copy, const WrImage *image, const WrField *field, WrError *err)
-{
-    WrWrap wrap_u = wr_field_wrap_u(field), wrap_v = wr_field_wrap_v(field);
-    if (copy->source == image && copy->wrap_u == wrap_u && copy->wrap_v == wrap_v) return true;
-    drop_colour(copy);
-    const int w = image->width, h = image->height, c = image->channels;
-    copy->rgba =
-        wr_try_alloc((size_t)(w + 2) * (size_t)(h + 2), 4 * sizeof(float), "colour picture", err);
-    if (!copy->rgba) return false;
-    copy->source = wr_image_share(image);
-    copy->wrap_u = wrap_u, copy->wrap_v = wrap_v;
-    copy->pitch = w + 2;
-    for (int j = -1; j <= h; j++)
-        for (int i = -1; i <= w; i++) {
-            const float *in =
-                image->data +
-                ((size_t)wrap(j, h, wrap_v) * (size_t)w + (size_t)wrap(i, w, wrap_u)) * (size_t)c;
-            float *out = copy->rgba + ((size_t)(j + 1) * (size_t)copy->pitch + (size_t)(i + 1)) * 4;
-            out[0] = in[0];
-            out[1] = c >= 3 ? in[1] : in[0];
-            out[2] = c >= 3 ? in[2] : in[0];
-        }
-    return true;
-}
-
 void wr_frame_drop_tables(WrRenderer *renderer)
 {
     wr_table_fini(&renderer->table);
     wr_pyramid_drop(&renderer->pyramid);
     wr_pyramid_drop(&renderer->range);
     wr_rounded_drop(&renderer->rounded);
-    drop_colour(&renderer->colour);
+    wr_tint_drop(&renderer->tint);
 }
 
 /* The copies of heights that the plan calls for, and none else. */
@@ -145,9 +106,18 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
 
 bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
-    if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR))
-        return bring_colour(&renderer->colour, request->scene->colour, request->field, err);
-    drop_colour(&renderer->colour);
+    const WrPlan *plan = &renderer->plan;
+    const WrField *field = request->field;
+    WrTint *tint = &renderer->tint;
+    if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
+        wr_tint_drop(tint);
+        return true;
+    }
+    if (!wr_tint_bring(tint, request->scene->colour, wr_field_wrap_u(field), wr_field_wrap_v(field),
+                       err))
+        return false;
+    if (wr_plan_runs(plan, WR_EFFECT_TINT)) return wr_tint_bring_pyramid(tint, renderer->pool, err);
+    if (!request->hold) wr_pyramid_drop(&tint->pyramid);
     return true;
 }
 
@@ -217,6 +187,39 @@ static void fill_level(const WrRenderer *renderer, const WrFrameRequest *request
         }
 }
 
+/* The colour picture, and where its footprints are measured. */
+static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *request, WrTileJob *job)
+{
+    const WrTint *tint = &renderer->tint;
+    const WrPyramid *pyramid =
+        wr_plan_runs(&renderer->plan, WR_EFFECT_TINT) ? &tint->pyramid : NULL;
+    double ru, rv;
+    wr_scene_colour_repeat(request->scene, &ru, &rv);
+    const WrColourLook look = { .rgba = tint->rgba,
+                                .pitch = tint->pitch,
+                                .width = tint->source->width,
+                                .height = tint->source->height,
+                                .ru = ru,
+                                .rv = rv,
+                                .periodic_u = tint->wrap_u == WR_WRAP_PERIODIC,
+                                .periodic_v = tint->wrap_v == WR_WRAP_PERIODIC };
+    job->colour = look;
+    job->tint = (WrLook){ .width = look.width,
+                          .height = look.height,
+                          .ru = ru,
+                          .rv = rv,
+                          .periodic_u = look.periodic_u,
+                          .periodic_v = look.periodic_v,
+                          .pyramid = pyramid };
+    job->tint_double = (WrLookd){ .width = look.width,
+                                  .height = look.height,
+                                  .ru = ru,
+                                  .rv = rv,
+                                  .periodic_u = look.periodic_u,
+                                  .periodic_v = look.periodic_v,
+                                  .pyramid = pyramid };
+}
+
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {
@@ -246,14 +249,5 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
                           .range = look.range };
     job->looks = looks_of(request, renderer, &look);
     fill_level(renderer, request, job);
-    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) return;
-    const WrImage *image = request->scene->colour;
-    job->colour = (WrColourLook){ .rgba = renderer->colour.rgba,
-                                  .pitch = renderer->colour.pitch,
-                                  .width = image->width,
-                                  .height = image->height,
-                                  .ru = request->scene->replicate_u,
-                                  .rv = request->scene->replicate_v,
-                                  .periodic_u = renderer->colour.wrap_u == WR_WRAP_PERIODIC,
-                                  .periodic_v = renderer->colour.wrap_v == WR_WRAP_PERIODIC };
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) fill_colour(renderer, request, job);
 }

@@ -266,6 +266,7 @@ const KERNELS WR_KERN_TABLE = {
 #endif
     .widen = kern_widen,
     .colour = kern_colour,
+    .colour_pyramid = kern_colour_pyramid,
     .view = kern_view,
     .begin = kern_begin,
     .light = kern_light,

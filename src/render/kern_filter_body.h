@@ -160,3 +160,15 @@ FLAT static void kern_look_pyramid(const LOOK *look, bool moments, STRIP *strip)
         strip->svv[k] = bounded(m.spread[2] * by.v * by.v * in_v);
     }
 }
+
+FLAT static void kern_colour_pyramid(const LOOK *look, STRIP *strip)
+{
+    const int count = strip->count;
+    kern_reduce(look, strip);
+    for (int k = 0; k < count; k++) {
+        Four c = moments_between(look, false, strip, k).mean;
+        strip->cr[k] = c[0];
+        strip->cg[k] = c[1];
+        strip->cb[k] = c[2];
+    }
+}

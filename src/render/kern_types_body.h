@@ -179,6 +179,8 @@ typedef struct WR_T(WrKernels) {
     void (*view)(const WR_T(WrRays) * rays, WR_T(WrStrip) * strip);
     void (*begin)(REAL ambient, WR_T(WrStrip) * strip);
     void (*colour)(const WrColourLook *look, WR_T(WrStrip) * strip); /* after begin */
+    /* C from its pyramid at u, v and level. */
+    void (*colour_pyramid)(const WR_T(WrLook) * look, WR_T(WrStrip) * strip);
     void (*light)(const WR_T(WrKernLight) * light, WR_T(WrStrip) * strip);
     void (*diffuse)(const WR_T(WrKernLight) * light, REAL kd, WR_T(WrStrip) * strip);
     void (*specular)(const WR_T(WrKernLight) * light, REAL ks, REAL shininess, bool gate,

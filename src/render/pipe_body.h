@@ -194,7 +194,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
     if (!lit(sink)) return spared;
-    if (spared & WR_RUN_DARK) ambient_strip(job, strip, watch);
+    if (spared & WR_RUN_DARK) ambient_strip(job, rays, strip, watch);
     else light_strip(job, rays, sink, strip, watch);
     keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);
     return spared;
@@ -281,8 +281,9 @@ static void note_map(const WrTileJob *job, const Rays *rays, unsigned spared, co
     const bool shone = runs(job, WR_EFFECT_DIFFUSE) || runs(job, WR_EFFECT_SPECULAR);
     const int light = shone && !(spared & WR_RUN_DARK) ? WR_MAP_LIT : 0;
     const bool filtered = looked && runs(job, WR_EFFECT_FILTER);
+    const bool tinted = !looked && runs(job, WR_EFFECT_TINT);
     for (int i = 0; i < strip->count; i++) {
-        const bool wide = filtered && (strip->level[i] > (REAL)0 || strip->taps[i] > 1);
+        const bool wide = (filtered && scratch->wide_of[i]) || (tinted && scratch->tint_of[i]);
         if (strip->x[i] < (REAL)-0.5 || strip->y[i] < (REAL)-0.5) continue; /* beyond the picture */
         const int bits =
             WR_MAP_COVERED | light | (looked ? WR_MAP_LOOKED : 0) | (wide ? WR_MAP_WIDE : 0);
@@ -371,7 +372,8 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 /* Places of what hit, where a later stage asks for them. */
 static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
 {
-    if (!runs(job, WR_EFFECT_FILTER) && !sink->bound && !job->map) return;
+    if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !sink->bound && !job->map)
+        return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];
         strip->y[i] = gy;

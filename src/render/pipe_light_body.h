@@ -73,13 +73,6 @@ static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKe
     watch_lap(watch, WR_STAGE_LIGHT);
 }
 
-static void lookup_colour(const WrTileJob *job, Strip *strip, Watch *watch)
-{
-    KERNELS_OF(job)->colour(&job->colour, strip);
-    did(watch, WR_EFFECT_COLOUR);
-    watch_lap(watch, WR_STAGE_COLOUR);
-}
-
 /* The sums of all lights, stage by stage, then the colour. */
 static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink *sink,
                             Strip *strip, Watch *watch)
@@ -88,7 +81,7 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     const bool specular = runs(job, WR_EFFECT_SPECULAR);
     const WrVec3 c = job->scene->material.colour;
     k->begin((REAL)job->scene->material.ambient, strip);
-    if (runs(job, WR_EFFECT_COLOUR)) lookup_colour(job, strip, watch);
+    if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
     if (specular || sink->bound) k->view(rays, strip);
     watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
     if (specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
@@ -98,13 +91,13 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
 }
 
 /* Where no light comes. */
-static void ambient_strip(const WrTileJob *job, Strip *strip, Watch *watch)
+static void ambient_strip(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
 {
     const WrMaterial *m = &job->scene->material;
     const WR_T(WrKernMaterial) material = {
         (REAL)m->ambient, (REAL)0, { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z }
     };
-    if (runs(job, WR_EFFECT_COLOUR)) lookup_colour(job, strip, watch);
+    if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
     KERNELS_OF(job)->ambient(&material, runs(job, WR_EFFECT_COLOUR), strip);
     watch_lap(watch, WR_STAGE_LIGHT);
 }
@@ -118,6 +111,6 @@ static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *si
         light_by_stages(job, rays, sink, strip, watch);
         return;
     }
-    if (runs(job, WR_EFFECT_COLOUR)) lookup_colour(job, strip, watch);
+    if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
     light_at_once(job, rays, shade, strip, watch);
 }

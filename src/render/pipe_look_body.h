@@ -1,5 +1,5 @@
-/* pipe_look_body.h - heights and slopes of a strip: from the formula, from the table, or filtered over each
-   pixel's footprint. A part of pipe_body.h. */
+/* pipe_look_body.h - heights, slopes and colours of a strip: from the formula, from the table, from the colour picture;
+   filtered over each pixel's footprint, or not. A part of pipe_body.h. */
 
 /* F as a formula: one point at a time, in double. */
 static void look_analytic(const WrTileJob *job, Strip *strip)
@@ -85,6 +85,10 @@ typedef struct Batch {
     int sample[WR_SPAN], tap[WR_SPAN];
 } Batch;
 
+/* What makes sums of a batch's look-ups; it leaves near and far empty. */
+typedef void Flush(const WrTileJob *job, const Batch *batch, Strip *strip, WrTileScratch *scratch,
+                   Watch *watch);
+
 static void note_far(const WrTileJob *job, const Strip *far, WrBlocks *seen)
 {
     const WrPyramid *pyramid = LOOK_OF(job)->pyramid;
@@ -97,8 +101,8 @@ static void note_far(const WrTileJob *job, const Strip *far, WrBlocks *seen)
     }
 }
 
-static void flush(const WrTileJob *job, const Batch *batch, Strip *strip, WrTileScratch *scratch,
-                  Watch *watch)
+static void flush_slopes(const WrTileJob *job, const Batch *batch, Strip *strip,
+                         WrTileScratch *scratch, Watch *watch)
 {
     Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
     const bool moments = runs(job, WR_EFFECT_SPREAD);
@@ -132,30 +136,23 @@ static void flush(const WrTileJob *job, const Batch *batch, Strip *strip, WrTile
     watch_lap(watch, WR_STAGE_PYRAMID);
 }
 
-/* Slopes over the footprint. Where no sample of the strip is larger than a texel: the table's own (E17). */
-static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
-                          WrTileScratch *scratch, Watch *watch)
+/* How many samples of the strip look above level 0, or several times; each is noted. */
+static int count_wide(const Strip *strip, unsigned char *wide)
 {
-    const Kernels *k = KERNELS_OF(job);
+    int count = 0;
+    for (int i = 0; i < strip->count; i++) {
+        wide[i] = strip->level[i] > (REAL)0 || strip->taps[i] > 1;
+        count += wide[i];
+    }
+    return count;
+}
+
+/* Look up all along each sample's footprint. */
+static void look_along(const WrTileJob *job, Flush *flush, Strip *strip, WrTileScratch *scratch,
+                       Watch *watch)
+{
     Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
     Batch batch;
-    int wide = 0;
-    did(watch, WR_EFFECT_FILTER);
-    k->footprint(rays, LOOK_OF(job), 1, strip);
-    k->spread(LOOK_OF(job), job->plan->anisotropic, strip);
-    for (int i = 0; i < strip->count; i++) {
-        strip->suu[i] = strip->suv[i] = strip->svv[i] = 0;
-        wide += strip->level[i] > (REAL)0 || strip->taps[i] > 1;
-    }
-    watch_lap(watch, WR_STAGE_FOOTPRINT);
-    scratch->wide_samples += wide;
-    if (wide == 0) {
-        look_level0(job, strip, scratch);
-        if (scratch->seen)
-            wr_keep_note_places(scratch->seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
-        watch_lap(watch, WR_STAGE_LOOK);
-        return;
-    }
     batch.count = near->count = far->count = 0;
     for (int i = 0; i < strip->count; i++)
         for (int tap = 0; tap < strip->taps[i]; tap++) {
@@ -169,6 +166,28 @@ static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
             batch.count = 0;
         }
     if (batch.count > 0) flush(job, &batch, strip, scratch, watch);
+}
+
+/* Slopes over the footprint. Where no sample of the strip is larger than a texel: the table's own (E17). */
+static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
+                          WrTileScratch *scratch, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    did(watch, WR_EFFECT_FILTER);
+    k->footprint(rays, LOOK_OF(job), 1, strip);
+    k->spread(LOOK_OF(job), job->plan->anisotropic, strip);
+    for (int i = 0; i < strip->count; i++) strip->suu[i] = strip->suv[i] = strip->svv[i] = 0;
+    const int wide = count_wide(strip, scratch->wide_of);
+    watch_lap(watch, WR_STAGE_FOOTPRINT);
+    scratch->wide_samples += wide;
+    if (wide > 0) {
+        look_along(job, flush_slopes, strip, scratch, watch);
+        return;
+    }
+    look_level0(job, strip, scratch);
+    if (scratch->seen)
+        wr_keep_note_places(scratch->seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
+    watch_lap(watch, WR_STAGE_LOOK);
 }
 
 static void look(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
@@ -185,4 +204,74 @@ static void look(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScr
             wr_keep_note_places(scratch->seen, strip->count, sizeof(REAL), strip->tu, strip->tv);
     }
     watch_lap(watch, WR_STAGE_LOOK);
+}
+
+/* ---- the colour picture --------------------------------------------------------------------------- */
+
+typedef struct Colour {
+    REAL r, g, b;
+} Colour;
+
+static Colour colour_of(const Strip *strip, int i)
+{
+    return (Colour){ strip->cr[i], strip->cg[i], strip->cb[i] };
+}
+
+static Colour colour_mix(Colour a, Colour b, REAL t)
+{
+    return (Colour){ a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b) };
+}
+
+static void flush_colours(const WrTileJob *job, const Batch *batch, Strip *strip,
+                          WrTileScratch *scratch, Watch *watch)
+{
+    Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
+    if (near->count > 0) KERNELS_OF(job)->colour(&job->colour, near);
+    watch_lap(watch, WR_STAGE_COLOUR);
+    if (far->count > 0) KERNELS_OF(job)->colour_pyramid(TINT_OF(job), far);
+    int a = 0, b = 0;
+    for (int k = 0; k < batch->count; k++) {
+        const int i = batch->sample[k], tap = batch->tap[k];
+        const REAL level = strip->level[i];
+        Colour at = { 0 };
+        if (level < (REAL)1) at = colour_of(near, a++);
+        if (level > (REAL)0) {
+            const Colour up = colour_of(far, b++);
+            at = level < (REAL)1 ? colour_mix(at, up, level) : up;
+        }
+        if (tap > 0) at = colour_mix(colour_of(strip, i), at, (REAL)1 / (REAL)(tap + 1));
+        strip->cr[i] = at.r, strip->cg[i] = at.g, strip->cb[i] = at.b;
+    }
+    near->count = far->count = 0;
+    watch_lap(watch, WR_STAGE_TINT);
+}
+
+/* C over the footprint, in the picture's own texels; where no sample is larger than one: the picture's own (E64). After
+   the table's look-ups, which it takes the places of. */
+static void look_tint(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
+                      Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    did(watch, WR_EFFECT_TINT);
+    k->footprint(rays, TINT_OF(job), 1, strip);
+    k->spread(TINT_OF(job), job->plan->tint_anisotropic, strip);
+    const int wide = count_wide(strip, scratch->tint_of);
+    watch_lap(watch, WR_STAGE_TINT);
+    scratch->wide_tints += wide;
+    if (wide > 0) look_along(job, flush_colours, strip, scratch, watch);
+    else k->colour(&job->colour, strip);
+    watch_lap(watch, WR_STAGE_COLOUR);
+}
+
+/* C of the colour picture. */
+static void look_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
+                        WrTileScratch *scratch, Watch *watch)
+{
+    did(watch, WR_EFFECT_COLOUR);
+    if (runs(job, WR_EFFECT_TINT)) {
+        look_tint(job, rays, strip, scratch, watch);
+        return;
+    }
+    KERNELS_OF(job)->colour(&job->colour, strip);
+    watch_lap(watch, WR_STAGE_COLOUR);
 }

@@ -26,6 +26,7 @@ typedef enum WrEffect {
     WR_EFFECT_DIFFUSE,
     WR_EFFECT_SPECULAR,
     WR_EFFECT_COLOUR,
+    WR_EFFECT_TINT,
     WR_EFFECT_BUMP,
     WR_EFFECT_GRADIENT,
     WR_EFFECT_WIDE,
@@ -67,6 +68,7 @@ typedef enum WrStage {
     WR_STAGE_BUMP,
     WR_STAGE_SPREAD,
     WR_STAGE_COLOUR,
+    WR_STAGE_TINT, /* the colour picture over footprints */
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
     WR_STAGE_LIGHT, /* all of a single light in one pass */
@@ -142,12 +144,13 @@ typedef enum WrPrecision {
      scheme      how the table is looked up
      normals     the surface's geometry and n' are worked out
      samples     K of K x K; 1 where one sample is taken
-     anisotropic of several look-ups
+     anisotropic, tint_anisotropic    of several look-ups
      lean        by the whole covariance; else by its trace
      inversion   how rays meet the surface
      mesh, newton, texels, spread, refine, contrast    as the dials of that name
      heights     what they are rounded to */
 #define WR_PLAN_SETTINGS(X)                                                                        \
+    X(TINT, bool, tint_anisotropic)                                                                \
     X(BUMP, WrBumpMode, bump)                                                                      \
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \

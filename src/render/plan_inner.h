@@ -26,10 +26,15 @@ static inline const WrSurfaceInfo *surface_of(const WrPlanAsk *ask)
     return wr_surfaces[ask->scene->shape.kind];
 }
 
-/* As WrEffectInfo has them; these are in plan_sight.c and plan_runs.c. */
+static inline bool wants_filter(const WrDials *dials)
+{
+    return dials->aa == WR_AA_FILTER || dials->aa == WR_AA_MOMENTS;
+}
+
+/* As WrEffectInfo has them; these are in plan_sight.c, plan_runs.c and plan_maps.c. */
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
     wr_decide_parameters, wr_decide_tangents, wr_decide_hidden, wr_decide_between, wr_decide_beside,
-    wr_decide_dark, wr_decide_ground;
-WrSettle wr_settle_depth, wr_settle_newton;
+    wr_decide_dark, wr_decide_ground, wr_decide_colour, wr_decide_tint;
+WrSettle wr_settle_depth, wr_settle_newton, wr_settle_tint;

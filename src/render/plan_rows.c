@@ -4,7 +4,6 @@
 #include "base/rows.h"
 
 #include "field/analytic.h"
-#include "image/image.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -38,25 +37,6 @@ static WrVerdict decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const
     if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
     if (ask->scene->material.specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
     return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
-}
-
-/* White everywhere: multiplying changes nothing. */
-static bool colour_white(const WrImage *image)
-{
-    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    for (size_t i = 0; i < count; i++)
-        if (image->data[i] != 1.0f) return false;
-    return true;
-}
-
-static WrVerdict decide_colour(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    const WrImage *image = ask->scene->colour;
-    (void)plan;
-    if (!image) return say(WR_VERDICT_NONE, why, "the scene has no colour picture");
-    if (colour_white(image))
-        return say(WR_VERDICT_SPARED, why, "the colour picture is white everywhere");
-    return say(WR_VERDICT_RUN, why, "the scene has a colour picture");
 }
 
 /* ---- bump ---- */
@@ -172,7 +152,8 @@ static WrVerdict decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, cons
 
 static void settle_curvature(WrPlan *plan, const WrPlanAsk *ask)
 {
-    plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) || runs(plan, WR_EFFECT_CURVATURE);
+    plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) ||
+                    runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_TINT);
 }
 
 /* ---- samples ---- */
@@ -251,7 +232,7 @@ static WrVerdict decide_bound(const WrPlan *plan, const WrPlanAsk *ask, const ch
 
 static WrVerdict decide_filter(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    if (ask->dials->aa != WR_AA_FILTER && ask->dials->aa != WR_AA_MOMENTS)
+    if (!wants_filter(ask->dials))
         return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
     if (still(ask->scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: F is constant");
@@ -341,7 +322,12 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                      .spared = WR_RUN_DARK, .decide = decide_specular },
     [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
                                    "there is none, or it is white everywhere", STAGE(COLOUR),
-                                   .decide = decide_colour },
+                                   .decide = wr_decide_colour },
+    [WR_ROW(WR_EFFECT_TINT)] = { "E64", "filtered colour", WR_PROOF_IDENTICAL, NULL,
+                                 "the dials ask for no filtering, no colour picture is looked up, "
+                                 "or it is of one colour; footprints up to one of its texels look "
+                                 "up the picture itself",
+                                 STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
     [WR_ROW(WR_EFFECT_BUMP)] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
                                  "the mode is none; height or replication is 0; all texels are "
                                  "equal; the "
@@ -439,10 +425,9 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                        STAGE(PARAMETERS), .only_way = true,
                                        .decide = wr_decide_parameters },
     [WR_ROW(WR_EFFECT_TANGENTS)] = { "E55", "tangents", WR_PROOF_IDENTICAL, NULL,
-                                     "on a sphere, a cylinder or a cone no slope turns the normal; "
-                                     "other "
-                                     "surfaces give "
-                                     "them with the point",
+                                     "on a sphere, a cylinder or a cone no slope turns the normal "
+                                     "and no colour picture is filtered; other surfaces give them "
+                                     "with the point",
                                      0, .only_way = true, .spared = WR_RUN_LEVEL,
                                      .decide = wr_decide_tangents },
     [WR_ROW(WR_EFFECT_DARK)] = { "E18", "light on the dark side", WR_PROOF_IDENTICAL, NULL,

@@ -89,6 +89,8 @@ WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const cha
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
         return say(WR_VERDICT_RUN, why, "slopes turn the normal along them");
+    if (runs(plan, WR_EFFECT_TINT))
+        return say(WR_VERDICT_RUN, why, "the colour picture's footprints go by them");
     if (runs(plan, WR_EFFECT_BOUND)) return say(WR_VERDICT_RUN, why, "bounds go by them");
     return say(WR_VERDICT_SPARED, why, "no slope turns the normal");
 }

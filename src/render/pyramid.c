@@ -82,16 +82,9 @@ static void read_level(const WrPyramid *pyramid, int level, int i0, int i1, int 
         }
 }
 
-/* The share of source texels in target texel i of m, which covers [i n/m, (i+1) n/m) of n. */
-typedef struct Share {
-    int from,
-        count; /* 1..3: n is at most 3 where m is 1, else n/m < 3 takes a part at either end */
-    double weight[4];
-} Share;
-
-static Share share_of(int i, int n, int m)
+WrShare wr_pyramid_share(int i, int n, int m)
 {
-    Share s = { (int)((int64_t)i * n / m), 0, { 0 } };
+    WrShare s = { (int)((int64_t)i * n / m), 0, { 0 } };
     int last = (int)(((int64_t)(i + 1) * n + m - 1) / m); /* past the end */
     for (int k = s.from; k < last && s.count < 4; k++) {
         int64_t a = (int64_t)i * n, b = (int64_t)(i + 1) * n; /* in 1/m texels */
@@ -103,7 +96,7 @@ static Share share_of(int i, int n, int m)
 }
 
 /* Mean first, then what is spread about it. */
-static Cell gather(const Cell *source, size_t pitch, const Share *u, const Share *v)
+static Cell gather(const Cell *source, size_t pitch, const WrShare *u, const WrShare *v)
 {
     Cell sum = { 0 };
     for (int b = 0; b < v->count; b++)
@@ -135,15 +128,15 @@ static void make_row(const Job *job, int i0, int i1, int j)
 {
     const WrPyramid *pyramid = job->pyramid;
     const WrPyramidLevel *to = &pyramid->level[job->level], *from = to - 1;
-    const Share v = share_of(j, from->height, to->height);
-    Share first = share_of(i0, from->width, to->width);
-    Share last = share_of(i1 - 1, from->width, to->width);
+    const WrShare v = wr_pyramid_share(j, from->height, to->height);
+    WrShare first = wr_pyramid_share(i0, from->width, to->width);
+    WrShare last = wr_pyramid_share(i1 - 1, from->width, to->width);
     const int a = first.from, b = last.from + last.count;
     Cell *source = wr_alloc((size_t)(b - a) * (size_t)v.count, sizeof *source);
     if (job->level == 1) read_table(job->field, a, b, v.from, v.from + v.count, source);
     else read_level(pyramid, job->level - 1, a, b, v.from, v.from + v.count, source);
     for (int i = i0; i < i1; i++) {
-        Share u = share_of(i, from->width, to->width);
+        WrShare u = wr_pyramid_share(i, from->width, to->width);
         Cell cell = gather(source + (u.from - a), (size_t)(b - a), &u, &v);
         store(pyramid, &cell, texel(pyramid, job->level, i, j));
     }
@@ -190,7 +183,7 @@ static void make(const Job *job, int i0, int i1, int j)
 
 /* ---- the apron ---------------------------------------------------------------------------------- */
 
-static int fold(int i, int n, WrWrap wrap)
+int wr_pyramid_fold(int i, int n, WrWrap wrap)
 {
     if (wrap == WR_WRAP_PERIODIC) return (i % n + n) % n;
     return i < 0 ? 0 : i >= n ? n - 1 : i;
@@ -199,8 +192,8 @@ static int fold(int i, int n, WrWrap wrap)
 static void border(const Job *job, int i, int j)
 {
     const WrPyramidLevel *at = &job->pyramid->level[job->level];
-    int from_i = fold(i, at->width, wr_field_wrap_u(job->field));
-    int from_j = fold(j, at->height, wr_field_wrap_v(job->field));
+    int from_i = wr_pyramid_fold(i, at->width, wr_field_wrap_u(job->field));
+    int from_j = wr_pyramid_fold(j, at->height, wr_field_wrap_v(job->field));
     memcpy(texel(job->pyramid, job->level, i, j), texel(job->pyramid, job->level, from_i, from_j),
            (size_t)job->pyramid->floats * sizeof(float));
 }
@@ -278,9 +271,10 @@ static void remake_tile(int tx, int ty, void *ctx)
     job->pyramid->texels_refreshed += WR_TILE * WR_TILE;
 }
 
-static bool allocate(WrPyramid *pyramid, WrPyramidKind kind, const WrField *field, WrError *err)
+bool wr_pyramid_allocate(WrPyramid *pyramid, WrPyramidKind kind, int width, int height,
+                         WrError *err)
 {
-    int w = wr_field_width(field), h = wr_field_height(field);
+    int w = width, h = height;
     wr_pyramid_drop(pyramid);
     pyramid->kind = kind;
     pyramid->floats = kind == WR_PYRAMID_MOMENTS ? 8 : 4;
@@ -323,7 +317,9 @@ bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *fie
         for (job.level = first_level(pyramid); job.level < pyramid->levels; job.level++)
             make_apron(&job);
     } else {
-        if (!same && !allocate(pyramid, kind, field, err)) return false;
+        if (!same &&
+            !wr_pyramid_allocate(pyramid, kind, wr_field_width(field), wr_field_height(field), err))
+            return false;
         make_all(&job, pool);
     }
     if (wr_progress_stopped()) {

@@ -15,6 +15,8 @@
    texel is the mean over exactly its share of the cell, parts of texels by their part, so that every level
    has the table's mean and no odd size shifts the picture (HC55). Level 0 is the table, not stored. */
 #pragma once
+#include "field/wrap.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -23,10 +25,11 @@ typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 
 typedef enum WrPyramidKind {
-    WR_PYRAMID_SLOPES,  /* Fu, Fv, F, 0 */
-    WR_PYRAMID_MOMENTS, /* Fu, Fv, F, 0, Suu, Suv, Svv, 0 */
-    WR_PYRAMID_RANGE,   /* least Fu, largest Fu, least Fv, largest Fv */
-    WR_PYRAMID_COUNT
+    WR_PYRAMID_SLOPES,                   /* Fu, Fv, F, 0 */
+    WR_PYRAMID_MOMENTS,                  /* Fu, Fv, F, 0, Suu, Suv, Svv, 0 */
+    WR_PYRAMID_RANGE,                    /* least Fu, largest Fu, least Fv, largest Fv */
+    WR_PYRAMID_COUNT,                    /* of those made from tables */
+    WR_PYRAMID_COLOUR = WR_PYRAMID_COUNT /* R, G, B, 0: tint.h makes it */
 } WrPyramidKind;
 
 #define WR_PYRAMID_LEVELS 16 /* of 16384 texels: 0..14 */
@@ -53,3 +56,19 @@ typedef struct WrPyramid {
 bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *field, WrPool *pool,
                       WrError *err);
 void wr_pyramid_drop(WrPyramid *pyramid);
+
+/* ---- for those who fill one otherwise ---- */
+
+/* The share of source texels in target texel i of m, which covers [i n/m, (i+1) n/m) of n: weights of texels from
+   `from` on, that sum to 1. */
+typedef struct WrShare {
+    int from,
+        count; /* 1..3: n is at most 3 where m is 1, else n/m < 3 takes a part at either end */
+    double weight[4];
+} WrShare;
+WrShare wr_pyramid_share(int i, int n, int m);
+/* Index of a texel of the apron: round, or the edge. */
+int wr_pyramid_fold(int i, int n, WrWrap wrap);
+/* Levels of that kind for a picture of width x height, nothing in them yet; what was there goes. */
+bool wr_pyramid_allocate(WrPyramid *pyramid, WrPyramidKind kind, int width, int height,
+                         WrError *err);

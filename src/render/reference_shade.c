@@ -119,8 +119,10 @@ static void picture_colour(const WrReferenceStage *stage, double u, double v, do
     const WrScene *scene = stage->scene;
     const WrImage *image = scene->colour;
     const int w = image->width, h = image->height, channels = image->channels;
-    const double x = w * colour_place(u, scene->replicate_u, stage->periodic_u) - 0.5;
-    const double y = h * (1 - colour_place(v, scene->replicate_v, stage->periodic_v)) - 0.5;
+    double ru, rv;
+    wr_scene_colour_repeat(scene, &ru, &rv);
+    const double x = w * colour_place(u, ru, stage->periodic_u) - 0.5;
+    const double y = h * (1 - colour_place(v, rv, stage->periodic_v)) - 0.5;
     const int i = (int)floor(x), j = (int)floor(y);
     const double a = x - i, b = y - j;
     const double weight[4] = { (1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b };

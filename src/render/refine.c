@@ -42,10 +42,12 @@ static void count_texels(const WrTileJob *job, float texels[2])
     const bool colour = wr_plan_calls(job->plan, WR_EFFECT_COLOUR);
     const bool table =
         wr_plan_calls(job->plan, WR_EFFECT_BUMP) && job->plan->source == WR_SOURCE_TABLE;
-    const int w = table ? job->look.width : 0, h = table ? job->look.height : 0;
-    const int cw = colour ? job->colour.width : 0, ch = colour ? job->colour.height : 0;
-    texels[0] = (float)(fabs(job->look.ru) * (w > cw ? w : cw));
-    texels[1] = (float)(fabs(job->look.rv) * (h > ch ? h : ch));
+    const double w = table ? fabs(job->look.ru) * job->look.width : 0;
+    const double h = table ? fabs(job->look.rv) * job->look.height : 0;
+    const double cw = colour ? fabs(job->colour.ru) * job->colour.width : 0;
+    const double ch = colour ? fabs(job->colour.rv) * job->colour.height : 0;
+    texels[0] = (float)(w > cw ? w : cw);
+    texels[1] = (float)(h > ch ? h : ch);
 }
 
 /* ---- the first samples -------------------------------------------------------------------------- */

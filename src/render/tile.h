@@ -39,10 +39,12 @@ typedef struct WrTileJob {
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
     WrColourLook colour; /* rgba NULL: none */
-    int samples;         /* K */
-    int width, height;   /* pixels */
-    int top, rows;       /* the band of it that is wanted */
-    int tile_w, tile_h;  /* pixels */
+    WrLook tint;         /* the colour picture's means over footprints; pyramid NULL: not wanted */
+    WrLookd tint_double;
+    int samples;        /* K */
+    int width, height;  /* pixels */
+    int top, rows;      /* the band of it that is wanted */
+    int tile_w, tile_h; /* pixels */
     int tiles_u;
     float *
         rgba; /* the picture's band, or a part of it from (x0, y0) on; NULL: codes alone are wanted */
@@ -127,10 +129,13 @@ typedef struct WrTileScratch {
     int64_t
         spared_tiles[WR_RUN_KINDS]; /* tiles whose samples were all spared for one of those bits */
     int64_t wide_samples;           /* filter, moments: that looked above level 0 */
-    uint32_t ran;                   /* bits of WrEffect: noted by what does it, where it is done */
-    WrBlocks *seen;                 /* of the tile at hand; NULL: not wanted */
-    WrTilePart mapped;              /* pixels whose map is this thread's: those of its tile */
-    unsigned strips;                /* counts strips: one in sixteen is timed */
+    int64_t wide_tints;             /* the same of the colour picture */
+    unsigned char wide_of[WR_SPAN],
+        tint_of[WR_SPAN]; /* the last strip's: which of its samples did */
+    uint32_t ran;         /* bits of WrEffect: noted by what does it, where it is done */
+    WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
+    WrTilePart mapped;    /* pixels whose map is this thread's: those of its tile */
+    unsigned strips;      /* counts strips: one in sixteen is timed */
 } WrTileScratch;
 
 _Static_assert(WR_REFINE_W + 2 * WR_REFINE_RING <= WR_SPAN, "a row of a tile is a strip");

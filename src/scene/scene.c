@@ -73,6 +73,12 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->colour = scene->colour ? wr_image_share(scene->colour) : NULL;
     clone->colour_path = wr_strdup(scene->colour_path);
     memcpy(clone->colour_sha256, scene->colour_sha256, sizeof clone->colour_sha256);
+    clone->colour_own = scene->colour_own;
+    clone->colour_ru = scene->colour_ru;
+    clone->colour_rv = scene->colour_rv;
+    clone->normals = scene->normals;
+    if (scene->normals.image) wr_image_share(scene->normals.image);
+    clone->normals.path = wr_strdup(scene->normals.path);
     clone->name = wr_strdup(scene->name);
     clone->at = scene->at;
     clone->size = scene->size;
@@ -98,6 +104,12 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     memcpy(scene->background, from->background, sizeof scene->background);
 }
 
+void wr_scene_colour_repeat(const WrScene *scene, double *ru, double *rv)
+{
+    *ru = scene->colour_own ? scene->colour_ru : scene->replicate_u;
+    *rv = scene->colour_own ? scene->colour_rv : scene->replicate_v;
+}
+
 WrScene *wr_scene_share(const WrScene *scene)
 {
     WrScene *shared = (WrScene *)scene; /* only the count changes */
@@ -112,6 +124,8 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene->analytic.terms);
     if (scene->colour) wr_image_free(scene->colour);
     wr_free(scene->colour_path);
+    if (scene->normals.image) wr_image_free(scene->normals.image);
+    wr_free(scene->normals.path);
     wr_free(scene->name);
     wr_free(scene->layer);
     for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);

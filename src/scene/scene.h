@@ -54,6 +54,19 @@ typedef struct WrTolerance {
     double value; /* linear intensity 0..1e6, or seconds 1e-4..3600 */
 } WrTolerance;
 
+/* A normal map that is laid on the object as often as the table. */
+typedef struct WrNormalMap {
+    /* Shared; NULL: there is none. Three channels, unit vectors. Of the tangent plane: x along u, y along v, z > 0;
+       else along the object's axes. */
+    WrImage *image;
+    char *path; /* as the command named it; owned; NULL without */
+    char sha256[65];
+    int channels;    /* of the file that were read: 2 or 3 */
+    bool green_down; /* the file's second number ran against v */
+    bool object;     /* of the object's axes, in place of n'; else slopes, added to the table's */
+    double strength; /* -100..100: its slopes' factor */
+} WrNormalMap;
+
 struct WrScene {
     int refs;          /* atomic; private to scene.c */
     WrShape shape;     /* its data is shared with it: set by wr_scene_set_shape */
@@ -68,6 +81,9 @@ struct WrScene {
     WrImage *colour;   /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
     char *colour_path; /* as the command named it; owned; NULL without */
     char colour_sha256[65];
+    bool colour_own; /* it is laid as often as the next say; else as often as the table */
+    double colour_ru, colour_rv;
+    WrNormalMap normals;
     char *name;       /* of the object; owned; NULL: it was given none */
     WrVec3 at;        /* where the object's centre stands, world; within 1e9 */
     double size;      /* world units per unit of the object, 1e-9..1e9 */
@@ -100,6 +116,9 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from);
 void wr_scene_free(WrScene *scene);
 /* Take a shape; what it borrows is shared from now on. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
+
+/* How often the colour picture is laid over u and v. */
+void wr_scene_colour_repeat(const WrScene *scene, double *ru, double *rv);
 
 /* The near plane's depth before the eye, in radii of the object: what lies nearer is not seen. */
 #define WR_NEAR_PLANE 1e-10

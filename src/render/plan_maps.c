@@ -1,0 +1,58 @@
+/* What the plan decides about pictures that are laid on the object. */
+#include "render/plan_inner.h"
+
+#include "image/image.h"
+#include "scene/scene.h"
+
+/* ---- colour ---- */
+
+/* White everywhere: multiplying changes nothing. */
+static bool colour_white(const WrImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    for (size_t i = 0; i < count; i++)
+        if (image->data[i] != 1.0f) return false;
+    return true;
+}
+
+WrVerdict wr_decide_colour(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrImage *image = ask->scene->colour;
+    (void)plan;
+    if (!image) return say(WR_VERDICT_NONE, why, "the scene has no colour picture");
+    if (colour_white(image))
+        return say(WR_VERDICT_SPARED, why, "the colour picture is white everywhere");
+    return say(WR_VERDICT_RUN, why, "the scene has a colour picture");
+}
+
+/* All texels of one colour: so is each mean of them, to the bit. */
+static bool colour_even(const WrImage *image)
+{
+    const size_t channels = (size_t)image->channels;
+    const size_t count = (size_t)image->width * (size_t)image->height * channels;
+    for (size_t i = channels; i < count; i++)
+        if (image->data[i] != image->data[i - channels]) return false;
+    return true;
+}
+
+WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    double ru, rv;
+    wr_scene_colour_repeat(ask->scene, &ru, &rv);
+    if (!wants_filter(ask->dials))
+        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
+    if (!runs(plan, WR_EFFECT_COLOUR))
+        return say(WR_VERDICT_NONE, why, "no colour picture is looked up");
+    if (ru == 0 && rv == 0)
+        return say(WR_VERDICT_SPARED, why, "it is laid 0 times: one place of it is seen");
+    if (colour_even(ask->scene->colour))
+        return say(WR_VERDICT_SPARED, why, "the colour picture is of one colour");
+    return say(WR_VERDICT_RUN, why,
+               "footprints over a texel look up means of it; smaller ones itself");
+}
+
+void wr_settle_tint(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->tint_anisotropic =
+        runs(plan, WR_EFFECT_TINT) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
+}
