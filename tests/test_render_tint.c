@@ -195,6 +195,13 @@ static void filtered_pictures_are_near_many_samples(void **state)
         scene->replicate_u = 1 + k % 2, scene->replicate_v = k % 5 ? 1 : -1;
         if (k % 3 == 1) scene->material.diffuse = 0.5;
         if (k % 4 == 1) scene->bump = WR_BUMP_BLINN, scene->height = 0.004;
+        if (k == 7 || k == 10 || k == 11) { /* of a formula: nothing is filtered but C */
+            scene->bump = WR_BUMP_BLINN, scene->height = 0.01;
+            scene->analytic =
+                (WrAnalytic){ WR_ANALYTIC_POLY, 1, wr_alloc(1, sizeof(WrAnalyticTerm)) };
+            scene->analytic.terms[0] = (WrAnalyticTerm){ .i = 2, .j = 1, .a = 1 };
+            scene->material.diffuse = 0.5;
+        }
         if (k % 7 == 2) scene->dials.shading = WR_SHADING_DOUBLE;
         Shot truth = shoot_as(scene, field, WR_AA_SUPERSAMPLE, false);
         Shot point = shoot_as(scene, field, WR_AA_POINT, false);

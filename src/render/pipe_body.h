@@ -107,7 +107,8 @@ static void store_parameters(const WrSink *sink, const Strip *strip)
 static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
 {
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
-           !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_SPREAD) && !sink->bound;
+           !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) &&
+           !runs(job, WR_EFFECT_SPREAD) && !sink->bound;
 }
 
 /* P, n, and what else of the surface's frame the plan asks for. */
