@@ -11,6 +11,7 @@
 #include "render/reference.h"
 #include "render/reference_view.h"
 #include "scene/scene.h"
+#include "surface/data.h"
 #include "base/vec.h"
 
 #define SIZE 120
@@ -87,6 +88,60 @@ static void every_surface_looks_alike(void **state)
     WrField *field = bumpy_field(64, 64);
     for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
         WrScene *scene = scene_of(wr_surfaces[kind]->name);
+        assert_agree(scene, field, FLOAT_BOUND);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+/* Scenes of surfaces that are given by words; each text of the row, or NULL. */
+static WrScene *scene_of_words(const char *surface, const char *const *text)
+{
+    WrError err = { "" };
+    WrScene *scene = scene_of(surface);
+    WrSurfaceData *data = wr_surface_data_make(scene->shape.kind, text, &err);
+    if (!data) fail_msg("%s", err.text);
+    WrShape shape = scene->shape;
+    wr_shape_take_data(&shape, data);
+    wr_scene_set_shape(scene, &shape);
+    wr_surface_data_free(data);
+    return scene;
+}
+
+/* With corners, tips, a ring; a sphere and a shell by formulas. */
+static void profiles_and_formulas_look_alike(void **state)
+{
+    (void)state;
+    static const char *const words[][4] = {
+        { "revolution", "0.5,-0.7;0.5,0.3;0.5,0.3;0,0.8;0,0.8" },
+        { "revolution", "0,-0.6;0.7,-0.6;0.7,-0.6;0.6,0.1;0.6,0.1;0.9,0.5" },
+        { "revolution", "0.5,0;0.9,-0.3;1.2,0;0.9,0.3;0.5,0" },
+        { "formula", "cos(2*pi*u)*cos(pi*(v-0.5))", "sin(2*pi*u)*cos(pi*(v-0.5))",
+          "sin(pi*(v-0.5))" },
+        { "formula", "exp(-2.6*u)*cos(9*pi*u)*(1.05+cos(2*pi*v))",
+          "exp(-2.6*u)*sin(9*pi*u)*(1.05+cos(2*pi*v))",
+          "4.2*(1-exp(-2.6*u))+1.2*exp(-2.6*u)*sin(2*pi*v)" },
+    };
+    WrField *field = bumpy_field(32, 32);
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+        WrScene *scene = scene_of_words(words[k][0], words[k] + 1);
+        /* A float in radians, up to 9 pi, is off by 1e-6, and slopes are divided by lengths that shrink to 0.07. */
+        assert_agree(scene, field, k < 3 ? FLOAT_BOUND : k == 3 ? 2e-4 : 8e-4);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+static void superellipsoids_of_every_form_look_alike(void **state)
+{
+    (void)state;
+    static const double forms[][2] = {
+        { 0.2, 0.2 }, { 1, 0.3 }, { 2, 2 }, { 1.4, 1.7 }, { 3, 0.5 }
+    };
+    WrField *field = bumpy_field(32, 32);
+    for (size_t k = 0; k < sizeof forms / sizeof *forms; k++) {
+        WrScene *scene = scene_of("superellipsoid");
+        scene->shape.value[3] = forms[k][0], scene->shape.value[4] = forms[k][1];
         assert_agree(scene, field, FLOAT_BOUND);
         wr_scene_free(scene);
     }
@@ -356,6 +411,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_surface_looks_alike),
+        cmocka_unit_test(profiles_and_formulas_look_alike),
+        cmocka_unit_test(superellipsoids_of_every_form_look_alike),
         cmocka_unit_test(lights_of_every_kind_shine_alike),
         cmocka_unit_test(axes_that_end_and_fractions_of_repeats_look_alike),
         cmocka_unit_test(a_colour_picture_looks_alike),

@@ -201,6 +201,37 @@ static void leaving_effects_out_changes_no_bit(void **state)
     wr_field_free(bumpy);
 }
 
+/* The largest difference of a value. */
+static double apart(const Shot *a, const Shot *b)
+{
+    double most = 0;
+    for (int i = 0; i < 4 * a->frame.width * a->frame.height; i++)
+        most = fmax(most, fabs((double)a->frame.rgba[i] - (double)b->frame.rgba[i]));
+    return most;
+}
+
+/* Of every surface, smooth or with its curvature looked at; on flat ones the exact normal is left out, and is the same to
+   rounding (E12). */
+static void every_surface_is_planned_to_the_bits_of_all_effects(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(40, 40);
+    for (int k = 0; k < 2 * WR_SURFACE_COUNT; k++) {
+        WrScene *scene = scene_of(wr_surfaces[k / 2]->name);
+        scene->bump = k % 2 ? WR_BUMP_EXACT : WR_BUMP_NONE;
+        Shot planned = shoot(scene, field, 90, 90, 2, "auto", false);
+        Shot full = shoot(scene, field, 90, 90, 2, "auto", true);
+        const bool rounded = wr_surfaces[k / 2]->flat && scene->bump == WR_BUMP_EXACT;
+        if (rounded ? apart(&planned, &full) > 1e-5 : !same_picture(&planned, &full))
+            fail_msg("%s, %s: %g apart", wr_surfaces[k / 2]->name, wr_bumps[scene->bump].name,
+                     apart(&planned, &full));
+        put_away(&planned);
+        put_away(&full);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
 static void an_edit_refreshes_what_a_new_renderer_would_make(void **state)
 {
     (void)state;
@@ -289,6 +320,7 @@ int main(void)
         cmocka_unit_test(pictures_agree_with_marched_rays_in_double),
         cmocka_unit_test(pictures_are_the_same_bits_on_any_threads_and_instruction_set),
         cmocka_unit_test(leaving_effects_out_changes_no_bit),
+        cmocka_unit_test(every_surface_is_planned_to_the_bits_of_all_effects),
         cmocka_unit_test(an_edit_refreshes_what_a_new_renderer_would_make),
         cmocka_unit_test(a_resting_view_is_refreshed_to_the_bits_of_a_new_picture),
         cmocka_unit_test(fast_arithmetic_stays_near_the_exact_picture),
