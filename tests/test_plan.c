@@ -2,6 +2,7 @@
    what is left out changes the picture no more than its row's proof allows. */
 #include "test.h"
 #include "test_render_scenes.h"
+#include "test_mesh_grids.h"
 
 #include "field/field.h"
 #include "image/image.h"
@@ -286,6 +287,23 @@ static void ungated(Stage *stage)
     stage->scene->material.gate = false;
 }
 
+static void mesh_ball(Stage *stage)
+{
+    take_surface(stage, "mesh");
+    wr_scene_set_triangles(stage->scene, mesh_grid(on_sphere, 24, 12, true), NULL, NULL);
+}
+
+static void mesh_square(Stage *stage)
+{
+    take_surface(stage, "mesh");
+}
+
+static void mesh_dark(Stage *stage)
+{
+    mesh_ball(stage);
+    dark(stage);
+}
+
 /* ---- the cases ------------------------------------------------------------------------------------- */
 
 enum {
@@ -367,6 +385,9 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_GROUND] = { keep_all, { { mostly_level, 0 }, { smooth, NOTHING } } },
     [WR_EFFECT_HIDDEN] = { NULL, { { one_behind, 0 }, { keep_all, NOTHING } } },
     [WR_EFFECT_BETWEEN] = { one_behind, { { keep_all, NOTHING } } },
+    [WR_EFFECT_SMOOTH] = { mesh_ball,
+                           { { mesh_square, 1e-5 }, { mesh_dark, 1e-5 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_BLOCKS] = { mesh_square, { { mesh_ball, 0 }, { keep_all, NOTHING } } },
 };
 
 static Stage stage_of(Change change)

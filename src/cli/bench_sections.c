@@ -236,6 +236,7 @@ typedef struct EffectCase {
 
 #define BUMPED .surface = "sphere", .mode = WR_BENCH_BUMP
 #define SMOOTH .surface = "sphere", .mode = WR_BENCH_PHONG
+#define MESHED .surface = "mesh", .mode = WR_BENCH_BUMP
 
 WR_ROWS(effects);
 static const EffectCase effects[WR_EFFECT_COUNT] = {
@@ -271,6 +272,8 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_GROUND)] = { BUMPED, .with = same, .without = smooth },
     [WR_ROW(WR_EFFECT_HIDDEN)] = { BUMPED, .with = behind, .forced = true },
     [WR_ROW(WR_EFFECT_BETWEEN)] = { BUMPED, .with = beside, .without = same },
+    [WR_ROW(WR_EFFECT_SMOOTH)] = { MESHED, .with = same, .forced = true },
+    [WR_ROW(WR_EFFECT_BLOCKS)] = { MESHED, .with = same, .other = "sphere" },
 };
 WR_ROWS_END(effects, WR_EFFECT_COUNT);
 

@@ -66,9 +66,10 @@ struct WrSession {
     WrJournal *journal; /* of the document, from its first command on; owned; NULL: none yet */
     int journal_base, journal_top; /* history positions that a replay of it can reach */
     int64_t view_base, view_top;   /* and numbers of views */
-    WrImage *embedded;    /* while loading: the document's colour picture; borrowed; NULL: none */
-    WrRenderer *renderer; /* made on first use; owned */
-    WrTables *tables;     /* of the objects of its last picture; owned */
+    WrImage *embedded;      /* while loading: the document's colour picture; borrowed; NULL: none */
+    WrImage *embedded_mesh; /* the same of its mesh */
+    WrRenderer *renderer;   /* made on first use; owned */
+    WrTables *tables;       /* of the objects of its last picture; owned */
     WrTableCache table_cache;
     WrChoice choice; /* of the last picture under a tolerance */
 

@@ -5,6 +5,9 @@
 #include "command/call.h"
 
 typedef struct WrSceneParam WrSceneParam;
+typedef struct WrError WrError;
+typedef struct WrScene WrScene;
+typedef struct WrSession WrSession;
 typedef struct WrText WrText;
 
 /* Their arguments, in the table's order; how many. */
@@ -13,5 +16,12 @@ int wr_scene_args(const char *command, const char *form, WrArgSpec *out);
 void wr_scene_take(const WrCall *call, const char *form, void *owner);
 /* " name=value" of each. */
 void wr_scene_print_params(const char *command, const char *form, const void *owner, WrText *text);
+/* What `surface mesh` does besides: its file read into the scene; printed, by content alone where that is known; its two
+ * arguments. */
+bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
+void wr_print_mesh(const WrScene *scene, bool content, WrText *text);
+void wr_form_mesh(WrArgSpec *args);
+/* The line of `surface` by the content of its file, whatever its path. */
+void wr_print_surface_content(const WrScene *scene, WrText *text);
 /* "x,y,z" of one. */
 void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *text);

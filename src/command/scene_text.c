@@ -2,6 +2,7 @@
    defaults too, so that a document means the same whatever the defaults of a later version are. Only
    the light of a new document, the surface's own pose and a missing picture have no line. */
 #include "command/inner.h"
+#include "command/scene_args.h"
 
 #include "base/text.h"
 #include "command/commands.h"
@@ -19,6 +20,7 @@ static void print_named(const WrCommand *command, const WrScene *scene, WrText *
 static void print_content(const WrCommand *command, const WrScene *scene, WrText *text)
 {
     if (command == &wr_command_colour) wr_print_colour(scene, !*scene->colour_sha256, text);
+    else if (command == &wr_command_surface) wr_print_surface_content(scene, text);
     else command->print(scene, text);
 }
 

@@ -180,6 +180,7 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     session->state.document = loaded.document;
     session->loading = true;
     session->embedded = loaded.colour;
+    session->embedded_mesh = loaded.mesh;
     session->depth++;
     bool newer = loaded.newer_version > 0;
     bool good = run_scene_lines(session, loaded.scene_text ? loaded.scene_text : "", newer, err);
@@ -187,7 +188,9 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     if (!good) wr_error_prefix(err, "%s: ", path);
     session->loading = false;
     session->embedded = NULL;
+    session->embedded_mesh = NULL;
     wr_image_free(loaded.colour);
+    wr_image_free(loaded.mesh);
     wr_free(loaded.scene_text);
     if (good && replaced)
         wr_session_note(session, "%s: %lld texels were not finite and became 0", path,

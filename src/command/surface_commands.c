@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-static void print_surface(const WrScene *scene, WrText *text)
+static void print_shape(const WrScene *scene, bool content, WrText *text)
 {
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     const double *value = scene->shape.value;
@@ -32,7 +32,18 @@ static void print_surface(const WrScene *scene, WrText *text)
         wr_text_addf(text, " %s=", info->texts[k].name);
         wr_text_add_word(text, scene->shape.data->text[k]);
     }
+    if (info->held) wr_print_mesh(scene, content, text);
     wr_text_add(text, "\n");
+}
+
+static void print_surface(const WrScene *scene, WrText *text)
+{
+    print_shape(scene, false, text);
+}
+
+void wr_print_surface_content(const WrScene *scene, WrText *text)
+{
+    print_shape(scene, true, text);
 }
 
 void wr_print_rotate(const WrScene *scene, WrText *text)
@@ -110,15 +121,20 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
     for (int i = 0; i < call->count; i++) {
         if (!call->args[i].given) continue;
         int offset = wr_surface_param_offset(shape.kind, call->specs[i].name);
-        if (offset < 0) continue; /* a text */
+        if (offset < 0) continue; /* a text, or a mesh's file */
         memcpy(shape.value + offset, call->args[i].numbers,
                (size_t)call->args[i].rows * (size_t)wr_arg_width(&call->specs[i]) * sizeof(double));
     }
     if (!wr_shape_check(&shape, err) || !make_data(call, shape.kind, &data, err)) return false;
     if (data) wr_shape_take_data(&shape, data);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
+    wr_scene_set_triangles(scene, NULL, NULL, NULL);
     wr_scene_set_shape(scene, &shape);
     wr_surface_data_free(data);
+    if (wr_surfaces[shape.kind]->held && !wr_run_mesh(session, call, scene, err)) {
+        wr_scene_free(scene);
+        return false;
+    }
     warn_seam(session, scene);
     wr_session_replace_scene(session, scene);
     return true;
@@ -277,6 +293,7 @@ static bool form_surface(int i, WrForm *out)
                                           .shape = info->texts[k].shape,
                                           .fallback_text = info->texts[k].fallback,
                                           .help = info->texts[k].help };
+    if (info->held) wr_form_mesh(out->args + count);
     return true;
 }
 
@@ -320,17 +337,19 @@ static bool row_rotate(WrForm *out)
 
 /* ---- the rows ---- */
 
-const WrCommand wr_command_surface = { .name = "surface",
-                                       .kind = WR_CLASS_SCENE,
-                                       .form_word = "NAME",
-                                       .form = form_surface,
-                                       .run = run_surface,
-                                       .print = print_surface,
-                                       .of_object = true,
-                                       .help = "the surface that the table wrinkles",
-                                       .details =
-                                           "Parameters that are left out take their defaults.",
-                                       .example = "surface torus R=1 r=0.35" };
+const WrCommand wr_command_surface = {
+    .name = "surface",
+    .kind = WR_CLASS_SCENE,
+    .form_word = "NAME",
+    .form = form_surface,
+    .run = run_surface,
+    .print = print_surface,
+    .of_object = true,
+    .help = "the surface that the table wrinkles",
+    .details = "Parameters that are left out take their defaults. A mesh without a file "
+               "is a square of two triangles.",
+    .example = "surface torus R=1 r=0.35"
+};
 
 const WrCommand wr_command_rotate = {
     .name = "rotate",

@@ -74,6 +74,12 @@ static size_t bytes_of(const WrField *field)
     return field ? wr_field_bytes(field) : 0;
 }
 
+static size_t mesh_bytes(const WrScene *before, const WrScene *after)
+{
+    const WrTriangles *mesh = before->triangles ? before->triangles : after->triangles;
+    return before->triangles == after->triangles ? 0 : wr_scene_mesh_bytes(mesh);
+}
+
 static size_t picture_bytes(const WrScene *before, const WrScene *after)
 {
     const WrImage *image = before->colour ? before->colour : after->colour;
@@ -85,6 +91,7 @@ size_t wr_document_difference(const WrDocument *before, const WrDocument *after)
 {
     Fields a = fields_of(before), b = fields_of(after);
     size_t bytes = sizeof *before + picture_bytes(before->scene, after->scene) +
+                   mesh_bytes(before->scene, after->scene) +
                    (size_t)before->layer_count * (sizeof(WrLayer) + 4 * WR_ALIGN);
     drop_equal(&a, &b);
     int k = 0;

@@ -5,7 +5,7 @@
    program that opens EXR sees the relief. Then for each layer, bottom first: its heights, "layer:NAME" (then
    "layer:NAME (2)" where names repeat; the name itself in wrinkle:layer), its coverage "cover:N" and its
    mask "mask:N" if it has them (N counts layers from 1). Then "selection", if there is one, and "colour", the
-   scene's colour picture in RGB, if there is one.
+   scene's colour picture in RGB, if there is one, and "mesh", the numbers of its mesh in one channel.
 
    Attributes of part 0: wrinkle:version (of this format), wrinkle:program, wrinkle:scene (canonical command
    lines; the tolerance's with the dials that were chosen for it), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
@@ -13,11 +13,11 @@
    wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and wrinkle:locked ("on", "off").
 
    A document of one layer that is F bit for bit, with nothing that needs a part (coverage, mask, selection,
-   colour picture), is a file of that one part, with the layer's attributes beside the file's: many programs open
+   colour picture, mesh), is a file of that one part, with the layer's attributes beside the file's: many programs open
    no file of several parts.
 
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
-   several is still written as version 2. All are read. */
+   several is still written as version 2; version 3 no mesh. All are read. */
 #pragma once
 #include "field/wrap.h"
 
@@ -31,8 +31,9 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 3
-#define WR_DOCUMENT_VERSION_PARTS 2 /* of a file of several parts */
+#define WR_DOCUMENT_VERSION 4
+#define WR_DOCUMENT_VERSION_ALONE 3 /* of a file of one part */
+#define WR_DOCUMENT_VERSION_PARTS 2 /* of a file of several parts without a mesh */
 
 /* Names of parts. */
 #define WR_DOCUMENT_LAYER "layer:"
@@ -40,6 +41,7 @@ typedef struct WrImageRows WrImageRows;
 #define WR_DOCUMENT_MASK "mask:"
 #define WR_DOCUMENT_SELECTION "selection"
 #define WR_DOCUMENT_COLOUR "colour"
+#define WR_DOCUMENT_MESH "mesh"
 
 /* "periodic", "clamp-u", "clamp-v" or "clamp": the word for the wrap of a table, as in commands. Number i
    clamps u where bit 0 is set, v where bit 1 is; NULL after the last. */
@@ -60,6 +62,7 @@ typedef struct WrLoaded {
     WrDocument *document; /* the scene is the default one: run scene_text to restore it */
     char *scene_text;     /* owned, wr_free */
     WrImage *colour;      /* embedded colour picture or NULL; owned */
+    WrImage *mesh;        /* embedded mesh (wr_scene_mesh_from_image) or NULL; owned */
     double
         newer_version; /* of the format, where that is newer than ours: parts and settings that we do
                              not know were passed over, so it must not be saved over; else 0 */

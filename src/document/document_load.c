@@ -46,7 +46,7 @@ typedef struct Loading {
     int width, height;
     WrWrap wrap_u, wrap_v;
     Slot slots[WR_LAYERS_MAX];
-    int layers, selection, colour; /* how many; parts, 0: none */
+    int layers, selection, colour, mesh; /* how many; parts, 0: none */
     int64_t replaced;
 } Loading;
 
@@ -84,25 +84,34 @@ static bool belongs(const Loading *in, const char *name, const char *prefix)
     return in->layers > 0 && strcmp(name, want) == 0;
 }
 
+/* Have the parts begun that follow all layers? */
+static bool ends(const Loading *in)
+{
+    return in->selection || in->colour || in->mesh;
+}
+
 /* Put a part where it belongs. False if it has no place, or that is taken, or passed. */
 static bool place_part(Loading *in, const char *name, int part)
 {
     Slot *last = in->layers > 0 ? &in->slots[in->layers - 1] : NULL;
     if (begins_with(name, WR_DOCUMENT_LAYER)) {
-        if (in->selection || in->colour || in->layers == WR_LAYERS_MAX) return false;
+        if (ends(in) || in->layers == WR_LAYERS_MAX) return false;
         in->slots[in->layers++] = (Slot){ .heights = part };
     } else if (belongs(in, name, WR_DOCUMENT_COVER)) {
-        if (last->cover || last->mask || in->selection || in->colour) return false;
+        if (last->cover || last->mask || ends(in)) return false;
         last->cover = part;
     } else if (belongs(in, name, WR_DOCUMENT_MASK)) {
-        if (last->mask || in->selection || in->colour) return false;
+        if (last->mask || ends(in)) return false;
         last->mask = part;
     } else if (strcmp(name, WR_DOCUMENT_SELECTION) == 0) {
-        if (in->selection || in->colour) return false;
+        if (ends(in)) return false;
         in->selection = part;
     } else if (strcmp(name, WR_DOCUMENT_COLOUR) == 0) {
-        if (in->colour) return false;
+        if (in->colour || in->mesh) return false;
         in->colour = part;
+    } else if (strcmp(name, WR_DOCUMENT_MESH) == 0) {
+        if (in->mesh) return false;
+        in->mesh = part;
     } else {
         return false;
     }
@@ -116,14 +125,19 @@ static bool check_part(const Loading *in, int index, WrError *err)
     if (colour && part.channels != 3)
         return wr_fail(err, "%s: damaged: the colour picture has %d channels; must be 3", in->path,
                        part.channels);
-    if (!colour && (part.width != in->width || part.height != in->height || part.channels != 1))
+    const bool mesh = index == in->mesh;
+    if (mesh && part.channels != 1)
+        return wr_fail(err, "%s: damaged: the mesh has %d channels; must be 1", in->path,
+                       part.channels);
+    if (!colour && !mesh &&
+        (part.width != in->width || part.height != in->height || part.channels != 1))
         return wr_fail(
             err, "%s: damaged: part '%.60s' is %dx%d with %d channels; F is %dx%d with 1", in->path,
             part.name, part.width, part.height, part.channels, in->width, in->height);
     return true;
 }
 
-/* F, which may be the only layer; else for each layer its heights, cover and mask; selection; colour: in this order, and nothing else. */
+/* F, which may be the only layer; else for each layer its heights, cover and mask; selection; colour; mesh: in this order, and nothing else. */
 static bool find_parts(Loading *in, WrError *err)
 {
     int count = wr_image_file_parts(in->file);
@@ -210,16 +224,17 @@ fail:
     return NULL;
 }
 
-static WrImage *read_colour(Loading *in, int part, WrError *err)
+/* A picture of the scene's, as it was put there. */
+static WrImage *read_image(Loading *in, int part, WrError *err)
 {
     WrImagePart is = wr_image_file_part(in->file, part);
-    WrImage *image = wr_image_new(is.width, is.height, 3, err);
+    WrImage *image = wr_image_new(is.width, is.height, is.channels, err);
     if (!image) return NULL;
     if (!wr_image_file_read(in->file, part, image->data, err)) {
         wr_image_free(image);
         return NULL;
     }
-    size_t count = (size_t)is.width * (size_t)is.height * 3;
+    size_t count = (size_t)is.width * (size_t)is.height * (size_t)is.channels;
     image->replaced = wr_image_codes(WR_PIXEL_F32, image->data, count, image->data, NULL);
     return image;
 }
@@ -333,7 +348,8 @@ static bool load(Loading *in, WrLoaded *loaded, WrError *err)
     if (!check_version(in, err) || !read_wrap(in, err) || !find_parts(in, err)) return false;
     loaded->document = wr_document_new();
     if (!read_document(in, loaded->document, err)) return false;
-    if (in->colour && !(loaded->colour = read_colour(in, in->colour, err))) return false;
+    if (in->colour && !(loaded->colour = read_image(in, in->colour, err))) return false;
+    if (in->mesh && !(loaded->mesh = read_image(in, in->mesh, err))) return false;
     const char *scene = wr_image_file_attribute(in->file, 0, "wrinkle:scene");
     loaded->scene_text = wr_strdup(scene ? scene : "");
     loaded->newer_version = in->newer ? in->version : 0;
@@ -353,6 +369,7 @@ bool wr_document_load(const char *path, WrLoaded *out, int64_t *replaced, WrErro
     } else {
         wr_document_free(loaded.document);
         wr_image_free(loaded.colour);
+        wr_image_free(loaded.mesh);
     }
     wr_image_file_close(in->file);
     wr_free(in);

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/image_rows.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
@@ -20,7 +21,7 @@
 #define FILE_ATTRIBUTES 8
 #define LAYER_ATTRIBUTES 6
 #define PARTS_MAX                                                                                  \
-    (3 + 3 * WR_LAYERS_MAX) /* F, selection, colour; heights, cover, mask of a layer */
+    (4 + 3 * WR_LAYERS_MAX) /* F, selection, colour, mesh; heights, cover, mask of a layer */
 _Static_assert(PARTS_MAX <= WR_IMAGE_PARTS_MAX, "a document must fit into one file");
 
 static const struct {
@@ -69,14 +70,14 @@ static bool field_rows(void *ctx, int y, int rows, void *out, WrError *err)
 static bool colour_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
     (void)err;
-    const WrImage *image = ctx;
-    size_t first = (size_t)y * (size_t)image->width, count = (size_t)rows * (size_t)image->width;
-    int step = image->channels;
-    float *rgb = out;
-    for (size_t i = 0; i < count; i++)
-        for (int c = 0; c < 3; c++)
-            rgb[3 * i + (size_t)c] =
-                image->data[(first + i) * (size_t)step + (size_t)(step < 3 ? 0 : c)];
+    wr_image_rows_out(ctx, 3, y, rows, out);
+    return true;
+}
+
+static bool mesh_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)err;
+    wr_image_rows_out(ctx, 1, y, rows, out);
     return true;
 }
 
@@ -86,7 +87,8 @@ typedef struct Saving {
     const WrDocument *document;
     WrImageOut parts[PARTS_MAX];
     int count;
-    bool single; /* the one layer is F itself */
+    WrImage *mesh; /* the scene's, as a picture; owned; or NULL */
+    bool single;   /* the one layer is F itself */
     WrImageAttribute of_file[FILE_ATTRIBUTES + LAYER_ATTRIBUTES];
     WrImageAttribute of_layers[WR_LAYERS_MAX][LAYER_ATTRIBUTES];
     WR_ARRAY(char *) texts; /* names and values that were made for the file; owned */
@@ -145,8 +147,10 @@ static void add_composite(Saving *to, const char *scene_text)
     const WrDocument *document = to->document;
     const WrField *f = wr_document_field(document);
     const WrImageAttribute attributes[FILE_ATTRIBUTES] = {
-        { "wrinkle:version",
-          keep_whole(to, "", to->single ? WR_DOCUMENT_VERSION : WR_DOCUMENT_VERSION_PARTS) },
+        { "wrinkle:version", keep_whole(to, "",
+                                        to->mesh     ? WR_DOCUMENT_VERSION
+                                        : to->single ? WR_DOCUMENT_VERSION_ALONE
+                                                     : WR_DOCUMENT_VERSION_PARTS) },
         { "wrinkle:program", "Wrinkle " WR_VERSION },
         { "wrinkle:scene", scene_text },
         { "wrinkle:wrap", wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)) },
@@ -227,7 +231,8 @@ static bool fits_one_part(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[0];
     return document->layer_count == 1 && !layer->cover && !layer->mask && !document->selection &&
-           !document->scene->colour && same_bits(wr_document_field(document), layer->heights);
+           !document->scene->colour && !document->scene->triangles &&
+           same_bits(wr_document_field(document), layer->heights);
 }
 
 static void add_colour(Saving *to, WrImage *colour)
@@ -241,6 +246,18 @@ static void add_colour(Saving *to, WrImage *colour)
                                            .ctx = colour };
 }
 
+static void add_mesh(Saving *to)
+{
+    to->parts[to->count++] = (WrImageOut){ .width = to->mesh->width,
+                                           .height = to->mesh->height,
+                                           .channels = 1,
+                                           .type = WR_PIXEL_F32,
+                                           .part_name = WR_DOCUMENT_MESH,
+                                           .data = true,
+                                           .rows = mesh_rows,
+                                           .ctx = to->mesh };
+}
+
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
                       WrError *err)
 {
@@ -248,7 +265,14 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
     if (colour && (colour->width > WR_IMAGE_MAX || colour->height > WR_IMAGE_MAX))
         return wr_fail(err, "%s: the colour picture is %dx%d: each side must be 1..%d", path,
                        colour->width, colour->height, WR_IMAGE_MAX);
+    const WrTriangles *triangles = document->scene->triangles;
+    WrImage *mesh = triangles ? wr_scene_mesh_to_image(triangles, err) : NULL;
+    if (triangles && !mesh) {
+        wr_error_prefix(err, "%s: ", path);
+        return false;
+    }
     Saving *to = wr_alloc(1, sizeof *to);
+    to->mesh = mesh;
     to->document = document;
     to->single = fits_one_part(document);
     add_composite(to, scene_text);
@@ -256,9 +280,11 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
     for (int i = 0; i < document->layer_count && !to->single; i++) add_layer(to, i);
     if (document->selection) add_field(to, document->selection, WR_DOCUMENT_SELECTION);
     if (colour) add_colour(to, colour);
+    if (mesh) add_mesh(to);
     bool ok = wr_image_write(path, to->parts, to->count, err);
     for (int i = 0; i < to->texts.count; i++) wr_free(to->texts.data[i]);
     wr_array_free(&to->texts);
+    wr_image_free(mesh);
     wr_free(to);
     return ok;
 }

@@ -44,7 +44,7 @@ typedef struct Loading {
 
 static int count_pictures(const WrOraStack *stack)
 {
-    int count = (stack->selection != NULL) + (stack->colour != NULL);
+    int count = (stack->selection != NULL) + (stack->colour != NULL) + (stack->mesh != NULL);
     for (int i = 0; i < stack->layers.count; i++) {
         const WrOraLayer *layer = &stack->layers.data[i];
         count += 1 + (layer->cover != NULL) + (layer->mask != NULL);
@@ -331,6 +331,7 @@ static bool read_scene(Loading *in, WrLoaded *loaded, WrError *err)
         return false;
     else if (strlen(loaded->scene_text) != length)
         return wr_fail(err, "%s: damaged: its scene is no text", in->path);
+    if (in->stack.mesh && !(loaded->mesh = read_picture(in, in->stack.mesh, err))) return false;
     if (!in->stack.colour) return true;
     loaded->colour = read_picture(in, in->stack.colour, err);
     if (!loaded->colour) return false;
@@ -395,6 +396,7 @@ bool wr_ora_load(const char *path, WrLoaded *out, int64_t *replaced, WrText *not
     } else {
         wr_document_free(loaded.document);
         wr_image_free(loaded.colour);
+        wr_image_free(loaded.mesh);
         wr_free(loaded.scene_text);
     }
     wr_text_fini(&said);

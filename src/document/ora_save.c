@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "document/document.h"
+#include "document/image_rows.h"
 #include "document/ora_show.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
@@ -26,6 +27,7 @@ typedef struct Entry {
     struct Saving *to;
     char *name; /* in the archive; owned */
     WrImageOut picture;
+    const WrImage *image;                  /* the scene's */
     const WrField *heights, *cover, *mask; /* what its rows are made of; the last two may be NULL */
     WrOraShowing showing;
     char *bytes; /* the finished file, while it is being read; owned */
@@ -42,6 +44,7 @@ typedef struct Saving {
     WrOraRange range; /* of heights in previews */
     WR_ARRAY(Entry *) entries;
     WrText stack, scene;
+    WrImage *mesh;      /* the scene's, as a picture; owned; or NULL */
     int lowest;         /* index of the lowest layer that is shown, -1: none */
     WrField *ground;    /* what that one makes of the empty ground; owned */
     int packed;         /* entries whose pictures were made */
@@ -61,16 +64,11 @@ static bool float_rows(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
-static bool colour_rows(void *ctx, int y, int rows, void *out, WrError *err)
+static bool image_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
+    const Entry *entry = ctx;
     (void)err;
-    const WrImage *image = ((const Entry *)ctx)->to->document->scene->colour;
-    size_t first = (size_t)y * (size_t)image->width, count = (size_t)rows * (size_t)image->width;
-    size_t step = (size_t)image->channels;
-    float *rgb = out;
-    for (size_t i = 0; i < count; i++)
-        for (size_t c = 0; c < 3; c++)
-            rgb[3 * i + c] = image->data[(first + i) * step + (step < 3 ? 0 : c)];
+    wr_image_rows_out(entry->image, entry->picture.channels, y, rows, out);
     return true;
 }
 
@@ -250,17 +248,28 @@ static bool add_layer_preview(Saving *to, char *name, int index, WrError *err)
                        err);
 }
 
-static bool add_colour(Saving *to, WrError *err)
+static bool add_image(Saving *to, const WrImage *image, const char *const names[2], int channels,
+                      WrError *err)
 {
-    const WrImage *colour = to->document->scene->colour;
-    Entry entry = { .name = wr_strdup("data/colour.exr"),
-                    .picture = { .width = colour->width,
-                                 .height = colour->height,
-                                 .channels = 3,
+    Entry entry = { .name = wr_strdup(names[0]),
+                    .image = image,
+                    .picture = { .width = image->width,
+                                 .height = image->height,
+                                 .channels = channels,
                                  .type = WR_PIXEL_F32,
-                                 .rows = colour_rows } };
-    wr_ora_add_attribute(&to->stack, "wrinkle:colour", entry.name);
+                                 .rows = image_rows } };
+    wr_ora_add_attribute(&to->stack, names[1], entry.name);
     return add_entry(to, entry, err);
+}
+
+static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
+{
+    static const char *const names[2][2] = { { "data/colour.exr", "wrinkle:colour" },
+                                             { "data/mesh.exr", "wrinkle:mesh" } };
+    if (scene->triangles && !(to->mesh = wr_scene_mesh_to_image(scene->triangles, err)))
+        return false;
+    return (!scene->colour || add_image(to, scene->colour, names[0], 3, err)) &&
+           (!to->mesh || add_image(to, to->mesh, names[1], 1, err));
 }
 
 /* ---- what is in it ---- */
@@ -308,20 +317,6 @@ static void find_ground(Saving *to)
     wr_document_free(alone);
 }
 
-static void add_float_attribute(WrText *xml, const char *name, float value)
-{
-    char buffer[WR_NUMBER_SIZE];
-    wr_ora_add_attribute(xml, name, wr_number_print_float(value, buffer));
-}
-
-static void add_name(WrText *xml, const char *name)
-{
-    if (wr_ora_add_attribute(xml, "name", name)) return;
-    wr_text_add(xml, " wrinkle:name=\"");
-    for (; *name; name++) wr_text_addf(xml, "%02x", (unsigned)(unsigned char)*name);
-    wr_text_add(xml, "\"");
-}
-
 static bool add_field(Saving *to, const char *attribute, char *name, const WrField *field,
                       WrError *err)
 {
@@ -335,9 +330,8 @@ static void add_looks(Saving *to, int index)
     const WrLayer *layer = &to->document->layers[index];
     WrText *xml = &to->stack;
     bool lowest = index == to->lowest, shown = wr_document_shows(to->document, index);
-    add_float_attribute(xml, "opacity", lowest ? 1.0f : layer->opacity);
-    if (lowest && layer->opacity != 1.0f)
-        add_float_attribute(xml, "wrinkle:opacity", layer->opacity);
+    wr_ora_add_float(xml, "opacity", lowest ? 1.0f : layer->opacity);
+    if (lowest && layer->opacity != 1.0f) wr_ora_add_float(xml, "wrinkle:opacity", layer->opacity);
     wr_ora_add_attribute(xml, "visibility", shown ? "visible" : "hidden");
     if (shown != layer->visible)
         wr_ora_add_attribute(xml, "wrinkle:visible", layer->visible ? "on" : "off");
@@ -354,14 +348,14 @@ static bool add_layer(Saving *to, int index, WrError *err)
     int number = index + 1;
     char *png = numbered("data/layer", number, ".png");
     wr_text_add(xml, "    <layer");
-    add_name(xml, layer->name);
+    wr_ora_add_name(xml, layer->name);
     wr_ora_add_attribute(xml, "src", png);
     wr_text_add(xml, " x=\"0\" y=\"0\"");
     add_looks(to, index);
     if (layer->locked) wr_ora_add_attribute(xml, "edit-locked", "true");
     if (index == to->document->active) wr_ora_add_attribute(xml, "selected", "true");
     wr_ora_add_attribute(xml, "wrinkle:blend", wr_blends[layer->blend].name);
-    add_float_attribute(xml, "wrinkle:radius", layer->radius);
+    wr_ora_add_float(xml, "wrinkle:radius", layer->radius);
     bool good =
         add_layer_preview(to, png, index, err) &&
         add_field(to, "wrinkle:heights", numbered("data/layer", number, ".exr"), layer->heights,
@@ -392,7 +386,7 @@ static bool add_image_attributes(Saving *to, WrError *err)
     if (document->selection && !add_field(to, "wrinkle:selection", wr_strdup("data/selection.exr"),
                                           document->selection, err))
         return false;
-    if (document->scene->colour && !add_colour(to, err)) return false;
+    if (!add_scene_images(to, document->scene, err)) return false;
     wr_text_add(&to->stack, ">\n  <stack>\n");
     return true;
 }
@@ -489,6 +483,7 @@ bool wr_ora_save(const WrDocument *document, const char *scene_text, const char 
     wr_text_fini(&to->scene);
     wr_field_free(to->ground);
     wr_free(to->thumbnail);
+    wr_image_free(to->mesh);
     wr_free(to);
     if (good) return wr_file_commit(&target, err);
     wr_file_abort(&target);

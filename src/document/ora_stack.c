@@ -204,6 +204,7 @@ static void read_image(Reading *reading, const char **attributes)
     stack->scene = wr_strdup(find(attributes, OURS "scene"));
     stack->selection = wr_strdup(find(attributes, OURS "selection"));
     stack->colour = wr_strdup(find(attributes, OURS "colour"));
+    stack->mesh = wr_strdup(find(attributes, OURS "mesh"));
 }
 
 /* Some programs give the elements a namespace, most do not. */
@@ -284,7 +285,21 @@ void wr_ora_stack_fini(WrOraStack *stack)
     }
     wr_array_free(&stack->layers);
     char *texts[] = { stack->version, stack->wrap,      stack->active, stack->solo,
-                      stack->scene,   stack->selection, stack->colour };
+                      stack->scene,   stack->selection, stack->colour, stack->mesh };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     *stack = (WrOraStack){ 0 };
+}
+
+void wr_ora_add_float(WrText *xml, const char *name, float value)
+{
+    char buffer[WR_NUMBER_SIZE];
+    wr_ora_add_attribute(xml, name, wr_number_print_float(value, buffer));
+}
+
+void wr_ora_add_name(WrText *xml, const char *name)
+{
+    if (wr_ora_add_attribute(xml, "name", name)) return;
+    wr_text_add(xml, " wrinkle:name=\"");
+    for (; *name; name++) wr_text_addf(xml, "%02x", (unsigned)(unsigned char)*name);
+    wr_text_add(xml, "\"");
 }

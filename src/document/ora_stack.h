@@ -27,7 +27,7 @@ typedef struct WrOraStack {
     WR_ARRAY(WrOraLayer) layers; /* topmost first */
     int groups;                  /* that were dissolved */
     int unknown;                 /* elements that are neither layers nor groups */
-    char *version, *wrap, *active, *solo, *scene, *selection, *colour; /* ours */
+    char *version, *wrap, *active, *solo, *scene, *selection, *colour, *mesh; /* ours */
 } WrOraStack;
 
 /* Errors do not name the file. On failure the stack is empty. */
@@ -41,3 +41,6 @@ WrBlend wr_ora_blend(const char *operation, bool *exact);
 
 /* name="value", escaped, with a space before it. What XML cannot hold becomes '?'; false if there was such. */
 bool wr_ora_add_attribute(WrText *xml, const char *name, const char *value);
+void wr_ora_add_float(WrText *xml, const char *name, float value);
+/* The name as an attribute, beside it as hex digits where XML cannot hold it. */
+void wr_ora_add_name(WrText *xml, const char *name);

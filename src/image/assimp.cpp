@@ -13,19 +13,25 @@ extern "C" {
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/config.h>
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 struct WrAssimpMesh {
+    bool whole;
     std::vector<float> points;
     std::vector<int32_t> corners;
+    std::vector<float> looks; /* 5 a point */
+    std::vector<int32_t> firsts;
+    std::vector<std::string> names;
 };
 
 /* The message as one line. */
@@ -138,6 +144,48 @@ static void follow(const double parent[12], const aiMatrix4x4 &m, double out[12]
         }
 }
 
+/* Its cofactors turn normals, and its sign says whether it mirrors. */
+static double cofactors(const double m[12], double c[9])
+{
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++) {
+            const int r1 = (row + 1) % 3, r2 = (row + 2) % 3;
+            const int c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+            c[3 * row + column] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
+        }
+    return m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
+}
+
+/* Normals and (u,v) of its points. */
+static void add_looks(WrAssimpMesh &out, const aiMesh &mesh, const double m[12], bool moved)
+{
+    const float nothing = std::numeric_limits<float>::quiet_NaN();
+    const bool mapped = mesh.mTextureCoords[0] != nullptr;
+    double c[9];
+    const double sign = cofactors(m, c) < 0 ? -1 : 1;
+    for (unsigned i = 0; i < mesh.mNumVertices; i++) {
+        float look[5] = { 0, 0, 0, nothing, nothing };
+        if (mesh.mNormals) {
+            const double n[3] = { mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z };
+            for (int row = 0; row < 3; row++)
+                look[row] = static_cast<float>(
+                    moved
+                        ? sign * (c[3 * row] * n[0] + c[3 * row + 1] * n[1] + c[3 * row + 2] * n[2])
+                        : n[row]);
+        }
+        if (mapped) look[3] = mesh.mTextureCoords[0][i].x, look[4] = mesh.mTextureCoords[0][i].y;
+        out.looks.insert(out.looks.end(), look, look + 5);
+    }
+}
+
+/* The name of its material, where the file has given it one. */
+static std::string part_name(const aiScene &scene, const aiMesh &mesh)
+{
+    if (mesh.mMaterialIndex >= scene.mNumMaterials) return mesh.mName.C_Str();
+    const std::string name = scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    return name.empty() || name == AI_DEFAULT_MATERIAL_NAME ? mesh.mName.C_Str() : name;
+}
+
 static bool add_mesh(WrAssimpMesh &out, const aiMesh &mesh, const double m[12],
                      const Limits &limits, char *reason)
 {
@@ -149,6 +197,9 @@ static bool add_mesh(WrAssimpMesh &out, const aiMesh &mesh, const double m[12],
         return fail(reason, "more than " + std::to_string(limits.triangles) + " triangles");
     static const double nothing[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
     bool moved = std::memcmp(m, nothing, sizeof nothing) != 0;
+    double c[9];
+    const bool mirrored = moved && cofactors(m, c) < 0;
+    if (out.whole) add_looks(out, mesh, m, moved);
     for (unsigned i = 0; i < mesh.mNumVertices; i++) {
         const aiVector3D &p = mesh.mVertices[i];
         if (!moved) { /* as it is, bit for bit */
@@ -164,11 +215,12 @@ static bool add_mesh(WrAssimpMesh &out, const aiMesh &mesh, const double m[12],
         const aiFace &face = mesh.mFaces[i];
         if (face.mNumIndices != 3) continue; /* points and lines have no area */
         for (int k = 0; k < 3; k++) {
-            if (face.mIndices[k] >= mesh.mNumVertices)
+            const unsigned point = face.mIndices[mirrored && k > 0 ? 3 - k : k];
+            if (point >= mesh.mNumVertices)
                 return fail(reason, "face " + std::to_string(i + 1) + " names point " +
-                                        std::to_string(face.mIndices[k]) + " of " +
+                                        std::to_string(point) + " of " +
                                         std::to_string(mesh.mNumVertices));
-            out.corners.push_back(static_cast<int32_t>(first + face.mIndices[k]));
+            out.corners.push_back(static_cast<int32_t>(first + point));
         }
     }
     return true;
@@ -187,6 +239,10 @@ static bool add_scene(WrAssimpMesh &out, const aiScene &scene, const Limits &lim
             unsigned mesh = visit.node->mMeshes[i];
             if (mesh >= scene.mNumMeshes)
                 return fail(reason, "a node names a mesh that is not there");
+            if (out.whole) {
+                out.firsts.push_back(static_cast<int32_t>(out.corners.size() / 3));
+                out.names.push_back(part_name(scene, *scene.mMeshes[mesh]));
+            }
             if (!add_mesh(out, *scene.mMeshes[mesh], at.to, limits, reason)) return false;
         }
         for (unsigned i = visit.node->mNumChildren; i-- > 0;) {
@@ -223,11 +279,13 @@ static bool read_file(WrAssimpMesh &out, const void *bytes, size_t length, const
 }
 
 static WrAssimpMesh *mesh_read(const void *bytes, size_t length, const char *ending,
-                               int64_t most_points, int64_t most_triangles, char *reason)
+                               int64_t most_points, int64_t most_triangles, bool whole,
+                               char *reason)
 {
     const Limits limits = { most_points, most_triangles };
     try {
         auto mesh = std::make_unique<WrAssimpMesh>();
+        mesh->whole = whole;
         if (read_file(*mesh, bytes, length, ending, limits, reason)) return mesh.release();
     } catch (const std::bad_alloc &) {
         fail(reason, WR_ASSIMP_NO_MEMORY);
@@ -259,6 +317,22 @@ static const int32_t *corner_data(const WrAssimpMesh *mesh)
     return mesh->corners.data();
 }
 
+static const float *look_data(const WrAssimpMesh *mesh)
+{
+    return mesh->looks.data();
+}
+
+static int32_t mesh_parts(const WrAssimpMesh *mesh)
+{
+    return static_cast<int32_t>(mesh->firsts.size());
+}
+
+static int32_t mesh_part(const WrAssimpMesh *mesh, int32_t i, const char **name)
+{
+    *name = mesh->names[static_cast<size_t>(i)].c_str();
+    return mesh->firsts[static_cast<size_t>(i)];
+}
+
 static void mesh_close(WrAssimpMesh *mesh)
 {
     delete mesh;
@@ -266,4 +340,5 @@ static void mesh_close(WrAssimpMesh *mesh)
 
 extern "C" __attribute__((visibility("default"))) const WrAssimpTable wr_assimp_table;
 const WrAssimpTable wr_assimp_table = { WR_ASSIMP_VERSION, mesh_read,   mesh_points, mesh_triangles,
-                                        point_data,        corner_data, mesh_close };
+                                        point_data,        corner_data, look_data,   mesh_parts,
+                                        mesh_part,         mesh_close };

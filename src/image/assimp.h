@@ -2,10 +2,11 @@
    wr_assimp_table; everything goes through it, and no exception crosses it.
    Private to this room. C and C++. */
 #pragma once
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_ASSIMP_VERSION 1
+#define WR_ASSIMP_VERSION 2
 #define WR_ASSIMP_REASON 320
 #define WR_ASSIMP_SYMBOL "wr_assimp_table"
 #define WR_ASSIMP_NO_MEMORY "not enough memory" /* a reason that callers look for */
@@ -15,12 +16,18 @@ typedef struct WrAssimpMesh WrAssimpMesh;
 typedef struct WrAssimpTable {
     int version; /* WR_ASSIMP_VERSION */
     /* Read a file in memory; looks at no other file. ending: of its name, lower case. At most so many
-       points and triangles, else an error. NULL and one line in reason[WR_ASSIMP_REASON]. */
+       points and triangles, else an error. whole: normals, (u,v) and parts too. NULL and one line in
+       reason[WR_ASSIMP_REASON]. */
     WrAssimpMesh *(*read)(const void *bytes, size_t length, const char *ending, int64_t most_points,
-                          int64_t most_triangles, char *reason);
+                          int64_t most_triangles, bool whole, char *reason);
     int32_t (*points)(const WrAssimpMesh *mesh);
     int32_t (*triangles)(const WrAssimpMesh *mesh);
     const float *(*point_data)(const WrAssimpMesh *mesh);    /* [points][3] */
     const int32_t *(*corner_data)(const WrAssimpMesh *mesh); /* [triangles][3], indices of points */
+    /* Of a whole one: [points][5], a normal (0: none) and u, v (not a number: none). */
+    const float *(*look_data)(const WrAssimpMesh *mesh);
+    /* Parts: the first triangle of each, and its material's name; in order. */
+    int32_t (*parts)(const WrAssimpMesh *mesh);
+    int32_t (*part)(const WrAssimpMesh *mesh, int32_t i, const char **name);
     void (*close)(WrAssimpMesh *mesh);
 } WrAssimpTable;

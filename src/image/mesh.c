@@ -13,6 +13,25 @@
 
 /* ---- what came back ---- */
 
+/* Normals and (u,v) may be any numbers; parts follow on each other and end with the triangles. */
+static bool check_whole(const char *rest, WrMeshHead head, WrMesh *mesh)
+{
+    const char *uv = rest + 12 * (size_t)head.points, *parts = uv + 8 * (size_t)head.points;
+    mesh->normals = (const float(*)[3])(const void *)rest;
+    mesh->uv = (const float(*)[2])(const void *)uv;
+    mesh->parts = (const WrMeshPart *)(const void *)parts;
+    mesh->part_count = head.parts;
+    int32_t sum = 0;
+    for (int32_t i = 0; i < head.parts; i++) {
+        const WrMeshPart *part = &mesh->parts[i];
+        if (part->first != sum || part->count < 1 || part->count > head.triangles - sum ||
+            !memchr(part->name, 0, sizeof part->name))
+            return false;
+        sum += part->count;
+    }
+    return sum == head.triangles;
+}
+
 /* A stranger may have sent it. */
 static bool check_block(const char *block, size_t length, WrMesh *mesh)
 {
@@ -20,8 +39,11 @@ static bool check_block(const char *block, size_t length, WrMesh *mesh)
     if (length < sizeof head) return false;
     memcpy(&head, block, sizeof head);
     if (head.points < 3 || head.points > WR_MESH_POINTS_MAX || head.triangles < 1 ||
-        head.triangles > WR_MESH_TRIANGLES_MAX ||
-        length != sizeof head + 12 * ((size_t)head.points + (size_t)head.triangles))
+        head.triangles > WR_MESH_TRIANGLES_MAX || head.whole < 0 || head.whole > 1 ||
+        head.parts < head.whole || head.parts > head.whole * WR_MESH_PARTS_MAX ||
+        length != sizeof head + 12 * ((size_t)head.points + (size_t)head.triangles) +
+                      (head.whole ? 20 * (size_t)head.points : 0) +
+                      (size_t)head.parts * sizeof(WrMeshPart))
         return false;
     const char *points = block + sizeof head, *corners = points + 12 * (size_t)head.points;
     mesh->points = (const float(*)[3])(const void *)points;
@@ -34,7 +56,7 @@ static bool check_block(const char *block, size_t length, WrMesh *mesh)
     for (int32_t i = 0; i < head.triangles; i++)
         for (int k = 0; k < 3; k++)
             if (mesh->corners[i][k] < 0 || mesh->corners[i][k] >= head.points) return false;
-    return true;
+    return !head.whole || check_whole(corners + 12 * (size_t)head.triangles, head, mesh);
 }
 
 /* Takes the block over. */
@@ -58,29 +80,37 @@ void wr_mesh_fini(WrMesh *mesh)
 
 /* ---- files ---- */
 
+/* What is read, from where, and how much of it. */
+typedef struct Order {
+    const char *name;
+    bool whole;
+} Order;
+
 /* Within this process, for debugging. */
-static bool read_inside(const char *name, const void *bytes, size_t length, WrMesh *out,
-                        WrError *err)
+static bool read_inside(Order order, const void *bytes, size_t length, WrMesh *out, WrError *err)
 {
     WrText block = { 0 };
     char ending[16];
-    if (wr_mesh_make(bytes, length, wr_path_ending(name, ending), &block, NULL, err))
-        return take(name, block.data, block.length, out, err);
+    if (wr_mesh_make(bytes, length, wr_path_ending(order.name, ending), order.whole, &block, NULL,
+                     err))
+        return take(order.name, block.data, block.length, out, err);
     wr_text_fini(&block);
-    wr_error_prefix(err, "%s: ", name);
+    wr_error_prefix(err, "%s: ", order.name);
     return false;
 }
 
-static bool read_outside(const char *name, int fd, WrMesh *out, WrError *err)
+static bool read_outside(Order order, int fd, WrMesh *out, WrError *err)
 {
     char *block;
     size_t length;
-    return wr_reader_block(name, fd, WR_WIRE_MESH, "", 0, &block, &length, err) &&
-           take(name, block, length, out, err);
+    return wr_reader_block(order.name, fd, WR_WIRE_MESH, WR_MESH_WHOLE, order.whole ? 1 : 0, &block,
+                           &length, err) &&
+           take(order.name, block, length, out, err);
 }
 
-bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
+static bool read_file(const char *path, bool whole, WrMesh *out, WrError *err)
 {
+    const Order order = { path, whole };
     int fd = wr_reader_file(path, WR_MESH_FILE_MAX, err);
     if (fd < 0) return false;
     bool good;
@@ -89,25 +119,48 @@ bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
         size_t length;
         good = wr_file_read(path, WR_MESH_FILE_MAX, &bytes, &length, err);
         if (good) {
-            good = read_inside(path, bytes, length, out, err);
+            good = read_inside(order, bytes, length, out, err);
             wr_free(bytes);
         }
     } else {
-        good = read_outside(path, fd, out, err);
+        good = read_outside(order, fd, out, err);
     }
     wr_fd_close(fd);
     return good;
 }
 
+static bool read_bytes(const char *name, const void *bytes, size_t length, bool whole, WrMesh *out,
+                       WrError *err)
+{
+    const Order order = { name, whole };
+    if (length == 0 || length > WR_MESH_FILE_MAX)
+        return wr_fail(err, "%s: %zu bytes: must be 1..%zu", name, length, WR_MESH_FILE_MAX);
+    if (wr_reader_inside()) return read_inside(order, bytes, length, out, err);
+    int fd = wr_fd_in_memory(name, bytes, length, err);
+    if (fd < 0) return false;
+    bool good = read_outside(order, fd, out, err);
+    wr_fd_close(fd);
+    return good;
+}
+
+bool wr_mesh_read(const char *path, WrMesh *out, WrError *err)
+{
+    return read_file(path, false, out, err);
+}
+
+bool wr_mesh_read_whole(const char *path, WrMesh *out, WrError *err)
+{
+    return read_file(path, true, out, err);
+}
+
 bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
                         WrError *err)
 {
-    if (length == 0 || length > WR_MESH_FILE_MAX)
-        return wr_fail(err, "%s: %zu bytes: must be 1..%zu", name, length, WR_MESH_FILE_MAX);
-    if (wr_reader_inside()) return read_inside(name, bytes, length, out, err);
-    int fd = wr_fd_in_memory(name, bytes, length, err);
-    if (fd < 0) return false;
-    bool good = read_outside(name, fd, out, err);
-    wr_fd_close(fd);
-    return good;
+    return read_bytes(name, bytes, length, false, out, err);
+}
+
+bool wr_mesh_read_whole_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
+                              WrError *err)
+{
+    return read_bytes(name, bytes, length, true, out, err);
 }

@@ -11,12 +11,25 @@ typedef struct WrError WrError;
 #define WR_MESH_POINTS_MAX 9000000
 #define WR_MESH_TRIANGLES_MAX 9000000
 
+#define WR_MESH_NAME 64
+
+/* What a material carries, or one placing of a body. */
+typedef struct WrMeshPart {
+    int32_t first, count;    /* triangles */
+    char name[WR_MESH_NAME]; /* its material's, cut, or its own; may be empty */
+} WrMeshPart;
+
 /* All that a file holds, each part where the file puts it, in the file's own unit and axes. */
 typedef struct WrMesh {
     const float (*points)[3];    /* [point_count] x, y, z; finite, within 1e30 of 0 */
     const int32_t (*corners)[3]; /* [triangle_count] indices of points; polygons are cut up */
     int32_t point_count, triangle_count;
-    char *block; /* owned: both */
+    /* Of a file that was read whole, else NULL and 0: */
+    const float (*normals)[3]; /* [point_count], of any length; 0: the file has none there */
+    const float (*uv)[2];      /* [point_count], v upwards; not a number: the file has none there */
+    const WrMeshPart *parts;   /* [part_count], together all triangles in order */
+    int32_t part_count;
+    char *block; /* owned: all */
 } WrMesh;
 
 /* Read a file. out: the caller's (fini); untouched on failure.
@@ -27,4 +40,8 @@ bool wr_mesh_read(const char *path, WrMesh *out, WrError *err);
 /* The same from bytes in memory; name stands in messages, and its ending counts as a path's. */
 bool wr_mesh_read_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
                         WrError *err);
+/* Both with normals, texture coordinates and parts. */
+bool wr_mesh_read_whole(const char *path, WrMesh *out, WrError *err);
+bool wr_mesh_read_whole_bytes(const char *name, const void *bytes, size_t length, WrMesh *out,
+                              WrError *err);
 void wr_mesh_fini(WrMesh *mesh);

@@ -193,7 +193,7 @@ static void serve_block(const WrWireOrder *order)
     bool good = false;
     if (!bytes) memory = true;
     else if (order->task == WR_WIRE_MESH)
-        good = wr_mesh_make(bytes, length, order->ending, &block, &memory, &err);
+        good = wr_mesh_make(bytes, length, order->ending, ask_length > 0, &block, &memory, &err);
     else good = make_font(bytes, length, ask, ask_length, &block, &err);
     wr_free(bytes);
     wr_free(ask);

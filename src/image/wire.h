@@ -17,7 +17,7 @@
 
    Files of other tasks than pictures are read in one go; there the program speaks first:
 
-     program:  ASK (of a font: WrFontOrder and texts, font_inner.h)  -> child: BLOCK bytes, FAILED, MEMORY
+     program:  ASK (of a font: WrFontOrder and texts, font_inner.h; of a whole mesh: a byte)  -> child: BLOCK bytes, FAILED, MEMORY
 
    Pixels go through a memory file of the program's, sealed against change of size, that travels with the
    first READ that needs it. */
@@ -28,8 +28,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define WR_WIRE_VERSION 5
-#define WR_WIRE_MAX (256U << 20) /* bytes of a message */
+#define WR_WIRE_VERSION 6
+#define WR_WIRE_MAX (512U << 20) /* bytes of a message */
 
 /* What kind of file. */
 typedef enum WrWireTask { WR_WIRE_PICTURE, WR_WIRE_MESH, WR_WIRE_FONT } WrWireTask;

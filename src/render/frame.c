@@ -44,19 +44,14 @@ static void forget_view(WrRenderer *renderer)
     renderer->seen = false;
 }
 
-/* All but one, which may be NULL. */
-static void drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
-{
-    for (int i = 0; i < WR_HELD_MESHES; i++)
-        if (&renderer->meshes[i] != but) wr_view_mesh_fini(&renderer->meshes[i]);
-}
-
 void wr_renderer_forget(WrRenderer *renderer)
 {
     forget_view(renderer);
     wr_keep_fini(&renderer->keep);
     wr_frame_drop_tables(renderer);
-    drop_meshes(renderer, NULL);
+    wr_frame_drop_meshes(renderer, NULL);
+    wr_view_triangles_fini(&renderer->triangles);
+    wr_triangles_free(renderer->square);
     wr_sight_fini(&renderer->sight);
 }
 
@@ -201,6 +196,8 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
                           request ? renderer->kernels : wr_kernels_get(renderer->isa, false, NULL),
                       .kernels_double = wr_kernels_double(renderer->isa, NULL),
                       .mesh = renderer->mesh,
+                      .triangles =
+                          plan->inversion == WR_INVERT_TRIANGLES ? &renderer->triangles : NULL,
                       .newton = renderer->mesh && plan->newton != 0,
                       .samples = renderer->samples,
                       .width = renderer->width,
@@ -212,6 +209,10 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
                       .y0 = renderer->top,
                       .bins = renderer->bins,
                       .coder = wr_kernels_get(renderer->isa, false, NULL) };
+    if (job.triangles)
+        job.triangle_look = (WrTriangleLook){ &renderer->triangles.source->corners[0].p[0],
+                                              &renderer->triangles.source->triangles[0].corner[0],
+                                              renderer->view.scale };
     if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
     if (request) job.normals = request->normals, job.map = request->map;
     wr_tile_size(job.samples, plan->sampling == WR_SAMPLING_ADAPTIVE, request && request->only,
@@ -304,26 +305,6 @@ static void look_for_life(WrRenderer *renderer, const WrFrameRequest *request, W
     if (ask->facts.lively) wr_plan_samples(plan, ask);
 }
 
-/* Passes of one picture, which hold what they make, differ in their samples: each number keeps its mesh. */
-static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
-                         const WrKernels *kernels)
-{
-    const WrScene *scene = request->scene;
-    const WrPlan *plan = &renderer->plan;
-    const WrMeshAsk ask = { .mesh = plan->mesh,
-                            .newton = plan->newton,
-                            .texels = plan->texels,
-                            .table_w = fabs(scene->replicate_u) * wr_field_width(request->field),
-                            .table_h = fabs(scene->replicate_v) * wr_field_height(request->field) };
-    int slot = 0;
-    while (slot + 1 < WR_HELD_MESHES && 1 << slot < plan->samples) slot++;
-    renderer->mesh = wr_plan_runs(plan, WR_EFFECT_DEPTH) ? &renderer->meshes[slot] : NULL;
-    if (!request->hold || !renderer->mesh) drop_meshes(renderer, renderer->mesh);
-    if (renderer->mesh)
-        wr_view_mesh_prepare(renderer->mesh, &scene->shape, &renderer->view, &ask, kernels,
-                             renderer->pool);
-}
-
 /* View and mesh of a whole new picture. */
 static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels, WrError *err)
@@ -338,9 +319,13 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     renderer->seen = wr_view_init(&renderer->view, scene, radius_of(renderer, &scene->shape), plan,
                                   request->turn_deg, request->width, request->height, err);
     if (!renderer->seen) return false;
-    prepare_mesh(renderer, request, kernels);
+    if (!wr_frame_prepare_meshes(renderer, request, kernels, err)) {
+        forget_view(renderer);
+        return false;
+    }
     if (!wr_progress_stopped()) return true;
-    drop_meshes(renderer, NULL); /* half made */
+    wr_frame_drop_meshes(renderer, NULL); /* half made */
+    wr_view_triangles_fini(&renderer->triangles);
     forget_view(renderer);
     return wr_fail(err, "cancelled");
 }

@@ -115,3 +115,5 @@ bool wr_renderer_pick(WrRenderer *renderer, double x, double y, double *u, doubl
 /* The same, and which of the scene's objects it is that is seen there. */
 bool wr_renderer_pick_object(WrRenderer *renderer, double x, double y, int *object, double *u,
                              double *v, int *face);
+/* The number of the triangle there, of the scene's mesh; false where none is, or on another surface. */
+bool wr_renderer_pick_triangle(WrRenderer *renderer, double x, double y, int32_t *triangle);

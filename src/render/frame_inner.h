@@ -25,7 +25,9 @@ struct WrRenderer {
     WrRounded rounded;
     const WrField *looked; /* what this frame looks up: the request's field, or its rounded form */
     WrViewMesh meshes[WR_HELD_MESHES],
-        *mesh; /* mesh: of the last frame; the others, of frames that hold */
+        *mesh;                 /* mesh: of the last frame; the others, of frames that hold */
+    WrViewTriangles triangles; /* of a mesh out of a file */
+    WrTriangles *square; /* what is shown of a scene whose mesh is not there; owned; or NULL */
     WrTint tint;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
@@ -108,3 +110,8 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
 /* Start each thread's counts at 0; then what they came to, into the frame and the plan's rows. */
 void wr_frame_start_counts(WrRenderer *renderer);
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame);
+/* All grids but one, which may be NULL. */
+void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
+/* Bring what the surface is rasterised from up to the view. Errors: no memory. */
+bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request,
+                             const WrKernels *kernels, WrError *err);

@@ -29,6 +29,13 @@ typedef struct WrColourLook {
     bool periodic_u, periodic_v;
 } WrColourLook;
 
+/* A mesh as kernels look its triangles up. */
+typedef struct WrTriangleLook {
+    const float *corners;     /* 8 each: place, normal, u, v (triangles.h) */
+    const int32_t *triangles; /* 3 corners each */
+    double scale;             /* its places -> kernel units; a power of two */
+} WrTriangleLook;
+
 /* How far Newton's method goes. */
 typedef struct WrNewton {
     float reach_u, reach_v;   /* longest step */

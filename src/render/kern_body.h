@@ -191,6 +191,7 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_hit_body.h"
 #include "render/kern_mesh_body.h"
 #include "render/kern_surface_body.h"
+#include "render/kern_triangle_body.h"
 #include "render/kern_look_body.h"
 #include "render/kern_bump_body.h"
 #include "shade/light_body.h"
@@ -228,6 +229,7 @@ const KERNELS WR_KERN_TABLE = {
 #include "surface/surface_list.h"
     },
     .recall = kern_recall,
+    .meet = kern_meet,
 #define WR_X(name) [WR_SURFACE_##name] = kern_resume_##name,
     .resume = {
 #include "surface/surface_list.h"
@@ -253,6 +255,7 @@ const KERNELS WR_KERN_TABLE = {
         [WR_ROW(WR_SCHEME_CATMULL)] = kern_look_catmull,
     },
     .footprint = kern_footprint,
+    .footprint_met = kern_footprint_met,
     .spread = kern_spread,
     .look_pyramid = kern_look_pyramid,
     .bump = {

@@ -61,6 +61,39 @@ FLAT static void kern_footprint(const RAYS *rays, const LOOK *look, REAL pixel, 
     }
 }
 
+/* How far u and v of a triangle's sample move with P: their gradients, which `meet` left as Pv = n x grad u and
+   Pu = grad v x n. */
+ALWAYS void put_met(const RAYS *rays, REAL W, REAL H, STRIP *strip, int i)
+{
+    const VEC qx = { rays->qx[0], rays->qx[1], rays->qx[2] };
+    const VEC qy = { rays->qy[0], rays->qy[1], rays->qy[2] };
+    const VEC dx = { rays->dx[0], rays->dx[1], rays->dx[2] };
+    const VEC dy = { rays->dy[0], rays->dy[1], rays->dy[2] };
+    VEC q = RAY_Q(rays, strip->y[i], strip->x[i]), d = RAY_D(rays, strip->y[i], strip->x[i]);
+    VEC n = LOAD3(strip, n, i);
+    REAL dd = v_dot(d, d), least = K_(1e-6) * r_sqrt(dd), size = v_dot(n, d);
+    REAL dn = r_abs(size) > least ? size : least;
+    REAL s = v_dot(v_sub(LOAD3(strip, p, i), q), d) / dd;
+    VEC a = step_on_plane(n, d, v_mad(qx, dx, s), dn);
+    VEC b = step_on_plane(n, d, v_mad(qy, dy, s), dn);
+    VEC gu = v_cross(LOAD3(strip, pv, i), n), gv = v_cross(n, LOAD3(strip, pu, i));
+    strip->rx[i] = within(W * v_dot(a, gu), VAST);
+    strip->ry[i] = within(H * v_dot(a, gv), VAST);
+    strip->wx[i] = within(W * v_dot(b, gu), VAST);
+    strip->wy[i] = within(H * v_dot(b, gv), VAST);
+}
+
+FLAT static void kern_footprint_met(const RAYS *rays, const LOOK *look, REAL pixel, STRIP *strip)
+{
+    const REAL W = (REAL)look->width * (REAL)look->ru * pixel;
+    const REAL H = -(REAL)look->height * (REAL)look->rv * pixel;
+    const int count = strip->count;
+    SIMD for (int i = 0; i < count; i++)
+    {
+        put_met(rays, W, H, strip, i);
+    }
+}
+
 /* Isotropic: one look-up of the longer side. Anisotropic: look-ups of the parallelogram's height side by
    side along its longer side, at most WR_TAPS_MOST: then they grow. Up to one texel: level 0 (E17). */
 FLAT static void kern_spread(const LOOK *look, bool anisotropic, STRIP *strip)

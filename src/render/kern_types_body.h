@@ -148,6 +148,11 @@ typedef struct WR_T(WrKernels) {
     /* From u, v, wx and x, y to what `polish` left when it had rx, ry, wx, with the same bits. */
     void (*resume[WR_SURFACE_COUNT])(const WR_T(WrRays) * rays, const SHAPE *shape,
                                      const WR_T(WrNewton) * how, WR_T(WrStrip) * strip);
+    /* Where the rays of x, y meet the triangles whose numbers stand in u: P, n, |N| = 1; mapped: u, v; sloped: in the
+       place of Pu, Pv what makes the normal formulas exact there (kern_triangle_body.h).
+       smooth: normals are interpolated, else the first corner's. */
+    void (*meet)(const WR_T(WrRays) * rays, const WrTriangleLook *look, bool smooth, bool mapped,
+                 bool sloped, WR_T(WrStrip) * strip);
     /* Points only, for meshes. */
     void (*points[WR_SURFACE_COUNT])(const SHAPE *shape, int count, const REAL *u, const REAL *v,
                                      REAL *x, REAL *y, REAL *z);
@@ -162,6 +167,9 @@ typedef struct WR_T(WrKernels) {
     /* The footprint of one pixel, `pixel` samples wide, at x, y; after geometry. */
     void (*footprint)(const WR_T(WrRays) * rays, const WR_T(WrLook) * look, REAL pixel,
                       WR_T(WrStrip) * strip);
+    /* The same of what `meet` left in the place of Pu, Pv. */
+    void (*footprint_met)(const WR_T(WrRays) * rays, const WR_T(WrLook) * look, REAL pixel,
+                          WR_T(WrStrip) * strip);
     /* Level, longer side and taps from the footprint. */
     void (*spread)(const WR_T(WrLook) * look, bool anisotropic, WR_T(WrStrip) * strip);
     /* F, Fu, Fv and, with moments, suu, suv, svv from the pyramid at u, v and level. */

@@ -210,7 +210,7 @@ static WrNewton choose_newton(const WrViewMesh *mesh, const WrSurfaceInfo *info,
                        .steps = ask->newton < 0 ? enough : ask->newton };
 }
 
-static WrViewSight sight_of(const WrView *view)
+WrViewSight wr_view_sight(const WrView *view)
 {
     return (WrViewSight){ .eye = view->eye,
                           .right = view->right,
@@ -241,43 +241,22 @@ void wr_view_mesh_prepare(WrViewMesh *mesh, const WrShape *shape, const WrView *
         wr_pool_run(pool, mv + 1, make_row, &job);
     }
     mesh->newton = choose_newton(mesh, wr_surfaces[shape->kind], view->scale, ask);
-    const WrViewSight sight = sight_of(view);
+    const WrViewSight sight = wr_view_sight(view);
     if (same && memcmp(&mesh->sight, &sight, sizeof sight) == 0) return;
     mesh->sight = sight;
     wr_pool_run(pool, mv + 1, project_row, &job);
     wr_pool_run(pool, mesh->blocks_v, bound_row, &job);
 }
 
-/* A tile's rectangle in 1/256 samples of the view's grid, as far as a triangle may reach into it. */
-typedef struct Bounds {
-    int64_t x0, y0, x1, y1;
-} Bounds;
-
-static Bounds bounds_of(const WrDepthTile *tile, int samples)
-{
-    const int k = tile->k > 0 ? tile->k : samples;
-    const int more = tile->shift || k != samples ? 1 : 0; /* samples */
-    return (Bounds){ (int64_t)(tile->x - more) * 256 * samples / k,
-                     (int64_t)(tile->y - more) * 256 * samples / k,
-                     (int64_t)(tile->x + tile->w + more) * 256 * samples / k,
-                     (int64_t)(tile->y + tile->h + more) * 256 * samples / k };
-}
-
-static bool block_meets(const WrViewMeshBlock *b, const Bounds *tile)
-{
-    return b->clipped ||
-           (b->x1 >= tile->x0 && b->x0 <= tile->x1 && b->y1 >= tile->y0 && b->y0 <= tile->y1);
-}
-
 bool wr_view_mesh_box(const WrViewMesh *mesh, const WrView *view, const WrDepthTile *tile,
                       double box[4])
 {
-    const Bounds bounds = bounds_of(tile, view->samples);
+    const WrRasterBounds bounds = wr_raster_bounds(tile, view->samples);
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
     for (int i = 0; i < mesh->blocks_u * mesh->blocks_v; i++) {
         const WrViewMeshBlock *b = &mesh->blocks[i];
-        if (!block_meets(b, &bounds)) continue;
+        if (!wr_raster_meets(b, &bounds)) continue;
         box[0] = fmin(box[0], b->clipped ? -INFINITY : b->x0 / 256.0);
         box[1] = fmin(box[1], b->clipped ? -INFINITY : b->y0 / 256.0);
         box[2] = fmax(box[2], b->clipped ? INFINITY : b->x1 / 256.0);
@@ -312,8 +291,8 @@ static bool cell_misses(const int32_t *top, const int32_t *low, int64_t from, in
     return (a < from && b < from && c < from && d < from) || (a > to && b > to && c > to && d > to);
 }
 
-static void raster_cell(const WrViewMesh *mesh, const WrView *view, const Bounds *bounds, int i,
-                        int j, WrDepthTile *tile)
+static void raster_cell(const WrViewMesh *mesh, const WrView *view, const WrRasterBounds *bounds,
+                        int i, int j, WrDepthTile *tile)
 {
     size_t at = (size_t)j * (size_t)(mesh->mu + 1) + (size_t)i, next = at + (size_t)mesh->mu + 1;
     const unsigned char *top = mesh->out + at, *low = mesh->out + next;
@@ -339,10 +318,10 @@ static void raster_cell(const WrViewMesh *mesh, const WrView *view, const Bounds
 
 void wr_view_mesh_raster(const WrViewMesh *mesh, const WrView *view, WrDepthTile *tile)
 {
-    const Bounds bounds = bounds_of(tile, view->samples);
+    const WrRasterBounds bounds = wr_raster_bounds(tile, view->samples);
     for (int i = 0; i < tile->w * tile->h; i++) tile->close[i] = -FLT_MAX;
     for (int b = 0; b < mesh->blocks_u * mesh->blocks_v; b++) {
-        if (!block_meets(&mesh->blocks[b], &bounds)) continue;
+        if (!wr_raster_meets(&mesh->blocks[b], &bounds)) continue;
         int i0 = b % mesh->blocks_u * WR_MESH_BLOCK, j0 = b / mesh->blocks_u * WR_MESH_BLOCK;
         for (int j = j0; j < j0 + WR_MESH_BLOCK; j++)
             for (int i = i0; i < i0 + WR_MESH_BLOCK; i++)

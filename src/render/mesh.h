@@ -30,6 +30,8 @@ typedef struct WrViewSight {
     double half_w, half_h, near, grid_w, grid_h, perspective;
 } WrViewSight;
 
+WrViewSight wr_view_sight(const WrView *view);
+
 /* Zero-initialise; fini frees. */
 typedef struct WrViewMesh {
     WrShape source; /* what the second derivatives were measured on */

@@ -116,6 +116,7 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
                           Strip *strip, Watch *watch)
 {
     const WR_T(WrRound) *round = round_of(job);
+    if (job->triangles) return; /* all of it came with the hit */
     if (round && runs(job, WR_EFFECT_TANGENTS) && !level && !bends_at_once(job, sink)) {
         round->tangents(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
@@ -179,7 +180,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
 {
     const int face = quad >= 0 ? job->view->quad_face[quad] : 0;
     unsigned spared = 0;
-    if (runs(job, WR_EFFECT_PARAMETERS)) {
+    if (runs(job, WR_EFFECT_PARAMETERS) && !job->triangles) {
         round_of(job)->params(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_PARAMETERS);
         watch_lap(watch, WR_STAGE_PARAMETERS);
@@ -311,6 +312,7 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
 /* ---- visibility ---------------------------------------------------------------------------------- */
 
 #include "render/pipe_mesh_body.h"
+#include "render/pipe_triangles_body.h"
 
 static void pour(const WrScatter *places, Strip *strip)
 {
@@ -335,6 +337,11 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
     Strip *strip = STRIP_OF(scratch);
     Watch watch = watch_start(scratch);
     if (places->count == 0) return;
+    if (job->triangles) {
+        meet_places(job, rays, tile, places, runs(job, WR_EFFECT_PARAMETERS), strip, &watch);
+        finish_strip(job, rays, -1, sink, scratch, &watch);
+        return;
+    }
     if (job->mesh) {
         if (job->seen_before) recall_mesh(job, rays, tile, places, strip, &watch);
         else locate_mesh(job, rays, tile, places, strip, &watch);
@@ -395,6 +402,11 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     Strip *strip = STRIP_OF(scratch);
     Watch watch = watch_start(scratch);
     const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
+    if (job->triangles) {
+        meet_row(job, rays, tile, y, strip, &watch);
+        finish_strip(job, rays, -1, sink, scratch, &watch);
+        return;
+    }
     if (job->mesh) {
         if (job->seen_before) recall_row(job, rays, tile, y, strip, &watch);
         else locate_row(job, rays, tile, y, strip, &watch);
@@ -429,7 +441,11 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
     places->x[0] = gx, places->y[0] = gy, places->cell[0] = 0;
     strip->count = 0;
     *face = 0;
-    if (job->mesh) {
+    if (job->triangles) {
+        WrDepthTile tile = wr_tile_depth(job, job->samples, gx, gy, 1, 1, scratch);
+        meet_places(job, rays, &tile, places, true, strip, &watch);
+        if (strip->count > 0) scratch->picked = (int32_t)tile.u[0];
+    } else if (job->mesh) {
         WrDepthTile tile = wr_tile_depth(job, job->samples, gx, gy, 1, 1, scratch);
         locate_mesh(job, rays, &tile, places, strip, &watch);
     } else if (round) {
@@ -437,7 +453,8 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
         round->hit_at(rays, &VIEWED(job->view, shape), 1, strip);
         round->params(&VIEWED(job->view, shape), strip);
     }
-    for (int i = 0; !round && !job->mesh && i < job->view->quad_count && strip->count == 0; i++) {
+    const bool quads = !round && !job->mesh && !job->triangles;
+    for (int i = 0; quads && i < job->view->quad_count && strip->count == 0; i++) {
         pour(places, strip);
         KERNELS_OF(job)->hit_quad_at(rays, &VIEWED(job->view, quads)[i], 1, strip);
         *face = job->view->quad_face[i];

@@ -52,6 +52,8 @@ typedef enum WrEffect {
     WR_EFFECT_GROUND,
     WR_EFFECT_HIDDEN,
     WR_EFFECT_BETWEEN,
+    WR_EFFECT_SMOOTH,
+    WR_EFFECT_BLOCKS,
     WR_EFFECT_COUNT
 } WrEffect;
 

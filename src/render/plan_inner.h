@@ -36,5 +36,6 @@ typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char 
 typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
     wr_decide_parameters, wr_decide_tangents, wr_decide_hidden, wr_decide_between, wr_decide_beside,
-    wr_decide_dark, wr_decide_ground, wr_decide_colour, wr_decide_tint;
+    wr_decide_dark, wr_decide_ground, wr_decide_colour, wr_decide_tint, wr_decide_smooth,
+    wr_decide_blocks;
 WrSettle wr_settle_depth, wr_settle_newton, wr_settle_tint;

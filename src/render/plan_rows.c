@@ -131,6 +131,8 @@ static WrVerdict decide_exact(const WrPlan *plan, const WrPlanAsk *ask, const ch
     if (ask->scene->bump != WR_BUMP_EXACT)
         return say(WR_VERDICT_NONE, why, "bump mode is not exact");
     if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
+    if (surface_of(ask)->held)
+        return say(WR_VERDICT_NONE, why, "triangles are flat: blinn is exact on them for any F");
     if (surface_of(ask)->flat)
         return say(WR_VERDICT_SPARED, why, "the base is flat: blinn is exact there for any F");
     return say(WR_VERDICT_RUN, why, "bump mode is exact and the base is curved");
@@ -144,7 +146,8 @@ static void settle_exact(WrPlan *plan, const WrPlanAsk *ask)
 
 static WrVerdict decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    (void)ask;
+    if (surface_of(ask)->held)
+        return say(WR_VERDICT_NONE, why, "triangles are flat: there are none");
     if (runs(plan, WR_EFFECT_EXACT))
         return say(WR_VERDICT_RUN, why, "the exact normal needs how n turns");
     return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");
@@ -417,15 +420,17 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_HALF)] = { "E34", "half precision", WR_PROOF_POLICY, NULL,
                                  "the dial does not ask for normals and light in half precision",
                                  STAGE(HALF), .decide = decide_half },
-    [WR_ROW(WR_EFFECT_PARAMETERS)] = { "E54", "u and v", WR_PROOF_IDENTICAL, NULL,
-                                       "on a sphere, a cylinder or a cone nothing is looked up "
-                                       "there: no "
-                                       "bump, no colour "
-                                       "picture; other surfaces are met at u and v",
-                                       STAGE(PARAMETERS), .only_way = true,
-                                       .decide = wr_decide_parameters },
+    [WR_ROW(
+        WR_EFFECT_PARAMETERS)] = { "E54", "u and v", WR_PROOF_IDENTICAL, NULL,
+                                   "on a sphere, a cylinder, a cone or a mesh nothing is looked up "
+                                   "there: no "
+                                   "bump, no colour "
+                                   "picture; other surfaces are met at u and v",
+                                   STAGE(PARAMETERS), .only_way = true,
+                                   .decide = wr_decide_parameters },
     [WR_ROW(WR_EFFECT_TANGENTS)] = { "E55", "tangents", WR_PROOF_IDENTICAL, NULL,
-                                     "on a sphere, a cylinder or a cone no slope turns the normal "
+                                     "on a sphere, a cylinder, a cone or a mesh no slope turns the "
+                                     "normal "
                                      "and no colour picture is filtered; other surfaces give them "
                                      "with the point",
                                      0, .only_way = true, .spared = WR_RUN_LEVEL,
@@ -453,5 +458,15 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                     "goes before its light is worked out",
                                     STAGE(BETWEEN), .only_way = true, .manner = true,
                                     .decide = wr_decide_between },
+    [WR_ROW(WR_EFFECT_SMOOTH)] = { "E57", "interpolated normals", WR_PROOF_BOUNDED,
+                                   "two units of the last place",
+                                   "the three normals of each of a mesh's triangles are the same, "
+                                   "or no light depends on them",
+                                   0, .decide = wr_decide_smooth },
+    [WR_ROW(WR_EFFECT_BLOCKS)] = { "E61", "blocks that look away", WR_PROOF_IDENTICAL, NULL,
+                                   "of a closed mesh seen from outside, blocks of triangles whose "
+                                   "normals all look away from the eye",
+                                   0, .only_way = true, .manner = true,
+                                   .decide = wr_decide_blocks },
 };
 WR_ROWS_END(wr_effects, WR_EFFECT_COUNT);

@@ -2,14 +2,26 @@
 #include "render/plan_inner.h"
 
 #include "scene/scene.h"
+#include "surface/triangles.h"
 
 /* ---- visibility ---- */
 
-WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+static bool is_closed(const WrPlanAsk *ask)
 {
     const WrSurfaceInfo *info = surface_of(ask);
+    if (info->held) return ask->scene->triangles && ask->scene->triangles->closed;
+    return info->convex_closed || (info->closed_u && info->closed_v);
+}
+
+static bool is_held(const WrPlanAsk *ask)
+{
+    return surface_of(ask)->inversion == WR_INVERT_TRIANGLES;
+}
+
+WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
     (void)plan;
-    if (!info->convex_closed && !(info->closed_u && info->closed_v))
+    if (!is_closed(ask))
         return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
     if (!ask->facts.outside)
         return say(WR_VERDICT_RUN, why, "the eye may be inside the body: its inner walls are seen");
@@ -19,7 +31,7 @@ WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **
 WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     (void)plan;
-    if (surface_of(ask)->inversion != WR_INVERT_MESH)
+    if (surface_of(ask)->inversion != WR_INVERT_MESH && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
     if (ask->facts.sighted)
         return say(WR_VERDICT_SPARED, why, "the view rests: what it looks at is known");
@@ -34,6 +46,8 @@ void wr_settle_depth(WrPlan *plan, const WrPlanAsk *ask)
 
 WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
+    if (plan->inversion == WR_INVERT_TRIANGLES)
+        return say(WR_VERDICT_NONE, why, "rays meet triangles in closed form");
     if (plan->inversion != WR_INVERT_MESH)
         return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
     if (ask->facts.sighted) return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
@@ -74,7 +88,8 @@ static bool is_round(const WrPlanAsk *ask)
 
 WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    if (!is_round(ask)) return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
+    if (!is_round(ask) && !is_held(ask))
+        return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
     if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR))
         return say(WR_VERDICT_RUN, why, "table, formula or colour picture is looked up there");
     if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
@@ -84,7 +99,7 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const c
 
 WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    if (!is_round(ask))
+    if (!is_round(ask) && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))
@@ -110,4 +125,28 @@ WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanAsk *ask, const char
     (void)plan;
     if (ask->facts.among <= 1) return say(WR_VERDICT_NONE, why, "one object is shown");
     return say(WR_VERDICT_RUN, why, "objects may hide others where their outlines meet");
+}
+
+/* ---- of a mesh out of a file ---- */
+
+static const char not_held[] = "the surface is no mesh out of a file";
+
+WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrTriangles *mesh = ask->scene->triangles;
+    (void)plan;
+    if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
+    if (!plan->normals) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
+    if (!mesh || mesh->faceted)
+        return say(WR_VERDICT_SPARED, why, "the three normals of each triangle are the same");
+    return say(WR_VERDICT_RUN, why, "the normals of triangles' corners differ");
+}
+
+WrVerdict wr_decide_blocks(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
+    if (runs(plan, WR_EFFECT_BACK))
+        return say(WR_VERDICT_RUN, why, "backs are drawn: blocks that look away may be seen");
+    return say(WR_VERDICT_SPARED, why,
+               "blocks whose normals all look away from the eye hold backs alone");
 }

@@ -203,8 +203,9 @@ static void farthest_first(WrRasterVertex *a, WrRasterVertex *b, WrRasterVertex 
     }
 }
 
-void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
-                        WrDepthTile *tile)
+/* mark: what u is over all of it; NULL: u and v are interpolated. */
+static void raster(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
+                   const float *mark, WrDepthTile *tile)
 {
     bring_to_grid(view, tile, &a);
     bring_to_grid(view, tile, &b);
@@ -218,7 +219,7 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
     }
     if (view->perspective) farthest_first(&a, &b, &c);
     const int more = tile->shift ? 128 : 0;
-    Walk walk = { .perspective = view->perspective, .inv = 1.0f / (float)area };
+    Walk walk = { .perspective = view->perspective && !mark, .inv = 1.0f / (float)area };
     const int64_t left = min3(a.x, b.x, c.x), right = max3(a.x, b.x, c.x);
     const int64_t top = min3(a.y, b.y, c.y), low = max3(a.y, b.y, c.y);
     int32_t x0 = floor_sample(left - 128 - more) - tile->x;
@@ -239,9 +240,22 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
     walk.close = plane_of(a.close, b.close, c.close);
     walk.u = plane_of(a.u * wa, b.u * wb, c.u * wc);
     walk.v = plane_of(a.v * wa, b.v * wb, c.v * wc);
+    if (mark) walk.u = (WrPlane){ *mark, 0, 0 }, walk.v = (WrPlane){ 0, 0, 0 };
     if (tile->shift) cover_shifted(&walk, tile);
     else if (right - left <= SMALL_SIDE && low - top <= SMALL_SIDE) cover_small(&walk, tile);
     else cover(&walk, tile);
+}
+
+void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRasterVertex c,
+                        WrDepthTile *tile)
+{
+    raster(view, a, b, c, NULL, tile);
+}
+
+void wr_raster_marked(const WrView *view, const WrRasterVertex corner[3], float mark,
+                      WrDepthTile *tile)
+{
+    raster(view, corner[0], corner[1], corner[2], &mark, tile);
 }
 
 /* Signed distance of a vertex from clip plane k: near, left, right, bottom, top. */
@@ -264,7 +278,8 @@ static WrClipVertex between(const WrClipVertex *a, const WrClipVertex *b, double
                            a->v + t * (b->v - a->v) };
 }
 
-void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile)
+static void clipped(const WrView *view, const WrClipVertex corner[3], const float *mark,
+                    WrDepthTile *tile)
 {
     WrClipVertex poly[16], next[16];
     int count = 3;
@@ -283,5 +298,32 @@ void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepth
     if (count < 3) return;
     WrRasterVertex first = project(view, &poly[0]);
     for (int i = 1; i + 1 < count; i++)
-        wr_raster_triangle(view, first, project(view, &poly[i]), project(view, &poly[i + 1]), tile);
+        raster(view, first, project(view, &poly[i]), project(view, &poly[i + 1]), mark, tile);
+}
+
+void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile)
+{
+    clipped(view, corner, NULL, tile);
+}
+
+void wr_raster_clipped_marked(const WrView *view, const WrClipVertex corner[3], float mark,
+                              WrDepthTile *tile)
+{
+    clipped(view, corner, &mark, tile);
+}
+
+WrRasterBounds wr_raster_bounds(const WrDepthTile *tile, int samples)
+{
+    const int k = tile->k > 0 ? tile->k : samples;
+    const int more = tile->shift || k != samples ? 1 : 0; /* samples */
+    return (WrRasterBounds){ (int64_t)(tile->x - more) * 256 * samples / k,
+                             (int64_t)(tile->y - more) * 256 * samples / k,
+                             (int64_t)(tile->x + tile->w + more) * 256 * samples / k,
+                             (int64_t)(tile->y + tile->h + more) * 256 * samples / k };
+}
+
+bool wr_raster_meets(const WrViewMeshBlock *b, const WrRasterBounds *tile)
+{
+    return b->clipped ||
+           (b->x1 >= tile->x0 && b->x0 <= tile->x1 && b->y1 >= tile->y0 && b->y0 <= tile->y1);
 }

@@ -30,3 +30,15 @@ void wr_raster_triangle(const WrView *view, WrRasterVertex a, WrRasterVertex b, 
                         WrDepthTile *tile);
 /* Clip against the near plane and the guard band, before any division (HC82, HC83). */
 void wr_raster_clipped(const WrView *view, const WrClipVertex corner[3], WrDepthTile *tile);
+/* The same of triangles whose samples get `mark` for u, and 0 for v. */
+void wr_raster_marked(const WrView *view, const WrRasterVertex corner[3], float mark,
+                      WrDepthTile *tile);
+void wr_raster_clipped_marked(const WrView *view, const WrClipVertex corner[3], float mark,
+                              WrDepthTile *tile);
+
+/* A tile's rectangle in 1/256 samples of the view's grid, as far as a triangle may reach into it. */
+typedef struct WrRasterBounds {
+    int64_t x0, y0, x1, y1;
+} WrRasterBounds;
+WrRasterBounds wr_raster_bounds(const WrDepthTile *tile, int samples);
+bool wr_raster_meets(const WrViewMeshBlock *block, const WrRasterBounds *tile);

@@ -5,6 +5,7 @@
 #include "surface/surface.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct WrError WrError;
 
@@ -17,7 +18,9 @@ typedef struct WrReferenceRay {
 typedef struct WrReferenceHit {
     double s, u, v;
     int face;
-    bool lost; /* Newton's method did not settle; the nearest that it came to */
+    int32_t triangle; /* of a mesh out of a file ... */
+    double share[2];  /* ... and how near its second and third corner are */
+    bool lost;        /* Newton's method did not settle; the nearest that it came to */
 } WrReferenceHit;
 
 typedef struct WrReferencePiece WrReferencePiece;

@@ -91,7 +91,7 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
     if (probe.hit) {
         WrSurfacePoint *at = &probe.at;
         probe.u = hit.u, probe.v = hit.v, probe.face = hit.face;
-        wr_surface_at(view->shape, hit.face, hit.u, hit.v, at);
+        wr_reference_view_at(view, &hit, at);
         wr_scene_height(scene, field, hit.u, hit.v, &probe.f, &probe.fu, &probe.fv);
         probe.d = wr_bump_d(at->n_unit, at->pu, at->pv, probe.fu, probe.fv);
         probe.a = wr_bump_axis(at->pu, at->pv, probe.fu, probe.fv);
@@ -156,7 +156,7 @@ static void map_row(int y, int worker, void *ctx)
         out[x] = NAN;
         if (!wr_reference_view_hit(view, &ray, &hit)) continue;
         WrSurfacePoint at;
-        view->info->at(view->shape, hit.face, hit.u, hit.v, &at);
+        wr_reference_view_at(view, &hit, &at);
         if (job->map == WR_MAP_LEVEL) {
             out[x] = level_at(looker, &at, &ray, hit.s);
             continue;

@@ -34,6 +34,8 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
         stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     }
     stage->bump = scene->height == 0 ? WR_BUMP_NONE : truth_of(scene->bump);
+    if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
+        stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
     if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
     if (!table || formula || scene->height == 0) return true;
     return wr_reference_table_init(&stage->table, field, pool, err);
@@ -181,7 +183,7 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     if (!wr_reference_view_hit(view, &ray, &hit)) return false;
     WrSurfacePoint at;
     double f = 0, fu = 0, fv = 0;
-    view->info->at(view->shape, hit.face, hit.u, hit.v, &at);
+    wr_reference_view_at(view, &hit, &at);
     if (stage->bump != WR_BUMP_NONE) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
     out->normal = v3_scale(perturbed, wr_reference_side(view, &at));

@@ -56,6 +56,13 @@ static void hide_faces(WrReferenceView *view)
         view->hidden[face] = view->info->convex_closed && outside && away[face];
 }
 
+static bool take_mesh(WrReferenceView *view, const WrScene *scene, WrError *err)
+{
+    WrTriangles *mesh =
+        scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
+    return wr_reference_mesh_init(&view->mesh, mesh, err);
+}
+
 bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double turn_deg, int width,
                             int height, WrError *err)
 {
@@ -78,10 +85,12 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     view->depth = v3_dot(from_eye, view->forward);
     view->middle = v3_mad(view->eye, view->forward, view->depth);
     view->s_min = WR_NEAR_PLANE * place.radius - view->depth;
-    view->cull = view->info->closed_u && view->info->closed_v &&
-                 (!view->perspective || v3_len(from_eye) > place.radius);
+    const bool closed = view->info->held ? scene->triangles && scene->triangles->closed
+                                         : view->info->closed_u && view->info->closed_v;
+    view->cull = closed && (!view->perspective || v3_len(from_eye) > place.radius);
     hide_faces(view);
     take_lights(view, scene, &place);
+    if (view->info->held) return take_mesh(view, scene, err);
     return view->info->inversion != WR_INVERT_MESH ||
            wr_reference_patches_init(&view->patches, view->shape, err);
 }
@@ -90,6 +99,7 @@ void wr_reference_view_fini(WrReferenceView *view)
 {
     wr_free(view->lights);
     wr_reference_patches_fini(&view->patches);
+    wr_reference_mesh_fini(&view->mesh);
     *view = (WrReferenceView){ 0 };
 }
 
@@ -215,6 +225,17 @@ static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, Wr
     return found;
 }
 
+void wr_reference_view_at(const WrReferenceView *view, const WrReferenceHit *hit,
+                          WrSurfacePoint *out)
+{
+    if (!view->info->held) {
+        wr_surface_at(view->shape, hit->face, hit->u, hit->v, out);
+        return;
+    }
+    wr_reference_mesh_at(&view->mesh, hit, view->perspective ? view->eye : view->toward,
+                         view->perspective, out);
+}
+
 bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ray,
                            WrReferenceHit *hit)
 {
@@ -224,6 +245,7 @@ bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ra
     case WR_INVERT_CONE: return hit_cone(view, ray, hit);
     case WR_INVERT_PLANE:
     case WR_INVERT_CUBE: return hit_faces(view, ray, hit);
+    case WR_INVERT_TRIANGLES: return wr_reference_mesh_hit(&view->mesh, view->cull, ray, hit);
     case WR_INVERT_MESH: break;
     }
     return wr_reference_patches_hit(&view->patches, view->shape, view->cull, ray, hit);

@@ -2,6 +2,7 @@
    double precision: closed forms where there are any, else a tree of patches and Newton's method.
    Layer 5, private to the reference. */
 #pragma once
+#include "render/reference_mesh.h"
 #include "render/reference_patch.h"
 
 #include <stdbool.h>
@@ -30,6 +31,7 @@ typedef struct WrReferenceView {
     bool hidden[6];
     WrReferenceLight *lights; /* [light_count], owned */
     int light_count;
+    WrReferenceMesh mesh;       /* of triangles out of a file */
     WrReferencePatches patches; /* of surfaces without a closed inverse */
 } WrReferenceView;
 
@@ -43,6 +45,9 @@ WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, doub
 /* How that ray's q and d change from pixel to pixel. */
 void wr_reference_view_spread(const WrReferenceView *view, WrReferenceRay *per_x,
                               WrReferenceRay *per_y);
+/* The surface's point there; of a mesh as wr_reference_mesh_at has it. */
+void wr_reference_view_at(const WrReferenceView *view, const WrReferenceHit *hit,
+                          WrSurfacePoint *out);
 /* The nearest point of the surface on the ray, in front of the near plane, as the program shows it. */
 bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ray,
                            WrReferenceHit *hit);

@@ -379,7 +379,7 @@ static void sample_part(const Refiner *r, WrTilePart part)
     const int k = r->job->samples, count = list_open(r, &part);
     WrDepthTile tile = { 0 };
     if (count == 0) return;
-    if (r->job->mesh || r->job->plan->spread == WR_SPREAD_JITTERED)
+    if (r->job->mesh || r->job->triangles || r->job->plan->spread == WR_SPREAD_JITTERED)
         tile = wr_tile_depth(r->job, k, (r->part.x + part.x) * k, (r->part.y + part.y) * k,
                              part.w * k, part.h * k, r->scratch);
     sample_list(r, &tile, count);
@@ -389,7 +389,8 @@ static void sample_part(const Refiner *r, WrTilePart part)
 static void sample_open(const Refiner *r)
 {
     const int k = r->job->samples;
-    const bool tiled = r->job->mesh || r->job->plan->spread == WR_SPREAD_JITTERED;
+    const bool tiled =
+        r->job->mesh || r->job->triangles || r->job->plan->spread == WR_SPREAD_JITTERED;
     const int most_w = tiled ? WR_TILE_SAMPLES_W / 2 / k : r->part.w;
     const int most_h = tiled ? WR_TILE_SAMPLES_H / k : r->part.h;
     for (int y = 0; y < r->part.h; y += most_h)

@@ -57,9 +57,10 @@ static void spend_block(const WrTileJob *job, int x, int y, WrTileScratch *scrat
     double area = 0;
     for (int i = 0; i < w * h; i++) area += (double)scratch->mean[i][3];
     spent->plain += cells * area;
-    const double first = bound ? FIRST_BOUND : job->mesh ? FIRST_MESH : FIRST;
-    spent->adaptive += first * within + (job->mesh ? MORE_MESH : MORE) * more +
-                       (job->mesh && more > 0 ? DEPTH * cells * area : 0);
+    const bool tiled = job->mesh || job->triangles;
+    const double first = bound ? FIRST_BOUND : tiled ? FIRST_MESH : FIRST;
+    spent->adaptive += first * within + (tiled ? MORE_MESH : MORE) * more +
+                       (tiled && more > 0 ? DEPTH * cells * area : 0);
 }
 
 /* Would more blocks hardly change the answer? */
@@ -98,7 +99,7 @@ bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch)
     own.codes = NULL, own.normals = NULL, own.map = NULL, own.seen = NULL;
     scratch->seen = NULL;
     const int64_t area = (int64_t)w * h / AREA;
-    const bool heavy = job->mesh && is_heavy(job->mesh);
+    const bool heavy = job->triangles || (job->mesh && is_heavy(job->mesh));
     const int count = heavy ? FEW : area < LEAST ? LEAST : area > MOST ? MOST : (int)area;
     for (int k = 0; k < count && !(k >= SURE && clear(&spent)); k++)
         spend_block(&own, view->x0 + place(k, ACROSS, w - BLOCK_W),

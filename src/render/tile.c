@@ -60,6 +60,13 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
         wr_did(scratch, WR_EFFECT_DEPTH);
         scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }
+    if (job->triangles) {
+        double start = wr_clock_seconds();
+        wr_view_triangles_raster(job->triangles, job->view, &tile);
+        wr_did(scratch, WR_EFFECT_DEPTH);
+        if (wr_plan_runs(job->plan, WR_EFFECT_BLOCKS)) wr_did(scratch, WR_EFFECT_BLOCKS);
+        scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
+    }
     return tile;
 }
 
@@ -302,9 +309,11 @@ WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part)
     const WrDepthTile tile = {
         .x = part.x * K - K, .y = part.y * K - K, .w = (part.w + 2) * K, .h = (part.h + 2) * K
     };
-    if (job->mesh) {
+    if (job->mesh || job->triangles) {
         double box[4];
-        if (!wr_view_mesh_box(job->mesh, view, &tile, box)) return (WrTilePart){ 0, 0, 0, 0 };
+        if (!(job->mesh ? wr_view_mesh_box(job->mesh, view, &tile, box)
+                        : wr_view_triangles_box(job->triangles, view, &tile, box)))
+            return (WrTilePart){ 0, 0, 0, 0 };
         crop(box[0] / K, box[2] / K, &part.x, &part.w);
         crop(box[1] / K, box[3] / K, &part.y, &part.h);
         return part;

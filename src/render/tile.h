@@ -9,6 +9,7 @@
 #include "render/mesh.h"
 #include "render/plan.h"
 #include "render/sight.h"
+#include "render/triangles.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -29,7 +30,9 @@ typedef struct WrTileJob {
     const WrKernelsd *kernels_double; /* shading or heights in double; else NULL */
     const WrViewMesh *mesh;           /* NULL: closed form */
     const WrSight
-        *sight;       /* what the view's samples look at, or where that is noted; NULL: neither */
+        *sight; /* what the view's samples look at, or where that is noted; NULL: neither */
+    const WrViewTriangles *triangles; /* a mesh out of a file; or NULL */
+    WrTriangleLook triangle_look;
     bool seen_before; /* it is known */
     bool newton;      /* the mesh's parameters are made exact */
     WrLook look;
@@ -136,6 +139,7 @@ typedef struct WrTileScratch {
     WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
     WrTilePart mapped;    /* pixels whose map is this thread's: those of its tile */
     unsigned strips;      /* counts strips: one in sixteen is timed */
+    int32_t picked;       /* the triangle that was picked last */
 } WrTileScratch;
 
 _Static_assert(WR_REFINE_W + 2 * WR_REFINE_RING <= WR_SPAN, "a row of a tile is a strip");

@@ -7,6 +7,7 @@
 #include "scene/param.h"
 #include "shade/slope.h"
 #include "surface/data.h"
+#include "surface/triangles.h"
 
 #include <float.h>
 #include <string.h>
@@ -79,6 +80,9 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->normals = scene->normals;
     if (scene->normals.image) wr_image_share(scene->normals.image);
     clone->normals.path = wr_strdup(scene->normals.path);
+    if (scene->triangles) clone->triangles = wr_triangles_share(scene->triangles);
+    clone->triangles_path = wr_strdup(scene->triangles_path);
+    memcpy(clone->triangles_sha256, scene->triangles_sha256, sizeof clone->triangles_sha256);
     clone->name = wr_strdup(scene->name);
     clone->at = scene->at;
     clone->size = scene->size;
@@ -130,6 +134,8 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene->layer);
     for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);
     wr_free(scene->others);
+    wr_triangles_free(scene->triangles);
+    wr_free(scene->triangles_path);
     wr_free(scene->lights);
     wr_free(scene);
 }

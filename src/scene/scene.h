@@ -15,10 +15,12 @@
 #include "surface/surface.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrImage WrImage;
+typedef struct WrTriangles WrTriangles;
 
 typedef enum WrLightKind { WR_LIGHT_DIRECTIONAL, WR_LIGHT_POINT, WR_LIGHT_KINDS } WrLightKind;
 /* As in commands: "directional", "point". */
@@ -84,6 +86,10 @@ struct WrScene {
     bool colour_own; /* it is laid as often as the next say; else as often as the table */
     double colour_ru, colour_rv;
     WrNormalMap normals;
+    /* Of a shape that is a mesh (wr_scene_set_triangles): */
+    WrTriangles *triangles; /* shared; NULL: the square of two (wr_triangles_square) */
+    char *triangles_path;   /* as colour_path */
+    char triangles_sha256[65];
     char *name;       /* of the object; owned; NULL: it was given none */
     WrVec3 at;        /* where the object's centre stands, world; within 1e9 */
     double size;      /* world units per unit of the object, 1e-9..1e9 */
@@ -101,6 +107,17 @@ struct WrScene {
     double background[3]; /* linear RGB behind 8-bit pictures */
     double radius;        /* of the shape, once it was found, of one of `others`; private */
 };
+
+/* The scene's surface becomes these triangles, which are taken over; NULL: any other shape, or the square. path and sha256
+ * may be NULL. */
+void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
+                            const char *sha256);
+/* A mesh as a picture of one channel, in which a document keeps it, and back. The caller owns both. Errors: a picture
+ * that holds no mesh; no memory. */
+WrImage *wr_scene_mesh_to_image(const WrTriangles *triangles, WrError *err);
+WrTriangles *wr_scene_mesh_from_image(const WrImage *image, WrError *err);
+
+size_t wr_scene_mesh_bytes(const WrTriangles *triangles); /* that it takes in memory */
 
 WrSceneView wr_scene_view(const WrScene *scene);
 void wr_scene_set_view(WrScene *scene, const WrSceneView *view);

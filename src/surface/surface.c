@@ -103,6 +103,11 @@ WrVec3 wr_shape_centre(const WrShape *shape)
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
     if (shape->data) return v3_scale(shape->data->centre, shape->scale);
     WrVec3 centre = { info->centre[0], info->centre[1], info->centre[2] };
+    if (info->held) {
+        const double *at = shape->value + WR_MESH_CENTRE;
+        if (shape->value[WR_MESH_RADIUS] > 0) return (WrVec3){ at[0], at[1], at[2] };
+        return (WrVec3){ 0.5, 0.5, 0 };
+    }
     if (info->centre_half_ab) {
         centre.x += shape->value[wr_surface_param_offset(shape->kind, "a")] / 2;
         centre.y += shape->value[wr_surface_param_offset(shape->kind, "b")] / 2;

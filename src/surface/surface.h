@@ -35,6 +35,9 @@ typedef struct WrShape {
     double scale; /* that lengths in the data are to be multiplied by: 1 outside the renderer */
 } WrShape;
 
+/* What a mesh keeps there: the centre and the radius of its ball (0: it is the square), its key's halves. */
+enum { WR_MESH_CENTRE = 0, WR_MESH_RADIUS = 3, WR_MESH_KEY = 4 };
+
 /* The same in single precision, scaled for the renderer. */
 typedef struct WrShapef {
     float value[WR_SURFACE_VALUES];
@@ -67,9 +70,10 @@ typedef enum WrInversion {
     WR_INVERT_SPHERE,
     WR_INVERT_CYLINDER,
     WR_INVERT_CONE,
-    WR_INVERT_CUBE
+    WR_INVERT_CUBE,
+    WR_INVERT_TRIANGLES /* raster of the triangles that the scene holds */
 } WrInversion;
-#define WR_INVERSIONS (WR_INVERT_CUBE + 1)
+#define WR_INVERSIONS (WR_INVERT_TRIANGLES + 1)
 
 typedef struct WrSurfaceParam {
     const char *name; /* as in commands: "R"; NULL ends the list */
@@ -104,6 +108,7 @@ typedef struct WrSurfaceInfo {
     bool flat;                  /* shape operator 0 everywhere: blinn is exact */
     bool unit_sized;            /* fixed size (curl): not rescaled by the renderer */
     bool convex_closed;         /* a closed convex body: front faces hide all else */
+    bool held; /* a mesh: its places, and whether it is closed, are the scene's triangles' */
     WrInversion inversion;
     /* The point and all derivatives, in double. face is 0..faces-1. */
     void (*at)(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);

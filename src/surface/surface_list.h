@@ -17,6 +17,7 @@ WR_X(capsule)
 WR_X(superellipsoid)
 WR_X(revolution)
 WR_X(formula)
+WR_X(mesh)
 #undef WR_X
 #endif
 #ifdef WR_SURFACE_FORMULAS
@@ -36,4 +37,5 @@ WR_X(formula)
 #include "surface/superellipsoid.h"
 #include "surface/revolution.h"
 #include "surface/equation.h"
+#include "surface/mesh.h"
 #endif

@@ -1,0 +1,153 @@
+/* The mesh of `surface mesh file=`: read, told of, carried by documents. */
+#include "command/inner.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "command/scene_args.h"
+#include "image/mesh.h"
+#include "scene/scene.h"
+#include "surface/triangles.h"
+
+#include <string.h>
+
+#define OVERLAP_CELLS 512 /* along u and v */
+#define OVERLAP_NOTED 0.005
+
+_Static_assert(WR_MESH_NAME == WR_TRIANGLE_NAME, "names of parts");
+
+/* The file's parts as the surface knows them. The caller frees them. */
+static WrTrianglePart *parts_of(const WrMesh *mesh)
+{
+    WrTrianglePart *parts = wr_alloc((size_t)mesh->part_count, sizeof *parts);
+    for (int32_t i = 0; i < mesh->part_count; i++) {
+        parts[i] = (WrTrianglePart){ .first = mesh->parts[i].first, .count = mesh->parts[i].count };
+        memcpy(parts[i].name, mesh->parts[i].name, sizeof parts[i].name);
+    }
+    return parts;
+}
+
+static WrTriangles *read_triangles(const char *path, WrError *err)
+{
+    WrMesh mesh;
+    if (!wr_mesh_read_whole(path, &mesh, err)) return NULL;
+    WrTrianglePart *parts = parts_of(&mesh);
+    const WrTrianglesSource source = { .points = mesh.points,
+                                       .normals = mesh.normals,
+                                       .uv = mesh.uv,
+                                       .corners = mesh.corners,
+                                       .point_count = mesh.point_count,
+                                       .triangle_count = mesh.triangle_count,
+                                       .parts = parts,
+                                       .part_count = mesh.part_count };
+    WrTriangles *made = wr_triangles_new(&source, err);
+    if (!made) wr_error_prefix(err, "%s: ", path);
+    wr_free(parts);
+    wr_mesh_fini(&mesh);
+    return made;
+}
+
+/* ---- what is told of it ---- */
+
+static void add_count(WrText *text, int32_t count, const char *what)
+{
+    if (count > 0) wr_text_addf(text, "; %d %s", (int)count, what);
+}
+
+static void add_parts(WrText *text, const WrTriangles *mesh)
+{
+    if (mesh->part_count < 2) return;
+    wr_text_addf(text, " in %d parts (", (int)mesh->part_count);
+    for (int i = 0; i < mesh->part_count && i < 4; i++)
+        wr_text_addf(text, "%s%s", i ? ", " : "",
+                     mesh->parts[i].name[0] ? mesh->parts[i].name : "unnamed");
+    wr_text_add(text, mesh->part_count > 4 ? ", ...)" : ")");
+}
+
+static void add_map(WrText *text, const WrTriangles *mesh)
+{
+    int32_t outside;
+    if (!mesh->mapped) {
+        wr_text_add(text, "; no texture coordinates: the table has no slope on it");
+        return;
+    }
+    const double share = wr_triangles_overlap(mesh, OVERLAP_CELLS, &outside);
+    if (share > OVERLAP_NOTED)
+        wr_text_addf(text,
+                     "; %.1f%% of its texture coordinates are met twice: paint there shows "
+                     "in several places",
+                     100 * share);
+    add_count(text, outside, "triangles reach beyond u, v of 0..1, where the table repeats");
+    add_count(text, mesh->told.no_map, "triangles without texture coordinates: no slope there");
+    add_count(text, mesh->told.collinear,
+              "with u, v along a line: no tangent frame, slopes are exact");
+    add_count(text, mesh->told.mirrored, "mirrored");
+}
+
+static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh)
+{
+    WrText text = { 0 };
+    const WrTrianglesTold *told = &mesh->told;
+    wr_text_addf(&text, "%s: %d triangles", path, (int)mesh->triangle_count);
+    add_parts(&text, mesh);
+    wr_text_add(&text, mesh->closed ? ", closed" : ", open");
+    if (told->inside_out) wr_text_add(&text, "; it was inside out and has been turned");
+    add_count(&text, told->no_area, "without area were left out");
+    add_count(&text, told->no_normal + told->bad_normal,
+              "points without a normal have the mean of their faces'");
+    add_count(&text, told->face_normal, "corners have their face's normal");
+    add_map(&text, mesh);
+    wr_session_note(session, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+/* ---- the command's part ---- */
+
+static WrTriangles *find_mesh(WrSession *session, WrCall *call, const char *name, WrError *err)
+{
+    if (session->loading) {
+        if (session->embedded_mesh) return wr_scene_mesh_from_image(session->embedded_mesh, err);
+        wr_fail(err, "the document names the mesh %s but does not hold it", name);
+        return NULL;
+    }
+    char *path = wr_session_input_path(session, name);
+    WrTriangles *mesh = NULL;
+    if (wr_session_check_sha256(call, path, err)) mesh = read_triangles(path, err);
+    if (mesh) note_mesh(session, path, mesh);
+    wr_free(path);
+    return mesh;
+}
+
+bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
+{
+    if (!wr_call_given(call, "file")) {
+        if (wr_call_given(call, "sha256")) return wr_fail(err, "sha256= belongs to a file=");
+        return true;
+    }
+    const char *name = wr_call_arg(call, "file")->text;
+    WrTriangles *mesh = find_mesh(session, call, name, err);
+    if (!mesh) return false;
+    wr_scene_set_triangles(scene, mesh, name, wr_call_arg(call, "sha256")->text);
+    return true;
+}
+
+void wr_print_mesh(const WrScene *scene, bool content, WrText *text)
+{
+    if (!scene->triangles) return;
+    if (!content || !*scene->triangles_sha256) {
+        wr_text_add(text, " file=");
+        wr_text_add_word(text, scene->triangles_path);
+    }
+    if (*scene->triangles_sha256) wr_text_addf(text, " sha256=%s", scene->triangles_sha256);
+}
+
+void wr_form_mesh(WrArgSpec *args)
+{
+    args[0] = (WrArgSpec){ .name = "file",
+                           .type = WR_ARG_PATH,
+                           .help = "the mesh, in its own unit and axes; it is saved inside the "
+                                   "document" };
+    args[1] = (WrArgSpec){ .name = "sha256",
+                           .type = WR_ARG_SHA256,
+                           .help = "of the file: another content is then an error" };
+}

@@ -1,0 +1,70 @@
+/* What a frame's surface is rasterised from: a grid of points that is cut for the view, or a mesh out of a file. */
+#include "field/field.h"
+#include "render/frame_inner.h"
+#include "scene/scene.h"
+
+#include <math.h>
+
+/* All but one, which may be NULL. */
+void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
+{
+    for (int i = 0; i < WR_HELD_MESHES; i++)
+        if (&renderer->meshes[i] != but) wr_view_mesh_fini(&renderer->meshes[i]);
+}
+
+/* Passes of one picture, which hold what they make, differ in their samples: each number keeps its mesh. */
+static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
+                         const WrKernels *kernels)
+{
+    const WrScene *scene = request->scene;
+    const WrPlan *plan = &renderer->plan;
+    const WrMeshAsk ask = { .mesh = plan->mesh,
+                            .newton = plan->newton,
+                            .texels = plan->texels,
+                            .table_w = fabs(scene->replicate_u) * wr_field_width(request->field),
+                            .table_h = fabs(scene->replicate_v) * wr_field_height(request->field) };
+    int slot = 0;
+    while (slot + 1 < WR_HELD_MESHES && 1 << slot < plan->samples) slot++;
+    const bool grid = plan->inversion == WR_INVERT_MESH && wr_plan_runs(plan, WR_EFFECT_DEPTH);
+    renderer->mesh = grid ? &renderer->meshes[slot] : NULL;
+    if (!request->hold || !renderer->mesh) wr_frame_drop_meshes(renderer, renderer->mesh);
+    if (renderer->mesh)
+        wr_view_mesh_prepare(renderer->mesh, &scene->shape, &renderer->view, &ask, kernels,
+                             renderer->pool);
+}
+
+/* The triangles that the scene shows; the renderer's, or the scene's. */
+static const WrTriangles *triangles_of(WrRenderer *renderer, const WrScene *scene)
+{
+    if (scene->triangles) return scene->triangles;
+    if (!renderer->square) renderer->square = wr_triangles_square();
+    return renderer->square;
+}
+
+static bool prepare_triangles(WrRenderer *renderer, const WrScene *scene, WrError *err)
+{
+    if (renderer->plan.inversion == WR_INVERT_TRIANGLES)
+        return wr_view_triangles_prepare(
+            &renderer->triangles, triangles_of(renderer, scene), &renderer->view,
+            !wr_plan_runs(&renderer->plan, WR_EFFECT_BLOCKS), renderer->pool, err);
+    wr_view_triangles_fini(&renderer->triangles);
+    return true;
+}
+
+bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request,
+                             const WrKernels *kernels, WrError *err)
+{
+    prepare_mesh(renderer, request, kernels);
+    return prepare_triangles(renderer, request->scene, err);
+}
+
+bool wr_renderer_pick_triangle(WrRenderer *renderer, double x, double y, int32_t *triangle)
+{
+    double u, v;
+    int face;
+    if (renderer->plan.inversion != WR_INVERT_TRIANGLES ||
+        !wr_renderer_pick(renderer, x, y, &u, &v, &face))
+        return false;
+    *triangle = renderer->scratch[0]->picked;
+    return true;
+}

@@ -1,0 +1,137 @@
+/* kern_triangle_body.h - where rays meet triangles that are known by their number: place, normal, u and v, and what
+   slopes turn the normal along. A part of kern_body.h.
+
+   With edges e1, e2 from the first corner, N = e1 x e2 and w = P - A a place has the shares
+     l1 = (w x e2) . N / N^2,  l2 = (e1 x w) . N / N^2
+   of the other corners, whose gradients are e2 x N / N^2 and N x e1 / N^2: so what is interpolated, u and v among it,
+   has a gradient without tangents, whatever the (u,v) of the triangle are.
+
+   The normal formulas go by Pu, Pv and |N|. Here they are given Pv = n x grad u, Pu = grad v x n and |N| = 1: then
+     n x (Fu Pv - Fv Pu) = -(Fu grad u + Fv grad v), laid across n,
+   which is the surface gradient's n' = unit(n - g), exact for sheared, mirrored and collinear (u,v). On a patch these
+   are its own Pu / |N| and Pv / |N|. */
+
+/* The corners of a strip's triangles, side by side: eight numbers of each. */
+typedef struct Corners {
+    _Alignas(64) REAL row[24][WR_SPAN];
+} Corners;
+
+ALWAYS VEC corner_p(const Corners *at, int k, int i, REAL scale)
+{
+    return (VEC){ at->row[8 * k][i] * scale, at->row[8 * k + 1][i] * scale,
+                  at->row[8 * k + 2][i] * scale };
+}
+
+ALWAYS VEC corner_n(const Corners *at, int k, int i)
+{
+    return (VEC){ at->row[8 * k + 3][i], at->row[8 * k + 4][i], at->row[8 * k + 5][i] };
+}
+
+static void gather_corners(const WrTriangleLook *look, const STRIP *strip, Corners *out)
+{
+    for (int i = 0; i < strip->count; i++) {
+        const int32_t *corner = look->triangles + 3 * (size_t)strip->u[i];
+        for (int k = 0; k < 3; k++) {
+            const float *from = look->corners + 8 * (size_t)corner[k];
+            for (int j = 0; j < 8; j++) out->row[8 * k + j][i] = (REAL)from[j];
+        }
+    }
+}
+
+/* The share of a corner, however the ray passes the triangle: samples lie within half a 256th of it. */
+ALWAYS REAL share_of(REAL x)
+{
+    x = x > K_(0) ? x : K_(0); /* not a number too */
+    return x < K_(2) ? x : K_(2);
+}
+
+#define HORIZON                                                                                    \
+    K_(1e-4) /* how far a normal stays before the horizon of who looks at it, as a cosine */
+
+/* A normal that looks away from the viewer though its face does not, or the other way round, comes to the horizon: else
+   outlines of coarse meshes would show their backs. */
+ALWAYS VEC before_horizon(VEC n, VEC face, VEC to_viewer)
+{
+    VEC out = v_scale(face, v_dot(face, n) < K_(0) ? K_(-1) : K_(1));
+    VEC way = unit_or(to_viewer, out);
+    REAL side = v_dot(out, way) < K_(0) ? K_(-1) : K_(1);
+    REAL lift = HORIZON - side * v_dot(n, way);
+    VEC lifted = unit_or(v_mad(n, way, side * lift), out);
+    return choose(lift > K_(0), lifted, n);
+}
+
+/* One sample. smooth: normals are interpolated; mapped: u and v; sloped: their gradients. */
+ALWAYS void meet_triangle(const RAYS *rays, const Corners *corners, REAL scale, const bool smooth,
+                          const bool mapped, const bool sloped, STRIP *strip, int i)
+{
+    VEC q = RAY_Q(rays, strip->y[i], strip->x[i]), d = RAY_D(rays, strip->y[i], strip->x[i]);
+    VEC a = corner_p(corners, 0, i, scale);
+    VEC e1 = v_sub(corner_p(corners, 1, i, scale), a);
+    VEC e2 = v_sub(corner_p(corners, 2, i, scale), a);
+    const VEC up = { 0, 0, 1 };
+    VEC cross = v_cross(e1, e2);
+    REAL square = v_dot(cross, cross);
+    REAL inv = square > K_(1e-37) ? K_(1) / square : K_(0);
+    REAL toward = v_dot(cross, d);
+    REAL s = v_dot(cross, v_sub(a, q)) / (toward != K_(0) ? toward : K_(1));
+    VEC w = v_sub(v_mad(q, d, s), a);
+    REAL l1 = share_of(v_dot(v_cross(w, e2), cross) * inv);
+    REAL l2 = share_of(v_dot(v_cross(e1, w), cross) * inv);
+    REAL sum = l1 + l2, less = sum > K_(1) ? K_(1) / sum : K_(1);
+    l1 *= less;
+    l2 *= less;
+    VEC p = v_mad(v_mad(a, e1, l1), e2, l2);
+    STORE3(strip, p, i, p);
+
+    VEC face = unit_or(cross, up), n = corner_n(corners, 0, i);
+    if (smooth) {
+        VEC n1 = v_sub(corner_n(corners, 1, i), n), n2 = v_sub(corner_n(corners, 2, i), n);
+        n = unit_or(v_mad(v_mad(n, n1, l1), n2, l2), face);
+    }
+    const REAL *at = rays->perspective ? rays->eye : rays->toward;
+    VEC eye = { at[0], at[1], at[2] };
+    n = before_horizon(n, face, v_mad(eye, p, rays->perspective ? K_(-1) : K_(0)));
+    STORE3(strip, n, i, n);
+    strip->n_len[i] = K_(1);
+    if (!mapped) return;
+
+    REAL u0 = corners->row[6][i], v0 = corners->row[7][i];
+    REAL u1 = corners->row[14][i] - u0, v1 = corners->row[15][i] - v0;
+    REAL u2 = corners->row[22][i] - u0, v2 = corners->row[23][i] - v0;
+    strip->u[i] = u0 + (l1 * u1 + l2 * u2);
+    strip->v[i] = v0 + (l1 * v1 + l2 * v2);
+    if (!sloped) return;
+    VEC g1 = v_scale(v_cross(e2, cross), inv), g2 = v_scale(v_cross(cross, e1), inv);
+    VEC gu = v_mad(v_scale(g1, u1), g2, u2), gv = v_mad(v_scale(g1, v1), g2, v2);
+    STORE3(strip, pu, i, v_cross(gv, n));
+    STORE3(strip, pv, i, v_cross(n, gu));
+}
+
+#define MEET(smooth, mapped, sloped)                                                               \
+    SIMD for (int i = 0; i < count; i++)                                                           \
+    {                                                                                              \
+        meet_triangle(rays, &corners, scale, smooth, mapped, sloped, strip, i);                    \
+    }
+
+/* Of triangles whose numbers stand in u. Where u and v are not wanted they are left as they are. */
+FLAT static void kern_meet(const RAYS *rays, const WrTriangleLook *look, bool smooth, bool mapped,
+                           bool sloped, STRIP *strip)
+{
+    const int count = strip->count;
+    const REAL scale = (REAL)look->scale;
+    Corners corners;
+    gather_corners(look, strip, &corners);
+    if (sloped && smooth) {
+        MEET(true, true, true)
+    } else if (sloped) {
+        MEET(false, true, true)
+    } else if (mapped && smooth) {
+        MEET(true, true, false)
+    } else if (mapped) {
+        MEET(false, true, false)
+    } else if (smooth) {
+        MEET(true, false, false)
+    } else {
+        MEET(false, false, false)
+    }
+}

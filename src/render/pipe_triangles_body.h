@@ -1,0 +1,42 @@
+/* pipe_triangles_body.h - which triangles of a mesh out of a file the samples see, and where. A part of pipe_body.h. */
+
+/* P, n and what else the plan asks for, where the rays meet the triangles whose numbers stand in u. */
+static void meet(const WrTileJob *job, const Rays *rays, bool mapped, Strip *strip, Watch *watch)
+{
+    watch_lap(watch, WR_STAGE_VISIBILITY);
+    if (strip->count == 0) return;
+    const bool smooth = runs(job, WR_EFFECT_SMOOTH);
+    const bool sloped = runs(job, WR_EFFECT_TANGENTS) || runs(job, WR_EFFECT_TINT);
+    KERNELS_OF(job)->meet(rays, &job->triangle_look, smooth, mapped || sloped, sloped, strip);
+    if (runs(job, WR_EFFECT_PARAMETERS)) did(watch, WR_EFFECT_PARAMETERS);
+    if (runs(job, WR_EFFECT_TANGENTS)) did(watch, WR_EFFECT_TANGENTS);
+    if (smooth) did(watch, WR_EFFECT_SMOOTH);
+    watch_lap(watch, WR_STAGE_GEOMETRY);
+}
+
+/* The samples of the scatter that the mesh covers. */
+static void meet_places(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile,
+                        const WrScatter *places, bool mapped, Strip *strip, Watch *watch)
+{
+    int count = 0;
+    for (int i = 0; i < places->count; i++) {
+        const int cell = places->cell[i];
+        if (tile->close[cell] == -FLT_MAX) continue;
+        strip->index[count] = i;
+        strip->x[count] = (REAL)places->x[i];
+        strip->y[count] = (REAL)places->y[i];
+        strip->u[count++] = (REAL)tile->u[cell];
+    }
+    strip->count = count;
+    meet(job, rays, mapped, strip, watch);
+}
+
+/* The same for the whole row y. */
+static void meet_row(const WrTileJob *job, const Rays *rays, const WrDepthTile *tile, int y,
+                     Strip *strip, Watch *watch)
+{
+    const size_t at = (size_t)y * (size_t)tile->w;
+    KERNELS_OF(job)->covered(tile->close + at, tile->u + at, tile->v + at, (REAL)tile->x,
+                             (REAL)(tile->y + y), tile->w, strip);
+    meet(job, rays, runs(job, WR_EFFECT_PARAMETERS), strip, watch);
+}

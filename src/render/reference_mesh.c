@@ -1,0 +1,239 @@
+#include "render/reference_mesh.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LEAF 4
+
+struct WrReferenceBox {
+    double low[3], high[3];
+    int32_t first,
+        count; /* of a leaf: triangles; else count 0, and first is the first of two boxes */
+};
+
+static WrVec3 corner(const WrTriangles *t, int32_t i, int k)
+{
+    const float *p = t->corners[t->triangles[i].corner[k]].p;
+    return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
+}
+
+static double part(WrVec3 a, int axis)
+{
+    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
+/* ---- the tree ---- */
+
+static double middle(const WrTriangles *t, int32_t i, int axis)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += part(corner(t, i, k), axis);
+    return sum;
+}
+
+static void measure(const WrReferenceMesh *m, WrReferenceBox *box)
+{
+    for (int axis = 0; axis < 3; axis++) box->low[axis] = INFINITY, box->high[axis] = -INFINITY;
+    for (int32_t i = box->first; i < box->first + box->count; i++)
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 3; axis++) {
+                const double x = part(corner(m->source, m->order[i], k), axis);
+                box->low[axis] = fmin(box->low[axis], x);
+                box->high[axis] = fmax(box->high[axis], x);
+            }
+}
+
+/* The triangles below the middle of the box's longest side first; how many. Half of them, where all lie together. */
+static int32_t divide(WrReferenceMesh *m, const WrReferenceBox *box)
+{
+    int axis = 0;
+    for (int k = 1; k < 3; k++)
+        if (box->high[k] - box->low[k] > box->high[axis] - box->low[axis]) axis = k;
+    const double at = 1.5 * (box->low[axis] + box->high[axis]);
+    int32_t below = 0;
+    for (int32_t i = 0; i < box->count; i++) {
+        int32_t *own = &m->order[box->first + i], *to = &m->order[box->first + below];
+        if (middle(m->source, *own, axis) >= at) continue;
+        const int32_t moved = *own;
+        *own = *to, *to = moved;
+        below++;
+    }
+    return below > 0 && below < box->count ? below : box->count / 2;
+}
+
+bool wr_reference_mesh_init(WrReferenceMesh *mesh, WrTriangles *source, WrError *err)
+{
+    const size_t count = (size_t)source->triangle_count;
+    *mesh = (WrReferenceMesh){ .source = source, .box_count = 1 };
+    mesh->boxes = wr_try_alloc(2 * count, sizeof *mesh->boxes, "the reference's tree", err);
+    mesh->order =
+        mesh->boxes ? wr_try_alloc(count, sizeof *mesh->order, "the reference's tree", err) : NULL;
+    if (!mesh->order) return false;
+    for (size_t i = 0; i < count; i++) mesh->order[i] = (int32_t)i;
+    mesh->boxes[0] = (WrReferenceBox){ .first = 0, .count = source->triangle_count };
+    for (int32_t i = 0; i < mesh->box_count; i++) {
+        WrReferenceBox *box = &mesh->boxes[i];
+        measure(mesh, box);
+        if (box->count <= LEAF) continue;
+        const int32_t below = divide(mesh, box), child = mesh->box_count;
+        mesh->boxes[child] = (WrReferenceBox){ .first = box->first, .count = below };
+        mesh->boxes[child + 1] =
+            (WrReferenceBox){ .first = box->first + below, .count = box->count - below };
+        mesh->box_count += 2;
+        box->first = child, box->count = 0;
+    }
+    return true;
+}
+
+void wr_reference_mesh_fini(WrReferenceMesh *mesh)
+{
+    wr_triangles_free(mesh->source);
+    wr_free(mesh->boxes);
+    wr_free(mesh->order);
+    *mesh = (WrReferenceMesh){ 0 };
+}
+
+/* ---- rays ---- */
+
+/* The ray's longest axis is z, and places are sheared so that it runs along it. */
+typedef struct Shear {
+    int x, y, z;
+    double sx, sy, sz;
+} Shear;
+
+static Shear shear_of(WrVec3 d)
+{
+    Shear s = { .z = 0 };
+    for (int k = 1; k < 3; k++)
+        if (fabs(part(d, k)) > fabs(part(d, s.z))) s.z = k;
+    s.x = (s.z + 1) % 3, s.y = (s.z + 2) % 3;
+    s.sz = 1 / part(d, s.z);
+    s.sx = part(d, s.x) * s.sz, s.sy = part(d, s.y) * s.sz;
+    return s;
+}
+
+static void test(const WrReferenceMesh *m, int32_t i, bool cull, const WrReferenceRay *ray,
+                 const Shear *s, WrReferenceHit *best)
+{
+    double x[3], y[3], z[3];
+    WrVec3 p[3];
+    for (int k = 0; k < 3; k++) {
+        p[k] = corner(m->source, i, k);
+        const WrVec3 w = v3_sub(p[k], ray->q);
+        z[k] = part(w, s->z) * s->sz;
+        x[k] = part(w, s->x) - s->sx * part(w, s->z);
+        y[k] = part(w, s->y) - s->sy * part(w, s->z);
+    }
+    const double e0 = x[2] * y[1] - y[2] * x[1], e1 = x[0] * y[2] - y[0] * x[2],
+                 e2 = x[1] * y[0] - y[1] * x[0], det = e0 + e1 + e2;
+    if ((e0 < 0 || e1 < 0 || e2 < 0) && (e0 > 0 || e1 > 0 || e2 > 0)) return;
+    if (det == 0) return;
+    const double t = (e0 * z[0] + e1 * z[1] + e2 * z[2]) / det;
+    if (!(t > ray->s_min) || t >= best->s) return;
+    const WrVec3 n = v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0]));
+    if (cull && v3_dot(n, ray->d) >= 0) return;
+    best->s = t;
+    best->triangle = i;
+    best->share[0] = e1 / det, best->share[1] = e2 / det;
+}
+
+/* Does the ray pass the box before `most`? A little more than it, so that nothing is lost to rounding. */
+static bool enters(const WrReferenceBox *box, const WrReferenceRay *ray, double most)
+{
+    double near = ray->s_min, far = most;
+    for (int axis = 0; axis < 3; axis++) {
+        const double inv = 1 / part(ray->d, axis), q = part(ray->q, axis);
+        double a = (box->low[axis] - q) * inv, b = (box->high[axis] - q) * inv;
+        if (a > b) {
+            const double t = a;
+            a = b, b = t;
+        }
+        const double more = 1e-14 * (fabs(a) + fabs(b));
+        if (a - more > near) near = a - more; /* not a number: the ray lies in the side */
+        if (b + more < far) far = b + more;
+    }
+    return near <= far;
+}
+
+bool wr_reference_mesh_hit(const WrReferenceMesh *m, bool cull, const WrReferenceRay *ray,
+                           WrReferenceHit *hit)
+{
+    const Shear shear = shear_of(ray->d);
+    WrReferenceHit best = { .s = INFINITY, .triangle = -1 };
+    int32_t stack[256], height = 0;
+    stack[height++] = 0;
+    while (height > 0) {
+        const WrReferenceBox *box = &m->boxes[stack[--height]];
+        if (!enters(box, ray, best.s)) continue;
+        for (int32_t i = 0; i < box->count; i++)
+            test(m, m->order[box->first + i], cull, ray, &shear, &best);
+        if (box->count == 0 && height + 2 <= 256)
+            stack[height++] = box->first, stack[height++] = box->first + 1;
+    }
+    if (best.triangle < 0) return false;
+    const WrTriangles *t = m->source;
+    const int32_t *c = t->triangles[best.triangle].corner;
+    const double l[3] = { 1 - best.share[0] - best.share[1], best.share[0], best.share[1] };
+    best.u = best.v = 0;
+    for (int k = 0; k < 3; k++) {
+        best.u += l[k] * (double)t->corners[c[k]].u;
+        best.v += l[k] * (double)t->corners[c[k]].v;
+    }
+    *hit = best;
+    return true;
+}
+
+/* ---- what is there ---- */
+
+static WrVec3 shading_normal(const WrTriangles *t, const WrReferenceHit *hit, WrVec3 face)
+{
+    const int32_t *c = t->triangles[hit->triangle].corner;
+    const double l[3] = { 1 - hit->share[0] - hit->share[1], hit->share[0], hit->share[1] };
+    WrVec3 n = { 0, 0, 0 };
+    for (int k = 0; k < 3; k++) {
+        const float *own = t->corners[c[k]].n;
+        n = v3_mad(n, (WrVec3){ (double)own[0], (double)own[1], (double)own[2] }, l[k]);
+    }
+    return v3_unit(n, face);
+}
+
+/* The normal is on the side of its face that its face is seen from. */
+static WrVec3 seen_normal(WrVec3 n, WrVec3 face, WrVec3 to)
+{
+    const double least = 1e-4;
+    const double front = v3_dot(face, n) < 0 ? -1 : 1;
+    const double side = front * v3_dot(face, to) < 0 ? -1 : 1;
+    const double now = side * v3_dot(n, to);
+    if (now >= least) return n;
+    return v3_unit(v3_mad(n, to, side * (least - now)), face);
+}
+
+void wr_reference_mesh_at(const WrReferenceMesh *m, const WrReferenceHit *hit, WrVec3 eye,
+                          bool perspective, WrSurfacePoint *out)
+{
+    const WrTriangles *t = m->source;
+    const int32_t *c = t->triangles[hit->triangle].corner;
+    const WrVec3 none = { 0, 0, 0 };
+    WrVec3 p[3], face = { 0, 0, 1 }, gu = none, gv = none;
+    double uv[3][2];
+    for (int k = 0; k < 3; k++) {
+        p[k] = corner(t, hit->triangle, k);
+        uv[k][0] = (double)t->corners[c[k]].u, uv[k][1] = (double)t->corners[c[k]].v;
+    }
+    (void)wr_triangle_gradients(p, (const double(*)[2])uv, &face, &gu, &gv);
+    memset(out, 0, sizeof *out);
+    out->p =
+        v3_mad(v3_mad(p[0], v3_sub(p[1], p[0]), hit->share[0]), v3_sub(p[2], p[0]), hit->share[1]);
+    const WrVec3 to = v3_unit(perspective ? v3_sub(eye, out->p) : eye, face);
+    const WrVec3 n = seen_normal(shading_normal(t, hit, face), face, to);
+    const double area = v3_len(v3_cross(gu, gv)), length = area > 1e-30 ? 1 / area : 1;
+    out->n_unit = n;
+    out->n = v3_scale(n, length);
+    out->n_len = length;
+    out->pu = v3_scale(v3_cross(gv, n), length);
+    out->pv = v3_scale(v3_cross(n, gu), length);
+}

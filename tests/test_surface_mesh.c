@@ -1,0 +1,152 @@
+/* `surface mesh file=`: what a session tells of it, that documents of both kinds carry it, and that another content than a
+   line was written for is an error. */
+#include "test.h"
+#include "test_session_help.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "document/document.h"
+#include "scene/scene.h"
+#include "surface/triangles.h"
+
+#include <unistd.h>
+
+/* Each test works in an empty folder of its own. */
+static int enter_folder(void **state)
+{
+    char name[] = "/tmp/wrinkle-mesh-XXXXXX";
+    if (!mkdtemp(name) || chdir(name) != 0) return -1;
+    *state = wr_strdup(name);
+    return 0;
+}
+
+static int leave_folder(void **state)
+{
+    char command[100];
+    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
+    wr_free(*state);
+    if (chdir("/") != 0) return -1;
+    return system(command);
+}
+
+static void note(void *ctx, const char *text)
+{
+    wr_text_addf(ctx, "%s\n", text);
+}
+
+static WrSession *session_with(WrText *notes)
+{
+    const WrSessionOptions options = { .note = note, .note_ctx = notes, .outputs = true };
+    return wr_session_new(&options);
+}
+
+static void write_file(const char *path, const char *text)
+{
+    WrError err;
+    if (!wr_file_write(path, text, strlen(text), &err)) fail_msg("%s", err.text);
+}
+
+static const char roof[] = "v 0 0 0\nv 1 0 1\nv 1 2 1\nv 0 2 0\nv 2 0 0\nv 2 2 0\n"
+                           "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                           "f 1/1 2/2 3/3 4/4\nf 2/1 5/2 6/3 3/4\n";
+
+static const WrScene *scene_in(const WrSession *session)
+{
+    return wr_session_document(session)->scene;
+}
+
+static void a_mesh_is_told_of_and_undone(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    write_file("roof.obj", roof);
+    WrSession *s = session_with(&notes);
+    must_run(s, "surface mesh file=roof.obj");
+    const WrTriangles *mesh = scene_in(s)->triangles;
+    assert_int_equal(mesh->triangle_count, 4);
+    assert_non_null(strstr(wr_text_get(&notes), "roof.obj: 4 triangles, open"));
+    assert_non_null(strstr(wr_text_get(&notes), "100.0% of its texture coordinates are met twice"));
+    assert_non_null(strstr(wr_text_get(&notes), "without a normal"));
+    assert_near(wr_shape_radius(&scene_in(s)->shape), mesh->radius, 0);
+    assert_near(wr_shape_centre(&scene_in(s)->shape).y, 1, 0);
+    must_run(s, "undo");
+    assert_null(scene_in(s)->triangles);
+    assert_int_equal(scene_in(s)->shape.kind, WR_SURFACE_plane);
+    must_run(s, "redo");
+    assert_true(scene_in(s)->triangles == mesh);
+    must_run(s, "surface torus");
+    assert_null(scene_in(s)->triangles);
+    must_run(s, "surface mesh"); /* the square */
+    assert_null(scene_in(s)->triangles);
+    assert_near(wr_shape_radius(&scene_in(s)->shape), sqrt(0.5), 1e-12);
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+static void documents_carry_it(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "d.exr", "d.ora" };
+    WrText notes = { 0 };
+    WrError err = { "" };
+    for (int i = 0; i < 2; i++) {
+        char line[40];
+        write_file("roof.obj", roof);
+        WrSession *a = session_with(&notes), *b = session_with(&notes);
+        must_run(a, "table 8x8");
+        must_run(a, "surface mesh file=roof.obj");
+        snprintf(line, sizeof line, "save %s", names[i]);
+        must_run(a, line);
+        assert_int_equal(unlink("roof.obj"), 0);
+        if (!wr_session_open(b, names[i], &err)) fail_msg("%s", err.text);
+        const WrTriangles *was = scene_in(a)->triangles, *is = scene_in(b)->triangles;
+        assert_non_null(is);
+        assert_true(is->key == was->key && is->triangle_count == was->triangle_count);
+        assert_memory_equal(&scene_in(a)->shape, &scene_in(b)->shape, sizeof(WrShape));
+        assert_string_equal(scene_in(a)->triangles_sha256, scene_in(b)->triangles_sha256);
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        wr_session_free(a);
+        wr_session_free(b);
+    }
+    wr_text_fini(&notes);
+}
+
+static void another_content_is_an_error(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrError err = { "" };
+    char hex[65], line[120];
+    write_file("roof.obj", roof);
+    assert_true(wr_sha256_file("roof.obj", hex, &err));
+    WrSession *s = session_with(&notes);
+    snprintf(line, sizeof line, "surface mesh file=roof.obj sha256=%s", hex);
+    must_run(s, line);
+    assert_string_equal(scene_in(s)->triangles_sha256, hex);
+    write_file("roof.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    assert_false(wr_session_run(s, line, &err));
+    assert_non_null(strstr(err.text, "another content"));
+    assert_int_equal(scene_in(s)->triangles->triangle_count, 4); /* as it was */
+    must_run(s, "surface mesh file=roof.obj");
+    assert_non_null(strstr(wr_text_get(&notes), "no texture coordinates"));
+    assert_false(wr_session_run(s, "surface mesh file=nowhere.obj", &err));
+    write_file("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n");
+    assert_false(wr_session_run(s, "surface mesh file=bad.obj", &err));
+    assert_false(wr_session_run(s, "surface mesh sha256=00", &err));
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_mesh_is_told_of_and_undone, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(documents_carry_it, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(another_content_is_an_error, enter_folder, leave_folder),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
