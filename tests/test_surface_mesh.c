@@ -115,6 +115,30 @@ static void documents_carry_it(void **state)
     wr_text_fini(&notes);
 }
 
+/* Of several objects the one that has the mesh need not be at hand; different meshes cannot all be kept, which is said. */
+static void objects_share_one(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    WrError err = { "" };
+    write_file("roof.obj", roof);
+    write_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    WrSession *a = session_with(&notes), *b = session_with(&notes);
+    must_run(a, "surface mesh file=roof.obj");
+    must_run(a, "object add ball");
+    must_run(a, "surface sphere");
+    must_run(a, "save two.exr");
+    assert_int_equal(unlink("roof.obj"), 0);
+    if (!wr_session_open(b, "two.exr", &err)) fail_msg("%s", err.text);
+    assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+    must_run(a, "surface mesh file=flat.obj");
+    must_fail(a, "save both.exr", "different meshes");
+    must_fail(a, "save both.ora", "different meshes");
+    wr_session_free(a);
+    wr_session_free(b);
+    wr_text_fini(&notes);
+}
+
 static void another_content_is_an_error(void **state)
 {
     (void)state;
@@ -146,6 +170,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_mesh_is_told_of_and_undone, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(documents_carry_it, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(objects_share_one, enter_folder, leave_folder),
         cmocka_unit_test_setup_teardown(another_content_is_an_error, enter_folder, leave_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

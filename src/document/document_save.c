@@ -8,6 +8,7 @@
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/image_rows.h"
+#include "scene/kept_mesh.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
@@ -265,16 +266,17 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
     if (colour && (colour->width > WR_IMAGE_MAX || colour->height > WR_IMAGE_MAX))
         return wr_fail(err, "%s: the colour picture is %dx%d: each side must be 1..%d", path,
                        colour->width, colour->height, WR_IMAGE_MAX);
-    const WrTriangles *triangles = document->scene->triangles;
+    const WrTriangles *triangles = NULL;
+    const bool kept = wr_scene_kept_mesh(document->scene, &triangles, err);
     WrImage *mesh = triangles ? wr_scene_mesh_to_image(triangles, err) : NULL;
-    if (triangles && !mesh) {
+    if (!kept || (triangles && !mesh)) {
         wr_error_prefix(err, "%s: ", path);
         return false;
     }
     Saving *to = wr_alloc(1, sizeof *to);
     to->mesh = mesh;
     to->document = document;
-    to->single = fits_one_part(document);
+    to->single = !mesh && fits_one_part(document);
     add_composite(to, scene_text);
     if (to->single) add_layer_to_composite(to);
     for (int i = 0; i < document->layer_count && !to->single; i++) add_layer(to, i);

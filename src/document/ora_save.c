@@ -11,6 +11,7 @@
 #include "document/ora_show.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
+#include "scene/kept_mesh.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "image/profile.h"
@@ -266,8 +267,9 @@ static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
 {
     static const char *const names[2][2] = { { "data/colour.exr", "wrinkle:colour" },
                                              { "data/mesh.exr", "wrinkle:mesh" } };
-    if (scene->triangles && !(to->mesh = wr_scene_mesh_to_image(scene->triangles, err)))
-        return false;
+    const WrTriangles *mesh = NULL;
+    if (!wr_scene_kept_mesh(scene, &mesh, err)) return false;
+    if (mesh && !(to->mesh = wr_scene_mesh_to_image(mesh, err))) return false;
     return (!scene->colour || add_image(to, scene->colour, names[0], 3, err)) &&
            (!to->mesh || add_image(to, to->mesh, names[1], 1, err));
 }

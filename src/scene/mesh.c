@@ -2,6 +2,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/image.h"
+#include "scene/kept_mesh.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
 
@@ -59,4 +61,17 @@ WrTriangles *wr_scene_mesh_from_image(const WrImage *image, WrError *err)
         return NULL;
     }
     return wr_triangles_unpack(image->data, (size_t)image->width * (size_t)image->height, err);
+}
+
+bool wr_scene_kept_mesh(const WrScene *scene, const WrTriangles **out, WrError *err)
+{
+    const WrTriangles *found = NULL;
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const WrTriangles *own = wr_scene_object(scene, i)->triangles;
+        if (own && found && own->key != found->key)
+            return wr_fail(err, "several objects have different meshes: a document keeps one");
+        if (own) found = own;
+    }
+    *out = found;
+    return true;
 }
