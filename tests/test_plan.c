@@ -174,6 +174,41 @@ static void tinted_still(Stage *stage)
     stage->scene->colour_own = true; /* 0 times */
 }
 
+static void mapped(Stage *stage)
+{
+    WrNormalMap *map = &stage->scene->normals;
+    map->image = wr_image_new(8, 8, 3, NULL);
+    for (int i = 0; i < 64; i++) {
+        map->image->data[3 * i] = 0.1f * (float)(i % 7);
+        map->image->data[3 * i + 2] = sqrtf(1 - 0.01f * (float)(i % 7 * (i % 7)));
+    }
+    map->strength = 1;
+}
+
+static void mapped_flat(Stage *stage)
+{
+    mapped(stage);
+    for (int i = 0; i < 64; i++) stage->scene->normals.image->data[3 * i] = 0;
+}
+
+static void mapped_still(Stage *stage)
+{
+    mapped(stage);
+    no_replication(stage);
+}
+
+static void mapped_dark(Stage *stage)
+{
+    mapped(stage);
+    dark(stage);
+}
+
+static void mapped_smooth(Stage *stage)
+{
+    mapped(stage);
+    smooth(stage);
+}
+
 static void filtered_still(Stage *stage)
 {
     exact(stage);
@@ -334,6 +369,12 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_DIFFUSE] = { keep_all, { { no_diffuse, 0 }, { dark, 0 }, { black, 0 } } },
     [WR_EFFECT_SPECULAR] = { keep_all, { { no_specular, 0 }, { dark, 0 } } },
     [WR_EFFECT_COLOUR] = { coloured, { { white, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_NORMALS] = { mapped,
+                            { { mapped_flat, 0 },
+                              { mapped_still, 0 },
+                              { mapped_dark, 0 },
+                              { mapped_smooth, NOTHING },
+                              { keep_all, NOTHING } } },
     [WR_EFFECT_TINT] = { tinted,
                          { { tinted_evenly, 0 },
                            { tinted_still, 0 },

@@ -4,10 +4,12 @@
 #include "base/memory.h"
 #include "base/rows.h"
 #include "cli/bench.h"
+#include "image/image.h"
 #include "render/kern.h"
 #include "scene/dials.h"
 #include "scene/scene.h"
 
+#include <math.h>
 #include <string.h>
 
 #define TABLE 512
@@ -178,6 +180,19 @@ static void smooth(WrScene *scene)
     scene->bump = WR_BUMP_NONE;
 }
 
+/* A normal map of waves, of slopes up to 0.3. */
+static void mapped(WrScene *scene)
+{
+    WrNormalMap *map = &scene->normals;
+    map->image = wr_image_new(256, 256, 3, NULL);
+    map->strength = 1;
+    for (int i = 0; i < 256 * 256 && map->image; i++) {
+        const double x = 0.3 * sin(i % 256 * 0.39269908169872414), z = 1 / sqrt(1 + x * x);
+        map->image->data[3 * i] = (float)(x * z);
+        map->image->data[3 * i + 2] = (float)z;
+    }
+}
+
 static void from_behind(WrScene *scene)
 {
     scene->lights[0].where = (WrVec3){ 0.2, 0.9, -1 };
@@ -244,6 +259,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_SPECULAR)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
+    [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
     [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },

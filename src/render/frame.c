@@ -386,7 +386,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     ask.facts.among = renderer->among;
     if (!find_outside(renderer, request, &ask.facts.outside, err)) return false;
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
-    if (!wr_frame_prepare_colour(renderer, request, err)) return false;
+    if (!wr_frame_prepare_maps(renderer, request, err)) return false;
     const bool stands = view_stands(renderer, request, &before, &ask);
     ask.facts.rests = false;
     const WrKernels *last = renderer->kernels;

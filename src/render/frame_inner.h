@@ -4,6 +4,7 @@
 #include "render/frame.h"
 #include "render/keep.h"
 #include "render/pyramid.h"
+#include "render/relief.h"
 #include "render/rounded.h"
 #include "render/srgb_codes.h"
 #include "render/table.h"
@@ -29,6 +30,7 @@ struct WrRenderer {
     WrViewTriangles triangles; /* of a mesh out of a file */
     WrTriangles *square; /* what is shown of a scene whose mesh is not there; owned; or NULL */
     WrTint tint;
+    WrRelief relief;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
@@ -102,7 +104,7 @@ void wr_renderer_forget(
    table are filled in. */
 bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask,
                             WrError *err);
-bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 void wr_frame_drop_tables(WrRenderer *renderer);
 /* What tiles look up; scale: object units -> kernel units. */
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,

@@ -17,6 +17,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_pyramid_drop(&renderer->range);
     wr_rounded_drop(&renderer->rounded);
     wr_tint_drop(&renderer->tint);
+    wr_relief_drop(&renderer->relief);
 }
 
 /* The copies of heights that the plan calls for, and none else. */
@@ -104,11 +105,22 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     return true;
 }
 
-bool wr_frame_prepare_colour(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+static bool bring_relief(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const WrField *field = request->field;
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_NORMALS))
+        return wr_relief_bring(&renderer->relief, request->scene->normals.image,
+                               wr_field_wrap_u(field), wr_field_wrap_v(field), renderer->pool, err);
+    wr_relief_drop(&renderer->relief);
+    return true;
+}
+
+bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
     const WrField *field = request->field;
     WrTint *tint = &renderer->tint;
+    if (!bring_relief(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_tint_drop(tint);
         return true;
@@ -220,6 +232,37 @@ static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *reques
                                   .pyramid = pyramid };
 }
 
+/* The normal map: slopes of the cell, one unit a side, that stand for themselves whatever the table's height is. */
+static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
+                     WrTileJob *job)
+{
+    const WrScene *scene = request->scene;
+    const WrRelief *relief = &renderer->relief;
+    const WrSlopeScale by = wr_slope_scale(renderer->plan.bump, scene->normals.strength,
+                                           scene->replicate_u, scene->replicate_v, scale);
+    const WrLookd look = { .width = relief->source->width,
+                           .height = relief->source->height,
+                           .ru = scene->replicate_u,
+                           .rv = scene->replicate_v,
+                           .periodic_u = relief->wrap_u == WR_WRAP_PERIODIC,
+                           .periodic_v = relief->wrap_v == WR_WRAP_PERIODIC,
+                           .wide = wr_plan_runs(&renderer->plan, WR_EFFECT_WIDE),
+                           .scale_u = by.u,
+                           .scale_v = by.v,
+                           .pyramid = &relief->pyramid };
+    job->relief_double = look;
+    job->relief = (WrLook){ .width = look.width,
+                            .height = look.height,
+                            .ru = look.ru,
+                            .rv = look.rv,
+                            .periodic_u = look.periodic_u,
+                            .periodic_v = look.periodic_v,
+                            .wide = look.wide,
+                            .scale_u = (float)look.scale_u,
+                            .scale_v = (float)look.scale_v,
+                            .pyramid = look.pyramid };
+}
+
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {
@@ -250,4 +293,5 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->looks = looks_of(request, renderer, &look);
     fill_level(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) fill_colour(renderer, request, job);
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_NORMALS)) fill_map(renderer, request, scale, job);
 }

@@ -19,6 +19,7 @@
 #define NEAR_OF(scratch) (&(scratch)->near)
 #define FAR_OF(scratch) (&(scratch)->far)
 #define LOOK_OF(job) (&(job)->look)
+#define MAP_OF(job) (&(job)->relief)
 #define TINT_OF(job) (&(job)->tint)
 #define VIEWED(view, member) ((view)->member)
 #define MORE_STEPS 0 /* more steps of Newton's method than single precision needs */

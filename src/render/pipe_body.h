@@ -108,7 +108,7 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
 {
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
            !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) &&
-           !runs(job, WR_EFFECT_SPREAD) && !sink->bound;
+           !runs(job, WR_EFFECT_SPREAD) && !job->plan->map_filtered && !sink->bound;
 }
 
 /* P, n, and what else of the surface's frame the plan asks for. */
@@ -134,12 +134,16 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
 {
     const Kernels *k = KERNELS_OF(job);
     const WrBumpMode bump = level ? WR_BUMP_NONE : job->plan->bump;
-    if (bump != WR_BUMP_NONE) look(job, rays, strip, scratch, watch);
+    if (bump != WR_BUMP_NONE && job->plan->source != WR_SOURCE_NONE)
+        look(job, rays, strip, scratch, watch);
+    if (bump != WR_BUMP_NONE && runs(job, WR_EFFECT_NORMALS))
+        look_map(job, rays, strip, scratch, watch);
     if (bump != WR_BUMP_NONE && bends_at_once(job, sink)) {
         k->bend[job->plan->inversion](rays, &VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
     } else k->bump[bump](rays, strip);
-    scratch->ran |= normal_effects[bump];
+    scratch->ran |=
+        normal_effects[bump] & (runs(job, WR_EFFECT_BUMP) ? ~0U : ~(1U << WR_EFFECT_BUMP));
     watch_lap(watch, WR_STAGE_BUMP);
     if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
         k->widen(job->plan->bump == WR_BUMP_INVARIANT, strip);
@@ -380,7 +384,8 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 /* Places of what hit, where a later stage asks for them. */
 static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
 {
-    if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !sink->bound && !job->map)
+    if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !job->plan->map_filtered &&
+        !sink->bound && !job->map)
         return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];

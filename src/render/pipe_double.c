@@ -19,6 +19,7 @@
 #define NEAR_OF(scratch) (&(scratch)->wide[1])
 #define FAR_OF(scratch) (&(scratch)->wide[2])
 #define LOOK_OF(job) (&(job)->look_double)
+#define MAP_OF(job) (&(job)->relief_double)
 #define TINT_OF(job) (&(job)->tint_double)
 #define VIEWED(view, member) ((view)->member##_d)
 #define MORE_STEPS 1 /* one step of Newton's method more: twice the digits */

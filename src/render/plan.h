@@ -27,6 +27,7 @@ typedef enum WrEffect {
     WR_EFFECT_SPECULAR,
     WR_EFFECT_COLOUR,
     WR_EFFECT_TINT,
+    WR_EFFECT_NORMALS,
     WR_EFFECT_BUMP,
     WR_EFFECT_GRADIENT,
     WR_EFFECT_WIDE,
@@ -67,6 +68,7 @@ typedef enum WrStage {
     WR_STAGE_FOOTPRINT,
     WR_STAGE_LOOK,    /* F, Fu, Fv */
     WR_STAGE_PYRAMID, /* the same from the pyramid */
+    WR_STAGE_NORMALS, /* a normal map's slopes */
     WR_STAGE_BUMP,
     WR_STAGE_SPREAD,
     WR_STAGE_COLOUR,
@@ -142,6 +144,7 @@ typedef enum WrPrecision {
 
 /* What the plan settles beyond whether an effect runs: X(effect, type, name), each owned by one row. The
    renderer reads these and the rows, and neither scene nor dials, to choose what it does.
+     map_filtered, map_anisotropic    the normal map's slopes over footprints
      bump        as simplified: BLINN for exact on a flat base, ...
      scheme      how the table is looked up
      normals     the surface's geometry and n' are worked out
@@ -153,6 +156,8 @@ typedef enum WrPrecision {
      heights     what they are rounded to */
 #define WR_PLAN_SETTINGS(X)                                                                        \
     X(TINT, bool, tint_anisotropic)                                                                \
+    X(NORMALS, bool, map_filtered)                                                                 \
+    X(NORMALS, bool, map_anisotropic)                                                              \
     X(BUMP, WrBumpMode, bump)                                                                      \
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \

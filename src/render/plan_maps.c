@@ -56,3 +56,35 @@ void wr_settle_tint(WrPlan *plan, const WrPlanAsk *ask)
     plan->tint_anisotropic =
         runs(plan, WR_EFFECT_TINT) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }
+
+/* ---- a normal map ---- */
+
+/* Straight up everywhere: it adds slopes of 0. */
+static bool map_even(const WrImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++)
+        if (image->data[3 * i] != 0 || image->data[3 * i + 1] != 0) return false;
+    return true;
+}
+
+WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrScene *scene = ask->scene;
+    const WrNormalMap *map = &scene->normals;
+    if (!map->image) return say(WR_VERDICT_NONE, why, "the scene has no normal map");
+    if (scene->bump == WR_BUMP_NONE) return say(WR_VERDICT_NONE, why, "bump mode is none");
+    if (!lit(plan, ask)) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
+    if (map->strength == 0) return say(WR_VERDICT_SPARED, why, "its strength is 0");
+    if (still(scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: it has no slope");
+    if (map_even(map->image))
+        return say(WR_VERDICT_SPARED, why, "the normal map is straight up everywhere");
+    return say(WR_VERDICT_RUN, why, "its slopes are added to the table's and a light shows them");
+}
+
+void wr_settle_normals(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->map_filtered =
+        runs(plan, WR_EFFECT_NORMALS) && wants_filter(ask->dials) && !still(ask->scene);
+    plan->map_anisotropic = plan->map_filtered && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
+}

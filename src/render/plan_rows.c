@@ -41,17 +41,6 @@ static WrVerdict decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const
 
 /* ---- bump ---- */
 
-/* Does anything depend on n'? */
-static bool lit(const WrPlan *plan, const WrPlanAsk *ask)
-{
-    return runs(plan, WR_EFFECT_DIFFUSE) || runs(plan, WR_EFFECT_SPECULAR) || ask->facts.normals;
-}
-
-static bool still(const WrScene *scene)
-{
-    return scene->replicate_u == 0 && scene->replicate_v == 0;
-}
-
 /* Why the table cannot move the normal, or NULL if it can. The exact normal of an offset surface
    (constant F) is the base's up to its sign, which flips where F passes a focal distance: so with `exact`
    on a curved base a constant F is left out only if it is 0. */
@@ -81,7 +70,7 @@ static WrVerdict decide_bump(const WrPlan *plan, const WrPlanAsk *ask, const cha
 static void settle_bump(WrPlan *plan, const WrPlanAsk *ask)
 {
     const bool run = runs(plan, WR_EFFECT_BUMP);
-    plan->bump = run ? WR_BUMP_BLINN : WR_BUMP_NONE;
+    plan->bump = run || runs(plan, WR_EFFECT_NORMALS) ? WR_BUMP_BLINN : WR_BUMP_NONE;
     plan->scheme = ask->scene->scheme;
     plan->source = !run                                           ? WR_SOURCE_NONE
                    : ask->scene->analytic.kind == WR_ANALYTIC_OFF ? WR_SOURCE_TABLE
@@ -114,7 +103,8 @@ static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanAsk *ask, cons
     const WrShape *shape = &ask->scene->shape;
     if (ask->scene->bump != WR_BUMP_INVARIANT)
         return say(WR_VERDICT_NONE, why, "bump mode is not invariant");
-    if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
+    if (!runs(plan, WR_EFFECT_BUMP) && !runs(plan, WR_EFFECT_NORMALS))
+        return say(WR_VERDICT_NONE, why, "bump does not run");
     if (shape->kind == WR_SURFACE_plane && shape->value[0] == 1 && shape->value[1] == 1)
         return say(WR_VERDICT_SPARED, why, "on the unit square it equals blinn");
     return say(WR_VERDICT_RUN, why, "bump mode is invariant");
@@ -156,7 +146,8 @@ static WrVerdict decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, cons
 static void settle_curvature(WrPlan *plan, const WrPlanAsk *ask)
 {
     plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) ||
-                    runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_TINT);
+                    runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_TINT) ||
+                    runs(plan, WR_EFFECT_NORMALS);
 }
 
 /* ---- samples ---- */
@@ -210,6 +201,8 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
         return "no bound is known on this surface: K x K everywhere";
     if (runs(plan, WR_EFFECT_COLOUR))
         return "no bound is known for a colour picture: K x K everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS))
+        return "no bound is known for a normal map: K x K everywhere";
     if (plan->bump == WR_BUMP_NONE) return NULL;
     if (plan->bump != WR_BUMP_BLINN)
         return "no bound is known for this normal formula: K x K everywhere";
@@ -253,7 +246,8 @@ static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const c
 {
     if (ask->dials->aa != WR_AA_MOMENTS)
         return say(WR_VERDICT_NONE, why, "the dials do not ask for moments");
-    if (!runs(plan, WR_EFFECT_FILTER)) return say(WR_VERDICT_NONE, why, "nothing is filtered");
+    if (!runs(plan, WR_EFFECT_FILTER) && !plan->map_filtered)
+        return say(WR_VERDICT_NONE, why, "nothing is filtered");
     if (!runs(plan, WR_EFFECT_SPECULAR))
         return say(WR_VERDICT_NONE, why, "there is no highlight to widen");
     return say(WR_VERDICT_RUN, why,
@@ -331,6 +325,12 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "or it is of one colour; footprints up to one of its texels look "
                                  "up the picture itself",
                                  STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
+    [WR_ROW(WR_EFFECT_NORMALS)] = { "E58", "normal map", WR_PROOF_IDENTICAL, NULL,
+                                    "there is none, or it is straight up everywhere; its strength "
+                                    "or replication is 0; the mode is none; no light depends on "
+                                    "the normal",
+                                    STAGE(NORMALS), .spared = WR_RUN_DARK,
+                                    .decide = wr_decide_normals, .settle = wr_settle_normals },
     [WR_ROW(WR_EFFECT_BUMP)] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
                                  "the mode is none; height or replication is 0; all texels are "
                                  "equal; the "

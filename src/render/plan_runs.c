@@ -19,6 +19,7 @@ static bool is_forced(const WrPlan *plan, WrEffect effect)
 static const char *no_ground(const WrPlan *plan)
 {
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS)) return "a normal map has slopes where the table has none";
     if (plan->bump == WR_BUMP_EXACT) return "the exact normal turns with heights, not slopes alone";
     if (wr_schemes[plan->scheme].taps == WR_TAPS_FITTED)
         return "this scheme's coefficients each reach over the whole table";
@@ -48,6 +49,7 @@ static const char *no_cone(const WrPlan *plan)
 {
     if (plan->bump == WR_BUMP_NONE) return NULL;
     if (is_forced(plan, WR_EFFECT_BUMP)) return "bump is forced: it runs everywhere";
+    if (runs(plan, WR_EFFECT_NORMALS)) return "no bound is known of a normal map's slopes";
     if (plan->bump != WR_BUMP_BLINN) return "no bound is known of how far this normal turns";
     if (!runs(plan, WR_EFFECT_GRADIENT) || runs(plan, WR_EFFECT_FILTER) ||
         plan->precision != WR_PRECISION_SINGLE)

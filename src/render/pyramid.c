@@ -45,7 +45,8 @@ static float *texel(const WrPyramid *pyramid, int level, int i, int j)
 
 typedef struct Job {
     WrPyramid *pyramid;
-    const WrField *field;
+    const WrField *field; /* of level 1; NULL: that is there */
+    WrWrap wrap_u, wrap_v;
     int level; /* to be made */
     int changed;
 } Job;
@@ -192,8 +193,8 @@ int wr_pyramid_fold(int i, int n, WrWrap wrap)
 static void border(const Job *job, int i, int j)
 {
     const WrPyramidLevel *at = &job->pyramid->level[job->level];
-    int from_i = wr_pyramid_fold(i, at->width, wr_field_wrap_u(job->field));
-    int from_j = wr_pyramid_fold(j, at->height, wr_field_wrap_v(job->field));
+    int from_i = wr_pyramid_fold(i, at->width, job->wrap_u);
+    int from_j = wr_pyramid_fold(j, at->height, job->wrap_v);
     memcpy(texel(job->pyramid, job->level, i, j), texel(job->pyramid, job->level, from_i, from_j),
            (size_t)job->pyramid->floats * sizeof(float));
 }
@@ -306,7 +307,10 @@ static bool same_layout(const WrField *a, const WrField *b)
 bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *field, WrPool *pool,
                       WrError *err)
 {
-    Job job = { .pyramid = pyramid, .field = field };
+    Job job = { .pyramid = pyramid,
+                .field = field,
+                .wrap_u = wr_field_wrap_u(field),
+                .wrap_v = wr_field_wrap_v(field) };
     const int tiles = wr_field_tiles_u(field) * wr_field_tiles_v(field);
     const bool same = pyramid->kind == kind && same_layout(pyramid->seen, field);
     pyramid->texels_refreshed = 0;
@@ -329,4 +333,17 @@ bool wr_pyramid_bring(WrPyramid *pyramid, WrPyramidKind kind, const WrField *fie
     wr_field_free(pyramid->seen);
     pyramid->seen = wr_field_share(field);
     return true;
+}
+
+bool wr_pyramid_finish(WrPyramid *pyramid, WrWrap wrap_u, WrWrap wrap_v, WrPool *pool, WrError *err)
+{
+    Job job = { .pyramid = pyramid, .wrap_u = wrap_u, .wrap_v = wrap_v };
+    for (job.level = 1; job.level < pyramid->levels; job.level++) {
+        if (job.level > 1)
+            wr_pool_run(pool, pyramid->level[job.level].height, make_whole_row, &job);
+        make_apron(&job);
+    }
+    if (!wr_progress_stopped()) return true;
+    wr_pyramid_drop(pyramid); /* half made */
+    return wr_fail(err, "cancelled");
 }

@@ -72,3 +72,6 @@ int wr_pyramid_fold(int i, int n, WrWrap wrap);
 /* Levels of that kind for a picture of width x height, nothing in them yet; what was there goes. */
 bool wr_pyramid_allocate(WrPyramid *pyramid, WrPyramidKind kind, int width, int height,
                          WrError *err);
+/* Fill the levels above level 1, which is there but for its apron, and all aprons. */
+bool wr_pyramid_finish(WrPyramid *pyramid, WrWrap wrap_u, WrWrap wrap_v, WrPool *pool,
+                       WrError *err);

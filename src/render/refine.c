@@ -46,8 +46,11 @@ static void count_texels(const WrTileJob *job, float texels[2])
     const double h = table ? fabs(job->look.rv) * job->look.height : 0;
     const double cw = colour ? fabs(job->colour.ru) * job->colour.width : 0;
     const double ch = colour ? fabs(job->colour.rv) * job->colour.height : 0;
-    texels[0] = (float)(w > cw ? w : cw);
-    texels[1] = (float)(h > ch ? h : ch);
+    const bool map = wr_plan_calls(job->plan, WR_EFFECT_NORMALS);
+    const double mw = map ? fabs(job->relief.ru) * job->relief.width : 0;
+    const double mh = map ? fabs(job->relief.rv) * job->relief.height : 0;
+    texels[0] = (float)fmax(mw, w > cw ? w : cw);
+    texels[1] = (float)fmax(mh, h > ch ? h : ch);
 }
 
 /* ---- the first samples -------------------------------------------------------------------------- */

@@ -44,6 +44,8 @@ typedef struct WrTileJob {
     WrColourLook colour; /* rgba NULL: none */
     WrLook tint;         /* the colour picture's means over footprints; pyramid NULL: not wanted */
     WrLookd tint_double;
+    WrLook relief; /* the normal map's slopes (relief.h); pyramid NULL: none */
+    WrLookd relief_double;
     int samples;        /* K */
     int width, height;  /* pixels */
     int top, rows;      /* the band of it that is wanted */

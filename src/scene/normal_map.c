@@ -1,0 +1,175 @@
+#include "scene/normal_map.h"
+
+#include "base/error.h"
+#include "image/image.h"
+
+#include <math.h>
+
+/* ---- numbers ------------------------------------------------------------------------------------- */
+
+typedef struct Reading {
+    const WrImage *from;
+    int channels;
+    int last;   /* code; 0: float */
+    bool remap; /* 2 c - 1 */
+    bool centred;
+} Reading;
+
+static size_t texels_of(const WrImage *image)
+{
+    return (size_t)image->width * (size_t)image->height;
+}
+
+static const float *texel_of(const Reading *r, size_t i)
+{
+    return r->from->data + i * (size_t)r->from->channels;
+}
+
+/* Are all numbers in 0..1, and, of three, 2 c - 1 nearer to a unit vector than c? */
+static bool is_remapped(const Reading *r)
+{
+    double own = 0, remapped = 0;
+    for (size_t i = 0; i < texels_of(r->from); i++) {
+        double squares[2] = { 0 };
+        for (int c = 0; c < r->channels; c++) {
+            const double x = (double)texel_of(r, i)[c];
+            if (!(x >= 0 && x <= 1)) return false;
+            squares[0] += x * x, squares[1] += (2 * x - 1) * (2 * x - 1);
+        }
+        own += fabs(squares[0] - 1), remapped += fabs(squares[1] - 1);
+    }
+    return r->channels < 3 || remapped <= own;
+}
+
+/* Has more than half of it the code above the middle in x and y? */
+static bool is_centred(const Reading *r)
+{
+    const double middle = (r->last + 1) / 2;
+    size_t count = 0;
+    if (r->last == 0) return false;
+    for (size_t i = 0; i < texels_of(r->from); i++) {
+        const float *t = texel_of(r, i);
+        count += fabs((double)t[0] * r->last - middle) < 0.25 &&
+                 fabs((double)t[1] * r->last - middle) < 0.25;
+    }
+    return 2 * count > texels_of(r->from);
+}
+
+static double number(const Reading *r, double x)
+{
+    if (!r->remap) return x;
+    if (!r->centred) return 2 * x - 1;
+    const double middle = (r->last + 1) / 2, code = floor(x * r->last + 0.5);
+    return fmax(-1, (code - middle) / (r->last - middle));
+}
+
+/* Linear numbers about the middle that were taken for light: encoded 0.735, decoded 0.214. */
+static bool is_converted(const Reading *r)
+{
+    double mean[2] = { 0 };
+    if (!r->remap) return false;
+    for (size_t i = 0; i < texels_of(r->from); i++)
+        for (int c = 0; c < 2; c++)
+            mean[c] += (double)texel_of(r, i)[c] / (double)texels_of(r->from);
+    const bool encoded = fabs(mean[0] - 0.735) < 0.03 && fabs(mean[1] - 0.735) < 0.03;
+    const bool decoded = fabs(mean[0] - 0.214) < 0.03 && fabs(mean[1] - 0.214) < 0.03;
+    return encoded || decoded;
+}
+
+/* ---- vectors ------------------------------------------------------------------------------------- */
+
+/* One texel's; true if it looked away. */
+static bool read_vector(const Reading *r, size_t i, float out[3])
+{
+    const float *t = texel_of(r, i);
+    double x = number(r, (double)t[0]), y = number(r, (double)t[1]);
+    const double xy = x * x + y * y;
+    double z = r->channels == 3 ? number(r, (double)t[2]) : sqrt(fmax(0, 1 - xy));
+    const double length = sqrt(xy + z * z);
+    if (!(length > 0)) { /* no direction */
+        out[0] = out[1] = 0, out[2] = 1;
+        return true;
+    }
+    x /= length, y /= length, z /= length;
+    const bool away = z < WR_NORMAL_LEAST;
+    if (away) z = WR_NORMAL_LEAST;
+    const double unit = 1 / sqrt(x * x + y * y + z * z);
+    out[0] = (float)(x * unit), out[1] = (float)(y * unit), out[2] = (float)(z * unit);
+    return away;
+}
+
+void wr_normal_map_slopes(const float n[3], double *p, double *q)
+{
+    *p = -(double)n[0] / (double)n[2];
+    *q = -(double)n[1] / (double)n[2];
+}
+
+/* ---- the sign of green --------------------------------------------------------------------------- */
+
+static const float *vector_at(const WrImage *image, int i, int j)
+{
+    const int x = (i + image->width) % image->width, y = (j + image->height) % image->height;
+    return image->data + ((size_t)y * (size_t)image->width + (size_t)x) * 3;
+}
+
+/* sum of D_v p D_u q, rows upwards; noise: what rounding of codes by `step` may bring, as a deviation. */
+static double twist(const WrImage *image, double step, double *noise)
+{
+    double sum = 0, squares = 0;
+    for (int j = 0; j < image->height; j++)
+        for (int i = 0; i < image->width; i++) {
+            double p[2], q[2], other, steep = 1;
+            const float *const ends[4] = { vector_at(image, i, j - 1), vector_at(image, i, j + 1),
+                                           vector_at(image, i + 1, j), vector_at(image, i - 1, j) };
+            for (int k = 0; k < 2; k++) {
+                wr_normal_map_slopes(ends[k], &p[k], &other);
+                wr_normal_map_slopes(ends[2 + k], &other, &q[k]);
+            }
+            for (int k = 0; k < 4; k++) steep = fmin(steep, (double)ends[k][2]);
+            /* a slope is -x/z: an error e of a unit vector's numbers moves it by e/z^2 at most */
+            const double dp = p[0] - p[1], dq = q[0] - q[1], error = step / (steep * steep);
+            sum += dp * dq;
+            squares += error * error * (2 * dp * dp + 2 * dq * dq + 4 * error * error);
+        }
+    *noise = sqrt(squares);
+    return sum;
+}
+
+#define SURE 6 /* deviations */
+
+static bool find_down(const WrImage *image, double step, WrNormalTold *told)
+{
+    double noise;
+    const double sum = twist(image, step, &noise);
+    told->undecided = !(fabs(sum) > SURE * noise);
+    return !told->undecided && sum < 0;
+}
+
+WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrNormalTold *told,
+                            WrError *err)
+{
+    const int colours = from->channels > 3 ? 3 : from->channels;
+    Reading r = { .from = from, .channels = channels ? channels : colours };
+    *told = (WrNormalTold){ 0 };
+    if (r.channels < 2 || r.channels > from->channels) {
+        wr_fail(err, "a normal map of %d channels: it has %d; must be 2 or 3",
+                r.channels < 2 ? 2 : r.channels, from->channels);
+        return NULL;
+    }
+    WrImage *to = wr_image_new(from->width, from->height, 3, err);
+    if (!to) return NULL;
+    to->type = WR_PIXEL_F32;
+    r.last = from->type == WR_PIXEL_U8 ? 255 : from->type == WR_PIXEL_U16 ? 65535 : 0;
+    r.remap = r.last || is_remapped(&r);
+    r.centred = is_centred(&r);
+    told->channels = r.channels;
+    told->own = !r.remap;
+    told->centred = r.centred;
+    told->converted = is_converted(&r);
+    for (size_t i = 0; i < texels_of(to); i++) told->away += read_vector(&r, i, to->data + 3 * i);
+    const double step = r.last ? 2.0 / r.last : 1e-6;
+    told->green_down = green == WR_GREEN_AUTO ? find_down(to, step, told) : green == WR_GREEN_DOWN;
+    for (size_t i = 0; i < texels_of(to) && told->green_down; i++)
+        to->data[3 * i + 1] = -to->data[3 * i + 1];
+    return to;
+}
