@@ -13,6 +13,7 @@
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
 #include "ui/patch/patch.h"
+#include "ui/patch/patch_objects.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/pen/pen.h"
 #include "ui/pen/pen_curve.h"
@@ -102,6 +103,8 @@ static void press_patch(WrApp *app, const WrPointer *at)
     if (at->button == SDL_BUTTON_LEFT && wr_accuracy_on_line(app, at->x, at->y)) {
         app->hand->grab = WR_GRAB_SPLIT;
     } else if (at->button == SDL_BUTTON_LEFT && wr_patch_paints(app)) {
+        if (!wr_keys_hold(app->keys, WR_ACT(hold_pick), at->mods))
+            wr_patch_choose(app, at); /* a command, which ends what is held */
         app->hand->grab = WR_GRAB_PATCH_PAINT;
         wr_patch_paint_press(app, at);
     } else {

@@ -161,7 +161,6 @@ void wr_patch_paint_press(WrApp *app, const WrPointer *at)
         app->hand->grab = WR_GRAB_PICK;
         return;
     }
-    wr_patch_choose(app, at);
     app->paint->inside = false;
     app->paint->at = *at;
     wr_brush_steady_begin(app, at);
