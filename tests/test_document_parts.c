@@ -421,7 +421,7 @@ static void try_file(const char *path)
     wr_field_range(f, &low, &high);
     assert_true(isfinite(low) && isfinite(high));
     wr_document_free(loaded.document);
-    wr_image_free(loaded.colour);
+    wr_image_free(loaded.colours[0]);
     wr_free(loaded.scene_text);
 }
 

@@ -4,6 +4,7 @@
 #include "test_session_help.h"
 
 #include "base/text.h"
+#include "image/image.h"
 #include "document/tables.h"
 #include "render/frame.h"
 #include "scene/objects.h"
@@ -140,6 +141,17 @@ static void files_bring_them_back(void **state)
     static const char *const names[] = { "set.exr", "set.ora", "set.wrinkle" };
     WrSession *session = session_of(three);
     float before[60 * 40 * 4], after[60 * 40 * 4];
+    uint8_t rgb[2][5 * 3 * 3];
+    for (int i = 0; i < 2; i++) {
+        char line[40], path[16];
+        for (int k = 0; k < 45; k++) rgb[i][k] = (uint8_t)(37 * k + 91 * i);
+        snprintf(path, sizeof path, "c%d.png", i);
+        if (!wr_image_write_pixels(path, 5, 3, 3, WR_PIXEL_U8, false, rgb[i], &err))
+            fail_msg("%s", err.text);
+        must_run(session, i ? "object choose box" : "object choose band");
+        snprintf(line, sizeof line, "colour %s", path);
+        must_run(session, line);
+    }
     must_run(session, "object choose band"); /* not the last one */
     draw(session, before);
     for (int i = 0; i < 3; i++) {

@@ -82,7 +82,7 @@ static WrLoaded load(const char *path, WrText *notes)
 static void drop(WrLoaded *loaded)
 {
     wr_document_free(loaded->document);
-    wr_image_free(loaded->colour);
+    wr_image_free(loaded->colours[0]);
     wr_free(loaded->scene_text);
 }
 
@@ -139,9 +139,9 @@ static void the_colour_picture_travels_along(void **state)
     document->scene = scene;
     save(document, "", "a.ora");
     WrLoaded loaded = load("a.ora", NULL);
-    assert_non_null(loaded.colour);
-    assert_int_equal(loaded.colour->width * 10 + loaded.colour->height, 75);
-    assert_memory_equal(loaded.colour->data, scene->colour->data, 105 * sizeof(float));
+    assert_non_null(loaded.colours[0]);
+    assert_int_equal(loaded.colours[0]->width * 10 + loaded.colours[0]->height, 75);
+    assert_memory_equal(loaded.colours[0]->data, scene->colour->data, 105 * sizeof(float));
     drop(&loaded);
     wr_document_free(document);
 }

@@ -66,7 +66,8 @@ struct WrSession {
     WrJournal *journal; /* of the document, from its first command on; owned; NULL: none yet */
     int journal_base, journal_top; /* history positions that a replay of it can reach */
     int64_t view_base, view_top;   /* and numbers of views */
-    WrImage *embedded;      /* while loading: the document's colour picture; borrowed; NULL: none */
+    WrImage *const *
+        embedded; /* while loading: the document's colour pictures by their objects; borrowed; NULL: none */
     WrImage *embedded_mesh; /* the same of its mesh */
     WrRenderer *renderer;   /* made on first use; owned */
     WrTables *tables;       /* of the objects of its last picture; owned */

@@ -114,8 +114,10 @@ static bool find_colour(WrSession *session, WrCall *call, const char *name, WrIm
                         WrError *err)
 {
     if (session->loading) {
-        *colour = session->embedded ? linear_colour(session->embedded, err) : NULL;
-        if (!session->embedded)
+        const WrImage *held =
+            session->embedded ? session->embedded[session->state.document->scene->chosen] : NULL;
+        *colour = held ? linear_colour(held, err) : NULL;
+        if (!held)
             return wr_fail(err, "the document names the picture %s but does not hold it", name);
         return *colour != NULL;
     }

@@ -179,7 +179,7 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     wr_document_free(session->state.document);
     session->state.document = loaded.document;
     session->loading = true;
-    session->embedded = loaded.colour;
+    session->embedded = loaded.colours;
     session->embedded_mesh = loaded.mesh;
     session->depth++;
     bool newer = loaded.newer_version > 0;
@@ -189,8 +189,7 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     session->loading = false;
     session->embedded = NULL;
     session->embedded_mesh = NULL;
-    wr_image_free(loaded.colour);
-    wr_image_free(loaded.mesh);
+    wr_loaded_free_images(&loaded);
     wr_free(loaded.scene_text);
     if (good && replaced)
         wr_session_note(session, "%s: %lld texels were not finite and became 0", path,

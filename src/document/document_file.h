@@ -5,7 +5,8 @@
    program that opens EXR sees the relief. Then for each layer, bottom first: its heights, "layer:NAME" (then
    "layer:NAME (2)" where names repeat; the name itself in wrinkle:layer), its coverage "cover:N" and its
    mask "mask:N" if it has them (N counts layers from 1). Then "selection", if there is one, and "colour", the
-   scene's colour picture in RGB, if there is one, and "mesh", the numbers of its mesh in one channel.
+   scene's colour picture in RGB, if there is one; of several objects "colour:N" for each that has one; and
+   "mesh", the numbers of its mesh in one channel.
 
    Attributes of part 0: wrinkle:version (of this format), wrinkle:program, wrinkle:scene (canonical command
    lines; the tolerance's with the dials that were chosen for it), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
@@ -19,6 +20,7 @@
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
    several is still written as version 2; version 3 no mesh. All are read. */
 #pragma once
+#include "scene/objects.h"
 #include "field/wrap.h"
 
 #include <stdbool.h>
@@ -61,7 +63,8 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
 typedef struct WrLoaded {
     WrDocument *document; /* the scene is the default one: run scene_text to restore it */
     char *scene_text;     /* owned, wr_free */
-    WrImage *colour;      /* embedded colour picture or NULL; owned */
+    WrImage *colours
+        [WR_OBJECTS_MAX]; /* embedded colour pictures of the scene's objects, or NULL; owned */
     WrImage *mesh;        /* embedded mesh (wr_scene_mesh_from_image) or NULL; owned */
     double
         newer_version; /* of the format, where that is newer than ours: parts and settings that we do
@@ -70,6 +73,7 @@ typedef struct WrLoaded {
 
 /* True if the file is an EXR that carries our version attribute (false also for missing files). */
 bool wr_document_recognise(const char *path);
+void wr_loaded_free_images(WrLoaded *loaded);
 /* Non-finite heights become 0 and are counted in *replaced; coverage, masks and selection are brought to
  * 0..1. Only the layers are read; F is made of them. Outputs are untouched on failure. */
 bool wr_document_load(const char *path, WrLoaded *out, int64_t *replaced, WrError *err);

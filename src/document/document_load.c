@@ -46,7 +46,9 @@ typedef struct Loading {
     int width, height;
     WrWrap wrap_u, wrap_v;
     Slot slots[WR_LAYERS_MAX];
-    int layers, selection, colour, mesh; /* how many; parts, 0: none */
+    int layers, selection, mesh; /* how many; parts, 0: none */
+    int colour[WR_OBJECTS_MAX];  /* parts of the objects, 0: none */
+    bool coloured;               /* there is one */
     int64_t replaced;
 } Loading;
 
@@ -87,12 +89,25 @@ static bool belongs(const Loading *in, const char *name, const char *prefix)
 /* Have the parts begun that follow all layers? */
 static bool ends(const Loading *in)
 {
-    return in->selection || in->colour || in->mesh;
+    return in->selection || in->coloured || in->mesh;
+}
+
+/* The object whose colour picture it is: "colour", "colour:3"; else -1. */
+static int object_of(const char *name)
+{
+    char want[32];
+    if (strcmp(name, WR_DOCUMENT_COLOUR) == 0) return 0;
+    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
+        snprintf(want, sizeof want, "%s:%d", WR_DOCUMENT_COLOUR, i + 1);
+        if (strcmp(name, want) == 0) return i;
+    }
+    return -1;
 }
 
 /* Put a part where it belongs. False if it has no place, or that is taken, or passed. */
 static bool place_part(Loading *in, const char *name, int part)
 {
+    int object;
     Slot *last = in->layers > 0 ? &in->slots[in->layers - 1] : NULL;
     if (begins_with(name, WR_DOCUMENT_LAYER)) {
         if (ends(in) || in->layers == WR_LAYERS_MAX) return false;
@@ -106,9 +121,10 @@ static bool place_part(Loading *in, const char *name, int part)
     } else if (strcmp(name, WR_DOCUMENT_SELECTION) == 0) {
         if (ends(in)) return false;
         in->selection = part;
-    } else if (strcmp(name, WR_DOCUMENT_COLOUR) == 0) {
-        if (in->colour || in->mesh) return false;
-        in->colour = part;
+    } else if ((object = object_of(name)) >= 0) {
+        if (in->colour[object] || in->mesh) return false;
+        in->colour[object] = part;
+        in->coloured = true;
     } else if (strcmp(name, WR_DOCUMENT_MESH) == 0) {
         if (in->mesh) return false;
         in->mesh = part;
@@ -121,7 +137,7 @@ static bool place_part(Loading *in, const char *name, int part)
 static bool check_part(const Loading *in, int index, WrError *err)
 {
     WrImagePart part = wr_image_file_part(in->file, index);
-    bool colour = index == in->colour;
+    bool colour = object_of(part.name) >= 0;
     if (colour && part.channels != 3)
         return wr_fail(err, "%s: damaged: the colour picture has %d channels; must be 3", in->path,
                        part.channels);
@@ -348,12 +364,24 @@ static bool load(Loading *in, WrLoaded *loaded, WrError *err)
     if (!check_version(in, err) || !read_wrap(in, err) || !find_parts(in, err)) return false;
     loaded->document = wr_document_new();
     if (!read_document(in, loaded->document, err)) return false;
-    if (in->colour && !(loaded->colour = read_image(in, in->colour, err))) return false;
+    for (int i = 0; i < WR_OBJECTS_MAX; i++)
+        if (in->colour[i] && !(loaded->colours[i] = read_image(in, in->colour[i], err)))
+            return false;
     if (in->mesh && !(loaded->mesh = read_image(in, in->mesh, err))) return false;
     const char *scene = wr_image_file_attribute(in->file, 0, "wrinkle:scene");
     loaded->scene_text = wr_strdup(scene ? scene : "");
     loaded->newer_version = in->newer ? in->version : 0;
     return true;
+}
+
+void wr_loaded_free_images(WrLoaded *loaded)
+{
+    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
+        wr_image_free(loaded->colours[i]);
+        loaded->colours[i] = NULL;
+    }
+    wr_image_free(loaded->mesh);
+    loaded->mesh = NULL;
 }
 
 bool wr_document_load(const char *path, WrLoaded *out, int64_t *replaced, WrError *err)
@@ -368,8 +396,7 @@ bool wr_document_load(const char *path, WrLoaded *out, int64_t *replaced, WrErro
         *replaced = in->replaced;
     } else {
         wr_document_free(loaded.document);
-        wr_image_free(loaded.colour);
-        wr_image_free(loaded.mesh);
+        wr_loaded_free_images(&loaded);
     }
     wr_image_file_close(in->file);
     wr_free(in);

@@ -11,7 +11,7 @@
 #include "scene/kept_mesh.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 
 #include <string.h>
 
@@ -22,7 +22,8 @@
 #define FILE_ATTRIBUTES 8
 #define LAYER_ATTRIBUTES 6
 #define PARTS_MAX                                                                                  \
-    (4 + 3 * WR_LAYERS_MAX) /* F, selection, colour, mesh; heights, cover, mask of a layer */
+    (3 + WR_OBJECTS_MAX +                                                                          \
+     3 * WR_LAYERS_MAX) /* F, selection, mesh, colours; heights, cover, mask of a layer */
 _Static_assert(PARTS_MAX <= WR_IMAGE_PARTS_MAX, "a document must fit into one file");
 
 static const struct {
@@ -227,22 +228,36 @@ static bool same_bits(const WrField *a, const WrField *b)
     return same;
 }
 
+static bool has_colour(const WrScene *scene)
+{
+    bool any = false;
+    for (int i = 0; i < wr_scene_object_count(scene); i++)
+        any |= wr_scene_object(scene, i)->colour != NULL;
+    return any;
+}
+
 /* Programs that know nothing of parts open a file of one: so it is where F says all. */
 static bool fits_one_part(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[0];
     return document->layer_count == 1 && !layer->cover && !layer->mask && !document->selection &&
-           !document->scene->colour && !document->scene->triangles &&
+           !has_colour(document->scene) && !document->scene->triangles &&
            same_bits(wr_document_field(document), layer->heights);
 }
 
-static void add_colour(Saving *to, WrImage *colour)
+static void add_colour(Saving *to, int object)
 {
+    const WrScene *scene = to->document->scene;
+    WrImage *colour = wr_scene_object(scene, object)->colour;
+    WrText name = { 0 };
+    if (!colour) return;
+    wr_text_add(&name, WR_DOCUMENT_COLOUR);
+    if (wr_scene_object_count(scene) > 1) wr_text_addf(&name, ":%d", object + 1);
     to->parts[to->count++] = (WrImageOut){ .width = colour->width,
                                            .height = colour->height,
                                            .channels = 3,
                                            .type = WR_PIXEL_F32,
-                                           .part_name = WR_DOCUMENT_COLOUR,
+                                           .part_name = keep(to, name),
                                            .rows = colour_rows,
                                            .ctx = colour };
 }
@@ -262,10 +277,13 @@ static void add_mesh(Saving *to)
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
                       WrError *err)
 {
-    WrImage *colour = document->scene->colour;
-    if (colour && (colour->width > WR_IMAGE_MAX || colour->height > WR_IMAGE_MAX))
-        return wr_fail(err, "%s: the colour picture is %dx%d: each side must be 1..%d", path,
-                       colour->width, colour->height, WR_IMAGE_MAX);
+    const int objects = wr_scene_object_count(document->scene);
+    for (int i = 0; i < objects; i++) {
+        const WrImage *colour = wr_scene_object(document->scene, i)->colour;
+        if (colour && (colour->width > WR_IMAGE_MAX || colour->height > WR_IMAGE_MAX))
+            return wr_fail(err, "%s: the colour picture is %dx%d: each side must be 1..%d", path,
+                           colour->width, colour->height, WR_IMAGE_MAX);
+    }
     const WrTriangles *triangles = NULL;
     const bool kept = wr_scene_kept_mesh(document->scene, &triangles, err);
     WrImage *mesh = triangles ? wr_scene_mesh_to_image(triangles, err) : NULL;
@@ -281,7 +299,7 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
     if (to->single) add_layer_to_composite(to);
     for (int i = 0; i < document->layer_count && !to->single; i++) add_layer(to, i);
     if (document->selection) add_field(to, document->selection, WR_DOCUMENT_SELECTION);
-    if (colour) add_colour(to, colour);
+    for (int i = 0; i < objects; i++) add_colour(to, i);
     if (mesh) add_mesh(to);
     bool ok = wr_image_write(path, to->parts, to->count, err);
     for (int i = 0; i < to->texts.count; i++) wr_free(to->texts.data[i]);

@@ -44,7 +44,8 @@ typedef struct Loading {
 
 static int count_pictures(const WrOraStack *stack)
 {
-    int count = (stack->selection != NULL) + (stack->colour != NULL) + (stack->mesh != NULL);
+    int count = (stack->selection != NULL) + (stack->mesh != NULL);
+    for (int i = 0; i < WR_OBJECTS_MAX; i++) count += stack->colours[i] != NULL;
     for (int i = 0; i < stack->layers.count; i++) {
         const WrOraLayer *layer = &stack->layers.data[i];
         count += 1 + (layer->cover != NULL) + (layer->mask != NULL);
@@ -332,12 +333,15 @@ static bool read_scene(Loading *in, WrLoaded *loaded, WrError *err)
     else if (strlen(loaded->scene_text) != length)
         return wr_fail(err, "%s: damaged: its scene is no text", in->path);
     if (in->stack.mesh && !(loaded->mesh = read_picture(in, in->stack.mesh, err))) return false;
-    if (!in->stack.colour) return true;
-    loaded->colour = read_picture(in, in->stack.colour, err);
-    if (!loaded->colour) return false;
-    if (loaded->colour->channels == 3) return true;
-    return wr_fail(err, "%s: damaged: the colour picture has %d channels; must be 3", in->path,
-                   loaded->colour->channels);
+    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
+        if (!in->stack.colours[i]) continue;
+        loaded->colours[i] = read_picture(in, in->stack.colours[i], err);
+        if (!loaded->colours[i]) return false;
+        if (loaded->colours[i]->channels != 3)
+            return wr_fail(err, "%s: damaged: the colour picture has %d channels; must be 3",
+                           in->path, loaded->colours[i]->channels);
+    }
+    return true;
 }
 
 /* A number of a layer, counted from 1; otherwise where there is none. */
@@ -395,8 +399,7 @@ bool wr_ora_load(const char *path, WrLoaded *out, int64_t *replaced, WrText *not
         if (notes) wr_text_add(notes, wr_text_get(&said));
     } else {
         wr_document_free(loaded.document);
-        wr_image_free(loaded.colour);
-        wr_image_free(loaded.mesh);
+        wr_loaded_free_images(&loaded);
         wr_free(loaded.scene_text);
     }
     wr_text_fini(&said);

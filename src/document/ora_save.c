@@ -15,7 +15,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "image/profile.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 #include "system/fd.h"
 
 #include <errno.h>
@@ -249,29 +249,18 @@ static bool add_layer_preview(Saving *to, char *name, int index, WrError *err)
                        err);
 }
 
-static bool add_image(Saving *to, const WrImage *image, const char *const names[2], int channels,
-                      WrError *err)
+static bool add_image(Saving *to, const WrImage *image, char *name, const char *attribute,
+                      int channels, WrError *err)
 {
-    Entry entry = { .name = wr_strdup(names[0]),
+    Entry entry = { .name = name,
                     .image = image,
                     .picture = { .width = image->width,
                                  .height = image->height,
                                  .channels = channels,
                                  .type = WR_PIXEL_F32,
                                  .rows = image_rows } };
-    wr_ora_add_attribute(&to->stack, names[1], entry.name);
+    wr_ora_add_attribute(&to->stack, attribute, entry.name);
     return add_entry(to, entry, err);
-}
-
-static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
-{
-    static const char *const names[2][2] = { { "data/colour.exr", "wrinkle:colour" },
-                                             { "data/mesh.exr", "wrinkle:mesh" } };
-    const WrTriangles *mesh = NULL;
-    if (!wr_scene_kept_mesh(scene, &mesh, err)) return false;
-    if (mesh && !(to->mesh = wr_scene_mesh_to_image(mesh, err))) return false;
-    return (!scene->colour || add_image(to, scene->colour, names[0], 3, err)) &&
-           (!to->mesh || add_image(to, to->mesh, names[1], 1, err));
 }
 
 /* ---- what is in it ---- */
@@ -281,6 +270,23 @@ static char *numbered(const char *before, int number, const char *after)
     WrText text = { 0 };
     wr_text_addf(&text, "%s%d%s", before, number, after);
     return text.data;
+}
+
+/* Colour pictures of the scene's objects, and its mesh. */
+static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
+{
+    const WrTriangles *mesh = NULL;
+    if (!wr_scene_kept_mesh(scene, &mesh, err)) return false;
+    if (mesh && !(to->mesh = wr_scene_mesh_to_image(mesh, err))) return false;
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const WrImage *colour = wr_scene_object(scene, i)->colour;
+        char attribute[WR_ORA_COLOUR_NAME];
+        if (!colour) continue;
+        char *name = i > 0 ? numbered("data/colour-", i + 1, ".exr") : wr_strdup("data/colour.exr");
+        if (!add_image(to, colour, name, wr_ora_colour_name("wrinkle:", i, attribute), 3, err))
+            return false;
+    }
+    return !to->mesh || add_image(to, to->mesh, wr_strdup("data/mesh.exr"), "wrinkle:mesh", 1, err);
 }
 
 static void widen(Saving *to, const WrField *field)

@@ -192,6 +192,13 @@ static void add_layer(Reading *reading, const char **attributes)
     wr_array_push(&reading->stack->layers, layer);
 }
 
+const char *wr_ora_colour_name(const char *prefix, int object, char buffer[WR_ORA_COLOUR_NAME])
+{
+    if (object == 0) snprintf(buffer, WR_ORA_COLOUR_NAME, "%scolour", prefix);
+    else snprintf(buffer, WR_ORA_COLOUR_NAME, "%scolour-%d", prefix, object + 1);
+    return buffer;
+}
+
 static void read_image(Reading *reading, const char **attributes)
 {
     WrOraStack *stack = reading->stack;
@@ -203,7 +210,10 @@ static void read_image(Reading *reading, const char **attributes)
     stack->solo = wr_strdup(find(attributes, OURS "solo"));
     stack->scene = wr_strdup(find(attributes, OURS "scene"));
     stack->selection = wr_strdup(find(attributes, OURS "selection"));
-    stack->colour = wr_strdup(find(attributes, OURS "colour"));
+    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
+        char name[WR_ORA_COLOUR_NAME];
+        stack->colours[i] = wr_strdup(find(attributes, wr_ora_colour_name(OURS, i, name)));
+    }
     stack->mesh = wr_strdup(find(attributes, OURS "mesh"));
 }
 
@@ -284,9 +294,10 @@ void wr_ora_stack_fini(WrOraStack *stack)
         for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
     }
     wr_array_free(&stack->layers);
-    char *texts[] = { stack->version, stack->wrap,      stack->active, stack->solo,
-                      stack->scene,   stack->selection, stack->colour, stack->mesh };
+    char *texts[] = { stack->version, stack->wrap, stack->active,   stack->solo,
+                      stack->scene,   stack->mesh, stack->selection };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
+    for (int i = 0; i < WR_OBJECTS_MAX; i++) wr_free(stack->colours[i]);
     *stack = (WrOraStack){ 0 };
 }
 

@@ -1,6 +1,7 @@
 /* ora_stack.h - stack.xml of an OpenRaster file as data.
    Layer 5. Private to this room. */
 #pragma once
+#include "scene/objects.h"
 #include "base/array.h"
 #include "document/blend.h"
 
@@ -27,7 +28,8 @@ typedef struct WrOraStack {
     WR_ARRAY(WrOraLayer) layers; /* topmost first */
     int groups;                  /* that were dissolved */
     int unknown;                 /* elements that are neither layers nor groups */
-    char *version, *wrap, *active, *solo, *scene, *selection, *colour, *mesh; /* ours */
+    char *version, *wrap, *active, *solo, *scene, *selection, *mesh,
+        *colours[WR_OBJECTS_MAX]; /* ours */
 } WrOraStack;
 
 /* Errors do not name the file. On failure the stack is empty. */
@@ -44,3 +46,6 @@ bool wr_ora_add_attribute(WrText *xml, const char *name, const char *value);
 void wr_ora_add_float(WrText *xml, const char *name, float value);
 /* The name as an attribute, beside it as hex digits where XML cannot hold it. */
 void wr_ora_add_name(WrText *xml, const char *name);
+/* The attribute that names the entry of an object's colour picture: PREFIXcolour, PREFIXcolour-2, ... */
+#define WR_ORA_COLOUR_NAME 64
+const char *wr_ora_colour_name(const char *prefix, int object, char buffer[WR_ORA_COLOUR_NAME]);
