@@ -328,6 +328,48 @@ static void edits_of_a_resting_view(void **state)
     assert_in_range(drawn, 1, all * 9 / 10);
 }
 
+/* Against the reference, which traces every sample on its own, within what single precision and the scheme leave. */
+static void the_reference_sees_the_same(void **state)
+{
+    (void)state;
+    TestRandom random = { 64 };
+    WrError err = { "" };
+    WrPool *pool = wr_pool_new(2);
+    for (int k = 0; k < 3; k++) {
+        Set set = some_set(&random, 3);
+        WrReference reference = { 0 };
+        const WrReferenceRequest wanted = { .field = set.field[0],
+                                            .fields = set.fields,
+                                            .scene = set.together,
+                                            .width = W,
+                                            .height = H,
+                                            .turn_deg = 15,
+                                            .first = 4,
+                                            .most = 4 };
+        for (int i = 0; i < set.count; i++) set.alone[i]->height = 0; /* no slopes: no scheme */
+        set.together->height = 0;
+        WrDials dials = set.together->dials;
+        dials.aa = WR_AA_SUPERSAMPLE, dials.samples = 4;
+        WrFrameRequest request = request_of(&set);
+        request.dials = &dials;
+        Shot shot = shoot_set(&request, 2, "auto");
+        assert_true(wr_reference_render(&wanted, pool, &reference, &err));
+        int off = 0;
+        double sum = 0;
+        for (int i = 0; i < W * H * 4; i++) {
+            const double d = fabs(reference.rgba[i] - (double)shot.frame.rgba[i]);
+            off += d > 1e-3;
+            sum += d;
+        }
+        assert_in_range(off, 0, W * H * 4 / 50); /* outlines: a mesh and single precision */
+        assert_true(sum < 1e-3 * W * H * 4);
+        wr_reference_fini(&reference);
+        put_away(&shot);
+        put_set_away(&set);
+    }
+    wr_pool_free(pool);
+}
+
 static void a_pointer_finds_what_is_seen(void **state)
 {
     (void)state;
@@ -441,6 +483,7 @@ int main(void)
         cmocka_unit_test(samples_are_those_of_a_larger_picture),
         cmocka_unit_test(parts_of_the_picture_are_the_wholes),
         cmocka_unit_test(edits_of_a_resting_view),
+        cmocka_unit_test(the_reference_sees_the_same),
         cmocka_unit_test(a_pointer_finds_what_is_seen),
         cmocka_unit_test(the_hidden_costs_nothing),
         cmocka_unit_test(far_away_it_is_as_near),

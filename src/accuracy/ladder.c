@@ -26,6 +26,7 @@ bool wr_bench_frame(const WrBench *bench, const WrScene *scene, float *normals, 
 {
     const WrLadderRequest *request = bench->request;
     WrFrameRequest wanted = { .field = request->field,
+                              .fields = request->fields,
                               .scene = scene,
                               .width = request->width,
                               .height = request->height,
@@ -242,6 +243,7 @@ bool wr_bench_reference(const WrLadderRequest *request, WrPool *pool, WrReferenc
                         WrError *err)
 {
     WrReferenceRequest wanted = { .field = request->field,
+                                  .fields = request->fields,
                                   .scene = request->scene,
                                   .width = request->width,
                                   .height = request->height,

@@ -68,6 +68,7 @@ typedef struct WrLadder {
 } WrLadder;
 
 typedef struct WrLadderRequest {
+    const WrField *const *fields; /* as in WrFrameRequest; NULL: `field` is that of all objects */
     const WrField *field;
     const WrScene *scene;
     int width, height; /* pixels */

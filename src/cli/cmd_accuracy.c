@@ -7,6 +7,7 @@
 #include "cli/contest.h"
 #include "command/session.h"
 #include "document/document.h"
+#include "document/tables.h"
 #include "hardcases/hardcases.h"
 #include "image/image.h"
 #include "scene/scene.h"
@@ -116,6 +117,7 @@ typedef struct Work {
     Differences differences;
     bool terminal, faulty; /* faulty: a rung told that the program is at fault */
     WrText text;           /* the answer */
+    WrTables *tables;      /* of the scene's objects; owned */
 } Work;
 
 static void prepare(const WrCli *cli, WrSession *session, Work *work)
@@ -124,7 +126,9 @@ static void prepare(const WrCli *cli, WrSession *session, Work *work)
     work->terminal = wr_process_has_terminal();
     work->differences.folder = cli->differences;
     work->progress = (WrProgress){ (volatile int *)cli->cancel, report_progress, &work->terminal };
+    work->tables = wr_document_tables(document, document->scene, NULL, cli->pool);
     work->request = (WrLadderRequest){ .field = wr_document_composite(document, cli->pool),
+                                       .fields = wr_tables_fields(work->tables),
                                        .scene = document->scene,
                                        .width = cli->sized ? cli->width : SIDE,
                                        .height = cli->sized ? cli->height : SIDE,
@@ -215,6 +219,7 @@ int wr_cli_accuracy(const WrCli *cli)
     if (work.faulty) status = WR_EXIT_FAILED;
     wr_free(work.differences.rgb);
     wr_text_fini(&work.text);
+    wr_tables_free(work.tables);
     wr_session_free(session);
     return status;
 }

@@ -5,6 +5,7 @@
 #include "base/pool.h"
 #include "render/frame.h"
 #include "render/reference_shade.h"
+#include "scene/objects.h"
 #include "system/clock.h"
 
 #include <math.h>
@@ -13,9 +14,16 @@
 #define SIZE_MAX_PIXELS 4096
 #define SAMPLES_MAX 64
 
+/* The objects that are shown: of each sample the nearest is seen. */
+typedef struct Set {
+    WrReferenceStage stage[WR_OBJECTS_MAX];
+    WrScene *part[WR_OBJECTS_MAX]; /* own */
+    int count;
+} Set;
+
 /* One picture of k x k samples a pixel. */
 typedef struct Pass {
-    const WrReferenceStage *stage;
+    const Set *set;
     const WrReferenceRequest *request;
     int k;
     double *rgba;   /* [height][width][4] */
@@ -46,6 +54,19 @@ static double pair_sum(double *values, int count)
     return count > 0 ? values[0] : 0;
 }
 
+static bool sample_set(const Set *set, double x, double y, WrReferenceSample *out)
+{
+    bool any = false;
+    for (int i = 0; i < set->count; i++) {
+        WrReferenceSample sample;
+        if (!wr_reference_sample(&set->stage[i], x, y, &sample)) continue;
+        if (any && !(sample.depth < out->depth)) continue;
+        any = true;
+        *out = sample;
+    }
+    return any;
+}
+
 /* The mean of k x k intensities, premultiplied, and how many of them hit. */
 static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t *lost)
 {
@@ -55,7 +76,7 @@ static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t
     for (int j = 0; j < k; j++) {
         for (int i = 0; i < k; i++) {
             WrReferenceSample sample = { .rgb = { 0, 0, 0 } };
-            if (wr_reference_sample(pass->stage, x + (i + 0.5) / k, y + (j + 0.5) / k, &sample)) {
+            if (sample_set(pass->set, x + (i + 0.5) / k, y + (j + 0.5) / k, &sample)) {
                 hits++;
                 *lost += sample.lost;
             }
@@ -78,7 +99,7 @@ static void render_row(int y, int worker, void *ctx)
         if (!wanted(request, x, y)) continue;
         sample_pixel(pass, x, y, pass->rgba + 4 * (row + (size_t)x), &pass->lost[y]);
         WrReferenceSample centre;
-        if (!pass->normal || !wr_reference_sample(pass->stage, x + 0.5, y + 0.5, &centre)) continue;
+        if (!pass->normal || !sample_set(pass->set, x + 0.5, y + 0.5, &centre)) continue;
         double *n = pass->normal + 3 * (row + (size_t)x);
         n[0] = centre.normal.x, n[1] = centre.normal.y, n[2] = centre.normal.z;
     }
@@ -137,10 +158,10 @@ static bool check(const WrReferenceRequest *request, WrError *err)
 }
 
 /* One picture at k into `rgba`, which is cleared first. */
-static bool render_pass(const WrReferenceStage *stage, const WrReferenceRequest *request, int k,
-                        WrPool *pool, WrReference *out, double *rgba, WrError *err)
+static bool render_pass(const Set *set, const WrReferenceRequest *request, int k, WrPool *pool,
+                        WrReference *out, double *rgba, WrError *err)
 {
-    Pass pass = { stage, request, k, rgba, out->normal, NULL };
+    Pass pass = { set, request, k, rgba, out->normal, NULL };
     if (out->samples > 0) pass.normal = NULL; /* the first picture found the normals */
     memset(rgba, 0, 4 * (size_t)request->width * (size_t)request->height * sizeof *rgba);
     pass.lost = wr_alloc((size_t)request->height, sizeof *pass.lost);
@@ -154,7 +175,7 @@ static bool render_pass(const WrReferenceStage *stage, const WrReferenceRequest 
 }
 
 /* Doubles k until the picture stands still or the limit is reached. */
-static bool refine(const WrReferenceStage *stage, const WrReferenceRequest *request, WrPool *pool,
+static bool refine(const Set *set, const WrReferenceRequest *request, WrPool *pool,
                    WrReference *out, WrError *err)
 {
     const int most = request->most > 0 ? request->most : request->first > 32 ? 64 : 32;
@@ -166,9 +187,9 @@ static bool refine(const WrReferenceStage *stage, const WrReferenceRequest *requ
         finer = wr_try_alloc(pixels, 4 * sizeof *finer, "the reference's picture", err);
         if (!finer) return false;
     }
-    bool good = render_pass(stage, request, k, pool, out, out->rgba, err);
+    bool good = render_pass(set, request, k, pool, out, out->rgba, err);
     while (good && !out->converged && 2 * out->samples <= most) {
-        good = render_pass(stage, request, 2 * out->samples, pool, out, finer, err);
+        good = render_pass(set, request, 2 * out->samples, pool, out, finer, err);
         if (!good) break;
         compare(request, out->rgba, finer, out);
         double *coarse = out->rgba;
@@ -180,6 +201,31 @@ static bool refine(const WrReferenceStage *stage, const WrReferenceRequest *requ
     return good;
 }
 
+static bool make_set(Set *set, const WrReferenceRequest *request, WrPool *pool, WrError *err)
+{
+    const WrScene *scene = request->scene;
+    bool good = true;
+    for (int i = 0; i < wr_scene_object_count(scene) && good; i++) {
+        if (wr_scene_object(scene, i)->hidden) continue;
+        const WrField *own = request->fields ? request->fields[i] : NULL;
+        WrScene *part = wr_scene_part(scene, i, (double)request->width / request->height);
+        set->part[set->count] = part;
+        good = wr_reference_stage_init(&set->stage[set->count++], own ? own : request->field, part,
+                                       request->turn_deg, request->width, request->height, true,
+                                       pool, err);
+    }
+    return good;
+}
+
+static void free_set(Set *set)
+{
+    for (int i = 0; i < set->count; i++) {
+        wr_reference_stage_fini(&set->stage[i]);
+        wr_scene_free(set->part[i]);
+    }
+    wr_free(set);
+}
+
 bool wr_reference_render(const WrReferenceRequest *request, WrPool *pool, WrReference *out,
                          WrError *err)
 {
@@ -189,15 +235,13 @@ bool wr_reference_render(const WrReferenceRequest *request, WrPool *pool, WrRefe
         .width = request->width, .height = request->height, .last_rms = NAN, .last_max = NAN
     };
     const size_t pixels = (size_t)request->width * (size_t)request->height;
-    WrReferenceStage stage = { 0 };
+    Set *set = wr_alloc(1, sizeof *set);
     made.rgba = wr_try_alloc(pixels, 4 * sizeof *made.rgba, "the reference's picture", err);
     if (made.rgba)
         made.normal = wr_try_alloc(pixels, 3 * sizeof *made.normal, "the reference's normals", err);
-    bool good = made.normal &&
-                wr_reference_stage_init(&stage, request->field, request->scene, request->turn_deg,
-                                        request->width, request->height, true, pool, err) &&
-                refine(&stage, request, pool, &made, err);
-    wr_reference_stage_fini(&stage);
+    bool good =
+        made.normal && make_set(set, request, pool, err) && refine(set, request, pool, &made, err);
+    free_set(set);
     if (!good) {
         wr_reference_fini(&made);
         return false;

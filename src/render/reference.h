@@ -25,8 +25,9 @@ typedef struct WrScene WrScene;
 
 typedef struct WrReferenceRequest {
     const WrField *field; /* borrowed for the call; may be NULL where the scene's F is a formula */
-    const WrScene *scene; /* its dials are not looked at */
-    int width, height;    /* pixels, 1..4096 each */
+    const WrField *const *fields; /* as in WrFrameRequest: of the scene's objects */
+    const WrScene *scene;         /* its dials are not looked at */
+    int width, height;            /* pixels, 1..4096 each */
     double turn_deg;
     int first; /* samples a side to begin with; a power of two, 1..64; 0: 4 */
     int most;  /* and where to stop, first..64; 0: 32. k stays at a power of two */

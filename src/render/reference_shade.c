@@ -188,6 +188,7 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
     out->normal = v3_scale(perturbed, wr_reference_side(view, &at));
     out->lost = hit.lost;
+    out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->forward);
     wr_reference_light(stage, at.p, hit.u, hit.v, out->normal, out->rgb);
     return true;
 }

@@ -41,6 +41,7 @@ typedef struct WrReferenceSample {
     double rgb[3];
     WrVec3 normal; /* n' towards the viewer's side */
     bool lost;
+    double depth; /* before the eye, along the view, in the world */
 } WrReferenceSample;
 /* The reference's intensity at (x, y), pixels from the top left corner; false where the object is not. */
 bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out);

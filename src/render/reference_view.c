@@ -74,6 +74,7 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     const double aspect = (double)width / height;
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
     view->perspective = !place.orthographic;
+    view->size = place.size;
     view->eye = point_to_object(&place, place.eye);
     view->right = world_to_object(&place, place.right);
     view->up = world_to_object(&place, place.up);

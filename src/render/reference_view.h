@@ -25,6 +25,7 @@ typedef struct WrReferenceView {
     WrVec3 eye, right, up, forward, middle; /* middle: where the axis of view passes the object */
     WrVec3 toward;                          /* -forward */
     double half_w, half_h, depth;           /* of the view, at depth 1 or whole; of `middle` */
+    double size;                            /* world units per unit of the object */
     double s_min;                           /* of rays: where the near plane stands */
     bool perspective;
     bool cull; /* a closed surface seen from outside hides its back */
