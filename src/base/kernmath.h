@@ -150,27 +150,6 @@ static inline float wr_pow_below_f(float x, float below, float s)
     return s > 0.0f ? p : 1.0f;
 }
 
-/* The same within 2e-5, for arithmetic that is told to be fast: fewer terms, which do not wait for each other. */
-static inline float wr_pow_below_fast_f(float x, float below, float s)
-{
-    x = x > 1.0f ? 1.0f : x;
-    float tiny = x > 1.2e-38f ? x : 1.2e-38f;
-    int32_t bits = wr_float_bits(tiny), e = (bits - 0x3f3504f3) >> 23;
-    float f = wr_bits_float(bits - (int32_t)((uint32_t)e << 23)) - 1.0f;
-    f = e == 0 ? -(below > 0.0f ? below : 0.0f) : f;
-    float f2 = f * f;
-    float p = (1.44270044f + f * -0.721195752f) + f2 * (0.479925573f + f * -0.366925771f) +
-              f2 * f2 * (0.316898187f + f * -0.202289264f);
-    float power = s * ((float)e + f * p);
-    power = power > -101.0f ? power : -101.0f;
-    float n = (float)((int32_t)(power + 126.5f) - 126), g = power - n, g2 = g * g;
-    float q =
-        (1.0f + g * 0.693136734f) + g2 * ((0.240225301f + g * 0.0558382829f) + g2 * 0.00965671029f);
-    q = wr_bits_float(wr_float_bits(q) + (int32_t)((uint32_t)(int32_t)n << 23));
-    q = (power < -100.0f) | (x <= 1.2e-38f) ? 0.0f : q;
-    return s > 0.0f ? q : 1.0f;
-}
-
 static inline float wr_pow01_f(float x, float s)
 {
     return wr_pow_below_f(x, 1.0f - x, s);

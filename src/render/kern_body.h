@@ -53,11 +53,7 @@
 #define WR_FORMULA_FLOAT
 #include "surface/formula.h"
 #define r_atan2_turns wr_atan2_turns_f
-#ifdef WR_KERN_FAST
-#define r_pow_below wr_pow_below_fast_f
-#else
 #define r_pow_below wr_pow_below_f
-#endif
 #define r_scale_down wr_scale_down_f
 #define r_floor floorf
 #define ROUNDED K_(0x1p-18)
