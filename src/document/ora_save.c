@@ -1,3 +1,4 @@
+#include "document/document_file.h"
 #include "document/ora.h"
 
 #include "base/array.h"

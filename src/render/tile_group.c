@@ -27,6 +27,22 @@ static void find_touching(const WrTileJob *jobs, int count, WrTilePart whole, To
     }
 }
 
+/* What any of them may be on. */
+static WrTilePart united(const Touching *touching)
+{
+    WrTilePart all = touching->part[0];
+    for (int i = 1; i < touching->count; i++) {
+        const WrTilePart part = touching->part[i];
+        const int x1 = all.x + all.w, y1 = all.y + all.h;
+        const int right = part.x + part.w, bottom = part.y + part.h;
+        all.x = part.x < all.x ? part.x : all.x;
+        all.y = part.y < all.y ? part.y : all.y;
+        all.w = (right > x1 ? right : x1) - all.x;
+        all.h = (bottom > y1 ? bottom : y1) - all.y;
+    }
+    return all;
+}
+
 /* Emptied samples of a tile, k x k a pixel. */
 static void empty(int k, WrTilePart whole, bool nearest, WrTileScratch *scratch)
 {
@@ -95,20 +111,20 @@ static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *sc
 }
 
 void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int count,
-                          WrTilePart whole, int index, WrTileScratch *scratch)
+                          WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const int64_t before = scratch->shaded;
     const int k = canvas->samples;
-    const WrTilePart none = { whole.x, whole.y, 0, 0 };
     Touching touching;
     double start = wr_clock_seconds();
-    find_touching(jobs, count, whole, &touching);
-    if (canvas->map) wr_tile_start_map(canvas, whole, scratch);
-    const bool drawn = touching.count > 0;
-    wr_tile_clear(canvas, whole, drawn ? whole : none);
-    if (drawn) empty(k, whole, touching.count > 1, scratch);
+    find_touching(jobs, count, tile, &touching);
+    if (canvas->map) wr_tile_start_map(canvas, tile, scratch);
+    const WrTilePart none = { tile.x, tile.y, 0, 0 };
+    const WrTilePart whole = touching.count > 0 ? united(&touching) : none;
+    wr_tile_clear(canvas, tile, whole);
+    empty(k, whole, touching.count > 1, scratch);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
-    if (!drawn) return;
+    if (touching.count == 0) return;
     if (canvas->normals && k > 1) {
         draw(&touching, 1, whole, false, index, scratch);
         empty(k, whole, touching.count > 1, scratch);
