@@ -42,8 +42,8 @@ says 'each scheme' '.sections[1].rows | length == 6 and all(.base == "central")'
 says 'surfaces with and without colour' '[.sections[0].rows[].name] | contains(["bezier texture",
     "bezier bump+texture", "torus texture", "torus bump+texture"])'
 # Every effect ran where the row says so, and did not in the row beside it.
-says 'each effect' '.sections[4].rows | length == 56 and
-    all(.ran == (.name | startswith("without ") | not)) and (map(.effect) | unique | length == 28)'
+says 'each effect' '.sections[4].rows | length == 64 and
+    all(.ran == (.name | startswith("without ") | not)) and (map(.effect) | unique | length == 32)'
 says 'a view at rest draws nothing, and with a dab less than all' '[.sections[7].rows[].samples] |
     .[1] == 0 and .[2] > 0 and .[2] <= .[0] and .[4] == 0'
 says 'full pictures take as many samples' '[.sections[6].rows[] | .samples > 0] | all'

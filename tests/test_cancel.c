@@ -101,15 +101,20 @@ static WrSession *busy_session(WrPool *pool, int side)
 
 /* "NAME FORM", or its beginning: done at once whatever the table's size, or not a command of the table's. */
 static const char *const instant[] = {
-    "table",        "view",       "surface",
-    "rotate",       "analytic",   "bump",
-    "replicate",    "material",   "light",
-    "camera",       "dials",      "tolerance",
-    "script",       "history",    "layer add",
-    "layer use",    "layer move", "layer rename",
-    "layer set",    "layer solo", "layer duplicate",
-    "layer delete", "select all", "select none",
-    "fill",         "open",       "redo",
+    "object",       "table",
+    "view",         "surface",
+    "rotate",       "analytic",
+    "bump",         "replicate",
+    "material",     "light",
+    "camera",       "dials",
+    "tolerance",    "script",
+    "history",      "layer add",
+    "layer use",    "layer move",
+    "layer rename", "layer set",
+    "layer solo",   "layer duplicate",
+    "layer delete", "select all",
+    "select none",  "fill",
+    "open",         "redo",
 };
 
 /* Large work. A file that a line reads is made before. */

@@ -100,14 +100,15 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                          .help = "height of the view; 0: so that the object just "
                                                  "fits" },
     [WR_ROW(WR_SCENE_PARAM_AT)] = { "object", "set", "at", IN_SCENE(at), PLACE_RANGE,
-                                    .unit = "scene units", .label = "Place",
+                                    .planned = true, .unit = "scene units", .label = "Place",
                                     .help = "where its centre stands in the world" },
     [WR_ROW(WR_SCENE_PARAM_SIZE)] = { "object", "set", "size", IN_SCENE(size), .components = 1,
-                                      .low = 1e-9, .high = 1e9, .fallback = { 1 }, .label = "Size",
+                                      .planned = true, .low = 1e-9, .high = 1e9, .fallback = { 1 },
+                                      .label = "Size",
                                       .help = "times its surface's own size; heights grow with it",
                                       SLIDER(0.1, 4, 3), .logarithmic = true },
     [WR_ROW(WR_SCENE_PARAM_HIDDEN)] = { "object", "set", "hidden", IN_SCENE(hidden),
-                                        .help = "not in pictures" },
+                                        .planned = true, .help = "not in pictures" },
 };
 WR_ROWS_END(wr_scene_params, WR_SCENE_PARAM_COUNT);
 

@@ -186,6 +186,7 @@ static void commit_camera(WrApp *app)
 static void commit_orbit(WrApp *app)
 {
     if (!app->live) {
+        app->hand->grab = WR_GRAB_NONE; /* a command would end what is held */
         if (!app->patch->pans && several(app)) wr_patch_choose(app, &app->hand->start);
         return;
     }

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Several objects on the patch, under an X server of its own: a click chooses, handles place, the brush reaches the layer
+# that the object under it wears.  window_objects.sh PROGRAM SOURCE-FOLDER
+set -uo pipefail
+program=$1
+source=$2
+folder=$(mktemp -d) || exit 1
+# shellcheck source=tests/window_help.sh
+source "$source/tests/window_help.sh"
+
+serve
+printf '%s\n' 'table 256x256' 'layer rename 1 first' 'layer add second' 'object set name=left at=-0.3,0,0 size=0.5 layer=first' \
+    'object add right at=0.3,0,0 size=0.5 layer=second' 'surface sphere R=0.5' 'camera orthographic eye=0,0,5 size=2' >two.wrinkle
+printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'range_follows 0' 'radius 9' 'hardness 1' 'strength 0.5' 'tab 0' \
+    'lower 0.42' >config/wrinkle/window.conf
+save_as() { answer_file "$1" ctrl+shift+s; }
+
+start two.wrinkle
+# The patch's middle lies about here at this size of the window; a unit of the scene is about 340 pixels.
+mx=726 my=422
+click $((mx - 100)) $my
+becomes 'layer use 1' "a click on the left one"
+click $((mx + 100)) $((my - 30))
+becomes 'layer use 2' "a click on the right one"
+
+# The disc in the middle of its ring.
+drag $((mx + 104)) $my 3 -2 10
+becomes 'object set at=0.*' "the chosen one moved"
+read -r x y < <(newest | sed -E 's/.*at=([-0-9.]+),([-0-9.]+),.*/\1 \2/')
+awk -v x="$x" -v y="$y" 'BEGIN { exit !(x > 0.34 && x < 0.45 && y > 0.02 && y < 0.12) }' || complain "it went to $x,$y"
+
+# A drag beside all of them goes round.
+drag $mx $((my + 250)) 2 0 20
+becomes 'camera orthographic eye=*' "the camera goes round"
+key ctrl+z
+rest
+
+# Painting reaches the layer of the object under the brush.
+key a
+drag $((mx - 110)) $my 3 1 10
+becomes 'stroke *' "a stroke on the left one"
+home
+save_as painted.exr
+"$program" inspect painted.exr --json >painted.json
+jq -e '.layer_list | map(select(.name == "first" and .active)) | length == 1' painted.json >/dev/null ||
+    complain "the layer of the object under the brush is not active: $(jq -c .layer_list painted.json)"
+key ctrl+q
+ends 0
+[[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }
