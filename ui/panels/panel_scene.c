@@ -55,7 +55,7 @@ static void surface_texts(WrApp *app)
     for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name; k++) {
         if (hand->key != shape->key)
             snprintf(hand->text[k], sizeof hand->text[k], "%s", shape->data->text[k]);
-        char id[16];
+        char id[24];
         snprintf(id, sizeof id, "##text%d", k);
         wr_gui_label(info->texts[k].label);
         if (wr_gui_text_field(id, 0, hand->text[k], sizeof hand->text[k], false)) done = true;
