@@ -143,7 +143,7 @@ static void files_bring_them_back(void **state)
     float before[60 * 40 * 4], after[60 * 40 * 4];
     uint8_t rgb[2][5 * 3 * 3];
     for (int i = 0; i < 2; i++) {
-        char line[40], path[16];
+        char line[64], path[32];
         for (int k = 0; k < 45; k++) rgb[i][k] = (uint8_t)(37 * k + 91 * i);
         snprintf(path, sizeof path, "c%d.png", i);
         if (!wr_image_write_pixels(path, 5, 3, 3, WR_PIXEL_U8, false, rgb[i], &err))
