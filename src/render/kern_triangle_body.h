@@ -60,11 +60,40 @@ ALWAYS VEC before_horizon(VEC n, VEC face, VEC to_viewer)
     return choose(lift > K_(0), lifted, n);
 }
 
+/* What all samples of a strip share, in scalars: an array read in the loop, or a choice by a flag behind a pointer, would
+   keep it from vectorising. */
+typedef struct Meeting {
+    VEC q0, qx, qy, d0, dx, dy;
+    VEC eye;   /* or the way towards it */
+    REAL move; /* how much of the place is added to it: -1 in perspective, else 0 */
+    REAL scale;
+} Meeting;
+
+ALWAYS VEC v_read(const REAL *from)
+{
+    return (VEC){ from[0], from[1], from[2] };
+}
+
+ALWAYS Meeting meeting_of(const RAYS *rays, REAL scale)
+{
+    return (Meeting){ v_read(rays->q0),
+                      v_read(rays->qx),
+                      v_read(rays->qy),
+                      v_read(rays->d0),
+                      v_read(rays->dx),
+                      v_read(rays->dy),
+                      v_read(rays->perspective ? rays->eye : rays->toward),
+                      rays->perspective ? K_(-1) : K_(0),
+                      scale };
+}
+
 /* One sample. smooth: normals are interpolated; mapped: u and v; sloped: their gradients. */
-ALWAYS void meet_triangle(const RAYS *rays, const Corners *corners, REAL scale, const bool smooth,
+ALWAYS void meet_triangle(const Meeting *all, const Corners *corners, const bool smooth,
                           const bool mapped, const bool sloped, STRIP *strip, int i)
 {
-    VEC q = RAY_Q(rays, strip->y[i], strip->x[i]), d = RAY_D(rays, strip->y[i], strip->x[i]);
+    const REAL x = strip->x[i], y = strip->y[i], scale = all->scale;
+    VEC q = v_mad(v_mad(all->q0, all->qy, y), all->qx, x);
+    VEC d = v_mad(v_mad(all->d0, all->dy, y), all->dx, x);
     VEC a = corner_p(corners, 0, i, scale);
     VEC e1 = v_sub(corner_p(corners, 1, i, scale), a);
     VEC e2 = v_sub(corner_p(corners, 2, i, scale), a);
@@ -88,9 +117,7 @@ ALWAYS void meet_triangle(const RAYS *rays, const Corners *corners, REAL scale, 
         VEC n1 = v_sub(corner_n(corners, 1, i), n), n2 = v_sub(corner_n(corners, 2, i), n);
         n = unit_or(v_mad(v_mad(n, n1, l1), n2, l2), face);
     }
-    const REAL *at = rays->perspective ? rays->eye : rays->toward;
-    VEC eye = { at[0], at[1], at[2] };
-    n = before_horizon(n, face, v_mad(eye, p, rays->perspective ? K_(-1) : K_(0)));
+    n = before_horizon(n, face, v_mad(all->eye, p, all->move));
     STORE3(strip, n, i, n);
     strip->n_len[i] = K_(1);
     if (!mapped) return;
@@ -110,7 +137,7 @@ ALWAYS void meet_triangle(const RAYS *rays, const Corners *corners, REAL scale, 
 #define MEET(smooth, mapped, sloped)                                                               \
     SIMD for (int i = 0; i < count; i++)                                                           \
     {                                                                                              \
-        meet_triangle(rays, &corners, scale, smooth, mapped, sloped, strip, i);                    \
+        meet_triangle(&all, &corners, smooth, mapped, sloped, strip, i);                           \
     }
 
 /* Of triangles whose numbers stand in u. Where u and v are not wanted they are left as they are. */
@@ -118,7 +145,7 @@ FLAT static void kern_meet(const RAYS *rays, const WrTriangleLook *look, bool sm
                            bool sloped, STRIP *strip)
 {
     const int count = strip->count;
-    const REAL scale = (REAL)look->scale;
+    const Meeting all = meeting_of(rays, (REAL)look->scale);
     Corners corners;
     gather_corners(look, strip, &corners);
     if (sloped && smooth) {
