@@ -94,12 +94,14 @@ static void expect_alike(WrScene *scene, const WrField *field, const char *what)
     put_away(&single);
 }
 
-static void expect_surface_alike(int surface, const WrField *field)
+/* part: of an ordinary run, every other setting; the other table takes the rest. */
+static void expect_surface_alike(int surface, int part, const WrField *field)
 {
     const char *name = wr_surfaces[surface]->name;
     for (int k = 0; k < WR_SCHEME_COUNT * WR_BUMP_COUNT * FILTERS; k++) {
         const int scheme = k % WR_SCHEME_COUNT, mode = k / WR_SCHEME_COUNT % WR_BUMP_COUNT;
         const Filter *filter = &filters[k / (WR_SCHEME_COUNT * WR_BUMP_COUNT)];
+        if (!getenv("WR_FULL") && (scheme + mode + part) % 2) continue;
         WrScene *scene = scene_of(name);
         scene->replicate_u = 1.3, scene->replicate_v = 0.7;
         scene->height = 0.0123;
@@ -124,7 +126,7 @@ static void every_scheme_mode_surface_and_filter_is_the_same_in_double(void **st
     for (int k = 0; k < 2; k++) {
         WrField *field = random_field(sizes[k][0], sizes[k][1], 5 + (uint64_t)k);
         for (int surface = 0; surface < WR_SURFACE_COUNT; surface++)
-            expect_surface_alike(surface, field);
+            expect_surface_alike(surface, k, field);
         wr_field_free(field);
     }
 }
