@@ -207,6 +207,10 @@ expect 1 inspect --do undo
 has err 'nothing to undo'
 expect 0 inspect --at 0.5,0.5 --do 'surface cube' --face 5 --json
 expect 1 inspect --at 0.5,0.5 --do 'surface cube' --face 6
+# An object that wears one layer: F is that layer's.
+expect 0 inspect --at 0.3,0.6 --json --do 'table 8x8' --do 'fill 1' --do 'layer add other' --do 'fill 2' \
+    --do 'object set layer=other' --do 'bump height=1'
+is "F of an object that wears one layer" "$(jq .F out)" 2
 rm -f points
 empty 'inspect'
 

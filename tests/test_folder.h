@@ -11,6 +11,25 @@ static inline int enter_folder(void **state)
     return *state ? chdir(folder) : -1;
 }
 
+/* The same for each test of a group: a folder of its own, by cmocka_unit_test_setup_teardown(test, enter_own_folder,
+   leave_own_folder). */
+static inline int enter_own_folder(void **state)
+{
+    char name[] = "/tmp/wrinkle-test-XXXXXX";
+    if (!mkdtemp(name) || chdir(name) != 0) return -1;
+    *state = strdup(name);
+    return *state ? 0 : -1;
+}
+
+static inline int leave_own_folder(void **state)
+{
+    char command[100];
+    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
+    free(*state);
+    if (chdir("/") != 0) return -1;
+    return system(command);
+}
+
 /* With a folder `state` in it for what the program keeps, where nobody looks for files left behind. */
 static inline int enter_state_folder(void **state)
 {

@@ -177,6 +177,27 @@ static void files_bring_them_back(void **state)
     wr_session_free(session);
 }
 
+/* What a step of the history costs: a picture counts where no object of the other state has it. */
+static void pictures_count_once_whichever_object_is_at_hand(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    uint8_t rgb[40 * 30 * 3] = { 9 };
+    const size_t bytes = 40 * 30 * 3 * sizeof(float);
+    WrSession *session = session_of(three);
+    if (!wr_image_write_pixels("large.png", 40, 30, 3, WR_PIXEL_U8, false, rgb, &err))
+        fail_msg("%s", err.text);
+    must_run(session, "object choose band");
+    must_run(session, "colour large.png");
+    const int last = wr_session_history_count(session) - 1;
+    assert_in_range(wr_session_history_step_bytes(session, last), bytes, 3 * bytes);
+    must_run(session, "object choose box");
+    assert_in_range(wr_session_history_step_bytes(session, last + 1), 0, bytes - 1);
+    must_run(session, "object remove band");
+    assert_in_range(wr_session_history_step_bytes(session, last + 2), bytes, 3 * bytes);
+    wr_session_free(session);
+}
+
 /* A layer of an object's own is drawn there alone, as if nothing else were in the document. */
 static void a_layer_of_its_own_shows_alone(void **state)
 {
@@ -192,7 +213,11 @@ static void a_layer_of_its_own_shows_alone(void **state)
     draw(session, alone);
     assert_memory_equal(own, alone, sizeof own);
     must_run(session, "undo");
-    must_run(session, "layer delete marks"); /* it is gone: all layers', and no failure */
+    must_run(session, "layer rename marks strokes"); /* it is worn under its new name */
+    draw(session, alone);
+    assert_memory_equal(own, alone, sizeof own);
+    assert_string_equal(scene_of(session)->layer, "strokes");
+    must_run(session, "layer delete strokes"); /* it is gone: all layers', and no failure */
     must_run(session, "layer set 1 visible=on");
     draw(session, own);
     assert_memory_not_equal(own, alone, sizeof own);
@@ -206,6 +231,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_is_told),
         cmocka_unit_test(each_can_be_undone),
         cmocka_unit_test(files_bring_them_back),
+        cmocka_unit_test(pictures_count_once_whichever_object_is_at_hand),
         cmocka_unit_test(a_layer_of_its_own_shows_alone),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

@@ -88,3 +88,25 @@ static inline float worst_difference(const Shot *a, const Shot *b)
     }
     return worst;
 }
+
+/* A view at rest after each of a few edits of the table has the bits of a new picture (E29). */
+static inline void expect_refreshed(const WrScene *scene, int which)
+{
+    WrField *field = random_field(300, 200, 4);
+    Shot kept = shoot(scene, field, 140, 112, 2, "auto", false);
+    const WrFrameRequest request = {
+        .field = field, .scene = scene, .width = 140, .height = 112, .turn_deg = 15, .keep = true
+    };
+    assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
+    TestRandom random = { 5 };
+    for (int step = 0; step < 4; step++) {
+        wr_field_set(field, (int)(300 * test_random(&random)), (int)(200 * test_random(&random)),
+                     (float)(2 * test_random(&random)));
+        assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
+        Shot fresh = shoot(scene, field, 140, 112, 2, "auto", false);
+        if (!same_picture(&kept, &fresh)) fail_msg("case %d, step %d", which, step);
+        put_away(&fresh);
+    }
+    put_away(&kept);
+    wr_field_free(field);
+}

@@ -288,29 +288,10 @@ static void a_resting_view_is_refreshed_to_the_bits_of_a_new_picture(void **stat
 {
     (void)state;
     for (int k = 0; k < 6; k++) {
-        WrField *field = random_field(300, 200, 4);
         WrScene *scene = mixed_scene(k * 3);
         scene->replicate_u = scene->replicate_v = 1;
-        Shot kept = shoot(scene, field, 140, 112, 2, "auto", false);
-        WrFrameRequest request = { .field = field,
-                                   .scene = scene,
-                                   .width = 140,
-                                   .height = 112,
-                                   .turn_deg = 15,
-                                   .keep = true };
-        assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
-        TestRandom random = { 5 };
-        for (int step = 0; step < 4; step++) {
-            wr_field_set(field, (int)(300 * test_random(&random)),
-                         (int)(200 * test_random(&random)), (float)(2 * test_random(&random)));
-            assert_true(wr_renderer_frame(kept.renderer, &request, &kept.frame, NULL));
-            Shot fresh = shoot(scene, field, 140, 112, 2, "auto", false);
-            if (!same_picture(&kept, &fresh)) fail_msg("case %d, step %d", k, step);
-            put_away(&fresh);
-        }
-        put_away(&kept);
+        expect_refreshed(scene, k);
         wr_scene_free(scene);
-        wr_field_free(field);
     }
 }
 

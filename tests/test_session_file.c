@@ -1,5 +1,6 @@
 /* Sessions and files: scripts, pictures, documents, colour pictures, outputs. */
 #include "test.h"
+#include "test_folder.h"
 #include "test_session_help.h"
 
 #include "base/error.h"
@@ -17,24 +18,6 @@
 
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* Each test works in an empty folder of its own. */
-static int enter_folder(void **state)
-{
-    char name[] = "/tmp/wrinkle-session-XXXXXX";
-    if (!mkdtemp(name) || chdir(name) != 0) return -1;
-    *state = wr_strdup(name);
-    return 0;
-}
-
-static int leave_folder(void **state)
-{
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    wr_free(*state);
-    if (chdir("/") != 0) return -1;
-    return system(command);
-}
 
 typedef struct Notes {
     WrText text;
@@ -401,7 +384,7 @@ static void a_cancelled_script_stops_with_an_error(void **state)
     wr_session_free(s);
 }
 
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_own_folder, leave_own_folder)
 
 /* A document is looked at before it is trusted: what it says of its scene can neither write nor open files. */
 static void a_document_holds_no_commands_but_of_its_scene(void **state)

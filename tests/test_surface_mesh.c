@@ -1,6 +1,7 @@
 /* `surface mesh file=`: what a session tells of it, that documents of both kinds carry it, and that another content than a
    line was written for is an error. */
 #include "test.h"
+#include "test_folder.h"
 #include "test_session_help.h"
 
 #include "base/error.h"
@@ -14,24 +15,6 @@
 #include "surface/triangles.h"
 
 #include <unistd.h>
-
-/* Each test works in an empty folder of its own. */
-static int enter_folder(void **state)
-{
-    char name[] = "/tmp/wrinkle-mesh-XXXXXX";
-    if (!mkdtemp(name) || chdir(name) != 0) return -1;
-    *state = wr_strdup(name);
-    return 0;
-}
-
-static int leave_folder(void **state)
-{
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf '%s'", (char *)*state);
-    wr_free(*state);
-    if (chdir("/") != 0) return -1;
-    return system(command);
-}
 
 static void note(void *ctx, const char *text)
 {
@@ -168,10 +151,12 @@ static void another_content_is_an_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_mesh_is_told_of_and_undone, enter_folder, leave_folder),
-        cmocka_unit_test_setup_teardown(documents_carry_it, enter_folder, leave_folder),
-        cmocka_unit_test_setup_teardown(objects_share_one, enter_folder, leave_folder),
-        cmocka_unit_test_setup_teardown(another_content_is_an_error, enter_folder, leave_folder),
+        cmocka_unit_test_setup_teardown(a_mesh_is_told_of_and_undone, enter_own_folder,
+                                        leave_own_folder),
+        cmocka_unit_test_setup_teardown(documents_carry_it, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(objects_share_one, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(another_content_is_an_error, enter_own_folder,
+                                        leave_own_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

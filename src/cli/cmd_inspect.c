@@ -7,6 +7,7 @@
 #include "command/session.h"
 #include "document/blend.h"
 #include "document/document.h"
+#include "document/tables.h"
 #include "document/document_file.h"
 #include "field/field.h"
 #include "generate/noise_rows.h"
@@ -37,13 +38,14 @@ static WrVec3 scaled_d(const Quantities *q)
     return v3_scale(v3_unit(q->d, zero), size <= DBL_MAX ? size : DBL_MAX);
 }
 
-static void compute(const WrDocument *document, int face, double u, double v, Quantities *q)
+/* field: the table of the object at hand. */
+static void compute(const WrScene *scene, const WrField *field, int face, double u, double v,
+                    Quantities *q)
 {
-    const WrScene *scene = document->scene;
     WrSurfacePoint *p = &q->point;
     *q = (Quantities){ .u = u, .v = v };
     wr_surface_at(&scene->shape, face, u, v, p);
-    wr_scene_height(scene, wr_document_field(document), u, v, &q->f, &q->fu, &q->fv);
+    wr_scene_height(scene, field, u, v, &q->f, &q->fu, &q->fv);
     q->a = wr_bump_axis(p->pu, p->pv, q->fu, q->fv);
     q->d = wr_bump_d(p->n_unit, p->pu, p->pv, q->fu, q->fv);
     q->turned = scene->bump == WR_BUMP_INVARIANT;
@@ -228,7 +230,10 @@ static bool inspect_one(const WrCli *cli, const WrDocument *document, const WrNo
         add_noise(text, cli->json, noise, u, v);
         return true;
     }
-    compute(document, cli->face, u, v, &q);
+    WrTables *tables = wr_document_tables(document, document->scene, NULL, cli->pool);
+    const WrField *all = wr_document_field(document);
+    compute(document->scene, wr_tables_at_hand(tables, document->scene, all), cli->face, u, v, &q);
+    wr_tables_free(tables);
     add_point(text, cli->json, &q);
     return true;
 }

@@ -9,6 +9,7 @@
 #include "field/field.h"
 #include "field/ops.h"
 #include "field/select.h"
+#include "scene/objects.h"
 
 #include <string.h>
 
@@ -176,9 +177,13 @@ static bool layer_rename(WrSession *session, WrCall *call, WrError *err)
 {
     int index;
     if (!find(session, call, "N", &index, err)) return false;
-    WrLayer *layer = &session->state.document->layers[index];
+    const char *name = wr_call_arg(call, "NAME")->text;
+    WrDocument *document = session->state.document;
+    WrLayer *layer = &document->layers[index];
+    WrScene *scene = wr_scene_rename_layer(document->scene, layer->name, name);
+    if (scene) wr_session_replace_scene(session, scene); /* objects wear it still */
     wr_free(layer->name);
-    layer->name = wr_strdup(wr_call_arg(call, "NAME")->text);
+    layer->name = wr_strdup(name);
     return true;
 }
 

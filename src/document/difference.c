@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 
 #define TILE_BYTES (WR_TILE * WR_TILE * sizeof(float) + WR_ALIGN)
 
@@ -74,24 +74,54 @@ static size_t bytes_of(const WrField *field)
     return field ? wr_field_bytes(field) : 0;
 }
 
-static size_t mesh_bytes(const WrScene *before, const WrScene *after)
+/* Pictures and the mesh of one object. */
+#define OWN 3
+typedef struct Own {
+    const void *of[OWN];
+    size_t bytes[OWN];
+} Own;
+
+static size_t image_bytes(const WrImage *image)
 {
-    const WrTriangles *mesh = before->triangles ? before->triangles : after->triangles;
-    return before->triangles == after->triangles ? 0 : wr_scene_mesh_bytes(mesh);
+    if (!image) return 0;
+    return (size_t)image->width * (size_t)image->height * (size_t)image->channels * sizeof(float);
 }
 
-static size_t picture_bytes(const WrScene *before, const WrScene *after)
+static Own own_of(const WrScene *object)
 {
-    const WrImage *image = before->colour ? before->colour : after->colour;
-    if (!image || before->colour == after->colour) return 0;
-    return (size_t)image->width * (size_t)image->height * (size_t)image->channels * sizeof(float);
+    const WrTriangles *mesh = object->triangles;
+    return (Own){ .of = { object->colour, object->normals.image, mesh },
+                  .bytes = { image_bytes(object->colour), image_bytes(object->normals.image),
+                             mesh ? wr_scene_mesh_bytes(mesh) : 0 } };
+}
+
+static bool has(const WrScene *scene, const void *thing)
+{
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const Own own = own_of(wr_scene_object(scene, i));
+        for (int k = 0; k < OWN; k++)
+            if (own.of[k] == thing) return true;
+    }
+    return false;
+}
+
+/* What objects of the one hold and none of the other does. */
+static size_t own_bytes(const WrScene *scene, const WrScene *other)
+{
+    size_t bytes = 0;
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const Own own = own_of(wr_scene_object(scene, i));
+        for (int k = 0; k < OWN; k++)
+            if (own.of[k] && !has(other, own.of[k])) bytes += own.bytes[k];
+    }
+    return bytes;
 }
 
 size_t wr_document_difference(const WrDocument *before, const WrDocument *after)
 {
     Fields a = fields_of(before), b = fields_of(after);
-    size_t bytes = sizeof *before + picture_bytes(before->scene, after->scene) +
-                   mesh_bytes(before->scene, after->scene) +
+    size_t bytes = sizeof *before + own_bytes(before->scene, after->scene) +
+                   own_bytes(after->scene, before->scene) +
                    (size_t)before->layer_count * (sizeof(WrLayer) + 4 * WR_ALIGN);
     drop_equal(&a, &b);
     int k = 0;

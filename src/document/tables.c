@@ -74,6 +74,12 @@ bool wr_tables_same(const WrTables *a, const WrTables *b)
     return same;
 }
 
+const WrField *wr_tables_at_hand(const WrTables *tables, const WrScene *scene, const WrField *all)
+{
+    const WrField *own = tables ? tables->fields[scene->chosen] : NULL;
+    return own ? own : all;
+}
+
 const WrField *const *wr_tables_fields(const WrTables *tables)
 {
     return tables ? tables->fields : NULL;

@@ -29,6 +29,8 @@ WrTables *wr_document_tables(const WrDocument *document, const WrScene *scene, W
 WrTables *wr_tables_share(const WrTables *tables); /* NULL stays NULL */
 void wr_tables_free(WrTables *tables);             /* NULL is fine */
 bool wr_tables_same(const WrTables *a, const WrTables *b);
+/* Of the object at hand; `all`: where it has that of all layers. Borrowed from either. */
+const WrField *wr_tables_at_hand(const WrTables *tables, const WrScene *scene, const WrField *all);
 /* For WrFrameRequest.fields; NULL where there are none. */
 const WrField *const *wr_tables_fields(const WrTables *tables);
 void wr_table_cache_fini(WrTableCache *cache);

@@ -232,6 +232,26 @@ static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *reques
                                   .pyramid = pyramid };
 }
 
+/* The same for single precision, with the copies that it reads. */
+static WrLook narrowed(const WrLookd *look, const float *heights, const float *gradient)
+{
+    return (WrLook){ .heights = heights,
+                     .gradient = gradient,
+                     .pitch = look->pitch,
+                     .width = look->width,
+                     .height = look->height,
+                     .ru = look->ru,
+                     .rv = look->rv,
+                     .periodic_u = look->periodic_u,
+                     .periodic_v = look->periodic_v,
+                     .wide = look->wide,
+                     .scale_f = (float)look->scale_f,
+                     .scale_u = (float)look->scale_u,
+                     .scale_v = (float)look->scale_v,
+                     .pyramid = look->pyramid,
+                     .range = look->range };
+}
+
 /* The normal map: slopes of the cell, one unit a side, that stand for themselves whatever the table's height is. */
 static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                      WrTileJob *job)
@@ -251,16 +271,7 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
                            .scale_v = by.v,
                            .pyramid = &relief->pyramid };
     job->relief_double = look;
-    job->relief = (WrLook){ .width = look.width,
-                            .height = look.height,
-                            .ru = look.ru,
-                            .rv = look.rv,
-                            .periodic_u = look.periodic_u,
-                            .periodic_v = look.periodic_v,
-                            .wide = look.wide,
-                            .scale_u = (float)look.scale_u,
-                            .scale_v = (float)look.scale_v,
-                            .pyramid = look.pyramid };
+    job->relief = narrowed(&look, NULL, NULL);
 }
 
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
@@ -275,21 +286,7 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     look.gradient = gradient->fine;
     look.pitch = heights->seen ? heights->pitch : gradient->pitch;
     job->look_double = look;
-    job->look = (WrLook){ .heights = heights->data,
-                          .gradient = gradient->data,
-                          .pitch = look.pitch,
-                          .width = look.width,
-                          .height = look.height,
-                          .ru = look.ru,
-                          .rv = look.rv,
-                          .periodic_u = look.periodic_u,
-                          .periodic_v = look.periodic_v,
-                          .wide = look.wide,
-                          .scale_f = (float)look.scale_f,
-                          .scale_u = (float)look.scale_u,
-                          .scale_v = (float)look.scale_v,
-                          .pyramid = look.pyramid,
-                          .range = look.range };
+    job->look = narrowed(&look, heights->data, gradient->data);
     job->looks = looks_of(request, renderer, &look);
     fill_level(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) fill_colour(renderer, request, job);

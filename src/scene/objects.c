@@ -127,6 +127,34 @@ WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden)
     return made;
 }
 
+static bool wears(const WrScene *object, const char *layer)
+{
+    return object->layer && strcmp(object->layer, layer) == 0;
+}
+
+static void wear(WrScene *object, const char *layer)
+{
+    wr_free(object->layer);
+    object->layer = wr_strdup(layer);
+}
+
+WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const char *to)
+{
+    bool any = wears(scene, from);
+    for (int i = 0; i < scene->other_count; i++) any |= wears(scene->others[i], from);
+    if (!any) return NULL;
+    WrScene *made = wr_scene_clone(scene);
+    if (wears(made, from)) wear(made, to);
+    for (int i = 0; i < made->other_count; i++) {
+        if (!wears(made->others[i], from)) continue;
+        WrScene *other = wr_scene_clone(made->others[i]);
+        wear(other, to);
+        wr_scene_free(made->others[i]);
+        made->others[i] = other;
+    }
+    return made;
+}
+
 WrScene *wr_scene_remove_object(const WrScene *scene, int i)
 {
     const int at_hand = scene->chosen == i ? (i > 0 ? i - 1 : i + 1) : scene->chosen;

@@ -69,6 +69,7 @@ typedef struct WrCases { /* the gallery of hard cases */
 struct WrAccuracy {
     /* of what the view shows */
     WrField *field; /* own shares */
+    WrTables *tables;
     WrScene *scene;
     double turn_deg;
     int width, height;

@@ -17,6 +17,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/table.h"
+#include "document/tables.h"
 #include "field/field.h"
 #include "render/reference.h"
 #include "scene/dials.h"
@@ -33,15 +34,23 @@ static void note_view(WrApp *app)
     const WrField *field = wr_app_field(app);
     const WrScene *scene = wr_app_scene(app);
     const SDL_Rect *room = &app->layout->patch;
+    WrTables *tables =
+        wr_document_tables(wr_app_document(app), scene, &app->patch->table_cache, NULL);
     bool same = a->field && wr_field_key(a->field) == wr_field_key(field) && a->scene == scene &&
-                a->turn_deg == app->patch->turn_deg && a->width == room->w && a->height == room->h;
-    if (same) return;
+                wr_tables_same(a->tables, tables) && a->turn_deg == app->patch->turn_deg &&
+                a->width == room->w && a->height == room->h;
+    if (same) {
+        wr_tables_free(tables);
+        return;
+    }
     WrField *fresh = wr_field_share(field);
     WrScene *shared = wr_scene_share(scene);
     wr_field_free(a->field);
     if (a->scene) wr_scene_free(a->scene);
     a->field = fresh;
     a->scene = shared;
+    wr_tables_free(a->tables);
+    a->tables = tables;
     a->turn_deg = app->patch->turn_deg;
     a->width = room->w;
     a->height = room->h;
@@ -188,6 +197,7 @@ static WrWork *new_work(WrApp *app, WrWorkKind kind, WrWorkTools *tools)
     WrAccuracy *a = app->accuracy;
     WrWork *work = wr_work_new(kind, tools, a->field, a->scene, a->turn_deg, a->width, a->height);
     work->of = a->state;
+    work->tables = wr_tables_share(a->tables);
     return work;
 }
 

@@ -12,6 +12,7 @@
 #include "base/array.h"
 #include "base/memory.h"
 #include "command/session.h"
+#include "document/tables.h"
 #include "field/field.h"
 #include "scene/scene.h"
 
@@ -62,6 +63,7 @@ void wr_accuracy_free(WrApp *app)
     wr_free(a->cases.report);
     wr_field_free(a->field);
     if (a->scene) wr_scene_free(a->scene);
+    wr_tables_free(a->tables);
     wr_free(a);
     app->accuracy = NULL;
 }

@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "base/vec.h"
+#include "document/tables.h"
 #include "field/field.h"
 #include "render/reference.h"
 #include "scene/scene.h"
@@ -63,15 +64,16 @@ bool wr_accuracy_probe(WrWork *work)
 {
     double x = work->x, y = work->y;
     WrProbe seen;
+    const WrField *field = wr_tables_at_hand(work->tables, work->scene, work->field);
     work->seen = true;
     if (!work->on_table)
-        return wr_reference_probe(work->field, work->scene, work->width, work->height,
-                                  work->turn_deg, x, y, &work->probe, &work->err);
-    probe_at(work->scene, work->field, x, y, &work->probe);
+        return wr_reference_probe(field, work->scene, work->width, work->height, work->turn_deg, x,
+                                  y, &work->probe, &work->err);
+    probe_at(work->scene, field, x, y, &work->probe);
     work->seen = project(work, work->probe.at.p, &x, &y) && x >= 0 && y >= 0 && x < work->width &&
                  y < work->height &&
-                 wr_reference_probe(work->field, work->scene, work->width, work->height,
-                                    work->turn_deg, x, y, &seen, NULL) &&
+                 wr_reference_probe(field, work->scene, work->width, work->height, work->turn_deg,
+                                    x, y, &seen, NULL) &&
                  seen.hit && seen.face == 0 && apart(seen.u, work->probe.u) < SAME_PLACE &&
                  apart(seen.v, work->probe.v) < SAME_PLACE;
     if (work->seen) work->probe = seen;

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
+#include "document/tables.h"
 #include "field/field.h"
 #include "render/frame.h"
 #include "render/reference.h"
@@ -50,6 +51,7 @@ void wr_work_free(WrWork *work)
 {
     if (!work) return;
     wr_field_free(work->field);
+    wr_tables_free(work->tables);
     if (work->scene) wr_scene_free(work->scene);
     if (work->other) wr_scene_free(work->other);
     wr_free(work->values);
@@ -84,6 +86,7 @@ static bool render(WrWork *work, int i, WrPool *pool, const WrFrameRequest *requ
 static WrFrameRequest request_of(const WrWork *work, const WrProgress *progress)
 {
     return (WrFrameRequest){ .field = work->field,
+                             .fields = wr_tables_fields(work->tables),
                              .scene = work->scene,
                              .width = work->width,
                              .height = work->height,
@@ -130,6 +133,7 @@ static bool compare(WrWork *work, WrPool *pool, const WrFrameRequest *request, c
     WrFrame frame;
     WrReference reference = { 0 };
     WrReferenceRequest wanted = { .field = work->field,
+                                  .fields = wr_tables_fields(work->tables),
                                   .scene = work->scene,
                                   .width = request->width,
                                   .height = request->height,
@@ -169,6 +173,7 @@ static bool measure_error(WrWork *work, WrPool *pool, const WrProgress *progress
 static bool climb(WrWork *work, const WrProgress *progress)
 {
     WrLadderRequest request = { .field = work->field,
+                                .fields = wr_tables_fields(work->tables),
                                 .scene = work->scene,
                                 .turn_deg = work->turn_deg,
                                 .threads = 1,
@@ -185,9 +190,9 @@ static bool draw_map(WrWork *work, WrPool *pool, const WrProgress *progress)
 {
     wr_accuracy_fit(work->width, work->height, WR_MAP_SIDE, &work->measured_w, &work->measured_h);
     work->values = wr_alloc((size_t)work->measured_w * (size_t)work->measured_h, sizeof(float));
-    return wr_reference_map(work->field, work->scene, work->measured_w, work->measured_h,
-                            work->turn_deg, work->map, pool, progress->cancel, work->values,
-                            &work->err);
+    return wr_reference_map(wr_tables_at_hand(work->tables, work->scene, work->field), work->scene,
+                            work->measured_w, work->measured_h, work->turn_deg, work->map, pool,
+                            progress->cancel, work->values, &work->err);
 }
 
 static bool try_cases(WrWork *work, WrPool *pool, const WrProgress *progress)

@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 typedef struct WrField WrField;
+typedef struct WrTables WrTables;
 typedef struct WrRenderer WrRenderer;
 typedef struct WrScene WrScene;
 
@@ -43,7 +44,8 @@ typedef struct WrWork {
     uint64_t of;        /* the caller's: which state this is about */
     WrField *field;     /* own shares */
     WrScene *scene;
-    WrScene *other; /* pair: the second; its tolerance is not looked at */
+    WrTables *tables; /* of its objects, the caller's to set; owned; NULL: `field` is that of all */
+    WrScene *other;   /* pair: the second; its tolerance is not looked at */
     double turn_deg;
     int width, height; /* of the view, pixels */
     WrProbeMap map;
