@@ -94,7 +94,7 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
     if (told->inside_out) wr_text_add(&text, "; it was inside out and has been turned");
     add_count(&text, told->no_area, "without area were left out");
     add_count(&text, told->no_normal + told->bad_normal,
-              "points without a normal have the mean of their faces'");
+              "corners without a normal have the mean of their faces'");
     add_count(&text, told->face_normal, "corners have their face's normal");
     add_map(&text, mesh);
     wr_session_note(session, "%s", wr_text_get(&text));
