@@ -69,7 +69,7 @@ static void try_case(const Case *c, const WrField *field, TestRandom *random, Ki
                                      .turn_deg = 25,
                                      .normals = expected.normals,
                                      .codes.wanted = kind == CODES,
-                                     .codes.background = { 0.2, 0.1, 0.4 } };
+                                     .codes.background.top = { 0.2, 0.1, 0.4 } };
     WrFrame frame;
     WrPool *pool = wr_pool_new(2);
     WrRenderer *renderer = wr_renderer_new(pool, NULL, &err);

@@ -53,7 +53,12 @@ static void every_value_has_the_code_of_the_borders(void **state)
 
 /* ---- pictures ---- */
 
-static const double grounds[][3] = { { 0, 0, 0 }, { 0.13, 0.4, 0.021 }, { 1, 0.7, 0.00012 } };
+static const WrBackground grounds[] = {
+    { .top = { 0, 0, 0 } },
+    { .top = { 0.13, 0.4, 0.021 } },
+    { .kind = WR_BACKGROUND_NONE, .top = { 1, 0.7, 0.00012 } },
+    { WR_BACKGROUND_GRADIENT, { 0.02, 0.4, 1.7 }, { 0.9, 0.4, 0.00012 } },
+};
 
 static void expect_codes(const WrFrame *frame, const uint8_t *bytes, const char *what)
 {
@@ -68,7 +73,7 @@ static void expect_codes(const WrFrame *frame, const uint8_t *bytes, const char 
 }
 
 /* The float picture made into codes. */
-static uint8_t *bytes_of(const WrFrame *frame, const double ground[3], int64_t *not_finite)
+static uint8_t *bytes_of(const WrFrame *frame, const WrBackground *ground, int64_t *not_finite)
 {
     uint8_t *bytes = wr_alloc((size_t)frame->width * (size_t)frame->height, 4);
     *not_finite = wr_frame_to_srgb8(frame, ground, true, bytes, NULL);
@@ -88,7 +93,7 @@ static void try_case(const Case *c, const WrField *field, WrField *edited, TestR
                                .width = 41 + (int)(300 * test_random(random)),
                                .height = 37 + (int)(60 * test_random(random)),
                                .turn_deg = 25 };
-    const double *ground = grounds[(int)(3 * test_random(random))];
+    const WrBackground *ground = &grounds[(int)(4 * test_random(random))];
     WrPool *pool = wr_pool_new(threads[(int)(3 * test_random(random))]);
     WrRenderer *floats = wr_renderer_new(pool, isa, &err),
                *codes = wr_renderer_new(pool, isa, &err);
@@ -102,7 +107,7 @@ static void try_case(const Case *c, const WrField *field, WrField *edited, TestR
         const int64_t covered = frame.covered;
         uint8_t *bytes = bytes_of(&frame, ground, &not_finite);
         request.codes.wanted = true;
-        memcpy(request.codes.background, ground, sizeof request.codes.background);
+        request.codes.background = *ground;
         if (!wr_renderer_frame(codes, &request, &frame, &err)) fail_msg("%s", err.text);
         snprintf(what, sizeof what, "%s aa=%d %dx%d %s%s, step %d", c->surface, (int)c->aa,
                  request.width, request.height, isa, fast ? " fast" : "", step);
@@ -145,8 +150,8 @@ static void codes_and_floats_leave_each_other_alone(void **state)
     WrScene *scene = scene_of("sphere");
     WrRenderer *renderer = wr_renderer_new(NULL, NULL, &err);
     Shot fresh = shoot(scene, field, 301, 50, 1, "auto", false);
-    for (int step = 0; step < 12; step++) {
-        const double *ground = grounds[step / 2 % 3];
+    for (int step = 0; step < 16; step++) {
+        const WrBackground *ground = &grounds[step / 2 % 4];
         int64_t not_finite;
         WrFrame frame;
         WrFrameRequest request = { .field = field,
@@ -156,7 +161,7 @@ static void codes_and_floats_leave_each_other_alone(void **state)
                                    .turn_deg = 15,
                                    .keep = true,
                                    .codes.wanted = step % 4 != 3 };
-        memcpy(request.codes.background, ground, sizeof request.codes.background);
+        request.codes.background = *ground;
         assert_true(wr_renderer_frame(renderer, &request, &frame, &err));
         uint8_t *bytes = bytes_of(&fresh.frame, ground, &not_finite);
         if (request.codes.wanted) expect_codes(&frame, bytes, "by turns");

@@ -357,7 +357,7 @@ static void rendered_files_hold_linear_float_or_srgb_over_the_background(void **
         assert_near(middle[c], expected[c], 1e-6);
         assert_true(linear->data[c] == 0);
     }
-    const double *background = wr_session_document(s)->scene->background;
+    const double *background = wr_session_document(s)->scene->background.top;
     for (int c = 0; c < 3; c++) {
         assert_near(codes->data[(16 * 64 + 32) * 3 + c], wr_srgb_encode(expected[c]), 0.51 / 255);
         assert_near(codes->data[c], wr_srgb_encode((float)background[c]), 0.51 / 255);

@@ -190,7 +190,7 @@ bool wr_sampler_paint(WrSampler *sampler, const WrPreset *preset, uint8_t *grey,
         .field = field, .scene = sampler->scene, .width = sampler->width, .height = sampler->height
     };
     request.codes.wanted = true;
-    memcpy(request.codes.background, sampler->scene->background, sizeof request.codes.background);
+    request.codes.background = sampler->scene->background;
     bool good = wr_renderer_frame(sampler->renderer, &request, &frame, err);
     if (good) {
         size_t count = (size_t)sampler->width * (size_t)sampler->height;

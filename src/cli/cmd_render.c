@@ -52,9 +52,9 @@ static bool choose_for_all(const WrCli *cli, Turn *turn, WrSession *session, WrE
     return turn->chosen;
 }
 
-static bool is_there(const WrCli *cli, const char *path)
+static bool is_there(const WrCli *cli, const WrSession *session, const char *path)
 {
-    return cli->missing && wr_session_has_rendered(path, cli->width, cli->height);
+    return cli->missing && wr_session_has_rendered(session, path, cli->width, cli->height);
 }
 
 static bool render_frame(const WrCli *cli, Turn *turn, WrSession *session, int frame, WrError *err)
@@ -63,7 +63,7 @@ static bool render_frame(const WrCli *cli, Turn *turn, WrSession *session, int f
     frame_name(cli->out, frame, &name);
     const char *path = wr_text_get(&name);
     bool good = true;
-    if (is_there(cli, path)) turn->there++;
+    if (is_there(cli, session, path)) turn->there++;
     else
         good = (turn->chosen || choose_for_all(cli, turn, session, err)) &&
                wr_session_render(session, path, cli->width, cli->height,
@@ -95,7 +95,7 @@ static bool render_frames(const WrCli *cli, WrSession *session, WrError *err)
 
 static bool render_one(const WrCli *cli, WrSession *session, WrError *err)
 {
-    if (!is_there(cli, cli->out))
+    if (!is_there(cli, session, cli->out))
         return wr_session_render(session, cli->out, cli->width, cli->height, 0, err);
     wr_cli_note("the picture was there");
     return true;

@@ -202,7 +202,7 @@ void wr_chosen_write(const WrChoice *choice, const WrField *field, const WrScene
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
                        WrError *err);
 /* Is such a picture's file there, of that size, and can it be read to its end? What it shows nobody knows. */
-bool wr_session_has_rendered(const char *path, int width, int height);
+bool wr_session_has_rendered(const WrSession *session, const char *path, int width, int height);
 /* Save under that name; then path and saved_revision are set. Refuses to save over a file of a newer version
    that was opened here. Works whatever options.outputs says. */
 bool wr_session_save(WrSession *session, const char *path, WrError *err);

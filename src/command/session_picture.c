@@ -111,11 +111,11 @@ const WrChoice *wr_session_choice(const WrSession *session)
 typedef struct Picture {
     WrSession *session;
     WrFrameRequest request;
-    WrFrame frame; /* the rows at hand */
-    int first;     /* of them */
-    int step;      /* rows of a band */
-    double drawn;  /* of a band's work: drawing it; its place in the file is the rest */
-    bool linear;
+    WrFrame frame;      /* the rows at hand */
+    int first;          /* of them */
+    int step;           /* rows of a band */
+    double drawn;       /* of a band's work: drawing it; its place in the file is the rest */
+    bool linear, alpha; /* of the file: float; codes with alpha */
     int64_t replaced;
 } Picture;
 
@@ -169,10 +169,13 @@ static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
     WrFrame strip = picture->frame;
     if (strip.rgba) strip.rgba += 4 * before;
     strip.height = rows;
+    strip.first = y;
     if (strip.codes) wr_codes_to_rgb(strip.codes + before, (size_t)rows * width, out);
     else if (picture->linear) memcpy(out, strip.rgba, (size_t)rows * row);
+    else if (picture->alpha)
+        picture->replaced += wr_frame_to_alpha8(&strip, out, picture->session->options.pool);
     else
-        picture->replaced += wr_frame_to_srgb8(&strip, picture->request.scene->background, false,
+        picture->replaced += wr_frame_to_srgb8(&strip, &picture->request.scene->background, false,
                                                out, picture->session->options.pool);
     const double share = (double)(y + rows - picture->first) / picture->frame.height;
     return wr_progress_tell(done_of(picture, picture->drawn + (1 - picture->drawn) * share)) ||
@@ -215,7 +218,7 @@ static bool write_picture(Picture *picture, const char *path, WrError *err)
 {
     const WrImageOut out = { .width = picture->request.width,
                              .height = picture->request.height,
-                             .channels = picture->linear ? 4 : 3,
+                             .channels = picture->linear || picture->alpha ? 4 : 3,
                              .type = picture->linear ? WR_PIXEL_F32 : WR_PIXEL_U8,
                              .data = picture->linear,
                              .rows = give_rows,
@@ -245,7 +248,14 @@ static bool is_linear(const char *path)
     return strcmp(ending, "exr") == 0 || strcmp(ending, "tif") == 0 || strcmp(ending, "tiff") == 0;
 }
 
-bool wr_session_has_rendered(const char *path, int width, int height)
+/* Are its codes written without a background, with alpha? */
+static bool has_alpha(const WrSession *session, const char *path)
+{
+    return session->state.document->scene->background.kind == WR_BACKGROUND_NONE &&
+           !is_linear(path) && wr_image_can_write(path, WR_PIXEL_U8, 4, false, NULL);
+}
+
+bool wr_session_has_rendered(const WrSession *session, const char *path, int width, int height)
 {
     static const WrImageWish as_it_is = { .keep_lost = true };
     const bool linear = is_linear(path);
@@ -254,7 +264,7 @@ bool wr_session_has_rendered(const char *path, int width, int height)
     if (!rows) return false;
     const WrImage *head = wr_image_rows_head(rows);
     bool whole = head->width == width && head->height == height &&
-                 head->channels == (linear ? 4 : 3) &&
+                 head->channels == (linear || has_alpha(session, path) ? 4 : 3) &&
                  head->type == (linear ? WR_PIXEL_F32 : WR_PIXEL_U8);
     for (int y = 0; whole && y < height; y++) whole = wr_image_rows_get(rows, y, NULL) != NULL;
     wr_image_rows_close(rows);
@@ -265,16 +275,18 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
                        WrError *err)
 {
     const bool linear = is_linear(path);
-    Picture picture = { .session = session, .linear = linear };
-    if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8, linear ? 4 : 3, linear, err))
+    Picture picture = { .session = session, .linear = linear, .alpha = has_alpha(session, path) };
+    if (!wr_image_can_write(path, linear ? WR_PIXEL_F32 : WR_PIXEL_U8,
+                            linear || picture.alpha ? 4 : 3, linear, err))
         return false;
     if (!check_target(path, err) ||
         !make_request(session, width, height, turn_deg, &picture.request, err))
         return false;
     const WrScene *scene = picture.request.scene;
-    picture.step = band_rows(session, width, height, linear ? 4 * sizeof(float) : sizeof(uint32_t));
-    picture.request.codes.wanted = !linear && scene->tolerance.kind == WR_TOLERANCE_NONE;
-    memcpy(picture.request.codes.background, scene->background, sizeof scene->background);
+    const bool floats = linear || picture.alpha;
+    picture.step = band_rows(session, width, height, floats ? 4 * sizeof(float) : sizeof(uint32_t));
+    picture.request.codes.wanted = !floats && scene->tolerance.kind == WR_TOLERANCE_NONE;
+    picture.request.codes.background = scene->background;
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, DRAWN);
     bool good = draw_first(&picture, err);

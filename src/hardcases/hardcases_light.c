@@ -365,9 +365,9 @@ static bool hc96(WrHardGauge *g, WrError *err)
     (void)err;
     float rgba[] = { NAN, 0.5f, 0, 1, INFINITY, 1, 2, 1, -1, 0.25f, -INFINITY, 1 };
     const WrFrame frame = { .width = 3, .height = 1, .rgba = rgba };
-    const double black[3] = { 0, 0, 0 };
+    const WrBackground black = { 0 };
     uint8_t out[9], codes[12];
-    const int64_t wild = wr_frame_to_srgb8(&frame, black, false, out, g->pool);
+    const int64_t wild = wr_frame_to_srgb8(&frame, &black, false, out, g->pool);
     wr_hard_holds(g, WR_HARD_FLOAT, wild == 3);
     wr_hard_holds(g, WR_HARD_FLOAT, out[0] == 0 && out[3] == 0 && out[8] == 0);
     wr_hard_holds(g, WR_HARD_FLOAT, out[4] == 255 && out[5] == 255 && out[6] == 0);

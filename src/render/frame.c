@@ -70,6 +70,7 @@ void wr_renderer_free(WrRenderer *renderer)
     wr_free(renderer->scratch);
     wr_free(renderer->rgba);
     wr_free(renderer->codes);
+    wr_free(renderer->behind);
     wr_free(renderer);
 }
 
@@ -175,14 +176,30 @@ static void render_tile(int index, int worker, void *ctx)
     job->scratch[worker]->all += wr_clock_seconds() - start;
 }
 
+/* The background of the rows that are wanted, or the one of all. */
+static void fill_behind(WrRenderer *renderer, const WrBackground *background, const WrTileJob *job)
+{
+    const int count = job->behind_step ? job->rows : 1;
+    const float nothing[4] = { 0 };
+    if (renderer->behind_room < count) {
+        wr_free(renderer->behind);
+        renderer->behind = wr_alloc((size_t)count, sizeof *renderer->behind);
+        renderer->behind_room = count;
+    }
+    for (int i = 0; i < count; i++) {
+        WrBehind *behind = &renderer->behind[i];
+        wr_background_row(background, job->top + i, job->height, behind->colour);
+        job->coder->codes_over(job->bins, behind->colour, 1, nothing, &behind->code);
+    }
+}
+
 static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJob *job)
 {
     job->codes = renderer->codes;
     job->rgba = NULL;
-    for (int c = 0; c < 3; c++) job->background[c] = (float)codes->background[c];
-    const float nothing[4] = { 0 };
-    job->coder->codes_over(job->bins, job->background, 1, nothing, &job->backdrop);
-    job->backdrop &= 0xffffffU; /* no alpha while nothing is there */
+    job->behind_step = codes->background.kind == WR_BACKGROUND_GRADIENT;
+    fill_behind(renderer, &codes->background, job);
+    job->behind = renderer->behind;
 }
 
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
@@ -261,7 +278,7 @@ bool wr_frame_may_keep(const WrFrameRequest *request)
 bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
 {
     return a->wanted == b->wanted &&
-           (!a->wanted || memcmp(a->background, b->background, sizeof a->background) == 0);
+           (!a->wanted || wr_background_equal(&a->background, &b->background));
 }
 
 /* Does the last picture show what this request asks for, but for edits of the table? */

@@ -3,6 +3,7 @@
    brings them up to date from what changed; give each view its own. */
 #pragma once
 #include "render/plan.h"
+#include "scene/background.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,8 +21,8 @@ typedef struct WrRenderer WrRenderer;
 
 /* The picture as 8-bit sRGB over a background: a quarter of the memory, and each pixel is written once. */
 typedef struct WrFrameCodes {
-    bool wanted;          /* instead of rgba */
-    double background[3]; /* linear R, G, B */
+    bool wanted; /* instead of rgba */
+    WrBackground background;
 } WrFrameCodes;
 
 /* What a pixel took. */
@@ -77,6 +78,7 @@ typedef struct
 
 typedef struct WrFrame {
     int width, height; /* a band's: its rows */
+    int first, of;     /* the first of them among the rows of the picture, and how many that has */
     float *rgba; /* [height][width][4] linear, premultiplied; A is coverage; owned by the renderer,
                     valid until its next frame; NULL where codes were wanted */
     /* [height][width] opaque 0xAARRGGBB, on little-endian machines B,G,R,A in memory: the same codes as
@@ -101,10 +103,12 @@ const char *wr_renderer_isa(const WrRenderer *renderer); /* as it was asked for 
 bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                        WrError *err);
 
-/* 8-bit sRGB over a background (linear RGB): bytes [height][width][channels], channels 3, or 4 with
+/* 8-bit sRGB over a background: bytes [height][width][channels], channels 3, or 4 with
    opaque alpha in memory order B,G,R,A when bgra. Non-finite counts as 0; returns how many (HC96). */
-int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool bgra, uint8_t *out,
-                          WrPool *pool);
+int64_t wr_frame_to_srgb8(const WrFrame *frame, const WrBackground *background, bool bgra,
+                          uint8_t *out, WrPool *pool);
+/* The same with alpha, over nothing: bytes R,G,B,A, not premultiplied. */
+int64_t wr_frame_to_alpha8(const WrFrame *frame, uint8_t *out, WrPool *pool);
 
 /* `count` of them as bytes R,G,B; out [count][3]. */
 void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out);

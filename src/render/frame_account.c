@@ -81,7 +81,11 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
     Counts counts = { 0 };
     WrPlan *plan = &renderer->plan;
     const double total = wr_clock_seconds() - started;
-    *frame = (WrFrame){ .width = renderer->width, .height = renderer->rows, .plan = plan };
+    *frame = (WrFrame){ .width = renderer->width,
+                        .height = renderer->rows,
+                        .first = renderer->top,
+                        .of = renderer->height,
+                        .plan = plan };
     if (renderer->last.codes.wanted) frame->codes = renderer->codes;
     else frame->rgba = renderer->rgba;
     for (int i = 0; i < renderer->threads; i++) {

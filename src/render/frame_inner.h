@@ -34,8 +34,10 @@ struct WrRenderer {
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
-    float *rgba;     /* the last picture, or the last band of it ... */
-    uint32_t *codes; /* ... or the same as codes; each made when it is first wanted */
+    float *rgba;      /* the last picture, or the last band of it ... */
+    uint32_t *codes;  /* ... or the same as codes; each made when it is first wanted */
+    WrBehind *behind; /* what lies behind them, one a row or one for all; owned */
+    int behind_room;
     uint32_t bins[WR_CODE_BINS + 1];
     int width, height;
     int top, rows; /* of the picture: what rgba holds */

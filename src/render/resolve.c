@@ -19,12 +19,52 @@ void wr_code_bins_fill(uint32_t bins[WR_CODE_BINS + 1])
 typedef struct ResolveJob {
     const WrFrame *frame;
     const WrKernels *kernels;
-    float background[3];
+    const WrBackground *background; /* NULL: none; alpha is wanted */
     bool bgra;
     uint8_t *out;
     int64_t not_finite; /* atomic */
     uint32_t bins[WR_CODE_BINS + 1];
 } ResolveJob;
+
+/* Colours that are not premultiplied, and opaque. */
+static void part_from_alpha(const float *from, int count, float to[WR_SPAN][4])
+{
+    for (int i = 0; i < count; i++) {
+        const float alpha = from[4 * i + 3];
+        for (int c = 0; c < 3; c++) to[i][c] = alpha > 0.0f ? from[4 * i + c] / alpha : 0.0f;
+        to[i][3] = 1.0f;
+    }
+}
+
+static uint8_t alpha_code(float alpha)
+{
+    return (uint8_t)(255.0f * (alpha > 0.0f ? alpha < 1.0f ? alpha : 1.0f : 0.0f) + 0.5f);
+}
+
+/* A row as R,G,B,A. */
+static void alpha_row(int y, int worker, void *ctx)
+{
+    (void)worker;
+    ResolveJob *job = ctx;
+    const float behind[3] = { 0 };
+    const int width = job->frame->width;
+    const float *in = job->frame->rgba + (size_t)y * (size_t)width * 4;
+    uint8_t *out = job->out + (size_t)y * (size_t)width * 4;
+    int64_t not_finite = 0;
+    for (int x = 0; x < width; x += WR_SPAN) {
+        uint32_t codes[WR_SPAN];
+        float own[WR_SPAN][4];
+        const int count = width - x < WR_SPAN ? width - x : WR_SPAN;
+        part_from_alpha(in + 4 * (size_t)x, count, own);
+        not_finite += job->kernels->codes_over(job->bins, behind, count, own[0], codes);
+        for (int i = 0; i < count; i++) {
+            uint8_t *to = out + 4 * (size_t)(x + i);
+            wr_codes_to_rgb(codes + i, 1, to);
+            to[3] = alpha_code(in[4 * (x + i) + 3]);
+        }
+    }
+    if (not_finite) __atomic_fetch_add(&job->not_finite, not_finite, __ATOMIC_RELAXED);
+}
 
 static void resolve_row(int y, int worker, void *ctx)
 {
@@ -34,11 +74,12 @@ static void resolve_row(int y, int worker, void *ctx)
     const float *in = job->frame->rgba + (size_t)y * (size_t)width * 4;
     uint8_t *out = job->out + (size_t)y * (size_t)width * (size_t)channels;
     int64_t not_finite = 0;
+    float behind[3];
+    wr_background_row(job->background, job->frame->first + y, job->frame->of, behind);
     for (int x = 0; x < width; x += WR_SPAN) {
         uint32_t codes[WR_SPAN];
         const int count = width - x < WR_SPAN ? width - x : WR_SPAN;
-        not_finite +=
-            job->kernels->codes_over(job->bins, job->background, count, in + 4 * (size_t)x, codes);
+        not_finite += job->kernels->codes_over(job->bins, behind, count, in + 4 * (size_t)x, codes);
         if (job->bgra) memcpy(out + 4 * (size_t)x, codes, (size_t)count * sizeof *codes);
         else wr_codes_to_rgb(codes, (size_t)count, out + 3 * (size_t)x);
     }
@@ -54,13 +95,23 @@ void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out)
     }
 }
 
-int64_t wr_frame_to_srgb8(const WrFrame *frame, const double background[3], bool bgra, uint8_t *out,
-                          WrPool *pool)
+static int64_t resolve(ResolveJob *job, WrPiece row, WrPool *pool)
 {
-    ResolveJob job = { .frame = frame, .bgra = bgra, .out = out };
-    job.kernels = wr_kernels_get(NULL, false, NULL);
-    for (int c = 0; c < 3; c++) job.background[c] = (float)background[c];
-    wr_code_bins_fill(job.bins);
-    wr_pool_run(pool, frame->height, resolve_row, &job);
-    return job.not_finite;
+    job->kernels = wr_kernels_get(NULL, false, NULL);
+    wr_code_bins_fill(job->bins);
+    wr_pool_run(pool, job->frame->height, row, job);
+    return job->not_finite;
+}
+
+int64_t wr_frame_to_srgb8(const WrFrame *frame, const WrBackground *background, bool bgra,
+                          uint8_t *out, WrPool *pool)
+{
+    ResolveJob job = { .frame = frame, .background = background, .bgra = bgra, .out = out };
+    return resolve(&job, resolve_row, pool);
+}
+
+int64_t wr_frame_to_alpha8(const WrFrame *frame, uint8_t *out, WrPool *pool)
+{
+    ResolveJob job = { .frame = frame, .out = out };
+    return resolve(&job, alpha_row, pool);
 }

@@ -155,6 +155,15 @@ static void bring_packed(const WrTileRows *out, int top, int rows, int width, fl
     }
 }
 
+/* What lies behind the rows, without alpha while nothing is there. */
+static void fill_packed(const WrTileJob *job, const WrDepthTile *tile, int top, int rows,
+                        uint32_t *codes)
+{
+    for (int y = 0; y < rows; y++)
+        fill_codes(codes + y * tile->w, tile->w,
+                   wr_tile_behind(job, tile->y + top + y)->code & 0xffffffU);
+}
+
 /* Several short rows in one strip. */
 static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                        WrTileScratch *scratch)
@@ -178,7 +187,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
         if (out->nearest) bring_packed(out, top, rows, tile->w, rgba, normals, nearest);
         else if (out->rgba) memset(rgba, 0, sizeof rgba);
         if (!out->nearest && out->normals) memset(normals, 0, sizeof normals);
-        if (out->codes) fill_codes(codes, rows * tile->w, job->backdrop);
+        if (out->codes) fill_packed(job, tile, top, rows, codes);
         WrSink sink = { .rgba = out->rgba ? rgba[0] : NULL,
                         .normals = out->normals ? normals[0] : NULL,
                         .codes = out->codes ? codes : NULL,
@@ -213,8 +222,9 @@ void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const
         WrSink sink = row_sink(out, y);
         uint32_t *to = sink.codes;
         sink.once = to && !sink.nearest && job->view->quad_count < 2;
-        if (sink.once) fill_codes(to, tile->w, job->backdrop | 0xff000000U);
-        else if (to) fill_codes(sink.codes = codes, tile->w, job->backdrop);
+        const uint32_t behind = to ? wr_tile_behind(job, tile->y + y)->code : 0;
+        if (sink.once) fill_codes(to, tile->w, behind);
+        else if (to) fill_codes(sink.codes = codes, tile->w, behind & 0xffffffU);
         job->pipe->row(job, k, tile, y, &sink, scratch);
         if (to && !sink.once) put_codes(codes, tile->w, to);
     }
@@ -259,9 +269,9 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
 /* Codes are written once: here only those beside `part`, which the object may be on. */
 static void clear_codes(const WrTileJob *job, WrTilePart whole, WrTilePart part)
 {
-    const uint32_t backdrop = job->backdrop | 0xff000000U;
     const int left = part.x - whole.x, right = whole.x + whole.w - part.x - part.w;
     for (int y = whole.y; y < whole.y + whole.h; y++) {
+        const uint32_t backdrop = wr_tile_behind(job, y)->code;
         uint32_t *row = code_at(job, whole.x, y);
         if (part.w <= 0 || y < part.y || y >= part.y + part.h) {
             fill_codes(row, whole.w, backdrop);
@@ -344,7 +354,7 @@ static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScrat
     const double start = wr_clock_seconds();
     for (int y = part.y; y < part.y + part.h; y++)
         scratch->not_finite +=
-            job->coder->codes_over(job->bins, job->background, part.w,
+            job->coder->codes_over(job->bins, wr_tile_behind(job, y)->colour, part.w,
                                    wr_tile_pixel(&own, part.x, y), code_at(job, part.x, y));
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }

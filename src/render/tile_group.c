@@ -105,7 +105,7 @@ static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *sc
         scratch->covered += wr_tile_means(k, whole.w, scratch->sample[y * k][0], step, to);
         if (canvas->codes)
             scratch->not_finite += canvas->coder->codes_over(
-                canvas->bins, canvas->background, whole.w, row[0],
+                canvas->bins, wr_tile_behind(canvas, whole.y + y)->colour, whole.w, row[0],
                 canvas->codes + wr_tile_place(canvas, whole.x, whole.y + y));
     }
 }

@@ -17,6 +17,12 @@ typedef struct WrTileRows {
     size_t nearest_step;
 } WrTileRows;
 
+/* What lies behind row y of the picture; only where codes are wanted. */
+static inline const WrBehind *wr_tile_behind(const WrTileJob *job, int y)
+{
+    return &job->behind[(y - job->top) * job->behind_step];
+}
+
 /* All samples of a tile of the grid of k a pixel. */
 void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,
                      WrTileScratch *scratch);

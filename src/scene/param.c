@@ -8,6 +8,8 @@
 #define IN_SCENE(member) .place = offsetof(WrScene, member)
 #define IN_LIGHT(member) .of_light = true, .place = offsetof(WrLight, member)
 #define SLIDER(from, to, digits) .soft_low = (from), .soft_high = (to), .decimals = (digits)
+#define GROUND_RANGE                                                                               \
+    .components = 3, .high = 1e6, .fallback = { 0.032, 0.032, 0.032 }, .shape = "r,g,b"
 #define PLACE_RANGE .components = 3, .low = -1e9, .high = 1e9
 
 /* A vector is three doubles, one after the other. */
@@ -109,6 +111,17 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                       SLIDER(0.1, 4, 3), .logarithmic = true },
     [WR_ROW(WR_SCENE_PARAM_HIDDEN)] = { "object", "set", "hidden", IN_SCENE(hidden),
                                         .planned = true, .help = "not in pictures" },
+    [WR_ROW(WR_SCENE_PARAM_BACKGROUND)] = { "background", "plain", "colour",
+                                            IN_SCENE(background.top), GROUND_RANGE,
+                                            .label = "Colour", .help = "linear" },
+    [WR_ROW(WR_SCENE_PARAM_BACKGROUND_TOP)] = { "background", "gradient", "top",
+                                                IN_SCENE(background.top), GROUND_RANGE,
+                                                .label = "Top",
+                                                .help = "at the picture's upper border, linear" },
+    [WR_ROW(WR_SCENE_PARAM_BACKGROUND_BOTTOM)] = { "background", "gradient", "bottom",
+                                                   IN_SCENE(background.bottom), GROUND_RANGE,
+                                                   .label = "Bottom",
+                                                   .help = "at its lower border, linear" },
 };
 WR_ROWS_END(wr_scene_params, WR_SCENE_PARAM_COUNT);
 

@@ -42,7 +42,6 @@ WrScene *wr_scene_new(void)
     wr_scene_params_reset(scene->lights, true);
     scene->light_count = 1;
     scene->dials = wr_dials_default();
-    for (int i = 0; i < 3; i++) scene->background[i] = 0.032;
     return scene;
 }
 
@@ -105,7 +104,7 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->camera = from->camera;
     scene->dials = from->dials;
     scene->tolerance = from->tolerance;
-    memcpy(scene->background, from->background, sizeof scene->background);
+    scene->background = from->background;
 }
 
 void wr_scene_colour_repeat(const WrScene *scene, double *ru, double *rv)

@@ -9,6 +9,7 @@
 #include "base/vec.h"
 #include "field/analytic.h"
 #include "field/scheme.h"
+#include "scene/background.h"
 #include "scene/camera.h"
 #include "scene/dials.h"
 #include "shade/bump_mode.h"
@@ -104,8 +105,8 @@ struct WrScene {
     WrCamera camera;
     WrDials dials;
     WrTolerance tolerance;
-    double background[3]; /* linear RGB behind 8-bit pictures */
-    double radius;        /* of the shape, once it was found, of one of `others`; private */
+    WrBackground background;
+    double radius; /* of the shape, once it was found, of one of `others`; private */
 };
 
 /* The scene's surface becomes these triangles, which are taken over; NULL: any other shape, or the square. path and sha256

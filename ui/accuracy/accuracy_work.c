@@ -96,7 +96,6 @@ static WrFrameRequest request_of(const WrWork *work, const WrProgress *progress)
 
 static bool pair(WrWork *work, WrPool *pool, const WrProgress *progress)
 {
-    static const double surround[3] = { 0.0273, 0.0284, 0.0302 }; /* linear; as the preview's */
     for (int i = 0; i < 2; i++) {
         WrFrame frame;
         WrFrameRequest request = request_of(work, progress);
@@ -105,7 +104,7 @@ static bool pair(WrWork *work, WrPool *pool, const WrProgress *progress)
         work->bgra[i] = wr_try_alloc((size_t)frame.width * (size_t)frame.height, 4,
                                      "the pictures to compare", &work->err);
         if (!work->bgra[i]) return false;
-        wr_frame_to_srgb8(&frame, surround, true, work->bgra[i], pool);
+        wr_frame_to_srgb8(&frame, &request.scene->background, true, work->bgra[i], pool);
     }
     return true;
 }

@@ -222,8 +222,6 @@ static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPre
 static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPreviewLevel level,
                    WrError *err)
 {
-    static const double surround[3] = { 0.0273, 0.0284,
-                                        0.0302 }; /* linear, a shade of the panels */
     const Wish *wish = &preview->now;
     double started = wr_clock_seconds();
     const WrMovingWay way = preview->moving.way;
@@ -239,7 +237,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .keep = level > WR_PREVIEW_MOVING,
                                .cancel = &preview->cancel };
     request.codes.wanted = true;
-    memcpy(request.codes.background, surround, sizeof surround);
+    request.codes.background = wish->scene->background;
     WrFrame frame;
     WrPreviewPicture *out = preview->work;
     out->chosen.any = false;
@@ -257,7 +255,7 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     if (wish->ran) wr_picture_ran_show(&preview->ran, out);
     else if (frame.codes)
         memcpy(out->bgra, frame.codes, 4 * (size_t)frame.width * (size_t)frame.height);
-    else wr_frame_to_srgb8(&frame, surround, true, out->bgra, pool);
+    else wr_frame_to_srgb8(&frame, &request.codes.background, true, out->bgra, pool);
     out->level = level;
     out->way = way;
     out->scale = scale;

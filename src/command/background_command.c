@@ -1,0 +1,73 @@
+/* What stands behind the objects. */
+#include "base/rows.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "command/scene_args.h"
+#include "document/document.h"
+#include "scene/param.h"
+#include "scene/scene.h"
+
+#include <string.h>
+
+static void print_kind(WrBackgroundKind kind, const WrScene *scene, WrText *text)
+{
+    const char *form = wr_background_names[kind];
+    wr_text_addf(text, "background %s", form);
+    wr_scene_print_params("background", form, scene, text);
+    wr_text_add(text, "\n");
+}
+
+/* Colours that are not shown are kept too, by a line before; that of a new document has none. */
+static void print_background(const WrScene *scene, WrText *text)
+{
+    const WrBackground *own = &scene->background;
+    const double *usual = wr_scene_params[WR_SCENE_PARAM_BACKGROUND].fallback;
+    const bool top = memcmp(own->top, usual, sizeof own->top) != 0,
+               bottom = memcmp(own->bottom, usual, sizeof own->bottom) != 0;
+    if (bottom || own->kind == WR_BACKGROUND_GRADIENT)
+        print_kind(WR_BACKGROUND_GRADIENT, scene, text);
+    if (own->kind == WR_BACKGROUND_PLAIN ? top || bottom
+                                         : top && !bottom && own->kind == WR_BACKGROUND_NONE)
+        print_kind(WR_BACKGROUND_PLAIN, scene, text);
+    if (own->kind == WR_BACKGROUND_NONE) print_kind(WR_BACKGROUND_NONE, scene, text);
+}
+
+static bool run_background(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->background.kind = (WrBackgroundKind)call->form;
+    wr_scene_take(call, wr_background_names[call->form], scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static bool form_background(int i, WrForm *out)
+{
+    WR_ROWS(help);
+    static const char *const help[WR_BACKGROUND_KINDS] = {
+        [WR_ROW(WR_BACKGROUND_PLAIN)] = "one colour",
+        [WR_ROW(WR_BACKGROUND_GRADIENT)] = "one colour goes over into another, from top to bottom",
+        [WR_ROW(WR_BACKGROUND_NONE)] = "none: files that hold alpha have it, such as PNG",
+    };
+    WR_ROWS_END(help, WR_BACKGROUND_KINDS);
+    if (i >= WR_BACKGROUND_KINDS) return false;
+    *out = (WrForm){ .name = wr_background_names[i], .help = help[i] };
+    wr_scene_args("background", out->name, out->args);
+    return true;
+}
+
+const WrCommand wr_command_background = {
+    .name = "background",
+    .kind = WR_CLASS_SCENE,
+    .form_word = "KIND",
+    .form = form_background,
+    .run = run_background,
+    .print = print_background,
+    .help = "what stands behind the objects",
+    .details = "Of 8-bit pictures, and in the window. Only what is given changes. EXR and TIFF "
+               "hold coverage in its place. Files without alpha, such as JPEG, have the plain "
+               "colour where there is none.",
+    .example = "background gradient top=0.12,0.16,0.24 bottom=0.5,0.47,0.42"
+};
