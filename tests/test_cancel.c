@@ -180,6 +180,7 @@ static const char *const lines[] = {
     "adjust erode radius=16 layers=all",
     "adjust slope-limit limit=0.001 layers=all",
     "colour big.exr",
+    "normalmap big.exr",
     "save new.exr",
     "save new.ora",
     "export height new.png",

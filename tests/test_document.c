@@ -177,9 +177,9 @@ static void check_save_load_save(const WrDocument *document, const char *scene)
         assert_string_equal(loaded.document->layers[i].name, document->layers[i].name);
     assert_true(wr_hash_equal(wr_document_hash(document, scene),
                               wr_document_hash(loaded.document, loaded.scene_text)));
-    if (loaded.colours[0]) { /* the session puts it back into the scene */
+    if (loaded.pictures[0][WR_OBJECT_COLOUR]) { /* the session puts it back into the scene */
         WrScene *with = wr_scene_clone(loaded.document->scene);
-        with->colour = wr_image_share(loaded.colours[0]);
+        with->colour = wr_image_share(loaded.pictures[0][WR_OBJECT_COLOUR]);
         wr_scene_free(loaded.document->scene);
         loaded.document->scene = with;
     }
@@ -192,7 +192,7 @@ static void check_save_load_save(const WrDocument *document, const char *scene)
     assert_memory_equal(one, two, length_one);
     wr_free(one);
     wr_free(two);
-    wr_image_free(loaded.colours[0]);
+    wr_image_free(loaded.pictures[0][WR_OBJECT_COLOUR]);
     wr_free(loaded.scene_text);
     wr_document_free(loaded.document);
 }
@@ -232,12 +232,14 @@ static void a_colour_picture_of_any_size_travels_along(void **state)
         WrLoaded loaded;
         int64_t replaced;
         assert_true(wr_document_load("one.exr", &loaded, &replaced, NULL));
-        assert_int_equal(loaded.colours[0]->width * 100 + loaded.colours[0]->height, 7709);
+        assert_int_equal(loaded.pictures[0][WR_OBJECT_COLOUR]->width * 100 +
+                             loaded.pictures[0][WR_OBJECT_COLOUR]->height,
+                         7709);
         for (int i = 0; i < 77 * 9; i++)
             for (int c = 0; c < 3; c++)
-                assert_true(loaded.colours[0]->data[3 * i + c] ==
+                assert_true(loaded.pictures[0][WR_OBJECT_COLOUR]->data[3 * i + c] ==
                             scene->colour->data[channels * i + (channels == 1 ? 0 : c)]);
-        wr_image_free(loaded.colours[0]);
+        wr_image_free(loaded.pictures[0][WR_OBJECT_COLOUR]);
         wr_free(loaded.scene_text);
         wr_document_free(loaded.document);
         wr_document_free(document);

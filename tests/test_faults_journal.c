@@ -124,7 +124,7 @@ static void check_snapshot(const char *path, const char *what)
     int64_t replaced;
     if (!wr_document_load(path, &loaded, &replaced, &err)) fail_msg("%s: %s", what, err.text);
     wr_document_free(loaded.document);
-    wr_image_free(loaded.colours[0]);
+    wr_image_free(loaded.pictures[0][WR_OBJECT_COLOUR]);
     wr_free(loaded.scene_text);
 }
 

@@ -82,7 +82,7 @@ static WrLoaded load(const char *path, WrText *notes)
 static void drop(WrLoaded *loaded)
 {
     wr_document_free(loaded->document);
-    wr_image_free(loaded->colours[0]);
+    wr_image_free(loaded->pictures[0][WR_OBJECT_COLOUR]);
     wr_free(loaded->scene_text);
 }
 
@@ -139,9 +139,12 @@ static void the_colour_picture_travels_along(void **state)
     document->scene = scene;
     save(document, "", "a.ora");
     WrLoaded loaded = load("a.ora", NULL);
-    assert_non_null(loaded.colours[0]);
-    assert_int_equal(loaded.colours[0]->width * 10 + loaded.colours[0]->height, 75);
-    assert_memory_equal(loaded.colours[0]->data, scene->colour->data, 105 * sizeof(float));
+    assert_non_null(loaded.pictures[0][WR_OBJECT_COLOUR]);
+    assert_int_equal(loaded.pictures[0][WR_OBJECT_COLOUR]->width * 10 +
+                         loaded.pictures[0][WR_OBJECT_COLOUR]->height,
+                     75);
+    assert_memory_equal(loaded.pictures[0][WR_OBJECT_COLOUR]->data, scene->colour->data,
+                        105 * sizeof(float));
     drop(&loaded);
     wr_document_free(document);
 }

@@ -171,7 +171,7 @@ static void tinted_evenly(Stage *stage)
 static void tinted_still(Stage *stage)
 {
     tinted(stage);
-    stage->scene->colour_own = true; /* 0 times */
+    stage->scene->colour_laid.own = true; /* 0 times */
 }
 
 static void mapped(Stage *stage)

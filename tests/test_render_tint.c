@@ -232,7 +232,8 @@ static WrScene *mixed_scene(int k)
     if (k % 7 == 5) scene->bump = WR_BUMP_EXACT;
     if (k % 5 == 4) scene->dials.shading = WR_SHADING_DOUBLE;
     if (k % 8 == 6) scene->dials.shading = WR_SHADING_HALF;
-    if (k % 3 == 1) scene->colour_own = true, scene->colour_ru = 2.5, scene->colour_rv = -1;
+    if (k % 3 == 1)
+        scene->colour_laid.own = true, scene->colour_laid.ru = 2.5, scene->colour_laid.rv = -1;
     if (k % 6 == 4) scene->material.diffuse = scene->material.specular = 0;
     if (k % 9 == 7) scene->lights[0].where = (WrVec3){ 0, 0, -1 };
     return scene;
@@ -307,10 +308,10 @@ static void a_picture_is_laid_as_often_as_told(void **state)
         scene->replicate_u = ru, scene->replicate_v = rv;
         Shot table = shoot_as(scene, flat, WR_AA_POINT, false);
         scene->replicate_u = 5, scene->replicate_v = 7;
-        scene->colour_own = true, scene->colour_ru = ru, scene->colour_rv = rv;
+        scene->colour_laid.own = true, scene->colour_laid.ru = ru, scene->colour_laid.rv = rv;
         Shot own = shoot_as(scene, flat, WR_AA_POINT, false);
         assert_true(same_picture(&table, &own));
-        scene->colour_own = false;
+        scene->colour_laid.own = false;
         Shot other = shoot_as(scene, flat, WR_AA_POINT, false);
         assert_false(same_picture(&table, &other));
         put_away(&table);

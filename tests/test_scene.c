@@ -77,19 +77,19 @@ static void a_clone_shares_nothing_that_either_may_change(void **state)
     scene->analytic.count = 1;
     scene->analytic.terms = wr_alloc(1, sizeof *scene->analytic.terms);
     scene->analytic.terms[0] = (WrAnalyticTerm){ .i = 1, .j = 2, .a = 3 };
-    scene->colour_path = wr_strdup("wood.png");
+    scene->colour_laid.path = wr_strdup("wood.png");
     scene->height = 0.25;
     WrScene *clone = wr_scene_clone(scene);
     clone->analytic.terms[0].a = 7;
     clone->lights[0].strength = 9;
-    clone->colour_path[0] = 'f';
+    clone->colour_laid.path[0] = 'f';
     clone->height = 1;
     assert_true(scene->analytic.terms[0].a == 3 && scene->lights[0].strength == 1);
-    assert_string_equal(scene->colour_path, "wood.png");
+    assert_string_equal(scene->colour_laid.path, "wood.png");
     assert_true(scene->height == 0.25);
     wr_scene_free(scene);
     assert_true(clone->analytic.terms[0].a == 7 && clone->analytic.terms[0].j == 2);
-    assert_string_equal(clone->colour_path, "food.png");
+    assert_string_equal(clone->colour_laid.path, "food.png");
     wr_scene_free(clone);
 }
 

@@ -264,7 +264,8 @@ static void a_document_carries_its_colour_picture(void **state)
     const WrImage *loaded = wr_session_document(b)->scene->colour;
     assert_int_equal(loaded->width, 2);
     const WrScene *scene = wr_session_document(b)->scene;
-    assert_true(scene->colour_own && scene->colour_ru == 2 && scene->colour_rv == -0.5);
+    assert_true(scene->colour_laid.own && scene->colour_laid.ru == 2 &&
+                scene->colour_laid.rv == -0.5);
     assert_memory_equal(loaded->data, wr_session_document(a)->scene->colour->data,
                         6 * sizeof(float));
     must_run(b, "colour off");

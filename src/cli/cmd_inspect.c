@@ -11,6 +11,7 @@
 #include "document/document_file.h"
 #include "field/field.h"
 #include "generate/noise_rows.h"
+#include "scene/laid.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "surface/surface.h"
@@ -45,7 +46,7 @@ static void compute(const WrScene *scene, const WrField *field, int face, double
     WrSurfacePoint *p = &q->point;
     *q = (Quantities){ .u = u, .v = v };
     wr_surface_at(&scene->shape, face, u, v, p);
-    wr_scene_height(scene, field, u, v, &q->f, &q->fu, &q->fv);
+    wr_scene_slopes(scene, field, p, u, v, &q->f, &q->fu, &q->fv);
     q->a = wr_bump_axis(p->pu, p->pv, q->fu, q->fv);
     q->d = wr_bump_d(p->n_unit, p->pu, p->pv, q->fu, q->fv);
     q->turned = scene->bump == WR_BUMP_INVARIANT;

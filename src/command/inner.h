@@ -6,6 +6,7 @@
 #include "brush/brush.h"
 #include "command/call.h"
 #include "command/session.h"
+#include "document/document_file.h"
 #include "document/history.h"
 #include "document/journal.h"
 #include "document/tables.h"
@@ -64,13 +65,13 @@ struct WrSession {
     bool loading;      /* the scene's lines of a document are running */
     bool opening;      /* a script, a picture or a recovery is being opened: nothing is journaled */
     WrJournal *journal; /* of the document, from its first command on; owned; NULL: none yet */
-    int journal_base, journal_top; /* history positions that a replay of it can reach */
-    int64_t view_base, view_top;   /* and numbers of views */
-    WrImage *const *
-        embedded; /* while loading: the document's colour pictures by their objects; borrowed; NULL: none */
-    WrImage *embedded_mesh; /* the same of its mesh */
-    WrRenderer *renderer;   /* made on first use; owned */
-    WrTables *tables;       /* of the objects of its last picture; owned */
+    int journal_base, journal_top;            /* history positions that a replay of it can reach */
+    int64_t view_base, view_top;              /* and numbers of views */
+    WrImage *(*embedded)[WR_OBJECT_PICTURES]; /* while loading: the document's pictures by their
+                                                 objects; borrowed; NULL: none */
+    WrImage *embedded_mesh;                   /* the same of its mesh */
+    WrRenderer *renderer;                     /* made on first use; owned */
+    WrTables *tables;                         /* of the objects of its last picture; owned */
     WrTableCache table_cache;
     WrChoice choice; /* of the last picture under a tolerance */
 
@@ -230,6 +231,7 @@ typedef void WrScenePrinter(const WrScene *scene, WrText *text);
 WrScenePrinter wr_print_rotate, wr_print_camera;
 /* named: with the file's name; else by its content alone. */
 void wr_print_colour(const WrScene *scene, bool named, WrText *text);
+void wr_print_normals(const WrScene *scene, bool named, WrText *text);
 void wr_print_object(const WrScene *scene, int i,
                      WrText *text);                       /* of several: adds it, with its place */
 void wr_print_chosen(const WrScene *scene, WrText *text); /* where that is not the last one */
@@ -237,7 +239,7 @@ void wr_print_chosen(const WrScene *scene, WrText *text); /* where that is not t
    lines, or NULL. */
 typedef void WrScenePart(void *ctx, const WrCommand *command, WrText *text);
 void wr_print_scene(const WrScene *scene, WrScenePart *after, void *ctx, WrText *text);
-/* The same; a colour picture as what its content is, wherever its file lies. */
+/* The same; a picture as what its content is, wherever its file lies. */
 void wr_print_identity(const WrScene *scene, WrText *text);
 
 /* Words of choices, index past the last gives NULL. */

@@ -1,4 +1,4 @@
-/* How pictures are made of it: material, colour, dials, tolerance. */
+/* How pictures are made of it: material, dials, tolerance. */
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
@@ -14,36 +14,11 @@
 #include <math.h>
 #include <string.h>
 
-#define LOOK 16384 /* pixels between two looks at whether it should stop */
-
 static void print_material(const WrScene *scene, WrText *text)
 {
     wr_text_add(text, "material");
     wr_scene_print_params("material", NULL, scene, text);
     wr_text_add(text, "\n");
-}
-
-void wr_print_colour(const WrScene *scene, bool named, WrText *text)
-{
-    const double ru = scene->colour_ru, rv = scene->colour_rv;
-    if (!scene->colour) return;
-    wr_text_add(text, "colour");
-    if (named) wr_text_add(text, " "), wr_text_add_word(text, scene->colour_path);
-    if (*scene->colour_sha256) wr_text_addf(text, " sha256=%s", scene->colour_sha256);
-    if (scene->colour_own && ru == 1 && rv == 1) {
-        wr_text_add(text, " repeat=once");
-    } else if (scene->colour_own) {
-        wr_text_add(text, " repeat=");
-        wr_text_add_number(text, ru);
-        wr_text_add(text, ",");
-        wr_text_add_number(text, rv);
-    }
-    wr_text_add(text, "\n");
-}
-
-static void print_colour(const WrScene *scene, WrText *text)
-{
-    wr_print_colour(scene, true, text);
 }
 
 static void print_dials(const WrScene *scene, WrText *text)
@@ -63,118 +38,11 @@ static void print_tolerance(const WrScene *scene, WrText *text)
     wr_text_add(text, tolerance->kind == WR_TOLERANCE_TIME ? "s\n" : "\n");
 }
 
-static WrImage *session_read_image(WrSession *session, WrCall *call, const char *name, WrError *err)
-{
-    char *path = wr_session_input_path(session, name);
-    WrImage *image = NULL;
-    const WrImageWish wish = wr_call_wish(call);
-    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
-    if (image) wr_session_note_read(session, path, image);
-    wr_free(path);
-    return image;
-}
-
 static bool run_material(WrSession *session, WrCall *call, WrError *err)
 {
     (void)err;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_scene_take(call, NULL, scene);
-    wr_session_replace_scene(session, scene);
-    return true;
-}
-
-/* ---- colour ---- */
-
-/* Linear RGB, or grey as one channel, without alpha; codes of 8 and 16 bits are decoded from sRGB. */
-static WrImage *linear_colour(const WrImage *from, WrError *err)
-{
-    int channels = from->channels < 3 ? 1 : 3;
-    WrImage *to = wr_image_new(from->width, from->height, channels, err);
-    if (!to) return NULL;
-    to->type = WR_PIXEL_F32;
-    size_t pixels = (size_t)from->width * (size_t)from->height;
-    bool decode = from->type != WR_PIXEL_F32;
-    for (size_t i = 0; i < pixels; i++) {
-        if (i % LOOK == 0 && wr_progress_stopped()) {
-            wr_image_free(to);
-            wr_fail(err, "cancelled");
-            return NULL;
-        }
-        for (int c = 0; c < channels; c++) {
-            float x = from->data[i * (size_t)from->channels + (size_t)c];
-            if (decode) x = wr_srgb_decode(x);
-            to->data[i * (size_t)channels + (size_t)c] = x > 0 ? x : 0;
-        }
-    }
-    return to;
-}
-
-/* The picture of a colour line: inside a document it is the one that the document carries. */
-static bool find_colour(WrSession *session, WrCall *call, const char *name, WrImage **colour,
-                        WrError *err)
-{
-    if (session->loading) {
-        const WrImage *held =
-            session->embedded ? session->embedded[session->state.document->scene->chosen] : NULL;
-        *colour = held ? linear_colour(held, err) : NULL;
-        if (!held)
-            return wr_fail(err, "the document names the picture %s but does not hold it", name);
-        return *colour != NULL;
-    }
-    WrImage *image = session_read_image(session, call, name, err);
-    if (!image) return false;
-    *colour = linear_colour(image, err);
-    wr_image_free(image);
-    return *colour != NULL;
-}
-
-/* How often a picture is laid: as the table, once, or so often. own: not as the table. */
-typedef struct Repeat {
-    bool own;
-    double ru, rv;
-} Repeat;
-
-static bool repeat_parse(const char *text, Repeat *repeat)
-{
-    const char *comma = strchr(text, ',');
-    *repeat = (Repeat){ strcmp(text, "table") != 0, 1, 1 };
-    if (!repeat->own || strcmp(text, "once") == 0) return true;
-    return comma && wr_number_parse(text, (size_t)(comma - text), &repeat->ru) &&
-           wr_number_parse(comma + 1, strlen(comma + 1), &repeat->rv) && fabs(repeat->ru) <= 1e9 &&
-           fabs(repeat->rv) <= 1e9;
-}
-
-static bool check_repeat(const void *ctx, const char *name, const char *value, WrError *err)
-{
-    Repeat repeat;
-    (void)ctx;
-    if (repeat_parse(value, &repeat)) return true;
-    return wr_fail(err, "%s=%.40s: must be table, once, or two numbers ru,rv, -1e9..1e9", name,
-                   value);
-}
-
-static bool run_colour(WrSession *session, WrCall *call, WrError *err)
-{
-    const char *name = wr_call_arg(call, "FILE|off")->text;
-    bool off = strcmp(name, "off") == 0;
-    WrImage *colour = NULL;
-    if (off && wr_call_given(call, "sha256")) return wr_fail(err, "off takes no sha256=");
-    if (off && wr_call_given(call, "repeat")) return wr_fail(err, "off takes no repeat=");
-    if (!off && !find_colour(session, call, name, &colour, err)) return false;
-    WrScene *scene = wr_scene_clone(session->state.document->scene);
-    wr_image_free(scene->colour);
-    wr_free(scene->colour_path);
-    scene->colour = colour;
-    scene->colour_path = off ? NULL : wr_strdup(name);
-    memset(scene->colour_sha256, 0, sizeof scene->colour_sha256);
-    const char *hex = wr_call_arg(call, "sha256")->text;
-    if (hex) memcpy(scene->colour_sha256, hex, 64);
-    Repeat repeat = { 0 };
-    if (!off && wr_call_given(call, "repeat"))
-        repeat_parse(wr_call_arg(call, "repeat")->text, &repeat);
-    scene->colour_own = repeat.own;
-    scene->colour_ru = repeat.own ? repeat.ru : 0;
-    scene->colour_rv = repeat.own ? repeat.rv : 0;
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -258,22 +126,6 @@ static bool row_material(WrForm *out)
     return wr_scene_args("material", NULL, out->args) > 0;
 }
 
-static const WrArgSpec args_colour[] = {
-    { PLACE("FILE|off"), .type = WR_ARG_PATH,
-      .help = "a picture that is laid over u and v, or off (a file of that name is ./off)" },
-    { .name = "repeat",
-      .type = WR_ARG_TEXT,
-      .shape = "table|once|ru,rv",
-      .check = check_repeat,
-      .help = "how often it is laid along u and v: as often as replicate says, like the table; "
-              "once; or so often. Left out: table" },
-    WR_ARGS_OF_FILE,
-    { .name = "sha256",
-      .type = WR_ARG_SHA256,
-      .help = "of the file: another content is then an error" },
-    { 0 }
-};
-
 static const char *tolerance_off(int i)
 {
     return i == 0 ? "off" : NULL;
@@ -345,22 +197,6 @@ const WrCommand wr_command_material = { .name = "material",
                                         .details = "Only what is given changes.",
                                         .example =
                                             "material diffuse=0.8 specular=0.3 shininess=60" };
-
-const WrCommand wr_command_colour = {
-    .name = "colour",
-    .kind = WR_CLASS_SCENE,
-    .args = args_colour,
-    .run = run_colour,
-    .print = print_colour,
-    .of_object = true,
-    .help = "a colour picture on the surface",
-    .details =
-        "8-bit and 16-bit pictures are decoded from sRGB, float ones taken as linear; alpha is "
-        "left out. Beyond its ends it goes on as the table does. Under dials aa=filter and "
-        "aa=moments each pixel has the mean of what it covers of the picture. It is saved inside "
-        "the document.",
-    .example = "colour peel.png repeat=once"
-};
 
 const WrCommand wr_command_dials = { .name = "dials",
                                      .kind = WR_CLASS_SCENE,

@@ -19,7 +19,9 @@ static void print_named(const WrCommand *command, const WrScene *scene, WrText *
 
 static void print_content(const WrCommand *command, const WrScene *scene, WrText *text)
 {
-    if (command == &wr_command_colour) wr_print_colour(scene, !*scene->colour_sha256, text);
+    if (command == &wr_command_colour) wr_print_colour(scene, !*scene->colour_laid.sha256, text);
+    else if (command == &wr_command_normalmap)
+        wr_print_normals(scene, !*scene->normals.laid.sha256, text);
     else if (command == &wr_command_surface) wr_print_surface_content(scene, text);
     else command->print(scene, text);
 }

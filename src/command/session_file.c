@@ -179,7 +179,7 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     wr_document_free(session->state.document);
     session->state.document = loaded.document;
     session->loading = true;
-    session->embedded = loaded.colours;
+    session->embedded = loaded.pictures;
     session->embedded_mesh = loaded.mesh;
     session->depth++;
     bool newer = loaded.newer_version > 0;

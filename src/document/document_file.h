@@ -4,9 +4,9 @@
    All parts float32, ZIP. Part 0 "F": the composited heights as they are shown, one channel Y, so that every
    program that opens EXR sees the relief. Then for each layer, bottom first: its heights, "layer:NAME" (then
    "layer:NAME (2)" where names repeat; the name itself in wrinkle:layer), its coverage "cover:N" and its
-   mask "mask:N" if it has them (N counts layers from 1). Then "selection", if there is one, and "colour", the
-   scene's colour picture in RGB, if there is one; of several objects "colour:N" for each that has one; and
-   "mesh", the numbers of its mesh in one channel.
+   mask "mask:N" if it has them (N counts layers from 1). Then "selection", if there is one; "colour", the
+   scene's colour picture in RGB, if there is one, of several objects "colour:N" for each that has one; "normals",
+   likewise, the unit vectors of its normal map; and "mesh", the numbers of its mesh in one channel.
 
    Attributes of part 0: wrinkle:version (of this format), wrinkle:program, wrinkle:scene (canonical command
    lines; the tolerance's with the dials that were chosen for it), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
@@ -14,11 +14,11 @@
    wrinkle:blend, wrinkle:opacity, wrinkle:radius, wrinkle:visible and wrinkle:locked ("on", "off").
 
    A document of one layer that is F bit for bit, with nothing that needs a part (coverage, mask, selection,
-   colour picture, mesh), is a file of that one part, with the layer's attributes beside the file's: many programs open
+   pictures, mesh), is a file of that one part, with the layer's attributes beside the file's: many programs open
    no file of several parts.
 
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
-   several is still written as version 2; version 3 no mesh. All are read. */
+   several is still written as version 2; version 3 no mesh, version 4 no normal map. All are read. */
 #pragma once
 #include "scene/objects.h"
 #include "field/wrap.h"
@@ -28,12 +28,14 @@
 #include <stdint.h>
 
 typedef struct WrDocument WrDocument;
+typedef struct WrScene WrScene;
 typedef struct WrError WrError;
 typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 4
+#define WR_DOCUMENT_VERSION 5
+#define WR_DOCUMENT_VERSION_MESH 4  /* of a file with a mesh and no normal map */
 #define WR_DOCUMENT_VERSION_ALONE 3 /* of a file of one part */
 #define WR_DOCUMENT_VERSION_PARTS 2 /* of a file of several parts without a mesh */
 
@@ -42,8 +44,22 @@ typedef struct WrImageRows WrImageRows;
 #define WR_DOCUMENT_COVER "cover:"
 #define WR_DOCUMENT_MASK "mask:"
 #define WR_DOCUMENT_SELECTION "selection"
-#define WR_DOCUMENT_COLOUR "colour"
 #define WR_DOCUMENT_MESH "mesh"
+
+/* Pictures that an object may have, each in a part of its own. */
+typedef enum WrObjectPicture {
+    WR_OBJECT_COLOUR,
+    WR_OBJECT_NORMALS,
+    WR_OBJECT_PICTURES
+} WrObjectPicture;
+typedef struct WrObjectPictureInfo {
+    const char *part; /* "colour" */
+    const char *what; /* "colour picture" */
+    bool data;        /* its numbers are no colours */
+} WrObjectPictureInfo;
+extern const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES];
+WrImage *wr_object_picture(const WrScene *object, int which); /* borrowed; NULL: it has none */
+bool wr_object_any_picture(const WrScene *scene, int which);  /* has any object of the scene one? */
 
 /* "periodic", "clamp-u", "clamp-v" or "clamp": the word for the wrap of a table, as in commands. Number i
    clamps u where bit 0 is set, v where bit 1 is; NULL after the last. */
@@ -63,9 +79,9 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
 typedef struct WrLoaded {
     WrDocument *document; /* the scene is the default one: run scene_text to restore it */
     char *scene_text;     /* owned, wr_free */
-    WrImage *colours
-        [WR_OBJECTS_MAX]; /* embedded colour pictures of the scene's objects, or NULL; owned */
-    WrImage *mesh;        /* embedded mesh (wr_scene_mesh_from_image) or NULL; owned */
+    WrImage
+        *pictures[WR_OBJECTS_MAX][WR_OBJECT_PICTURES]; /* of the scene's objects, or NULL; owned */
+    WrImage *mesh; /* embedded mesh (wr_scene_mesh_from_image) or NULL; owned */
     double
         newer_version; /* of the format, where that is newer than ours: parts and settings that we do
                              not know were passed over, so it must not be saved over; else 0 */

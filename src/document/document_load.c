@@ -46,9 +46,9 @@ typedef struct Loading {
     int width, height;
     WrWrap wrap_u, wrap_v;
     Slot slots[WR_LAYERS_MAX];
-    int layers, selection, mesh; /* how many; parts, 0: none */
-    int colour[WR_OBJECTS_MAX];  /* parts of the objects, 0: none */
-    bool coloured;               /* there is one */
+    int layers, selection, mesh;                     /* how many; parts, 0: none */
+    int picture[WR_OBJECTS_MAX][WR_OBJECT_PICTURES]; /* parts of the objects, 0: none */
+    bool pictured;                                   /* there is one */
     int64_t replaced;
 } Loading;
 
@@ -89,17 +89,20 @@ static bool belongs(const Loading *in, const char *name, const char *prefix)
 /* Have the parts begun that follow all layers? */
 static bool ends(const Loading *in)
 {
-    return in->selection || in->coloured || in->mesh;
+    return in->selection || in->pictured || in->mesh;
 }
 
-/* The object whose colour picture it is: "colour", "colour:3"; else -1. */
-static int object_of(const char *name)
+/* The object whose picture it is: "colour", "colour:3"; else -1. */
+static int object_of(const char *name, int *which)
 {
     char want[32];
-    if (strcmp(name, WR_DOCUMENT_COLOUR) == 0) return 0;
-    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
-        snprintf(want, sizeof want, "%s:%d", WR_DOCUMENT_COLOUR, i + 1);
-        if (strcmp(name, want) == 0) return i;
+    for (*which = 0; *which < WR_OBJECT_PICTURES; ++*which) {
+        const char *part = wr_object_pictures[*which].part;
+        if (strcmp(name, part) == 0) return 0;
+        for (int i = 0; i < WR_OBJECTS_MAX; i++) {
+            snprintf(want, sizeof want, "%s:%d", part, i + 1);
+            if (strcmp(name, want) == 0) return i;
+        }
     }
     return -1;
 }
@@ -107,7 +110,7 @@ static int object_of(const char *name)
 /* Put a part where it belongs. False if it has no place, or that is taken, or passed. */
 static bool place_part(Loading *in, const char *name, int part)
 {
-    int object;
+    int object, which;
     Slot *last = in->layers > 0 ? &in->slots[in->layers - 1] : NULL;
     if (begins_with(name, WR_DOCUMENT_LAYER)) {
         if (ends(in) || in->layers == WR_LAYERS_MAX) return false;
@@ -121,10 +124,10 @@ static bool place_part(Loading *in, const char *name, int part)
     } else if (strcmp(name, WR_DOCUMENT_SELECTION) == 0) {
         if (ends(in)) return false;
         in->selection = part;
-    } else if ((object = object_of(name)) >= 0) {
-        if (in->colour[object] || in->mesh) return false;
-        in->colour[object] = part;
-        in->coloured = true;
+    } else if ((object = object_of(name, &which)) >= 0) {
+        if (in->picture[object][which] || in->mesh) return false;
+        in->picture[object][which] = part;
+        in->pictured = true;
     } else if (strcmp(name, WR_DOCUMENT_MESH) == 0) {
         if (in->mesh) return false;
         in->mesh = part;
@@ -137,15 +140,16 @@ static bool place_part(Loading *in, const char *name, int part)
 static bool check_part(const Loading *in, int index, WrError *err)
 {
     WrImagePart part = wr_image_file_part(in->file, index);
-    bool colour = object_of(part.name) >= 0;
-    if (colour && part.channels != 3)
-        return wr_fail(err, "%s: damaged: the colour picture has %d channels; must be 3", in->path,
-                       part.channels);
+    int which;
+    const bool picture = object_of(part.name, &which) >= 0;
+    if (picture && part.channels != 3)
+        return wr_fail(err, "%s: damaged: the %s has %d channels; must be 3", in->path,
+                       wr_object_pictures[which].what, part.channels);
     const bool mesh = index == in->mesh;
     if (mesh && part.channels != 1)
         return wr_fail(err, "%s: damaged: the mesh has %d channels; must be 1", in->path,
                        part.channels);
-    if (!colour && !mesh &&
+    if (!picture && !mesh &&
         (part.width != in->width || part.height != in->height || part.channels != 1))
         return wr_fail(
             err, "%s: damaged: part '%.60s' is %dx%d with %d channels; F is %dx%d with 1", in->path,
@@ -153,7 +157,7 @@ static bool check_part(const Loading *in, int index, WrError *err)
     return true;
 }
 
-/* F, which may be the only layer; else for each layer its heights, cover and mask; selection; colour; mesh: in this order, and nothing else. */
+/* F, which may be the only layer; else for each layer its heights, cover and mask; selection; pictures; mesh: in this order, and nothing else. */
 static bool find_parts(Loading *in, WrError *err)
 {
     int count = wr_image_file_parts(in->file);
@@ -365,8 +369,10 @@ static bool load(Loading *in, WrLoaded *loaded, WrError *err)
     loaded->document = wr_document_new();
     if (!read_document(in, loaded->document, err)) return false;
     for (int i = 0; i < WR_OBJECTS_MAX; i++)
-        if (in->colour[i] && !(loaded->colours[i] = read_image(in, in->colour[i], err)))
-            return false;
+        for (int k = 0; k < WR_OBJECT_PICTURES; k++) {
+            const int part = in->picture[i][k];
+            if (part && !(loaded->pictures[i][k] = read_image(in, part, err))) return false;
+        }
     if (in->mesh && !(loaded->mesh = read_image(in, in->mesh, err))) return false;
     const char *scene = wr_image_file_attribute(in->file, 0, "wrinkle:scene");
     loaded->scene_text = wr_strdup(scene ? scene : "");
@@ -376,10 +382,11 @@ static bool load(Loading *in, WrLoaded *loaded, WrError *err)
 
 void wr_loaded_free_images(WrLoaded *loaded)
 {
-    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
-        wr_image_free(loaded->colours[i]);
-        loaded->colours[i] = NULL;
-    }
+    for (int i = 0; i < WR_OBJECTS_MAX; i++)
+        for (int k = 0; k < WR_OBJECT_PICTURES; k++) {
+            wr_image_free(loaded->pictures[i][k]);
+            loaded->pictures[i][k] = NULL;
+        }
     wr_image_free(loaded->mesh);
     loaded->mesh = NULL;
 }

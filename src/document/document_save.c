@@ -22,8 +22,8 @@
 #define FILE_ATTRIBUTES 8
 #define LAYER_ATTRIBUTES 6
 #define PARTS_MAX                                                                                  \
-    (3 + WR_OBJECTS_MAX +                                                                          \
-     3 * WR_LAYERS_MAX) /* F, selection, mesh, colours; heights, cover, mask of a layer */
+    (3 + WR_OBJECT_PICTURES * WR_OBJECTS_MAX +                                                     \
+     3 * WR_LAYERS_MAX) /* F, selection, mesh, pictures; heights, cover, mask of a layer */
 _Static_assert(PARTS_MAX <= WR_IMAGE_PARTS_MAX, "a document must fit into one file");
 
 static const struct {
@@ -69,7 +69,7 @@ static bool field_rows(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
-static bool colour_rows(void *ctx, int y, int rows, void *out, WrError *err)
+static bool picture_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
     (void)err;
     wr_image_rows_out(ctx, 3, y, rows, out);
@@ -149,10 +149,12 @@ static void add_composite(Saving *to, const char *scene_text)
     const WrDocument *document = to->document;
     const WrField *f = wr_document_field(document);
     const WrImageAttribute attributes[FILE_ATTRIBUTES] = {
-        { "wrinkle:version", keep_whole(to, "",
-                                        to->mesh     ? WR_DOCUMENT_VERSION
-                                        : to->single ? WR_DOCUMENT_VERSION_ALONE
-                                                     : WR_DOCUMENT_VERSION_PARTS) },
+        { "wrinkle:version",
+          keep_whole(to, "",
+                     wr_object_any_picture(document->scene, WR_OBJECT_NORMALS) ? WR_DOCUMENT_VERSION
+                     : to->mesh   ? WR_DOCUMENT_VERSION_MESH
+                     : to->single ? WR_DOCUMENT_VERSION_ALONE
+                                  : WR_DOCUMENT_VERSION_PARTS) },
         { "wrinkle:program", "Wrinkle " WR_VERSION },
         { "wrinkle:scene", scene_text },
         { "wrinkle:wrap", wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)) },
@@ -228,11 +230,28 @@ static bool same_bits(const WrField *a, const WrField *b)
     return same;
 }
 
-static bool has_colour(const WrScene *scene)
+const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES] = {
+    [WR_OBJECT_COLOUR] = { "colour", "colour picture", false },
+    [WR_OBJECT_NORMALS] = { "normals", "normal map", true },
+};
+
+WrImage *wr_object_picture(const WrScene *object, int which)
+{
+    return which == WR_OBJECT_COLOUR ? object->colour : object->normals.image;
+}
+
+bool wr_object_any_picture(const WrScene *scene, int which)
 {
     bool any = false;
     for (int i = 0; i < wr_scene_object_count(scene); i++)
-        any |= wr_scene_object(scene, i)->colour != NULL;
+        any |= wr_object_picture(wr_scene_object(scene, i), which) != NULL;
+    return any;
+}
+
+static bool has_pictures(const WrScene *scene)
+{
+    bool any = false;
+    for (int k = 0; k < WR_OBJECT_PICTURES; k++) any |= wr_object_any_picture(scene, k);
     return any;
 }
 
@@ -241,25 +260,26 @@ static bool fits_one_part(const WrDocument *document)
 {
     const WrLayer *layer = &document->layers[0];
     return document->layer_count == 1 && !layer->cover && !layer->mask && !document->selection &&
-           !has_colour(document->scene) && !document->scene->triangles &&
+           !has_pictures(document->scene) && !document->scene->triangles &&
            same_bits(wr_document_field(document), layer->heights);
 }
 
-static void add_colour(Saving *to, int object)
+static void add_picture(Saving *to, int object, int which)
 {
     const WrScene *scene = to->document->scene;
-    WrImage *colour = wr_scene_object(scene, object)->colour;
+    WrImage *picture = wr_object_picture(wr_scene_object(scene, object), which);
     WrText name = { 0 };
-    if (!colour) return;
-    wr_text_add(&name, WR_DOCUMENT_COLOUR);
+    if (!picture) return;
+    wr_text_add(&name, wr_object_pictures[which].part);
     if (wr_scene_object_count(scene) > 1) wr_text_addf(&name, ":%d", object + 1);
-    to->parts[to->count++] = (WrImageOut){ .width = colour->width,
-                                           .height = colour->height,
+    to->parts[to->count++] = (WrImageOut){ .width = picture->width,
+                                           .height = picture->height,
                                            .channels = 3,
                                            .type = WR_PIXEL_F32,
                                            .part_name = keep(to, name),
-                                           .rows = colour_rows,
-                                           .ctx = colour };
+                                           .data = wr_object_pictures[which].data,
+                                           .rows = picture_rows,
+                                           .ctx = picture };
 }
 
 static void add_mesh(Saving *to)
@@ -274,16 +294,24 @@ static void add_mesh(Saving *to)
                                            .ctx = to->mesh };
 }
 
+static bool check_pictures(const WrScene *scene, const char *path, WrError *err)
+{
+    for (int i = 0; i < wr_scene_object_count(scene); i++)
+        for (int k = 0; k < WR_OBJECT_PICTURES; k++) {
+            const WrImage *picture = wr_object_picture(wr_scene_object(scene, i), k);
+            if (picture && (picture->width > WR_IMAGE_MAX || picture->height > WR_IMAGE_MAX))
+                return wr_fail(err, "%s: the %s is %dx%d: each side must be 1..%d", path,
+                               wr_object_pictures[k].what, picture->width, picture->height,
+                               WR_IMAGE_MAX);
+        }
+    return true;
+}
+
 bool wr_document_save(const WrDocument *document, const char *scene_text, const char *path,
                       WrError *err)
 {
     const int objects = wr_scene_object_count(document->scene);
-    for (int i = 0; i < objects; i++) {
-        const WrImage *colour = wr_scene_object(document->scene, i)->colour;
-        if (colour && (colour->width > WR_IMAGE_MAX || colour->height > WR_IMAGE_MAX))
-            return wr_fail(err, "%s: the colour picture is %dx%d: each side must be 1..%d", path,
-                           colour->width, colour->height, WR_IMAGE_MAX);
-    }
+    if (!check_pictures(document->scene, path, err)) return false;
     const WrTriangles *triangles = NULL;
     const bool kept = wr_scene_kept_mesh(document->scene, &triangles, err);
     WrImage *mesh = triangles ? wr_scene_mesh_to_image(triangles, err) : NULL;
@@ -299,7 +327,8 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
     if (to->single) add_layer_to_composite(to);
     for (int i = 0; i < document->layer_count && !to->single; i++) add_layer(to, i);
     if (document->selection) add_field(to, document->selection, WR_DOCUMENT_SELECTION);
-    for (int i = 0; i < objects; i++) add_colour(to, i);
+    for (int k = 0; k < WR_OBJECT_PICTURES; k++)
+        for (int i = 0; i < objects; i++) add_picture(to, i, k);
     if (mesh) add_mesh(to);
     bool ok = wr_image_write(path, to->parts, to->count, err);
     for (int i = 0; i < to->texts.count; i++) wr_free(to->texts.data[i]);

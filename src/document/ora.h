@@ -10,7 +10,8 @@
    EXR files, named by attributes of the namespace WR_ORA_NAMESPACE, which others pass over:
 
      image   wrinkle:version  wrinkle:wrap  wrinkle:range  wrinkle:active  wrinkle:solo (layers counted from 1
-             at the bottom; 0: none)  wrinkle:scene  wrinkle:selection  wrinkle:colour (names of entries)
+             at the bottom; 0: none)  wrinkle:scene  wrinkle:selection  wrinkle:colour
+             wrinkle:normals (names of entries)
      layer   wrinkle:heights  wrinkle:cover  wrinkle:mask (names of entries)  wrinkle:blend  wrinkle:radius
              wrinkle:name (bytes in hex, where XML cannot hold the name)  wrinkle:opacity  wrinkle:visible (of
              the lowest one and beside a layer that is alone, where others are told otherwise)
@@ -26,7 +27,8 @@
 typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
-#define WR_ORA_VERSION 1
+#define WR_ORA_VERSION 2
+#define WR_ORA_VERSION_PLAIN 1 /* of a file without normal maps */
 
 /* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. */
 bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path,

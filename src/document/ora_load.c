@@ -45,7 +45,8 @@ typedef struct Loading {
 static int count_pictures(const WrOraStack *stack)
 {
     int count = (stack->selection != NULL) + (stack->mesh != NULL);
-    for (int i = 0; i < WR_OBJECTS_MAX; i++) count += stack->colours[i] != NULL;
+    for (int i = 0; i < WR_OBJECTS_MAX; i++)
+        for (int k = 0; k < WR_OBJECT_PICTURES; k++) count += stack->pictures[i][k] != NULL;
     for (int i = 0; i < stack->layers.count; i++) {
         const WrOraLayer *layer = &stack->layers.data[i];
         count += 1 + (layer->cover != NULL) + (layer->mask != NULL);
@@ -323,6 +324,16 @@ static bool read_stack(Loading *in, WrError *err)
     return good;
 }
 
+static WrImage *read_object_picture(Loading *in, const char *entry, int which, WrError *err)
+{
+    WrImage *image = read_picture(in, entry, err);
+    if (!image || image->channels == 3) return image;
+    wr_fail(err, "%s: damaged: the %s has %d channels; must be 3", in->path,
+            wr_object_pictures[which].what, image->channels);
+    wr_image_free(image);
+    return NULL;
+}
+
 static bool read_scene(Loading *in, WrLoaded *loaded, WrError *err)
 {
     size_t length;
@@ -333,14 +344,11 @@ static bool read_scene(Loading *in, WrLoaded *loaded, WrError *err)
     else if (strlen(loaded->scene_text) != length)
         return wr_fail(err, "%s: damaged: its scene is no text", in->path);
     if (in->stack.mesh && !(loaded->mesh = read_picture(in, in->stack.mesh, err))) return false;
-    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
-        if (!in->stack.colours[i]) continue;
-        loaded->colours[i] = read_picture(in, in->stack.colours[i], err);
-        if (!loaded->colours[i]) return false;
-        if (loaded->colours[i]->channels != 3)
-            return wr_fail(err, "%s: damaged: the colour picture has %d channels; must be 3",
-                           in->path, loaded->colours[i]->channels);
-    }
+    for (int i = 0; i < WR_OBJECTS_MAX; i++)
+        for (int k = 0; k < WR_OBJECT_PICTURES; k++)
+            if (in->stack.pictures[i][k] && !(loaded->pictures[i][k] = read_object_picture(
+                                                  in, in->stack.pictures[i][k], k, err)))
+                return false;
     return true;
 }
 

@@ -273,18 +273,28 @@ static char *numbered(const char *before, int number, const char *after)
     return text.data;
 }
 
-/* Colour pictures of the scene's objects, and its mesh. */
+static char *picture_entry(int object, int which)
+{
+    WrText text = { 0 };
+    wr_text_addf(&text, "data/%s", wr_object_pictures[which].part);
+    if (object > 0) wr_text_addf(&text, "-%d", object + 1);
+    wr_text_add(&text, ".exr");
+    return text.data;
+}
+
+/* The pictures of the scene's objects, and its mesh. */
 static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
 {
     const WrTriangles *mesh = NULL;
     if (!wr_scene_kept_mesh(scene, &mesh, err)) return false;
     if (mesh && !(to->mesh = wr_scene_mesh_to_image(mesh, err))) return false;
-    for (int i = 0; i < wr_scene_object_count(scene); i++) {
-        const WrImage *colour = wr_scene_object(scene, i)->colour;
-        char attribute[WR_ORA_COLOUR_NAME];
-        if (!colour) continue;
-        char *name = i > 0 ? numbered("data/colour-", i + 1, ".exr") : wr_strdup("data/colour.exr");
-        if (!add_image(to, colour, name, wr_ora_colour_name("wrinkle:", i, attribute), 3, err))
+    for (int i = 0; i < wr_scene_object_count(scene) * WR_OBJECT_PICTURES; i++) {
+        const int object = i / WR_OBJECT_PICTURES, which = i % WR_OBJECT_PICTURES;
+        const WrImage *picture = wr_object_picture(wr_scene_object(scene, object), which);
+        char attribute[WR_ORA_PICTURE_NAME];
+        if (picture &&
+            !add_image(to, picture, picture_entry(object, which),
+                       wr_ora_picture_name("wrinkle:", object, which, attribute), 3, err))
             return false;
     }
     return !to->mesh || add_image(to, to->mesh, wr_strdup("data/mesh.exr"), "wrinkle:mesh", 1, err);
@@ -382,16 +392,18 @@ static bool add_image_attributes(Saving *to, WrError *err)
     const WrDocument *document = to->document;
     const WrField *f = document->layers[0].heights;
     char low[WR_NUMBER_SIZE], high[WR_NUMBER_SIZE];
-    wr_text_addf(&to->stack,
-                 "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<image version=\"0.0.5\" w=\"%d\" "
-                 "h=\"%d\" xmlns:wrinkle=\"" WR_ORA_NAMESPACE "\" wrinkle:version=\"%d\" "
-                 "wrinkle:wrap=\"%s\" wrinkle:range=\"%s,%s\" wrinkle:active=\"%d\" "
-                 "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
-                 wr_field_width(f), wr_field_height(f), WR_ORA_VERSION,
-                 wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
-                 wr_number_print_float(to->range.low, low),
-                 wr_number_print_float(to->range.high, high), document->active + 1,
-                 document->solo + 1);
+    wr_text_addf(
+        &to->stack,
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<image version=\"0.0.5\" w=\"%d\" "
+        "h=\"%d\" xmlns:wrinkle=\"" WR_ORA_NAMESPACE "\" wrinkle:version=\"%d\" "
+        "wrinkle:wrap=\"%s\" wrinkle:range=\"%s,%s\" wrinkle:active=\"%d\" "
+        "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
+        wr_field_width(f), wr_field_height(f),
+        wr_object_any_picture(to->document->scene, WR_OBJECT_NORMALS) ? WR_ORA_VERSION
+                                                                      : WR_ORA_VERSION_PLAIN,
+        wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
+        wr_number_print_float(to->range.low, low), wr_number_print_float(to->range.high, high),
+        document->active + 1, document->solo + 1);
     if (document->selection && !add_field(to, "wrinkle:selection", wr_strdup("data/selection.exr"),
                                           document->selection, err))
         return false;

@@ -192,10 +192,12 @@ static void add_layer(Reading *reading, const char **attributes)
     wr_array_push(&reading->stack->layers, layer);
 }
 
-const char *wr_ora_colour_name(const char *prefix, int object, char buffer[WR_ORA_COLOUR_NAME])
+const char *wr_ora_picture_name(const char *prefix, int object, int which,
+                                char buffer[WR_ORA_PICTURE_NAME])
 {
-    if (object == 0) snprintf(buffer, WR_ORA_COLOUR_NAME, "%scolour", prefix);
-    else snprintf(buffer, WR_ORA_COLOUR_NAME, "%scolour-%d", prefix, object + 1);
+    const char *part = wr_object_pictures[which].part;
+    if (object == 0) snprintf(buffer, WR_ORA_PICTURE_NAME, "%s%s", prefix, part);
+    else snprintf(buffer, WR_ORA_PICTURE_NAME, "%s%s-%d", prefix, part, object + 1);
     return buffer;
 }
 
@@ -210,10 +212,12 @@ static void read_image(Reading *reading, const char **attributes)
     stack->solo = wr_strdup(find(attributes, OURS "solo"));
     stack->scene = wr_strdup(find(attributes, OURS "scene"));
     stack->selection = wr_strdup(find(attributes, OURS "selection"));
-    for (int i = 0; i < WR_OBJECTS_MAX; i++) {
-        char name[WR_ORA_COLOUR_NAME];
-        stack->colours[i] = wr_strdup(find(attributes, wr_ora_colour_name(OURS, i, name)));
-    }
+    for (int i = 0; i < WR_OBJECTS_MAX; i++)
+        for (int k = 0; k < WR_OBJECT_PICTURES; k++) {
+            char name[WR_ORA_PICTURE_NAME];
+            stack->pictures[i][k] =
+                wr_strdup(find(attributes, wr_ora_picture_name(OURS, i, k, name)));
+        }
     stack->mesh = wr_strdup(find(attributes, OURS "mesh"));
 }
 
@@ -297,7 +301,8 @@ void wr_ora_stack_fini(WrOraStack *stack)
     char *texts[] = { stack->version, stack->wrap, stack->active,   stack->solo,
                       stack->scene,   stack->mesh, stack->selection };
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) wr_free(texts[k]);
-    for (int i = 0; i < WR_OBJECTS_MAX; i++) wr_free(stack->colours[i]);
+    for (int i = 0; i < WR_OBJECTS_MAX; i++)
+        for (int k = 0; k < WR_OBJECT_PICTURES; k++) wr_free(stack->pictures[i][k]);
     *stack = (WrOraStack){ 0 };
 }
 

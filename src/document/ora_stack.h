@@ -4,6 +4,7 @@
 #include "scene/objects.h"
 #include "base/array.h"
 #include "document/blend.h"
+#include "document/document_file.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -29,7 +30,7 @@ typedef struct WrOraStack {
     int groups;                  /* that were dissolved */
     int unknown;                 /* elements that are neither layers nor groups */
     char *version, *wrap, *active, *solo, *scene, *selection, *mesh,
-        *colours[WR_OBJECTS_MAX]; /* ours */
+        *pictures[WR_OBJECTS_MAX][WR_OBJECT_PICTURES]; /* ours */
 } WrOraStack;
 
 /* Errors do not name the file. On failure the stack is empty. */
@@ -46,6 +47,7 @@ bool wr_ora_add_attribute(WrText *xml, const char *name, const char *value);
 void wr_ora_add_float(WrText *xml, const char *name, float value);
 /* The name as an attribute, beside it as hex digits where XML cannot hold it. */
 void wr_ora_add_name(WrText *xml, const char *name);
-/* The attribute that names the entry of an object's colour picture: PREFIXcolour, PREFIXcolour-2, ... */
-#define WR_ORA_COLOUR_NAME 64
-const char *wr_ora_colour_name(const char *prefix, int object, char buffer[WR_ORA_COLOUR_NAME]);
+/* The attribute that names the entry of an object's picture: PREFIXcolour, PREFIXcolour-2, ... */
+#define WR_ORA_PICTURE_NAME 64
+const char *wr_ora_picture_name(const char *prefix, int object, int which,
+                                char buffer[WR_ORA_PICTURE_NAME]);

@@ -4,6 +4,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "render/frame_inner.h"
+#include "render/plan_inner.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
 #include "system/clock.h"
@@ -206,7 +207,7 @@ static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *reques
     const WrPyramid *pyramid =
         wr_plan_runs(&renderer->plan, WR_EFFECT_TINT) ? &tint->pyramid : NULL;
     double ru, rv;
-    wr_scene_colour_repeat(request->scene, &ru, &rv);
+    wr_scene_repeat(request->scene, &request->scene->colour_laid, &ru, &rv);
     const WrColourLook look = { .rgba = tint->rgba,
                                 .pitch = tint->pitch,
                                 .width = tint->source->width,
@@ -258,15 +259,17 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
 {
     const WrScene *scene = request->scene;
     const WrRelief *relief = &renderer->relief;
-    const WrSlopeScale by = wr_slope_scale(renderer->plan.bump, scene->normals.strength,
-                                           scene->replicate_u, scene->replicate_v, scale);
+    double ru, rv;
+    wr_scene_repeat(scene, &scene->normals.laid, &ru, &rv);
+    const WrSlopeScale by =
+        wr_slope_scale(renderer->plan.bump, scene->normals.strength, ru, rv, scale);
     const WrLookd look = { .width = relief->source->width,
                            .height = relief->source->height,
-                           .ru = scene->replicate_u,
-                           .rv = scene->replicate_v,
+                           .ru = ru,
+                           .rv = rv,
                            .periodic_u = relief->wrap_u == WR_WRAP_PERIODIC,
                            .periodic_v = relief->wrap_v == WR_WRAP_PERIODIC,
-                           .wide = wr_plan_runs(&renderer->plan, WR_EFFECT_WIDE),
+                           .wide = fmax(fabs(ru), fabs(rv)) >= WR_WIDE_FROM,
                            .scale_u = by.u,
                            .scale_v = by.v,
                            .pyramid = &relief->pyramid };

@@ -235,7 +235,7 @@ static void map_levels(const WrTileJob *job, const Rays *rays, Strip *strip)
     const Kernels *k = KERNELS_OF(job);
     const REAL last = (REAL)(MAP_OF(job)->pyramid->levels - 2);
     if (job->plan->map_filtered) {
-        k->footprint(rays, MAP_OF(job), 1, strip);
+        (job->triangles ? k->footprint_met : k->footprint)(rays, MAP_OF(job), 1, strip);
         k->spread(MAP_OF(job), job->plan->map_anisotropic, strip);
     }
     for (int i = 0; i < strip->count; i++) {

@@ -4,6 +4,9 @@
 #include "render/plan.h"
 #include "scene/scene.h"
 
+/* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
+#define WR_WIDE_FROM 1024.0
+
 static inline WrVerdict say(WrVerdict call, const char **why, const char *reason)
 {
     *why = reason;

@@ -38,7 +38,7 @@ static bool colour_even(const WrImage *image)
 WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     double ru, rv;
-    wr_scene_colour_repeat(ask->scene, &ru, &rv);
+    wr_scene_repeat(ask->scene, &ask->scene->colour_laid, &ru, &rv);
     if (!wants_filter(ask->dials))
         return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
     if (!runs(plan, WR_EFFECT_COLOUR))
@@ -68,6 +68,13 @@ static bool map_even(const WrImage *image)
     return true;
 }
 
+static bool map_still(const WrScene *scene)
+{
+    double ru, rv;
+    wr_scene_repeat(scene, &scene->normals.laid, &ru, &rv);
+    return ru == 0 && rv == 0;
+}
+
 WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrScene *scene = ask->scene;
@@ -76,7 +83,7 @@ WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanAsk *ask, const char
     if (scene->bump == WR_BUMP_NONE) return say(WR_VERDICT_NONE, why, "bump mode is none");
     if (!lit(plan, ask)) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
     if (map->strength == 0) return say(WR_VERDICT_SPARED, why, "its strength is 0");
-    if (still(scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: it has no slope");
+    if (map_still(scene)) return say(WR_VERDICT_SPARED, why, "it is laid 0 times: it has no slope");
     if (map_even(map->image))
         return say(WR_VERDICT_SPARED, why, "the normal map is straight up everywhere");
     return say(WR_VERDICT_RUN, why, "its slopes are added to the table's and a light shows them");
@@ -85,6 +92,6 @@ WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanAsk *ask, const char
 void wr_settle_normals(WrPlan *plan, const WrPlanAsk *ask)
 {
     plan->map_filtered =
-        runs(plan, WR_EFFECT_NORMALS) && wants_filter(ask->dials) && !still(ask->scene);
+        runs(plan, WR_EFFECT_NORMALS) && wants_filter(ask->dials) && !map_still(ask->scene);
     plan->map_anisotropic = plan->map_filtered && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }

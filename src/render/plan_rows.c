@@ -8,9 +8,6 @@
 
 #include <math.h>
 
-/* Beyond this r u loses more than 1e-3 texel of a 64-texel table in single precision (HC40). */
-#define WIDE_FROM 1024.0
-
 /* ---- light ---- */
 
 static bool any_light(const WrScene *scene)
@@ -91,7 +88,7 @@ static WrVerdict decide_wide(const WrPlan *plan, const WrPlanAsk *ask, const cha
 {
     const double r = fmax(fabs(ask->scene->replicate_u), fabs(ask->scene->replicate_v));
     if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
-    if (r < WIDE_FROM)
+    if (r < WR_WIDE_FROM)
         return say(WR_VERDICT_SPARED, why,
                    "replication is under 1024: single precision is right to 1e-3 texel");
     return say(WR_VERDICT_RUN, why,
@@ -327,7 +324,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
     [WR_ROW(WR_EFFECT_NORMALS)] = { "E58", "normal map", WR_PROOF_IDENTICAL, NULL,
                                     "there is none, or it is straight up everywhere; its strength "
-                                    "or replication is 0; the mode is none; no light depends on "
+                                    "or repetition is 0; the mode is none; no light depends on "
                                     "the normal",
                                     STAGE(NORMALS), .spared = WR_RUN_DARK,
                                     .decide = wr_decide_normals, .settle = wr_settle_normals },

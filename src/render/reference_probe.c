@@ -93,6 +93,7 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
         probe.u = hit.u, probe.v = hit.v, probe.face = hit.face;
         wr_reference_view_at(view, &hit, at);
         wr_scene_height(scene, field, hit.u, hit.v, &probe.f, &probe.fu, &probe.fv);
+        wr_reference_add_map(&looker.stage, &hit, at, &probe.fu, &probe.fv);
         probe.d = wr_bump_d(at->n_unit, at->pu, at->pv, probe.fu, probe.fv);
         probe.a = wr_bump_axis(at->pu, at->pv, probe.fu, probe.fv);
         probe.perturbed = wr_reference_normal(scene->bump, at, probe.f, probe.fu, probe.fv);
@@ -163,6 +164,7 @@ static void map_row(int y, int worker, void *ctx)
         }
         double f, fu, fv;
         look_up(looker, hit.u, hit.v, &f, &fu, &fv);
+        wr_reference_add_map(&looker->stage, &hit, &at, &fu, &fv);
         out[x] = quantity(job, &at, f, fu, fv);
     }
 }

@@ -4,6 +4,7 @@
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
+#include "scene/laid.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 
@@ -22,6 +23,11 @@ static WrBumpMode truth_of(WrBumpMode mode)
     return WR_BUMP_EXACT;
 }
 
+static bool has_slopes(const WrScene *scene)
+{
+    return scene->height != 0 || (scene->normals.image && scene->normals.strength != 0);
+}
+
 bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
                              double turn_deg, int width, int height, bool table, WrPool *pool,
                              WrError *err)
@@ -33,7 +39,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
         stage->periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
         stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     }
-    stage->bump = scene->height == 0 ? WR_BUMP_NONE : truth_of(scene->bump);
+    stage->bump = has_slopes(scene) ? truth_of(scene->bump) : WR_BUMP_NONE;
     if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
         stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
     if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
@@ -53,6 +59,16 @@ void wr_reference_height(const WrReferenceStage *stage, double u, double v, doub
     if (stage->scene->analytic.kind != WR_ANALYTIC_OFF)
         wr_scene_height(stage->scene, NULL, u, v, f, fu, fv);
     else wr_reference_table_at(&stage->table, stage->scene, u, v, f, fu, fv);
+}
+
+void wr_reference_add_map(const WrReferenceStage *stage, const WrReferenceHit *hit,
+                          const WrSurfacePoint *at, double *fu, double *fv)
+{
+    WrMapAxes axes;
+    if (!stage->scene->normals.image) return;
+    const bool found = wr_laid_axes(wr_scene_frame(stage->scene), at, &axes);
+    wr_laid_add_normals(stage->scene, stage->periodic_u, stage->periodic_v, at,
+                        found ? &axes : NULL, hit->u, hit->v, fu, fv);
 }
 
 /* |a|^2 that neither overflows nor loses digits to underflow when multiplied by another like it. */
@@ -101,40 +117,16 @@ static WrVec3 unit(WrVec3 a)
     return ordinary(squared) ? v3_scale(a, 1 / sqrt(squared)) : v3_unit(a, zero);
 }
 
-/* Where texel i of n is on an axis that goes round or ends. */
-static int colour_texel(int i, int n, bool periodic)
-{
-    if (periodic) return (i % n + n) % n;
-    return i < 0 ? 0 : i >= n ? n - 1 : i;
-}
-
-static double colour_place(double u, double replicate, bool periodic)
-{
-    if (periodic) return wr_field_reduce(u, replicate);
-    const double x = replicate * u;
-    return x > 0 ? x < 1 ? x : 1 : 0;
-}
-
 /* C(u,v) of the picture, bilinear. */
 static void picture_colour(const WrReferenceStage *stage, double u, double v, double rgb[3])
 {
     const WrScene *scene = stage->scene;
-    const WrImage *image = scene->colour;
-    const int w = image->width, h = image->height, channels = image->channels;
-    double ru, rv;
-    wr_scene_colour_repeat(scene, &ru, &rv);
-    const double x = w * colour_place(u, ru, stage->periodic_u) - 0.5;
-    const double y = h * (1 - colour_place(v, rv, stage->periodic_v)) - 0.5;
-    const int i = (int)floor(x), j = (int)floor(y);
-    const double a = x - i, b = y - j;
-    const double weight[4] = { (1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b };
+    const bool colours = scene->colour->channels >= 3;
+    const WrTexels at = wr_laid_texels(scene, scene->colour, &scene->colour_laid, stage->periodic_u,
+                                       stage->periodic_v, u, v);
     rgb[0] = rgb[1] = rgb[2] = 0;
-    for (int k = 0; k < 4; k++) {
-        const size_t column = (size_t)colour_texel(i + k % 2, w, stage->periodic_u);
-        const size_t row = (size_t)colour_texel(j + k / 2, h, stage->periodic_v);
-        const float *texel = image->data + (row * (size_t)w + column) * (size_t)channels;
-        for (int c = 0; c < 3; c++) rgb[c] += weight[k] * (double)texel[channels >= 3 ? c : 0];
-    }
+    for (int k = 0; k < 4; k++)
+        for (int c = 0; c < 3; c++) rgb[c] += at.weight[k] * (double)at.texel[k][colours ? c : 0];
 }
 
 /* max(0, n'.h)^s of unit vectors; near 1 from 1 - n'.h = |n' - h|^2 / 2, of which a high power loses no
@@ -184,7 +176,8 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     WrSurfacePoint at;
     double f = 0, fu = 0, fv = 0;
     wr_reference_view_at(view, &hit, &at);
-    if (stage->bump != WR_BUMP_NONE) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
+    if (stage->scene->height != 0) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
+    wr_reference_add_map(stage, &hit, &at, &fu, &fv);
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
     out->normal = v3_scale(perturbed, wr_reference_side(view, &at));
     out->lost = hit.lost;

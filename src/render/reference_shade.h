@@ -26,6 +26,9 @@ void wr_reference_stage_fini(WrReferenceStage *stage); /* fine on a zeroed one *
 /* F with height and replication: the formula, or the spline of the stage's table. */
 void wr_reference_height(const WrReferenceStage *stage, double u, double v, double *f, double *fu,
                          double *fv);
+/* What the scene's normal map adds to the slopes there. */
+void wr_reference_add_map(const WrReferenceStage *stage, const WrReferenceHit *hit,
+                          const WrSurfacePoint *at, double *fu, double *fv);
 /* n', unit, by the formulas of shade/bump.h written out where their numbers are of ordinary size, by that
  * module's own where they are not. */
 WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, double fu,

@@ -1,9 +1,14 @@
 #include "scene/normal_map.h"
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "image/image.h"
 
+#include <float.h>
 #include <math.h>
+#include <string.h>
+
+#define LOOK 16384 /* texels between two looks at whether it should stop */
 
 /* ---- numbers ------------------------------------------------------------------------------------- */
 
@@ -13,6 +18,7 @@ typedef struct Reading {
     int last;   /* code; 0: float */
     bool remap; /* 2 c - 1 */
     bool centred;
+    bool object; /* all directions are */
 } Reading;
 
 static size_t texels_of(const WrImage *image)
@@ -91,7 +97,7 @@ static bool read_vector(const Reading *r, size_t i, float out[3])
         return true;
     }
     x /= length, y /= length, z /= length;
-    const bool away = z < WR_NORMAL_LEAST;
+    const bool away = !r->object && z < WR_NORMAL_LEAST;
     if (away) z = WR_NORMAL_LEAST;
     const double unit = 1 / sqrt(x * x + y * y + z * z);
     out[0] = (float)(x * unit), out[1] = (float)(y * unit), out[2] = (float)(z * unit);
@@ -145,6 +151,45 @@ static bool find_down(const WrImage *image, double step, WrNormalTold *told)
     return !told->undecided && sum < 0;
 }
 
+/* All texels of what the reading has been told. */
+static WrImage *read_vectors(Reading *r, WrNormalTold *told, WrError *err)
+{
+    WrImage *to = wr_image_new(r->from->width, r->from->height, 3, err);
+    if (!to) return NULL;
+    to->type = WR_PIXEL_F32;
+    r->last = (int)wr_pixel_last(r->from->type);
+    r->remap = r->last || is_remapped(r);
+    r->centred = !r->object && is_centred(r);
+    told->channels = r->channels;
+    told->own = !r->remap;
+    told->centred = r->centred;
+    told->converted = !r->object && is_converted(r);
+    for (size_t i = 0; i < texels_of(to); i++) {
+        if (i % LOOK == 0 && wr_progress_stopped()) {
+            wr_image_free(to);
+            wr_fail(err, "cancelled");
+            return NULL;
+        }
+        told->away += read_vector(r, i, to->data + 3 * i);
+    }
+    return to;
+}
+
+static void turn_green(WrImage *map)
+{
+    for (size_t i = 0; i < texels_of(map); i++) map->data[3 * i + 1] = -map->data[3 * i + 1];
+}
+
+WrImage *wr_normal_map_turned(const WrImage *map, WrError *err)
+{
+    WrImage *to = wr_image_new(map->width, map->height, 3, err);
+    if (!to) return NULL;
+    to->type = WR_PIXEL_F32;
+    memcpy(to->data, map->data, 3 * texels_of(map) * sizeof *map->data);
+    turn_green(to);
+    return to;
+}
+
 WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrNormalTold *told,
                             WrError *err)
 {
@@ -156,20 +201,44 @@ WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, Wr
                 r.channels < 2 ? 2 : r.channels, from->channels);
         return NULL;
     }
-    WrImage *to = wr_image_new(from->width, from->height, 3, err);
+    WrImage *to = read_vectors(&r, told, err);
     if (!to) return NULL;
-    to->type = WR_PIXEL_F32;
-    r.last = from->type == WR_PIXEL_U8 ? 255 : from->type == WR_PIXEL_U16 ? 65535 : 0;
-    r.remap = r.last || is_remapped(&r);
-    r.centred = is_centred(&r);
-    told->channels = r.channels;
-    told->own = !r.remap;
-    told->centred = r.centred;
-    told->converted = is_converted(&r);
-    for (size_t i = 0; i < texels_of(to); i++) told->away += read_vector(&r, i, to->data + 3 * i);
     const double step = r.last ? 2.0 / r.last : 1e-6;
     told->green_down = green == WR_GREEN_AUTO ? find_down(to, step, told) : green == WR_GREEN_DOWN;
-    for (size_t i = 0; i < texels_of(to) && told->green_down; i++)
-        to->data[3 * i + 1] = -to->data[3 * i + 1];
+    if (told->green_down) turn_green(to);
     return to;
+}
+
+WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrNormalTold *told,
+                                   WrError *err)
+{
+    Reading r = { .from = from, .channels = 3, .object = true };
+    *told = (WrNormalTold){ 0 };
+    if (from->channels < 3) {
+        wr_fail(err, "a normal map of the object's axes: it has %d channels; must be 3",
+                from->channels);
+        return NULL;
+    }
+    WrImage *to = read_vectors(&r, told, err);
+    told->green_down = green_down;
+    if (to && green_down) turn_green(to);
+    return to;
+}
+
+/* Is it a vector as reading makes them? */
+static bool is_made(const float n[3], bool object)
+{
+    const double square =
+        (double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] + (double)n[2] * (double)n[2];
+    return fabs(square - 1) <= 4 * (double)FLT_EPSILON &&
+           (object || (double)n[2] >= WR_NORMAL_LEAST * 0.999);
+}
+
+WrImage *wr_normal_map_keep(const WrImage *held, bool object, WrError *err)
+{
+    bool made = held->channels == 3 && held->type == WR_PIXEL_F32;
+    for (size_t i = 0; made && i < texels_of(held); i++) made = is_made(held->data + 3 * i, object);
+    if (made) return wr_image_share(held);
+    wr_fail(err, "damaged: the normal map holds numbers that are no unit vectors");
+    return NULL;
 }

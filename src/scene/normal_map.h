@@ -1,5 +1,7 @@
 /* normal_map.h - pictures of normals, as programs write them, read as unit vectors of the tangent plane and as slopes.
-   Layer 4. A picture of normals is data: its numbers are never colour-converted.
+   Layer 4. A picture of normals is data: its numbers are never colour-converted. They are decoded once, when a file is
+   read: what is kept of it, in memory and in documents, are unit vectors, of which nothing is rebuilt or made unit again
+   for a picture (E59).
 
    Numbers   codes of 8 and 16 bits are 2 c/M - 1; float ones too if all lie in 0..1
              and, of three, their vectors are nearer to unit ones so; else they are the vector's own.
@@ -37,5 +39,13 @@ typedef struct WrNormalTold {
    many as there are, at most 3. NULL and an error where it has fewer. */
 WrImage *wr_normal_map_read(const WrImage *from, WrGreen green, int channels, WrNormalTold *told,
                             WrError *err);
+/* The same along the object's axes: three channels, and no direction looks away. green_down: its second number is turned. */
+WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrNormalTold *told,
+                                   WrError *err);
+/* A copy whose second numbers run the other way. */
+WrImage *wr_normal_map_turned(const WrImage *map, WrError *err);
+/* What a document holds, which is as reading made it: the same picture, shared. An error where it is something else, by
+   more than 4 ulp of |n|^2. */
+WrImage *wr_normal_map_keep(const WrImage *held, bool object, WrError *err);
 /* Slopes of such a vector along u and v, of a unit cell. */
 void wr_normal_map_slopes(const float n[3], double *p, double *q);

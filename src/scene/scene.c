@@ -17,6 +17,9 @@ const char *const wr_light_names[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONA
                                                      [WR_ROW(WR_LIGHT_POINT)] = "point" };
 WR_ROWS_END(wr_light_names, WR_LIGHT_KINDS);
 
+const char *const wr_normal_frame_names[WR_FRAME_COUNT + 1] = { "auto", "gradient", "mikk",
+                                                                "lecture", NULL };
+
 const char *const wr_camera_names[2] = { "perspective", "orthographic" };
 
 WR_ROWS(wr_tolerance_names);
@@ -54,6 +57,13 @@ static void *copied(const void *block, int count, size_t size)
     return copy;
 }
 
+static WrLaid laid_copy(const WrLaid *laid)
+{
+    WrLaid copy = *laid;
+    copy.path = wr_strdup(laid->path);
+    return copy;
+}
+
 WrScene *wr_scene_clone(const WrScene *scene)
 {
     WrScene *clone = wr_alloc(1, sizeof *clone);
@@ -71,14 +81,10 @@ WrScene *wr_scene_clone(const WrScene *scene)
         copied(scene->analytic.terms, scene->analytic.count, sizeof *scene->analytic.terms);
     clone->material = scene->material;
     clone->colour = scene->colour ? wr_image_share(scene->colour) : NULL;
-    clone->colour_path = wr_strdup(scene->colour_path);
-    memcpy(clone->colour_sha256, scene->colour_sha256, sizeof clone->colour_sha256);
-    clone->colour_own = scene->colour_own;
-    clone->colour_ru = scene->colour_ru;
-    clone->colour_rv = scene->colour_rv;
+    clone->colour_laid = laid_copy(&scene->colour_laid);
     clone->normals = scene->normals;
     if (scene->normals.image) wr_image_share(scene->normals.image);
-    clone->normals.path = wr_strdup(scene->normals.path);
+    clone->normals.laid = laid_copy(&scene->normals.laid);
     if (scene->triangles) clone->triangles = wr_triangles_share(scene->triangles);
     clone->triangles_path = wr_strdup(scene->triangles_path);
     memcpy(clone->triangles_sha256, scene->triangles_sha256, sizeof clone->triangles_sha256);
@@ -107,10 +113,10 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->background = from->background;
 }
 
-void wr_scene_colour_repeat(const WrScene *scene, double *ru, double *rv)
+void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, double *rv)
 {
-    *ru = scene->colour_own ? scene->colour_ru : scene->replicate_u;
-    *rv = scene->colour_own ? scene->colour_rv : scene->replicate_v;
+    *ru = laid->own ? laid->ru : scene->replicate_u;
+    *rv = laid->own ? laid->rv : scene->replicate_v;
 }
 
 WrScene *wr_scene_share(const WrScene *scene)
@@ -126,9 +132,9 @@ void wr_scene_free(WrScene *scene)
     wr_surface_data_free((WrSurfaceData *)scene->shape.data);
     wr_free(scene->analytic.terms);
     if (scene->colour) wr_image_free(scene->colour);
-    wr_free(scene->colour_path);
+    wr_free(scene->colour_laid.path);
     if (scene->normals.image) wr_image_free(scene->normals.image);
-    wr_free(scene->normals.path);
+    wr_free(scene->normals.laid.path);
     wr_free(scene->name);
     wr_free(scene->layer);
     for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);

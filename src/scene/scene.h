@@ -57,16 +57,35 @@ typedef struct WrTolerance {
     double value; /* linear intensity 0..1e6, or seconds 1e-4..3600 */
 } WrTolerance;
 
-/* A normal map that is laid on the object as often as the table. */
+/* Where a picture that is laid over u and v is from, and how often it is laid. */
+typedef struct WrLaid {
+    char *path; /* as the command named it; owned; NULL without */
+    char sha256[65];
+    bool own; /* it is laid as often as the next say; else as often as the table */
+    double ru, rv;
+} WrLaid;
+
+/* Which way x and y of a tangent plane's map run (normal_map.h). */
+typedef enum WrNormalFrame {
+    WR_FRAME_AUTO,     /* gradient */
+    WR_FRAME_GRADIENT, /* slopes of heights over a cell of one unit, added to the table's */
+    WR_FRAME_MIKK,     /* unit vectors by the rules of MikkTSpace */
+    WR_FRAME_LECTURE, /* unit vectors along Pu and Pv; on triangles the mean of those of its solve */
+    WR_FRAME_COUNT
+} WrNormalFrame;
+/* As in commands: "auto", "gradient", "mikk", "lecture". */
+extern const char *const wr_normal_frame_names[WR_FRAME_COUNT + 1];
+
+/* A normal map on the object. */
 typedef struct WrNormalMap {
     /* Shared; NULL: there is none. Three channels, unit vectors. Of the tangent plane: x along u, y along v, z > 0;
        else along the object's axes. */
     WrImage *image;
-    char *path; /* as the command named it; owned; NULL without */
-    char sha256[65];
+    WrLaid laid;
     int channels;    /* of the file that were read: 2 or 3 */
     bool green_down; /* the file's second number ran against v */
-    bool object;     /* of the object's axes, in place of n'; else slopes, added to the table's */
+    bool object;     /* of the object's axes; else of the tangent plane, in that frame */
+    WrNormalFrame frame;
     double strength; /* -100..100: its slopes' factor */
 } WrNormalMap;
 
@@ -81,15 +100,12 @@ struct WrScene {
     double replicate_u, replicate_v;
     WrAnalytic analytic; /* replaces the table while its kind is not OFF; terms owned */
     WrMaterial material;
-    WrImage *colour;   /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
-    char *colour_path; /* as the command named it; owned; NULL without */
-    char colour_sha256[65];
-    bool colour_own; /* it is laid as often as the next say; else as often as the table */
-    double colour_ru, colour_rv;
+    WrImage *colour; /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
+    WrLaid colour_laid;
     WrNormalMap normals;
     /* Of a shape that is a mesh (wr_scene_set_triangles): */
     WrTriangles *triangles; /* shared; NULL: the square of two (wr_triangles_square) */
-    char *triangles_path;   /* as colour_path */
+    char *triangles_path;   /* as WrLaid's */
     char triangles_sha256[65];
     char *name;       /* of the object; owned; NULL: it was given none */
     WrVec3 at;        /* where the object's centre stands, world; within 1e9 */
@@ -135,8 +151,8 @@ void wr_scene_free(WrScene *scene);
 /* Take a shape; what it borrows is shared from now on. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
 
-/* How often the colour picture is laid over u and v. */
-void wr_scene_colour_repeat(const WrScene *scene, double *ru, double *rv);
+/* How often a picture of the scene is laid over u and v. */
+void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, double *rv);
 
 /* The near plane's depth before the eye, in radii of the object: what lies nearer is not seen. */
 #define WR_NEAR_PLANE 1e-10

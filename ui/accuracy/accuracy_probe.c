@@ -6,6 +6,7 @@
 #include "document/tables.h"
 #include "field/field.h"
 #include "render/reference.h"
+#include "scene/laid.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "surface/surface.h"
@@ -40,7 +41,7 @@ static void probe_at(const WrScene *scene, const WrField *field, double u, doubl
     *out = (WrProbe){ .hit = true, .u = u, .v = v };
     WrSurfacePoint *at = &out->at;
     wr_surface_at(&scene->shape, 0, u, v, at);
-    wr_scene_height(scene, field, u, v, &out->f, &out->fu, &out->fv);
+    wr_scene_slopes(scene, field, at, u, v, &out->f, &out->fu, &out->fv);
     out->d = wr_bump_d(at->n_unit, at->pu, at->pv, out->fu, out->fv);
     out->a = wr_bump_axis(at->pu, at->pv, out->fu, out->fv);
     WrVec3 perturbed[WR_BUMP_COUNT];

@@ -1,0 +1,398 @@
+/* Pictures that are laid on the object: its colours, its normals. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "document/document.h"
+#include "document/document_file.h"
+#include "base/hash.h"
+#include "scene/laid.h"
+#include "scene/normal_map.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LOOK 16384 /* pixels between two looks at whether it should stop */
+
+/* ---- what both have ---- */
+
+/* Where a picture is from and how often it is laid: " FILE sha256=... repeat=...". */
+static void print_laid(const WrLaid *laid, bool named, WrText *text)
+{
+    const double ru = laid->ru, rv = laid->rv;
+    if (named) wr_text_add(text, " "), wr_text_add_word(text, laid->path);
+    if (*laid->sha256) wr_text_addf(text, " sha256=%s", laid->sha256);
+    if (laid->own && ru == 1 && rv == 1) {
+        wr_text_add(text, " repeat=once");
+    } else if (laid->own) {
+        wr_text_add(text, " repeat=");
+        wr_text_add_number(text, ru);
+        wr_text_add(text, ",");
+        wr_text_add_number(text, rv);
+    }
+}
+
+/* How often a picture is laid: as the table, once, or so often. */
+static bool repeat_parse(const char *text, WrLaid *repeat)
+{
+    const char *comma = strchr(text, ',');
+    repeat->own = strcmp(text, "table") != 0;
+    repeat->ru = repeat->rv = repeat->own ? 1 : 0;
+    if (!repeat->own || strcmp(text, "once") == 0) return true;
+    return comma && wr_number_parse(text, (size_t)(comma - text), &repeat->ru) &&
+           wr_number_parse(comma + 1, strlen(comma + 1), &repeat->rv) && fabs(repeat->ru) <= 1e9 &&
+           fabs(repeat->rv) <= 1e9;
+}
+
+static bool check_repeat(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    WrLaid repeat;
+    (void)ctx;
+    if (repeat_parse(value, &repeat)) return true;
+    return wr_fail(err, "%s=%.40s: must be table, once, or two numbers ru,rv, -1e9..1e9", name,
+                   value);
+}
+
+/* What the line says of it; the words borrow nothing. */
+static void take_repeat(const WrCall *call, WrLaid *laid)
+{
+    if (wr_call_given(call, "repeat")) repeat_parse(wr_call_arg(call, "repeat")->text, laid);
+}
+
+/* Another file's picture: laid as the table is, unless the line says otherwise. */
+static void take_laid(const WrCall *call, const char *name, WrLaid *laid)
+{
+    const char *hex = wr_call_arg(call, "sha256")->text;
+    wr_free(laid->path);
+    *laid = (WrLaid){ .path = wr_strdup(name) };
+    if (name && hex) memcpy(laid->sha256, hex, 64);
+    if (name) take_repeat(call, laid);
+}
+
+/* The picture that a line names: inside a document the one that it carries, else the file's. The caller frees it. */
+static WrImage *find_picture(WrSession *session, WrCall *call, const char *name, int which,
+                             WrError *err)
+{
+    if (session->loading) {
+        const int object = session->state.document->scene->chosen;
+        const WrImage *held = session->embedded ? session->embedded[object][which] : NULL;
+        if (held) return wr_image_share(held);
+        wr_fail(err, "the document names the picture %s but does not hold it", name);
+        return NULL;
+    }
+    char *path = wr_session_input_path(session, name);
+    WrImage *image = NULL;
+    const WrImageWish wish = wr_call_wish(call);
+    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
+    if (image) wr_session_note_read(session, path, image);
+    wr_free(path);
+    return image;
+}
+
+/* What belongs to a file stands in a line that names none. */
+static bool refuse_without(const WrCall *call, const char *const *names, const char *why,
+                           WrError *err)
+{
+    for (; *names; names++)
+        if (wr_call_given(call, *names)) return wr_fail(err, "%s %s=", why, *names);
+    return true;
+}
+
+/* ---- colour ---- */
+
+/* Linear RGB, or grey as one channel, without alpha; codes of 8 and 16 bits are decoded from sRGB. */
+static WrImage *linear_colour(const WrImage *from, WrError *err)
+{
+    int channels = from->channels < 3 ? 1 : 3;
+    WrImage *to = wr_image_new(from->width, from->height, channels, err);
+    if (!to) return NULL;
+    to->type = WR_PIXEL_F32;
+    size_t pixels = (size_t)from->width * (size_t)from->height;
+    bool decode = from->type != WR_PIXEL_F32;
+    for (size_t i = 0; i < pixels; i++) {
+        if (i % LOOK == 0 && wr_progress_stopped()) {
+            wr_image_free(to);
+            wr_fail(err, "cancelled");
+            return NULL;
+        }
+        for (int c = 0; c < channels; c++) {
+            float x = from->data[i * (size_t)from->channels + (size_t)c];
+            if (decode) x = wr_srgb_decode(x);
+            to->data[i * (size_t)channels + (size_t)c] = x > 0 ? x : 0;
+        }
+    }
+    return to;
+}
+
+void wr_print_colour(const WrScene *scene, bool named, WrText *text)
+{
+    if (!scene->colour) return;
+    wr_text_add(text, "colour");
+    print_laid(&scene->colour_laid, named, text);
+    wr_text_add(text, "\n");
+}
+
+static void print_colour(const WrScene *scene, WrText *text)
+{
+    wr_print_colour(scene, true, text);
+}
+
+static bool run_colour(WrSession *session, WrCall *call, WrError *err)
+{
+    static const char *const of_file[] = { "sha256", "repeat", NULL };
+    const char *name = wr_call_arg(call, "FILE|off")->text;
+    const bool off = strcmp(name, "off") == 0;
+    if (off && !refuse_without(call, of_file, "off takes no", err)) return false;
+    WrImage *image = off ? NULL : find_picture(session, call, name, WR_OBJECT_COLOUR, err);
+    WrImage *colour = image ? linear_colour(image, err) : NULL;
+    wr_image_free(image);
+    if (!off && !colour) return false;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    wr_image_free(scene->colour);
+    scene->colour = colour;
+    take_laid(call, off ? NULL : name, &scene->colour_laid);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+/* ---- normals ---- */
+
+static const char *const spaces[] = { "tangent", "object", NULL };
+static const char *const greens[] = { "auto", "up", "down", NULL };
+static const char *const channel_counts[] = { "auto", "2", "3", NULL };
+
+void wr_print_normals(const WrScene *scene, bool named, WrText *text)
+{
+    const WrNormalMap *map = &scene->normals;
+    if (!map->image) return;
+    wr_text_add(text, "normalmap");
+    print_laid(&map->laid, named, text);
+    wr_text_addf(text, " space=%s green=%s", spaces[map->object],
+                 greens[map->green_down ? WR_GREEN_DOWN : WR_GREEN_UP]);
+    if (!map->object) wr_text_addf(text, " channels=%d", map->channels);
+    wr_text_add(text, " strength=");
+    wr_text_add_number(text, map->strength);
+    wr_text_add(text, "\n");
+}
+
+static void print_normals(const WrScene *scene, WrText *text)
+{
+    wr_print_normals(scene, true, text);
+}
+
+static void note_codes(WrText *text, const WrImage *file, const WrNormalTold *told)
+{
+    const double last = wr_pixel_last(file->type);
+    wr_text_addf(text, "%dx%d, %d channels of ", file->width, file->height, told->channels);
+    if (last > 0) wr_text_addf(text, "%d bits", last > 255 ? 16 : 8);
+    else wr_text_addf(text, "floats%s", told->own ? ", the vectors' own" : " in 0..1");
+    if (told->channels == 2) wr_text_add(text, ", z rebuilt");
+    if (told->centred) wr_text_addf(text, "; code %d stands for 0", (int)(last + 1) / 2);
+}
+
+/* What was made of a file, and what may be wrong with it. */
+static void note_normals(WrSession *session, const char *name, const WrImage *file, WrGreen asked,
+                         bool labelled, const WrNormalTold *told)
+{
+    WrText text = { 0 };
+    note_codes(&text, file, told);
+    wr_text_addf(&text, "; green %s%s", told->green_down ? "down" : "up",
+                 asked != WR_GREEN_AUTO ? ""
+                 : labelled             ? ", as its label says"
+                 : told->undecided ? ", undecided: its slopes fit either; green=down takes it so"
+                                   : ", found from its slopes");
+    if (told->away)
+        wr_text_addf(&text, "; %lld texels that look away were brought to the horizon",
+                     (long long)told->away);
+    if (told->converted)
+        wr_text_add(&text, "; its mean is that of a picture that went through an sRGB conversion: "
+                           "normals are data, and would be bent");
+    wr_session_note(session, "%s: %s", name, wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+/* The map of a file as the line wants it read. */
+static WrImage *read_normals(WrSession *session, const WrCall *call, const char *name,
+                             const WrImage *file, WrNormalMap *map, WrError *err)
+{
+    const int channels = wr_call_choice(call, "channels");
+    const WrGreen asked = (WrGreen)wr_call_choice(call, "green");
+    const WrLabelKind label = file->label.kind;
+    const bool labelled = label == WR_LABEL_NORMAL_UP || label == WR_LABEL_NORMAL_DOWN;
+    WrGreen green = asked;
+    WrNormalTold told;
+    if (green == WR_GREEN_AUTO && labelled)
+        green = label == WR_LABEL_NORMAL_DOWN ? WR_GREEN_DOWN : WR_GREEN_UP;
+    WrImage *image = map->object
+                         ? wr_normal_map_read_object(file, green == WR_GREEN_DOWN, &told, err)
+                         : wr_normal_map_read(file, green, channels ? channels + 1 : 0, &told, err);
+    if (!image) return NULL;
+    map->channels = told.channels;
+    map->green_down = told.green_down;
+    note_normals(session, name, file, map->object ? WR_GREEN_UP : asked, labelled, &told);
+    return image;
+}
+
+/* The map of a line that names a file; the settings of another are none of its own. */
+static bool take_normals(WrSession *session, WrCall *call, const char *name, WrNormalMap *map,
+                         WrError *err)
+{
+    const bool object = wr_call_choice(call, "space") == 1;
+    if (object && wr_call_given(call, "channels"))
+        return wr_fail(err, "channels= is of space=tangent: the object's axes take all three");
+    WrImage *file = find_picture(session, call, name, WR_OBJECT_NORMALS, err), *image = NULL;
+    map->object = object;
+    map->strength = 1;
+    if (file && session->loading) {
+        map->green_down = wr_call_choice(call, "green") == WR_GREEN_DOWN;
+        map->channels = wr_call_choice(call, "channels") == 1 ? 2 : 3;
+        image = wr_normal_map_keep(file, object, err);
+    } else if (file) {
+        image = read_normals(session, call, name, file, map, err);
+    }
+    wr_image_free(file);
+    if (!image) return false;
+    wr_image_free(map->image);
+    map->image = image;
+    take_laid(call, name, &map->laid);
+    return true;
+}
+
+/* What a line without a file changes of the map that is there. */
+static bool change_normals(const WrCall *call, WrNormalMap *map, WrError *err)
+{
+    static const char *const of_file[] = { "space", "channels", "channel", "part", "sha256", NULL };
+    if (!map->image) return wr_fail(err, "the object has no normal map: name a file");
+    if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
+    if (wr_call_given(call, "green")) {
+        const int green = wr_call_choice(call, "green");
+        if (green == WR_GREEN_AUTO)
+            return wr_fail(err, "green=auto: only a line that names a file takes it");
+        if ((green == WR_GREEN_DOWN) != map->green_down) {
+            WrImage *turned = wr_normal_map_turned(map->image, err);
+            if (!turned) return false;
+            wr_image_free(map->image);
+            map->image = turned;
+            map->green_down = !map->green_down;
+        }
+    }
+    take_repeat(call, &map->laid);
+    return true;
+}
+
+static bool run_normals(WrSession *session, WrCall *call, WrError *err)
+{
+    static const char *const of_map[] = { "space",   "green", "channels", "strength", "repeat",
+                                          "channel", "part",  "sha256",   NULL };
+    const WrArg *file = wr_call_arg(call, "FILE|off");
+    const char *name = file->given ? file->text : NULL;
+    const bool off = name && (strcmp(name, "off") == 0 || strcmp(name, "none") == 0);
+    if (off && !refuse_without(call, of_map, "off takes no", err)) return false;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    WrNormalMap *map = &scene->normals;
+    bool good = true;
+    if (off) {
+        wr_image_free(map->image);
+        wr_free(map->laid.path);
+        *map = (WrNormalMap){ 0 };
+    } else {
+        good = name ? take_normals(session, call, name, map, err) : change_normals(call, map, err);
+    }
+    if (good && wr_call_given(call, "strength")) map->strength = wr_call_number(call, "strength");
+    if (good) wr_session_replace_scene(session, scene);
+    else wr_scene_free(scene);
+    return good;
+}
+
+/* ---- rows ---- */
+
+#define ARG_REPEAT                                                                                 \
+    {                                                                                              \
+        .name = "repeat", .type = WR_ARG_TEXT, .shape = "table|once|ru,rv", .check = check_repeat, \
+        .help = "how often it is laid along u and v: as often as replicate says, like the table; " \
+                "once; or so often. Left out: table"                                               \
+    }
+#define ARG_SHA256                                                                                 \
+    {                                                                                              \
+        .name = "sha256", .type = WR_ARG_SHA256,                                                   \
+        .help = "of the file: another content is then an error"                                    \
+    }
+
+static const WrArgSpec args_colour[] = {
+    { PLACE("FILE|off"), .type = WR_ARG_PATH,
+      .help = "a picture that is laid over u and v, or off (a file of that name is ./off)" },
+    ARG_REPEAT,
+    WR_ARGS_OF_FILE,
+    ARG_SHA256,
+    { 0 }
+};
+
+static const WrArgSpec args_normals[] = {
+    { .name = "FILE|off",
+      .type = WR_ARG_PATH,
+      .positional = true,
+      .help = "a picture of normals, or off (none is off too; a file of that name is ./off). Left "
+              "out: the one that is there, of which strength, repeat and green may change" },
+    { .name = "space",
+      .type = WR_ARG_CHOICE,
+      .words = spaces,
+      .fallback_text = "tangent",
+      .help = "tangent: x along u, y along v, z up; object: along the object's axes" },
+    { .name = "green",
+      .type = WR_ARG_CHOICE,
+      .words = greens,
+      .fallback_text = "auto",
+      .help = "which way its second number runs: up the picture, down, or as its label or its "
+              "slopes tell" },
+    { .name = "channels",
+      .type = WR_ARG_CHOICE,
+      .words = channel_counts,
+      .fallback_text = "auto",
+      .help = "3: all are read; 2: z is rebuilt from x and y; auto: as many as there are" },
+    { .name = "strength",
+      .type = WR_ARG_NUMBER,
+      .low = -100,
+      .high = 100,
+      .help = "its slopes times this. Of a new map: 1" },
+    ARG_REPEAT,
+    WR_ARGS_OF_FILE,
+    ARG_SHA256,
+    { 0 }
+};
+
+const WrCommand wr_command_colour = {
+    .name = "colour",
+    .kind = WR_CLASS_SCENE,
+    .args = args_colour,
+    .run = run_colour,
+    .print = print_colour,
+    .of_object = true,
+    .help = "a colour picture on the surface",
+    .details =
+        "8-bit and 16-bit pictures are decoded from sRGB, float ones taken as linear; alpha is "
+        "left out. Beyond its ends it goes on as the table does. Under dials aa=filter and "
+        "aa=moments each pixel has the mean of what it covers of the picture. It is saved inside "
+        "the document.",
+    .example = "colour peel.png repeat=once"
+};
+
+const WrCommand wr_command_normalmap = {
+    .name = "normalmap",
+    .kind = WR_CLASS_SCENE,
+    .args = args_normals,
+    .run = run_normals,
+    .print = print_normals,
+    .of_object = true,
+    .help = "a normal map on the surface",
+    .details =
+        "Its slopes are added to those of the table. What `export normal` writes of a table with "
+        "cell=1,1 turns the normal as the table does. A picture of normals is data, and never "
+        "colour-converted; 8-bit and 16-bit codes are 2 c/M - 1, float numbers their own or, where "
+        "all lie in 0..1 and are nearer to unit vectors so, 2 c - 1. Where most texels are 128,128 "
+        "(32768 of 16 bits) that code stands for 0. A note tells what was taken. Beyond its ends "
+        "it goes on as the table does. It is saved inside the document.",
+    .example = "normalmap rivets.png green=down strength=1"
+};

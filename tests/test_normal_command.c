@@ -1,0 +1,247 @@
+/* The command normalmap: what it reads, tells, changes and refuses; what documents keep of it; that a map of our own
+   export turns the normal as its table does. */
+#include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/text.h"
+#include "image/image.h"
+#include "render/frame.h"
+#include "scene/objects.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <unistd.h>
+
+static const WrNormalMap *map_of(const WrSession *session)
+{
+    return &doc(session)->scene->normals;
+}
+
+static WrSession *told_session(Said *said)
+{
+    WrSessionOptions options = { .note = hear_note, .note_ctx = said, .outputs = true };
+    return wr_session_new(&options);
+}
+
+/* Codes of f = sin(3 u + 2 v) and the like, of so many bits; centre: of 8 bits, 128 and 255 round it; down: green so. */
+static void write_map(const char *path, int bits, bool down, bool flat, double power)
+{
+    enum { W = 24, H = 17 };
+    uint8_t bytes[W * H * 3];
+    uint16_t words[W * H * 3];
+    float floats[W * H * 3];
+    WrError err = { "" };
+    for (int t = 0; t < W * H; t++) {
+        const double u = (t % W + 0.5) / W, v = 1 - (t / W + 0.5) / H, a = 6.283185307179586;
+        const double s = flat ? 0 : (power == 1 ? 0.5 : 0.05) * cos(a * (3 * u + 2 * v)), p = 3 * s, q = 2 * s;
+        const double length = sqrt(1 + p * p + q * q), sign = down ? 1 : -1;
+        const double n[3] = { -p / length, sign * q / length, 1 / length };
+        for (int c = 0; c < 3; c++) {
+            const double x = pow(n[c] / 2 + 0.5, power);
+            bytes[3 * t + c] = (uint8_t)(255 * x + 0.5),
+                          words[3 * t + c] = (uint16_t)(65535 * x + 0.5);
+            floats[3 * t + c] = (float)n[c];
+        }
+    }
+    const void *data = bits == 8 ? (void *)bytes : bits == 16 ? (void *)words : (void *)floats;
+    const WrPixelType type = bits == 8 ? WR_PIXEL_U8 : bits == 16 ? WR_PIXEL_U16 : WR_PIXEL_F32;
+    if (!wr_image_write_pixels(path, W, H, 3, type, true, data, &err)) fail_msg("%s", err.text);
+}
+
+static void expect_told(Said *said, const char *words)
+{
+    if (!strstr(said->text, words)) fail_msg("'%s' is not told: %s", words, said->text);
+    said->text[0] = '\0';
+}
+
+/* ---- what is read, and told ---- */
+
+static void what_was_taken_is_told(void **state)
+{
+    (void)state;
+    Said said = { "" };
+    WrSession *s = told_session(&said);
+    write_map("up.png", 8, false, false, 1), write_map("down.tif", 16, true, false, 1);
+    write_map("floats.exr", 32, true, false, 1), write_map("flat.png", 8, false, true, 1);
+    write_map("bent.png", 8, false, false, 1 / 2.2);
+    must_run(s, "normalmap up.png");
+    expect_told(&said, "24x17, 3 channels of 8 bits; green up, found from its slopes");
+    assert_true(map_of(s)->channels == 3 && !map_of(s)->green_down && map_of(s)->strength == 1);
+    must_run(s, "normalmap down.tif channels=2 repeat=once");
+    expect_told(&said, "2 channels of 16 bits, z rebuilt; green down, found from its slopes");
+    assert_true(map_of(s)->green_down && map_of(s)->laid.own && map_of(s)->laid.ru == 1);
+    must_run(s, "normalmap floats.exr");
+    expect_told(&said, "floats, the vectors' own; green down, found");
+    assert_false(map_of(s)->laid.own); /* another file's settings are its own */
+    must_run(s, "normalmap flat.png");
+    expect_told(&said, "code 128 stands for 0; green up, undecided");
+    must_run(s, "normalmap bent.png green=up");
+    expect_told(&said, "sRGB");
+    must_run(s, "normalmap floats.exr space=object");
+    assert_true(map_of(s)->object && map_of(s)->image->data[2] > 0);
+    wr_session_free(s);
+}
+
+static void settings_change_without_the_file(void **state)
+{
+    (void)state;
+    Said said = { "" };
+    WrSession *s = told_session(&said);
+    write_map("up.png", 8, false, false, 1);
+    must_run(s, "normalmap up.png strength=0.5");
+    const WrImage *image = map_of(s)->image;
+    const float y = image->data[1];
+    assert_int_equal(unlink("up.png"), 0);
+    must_run(s, "normalmap strength=2 repeat=2,-0.5");
+    assert_true(map_of(s)->strength == 2 && map_of(s)->laid.rv == -0.5 &&
+                map_of(s)->image == image);
+    must_run(s, "normalmap green=down");
+    assert_true(map_of(s)->green_down && map_of(s)->image->data[1] == -y);
+    must_run(s, "undo");
+    assert_true(!map_of(s)->green_down && map_of(s)->image->data[1] == y);
+    must_run(s, "undo 2");
+    assert_null(map_of(s)->image);
+    must_run(s, "redo 3");
+    must_run(s, "normalmap none");
+    assert_null(map_of(s)->image);
+    must_run(s, "undo"), must_run(s, "normalmap off");
+    assert_null(map_of(s)->image);
+    wr_session_free(s);
+}
+
+static void what_makes_no_sense_is_refused(void **state)
+{
+    (void)state;
+    Said said = { "" };
+    WrSession *s = told_session(&said);
+    const uint8_t grey[4] = { 1, 2, 3, 4 };
+    WrError err = { "" };
+    write_map("up.png", 8, false, false, 1);
+    assert_true(wr_image_write_pixels("grey.png", 2, 2, 1, WR_PIXEL_U8, false, grey, &err));
+    must_fail(s, "normalmap strength=2", "no normal map");
+    must_fail(s, "normalmap nothing.png", "nothing.png");
+    must_fail(s, "normalmap grey.png", "2 or 3");
+    must_fail(s, "normalmap grey.png space=object", "must be 3");
+    must_fail(s, "normalmap up.png space=object channels=2", "channels=");
+    must_fail(s, "normalmap up.png strength=101", "-100..100");
+    must_fail(s, "normalmap off strength=1", "off takes no strength=");
+    must_run(s, "normalmap up.png");
+    must_fail(s, "normalmap channels=2", "names a file");
+    must_fail(s, "normalmap green=auto", "names a file");
+    must_fail(s, "normalmap repeat=1", "repeat");
+    wr_session_free(s);
+}
+
+/* ---- what files keep ---- */
+
+static void draw(WrSession *session, float *out)
+{
+    WrFrame frame;
+    WrError err = { "" };
+    if (!wr_session_frame(session, 60, 40, 20, &frame, &err)) fail_msg("%s", err.text);
+    memcpy(out, frame.rgba, 60 * 40 * 4 * sizeof *out);
+}
+
+/* Maps of 8 and 16 bits and of floats on objects of their own, one beside a colour picture: from a document, an
+   OpenRaster file and a script they come back bit for bit. The pictures are gone by then, but for the script. */
+static void files_bring_them_back(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "./n.exr", "./n.ora", "./n.wrinkle" };
+    Said said = { "" };
+    WrError err = { "" };
+    WrSession *a = told_session(&said);
+    write_map("8.png", 8, false, false, 1), write_map("16.tif", 16, true, false, 1);
+    write_map("f.exr", 32, false, false, 1);
+    must_run(a, "normalmap 8.png strength=1.5");
+    must_run(a, "object add two at=1.5,0,0");
+    must_run(a, "surface sphere");
+    must_run(a, "normalmap 16.tif repeat=3,2");
+    must_run(a, "colour 8.png");
+    must_run(a, "object add three at=0,1.5,0");
+    must_run(a, "normalmap f.exr channels=2 strength=-0.5");
+    must_run(a, "object add four at=1.5,1.5,0");
+    must_run(a, "surface torus");
+    must_run(a, "normalmap f.exr space=object");
+    static float before[60 * 40 * 4], after[60 * 40 * 4];
+    draw(a, before);
+    for (int i = 0; i < 3; i++) {
+        const bool good =
+            i < 2 ? wr_session_save(a, names[i], &err) : wr_session_save_history(a, names[i], &err);
+        if (!good) fail_msg("%s", err.text);
+    }
+    for (int i = 2; i >= 0; i--) {
+        WrSession *b = told_session(&said);
+        if (!wr_session_open(b, names[i], &err)) fail_msg("%s", err.text);
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        draw(b, after);
+        assert_memory_equal(before, after, sizeof before);
+        for (int k = 0; k < 4; k++) {
+            const WrNormalMap *x = &wr_scene_object(doc(a)->scene, k)->normals;
+            const WrNormalMap *y = &wr_scene_object(doc(b)->scene, k)->normals;
+            assert_memory_equal(x->image->data, y->image->data, 24 * 17 * 3 * sizeof(float));
+            assert_true(x->strength == y->strength && x->channels == y->channels);
+            assert_true(x->green_down == y->green_down && x->object == y->object);
+        }
+        must_run(b, "object choose two");
+        must_run(b, "normalmap green=up"); /* of what has no file any more */
+        wr_session_free(b);
+        if (i == 2) assert_int_equal(unlink("8.png") | unlink("16.tif") | unlink("f.exr"), 0);
+    }
+    wr_session_free(a);
+}
+
+/* ---- our own export ---- */
+
+/* The picture with the table's bump, and that of the map of it on a flat table: within what the format's angle may change. */
+static void an_exported_map_gives_the_bumped_picture(void **state)
+{
+    (void)state;
+    static const char *const objects[] = { "surface plane", "surface sphere", "surface torus" };
+    static const struct {
+        const char *file;
+        double within;
+    } files[] = { { "n.png depth=8", 0.09 }, { "n.png depth=16", 6e-4 }, { "n.exr", 1e-4 } };
+    static float bumped[60 * 40 * 4], mapped[60 * 40 * 4];
+    for (int k = 0; k < 18; k++) {
+        Said said = { "" };
+        char line[128];
+        const bool down = k / 3 % 2;
+        WrSession *s = told_session(&said);
+        must_run(s, "table 61x46");
+        must_run(s, "formula fourier terms=3,2,0.5,0,0;0,5,0.3,0,0");
+        must_run(s, objects[k / 6]);
+        must_run(s, "bump height=0.02");
+        must_run(s, "replicate 2,1");
+        draw(s, bumped);
+        snprintf(line, sizeof line, "export normal%cy %s", down ? '-' : '+', files[k % 3].file);
+        must_run(s, line);
+        must_run(s, "fill 0.3");
+        snprintf(line, sizeof line, "normalmap %s", k % 3 == 2 ? "n.exr" : "n.png");
+        must_run(s, line);
+        expect_told(&said, down ? "green down, as its label says" : "green up, as its label says");
+        must_run(s, "bump height=0.9"); /* of the flat table: not the map's */
+        draw(s, mapped);
+        double worst = 0;
+        for (int i = 0; i < 60 * 40 * 4; i++)
+            worst = fmax(worst, fabs((double)(bumped[i] - mapped[i])));
+        if (getenv("WR_SHOW")) printf("%s %s: %g\n", objects[k / 6], files[k % 3].file, worst);
+        if (!(worst < files[k % 3].within)) fail_msg("case %d: %g", k, worst);
+        wr_session_free(s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_was_taken_is_told),
+        cmocka_unit_test(settings_change_without_the_file),
+        cmocka_unit_test(what_makes_no_sense_is_refused),
+        cmocka_unit_test(files_bring_them_back),
+        cmocka_unit_test(an_exported_map_gives_the_bumped_picture),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}
