@@ -36,7 +36,8 @@ static void write_map(const char *path, int bits, bool down, bool flat, double p
     WrError err = { "" };
     for (int t = 0; t < W * H; t++) {
         const double u = (t % W + 0.5) / W, v = 1 - (t / W + 0.5) / H, a = 6.283185307179586;
-        const double s = flat ? 0 : (power == 1 ? 0.5 : 0.05) * cos(a * (3 * u + 2 * v)), p = 3 * s, q = 2 * s;
+        const double s = flat ? 0 : (power == 1 ? 0.5 : 0.05) * cos(a * (3 * u + 2 * v)), p = 3 * s,
+                     q = 2 * s;
         const double length = sqrt(1 + p * p + q * q), sign = down ? 1 : -1;
         const double n[3] = { -p / length, sign * q / length, 1 / length };
         for (int c = 0; c < 3; c++) {

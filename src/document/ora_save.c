@@ -273,15 +273,6 @@ static char *numbered(const char *before, int number, const char *after)
     return text.data;
 }
 
-static char *picture_entry(int object, int which)
-{
-    WrText text = { 0 };
-    wr_text_addf(&text, "data/%s", wr_object_pictures[which].part);
-    if (object > 0) wr_text_addf(&text, "-%d", object + 1);
-    wr_text_add(&text, ".exr");
-    return text.data;
-}
-
 /* The pictures of the scene's objects, and its mesh. */
 static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
 {
@@ -289,13 +280,12 @@ static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
     if (!wr_scene_kept_mesh(scene, &mesh, err)) return false;
     if (mesh && !(to->mesh = wr_scene_mesh_to_image(mesh, err))) return false;
     for (int i = 0; i < wr_scene_object_count(scene) * WR_OBJECT_PICTURES; i++) {
-        const int object = i / WR_OBJECT_PICTURES, which = i % WR_OBJECT_PICTURES;
-        const WrImage *picture = wr_object_picture(wr_scene_object(scene, object), which);
-        char attribute[WR_ORA_PICTURE_NAME];
-        if (picture &&
-            !add_image(to, picture, picture_entry(object, which),
-                       wr_ora_picture_name("wrinkle:", object, which, attribute), 3, err))
-            return false;
+        const int of = i / WR_OBJECT_PICTURES, which = i % WR_OBJECT_PICTURES;
+        const WrImage *picture = wr_object_picture(wr_scene_object(scene, of), which);
+        char entry[WR_ORA_PICTURE_NAME], name[WR_ORA_PICTURE_NAME];
+        wr_ora_picture_name("data/", of, which, ".exr", entry);
+        wr_ora_picture_name("wrinkle:", of, which, "", name);
+        if (picture && !add_image(to, picture, wr_strdup(entry), name, 3, err)) return false;
     }
     return !to->mesh || add_image(to, to->mesh, wr_strdup("data/mesh.exr"), "wrinkle:mesh", 1, err);
 }
@@ -304,8 +294,8 @@ static void widen(Saving *to, const WrField *field)
 {
     float low, high;
     wr_field_range(field, &low, &high);
-    if (low < to->range.low) to->range.low = low;
-    if (high > to->range.high) to->range.high = high;
+    to->range.low = low < to->range.low ? low : to->range.low;
+    to->range.high = high > to->range.high ? high : to->range.high;
 }
 
 /* 0..1 as long as all heights are in it, so that what came from pictures keeps its codes. */
@@ -392,18 +382,16 @@ static bool add_image_attributes(Saving *to, WrError *err)
     const WrDocument *document = to->document;
     const WrField *f = document->layers[0].heights;
     char low[WR_NUMBER_SIZE], high[WR_NUMBER_SIZE];
-    wr_text_addf(
-        &to->stack,
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<image version=\"0.0.5\" w=\"%d\" "
-        "h=\"%d\" xmlns:wrinkle=\"" WR_ORA_NAMESPACE "\" wrinkle:version=\"%d\" "
-        "wrinkle:wrap=\"%s\" wrinkle:range=\"%s,%s\" wrinkle:active=\"%d\" "
-        "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
-        wr_field_width(f), wr_field_height(f),
-        wr_object_any_picture(to->document->scene, WR_OBJECT_NORMALS) ? WR_ORA_VERSION
-                                                                      : WR_ORA_VERSION_PLAIN,
-        wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
-        wr_number_print_float(to->range.low, low), wr_number_print_float(to->range.high, high),
-        document->active + 1, document->solo + 1);
+    wr_text_addf(&to->stack,
+                 "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<image version=\"0.0.5\" w=\"%d\" "
+                 "h=\"%d\" xmlns:wrinkle=\"" WR_ORA_NAMESPACE "\" wrinkle:version=\"%d\" "
+                 "wrinkle:wrap=\"%s\" wrinkle:range=\"%s,%s\" wrinkle:active=\"%d\" "
+                 "wrinkle:solo=\"%d\" wrinkle:scene=\"data/scene.wrinkle\"",
+                 wr_field_width(f), wr_field_height(f), wr_ora_version(document->scene),
+                 wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)),
+                 wr_number_print_float(to->range.low, low),
+                 wr_number_print_float(to->range.high, high), document->active + 1,
+                 document->solo + 1);
     if (document->selection && !add_field(to, "wrinkle:selection", wr_strdup("data/selection.exr"),
                                           document->selection, err))
         return false;

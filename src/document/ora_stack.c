@@ -192,12 +192,17 @@ static void add_layer(Reading *reading, const char **attributes)
     wr_array_push(&reading->stack->layers, layer);
 }
 
-const char *wr_ora_picture_name(const char *prefix, int object, int which,
+int wr_ora_version(const WrScene *scene)
+{
+    return wr_object_any_picture(scene, WR_OBJECT_NORMALS) ? WR_ORA_VERSION : WR_ORA_VERSION_PLAIN;
+}
+
+const char *wr_ora_picture_name(const char *prefix, int object, int which, const char *suffix,
                                 char buffer[WR_ORA_PICTURE_NAME])
 {
     const char *part = wr_object_pictures[which].part;
-    if (object == 0) snprintf(buffer, WR_ORA_PICTURE_NAME, "%s%s", prefix, part);
-    else snprintf(buffer, WR_ORA_PICTURE_NAME, "%s%s-%d", prefix, part, object + 1);
+    if (object == 0) snprintf(buffer, WR_ORA_PICTURE_NAME, "%s%s%s", prefix, part, suffix);
+    else snprintf(buffer, WR_ORA_PICTURE_NAME, "%s%s-%d%s", prefix, part, object + 1, suffix);
     return buffer;
 }
 
@@ -216,7 +221,7 @@ static void read_image(Reading *reading, const char **attributes)
         for (int k = 0; k < WR_OBJECT_PICTURES; k++) {
             char name[WR_ORA_PICTURE_NAME];
             stack->pictures[i][k] =
-                wr_strdup(find(attributes, wr_ora_picture_name(OURS, i, k, name)));
+                wr_strdup(find(attributes, wr_ora_picture_name(OURS, i, k, "", name)));
         }
     stack->mesh = wr_strdup(find(attributes, OURS "mesh"));
 }

@@ -47,7 +47,9 @@ bool wr_ora_add_attribute(WrText *xml, const char *name, const char *value);
 void wr_ora_add_float(WrText *xml, const char *name, float value);
 /* The name as an attribute, beside it as hex digits where XML cannot hold it. */
 void wr_ora_add_name(WrText *xml, const char *name);
-/* The attribute that names the entry of an object's picture: PREFIXcolour, PREFIXcolour-2, ... */
+/* The attribute that names the entry of an object's picture, and that entry: PREFIXcolour, PREFIXcolour-2, ... and the
+ * suffix. */
 #define WR_ORA_PICTURE_NAME 64
-const char *wr_ora_picture_name(const char *prefix, int object, int which,
+const char *wr_ora_picture_name(const char *prefix, int object, int which, const char *suffix,
                                 char buffer[WR_ORA_PICTURE_NAME]);
+int wr_ora_version(const WrScene *scene); /* of a file of it */
