@@ -41,7 +41,8 @@ trap 'rm -rf "$folder" "$folder.named"' EXIT
 run() {
     mkdir "$1" && cd "$1" || exit 1
     "$program" run "$script" --threads "$1" >../out 2>../err || fail "run failed: $(cat ../err)"
-    # A note on each file that was written is no complaint.
+    # A note on each file that was written, or on how well a normal map fits, is no complaint.
+    sed -i '/^wrinkle: note: its normals differ/d' ../err
     while read -r file; do
         sed -i "\|^wrinkle: note: $file: |d" ../err
     done <"$folder.named"
@@ -52,6 +53,15 @@ run() {
     done <"$folder.named"
     cd .. && rm out err
 }
+# Pictures that the sample reads, where a script of its name makes them: the same, as far as JPEG says the same.
+if [[ -f ${script%.wrinkle}.sh ]]; then
+    mkdir made && bash "${script%.wrinkle}.sh" "$program" made 2>err || fail "${script%.wrinkle}.sh failed: $(cat err)"
+    for file in made/*; do
+        different=$(compare -metric RMSE "$file" "$(dirname "$script")/$(basename "$file")" null: 2>&1)
+        awk -F '[()]' '{ exit !($2 < 0.01) }' <<<"$different" || fail "$(basename "$file") is not what is made: $different"
+    done
+    rm -r made err
+fi
 run 1
 if [[ -s $folder.named ]]; then
     run 3
