@@ -1,10 +1,15 @@
-/* What the objects stand in: the background. */
+/* What the objects stand in: the background, the camera, the ground. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
 
 #include "base/text.h"
 #include "image/image.h"
+#include "render/frame.h"
+#include "scene/aim.h"
+#include "scene/backs.h"
+#include "scene/named_view.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 
 #include <string.h>
@@ -130,12 +135,291 @@ static void edges_stand_before_their_background(void **state)
     wr_session_free(session);
 }
 
+/* ---- the camera ---- */
+
+typedef struct Box {
+    int x0, y0, x1, y1;
+} Box;
+
+/* Where a picture shows anything. */
+static Box covered(WrSession *session, int width, int height, double turn)
+{
+    WrError err;
+    WrFrame frame;
+    Box box = { width, height, -1, -1 };
+    if (!wr_session_frame(session, width, height, turn, &frame, &err)) fail_msg("%s", err.text);
+    for (int i = 0; i < width * height; i++) {
+        if (frame.rgba[4 * i + 3] <= 0) continue;
+        const int x = i % width, y = i / width;
+        box.x0 = x < box.x0 ? x : box.x0, box.x1 = x > box.x1 ? x : box.x1;
+        box.y0 = y < box.y0 ? y : box.y0, box.y1 = y > box.y1 ? y : box.y1;
+    }
+    return box;
+}
+
+/* The outline keeps 2 % from the nearer pair of borders, and is in the middle. */
+static void expect_filled(WrSession *session, const char *what, int width, int height)
+{
+    const Box box = covered(session, width, height, 0);
+    const int left = box.x0, right = width - 1 - box.x1, top = box.y0, below = height - 1 - box.y1;
+    const bool tall = left + right > top + below;
+    const double least = tall ? (top + below) / 2.0 / height : (left + right) / 2.0 / width;
+    if (left < 1 || right < 1 || top < 1 || below < 1 || least > 0.018 || least < 0.003 ||
+        abs(left - right) > 2 || abs(top - below) > 2)
+        fail_msg("%s, %dx%d: %d %d %d %d pixels are left", what, width, height, left, right, top,
+                 below);
+}
+
+static void a_filled_picture_has_no_room_left(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = { { 200, 200 }, { 300, 150 }, { 120, 260 } };
+    static const char *const cameras[] = { "camera perspective fov=35", "camera perspective fov=80",
+                                           "camera orthographic" };
+    WrSession *session = wr_session_new(NULL);
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        char line[80];
+        const int *size = sizes[kind % 3];
+        snprintf(line, sizeof line, "surface %s", wr_surfaces[kind]->name);
+        must_run(session, line);
+        must_run(session, "camera perspective eye=0.6,0.5,1 target=0,0,0 fit=on");
+        must_run(session, cameras[kind / 3 % 3]);
+        snprintf(line, sizeof line, "camera fill aspect=%.17g", (double)size[0] / size[1]);
+        must_run(session, line);
+        snprintf(line, sizeof line, "%s, %s", wr_surfaces[kind]->name, cameras[kind / 3 % 3]);
+        expect_filled(session, line, size[0], size[1]);
+    }
+    /* Several, far apart, and one that is hidden. */
+    must_run(session, "surface sphere R=0.3");
+    must_run(session, "object add far at=1.7,0.9,-3 size=0.5");
+    must_run(session, "surface cube");
+    must_run(session, "object add away at=50,0,0");
+    must_run(session, "object hide");
+    must_run(session, "camera fill aspect=1.5");
+    expect_filled(session, "several", 300, 200);
+    must_run(session, "ground on");
+    must_run(session, "object hide ground");
+    must_run(session, "camera fill aspect=1.5 turn=0,360");
+    for (int turn = 0; turn < 360; turn += 24) {
+        const Box box = covered(session, 150, 100, turn);
+        assert_true(box.x0 > 0 && box.y0 > 0 && box.x1 < 149 && box.y1 < 99);
+    }
+    wr_session_free(session);
+}
+
+static WrVec3 back_of(const WrSession *session)
+{
+    const WrCamera *camera = &scene_of(session)->camera;
+    return v3_sub(camera->eye, camera->target);
+}
+
+static void assert_back(const WrSession *session, double x, double y, double z)
+{
+    const WrVec3 back = back_of(session);
+    assert_near(back.x, x, 1e-12);
+    assert_near(back.y, y, 1e-12);
+    assert_near(back.z, z, 1e-12);
+}
+
+static void the_camera_goes_where_it_is_sent(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(
+        (const char *[]){ "surface cube", "camera perspective eye=1,2,5 target=1,2,3", NULL });
+    must_run(session, "camera from right");
+    assert_back(session, 2, 0, 0);
+    assert_true(scene_of(session)->posed && scene_of(session)->rotate_deg.x == 0);
+    must_run(session, "camera from top");
+    assert_back(session, 0, 2, 0);
+    assert_true(scene_of(session)->camera.up.z == -1);
+    must_run(session, "camera orbit 0,-90"); /* from above down to the front */
+    assert_back(session, 0, 0, 2);
+    must_run(session, "camera orbit 90,0");
+    assert_back(session, 2, 0, 0);
+    must_run(session, "camera orbit -90,30");
+    assert_back(session, 0, 1, sqrt(3.0));
+    must_run(session, "camera orbit 0,200"); /* not over the top */
+    assert_true(back_of(session).y > 1.99 && back_of(session).z > 0);
+    must_run(session, "camera from front");
+    must_run(session, "camera dolly 0.5");
+    assert_back(session, 0, 0, 1);
+    must_run(session, "camera perspective fov=90");
+    must_run(session, "camera pan 0.5,-1");
+    assert_back(session, 0, 0, 1);
+    assert_near(scene_of(session)->camera.target.x, 2, 1e-12);
+    assert_near(scene_of(session)->camera.target.y, 0, 1e-12);
+    must_run(session, "camera orthographic size=3");
+    must_run(session, "camera dolly 2");
+    assert_true(scene_of(session)->camera.size == 6);
+    assert_int_equal(wr_session_history_position(session), 1); /* all are views */
+    must_fail(session, "camera from nowhere", "front, back");
+    wr_session_free(session);
+}
+
+static void views_are_kept_under_names(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "surface cube",
+                                         "rotate 10,20,30",
+                                         "camera perspective eye=1,2,5 target=0.1,0,0 fov=50",
+                                         "camera save \"the corner\"",
+                                         "camera orthographic eye=0,0,3 size=4",
+                                         "rotate pose=own",
+                                         "camera save plain",
+                                         "camera save aside eye=9,0,0 fov=20 kind=perspective",
+                                         "camera from left",
+                                         NULL };
+    WrError err;
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = true });
+    for (int i = 0; lines[i]; i++) must_run(session, lines[i]);
+    must_run(session, "save kept.exr");
+    must_run(session, "script kept.wrinkle");
+    for (int way = 0; way < 3; way++) {
+        if (way > 0) wr_session_free(session);
+        if (way > 0) session = wr_session_new(NULL);
+        if (way == 1) must_run(session, "open kept.exr");
+        if (way == 2 && !wr_session_run_script(session, "kept.wrinkle", &err))
+            fail_msg("%s", err.text);
+        assert_int_equal(scene_of(session)->view_count, 3);
+        assert_true(scene_of(session)->camera.eye.x < -2.9);
+        must_run(session, "camera use \"the corner\"");
+        assert_true(scene_of(session)->camera.fov_deg == 50 && !scene_of(session)->camera.fit);
+        assert_true(scene_of(session)->rotate_deg.z == 30 && scene_of(session)->posed);
+        must_run(session, "camera use plain");
+        assert_true(scene_of(session)->camera.orthographic && scene_of(session)->camera.size == 4);
+        assert_false(scene_of(session)->posed);
+        must_run(session, "camera use aside");
+        assert_true(scene_of(session)->camera.eye.x == 9 &&
+                    scene_of(session)->camera.fov_deg == 20);
+        assert_false(scene_of(session)->camera.orthographic);
+    }
+    must_run(session, "camera forget plain");
+    must_fail(session, "camera use plain", "there are 2");
+    must_run(session, "undo");
+    must_run(session, "camera use plain");
+    must_run(session, "camera save plain"); /* replaced */
+    assert_int_equal(scene_of(session)->view_count, 3);
+    wr_session_free(session);
+}
+
+/* ---- turning ---- */
+
+static void only_what_shows_no_back_turns_whole(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *lines[3];
+        bool backs;
+    } cases[] = {
+        { { "surface plane" }, true },
+        { { "surface disc" }, true },
+        { { "surface sphere" }, false },
+        { { "surface cube" }, false },
+        { { "surface torus" }, false },
+        { { "surface cylinder" }, false }, /* stands: one looks at it from outside all round */
+        { { "surface cylinder", "rotate 0,90,0" }, true },
+        { { "surface revolution" }, false },
+        { { "surface revolution", "rotate 0,90,0" }, true },
+        { { "surface revolution profile=0,-1;0.5,0;0,1", "rotate 0,90,0" }, false },
+        { { "surface revolution profile=0.2,0;0.9,0.1;1,0.6", "rotate 10,20,30" }, true },
+        { { "surface formula" }, true },
+        { { "surface formula x=sin(pi*v)*cos(2*pi*u) y=sin(pi*v)*sin(2*pi*u) z=-cos(pi*v)" },
+          false },
+        { { "surface mesh" }, true },
+        { { "surface sphere", "object add sheet at=2,0,0" }, true },
+        { { "surface sphere", "object add sheet at=2,0,0", "object hide" }, false },
+        { { "surface sphere", "ground on" }, false },
+        { { "surface plane", "ground on" }, true },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        WrSession *session = wr_session_new(NULL);
+        for (int k = 0; k < 3 && cases[i].lines[k]; k++) must_run(session, cases[i].lines[k]);
+        if (wr_scene_turn_shows_backs(scene_of(session)) != cases[i].backs)
+            fail_msg("%s, %s", cases[i].lines[0], cases[i].lines[1] ? cases[i].lines[1] : "");
+        wr_session_free(session);
+    }
+}
+
+/* ---- the ground ---- */
+
+static const WrScene *ground_of(const WrSession *session)
+{
+    const int i = wr_scene_object_find(scene_of(session), "ground");
+    return i < 0 ? NULL : wr_scene_object(scene_of(session), i);
+}
+
+static void the_ground_lies_under_what_is_shown(void **state)
+{
+    (void)state;
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = true });
+    must_run(session, "surface sphere R=0.5");
+    must_run(session, "ground on");
+    assert_near(ground_of(session)->at.y, -0.5, 1e-3);
+    assert_near(ground_of(session)->size, 6, 1e-9);
+    assert_int_equal(scene_of(session)->chosen, 0);
+    const double ball = wr_scene_ball(scene_of(session));
+    assert_near(ball, 0.5, 1e-9); /* a camera that fits does not mind it */
+    must_run(session, "object add box at=2,-0.3,0 size=2 turn=0,0,0");
+    must_run(session, "surface cube s=0.5");
+    must_run(session, "object set at=2,-0.3,0");
+    must_run(session, "ground on colour=0.2,0.5,0.1"); /* laid anew, as large as it was */
+    assert_near(ground_of(session)->at.y, -1.3, 1e-12);
+    assert_true(ground_of(session)->material.colour.y == 0.5 && ground_of(session)->size < 6.1);
+    must_run(session, "object hide");
+    must_run(session, "ground on size=3 height=-0.75");
+    assert_true(ground_of(session)->at.y == -0.75 && ground_of(session)->size == 3);
+    must_run(session, "save kept.exr");
+    WrSession *other = wr_session_new(NULL);
+    must_run(other, "open kept.exr");
+    assert_true(ground_of(other)->still && ground_of(other)->at.y == -0.75);
+    must_run(other, "ground off");
+    assert_null(ground_of(other));
+    must_fail(other, "ground off", "there is no ground");
+    must_run(other, "undo");
+    assert_non_null(ground_of(other));
+    must_run(other, "object choose ground");
+    must_run(other, "object set still=off");
+    must_fail(other, "ground on", "turns with the others");
+    wr_session_free(session);
+    wr_session_free(other);
+}
+
+/* It stands still under what turns: a picture of it alone is the same at any turn. */
+static void the_ground_does_not_turn(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(
+        (const char *[]){ "surface cube s=0.6", "ground on size=3", "object hide \"object 1\"",
+                          "object choose ground", "object set at=0.4,-0.3,0.2 turn=-90,20,0",
+                          "camera perspective eye=1,1.5,4", NULL });
+    WrFrame frame;
+    WrError err;
+    const size_t bytes = 64 * 48 * 4 * sizeof(float);
+    float *first = malloc(bytes);
+    assert_true(wr_session_frame(session, 64, 48, 0, &frame, &err));
+    assert_true(frame.covered > 300);
+    memcpy(first, frame.rgba, bytes);
+    assert_true(wr_session_frame(session, 64, 48, 77, &frame, &err));
+    assert_memory_equal(first, frame.rgba, bytes);
+    must_run(session, "object set still=off");
+    assert_true(wr_session_frame(session, 64, 48, 77, &frame, &err));
+    assert_memory_not_equal(first, frame.rgba, bytes);
+    free(first);
+    wr_session_free(session);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_document_keeps_its_background),
         cmocka_unit_test(a_gradient_is_even_and_whole),
         cmocka_unit_test(edges_stand_before_their_background),
+        cmocka_unit_test(a_filled_picture_has_no_room_left),
+        cmocka_unit_test(the_camera_goes_where_it_is_sent),
+        cmocka_unit_test(views_are_kept_under_names),
+        cmocka_unit_test(only_what_shows_no_back_turns_whole),
+        cmocka_unit_test(the_ground_lies_under_what_is_shown),
+        cmocka_unit_test(the_ground_does_not_turn),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -37,6 +37,8 @@ struct WrCall {
 bool wr_call_parse(const char *line, bool open, WrCall **call, WrError *err);
 void wr_call_free(WrCall *call); /* NULL is fine */
 
+WrCommandClass wr_call_class(const WrCall *call); /* of its command, in its form */
+
 /* The canonical line, without line end. Parsing it gives the same values; printing those the same line. */
 void wr_call_print(const WrCall *call, WrText *text);
 

@@ -1,4 +1,4 @@
-/* Lights and the camera. */
+/* Lights. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/rows.h"
@@ -20,20 +20,6 @@ static void print_light(const WrScene *scene, WrText *text)
         wr_scene_print_params("light", form, light, text);
         wr_text_add(text, "\n");
     }
-}
-
-/* The number of the other kind of camera is kept too, by a line of its own before. */
-void wr_print_camera(const WrScene *scene, WrText *text)
-{
-    const WrSceneParam *own = &wr_scene_params[WR_SCENE_PARAM_FOV],
-                       *other = &wr_scene_params[WR_SCENE_PARAM_CAMERA_SIZE];
-    const bool swap = scene->camera.orthographic;
-    if (swap) other = own;
-    wr_text_addf(text, "camera %s %s=", other->form, other->name);
-    wr_scene_print_value(other, scene, text);
-    wr_text_addf(text, "\ncamera %s", wr_camera_names[swap]);
-    wr_scene_print_params("camera", wr_camera_names[swap], scene, text);
-    wr_text_add(text, "\n");
 }
 
 /* ---- lights ---- */
@@ -81,24 +67,6 @@ static bool run_light(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
-/* ---- camera ---- */
-
-static bool run_camera(WrSession *session, WrCall *call, WrError *err)
-{
-    WrPlacement unused;
-    WrScene *scene = wr_scene_clone(session->state.document->scene);
-    WrCamera *camera = &scene->camera;
-    camera->orthographic = call->form == 1;
-    if (wr_call_given(call, "eye")) camera->fit = false;
-    wr_scene_take(call, wr_camera_names[camera->orthographic], scene);
-    if (!wr_scene_place(scene, 0, 1, &unused, err)) {
-        wr_scene_free(scene);
-        return false;
-    }
-    wr_session_replace_scene(session, scene);
-    return true;
-}
-
 /* One form a kind of light, and one for none. */
 static bool form_light(int i, WrForm *out)
 {
@@ -125,15 +93,7 @@ static bool form_light(int i, WrForm *out)
     return true;
 }
 
-static bool form_camera(int i, WrForm *out)
-{
-    static const char *const help[] = { "nearer is larger", "all distances alike" };
-    if (i >= WR_LENGTH(help)) return false;
-    *out = (WrForm){ .name = wr_camera_names[i], .help = help[i] };
-    return wr_scene_args("camera", out->name, out->args) > 0;
-}
-
-/* ---- the rows ---- */
+/* ---- the row ---- */
 
 const WrCommand wr_command_light = {
     .name = "light",
@@ -145,17 +105,4 @@ const WrCommand wr_command_light = {
     .help = "add, replace or remove lights",
     .details = "The first light takes the place of the one that a new document has.",
     .example = "light directional to=-1,1,2 strength=0.9"
-};
-
-const WrCommand wr_command_camera = {
-    .name = "camera",
-    .kind = WR_CLASS_VIEW,
-    .form_word = "KIND",
-    .form = form_camera,
-    .run = run_camera,
-    .print = wr_print_camera,
-    .help = "where the picture is taken from",
-    .details = "Only what is given changes. A view is no edit: undo leaves it as it is, `view "
-               "back` goes back.",
-    .example = "camera perspective eye=0,1,4 fov=30"
 };

@@ -24,7 +24,7 @@ enum {
 };
 
 #define ALL "all"
-#define OWN "own"
+#define OWN WR_OWN_TURN
 
 /* ---- as lines ---- */
 
@@ -57,7 +57,8 @@ void wr_print_object(const WrScene *scene, int i, WrText *text)
 /* Of a scene's one object, whose turn is a view: nothing, where it is as in an empty document. */
 static void print_object(const WrScene *scene, WrText *text)
 {
-    const bool plain = v3_len(scene->at) == 0 && scene->size == 1 && !scene->hidden;
+    const bool plain =
+        v3_len(scene->at) == 0 && scene->size == 1 && !scene->hidden && !scene->still;
     if (scene->other_count > 0 || (plain && !scene->name && !scene->layer)) return;
     wr_text_add(text, "object set");
     if (scene->name) {
@@ -125,23 +126,7 @@ static bool take_layer(const WrSession *session, const WrCall *call, WrScene *sc
 static bool take_turn(const WrCall *call, WrScene *scene, WrError *err)
 {
     const WrArg *turn = wr_call_arg(call, "turn");
-    if (!turn->given) return true;
-    scene->posed = strcmp(turn->text, OWN) != 0;
-    scene->rotate_deg = (WrVec3){ 0 };
-    if (!scene->posed) return true;
-    WrError why;
-    WrArg numbers = { .choice = -1 };
-    const WrArgSpec spec = { .name = "turn",
-                             .type = WR_ARG_TUPLE,
-                             .components = 3,
-                             .low = -1e9,
-                             .high = 1e9,
-                             .shape = "x,y,z" };
-    if (!wr_arg_parse(&spec, "turn", turn->text, &numbers, &why))
-        return wr_fail(err, "%s, or " OWN, why.text);
-    scene->rotate_deg = (WrVec3){ numbers.numbers[0], numbers.numbers[1], numbers.numbers[2] };
-    wr_arg_fini(&numbers);
-    return true;
+    return !turn->given || wr_scene_take_turn(turn->text, scene, err);
 }
 
 /* What the line says of the object at hand. The scene is taken. */

@@ -1,8 +1,12 @@
 #include "command/scene_args.h"
 
+#include "base/error.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "scene/param.h"
+#include "scene/scene.h"
+
+#include <string.h>
 
 int wr_scene_args(const char *command, const char *form, WrArgSpec *out)
 {
@@ -35,6 +39,26 @@ void wr_scene_take(const WrCall *call, const char *form, void *owner)
         wr_scene_param_set(p, owner,
                            p->components == 0 ? &on : wr_call_arg(call, p->name)->numbers);
     }
+}
+
+bool wr_scene_take_turn(const char *text, WrScene *scene, WrError *err)
+{
+    scene->posed = strcmp(text, WR_OWN_TURN) != 0;
+    scene->rotate_deg = (WrVec3){ 0 };
+    if (!scene->posed) return true;
+    WrError why;
+    WrArg numbers = { .choice = -1 };
+    const WrArgSpec spec = { .name = "turn",
+                             .type = WR_ARG_TUPLE,
+                             .components = 3,
+                             .low = -1e9,
+                             .high = 1e9,
+                             .shape = "x,y,z" };
+    if (!wr_arg_parse(&spec, "turn", text, &numbers, &why))
+        return wr_fail(err, "%s, or " WR_OWN_TURN, why.text);
+    scene->rotate_deg = (WrVec3){ numbers.numbers[0], numbers.numbers[1], numbers.numbers[2] };
+    wr_arg_fini(&numbers);
+    return true;
 }
 
 void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *text)

@@ -16,6 +16,9 @@ int wr_scene_args(const char *command, const char *form, WrArgSpec *out);
 void wr_scene_take(const WrCall *call, const char *form, void *owner);
 /* " name=value" of each. */
 void wr_scene_print_params(const char *command, const char *form, const void *owner, WrText *text);
+/* The object's turn as "x,y,z" or that word: the pose in which its surface first shows itself. */
+#define WR_OWN_TURN "own"
+bool wr_scene_take_turn(const char *text, WrScene *scene, WrError *err);
 /* What `surface mesh` does besides: its file read into the scene; printed, by content alone where that is known; its two
  * arguments. */
 bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err);

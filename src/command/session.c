@@ -207,10 +207,10 @@ static bool run_history(WrSession *session, WrCall *call, WrError *err)
 static bool run_call(WrSession *session, WrCall *call, WrError *err)
 {
     if (!call->command) return true;
-    if (call->command->kind == WR_CLASS_OUTPUT) return run_output(session, call, err);
-    bool good, view = call->command->kind == WR_CLASS_VIEW;
+    if (wr_call_class(call) == WR_CLASS_OUTPUT) return run_output(session, call, err);
+    bool good, view = wr_call_class(call) == WR_CLASS_VIEW;
     wr_session_journal_before(session, call);
-    if (call->command->kind == WR_CLASS_HISTORY) {
+    if (wr_call_class(call) == WR_CLASS_HISTORY) {
         good = run_history(session, call, err);
         if (good) wr_session_note_view(session);
         wr_session_journal_after(session, good, false);

@@ -92,9 +92,10 @@ typedef struct WrForm {
 typedef struct WrCommand {
     const char *name; /* NULL ends the table */
     WrCommandClass kind;
-    const char *help;      /* one line */
-    const char *details;   /* sentences for `help NAME`; may be NULL */
-    const char *example;   /* a line that parses */
+    WrCommandClass (*class_of)(int form); /* where it is not that of all forms; or NULL */
+    const char *help;                     /* one line */
+    const char *details;                  /* sentences for `help NAME`; may be NULL */
+    const char *example;                  /* a line that parses */
     const char *form_word; /* what the first word is called ("KIND"); NULL: no forms */
     bool (*form)(int index, WrForm *out); /* the form's row; false past the last */
     bool (*row)(

@@ -359,6 +359,12 @@ WrArg *wr_call_arg(const WrCall *call, const char *name)
     return (WrArg *)&none;
 }
 
+WrCommandClass wr_call_class(const WrCall *call)
+{
+    const WrCommand *command = call->command;
+    return command->class_of ? command->class_of(call->form) : command->kind;
+}
+
 bool wr_call_given(const WrCall *call, const char *name)
 {
     return wr_call_arg(call, name)->given;

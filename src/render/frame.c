@@ -52,6 +52,7 @@ void wr_renderer_forget(WrRenderer *renderer)
     wr_frame_drop_meshes(renderer, NULL);
     wr_view_triangles_fini(&renderer->triangles);
     wr_triangles_free(renderer->square);
+    renderer->square = NULL;
     wr_sight_fini(&renderer->sight);
 }
 

@@ -26,5 +26,11 @@ typedef struct WrSceneView {
     WrCamera camera;
 } WrSceneView;
 
+/* A view with a name, kept in the document. */
+typedef struct WrNamedView {
+    char *name; /* owned */
+    WrSceneView view;
+} WrNamedView;
+
 /* Do both show the same? The numbers of the kind of camera that is not chosen count too: they are kept. */
 bool wr_scene_view_equal(const WrSceneView *a, const WrSceneView *b);

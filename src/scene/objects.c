@@ -182,13 +182,25 @@ static double radius_of(const WrScene *scene, int i)
     return kept_radius(scene->others[i < scene->chosen ? i : i - 1]);
 }
 
+bool wr_scene_fits(const WrScene *scene, int i)
+{
+    int shown = 0, turned = 0;
+    for (int k = 0; k < wr_scene_object_count(scene); k++) {
+        const WrScene *object = wr_scene_object(scene, k);
+        shown += !object->hidden;
+        turned += !object->hidden && !object->still;
+    }
+    const WrScene *object = wr_scene_object(scene, i);
+    if (turned > 0) return !object->hidden && !object->still;
+    return shown == 0 || !object->hidden;
+}
+
 double wr_scene_ball(const WrScene *scene)
 {
-    const bool all = wr_scene_shown_count(scene) == 0;
     double ball = 0;
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         const WrScene *object = wr_scene_object(scene, i);
-        if (object->hidden && !all) continue;
+        if (!wr_scene_fits(scene, i)) continue;
         ball = fmax(ball, v3_len(object->at) + object->size * radius_of(scene, i));
     }
     return ball;

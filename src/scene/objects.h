@@ -31,8 +31,9 @@ WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const cha
 /* Without object i of several. The one before it (else after it) comes to hand where that was at hand. */
 WrScene *wr_scene_remove_object(const WrScene *scene, int i);
 
-/* The radius of the ball about the world's origin that holds all objects that are shown, however the turntable turns
-   them; of all, where none is. */
+/* Does a camera that fits mind object i? All that are shown and turned; where none is, all that are shown; else all. */
+bool wr_scene_fits(const WrScene *scene, int i);
+/* The radius of the ball about the world's origin that holds those, however the turntable turns them. */
 double wr_scene_ball(const WrScene *scene);
 
 /* Object i alone as it stands among the others: with the scene's lights, background and dials, and a camera whose eye is

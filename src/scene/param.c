@@ -111,6 +111,9 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                       SLIDER(0.1, 4, 3), .logarithmic = true },
     [WR_ROW(WR_SCENE_PARAM_HIDDEN)] = { "object", "set", "hidden", IN_SCENE(hidden),
                                         .planned = true, .help = "not in pictures" },
+    [WR_ROW(WR_SCENE_PARAM_STILL)] = { "object", "set", "still", IN_SCENE(still),
+                                       .help = "the turntable leaves it as it stands, and a camera "
+                                               "that fits does not mind it" },
     [WR_ROW(WR_SCENE_PARAM_BACKGROUND)] = { "background", "plain", "colour",
                                             IN_SCENE(background.top), GROUND_RANGE,
                                             .label = "Colour", .help = "linear" },

@@ -53,6 +53,7 @@ static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out
     WrVec3 deg = scene->posed ? scene->rotate_deg : (WrVec3){ pose[0], pose[1], pose[2] };
     const double same[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
     double a[9], b[9];
+    if (scene->still) turn_deg = 0;
     turn(0, deg.x, same, a);
     turn(1, deg.y, a, b);
     turn(2, deg.z, b, a);

@@ -4,6 +4,7 @@
 #include "base/rows.h"
 #include "field/field.h"
 #include "image/image.h"
+#include "scene/named_view.h"
 #include "scene/param.h"
 #include "shade/slope.h"
 #include "surface/data.h"
@@ -92,6 +93,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->at = scene->at;
     clone->size = scene->size;
     clone->hidden = scene->hidden;
+    clone->still = scene->still;
     clone->layer = wr_strdup(scene->layer);
     clone->others = copied(scene->others, scene->other_count, sizeof *scene->others);
     for (int i = 0; i < scene->other_count; i++) wr_scene_share(scene->others[i]);
@@ -108,6 +110,7 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->lights = copied(from->lights, from->light_count, sizeof *from->lights);
     scene->light_count = from->light_count;
     scene->camera = from->camera;
+    wr_scene_take_views(scene, from);
     scene->dials = from->dials;
     scene->tolerance = from->tolerance;
     scene->background = from->background;
@@ -142,6 +145,7 @@ void wr_scene_free(WrScene *scene)
     wr_triangles_free(scene->triangles);
     wr_free(scene->triangles_path);
     wr_free(scene->lights);
+    wr_scene_drop_views(scene);
     wr_free(scene);
 }
 

@@ -107,11 +107,12 @@ struct WrScene {
     WrTriangles *triangles; /* shared; NULL: the square of two (wr_triangles_square) */
     char *triangles_path;   /* as WrLaid's */
     char triangles_sha256[65];
-    char *name;       /* of the object; owned; NULL: it was given none */
-    WrVec3 at;        /* where the object's centre stands, world; within 1e9 */
-    double size;      /* world units per unit of the object, 1e-9..1e9 */
-    bool hidden;      /* not in pictures */
-    char *layer;      /* of the document, whose heights are its table; owned; NULL: all layers' */
+    char *name;  /* of the object; owned; NULL: it was given none */
+    WrVec3 at;   /* where the object's centre stands, world; within 1e9 */
+    double size; /* world units per unit of the object, 1e-9..1e9 */
+    bool hidden; /* not in pictures */
+    bool still;  /* the turntable leaves it, and a camera that fits does not mind it: a floor */
+    char *layer; /* of the document, whose heights are its table; owned; NULL: all layers' */
     WrScene **others; /* [other_count], owned shares: the other objects, in their order */
     int other_count;
     int chosen;        /* place of the one at hand among all: 0..other_count */
@@ -119,6 +120,8 @@ struct WrScene {
     WrLight *lights;   /* [light_count], owned */
     int light_count;
     WrCamera camera;
+    WrNamedView *views; /* [view_count], owned; in the order in which they were named */
+    int view_count;
     WrDials dials;
     WrTolerance tolerance;
     WrBackground background;

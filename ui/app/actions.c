@@ -292,49 +292,6 @@ static void fullscreen(WrApp *app)
     SDL_SetWindowFullscreen(app->window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
 }
 
-static void view_back(WrApp *app)
-{
-    wr_app_settle(app);
-    wr_app_run_line(app, "view back");
-}
-
-/* A zoom that is not a view yet can be gone back from too. */
-static bool can_view_back(const WrApp *app)
-{
-    return wr_session_views_back(app->session) > 0 || app->patch->zoom_commit_at > 0.0;
-}
-
-static bool can_view_forward(const WrApp *app)
-{
-    return wr_session_views_forward(app->session) > 0;
-}
-
-static void view_forward(WrApp *app)
-{
-    wr_app_settle(app); /* which leaves none to go forward to */
-    if (can_view_forward(app)) wr_app_run_line(app, "view forward");
-}
-
-static void camera_reset(WrApp *app)
-{
-    wr_patch_commit_zoom(app, false);
-    wr_app_run_line(app, "camera perspective eye=0,0,1 target=0,0,0 up=0,1,0 fov=35 fit=on");
-}
-
-static void pose_reset(WrApp *app)
-{
-    const double *pose = wr_surfaces[wr_app_scene(app)->shape.kind]->pose_deg;
-    WrText line = { 0 };
-    if (wr_app_scene(app)->other_count > 0) {
-        if (wr_app_run_line(app, "object set turn=own")) app->patch->turn_deg = 0.0;
-        return;
-    }
-    wr_text_add(&line, "rotate ");
-    wr_line_plain_vec(&line, (WrVec3){ pose[0], pose[1], pose[2] });
-    if (wr_app_run_line(app, wr_text_get(&line))) app->patch->turn_deg = 0.0;
-    wr_text_fini(&line);
-}
-
 static void save(WrApp *app)
 {
     wr_app_save(app);
@@ -477,10 +434,25 @@ const WrAction wr_actions[] = {
     ROW(look_level, "Map of the mip level", wr_act_look_level, NULL, wr_is_look_level),
     ROW(look_ran, "Map of what ran", wr_act_look_ran, NULL, wr_is_look_ran),
     ROW(turn, "Turning patch", turn, NULL, is_turning),
-    ROW(view_back, "Patch as it was looked at before", view_back, can_view_back, NULL),
-    ROW(view_forward, "Patch as it was looked at after", view_forward, can_view_forward, NULL),
-    ROW(camera_reset, "Reset the camera", camera_reset, NULL, NULL),
-    ROW(pose_reset, "Reset the patch's pose", pose_reset, NULL, NULL),
+    ROW(view_back, "Patch as it was looked at before", wr_act_view_back, wr_can_view_back, NULL),
+    ROW(view_forward, "Patch as it was looked at after", wr_act_view_forward, wr_can_view_forward,
+        NULL),
+    ROW(camera_reset, "Reset the camera", wr_act_camera_reset, NULL, NULL),
+    ROW(pose_reset, "Reset the patch's pose", wr_act_pose_reset, NULL, NULL),
+    ROW(camera_fill, "Fill the picture", wr_act_camera_fill, NULL, NULL),
+    ROW(camera_kind, "Perspective", wr_act_camera_kind, NULL, wr_is_perspective),
+    ROW(from_front, "From the front", wr_act_from_front, NULL, NULL),
+    ROW(from_back, "From the back", wr_act_from_back, NULL, NULL),
+    ROW(from_left, "From the left", wr_act_from_left, NULL, NULL),
+    ROW(from_right, "From the right", wr_act_from_right, NULL, NULL),
+    ROW(from_top, "From above", wr_act_from_top, NULL, NULL),
+    ROW(from_bottom, "From below", wr_act_from_bottom, NULL, NULL),
+    ROW(orbit_left, "Camera to the left", wr_act_orbit_left, NULL, NULL),
+    ROW(orbit_right, "Camera to the right", wr_act_orbit_right, NULL, NULL),
+    ROW(orbit_up, "Camera up", wr_act_orbit_up, NULL, NULL),
+    ROW(orbit_down, "Camera down", wr_act_orbit_down, NULL, NULL),
+    ROW(view_keep, "Keep this view", wr_act_view_keep, NULL, NULL),
+    ROW(ground, "Ground", wr_act_ground, NULL, wr_is_ground),
     ROW(fullscreen, "Full screen", fullscreen, NULL, NULL),
     ROW(tablet, "Tablet tester...", wr_dialog_tablet_open, NULL, NULL),
     ROW(help, "Guide", help, NULL, NULL),

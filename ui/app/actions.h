@@ -92,3 +92,27 @@ bool wr_can_mask_none(const WrApp *app);
 bool wr_is_solo(const WrApp *app);
 bool wr_is_layer_shown(const WrApp *app);
 bool wr_is_layer_locked(const WrApp *app);
+
+/* actions_camera.c */
+void wr_act_view_back(WrApp *app);
+void wr_act_view_forward(WrApp *app);
+void wr_act_camera_reset(WrApp *app);
+void wr_act_pose_reset(WrApp *app);
+void wr_act_camera_fill(WrApp *app);
+void wr_act_camera_kind(WrApp *app);
+void wr_act_from_front(WrApp *app);
+void wr_act_from_back(WrApp *app);
+void wr_act_from_left(WrApp *app);
+void wr_act_from_right(WrApp *app);
+void wr_act_from_top(WrApp *app);
+void wr_act_from_bottom(WrApp *app);
+void wr_act_orbit_left(WrApp *app);
+void wr_act_orbit_right(WrApp *app);
+void wr_act_orbit_up(WrApp *app);
+void wr_act_orbit_down(WrApp *app);
+void wr_act_view_keep(WrApp *app);
+void wr_act_ground(WrApp *app);
+bool wr_can_view_back(const WrApp *app);
+bool wr_can_view_forward(const WrApp *app);
+bool wr_is_perspective(const WrApp *app);
+bool wr_is_ground(const WrApp *app);

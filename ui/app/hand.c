@@ -299,7 +299,8 @@ static void wheel(WrApp *app, const SDL_MouseWheelEvent *event)
         wr_view_zoom_at(app->view, x, y, app->view->zoom * exp2(steps / 3.0));
         app->hand->at = pointer_at(app, x + 0.5, y + 0.5, app->hand->button);
     } else if (!blocked(app) && wr_layout_inside(&app->layout->patch, x, y)) {
-        wr_patch_wheel(app, steps);
+        if (SDL_GetModState() & KMOD_CTRL) wr_patch_wheel_angle(app, steps);
+        else wr_patch_wheel(app, steps);
     }
 }
 

@@ -138,6 +138,20 @@
     X(view_forward, "Alt+Right")                                                                   \
     X(camera_reset, "")                                                                            \
     X(pose_reset, "")                                                                              \
+    X(camera_fill, "Home Keypad_.")                                                                \
+    X(camera_kind, "Keypad_5")                                                                     \
+    X(from_front, "Keypad_1")                                                                      \
+    X(from_back, "Ctrl+Keypad_1")                                                                  \
+    X(from_right, "Keypad_3")                                                                      \
+    X(from_left, "Ctrl+Keypad_3")                                                                  \
+    X(from_top, "Keypad_7")                                                                        \
+    X(from_bottom, "Ctrl+Keypad_7")                                                                \
+    X(orbit_left, "Keypad_4")                                                                      \
+    X(orbit_right, "Keypad_6")                                                                     \
+    X(orbit_up, "Keypad_8")                                                                        \
+    X(orbit_down, "Keypad_2")                                                                      \
+    X(view_keep, "")                                                                               \
+    X(ground, "")                                                                                  \
     X(fullscreen, "F11")                                                                           \
     X(tablet, "Ctrl+Shift+T")                                                                      \
     X(help, "F1")                                                                                  \

@@ -1,6 +1,4 @@
-/* The scene's panel: lights, camera, quality. */
-#include "ui/desk/action.h"
-#include "ui/desk/action_list.h"
+/* The scene's panel: lights. */
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
@@ -124,52 +122,7 @@ static void lights(WrApp *app)
     }
 }
 
-static void camera(WrApp *app)
-{
-    static const char *const kinds[] = { "Perspective", "Orthographic" };
-    const WrCamera *c = &wr_app_scene(app)->camera;
-    int kind = c->orthographic;
-    WrText line = { 0 };
-    wr_gui_space(8);
-    wr_gui_heading("CAMERA");
-    wr_gui_label("Kind");
-    if (wr_gui_choice("camera", 0, kinds, 2, &kind))
-        wr_text_addf(&line, "camera %s", wr_camera_names[kind]);
-    if (!c->orthographic) wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_FOV]);
-    wr_gui_label("");
-    if (wr_gui_chip(NULL, "Fit the object")) wr_action_run(app, WR_ACT(camera_reset));
-    if (line.length) wr_scene_run(app, &line);
-    wr_text_fini(&line);
-}
-
-static void background(WrApp *app)
-{
-    WR_ROWS(kinds);
-    static const char *const kinds[WR_BACKGROUND_KINDS] = {
-        [WR_ROW(WR_BACKGROUND_PLAIN)] = "One colour",
-        [WR_ROW(WR_BACKGROUND_GRADIENT)] = "Gradient",
-        [WR_ROW(WR_BACKGROUND_NONE)] = "None",
-    };
-    WR_ROWS_END(kinds, WR_BACKGROUND_KINDS);
-    int kind = (int)wr_app_scene(app)->background.kind;
-    wr_gui_space(8);
-    wr_gui_heading("BACKGROUND");
-    wr_gui_label("Kind");
-    if (wr_gui_choice("background", 0, kinds, WR_BACKGROUND_KINDS, &kind)) {
-        WrText line = { 0 };
-        wr_text_addf(&line, "background %s", wr_background_names[kind]);
-        wr_scene_run(app, &line);
-    }
-    wr_gui_tip("Behind the objects, here and in 8-bit pictures. None: pictures that hold alpha, "
-               "such as PNG, have it.");
-    const WrSceneParam *param;
-    for (int i = 0; (param = wr_scene_param("background", wr_background_names[kind], i)); i++)
-        wr_param_row(app, param);
-}
-
 void wr_panel_lights(WrApp *app)
 {
     lights(app);
-    camera(app);
-    background(app);
 }

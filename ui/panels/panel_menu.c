@@ -151,10 +151,10 @@ static const char *const view_menu[] = { WR_ACT(look_grey),
                                          WR_ACT(fit),
                                          "-",
                                          WR_ACT(turn),
+                                         WR_ACT(ground),
                                          WR_ACT(view_back),
                                          WR_ACT(view_forward),
-                                         WR_ACT(pose_reset),
-                                         WR_ACT(camera_reset),
+                                         "camera",
                                          "-",
                                          WR_ACT(accuracy),
                                          "compare",
@@ -260,6 +260,16 @@ static void generators(WrApp *app)
 }
 
 /* What the patch shows besides its picture. */
+/* A menu within a menu. */
+static void submenu(WrApp *app, const char *title, const char *const *names, size_t count)
+{
+    if (!wr_gui_menu_begin(title)) return;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();
+        else wr_menu_item(app, names[i]);
+    wr_gui_menu_end();
+}
+
 static void compare(WrApp *app)
 {
     static const char *const names[] = { WR_ACT(look_plain),
@@ -274,11 +284,30 @@ static void compare(WrApp *app)
                                          WR_ACT(look_tilt),
                                          WR_ACT(look_level),
                                          WR_ACT(look_ran) };
-    if (!wr_gui_menu_begin("Patch shows")) return;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(names[i], "-") == 0) wr_gui_menu_separator();
-        else wr_menu_item(app, names[i]);
-    wr_gui_menu_end();
+    submenu(app, "Patch shows", names, WR_LENGTH(names));
+}
+
+static void camera(WrApp *app)
+{
+    static const char *const names[] = { WR_ACT(camera_fill),
+                                         WR_ACT(camera_kind),
+                                         "-",
+                                         WR_ACT(from_front),
+                                         WR_ACT(from_back),
+                                         WR_ACT(from_left),
+                                         WR_ACT(from_right),
+                                         WR_ACT(from_top),
+                                         WR_ACT(from_bottom),
+                                         "-",
+                                         WR_ACT(orbit_left),
+                                         WR_ACT(orbit_right),
+                                         WR_ACT(orbit_up),
+                                         WR_ACT(orbit_down),
+                                         "-",
+                                         WR_ACT(view_keep),
+                                         WR_ACT(pose_reset),
+                                         WR_ACT(camera_reset) };
+    submenu(app, "Camera", names, WR_LENGTH(names));
 }
 
 static void menu(WrApp *app, const char *label, const char *const *names)
@@ -290,6 +319,7 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         else if (strcmp(*names, "scale") == 0) scale(app);
         else if (strcmp(*names, "operations") == 0) operations(app);
         else if (strcmp(*names, "compare") == 0) compare(app);
+        else if (strcmp(*names, "camera") == 0) camera(app);
         else wr_menu_item(app, *names);
     }
     wr_gui_menu_end();

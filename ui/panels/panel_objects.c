@@ -1,5 +1,7 @@
 /* The scene's objects: which there are, which is at hand, and where that one stands. Every act is a command line. */
 #include "ui/panels/panel_objects.h"
+#include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/line.h"
@@ -91,6 +93,8 @@ static void add(WrApp *app, const char *what)
 
 static void buttons(WrApp *app)
 {
+    const int floor_at = wr_scene_object_find(wr_app_scene(app), "ground");
+    const bool ground = floor_at >= 0 && wr_scene_object(wr_app_scene(app), floor_at)->still;
     if (wr_gui_icon_button("add", WR_ICON_PLUS, 26, false)) add(app, "add");
     wr_gui_tip("Add an object: a plane, beside the chosen one; its surface is chosen below");
     wr_gui_same_line(4);
@@ -102,6 +106,11 @@ static void buttons(WrApp *app)
         wr_app_run_linef(app, "object remove");
     wr_gui_tip("Remove the chosen object");
     wr_gui_enable();
+    wr_gui_same_line(12);
+    if (wr_gui_chip(NULL, ground ? "Ground off" : "Ground")) wr_action_run(app, WR_ACT(ground));
+    wr_gui_tip(ground
+                   ? "Take the floor away"
+                   : "A floor where the lowest of the objects stands; it does not turn with them");
 }
 
 /* ---- the one at hand ---- */
@@ -125,20 +134,6 @@ static void name_row(WrApp *app)
     wr_line_text(&line, "name", hand->name);
     hand->of[0] = '\0';
     wr_scene_run(app, &line);
-}
-
-/* Three numbers in a row. */
-static WrEdit vector(const char *label, const char *const id[3], const WrNumber *spec, double v[3])
-{
-    WrEdit edit = WR_EDIT_NONE;
-    wr_gui_label(label);
-    const double third = (wr_gui_available() - wr_gui_px(8)) / 3;
-    for (int i = 0; i < 3; i++) {
-        const WrEdit own = wr_gui_number(id[i], third, spec, &v[i]);
-        if (own > edit) edit = own;
-        if (i < 2) wr_gui_same_line(4);
-    }
-    return edit;
 }
 
 static void place(WrApp *app)
@@ -166,7 +161,7 @@ static void place(WrApp *app)
     double turn[3] = { own[0], own[1], own[2] };
     if (scene->posed)
         turn[0] = scene->rotate_deg.x, turn[1] = scene->rotate_deg.y, turn[2] = scene->rotate_deg.z;
-    WrEdit edit = vector("Place", ids, &away, at);
+    WrEdit edit = wr_param_vector("Place", ids, &away, at);
     if (edit != WR_EDIT_NONE) wr_app_live(app)->at = (WrVec3){ at[0], at[1], at[2] };
     if (edit == WR_EDIT_DONE) {
         WrText line = { 0 };
@@ -175,7 +170,7 @@ static void place(WrApp *app)
         wr_scene_run(app, &line);
         return;
     }
-    edit = vector("Turn", turns, &deg, turn);
+    edit = wr_param_vector("Turn", turns, &deg, turn);
     if (edit != WR_EDIT_NONE) {
         WrScene *live = wr_app_live(app);
         live->posed = true;

@@ -148,5 +148,6 @@ void wr_panel_scene(WrApp *app)
     surface(app);
     wr_panel_material(app);
     wr_panel_lights(app);
+    wr_panel_camera(app);
     wr_gui_space(8);
 }

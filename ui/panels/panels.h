@@ -16,6 +16,7 @@ void wr_panel_scene(WrApp *app);
 void wr_panel_objects(WrApp *app);  /* its upper part */
 void wr_panel_material(WrApp *app); /* its lower parts */
 void wr_panel_lights(WrApp *app);
+void wr_panel_camera(WrApp *app);
 void wr_panel_plan(WrApp *app);
 void wr_panel_history(WrApp *app);
 void wr_dialog_unsaved(WrApp *app);

@@ -35,6 +35,8 @@ static void run(WrApp *app, const WrSceneParam *param, const double *values)
     WrText line = { 0 };
     wr_text_addf(&line, "%s", param->command);
     if (param->form) wr_text_addf(&line, " %s", param->form);
+    else if (strcmp(param->command, "camera") == 0)
+        wr_text_addf(&line, " %s", wr_camera_names[wr_app_scene(app)->camera.orthographic]);
     wr_param_line(&line, param, values);
     wr_scene_run(app, &line);
 }
@@ -47,6 +49,30 @@ void wr_param_row(WrApp *app, const WrSceneParam *param)
     wr_gui_label(param->label);
     const WrEdit edit = param->components == 1 ? wr_gui_number(param->name, 0, &spec, values)
                                                : wr_gui_colour(param->name, 0, values);
+    if (edit != WR_EDIT_NONE) wr_scene_param_set(param, wr_app_live(app), values);
+    if (edit == WR_EDIT_DONE) run(app, param, values);
+}
+
+WrEdit wr_param_vector(const char *label, const char *const id[3], const WrNumber *spec,
+                       double v[3])
+{
+    WrEdit edit = WR_EDIT_NONE;
+    wr_gui_label(label);
+    const double third = (wr_gui_available() - wr_gui_px(8)) / 3;
+    for (int i = 0; i < 3; i++) {
+        const WrEdit own = wr_gui_number(id[i], third, spec, &v[i]);
+        if (own > edit) edit = own;
+        if (i < 2) wr_gui_same_line(4);
+    }
+    return edit;
+}
+
+void wr_param_vector_row(WrApp *app, const WrSceneParam *param, const char *label,
+                         const char *const id[3], const WrNumber *spec)
+{
+    double values[3];
+    wr_scene_param_get(param, wr_app_scene(app), values);
+    const WrEdit edit = wr_param_vector(label, id, spec, values);
     if (edit != WR_EDIT_NONE) wr_scene_param_set(param, wr_app_live(app), values);
     if (edit == WR_EDIT_DONE) run(app, param, values);
 }

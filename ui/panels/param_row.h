@@ -11,5 +11,11 @@ WrNumber wr_param_slider(const WrSceneParam *param);
 /* Its label and slider, or colour, in the scene itself: what is dragged shows at once, and one command is run at the
  * end. Not of a light's, a pair's or a vector's. */
 void wr_param_row(WrApp *app, const WrSceneParam *param);
+/* Three numbers in a row, whatever they are of. */
+WrEdit wr_param_vector(const char *label, const char *const id[3], const WrNumber *spec,
+                       double v[3]);
+/* Its vector so, and one command at the end. */
+void wr_param_vector_row(WrApp *app, const WrSceneParam *param, const char *label,
+                         const char *const id[3], const WrNumber *spec);
 /* " name=value" of a number or a vector. */
 void wr_param_line(WrText *line, const WrSceneParam *param, const double *values);

@@ -20,6 +20,7 @@
 #include "document/document.h"
 #include "base/error.h"
 #include "field/field.h"
+#include "scene/backs.h"
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "system/clock.h"
@@ -182,14 +183,22 @@ static void take_picture(WrApp *app)
     if (app->redraw < 1) app->redraw = 1; /* the widgets have nothing to settle */
 }
 
-/* A body turns; a sheet, of which the back would be seen, mirrored, rocks to and fro. */
+/* Bodies turn; where the back of a sheet would be seen, mirrored, all rock to and fro. */
+static bool rocks(WrPatch *p, const WrScene *scene)
+{
+    if (p->rock_scene == scene) return p->rocks;
+    if (p->rock_scene) wr_scene_free(p->rock_scene);
+    p->rock_scene = wr_scene_share(scene);
+    p->rocks = wr_scene_turn_shows_backs(scene);
+    return p->rocks;
+}
+
 static void advance_turn(WrPatch *p, const WrScene *scene, double now)
 {
     double step = now - p->turned_at;
     p->turned_at = now;
     if (step > 0.2) step = 0.2; /* after a pause it goes on, it does not jump */
-    if (wr_surfaces[scene->shape.kind]->open)
-        p->turn_deg = wr_rotation_rock(&p->rock, p->turn_deg, step);
+    if (rocks(p, scene)) p->turn_deg = wr_rotation_rock(&p->rock, p->turn_deg, step);
     else p->turn_deg = fmod(p->turn_deg + TURN_DEG_PER_SECOND * step, 360.0);
 }
 
@@ -243,6 +252,7 @@ void wr_patch_free(WrApp *app)
     wr_tables_free(p->wished_tables);
     wr_table_cache_fini(&p->table_cache);
     if (p->wished_scene) wr_scene_free(p->wished_scene);
+    if (p->rock_scene) wr_scene_free(p->rock_scene);
     if (p->texture) SDL_DestroyTexture(p->texture);
     *p = (WrPatch){ 0 };
 }
@@ -301,8 +311,9 @@ void wr_patch_overlay(WrApp *app)
     if (wr_gui_chip(turning ? WR_ICON_PAUSE : WR_ICON_PLAY, turning ? "turning" : "paused"))
         wr_action_run(app, WR_ACT(turn));
     wr_gui_tip(
-        "Space over the patch. Drag it to turn it by hand, drag with the right button to move "
-        "the light, wheel to come closer.");
+        "Space over the patch. Drag it to turn it by hand, with the middle button to go round it, "
+        "with Shift to move the view, with the right button to move the light; wheel to come "
+        "closer, with Ctrl to widen the angle of view.");
     wr_gui_overlay_end();
     bool over = app->hand->on_patch;
     wr_preview_point(app->preview, over ? (app->hand->at.x - room->x) / room->w : -1.0,

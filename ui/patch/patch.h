@@ -23,6 +23,8 @@ typedef struct WrPatch {
     int64_t seen;          /* pointer events that it shows (latency.c) */
     double turn_deg;       /* 0..360 */
     double rock;           /* where a rocking sheet is on its way, radians (rotation.h) */
+    WrScene *rock_scene;   /* own share of the scene of which this is known: */
+    bool rocks;            /* a whole turn would show backs (scene/backs.h) */
     double turned_at;      /* clock at the last step of the turn */
     WrField *wished_field; /* own shares of what was wished for last */
     WrTables *wished_tables;
@@ -44,9 +46,11 @@ typedef struct WrPatch {
     WrCamera from_camera; /* and the camera, its eye where it stood */
     WrHandle handle;      /* of the chosen object */
     bool pans;            /* the drag moves the camera sideways */
+    bool rounds;          /* it moves it round its target */
     int light;            /* index of the light being moved */
     double light_x, light_y;
     double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
+    bool zoom_angle;       /* it is of the angle of view */
 } WrPatch;
 
 void wr_patch_update(WrApp *app); /* wish for what is wanted; take what is ready */
@@ -58,6 +62,7 @@ bool wr_patch_press(WrApp *app, const WrPointer *at);
 void wr_patch_drag(WrApp *app, const WrPointer *at);
 void wr_patch_release(WrApp *app);
 void wr_patch_wheel(WrApp *app, double steps);
+void wr_patch_wheel_angle(WrApp *app, double steps); /* the camera's, in place of its distance */
 /* A zoom by the wheel that waits becomes a command; now false: it is forgotten. */
 void wr_patch_commit_zoom(WrApp *app, bool now);
 void wr_patch_free(WrApp *app);

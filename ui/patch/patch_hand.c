@@ -13,6 +13,7 @@
 #include "base/exactmath.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "scene/param.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "surface/surface.h"
@@ -105,7 +106,8 @@ static void commit_light(WrApp *app)
 
 /* ---- turning by hand ----
 
-   One object is turned itself; among several the camera goes round its target, and one of them turns by its handles. */
+   One object is turned itself; among several the camera goes round its target, and one of them turns by its handles.
+   With the middle button the camera goes round whatever there is. */
 
 static bool several(const WrApp *app)
 {
@@ -157,8 +159,8 @@ static void orbit(WrApp *app, const WrPointer *p)
     const SDL_Rect *r = &app->layout->patch;
     const double span = r->w < r->h ? r->w : r->h;
     if (app->patch->pans) pan_camera(app, &at, dx, dy);
-    else if (several(app)) orbit_camera(app, dx, dy, span);
-    if (app->patch->pans || several(app)) return;
+    else if (app->patch->rounds) orbit_camera(app, dx, dy, span);
+    if (app->patch->pans || app->patch->rounds) return;
     WrRotation now =
         wr_rotation_dragged(&app->patch->from, app->patch->turn_deg, at.right, at.up, dx, dy, span);
     WrVec3 deg = wr_rotation_to_deg(&now);
@@ -190,7 +192,7 @@ static void commit_orbit(WrApp *app)
         if (!app->patch->pans && several(app)) wr_patch_choose(app, &app->hand->start);
         return;
     }
-    if (app->patch->pans || several(app)) {
+    if (app->patch->pans || app->patch->rounds) {
         commit_camera(app);
         return;
     }
@@ -226,6 +228,7 @@ bool wr_patch_press(WrApp *app, const WrPointer *at)
     }
     app->hand->grab = WR_GRAB_ORBIT;
     p->pans = (at->mods & WR_MOD_SHIFT) != 0;
+    p->rounds = several(app) || at->button == SDL_BUTTON_MIDDLE;
     start_orbit(app);
     return true;
 }
@@ -252,6 +255,7 @@ void wr_patch_wheel(WrApp *app, double steps)
 {
     WrPlacement at;
     if (app->hand->grab != WR_GRAB_NONE || !place(app, &at)) return;
+    if (app->patch->zoom_angle) wr_patch_commit_zoom(app, true);
     double factor = exp2(-steps / 6.0);
     WrScene *scene = wr_app_live(app);
     WrCamera *camera = &scene->camera;
@@ -266,6 +270,18 @@ void wr_patch_wheel(WrApp *app, double steps)
     app->patch->zoom_commit_at = wr_clock_seconds() + ZOOM_COMMIT_SECONDS;
 }
 
+void wr_patch_wheel_angle(WrApp *app, double steps)
+{
+    const WrSceneParam *fov = &wr_scene_params[WR_SCENE_PARAM_FOV];
+    if (app->hand->grab != WR_GRAB_NONE || wr_app_scene(app)->camera.orthographic) return;
+    if (app->patch->zoom_commit_at > 0.0 && !app->patch->zoom_angle)
+        wr_patch_commit_zoom(app, true);
+    double *deg = &wr_app_live(app)->camera.fov_deg;
+    *deg = fmin(fov->soft_high, fmax(fov->soft_low, *deg * exp2(-steps / 6.0)));
+    app->patch->zoom_angle = true;
+    app->patch->zoom_commit_at = wr_clock_seconds() + ZOOM_COMMIT_SECONDS;
+}
+
 void wr_patch_commit_zoom(WrApp *app, bool now)
 {
     if (app->patch->zoom_commit_at == 0.0) return;
@@ -277,8 +293,10 @@ void wr_patch_commit_zoom(WrApp *app, bool now)
     const WrCamera *camera = &app->live->camera;
     WrText line = { 0 };
     wr_text_addf(&line, "camera %s", wr_camera_names[camera->orthographic]);
-    wr_line_vec(&line, "eye", wr_line_round_vec(camera->eye, 4));
+    if (app->patch->zoom_angle) wr_line_number(&line, "fov", wr_line_round(camera->fov_deg, 2));
+    else wr_line_vec(&line, "eye", wr_line_round_vec(camera->eye, 4));
     if (camera->orthographic) wr_line_number(&line, "size", wr_line_round(camera->size, 4));
+    app->patch->zoom_angle = false;
     wr_app_live_end(app);
     wr_app_run_line(app, wr_text_get(&line));
     wr_text_fini(&line);

@@ -108,13 +108,12 @@ WrVec3 wr_light_from_pad(double x, double y)
     return (WrVec3){ k * x, k * y, c };
 }
 
-#define ROCK_DEG 35.0
 #define ROCK_SECONDS 12.0 /* there and back */
 
 /* The way's place that has this angle: on the way there or on the way back, as it was. */
 static double rock_from(double turn_deg, double before)
 {
-    double sine = (turn_deg > 180.0 ? turn_deg - 360.0 : turn_deg) / ROCK_DEG;
+    double sine = (turn_deg > 180.0 ? turn_deg - 360.0 : turn_deg) / WR_ROCK_DEG;
     double there = asin(sine < -1.0 ? -1.0 : sine > 1.0 ? 1.0 : sine);
     return cos(before) < 0.0 ? WR_PI - there : there;
 }
@@ -122,6 +121,6 @@ static double rock_from(double turn_deg, double before)
 double wr_rotation_rock(double *way, double turn_deg, double seconds)
 {
     *way = fmod(rock_from(turn_deg, *way) + 2.0 * WR_PI * seconds / ROCK_SECONDS, 2.0 * WR_PI);
-    double deg = ROCK_DEG * sin(*way);
+    double deg = WR_ROCK_DEG * sin(*way);
     return deg < 0.0 ? deg + 360.0 : deg;
 }

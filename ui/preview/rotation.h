@@ -30,6 +30,7 @@ WrRotation wr_rotation_dragged(const WrRotation *rotation, double turn_deg, WrVe
 void wr_light_to_pad(WrVec3 towards, double *x, double *y);
 /* The inverse; points outside the pad count as its rim. Unit length. */
 WrVec3 wr_light_from_pad(double x, double y);
+#define WR_ROCK_DEG 35.0
 /* The turn (0..360 degrees) so many seconds later of what rocks by 35 degrees to and fro, like a pendulum. *way: the
    caller's, 0 at first: where on the way it is. From an angle that is not on the way it begins at the nearest
    that is. */

@@ -1,0 +1,121 @@
+/* A floor under the objects: an object of the scene like others, which stands still. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/rows.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "document/document.h"
+#include "scene/aim.h"
+#include "scene/objects.h"
+
+#define GROUND "ground"
+#define WIDE 12.0 /* times the radius of what stands on it */
+
+enum { FORM_ON, FORM_OFF, GROUND_FORMS };
+
+/* Flat, matt, looking up; without the table, so that what is painted for the others does not show on it. */
+static WrScene *new_ground(const WrScene *scene)
+{
+    WrScene *made = wr_scene_add_object(scene, false);
+    wr_free(made->name);
+    made->name = wr_strdup(GROUND);
+    made->still = true;
+    made->posed = true;
+    made->rotate_deg = (WrVec3){ -90, 0, 0 };
+    made->bump = WR_BUMP_NONE;
+    made->material.specular = 0;
+    made->material.colour = (WrVec3){ 0.4, 0.4, 0.4 };
+    made->size = WIDE * wr_scene_ball(scene);
+    return made;
+}
+
+/* The object's own lines say it. */
+static void print_nothing(const WrScene *scene, WrText *text)
+{
+    (void)scene;
+    (void)text;
+}
+
+static bool run_on(const WrCall *call, const WrScene *scene, int index, WrScene **out, WrError *err)
+{
+    double height;
+    if (wr_call_given(call, "height")) height = wr_call_number(call, "height");
+    else if (!wr_aim_lowest(scene, &height, err)) return false;
+    WrScene *made = index < 0 ? new_ground(scene) : wr_scene_choose(scene, index);
+    made->at.y = height;
+    made->hidden = false;
+    if (wr_call_given(call, "size")) made->size = wr_call_number(call, "size");
+    if (wr_call_given(call, "colour")) {
+        const double *rgb = wr_call_arg(call, "colour")->numbers;
+        made->material.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
+    }
+    *out = wr_scene_choose(made, scene->chosen);
+    wr_scene_free(made);
+    return true;
+}
+
+static bool run_ground(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    const int index = wr_scene_object_find(scene, GROUND);
+    WrScene *made;
+    if (index >= 0 && !wr_scene_object(scene, index)->still)
+        return wr_fail(err, "an object is called \"" GROUND "\" and turns with the others: `object "
+                            "choose " GROUND "`, then `object set name=` gives it another name");
+    if (call->form == FORM_ON) {
+        if (index < 0 && wr_scene_object_count(scene) == WR_OBJECTS_MAX)
+            return wr_fail(err, "a scene holds at most %d objects", WR_OBJECTS_MAX);
+        if (!run_on(call, scene, index, &made, err)) return false;
+    } else {
+        if (index < 0) return wr_fail(err, "there is no ground: `ground on` lays one");
+        if (wr_scene_object_count(scene) == 1)
+            return wr_fail(err, "the last object stays: a scene has at least one");
+        made = wr_scene_remove_object(scene, index);
+    }
+    wr_session_replace_scene(session, made);
+    return true;
+}
+
+WR_ROWS(ground_forms);
+static const WrForm ground_forms[] = {
+    [WR_ROW(FORM_ON)] = { .name = "on",
+                          .help = "lay it, or lay it anew",
+                          .args = { { .name = "height",
+                                      .type = WR_ARG_NUMBER,
+                                      .low = -1e9,
+                                      .high = 1e9,
+                                      .unit = "scene units",
+                                      .help = "its y; left out: where the lowest of the objects "
+                                              "that are shown stands now" },
+                                    { .name = "size",
+                                      .type = WR_ARG_NUMBER,
+                                      .low = 1e-9,
+                                      .high = 1e9,
+                                      .unit = "scene units",
+                                      .help = "of its sides; left out: as it is, at first 12 times "
+                                              "what stands on it" },
+                                    { .name = "colour",
+                                      .type = WR_ARG_TUPLE,
+                                      .components = 3,
+                                      .shape = "r,g,b",
+                                      .high = 1e6,
+                                      .help = "linear; left out: as it is" } } },
+    [WR_ROW(FORM_OFF)] = { .name = "off", .help = "take it away" },
+};
+WR_ROWS_END(ground_forms, GROUND_FORMS);
+
+WR_FORMS(form_ground, ground_forms)
+
+const WrCommand wr_command_ground = {
+    .name = "ground",
+    .kind = WR_CLASS_SCENE,
+    .form_word = "WHAT",
+    .form = form_ground,
+    .run = run_ground,
+    .print = print_nothing,
+    .help = "a floor under the objects",
+    .details = "It is an object of the name " GROUND ": a plane that looks up and stands still "
+               "(`object set still=on`) while the turntable turns the others. The chosen object "
+               "stays the chosen one; choose the ground to give it a surface or bumps of its own.",
+    .example = "ground on colour=0.3,0.25,0.2"
+};

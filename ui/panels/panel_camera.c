@@ -1,0 +1,166 @@
+/* The scene's panel: from where it is looked at, views that are kept, and what stands behind it. */
+#include "ui/desk/action.h"
+#include "ui/desk/action_list.h"
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/line.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/param_row.h"
+
+#include "base/rows.h"
+#include "base/text.h"
+#include "command/call.h"
+#include "scene/aim.h"
+#include "scene/param.h"
+#include "scene/scene.h"
+
+#define ROW_UNITS 26
+
+/* ---- where it stands ---- */
+
+static void sides(WrApp *app)
+{
+    WR_ROWS(buttons);
+    static const struct {
+        const char *label, *action;
+    } buttons[WR_SIDE_COUNT] = {
+        [WR_ROW(WR_SIDE_FRONT)] = { "Front", WR_ACT(from_front) },
+        [WR_ROW(WR_SIDE_BACK)] = { "Back", WR_ACT(from_back) },
+        [WR_ROW(WR_SIDE_LEFT)] = { "Left", WR_ACT(from_left) },
+        [WR_ROW(WR_SIDE_RIGHT)] = { "Right", WR_ACT(from_right) },
+        [WR_ROW(WR_SIDE_TOP)] = { "Top", WR_ACT(from_top) },
+        [WR_ROW(WR_SIDE_BOTTOM)] = { "Bottom", WR_ACT(from_bottom) },
+    };
+    WR_ROWS_END(buttons, WR_SIDE_COUNT);
+    for (int i = 0; i < WR_SIDE_COUNT; i += 2) {
+        wr_gui_label(i == 0 ? "From" : "");
+        if (wr_gui_chip(NULL, buttons[i].label)) wr_action_run(app, buttons[i].action);
+        wr_gui_same_line(4);
+        if (wr_gui_chip(NULL, buttons[i + 1].label)) wr_action_run(app, buttons[i + 1].action);
+    }
+}
+
+/* Where the eye is, once a camera has one; what it looks at. */
+static void points(WrApp *app)
+{
+    static const char *const eyes[3] = { "eyex", "eyey", "eyez" }, *const targets[3] = { "tox",
+                                                                                         "toy",
+                                                                                         "toz" };
+    static const WrNumber away = { .low = -5,
+                                   .high = 5,
+                                   .hard_low = -1e9,
+                                   .hard_high = 1e9,
+                                   .decimals = 2,
+                                   .tip = "In the world: x to the right, y up, z to the viewer" };
+    const WrCamera *camera = &wr_app_scene(app)->camera;
+    const WrSceneParam *eye = &wr_scene_params[WR_SCENE_PARAM_EYE],
+                       *target = &wr_scene_params[WR_SCENE_PARAM_TARGET];
+    if (!camera->fit) wr_param_vector_row(app, eye, "Eye", eyes, &away);
+    wr_param_vector_row(app, target, "Looks at", targets, &away);
+}
+
+static void placed(WrApp *app)
+{
+    static const char *const kinds[] = { "Perspective", "Orthographic" };
+    const WrCamera *c = &wr_app_scene(app)->camera;
+    int kind = c->orthographic;
+    wr_gui_space(8);
+    wr_gui_heading("CAMERA");
+    wr_gui_label("Kind");
+    if (wr_gui_choice("camera", 0, kinds, 2, &kind)) {
+        WrText line = { 0 };
+        wr_text_addf(&line, "camera %s", wr_camera_names[kind]);
+        wr_scene_run(app, &line);
+    }
+    if (!c->orthographic) wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_FOV]);
+    points(app);
+    sides(app);
+    wr_gui_label("");
+    if (wr_gui_chip(NULL, "Fill")) wr_action_run(app, WR_ACT(camera_fill));
+    wr_gui_tip("Move the camera along its view to where the objects just fill the picture");
+    wr_gui_same_line(4);
+    if (wr_gui_chip(NULL, "Reset")) wr_action_run(app, WR_ACT(camera_reset));
+    wr_gui_tip("In front of the objects, so far away that they fit however they turn");
+}
+
+/* ---- views that are kept ---- */
+
+static void run_view(WrApp *app, const char *what, const WrNamedView *view)
+{
+    WrText line = { 0 };
+    wr_text_addf(&line, "camera %s ", what);
+    wr_text_add_word(&line, view->name);
+    wr_scene_run(app, &line);
+}
+
+/* True if a line was run: the views are others now. */
+static bool view_row(WrApp *app, int i)
+{
+    const WrScene *scene = wr_app_scene(app);
+    const WrNamedView *view = &scene->views[i];
+    const WrSceneView now = wr_scene_view(scene);
+    const WrRow r = wr_gui_row_begin(i, ROW_UNITS, wr_scene_view_equal(&now, &view->view));
+    const double right = wr_gui_row_width() - wr_gui_px(28);
+    wr_gui_row_at(wr_gui_px(8), 0);
+    wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, view->name, right - wr_gui_px(16));
+    wr_gui_row_at(right, wr_gui_px(20));
+    const bool forget = wr_gui_glyph("forget", WR_ICON_DELETE, 20, 0xff8a8a8au);
+    wr_gui_tip("Forget this view");
+    wr_gui_row_end();
+    if (forget) run_view(app, "forget", view);
+    else if (r.clicked) run_view(app, "use", view);
+    return forget || r.clicked;
+}
+
+static void views(WrApp *app)
+{
+    const WrScene *scene = wr_app_scene(app);
+    for (int i = 0; i < scene->view_count; i++) {
+        wr_gui_push_id(1000 + i);
+        const bool changed = view_row(app, i);
+        wr_gui_pop_id();
+        if (changed) return;
+    }
+    wr_gui_label("Views");
+    if (wr_gui_chip(WR_ICON_PLUS, "Keep this view")) wr_action_run(app, WR_ACT(view_keep));
+    wr_gui_tip("Keep how the patch is looked at now, in the document; `camera save NAME` keeps it "
+               "under a name of your own");
+}
+
+/* ---- behind ---- */
+
+static void background(WrApp *app)
+{
+    WR_ROWS(kinds);
+    static const char *const kinds[WR_BACKGROUND_KINDS] = {
+        [WR_ROW(WR_BACKGROUND_PLAIN)] = "One colour",
+        [WR_ROW(WR_BACKGROUND_GRADIENT)] = "Gradient",
+        [WR_ROW(WR_BACKGROUND_NONE)] = "None",
+    };
+    WR_ROWS_END(kinds, WR_BACKGROUND_KINDS);
+    int kind = (int)wr_app_scene(app)->background.kind;
+    wr_gui_space(8);
+    wr_gui_heading("BACKGROUND");
+    wr_gui_label("Kind");
+    if (wr_gui_choice("background", 0, kinds, WR_BACKGROUND_KINDS, &kind)) {
+        WrText line = { 0 };
+        wr_text_addf(&line, "background %s", wr_background_names[kind]);
+        wr_scene_run(app, &line);
+    }
+    wr_gui_tip("Behind the objects, here and in 8-bit pictures. None: pictures that hold alpha, "
+               "such as PNG, have it.");
+    const WrSceneParam *param;
+    for (int i = 0; (param = wr_scene_param("background", wr_background_names[kind], i)); i++)
+        wr_param_row(app, param);
+}
+
+void wr_panel_camera(WrApp *app)
+{
+    placed(app);
+    views(app);
+    background(app);
+}
