@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "render/reference.h"
 #include "scene/normal_map.h"
+#include "scene/objects.h"
 
 #define WIDE 90
 #define HIGH 70
@@ -84,6 +85,21 @@ static double worst_angle(const WrScene *scene, const WrField *field, int *count
     return worst;
 }
 
+/* By frames of the place, or by the object's axes. */
+static void turn_by(WrScene *scene, int k)
+{
+    static const WrNormalFrame frames[] = { WR_FRAME_MIKK, WR_FRAME_LECTURE, WR_FRAME_AUTO };
+    WrNormalTold told;
+    scene->normals.frame = frames[k % 3];
+    if (k % 4 != 1) return;
+    WrImage *file = random_map(19, 23, 16, 3, 9);
+    for (int i = 0; i < 3 * 19 * 23; i += 3) file->data[i + 1 + k % 2] = 1 - file->data[i];
+    wr_image_free(scene->normals.image);
+    scene->normals.image = wr_normal_map_read_object(file, k % 8 == 1, &told, NULL);
+    scene->normals.object = true;
+    wr_image_free(file);
+}
+
 static WrScene *scene_number(int k)
 {
     static const char *const surfaces[] = {
@@ -101,6 +117,7 @@ static WrScene *scene_number(int k)
     scene->normals.strength = k % 5 == 4 ? -0.3 : 0.4;
     if (k % 3 == 1) scene->normals.laid = (WrLaid){ .own = true, .ru = 1.5, .rv = k % 2 ? 1 : -2 };
     scene->bump = k % 7 == 5 ? WR_BUMP_INVARIANT : k % 7 == 3 ? WR_BUMP_EXACT : WR_BUMP_BLINN;
+    if (k >= 12) turn_by(scene, k / 2 + k / 12);
     if (k % 7 != 5 && scene->height != 0) scene->bump = WR_BUMP_EXACT; /* the truth */
     scene->dials.shading = WR_SHADING_DOUBLE;
     return scene;
@@ -109,7 +126,7 @@ static WrScene *scene_number(int k)
 static void pictures_have_the_references_normals(void **state)
 {
     (void)state;
-    for (int k = 0; k < (getenv("WR_FULL") ? 84 : 24); k++) {
+    for (int k = 0; k < (getenv("WR_FULL") ? 168 : 48); k++) {
         int count;
         WrScene *scene = scene_number(k);
         WrField *field = random_field(40, 29, 3);
@@ -125,11 +142,126 @@ static void pictures_have_the_references_normals(void **state)
     }
 }
 
+/* A mesh before another, both turned by frames: what is hidden does not take the other's triangles. */
+static void objects_that_hide_each_other_have_them_too(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        int count;
+        WrScene *first = scene_number(k ? 16 : 28);
+        WrScene *scene = wr_scene_add_object(first, true);
+        WrField *field = random_field(40, 29, 3);
+        scene->at = (WrVec3){ 0.7, 0.3, 0.5 };
+        const double worst = worst_angle(scene, field, &count);
+        if (!(count > 1000 && worst < 1e-3)) fail_msg("case %d: %g of %d", k, worst, count);
+        wr_scene_free(scene);
+        wr_scene_free(first);
+        wr_field_free(field);
+    }
+}
+
+/* ---- frames that are known by hand ---- */
+
+typedef struct Corner {
+    float p[3], uv[2];
+} Corner;
+
+static WrTriangles *triangle_of(const Corner corner[3])
+{
+    float p[3][3], uv[3][2];
+    float n[3][3] = { { 0, 0, 1 }, { 0, 0, 1 }, { 0, 0, 1 } };
+    int32_t corners[1][3] = { { 0, 1, 2 } };
+    for (int k = 0; k < 3; k++)
+        memcpy(p[k], corner[k].p, sizeof p[k]), memcpy(uv[k], corner[k].uv, sizeof uv[k]);
+    const WrTrianglesSource source = { .points = (const float(*)[3])p,
+                                       .normals = (const float(*)[3])n,
+                                       .uv = (const float(*)[2])uv,
+                                       .corners = (const int32_t(*)[3])corners,
+                                       .point_count = 3,
+                                       .triangle_count = 1 };
+    return wr_triangles_new(&source, NULL);
+}
+
+/* Sheared (u,v): T by hand is (2,-1,0) and B of the lecture (1,1,0), made unit; MikkTSpace's B is n x T. Mirrored, both run
+   the other way of v. The map leans by 0.6 along x, or y, everywhere. */
+static void one_triangle_turns_the_map_as_by_hand(void **state)
+{
+    static const Corner sheared[3] = { { { 0, 0, 0 }, { 0.5f, 0 } },
+                                       { { 1, 0, 0 }, { 1, 0.5f } },
+                                       { { 0, 1, 0 }, { 0, 1 } } };
+    const double a = 1 / sqrt(5), b = 1 / sqrt(2);
+    const struct {
+        WrNormalFrame frame;
+        int channel;
+        double x, y;
+    } cases[] = { { WR_FRAME_AUTO, 0, 2 * a, -a },
+                  { WR_FRAME_AUTO, 1, a, 2 * a },
+                  { WR_FRAME_LECTURE, 0, 2 * a, -a },
+                  { WR_FRAME_LECTURE, 1, b, b },
+                  { WR_FRAME_OBJECT, 1, 0, 1 } };
+    (void)state;
+    for (int k = 0; k < 20; k++) {
+        const int which = k % 5, mirrored = k / 5 % 2;
+        const double sign = mirrored && cases[which].frame != WR_FRAME_OBJECT ? -1 : 1;
+        Corner corner[3];
+        WrScene *scene = scene_of("mesh");
+        WrImage *file = wr_image_new(2, 2, 3, NULL);
+        WrNormalTold told;
+        memcpy(corner, sheared, sizeof corner);
+        for (int i = 0; i < 3 && mirrored; i++) corner[i].uv[0] = 1 - corner[i].uv[0];
+        wr_scene_set_triangles(scene, triangle_of(corner), "a.obj", NULL);
+        file->type = WR_PIXEL_F32;
+        for (int i = 0; i < 12; i += 3)
+            file->data[i + cases[which].channel] = 0.6f, file->data[i + 2] = 0.8f;
+        scene->normals.object = cases[which].frame == WR_FRAME_OBJECT;
+        scene->normals.frame = scene->normals.object ? WR_FRAME_AUTO : cases[which].frame;
+        scene->normals.image = scene->normals.object
+                                   ? wr_normal_map_read_object(file, false, &told, NULL)
+                                   : wr_normal_map_read(file, WR_GREEN_UP, 0, &told, NULL);
+        scene->normals.strength = 1;
+        if (k >= 10) scene->bump = WR_BUMP_INVARIANT, scene->dials.aa = WR_AA_FILTER;
+        scene->posed = true, scene->rotate_deg = (WrVec3){ 0, -15, 0 };
+        static float normals[40][40][3];
+        WrField *field = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+        WrRenderer *renderer = wr_renderer_new(NULL, "auto", NULL);
+        const WrFrameRequest request = { .field = field,
+                                         .scene = scene,
+                                         .width = 40,
+                                         .height = 40,
+                                         .turn_deg = 15,
+                                         .normals = normals[0][0] };
+        WrFrame frame;
+        int seen = 0;
+        assert_true(wr_renderer_frame(renderer, &request, &frame, NULL));
+        /* mirrored by u: T turns round, and B of MikkTSpace stays: it is the sign that turns n x T */
+        const double turn = cases[which].channel == 0 ? sign : 1;
+        for (int i = 0; i < 40 * 40; i++) {
+            const float *n = normals[0][i];
+            WrProbe probe;
+            if (!(frame.rgba[4 * i + 3] > 0)) continue;
+            seen++;
+            assert_near((double)n[0], 0.6 * turn * cases[which].x, 1e-5);
+            assert_near((double)n[1], 0.6 * turn * cases[which].y, 1e-5);
+            assert_near((double)n[2], 0.8, 1e-5);
+            if (seen % 50) continue;
+            assert_true(wr_reference_probe(field, scene, 40, 40, 15, i % 40 + 0.5, i / 40 + 0.5,
+                                           &probe, NULL));
+            assert_near(probe.perturbed.x, 0.6 * turn * cases[which].x, 1e-7);
+            assert_near(probe.perturbed.y, 0.6 * turn * cases[which].y, 1e-7);
+        }
+        assert_true(seen > 100);
+        wr_renderer_free(renderer);
+        wr_image_free(file);
+        wr_field_free(field);
+        wr_scene_free(scene);
+    }
+}
+
 /* The probe of a pixel has the normal of the picture, and the intensity. */
 static void a_probe_has_the_map(void **state)
 {
     (void)state;
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < 36; k += 2) {
         WrScene *scene = scene_number(k);
         WrField *field = random_field(40, 29, 3);
         WrProbe with, without;
@@ -209,6 +341,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_have_the_references_normals),
+        cmocka_unit_test(objects_that_hide_each_other_have_them_too),
+        cmocka_unit_test(one_triangle_turns_the_map_as_by_hand),
         cmocka_unit_test(a_probe_has_the_map),
         cmocka_unit_test(filtered_maps_come_near_the_reference),
     };

@@ -1,6 +1,7 @@
 /* test_render_relief.c - a normal map's slopes are added to the table's: a map of a table gives the picture of that
    table, alone and beside another; filtered as the table is. */
 #include "test.h"
+#include "test_mesh_grids.h"
 #include "test_render_scenes.h"
 
 #include "image/image.h"
@@ -119,9 +120,11 @@ static void slopes_of_map_and_table_add(void **state)
 
 static WrScene *mixed_scene(int k)
 {
-    static const char *const surfaces[] = { "torus", "sphere", "plane", "cube", "cylinder" };
+    static const char *const surfaces[] = { "torus", "sphere", "plane", "mesh", "cylinder" };
     static const WrAntialias aas[] = { WR_AA_POINT, WR_AA_FILTER, WR_AA_MOMENTS, WR_AA_ADAPTIVE };
     WrScene *scene = scene_of(surfaces[k % 5]);
+    if (k % 5 == 3)
+        wr_scene_set_triangles(scene, mesh_grid(on_sphere, 24, 12, true), "a.obj", NULL);
     WrField *of = random_field(33 + k, 101, (uint64_t)k + 5);
     take_map(scene, map_of(of, 0.01, k & 1 ? 8 : 32, false), false, false);
     wr_field_free(of);
@@ -133,6 +136,8 @@ static WrScene *mixed_scene(int k)
     if (k % 8 == 6) scene->dials.shading = WR_SHADING_HALF;
     if (k % 3 == 2) scene->scheme = WR_SCHEME_BSPLINE;
     if (k % 9 == 7) scene->material.gate = true;
+    scene->normals.frame = (WrNormalFrame)(k / 2 % 4);
+    scene->normals.object = k % 11 == 8;
     return scene;
 }
 

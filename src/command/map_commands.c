@@ -172,7 +172,9 @@ void wr_print_normals(const WrScene *scene, bool named, WrText *text)
     print_laid(&map->laid, named, text);
     wr_text_addf(text, " space=%s green=%s", spaces[map->object],
                  greens[map->green_down ? WR_GREEN_DOWN : WR_GREEN_UP]);
-    if (!map->object) wr_text_addf(text, " channels=%d", map->channels);
+    if (!map->object)
+        wr_text_addf(text, " frame=%s channels=%d", wr_normal_frame_names[map->frame],
+                     map->channels);
     wr_text_add(text, " strength=");
     wr_text_add_number(text, map->strength);
     wr_text_add(text, "\n");
@@ -243,8 +245,11 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
     const bool object = wr_call_choice(call, "space") == 1;
     if (object && wr_call_given(call, "channels"))
         return wr_fail(err, "channels= is of space=tangent: the object's axes take all three");
+    if (object && wr_call_given(call, "frame"))
+        return wr_fail(err, "frame= is of space=tangent: the object's axes are their own");
     WrImage *file = find_picture(session, call, name, WR_OBJECT_NORMALS, err), *image = NULL;
     map->object = object;
+    map->frame = WR_FRAME_AUTO;
     map->strength = 1;
     if (file && session->loading) {
         map->green_down = wr_call_choice(call, "green") == WR_GREEN_DOWN;
@@ -279,14 +284,16 @@ static bool change_normals(const WrCall *call, WrNormalMap *map, WrError *err)
             map->green_down = !map->green_down;
         }
     }
+    if (map->object && wr_call_given(call, "frame"))
+        return wr_fail(err, "frame=: this map is of the object's axes");
     take_repeat(call, &map->laid);
     return true;
 }
 
 static bool run_normals(WrSession *session, WrCall *call, WrError *err)
 {
-    static const char *const of_map[] = { "space",   "green", "channels", "strength", "repeat",
-                                          "channel", "part",  "sha256",   NULL };
+    static const char *const of_map[] = { "space",  "frame",   "green", "channels", "strength",
+                                          "repeat", "channel", "part",  "sha256",   NULL };
     const WrArg *file = wr_call_arg(call, "FILE|off");
     const char *name = file->given ? file->text : NULL;
     const bool off = name && (strcmp(name, "off") == 0 || strcmp(name, "none") == 0);
@@ -301,6 +308,8 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
     } else {
         good = name ? take_normals(session, call, name, map, err) : change_normals(call, map, err);
     }
+    if (good && wr_call_given(call, "frame"))
+        map->frame = (WrNormalFrame)wr_call_choice(call, "frame");
     if (good && wr_call_given(call, "strength")) map->strength = wr_call_number(call, "strength");
     if (good) wr_session_replace_scene(session, scene);
     else wr_scene_free(scene);
@@ -335,12 +344,20 @@ static const WrArgSpec args_normals[] = {
       .type = WR_ARG_PATH,
       .positional = true,
       .help = "a picture of normals, or off (none is off too; a file of that name is ./off). Left "
-              "out: the one that is there, of which strength, repeat and green may change" },
+              "out: the one that is there, of which strength, repeat, frame and green may change" },
     { .name = "space",
       .type = WR_ARG_CHOICE,
       .words = spaces,
       .fallback_text = "tangent",
       .help = "tangent: x along u, y along v, z up; object: along the object's axes" },
+    { .name = "frame",
+      .type = WR_ARG_CHOICE,
+      .words = wr_normal_frame_names,
+      .fallback_text = "auto",
+      .help = "which way x and y run. gradient: they make slopes of heights over a cell of one "
+              "unit, as the table's; mikk: unit vectors by the rules of MikkTSpace, as other "
+              "programs bake; lecture: unit vectors along Pu and Pv; auto: mikk on a mesh, else "
+              "gradient" },
     { .name = "green",
       .type = WR_ARG_CHOICE,
       .words = greens,

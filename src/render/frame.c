@@ -214,8 +214,7 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
                           request ? renderer->kernels : wr_kernels_get(renderer->isa, false, NULL),
                       .kernels_double = wr_kernels_double(renderer->isa, NULL),
                       .mesh = renderer->mesh,
-                      .triangles =
-                          plan->inversion == WR_INVERT_TRIANGLES ? &renderer->triangles : NULL,
+                      .triangles = renderer->triangles.source ? &renderer->triangles : NULL,
                       .newton = renderer->mesh && plan->newton != 0,
                       .samples = renderer->samples,
                       .width = renderer->width,

@@ -31,6 +31,7 @@ struct WrRenderer {
     WrTriangles *square; /* what is shown of a scene whose mesh is not there; owned; or NULL */
     WrTint tint;
     WrRelief relief;
+    WrFrames frames;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
@@ -117,5 +118,7 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
 /* All grids but one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
 /* Bring what the surface is rasterised from up to the view. Errors: no memory. */
+/* The triangles that the scene shows; the renderer's, or the scene's. */
+const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
 bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request,
                              const WrKernels *kernels, WrError *err);

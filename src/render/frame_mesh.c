@@ -33,8 +33,7 @@ static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
                              renderer->pool);
 }
 
-/* The triangles that the scene shows; the renderer's, or the scene's. */
-static const WrTriangles *triangles_of(WrRenderer *renderer, const WrScene *scene)
+const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene)
 {
     if (scene->triangles) return scene->triangles;
     if (!renderer->square) renderer->square = wr_triangles_square();
@@ -45,7 +44,7 @@ static bool prepare_triangles(WrRenderer *renderer, const WrScene *scene, WrErro
 {
     if (renderer->plan.inversion == WR_INVERT_TRIANGLES)
         return wr_view_triangles_prepare(
-            &renderer->triangles, triangles_of(renderer, scene), &renderer->view,
+            &renderer->triangles, wr_frame_triangles(renderer, scene), &renderer->view,
             !wr_plan_runs(&renderer->plan, WR_EFFECT_BLOCKS), renderer->pool, err);
     wr_view_triangles_fini(&renderer->triangles);
     return true;

@@ -19,6 +19,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_rounded_drop(&renderer->rounded);
     wr_tint_drop(&renderer->tint);
     wr_relief_drop(&renderer->relief);
+    wr_frames_drop(&renderer->frames);
 }
 
 /* The copies of heights that the plan calls for, and none else. */
@@ -109,9 +110,16 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
 static bool bring_relief(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrField *field = request->field;
-    if (wr_plan_runs(&renderer->plan, WR_EFFECT_NORMALS))
+    const WrPlan *plan = &renderer->plan;
+    const bool framed = plan->map_frame == WR_FRAME_MIKK || plan->map_frame == WR_FRAME_LECTURE;
+    if (!framed || plan->inversion != WR_INVERT_TRIANGLES) wr_frames_drop(&renderer->frames);
+    else if (!wr_frames_bring(&renderer->frames, wr_frame_triangles(renderer, request->scene),
+                              plan->map_frame, err))
+        return false;
+    if (wr_plan_runs(plan, WR_EFFECT_NORMALS))
         return wr_relief_bring(&renderer->relief, request->scene->normals.image,
-                               wr_field_wrap_u(field), wr_field_wrap_v(field), renderer->pool, err);
+                               plan->map_frame == WR_FRAME_OBJECT, wr_field_wrap_u(field),
+                               wr_field_wrap_v(field), renderer->pool, err);
     wr_relief_drop(&renderer->relief);
     return true;
 }
@@ -253,6 +261,17 @@ static WrLook narrowed(const WrLookd *look, const float *heights, const float *g
                      .range = look->range };
 }
 
+/* Slopes of heights are those of the patch's parameters; in a frame they are their own, the other way round where the map is. */
+static WrSlopeScale map_scale(const WrRenderer *renderer, const WrScene *scene, double ru,
+                              double rv, double scale)
+{
+    const double strength = scene->normals.strength;
+    if (renderer->plan.map_frame == WR_FRAME_GRADIENT)
+        return wr_slope_scale(renderer->plan.bump, strength, ru, rv, scale);
+    return (WrSlopeScale){ 0, ru != 0 ? copysign(strength, strength * ru) : 0,
+                           rv != 0 ? copysign(strength, strength * rv) : 0 };
+}
+
 /* The normal map: slopes of the cell, one unit a side, that stand for themselves whatever the table's height is. */
 static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                      WrTileJob *job)
@@ -261,8 +280,7 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
     const WrRelief *relief = &renderer->relief;
     double ru, rv;
     wr_scene_repeat(scene, &scene->normals.laid, &ru, &rv);
-    const WrSlopeScale by =
-        wr_slope_scale(renderer->plan.bump, scene->normals.strength, ru, rv, scale);
+    const WrSlopeScale by = map_scale(renderer, scene, ru, rv, scale);
     const WrLookd look = { .width = relief->source->width,
                            .height = relief->source->height,
                            .ru = ru,
@@ -274,6 +292,7 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
                            .scale_v = by.v,
                            .pyramid = &relief->pyramid };
     job->relief_double = look;
+    job->frames = &renderer->frames;
     job->relief = narrowed(&look, NULL, NULL);
 }
 

@@ -5,9 +5,10 @@
 /* The samples of one strip. Members are filled stage by stage; count is how many are in use. */
 typedef struct WR_T(WrStrip) {
     int count;
-    _Alignas(64) int index[WR_SPAN];            /* which sample of the row this is, ascending */
-    _Alignas(64) REAL s[WR_SPAN];               /* ray parameter (closed forms) */
-    REAL u[WR_SPAN], v[WR_SPAN];                /* patch parameters, 0..1 */
+    _Alignas(64) int index[WR_SPAN]; /* which sample of the row this is, ascending */
+    _Alignas(64) REAL s[WR_SPAN];    /* ray parameter (closed forms) */
+    REAL u[WR_SPAN], v[WR_SPAN];     /* patch parameters, 0..1 */
+    int triangle[WR_SPAN]; /* of a mesh; only where a normal map is turned by its frames */
     REAL px[WR_SPAN], py[WR_SPAN], pz[WR_SPAN]; /* P */
     REAL pux[WR_SPAN], puy[WR_SPAN], puz[WR_SPAN];
     REAL pvx[WR_SPAN], pvy[WR_SPAN], pvz[WR_SPAN];

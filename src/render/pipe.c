@@ -3,6 +3,8 @@
 
 #include "base/kernmath.h"
 #include "render/pyramid.h"
+#include "render/relief.h"
+#include "scene/normal_map.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
 #include "system/clock.h"

@@ -36,6 +36,7 @@ static void did(const Watch *watch, WrEffect effect)
 }
 
 #include "render/pipe_look_body.h"
+#include "render/pipe_map_body.h"
 #include "system/clock.h"
 
 /* ---- half precision ------------------------------------------------------------------------------ */
@@ -108,7 +109,8 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
 {
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
            !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) &&
-           !runs(job, WR_EFFECT_SPREAD) && !job->plan->map_filtered && !sink->bound;
+           !runs(job, WR_EFFECT_SPREAD) && !job->plan->map_filtered &&
+           job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
 }
 
 /* P, n, and what else of the surface's frame the plan asks for. */

@@ -12,7 +12,10 @@ static void keep_samples(const int *kept, int count, Strip *strip)
                           strip->pux, strip->puy, strip->puz, strip->pvx,   strip->pvy, strip->pvz,
                           strip->nx,  strip->ny,  strip->nz,  strip->n_len, strip->x,   strip->y };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) keep_reals(all[k], kept, count);
-    for (int i = 0; i < count; i++) strip->index[i] = strip->index[kept[i]];
+    for (int i = 0; i < count; i++) {
+        strip->index[i] = strip->index[kept[i]];
+        strip->triangle[i] = strip->triangle[kept[i]];
+    }
     strip->count = count;
 }
 

@@ -212,64 +212,6 @@ static void look(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScr
     watch_lap(watch, WR_STAGE_LOOK);
 }
 
-/* ---- the normal map ------------------------------------------------------------------------------- */
-
-/* Level 1 is the map itself (relief.h), whose texels are not spread. */
-static void flush_map(const WrTileJob *job, const Batch *batch, Strip *strip,
-                      WrTileScratch *scratch, Watch *watch)
-{
-    const Kernels *k = KERNELS_OF(job);
-    Strip *near = NEAR_OF(scratch), *far = FAR_OF(scratch);
-    (void)watch;
-    for (int i = 0; i < near->count; i++) near->level[i] = (REAL)1;
-    for (int i = 0; i < far->count; i++)
-        far->level[i] = (far->level[i] > (REAL)1 ? far->level[i] : (REAL)1) + (REAL)1;
-    if (near->count > 0) k->look_pyramid(MAP_OF(job), false, near);
-    if (far->count > 0) k->look_pyramid(MAP_OF(job), runs(job, WR_EFFECT_SPREAD), far);
-    sum_batch(batch, near, far, strip);
-    near->count = far->count = 0;
-}
-
-static void map_levels(const WrTileJob *job, const Rays *rays, Strip *strip)
-{
-    const Kernels *k = KERNELS_OF(job);
-    const REAL last = (REAL)(MAP_OF(job)->pyramid->levels - 2);
-    if (job->plan->map_filtered) {
-        (job->triangles ? k->footprint_met : k->footprint)(rays, MAP_OF(job), 1, strip);
-        k->spread(MAP_OF(job), job->plan->map_anisotropic, strip);
-    }
-    for (int i = 0; i < strip->count; i++) {
-        if (!job->plan->map_filtered) strip->level[i] = 0, strip->taps[i] = 1;
-        else if (strip->level[i] > last) strip->level[i] = last;
-    }
-}
-
-static void move_reals(REAL *to, const REAL *from, int count)
-{
-    memcpy(to, from, (size_t)count * sizeof *to);
-}
-
-/* Heights add where slopes add: the map's slopes, and what is spread about them, to what the strip has. That the two
-   may go together is left out of their covariance. What the strip has waits in the places of what `widen` fills. */
-static void look_map(const WrTileJob *job, const Rays *rays, Strip *strip, WrTileScratch *scratch,
-                     Watch *watch)
-{
-    REAL *const sums[] = { strip->f, strip->fu, strip->fv, strip->suu, strip->suv, strip->svv };
-    REAL *const kept[] = { strip->ex, strip->ey, strip->ez, strip->see, strip->sef, strip->sff };
-    const bool none = job->plan->source == WR_SOURCE_NONE, filtered = runs(job, WR_EFFECT_FILTER);
-    did(watch, WR_EFFECT_NORMALS);
-    for (int c = 0; c < 6; c++) {
-        if (none || (c >= 3 && !filtered))
-            memset(kept[c], 0, (size_t)strip->count * sizeof *kept[c]);
-        else move_reals(kept[c], sums[c], strip->count);
-    }
-    map_levels(job, rays, strip);
-    look_along(job, flush_map, strip, scratch, watch);
-    for (int c = 0; c < 6; c++)
-        for (int i = 0; i < strip->count; i++) sums[c][i] = kept[c][i] + sums[c][i];
-    watch_lap(watch, WR_STAGE_NORMALS);
-}
-
 /* ---- the colour picture --------------------------------------------------------------------------- */
 
 typedef struct Colour {

@@ -1,5 +1,12 @@
 /* pipe_triangles_body.h - which triangles of a mesh out of a file the samples see, and where. A part of pipe_body.h. */
 
+/* Do the corners' frames turn a normal map? */
+static bool turns_map(const WrTileJob *job)
+{
+    const WrNormalFrame frame = job->plan->map_frame;
+    return frame == WR_FRAME_MIKK || frame == WR_FRAME_LECTURE;
+}
+
 /* P, n and what else the plan asks for, where the rays meet the triangles whose numbers stand in u. */
 static void meet(const WrTileJob *job, const Rays *rays, bool mapped, Strip *strip, Watch *watch)
 {
@@ -7,6 +14,7 @@ static void meet(const WrTileJob *job, const Rays *rays, bool mapped, Strip *str
     if (strip->count == 0) return;
     const bool smooth = runs(job, WR_EFFECT_SMOOTH);
     const bool sloped = runs(job, WR_EFFECT_TANGENTS) || runs(job, WR_EFFECT_TINT);
+    for (int i = 0; i < strip->count && turns_map(job); i++) strip->triangle[i] = (int)strip->u[i];
     KERNELS_OF(job)->meet(rays, &job->triangle_look, smooth, mapped || sloped, sloped, strip);
     if (runs(job, WR_EFFECT_PARAMETERS)) did(watch, WR_EFFECT_PARAMETERS);
     if (runs(job, WR_EFFECT_TANGENTS)) did(watch, WR_EFFECT_TANGENTS);

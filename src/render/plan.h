@@ -4,6 +4,7 @@
 #pragma once
 #include "field/scheme.h"
 #include "scene/dials.h"
+#include "scene/normal_frame.h"
 #include "shade/bump_mode.h"
 #include "surface/surface.h"
 
@@ -145,6 +146,7 @@ typedef enum WrPrecision {
 /* What the plan settles beyond whether an effect runs: X(effect, type, name), each owned by one row. The
    renderer reads these and the rows, and neither scene nor dials, to choose what it does.
      map_filtered, map_anisotropic    the normal map's slopes over footprints
+     map_frame   what its vectors are turned by; gradient where there are none
      bump        as simplified: BLINN for exact on a flat base, ...
      scheme      how the table is looked up
      normals     the surface's geometry and n' are worked out
@@ -158,6 +160,7 @@ typedef enum WrPrecision {
     X(TINT, bool, tint_anisotropic)                                                                \
     X(NORMALS, bool, map_filtered)                                                                 \
     X(NORMALS, bool, map_anisotropic)                                                              \
+    X(NORMALS, WrNormalFrame, map_frame)                                                           \
     X(BUMP, WrBumpMode, bump)                                                                      \
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \

@@ -2,6 +2,7 @@
 #include "render/plan_inner.h"
 
 #include "image/image.h"
+#include "scene/laid.h"
 #include "scene/scene.h"
 
 /* ---- colour ---- */
@@ -83,14 +84,27 @@ WrVerdict wr_decide_normals(const WrPlan *plan, const WrPlanAsk *ask, const char
     if (scene->bump == WR_BUMP_NONE) return say(WR_VERDICT_NONE, why, "bump mode is none");
     if (!lit(plan, ask)) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
     if (map->strength == 0) return say(WR_VERDICT_SPARED, why, "its strength is 0");
+    if (map->object)
+        return say(WR_VERDICT_RUN, why,
+                   "its normals of the object's axes are those that light shows");
     if (map_still(scene)) return say(WR_VERDICT_SPARED, why, "it is laid 0 times: it has no slope");
     if (map_even(map->image))
         return say(WR_VERDICT_SPARED, why, "the normal map is straight up everywhere");
-    return say(WR_VERDICT_RUN, why, "its slopes are added to the table's and a light shows them");
+    switch (wr_scene_frame(scene)) {
+    case WR_FRAME_MIKK:
+        return say(WR_VERDICT_RUN, why, "a light shows its normals, in MikkTSpace's frames");
+    case WR_FRAME_LECTURE:
+        return say(WR_VERDICT_RUN, why, "a light shows its normals, in frames along Pu and Pv");
+    default:
+        return say(WR_VERDICT_RUN, why,
+                   "its slopes are added to the table's and a light shows them");
+    }
 }
 
 void wr_settle_normals(WrPlan *plan, const WrPlanAsk *ask)
 {
+    const bool run = runs(plan, WR_EFFECT_NORMALS);
+    plan->map_frame = run ? wr_scene_frame(ask->scene) : WR_FRAME_GRADIENT;
     plan->map_filtered =
         runs(plan, WR_EFFECT_NORMALS) && wants_filter(ask->dials) && !map_still(ask->scene);
     plan->map_anisotropic = plan->map_filtered && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;

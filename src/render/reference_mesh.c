@@ -94,6 +94,7 @@ void wr_reference_mesh_fini(WrReferenceMesh *mesh)
     wr_triangles_free(mesh->source);
     wr_free(mesh->boxes);
     wr_free(mesh->order);
+    wr_free(mesh->tangents);
     *mesh = (WrReferenceMesh){ 0 };
 }
 
@@ -185,6 +186,39 @@ bool wr_reference_mesh_hit(const WrReferenceMesh *m, bool cull, const WrReferenc
     }
     *hit = best;
     return true;
+}
+
+/* ---- frames ---- */
+
+bool wr_reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrError *err)
+{
+    const WrTriangles *t = mesh->source;
+    const size_t corners = 3 * (size_t)t->triangle_count;
+    mesh->mikk = frame == WR_FRAME_MIKK;
+    mesh->tangents = wr_try_alloc(corners, sizeof *mesh->tangents, "the reference's frames", err);
+    return mesh->tangents && (mesh->mikk ? wr_tangents_mikk : wr_tangents_average)(
+                                 t->corners, t->triangles, t->triangle_count, mesh->tangents, err);
+}
+
+bool wr_reference_mesh_axes(const WrReferenceMesh *mesh, const WrReferenceHit *hit, WrMapAxes *axes)
+{
+    const WrVec3 none = { 0, 0, 0 };
+    const WrTriangles *t = mesh->source;
+    const double l[3] = { 1 - hit->share[0] - hit->share[1], hit->share[0], hit->share[1] };
+    double sign = 0;
+    *axes = (WrMapAxes){ none, none, none };
+    if (!mesh->tangents) return false;
+    for (int k = 0; k < 3; k++) {
+        const WrTangent *own = &mesh->tangents[3 * (size_t)hit->triangle + (size_t)k];
+        const float *n = t->corners[t->triangles[hit->triangle].corner[k]].n;
+        axes->t = v3_mad(axes->t, own->t, l[k]);
+        axes->b = v3_mad(axes->b, own->b, l[k]);
+        axes->n = v3_mad(axes->n, (WrVec3){ (double)n[0], (double)n[1], (double)n[2] }, l[k]);
+        sign += l[k] * own->sign;
+    }
+    if (mesh->mikk) axes->b = v3_scale(v3_cross(axes->n, axes->t), sign);
+    else axes->t = v3_unit(axes->t, none), axes->b = v3_unit(axes->b, none);
+    return v3_len(axes->t) > 0 && v3_len(axes->b) > 0;
 }
 
 /* ---- what is there ---- */

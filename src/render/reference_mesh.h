@@ -3,6 +3,8 @@
    Layer 5, private to the reference. */
 #pragma once
 #include "render/reference_patch.h"
+#include "scene/laid.h"
+#include "surface/tangents.h"
 #include "surface/triangles.h"
 
 #include <stdbool.h>
@@ -13,10 +15,17 @@ typedef struct WrReferenceMesh {
     WrReferenceBox *boxes; /* owned; the first is the whole */
     int32_t *order;        /* triangles, those of a box one after the other; owned */
     int32_t box_count;
+    WrTangent *tangents; /* [3 triangles], owned; NULL: no map is turned by them */
+    bool mikk;           /* they are MikkTSpace's */
 } WrReferenceMesh;
 
 /* Takes the mesh over. Errors: no memory. */
 bool wr_reference_mesh_init(WrReferenceMesh *mesh, WrTriangles *source, WrError *err);
+/* Frames for a normal map that is turned by them. Errors: no memory. */
+bool wr_reference_mesh_frame(WrReferenceMesh *mesh, WrNormalFrame frame, WrError *err);
+/* Which way such a map runs there; false: there is no frame. */
+bool wr_reference_mesh_axes(const WrReferenceMesh *mesh, const WrReferenceHit *hit,
+                            WrMapAxes *axes);
 void wr_reference_mesh_fini(WrReferenceMesh *mesh); /* fine on a zeroed one */
 /* The nearest triangle beyond s_min: fills s, u, v, triangle and share. cull: one that looks away is none. Of a ray through
  * an edge or a corner that triangles share, one of them is hit. */

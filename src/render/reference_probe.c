@@ -64,10 +64,16 @@ static double level_of(const double footprint[4])
     return longer > 1 ? log2(longer) : 0;
 }
 
-static double dropped_deg(const WrSurfacePoint *at, double f, double fu, double fv,
-                          WrVec3 *perturbed_exact)
+/* Triangles are flat: the exact formula's terms in F and its Pu x Pv, which is along n of a patch alone, are none of theirs. */
+static WrBumpMode mode_of(const Looker *looker, WrBumpMode mode)
 {
-    *perturbed_exact = wr_reference_normal(WR_BUMP_EXACT, at, f, fu, fv);
+    return looker->stage.view.info->held && mode == WR_BUMP_EXACT ? WR_BUMP_BLINN : mode;
+}
+
+static double dropped_deg(const Looker *looker, const WrSurfacePoint *at, double f, double fu,
+                          double fv, WrVec3 *perturbed_exact)
+{
+    *perturbed_exact = wr_reference_normal(mode_of(looker, WR_BUMP_EXACT), at, f, fu, fv);
     return wr_bump_tilt_deg(*perturbed_exact, wr_reference_normal(WR_BUMP_BLINN, at, f, fu, fv));
 }
 
@@ -96,9 +102,11 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
         wr_reference_add_map(&looker.stage, &hit, at, &probe.fu, &probe.fv);
         probe.d = wr_bump_d(at->n_unit, at->pu, at->pv, probe.fu, probe.fv);
         probe.a = wr_bump_axis(at->pu, at->pv, probe.fu, probe.fv);
-        probe.perturbed = wr_reference_normal(scene->bump, at, probe.f, probe.fu, probe.fv);
+        probe.perturbed =
+            wr_reference_normal(mode_of(&looker, scene->bump), at, probe.f, probe.fu, probe.fv);
         probe.tilt_deg = wr_bump_tilt_deg(at->n_unit, probe.perturbed);
-        probe.dropped_deg = dropped_deg(at, probe.f, probe.fu, probe.fv, &probe.perturbed_exact);
+        probe.dropped_deg =
+            dropped_deg(&looker, at, probe.f, probe.fu, probe.fv, &probe.perturbed_exact);
         footprint(&looker, at, &ray, hit.s, &looker.per_x, probe.footprint);
         footprint(&looker, at, &ray, hit.s, &looker.per_y, probe.footprint + 2);
         probe.level = level_of(probe.footprint);
@@ -129,8 +137,8 @@ static void look_up(const Looker *looker, double u, double v, double *f, double 
 static float quantity(const MapJob *job, const WrSurfacePoint *at, double f, double fu, double fv)
 {
     WrVec3 exact;
-    if (job->map == WR_MAP_DROPPED) return (float)dropped_deg(at, f, fu, fv, &exact);
-    const WrBumpMode mode = job->looker.stage.scene->bump;
+    if (job->map == WR_MAP_DROPPED) return (float)dropped_deg(&job->looker, at, f, fu, fv, &exact);
+    const WrBumpMode mode = mode_of(&job->looker, job->looker.stage.scene->bump);
     return (float)wr_bump_tilt_deg(at->n_unit, wr_reference_normal(mode, at, f, fu, fv));
 }
 

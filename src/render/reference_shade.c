@@ -66,7 +66,9 @@ void wr_reference_add_map(const WrReferenceStage *stage, const WrReferenceHit *h
 {
     WrMapAxes axes;
     if (!stage->scene->normals.image) return;
-    const bool found = wr_laid_axes(wr_scene_frame(stage->scene), at, &axes);
+    const bool found = stage->view.info->held
+                           ? wr_reference_mesh_axes(&stage->view.mesh, hit, &axes)
+                           : wr_laid_axes(wr_scene_frame(stage->scene), at, &axes);
     wr_laid_add_normals(stage->scene, stage->periodic_u, stage->periodic_v, at,
                         found ? &axes : NULL, hit->u, hit->v, fu, fv);
 }

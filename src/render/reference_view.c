@@ -60,7 +60,11 @@ static bool take_mesh(WrReferenceView *view, const WrScene *scene, WrError *err)
 {
     WrTriangles *mesh =
         scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
-    return wr_reference_mesh_init(&view->mesh, mesh, err);
+    const WrNormalFrame frame = wr_scene_frame(scene);
+    const bool framed =
+        scene->normals.image && (frame == WR_FRAME_MIKK || frame == WR_FRAME_LECTURE);
+    return wr_reference_mesh_init(&view->mesh, mesh, err) &&
+           (!framed || wr_reference_mesh_frame(&view->mesh, frame, err));
 }
 
 bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double turn_deg, int width,

@@ -3,6 +3,7 @@
    its means: a look-up of the map is one at level 1, of the mean of boxes of 2^l texels at level 1 + l. */
 #pragma once
 #include "render/pyramid.h"
+#include "scene/scene.h"
 
 #include <stdbool.h>
 
@@ -14,10 +15,27 @@ typedef struct WrPool WrPool;
 typedef struct WrRelief {
     const WrImage *source; /* shared; what the pyramid was made from */
     WrWrap wrap_u, wrap_v;
-    WrPyramid pyramid; /* of kind MOMENTS */
+    bool vectors;
+    WrPyramid pyramid; /* of kind MOMENTS; of vectors, SLOPES, whose numbers are x, y and z */
 } WrRelief;
 
 void wr_relief_drop(WrRelief *relief);
-/* Bring it up to date with a picture of unit vectors (WrNormalMap) that goes on beyond its ends so. */
-bool wr_relief_bring(WrRelief *relief, const WrImage *image, WrWrap wrap_u, WrWrap wrap_v,
-                     WrPool *pool, WrError *err);
+/* Bring it up to date with a picture of unit vectors (WrNormalMap) that goes on beyond its ends so. vectors: they are kept
+ * themselves, not their slopes. */
+bool wr_relief_bring(WrRelief *relief, const WrImage *image, bool vectors, WrWrap wrap_u,
+                     WrWrap wrap_v, WrPool *pool, WrError *err);
+
+/* At a corner of a triangle: t, then b; by MikkTSpace t is unit and the first number of b its sign. */
+#define WR_CORNER_FRAME 6
+/* The frames of a mesh's corners (surface/tangents.h), made only for a map that is turned by them (E56). Zero-initialise;
+   drop frees. */
+typedef struct WrFrames WrFrames;
+struct WrFrames {
+    const WrTriangles *source; /* shared */
+    WrNormalFrame kind;
+    float *corner; /* [3 triangles][WR_CORNER_FRAME], owned */
+};
+
+void wr_frames_drop(WrFrames *frames);
+bool wr_frames_bring(WrFrames *frames, const WrTriangles *triangles, WrNormalFrame kind,
+                     WrError *err);

@@ -18,6 +18,7 @@
 #define WR_TILE_SAMPLES_H 64
 #define WR_TILE_ROOM (WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H + WR_WALK_PAD)
 
+typedef struct WrFrames WrFrames;
 typedef struct WrPipe WrPipe;
 
 /* What stands behind a row of a picture of codes. */
@@ -52,10 +53,11 @@ typedef struct WrTileJob {
     WrLookd tint_double;
     WrLook relief; /* the normal map's slopes (relief.h); pyramid NULL: none */
     WrLookd relief_double;
-    int samples;        /* K */
-    int width, height;  /* pixels */
-    int top, rows;      /* the band of it that is wanted */
-    int tile_w, tile_h; /* pixels */
+    const WrFrames *frames; /* of the mesh's corners, that the map is turned by; or NULL */
+    int samples;            /* K */
+    int width, height;      /* pixels */
+    int top, rows;          /* the band of it that is wanted */
+    int tile_w, tile_h;     /* pixels */
     int tiles_u;
     float *
         rgba; /* the picture's band, or a part of it from (x0, y0) on; NULL: codes alone are wanted */

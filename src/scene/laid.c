@@ -50,8 +50,9 @@ WrTexels wr_laid_texels(const WrScene *scene, const WrImage *image, const WrLaid
 WrNormalFrame wr_scene_frame(const WrScene *scene)
 {
     const WrNormalFrame frame = scene->normals.frame;
+    if (scene->normals.object) return WR_FRAME_OBJECT;
     if (frame != WR_FRAME_AUTO) return frame;
-    return WR_FRAME_GRADIENT;
+    return wr_surfaces[scene->shape.kind]->held ? WR_FRAME_MIKK : WR_FRAME_GRADIENT;
 }
 
 bool wr_laid_axes(WrNormalFrame frame, const WrSurfacePoint *at, WrMapAxes *axes)

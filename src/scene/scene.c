@@ -18,8 +18,8 @@ const char *const wr_light_names[WR_LIGHT_KINDS] = { [WR_ROW(WR_LIGHT_DIRECTIONA
                                                      [WR_ROW(WR_LIGHT_POINT)] = "point" };
 WR_ROWS_END(wr_light_names, WR_LIGHT_KINDS);
 
-const char *const wr_normal_frame_names[WR_FRAME_COUNT + 1] = { "auto", "gradient", "mikk",
-                                                                "lecture", NULL };
+const char *const wr_normal_frame_names[WR_FRAME_COUNT] = { "auto", "gradient", "mikk", "lecture",
+                                                            NULL };
 
 const char *const wr_camera_names[2] = { "perspective", "orthographic" };
 

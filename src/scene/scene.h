@@ -12,6 +12,7 @@
 #include "scene/background.h"
 #include "scene/camera.h"
 #include "scene/dials.h"
+#include "scene/normal_frame.h"
 #include "shade/bump_mode.h"
 #include "surface/surface.h"
 
@@ -65,28 +66,17 @@ typedef struct WrLaid {
     double ru, rv;
 } WrLaid;
 
-/* Which way x and y of a tangent plane's map run (normal_map.h). */
-typedef enum WrNormalFrame {
-    WR_FRAME_AUTO,     /* gradient */
-    WR_FRAME_GRADIENT, /* slopes of heights over a cell of one unit, added to the table's */
-    WR_FRAME_MIKK,     /* unit vectors by the rules of MikkTSpace */
-    WR_FRAME_LECTURE, /* unit vectors along Pu and Pv; on triangles the mean of those of its solve */
-    WR_FRAME_COUNT
-} WrNormalFrame;
-/* As in commands: "auto", "gradient", "mikk", "lecture". */
-extern const char *const wr_normal_frame_names[WR_FRAME_COUNT + 1];
-
 /* A normal map on the object. */
 typedef struct WrNormalMap {
     /* Shared; NULL: there is none. Three channels, unit vectors. Of the tangent plane: x along u, y along v, z > 0;
        else along the object's axes. */
     WrImage *image;
     WrLaid laid;
-    int channels;    /* of the file that were read: 2 or 3 */
-    bool green_down; /* the file's second number ran against v */
-    bool object;     /* of the object's axes; else of the tangent plane, in that frame */
-    WrNormalFrame frame;
-    double strength; /* -100..100: its slopes' factor */
+    int channels;        /* of the file that were read: 2 or 3 */
+    bool green_down;     /* the file's second number ran against v */
+    bool object;         /* of the object's axes; else of the tangent plane, in that frame */
+    WrNormalFrame frame; /* of the tangent plane */
+    double strength;     /* -100..100: its slopes' factor */
 } WrNormalMap;
 
 struct WrScene {
