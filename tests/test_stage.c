@@ -1,9 +1,10 @@
-/* What the objects stand in: the background, the camera, the ground. */
+/* What the objects stand in: the background, the camera, the ground, tables of an object's own. */
 #include "test.h"
 #include "test_folder.h"
 #include "test_session_help.h"
 
 #include "base/text.h"
+#include "document/tables.h"
 #include "image/image.h"
 #include "render/frame.h"
 #include "scene/aim.h"
@@ -408,6 +409,75 @@ static void the_ground_does_not_turn(void **state)
     wr_session_free(session);
 }
 
+/* ---- tables of its own ---- */
+
+/* A document of that size with a ramp, in both kinds of files and as a picture of codes. */
+static void write_tables(const char *size)
+{
+    WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = true });
+    char line[64];
+    snprintf(line, sizeof line, "table %s", size);
+    must_run(session, line);
+    must_run(session, "ramp linear from=0,0 to=1,0 low=0 high=1");
+    must_run(session, "layer add more");
+    must_run(session, "fill 0.25");
+    must_run(session, "save shell.exr");
+    must_run(session, "save shell.ora");
+    must_run(session, "export height shell.png depth=16");
+    wr_session_free(session);
+}
+
+static float worn_at(WrSession *session, int i, int j)
+{
+    WrTables *tables = wr_document_tables(doc(session), scene_of(session), NULL, NULL);
+    assert_non_null(tables);
+    const float f = wr_field_get(
+        wr_tables_at_hand(tables, scene_of(session), wr_document_field(doc(session))), i, j);
+    wr_tables_free(tables);
+    return f;
+}
+
+static void a_file_becomes_the_table_of_one_object(void **state)
+{
+    (void)state;
+    static const char *const files[] = { "shell.exr", "shell.ora", "shell.png" };
+    static const char *const sizes[] = { "64x48", "32x96" };
+    for (int k = 0; k < 6; k++) {
+        Said said = { "" };
+        const WrSessionOptions options = { .outputs = true, .note = hear_note, .note_ctx = &said };
+        WrSession *session = wr_session_new(&options);
+        char line[80];
+        write_tables(sizes[k / 3]);
+        must_run(session, "table 64x48 wrap=clamp-u");
+        must_run(session, "object add shell at=2,0,0");
+        snprintf(line, sizeof line, "object set table=%s", files[k % 3]);
+        must_run(session, line);
+        assert_int_equal(doc(session)->layer_count, 2);
+        assert_string_equal(scene_of(session)->layer, "shell");
+        assert_near(worn_at(session, 32, 20), 0.5 + 0.5 / 64 + 0.25, k / 3 ? 0.01 : 1e-4);
+        assert_true(f_at(session, 32, 20) == 0); /* all the others see nothing of it */
+        assert_true((strstr(said.text, "resampled to the table's 64x48") != NULL) == (k >= 3));
+        must_run(session, "dab 0.5,0.5 radius=6 strength=2"); /* it is painted on */
+        assert_true(worn_at(session, 32, 24) > 2.2 && f_at(session, 32, 24) == 0);
+        must_run(session, "save kept.exr");
+        WrSession *other = wr_session_new(NULL);
+        must_run(other, "open kept.exr");
+        assert_true(worn_at(other, 32, 24) == worn_at(session, 32, 24));
+        must_run(session, "undo 2");
+        assert_int_equal(doc(session)->layer_count, 1);
+        assert_null(scene_of(session)->layer);
+        must_run(session, "redo");
+        must_run(session, line); /* once more: a layer with a name of its own */
+        assert_string_equal(scene_of(session)->layer, "shell 2");
+        must_run(session, "object hide");
+        must_fail(session, "fill 1", "is hidden"); /* nobody would see it */
+        must_fail(session, "object set table=shell.exr layer=1", "do not go together");
+        must_fail(session, "object set table=none.exr", "none.exr");
+        wr_session_free(session);
+        wr_session_free(other);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -420,6 +490,7 @@ int main(void)
         cmocka_unit_test(only_what_shows_no_back_turns_whole),
         cmocka_unit_test(the_ground_lies_under_what_is_shown),
         cmocka_unit_test(the_ground_does_not_turn),
+        cmocka_unit_test(a_file_becomes_the_table_of_one_object),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

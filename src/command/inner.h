@@ -180,6 +180,11 @@ WrImage *wr_session_read_image(WrSession *session, WrCall *call, const char *nam
 WrImageWish wr_call_wish(WrCall *call);
 /* Tell what was taken of a picture's file that has more, and how many values were not finite. */
 void wr_session_note_read(WrSession *session, const char *path, const WrImage *image);
+/* The heights of a picture in a table like `like`, by what its label says of it (labels false: whatever it says). */
+WrField *wr_session_heights_of(WrSession *session, WrImageRows *rows, const char *path, bool labels,
+                               const WrField *like, WrError *err);
+/* What `object set table=` says: the file becomes a layer, hidden, that the scene's object at hand wears. */
+bool wr_object_take_table(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
 /* Put a document file's content in the place of the session's document, scene included. */
 bool wr_session_load(WrSession *session, const char *path, WrError *err);
 

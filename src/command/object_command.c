@@ -130,14 +130,14 @@ static bool take_turn(const WrCall *call, WrScene *scene, WrError *err)
 }
 
 /* What the line says of the object at hand. The scene is taken. */
-static bool put(WrSession *session, const WrCall *call, const char *name, WrScene *scene,
-                WrError *err)
+static bool put(WrSession *session, WrCall *call, const char *name, WrScene *scene, WrError *err)
 {
     if (wr_call_given(call, "turn") && scene->other_count == 0 && !session->loading) {
         wr_scene_free(scene);
         return wr_fail(err, "turn= is for one of several objects; `rotate` turns the only one");
     }
-    if (!take_layer(session, call, scene, err) || !take_turn(call, scene, err)) {
+    if (!take_layer(session, call, scene, err) ||
+        !wr_object_take_table(session, call, scene, err) || !take_turn(call, scene, err)) {
         wr_scene_free(scene);
         return false;
     }
@@ -248,6 +248,16 @@ static bool form_object(int i, WrForm *out)
                                      .type = WR_ARG_LAYER,
                                      .help = "whose heights alone are its table; " ALL
                                              ": all layers as they are joined" };
+    static const WrArgSpec table = {
+        .name = "table",
+        .type = WR_ARG_PATH,
+        .help = "a document or a picture whose heights are to be its table: "
+                "it becomes a layer, hidden from all others"
+    };
+    static const WrArgSpec sha256 = { .name = "sha256",
+                                      .type = WR_ARG_SHA256,
+                                      .help =
+                                          "of the table's file: another content is then an error" };
     int count = 0;
     if (i >= OBJECT_FORMS) return false;
     *out = (WrForm){ .name = object_forms[i].name, .help = object_forms[i].help };
@@ -261,6 +271,8 @@ static bool form_object(int i, WrForm *out)
     count += wr_scene_args("object", "set", out->args + count);
     out->args[count++] = turn;
     out->args[count++] = layer;
+    out->args[count++] = table;
+    out->args[count++] = sha256;
     return true;
 }
 

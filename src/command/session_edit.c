@@ -8,7 +8,7 @@
 #include "document/document.h"
 #include "document/edit.h"
 #include "field/field.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 
 #include <string.h>
 
@@ -44,10 +44,17 @@ bool wr_session_check_unlocked(const WrSession *session, int index, WrError *err
     return false;
 }
 
+/* A hidden layer is seen on the objects that wear it. */
+static bool is_worn(const WrDocument *document, int index)
+{
+    const char *name = document->layers[index].name;
+    return document->solo < 0 && wr_scene_wears(document->scene, name);
+}
+
 static bool check_shown(const WrSession *session, int index, WrError *err)
 {
     const WrDocument *document = session->state.document;
-    if (wr_document_shows(document, index)) return true;
+    if (wr_document_shows(document, index) || is_worn(document, index)) return true;
     WrText name = { 0 };
     wr_session_layer_name(session, index, &name);
     if (document->solo >= 0)

@@ -184,9 +184,8 @@ static void note_range(WrSession *session, const WrImage *image, const char *pat
                     label->low + label->step * (last - label->zero));
 }
 
-/* The heights of a picture in a table like `like`, by what its label says of it. */
-static WrField *heights_of(WrSession *session, WrImageRows *rows, const char *path, bool labels,
-                           const WrField *like, WrError *err)
+WrField *wr_session_heights_of(WrSession *session, WrImageRows *rows, const char *path, bool labels,
+                               const WrField *like, WrError *err)
 {
     const WrImage *image = wr_image_rows_head(rows);
     const WrImageLabel *label = &image->label;
@@ -226,7 +225,7 @@ static bool run_image(WrSession *session, WrCall *call, WrError *err)
                     : fit  ? wr_field_share(old)
                            : wr_field_new(image->width, image->height, wr_field_wrap_u(old),
                                           wr_field_wrap_v(old), 0, err);
-    WrField *field = like ? heights_of(session, rows, path, labels, like, err) : NULL;
+    WrField *field = like ? wr_session_heights_of(session, rows, path, labels, like, err) : NULL;
     wr_field_free(like);
     wr_free(path);
     wr_image_rows_close(rows);

@@ -132,6 +132,15 @@ static bool wears(const WrScene *object, const char *layer)
     return object->layer && strcmp(object->layer, layer) == 0;
 }
 
+bool wr_scene_wears(const WrScene *scene, const char *layer)
+{
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const WrScene *object = wr_scene_object(scene, i);
+        if (!object->hidden && wears(object, layer)) return true;
+    }
+    return false;
+}
+
 static void wear(WrScene *object, const char *layer)
 {
     wr_free(object->layer);

@@ -26,6 +26,7 @@ WrScene *wr_scene_choose(const WrScene *scene, int i);
 /* One more object, at hand and without a name: as the one at hand, or as that of an empty document. */
 WrScene *wr_scene_add_object(const WrScene *scene, bool copy);
 WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden);
+bool wr_scene_wears(const WrScene *scene, const char *layer); /* does an object that is shown? */
 /* Objects that wear a layer of that name wear the other from now on; NULL where none does. */
 WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const char *to);
 /* Without object i of several. The one before it (else after it) comes to hand where that was at hand. */

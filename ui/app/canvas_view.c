@@ -40,7 +40,7 @@ void wr_canvas_view_draw(WrApp *app)
 {
     if (app->layout->canvas.w <= 0) return;
     app->canvas_unfinished =
-        wr_canvas_draw(app->canvas, app->renderer, app->view, wr_app_field(app),
+        wr_canvas_draw(app->canvas, app->renderer, app->view, wr_app_canvas_field(app),
                        &app->settings->look, is_held(app), MEANS_BUDGET, app->range);
     if (app->canvas_unfinished) wr_app_redraw(app);
     wr_marks_draw(app);

@@ -17,6 +17,7 @@
 #include "ui/panels/panel_layers.h"
 #include "ui/panels/panel_search.h"
 #include "ui/panels/panel_tablet.h"
+#include "ui/panels/panel_objects.h"
 #include "ui/panels/panels.h"
 #include "ui/patch/patch.h"
 #include "ui/tools/shelf.h"
@@ -79,6 +80,7 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_HISTORY)] = wr_file_take_history,
     [WR_ROW(WR_FILE_STAMP)] = wr_stamp_take,
     [WR_ROW(WR_FILE_GENERATE)] = wr_generate_file,
+    [WR_ROW(WR_FILE_TABLE)] = wr_object_table_take,
     [WR_ROW(WR_FILE_PRESET)] = wr_shelf_take,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);

@@ -7,7 +7,7 @@
 #include "command/session.h"
 #include "document/document.h"
 #include "field/field.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 
 #include <SDL.h>
 #include <stdio.h>
@@ -22,6 +22,15 @@ const WrField *wr_app_field(const WrApp *app)
 {
     const WrField *tried = app->trying ? wr_trial_field(app->trial) : NULL;
     return tried ? tried : wr_document_field(wr_app_document(app));
+}
+
+const WrField *wr_app_canvas_field(const WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    const WrLayer *layer = &document->layers[document->active];
+    const bool worn = !app->trying && !wr_document_shows(document, document->active) &&
+                      document->solo < 0 && wr_scene_wears(document->scene, layer->name);
+    return worn ? layer->heights : wr_app_field(app);
 }
 
 void wr_app_try(WrApp *app, const WrTrialAsk *ask)

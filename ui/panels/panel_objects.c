@@ -10,6 +10,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
@@ -187,19 +188,33 @@ static void table(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
     const WrScene *scene = wr_app_scene(app);
-    const char *labels[WR_LAYERS_MAX + 1] = { "All layers" };
+    const char *labels[WR_LAYERS_MAX + 2] = { "All layers" };
+    const int file = document->layer_count + 1;
     int now = 0;
     for (int i = 0; i < document->layer_count; i++) {
         labels[i + 1] = document->layers[i].name;
         if (scene->layer && strcmp(scene->layer, labels[i + 1]) == 0) now = i + 1;
     }
+    labels[file] = "A file\xe2\x80\xa6";
     const int before = now;
     wr_gui_label("Table");
-    if (wr_gui_choice("table", 0, labels, document->layer_count + 1, &now) && now != before) {
-        if (now > 0) wr_app_run_linef(app, "object set layer=%d", now);
+    if (wr_gui_choice("table", 0, labels, file + 1, &now) && now != before) {
+        if (now == file) wr_files_ask(app->files, WR_FILE_TABLE, NULL, "");
+        else if (now > 0) wr_app_run_linef(app, "object set layer=%d", now);
         else wr_app_run_linef(app, "object set layer=all");
     }
-    wr_gui_tip("The heights that it wears: all layers as they are joined, or one layer alone");
+    wr_gui_tip(
+        "The heights that it wears: all layers as they are joined, one layer alone, or those "
+        "of a document or picture, which becomes a layer that only this object shows");
+}
+
+void wr_object_table_take(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "object set");
+    wr_line_text(&line, "table", path);
+    wr_app_run_slow(app, wr_text_get(&line));
+    wr_text_fini(&line);
 }
 
 void wr_panel_objects(WrApp *app)
@@ -213,6 +228,6 @@ void wr_panel_objects(WrApp *app)
     if (count > 1 || scene->name) name_row(app);
     if (count > 1) place(app);
     if (count > 1 || scene->size != 1) wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_SIZE]);
-    if (count > 1 || scene->layer) table(app);
+    table(app);
     wr_gui_space(8);
 }

@@ -7,3 +7,7 @@ typedef struct WrObjectsHand {
     char name[WR_LAYER_NAME_MAX + 1];
     char of[WR_LAYER_NAME_MAX + 1]; /* what it was taken from */
 } WrObjectsHand;
+
+typedef struct WrApp WrApp;
+/* A file was chosen as the chosen object's table. */
+void wr_object_table_take(WrApp *app, const char *path);

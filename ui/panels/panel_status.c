@@ -56,7 +56,7 @@ static void under_pointer(const WrApp *app)
     } else {
         return;
     }
-    wr_field_sample(wr_app_field(app), scene->scheme, 1, &u, &v, &f, &fu, &fv);
+    wr_field_sample(wr_app_canvas_field(app), scene->scheme, 1, &u, &v, &f, &fu, &fv);
     double slope = hypot(fu, fv) * fabs(scene->height);
     snprintf(text, sizeof text, "%.3f", u);
     pair("u", text);
