@@ -21,6 +21,7 @@ if(NOT WR_SANITIZE)
 endif()
 
 if(TARGET wrinkle)
+    wr_check(papers papers.sh ${PROJECT_SOURCE_DIR})
     wr_check(readme readme.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
     wr_check(install install.sh ${CMAKE_BINARY_DIR})
     wr_check(accuracy accuracy.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
