@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "system/fd.h"
+#include "system/thread.h"
 
 #include <errno.h>
 #include <sha256.h>
@@ -63,4 +65,45 @@ bool wr_sha256_file(const char *path, char hex[65], WrError *err)
     SHA256Final(digest, &ctx);
     hex_of(digest, hex);
     return true;
+}
+
+/* ---- beside other work ---- */
+
+struct WrSha256Work {
+    char *path;
+    const WrProgress *progress;
+    WrThread thread;
+    bool threaded, good;
+    char hex[65];
+    WrError err;
+};
+
+static void *hash_beside(void *arg)
+{
+    WrSha256Work *work = arg;
+    const WrProgress *before = wr_progress_set(work->progress);
+    work->good = wr_sha256_file(work->path, work->hex, &work->err);
+    wr_progress_set(before);
+    return NULL;
+}
+
+WrSha256Work *wr_sha256_begin(const char *path)
+{
+    WrSha256Work *work = wr_alloc(1, sizeof *work);
+    work->path = wr_strdup(path);
+    work->progress = wr_progress_here();
+    work->threaded = wr_thread_begin(&work->thread, hash_beside, work);
+    if (!work->threaded) hash_beside(work);
+    return work;
+}
+
+bool wr_sha256_end(WrSha256Work *work, char hex[65], WrError *err)
+{
+    if (work->threaded) wr_thread_join(work->thread);
+    const bool good = work->good;
+    if (good) memcpy(hex, work->hex, sizeof work->hex);
+    else wr_fail(err, "%s", work->err.text);
+    wr_free(work->path);
+    wr_free(work);
+    return good;
 }

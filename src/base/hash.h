@@ -22,6 +22,12 @@ void wr_hash_print(WrHash hash, char text[33]);
 void wr_sha256_bytes(const void *bytes, size_t count, char hex[65]);
 bool wr_sha256_file(const char *path, char hex[65], WrError *err);
 
+/* The same of a file while the caller does something else, such as wait for a reader: begin, then end, always both. It
+ * stops when the work of the thread that begins it is told to. */
+typedef struct WrSha256Work WrSha256Work;
+WrSha256Work *wr_sha256_begin(const char *path);
+bool wr_sha256_end(WrSha256Work *work, char hex[65], WrError *err); /* waits for it, and frees it */
+
 /* A well-mixed 32-bit value of x (bijective). */
 static inline uint32_t wr_mix32(uint32_t x)
 {

@@ -53,6 +53,13 @@ WR_VEC_FUNCTIONS(WrVec3f, float, v3f)
 #define v_dot(a, b) _Generic((a), WrVec3 : v3_dot, WrVec3f : v3f_dot)(a, b)
 #define v_cross(a, b) _Generic((a), WrVec3 : v3_cross, WrVec3f : v3f_cross)(a, b)
 
+/* Squares of numbers of this size are far from both ends of double: nothing need be scaled, and scaling by a power of two
+   changes no bit. */
+static inline bool v3_is_tame(double largest)
+{
+    return largest > 0x1p-200 && largest < 0x1p200;
+}
+
 /* |a| without overflow or underflow: exact scaling by a power of two first. Non-finite input gives a
    non-finite result. */
 static inline double v3_len(WrVec3 a)
@@ -60,6 +67,7 @@ static inline double v3_len(WrVec3 a)
     double m = fabs(a.x);
     if (fabs(a.y) > m) m = fabs(a.y);
     if (fabs(a.z) > m) m = fabs(a.z);
+    if (v3_is_tame(m)) return sqrt(v3_dot(a, a));
     if (!(m > 0.0) || !(m <= 1.79e308)) return m; /* 0, infinite, NaN */
     int e = ilogb(m);
     WrVec3 b = { scalbn(a.x, -e), scalbn(a.y, -e), scalbn(a.z, -e) };
@@ -73,8 +81,11 @@ static inline WrVec3 v3_unit(WrVec3 a, WrVec3 fallback)
     if (fabs(a.y) > m) m = fabs(a.y);
     if (fabs(a.z) > m) m = fabs(a.z);
     if (!(m > 0.0) || !isfinite(a.x) || !isfinite(a.y) || !isfinite(a.z)) return fallback;
-    int e = ilogb(m);
-    WrVec3 b = { scalbn(a.x, -e), scalbn(a.y, -e), scalbn(a.z, -e) };
+    WrVec3 b = a;
+    if (!v3_is_tame(m)) {
+        int e = ilogb(m);
+        b = (WrVec3){ scalbn(a.x, -e), scalbn(a.y, -e), scalbn(a.z, -e) };
+    }
     /* Divided, not multiplied by a reciprocal: sqrt(x x) is |x|, so that a vector along an axis comes out 1. */
     double len = sqrt(v3_dot(b, b));
     return (WrVec3){ b.x / len, b.y / len, b.z / len };

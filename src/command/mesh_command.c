@@ -2,6 +2,7 @@
 #include "command/inner.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/scene_args.h"
@@ -82,6 +83,8 @@ static void add_map(WrText *text, const WrTriangles *mesh)
     add_count(text, mesh->told.collinear,
               "with u, v along a line: no tangent frame, slopes are exact");
     add_count(text, mesh->told.mirrored, "mirrored");
+    add_count(text, mesh->told.near_uv,
+              "corners differ from another by a rounding of u, v: tangent frames part there");
 }
 
 static void note_mesh(WrSession *session, const char *path, const WrTriangles *mesh)
@@ -112,7 +115,16 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const char *name
     }
     char *path = wr_session_input_path(session, name);
     WrTriangles *mesh = NULL;
-    if (wr_session_check_sha256(call, path, err)) mesh = read_triangles(path, err);
+    char hex[65];
+    WrSha256Work *hash = wr_sha256_begin(path);
+    mesh = read_triangles(path, err);
+    WrError why = { "" };
+    if (!wr_sha256_end(hash, hex, &why) ||
+        !wr_call_check_sha256(call, "sha256", path, hex, &why)) { /* what it is comes first */
+        wr_triangles_free(mesh);
+        mesh = NULL;
+        wr_fail(err, "%s", why.text);
+    }
     if (mesh) note_mesh(session, path, mesh);
     wr_free(path);
     return mesh;

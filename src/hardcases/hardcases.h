@@ -1,4 +1,4 @@
-/* hardcases.h - the hard cases of bump mapping: 120 inputs at which a naive program divides by zero, loses
+/* hardcases.h - the hard cases of bump mapping: 131 inputs at which a naive program divides by zero, loses
    its digits, reads outside its table or shows a seam; for each what must hold here, and a measurement of
    how far the program's own code is from it, in float and in double.
    Layer 6.
@@ -20,7 +20,7 @@ typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 typedef struct WrText WrText;
 
-#define WR_HARDCASES 120
+#define WR_HARDCASES 131
 
 typedef enum WrHardPrecision { WR_HARD_FLOAT, WR_HARD_DOUBLE, WR_HARD_PRECISIONS } WrHardPrecision;
 
@@ -38,7 +38,7 @@ typedef struct WrHardGauge WrHardGauge; /* private to the room: what measurement
 
 typedef struct WrHardCase {
     const char
-        *id; /* "HC01" .. "HC96", "HC156" .. "HC175": those between are kept for light and scenes */
+        *id; /* "HC01" .. "HC96", then those of later parts; gaps are kept for light and scenes */
     WrHardSubject subject;
     const char *what;                 /* the situation, a few words */
     const char *holds;                /* what must hold, a sentence */

@@ -43,6 +43,7 @@ typedef struct WrTrianglesTold {
         collinear; /* mapped triangles whose (u,v) have no area: no tangent frame, slopes are exact */
     int32_t mirrored; /* mapped triangles whose (u,v) run the other way round */
     bool inside_out;  /* the body was turned */
+    int32_t near_uv;  /* corners that only a rounding of (u,v) parts from another (HC129) */
 } WrTrianglesTold;
 
 typedef struct WrTriangle {

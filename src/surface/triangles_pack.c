@@ -24,7 +24,7 @@ static void told_from_floats(const float *in, WrTrianglesTold *told)
 {
     int32_t n[TOLD_COUNT];
     for (int i = 0; i < TOLD_COUNT; i++) n[i] = (int32_t)in[i];
-    *told = (WrTrianglesTold){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0 };
+    *told = (WrTrianglesTold){ n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8] != 0, 0 };
 }
 
 /* A double as three floats that add up to it. */

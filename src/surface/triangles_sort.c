@@ -109,6 +109,48 @@ static bool number_corners(WrTriangles *made, WrTriangleCorner *rows, WrError *e
     return true;
 }
 
+/* ---- corners that all but meet ---- */
+
+/* Within four units of the last place of the larger. */
+static bool all_but(float a, float b)
+{
+    return fabsf(a - b) <= 0x1p-21f * fmaxf(fabsf(a), fabsf(b));
+}
+
+static bool all_but_one(const WrTriangleCorner *a, const WrTriangleCorner *b)
+{
+    return memcmp(a->n, b->n, sizeof a->n) == 0 && all_but(a->u, b->u) && all_but(a->v, b->v);
+}
+
+/* Corners whose place and normal another has, and all but its (u,v): seams by rounding, which part tangent frames (HC129). */
+static int32_t count_near(const WrTriangles *made)
+{
+    const int32_t count = made->corner_count;
+    int32_t places = 0, near = 0;
+    float(*p)[3] = wr_try_alloc((size_t)count, sizeof *p, "a mesh's seams", NULL);
+    int32_t *at = wr_try_alloc((size_t)count, sizeof *at, "a mesh's seams", NULL);
+    int32_t *last = wr_try_alloc((size_t)count, sizeof *last, "a mesh's seams", NULL);
+    int32_t *before = wr_try_alloc((size_t)count, sizeof *before, "a mesh's seams", NULL);
+    bool good = p && at && last && before;
+    for (int32_t i = 0; i < count && good; i++) memcpy(p[i], made->corners[i].p, sizeof p[i]);
+    good = good && wr_weld(p, sizeof *p, count, at, &places, NULL);
+    for (int32_t i = 0; i < count && good && places < count; i++) {
+        int32_t other = last[at[i]] - 1; /* of the same place, met before */
+        before[i] = last[at[i]];
+        last[at[i]] = i + 1;
+        for (int looks = 0; other >= 0 && looks < 16; looks++, other = before[other] - 1)
+            if (all_but_one(&made->corners[i], &made->corners[other])) {
+                near++;
+                break;
+            }
+    }
+    wr_free(p);
+    wr_free(at);
+    wr_free(last);
+    wr_free(before);
+    return near;
+}
+
 WrTriangles *wr_triangles_finish(WrTrianglesBuild *b, WrError *err)
 {
     WrTriangles *made = wr_alloc(1, sizeof *made);
@@ -157,4 +199,5 @@ void wr_triangles_measure(WrTriangles *made)
         made->faceted = same_normals(made, i);
     made->mapped = false;
     for (int i = 0; i < made->part_count; i++) made->mapped |= made->parts[i].mapped;
+    made->told.near_uv = made->mapped ? count_near(made) : 0;
 }

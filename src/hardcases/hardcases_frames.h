@@ -1,0 +1,40 @@
+/* hardcases_frames.h - the measurements of meshes and their tangent frames: HC28 to HC31 and HC126 to HC136, in two files.
+   Layer 6, private to this room. */
+#pragma once
+#include "hardcases/hardcases_inner.h"
+#include "surface/tangents.h"
+
+#include <stdbool.h>
+
+#define WR_HARD_CORNERS 12
+#define WR_HARD_FACES 8
+
+/* A mesh as it is written down: corners with normals of their own (0: none), and a normal map's (u,v). */
+typedef struct WrHardMesh {
+    WrTriangleCorner corner[WR_HARD_CORNERS];
+    int32_t face[WR_HARD_FACES][3];
+    int32_t corners, faces;
+} WrHardMesh;
+
+/* The surface of it, as a file's; the caller's. NULL and an error as wr_triangles_new. */
+WrTriangles *wr_hard_triangles(const WrHardMesh *mesh, WrError *err);
+
+/* Pictures of a mesh seen from above in every arithmetic and by the reference: each value is a number. */
+bool wr_hard_mesh_tame(WrHardGauge *gauge, const WrHardMesh *mesh, WrError *err);
+/* The mesh from above, parallel, 2.2 units high about the origin, and one light. Takes the mesh over. */
+WrScene *wr_hard_above(WrTriangles *triangles, double height);
+
+/* MikkTSpace's frames of it, [3 faces]. */
+bool wr_hard_mikk(const WrHardMesh *mesh, WrTangent *out, WrError *err);
+/* One violation for each that is not unit, across the corner's normal and with b = sign n x t; none is asked to be
+ * across it whose sign is -1 and t (1,0,0): the frame of what has none. */
+void wr_hard_units(WrHardGauge *gauge, const WrHardMesh *mesh, const WrTangent *frames);
+
+/* clang-format off */
+#define WR_HARD_FRAMES(X)                                                                          \
+    X(28) X(29) X(30) X(31)                                                                        \
+    X(126) X(127) X(128) X(129) X(130) X(131) X(132) X(133) X(134) X(135) X(136)
+/* clang-format on */
+#define WR_HARD_DECLARE(number) bool wr_hard_hc##number(WrHardGauge *gauge, WrError *err);
+WR_HARD_FRAMES(WR_HARD_DECLARE)
+#undef WR_HARD_DECLARE
