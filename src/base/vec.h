@@ -4,6 +4,7 @@
    Layer 0. */
 #pragma once
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct WrVec3 {
     double x, y, z;

@@ -99,45 +99,70 @@ static void keep_faces(WrTrianglesBuild *b)
 
 /* ---- a body ---- */
 
-typedef struct Edges {
-    uint64_t *key; /* 1 + from << 32 | to; 0: free */
-    size_t room;
-} Edges;
+/* Of each place, the other ends of the directed edges that leave it, or that come to it. */
+typedef struct Ends {
+    int32_t *first; /* [places + 1] into place */
+    int32_t *place; /* [3 count] */
+} Ends;
 
-static size_t edge_slot(const Edges *edges, uint64_t key)
+static bool find_ends(const WrTrianglesBuild *b, bool leaving, Ends *out)
 {
-    size_t at = mix(&key, sizeof key) & (edges->room - 1);
-    while (edges->key[at] && edges->key[at] != key) at = (at + 1) & (edges->room - 1);
-    return at;
+    const size_t edges = 3 * (size_t)b->count;
+    int32_t *at = wr_try_alloc((size_t)b->places + 2, sizeof *at, "a mesh's edges", NULL);
+    out->first = at;
+    out->place = at ? wr_try_alloc(edges, sizeof *out->place, "a mesh's edges", NULL) : NULL;
+    if (!out->place) return false;
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < edges; i++) {
+            const int32_t *c = b->face[i / 3].corner;
+            const int32_t from = b->at[c[i % 3]], to = b->at[c[(i + 1) % 3]];
+            const int32_t own = leaving ? from : to;
+            if (pass == 0) at[own + 2]++;
+            else out->place[at[own + 1]++] = leaving ? to : from;
+        }
+        for (int32_t i = 0; i < b->places && pass == 0; i++) at[i + 2] += at[i + 1];
+    }
+    return true;
 }
 
-static uint64_t edge_key(int32_t from, int32_t to)
+static void free_ends(Ends *ends)
 {
-    return ((uint64_t)(uint32_t)from << 32 | (uint32_t)to) + 1;
+    wr_free(ends->first);
+    wr_free(ends->place);
+}
+
+static int32_t end_count(const Ends *ends, int32_t place)
+{
+    return ends->first[place + 1] - ends->first[place];
+}
+
+static int32_t times(const Ends *ends, int32_t place, int32_t other)
+{
+    int32_t found = 0;
+    for (int32_t i = ends->first[place]; i < ends->first[place + 1]; i++)
+        found += ends->place[i] == other;
+    return found;
+}
+
+/* How often the edge is there; looked for at its end of fewer edges, so that the hub of a fan costs no more than others. */
+static int32_t how_often(const Ends *leave, const Ends *come, int32_t from, int32_t to)
+{
+    return end_count(leave, from) <= end_count(come, to) ? times(leave, from, to)
+                                                         : times(come, to, from);
 }
 
 /* Is each directed edge there once, and its reverse too? */
 static bool is_closed(const WrTrianglesBuild *b)
 {
-    Edges edges = { .room = 16 };
-    while (edges.room < 5 * (size_t)b->count) edges.room *= 2;
-    edges.key = wr_try_alloc(edges.room, sizeof *edges.key, "a mesh's edges", NULL);
-    bool closed = edges.key != NULL;
-    for (int32_t i = 0; i < b->count && closed; i++)
-        for (int k = 0; k < 3; k++) {
-            const int32_t from = b->at[b->face[i].corner[k]],
-                          to = b->at[b->face[i].corner[(k + 1) % 3]];
-            const size_t slot = edge_slot(&edges, edge_key(from, to));
-            closed = closed && edges.key[slot] == 0;
-            edges.key[slot] = edge_key(from, to);
-        }
-    for (int32_t i = 0; i < b->count && closed; i++)
-        for (int k = 0; k < 3; k++) {
-            const int32_t from = b->at[b->face[i].corner[k]],
-                          to = b->at[b->face[i].corner[(k + 1) % 3]];
-            closed = closed && edges.key[edge_slot(&edges, edge_key(to, from))] != 0;
-        }
-    wr_free(edges.key);
+    Ends leave = { NULL, NULL }, come = { NULL, NULL };
+    bool closed = find_ends(b, true, &leave) && find_ends(b, false, &come);
+    for (int32_t i = 0; i < 3 * b->count && closed; i++) {
+        const int32_t *c = b->face[i / 3].corner;
+        const int32_t from = b->at[c[i % 3]], to = b->at[c[(i + 1) % 3]];
+        closed = how_often(&leave, &come, from, to) == 1 && how_often(&leave, &come, to, from) == 1;
+    }
+    free_ends(&leave);
+    free_ends(&come);
     return closed;
 }
 
