@@ -144,6 +144,22 @@ static void length_and_unit_survive_any_scale(void **state)
     assert_true(v3_unit((WrVec3){ INFINITY, 0, 0 }, fallback).y == 1);
 }
 
+/* A power of two changes no bit, however many: whether numbers are scaled first or not. */
+static void length_and_unit_know_no_scale(void **state)
+{
+    (void)state;
+    TestRandom random = { 12 };
+    for (int i = 0; i < 3000; i++) {
+        const WrVec3 a = { test_random(&random) - 0.5, test_random(&random) - 0.5,
+                           i % 3 ? test_random(&random) - 0.5 : 0 };
+        const int power = (int)(1900 * test_random(&random)) - 950;
+        const WrVec3 b = { scalbn(a.x, power), scalbn(a.y, power), scalbn(a.z, power) };
+        const WrVec3 up = { 0, 0, 1 }, p = v3_unit(a, up), q = v3_unit(b, up);
+        assert_true(v3_len(b) == scalbn(v3_len(a), power));
+        assert_memory_equal(&p, &q, sizeof p);
+    }
+}
+
 static void hc20_angle_between_equal_directions_is_zero(void **state)
 {
     (void)state;
@@ -512,9 +528,15 @@ static void a_limit_is_what_may_still_be_read(void **state)
     assert_false(wr_file_read(path, 4, &bytes, &length, &err));
     assert_non_null(strstr(err.text, "over the limit"));
     assert_true(wr_sha256_file(path, hex, &err));
+    char beside[65];
+    assert_true(wr_sha256_end(wr_sha256_begin(path), beside, &err));
+    assert_string_equal(beside, hex);
+    assert_false(wr_sha256_end(wr_sha256_begin("/nowhere/at/all"), beside, &err));
+    assert_non_null(strstr(err.text, "/nowhere/at/all"));
     const WrProgress stopped = { .cancel = &stop };
     const WrProgress *before = wr_progress_set(&stopped);
     assert_false(wr_sha256_file(path, hex, &err)); /* no hash of a part */
+    assert_false(wr_sha256_end(wr_sha256_begin(path), hex, &err));
     wr_progress_set(before);
     assert_non_null(strstr(err.text, "cancelled"));
     unlink(path);
@@ -607,6 +629,7 @@ int main(void)
         cmocka_unit_test(float_functions_keep_their_stated_error),
         cmocka_unit_test(hc89_power_of_0_and_above_1_is_defined),
         cmocka_unit_test(length_and_unit_survive_any_scale),
+        cmocka_unit_test(length_and_unit_know_no_scale),
         cmocka_unit_test(hc20_angle_between_equal_directions_is_zero),
         cmocka_unit_test(each_piece_of_a_job_runs_once),
         cmocka_unit_test(bytes_become_a_file_in_memory),

@@ -99,6 +99,42 @@ static void bodies_are_told(void **state)
     wr_triangles_free(t);
 }
 
+/* Two tips over a ring of many: the edges at them are looked for from the other end. Each breakage is seen. */
+static void hubs_are_bodies_too(void **state)
+{
+    (void)state;
+    enum { RING = 4000 };
+    float(*points)[3] = wr_alloc(RING + 2, sizeof *points);
+    int32_t(*corners)[3] = wr_alloc(2 * RING + 1, sizeof *corners);
+    for (int i = 0; i < RING; i++) {
+        points[i][0] = (float)cos(2 * acos(-1.0) * i / RING),
+        points[i][1] = (float)sin(2 * acos(-1.0) * i / RING);
+        const int32_t up[3] = { i, (i + 1) % RING, RING },
+                      down[3] = { (i + 1) % RING, i, RING + 1 };
+        memcpy(corners[2 * i], up, sizeof up);
+        memcpy(corners[2 * i + 1], down, sizeof down);
+    }
+    points[RING][2] = 1, points[RING + 1][2] = -1;
+    WrTrianglesSource source = { .points = (const float(*)[3])points,
+                                 .corners = (const int32_t(*)[3])corners,
+                                 .point_count = RING + 2,
+                                 .triangle_count = 2 * RING };
+    WrTriangles *t = make(&source);
+    assert_true(t->closed);
+    wr_triangles_free(t);
+    memcpy(corners[2 * RING], corners[77], sizeof corners[0]); /* one twice */
+    source.triangle_count++;
+    t = make(&source);
+    assert_false(t->closed);
+    wr_triangles_free(t);
+    source.triangle_count -= 2; /* a hole */
+    t = make(&source);
+    assert_false(t->closed);
+    wr_triangles_free(t);
+    wr_free(points);
+    wr_free(corners);
+}
+
 /* HC136: a normal that is 0 or no number comes from the faces about the place, and is counted. */
 static void bad_normals_are_mended(void **state)
 {
@@ -303,6 +339,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cube_is_a_body),
         cmocka_unit_test(bodies_are_told),
+        cmocka_unit_test(hubs_are_bodies_too),
         cmocka_unit_test(bad_normals_are_mended),
         cmocka_unit_test(empty_triangles_are_left_out),
         cmocka_unit_test(the_longest_edge_is_opposite),

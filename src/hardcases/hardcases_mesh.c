@@ -47,6 +47,12 @@ static bool hc32(WrHardGauge *g, WrError *err)
         .id = "HC" #number, .subject = WR_HARD_GEOMETRY, .what = situation, .holds = rule,         \
         .unit = "violations", .bound = { 0, 0 }, .waits = effect                                   \
     }
+/* In double alone where what is counted are frames and what a mesh says of itself, none of which floats make. */
+#define FRAME(number, situation, rule)                                                             \
+    {                                                                                              \
+        .id = "HC" #number, .subject = WR_HARD_GEOMETRY, .what = situation, .holds = rule,         \
+        .unit = "violations", .bound = { NAN, 0 }, .measure = wr_hard_hc##number                   \
+    }
 #define MESH(number, situation, rule)                                                              \
     {                                                                                              \
         .id = "HC" #number, .subject = WR_HARD_GEOMETRY, .what = situation, .holds = rule,         \
@@ -59,8 +65,8 @@ static const WrHardCase rows[] = {
     MESH(29, "a triangle without area", "it is left out"),
     MESH(30, "texture coordinates that span 1e-30, of either sign",
          "tangents of length 1 or the frame from n; handedness follows the sign"),
-    MESH(31, "a vertex shared by mirrored texture coordinates",
-         "its frame is split by handedness; no NaN"),
+    FRAME(31, "a vertex shared by mirrored texture coordinates",
+          "its frame is split by handedness; no NaN"),
     { .id = "HC32",
       .subject = WR_HARD_GEOMETRY,
       .what = "tangents at 20 to 90 degrees",
@@ -82,13 +88,13 @@ static const WrHardCase later[] = {
     MESH(127, "texture coordinates along a line, and a table that changes along it",
          "n' is n less Fu grad u"),
     MESH(128, "two triangles that mirror each other at an edge", "bumps are up on both"),
-    MESH(129, "texture coordinates one unit of the last place apart at a shared corner",
-         "two corners with two frames, and it is told"),
-    MESH(130, "two triangles folded onto each other, tangents opposite",
-         "each keeps its own, unit; no NaN"),
-    MESH(131, "a triangle whose places coincide beside a good one",
-         "it copies its neighbour's frame; alone it has (1,0,0)"),
-    MESH(132, "five triangles at one edge", "the frames' groups end, every frame is one"),
+    FRAME(129, "texture coordinates one unit of the last place apart at a shared corner",
+          "two corners with two frames, and it is told"),
+    FRAME(130, "two triangles folded onto each other, tangents opposite",
+          "each keeps its own, unit; no NaN"),
+    FRAME(131, "a triangle whose places coincide beside a good one",
+          "it copies its neighbour's frame; alone it has (1,0,0)"),
+    FRAME(132, "five triangles at one edge", "the frames' groups end, every frame is one"),
     { .id = "HC133",
       .subject = WR_HARD_GEOMETRY,
       .what = "needles ten million times as long as wide",
@@ -98,7 +104,7 @@ static const WrHardCase later[] = {
       .measure = wr_hard_hc133 },
     MESH(134, "a million rays through the vertex of a fan", "none misses it"),
     MESH(135, "edges that triangles share, at a thousand turns", "each sample is of one of them"),
-    MESH(136, "normals of 0 and of no number at vertices",
-         "the mean of the faces about it, or the face's own; counted"),
+    FRAME(136, "normals of 0 and of no number at vertices",
+          "the mean of the faces about it, or the face's own; counted"),
 };
 WR_HARD_LIST(fans, later);
