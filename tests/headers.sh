@@ -11,13 +11,17 @@ c_only=(-std=c17 -Wpedantic -Wstrict-prototypes -Wmissing-prototypes)
 read -ra libraries < <(pkg-config --cflags sdl2 freetype2 cmocka imgui)
 bad=0 count=0
 
+# What files of either language include, looked up once.
+included() { grep -rhoE --include="$1" '^#include "[^"]+"' src ui | sort -u; }
+by_cpp=$(included '*.cpp') by_c=$(included '*.[ch]')
+
 # Through standard input, so that the header is not the main file (#pragma once would warn), and twice, so
 # that its guard is tested.
 compile() {
     local header=$1 first=''
     [[ $header == tests/* ]] && first='#include "test.h"\n'
-    if grep -qrF --include='*.cpp' "\"${header#src/}\"" src ui &&
-        ! grep -qrF --include='*.[ch]' "#include \"${header#src/}\"" src ui; then
+    local line="#include \"${header#src/}\""
+    if grep -qxF "$line" <<<"$by_cpp" && ! grep -qxF "$line" <<<"$by_c"; then
         set -- "${CXX:-c++}" -std=c++17 -x c++
     else
         set -- "${CC:-cc}" "${c_only[@]}" -x c

@@ -81,13 +81,17 @@ void wr_hard_units(WrHardGauge *g, const WrHardMesh *mesh, const WrTangent *fram
 
 /* ---- meshes ---- */
 
+/* How wide and high a triangle of the pairs is: not 1, by which nothing would be seen to be divided. */
+#define ACROSS 0.875
+#define UP 0.75
+
 /* Two triangles on both sides of x = 0, with those texture coordinates. */
 static WrHardMesh pair(const float uv[4][2])
 {
-    WrHardMesh mesh = { { { { -1, 0, 0 }, { 0, 0, 1 }, 0, 0 },
+    WrHardMesh mesh = { { { { -ACROSS, 0, 0 }, { 0, 0, 1 }, 0, 0 },
                           { { 0, 0, 0 }, { 0, 0, 1 }, 0, 0 },
-                          { { 0, 1, 0 }, { 0, 0, 1 }, 0, 0 },
-                          { { 1, 0, 0 }, { 0, 0, 1 }, 0, 0 } },
+                          { { 0, UP, 0 }, { 0, 0, 1 }, 0, 0 },
+                          { { ACROSS, 0, 0 }, { 0, 0, 1 }, 0, 0 } },
                         { { 0, 1, 2 }, { 1, 3, 2 } },
                         4,
                         2 };
@@ -120,7 +124,7 @@ static bool solve(const WrHardMesh *mesh, int face, WrVec3 *t, double *det)
 
 /* u and v over the plane z = 0, one map for x < 0 and one for the rest. */
 typedef struct Map {
-    double u[3], v[3]; /* of 1, x and y */
+    double u[3], v[3]; /* of 1, x / ACROSS and y / UP */
 } Map;
 
 enum { SIDE = 44 }; /* pixels of a picture 2.2 units high and wide */
@@ -132,7 +136,7 @@ static double at_pixel(int i)
 
 static double of_map(const double map[3], double x, double y)
 {
-    return map[0] + map[1] * x + map[2] * y;
+    return map[0] + map[1] * x / ACROSS + map[2] * y / UP;
 }
 
 /* unit(n - Fu grad u - Fv grad v) for n = (0, 0, 1). */
@@ -141,8 +145,8 @@ static WrVec3 by_map(const WrField *field, const WrScene *scene, const Map *map,
     const double u = of_map(map->u, x, y), v = of_map(map->v, x, y);
     WrHardSlope s = wr_hard_sample(field, scene->scheme, u - floor(u), v - floor(v));
     s.fu *= scene->height, s.fv *= scene->height;
-    const WrVec3 n = { -s.fu * map->u[1] - s.fv * map->v[1], -s.fu * map->u[2] - s.fv * map->v[2],
-                       1 };
+    const WrVec3 n = { -(s.fu * map->u[1] + s.fv * map->v[1]) / ACROSS,
+                       -(s.fu * map->u[2] + s.fv * map->v[2]) / UP, 1 };
     return v3_unit(n, (WrVec3){ 0, 0, 1 });
 }
 
