@@ -358,8 +358,9 @@ bool wr_hard_hc31(WrHardGauge *g, WrError *err)
     wr_hard_units(g, &mesh, mikk);
     for (int i = 0; i < 6; i++) {
         const double side = i < 3 ? -1 : 1;
-        wr_hard_holds(g, WR_HARD_DOUBLE, mikk[i].sign == side && mikk[i].t.x == side);
-        wr_hard_holds(g, WR_HARD_DOUBLE, mean[i].sign == side && fabs(mean[i].t.x - side) < 1e-12);
+        wr_hard_holds(g, WR_HARD_DOUBLE, mikk[i].sign == side && fabs(mikk[i].t.x - side) < 1e-12);
+        wr_hard_holds(g, WR_HARD_DOUBLE,
+                      mean[i].sign == side && fabs(mean[i].t.x - ACROSS * side) < 1e-12);
     }
     told(g, &mesh, 0, 1);
     return wr_hard_mesh_tame(g, &mesh, err);
