@@ -10,7 +10,7 @@
 #define ROWS_MAX 128
 
 typedef struct Options {
-    bool lines, exact, quick, made, brushes;
+    bool lines, exact, quick, made, brushes, window;
     uint64_t sections; /* bit i: wr_bench_sections[i] */
 } Options;
 
@@ -19,10 +19,10 @@ static bool unknown_word(const char *word, WrError *err)
     WrText parts = { 0 };
     for (int i = 0; wr_bench_sections[i].name; i++)
         wr_text_addf(&parts, "%s, ", wr_bench_sections[i].name);
-    wr_fail(
-        err,
-        "bench: unknown word %.60s: must be generate, brushes, all, %s--lines, --exact or --quick",
-        word, wr_text_get(&parts));
+    wr_fail(err,
+            "bench: unknown word %.60s: must be generate, brushes, window, all, %s--lines, --exact "
+            "or --quick",
+            word, wr_text_get(&parts));
     wr_text_fini(&parts);
     return false;
 }
@@ -37,6 +37,7 @@ static bool read_word(const char *word, Options *options, WrError *err)
     else if (strcmp(word, "--quick") == 0) options->quick = true;
     else if (strcmp(word, "generate") == 0) options->made = true;
     else if (strcmp(word, "brushes") == 0) options->brushes = true;
+    else if (strcmp(word, "window") == 0) options->window = true;
     else return unknown_word(word, err);
     return true;
 }
@@ -46,13 +47,18 @@ static bool read_options(const WrCli *cli, Options *options, WrError *err)
     *options = (Options){ .sections = 0 };
     for (int i = 0; i < cli->word_count; i++)
         if (!read_word(cli->words[i], options, err)) return false;
-    if (cli->json && !options->sections && !options->made && !options->brushes)
+    const int alone = options->made + options->brushes + options->window;
+    if (cli->json && !options->sections && !alone)
         options->sections = ~(uint64_t)0, options->lines = true;
-    if (options->made + options->brushes + (options->sections != 0) > 1)
+    if (alone + (options->sections != 0) > 1)
         return wr_fail(err, "bench: %s stands alone, without other parts",
-                       options->made ? "generate" : "brushes");
+                       options->made      ? "generate"
+                       : options->brushes ? "brushes"
+                                          : "window");
     if (cli->json && options->brushes)
         return wr_fail(err, "bench: brushes has no --json; --lines is for programs");
+    if (options->window && (cli->json || options->lines))
+        return wr_fail(err, "bench: window has neither --json nor --lines");
     if ((cli->sized && !options->sections) || (options->sections && options->lines && !cli->json))
         return wr_fail(err, cli->sized ? "bench: --size is of the parts: name one, or all"
                                        : "bench: --lines beside parts needs --json");
@@ -266,6 +272,7 @@ int wr_cli_bench(const WrCli *cli)
                 : options.sections ? bench_sections(cli, &options, &text, &err)
                 : options.made ? wr_bench_generate(cli, options.quick, options.lines, &text, &err)
                 : options.brushes ? bench_brushes(cli, &options, &text, &err)
+                : options.window  ? wr_bench_window(cli, options.quick, &text, &err)
                 : options.lines   ? bench_lines(cli, &options, &text, &err)
                                   : bench_table(cli, &options, &text, &err);
     int status = good ? wr_cli_print(cli, &text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);

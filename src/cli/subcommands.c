@@ -71,12 +71,13 @@ const WrSubcommand wr_subcommands[] = {
       wr_cli_brushes },
 #ifdef WR_HAVE_BENCH
     { "bench",
-      "bench [PART...|all|generate|brushes] [--quick] [--exact] [--lines] [--size WxH] [--json]",
+      "bench [PART...|all|generate|brushes|window] [--quick] [--exact] [--lines] [--size WxH] "
+      "[--json]",
       "the program's own benchmark", BIT(SIZE) | BIT(JSON) | BIT(ALL_WORDS),
       "Pictures, documents, brushes and the window; with generate alone what fills a table, beside "
       "gegl\n"
-      "and oiiotool where they are installed, with brushes alone dabs beside libmypaint. A PART "
-      "alone:\n"
+      "and oiiotool where they are installed, with brushes alone dabs beside libmypaint,\n"
+      "with window alone how soon a motion of the pen is seen. A PART alone:\n"
       "pictures that differ in one thing, beside the machine's peaks of the same run: surfaces, "
       "schemes,\n"
       "normals, aliasing, effects, isa, plan, still, first, output; all: each of them, half a "
