@@ -69,7 +69,9 @@ refuse() {
     [[ $? == 2 && ! -s out ]] || complain "not refused: ${*:2}"
     grep -qF -- "$1" err || complain "'${*:2}' does not say: $1, but: $(cat err)"
 }
-refuse 'must be generate, brushes, all, surfaces, schemes' scheme
+refuse 'must be generate, brushes, window, all, surfaces, schemes' scheme
+refuse 'window has neither' window --lines
+refuse 'brushes stands alone' window brushes
 refuse 'stands alone' generate schemes
 refuse '--size' --size 16x16
 refuse 'needs --json' schemes --lines
