@@ -2,12 +2,14 @@
 #include "command/inner.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/scene_args.h"
 #include "image/mesh.h"
 #include "scene/scene.h"
+#include "surface/patches.h"
 #include "surface/triangles.h"
 
 #include <string.h>
@@ -106,7 +108,55 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
 
 /* ---- the command's part ---- */
 
-static WrTriangles *find_mesh(WrSession *session, WrCall *call, const char *name, WrError *err)
+/* ---- sets of patches ---- */
+
+#define PATCHES_BYTES (64 << 20) /* of a file of them */
+
+static WrTriangles *read_patches(const char *path, WrPatchTable table, WrError *err)
+{
+    char *text;
+    size_t length;
+    float(*points)[48];
+    int32_t count;
+    WrTriangles *made = NULL;
+    if (!wr_file_read(path, PATCHES_BYTES, &text, &length, err)) return NULL;
+    if (wr_patches_parse(text, length, &points, &count, err)) {
+        made = wr_patches_new((const float(*)[48])points, count, table, err);
+        wr_free(points);
+    }
+    if (!made) wr_error_prefix(err, "%s: ", path);
+    wr_free(text);
+    return made;
+}
+
+/* HC152: what is open, drawn together or creased is told, since none of it shows at once. */
+static void note_patches(WrSession *session, const char *path, const WrTriangles *mesh)
+{
+    WrText text = { 0 };
+    const WrPatches *set = mesh->patches;
+    const WrPatchesTold *told = &set->told;
+    wr_text_addf(&text, "%s: %d patches in %d triangles, %s; %d shared edges", path,
+                 (int)set->count, (int)mesh->triangle_count, mesh->closed ? "closed" : "open",
+                 (int)told->shared);
+    if (told->open > 0)
+        wr_text_addf(&text, "; %d open ones in %d loops", (int)told->open, (int)told->loops);
+    add_count(&text, told->collapsed, "collapsed to a point");
+    add_count(&text, told->crowded, "of more than two patches");
+    add_count(&text, told->turned, "patches were turned to the side of the others");
+    add_count(&text, told->against, "between patches that face to different sides");
+    if (told->crease_deg > 0)
+        wr_text_addf(&text, "; %d creased, patches %d and %d by %.2f degrees", (int)told->creased,
+                     (int)told->crease_of[0] + 1, (int)told->crease_of[1] + 1, told->crease_deg);
+    if (set->table != WR_PATCH_EACH)
+        wr_text_addf(&text, "; the table runs on across %d of the shared edges", (int)told->joined);
+    if (set->table == WR_PATCH_SPLIT)
+        wr_text_addf(&text, ", in cells of %d x %d", (int)set->columns, (int)set->rows);
+    wr_session_note(session, "%s", wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
+static WrTriangles *find_mesh(WrSession *session, WrCall *call, WrSurfaceKind kind,
+                              const char *name, WrError *err)
 {
     if (session->loading) {
         if (session->embedded_mesh) return wr_scene_mesh_from_image(session->embedded_mesh, err);
@@ -117,7 +167,9 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const char *name
     WrTriangles *mesh = NULL;
     char hex[65];
     WrSha256Work *hash = wr_sha256_begin(path);
-    mesh = read_triangles(path, err);
+    const bool patches = kind == WR_SURFACE_patches;
+    mesh = patches ? read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err)
+                   : read_triangles(path, err);
     WrError why = { "" };
     if (!wr_sha256_end(hash, hex, &why) ||
         !wr_call_check_sha256(call, "sha256", path, hex, &why)) { /* what it is comes first */
@@ -125,7 +177,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const char *name
         mesh = NULL;
         wr_fail(err, "%s", why.text);
     }
-    if (mesh) note_mesh(session, path, mesh);
+    if (mesh) (mesh->patches ? note_patches : note_mesh)(session, path, mesh);
     wr_free(path);
     return mesh;
 }
@@ -137,7 +189,7 @@ bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
         return true;
     }
     const char *name = wr_call_arg(call, "file")->text;
-    WrTriangles *mesh = find_mesh(session, call, name, err);
+    WrTriangles *mesh = find_mesh(session, call, scene->shape.kind, name, err);
     if (!mesh) return false;
     wr_scene_set_triangles(scene, mesh, name, wr_call_arg(call, "sha256")->text);
     return true;
@@ -150,10 +202,17 @@ void wr_print_mesh(const WrScene *scene, bool content, WrText *text)
         wr_text_add(text, " file=");
         wr_text_add_word(text, scene->triangles_path);
     }
+    if (scene->triangles->patches)
+        wr_text_addf(text, " table=%s", wr_patch_tables[scene->triangles->patches->table]);
     if (*scene->triangles_sha256) wr_text_addf(text, " sha256=%s", scene->triangles_sha256);
 }
 
-void wr_form_mesh(WrArgSpec *args)
+static const char *table_name(int i)
+{
+    return i < WR_PATCH_TABLES ? wr_patch_tables[i] : NULL;
+}
+
+void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args)
 {
     args[0] = (WrArgSpec){ .name = "file",
                            .type = WR_ARG_PATH,
@@ -162,4 +221,12 @@ void wr_form_mesh(WrArgSpec *args)
     args[1] = (WrArgSpec){ .name = "sha256",
                            .type = WR_ARG_SHA256,
                            .help = "of the file: another content is then an error" };
+    if (kind == WR_SURFACE_patches)
+        args[2] = (WrArgSpec){ .name = "table",
+                               .type = WR_ARG_CHOICE,
+                               .choice = table_name,
+                               .fallback_text = "each",
+                               .help = "each patch has the whole table by its own u and v; or "
+                                       "turned so that it runs on across shared edges; or a cell "
+                                       "of one table, on which the set is unfolded" };
 }

@@ -3,6 +3,7 @@
    Layer 6, private to src/command. */
 #pragma once
 #include "command/call.h"
+#include "surface/surface.h"
 
 typedef struct WrSceneParam WrSceneParam;
 typedef struct WrError WrError;
@@ -23,7 +24,7 @@ bool wr_scene_take_turn(const char *text, WrScene *scene, WrError *err);
  * arguments. */
 bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
 void wr_print_mesh(const WrScene *scene, bool content, WrText *text);
-void wr_form_mesh(WrArgSpec *args);
+void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args);
 /* The line of `surface` by the content of its file, whatever its path. */
 void wr_print_surface_content(const WrScene *scene, WrText *text);
 /* "x,y,z" of one. */

@@ -293,7 +293,7 @@ static bool form_surface(int i, WrForm *out)
                                           .shape = info->texts[k].shape,
                                           .fallback_text = info->texts[k].fallback,
                                           .help = info->texts[k].help };
-    if (info->held) wr_form_mesh(out->args + count);
+    if (info->held) wr_form_mesh((WrSurfaceKind)i, out->args + count);
     return true;
 }
 

@@ -227,9 +227,7 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
                       .bins = renderer->bins,
                       .coder = wr_kernels_get(renderer->isa, false, NULL) };
     if (job.triangles)
-        job.triangle_look = (WrTriangleLook){ &renderer->triangles.source->corners[0].p[0],
-                                              &renderer->triangles.source->triangles[0].corner[0],
-                                              renderer->view.scale };
+        job.triangle_look = wr_frame_look_up(&renderer->triangles, renderer->view.scale);
     if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
     if (request) job.normals = request->normals, job.map = request->map;
     wr_tile_size(job.samples, plan->sampling == WR_SAMPLING_ADAPTIVE, request && request->only,

@@ -117,8 +117,10 @@ void wr_frame_start_counts(WrRenderer *renderer);
 void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrFrame *frame);
 /* All grids but one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
-/* Bring what the surface is rasterised from up to the view. Errors: no memory. */
 /* The triangles that the scene shows; the renderer's, or the scene's. */
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
+/* As kernels look them up. */
+WrTriangleLook wr_frame_look_up(const WrViewTriangles *triangles, double scale);
+/* Bring what the surface is rasterised from up to the view. Errors: no memory. */
 bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request,
                              const WrKernels *kernels, WrError *err);

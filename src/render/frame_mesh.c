@@ -2,6 +2,7 @@
 #include "field/field.h"
 #include "render/frame_inner.h"
 #include "scene/scene.h"
+#include "surface/patches.h"
 
 #include <math.h>
 
@@ -48,6 +49,20 @@ static bool prepare_triangles(WrRenderer *renderer, const WrScene *scene, WrErro
             !wr_plan_runs(&renderer->plan, WR_EFFECT_BLOCKS), renderer->pool, err);
     wr_view_triangles_fini(&renderer->triangles);
     return true;
+}
+
+WrTriangleLook wr_frame_look_up(const WrViewTriangles *triangles, double scale)
+{
+    const WrTriangles *source = triangles->source;
+    const WrPatches *patches = source->patches;
+    WrTriangleLook look = { .corners = &source->corners[0].p[0],
+                            .triangles = &source->triangles[0].corner[0],
+                            .scale = scale };
+    if (!patches) return look;
+    look.patches = &patches->patch[0].point[0];
+    look.patch_of = patches->of;
+    look.scale_u = patches->scale_u, look.scale_v = patches->scale_v;
+    return look;
 }
 
 bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request,

@@ -34,6 +34,9 @@ typedef struct WrTriangleLook {
     const float *corners;     /* 8 each: place, normal, u, v (triangles.h) */
     const int32_t *triangles; /* 3 corners each */
     double scale;             /* its places -> kernel units; a power of two */
+    const float *patches;     /* 56 each, as WrPatch (patches.h); NULL: a mesh of triangles */
+    const int32_t *patch_of;  /* of each triangle */
+    double scale_u, scale_v;  /* cells -> the table's u, v */
 } WrTriangleLook;
 
 /* How far Newton's method goes. */

@@ -188,6 +188,7 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_mesh_body.h"
 #include "render/kern_surface_body.h"
 #include "render/kern_triangle_body.h"
+#include "render/kern_patch_body.h"
 #include "render/kern_look_body.h"
 #include "render/kern_bump_body.h"
 #include "shade/light_body.h"

@@ -141,8 +141,8 @@ ALWAYS void meet_triangle(const Meeting *all, const Corners *corners, const bool
     }
 
 /* Of triangles whose numbers stand in u. Where u and v are not wanted they are left as they are. */
-FLAT static void kern_meet(const RAYS *rays, const WrTriangleLook *look, bool smooth, bool mapped,
-                           bool sloped, STRIP *strip)
+FLAT static void meet_plain(const RAYS *rays, const WrTriangleLook *look, bool smooth, bool mapped,
+                            bool sloped, STRIP *strip)
 {
     const int count = strip->count;
     const Meeting all = meeting_of(rays, (REAL)look->scale);

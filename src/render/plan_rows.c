@@ -5,6 +5,7 @@
 
 #include "field/analytic.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 
 #include <math.h>
 
@@ -95,6 +96,12 @@ static WrVerdict decide_wide(const WrPlan *plan, const WrPlanAsk *ask, const cha
                "replication of 1024 and more loses texels in single precision");
 }
 
+/* Is the mesh cut from patches? */
+static bool is_cut(const WrPlanAsk *ask)
+{
+    return ask->scene->triangles && ask->scene->triangles->patches;
+}
+
 static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrShape *shape = &ask->scene->shape;
@@ -119,7 +126,9 @@ static WrVerdict decide_exact(const WrPlan *plan, const WrPlanAsk *ask, const ch
         return say(WR_VERDICT_NONE, why, "bump mode is not exact");
     if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
     if (surface_of(ask)->held)
-        return say(WR_VERDICT_NONE, why, "triangles are flat: blinn is exact on them for any F");
+        return say(WR_VERDICT_NONE, why,
+                   is_cut(ask) ? "on sets of patches blinn takes the exact normal's place"
+                               : "triangles are flat: blinn is exact on them for any F");
     if (surface_of(ask)->flat)
         return say(WR_VERDICT_SPARED, why, "the base is flat: blinn is exact there for any F");
     return say(WR_VERDICT_RUN, why, "bump mode is exact and the base is curved");
@@ -134,7 +143,9 @@ static void settle_exact(WrPlan *plan, const WrPlanAsk *ask)
 static WrVerdict decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     if (surface_of(ask)->held)
-        return say(WR_VERDICT_NONE, why, "triangles are flat: there are none");
+        return say(WR_VERDICT_NONE, why,
+                   is_cut(ask) ? "only the exact normal needs them"
+                               : "triangles are flat: there are none");
     if (runs(plan, WR_EFFECT_EXACT))
         return say(WR_VERDICT_RUN, why, "the exact normal needs how n turns");
     return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");

@@ -47,7 +47,8 @@ void wr_settle_depth(WrPlan *plan, const WrPlanAsk *ask)
 WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     if (plan->inversion == WR_INVERT_TRIANGLES)
-        return say(WR_VERDICT_NONE, why, "rays meet triangles in closed form");
+        return say(WR_VERDICT_NONE, why,
+                   "rays meet triangles in closed form, and patches near them in a few steps");
     if (plan->inversion != WR_INVERT_MESH)
         return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
     if (ask->facts.sighted) return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
@@ -138,6 +139,7 @@ WrVerdict wr_decide_smooth(const WrPlan *plan, const WrPlanAsk *ask, const char 
     (void)plan;
     if (!is_held(ask)) return say(WR_VERDICT_NONE, why, not_held);
     if (!plan->normals) return say(WR_VERDICT_SPARED, why, "no light depends on the normal");
+    if (mesh && mesh->patches) return say(WR_VERDICT_RUN, why, "normals are those of the patches");
     if (!mesh || mesh->faceted)
         return say(WR_VERDICT_SPARED, why, "the three normals of each triangle are the same");
     return say(WR_VERDICT_RUN, why, "the normals of triangles' corners differ");

@@ -60,6 +60,10 @@ static bool take_mesh(WrReferenceView *view, const WrScene *scene, WrError *err)
 {
     WrTriangles *mesh =
         scene->triangles ? wr_triangles_share(scene->triangles) : wr_triangles_square();
+    if (mesh->patches) {
+        view->mesh.source = mesh; /* holds the patches */
+        return wr_reference_bezier_init(&view->bezier, mesh->patches, err);
+    }
     const WrNormalFrame frame = wr_scene_frame(scene);
     const bool framed =
         scene->normals.image && (frame == WR_FRAME_MIKK || frame == WR_FRAME_LECTURE);
@@ -104,6 +108,7 @@ void wr_reference_view_fini(WrReferenceView *view)
 {
     wr_free(view->lights);
     wr_reference_patches_fini(&view->patches);
+    wr_reference_bezier_fini(&view->bezier);
     wr_reference_mesh_fini(&view->mesh);
     *view = (WrReferenceView){ 0 };
 }
@@ -237,6 +242,10 @@ void wr_reference_view_at(const WrReferenceView *view, const WrReferenceHit *hit
         wr_surface_at(view->shape, hit->face, hit->u, hit->v, out);
         return;
     }
+    if (view->bezier.source) {
+        wr_reference_bezier_at(&view->bezier, hit, out);
+        return;
+    }
     wr_reference_mesh_at(&view->mesh, hit, view->perspective ? view->eye : view->toward,
                          view->perspective, out);
 }
@@ -250,7 +259,9 @@ bool wr_reference_view_hit(const WrReferenceView *view, const WrReferenceRay *ra
     case WR_INVERT_CONE: return hit_cone(view, ray, hit);
     case WR_INVERT_PLANE:
     case WR_INVERT_CUBE: return hit_faces(view, ray, hit);
-    case WR_INVERT_TRIANGLES: return wr_reference_mesh_hit(&view->mesh, view->cull, ray, hit);
+    case WR_INVERT_TRIANGLES:
+        return view->bezier.source ? wr_reference_bezier_hit(&view->bezier, view->cull, ray, hit)
+                                   : wr_reference_mesh_hit(&view->mesh, view->cull, ray, hit);
     case WR_INVERT_MESH: break;
     }
     return wr_reference_patches_hit(&view->patches, view->shape, view->cull, ray, hit);

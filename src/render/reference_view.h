@@ -2,6 +2,7 @@
    double precision: closed forms where there are any, else a tree of patches and Newton's method.
    Layer 5, private to the reference. */
 #pragma once
+#include "render/reference_bezier.h"
 #include "render/reference_mesh.h"
 #include "render/reference_patch.h"
 
@@ -33,6 +34,7 @@ typedef struct WrReferenceView {
     WrReferenceLight *lights; /* [light_count], owned */
     int light_count;
     WrReferenceMesh mesh;       /* of triangles out of a file */
+    WrReferenceBezier bezier;   /* of patches out of a file */
     WrReferencePatches patches; /* of surfaces without a closed inverse */
 } WrReferenceView;
 

@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "scene/normal_map.h"
 #include "surface/surface.h"
+#include "surface/triangles.h"
 
 #include <math.h>
 
@@ -51,6 +52,7 @@ WrNormalFrame wr_scene_frame(const WrScene *scene)
 {
     const WrNormalFrame frame = scene->normals.frame;
     if (scene->normals.object) return WR_FRAME_OBJECT;
+    if (scene->triangles && scene->triangles->patches) return WR_FRAME_GRADIENT; /* no corners */
     if (frame != WR_FRAME_AUTO) return frame;
     return wr_surfaces[scene->shape.kind]->held ? WR_FRAME_MIKK : WR_FRAME_GRADIENT;
 }

@@ -19,8 +19,8 @@ void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *
     memset(scene->triangles_sha256, 0, sizeof scene->triangles_sha256);
     if (triangles && sha256 && strlen(sha256) == 64) memcpy(scene->triangles_sha256, sha256, 64);
     if (!triangles) return;
-    WrShape shape;
-    wr_shape_default(WR_SURFACE_mesh, &shape);
+    WrShape shape = scene->shape;
+    if (!wr_surfaces[shape.kind]->held) wr_shape_default(WR_SURFACE_mesh, &shape);
     double *value = shape.value;
     memcpy(value + WR_MESH_CENTRE, triangles->centre, sizeof triangles->centre);
     value[WR_MESH_RADIUS] = triangles->radius;

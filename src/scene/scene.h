@@ -118,7 +118,8 @@ struct WrScene {
     double radius; /* of the shape, once it was found, of one of `others`; private */
 };
 
-/* The scene's surface becomes these triangles, which are taken over; NULL: any other shape, or the square. path and sha256
+/* The scene's surface becomes these triangles, which are taken over; NULL: any other shape, or the square. The shape stays
+ * of its kind if that is one that holds such, else it becomes a mesh. path and sha256
  * may be NULL. */
 void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
                             const char *sha256);

@@ -35,8 +35,8 @@ typedef struct WrShape {
     double scale; /* that lengths in the data are to be multiplied by: 1 outside the renderer */
 } WrShape;
 
-/* What a mesh keeps there: the centre and the radius of its ball (0: it is the square), its key's halves. */
-enum { WR_MESH_CENTRE = 0, WR_MESH_RADIUS = 3, WR_MESH_KEY = 4 };
+/* What a mesh keeps there, after its params: the centre and the radius of its ball (0: it is the square), its key's halves. */
+enum { WR_MESH_CENTRE = 40, WR_MESH_RADIUS = 43, WR_MESH_KEY = 44 };
 
 /* The same in single precision, scaled for the renderer. */
 typedef struct WrShapef {

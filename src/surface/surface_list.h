@@ -18,6 +18,7 @@ WR_X(superellipsoid)
 WR_X(revolution)
 WR_X(formula)
 WR_X(mesh)
+WR_X(patches)
 #undef WR_X
 #endif
 #ifdef WR_SURFACE_FORMULAS
@@ -38,4 +39,5 @@ WR_X(mesh)
 #include "surface/revolution.h"
 #include "surface/equation.h"
 #include "surface/mesh.h"
+#include "surface/patches_row.h"
 #endif

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "surface/patches.h"
 #include "surface/triangles_inner.h"
 
 #include <string.h>
@@ -428,6 +429,7 @@ void wr_triangles_free(WrTriangles *triangles)
     wr_free((void *)triangles->corners);
     wr_free((void *)triangles->triangles);
     wr_free((void *)triangles->parts);
+    wr_patches_free(triangles->patches);
     wr_free(triangles);
 }
 

@@ -20,6 +20,7 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrPatches WrPatches;
 
 #define WR_TRIANGLES_MAX 9000000 /* numbers of triangles are exact as floats */
 #define WR_TRIANGLE_PARTS_MAX 4096
@@ -29,6 +30,7 @@ typedef struct WrTrianglePart {
     char name[WR_TRIANGLE_NAME]; /* its material's, cut; may be empty */
     int32_t first, count;        /* triangles */
     bool mapped;                 /* has texture coordinates */
+    int32_t patch;               /* that it was cut from; 0 where there are none */
 } WrTrianglePart;
 
 /* What was found and mended, for whoever is told. */
@@ -68,6 +70,8 @@ typedef struct WrTriangles {
     double centre[3], radius; /* of a ball that holds it; radius > 0 */
     uint64_t key;             /* of its content: equal for equal ones */
     WrTrianglesTold told;
+    WrPatches *
+        patches; /* cut from these (patches.h), whose (u,v) the corners have; owned; NULL: a mesh */
 } WrTriangles;
 
 /* Arrays as a file has them; borrowed for the call. */

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "surface/patches.h"
 
 #include <math.h>
 #include <string.h>
@@ -49,6 +50,7 @@ static size_t packed(int32_t corners, int32_t triangles, int32_t parts)
 
 float *wr_triangles_pack(const WrTriangles *t, size_t *count)
 {
+    if (t->patches) return wr_patches_pack(t->patches, count);
     *count = packed(t->corner_count, t->triangle_count, t->part_count);
     float *block = wr_alloc(*count, sizeof *block), *at = block;
     const float head[HEAD] = { PACK_VERSION, (float)t->corner_count, (float)t->triangle_count,
@@ -124,6 +126,8 @@ static bool take_triangles(const float *at, int32_t corners, int32_t count, WrTr
 
 WrTriangles *wr_triangles_unpack(const float *block, size_t count, WrError *err)
 {
+    if (count > 0 && block[0] == (float)WR_PATCHES_PACKED)
+        return wr_patches_unpack(block, count, err);
     if (!check_head(block, count)) {
         wr_fail(err, "the mesh that is kept here makes no sense");
         return NULL;

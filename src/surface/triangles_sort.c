@@ -79,7 +79,10 @@ static WrTrianglePart *make_parts(const WrTrianglesBuild *b, int *count)
     *count = 0;
     for (int i = 0; i < most; i++) {
         WrTrianglePart part = { .first = at };
-        if (source->parts) memcpy(part.name, source->parts[i].name, sizeof part.name - 1);
+        if (source->parts) {
+            memcpy(part.name, source->parts[i].name, sizeof part.name - 1);
+            part.patch = source->parts[i].patch;
+        }
         const int32_t end = source->parts ? source->parts[i].first + source->parts[i].count
                                           : source->triangle_count;
         for (; at < b->count && b->of[at] < end; at++) part.mapped |= b->mapped[at];

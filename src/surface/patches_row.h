@@ -1,0 +1,21 @@
+/* patches_row.h - sets of bicubic patches out of a file (patches.h), which a scene holds as it does a mesh (mesh.h). What
+   asks them for P(u,v) gets the square, as there. */
+
+R_INLINE void FN(patches_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
+{
+    FN(mesh_at)(s, face, u, v, o);
+}
+
+#ifndef WR_FORMULA_FLOAT
+static const WrSurfaceInfo patches_row = {
+    .name = "patches",
+    .label = "Bezier patches",
+    .help = "a set of bicubic patches out of a file, such as the teapot; without one a square",
+    .held = true,
+    .open = true,
+    .faces = 1,
+    .inversion = WR_INVERT_TRIANGLES,
+    .at = patches_at_d,
+    .radius = mesh_radius,
+};
+#endif
