@@ -46,4 +46,19 @@ jq -e '.layer_list | map(select(.name == "first" and .active)) | length == 1' pa
     complain "the layer of the object under the brush is not active: $(jq -c .layer_list painted.json)"
 key ctrl+q
 ends 0
+
+# The profile's curve in the scene's panel: a point that is dragged is one step.
+printf '%s\n' 'surface revolution' 'dials aa=point' >vase.wrinkle
+printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'tab 1' 'lower 0.1' >config/wrinkle/window.conf
+start vase.wrinkle
+drag 1127 402 -3 1 10
+becomes 'surface revolution profile=*' "a point of the profile was dragged"
+read -r r < <(newest | sed -E 's/[^;]*;[^;]*;[^;]*;([-0-9.]+),.*/\1/')
+awk -v r="$r" 'BEGIN { exit !(r > 0.2 && r < 0.32) }' || complain "the point's r is $r, not about 0.26"
+key ctrl+z
+becomes 'undo' "the drag is undone"
+xdotool key ctrl+q
+sleep 0.5
+is_gone || xdotool key d # nothing is saved
+ends 0
 [[ $failures == 0 ]] || { printf '%d failures\n' "$failures"; exit 1; }

@@ -48,6 +48,14 @@ static bool read_points(const char *text, Points *p, WrError *err)
                                     WR_PROFILE_POINTS);
 }
 
+int wr_profile_points(const char *text, double points[WR_PROFILE_POINTS][2])
+{
+    Points p;
+    if (!read_points(text, &p, NULL)) return 0;
+    for (int i = 0; i < p.count; i++) points[i][0] = p.r[i], points[i][1] = p.z[i];
+    return p.count;
+}
+
 static bool same_point(const Points *p, int i, int j)
 {
     return p->r[i] == p->r[j] && p->z[i] == p->z[j];

@@ -28,6 +28,8 @@ typedef struct WrProfilef {
 /* Of "r,z;r,z;...". Refused: what is no such list, a curve that touches or crosses the axis but at its ends (the message
    says at which v), points that are nearer to each other than 1e-5 of the length and not the same, more points than fit. */
 bool wr_profile_make(const char *text, WrProfiled *out, WrError *err);
+/* The points alone, r and z, without asking what curve goes through them: how many, 0 where the text is no such list. */
+int wr_profile_points(const char *text, double points[WR_PROFILE_POINTS][2]);
 void wr_profile_narrow(const WrProfiled *from, WrProfilef *to);
 /* Where the direction may jump, 0 < v < 1: how many, at most `most`. */
 int wr_profile_corners(const WrProfiled *profile, double *v, int most);

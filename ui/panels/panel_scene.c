@@ -21,8 +21,7 @@
 
 /* ---- surface ---- */
 
-/* text: of the row's texts; NULL: the defaults. */
-static void run_surface(WrApp *app, const WrShape *shape, const char *const *text)
+void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
 {
     WrText line = { 0 };
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -68,7 +67,7 @@ static void surface_texts(WrApp *app)
     if (left && wr_gui_escape_pressed()) hand->key = 0; /* taken anew */
     for (int k = 0; k < WR_SURFACE_TEXTS && info->texts[k].name && hand->key; k++) {
         if (strcmp(hand->text[k], shape->data->text[k]) == 0) continue;
-        run_surface(app, shape, text);
+        wr_surface_run(app, shape, text);
         return;
     }
 }
@@ -99,7 +98,8 @@ static void surface_params(WrApp *app)
             if (edit == WR_EDIT_LIVE && wr_shape_check(&shape, NULL))
                 wr_app_live(app)->shape = shape;
             if (edit == WR_EDIT_DONE)
-                run_surface(app, &shape, shape.data ? (const char *const *)shape.data->text : NULL);
+                wr_surface_run(app, &shape,
+                               shape.data ? (const char *const *)shape.data->text : NULL);
         }
         offset += p->components;
     }
@@ -115,10 +115,12 @@ static void surface(WrApp *app)
     if (wr_gui_choice("patch", 0, labels, WR_SURFACE_COUNT, &kind)) {
         WrShape shape;
         wr_shape_default((WrSurfaceKind)kind, &shape);
-        run_surface(app, &shape, NULL);
+        wr_surface_run(app, &shape, NULL);
     }
     wr_gui_tip(wr_surfaces[kind]->help);
     surface_params(app);
+    if (wr_app_scene(app)->shape.kind == WR_SURFACE_revolution && wr_app_scene(app)->shape.data)
+        wr_profile_row(app);
     surface_texts(app);
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_REPLICATE];
     const WrNumber spec = wr_param_slider(param);

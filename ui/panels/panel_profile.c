@@ -1,0 +1,164 @@
+/* The profile of a surface of revolution as a curve with points to drag; each drag is one command. */
+#include "ui/desk/desk.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/panels/panel_scene.h"
+
+#include "base/text.h"
+#include "scene/scene.h"
+#include "surface/data.h"
+
+#include <SDL.h>
+#include <math.h>
+#include <string.h>
+
+#define STEPS 160  /* of the curve that is drawn */
+#define REACH 10.0 /* units: how near a point is hit */
+#define AXIS 4.0   /* units from the axis that count as on it */
+#define ROOM 1.15  /* more than the profile takes */
+
+/* ---- where things are ---- */
+
+/* From the table's lengths to the pad: the axis in the middle, z up. It stays while a point is held. */
+static void fit(WrProfileHand *hand, const WrPad *pad)
+{
+    double most = 1e-9, low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < hand->edit.count; i++) {
+        const WrProfilePlace *p = &hand->edit.place[i];
+        most = fmax(most, p->r), low = fmin(low, p->z), high = fmax(high, p->z);
+    }
+    hand->scale = fmin(pad->w / (2 * most * ROOM), pad->h / (fmax(high - low, most) * ROOM));
+    hand->middle = (low + high) / 2;
+}
+
+static double x_of(const WrProfileHand *hand, const WrPad *pad, double r)
+{
+    return pad->x + pad->w / 2 + r * hand->scale;
+}
+
+static double y_of(const WrProfileHand *hand, const WrPad *pad, double z)
+{
+    return pad->y + pad->h / 2 - (z - hand->middle) * hand->scale;
+}
+
+/* ---- drawing ---- */
+
+static void draw_curve(const WrProfileHand *hand, const WrPad *pad, const WrShape *shape)
+{
+    const double s = wr_gui_scale();
+    WrSurfacePoint last = { 0 };
+    const double axis = x_of(hand, pad, 0);
+    for (double y = pad->y; y < pad->y + pad->h; y += 8 * s)
+        wr_gui_draw_fill(axis - 0.5 * s, y, s, 4 * s, 0x60909090u, 0);
+    for (int i = 0; i <= STEPS; i++) {
+        WrSurfacePoint at;
+        wr_surface_at(shape, 0, 0, (double)i / STEPS, &at);
+        if (i > 0) {
+            const double y0 = y_of(hand, pad, last.p.z), y1 = y_of(hand, pad, at.p.z);
+            wr_gui_draw_line(x_of(hand, pad, -last.p.x), y0, x_of(hand, pad, -at.p.x), y1,
+                             0x50a0a0a0u, 1.3 * s);
+            wr_gui_draw_line(x_of(hand, pad, last.p.x), y0, x_of(hand, pad, at.p.x), y1,
+                             WR_COLOUR_TEXT, 1.6 * s);
+        }
+        last = at;
+    }
+}
+
+static void draw_points(const WrProfileHand *hand, const WrPad *pad, int over)
+{
+    const double s = wr_gui_scale();
+    for (int i = 0; i < hand->edit.count; i++) {
+        const WrProfilePlace *p = &hand->edit.place[i];
+        const double x = x_of(hand, pad, p->r), y = y_of(hand, pad, p->z), half = 4 * s;
+        const bool held = i == hand->held - 1;
+        const WrColour colour = held && hand->wrong ? WR_COLOUR_RAISE
+                                : held || i == over ? WR_COLOUR_ACCENT
+                                                    : 0xfff0f0f0u;
+        wr_gui_draw_disc(x, y, half + 1.5 * s, 0xb0000000u);
+        if (p->corner) wr_gui_draw_fill(x - half, y - half, 2 * half, 2 * half, colour, 0);
+        else wr_gui_draw_disc(x, y, half, colour);
+    }
+}
+
+/* ---- under the hand ---- */
+
+/* The surface of the points as they are now, in the scene that is shown; what makes none is not shown. */
+static void show(WrApp *app, WrProfileHand *hand)
+{
+    WrText text = { 0 };
+    wr_profile_edit_write(&hand->edit, &text);
+    const char *texts[WR_SURFACE_TEXTS] = { wr_text_get(&text) };
+    WrSurfaceData *data = wr_surface_data_make(WR_SURFACE_revolution, texts, NULL);
+    hand->wrong = !data;
+    if (data) {
+        WrScene *live = wr_app_live(app);
+        WrShape shape = live->shape;
+        wr_shape_take_data(&shape, data);
+        wr_scene_set_shape(live, &shape);
+        wr_surface_data_free(data);
+    }
+    wr_text_fini(&text);
+}
+
+static void run(WrApp *app, WrProfileHand *hand)
+{
+    WrText text = { 0 };
+    wr_profile_edit_write(&hand->edit, &text);
+    const char *texts[WR_SURFACE_TEXTS] = { wr_text_get(&text) };
+    wr_surface_run(app, &wr_app_scene(app)->shape, texts);
+    wr_text_fini(&text);
+    hand->key = 0; /* taken anew, also where it was refused */
+}
+
+static void press(WrApp *app, WrProfileHand *hand, int over, double r, double z)
+{
+    const SDL_Keymod mods = SDL_GetModState();
+    if (over >= 0 && (mods & (KMOD_CTRL | KMOD_SHIFT))) {
+        if (mods & KMOD_CTRL ? wr_profile_edit_remove(&hand->edit, over)
+                             : wr_profile_edit_corner(&hand->edit, over))
+            run(app, hand);
+        return;
+    }
+    hand->moved = over < 0;
+    hand->held = 1 + (over >= 0 ? over : wr_profile_edit_add(&hand->edit, fmax(r, 0), z));
+}
+
+static void drag(WrApp *app, WrProfileHand *hand, double r, double z)
+{
+    const WrProfilePlace *p = &hand->edit.place[hand->held - 1];
+    const double axis = AXIS * wr_gui_scale() / hand->scale;
+    if (!hand->moved && hypot(p->r - r, p->z - z) < axis / 2) return; /* a click moves nothing */
+    hand->moved = true;
+    wr_profile_edit_move(&hand->edit, hand->held - 1, r, z, axis);
+    show(app, hand);
+}
+
+void wr_profile_row(WrApp *app)
+{
+    WrProfileHand *hand = &app->surface->profile;
+    const WrShape *shape = &wr_app_scene(app)->shape;
+    const double wide = wr_gui_available();
+    if (hand->held == 0 && hand->key != shape->key) {
+        if (!wr_profile_edit_read(&hand->edit, shape->data->text[0])) return;
+        hand->key = shape->key;
+    }
+    const WrPad pad = wr_gui_pad_begin("profile", wide, wide);
+    if (hand->held == 0) fit(hand, &pad);
+    const double r = (pad.pointer_x - pad.x - pad.w / 2) / hand->scale;
+    const double z = hand->middle - (pad.pointer_y - pad.y - pad.h / 2) / hand->scale;
+    const int over =
+        pad.hovered || pad.held
+            ? wr_profile_edit_near(&hand->edit, r, z, REACH * wr_gui_scale() / hand->scale)
+            : -1;
+    draw_curve(hand, &pad, shape);
+    draw_points(hand, &pad, over);
+    wr_gui_pad_end();
+    wr_gui_tip("The profile and its mirror; drag its points, click beside them for one more. Ctrl "
+               "and a click takes one away, Shift and a click makes a corner of it, or smooth.");
+    if (pad.pressed) press(app, hand, over, r, z);
+    if (hand->held > 0 && pad.held) drag(app, hand, r, z);
+    if (hand->held == 0 || (!pad.released && pad.held)) return;
+    hand->held = 0;
+    if (hand->moved) run(app, hand);
+}
