@@ -95,6 +95,13 @@ static void settings_change_without_the_file(void **state)
     must_run(s, "normalmap up.png strength=0.5");
     const WrImage *image = map_of(s)->image;
     const float y = image->data[1];
+    must_fail(s, "colour repeat=once", "no colour picture");
+    must_run(s, "colour up.png");
+    must_run(s, "colour repeat=once"); /* likewise */
+    assert_true(doc(s)->scene->colour_laid.own && doc(s)->scene->colour);
+    must_run(s, "undo");
+    assert_false(doc(s)->scene->colour_laid.own);
+    must_run(s, "undo");
     assert_int_equal(unlink("up.png"), 0);
     must_run(s, "normalmap strength=2 repeat=2,-0.5");
     assert_true(map_of(s)->strength == 2 && map_of(s)->laid.rv == -0.5 &&

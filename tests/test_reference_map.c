@@ -9,8 +9,8 @@
 #include "scene/normal_map.h"
 #include "scene/objects.h"
 
-#define WIDE 90
-#define HIGH 70
+#define WIDE 63
+#define HIGH 48
 
 /* Random codes of any size: slopes up to about 1. */
 static WrImage *random_map(int w, int h, int bits, int channels, uint64_t seed)
@@ -37,6 +37,12 @@ static void put_map(WrScene *scene, WrImage *file, WrGreen green, int channels)
     assert_non_null(scene->normals.image);
     scene->normals.strength = 1;
     wr_image_free(file);
+}
+
+static int falling(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x < y) - (x > y);
 }
 
 /* The worst angle, degrees, between the picture's normals and the reference's, but for the few pixels where rounding
@@ -74,10 +80,9 @@ static double worst_angle(const WrScene *scene, const WrField *field, int *count
         if (!(frame.rgba[4 * i + 3] > 0) || !(bb > 0)) continue;
         const double d[3] = { (double)a[0] - b[0], (double)a[1] - b[1], (double)a[2] - b[2] };
         const double angle = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) * 180 / WR_PI;
-        int k = (*count)++;
-        for (; k > 0 && angles[k - 1] < angle; k--) angles[k] = angles[k - 1];
-        angles[k] = angle;
+        angles[(*count)++] = angle;
     }
+    qsort(angles, (size_t)*count, sizeof *angles, falling);
     const double worst = angles[*count / 50];
     wr_reference_fini(&reference);
     wr_renderer_free(renderer);
@@ -126,7 +131,7 @@ static WrScene *scene_number(int k)
 static void pictures_have_the_references_normals(void **state)
 {
     (void)state;
-    for (int k = 0; k < (getenv("WR_FULL") ? 168 : 48); k++) {
+    for (int k = 0; k < (getenv("WR_FULL") ? 168 : 36); k++) {
         int count;
         WrScene *scene = scene_number(k);
         WrField *field = random_field(40, 29, 3);
@@ -136,7 +141,7 @@ static void pictures_have_the_references_normals(void **state)
         }
         const double worst = worst_angle(scene, field, &count);
         if (getenv("WR_SHOW")) printf("%2d: %g of %d\n", k, worst, count);
-        if (!(count > 300 && worst < 2e-3)) fail_msg("case %d: %g of %d", k, worst, count);
+        if (!(count > 150 && worst < 2e-3)) fail_msg("case %d: %g of %d", k, worst, count);
         wr_scene_free(scene);
         wr_field_free(field);
     }
@@ -153,7 +158,7 @@ static void objects_that_hide_each_other_have_them_too(void **state)
         WrField *field = random_field(40, 29, 3);
         scene->at = (WrVec3){ 0.7, 0.3, 0.5 };
         const double worst = worst_angle(scene, field, &count);
-        if (!(count > 1000 && worst < 1e-3)) fail_msg("case %d: %g of %d", k, worst, count);
+        if (!(count > 500 && worst < 1e-3)) fail_msg("case %d: %g of %d", k, worst, count);
         wr_scene_free(scene);
         wr_scene_free(first);
         wr_field_free(field);
@@ -268,8 +273,8 @@ static void a_probe_has_the_map(void **state)
         Shot shot = shoot(scene, field, WIDE, HIGH, 1, "auto", false);
         WrError err = { "" };
         int seen = 0, same = 0;
-        for (int i = 0; i < 40; i++) {
-            const int x = 20 + 7 * i % 53, y = 15 + 5 * i % 41;
+        for (int i = 0; i < 10; i++) {
+            const int x = 14 + 7 * i % 37, y = 10 + 5 * i % 29;
             if (!wr_reference_probe(field, scene, WIDE, HIGH, 15, x + 0.5, y + 0.5, &with, &err))
                 fail_msg("%s", err.text);
             if (!with.hit) continue;
@@ -311,8 +316,8 @@ static void filtered_maps_come_near_the_reference(void **state)
                                            .width = 48,
                                            .height = 48,
                                            .turn_deg = 15,
-                                           .first = 8,
-                                           .most = 8 };
+                                           .first = 4,
+                                           .most = 4 };
         WrReference reference = { 0 };
         WrError err = { "" };
         if (!wr_reference_render(&truth, NULL, &reference, &err)) fail_msg("%s", err.text);
@@ -330,7 +335,8 @@ static void filtered_maps_come_near_the_reference(void **state)
             put_away(&shot);
         }
         if (getenv("WR_SHOW")) printf("%d: point %g, filter %g\n", k, error[0], error[1]);
-        if (!(error[1] < error[0] / 3)) fail_msg("case %d: %g, filtered %g", k, error[0], error[1]);
+        if (!(error[1] < error[0] / 2.5))
+            fail_msg("case %d: %g, filtered %g", k, error[0], error[1]);
         wr_reference_fini(&reference);
         wr_scene_free(scene);
         wr_field_free(field);

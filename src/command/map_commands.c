@@ -140,12 +140,27 @@ static void print_colour(const WrScene *scene, WrText *text)
     wr_print_colour(scene, true, text);
 }
 
+/* What a line without a file changes of the picture that is there. */
+static bool change_colour(WrSession *session, const WrCall *call, WrError *err)
+{
+    static const char *const of_file[] = { "channel", "part", "sha256", NULL };
+    const WrScene *now = session->state.document->scene;
+    if (!now->colour) return wr_fail(err, "the object has no colour picture: name a file");
+    if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
+    WrScene *scene = wr_scene_clone(now);
+    take_repeat(call, &scene->colour_laid);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
 static bool run_colour(WrSession *session, WrCall *call, WrError *err)
 {
-    static const char *const of_file[] = { "sha256", "repeat", NULL };
-    const char *name = wr_call_arg(call, "FILE|off")->text;
-    const bool off = strcmp(name, "off") == 0;
-    if (off && !refuse_without(call, of_file, "off takes no", err)) return false;
+    static const char *const of_colour[] = { "sha256", "repeat", "channel", "part", NULL };
+    const WrArg *file = wr_call_arg(call, "FILE|off");
+    const char *name = file->given ? file->text : NULL;
+    const bool off = name && strcmp(name, "off") == 0;
+    if (!name) return change_colour(session, call, err);
+    if (off && !refuse_without(call, of_colour, "off takes no", err)) return false;
     WrImage *image = off ? NULL : find_picture(session, call, name, WR_OBJECT_COLOUR, err);
     WrImage *colour = image ? linear_colour(image, err) : NULL;
     wr_image_free(image);
@@ -331,8 +346,11 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
     }
 
 static const WrArgSpec args_colour[] = {
-    { PLACE("FILE|off"), .type = WR_ARG_PATH,
-      .help = "a picture that is laid over u and v, or off (a file of that name is ./off)" },
+    { .name = "FILE|off",
+      .type = WR_ARG_PATH,
+      .positional = true,
+      .help = "a picture that is laid over u and v, or off (a file of that name is ./off). Left "
+              "out: the one that is there, of which repeat may change" },
     ARG_REPEAT,
     WR_ARGS_OF_FILE,
     ARG_SHA256,

@@ -1,0 +1,199 @@
+/* Pictures on the object at hand: its colours, its normals. Every act is a command line. */
+#include "ui/desk/busy.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/line.h"
+#include "ui/desk/roster.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+#include "ui/jobs/files.h"
+#include "ui/panels/panels.h"
+
+#include "base/text.h"
+#include "command/call.h"
+#include "image/image.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#define GLYPH 24
+
+/* One of the two. */
+typedef struct Map {
+    const char *verb, *label, *choose, *remove, *none;
+    WrFilePurpose purpose;
+} Map;
+
+static const Map colour = {
+    "colour", "Colours",     "Choose a picture of colours", "Take the colours off",
+    "none",   WR_FILE_COLOUR
+};
+static const Map normals = { "normalmap",
+                             "Normals",
+                             "Choose a picture of normals, as other programs bake or `export "
+                             "normal` writes it",
+                             "Take the normal map off",
+                             "none",
+                             WR_FILE_NORMALS };
+
+/* "VERB FILE", "VERB name=value". */
+static void run(WrApp *app, const char *verb, const char *name, const char *value)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, verb);
+    if (name) wr_text_addf(&line, " %s=%s", name, value);
+    else wr_text_add(&line, " "), wr_text_add_word(&line, value);
+    wr_scene_run(app, &line);
+}
+
+void wr_map_take_colour(WrApp *app, const char *path)
+{
+    run(app, colour.verb, NULL, path);
+}
+
+void wr_map_take_normals(WrApp *app, const char *path)
+{
+    run(app, normals.verb, NULL, path);
+}
+
+static const char *name_of(const char *path)
+{
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    return slash ? slash + 1 : path;
+}
+
+/* The file's name, and what opens another or takes it off. */
+static void file_row(WrApp *app, const Map *map, const WrImage *image, const WrLaid *laid)
+{
+    const char *path = image && laid->path ? laid->path : "";
+    wr_gui_label(map->label);
+    const double buttons = wr_gui_px(image ? 2 * GLYPH + 4 : GLYPH);
+    const double end = wr_gui_place() + wr_gui_available();
+    wr_gui_text_cut(WR_FONT_TEXT, image ? WR_COLOUR_TEXT : WR_COLOUR_LABEL,
+                    image ? name_of(path) : map->none, wr_gui_available() - buttons - wr_gui_px(4));
+    if (image) wr_gui_tip(path);
+    wr_gui_same_line(4);
+    wr_gui_move_to(end - buttons);
+    if (wr_gui_glyph("choose", WR_ICON_FOLDER, GLYPH, WR_COLOUR_LABEL) &&
+        !wr_files_ask(app->files, map->purpose, NULL, ""))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_gui_tip(map->choose);
+    if (!image) return;
+    wr_gui_same_line(4);
+    if (wr_gui_glyph("remove", WR_ICON_CLOSE, GLYPH, WR_COLOUR_LABEL))
+        run(app, map->verb, NULL, "off");
+    wr_gui_tip(map->remove);
+}
+
+/* As often as the table, once, or so often. */
+static void repeat_row(WrApp *app, const Map *map, const WrLaid *laid)
+{
+    static const char *const ways[] = { "As the table", "Once", "So often" };
+    static const char *const words[] = { "table", "once", "2,2" };
+    static const WrNumber spec = { .low = -8,
+                                   .high = 8,
+                                   .hard_low = -1e9,
+                                   .hard_high = 1e9,
+                                   .reset = 1,
+                                   .decimals = 2,
+                                   .tip = "How often it is laid along u, and along v" };
+    const bool once = laid->own && laid->ru == 1 && laid->rv == 1;
+    const int now = !laid->own ? 0 : once ? 1 : 2;
+    double ru = laid->ru, rv = laid->rv;
+    int way = now;
+    wr_gui_label("Repeat");
+    if (wr_gui_choice("repeat", 0, ways, 3, &way) && way != now) {
+        run(app, map->verb, "repeat", words[way]);
+        return;
+    }
+    wr_gui_tip("How often it is laid over the object");
+    if (now != 2) return;
+    wr_gui_label("");
+    const double half = (wr_gui_available() - wr_gui_px(8)) / 2;
+    const WrEdit edit_u = wr_gui_number("ru", half, &spec, &ru);
+    wr_gui_same_line(8);
+    const WrEdit edit_v = wr_gui_number("rv", half, &spec, &rv);
+    if (edit_u == WR_EDIT_NONE && edit_v == WR_EDIT_NONE) return;
+    WrScene *live = wr_app_live(app);
+    WrLaid *own = map == &colour ? &live->colour_laid : &live->normals.laid;
+    own->ru = ru, own->rv = rv;
+    if (edit_u != WR_EDIT_DONE && edit_v != WR_EDIT_DONE) return;
+    WrText value = { 0 };
+    wr_text_add_number(&value, ru);
+    wr_text_add(&value, ",");
+    wr_text_add_number(&value, rv);
+    run(app, map->verb, "repeat", wr_text_get(&value));
+    wr_text_fini(&value);
+}
+
+/* A choice of words of the command's; the file is read again where what was read depends on it. */
+static void word_row(WrApp *app, const char *label, const char *name, const char *const *titles,
+                     const char *const *words, int count, int now, const char *again,
+                     const char *tip)
+{
+    int chosen = now;
+    wr_gui_label(label);
+    const bool changed = wr_gui_choice(name, 0, titles, count, &chosen);
+    wr_gui_tip(tip);
+    if (!changed || chosen == now) return;
+    WrText line = { 0 };
+    wr_text_add(&line, normals.verb);
+    if (again) wr_text_add(&line, " "), wr_text_add_word(&line, again);
+    wr_text_addf(&line, " %s=%s", name, words[chosen]);
+    wr_scene_run(app, &line);
+}
+
+static void normal_rows(WrApp *app)
+{
+    static const char *const
+        spaces[] = { "Tangent plane", "Object's axes" },
+        *const space_words[] = { "tangent", "object" }, *const greens[] = { "Up", "Down" },
+        *const green_words[] = { "up", "down" },
+        *const frames[] = { "Automatic", "Slopes of heights", "MikkTSpace", "As in the lecture" };
+    static const WrNumber strength = { .low = -2,
+                                       .high = 2,
+                                       .hard_low = -100,
+                                       .hard_high = 100,
+                                       .reset = 1,
+                                       .decimals = 2,
+                                       .tip = "Its slopes times this" };
+    const WrNormalMap map = wr_app_scene(app)->normals;
+    word_row(app, "Space", "space", spaces, space_words, 2, map.object, map.laid.path,
+             "What its three numbers run along: u, v and up, or the object's own axes");
+    word_row(app, "Green", "green", greens, green_words, 2, map.green_down, NULL,
+             "Which way its second number runs: up the picture (OpenGL, +Y) or down (DirectX, -Y)");
+    if (!map.object)
+        word_row(app, "Frame", "frame", frames, wr_normal_frame_names, WR_FRAME_OBJECT,
+                 (int)map.frame, NULL,
+                 "Which way it turns the normal: as slopes of heights, as our own export writes "
+                 "them, or in the frames that other programs bake in. Automatic: on a mesh those "
+                 "of MikkTSpace");
+    double value = map.strength;
+    wr_gui_label("Strength");
+    const WrEdit edit = wr_gui_number("strength", 0, &strength, &value);
+    if (edit != WR_EDIT_NONE) wr_app_live(app)->normals.strength = value;
+    if (edit != WR_EDIT_DONE) return;
+    WrText line = { 0 };
+    wr_text_add(&line, normals.verb);
+    wr_line_number(&line, "strength", value);
+    wr_scene_run(app, &line);
+}
+
+void wr_panel_maps(WrApp *app)
+{
+    wr_gui_space(8);
+    wr_gui_heading("PICTURES");
+    wr_gui_push_id(1);
+    file_row(app, &colour, wr_app_scene(app)->colour, &wr_app_scene(app)->colour_laid);
+    if (wr_app_scene(app)->colour) repeat_row(app, &colour, &wr_app_scene(app)->colour_laid);
+    wr_gui_pop_id();
+    wr_gui_push_id(2);
+    file_row(app, &normals, wr_app_scene(app)->normals.image, &wr_app_scene(app)->normals.laid);
+    if (wr_app_scene(app)->normals.image) normal_rows(app);
+    if (wr_app_scene(app)->normals.image)
+        repeat_row(app, &normals, &wr_app_scene(app)->normals.laid);
+    wr_gui_pop_id();
+}
