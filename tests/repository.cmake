@@ -24,6 +24,7 @@ if(TARGET wrinkle)
     wr_check(papers papers.sh ${PROJECT_SOURCE_DIR})
     wr_check(readme readme.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
     wr_check(install install.sh ${CMAKE_BINARY_DIR})
+    wr_check(known_normals known_normals.sh $<TARGET_FILE:wrinkle> ${PROJECT_SOURCE_DIR})
     wr_check(accuracy accuracy.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:wrinkle>)
     set_tests_properties(accuracy PROPERTIES TIMEOUT 1500)
 

@@ -42,7 +42,7 @@ run() {
     mkdir "$1" && cd "$1" || exit 1
     "$program" run "$script" --threads "$1" >../out 2>../err || fail "run failed: $(cat ../err)"
     # A note on each file that was written, or on a picture of its name that was read, is no complaint.
-    sed -i "/^wrinkle: note: $name-[a-z]*\\.jpg: /d" ../err
+    sed -i -E "/^wrinkle: note: $name-[a-z]*\\.(jpg|png): /d" ../err
     while read -r file; do
         sed -i "\|^wrinkle: note: $file: |d" ../err
     done <"$folder.named"
