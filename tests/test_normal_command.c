@@ -1,6 +1,7 @@
 /* The command normalmap: what it reads, tells, changes and refuses; what documents keep of it; that a map of our own
    export turns the normal as its table does. */
 #include "test.h"
+#include "recovery_help.h"
 #include "test_folder.h"
 #include "test_session_help.h"
 
@@ -202,19 +203,78 @@ static void files_bring_them_back(void **state)
     wr_session_free(a);
 }
 
+/* What a crash leaves behind: the map comes back though its file is gone, and off is no file though there is one. */
+static void maps_are_recovered_without_their_files(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    WrRecovered how;
+    write_map("up.png", 8, false, false, 1), write_map("down.tif", 16, true, false, 1);
+    if (!wr_file_write("off", "x", 1, &err) || !wr_file_write("none", "x", 1, &err))
+        fail_msg("%s", err.text);
+    WrSessionOptions options = { .journal = true };
+    WrSession *s = wr_session_new(&options);
+    must_run(s, "colour up.png");
+    must_run(s, "normalmap down.tif channels=2");
+    must_run(s, "colour off");
+    must_run(s, "normalmap none");
+    must_run(s, "normalmap up.png strength=0.5");
+    must_run(s, "normalmap green=down repeat=once");
+    const WrHash want = wr_session_hash(s);
+    wr_session_journal_leave(s);
+    wr_session_free(s);
+    assert_int_equal(unlink("up.png") | unlink("down.tif"), 0);
+    char *journal = only_journal();
+    s = wr_session_new(&options);
+    if (!wr_session_recover(s, journal, false, &how, &err)) fail_msg("%s", err.text);
+    if (!how.whole) fail_msg("%s", wr_text_get(&how.report));
+    assert_true(wr_hash_equal(want, wr_session_hash(s)));
+    assert_true(map_of(s)->strength == 0.5 && map_of(s)->green_down && !doc(s)->scene->colour);
+    wr_recovered_fini(&how);
+    wr_session_free(s);
+    wr_free(journal);
+}
+
 /* ---- our own export ---- */
+
+static void write_ball(const char *path)
+{
+    enum { U = 24, V = 12 };
+    WrText text = { 0 };
+    WrError err = { "" };
+    for (int i = 0; i <= U; i++)
+        for (int j = 0; j <= V; j++) {
+            const double a = 6.283185307179586 * (i % U) / U,
+                         l = 3.141592653589793 * (j - V / 2.0) / V;
+            const double x = cos(a) * cos(l), y = sin(a) * cos(l), z = sin(l);
+            wr_text_addf(&text, "v %.9g %.9g %.9g\nvn %.9g %.9g %.9g\nvt %.9g %.9g\n", x, y, z, x,
+                         y, z, (double)i / U, (double)j / V);
+        }
+    for (int i = 0; i < U; i++)
+        for (int j = 0; j < V; j++) {
+            const int a = i * (V + 1) + j + 1, b = a + V + 1;
+            wr_text_addf(&text, "f %d/%d/%d %d/%d/%d %d/%d/%d\n", a, a, a, b, b, b, b + 1, b + 1,
+                         b + 1);
+            wr_text_addf(&text, "f %d/%d/%d %d/%d/%d %d/%d/%d\n", a, a, a, b + 1, b + 1, b + 1,
+                         a + 1, a + 1, a + 1);
+        }
+    if (!wr_file_write(path, text.data, text.length, &err)) fail_msg("%s", err.text);
+    wr_text_fini(&text);
+}
 
 /* The picture with the table's bump, and that of the map of it on a flat table: within what the format's angle may change. */
 static void an_exported_map_gives_the_bumped_picture(void **state)
 {
     (void)state;
-    static const char *const objects[] = { "surface plane", "surface sphere", "surface torus" };
+    static const char *const objects[] = { "surface plane", "surface sphere", "surface torus",
+                                           "surface mesh", "surface mesh file=ball.obj" };
     static const struct {
         const char *file;
         double within;
     } files[] = { { "n.png depth=8", 0.09 }, { "n.png depth=16", 6e-4 }, { "n.exr", 1e-4 } };
     static float bumped[60 * 40 * 4], mapped[60 * 40 * 4];
-    for (int k = 0; k < 18; k++) {
+    write_ball("ball.obj");
+    for (int k = 0; k < 30; k++) {
         Said said = { "" };
         char line[128];
         const bool down = k / 3 % 2;
@@ -222,8 +282,9 @@ static void an_exported_map_gives_the_bumped_picture(void **state)
         must_run(s, "table 61x46");
         must_run(s, "formula fourier terms=3,2,0.5,0,0;0,5,0.3,0,0");
         must_run(s, objects[k / 6]);
+        said.text[0] = '\0';
         must_run(s, "bump height=0.02");
-        must_run(s, "replicate 2,1");
+        must_run(s, k / 6 == 3 ? "replicate 1,1" : "replicate 2,1"); /* frames do not shrink */
         draw(s, bumped);
         snprintf(line, sizeof line, "export normal%cy %s", down ? '-' : '+', files[k % 3].file);
         must_run(s, line);
@@ -231,7 +292,8 @@ static void an_exported_map_gives_the_bumped_picture(void **state)
         snprintf(line, sizeof line, "normalmap %s", k % 3 == 2 ? "n.exr" : "n.png");
         must_run(s, line);
         expect_told(&said, down ? "green down, as its label says" : "green up, as its label says");
-        must_run(s, "bump height=0.9"); /* of the flat table: not the map's */
+        if (k / 24) must_run(s, "normalmap frame=gradient"); /* the square's (u,v) are unit ones */
+        must_run(s, "bump height=0.9");                      /* of the flat table: not the map's */
         draw(s, mapped);
         double worst = 0;
         for (int i = 0; i < 60 * 40 * 4; i++)
@@ -249,7 +311,8 @@ int main(void)
         cmocka_unit_test(settings_change_without_the_file),
         cmocka_unit_test(what_makes_no_sense_is_refused),
         cmocka_unit_test(files_bring_them_back),
+        cmocka_unit_test(maps_are_recovered_without_their_files),
         cmocka_unit_test(an_exported_map_gives_the_bumped_picture),
     };
-    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

@@ -345,10 +345,14 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
         .help = "of the file: another content is then an error"                                    \
     }
 
+static const char *const off_words[] = { "off", NULL }, *const none_words[] = { "off", "none",
+                                                                                NULL };
+
 static const WrArgSpec args_colour[] = {
     { .name = "FILE|off",
       .type = WR_ARG_PATH,
       .positional = true,
+      .words = off_words,
       .help = "a picture that is laid over u and v, or off (a file of that name is ./off). Left "
               "out: the one that is there, of which repeat may change" },
     ARG_REPEAT,
@@ -361,6 +365,7 @@ static const WrArgSpec args_normals[] = {
     { .name = "FILE|off",
       .type = WR_ARG_PATH,
       .positional = true,
+      .words = none_words,
       .help = "a picture of normals, or off (none is off too; a file of that name is ./off). Left "
               "out: the one that is there, of which strength, repeat, frame and green may change" },
     { .name = "space",

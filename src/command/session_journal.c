@@ -79,7 +79,9 @@ static void name_files(WrSession *session, WrCall *call, const char *folder)
         const char *hash_name = wr_call_hash_name(call, i);
         WrText path = { 0 };
         char hex[65];
-        if (hash_name && call->args[i].given && file_of(session, call, i, folder, &path, hex)) {
+        const bool word = call->specs[i].type == WR_ARG_PATH && !wr_call_names_file(call, i);
+        if (hash_name && call->args[i].given && !word &&
+            file_of(session, call, i, folder, &path, hex)) {
             if (!wr_call_given(call, hash_name)) wr_call_set_text(call, hash_name, hex);
             wr_call_set_text(call, call->specs[i].name, wr_text_get(&path));
             keep(session, wr_text_get(&path), wr_call_arg(call, hash_name)->text);

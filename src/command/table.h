@@ -66,10 +66,11 @@ typedef struct WrArgSpec {
         *parts; /* [components] ranges of their own instead of low, high; NULL: none */
     unsigned
         counts; /* lists: bit n is set where a tuple may have n numbers; 0: always `components` */
-    const char *shape;                    /* how it is written: "x,y,z"; NULL: by its type */
-    int rows_low, rows_high;              /* lists: how many tuples */
-    const char *(*choice)(int i);         /* choices: word i, NULL past the last; or else: */
-    const char *const *words;             /* choices: the words, ends with NULL */
+    const char *shape;            /* how it is written: "x,y,z"; NULL: by its type */
+    int rows_low, rows_high;      /* lists: how many tuples */
+    const char *(*choice)(int i); /* choices: word i, NULL past the last; or else: */
+    const char *const
+        *words; /* choices: the words, ends with NULL; of a path: those that are no file */
     const double *fallback;               /* numbers that hold where none are given; NULL: none */
     int fallback_rows;                    /* lists: tuples in it */
     const char *fallback_text;            /* the same for choices */

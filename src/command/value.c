@@ -399,6 +399,9 @@ bool wr_call_names_file(const WrCall *call, int index)
 {
     const WrArg *arg = &call->args[index];
     if (!arg->given || !arg->text) return false;
+    const char *const *word = call->specs[index].words;
+    for (; call->specs[index].type == WR_ARG_PATH && word && *word; word++)
+        if (strcmp(*word, arg->text) == 0) return false;
     if (call->specs[index].type == WR_ARG_PATH) return true;
     return call->specs[index].type == WR_ARG_PRESET && wr_names_preset_file(arg->text);
 }
