@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "field/analytic.h"
 #include "field/field.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 
 #include <unistd.h>
@@ -19,6 +20,40 @@ static WrRung *settings_of(const WrScene *scene, WrAxis axis, int *count)
     WrRung *rungs = wr_alloc((size_t)*count, sizeof *rungs);
     assert_int_equal(wr_ladder_settings(scene, axis, rungs, *count), *count);
     return rungs;
+}
+
+/* A setting is the whole picture's: all objects take its scheme and normals, but for one of another model; what a setting does
+   not name each keeps. */
+static void all_objects_take_a_setting(void **state)
+{
+    (void)state;
+    WrScene *one = wr_scene_new();
+    WrScene *two = wr_scene_add_object(one, false);
+    two->bump = WR_BUMP_INVARIANT;
+    two->scheme = WR_SCHEME_NEAREST;
+    WrScene *scene = wr_scene_add_object(two, false);
+    scene->bump = WR_BUMP_BLINN;
+    scene->scheme = WR_SCHEME_CENTRAL;
+    const WrSetting slopes = { 1, { WR_DIAL_SCHEME }, { WR_SCHEME_CATMULL } };
+    const WrSetting both = { 2,
+                             { WR_DIAL_SCHEME, WR_DIAL_NORMAL },
+                             { WR_SCHEME_BSPLINE, WR_BUMP_EXACT } };
+    WrScene *a = wr_setting_apply(&slopes, scene), *b = wr_setting_apply(&both, scene);
+    WrScene *best = wr_ladder_best_but(scene, WR_AXIS_ANTIALIASING);
+    for (int i = 0; i < 3; i++) {
+        const WrScene *was = wr_scene_object(scene, i);
+        const bool model = was->bump == WR_BUMP_INVARIANT;
+        assert_int_equal(wr_scene_object(a, i)->scheme, WR_SCHEME_CATMULL);
+        assert_int_equal(wr_scene_object(a, i)->bump, was->bump);
+        assert_int_equal(wr_scene_object(b, i)->scheme, WR_SCHEME_BSPLINE);
+        assert_int_equal(wr_scene_object(b, i)->bump, model ? WR_BUMP_INVARIANT : WR_BUMP_EXACT);
+        assert_int_equal(wr_scene_object(best, i)->scheme, WR_SCHEME_BSPLINE_FIT);
+        assert_int_equal(wr_scene_object(best, i)->bump, model ? WR_BUMP_INVARIANT : WR_BUMP_EXACT);
+    }
+    assert_int_equal(wr_scene_object(scene, 1)->scheme,
+                     WR_SCHEME_NEAREST); /* the first is as it was */
+    WrScene *all[6] = { one, two, scene, a, b, best };
+    for (int i = 0; i < 6; i++) wr_scene_free(all[i]);
 }
 
 static void every_rung_of_a_dial_that_matters_is_tried_alone(void **state)
@@ -386,6 +421,7 @@ static void a_cancelled_measurement_leaves_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest settings[] = {
+        cmocka_unit_test(all_objects_take_a_setting),
         cmocka_unit_test(every_rung_of_a_dial_that_matters_is_tried_alone),
         cmocka_unit_test(a_formula_has_no_schemes_and_a_plane_no_mesh),
         cmocka_unit_test(no_two_rungs_are_the_same_scene),

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What accuracy costs, as a page: measures the nine scenes of this folder and what a tolerance chooses on eight of
+# What accuracy costs, as a page: measures the eleven scenes of this folder and what a tolerance chooses on eight of
 # those and on the eight of unseen/, which nobody looked at while choosing was built, and writes README.md, the plots and
 # the pictures. (contest/ has more scenes, which choosing was tuned on.)
 #
@@ -36,7 +36,7 @@ mkdir -p "$out" "$keep"
 
 scenes=(ribbon bricks-far sphere-poles terrain-grazing bits displacement scratches painted)
 unseen=(rivets-torus curl-tiles bezier-noise cylinder-ridges sphere-gloss plane-fourier cube-letters floor-cells)
-shown=("${scenes[@]}" highlights) # of the last only the table: tolerances choose among samples
+shown=("${scenes[@]}" highlights knot trio) # of the last three only the table
 if [[ -n $quick ]]; then
     contestants=(painted cube-letters) large=()
 else

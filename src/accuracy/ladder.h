@@ -25,7 +25,7 @@ typedef struct WrSetting {
     double value[WR_SETTING_DIALS];
 } WrSetting;
 
-/* The scene with that setting; the caller frees it. */
+/* The scene with that setting, all of its objects with its scheme and normals; the caller frees it. */
 WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene);
 /* The scene's own, all that matters of it: "scheme=central mode=blinn aa=supersample samples=4". */
 void wr_setting_present(const WrScene *scene, WrText *text);

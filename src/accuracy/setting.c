@@ -1,12 +1,19 @@
 /* Settings of the dials: what differs from a scene, as a scene and as text. */
 #include "accuracy/ladder.h"
 
+#include "scene/objects.h"
 #include "scene/scene.h"
 
 WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene)
 {
     WrScene *out = wr_scene_clone(scene);
-    for (int i = 0; i < setting->count; i++) wr_dials[setting->dial[i]].set(out, setting->value[i]);
+    bool scheme = false, normals = false;
+    for (int i = 0; i < setting->count; i++) {
+        wr_dials[setting->dial[i]].set(out, setting->value[i]);
+        scheme |= setting->dial[i] == WR_DIAL_SCHEME;
+        normals |= setting->dial[i] == WR_DIAL_NORMAL;
+    }
+    if (scheme || normals) wr_scene_share_slopes(out, scheme, normals);
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
+#include "scene/objects.h"
 #include "system/clock.h"
 
 #include <math.h>
@@ -23,12 +24,14 @@ static void add_pair(Study *study, WrScheme scheme, WrBumpMode mode)
     study->pair[study->pairs++] = (Pair){ scheme, mode, wr_price_sample(scene, scheme, mode) };
 }
 
-/* The best first. */
+/* The best first: of all objects, which take it together. */
 static void add_best_pair(Study *study)
 {
     const WrScene *scene = study->request->scene;
     const bool table = scene->analytic.kind == WR_ANALYTIC_OFF;
-    const bool flat = wr_surfaces[scene->shape.kind]->flat;
+    bool flat = true;
+    for (int i = 0; i < wr_scene_object_count(scene); i++)
+        flat = flat && wr_surfaces[wr_scene_object(scene, i)->shape.kind]->flat;
     add_pair(study, table ? WR_SCHEME_BSPLINE_FIT : scene->scheme,
              scene->bump == WR_BUMP_INVARIANT ? WR_BUMP_INVARIANT
              : flat                           ? WR_BUMP_BLINN

@@ -164,6 +164,18 @@ WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const cha
     return made;
 }
 
+void wr_scene_share_slopes(WrScene *scene, bool scheme, bool normals)
+{
+    for (int i = 0; i < scene->other_count; i++) {
+        WrScene *other = wr_scene_clone(scene->others[i]);
+        if (scheme) other->scheme = scene->scheme;
+        if (normals && other->bump != WR_BUMP_INVARIANT && scene->bump != WR_BUMP_INVARIANT)
+            other->bump = scene->bump;
+        wr_scene_free(scene->others[i]);
+        scene->others[i] = other;
+    }
+}
+
 WrScene *wr_scene_remove_object(const WrScene *scene, int i)
 {
     const int at_hand = scene->chosen == i ? (i > 0 ? i - 1 : i + 1) : scene->chosen;
