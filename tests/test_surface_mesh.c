@@ -11,6 +11,8 @@
 #include "base/text.h"
 #include "command/session.h"
 #include "document/document.h"
+#include "image/image.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
 
@@ -98,7 +100,7 @@ static void documents_carry_it(void **state)
     wr_text_fini(&notes);
 }
 
-/* Of several objects the one that has the mesh need not be at hand; different meshes cannot all be kept, which is said. */
+/* Of several objects the one that has the mesh need not be at hand; different meshes are all kept, each once. */
 static void objects_share_one(void **state)
 {
     (void)state;
@@ -114,11 +116,62 @@ static void objects_share_one(void **state)
     assert_int_equal(unlink("roof.obj"), 0);
     if (!wr_session_open(b, "two.exr", &err)) fail_msg("%s", err.text);
     assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
-    must_run(a, "surface mesh file=flat.obj");
-    must_fail(a, "save both.exr", "different meshes");
-    must_fail(a, "save both.ora", "different meshes");
-    wr_session_free(a);
     wr_session_free(b);
+    write_file("roof.obj", roof);
+    must_run(a, "surface mesh file=flat.obj");
+    must_run(a, "object add plain");
+    must_run(a, "object add again");
+    must_run(a, "surface mesh file=roof.obj");
+    must_run(a, "object choose ball");
+    must_run(a, "save all.exr");
+    must_run(a, "save all.ora");
+    assert_int_equal(unlink("roof.obj") | unlink("flat.obj"), 0);
+    for (int k = 0; k < 2; k++) {
+        b = session_with(&notes);
+        if (!wr_session_open(b, k ? "all.ora" : "all.exr", &err)) fail_msg("%s", err.text);
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        for (int i = 0; i < 4; i++) {
+            const WrTriangles *was = wr_scene_object(scene_in(a), i)->triangles;
+            const WrTriangles *is = wr_scene_object(scene_in(b), i)->triangles;
+            assert_true(i == 2 ? !was && !is : was && is && was->key == is->key);
+        }
+        wr_session_free(b);
+    }
+    wr_session_free(a);
+    wr_text_fini(&notes);
+}
+
+/* A picture of several meshes that a stranger made: an error, whatever its head says. */
+static void damaged_meshes_are_refused(void **state)
+{
+    (void)state;
+    WrText notes = { 0 };
+    write_file("roof.obj", roof);
+    write_file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    WrSession *a = session_with(&notes);
+    must_run(a, "surface mesh file=roof.obj");
+    must_run(a, "object add ball");
+    must_run(a, "surface mesh file=flat.obj");
+    const float bad[] = { -1, 0, 0.5f, 3, 64, 1e30f, 65536, 16777216 };
+    WrImage *image;
+    WrError err = { "" };
+    assert_true(wr_scene_meshes_to_image(scene_in(a), &image, &err));
+    for (int at = 0; at < 9; at++)
+        for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+            const float was = image->data[at];
+            image->data[at] = bad[k];
+            for (int object = 0; object < 4; object++) {
+                WrTriangles *made = wr_scene_mesh_from_image(image, object, &err);
+                if (object > 1 && made) fail_msg("number %d as %g", at, (double)bad[k]);
+                wr_triangles_free(made);
+            }
+            image->data[at] = was;
+        }
+    WrTriangles *flat = wr_scene_mesh_from_image(image, 1, &err);
+    assert_true(flat && flat->triangle_count == 1);
+    wr_triangles_free(flat);
+    wr_image_free(image);
+    wr_session_free(a);
     wr_text_fini(&notes);
 }
 
@@ -155,6 +208,8 @@ int main(void)
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(documents_carry_it, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(objects_share_one, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(damaged_meshes_are_refused, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(another_content_is_an_error, enter_own_folder,
                                         leave_own_folder),
     };

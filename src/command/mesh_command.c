@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "command/scene_args.h"
 #include "image/mesh.h"
+#include "document/document.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
 #include "surface/triangles.h"
@@ -159,7 +160,9 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, WrSurfaceKind ki
                               const char *name, WrError *err)
 {
     if (session->loading) {
-        if (session->embedded_mesh) return wr_scene_mesh_from_image(session->embedded_mesh, err);
+        const int object = session->state.document->scene->chosen;
+        if (session->embedded_mesh)
+            return wr_scene_mesh_from_image(session->embedded_mesh, object, err);
         wr_fail(err, "the document names the mesh %s but does not hold it", name);
         return NULL;
     }

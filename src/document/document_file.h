@@ -6,7 +6,7 @@
    "layer:NAME (2)" where names repeat; the name itself in wrinkle:layer), its coverage "cover:N" and its
    mask "mask:N" if it has them (N counts layers from 1). Then "selection", if there is one; "colour", the
    scene's colour picture in RGB, if there is one, of several objects "colour:N" for each that has one; "normals",
-   likewise, the unit vectors of its normal map; and "mesh", the numbers of its mesh in one channel.
+   likewise, the unit vectors of its normal map; and "mesh", the numbers of its meshes in one channel.
 
    Attributes of part 0: wrinkle:version (of this format), wrinkle:program, wrinkle:scene (canonical command
    lines; the tolerance's with the dials that were chosen for it), wrinkle:wrap ("periodic", "clamp-u", ...), wrinkle:zero, wrinkle:range, wrinkle:active (number of the
@@ -18,7 +18,8 @@
    no file of several parts.
 
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
-   several is still written as version 2; version 3 no mesh, version 4 no normal map. All are read. */
+   several is still written as version 2; version 3 no mesh, version 4 no normal map and
+   no objects with different meshes. All are read. */
 #pragma once
 #include "scene/objects.h"
 #include "field/wrap.h"
@@ -35,7 +36,7 @@ typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
 #define WR_DOCUMENT_VERSION 5
-#define WR_DOCUMENT_VERSION_MESH 4  /* of a file with a mesh and no normal map */
+#define WR_DOCUMENT_VERSION_MESH 4  /* of a file with one mesh and no normal map */
 #define WR_DOCUMENT_VERSION_ALONE 3 /* of a file of one part */
 #define WR_DOCUMENT_VERSION_PARTS 2 /* of a file of several parts without a mesh */
 

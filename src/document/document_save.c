@@ -8,7 +8,6 @@
 #include "document/blend.h"
 #include "document/document.h"
 #include "document/image_rows.h"
-#include "scene/kept_mesh.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/objects.h"
@@ -89,7 +88,7 @@ typedef struct Saving {
     const WrDocument *document;
     WrImageOut parts[PARTS_MAX];
     int count;
-    WrImage *mesh; /* the scene's, as a picture; owned; or NULL */
+    WrImage *mesh; /* the scene's meshes, as a picture; owned; or NULL */
     bool single;   /* the one layer is F itself */
     WrImageAttribute of_file[FILE_ATTRIBUTES + LAYER_ATTRIBUTES];
     WrImageAttribute of_layers[WR_LAYERS_MAX][LAYER_ATTRIBUTES];
@@ -151,7 +150,9 @@ static void add_composite(Saving *to, const char *scene_text)
     const WrImageAttribute attributes[FILE_ATTRIBUTES] = {
         { "wrinkle:version",
           keep_whole(to, "",
-                     wr_object_any_picture(document->scene, WR_OBJECT_NORMALS) ? WR_DOCUMENT_VERSION
+                     (wr_object_any_picture(document->scene, WR_OBJECT_NORMALS) ||
+                      wr_scene_several_meshes(document->scene))
+                         ? WR_DOCUMENT_VERSION
                      : to->mesh   ? WR_DOCUMENT_VERSION_MESH
                      : to->single ? WR_DOCUMENT_VERSION_ALONE
                                   : WR_DOCUMENT_VERSION_PARTS) },
@@ -312,10 +313,8 @@ bool wr_document_save(const WrDocument *document, const char *scene_text, const 
 {
     const int objects = wr_scene_object_count(document->scene);
     if (!check_pictures(document->scene, path, err)) return false;
-    const WrTriangles *triangles = NULL;
-    const bool kept = wr_scene_kept_mesh(document->scene, &triangles, err);
-    WrImage *mesh = triangles ? wr_scene_mesh_to_image(triangles, err) : NULL;
-    if (!kept || (triangles && !mesh)) {
+    WrImage *mesh;
+    if (!wr_scene_meshes_to_image(document->scene, &mesh, err)) {
         wr_error_prefix(err, "%s: ", path);
         return false;
     }

@@ -28,7 +28,7 @@ typedef struct WrText WrText;
 
 #define WR_ORA_NAMESPACE "urn:wrinkle:openraster"
 #define WR_ORA_VERSION 2
-#define WR_ORA_VERSION_PLAIN 1 /* of a file without normal maps */
+#define WR_ORA_VERSION_PLAIN 1 /* of a file without normal maps or different meshes */
 
 /* Save as a whole replacement (base/file.h). scene_text: one canonical command a line. */
 bool wr_ora_save(const WrDocument *document, const char *scene_text, const char *path,

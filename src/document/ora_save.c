@@ -12,7 +12,6 @@
 #include "document/ora_show.h"
 #include "document/ora_stack.h"
 #include "document/ora_zip.h"
-#include "scene/kept_mesh.h"
 #include "field/field.h"
 #include "image/image.h"
 #include "image/profile.h"
@@ -46,7 +45,7 @@ typedef struct Saving {
     WrOraRange range; /* of heights in previews */
     WR_ARRAY(Entry *) entries;
     WrText stack, scene;
-    WrImage *mesh;      /* the scene's, as a picture; owned; or NULL */
+    WrImage *mesh;      /* the scene's meshes, as a picture; owned; or NULL */
     int lowest;         /* index of the lowest layer that is shown, -1: none */
     WrField *ground;    /* what that one makes of the empty ground; owned */
     int packed;         /* entries whose pictures were made */
@@ -276,9 +275,7 @@ static char *numbered(const char *before, int number, const char *after)
 /* The pictures of the scene's objects, and its mesh. */
 static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
 {
-    const WrTriangles *mesh = NULL;
-    if (!wr_scene_kept_mesh(scene, &mesh, err)) return false;
-    if (mesh && !(to->mesh = wr_scene_mesh_to_image(mesh, err))) return false;
+    if (!wr_scene_meshes_to_image(scene, &to->mesh, err)) return false;
     for (int i = 0; i < wr_scene_object_count(scene) * WR_OBJECT_PICTURES; i++) {
         const int of = i / WR_OBJECT_PICTURES, which = i % WR_OBJECT_PICTURES;
         const WrImage *picture = wr_object_picture(wr_scene_object(scene, of), which);

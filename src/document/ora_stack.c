@@ -194,7 +194,9 @@ static void add_layer(Reading *reading, const char **attributes)
 
 int wr_ora_version(const WrScene *scene)
 {
-    return wr_object_any_picture(scene, WR_OBJECT_NORMALS) ? WR_ORA_VERSION : WR_ORA_VERSION_PLAIN;
+    const bool new =
+        wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
+    return new ? WR_ORA_VERSION : WR_ORA_VERSION_PLAIN;
 }
 
 const char *wr_ora_picture_name(const char *prefix, int object, int which, const char *suffix,

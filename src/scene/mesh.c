@@ -2,11 +2,11 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "image/image.h"
-#include "scene/kept_mesh.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 #include "surface/triangles.h"
 
+#include <math.h>
 #include <string.h>
 
 void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
@@ -37,41 +37,132 @@ size_t wr_scene_mesh_bytes(const WrTriangles *triangles)
 
 #define NARROW 4096 /* pixels: of meshes of up to so many rows of them */
 
-WrImage *wr_scene_mesh_to_image(const WrTriangles *triangles, WrError *err)
+/* ---- as a document keeps them -------------------------------------------------------------------- */
+
+/* Several different ones in one picture: SEVERAL, the number of objects, of each which mesh it has (from 1; 0: none), the number
+   of meshes, the length of each as high * UNIT + low; then the meshes. One alone is there as it is, and begins with no SEVERAL. */
+#define SEVERAL (-1.0F)
+#define UNIT 65536
+
+typedef struct Kept {
+    const WrTriangles *mesh[WR_OBJECTS_MAX]; /* those that differ; borrowed */
+    int meshes, objects;
+    int of[WR_OBJECTS_MAX]; /* from 1; 0: none */
+} Kept;
+
+static Kept kept_of(const WrScene *scene)
 {
-    size_t count;
-    float *block = wr_triangles_pack(triangles, &count);
+    Kept kept = { .objects = wr_scene_object_count(scene) };
+    for (int i = 0; i < kept.objects; i++) {
+        const WrTriangles *own = wr_scene_object(scene, i)->triangles;
+        int k = 0;
+        if (!own) continue;
+        while (k < kept.meshes && kept.mesh[k]->key != own->key) k++;
+        if (k == kept.meshes) kept.mesh[kept.meshes++] = own;
+        kept.of[i] = k + 1;
+    }
+    return kept;
+}
+
+bool wr_scene_several_meshes(const WrScene *scene)
+{
+    return kept_of(scene).meshes > 1;
+}
+
+static WrImage *picture_of(const float *block, size_t count, WrError *err)
+{
     const size_t width = count <= (size_t)NARROW * NARROW ? NARROW : WR_IMAGE_MAX;
     const size_t height = (count + width - 1) / width;
     WrImage *image = NULL;
-    if (height > WR_IMAGE_MAX) wr_fail(err, "the mesh is too large to be kept in a document");
+    if (height > WR_IMAGE_MAX) wr_fail(err, "the meshes are too large to be kept in a document");
     else image = wr_image_new((int)width, (int)height, 1, err);
-    if (image) {
-        image->type = WR_PIXEL_F32;
-        memcpy(image->data, block, count * sizeof *block);
-    }
-    wr_free(block);
+    if (!image) return NULL;
+    image->type = WR_PIXEL_F32;
+    memcpy(image->data, block, count * sizeof *block);
     return image;
 }
 
-WrTriangles *wr_scene_mesh_from_image(const WrImage *image, WrError *err)
+static WrImage *pack_several(const Kept *kept, WrError *err)
 {
+    const size_t head = 3 + (size_t)kept->objects + 2 * (size_t)kept->meshes;
+    float *blocks[WR_OBJECTS_MAX], *all;
+    size_t counts[WR_OBJECTS_MAX], sum = head;
+    for (int k = 0; k < kept->meshes; k++) {
+        blocks[k] = wr_triangles_pack(kept->mesh[k], &counts[k]);
+        sum += counts[k];
+    }
+    all = wr_try_alloc(sum, sizeof *all, "meshes", err);
+    float *at = all;
+    if (all) {
+        *at++ = SEVERAL, *at++ = (float)kept->objects;
+        for (int i = 0; i < kept->objects; i++) *at++ = (float)kept->of[i];
+        *at++ = (float)kept->meshes;
+        for (int k = 0; k < kept->meshes; k++)
+            *at++ = (float)(counts[k] / UNIT), *at++ = (float)(counts[k] % UNIT);
+    }
+    for (int k = 0; k < kept->meshes; k++) {
+        if (all) memcpy(at, blocks[k], counts[k] * sizeof *at), at += counts[k];
+        wr_free(blocks[k]);
+    }
+    WrImage *image = all ? picture_of(all, sum, err) : NULL;
+    wr_free(all);
+    return image;
+}
+
+bool wr_scene_meshes_to_image(const WrScene *scene, WrImage **out, WrError *err)
+{
+    const Kept kept = kept_of(scene);
+    *out = NULL;
+    if (kept.meshes == 0) return true;
+    if (kept.meshes > 1) {
+        *out = pack_several(&kept, err);
+        return *out != NULL;
+    }
+    size_t count;
+    float *block = wr_triangles_pack(kept.mesh[0], &count);
+    *out = picture_of(block, count, err);
+    wr_free(block);
+    return *out != NULL;
+}
+
+/* A whole number of low .. high, or -1. */
+static int whole(float x, int low, int high)
+{
+    return (double)x >= low && (double)x <= high && x == floorf(x) ? (int)x : -1;
+}
+
+/* Where in the picture of several the mesh of that object is; false: nowhere, or the picture is damaged. */
+static bool find_block(const float *block, size_t count, int object, size_t *from, size_t *length)
+{
+    const int objects = count > 2 ? whole(block[1], 1, WR_OBJECTS_MAX) : -1;
+    if (objects < 0 || object >= objects || count < 3 + (size_t)objects) return false;
+    const int meshes = whole(block[2 + objects], 2, objects);
+    const int own = whole(block[2 + object], 1, meshes);
+    const size_t head = 3 + (size_t)objects + 2 * (size_t)(meshes > 0 ? meshes : 0);
+    if (meshes < 0 || own < 0 || count < head) return false;
+    *from = head;
+    for (int k = 0; k < own; k++) {
+        const float *at = block + 3 + objects + 2 * k;
+        const int high = whole(at[0], 0, UNIT), low = whole(at[1], 0, UNIT - 1);
+        if (high < 0 || low < 0) return false;
+        *length = (size_t)high * UNIT + (size_t)low;
+        if (*length > count - *from) return false;
+        if (k + 1 < own) *from += *length;
+    }
+    return true;
+}
+
+WrTriangles *wr_scene_mesh_from_image(const WrImage *image, int object, WrError *err)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    size_t from = 0, length = count;
     if (image->channels != 1) {
         wr_fail(err, "the mesh that is kept here has %d channels; must be 1", image->channels);
         return NULL;
     }
-    return wr_triangles_unpack(image->data, (size_t)image->width * (size_t)image->height, err);
-}
-
-bool wr_scene_kept_mesh(const WrScene *scene, const WrTriangles **out, WrError *err)
-{
-    const WrTriangles *found = NULL;
-    for (int i = 0; i < wr_scene_object_count(scene); i++) {
-        const WrTriangles *own = wr_scene_object(scene, i)->triangles;
-        if (own && found && own->key != found->key)
-            return wr_fail(err, "several objects have different meshes: a document keeps one");
-        if (own) found = own;
+    if (image->data[0] == SEVERAL && !find_block(image->data, count, object, &from, &length)) {
+        wr_fail(err, "damaged: the meshes that are kept here hold none for object %d", object + 1);
+        return NULL;
     }
-    *out = found;
-    return true;
+    return wr_triangles_unpack(image->data + from, length, err);
 }

@@ -123,10 +123,11 @@ struct WrScene {
  * may be NULL. */
 void wr_scene_set_triangles(WrScene *scene, WrTriangles *triangles, const char *path,
                             const char *sha256);
-/* A mesh as a picture of one channel, in which a document keeps it, and back. The caller owns both. Errors: a picture
- * that holds no mesh; no memory. */
-WrImage *wr_scene_mesh_to_image(const WrTriangles *triangles, WrError *err);
-WrTriangles *wr_scene_mesh_from_image(const WrImage *image, WrError *err);
+/* The meshes of the scene's objects as one picture of one channel, in which a document keeps them, and that of an object
+ * back. The caller owns both; *out is NULL where there is none. Errors: a picture that holds no mesh; no memory. */
+bool wr_scene_meshes_to_image(const WrScene *scene, WrImage **out, WrError *err);
+WrTriangles *wr_scene_mesh_from_image(const WrImage *image, int object, WrError *err);
+bool wr_scene_several_meshes(const WrScene *scene); /* do objects have different ones? */
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles); /* that it takes in memory */
 
