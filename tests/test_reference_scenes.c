@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/error.h"
+#include "base/rows.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
@@ -79,6 +80,33 @@ static void assert_agree(WrScene *scene, const WrField *field, double bound)
     put_away(&shot);
 }
 
+/* A stretched object, and what it is; how many pixels it covers. Where normals are turned by flatness, so are float's errors: single precision keeps to
+ * a 32nd (wr_scene_is_thin). */
+static int assert_sees(WrScene *scene, const WrField *field, const char *what, int k)
+{
+    scene->scheme = WR_SCHEME_BSPLINE_FIT;
+    scene->bump = WR_BUMP_EXACT;
+    Shot shot = shoot(scene, field, SIZE, SIZE, 2, "ref", false);
+    WrReference ours = reference_of(scene, field, shot.pool);
+    int covered = 0, unlike = 0, far_off = 0;
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        const float *a = shot.frame.rgba + 4 * i;
+        const double *b = ours.rgba + 4 * i;
+        covered += b[3] > 0;
+        unlike += (double)a[3] != b[3];
+        for (int c = 0; c < 4; c++) assert_true(isfinite(a[c]) && isfinite(b[c]));
+        bool far = false;
+        for (int c = 0; c < 3 && (double)a[3] == b[3]; c++) far |= fabs((double)a[c] - b[c]) > 1e-3;
+        far_off += far;
+    }
+    if (40 * unlike > covered + 400 || 50 * far_off > covered)
+        fail_msg("%s, sizes %d: of %d pixels %d are there in one only, %d are others", what, k,
+                 covered, unlike, far_off);
+    wr_reference_fini(&ours);
+    put_away(&shot);
+    return covered;
+}
+
 /* Float has 24 bits; n' loses up to W of them to slopes, and the highlight's power s of what is left. */
 #define FLOAT_BOUND 2e-5
 
@@ -91,6 +119,64 @@ static void every_surface_looks_alike(void **state)
         assert_agree(scene, field, FLOAT_BOUND);
         wr_scene_free(scene);
     }
+    wr_field_free(field);
+}
+
+/* HC153: of sizes that differ, mirror or flatten, near and far, with lights that have a place. */
+static void hc153_stretched_objects_look_alike(void **state)
+{
+    (void)state;
+    static const WrVec3 sizes[] = { { 1, 1, 2 },  { 1, 0.4, -1 },  { -0.7, 1, 0.3 },
+                                    { 1, 0, 1 },  { 1, 1, -100 },  { 0.02, 1, -0.9 },
+                                    { 0, -1, 1 }, { -1, -0.5, -2 } };
+    WrField *field = bumpy_field(64, 64);
+    int covered = 0;
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++)
+        for (int k = kind % 2; k < WR_LENGTH(sizes); k += getenv("WR_FULL") ? 1 : 4) {
+            WrScene *scene = scene_of(wr_surfaces[kind]->name);
+            scene->sizes = sizes[k];
+            scene->size = fmax(fabs(sizes[k].x), fmax(fabs(sizes[k].y), fabs(sizes[k].z)));
+            scene->posed = true;
+            scene->rotate_deg = (WrVec3){ -60, 25, 10 };
+            scene->height *= 0.5;
+            if (k % 2) scene->camera.orthographic = true;
+            if (k % 3 == 1)
+                scene->lights[0] = (WrLight){ WR_LIGHT_POINT, { -2, 3, 4 }, { 1, 1, 1 }, 1 };
+            covered += assert_sees(scene, field, wr_surfaces[kind]->name, k);
+            wr_scene_free(scene);
+        }
+    assert_true(covered > 40000);
+    wr_field_free(field);
+}
+
+/* A stretched ball is an ellipsoid, whichever program draws it. */
+static void hc153_a_stretched_ball_is_an_ellipsoid(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    WrScene *ball = scene_of("sphere"), *other = scene_of("superellipsoid");
+    ball->sizes = (WrVec3){ 0.6, -1.5, 1.1 }, ball->size = 1.5;
+    for (int i = 0; i < 3; i++) other->shape.value[i] = (double[]){ 0.6, 1.5, 1.1 }[i];
+    ball->shape.value[0] = other->shape.value[3] = other->shape.value[4] = 1;
+    ball->height = other->height = 0;
+    ball->posed = other->posed = true;
+    ball->rotate_deg = other->rotate_deg = (WrVec3){ -40, 30, 10 };
+    ball->camera.fit = other->camera.fit = false;
+    ball->camera.eye = other->camera.eye = (WrVec3){ 1, 2, 6 };
+    Shot a = shoot(ball, field, SIZE, SIZE, 2, "ref", false);
+    Shot b = shoot(other, field, SIZE, SIZE, 2, "ref", false);
+    int covered = 0, unlike = 0, inner = 0;
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        const float *p = a.frame.rgba + 4 * i, *q = b.frame.rgba + 4 * i;
+        bool same = p[3] == q[3];
+        for (int c = 0; c < 3; c++) same &= fabs((double)p[c] - (double)q[c]) < 2e-4;
+        covered += p[3] > 0, inner += p[3] > 0 && same, unlike += !same;
+    }
+    assert_true(covered > 1000 && inner > 900 && 50 * unlike < covered); /* along the outline */
+    put_away(&a);
+    put_away(&b);
+    wr_scene_free(ball);
+    wr_scene_free(other);
     wr_field_free(field);
 }
 
@@ -411,6 +497,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_surface_looks_alike),
+        cmocka_unit_test(hc153_stretched_objects_look_alike),
+        cmocka_unit_test(hc153_a_stretched_ball_is_an_ellipsoid),
         cmocka_unit_test(profiles_and_formulas_look_alike),
         cmocka_unit_test(superellipsoids_of_every_form_look_alike),
         cmocka_unit_test(lights_of_every_kind_shine_alike),

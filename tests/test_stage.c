@@ -478,6 +478,57 @@ static void a_file_becomes_the_table_of_one_object(void **state)
     }
 }
 
+/* ---- sizes ---- */
+
+static void sizes_along_the_axes_are_kept(void **state)
+{
+    (void)state;
+    static const char *const sizes[] = {
+        "1,1,2", "0.1,-0.3,0.7", "1,0,1", "-2,-2,-2", "3", "2,2,2"
+    };
+    for (int i = 0; i < 6; i++) {
+        char line[64];
+        WrSession *session = wr_session_new(&(WrSessionOptions){ .outputs = true });
+        must_run(session, "surface sphere");
+        must_run(session, "object add other at=1,0,0");
+        snprintf(line, sizeof line, "object set size=%s", sizes[i]);
+        must_run(session, line);
+        assert_true((v3_len(scene_of(session)->sizes) > 0) == (i < 4));
+        must_run(session, "save kept.exr");
+        WrSession *other = wr_session_new(NULL);
+        must_run(other, "open kept.exr");
+        assert_true(wr_hash_equal(wr_session_hash(session), wr_session_hash(other)));
+        assert_true(scene_of(other)->size == scene_of(session)->size);
+        assert_memory_equal(&scene_of(other)->sizes, &scene_of(session)->sizes, sizeof(WrVec3));
+        must_run(session, "undo");
+        assert_true(scene_of(session)->size == 1 && v3_len(scene_of(session)->sizes) == 0);
+        must_fail(session, "object set size=0,0,0", "1e-9 or more");
+        must_fail(session, "object set size=-1", "1e-9 or more");
+        must_fail(session, "object set size=1,2", "3 numbers");
+        wr_session_free(session);
+        wr_session_free(other);
+    }
+}
+
+/* Places go there and back, and products with them stay. */
+static void stretched_places_are_each_others_inverse(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(
+        (const char *[]){ "surface cube", "object set size=2,-0.5,0", "rotate 20,30,40", NULL });
+    WrPlacement place;
+    assert_true(wr_scene_place(scene_of(session), 25, 1, &place, NULL));
+    const WrVec3 p = { 0.3, -0.7, 0.2 }, way = { 0.2, 0.5, -0.8 };
+    const WrVec3 world = wr_place_world(&place, p), back = wr_place_object(&place, world);
+    for (int i = 0; i < 3; i++) assert_near((&back.x)[i], (&p.x)[i], 1e-9);
+    const double product = v3_dot(way, v3_sub(world, place.position)) / place.size;
+    assert_near(v3_dot(wr_place_dual_back(&place, way), v3_sub(p, place.centre)), product, 1e-12);
+    assert_true(place.cofactor.x > 0 && place.cofactor.y < 0 && place.cofactor.z > 0);
+    assert_near(wr_scene_ball(scene_of(session)), 2 * wr_shape_radius(&scene_of(session)->shape),
+                1e-12);
+    wr_session_free(session);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -491,6 +542,8 @@ int main(void)
         cmocka_unit_test(the_ground_lies_under_what_is_shown),
         cmocka_unit_test(the_ground_does_not_turn),
         cmocka_unit_test(a_file_becomes_the_table_of_one_object),
+        cmocka_unit_test(sizes_along_the_axes_are_kept),
+        cmocka_unit_test(stretched_places_are_each_others_inverse),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

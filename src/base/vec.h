@@ -102,3 +102,9 @@ static inline WrVec3f v3f_from(WrVec3 a)
 {
     return (WrVec3f){ (float)a.x, (float)a.y, (float)a.z };
 }
+
+/* Number by number. */
+static inline WrVec3 v3_times(WrVec3 a, WrVec3 b)
+{
+    return (WrVec3){ a.x * b.x, a.y * b.y, a.z * b.z };
+}

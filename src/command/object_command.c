@@ -10,6 +10,7 @@
 #include "scene/objects.h"
 #include "scene/param.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -28,10 +29,22 @@ enum {
 
 /* ---- as lines ---- */
 
+/* Place, size and so on, the size as one number or three. */
+static void print_placed(const WrScene *object, WrText *text)
+{
+    const WrSceneParam *p;
+    for (int i = 0; (p = wr_scene_param("object", "set", i)) != NULL; i++) {
+        wr_text_addf(text, " %s=", p->name);
+        if (p == &wr_scene_params[WR_SCENE_PARAM_SIZE] && v3_len(object->sizes) > 0)
+            wr_scene_print_vec(object->sizes, text);
+        else wr_scene_print_value(p, object, text);
+    }
+}
+
 /* What is said of the object besides its name. */
 static void print_settings(const WrScene *object, WrText *text)
 {
-    wr_scene_print_params("object", "set", object, text);
+    print_placed(object, text);
     wr_text_add(text, " turn=");
     if (object->posed) wr_scene_print_value(&wr_scene_params[WR_SCENE_PARAM_ROTATE], object, text);
     else wr_text_add(text, OWN);
@@ -57,15 +70,15 @@ void wr_print_object(const WrScene *scene, int i, WrText *text)
 /* Of a scene's one object, whose turn is a view: nothing, where it is as in an empty document. */
 static void print_object(const WrScene *scene, WrText *text)
 {
-    const bool plain =
-        v3_len(scene->at) == 0 && scene->size == 1 && !scene->hidden && !scene->still;
+    const bool plain = v3_len(scene->at) == 0 && scene->size == 1 && v3_len(scene->sizes) == 0 &&
+                       !scene->hidden && !scene->still;
     if (scene->other_count > 0 || (plain && !scene->name && !scene->layer)) return;
     wr_text_add(text, "object set");
     if (scene->name) {
         wr_text_add(text, " name=");
         wr_text_add_word(text, scene->name);
     }
-    wr_scene_print_params("object", "set", scene, text);
+    print_placed(scene, text);
     wr_text_add(text, " layer=");
     wr_text_add_word(text, scene->layer ? scene->layer : ALL);
     wr_text_add(text, "\n");
@@ -129,6 +142,23 @@ static bool take_turn(const WrCall *call, WrScene *scene, WrError *err)
     return !turn->given || wr_scene_take_turn(turn->text, scene, err);
 }
 
+/* One size along all axes, or three, of which the largest counts as the object's. */
+static bool take_size(const WrCall *call, WrScene *scene, WrError *err)
+{
+    const WrArg *arg = wr_call_arg(call, "size");
+    if (!arg->given) return true;
+    const bool three = arg->counts[0] == 3;
+    const WrVec3 s = { arg->numbers[0], arg->numbers[1], arg->numbers[2] };
+    const double largest = three ? fmax(fabs(s.x), fmax(fabs(s.y), fabs(s.z))) : arg->numbers[0];
+    if (!(largest >= 1e-9))
+        return wr_fail(err, "size=%g: %s must be 1e-9 or more", largest,
+                       three ? "the largest of the three, without its sign," : "one alone");
+    const bool plain = s.x == s.y && s.y == s.z && s.x > 0;
+    scene->size = largest;
+    scene->sizes = three && !plain ? s : (WrVec3){ 0 };
+    return true;
+}
+
 /* What the line says of the object at hand. The scene is taken. */
 static bool put(WrSession *session, WrCall *call, const char *name, WrScene *scene, WrError *err)
 {
@@ -146,6 +176,10 @@ static bool put(WrSession *session, WrCall *call, const char *name, WrScene *sce
         scene->name = wr_strdup(name);
     }
     wr_scene_take(call, "set", scene);
+    if (!take_size(call, scene, err)) {
+        wr_scene_free(scene);
+        return false;
+    }
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -232,6 +266,18 @@ static const struct {
 };
 WR_ROWS_END(object_forms, OBJECT_FORMS);
 
+static void take_three(WrArgSpec *size)
+{
+    size->type = WR_ARG_TUPLE;
+    size->components = 3;
+    size->counts = TUPLE_OF(1) | TUPLE_OF(3);
+    size->low = -size->high;
+    size->shape = "s or x,y,z";
+    size->help =
+        "times its surface's own size; heights grow with it. Three: along its axes; below 0 "
+        "mirrored, 0 flat";
+}
+
 static bool form_object(int i, WrForm *out)
 {
     static const WrArgSpec name = { PLACE("NAME"), .type = WR_ARG_NAME,
@@ -268,7 +314,10 @@ static bool form_object(int i, WrForm *out)
         out->args[count++] = rename;
     }
     if (!object_forms[i].settings) return true;
+    const int first = count;
     count += wr_scene_args("object", "set", out->args + count);
+    for (int k = first; k < count; k++)
+        if (strcmp(out->args[k].name, "size") == 0) take_three(&out->args[k]);
     out->args[count++] = turn;
     out->args[count++] = layer;
     out->args[count++] = table;

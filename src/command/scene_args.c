@@ -72,6 +72,15 @@ void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *
     }
 }
 
+void wr_scene_print_vec(WrVec3 v, WrText *text)
+{
+    const double numbers[3] = { v.x, v.y, v.z };
+    for (int i = 0; i < 3; i++) {
+        if (i > 0) wr_text_add(text, ",");
+        wr_text_add_number(text, numbers[i]);
+    }
+}
+
 void wr_scene_print_params(const char *command, const char *form, const void *owner, WrText *text)
 {
     const WrSceneParam *p;

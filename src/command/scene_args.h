@@ -2,6 +2,7 @@
    scene/param.h. `form` is the command's form, NULL where it has none.
    Layer 6, private to src/command. */
 #pragma once
+#include "base/vec.h"
 #include "command/call.h"
 #include "surface/surface.h"
 
@@ -27,5 +28,6 @@ void wr_print_mesh(const WrScene *scene, bool content, WrText *text);
 void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args);
 /* The line of `surface` by the content of its file, whatever its path. */
 void wr_print_surface_content(const WrScene *scene, WrText *text);
+void wr_scene_print_vec(WrVec3 v, WrText *text); /* "x,y,z" */
 /* "x,y,z" of one. */
 void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *text);

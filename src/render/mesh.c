@@ -34,7 +34,8 @@ static double samples_per_unit(const WrView *view, const WrShape *shape)
     double per = view->grid_h / (2.0 * view->half_h);
     if (!view->perspective) return per;
     WrVec3 centre = v3_scale(wr_shape_centre(shape), view->scale);
-    double depth = v3_len(v3_sub(centre, view->eye)) - view->radius;
+    const WrVec3 s = { view->stretch[0], view->stretch[1], view->stretch[2] };
+    double depth = v3_len(v3_times(v3_sub(centre, view->eye), s)) - view->radius;
     double least = 0.05 * view->radius;
     return per / (depth > least ? depth : least);
 }

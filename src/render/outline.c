@@ -79,7 +79,7 @@ static bool shown(const WrTileJob *job, const WrQuadd *quad)
     const WrView *view = job->view;
     const WrVec3 n = { quad->normal[0], quad->normal[1], quad->normal[2] };
     const WrVec3 to =
-        view->perspective ? v3_sub(view->eye, corner_of(quad, 0)) : v3_neg(view->forward);
+        view->perspective ? v3_sub(view->eye, corner_of(quad, 0)) : v3_neg(view->ahead);
     return wr_plan_calls(job->plan, WR_EFFECT_BACK) || v3_dot(to, n) > 0;
 }
 

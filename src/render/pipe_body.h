@@ -201,7 +201,10 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
     if (strip->count == 0) return spared;
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
-    if (!lit(sink)) return spared;
+    if (!lit(sink)) {
+        stretch_strip(job->view, strip);
+        return spared;
+    }
     if (spared & WR_RUN_DARK) ambient_strip(job, rays, strip, watch);
     else light_strip(job, rays, sink, strip, watch);
     keep_half3(job, strip->cr, strip->cg, strip->cb, strip->count, watch);

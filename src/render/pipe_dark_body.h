@@ -35,7 +35,8 @@ static bool is_dark(const WrTileJob *job, const Rays *rays, bool level, const St
     const int few = strip->count / 3 + 1;
     const bool bumped = !level && job->plan->bump != WR_BUMP_NONE;
     float table[2];
-    if (!job->dark || !are_behind(job, rays, bumped ? job->level.gentlest : NULL, few, strip))
+    if (!job->dark || job->view->stretched ||
+        !are_behind(job, rays, bumped ? job->level.gentlest : NULL, few, strip))
         return false;
     if (!bumped) return are_behind(job, rays, NULL, 1, strip);
     find_steepest(job, strip, table);

@@ -21,6 +21,22 @@ static void bound_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKer
     KERNELS_OF(job)->bound_light(rays, light, &shine, (REAL)(m->diffuse * most), strip);
 }
 
+/* P and n' as light sees them where the object is stretched: n' along the object's axes, unit again (HC153). */
+static void stretch_strip(const WrView *view, Strip *strip)
+{
+    const REAL s[3] = { (REAL)view->stretch[0], (REAL)view->stretch[1], (REAL)view->stretch[2] };
+    const REAL c[3] = { (REAL)view->cofactor[0], (REAL)view->cofactor[1], (REAL)view->cofactor[2] };
+    for (int i = 0; i < strip->count && view->stretched; i++) {
+        const REAL x = c[0] * strip->bx[i], y = c[1] * strip->by[i], z = c[2] * strip->bz[i];
+        const REAL most = (REAL)fmax(fabs((double)x), fmax(fabs((double)y), fabs((double)z)));
+        const REAL a = most > 0 ? x / most : 0, b = most > 0 ? y / most : 0,
+                   d = most > 0 ? z / most : 0;
+        const REAL sum = a * a + b * b + d * d, inv = sum > 0 ? 1 / (REAL)sqrt((double)sum) : 0;
+        strip->bx[i] = a * inv, strip->by[i] = b * inv, strip->bz[i] = d * inv;
+        strip->px[i] *= s[0], strip->py[i] *= s[1], strip->pz[i] *= s[2];
+    }
+}
+
 /* What one light adds. */
 static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
                        const WrSink *sink, Strip *strip, Watch *watch)
@@ -82,7 +98,8 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     const WrVec3 c = job->scene->material.colour;
     k->begin((REAL)job->scene->material.ambient, strip);
     if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
-    if (specular || sink->bound) k->view(rays, strip);
+    stretch_strip(job->view, strip);
+    if (specular || sink->bound) k->view(&VIEWED(&job->view->lit, rays), strip);
     watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
     if (specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
     for (int i = 0; i < job->view->light_count && (specular || runs(job, WR_EFFECT_DIFFUSE)); i++)
@@ -112,5 +129,6 @@ static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *si
         return;
     }
     if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
-    light_at_once(job, rays, shade, strip, watch);
+    stretch_strip(job->view, strip);
+    light_at_once(job, &VIEWED(&job->view->lit, rays), shade, strip, watch);
 }

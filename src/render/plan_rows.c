@@ -204,6 +204,8 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
 {
     if (ask->dials->shading == WR_SHADING_HALF)
         return "no bound is known of rounding to half precision: K x K everywhere";
+    if (v3_len(ask->scene->sizes) > 0)
+        return "no bound is known of a stretched object: K x K everywhere";
     const WrInversion how = surface_of(ask)->inversion;
     if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
         return "no bound is known on this surface: K x K everywhere";
@@ -289,6 +291,9 @@ static WrVerdict decide_double(const WrPlan *plan, const WrPlanAsk *ask, const c
 {
     if (ask->dials->shading == WR_SHADING_DOUBLE)
         return say(WR_VERDICT_RUN, why, "the dial asks for shading in double precision");
+    if (wr_scene_is_thin(ask->scene))
+        return say(WR_VERDICT_RUN, why,
+                   "the object is so flat that single precision would not find its place");
     if (plan->source == WR_SOURCE_TABLE && ask->dials->heights == WR_HEIGHTS_DOUBLE)
         return say(WR_VERDICT_RUN, why, "the dial asks for look-ups in double precision");
     return say(WR_VERDICT_NONE, why, "single precision was asked for");
@@ -297,7 +302,8 @@ static WrVerdict decide_double(const WrPlan *plan, const WrPlanAsk *ask, const c
 static void settle_double(WrPlan *plan, const WrPlanAsk *ask)
 {
     const bool run = runs(plan, WR_EFFECT_DOUBLE);
-    plan->shading_double = run && ask->dials->shading == WR_SHADING_DOUBLE;
+    plan->shading_double =
+        run && (ask->dials->shading == WR_SHADING_DOUBLE || wr_scene_is_thin(ask->scene));
     plan->precision = !run                                       ? WR_PRECISION_SINGLE
                       : ask->dials->heights == WR_HEIGHTS_DOUBLE ? WR_PRECISION_DOUBLE
                                                                  : WR_PRECISION_WIDENED;

@@ -62,6 +62,7 @@ static const char *no_dark(const WrPlan *plan, const WrPlanAsk *ask)
     const bool shines = runs(plan, WR_EFFECT_SPECULAR);
     if (is_forced(plan, WR_EFFECT_DIFFUSE) || is_forced(plan, WR_EFFECT_SPECULAR))
         return "light is forced: it runs everywhere";
+    if (v3_len(ask->scene->sizes) > 0) return "the object is stretched: its normals turn with it";
     if (ask->facts.normals) return "normals are wanted everywhere";
     if (shines && !ask->scene->material.gate) return "a highlight without gate shows there too";
     if (runs(plan, WR_EFFECT_BOUND)) return "a bound of the light's change is wanted everywhere";

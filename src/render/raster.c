@@ -210,9 +210,11 @@ static void raster(const WrView *view, WrRasterVertex a, WrRasterVertex b, WrRas
     bring_to_grid(view, tile, &a);
     bring_to_grid(view, tile, &b);
     bring_to_grid(view, tile, &c);
+    const bool mirrored = view->stretch[0] * view->stretch[1] * view->stretch[2] < 0;
     int64_t area =
         ((int64_t)b.x - a.x) * ((int64_t)c.y - a.y) - ((int64_t)b.y - a.y) * ((int64_t)c.x - a.x);
-    if (area == 0 || (area > 0 && view->cull)) return; /* rows run down: fronts have area < 0 */
+    if (area == 0 || ((area > 0) != mirrored && view->cull))
+        return; /* rows run down: fronts have area < 0 */
     if (area < 0) {
         WrRasterVertex t = b;
         b = c, c = t, area = -area;

@@ -147,7 +147,7 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
 {
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceView *view = &stage->view;
-    const WrVec3 to = view->perspective ? unit(v3_sub(view->eye, p)) : view->toward;
+    const WrVec3 to = view->perspective ? unit(v3_sub(view->lit_eye, p)) : view->lit_toward;
     double diffuse[3] = { m->ambient, m->ambient, m->ambient }, shine[3] = { 0, 0, 0 };
     for (int i = 0; i < view->light_count; i++) {
         const WrReferenceLight *light = &view->lights[i];
@@ -183,7 +183,9 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
     out->normal = v3_scale(perturbed, wr_reference_side(view, &at));
     out->lost = hit.lost;
-    out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->forward);
-    wr_reference_light(stage, at.p, hit.u, hit.v, out->normal, out->rgb);
+    out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
+    out->normal = wr_reference_normal_stretched(view, out->normal);
+    wr_reference_light(stage, wr_reference_stretched(view, at.p), hit.u, hit.v, out->normal,
+                       out->rgb);
     return true;
 }

@@ -16,12 +16,31 @@ static WrVec3 world_to_object(const WrPlacement *place, WrVec3 w)
                      m[2] * w.x + m[5] * w.y + m[8] * w.z };
 }
 
-/* Of points: w = position + size M (p - centre). */
+/* Of points: w = position + size M S (p - centre), S the stretch along the object's axes. */
 static WrVec3 point_to_object(const WrPlacement *place, WrVec3 w)
 {
-    const WrVec3 away = world_to_object(place, v3_sub(w, place->position));
-    return (WrVec3){ away.x / place->size + place->centre.x, away.y / place->size + place->centre.y,
-                     away.z / place->size + place->centre.z };
+    const WrVec3 away = world_to_object(place, v3_sub(w, place->position)), s = place->stretch;
+    return (WrVec3){ away.x / s.x / place->size + place->centre.x,
+                     away.y / s.y / place->size + place->centre.y,
+                     away.z / s.z / place->size + place->centre.z };
+}
+
+/* Of directions that the stretch carries along, by its inverse. */
+static WrVec3 way_to_object(const WrPlacement *place, WrVec3 w)
+{
+    const WrVec3 own = world_to_object(place, w), s = place->stretch;
+    return (WrVec3){ own.x / s.x, own.y / s.y, own.z / s.z };
+}
+
+WrVec3 wr_reference_stretched(const WrReferenceView *view, WrVec3 p)
+{
+    return v3_times(p, view->stretch);
+}
+
+WrVec3 wr_reference_normal_stretched(const WrReferenceView *view, WrVec3 n)
+{
+    const WrVec3 turned = v3_times(n, view->cofactor), none = { 0, 0, 0 };
+    return view->stretched ? v3_unit(turned, none) : n;
 }
 
 static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPlacement *place)
@@ -33,7 +52,7 @@ static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPla
         WrReferenceLight *out = &view->lights[i];
         const WrVec3 ahead = { 0, 0, 1 };
         out->point = light->kind == WR_LIGHT_POINT;
-        out->where = out->point ? point_to_object(place, light->where)
+        out->where = out->point ? v3_times(point_to_object(place, light->where), place->stretch)
                                 : v3_unit(world_to_object(place, light->where), ahead);
         out->rgb[0] = light->colour.x * light->strength;
         out->rgb[1] = light->colour.y * light->strength;
@@ -84,14 +103,20 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     view->perspective = !place.orthographic;
     view->size = place.size;
     view->eye = point_to_object(&place, place.eye);
-    view->right = world_to_object(&place, place.right);
-    view->up = world_to_object(&place, place.up);
-    view->forward = world_to_object(&place, place.forward);
+    view->right = way_to_object(&place, place.right);
+    view->up = way_to_object(&place, place.up);
+    view->forward = way_to_object(&place, place.forward);
     view->toward = v3_neg(view->forward);
+    view->deep = v3_times(world_to_object(&place, place.forward), place.stretch);
+    view->stretched = place.stretched;
+    view->stretch = place.stretch;
+    view->cofactor = place.cofactor;
+    view->lit_eye = v3_times(view->eye, place.stretch);
+    view->lit_toward = v3_neg(world_to_object(&place, place.forward));
     view->half_h = place.half_height / (view->perspective ? 1 : place.size);
     view->half_w = view->half_h * aspect;
     const WrVec3 from_eye = v3_sub(place.centre, view->eye);
-    view->depth = v3_dot(from_eye, view->forward);
+    view->depth = v3_dot(from_eye, view->deep);
     view->middle = v3_mad(view->eye, view->forward, view->depth);
     view->s_min = WR_NEAR_PLANE * place.radius - view->depth;
     const bool closed = view->info->held ? scene->triangles && scene->triangles->closed

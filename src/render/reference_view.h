@@ -25,9 +25,13 @@ typedef struct WrReferenceView {
     double width, height;                   /* pixels */
     WrVec3 eye, right, up, forward, middle; /* middle: where the axis of view passes the object */
     WrVec3 toward;                          /* -forward */
-    double half_w, half_h, depth;           /* of the view, at depth 1 or whole; of `middle` */
-    double size;                            /* world units per unit of the object */
-    double s_min;                           /* of rays: where the near plane stands */
+    /* Of a stretched object (WrPlacement): right, up and forward are what becomes the camera's axes, deep is what gives the
+       depth; and as light sees it: along the object's axes, stretched. */
+    bool stretched;
+    WrVec3 deep, stretch, cofactor, lit_eye, lit_toward;
+    double half_w, half_h, depth; /* of the view, at depth 1 or whole; of `middle` */
+    double size;                  /* world units per unit of the object */
+    double s_min;                 /* of rays: where the near plane stands */
     bool perspective;
     bool cull; /* a closed surface seen from outside hides its back */
     bool hidden[6];
@@ -43,6 +47,9 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
                             int height, WrError *err);
 void wr_reference_view_fini(WrReferenceView *view); /* fine on a zeroed one */
 
+/* A point and a unit normal of the object as light sees them. */
+WrVec3 wr_reference_stretched(const WrReferenceView *view, WrVec3 p);
+WrVec3 wr_reference_normal_stretched(const WrReferenceView *view, WrVec3 n);
 /* The ray through (x, y), pixels from the top left corner. */
 WrReferenceRay wr_reference_view_ray(const WrReferenceView *view, double x, double y);
 /* How that ray's q and d change from pixel to pixel. */

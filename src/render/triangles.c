@@ -91,7 +91,7 @@ static void make_cone(int block, int worker, void *ctx)
 static bool looks_away(const WrTriangleCone *cone, const WrView *view)
 {
     if (cone->cosine < 0) return false;
-    WrVec3 w = v3_neg(view->forward);
+    WrVec3 w = v3_neg(view->ahead);
     double radius = 0, length = 1;
     if (view->perspective) {
         w = v3_sub(view->eye, v3_scale(cone->centre, view->scale));

@@ -44,23 +44,35 @@ static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double g
     const WrVec3 ahead = v3_sub(centre, view->eye);
     const bool close = v3_len(ahead) < CLOSE * view->radius;
     double depth = close ? 0.0 : v3_dot(ahead, view->forward); /* of the reference plane */
-    WrVec3 middle = v3_mad(view->eye, view->forward, depth);
-    WrVec3 x = v3_scale(view->right, 2.0 * view->half_w / grid_w);
-    WrVec3 y = v3_scale(view->up, -2.0 * view->half_h / grid_h);
-    WrVec3 corner = v3_add(v3_scale(view->right, -view->half_w), v3_scale(view->up, view->half_h));
+    WrVec3 middle = v3_mad(view->eye, view->ahead, depth);
+    WrVec3 x = v3_scale(view->across, 2.0 * view->half_w / grid_w);
+    WrVec3 y = v3_scale(view->above, -2.0 * view->half_h / grid_h);
+    WrVec3 corner =
+        v3_add(v3_scale(view->across, -view->half_w), v3_scale(view->above, view->half_h));
     corner = v3_add(corner, v3_add(v3_scale(x, 0.5), v3_scale(y, 0.5)));
     const WrVec3 zero = { 0, 0, 0 };
     double spread = view->perspective ? depth : 1.0;
     store(rays->q0, v3_mad(middle, corner, spread));
     store(rays->qx, v3_scale(x, spread));
     store(rays->qy, v3_scale(y, spread));
-    store(rays->d0, view->perspective ? v3_add(view->forward, corner) : view->forward);
+    store(rays->d0, view->perspective ? v3_add(view->ahead, corner) : view->ahead);
     store(rays->dx, view->perspective ? x : zero);
     store(rays->dy, view->perspective ? y : zero);
     rays->s_min = view->near - depth;
     rays->perspective = view->perspective;
     store(rays->eye, view->eye);
-    store(rays->toward, v3_neg(view->forward));
+    store(rays->toward, v3_neg(view->ahead));
+}
+
+/* What light looks at of the rays: from where, and against which direction. */
+static void make_lit(WrView *view, const WrPlacement *place)
+{
+    WrRaysd *rays = &view->lit.rays_d;
+    view->lit = view->grids[view->grid_count - 1];
+    if (!view->stretched) return;
+    store(rays->eye, v3_times(view->eye, place->stretch));
+    store(rays->toward, v3_neg(wr_place_turn_back(place, place->forward)));
+    narrow_rays(rays, &view->lit.rays);
 }
 
 /* The grids of 1, 2, 4, ... below K samples a side, and of K. */
@@ -232,7 +244,7 @@ static void add_quad(WrView *view, const WrShape *shape, const bool facing[6], i
 static void make_quads(WrView *view, const WrShape *shape)
 {
     bool facing[6];
-    find_facing(shape, view->scale, view->perspective ? &view->eye : NULL, view->forward, facing);
+    find_facing(shape, view->scale, view->perspective ? &view->eye : NULL, view->ahead, facing);
     for (int near = view->cull ? 1 : 0; near < 2; near++)
         for (int face = 0; face < wr_surfaces[shape->kind]->faces; face++)
             if (facing[face] == (near == 1)) add_quad(view, shape, facing, face);
@@ -250,7 +262,7 @@ bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int w
     const WrVec3 eye = bring_in(&place, scale, place.eye);
     if (planar(info)) {
         *outside = find_facing(&scene->shape, scale, place.orthographic ? NULL : &eye,
-                               wr_place_turn_back(&place, place.forward), facing);
+                               wr_place_shrink_back(&place, place.forward), facing);
         return true;
     }
     const WrVec3 away = v3_sub(eye, v3_scale(place.centre, scale));
@@ -283,8 +295,9 @@ static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *p
         const int i = view->light_count++;
         WrKernLightd *out = &view->lights_d[i];
         out->point = light->kind == WR_LIGHT_POINT;
-        WrVec3 where = out->point ? bring_in(place, view->scale, light->where)
-                                  : v3_unit(wr_place_turn_back(place, light->where), ahead);
+        WrVec3 where = out->point
+                           ? v3_times(bring_in(place, view->scale, light->where), place->stretch)
+                           : v3_unit(wr_place_turn_back(place, light->where), ahead);
         store(out->where, where);
         store(out->rgb, v3_scale(light->colour, light->strength));
         view->lights[i].point = out->point;
@@ -320,15 +333,22 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
     view->scale = scale_of(info, &place);
     view->radius = place.radius * view->scale;
     view->eye = bring_in(&place, view->scale, place.eye);
-    view->right = wr_place_turn_back(&place, place.right);
-    view->up = wr_place_turn_back(&place, place.up);
-    view->forward = wr_place_turn_back(&place, place.forward);
+    view->right = wr_place_dual_back(&place, place.right);
+    view->up = wr_place_dual_back(&place, place.up);
+    view->forward = wr_place_dual_back(&place, place.forward);
+    view->across = wr_place_shrink_back(&place, place.right);
+    view->above = wr_place_shrink_back(&place, place.up);
+    view->ahead = wr_place_shrink_back(&place, place.forward);
+    view->stretched = place.stretched;
+    store(view->stretch, place.stretch);
+    store(view->cofactor, place.cofactor);
     view->half_h = place.half_height * (view->perspective ? 1.0 : view->scale / place.size);
     view->half_w = view->half_h * aspect;
     view->near = WR_NEAR_PLANE * view->radius;
     wr_shape_scaled(&scene->shape, view->scale, &view->shape);
     scale_shape(&scene->shape, view->scale, &view->shape_d);
     make_grids(view, v3_scale(place.centre, view->scale));
+    make_lit(view, &place);
     if (planar(info)) make_quads(view, &scene->shape);
     find_bounds(view, v3_scale(place.centre, view->scale), width, height);
     make_lights(view, scene, &place);

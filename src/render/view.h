@@ -22,14 +22,21 @@ typedef struct WrView {
     int samples;        /* K */
     int grid_w, grid_h; /* samples: picture size times K */
     double scale;       /* object units -> kernel units; a power of two */
-    double radius;      /* of the object, kernel units */
+    double radius;      /* of the object, kernel units; no larger when stretched */
     WrShapef shape;
     WrShape shape_d;
+    WrViewGrid lit; /* rays as light sees them: eye and toward, stretched; else K's */
     WrViewGrid grids[WR_VIEW_GRIDS]; /* K and its powers of two below, 1 first */
     int grid_count;
-    WrVec3 eye, right, up, forward; /* kernel units, object space; double for the mesh */
-    double half_w, half_h;          /* of the view: at depth 1, or the whole, orthographic */
-    double near;                    /* depth of the near plane */
+    /* Kernel units, object space; double for the mesh. The products of right, up and forward with what lies before the
+       eye are its place in the picture and its depth. */
+    WrVec3 eye, right, up, forward;
+    WrVec3 across, above, ahead; /* where they point: the same, unless the object is stretched */
+    /* The object is stretched (WrPlacement): stretch and what normals are multiplied with; 1 where it is not. */
+    bool stretched;
+    double stretch[3], cofactor[3];
+    double half_w, half_h; /* of the view: at depth 1, or the whole, orthographic */
+    double near;           /* depth of the near plane */
     bool perspective;
     int x0, y0, x1, y1; /* pixels x0 <= x < x1 that the object can cover, two more on each side */
     bool cull;          /* back faces are left out (E25) */

@@ -104,7 +104,7 @@ static Holes holes_of(const WrScene *object, double radius)
 /* How much of the holes looks at the viewer. */
 static double seen(const Holes *holes, const WrPlacement *place)
 {
-    const WrVec3 look = wr_place_turn_back(place, place->forward);
+    const WrVec3 look = v3_times(wr_place_turn_back(place, place->forward), place->cofactor);
     double sum = 0;
     for (int i = 0; i < holes->count; i++) sum += fmax(0, v3_dot(holes->area[i], look));
     return sum;

@@ -46,6 +46,35 @@ static WrVec3 turned(const double m[9], WrVec3 p)
                      m[6] * p.x + m[7] * p.y + m[8] * p.z };
 }
 
+/* A part of the largest, at least the thinnest; 0 counts as above 0. */
+static double part_of(double size, double largest)
+{
+    const double part = size / largest;
+    return part < 0 ? fmin(part, -WR_THINNEST) : fmax(part, WR_THINNEST);
+}
+
+/* cof of the stretch times the sign of its determinant: |s1 s2 s3| / s. */
+static void place_stretch(WrVec3 sizes, WrPlacement *out)
+{
+    const double largest = fmax(fabs(sizes.x), fmax(fabs(sizes.y), fabs(sizes.z)));
+    out->stretched = largest > 0;
+    out->stretch = out->cofactor = (WrVec3){ 1, 1, 1 };
+    if (!out->stretched) return;
+    const WrVec3 s = { part_of(sizes.x, largest), part_of(sizes.y, largest),
+                       part_of(sizes.z, largest) };
+    const double all = fabs(s.x * s.y * s.z);
+    out->stretch = s;
+    out->cofactor = (WrVec3){ all / s.x, all / s.y, all / s.z };
+}
+
+bool wr_scene_is_thin(const WrScene *scene)
+{
+    WrPlacement place;
+    place_stretch(scene->sizes, &place);
+    const WrVec3 s = place.stretch;
+    return place.stretched && fmin(fabs(s.x), fmin(fabs(s.y), fabs(s.z))) < 1.0 / 32;
+}
+
 /* Turntable Ry(turn) after the pose Rz Ry Rx; it carries the object's place with it. */
 static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out)
 {
@@ -61,6 +90,7 @@ static void place_object(const WrScene *scene, double turn_deg, WrPlacement *out
     turn(1, turn_deg, same, a);
     out->position = turned(a, scene->at);
     out->size = scene->size;
+    place_stretch(scene->sizes, out);
 }
 
 /* Where `up` says nothing, because it is 0 or lies along the view: the far side is up when looking
@@ -158,7 +188,9 @@ bool wr_scene_place_sized(const WrScene *scene, double radius, double turn_deg, 
 
 WrVec3 wr_place_world(const WrPlacement *place, WrVec3 p)
 {
-    const WrVec3 own = turned(place->rotation, v3_sub(p, place->centre));
+    WrVec3 away = v3_sub(p, place->centre);
+    if (place->stretched) away = v3_times(away, place->stretch);
+    const WrVec3 own = turned(place->rotation, away);
     return v3_mad(place->position, own, place->size);
 }
 
@@ -169,8 +201,21 @@ WrVec3 wr_place_turn_back(const WrPlacement *place, WrVec3 w)
                      m[2] * w.x + m[5] * w.y + m[8] * w.z };
 }
 
+WrVec3 wr_place_shrink_back(const WrPlacement *place, WrVec3 w)
+{
+    const WrVec3 own = wr_place_turn_back(place, w), s = place->stretch;
+    if (!place->stretched) return own;
+    return (WrVec3){ own.x / s.x, own.y / s.y, own.z / s.z };
+}
+
+WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 w)
+{
+    const WrVec3 own = wr_place_turn_back(place, w);
+    return place->stretched ? v3_times(own, place->stretch) : own;
+}
+
 WrVec3 wr_place_object(const WrPlacement *place, WrVec3 world)
 {
-    const WrVec3 own = wr_place_turn_back(place, v3_sub(world, place->position));
+    const WrVec3 own = wr_place_shrink_back(place, v3_sub(world, place->position));
     return v3_add(v3_scale(own, 1 / place->size), place->centre);
 }

@@ -92,6 +92,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->name = wr_strdup(scene->name);
     clone->at = scene->at;
     clone->size = scene->size;
+    clone->sizes = scene->sizes;
     clone->hidden = scene->hidden;
     clone->still = scene->still;
     clone->layer = wr_strdup(scene->layer);

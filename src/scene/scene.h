@@ -99,7 +99,10 @@ struct WrScene {
     char triangles_sha256[65];
     char *name;  /* of the object; owned; NULL: it was given none */
     WrVec3 at;   /* where the object's centre stands, world; within 1e9 */
-    double size; /* world units per unit of the object, 1e-9..1e9 */
+    double size; /* world units per unit of the object, 1e-9..1e9; of `sizes` the largest */
+    /* Along the object's axes, where they differ or are not above 0; the largest magnitude is 1e-9..1e9. 0,0,0: `size`
+       along all. */
+    WrVec3 sizes;
     bool hidden; /* not in pictures */
     bool still;  /* the turntable leaves it, and a camera that fits does not mind it: a floor */
     char *layer; /* of the document, whose heights are its table; owned; NULL: all layers' */
@@ -152,9 +155,16 @@ void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, doubl
 /* The near plane's depth before the eye, in radii of the object: what lies nearer is not seen. */
 #define WR_NEAR_PLANE 1e-10
 
+/* No thinner is an object than this part of its largest size: a size of 0 along an axis counts as that. */
+#define WR_THINNEST 0x1p-16
+/* Is it thinner along one axis than a 32nd of another? */
+bool wr_scene_is_thin(const WrScene *scene);
+
 /* Where things are for a picture. A point of the object stands in the world at
- *   position + size * rotation * (P - centre),   rotation = Ry(turn_deg) Rz Ry Rx  (pose, then the turntable, which
- *   turns all objects about the world's y axis). */
+ *   position + size * rotation * stretch (P - centre),   rotation = Ry(turn_deg) Rz Ry Rx  (pose, then the turntable, which
+ *   turns all objects about the world's y axis), stretch by numbers along the object's axes, of which the largest is 1.
+ * A normal n of the object is `cofactor` n there, number by number, not unit: it keeps to the side that it was on, also
+ * of an object that is mirrored (HC153). */
 typedef struct WrPlacement {
     /* Row-major object -> world, orthonormal: rebuilt from angles each time, so it cannot drift
        (HC88). */
@@ -162,7 +172,9 @@ typedef struct WrPlacement {
     WrVec3 centre;   /* object point that stands at `position` */
     WrVec3 position; /* world */
     double size;     /* world units per unit of the object */
-    WrVec3 eye;      /* world; with `fit` resolved */
+    bool stretched;  /* else stretch and cofactor are 1,1,1 */
+    WrVec3 stretch, cofactor;
+    WrVec3 eye; /* world; with `fit` resolved */
     /* World; orthonormal, right x up = -forward: the camera looks down its own -Z. */
     WrVec3 right, up, forward;
     double half_height; /* tan(fov/2), or size/2; half the width is this times the aspect */
@@ -190,6 +202,10 @@ WrVec3 wr_place_world(const WrPlacement *place, WrVec3 p);
 WrVec3 wr_place_object(const WrPlacement *place, WrVec3 world);
 /* A direction of the world along the object's axes; its length stays. */
 WrVec3 wr_place_turn_back(const WrPlacement *place, WrVec3 world);
+/* The same of the unstretched object: what becomes the direction when it is stretched; and of what is multiplied with
+ * points: its product with the point is that of `world` with the stretched one. */
+WrVec3 wr_place_shrink_back(const WrPlacement *place, WrVec3 world);
+WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 world);
 
 /* F = height * table(ru u, rv v) and its derivatives with respect to the PATCH parameters, in
  * double, from the table or the analytic function (field may then be NULL). On a periodic axis ru

@@ -184,6 +184,40 @@ static void place(WrApp *app)
     wr_scene_run(app, &line);
 }
 
+/* One size, or, where they differ, three; and what makes the one three. */
+static void sizes(WrApp *app, bool always)
+{
+    static const char *const ids[3] = { "sx", "sy", "sz" };
+    static const WrNumber times = {
+        .low = -3,
+        .high = 3,
+        .hard_low = -1e9,
+        .hard_high = 1e9,
+        .reset = 1,
+        .decimals = 3,
+        .tip = "Size along the object's own axes x, y, z: below 0 it is mirrored, at 0 flat"
+    };
+    const WrScene *scene = wr_app_scene(app);
+    const bool three = v3_len(scene->sizes) > 0;
+    if (!three && (always || scene->size != 1))
+        wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_SIZE]);
+    if (!three && !always) return;
+    double s[3] = { scene->size, scene->size, scene->size };
+    if (three) s[0] = scene->sizes.x, s[1] = scene->sizes.y, s[2] = scene->sizes.z;
+    const WrEdit edit = wr_param_vector("Along x, y, z", ids, &times, s);
+    const double most = fmax(fabs(s[0]), fmax(fabs(s[1]), fabs(s[2])));
+    if (edit != WR_EDIT_NONE && most >= 1e-3) {
+        WrScene *live = wr_app_live(app);
+        live->size = most;
+        live->sizes = (WrVec3){ s[0], s[1], s[2] };
+    }
+    if (edit != WR_EDIT_DONE) return;
+    WrText line = { 0 };
+    wr_text_add(&line, "object set");
+    wr_line_vec(&line, "size", (WrVec3){ s[0], s[1], s[2] });
+    wr_scene_run(app, &line);
+}
+
 static void table(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
@@ -227,7 +261,7 @@ void wr_panel_objects(WrApp *app)
     buttons(app);
     if (count > 1 || scene->name) name_row(app);
     if (count > 1) place(app);
-    if (count > 1 || scene->size != 1) wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_SIZE]);
+    sizes(app, count > 1);
     table(app);
     wr_gui_space(8);
 }

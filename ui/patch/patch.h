@@ -43,6 +43,7 @@ typedef struct WrPatch {
     WrRotation from; /* the object's own rotation at the start */
     WrVec3 from_at;  /* its place and size there */
     double from_size;
+    WrVec3 from_sizes;
     WrCamera from_camera; /* and the camera, its eye where it stood */
     WrHandle handle;      /* of the chosen object */
     bool pans;            /* the drag moves the camera sideways */

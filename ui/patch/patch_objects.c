@@ -142,6 +142,7 @@ void wr_patch_handle_press(WrApp *app, const WrPointer *at)
     app->patch->from = wr_rotation_from_deg(turn_of(scene));
     app->patch->from_at = scene->at;
     app->patch->from_size = scene->size;
+    app->patch->from_sizes = scene->sizes;
 }
 
 /* World -> before the turntable turned. */
@@ -167,6 +168,7 @@ void wr_patch_handle_drag(WrApp *app, const WrPointer *at)
         const double before = hypot(app->hand->start.x - ball.x, app->hand->start.y - ball.y);
         const double now = hypot(at->x - ball.x, at->y - ball.y);
         scene->size = fmax(1e-3, wr_line_round(p->from_size * now / fmax(before, 1), 4));
+        scene->sizes = wr_line_round_vec(v3_scale(p->from_sizes, scene->size / p->from_size), 4);
     } else {
         const WrRotation now =
             wr_rotation_dragged(&p->from, p->turn_deg, ball.at.right, ball.at.up, dx, dy,
@@ -182,6 +184,8 @@ void wr_patch_handle_release(WrApp *app)
     WrText line = { 0 };
     wr_text_add(&line, "object set");
     if (app->patch->handle == WR_HANDLE_MOVE) wr_line_vec(&line, "at", app->live->at);
+    else if (app->patch->handle == WR_HANDLE_SIZE && v3_len(app->live->sizes) > 0)
+        wr_line_vec(&line, "size", app->live->sizes);
     else if (app->patch->handle == WR_HANDLE_SIZE) wr_line_number(&line, "size", app->live->size);
     else wr_line_vec(&line, "turn", app->live->rotate_deg);
     wr_app_live_end(app);
