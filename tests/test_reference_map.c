@@ -49,7 +49,7 @@ static int falling(const void *a, const void *b)
    decides which texel, which triangle or which side is met; and how many pixels have both. */
 static double worst_angle(const WrScene *scene, const WrField *field, int *count)
 {
-    static float normals[HIGH][WIDE][3];
+    static float normals[HIGH * WIDE][3];
     static double angles[HIGH * WIDE];
     WrError err = { "" };
     WrPool *pool = wr_pool_new(2);
@@ -59,7 +59,7 @@ static double worst_angle(const WrScene *scene, const WrField *field, int *count
                                      .width = WIDE,
                                      .height = HIGH,
                                      .turn_deg = 15,
-                                     .normals = normals[0][0] };
+                                     .normals = normals[0] };
     const WrReferenceRequest truth = { .field = field,
                                        .scene = scene,
                                        .width = WIDE,
@@ -74,7 +74,7 @@ static double worst_angle(const WrScene *scene, const WrField *field, int *count
         fail_msg("%s", err.text);
     *count = 0;
     for (int i = 0; i < WIDE * HIGH; i++) {
-        const float *a = normals[0][i];
+        const float *a = normals[i];
         const double *b = reference.normal + 3 * i;
         const double bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
         if (!(frame.rgba[4 * i + 3] > 0) || !(bb > 0)) continue;
@@ -226,7 +226,7 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
         scene->normals.strength = 1;
         if (k >= 10) scene->bump = WR_BUMP_INVARIANT, scene->dials.aa = WR_AA_FILTER;
         scene->posed = true, scene->rotate_deg = (WrVec3){ 0, -15, 0 };
-        static float normals[40][40][3];
+        static float normals[40 * 40][3];
         WrField *field = wr_field_new(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
         WrRenderer *renderer = wr_renderer_new(NULL, "auto", NULL);
         const WrFrameRequest request = { .field = field,
@@ -234,14 +234,14 @@ static void one_triangle_turns_the_map_as_by_hand(void **state)
                                          .width = 40,
                                          .height = 40,
                                          .turn_deg = 15,
-                                         .normals = normals[0][0] };
+                                         .normals = normals[0] };
         WrFrame frame;
         int seen = 0;
         assert_true(wr_renderer_frame(renderer, &request, &frame, NULL));
         /* mirrored by u: T turns round, and B of MikkTSpace stays: it is the sign that turns n x T */
         const double turn = cases[which].channel == 0 ? sign : 1;
         for (int i = 0; i < 40 * 40; i++) {
-            const float *n = normals[0][i];
+            const float *n = normals[i];
             WrProbe probe;
             if (!(frame.rgba[4 * i + 3] > 0)) continue;
             seen++;
