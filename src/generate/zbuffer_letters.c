@@ -9,6 +9,8 @@
 
 #define EDGES_MAX 4194304
 #define CELLS 256 /* of the grid along its longer side, at most */
+#define BANDS                                                                                      \
+    16 /* in the height of a cell: outlines are many short edges, of which a line across meets few */
 
 typedef struct Edge {
     double p, q, dp, dq; /* from (p, q) by (dp, dq) */
@@ -29,7 +31,7 @@ struct WrZLetters {
     int across, up;         /* its cells */
     double near;            /* distances below that are exact */
     List *cells;            /* [up][across] edges within `near` of the cell */
-    List *bands;            /* [up] edges that a row of cells meets */
+    List *bands;            /* [up BANDS] edges that a strip across meets */
     int *items;             /* of all lists */
     signed char *inside;    /* [up][across] of cells without edges near: 1 or -1 */
 };
@@ -83,6 +85,13 @@ static int cell_of(const WrZLetters *l, double x, int axis)
     return i < 0.0 ? 0 : i > last ? last : (int)i;
 }
 
+static int band_of(const WrZLetters *l, double q)
+{
+    double j = floor((q - l->origin[1]) / l->cell * BANDS);
+    int last = l->up * BANDS - 1;
+    return j < 0.0 ? 0 : j > last ? last : (int)j;
+}
+
 static void put(const WrZLetters *l, List *list, int edge)
 {
     if (l->items) l->items[list->first + list->count] = edge;
@@ -103,8 +112,7 @@ static void put_edge(WrZLetters *l, int edge)
             double p = l->origin[0] + (i + 0.5) * l->cell, q = l->origin[1] + (j + 0.5) * l->cell;
             if (edge_square(e, p, q) <= reach * reach) put(l, &l->cells[j * l->across + i], edge);
         }
-    for (int j = cell_of(l, q0 - 1e-9, 1); j <= cell_of(l, q1 + 1e-9, 1); j++)
-        put(l, &l->bands[j], edge);
+    for (int j = band_of(l, q0 - 1e-9); j <= band_of(l, q1 + 1e-9); j++) put(l, &l->bands[j], edge);
 }
 
 static int place_lists(List *lists, int count, int first)
@@ -120,7 +128,7 @@ static int place_lists(List *lists, int count, int first)
 /* The nonzero rule, by what crosses a line to the right. */
 static bool is_inside(const WrZLetters *l, double p, double q)
 {
-    const List *band = &l->bands[cell_of(l, q, 1)];
+    const List *band = &l->bands[band_of(l, q)];
     int winding = 0;
     for (int k = 0; k < band->count; k++) {
         const Edge *e = &l->edges[l->items[band->first + k]];
@@ -137,14 +145,15 @@ static bool fill_grid(WrZLetters *l, WrError *err)
 {
     size_t cells = (size_t)l->across * (size_t)l->up;
     l->cells = wr_alloc(cells, sizeof *l->cells);
-    l->bands = wr_alloc((size_t)l->up, sizeof *l->bands);
+    const int bands = l->up * BANDS;
+    l->bands = wr_alloc((size_t)bands, sizeof *l->bands);
     l->inside = wr_alloc(cells, 1);
     for (int i = 0; i < l->count; i++) put_edge(l, i);
     double total = 0.0;
     for (size_t i = 0; i < cells; i++) total += l->cells[i].count;
-    for (int j = 0; j < l->up; j++) total += l->bands[j].count;
+    for (int j = 0; j < bands; j++) total += l->bands[j].count;
     if (total > 2e8) return wr_fail(err, "outlines of %d edges: must be fewer", l->count);
-    int end = place_lists(l->bands, l->up, place_lists(l->cells, (int)cells, 0));
+    int end = place_lists(l->bands, bands, place_lists(l->cells, (int)cells, 0));
     l->items = wr_try_alloc((size_t)end + 1, sizeof *l->items, "outlines", err);
     if (!l->items) return false;
     for (int i = 0; i < l->count; i++) put_edge(l, i);
