@@ -125,6 +125,8 @@ static WrScene *scene_number(int k)
     if (k >= 12) turn_by(scene, k / 2 + k / 12);
     if (k % 7 != 5 && scene->height != 0) scene->bump = WR_BUMP_EXACT; /* the truth */
     scene->dials.shading = WR_SHADING_DOUBLE;
+    if (k % 5 == 3) /* normals of the object's axes go by the cofactors, mirrored or not */
+        scene->sizes = (WrVec3){ 1, 0.6, k % 2 ? -0.8 : 0.8 };
     return scene;
 }
 
@@ -158,7 +160,7 @@ static void objects_that_hide_each_other_have_them_too(void **state)
         WrField *field = random_field(40, 29, 3);
         scene->at = (WrVec3){ 0.7, 0.3, 0.5 };
         const double worst = worst_angle(scene, field, &count);
-        if (!(count > 500 && worst < 1e-3)) fail_msg("case %d: %g of %d", k, worst, count);
+        if (!(count > 300 && worst < 1e-3)) fail_msg("case %d: %g of %d", k, worst, count);
         wr_scene_free(scene);
         wr_scene_free(first);
         wr_field_free(field);
