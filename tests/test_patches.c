@@ -9,6 +9,7 @@
 #include "field/wrap.h"
 #include "surface/patches.h"
 #include "surface/surface.h"
+#include "surface/terrain.h"
 
 #include "test_patch_sets.h"
 
@@ -207,6 +208,67 @@ static void the_table_runs_on(void **state)
     wr_field_free(field);
 }
 
+/* Of cells of their own, each within its margin: no tap of a cubic scheme in a cell of 64 texels reaches another's. */
+static void cells_are_apart(void **state)
+{
+    (void)state;
+    WrTriangles *pot = teapot(false, WR_PATCH_OWN);
+    const WrPatches *set = pot->patches;
+    assert_int_equal(set->columns, 6);
+    assert_int_equal(set->rows, 6);
+    for (int32_t i = 0; i < set->count; i++)
+        for (int k = 0; k < 4; k++) {
+            double u, v;
+            wr_patch_chart(set, &set->patch[i], k % 2, k / 2, &u, &v);
+            const double x = 64 * (u * set->columns - i % 6), y = 64 * (v * set->rows - i / 6);
+            assert_near(x, k % 2 ? 62 : 2, 1e-9);
+            assert_near(y, k / 2 ? 62 : 2, 1e-9);
+        }
+    wr_triangles_free(pot);
+}
+
+/* A ground of patches is where the spline through the picture's means is: level where that is level, and tilted evenly
+   where it is; it runs on smoothly. */
+static void terrains_are_smooth(void **state)
+{
+    (void)state;
+    float level[12 * 8], ramp[12 * 8], rough[12 * 8];
+    TestRandom random = { 3 };
+    for (int i = 0; i < 96; i++) {
+        level[i] = 0.5f, ramp[i] = (float)(i % 12) / 12, rough[i] = (float)test_random(&random);
+    }
+    const float *const all[] = { level, ramp, rough };
+    for (int k = 0; k < 3; k++) {
+        const WrTerrain terrain = {
+            .heights = all[k], .w = 12, .h = 8, .a = 3, .b = 2, .height = 0.5, .cells = 12
+        };
+        WrError err = { "" };
+        float(*points)[48];
+        int columns, rows;
+        assert_true(wr_terrain_points(&terrain, &points, &columns, &rows, &err));
+        assert_int_equal(columns, 12);
+        assert_int_equal(rows, 8);
+        WrTriangles *made = make((const float(*)[48])points, 96, WR_PATCH_SPLIT);
+        const WrPatchesTold *told = &made->patches->told;
+        assert_int_equal(told->shared, 11 * 8 + 12 * 7);
+        assert_int_equal(told->joined, told->shared);
+        assert_int_equal(told->loops, 1);
+        assert_int_equal(told->creased + told->turned, 0);
+        assert_int_equal(made->patches->columns, 12);
+        const WrSurfacePoint mid = patch_at(points[12 * 4 + 6], 0, 0);
+        assert_near(mid.p.x, 1.5, 1e-6);
+        assert_near(mid.p.y, 1, 1e-6);
+        if (k == 0) assert_near(mid.p.z, 0.25, 1e-6);
+        if (k == 1) assert_near(mid.n_unit.x / mid.n_unit.z, -0.5 / 3, 1e-5);
+        double u, v;
+        wr_patch_chart(made->patches, &made->patches->patch[12 * 4 + 6], 0, 0, &u, &v);
+        assert_near(u, 0.5, 1e-9);
+        assert_near(v, 0.5, 1e-9);
+        wr_free(points);
+        wr_triangles_free(made);
+    }
+}
+
 /* ---- texts ---- */
 
 static bool parse(const char *text, WrError *err)
@@ -341,6 +403,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_teapot_is_told_of),  cmocka_unit_test(neighbours_are_cut_alike),
         cmocka_unit_test(triangles_are_near),     cmocka_unit_test(the_table_runs_on),
+        cmocka_unit_test(cells_are_apart),        cmocka_unit_test(terrains_are_smooth),
         cmocka_unit_test(texts_are_read_or_told), cmocka_unit_test(hostile_texts_end),
         cmocka_unit_test(odd_sets_end),
     };

@@ -14,6 +14,7 @@
 #include "image/image.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
+#include "surface/patches.h"
 #include "surface/triangles.h"
 
 #include <unistd.h>
@@ -201,12 +202,62 @@ static void another_content_is_an_error(void **state)
     wr_text_fini(&notes);
 }
 
+static const char slab[] = "2\n3 3\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n0 1 0\n1 1 1\n2 1 1\n3 1 0\n"
+                           "0 2 0\n1 2 1\n2 2 1\n3 2 0\n0 3 0\n1 3 0\n2 3 0\n3 3 0\n"
+                           "3 3\n3 0 0\n4 0 0\n5 0 0\n6 0 0\n3 1 0\n4 1 1\n5 1 1\n6 1 0\n"
+                           "3 2 0\n4 2 1\n5 2 1\n6 2 0\n3 3 0\n4 3 0\n5 3 0\n6 3 0\n";
+
+/* Patches, and a terrain that is one: read, told of, kept by both kinds of documents with their table. */
+static void patches_and_terrains_are_kept(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "surface patches file=slab.bpt table=split",
+                                         "surface patches file=slab.bpt table=own",
+                                         "surface terrain file=hills.pgm height=0.4 cells=8" };
+    static const char *const names[] = { "d.exr", "d.ora" };
+    WrText notes = { 0 };
+    WrError err = { "" };
+    for (int i = 0; i < 6; i++) {
+        char line[40];
+        write_file("slab.bpt", slab);
+        write_file("hills.pgm", "P2\n4 3\n255\n0 80 90 10\n20 255 60 0\n5 9 130 70\n");
+        WrSession *a = session_with(&notes), *b = session_with(&notes);
+        must_run(a, "table 8x8");
+        must_run(a, lines[i / 2]);
+        const WrPatches *set = scene_in(a)->triangles->patches;
+        assert_int_equal(set->columns, i / 2 == 2 ? 8 : 2);
+        snprintf(line, sizeof line, "save %s", names[i % 2]);
+        must_run(a, line);
+        assert_int_equal(unlink("slab.bpt"), 0);
+        assert_int_equal(unlink("hills.pgm"), 0);
+        if (!wr_session_open(b, names[i % 2], &err)) fail_msg("%s", err.text);
+        const WrTriangles *is = scene_in(b)->triangles;
+        assert_non_null(is);
+        assert_true(is->key == scene_in(a)->triangles->key && is->patches);
+        assert_int_equal(is->patches->table, set->table);
+        assert_memory_equal(&scene_in(a)->shape, &scene_in(b)->shape, sizeof(WrShape));
+        assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        wr_session_free(a);
+        wr_session_free(b);
+    }
+    assert_non_null(strstr(wr_text_get(&notes), "2 patches in"));
+    assert_non_null(strstr(wr_text_get(&notes), "1 shared edges; 6 open ones in 1 loops"));
+    assert_non_null(strstr(wr_text_get(&notes), "8 x 8 patches in"));
+    write_file("bad.bpt", "1\n3 3\n0 0 zero\n");
+    WrSession *s = session_with(&notes);
+    must_fail(s, "surface patches file=bad.bpt", "bad.bpt: line 3: \"zero\" is not a coordinate");
+    wr_session_free(s);
+    wr_text_fini(&notes);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_mesh_is_told_of_and_undone, enter_own_folder,
                                         leave_own_folder),
         cmocka_unit_test_setup_teardown(documents_carry_it, enter_own_folder, leave_own_folder),
+        cmocka_unit_test_setup_teardown(patches_and_terrains_are_kept, enter_own_folder,
+                                        leave_own_folder),
         cmocka_unit_test_setup_teardown(objects_share_one, enter_own_folder, leave_own_folder),
         cmocka_unit_test_setup_teardown(damaged_meshes_are_refused, enter_own_folder,
                                         leave_own_folder),

@@ -15,7 +15,7 @@ static const double surface_price[] = {
     [WR_ROW(WR_SURFACE_disc)] = 32,           [WR_ROW(WR_SURFACE_capsule)] = 42,
     [WR_ROW(WR_SURFACE_superellipsoid)] = 90, [WR_ROW(WR_SURFACE_revolution)] = 60,
     [WR_ROW(WR_SURFACE_formula)] = 200,       [WR_ROW(WR_SURFACE_mesh)] = 30,
-    [WR_ROW(WR_SURFACE_patches)] = 60,
+    [WR_ROW(WR_SURFACE_patches)] = 60,        [WR_ROW(WR_SURFACE_terrain)] = 60,
 };
 WR_ROWS_END(surface_price, WR_SURFACE_COUNT);
 

@@ -7,10 +7,12 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/scene_args.h"
+#include "image/image.h"
 #include "image/mesh.h"
 #include "document/document.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
+#include "surface/terrain.h"
 #include "surface/triangles.h"
 
 #include <string.h>
@@ -130,6 +132,39 @@ static WrTriangles *read_patches(const char *path, WrPatchTable table, WrError *
     return made;
 }
 
+static WrTriangles *read_terrain(const char *path, const WrShape *shape, WrError *err)
+{
+    WrImage *image = wr_image_read(path, err);
+    if (!image) return NULL;
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    const size_t channels = (size_t)image->channels;
+    float *heights = wr_try_alloc(pixels, sizeof *heights, "a terrain", err), (*points)[48] = NULL;
+    for (size_t i = 0; i < pixels && heights; i++)
+        heights[i] = wr_image_luma(image->data + i * channels, (int)channels);
+    const WrTerrain terrain = { .heights = heights,
+                                .w = image->width,
+                                .h = image->height,
+                                .a = shape->value[0],
+                                .b = shape->value[1],
+                                .height = shape->value[2],
+                                .cells = (int)shape->value[3] };
+    int columns, rows;
+    WrTriangles *made = NULL;
+    if (heights && wr_terrain_points(&terrain, &points, &columns, &rows, err))
+        made = wr_patches_new((const float(*)[48])points, columns * rows, WR_PATCH_SPLIT, err);
+    wr_free(points);
+    wr_free(heights);
+    wr_image_free(image);
+    return made;
+}
+
+static void note_terrain(WrSession *session, const char *path, const WrTriangles *mesh)
+{
+    const WrPatches *set = mesh->patches;
+    wr_session_note(session, "%s: %d x %d patches in %d triangles", path, (int)set->columns,
+                    (int)set->rows, (int)mesh->triangle_count);
+}
+
 /* HC152: what is open, drawn together or creased is told, since none of it shows at once. */
 static void note_patches(WrSession *session, const char *path, const WrTriangles *mesh)
 {
@@ -148,15 +183,31 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
     if (told->crease_deg > 0)
         wr_text_addf(&text, "; %d creased, patches %d and %d by %.2f degrees", (int)told->creased,
                      (int)told->crease_of[0] + 1, (int)told->crease_of[1] + 1, told->crease_deg);
-    if (set->table != WR_PATCH_EACH)
+    if (set->table == WR_PATCH_JOINED || set->table == WR_PATCH_SPLIT)
         wr_text_addf(&text, "; the table runs on across %d of the shared edges", (int)told->joined);
-    if (set->table == WR_PATCH_SPLIT)
+    if (set->columns > 1 || set->rows > 1)
         wr_text_addf(&text, ", in cells of %d x %d", (int)set->columns, (int)set->rows);
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
 
-static WrTriangles *find_mesh(WrSession *session, WrCall *call, WrSurfaceKind kind,
+static WrTriangles *read_held(const WrCall *call, const WrShape *shape, const char *path,
+                              WrError *err)
+{
+    if (shape->kind == WR_SURFACE_terrain) return read_terrain(path, shape, err);
+    if (shape->kind == WR_SURFACE_mesh) return read_triangles(path, err);
+    return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
+}
+
+static void note_held(WrSession *session, WrSurfaceKind kind, const char *path,
+                      const WrTriangles *mesh)
+{
+    if (kind == WR_SURFACE_terrain) note_terrain(session, path, mesh);
+    else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh);
+    else note_patches(session, path, mesh);
+}
+
+static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *shape,
                               const char *name, WrError *err)
 {
     if (session->loading) {
@@ -170,9 +221,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, WrSurfaceKind ki
     WrTriangles *mesh = NULL;
     char hex[65];
     WrSha256Work *hash = wr_sha256_begin(path);
-    const bool patches = kind == WR_SURFACE_patches;
-    mesh = patches ? read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err)
-                   : read_triangles(path, err);
+    mesh = read_held(call, shape, path, err);
     WrError why = { "" };
     if (!wr_sha256_end(hash, hex, &why) ||
         !wr_call_check_sha256(call, "sha256", path, hex, &why)) { /* what it is comes first */
@@ -180,7 +229,7 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, WrSurfaceKind ki
         mesh = NULL;
         wr_fail(err, "%s", why.text);
     }
-    if (mesh) (mesh->patches ? note_patches : note_mesh)(session, path, mesh);
+    if (mesh) note_held(session, shape->kind, path, mesh);
     wr_free(path);
     return mesh;
 }
@@ -192,7 +241,7 @@ bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
         return true;
     }
     const char *name = wr_call_arg(call, "file")->text;
-    WrTriangles *mesh = find_mesh(session, call, scene->shape.kind, name, err);
+    WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, err);
     if (!mesh) return false;
     wr_scene_set_triangles(scene, mesh, name, wr_call_arg(call, "sha256")->text);
     return true;
@@ -205,7 +254,7 @@ void wr_print_mesh(const WrScene *scene, bool content, WrText *text)
         wr_text_add(text, " file=");
         wr_text_add_word(text, scene->triangles_path);
     }
-    if (scene->triangles->patches)
+    if (scene->shape.kind == WR_SURFACE_patches && scene->triangles->patches)
         wr_text_addf(text, " table=%s", wr_patch_tables[scene->triangles->patches->table]);
     if (*scene->triangles_sha256) wr_text_addf(text, " sha256=%s", scene->triangles_sha256);
 }
@@ -217,19 +266,26 @@ static const char *table_name(int i)
 
 void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args)
 {
-    args[0] = (WrArgSpec){ .name = "file",
-                           .type = WR_ARG_PATH,
-                           .help = "the mesh, in its own unit and axes; it is saved inside the "
+    args[0] =
+        (WrArgSpec){ .name = "file",
+                     .type = WR_ARG_PATH,
+                     .help = kind == WR_SURFACE_terrain
+                                 ? "a picture, black low and white high; what is made of it "
+                                   "is saved inside the document"
+                                 : "the mesh, in its own unit and axes; it is saved inside the "
                                    "document" };
     args[1] = (WrArgSpec){ .name = "sha256",
                            .type = WR_ARG_SHA256,
                            .help = "of the file: another content is then an error" };
     if (kind == WR_SURFACE_patches)
-        args[2] = (WrArgSpec){ .name = "table",
-                               .type = WR_ARG_CHOICE,
-                               .choice = table_name,
-                               .fallback_text = "each",
-                               .help = "each patch has the whole table by its own u and v; or "
-                                       "turned so that it runs on across shared edges; or a cell "
-                                       "of one table, on which the set is unfolded" };
+        args[2] =
+            (WrArgSpec){ .name = "table",
+                         .type = WR_ARG_CHOICE,
+                         .choice = table_name,
+                         .fallback_text = "each",
+                         .help = "each patch has the whole table by its own u and v; or "
+                                 "turned so that it runs on across shared edges; or a cell "
+                                 "of one table, on which the set is unfolded; or a cell of its "
+                                 "own, in rows, within a margin that keeps others' heights "
+                                 "out" };
 }

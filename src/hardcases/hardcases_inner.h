@@ -92,6 +92,9 @@ WrField *wr_hard_rolled(const WrField *field, int di, int dj);
 WrHardSlope wr_hard_sample(const WrField *field, WrScheme scheme, double u, double v);
 bool wr_hard_same_slope(WrHardSlope a, WrHardSlope b); /* every bit */
 
+/* The scene shows rough ground of 5 x 5 patches, 1 unit wide, from above or below and turned at random. */
+void wr_hard_ground(WrHardGauge *gauge, WrScene *scene);
+
 /* ---- pictures ---- */
 
 typedef struct WrHardShot {
@@ -134,7 +137,7 @@ bool wr_hard_shine(const WrHardLit *lit, double part[2], WrError *err);
     X(noise) X(octaves) X(faces) X(tiling)                                                         \
     X(dab) X(stroke) X(stamp) X(undo)                                                              \
     X(sight) X(turn) X(light)                                                                      \
-    X(fans) X(maps) X(forms) X(later)
+    X(fans) X(maps) X(forms) X(patches) X(later)
 /* clang-format on */
 
 typedef struct WrHardList {

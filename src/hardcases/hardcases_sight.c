@@ -234,13 +234,14 @@ static bool hc84(WrHardGauge *g, WrError *err)
    and more; or from behind, where triangles are seen the other way round. */
 static WrScene *filling(WrHardGauge *g, int k, bool behind)
 {
-    const bool patch = k == WR_SURFACE_COUNT;
+    const bool patch = k >= WR_SURFACE_COUNT;
     WrScene *scene = scene_of(patch ? WR_SURFACE_bent : (WrSurfaceKind)k);
     if (patch) {
         scene->shape.value[2] = scene->shape.value[3] = 0.0;
         scene->shape.value[4] = 0.3;
         scene->camera =
             (WrCamera){ .eye = { 0, 0, behind ? -1.2 : 1.2 }, .up = { 0, 1, 0 }, .fov_deg = 20 };
+        if (k > WR_SURFACE_COUNT) wr_hard_ground(g, scene);
         return scene;
     }
     const double across = k == WR_SURFACE_torus ? 0.06 : 0.56; /* of a torus the outer side */
@@ -260,7 +261,7 @@ static bool hc85(WrHardGauge *g, WrError *err)
     WrField *field = wr_hard_waves(32, 32);
     WrPool *pool = wr_pool_new(3), *own = g->pool;
     bool good = true;
-    for (int k = 0; k < 4 * (WR_SURFACE_COUNT + 1) && good; k++) {
+    for (int k = 0; k < 4 * (WR_SURFACE_COUNT + 4) && good; k++) {
         const int size = 53 + 22 * (k % 2);
         WrScene *scene = filling(g, k / 4, k / 2 % 2);
         const WrFrameRequest request = {

@@ -8,11 +8,6 @@
 
 #define PATCH_SPAN 64 /* samples at a time: their patches stay in the first-level cache */
 #define PATCH_FLOATS 56
-#ifdef WR_KERN_DOUBLE
-#define PATCH_STEPS 4
-#else
-#define PATCH_STEPS 2
-#endif
 
 /* The patches of PATCH_SPAN samples, side by side; each sample's triangle's normal. */
 typedef struct PatchRows {
@@ -86,20 +81,39 @@ ALWAYS REAL at_most(REAL t, REAL most)
     return t < most ? t : most;
 }
 
-/* The patch's own point on the ray q + s d. Where the ray all but lies in the patch it stays in the triangle's reach. */
-ALWAYS void solve_patch(const PatchRows *rows, int i, VEC q, VEC d, REAL *u, REAL *v, VEC *p,
-                        VEC *pu, VEC *pv)
+/* A point of the patch under way to the ray. */
+typedef struct PatchPoint {
+    REAL u, v;
+    VEC p, pu, pv;
+} PatchPoint;
+
+ALWAYS PatchPoint patch_at(const PatchRows *rows, int i, REAL u, REAL v)
 {
-    const REAL reach_u = rows->row[54][i], reach_v = rows->row[55][i];
-    patch_plane(rows, i, *u, *v, p, pu, pv);
-    for (int k = 0; k < PATCH_STEPS; k++) {
-        VEC gap = v_sub(q, *p), a = v_cross(*pv, d), b = v_cross(d, *pu);
-        REAL det = v_dot(*pu, a);
-        REAL inv = K_(1) / (r_abs(det) > K_(1e-30) ? det : K_(1e-30));
-        *u = within_patch(*u + at_most(v_dot(gap, a) * inv, reach_u));
-        *v = within_patch(*v + at_most(v_dot(gap, b) * inv, reach_v));
-        patch_plane(rows, i, *u, *v, p, pu, pv);
-    }
+    PatchPoint at = { .u = u, .v = v };
+    patch_plane(rows, i, u, v, &at.p, &at.pu, &at.pv);
+    return at;
+}
+
+/* A step of Newton's method towards the ray q + s d, no longer than a triangle's reach: where the ray all but lies in the
+   patch it would lead anywhere. */
+ALWAYS PatchPoint patch_step(const PatchRows *rows, int i, VEC q, VEC d, PatchPoint at)
+{
+    VEC gap = v_sub(q, at.p), a = v_cross(at.pv, d), b = v_cross(d, at.pu);
+    REAL det = v_dot(at.pu, a);
+    REAL inv = K_(1) / (r_abs(det) > K_(1e-30) ? det : K_(1e-30));
+    REAL u = within_patch(at.u + at_most(v_dot(gap, a) * inv, rows->row[54][i]));
+    REAL v = within_patch(at.v + at_most(v_dot(gap, b) * inv, rows->row[55][i]));
+    return patch_at(rows, i, u, v);
+}
+
+/* Written out: a loop within the loop over samples would keep that from vectorising. */
+ALWAYS PatchPoint solve_patch(const PatchRows *rows, int i, VEC q, VEC d, REAL u, REAL v)
+{
+    PatchPoint at = patch_step(rows, i, q, d, patch_at(rows, i, u, v));
+#ifdef WR_KERN_DOUBLE
+    at = patch_step(rows, i, q, d, patch_step(rows, i, q, d, at));
+#endif
+    return patch_step(rows, i, q, d, at);
 }
 
 /* The chart's two scales, and what all samples share. */
@@ -109,9 +123,11 @@ typedef struct PatchMeeting {
 } PatchMeeting;
 
 /* What the strip keeps of the point, its unit normal n and 1 / |N|. */
-ALWAYS void put_patch(const PatchMeeting *m, const PatchRows *rows, VEC p, VEC n, VEC pu, VEC pv,
-                      REAL inv, REAL u, REAL v, STRIP *strip, int at, int i)
+ALWAYS void put_patch(const PatchMeeting *m, const PatchRows *rows, const PatchPoint *met, VEC n,
+                      REAL inv, STRIP *strip, int at, int i)
 {
+    const VEC p = met->p, pu = met->pu, pv = met->pv;
+    const REAL u = met->u, v = met->v;
     const VEC face = { rows->face[0][i], rows->face[1][i], rows->face[2][i] };
     STORE3(strip, p, at + i, p);
     n = before_horizon(n, face, v_mad(m->all.eye, p, m->all.move));
@@ -132,20 +148,18 @@ ALWAYS void meet_patch(const PatchMeeting *m, PatchRows *rows, STRIP *strip, int
     const REAL x = strip->x[at + i], y = strip->y[at + i];
     VEC q = v_mad(v_mad(m->all.q0, m->all.qy, y), m->all.qx, x);
     VEC d = v_mad(v_mad(m->all.d0, m->all.dy, y), m->all.dx, x);
-    REAL u = strip->u[at + i], v = strip->v[at + i];
-    VEC p, pu, pv;
-    solve_patch(rows, i, q, d, &u, &v, &p, &pu, &pv);
+    const PatchPoint met = solve_patch(rows, i, q, d, strip->u[at + i], strip->v[at + i]);
     const VEC face = { rows->face[0][i], rows->face[1][i], rows->face[2][i] };
-    VEC cross = v_cross(pu, pv);
+    VEC cross = v_cross(met.pu, met.pv);
     REAL size = r_sqrt(v_dot(cross, cross));
     REAL whole = FN(bezier_size)(v_sub(patch_point(rows, 15, i), patch_point(rows, 0, i))) +
                  FN(bezier_size)(v_sub(patch_point(rows, 12, i), patch_point(rows, 3, i)));
     const bool weak = !(size > K_(1e-6) * whole * whole);
     REAL inv = weak ? K_(0) : K_(1) / size;
     rows->weak[i] = weak ? K_(1) : K_(0);
-    strip->s[at + i] = u; /* for those that are weak */
-    strip->tu[at + i] = v;
-    put_patch(m, rows, p, choose(weak, face, v_scale(cross, inv)), pu, pv, inv, u, v, strip, at, i);
+    strip->s[at + i] = met.u; /* for those that are weak */
+    strip->tu[at + i] = met.v;
+    put_patch(m, rows, &met, choose(weak, face, v_scale(cross, inv)), inv, strip, at, i);
 }
 
 /* Where Pu x Pv all but vanishes the normal is a limit (bezier.h), and slopes along what has no length are 0. */
@@ -157,7 +171,8 @@ static void meet_weak(const PatchMeeting *m, const PatchRows *rows, STRIP *strip
     const REAL u = strip->s[at + i], v = strip->tu[at + i];
     FN(bezier_at)(&shape, 0, u, v, &point);
     const REAL inv = point.n_len > K_(0) ? K_(1) / point.n_len : K_(0);
-    put_patch(m, rows, point.p, point.n_unit, point.pu, point.pv, inv, u, v, strip, at, i);
+    const PatchPoint met = { u, v, point.p, point.pu, point.pv };
+    put_patch(m, rows, &met, point.n_unit, inv, strip, at, i);
 }
 
 /* The (u,v) of the patch where the ray meets the triangle, and the triangle's normal. */

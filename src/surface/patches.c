@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-const char *const wr_patch_tables[WR_PATCH_TABLES] = { "each", "joined", "split" };
+const char *const wr_patch_tables[WR_PATCH_TABLES] = { "each", "joined", "split", "own" };
 
 void wr_patches_free(WrPatches *patches)
 {

@@ -8,13 +8,14 @@
 
    Which part of the table a patch has (WrPatchTable) is a chart, the same for all three:
      table's u = (c[0] + c[1] u + c[2] v) scale_u      v = (c[3] + c[4] u + c[5] v) scale_v
-   with whole c: a turn by quarters, mirrored or not, and a cell. So along an edge that is joined both neighbours have the
+   with whole c (but for WR_PATCH_OWN): a turn by quarters, mirrored or not, and a cell. So along an edge that is joined both neighbours have the
    same place of the table, with the same bits, and the table runs on beyond it (HC151). */
 #pragma once
 #include "surface/triangles.h"
 
 #define WR_PATCHES_MAX WR_TRIANGLE_PARTS_MAX
 #define WR_PATCH_CUTS_MAX 64
+#define WR_PATCH_MARGIN (1.0 / 32) /* of WR_PATCH_OWN, in parts of a cell: two texels of 64 */
 /* How far a triangle is from its patch at most, in parts of the set's radius, while there are no more than
  * WR_PATCH_TRIANGLES. */
 #define WR_PATCH_OFF (1.0 / 4000)
@@ -24,6 +25,7 @@ typedef enum WrPatchTable {
     WR_PATCH_EACH,   /* the whole table, by its own u and v */
     WR_PATCH_JOINED, /* the whole table, turned so that it runs on across shared edges */
     WR_PATCH_SPLIT,  /* a cell of one table, on which the set is unfolded */
+    WR_PATCH_OWN, /* a cell of its own of one table, within a margin: nothing of other cells shows */
     WR_PATCH_TABLES
 } WrPatchTable;
 extern const char *const wr_patch_tables[WR_PATCH_TABLES];

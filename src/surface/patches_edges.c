@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "surface/triangles_inner.h"
 
+#include <math.h>
 #include <string.h>
 
 /* ---- edges ---- */
@@ -328,6 +329,20 @@ static bool runs_on(const Layout *l, int32_t i)
     return true;
 }
 
+/* A cell for each, row by row from the lower left; patches fill them but for a margin. Nothing is joined. */
+static void take_cells(WrPatches *set, WrPatch *patch)
+{
+    const float margin = (float)WR_PATCH_MARGIN, side = 1 - 2 * margin;
+    const int32_t columns = (int32_t)ceil(sqrt((double)set->count));
+    set->columns = columns, set->rows = (set->count + columns - 1) / columns;
+    set->scale_u = 1.0 / set->columns, set->scale_v = 1.0 / set->rows;
+    for (int32_t i = 0; i < set->count; i++) {
+        const float chart[6] = { (float)(i % columns) + margin, side, 0,
+                                 (float)(i / columns) + margin, 0,    side };
+        memcpy(patch[i].chart, chart, sizeof chart);
+    }
+}
+
 static void take_charts(const Layout *l, WrPatches *set, WrPatch *patch)
 {
     for (int32_t i = 0; i < l->count; i++)
@@ -341,6 +356,10 @@ static void take_charts(const Layout *l, WrPatches *set, WrPatch *patch)
 bool wr_patches_lay_out(WrPatches *set, WrPatch *patch, const WrPatchEdge *edges, WrError *err)
 {
     const size_t count = (size_t)set->count;
+    if (set->table == WR_PATCH_OWN) {
+        take_cells(set, patch);
+        return true;
+    }
     Layout l = { .edges = edges, .count = set->count, .apart = set->table == WR_PATCH_SPLIT };
     l.room = 16;
     while (l.room < 2 * count) l.room *= 2;

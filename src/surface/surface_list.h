@@ -19,6 +19,7 @@ WR_X(revolution)
 WR_X(formula)
 WR_X(mesh)
 WR_X(patches)
+WR_X(terrain)
 #undef WR_X
 #endif
 #ifdef WR_SURFACE_FORMULAS
@@ -40,4 +41,5 @@ WR_X(patches)
 #include "surface/equation.h"
 #include "surface/mesh.h"
 #include "surface/patches_row.h"
+#include "surface/terrain_row.h"
 #endif

@@ -13,6 +13,7 @@
 #include "scene/param.h"
 #include "scene/scene.h"
 #include "surface/data.h"
+#include "surface/patches.h"
 #include "surface/surface.h"
 
 #include <math.h>
@@ -21,7 +22,27 @@
 
 /* ---- surface ---- */
 
-void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
+/* A surface that is read from a file: which, and which part of the table its patches have. */
+static void add_file(WrText *line, const WrShape *shape, const char *file, int table)
+{
+    if (!*file) return;
+    wr_text_add(line, " file=");
+    wr_text_add_word(line, file);
+    if (shape->kind == WR_SURFACE_patches) wr_text_addf(line, " table=%s", wr_patch_tables[table]);
+}
+
+/* Those of the scene, if it shows such a surface of this kind. */
+static const char *file_of(WrApp *app, WrSurfaceKind kind, int *table)
+{
+    const WrScene *scene = wr_app_scene(app);
+    *table = WR_PATCH_EACH;
+    if (!scene->triangles || !scene->triangles_path || scene->shape.kind != kind) return "";
+    if (scene->triangles->patches) *table = (int)scene->triangles->patches->table;
+    return scene->triangles_path;
+}
+
+static void run_file(WrApp *app, const WrShape *shape, const char *const *text, const char *file,
+                     int table)
 {
     WrText line = { 0 };
     const WrSurfaceInfo *info = wr_surfaces[shape->kind];
@@ -39,7 +60,46 @@ void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
         wr_text_addf(&line, " %s=", info->texts[k].name);
         wr_text_add_word(&line, text[k]);
     }
+    if (info->held) add_file(&line, shape, file, table);
     wr_scene_run(app, &line);
+}
+
+void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
+{
+    int table;
+    const char *file = file_of(app, shape->kind, &table);
+    run_file(app, shape, text, file, table);
+}
+
+/* What a mesh, patches or a terrain are read from. */
+static void surface_file(WrApp *app)
+{
+    const WrShape *shape = &wr_app_scene(app)->shape;
+    WrSurfaceHand *hand = app->surface;
+    int table;
+    const char *file = file_of(app, shape->kind, &table);
+    const double key = shape->value[WR_MESH_KEY] + 0x1p40 * (1 + (int)shape->kind);
+    if (!wr_surfaces[shape->kind]->held) return;
+    if (hand->file_key != key) snprintf(hand->file, sizeof hand->file, "%s", file);
+    hand->file_key = key;
+    wr_gui_label("File");
+    const bool done = wr_gui_text_field("##surface file", 0, hand->file, sizeof hand->file, false);
+    const bool left = wr_gui_field_left();
+    wr_gui_tip(shape->kind == WR_SURFACE_terrain   ? "A picture: black is low, white is high"
+               : shape->kind == WR_SURFACE_patches ? "A text of bicubic patches, such as teapot.bpt"
+                                                   : "OBJ, PLY, STL, glTF and others");
+    if (left && wr_gui_escape_pressed()) hand->file_key = 0; /* taken anew */
+    else if ((done || left) && *hand->file && strcmp(hand->file, file) != 0)
+        run_file(app, shape, NULL, hand->file, table);
+    if (shape->kind != WR_SURFACE_patches || !*file) return;
+    static const char *const labels[WR_PATCH_TABLES] = { "Whole", "Whole, joined", "Unfolded",
+                                                         "Own cells" };
+    wr_gui_label("Table");
+    const bool chosen = wr_gui_choice("patch table", 0, labels, WR_PATCH_TABLES, &table);
+    wr_gui_tip("Which part of the table each patch has: the whole of it by its own u and v; the "
+               "whole, running "
+               "on across shared edges; a part, the set unfolded; a cell of its own");
+    if (chosen) run_file(app, shape, NULL, file, table);
 }
 
 /* What a surface is given by in words, each in a field that runs the command when it is left changed. */
@@ -122,6 +182,7 @@ static void surface(WrApp *app)
     if (wr_app_scene(app)->shape.kind == WR_SURFACE_revolution && wr_app_scene(app)->shape.data)
         wr_profile_row(app);
     surface_texts(app);
+    surface_file(app);
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_REPLICATE];
     const WrNumber spec = wr_param_slider(param);
     double ru = wr_app_scene(app)->replicate_u, rv = wr_app_scene(app)->replicate_v;

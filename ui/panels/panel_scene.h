@@ -17,6 +17,8 @@ typedef struct WrProfileHand {
 typedef struct WrSurfaceHand {
     char text[WR_SURFACE_TEXTS][WR_SURFACE_TEXT_MAX + 1];
     uint64_t key; /* the data that they were taken from */
+    char file[4096];
+    double file_key; /* the mesh that its name was taken from */
     WrProfileHand profile;
 } WrSurfaceHand;
 

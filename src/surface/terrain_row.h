@@ -1,0 +1,25 @@
+/* terrain_row.h - a height field out of a picture, as a set of patches (terrain.h) that a scene holds as it does a mesh. */
+
+R_INLINE void FN(terrain_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
+{
+    FN(mesh_at)(s, face, u, v, o);
+}
+
+#ifndef WR_FORMULA_FLOAT
+static const WrSurfaceInfo terrain_row = {
+    .name = "terrain",
+    .label = "Terrain",
+    .help = "ground whose heights are a picture's, as a smooth surface that bumps go on",
+    .params = { { "a", 1, { 1 }, 1e-6, 1e6, true, "width" },
+                { "b", 1, { 1 }, 1e-6, 1e6, true, "depth" },
+                { "height", 1, { 0.25 }, -1e6, 1e6, true, "height of white above black" },
+                { "cells", 1, { 48 }, 2, 64, false, "patches along the longer side" } },
+    .pose_deg = { -55, 0, -25 },
+    .held = true,
+    .open = true,
+    .faces = 1,
+    .inversion = WR_INVERT_TRIANGLES,
+    .at = terrain_at_d,
+    .radius = mesh_radius,
+};
+#endif
