@@ -168,7 +168,9 @@ static void the_reference_agrees(void **state)
         float *rgba = wr_alloc((size_t)(w * h), 4 * sizeof *rgba);
         for (int k = 0; k < 4 * w * h; k++) rgba[k] = (float)want.rgba[k];
         const Apart apart = compare(got.frame.rgba, rgba, w * h);
-        if (!(apart.rms < 1e-4 && apart.off < 3 && apart.cover < 6 && apart.count > 2000))
+        /* cells of their own meet in steps, and samples within rounding of an edge see either side */
+        const double most = i % WR_PATCH_TABLES == WR_PATCH_OWN ? 2e-3 : 1e-4;
+        if (!(apart.rms < most && apart.off < 3 && apart.cover < 6 && apart.count > 2000))
             fail_msg("set %d: rms %g, %d off, %d cover of %d", i, apart.rms, apart.off, apart.cover,
                      apart.count);
         wr_free(rgba);
