@@ -132,7 +132,7 @@ static void hc153_stretched_objects_look_alike(void **state)
     WrField *field = bumpy_field(64, 64);
     int covered = 0;
     for (int kind = 0; kind < WR_SURFACE_COUNT; kind++)
-        for (int k = kind % 2; k < WR_LENGTH(sizes); k += getenv("WR_FULL") ? 1 : 4) {
+        for (int k = kind % 2; k < WR_LENGTH(sizes); k += getenv("WR_FULL") ? 1 : 7) {
             WrScene *scene = scene_of(wr_surfaces[kind]->name);
             scene->sizes = sizes[k];
             scene->size = fmax(fabs(sizes[k].x), fmax(fabs(sizes[k].y), fabs(sizes[k].z)));

@@ -1,5 +1,6 @@
 /* Hard cases of frames: triangles with texture coordinates, sheared tangents, scaled objects. */
 #include "hardcases/hardcases_frames.h"
+#include "hardcases/hardcases_stretch.h"
 
 #include "base/error.h"
 #include "shade/bump.h"
@@ -42,11 +43,6 @@ static bool hc32(WrHardGauge *g, WrError *err)
     return true;
 }
 
-#define LATER(number, situation, rule, effect)                                                     \
-    {                                                                                              \
-        .id = "HC" #number, .subject = WR_HARD_GEOMETRY, .what = situation, .holds = rule,         \
-        .unit = "violations", .bound = { 0, 0 }, .waits = effect                                   \
-    }
 /* In double alone where what is counted are frames and what a mesh says of itself, none of which floats make. */
 #define FRAME(number, situation, rule)                                                             \
     {                                                                                              \
@@ -58,7 +54,6 @@ static bool hc32(WrHardGauge *g, WrError *err)
         .id = "HC" #number, .subject = WR_HARD_GEOMETRY, .what = situation, .holds = rule,         \
         .unit = "violations", .bound = { 0, 0 }, .measure = wr_hard_hc##number                     \
     }
-#define SCALED "objects scaled and mirrored by a matrix"
 static const WrHardCase rows[] = {
     MESH(28, "a triangle whose texture coordinates span no area",
          "an orthonormal frame from n alone, and it is reported"),
@@ -76,9 +71,9 @@ static const WrHardCase rows[] = {
       .measure = hc32,
       .scene = "table 64x64\nformula fourier terms=3,0,0.5;0,5,0.25,90,0\nsurface bent c=1,0.5,0\n"
                "bump height=0.03" },
-    LATER(33, "an object stretched a hundredfold along one axis",
-          "normals go by the inverse transpose and stay upright on tangents", SCALED),
-    LATER(34, "an object mirrored by its matrix", "n still points outward", SCALED),
+    MESH(33, "an object stretched a hundredfold along one axis",
+         "normals go by the inverse transpose and stay upright on tangents"),
+    MESH(34, "an object mirrored along its axes", "n still points outward"),
 };
 WR_HARD_LIST(mesh, rows);
 
