@@ -207,6 +207,22 @@ static const char slab[] = "2\n3 3\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n0 1 0\n1 1 1\n2 
                            "3 3\n3 0 0\n4 0 0\n5 0 0\n6 0 0\n3 1 0\n4 1 1\n5 1 1\n6 1 0\n"
                            "3 2 0\n4 2 1\n5 2 1\n6 2 0\n3 3 0\n4 3 0\n5 3 0\n6 3 0\n";
 
+/* The file is gone by now; the set has another table, and is another document's. */
+static void another_table_without_the_file(WrSession *s)
+{
+    const uint64_t key = scene_in(s)->triangles->key;
+    must_run(s, "surface patches table=joined");
+    const WrTriangles *is = scene_in(s)->triangles;
+    assert_int_equal(is->patches->table, WR_PATCH_JOINED);
+    assert_int_equal(is->patches->count, 2);
+    assert_string_equal(scene_in(s)->triangles_path, "slab.bpt");
+    assert_int_equal(strlen(scene_in(s)->triangles_sha256), 64);
+    must_run(s, "surface patches table=split");
+    assert_true(scene_in(s)->triangles->key == key);
+    must_run(s, "surface sphere");
+    must_fail(s, "surface patches table=own", "belongs to a file=");
+}
+
 /* Patches, and a terrain that is one: read, told of, kept by both kinds of documents with their table. */
 static void patches_and_terrains_are_kept(void **state)
 {
@@ -237,6 +253,7 @@ static void patches_and_terrains_are_kept(void **state)
         assert_int_equal(is->patches->table, set->table);
         assert_memory_equal(&scene_in(a)->shape, &scene_in(b)->shape, sizeof(WrShape));
         assert_true(wr_hash_equal(wr_session_hash(a), wr_session_hash(b)));
+        if (i / 2 == 0) another_table_without_the_file(b);
         wr_session_free(a);
         wr_session_free(b);
     }

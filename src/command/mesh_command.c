@@ -234,11 +234,31 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     return mesh;
 }
 
+/* The set of patches that the object at hand has, with another table: its file may be elsewhere by now. */
+static bool run_table(const WrSession *session, const WrCall *call, WrScene *scene, WrError *err)
+{
+    const WrScene *before = session->state.document->scene;
+    const WrPatches *set = before->triangles ? before->triangles->patches : NULL;
+    if (!set || before->shape.kind != WR_SURFACE_patches)
+        return wr_fail(err, "table= belongs to a file=: the object has no patches yet");
+    float(*points)[48] = wr_alloc((size_t)set->count, sizeof *points);
+    for (int32_t i = 0; i < set->count; i++)
+        memcpy(points[i], set->patch[i].point, sizeof points[i]);
+    WrTriangles *made = wr_patches_new((const float(*)[48])points, set->count,
+                                       (WrPatchTable)wr_call_choice(call, "table"), err);
+    wr_free(points);
+    if (made)
+        wr_scene_set_triangles(scene, made, before->triangles_path,
+                               *before->triangles_sha256 ? before->triangles_sha256 : NULL);
+    return made != NULL;
+}
+
 bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
 {
     if (!wr_call_given(call, "file")) {
         if (wr_call_given(call, "sha256")) return wr_fail(err, "sha256= belongs to a file=");
-        return true;
+        const bool table = scene->shape.kind == WR_SURFACE_patches && wr_call_given(call, "table");
+        return !table || run_table(session, call, scene, err);
     }
     const char *name = wr_call_arg(call, "file")->text;
     WrTriangles *mesh = find_mesh(session, call, &scene->shape, name, err);
@@ -287,5 +307,5 @@ void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args)
                                  "turned so that it runs on across shared edges; or a cell "
                                  "of one table, on which the set is unfolded; or a cell of its "
                                  "own, in rows, within a margin that keeps others' heights "
-                                 "out" };
+                                 "out. Without a file: of the set that is there" };
 }

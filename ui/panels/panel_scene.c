@@ -99,7 +99,10 @@ static void surface_file(WrApp *app)
     wr_gui_tip("Which part of the table each patch has: the whole of it by its own u and v; the "
                "whole, running "
                "on across shared edges; a part, the set unfolded; a cell of its own");
-    if (chosen) run_file(app, shape, NULL, file, table);
+    if (!chosen) return;
+    WrText line = { 0 }; /* of the set that is there: its file may not be where it was */
+    wr_text_addf(&line, "surface patches table=%s", wr_patch_tables[table]);
+    wr_scene_run(app, &line);
 }
 
 /* What a surface is given by in words, each in a field that runs the command when it is left changed. */
