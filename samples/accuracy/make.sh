@@ -38,8 +38,9 @@ scenes=(ribbon bricks-far sphere-poles terrain-grazing bits displacement scratch
 unseen=(rivets-torus curl-tiles bezier-noise cylinder-ridges sphere-gloss plane-fourier cube-letters floor-cells)
 shown=("${scenes[@]}" highlights knot trio) # of the last three only the table
 if [[ -n $quick ]]; then
-    contestants=(painted cube-letters) large=()
+    contestants=(painted cube-letters) large=() pieces=2
 else
+    pieces=12
     contestants=("${scenes[@]}" "${unseen[@]}") large=(ribbon sphere-poles sphere-gloss cube-letters)
 fi
 
@@ -124,7 +125,7 @@ show_front() {
             esac
         done
         number=$((number + 1))
-        [[ $number -le 12 ]] || break
+        [[ $number -le $pieces ]] || break
         "$program" render "$(script "$name")" ${bump:+--do "bump$bump"} ${dials:+--do "dials$dials"} --size $size \
             -o "$temporary/piece.png"
         convert "$temporary/piece.png" -gravity center -crop 76x76+0+0 +repage -fill white -undercolor '#00000080' \
