@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "render/frame.h"
+#include "render/reference.h"
 
 static inline WrField *bumpy_field(int w, int h)
 {
@@ -109,4 +110,25 @@ static inline void expect_refreshed(const WrScene *scene, int which)
     }
     put_away(&kept);
     wr_field_free(field);
+}
+
+/* The same picture by the reference, one sample a pixel: R,G,B,A as floats. The caller frees it (wr_free). */
+static inline float *true_picture(const WrScene *scene, const WrField *field, int w, int h)
+{
+    WrPool *pool = wr_pool_new(2);
+    WrError err = { "" };
+    WrReference want = { 0 };
+    const WrReferenceRequest request = { .field = field,
+                                         .scene = scene,
+                                         .width = w,
+                                         .height = h,
+                                         .turn_deg = 15,
+                                         .first = 1,
+                                         .most = 1 };
+    if (!wr_reference_render(&request, pool, &want, &err)) fail_msg("%s", err.text);
+    float *rgba = wr_alloc((size_t)(w * h), 4 * sizeof *rgba);
+    for (int k = 0; k < 4 * w * h; k++) rgba[k] = (float)want.rgba[k];
+    wr_reference_fini(&want);
+    wr_pool_free(pool);
+    return rgba;
 }

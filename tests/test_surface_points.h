@@ -80,28 +80,39 @@ static inline void assert_finite_everywhere(const WrShape *shape, bool single)
     }
 }
 
-/* Each derivative that a point has against differences of what it is the derivative of, of fourth order, the step h; `within`
-   of 10 and its own size. */
+/* Which member is which other's derivative: along v, of, told. */
+enum { DERIVATIVES = 8 };
+static const int derivatives[DERIVATIVES][3] = { { 0, P, PU },    { 1, P, PV },   { 0, PU, PUU },
+                                                 { 1, PU, PUV },  { 1, PV, PVV }, { 0, PV, PUV },
+                                                 { 0, UNIT, NU }, { 1, UNIT, NV } };
+
+/* How far derivative r of the point `o` at (u, v) is from differences of fourth order, the step h. */
+static inline double derivative_off(const WrShape *shape, const WrSurfacePoint *o, int r, double u,
+                                    double v, double h)
+{
+    const int *rule = derivatives[r];
+    WrSurfacePoint a[4];
+    for (int i = 0; i < 4; i++) {
+        const double by = h * (const double[]){ 1, -1, 2, -2 }[i];
+        wr_surface_at(shape, 0, rule[0] ? u : u + by, rule[0] ? v + by : v, &a[i]);
+    }
+    const WrVec3 one = v3_sub(member(&a[0], rule[1]), member(&a[1], rule[1]));
+    const WrVec3 two = v3_sub(member(&a[2], rule[1]), member(&a[3], rule[1]));
+    const WrVec3 got = v3_scale(v3_sub(v3_scale(one, 8), two), 1 / (12 * h));
+    return v3_len(v3_sub(got, member(o, rule[2])));
+}
+
+/* Each derivative that a point has, within `within` of 10 and its own size. */
 static inline void expect_derivatives(const WrShape *shape, double u, double v, double h,
                                       double within, const char *what)
 {
-    static const int rules[][3] = { /* along v, of, told */
-                                    { 0, P, PU },   { 1, P, PV },   { 0, PU, PUU },  { 1, PU, PUV },
-                                    { 1, PV, PVV }, { 0, PV, PUV }, { 0, UNIT, NU }, { 1, UNIT, NV }
-    };
-    for (int r = 0; r < 8; r++) {
-        WrSurfacePoint o, a[4];
-        wr_surface_at(shape, 0, u, v, &o);
-        for (int i = 0; i < 4; i++) {
-            const double by = h * (const double[]){ 1, -1, 2, -2 }[i];
-            wr_surface_at(shape, 0, rules[r][0] ? u : u + by, rules[r][0] ? v + by : v, &a[i]);
-        }
-        const WrVec3 one = v3_sub(member(&a[0], rules[r][1]), member(&a[1], rules[r][1]));
-        const WrVec3 two = v3_sub(member(&a[2], rules[r][1]), member(&a[3], rules[r][1]));
-        const WrVec3 got = v3_scale(v3_sub(v3_scale(one, 8), two), 1 / (12 * h));
-        const WrVec3 told = member(&o, rules[r][2]);
-        if (v3_len(v3_sub(got, told)) > within * (10 + v3_len(told)))
-            fail_msg("%s at %g,%g: %s of %s: %g for %g", what, u, v, member_names[rules[r][2]],
-                     member_names[rules[r][1]], v3_len(got), v3_len(told));
+    WrSurfacePoint o;
+    wr_surface_at(shape, 0, u, v, &o);
+    for (int r = 0; r < DERIVATIVES; r++) {
+        const double off = derivative_off(shape, &o, r, u, v, h);
+        const double told = v3_len(member(&o, derivatives[r][2]));
+        if (off > within * (10 + told))
+            fail_msg("%s at %g,%g: %s of %s: off by %g of %g", what, u, v,
+                     member_names[derivatives[r][2]], member_names[derivatives[r][1]], off, told);
     }
 }

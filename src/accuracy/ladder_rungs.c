@@ -132,7 +132,7 @@ WrScene *wr_ladder_best_but(const WrScene *scene, WrAxis axis)
     WrScene *best = wr_scene_clone(scene);
     if (axis != WR_AXIS_DERIVATIVE) best->scheme = WR_SCHEME_BSPLINE_FIT;
     if (axis != WR_AXIS_NORMAL && best->bump != WR_BUMP_INVARIANT) best->bump = WR_BUMP_EXACT;
-    wr_scene_share_slopes(best, axis != WR_AXIS_DERIVATIVE, axis != WR_AXIS_NORMAL);
+    wr_scene_set_all_slopes(best, axis != WR_AXIS_DERIVATIVE, axis != WR_AXIS_NORMAL);
     if (axis != WR_AXIS_ANTIALIASING) {
         best->dials.aa = WR_AA_SUPERSAMPLE;
         best->dials.samples = 16;

@@ -13,7 +13,7 @@ WrScene *wr_setting_apply(const WrSetting *setting, const WrScene *scene)
         scheme |= setting->dial[i] == WR_DIAL_SCHEME;
         normals |= setting->dial[i] == WR_DIAL_NORMAL;
     }
-    if (scheme || normals) wr_scene_share_slopes(out, scheme, normals);
+    if (scheme || normals) wr_scene_set_all_slopes(out, scheme, normals);
     return out;
 }
 

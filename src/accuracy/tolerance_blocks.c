@@ -153,7 +153,7 @@ WrScene *wr_level_scene(const WrScene *of, WrScheme scheme, WrBumpMode mode, int
     WrScene *scene = wr_scene_clone(of);
     scene->scheme = scheme;
     scene->bump = mode;
-    wr_scene_share_slopes(scene, true, true);
+    wr_scene_set_all_slopes(scene, true, true);
     scene->dials.aa = level > 0 ? WR_AA_SUPERSAMPLE : WR_AA_POINT;
     scene->dials.samples = wr_level_side(level);
     scene->dials.spread = WR_SPREAD_REGULAR;

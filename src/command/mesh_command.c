@@ -109,9 +109,7 @@ static void note_mesh(WrSession *session, const char *path, const WrTriangles *m
     wr_text_fini(&text);
 }
 
-/* ---- the command's part ---- */
-
-/* ---- sets of patches ---- */
+/* ---- sets of patches, terrains ---- */
 
 #define PATCHES_BYTES (64 << 20) /* of a file of them */
 
@@ -190,6 +188,8 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
     wr_session_note(session, "%s", wr_text_get(&text));
     wr_text_fini(&text);
 }
+
+/* ---- the command's part ---- */
 
 static WrTriangles *read_held(const WrCall *call, const WrShape *shape, const char *path,
                               WrError *err)

@@ -2,6 +2,7 @@
 #include "render/pipe.h"
 
 #include "base/kernmath.h"
+#include "base/vec.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
 #include "scene/normal_map.h"
@@ -14,6 +15,7 @@
 #include <string.h>
 
 #define REAL float
+#define VEC WrVec3f
 #define WR_T(name) name
 #define PIPE wr_pipe
 #define KERNELS_OF(job) ((job)->kernels)

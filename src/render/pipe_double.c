@@ -1,5 +1,6 @@
 /* The stages in double precision. */
 #include "base/kernmath.h"
+#include "base/vec.h"
 #include "render/pipe.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
@@ -14,6 +15,7 @@
 
 #define WR_PIPE_DOUBLE
 #define REAL double
+#define VEC WrVec3
 #define WR_T(name) name##d
 #define PIPE wr_pipe_double
 #define KERNELS_OF(job) ((job)->kernels_double)

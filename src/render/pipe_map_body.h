@@ -56,77 +56,72 @@ static void map_levels(const WrTileJob *job, const Rays *rays, Strip *strip)
 
 /* ---- axes of a place ----------------------------------------------------------------------------- */
 
-typedef struct Axis {
-    REAL x, y, z;
-} Axis;
-
 typedef struct Axes {
-    Axis t, b, n;
+    VEC t, b, n;
 } Axes;
 
-static Axis axis(REAL x, REAL y, REAL z)
+static REAL length_of(VEC a)
 {
-    return (Axis){ x, y, z };
-}
-
-static REAL axis_dot(Axis a, Axis b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static Axis axis_cross(Axis a, Axis b)
-{
-    return (Axis){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
-}
-
-/* a + k b */
-static Axis axis_mad(Axis a, Axis b, REAL k)
-{
-    return (Axis){ a.x + k * b.x, a.y + k * b.y, a.z + k * b.z };
-}
-
-static REAL axis_length(Axis a)
-{
-    return (REAL)sqrt((double)axis_dot(a, a));
+    return (REAL)sqrt((double)v_dot(a, a));
 }
 
 /* 0 where it is 0. */
-static Axis axis_unit(Axis a)
+static VEC unit_of(VEC a)
 {
-    const REAL length = axis_length(a), inv = length > (REAL)0 ? (REAL)1 / length : (REAL)0;
-    return (Axis){ a.x * inv, a.y * inv, a.z * inv };
+    const REAL length = length_of(a), inv = length > (REAL)0 ? (REAL)1 / length : (REAL)0;
+    return v_scale(a, inv);
+}
+
+static VEC read_vec(const float *from)
+{
+    return (VEC){ (REAL)from[0], (REAL)from[1], (REAL)from[2] };
+}
+
+/* What kernels know of a sample's place. */
+static VEC normal_of(const Strip *strip, int i)
+{
+    return (VEC){ strip->nx[i], strip->ny[i], strip->nz[i] };
+}
+
+static VEC along_u(const Strip *strip, int i)
+{
+    return (VEC){ strip->pux[i], strip->puy[i], strip->puz[i] };
+}
+
+static VEC along_v(const Strip *strip, int i)
+{
+    return (VEC){ strip->pvx[i], strip->pvy[i], strip->pvz[i] };
 }
 
 static Axes patch_axes(WrNormalFrame frame, const Strip *strip, int i)
 {
-    const Axis n = axis(strip->nx[i], strip->ny[i], strip->nz[i]);
-    const Axis pu = axis(strip->pux[i], strip->puy[i], strip->puz[i]);
-    const Axis pv = axis(strip->pvx[i], strip->pvy[i], strip->pvz[i]);
-    if (frame == WR_FRAME_LECTURE) return (Axes){ axis_unit(pu), axis_unit(pv), n };
-    const Axis t = axis_unit(axis_mad(pu, n, -axis_dot(pu, n)));
-    return (Axes){ t, axis_cross(n, t), n };
+    const VEC n = normal_of(strip, i);
+    const VEC pu = along_u(strip, i);
+    const VEC pv = along_v(strip, i);
+    if (frame == WR_FRAME_LECTURE) return (Axes){ unit_of(pu), unit_of(pv), n };
+    const VEC t = unit_of(v_mad(pu, n, -v_dot(pu, n)));
+    return (Axes){ t, v_cross(n, t), n };
 }
 
 /* The corner's place, in the kernels' unit, less `from`. */
-static Axis corner_from(const WrTriangleLook *look, int32_t corner, Axis from)
+static VEC corner_from(const WrTriangleLook *look, int32_t corner, VEC from)
 {
-    const float *p = look->corners + 8 * (size_t)corner;
-    const REAL s = (REAL)look->scale;
-    return axis((REAL)p[0] * s - from.x, (REAL)p[1] * s - from.y, (REAL)p[2] * s - from.z);
+    const VEC p = read_vec(look->corners + 8 * (size_t)corner);
+    return v_sub(v_scale(p, (REAL)look->scale), from);
 }
 
 /* The shares of a triangle's second and third corner in the sample's place. */
 static void shares_of(const WrTriangleLook *look, const int32_t *corner, const Strip *strip, int i,
                       REAL share[3])
 {
-    const Axis zero = { 0, 0, 0 }, a = corner_from(look, corner[0], zero);
-    const Axis e1 = corner_from(look, corner[1], a), e2 = corner_from(look, corner[2], a);
-    const Axis w = axis(strip->px[i] - a.x, strip->py[i] - a.y, strip->pz[i] - a.z);
-    const Axis cross = axis_cross(e1, e2);
-    const REAL square = axis_dot(cross, cross);
+    const VEC zero = { 0, 0, 0 }, a = corner_from(look, corner[0], zero);
+    const VEC e1 = corner_from(look, corner[1], a), e2 = corner_from(look, corner[2], a);
+    const VEC w = { strip->px[i] - a.x, strip->py[i] - a.y, strip->pz[i] - a.z };
+    const VEC cross = v_cross(e1, e2);
+    const REAL square = v_dot(cross, cross);
     const REAL inv = square > (REAL)0 ? (REAL)1 / square : (REAL)0;
-    share[1] = axis_dot(axis_cross(w, e2), cross) * inv;
-    share[2] = axis_dot(axis_cross(e1, w), cross) * inv;
+    share[1] = v_dot(v_cross(w, e2), cross) * inv;
+    share[2] = v_dot(v_cross(e1, w), cross) * inv;
     share[0] = (REAL)1 - share[1] - share[2];
 }
 
@@ -142,15 +137,14 @@ static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
     shares_of(look, corner, strip, i, share);
     for (int k = 0; k < 3; k++) {
         const float *f = frames + k * WR_CORNER_FRAME, *c = look->corners + 8 * (size_t)corner[k];
-        out.t = axis_mad(out.t, axis((REAL)f[0], (REAL)f[1], (REAL)f[2]), share[k]);
-        out.b = axis_mad(out.b, axis((REAL)f[3], (REAL)f[4], (REAL)f[5]), share[k]);
-        out.n = axis_mad(out.n, axis((REAL)c[3], (REAL)c[4], (REAL)c[5]), share[k]);
+        out.t = v_mad(out.t, read_vec(f), share[k]);
+        out.b = v_mad(out.b, read_vec(f + 3), share[k]);
+        out.n = v_mad(out.n, read_vec(c + 3), share[k]);
     }
     if (job->plan->map_frame == WR_FRAME_LECTURE) {
-        out.t = axis_unit(out.t), out.b = axis_unit(out.b);
+        out.t = unit_of(out.t), out.b = unit_of(out.b);
     } else { /* b.x holds the sign */
-        const Axis zero = { 0, 0, 0 };
-        out.b = axis_mad(zero, axis_cross(out.n, out.t), out.b.x);
+        out.b = v_scale(v_cross(out.n, out.t), out.b.x);
     }
     return out;
 }
@@ -158,33 +152,31 @@ static Axes triangle_axes(const WrTileJob *job, const Strip *strip, int i)
 /* ---- from vectors to slopes ---------------------------------------------------------------------- */
 
 /* What a gradient is multiplied by, dot Pu and dot Pv, to be Fu and Fv. */
-static REAL slopes_per_gradient(const WrTileJob *job, const Strip *strip, int i, Axis g)
+static REAL slopes_per_gradient(const WrTileJob *job, const Strip *strip, int i, VEC g)
 {
-    const Axis n = axis(strip->nx[i], strip->ny[i], strip->nz[i]);
-    const Axis pu = axis(strip->pux[i], strip->puy[i], strip->puz[i]);
-    const Axis pv = axis(strip->pvx[i], strip->pvy[i], strip->pvz[i]);
+    const VEC n = normal_of(strip, i);
+    const VEC pu = along_u(strip, i);
+    const VEC pv = along_v(strip, i);
     REAL k = (REAL)1;
     if (job->triangles) { /* Pu and Pv are the gradients of v and u, laid across n; |N| is 1 */
-        const REAL along = axis_dot(n, axis_cross(pu, pv)),
-                   size = axis_length(pu) * axis_length(pv);
+        const REAL along = v_dot(n, v_cross(pu, pv)), size = length_of(pu) * length_of(pv);
         k = along > (REAL)1e-6 * size || -along > (REAL)1e-6 * size ? (REAL)1 / along : (REAL)0;
     }
     if (job->plan->bump == WR_BUMP_INVARIANT) {
-        const REAL gu = axis_dot(g, pu), gv = axis_dot(g, pv);
+        const REAL gu = v_dot(g, pu), gv = v_dot(g, pv);
         const REAL size = (REAL)sqrt((double)(gu * gu + gv * gv));
-        const REAL even = size > (REAL)0 ? axis_length(g) / size : (REAL)0;
+        const REAL even = size > (REAL)0 ? length_of(g) / size : (REAL)0;
         k = k < (REAL)0 ? -even : k > (REAL)0 ? even : (REAL)0;
     }
     return k;
 }
 
 /* The gradient whose normal is m: no steeper than reading leaves any. */
-static Axis gradient_of(Axis m, Axis n)
+static VEC gradient_of(VEC m, VEC n)
 {
-    const REAL z = axis_dot(n, m), least = (REAL)WR_NORMAL_LEAST * axis_length(m);
+    const REAL z = v_dot(n, m), least = (REAL)WR_NORMAL_LEAST * length_of(m);
     const REAL inv = z > least ? (REAL)-1 / z : least > (REAL)0 ? (REAL)-1 / least : (REAL)0;
-    const Axis zero = { 0, 0, 0 };
-    return axis_mad(zero, axis_mad(m, n, -z), inv);
+    return v_scale(v_mad(m, n, -z), inv);
 }
 
 /* What has become of the map's numbers of a sample goes into its slopes: p and q along t and b of the place, with their
@@ -192,27 +184,27 @@ static Axis gradient_of(Axis m, Axis n)
 static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
 {
     const WrNormalFrame frame = job->plan->map_frame;
-    const Axis n = axis(strip->nx[i], strip->ny[i], strip->nz[i]);
-    const Axis pu = axis(strip->pux[i], strip->puy[i], strip->puz[i]);
-    const Axis pv = axis(strip->pvx[i], strip->pvy[i], strip->pvz[i]);
-    const Axis zero = { 0, 0, 0 };
+    const VEC n = normal_of(strip, i);
+    const VEC pu = along_u(strip, i);
+    const VEC pv = along_v(strip, i);
+    const VEC zero = { 0, 0, 0 };
     const bool object = frame == WR_FRAME_OBJECT;
     REAL p = strip->fu[i], q = strip->fv[i];
     Axes at = { zero, zero, n };
     if (!object) at = job->triangles ? triangle_axes(job, strip, i) : patch_axes(frame, strip, i);
-    if (!object && !(axis_dot(at.t, at.t) > (REAL)0 && axis_dot(at.b, at.b) > (REAL)0)) p = q = 0;
-    Axis m = axis_mad(axis_mad(at.n, at.t, -p), at.b, -q);
-    if (object) m = axis(strip->fu[i], strip->fv[i], strip->f[i]);
-    Axis g = gradient_of(m, n);
-    if (object) g = axis_mad(zero, g, (REAL)job->scene->normals.strength);
+    if (!object && !(v_dot(at.t, at.t) > (REAL)0 && v_dot(at.b, at.b) > (REAL)0)) p = q = 0;
+    VEC m = v_mad(v_mad(at.n, at.t, -p), at.b, -q);
+    if (object) m = (VEC){ strip->fu[i], strip->fv[i], strip->f[i] };
+    VEC g = gradient_of(m, n);
+    if (object) g = v_scale(g, (REAL)job->scene->normals.strength);
     const REAL k = slopes_per_gradient(job, strip, i, g);
     strip->f[i] = 0;
-    strip->fu[i] = k * axis_dot(g, pu);
-    strip->fv[i] = k * axis_dot(g, pv);
+    strip->fu[i] = k * v_dot(g, pu);
+    strip->fv[i] = k * v_dot(g, pv);
     /* to first order the axes carry the covariance over */
-    const REAL z = axis_dot(at.n, n), by = z > (REAL)0 ? k / z : (REAL)0;
-    const REAL uu = by * axis_dot(at.t, pu), uv = by * axis_dot(at.b, pu);
-    const REAL vu = by * axis_dot(at.t, pv), vv = by * axis_dot(at.b, pv);
+    const REAL z = v_dot(at.n, n), by = z > (REAL)0 ? k / z : (REAL)0;
+    const REAL uu = by * v_dot(at.t, pu), uv = by * v_dot(at.b, pu);
+    const REAL vu = by * v_dot(at.t, pv), vv = by * v_dot(at.b, pv);
     const REAL a = strip->suu[i], b = strip->suv[i], c = strip->svv[i];
     strip->suu[i] = uu * uu * a + (REAL)2 * uu * uv * b + uv * uv * c;
     strip->suv[i] = uu * vu * a + (uu * vv + uv * vu) * b + uv * vv * c;

@@ -2,36 +2,25 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "render/reference_box.h"
 
 #include <math.h>
 #include <string.h>
 
+#define SLACK 1e-12
 #define GROUP 16 /* patches that lie beside each other in the file, with a box of their own */
-
-typedef struct Box {
-    double low[3], high[3];
-} Box;
 
 struct WrReferenceBezierPiece {
     WrShape shape;
     WrReferencePatches tree;
-    Box box, group; /* group: of those from here on, in the first of GROUP */
+    WrReferenceBounds box, group; /* group: of those from here on, in the first of GROUP */
 };
 
-static double part(WrVec3 a, int axis)
-{
-    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
-}
-
 /* A patch lies within its points' hull. */
-static Box box_of(const float *points)
+static WrReferenceBounds box_of(const float *points)
 {
-    Box box;
-    for (int k = 0; k < 3; k++) box.low[k] = INFINITY, box.high[k] = -INFINITY;
-    for (int i = 0; i < 48; i++) {
-        box.low[i % 3] = fmin(box.low[i % 3], (double)points[i]);
-        box.high[i % 3] = fmax(box.high[i % 3], (double)points[i]);
-    }
+    WrReferenceBounds box = wr_reference_bounds();
+    for (int i = 0; i < 48; i++) wr_reference_bounds_add(&box, i % 3, (double)points[i]);
     return box;
 }
 
@@ -45,10 +34,10 @@ bool wr_reference_bezier_init(WrReferenceBezier *set, const WrPatches *source, W
         wr_shape_default(WR_SURFACE_bezier, &piece->shape);
         for (int k = 0; k < 48; k++) piece->shape.value[k] = (double)source->patch[i].point[k];
         piece->box = piece->group = box_of(source->patch[i].point);
-        Box *group = &set->pieces[i - i % GROUP].group;
+        WrReferenceBounds *group = &set->pieces[i - i % GROUP].group;
         for (int k = 0; k < 3; k++) {
-            group->low[k] = fmin(group->low[k], piece->box.low[k]);
-            group->high[k] = fmax(group->high[k], piece->box.high[k]);
+            wr_reference_bounds_add(group, k, piece->box.low[k]);
+            wr_reference_bounds_add(group, k, piece->box.high[k]);
         }
         if (!wr_reference_patches_init(&piece->tree, &piece->shape, err)) return false;
     }
@@ -63,36 +52,18 @@ void wr_reference_bezier_fini(WrReferenceBezier *set)
     *set = (WrReferenceBezier){ 0 };
 }
 
-/* Does the ray pass the box before `most`? A little more than it, so that nothing is lost to rounding. */
-static bool enters(const Box *box, const WrReferenceRay *ray, double most)
-{
-    double near = ray->s_min, far = most;
-    for (int axis = 0; axis < 3; axis++) {
-        const double inv = 1 / part(ray->d, axis), q = part(ray->q, axis);
-        double a = (box->low[axis] - q) * inv, b = (box->high[axis] - q) * inv;
-        if (a > b) {
-            const double t = a;
-            a = b, b = t;
-        }
-        const double more = 1e-12 * (fabs(a) + fabs(b));
-        if (a - more > near) near = a - more; /* not a number: the ray lies in the side */
-        if (b + more < far) far = b + more;
-    }
-    return near <= far;
-}
-
 bool wr_reference_bezier_hit(const WrReferenceBezier *set, bool cull, const WrReferenceRay *ray,
                              WrReferenceHit *hit)
 {
     WrReferenceHit best = { .s = INFINITY, .triangle = -1 };
     for (int32_t i = 0; i < set->source->count; i++) {
         const WrReferenceBezierPiece *piece = &set->pieces[i];
-        if (i % GROUP == 0 && !enters(&piece->group, ray, best.s)) {
+        if (i % GROUP == 0 && !wr_reference_bounds_met(&piece->group, ray, best.s, SLACK)) {
             i += GROUP - 1;
             continue;
         }
         WrReferenceHit own = { 0 };
-        if (!enters(&piece->box, ray, best.s) ||
+        if (!wr_reference_bounds_met(&piece->box, ray, best.s, SLACK) ||
             !wr_reference_patches_hit(&piece->tree, &piece->shape, cull, ray, &own) ||
             own.s >= best.s)
             continue;
@@ -126,9 +97,5 @@ void wr_reference_bezier_at(const WrReferenceBezier *set, const WrReferenceHit *
                                   set->source->scale_u);
     const WrVec3 own_v = v3_scale(v3_add(v3_scale(gu, (double)c[4]), v3_scale(gv, (double)c[5])),
                                   set->source->scale_v);
-    const double area = v3_len(v3_cross(own_u, own_v)), length = area > 1e-30 ? 1 / area : 1;
-    out->n = v3_scale(at.n_unit, length);
-    out->n_len = length;
-    out->pu = v3_scale(v3_cross(own_v, at.n_unit), length);
-    out->pv = v3_scale(v3_cross(at.n_unit, own_u), length);
+    wr_reference_lay(at.n_unit, own_u, own_v, out);
 }

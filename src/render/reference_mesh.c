@@ -2,15 +2,17 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "render/reference_box.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define LEAF 4
+#define SLACK 1e-14
 
 struct WrReferenceBox {
-    double low[3], high[3];
+    WrReferenceBounds about;
     int32_t first,
         count; /* of a leaf: triangles; else count 0, and first is the first of two boxes */
 };
@@ -21,30 +23,23 @@ static WrVec3 corner(const WrTriangles *t, int32_t i, int k)
     return (WrVec3){ (double)p[0], (double)p[1], (double)p[2] };
 }
 
-static double part(WrVec3 a, int axis)
-{
-    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
-}
-
 /* ---- the tree ---- */
 
 static double middle(const WrTriangles *t, int32_t i, int axis)
 {
     double sum = 0;
-    for (int k = 0; k < 3; k++) sum += part(corner(t, i, k), axis);
+    for (int k = 0; k < 3; k++) sum += wr_reference_part(corner(t, i, k), axis);
     return sum;
 }
 
 static void measure(const WrReferenceMesh *m, WrReferenceBox *box)
 {
-    for (int axis = 0; axis < 3; axis++) box->low[axis] = INFINITY, box->high[axis] = -INFINITY;
+    box->about = wr_reference_bounds();
     for (int32_t i = box->first; i < box->first + box->count; i++)
         for (int k = 0; k < 3; k++)
-            for (int axis = 0; axis < 3; axis++) {
-                const double x = part(corner(m->source, m->order[i], k), axis);
-                box->low[axis] = fmin(box->low[axis], x);
-                box->high[axis] = fmax(box->high[axis], x);
-            }
+            for (int axis = 0; axis < 3; axis++)
+                wr_reference_bounds_add(&box->about, axis,
+                                        wr_reference_part(corner(m->source, m->order[i], k), axis));
 }
 
 /* The triangles below the middle of the box's longest side first; how many. Half of them, where all lie together. */
@@ -52,8 +47,9 @@ static int32_t divide(WrReferenceMesh *m, const WrReferenceBox *box)
 {
     int axis = 0;
     for (int k = 1; k < 3; k++)
-        if (box->high[k] - box->low[k] > box->high[axis] - box->low[axis]) axis = k;
-    const double at = 1.5 * (box->low[axis] + box->high[axis]);
+        if (box->about.high[k] - box->about.low[k] > box->about.high[axis] - box->about.low[axis])
+            axis = k;
+    const double at = 1.5 * (box->about.low[axis] + box->about.high[axis]);
     int32_t below = 0;
     for (int32_t i = 0; i < box->count; i++) {
         int32_t *own = &m->order[box->first + i], *to = &m->order[box->first + below];
@@ -110,10 +106,10 @@ static Shear shear_of(WrVec3 d)
 {
     Shear s = { .z = 0 };
     for (int k = 1; k < 3; k++)
-        if (fabs(part(d, k)) > fabs(part(d, s.z))) s.z = k;
+        if (fabs(wr_reference_part(d, k)) > fabs(wr_reference_part(d, s.z))) s.z = k;
     s.x = (s.z + 1) % 3, s.y = (s.z + 2) % 3;
-    s.sz = 1 / part(d, s.z);
-    s.sx = part(d, s.x) * s.sz, s.sy = part(d, s.y) * s.sz;
+    s.sz = 1 / wr_reference_part(d, s.z);
+    s.sx = wr_reference_part(d, s.x) * s.sz, s.sy = wr_reference_part(d, s.y) * s.sz;
     return s;
 }
 
@@ -125,9 +121,9 @@ static void test(const WrReferenceMesh *m, int32_t i, bool cull, const WrReferen
     for (int k = 0; k < 3; k++) {
         p[k] = corner(m->source, i, k);
         const WrVec3 w = v3_sub(p[k], ray->q);
-        z[k] = part(w, s->z) * s->sz;
-        x[k] = part(w, s->x) - s->sx * part(w, s->z);
-        y[k] = part(w, s->y) - s->sy * part(w, s->z);
+        z[k] = wr_reference_part(w, s->z) * s->sz;
+        x[k] = wr_reference_part(w, s->x) - s->sx * wr_reference_part(w, s->z);
+        y[k] = wr_reference_part(w, s->y) - s->sy * wr_reference_part(w, s->z);
     }
     const double e0 = x[2] * y[1] - y[2] * x[1], e1 = x[0] * y[2] - y[0] * x[2],
                  e2 = x[1] * y[0] - y[1] * x[0], det = e0 + e1 + e2;
@@ -142,24 +138,6 @@ static void test(const WrReferenceMesh *m, int32_t i, bool cull, const WrReferen
     best->share[0] = e1 / det, best->share[1] = e2 / det;
 }
 
-/* Does the ray pass the box before `most`? A little more than it, so that nothing is lost to rounding. */
-static bool enters(const WrReferenceBox *box, const WrReferenceRay *ray, double most)
-{
-    double near = ray->s_min, far = most;
-    for (int axis = 0; axis < 3; axis++) {
-        const double inv = 1 / part(ray->d, axis), q = part(ray->q, axis);
-        double a = (box->low[axis] - q) * inv, b = (box->high[axis] - q) * inv;
-        if (a > b) {
-            const double t = a;
-            a = b, b = t;
-        }
-        const double more = 1e-14 * (fabs(a) + fabs(b));
-        if (a - more > near) near = a - more; /* not a number: the ray lies in the side */
-        if (b + more < far) far = b + more;
-    }
-    return near <= far;
-}
-
 bool wr_reference_mesh_hit(const WrReferenceMesh *m, bool cull, const WrReferenceRay *ray,
                            WrReferenceHit *hit)
 {
@@ -169,7 +147,7 @@ bool wr_reference_mesh_hit(const WrReferenceMesh *m, bool cull, const WrReferenc
     stack[height++] = 0;
     while (height > 0) {
         const WrReferenceBox *box = &m->boxes[stack[--height]];
-        if (!enters(box, ray, best.s)) continue;
+        if (!wr_reference_bounds_met(&box->about, ray, best.s, SLACK)) continue;
         for (int32_t i = 0; i < box->count; i++)
             test(m, m->order[box->first + i], cull, ray, &shear, &best);
         if (box->count == 0 && height + 2 <= 256)
@@ -264,10 +242,5 @@ void wr_reference_mesh_at(const WrReferenceMesh *m, const WrReferenceHit *hit, W
         v3_mad(v3_mad(p[0], v3_sub(p[1], p[0]), hit->share[0]), v3_sub(p[2], p[0]), hit->share[1]);
     const WrVec3 to = v3_unit(perspective ? v3_sub(eye, out->p) : eye, face);
     const WrVec3 n = seen_normal(shading_normal(t, hit, face), face, to);
-    const double area = v3_len(v3_cross(gu, gv)), length = area > 1e-30 ? 1 / area : 1;
-    out->n_unit = n;
-    out->n = v3_scale(n, length);
-    out->n_len = length;
-    out->pu = v3_scale(v3_cross(gv, n), length);
-    out->pv = v3_scale(v3_cross(n, gu), length);
+    wr_reference_lay(n, gu, gv, out);
 }

@@ -37,5 +37,6 @@ struct WrFrames {
 };
 
 void wr_frames_drop(WrFrames *frames);
+/* Bring them up to date with that mesh. kind: MIKK or LECTURE. Errors: no memory; they are dropped then. */
 bool wr_frames_bring(WrFrames *frames, const WrTriangles *triangles, WrNormalFrame kind,
                      WrError *err);

@@ -9,10 +9,10 @@
 
 #include <math.h>
 
-#define MARGIN 1.02   /* of wr_aim_fill */
-#define GRID 96       /* cells along u and v that a face is looked at by */
-#define GRID_MANY 24  /* the same of surfaces of many faces */
-#define TURN_STEP 5.0 /* degrees */
+#define MARGIN 1.02  /* of wr_aim_fill */
+#define GRID 96      /* cells along u and v that a face is looked at by */
+#define GRID_MANY 24 /* the same of surfaces of many faces */
+#define TURNS 72     /* steps of a whole turn of the turntable */
 #define STEEPEST 89.98
 
 WR_ROWS(wr_side_names);
@@ -164,15 +164,25 @@ static double across(const Reach *r, int axis, double eye)
     return other + (own - other) * share;
 }
 
-/* The surface's points of one placement. */
-static void reach_object(Reach *r, const WrScene *object, const WrPlacement *place)
+/* All placements of one object that are asked for. */
+typedef struct Turns {
+    WrPlacement place[TURNS + 1];
+    int count;
+} Turns;
+
+static void reach_turns(Reach *r, const Turns *turns, WrVec3 p)
+{
+    for (int k = 0; k < turns->count; k++) reach_point(r, wr_place_world(&turns->place[k], p));
+}
+
+static void reach_object(Reach *r, const WrScene *object, const Turns *turns)
 {
     const WrSurfaceInfo *info = wr_surfaces[object->shape.kind];
     if (info->held && object->triangles) {
         const WrTriangles *mesh = object->triangles;
         for (int32_t i = 0; i < mesh->corner_count; i++) {
             const float *p = mesh->corners[i].p;
-            reach_point(r, wr_place_world(place, (WrVec3){ p[0], p[1], p[2] }));
+            reach_turns(r, turns, (WrVec3){ p[0], p[1], p[2] });
         }
         return;
     }
@@ -182,25 +192,31 @@ static void reach_object(Reach *r, const WrScene *object, const WrPlacement *pla
             for (int i = 0; i <= cells; i++) {
                 WrSurfacePoint at;
                 wr_surface_at(&object->shape, face, (double)i / cells, (double)j / cells, &at);
-                reach_point(r, wr_place_world(place, at.p));
+                reach_turns(r, turns, at.p);
             }
+}
+
+static bool place_turns(const WrScene *part, double from, double to, Turns *out, WrError *err)
+{
+    const double radius = wr_shape_radius(&part->shape);
+    const int steps = (int)fmin(TURNS, ceil(fabs(to - from) * (TURNS / 360.0)));
+    out->count = steps + 1;
+    for (int k = 0; k <= steps; k++) {
+        const double turn = from + (steps ? (to - from) * k / steps : 0);
+        if (!wr_scene_place_sized(part, radius, turn, 1, &out->place[k], err)) return false;
+    }
+    return true;
 }
 
 static bool reach_all(Reach *r, const WrScene *scene, double turn_from, double turn_to,
                       WrError *err)
 {
-    const int steps = (int)fmin(360 / TURN_STEP, ceil(fabs(turn_to - turn_from) / TURN_STEP));
     for (int i = 0; i < wr_scene_object_count(scene); i++) {
         if (!wr_scene_fits(scene, i)) continue;
+        Turns turns;
         WrScene *part = wr_scene_part(scene, i, 1);
-        const double radius = wr_shape_radius(&part->shape);
-        bool good = true;
-        for (int k = 0; k <= steps && good; k++) {
-            WrPlacement place;
-            const double turn = turn_from + (steps ? (turn_to - turn_from) * k / steps : 0);
-            good = wr_scene_place_sized(part, radius, turn, 1, &place, err);
-            if (good) reach_object(r, part, &place);
-        }
+        const bool good = place_turns(part, turn_from, turn_to, &turns, err);
+        if (good) reach_object(r, part, &turns);
         wr_scene_free(part);
         if (!good) return false;
     }

@@ -6,7 +6,8 @@
 
 #include <stdbool.h>
 
-/* The four texels about (u, v), which go on beyond the picture's ends as a table's do, and their bilinear weights. */
+/* The four texels about (u, v), borrowed from the picture, which goes on beyond its ends as a table does, and their bilinear
+ * weights. */
 typedef struct WrTexels {
     const float *texel[4];
     double weight[4];
@@ -21,8 +22,9 @@ typedef struct WrMapAxes {
     WrVec3 t, b, n;
 } WrMapAxes;
 
-/* Is the map's normal not the table's slopes and its own, but vectors in axes of the place? Then add needs them. */
-WrNormalFrame wr_scene_frame(const WrScene *scene); /* not AUTO */
+/* Which axes the scene's normal map is of, its AUTO resolved by the surface: GRADIENT needs none of the place, OBJECT has the
+ * object's, MIKK and LECTURE those of the place. */
+WrNormalFrame wr_scene_frame(const WrScene *scene);
 /* The axes of a place of a parametric surface; false: there are none. */
 bool wr_laid_axes(WrNormalFrame frame, const WrSurfacePoint *at, WrMapAxes *axes);
 /* What the scene's normal map adds to Fu and Fv there. at: n, N, Pu, Pv. axes: of the place, where the frame is mikk or

@@ -164,7 +164,7 @@ WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const cha
     return made;
 }
 
-void wr_scene_share_slopes(WrScene *scene, bool scheme, bool normals)
+void wr_scene_set_all_slopes(WrScene *scene, bool scheme, bool normals)
 {
     for (int i = 0; i < scene->other_count; i++) {
         WrScene *other = wr_scene_clone(scene->others[i]);

@@ -31,7 +31,7 @@ bool wr_scene_wears(const WrScene *scene, const char *layer); /* does an object 
 WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const char *to);
 /* All objects take the scheme, or the normals, of the one at hand: as a dial is turned of the whole scene. Normals of
  * another model (invariant) stay. */
-void wr_scene_share_slopes(WrScene *scene, bool scheme, bool normals);
+void wr_scene_set_all_slopes(WrScene *scene, bool scheme, bool normals);
 /* Without object i of several. The one before it (else after it) comes to hand where that was at hand. */
 WrScene *wr_scene_remove_object(const WrScene *scene, int i);
 

@@ -28,11 +28,6 @@ static void shape_of(const float *points, WrShape *shape)
     for (int i = 0; i < 48; i++) shape->value[i] = (double)points[i];
 }
 
-static void normal_at(const WrShape *shape, double u, double v, WrSurfacePoint *out)
-{
-    wr_surface_at(shape, 0, u, v, out);
-}
-
 static double size_of(const float *points, const int at[4], const double by[4])
 {
     double sum = 0;
@@ -86,18 +81,9 @@ typedef struct Build {
     WrPatch *patch;
 } Build;
 
-static int32_t root_of(int32_t *up, int32_t i)
-{
-    while (up[i] != i) {
-        up[i] = up[up[i]];
-        i = up[i];
-    }
-    return i;
-}
-
 static int cuts_of(const Build *b, int32_t patch, int axis)
 {
-    return b->cuts[root_of(b->up, 2 * patch + axis)];
+    return b->cuts[wr_root_of(b->up, 2 * patch + axis)];
 }
 
 static double extent(const Build *b)
@@ -120,7 +106,7 @@ static void ask_cuts(Build *b, double off)
         for (int axis = 0; axis < 2; axis++) {
             const double own = (axis ? bend.vv : bend.uu) + bend.uv;
             const double cuts = off > 0 ? ceil(sqrt(own / (4 * off))) : 1;
-            int *at = &b->cuts[root_of(b->up, 2 * i + axis)];
+            int *at = &b->cuts[wr_root_of(b->up, 2 * i + axis)];
             const int wanted = cuts < WR_PATCH_CUTS_MAX ? (int)cuts : WR_PATCH_CUTS_MAX;
             if (wanted > *at) *at = wanted;
         }
@@ -143,8 +129,8 @@ static void choose_cuts(Build *b)
     for (int32_t i = 0; i < 4 * b->count; i++) {
         const int32_t other = b->edges[i].other;
         if (other < i) continue;
-        b->up[root_of(b->up, 2 * (i / 4) + i % 4 / 2)] =
-            root_of(b->up, 2 * (other / 4) + other % 4 / 2);
+        b->up[wr_root_of(b->up, 2 * (i / 4) + i % 4 / 2)] =
+            wr_root_of(b->up, 2 * (other / 4) + other % 4 / 2);
     }
     double off = WR_PATCH_OFF * extent(b);
     do {
@@ -182,7 +168,7 @@ static void put_place(Build *b, int32_t patch, const WrShape *shape, int i, int 
     const int nu = cuts_of(b, patch, 0), nv = cuts_of(b, patch, 1);
     const int32_t at = b->place_count++;
     WrSurfacePoint point;
-    normal_at(shape, (double)i / nu, (double)j / nv, &point);
+    wr_surface_at(shape, 0, (double)i / nu, (double)j / nv, &point);
     const WrVec3 p = point.p, n = point.n_unit;
     b->place[at][0] = (float)p.x + 0.0f, b->place[at][1] = (float)p.y + 0.0f;
     b->place[at][2] = (float)p.z + 0.0f;
@@ -244,7 +230,7 @@ static WrVec3 normal_on_edge(const float *points, int edge, double t)
     WrShape shape;
     WrSurfacePoint at;
     shape_of(points, &shape);
-    normal_at(&shape, edge < 2 ? t : edge - 2, edge < 2 ? edge : t, &at);
+    wr_surface_at(&shape, 0, edge < 2 ? t : edge - 2, edge < 2 ? edge : t, &at);
     return at.n_unit;
 }
 

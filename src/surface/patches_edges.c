@@ -77,15 +77,6 @@ static bool is_against(const WrPatchEdge *edges, int32_t i)
     return (runs_round(i % 4) == runs_round(edges[i].other % 4)) != edges[i].turned;
 }
 
-static int32_t root_of(int32_t *up, int32_t i)
-{
-    while (up[i] != i) {
-        up[i] = up[up[i]];
-        i = up[i];
-    }
-    return i;
-}
-
 /* Open edges that hang together by their ends. */
 static bool count_loops(const float (*points)[48], int32_t count, const WrPatchEdge *edges,
                         WrPatchesTold *told, WrError *err)
@@ -106,7 +97,7 @@ static bool count_loops(const float (*points)[48], int32_t count, const WrPatchE
         for (int32_t i = 0; i < places; i++) up[i] = i;
         told->loops = places;
         for (int32_t i = 0; i < open; i++) {
-            const int32_t a = root_of(up, place[2 * i]), b = root_of(up, place[2 * i + 1]);
+            const int32_t a = wr_root_of(up, place[2 * i]), b = wr_root_of(up, place[2 * i + 1]);
             told->loops -= a != b;
             up[a] = b;
         }

@@ -18,6 +18,16 @@ static inline int wr_patch_edge_point(int edge, int i)
     return edge < 2 ? 12 * edge + i : 3 * (edge - 2) + 4 * i;
 }
 
+/* Sets that are joined: up[i] leads from a member to the next, the root's to itself. Shortens the way as it goes. */
+static inline int32_t wr_root_of(int32_t *up, int32_t i)
+{
+    while (up[i] != i) {
+        up[i] = up[up[i]];
+        i = up[i];
+    }
+    return i;
+}
+
 /* Patches that hang together shall face to one side, that of most; all: and then each to the other one. u and v of those
  * that do not change places; how many. */
 bool wr_patches_face(float (*points)[48], int32_t count, bool all, int32_t *turned, WrError *err);
