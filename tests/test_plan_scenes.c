@@ -221,7 +221,7 @@ static void hidden_sphere(Stage *stage)
 
 /* ---- what runs in each ----------------------------------------------------------------------------- */
 
-#define E(name) (1U << WR_EFFECT_##name)
+#define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
 #define LIGHT (E(DIFFUSE) | E(SPECULAR))
 #define NEAR (E(PERSPECTIVE) | E(AGAIN)) /* a new picture in perspective */
 #define ROUND (E(PARAMETERS) | E(TANGENTS))
@@ -232,8 +232,8 @@ static void hidden_sphere(Stage *stage)
 typedef struct Scene {
     const char *id;
     Change change; /* NULL: it awaits parts that the program lacks */
-    uint32_t run;  /* bits of WrEffect */
-    double apart;  /* of class B: how far all forced may be off */
+    WrEffects run;
+    double apart; /* of class B: how far all forced may be off */
 } Scene;
 
 static const Scene scenes[] = {

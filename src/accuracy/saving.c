@@ -64,12 +64,12 @@ static const char *not_turned(const WrPlanRow *planned, const WrPlanRow *forced)
 
 /* ---- measuring one ---- */
 
-static uint32_t also_turned(const Measure *m, WrEffect effect)
+static WrEffects also_turned(const Measure *m, WrEffect effect)
 {
-    uint32_t also = 0;
+    WrEffects also = 0;
     for (int e = 0; e < WR_EFFECT_COUNT; e++)
         if (e != (int)effect && m->planned.plan.rows[e].run != m->forced.plan.rows[e].run)
-            also |= 1U << e;
+            also |= WR_EFFECT_BIT(e);
     return also;
 }
 

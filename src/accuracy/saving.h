@@ -30,7 +30,7 @@ typedef struct WrSaving {
     bool noise;     /* seconds are no more than that */
     double planned, forced; /* median seconds of both frames */
     int runs;               /* of each */
-    uint32_t also;          /* bits of WrEffect: others that came or went with it */
+    WrEffects also;         /* others that came or went with it */
     int64_t tiles, pixels;  /* that it ran on, in the frame where it does */
 } WrSaving;
 

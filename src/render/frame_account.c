@@ -32,7 +32,7 @@ void wr_frame_start_counts(WrRenderer *renderer)
 typedef struct Counts {
     int64_t tiles, shaded, filtered, tinted;
     int64_t spared[WR_RUN_KINDS], spared_tiles[WR_RUN_KINDS]; /* as WrTileScratch has them */
-    uint32_t ran;
+    WrEffects ran;
 } Counts;
 
 /* What each effect cost and touched, into the plan's rows. */

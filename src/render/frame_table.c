@@ -163,15 +163,16 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
 }
 
 /* What a look-up at level 0 does, by what it was given. */
-static uint32_t looks_of(const WrFrameRequest *request, const WrRenderer *renderer,
-                         const WrLookd *look)
+static WrEffects looks_of(const WrFrameRequest *request, const WrRenderer *renderer,
+                          const WrLookd *look)
 {
     const bool slopes =
         renderer->plan.scheme == WR_SCHEME_CENTRAL || renderer->plan.scheme == WR_SCHEME_NEAREST;
     const bool in_double = renderer->table.precision != WR_PRECISION_SINGLE;
-    return (slopes ? 1U << WR_EFFECT_GRADIENT : 0) | (look->wide ? 1U << WR_EFFECT_WIDE : 0) |
-           (in_double ? 1U << WR_EFFECT_DOUBLE : 0) |
-           (renderer->looked != request->field ? 1U << WR_EFFECT_ROUNDED : 0);
+    return (slopes ? WR_EFFECT_BIT(WR_EFFECT_GRADIENT) : 0) |
+           (look->wide ? WR_EFFECT_BIT(WR_EFFECT_WIDE) : 0) |
+           (in_double ? WR_EFFECT_BIT(WR_EFFECT_DOUBLE) : 0) |
+           (renderer->looked != request->field ? WR_EFFECT_BIT(WR_EFFECT_ROUNDED) : 0);
 }
 
 /* Was this row asked about, and left out? */

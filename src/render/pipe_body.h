@@ -81,11 +81,11 @@ static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, con
 }
 
 /* What each formula of the normal does. */
-static const uint32_t normal_effects[] = {
+static const WrEffects normal_effects[] = {
     [WR_BUMP_NONE] = 0,
-    [WR_BUMP_BLINN] = 1U << WR_EFFECT_BUMP,
-    [WR_BUMP_INVARIANT] = 1U << WR_EFFECT_BUMP | 1U << WR_EFFECT_INVARIANT,
-    [WR_BUMP_EXACT] = 1U << WR_EFFECT_BUMP | 1U << WR_EFFECT_EXACT,
+    [WR_BUMP_BLINN] = WR_EFFECT_BIT(WR_EFFECT_BUMP),
+    [WR_BUMP_INVARIANT] = WR_EFFECT_BIT(WR_EFFECT_BUMP) | WR_EFFECT_BIT(WR_EFFECT_INVARIANT),
+    [WR_BUMP_EXACT] = WR_EFFECT_BIT(WR_EFFECT_BUMP) | WR_EFFECT_BIT(WR_EFFECT_EXACT),
 };
 _Static_assert(sizeof normal_effects / sizeof *normal_effects == WR_BUMP_COUNT, "all formulas");
 
@@ -144,8 +144,8 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
         k->bend[job->plan->inversion](rays, &VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
     } else k->bump[bump](rays, strip);
-    scratch->ran |=
-        normal_effects[bump] & (runs(job, WR_EFFECT_BUMP) ? ~0U : ~(1U << WR_EFFECT_BUMP));
+    scratch->ran |= normal_effects[bump] &
+                    (runs(job, WR_EFFECT_BUMP) ? ~(WrEffects)0 : ~WR_EFFECT_BIT(WR_EFFECT_BUMP));
     watch_lap(watch, WR_STAGE_BUMP);
     if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
         k->widen(job->plan->bump == WR_BUMP_INVARIANT, strip);

@@ -59,6 +59,11 @@ typedef enum WrEffect {
     WR_EFFECT_COUNT
 } WrEffect;
 
+/* A set of effects: a bit for each. */
+typedef uint64_t WrEffects;
+#define WR_EFFECT_BIT(effect) ((WrEffects)1 << (effect))
+_Static_assert(WR_EFFECT_COUNT <= 64, "a bit for each effect");
+
 /* What the renderer's clocks tell apart. */
 typedef enum WrStage {
     WR_STAGE_VISIBILITY, /* rays against closed forms, or triangles into the depth tile */

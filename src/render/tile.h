@@ -44,8 +44,8 @@ typedef struct WrTileJob {
     bool newton;      /* the mesh's parameters are made exact */
     WrLook look;
     WrLookd look_double; /* where kernels_double looks */
-    uint32_t looks; /* bits of WrEffect: what a look-up in the table does, by what it was given */
-    WrLevel level;  /* how steep the table is where; only for one of the next two */
+    WrEffects looks;     /* what a look-up in the table does, by what it was given */
+    WrLevel level;       /* how steep the table is where; only for one of the next two */
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
     WrColourLook colour; /* rgba NULL: none */
@@ -145,7 +145,7 @@ typedef struct WrTileScratch {
     int64_t wide_tints;             /* the same of the colour picture */
     unsigned char wide_of[WR_SPAN],
         tint_of[WR_SPAN]; /* the last strip's: which of its samples did */
-    uint32_t ran;         /* bits of WrEffect: noted by what does it, where it is done */
+    WrEffects ran;        /* noted by what does it, where it is done */
     WrBlocks *seen;       /* of the tile at hand; NULL: not wanted */
     WrTilePart mapped;    /* pixels whose map is this thread's: those of its tile */
     unsigned strips;      /* counts strips: one in sixteen is timed */
@@ -157,12 +157,11 @@ _Static_assert((WR_REFINE_W + 2 * WR_REFINE_RING) * (WR_REFINE_H + 2 * WR_REFINE
                    WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H,
                "a tile is a depth tile");
 _Static_assert(WR_REFINE_W *WR_REFINE_H >= WR_TILE_SAMPLES_W * 32 / 2, "tiles of 2 x 2 and more");
-_Static_assert(WR_EFFECT_COUNT <= 32, "a bit for each effect");
 
 /* A record beside the plan: this was done. */
 static inline void wr_did(WrTileScratch *scratch, WrEffect effect)
 {
-    scratch->ran |= 1U << effect;
+    scratch->ran |= WR_EFFECT_BIT(effect);
 }
 
 /* Where a pixel of the picture is stored. */
