@@ -301,6 +301,35 @@ static bool run_shade(const WrKernels *k, Bench *b, int member, int count)
     return true;
 }
 
+/* The models of reflection, either form, as smooth as they are and roughened; highlights tinted. */
+static bool run_reflect(const WrKernels *k, Bench *b, int member, int count)
+{
+    const int model = member / 6, way = member % 6;
+    WrStrip *s = &b->strip;
+    s->count = count;
+    if (model >= WR_REFLECT_COUNT) return false;
+    if (model == WR_REFLECT_BLINN_PHONG) {
+        k->tint(0.3f, s);
+        return true;
+    }
+    const WrKernMatter matter = { .kd = 0.7f,
+                                  .ks = 0.4f,
+                                  .colour = { 0.8f, 0.7f, 0.6f },
+                                  .shininess = 17,
+                                  .scale = 0.25f,
+                                  .alpha = 0.5f,
+                                  .ior = 1.5f,
+                                  .f0 = 0.04f,
+                                  .metal = 0.3f,
+                                  .a = 0.9f,
+                                  .b = 0.2f,
+                                  .mean = 0.9f,
+                                  .again = 10,
+                                  .albedo = { 1, 0.1f, -1.3f, 0.7f, 0.05f, 0.01f, -0.2f, 0.1f } };
+    k->reflect[model][way / 3](&b->light[0], &matter, (WrReflectSpread)(way % 3), s);
+    return true;
+}
+
 static bool run_hit_at(const WrKernels *k, Bench *b, int member, int count)
 {
     const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
@@ -376,7 +405,7 @@ static const struct {
     { "geometry", run_geometry }, { "curvature", run_curvature }, { "points", run_points },
     { "look", run_look },         { "bump", run_bump },           { "light", run_light },
     { "shade", run_shade },       { "hit at", run_hit_at },       { "filter", run_filter },
-    { "bound", run_bound },       { "bend", run_bend },
+    { "bound", run_bound },       { "bend", run_bend },           { "reflect", run_reflect },
 };
 #define FAMILIES (int)(sizeof families / sizeof *families)
 

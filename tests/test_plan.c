@@ -360,6 +360,31 @@ static void one_behind(Stage *stage)
     scene->others[scene->other_count++] = wall;
 }
 
+static void of_facets(Stage *stage)
+{
+    stage->scene->material.model = WR_REFLECT_GGX;
+}
+
+static void matt_smooth(Stage *stage)
+{
+    stage->scene->material.model = WR_REFLECT_OREN_NAYAR;
+    stage->scene->material.roughness = 0;
+}
+
+static void phong_dull(Stage *stage)
+{
+    stage->scene->material.model = WR_REFLECT_PHONG;
+    stage->scene->material.specular = 0;
+}
+
+/* Of no light but the highlight, which is 0. */
+static void metal_black(Stage *stage)
+{
+    of_facets(stage);
+    stage->scene->material.metalness = 1;
+    stage->scene->material.specular = 0;
+}
+
 typedef struct Case {
     Change on; /* NULL: it runs by force alone */
     Off off[5];
@@ -368,6 +393,11 @@ typedef struct Case {
 static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_DIFFUSE] = { keep_all, { { no_diffuse, 0 }, { dark, 0 }, { black, 0 } } },
     [WR_EFFECT_SPECULAR] = { keep_all, { { no_specular, 0 }, { dark, 0 } } },
+    [WR_EFFECT_MODEL] = { of_facets,
+                          { { keep_all, NOTHING },
+                            { matt_smooth, 1e-6 },
+                            { phong_dull, 1e-6 },
+                            { metal_black, NOTHING } } },
     [WR_EFFECT_COLOUR] = { coloured, { { white, 0 }, { keep_all, NOTHING } } },
     [WR_EFFECT_NORMALS] = { mapped,
                             { { mapped_flat, 0 },

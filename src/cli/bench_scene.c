@@ -91,7 +91,14 @@ WrScene *wr_bench_scene(const char *surface, WrBenchMode mode, bool fast, WrErro
     if (kind == WR_SURFACE_torus) scene->shape.value[0] = 0.7, scene->shape.value[1] = 0.28;
     scene->camera = (WrCamera){ .eye = { 0, 0, 4 }, .up = { 0, 1, 0 } };
     scene->camera.fov_deg = 2 * atan(1 / sqrt(15.0)) / WR_RAD_PER_DEG;
-    scene->material = (WrMaterial){ 0.08, 0.72, 0.35, 40, { 1, 1, 1 }, true };
+    scene->material = (WrMaterial){ .ambient = 0.08,
+                                    .diffuse = 0.72,
+                                    .specular = 0.35,
+                                    .shininess = 40,
+                                    .colour = { 1, 1, 1 },
+                                    .gate = true,
+                                    .roughness = 0.3,
+                                    .ior = 1.5 };
     scene->lights[0] =
         (WrLight){ WR_LIGHT_DIRECTIONAL, { 0.36514837, 0.54772256, 0.75592895 }, { 1, 1, 1 }, 1 };
     scene->height = 1;

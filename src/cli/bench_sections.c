@@ -152,6 +152,11 @@ static void exact(WrScene *scene)
     scene->bump = WR_BUMP_EXACT;
 }
 
+static void of_facets(WrScene *scene)
+{
+    scene->material.model = WR_REFLECT_GGX;
+}
+
 static void supersampled(WrScene *scene)
 {
     scene->dials.aa = WR_AA_SUPERSAMPLE;
@@ -257,6 +262,7 @@ WR_ROWS(effects);
 static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { BUMPED, .with = same },
+    [WR_ROW(WR_EFFECT_MODEL)] = { BUMPED, .with = of_facets, .without = same },
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },

@@ -17,6 +17,10 @@
 static void print_material(const WrScene *scene, WrText *text)
 {
     wr_text_add(text, "material");
+    const WrMaterial *m = &scene->material;
+    if (m->model != WR_REFLECT_BLINN_PHONG)
+        wr_text_addf(text, " model=%s", wr_reflects[m->model].name);
+    if (m->energy != WR_ENERGY_KEPT) wr_text_addf(text, " energy=%s", wr_energies[m->energy]);
     wr_scene_print_params("material", NULL, scene, text);
     wr_text_add(text, "\n");
 }
@@ -43,6 +47,9 @@ static bool run_material(WrSession *session, WrCall *call, WrError *err)
     (void)err;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_scene_take(call, NULL, scene);
+    WrMaterial *m = &scene->material;
+    if (wr_call_given(call, "model")) m->model = (WrReflect)wr_call_choice(call, "model");
+    if (wr_call_given(call, "energy")) m->energy = (WrEnergy)wr_call_choice(call, "energy");
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -120,10 +127,28 @@ static bool run_tolerance(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+static const char *model_choice(int i)
+{
+    return i < WR_REFLECT_COUNT ? wr_reflects[i].name : NULL;
+}
+
+static const char *energy_choice(int i)
+{
+    return i < WR_ENERGY_COUNT ? wr_energies[i] : NULL;
+}
+
 static bool row_material(WrForm *out)
 {
-    *out = (WrForm){ 0 };
-    return wr_scene_args("material", NULL, out->args) > 0;
+    *out = (WrForm){ .args = { { .name = "model",
+                                 .type = WR_ARG_CHOICE,
+                                 .choice = model_choice,
+                                 .help = "how light is reflected" },
+                               { .name = "energy",
+                                 .type = WR_ARG_CHOICE,
+                                 .choice = energy_choice,
+                                 .help = "kept: never more light than came; published: as the "
+                                         "model's source has it" } } };
+    return wr_scene_args("material", NULL, out->args + 2) > 0;
 }
 
 static const char *tolerance_off(int i)
@@ -187,16 +212,17 @@ static bool row_dials(WrForm *out)
 
 /* ---- the rows ---- */
 
-const WrCommand wr_command_material = { .name = "material",
-                                        .kind = WR_CLASS_SCENE,
-                                        .row = row_material,
-                                        .run = run_material,
-                                        .print = print_material,
-                                        .of_object = true,
-                                        .help = "what the surface reflects",
-                                        .details = "Only what is given changes.",
-                                        .example =
-                                            "material diffuse=0.8 specular=0.3 shininess=60" };
+const WrCommand wr_command_material = {
+    .name = "material",
+    .kind = WR_CLASS_SCENE,
+    .row = row_material,
+    .run = run_material,
+    .print = print_material,
+    .of_object = true,
+    .help = "what the surface reflects",
+    .details = "Only what is given changes.",
+    .example = "material model=ggx diffuse=1 specular=1 roughness=0.4"
+};
 
 const WrCommand wr_command_dials = { .name = "dials",
                                      .kind = WR_CLASS_SCENE,

@@ -85,6 +85,9 @@ void wr_scene_print_params(const char *command, const char *form, const void *ow
 {
     const WrSceneParam *p;
     for (int i = 0; (p = wr_scene_param(command, form, i)) != NULL; i++) {
+        double values[3] = { 0 };
+        wr_scene_param_get(p, owner, values);
+        if (p->sparse && values[0] == p->fallback[0]) continue;
         wr_text_addf(text, " %s=", p->name);
         wr_scene_print_value(p, owner, text);
     }

@@ -297,6 +297,14 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
     job->relief = narrowed(&look, NULL, NULL);
 }
 
+static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTileJob *job)
+{
+    const WrMaterial *m = &request->scene->material;
+    wr_scene_matter(m, &job->matter);
+    if (!wr_plan_runs(plan, WR_EFFECT_DIFFUSE)) job->matter.kd = 0;
+    if (!wr_plan_runs(plan, WR_EFFECT_SPECULAR)) job->matter.ks = 0;
+}
+
 void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *request, double scale,
                          WrTileJob *job)
 {
@@ -312,6 +320,7 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->look = narrowed(&look, heights->data, gradient->data);
     job->looks = looks_of(request, renderer, &look);
     fill_level(renderer, request, job);
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_MODEL)) fill_matter(&renderer->plan, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) fill_colour(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_NORMALS)) fill_map(renderer, request, scale, job);
 }

@@ -8,6 +8,7 @@
 #pragma once
 #include "field/scheme.h"
 #include "shade/bump_mode.h"
+#include "shade/reflect.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>
@@ -68,6 +69,13 @@ typedef struct WrWalk {
 } WrWalk;
 
 #define WR_WALK_PAD 16 /* samples past a tile's end that `cover` may write back as they were */
+
+/* How facets are roughened by slopes that spread inside a pixel: not, by their whole covariance, by its mean. */
+typedef enum WrReflectSpread {
+    WR_REFLECT_AS_IT_IS,
+    WR_REFLECT_LEAN,
+    WR_REFLECT_ROUND
+} WrReflectSpread;
 
 #define REAL float
 #define SHAPE WrShapef

@@ -46,6 +46,7 @@
 #define LIGHT WrKernLightd
 #define SHINE WrKernShined
 #define MATERIAL WrKernMateriald
+#define MATTER WrKernMatterd
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
 #define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
@@ -64,6 +65,7 @@
 #define LIGHT WrKernLight
 #define SHINE WrKernShine
 #define MATERIAL WrKernMaterial
+#define MATTER WrKernMatter
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif
@@ -193,6 +195,8 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_bump_body.h"
 #include "shade/light_body.h"
 #include "render/kern_light_body.h"
+#include "shade/reflect_body.h"
+#include "render/kern_reflect_body.h"
 #include "render/kern_dark_body.h"
 #include "render/kern_filter_body.h"
 #include "render/kern_moments_body.h"
@@ -274,6 +278,13 @@ const KERNELS WR_KERN_TABLE = {
     .specular = kern_specular,
     .specular_lean = kern_specular_lean,
     .specular_toksvig = kern_specular_toksvig,
+    .reflect = {
+        [WR_REFLECT_PHONG] = { kern_phong_1, kern_phong_0 },
+        [WR_REFLECT_TORRANCE_SPARROW] = { kern_facets_0, kern_facets_0 },
+        [WR_REFLECT_OREN_NAYAR] = { kern_matt_1, kern_matt_0 },
+        [WR_REFLECT_GGX] = { kern_ggx_1, kern_ggx_0 },
+    },
+    .tint = kern_tint,
 #ifndef WR_KERN_DOUBLE
     .shade = { { SHADE_ROWS(0, 0), SHADE_ROWS(0, 1) }, { SHADE_ROWS(1, 0), SHADE_ROWS(1, 1) } },
     .smooth = kern_smooth,

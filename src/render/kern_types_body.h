@@ -100,6 +100,15 @@ typedef struct WR_T(WrKernMaterial) {
     REAL rgb[3]; /* its colour */
 } WR_T(WrKernMaterial);
 
+/* WrMatter's numbers (shade/reflect.h). */
+typedef struct WR_T(WrKernMatter) {
+    REAL kd, ks, colour[3], shininess, scale, alpha, ior, f0, metal, a, b, mean, again;
+    REAL albedo[WR_ALBEDO_TERMS];
+} WR_T(WrKernMatter);
+typedef void (*WR_T(WrReflectKernel))(const WR_T(WrKernLight) * light,
+                                      const WR_T(WrKernMatter) * matter, WrReflectSpread how,
+                                      WR_T(WrStrip) * strip);
+
 typedef void (*WR_T(WrShadeKernel))(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
                                     const WR_T(WrKernShine) * shine,
                                     const WR_T(WrKernMaterial) * material, WR_T(WrStrip) * strip);
@@ -199,6 +208,10 @@ typedef struct WR_T(WrKernels) {
                           WR_T(WrStrip) * strip);
     void (*specular_toksvig)(const WR_T(WrKernLight) * light, const WR_T(WrKernShine) * shine,
                              WR_T(WrStrip) * strip);
+    /* Diffuse light and highlight of other models, as published or kept; NULL: Blinn-Phong's is made of the above. */
+    WR_T(WrReflectKernel) reflect[WR_REFLECT_COUNT][WR_ENERGY_COUNT];
+    /* Highlights so far in the surface's colour, to the share t; after all lights. */
+    void (*tint)(REAL t, WR_T(WrStrip) * strip);
     /* begin, view, light, diffuse, specular and finish of a single light in one pass, from n' and P: [the light is near]
        [the eye is near] [it shines] [C is a picture's, which `colour` has brought]. NULL in double precision. */
     WR_T(WrShadeKernel) shade[2][2][2][2];

@@ -37,6 +37,43 @@ static void stretch_strip(const WrView *view, Strip *strip)
     }
 }
 
+/* What another model's kernels go by. */
+static WR_T(WrKernMatter) matter_of(const WrMatter *m)
+{
+    WR_T(WrKernMatter) out = { .kd = (REAL)m->kd, .ks = (REAL)m->ks };
+    for (int c = 0; c < 3; c++) out.colour[c] = (REAL)m->colour[c];
+    out.shininess = (REAL)m->shininess, out.scale = (REAL)m->scale, out.alpha = (REAL)m->alpha;
+    out.ior = (REAL)m->ior, out.f0 = (REAL)m->f0, out.metal = (REAL)m->metal;
+    out.a = (REAL)m->a, out.b = (REAL)m->b;
+    out.mean = (REAL)m->mean, out.again = (REAL)m->again;
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++) out.albedo[i] = (REAL)m->albedo[i];
+    return out;
+}
+
+/* The kernel of a model that is not made of stages; NULL: it is. */
+static WR_T(WrReflectKernel) reflect_of(const WrTileJob *job)
+{
+    return KERNELS_OF(job)->reflect[job->plan->model][job->scene->material.energy];
+}
+
+/* What one light adds, by another model than Blinn-Phong's. */
+static void reflect_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, Strip *strip,
+                          Watch *watch)
+{
+    const WR_T(WrKernMatter) matter = matter_of(&job->matter);
+    const bool shines = runs(job, WR_EFFECT_SPECULAR);
+    const WrReflectSpread how = !runs(job, WR_EFFECT_SPREAD) ? WR_REFLECT_AS_IT_IS
+                                : job->plan->lean            ? WR_REFLECT_LEAN
+                                                             : WR_REFLECT_ROUND;
+    reflect_of(job)(light, &matter, how, strip);
+    if (runs(job, WR_EFFECT_DIFFUSE)) did(watch, WR_EFFECT_DIFFUSE);
+    if (shines) did(watch, WR_EFFECT_SPECULAR);
+    did(watch, WR_EFFECT_MODEL);
+    watch_lap(watch, shines ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
+    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
+    keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
+}
+
 /* What one light adds. */
 static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
                        const WrSink *sink, Strip *strip, Watch *watch)
@@ -46,6 +83,10 @@ static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
     watch_lap(watch, WR_STAGE_DIFFUSE);
     if (runs(job, WR_EFFECT_HALF)) keep_half(strip->n_dot_l, strip->count);
     keep_half3(job, strip->lx, strip->ly, strip->lz, strip->count, watch);
+    if (reflect_of(job)) {
+        reflect_strip(job, light, strip, watch);
+        return;
+    }
     if (runs(job, WR_EFFECT_DIFFUSE)) {
         k->diffuse(light, (REAL)job->scene->material.diffuse, strip);
         did(watch, WR_EFFECT_DIFFUSE);
@@ -66,6 +107,7 @@ static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
 static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, const WrSink *sink)
 {
     const bool shines = runs(job, WR_EFFECT_SPECULAR);
+    if (runs(job, WR_EFFECT_MODEL)) return NULL;
     if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
     if (!shines && !runs(job, WR_EFFECT_DIFFUSE)) return NULL;
     if (shines && runs(job, WR_EFFECT_SPREAD)) return NULL;
@@ -99,11 +141,16 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     k->begin((REAL)job->scene->material.ambient, strip);
     if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
-    if (specular || sink->bound) k->view(&VIEWED(&job->view->lit, rays), strip);
+    if (specular || sink->bound || reflect_of(job)) k->view(&VIEWED(&job->view->lit, rays), strip);
     watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
-    if (specular) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
+    if (specular || reflect_of(job))
+        keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
     for (int i = 0; i < job->view->light_count && (specular || runs(job, WR_EFFECT_DIFFUSE)); i++)
         lamp_strip(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
+    if (job->plan->tint != 0) {
+        k->tint((REAL)job->plan->tint, strip);
+        did(watch, WR_EFFECT_MODEL);
+    }
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
 }
 

@@ -6,6 +6,7 @@
 #include "scene/dials.h"
 #include "scene/normal_frame.h"
 #include "shade/bump_mode.h"
+#include "shade/reflect.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>
@@ -26,6 +27,7 @@ typedef enum WrProof {
 typedef enum WrEffect {
     WR_EFFECT_DIFFUSE,
     WR_EFFECT_SPECULAR,
+    WR_EFFECT_MODEL,
     WR_EFFECT_COLOUR,
     WR_EFFECT_TINT,
     WR_EFFECT_NORMALS,
@@ -150,6 +152,8 @@ typedef enum WrPrecision {
 
 /* What the plan settles beyond whether an effect runs: X(effect, type, name), each owned by one row. The
    renderer reads these and the rows, and neither scene nor dials, to choose what it does.
+     model       how lamps are reflected; blinn-phong where that comes to the same
+     tint        share of highlights that has the surface's colour
      map_filtered, map_anisotropic    the normal map's slopes over footprints
      map_frame   what its vectors are turned by; gradient where there are none
      bump        as simplified: BLINN for exact on a flat base, ...
@@ -162,6 +166,8 @@ typedef enum WrPrecision {
      mesh, newton, texels, spread, refine, contrast    as the dials of that name
      heights     what they are rounded to */
 #define WR_PLAN_SETTINGS(X)                                                                        \
+    X(MODEL, WrReflect, model)                                                                     \
+    X(MODEL, double, tint)                                                                         \
     X(TINT, bool, tint_anisotropic)                                                                \
     X(NORMALS, bool, map_filtered)                                                                 \
     X(NORMALS, bool, map_anisotropic)                                                              \

@@ -9,34 +9,6 @@
 
 #include <math.h>
 
-/* ---- light ---- */
-
-static bool any_light(const WrScene *scene)
-{
-    for (int i = 0; i < scene->light_count; i++)
-        if (light_shines(&scene->lights[i])) return true;
-    return false;
-}
-
-static WrVerdict decide_diffuse(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    const WrMaterial *m = &ask->scene->material;
-    (void)plan;
-    if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
-    if (m->diffuse == 0) return say(WR_VERDICT_SPARED, why, "diffuse is 0");
-    if (m->colour.x == 0 && m->colour.y == 0 && m->colour.z == 0)
-        return say(WR_VERDICT_SPARED, why, "the material's colour is black");
-    return say(WR_VERDICT_RUN, why, "a light shines and diffuse is not 0");
-}
-
-static WrVerdict decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    (void)plan;
-    if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
-    if (ask->scene->material.specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
-    return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
-}
-
 /* ---- bump ---- */
 
 /* Why the table cannot move the normal, or NULL if it can. The exact normal of an offset surface
@@ -206,6 +178,8 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
         return "no bound is known of rounding to half precision: K x K everywhere";
     if (v3_len(ask->scene->sizes) > 0)
         return "no bound is known of a stretched object: K x K everywhere";
+    if (runs(plan, WR_EFFECT_MODEL))
+        return "no bound is known of this reflection: K x K everywhere";
     const WrInversion how = surface_of(ask)->inversion;
     if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
         return "no bound is known on this surface: K x K everywhere";
@@ -324,13 +298,22 @@ static WrVerdict decide_half(const WrPlan *plan, const WrPlanAsk *ask, const cha
 WR_ROWS(wr_effects);
 const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { "E1", "diffuse", WR_PROOF_IDENTICAL, NULL,
-                                    "no light shines, diffuse is 0, or the colour is black; of "
+                                    "no light shines, diffuse is 0, the colour is black, or ggx's "
+                                    "metalness is 1; of "
                                     "several lights those that do not shine",
                                     STAGE(DIFFUSE), .spared = WR_RUN_DARK,
-                                    .decide = decide_diffuse },
+                                    .decide = wr_decide_diffuse },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { "E2", "specular", WR_PROOF_IDENTICAL, NULL,
-                                     "no light shines, or specular is 0", STAGE(SPECULAR),
-                                     .spared = WR_RUN_DARK, .decide = decide_specular },
+                                     "no light shines, specular is 0, the reflection model has no "
+                                     "highlight, or its facets' index is 1",
+                                     STAGE(SPECULAR), .spared = WR_RUN_DARK,
+                                     .decide = wr_decide_specular },
+    [WR_ROW(WR_EFFECT_MODEL)] = { "E36", "reflection model", WR_PROOF_BOUNDED,
+                                  "rounding of the light",
+                                  "the material is Blinn-Phong's, its highlight white; without a "
+                                  "highlight, or of matt facets of roughness 0, it is Lambert's",
+                                  0, .only_way = true, .spared = WR_RUN_DARK,
+                                  .decide = wr_decide_model, .settle = wr_settle_model },
     [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
                                    "there is none, or it is white everywhere", STAGE(COLOUR),
                                    .decide = wr_decide_colour },

@@ -4,6 +4,7 @@
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
+#include "render/reference_reflect.h"
 #include "scene/laid.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
@@ -39,6 +40,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
         stage->periodic_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
         stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     }
+    wr_scene_matter(&scene->material, &stage->matter);
     stage->bump = has_slopes(scene) ? truth_of(scene->bump) : WR_BUMP_NONE;
     if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
         stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
@@ -142,6 +144,25 @@ static double lobe(WrVec3 perturbed, WrVec3 h, double s)
     return nh > 0 ? pow(nh, s) : 0;
 }
 
+/* What one light of strength 1 adds: in the surface's colour, and in its own. */
+static void one_light(const WrReferenceStage *stage, WrVec3 n, WrVec3 l, WrVec3 v,
+                      const double colour[3], double own[3], double *white)
+{
+    const WrMaterial *m = &stage->scene->material;
+    const WrVec3 h = v3_add(l, v);
+    const double nl = v3_dot(n, l), hh = v3_dot(h, h);
+    if (m->model != WR_REFLECT_BLINN_PHONG) {
+        wr_reference_reflect(&stage->matter, m->model, m->energy, n, l, v, colour, own, white);
+    } else {
+        *white = 0;
+        if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24)
+            *white = m->specular * lobe(n, v3_scale(h, 1 / sqrt(hh)), m->shininess);
+        own[0] = own[1] = own[2] = m->diffuse * (nl > 0 ? nl : 0);
+    }
+    for (int c = 0; c < 3; c++) own[c] += m->tint * *white;
+    *white *= 1 - m->tint;
+}
+
 void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
                         WrVec3 perturbed, double rgb[3])
 {
@@ -149,24 +170,21 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
     const WrReferenceView *view = &stage->view;
     const WrVec3 to = view->perspective ? unit(v3_sub(view->lit_eye, p)) : view->lit_toward;
     double diffuse[3] = { m->ambient, m->ambient, m->ambient }, shine[3] = { 0, 0, 0 };
+    double colour[3] = { 1, 1, 1 };
+    if (stage->scene->colour) picture_colour(stage, u, v, colour);
+    const double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1],
+                            m->colour.z * colour[2] };
     for (int i = 0; i < view->light_count; i++) {
         const WrReferenceLight *light = &view->lights[i];
         const WrVec3 l = light->point ? unit(v3_sub(light->where, p)) : light->where;
-        const WrVec3 h = v3_add(l, to);
-        const double nl = v3_dot(perturbed, l), hh = v3_dot(h, h);
-        double highlight = 0;
-        if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24) {
-            highlight = m->specular * lobe(perturbed, v3_scale(h, 1 / sqrt(hh)), m->shininess);
-        }
+        double own[3], white;
+        one_light(stage, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
-            diffuse[c] += m->diffuse * light->rgb[c] * (nl > 0 ? nl : 0);
-            shine[c] += light->rgb[c] * highlight;
+            diffuse[c] += light->rgb[c] * own[c];
+            shine[c] += light->rgb[c] * white;
         }
     }
-    double colour[3] = { 1, 1, 1 };
-    if (stage->scene->colour) picture_colour(stage, u, v, colour);
-    const double own[3] = { m->colour.x, m->colour.y, m->colour.z };
-    for (int c = 0; c < 3; c++) rgb[c] = own[c] * colour[c] * diffuse[c] + shine[c];
+    for (int c = 0; c < 3; c++) rgb[c] = has[c] * diffuse[c] + shine[c];
 }
 
 bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out)

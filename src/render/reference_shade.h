@@ -12,6 +12,7 @@ typedef struct WrReferenceStage {
     const WrScene *scene; /* borrowed */
     WrReferenceView view;
     WrReferenceTable table;      /* empty where F is a formula or has no height */
+    WrMatter matter;             /* of models other than Blinn-Phong's */
     WrBumpMode bump;             /* what the reference takes for the truth */
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
 } WrReferenceStage;

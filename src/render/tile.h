@@ -48,6 +48,7 @@ typedef struct WrTileJob {
     WrLevel level;       /* how steep the table is where; only for one of the next two */
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
+    WrMatter matter;     /* what the plan's model goes by; kd and ks of what runs */
     WrColourLook colour; /* rgba NULL: none */
     WrLook tint;         /* the colour picture's means over footprints; pyramid NULL: not wanted */
     WrLookd tint_double;

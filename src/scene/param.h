@@ -18,6 +18,10 @@ typedef enum WrSceneParamId {
     WR_SCENE_PARAM_SHININESS,
     WR_SCENE_PARAM_MATERIAL_COLOUR,
     WR_SCENE_PARAM_GATE,
+    WR_SCENE_PARAM_ROUGHNESS,
+    WR_SCENE_PARAM_METALNESS,
+    WR_SCENE_PARAM_IOR,
+    WR_SCENE_PARAM_TINT,
     WR_SCENE_PARAM_LIGHT_TO,
     WR_SCENE_PARAM_LIGHT_AT,
     WR_SCENE_PARAM_LIGHT_COLOUR,
@@ -44,6 +48,7 @@ typedef struct WrSceneParam {
     const char *name;    /* of the argument; of a positional, how help shows it */
     bool positional, required;
     bool of_light; /* `place` is in a WrLight, else in a WrScene */
+    bool sparse;   /* printed only where it is not the default */
     bool filled;  /* the command takes the default where it is not given; else it stays as it was */
     size_t place; /* bytes from there to `components` doubles, or to a bool */
     int components;             /* 1..3; 0: a switch, off or on */

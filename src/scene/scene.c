@@ -213,3 +213,14 @@ void wr_scene_height(const WrScene *scene, const WrField *field, double u, doubl
     if (fu) *fu = wr_slope_of(slope_u, scene->height, ru);
     if (fv) *fv = wr_slope_of(slope_v, scene->height, rv);
 }
+
+void wr_scene_matter(const WrMaterial *m, WrMatter *matter)
+{
+    const WrReflectance of = {
+        m->model, m->energy, m->shininess, m->roughness, m->metalness, m->ior
+    };
+    wr_matter_init(matter, &of);
+    matter->kd = m->diffuse, matter->ks = m->specular;
+    matter->colour[0] = m->colour.x, matter->colour[1] = m->colour.y;
+    matter->colour[2] = m->colour.z;
+}

@@ -14,6 +14,7 @@
 #include "scene/dials.h"
 #include "scene/normal_frame.h"
 #include "shade/bump_mode.h"
+#include "shade/reflect.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>
@@ -40,6 +41,11 @@ typedef struct WrMaterial {
     double shininess;                  /* s: 0..1e6 */
     WrVec3 colour;                     /* C, linear RGB; does not tint the highlight */
     bool gate;                         /* highlight only where n'.l > 0 */
+    /* How the two are formed (shade/reflect.h); of these numbers the model's own count. */
+    WrReflect model;
+    WrEnergy energy;
+    double roughness, metalness, ior;
+    double tint; /* share of the highlight that has the surface's colour */
 } WrMaterial;
 
 /* What the picture must keep to; the dials that meet it are chosen by measuring (accuracy/tolerance.h). */
@@ -214,3 +220,6 @@ WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 world);
  * finite, and carry the factors height, height ru, height rv. */
 void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
                      double *fu, double *fv);
+
+/* What a material's formulas go by. */
+void wr_scene_matter(const WrMaterial *material, WrMatter *matter);

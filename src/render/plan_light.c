@@ -1,0 +1,70 @@
+/* What the plan decides about light: diffuse reflection, highlights, and by which model. */
+#include "render/plan_inner.h"
+
+#include "scene/scene.h"
+
+static bool any_light(const WrScene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++)
+        if (light_shines(&scene->lights[i])) return true;
+    return false;
+}
+
+WrVerdict wr_decide_diffuse(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrMaterial *m = &ask->scene->material;
+    (void)plan;
+    if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
+    if (m->diffuse == 0) return say(WR_VERDICT_SPARED, why, "diffuse is 0");
+    if (m->model == WR_REFLECT_GGX && m->metalness == 1)
+        return say(WR_VERDICT_SPARED, why, "a metal has no diffuse reflection");
+    if (m->colour.x == 0 && m->colour.y == 0 && m->colour.z == 0)
+        return say(WR_VERDICT_SPARED, why, "the material's colour is black");
+    return say(WR_VERDICT_RUN, why, "a light shines and diffuse is not 0");
+}
+
+WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (!any_light(ask->scene)) return say(WR_VERDICT_SPARED, why, "no light shines");
+    const WrMaterial *m = &ask->scene->material;
+    if (!wr_reflects[m->model].shines)
+        return say(WR_VERDICT_SPARED, why, "the reflection model has no highlight");
+    if (m->model == WR_REFLECT_TORRANCE_SPARROW && m->ior == 1)
+        return say(WR_VERDICT_SPARED, why, "facets of index 1 reflect nothing");
+    if (m->specular == 0) return say(WR_VERDICT_SPARED, why, "specular is 0");
+    return say(WR_VERDICT_RUN, why, "a light shines and specular is not 0");
+}
+
+/* Why Blinn-Phong's stages do what another model would, or NULL. */
+static const char *same_model(const WrPlan *plan, const WrMaterial *m)
+{
+    const bool shines = runs(plan, WR_EFFECT_SPECULAR);
+    if (m->model == WR_REFLECT_OREN_NAYAR && m->roughness == 0)
+        return "facets of roughness 0 are matt as a whole: Lambert's";
+    if (m->model != WR_REFLECT_OREN_NAYAR && m->model != WR_REFLECT_GGX && !shines)
+        return "without a highlight it is Lambert's";
+    return NULL;
+}
+
+WrVerdict wr_decide_model(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrMaterial *m = &ask->scene->material;
+    if (m->model == WR_REFLECT_BLINN_PHONG && m->tint == 0)
+        return say(WR_VERDICT_NONE, why, "the material is Blinn-Phong's, its highlight white");
+    if (!runs(plan, WR_EFFECT_SPECULAR) && !runs(plan, WR_EFFECT_DIFFUSE))
+        return say(WR_VERDICT_NONE, why, "no light is worked out");
+    const char *reason = same_model(plan, m);
+    if (reason) return say(WR_VERDICT_SPARED, why, reason);
+    return say(WR_VERDICT_RUN, why,
+               m->model == WR_REFLECT_BLINN_PHONG ? "the highlight has the material's colour"
+                                                  : wr_reflects[m->model].help);
+}
+
+void wr_settle_model(WrPlan *plan, const WrPlanAsk *ask)
+{
+    const WrMaterial *m = &ask->scene->material;
+    const bool run = runs(plan, WR_EFFECT_MODEL);
+    plan->model = run ? m->model : WR_REFLECT_BLINN_PHONG;
+    plan->tint = run && runs(plan, WR_EFFECT_SPECULAR) ? m->tint : 0;
+}

@@ -1,0 +1,261 @@
+/* test_reflect.c - reflection models: their kernels against numbers worked out apart, white furnaces by quadrature,
+   reciprocity, limits, and pictures against the reference. Numbers of the first test are from quadrature of the published
+   formulas with 320 x 320 nodes, and from closed forms. */
+#include "test.h"
+#include "test_render_scenes.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "render/kern.h"
+#include "render/reference.h"
+#include "scene/scene.h"
+
+static const WrKernelsd *kernels;
+
+/* pi f (n.l) of one strip's directions: the red channel, what is in the surface's colour and what is white. */
+static void reflect(const WrReflectance *of, double kd, double ks, WrStripd *s)
+{
+    WrMatter m;
+    wr_matter_init(&m, of);
+    WrKernMatterd matter = { .kd = kd, .ks = ks, .colour = { 1, 1, 1 }, .scale = m.scale };
+    matter.shininess = m.shininess, matter.alpha = m.alpha, matter.ior = m.ior, matter.f0 = m.f0;
+    matter.metal = m.metal, matter.a = m.a, matter.b = m.b;
+    matter.mean = m.mean, matter.again = m.again;
+    memcpy(matter.albedo, m.albedo, sizeof m.albedo);
+    const WrKernLightd light = { .rgb = { 1, 1, 1 } };
+    kernels->begin(0, s);
+    kernels->reflect[of->model][of->energy](&light, &matter, WR_REFLECT_AS_IT_IS, s);
+}
+
+static void put(WrStripd *s, int i, WrVec3 l, WrVec3 v)
+{
+    s->bx[i] = s->by[i] = 0, s->bz[i] = 1;
+    s->lx[i] = l.x, s->ly[i] = l.y, s->lz[i] = l.z;
+    s->vx[i] = v.x, s->vy[i] = v.y, s->vz[i] = v.z;
+}
+
+static WrVec3 tilted(double mu, double turn)
+{
+    const double s = sqrt(fmax(0, 1 - mu * mu));
+    return (WrVec3){ s * cos(turn), s * sin(turn), mu };
+}
+
+static double at_once(const WrReflectance *of, double kd, double ks, WrVec3 l, WrVec3 v)
+{
+    WrStripd *s = wr_alloc(1, sizeof *s);
+    s->count = 1;
+    put(s, 0, l, v);
+    reflect(of, kd, ks, s);
+    const double sum = s->dr[0] + s->sr[0];
+    wr_free(s);
+    return sum;
+}
+
+/* The integral of f (n.l): of diffuse light over directions, of facets over their normals h, which a highlight of width
+   alpha is even in. */
+static double albedo(const WrReflectance *of, double kd, double ks, double nv, bool facets, int n)
+{
+    const double a = fmax(of->roughness * of->roughness, 1e-3);
+    const WrVec3 v = tilted(nv, 0);
+    WrStripd *s = wr_alloc(1, sizeof *s);
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        double weight[WR_SPAN];
+        s->count = n;
+        for (int j = 0; j < n; j++) {
+            const double t = (i + 0.5) / n, turn = WR_PI * (j + 0.5) / n;
+            if (!facets) { /* t = (n.l)^2: f (n.l) dw is pi f d(t) */
+                put(s, j, tilted(sqrt(t), turn), v);
+                weight[j] = 1 / sqrt(t);
+                continue;
+            }
+            const double x = t * t * (3 - 2 * t), dx = 6 * t * (1 - t); /* dense at both ends */
+            const double c = sqrt((1 - x) / (1 - x + a * a * x)), w = c * c * (a * a - 1) + 1;
+            const WrVec3 h = tilted(c, turn);
+            const double vh = v3_dot(v, h);
+            const WrVec3 l = v3_sub(v3_scale(h, 2 * vh), v);
+            const bool up = l.z > 0 && vh > 0;
+            put(s, j, up ? l : v, v);
+            weight[j] = up ? 4 * vh * w * w / (a * a * c) * dx : 0;
+        }
+        reflect(of, kd, ks, s);
+        for (int j = 0; j < n; j++) sum += (s->dr[j] + s->sr[j]) * weight[j];
+    }
+    wr_free(s);
+    return sum / (n * n);
+}
+
+static void albedos_are_those_of_the_published_formulas(void **state)
+{
+    const WrReflectance metal = { WR_REFLECT_GGX, WR_ENERGY_PUBLISHED, 0, 1, 1, 1.5 };
+    static const struct {
+        double alpha, nv, albedo;
+    } ggx[] = { { 1, 1, .306853 },    { 1, .3, .560099 },   { .5, .7, .682954 },
+                { .25, .1, .891622 }, { .1, .7, .981419 },  { .1, .3, .936252 },
+                { .04, 1, .998298 },  { .04, .1, .928993 }, { .5, .1, .860105 } };
+    (void)state;
+    for (size_t i = 0; i < sizeof ggx / sizeof *ggx; i++) {
+        WrReflectance of = metal;
+        of.roughness = sqrt(ggx[i].alpha);
+        assert_near(albedo(&of, 0, 1, ggx[i].nv, true, 200), ggx[i].albedo, 5e-4);
+        assert_near(1 - ggx[0].nv * log(2), ggx[0].albedo, 1e-6);
+    }
+    const WrReflectance fujii = { WR_REFLECT_OREN_NAYAR, WR_ENERGY_KEPT, 0, .5, 0, 1.5 };
+    WrReflectance facets = { WR_REFLECT_TORRANCE_SPARROW, WR_ENERGY_KEPT, 0, sqrt(.3), 0, 1e4 };
+    assert_near(albedo(&facets, 0, 1, 1, true, 200), .86401, 1e-3);
+    assert_near(albedo(&facets, 0, 1, .3, true, 200), .91012, 1e-3);
+    facets.energy = WR_ENERGY_PUBLISHED; /* 4 c^2 times that */
+    assert_near(albedo(&facets, 0, 1, .3, true, 200), .91012 * 4 * .09, 1e-3);
+    const WrReflectance qualitative = {
+        WR_REFLECT_OREN_NAYAR, WR_ENERGY_PUBLISHED, 0, WR_PI / 18, 0, 1.5
+    };
+    assert_near(albedo(&qualitative, 1, 0, .02, false, 200), 1.0139, 1e-3);
+    const WrReflectance gltf = { WR_REFLECT_GGX, WR_ENERGY_PUBLISHED, 0, .2, 0, 1.5 };
+    const double sum = albedo(&gltf, 1, 0, .1, false, 200) + albedo(&gltf, 0, 1, .1, true, 200);
+    assert_near(sum, 1.4279, 2e-3);
+    assert_near(albedo(&fujii, 1, 0, .3, false, 200), 1, 1e-3); /* what is reflected again too */
+}
+
+static void a_white_furnace_never_shows_more_than_white(void **state)
+{
+    (void)state;
+    for (int model = WR_REFLECT_PHONG; model < WR_REFLECT_COUNT; model++)
+        for (int r = 0; r <= 3; r++)
+            for (int k = 0; k < 12; k++) {
+                const double nv = .02 + .98 * k / 11, rough = .15 + .85 * r / 3;
+                const bool own = model == WR_REFLECT_OREN_NAYAR || model == WR_REFLECT_GGX;
+                WrReflectance of = { (WrReflect)model, WR_ENERGY_KEPT, 20 * r, rough, 0, 1.5 };
+                double e = albedo(&of, own, model == WR_REFLECT_PHONG, nv, false, 120);
+                if (model != WR_REFLECT_PHONG) e += albedo(&of, 0, 1, nv, true, 120);
+                if (!(e <= 1 + 1e-3 && e > 0)) fail_msg("model %d %g %g: %g", model, rough, nv, e);
+                if (own && !(e > .96)) fail_msg("model %d %g %g loses: %g", model, rough, nv, e);
+                if (model != WR_REFLECT_TORRANCE_SPARROW) continue;
+                of.ior = 1e4;
+                e = albedo(&of, 0, 1, nv, true, 120);
+                if (!(e <= 1 + 1e-3 && e > .3)) fail_msg("mirrors %g %g: %g", rough, nv, e);
+            }
+}
+
+static void light_and_eye_can_change_places(void **state)
+{
+    (void)state;
+    const WrVec3 a = tilted(.731, .3), b = tilted(.217, 2.9);
+    for (int model = WR_REFLECT_PHONG; model < WR_REFLECT_COUNT; model++)
+        for (int energy = 0; energy < WR_ENERGY_COUNT; energy++) {
+            const WrReflectance of = { (WrReflect)model, (WrEnergy)energy, 3.7, .63, .41, 1.7 };
+            const double there = at_once(&of, 0.8, 0.6, b, a) / b.z;
+            const double back = at_once(&of, 0.8, 0.6, a, b) / a.z;
+            const bool is = model != WR_REFLECT_PHONG || energy == WR_ENERGY_KEPT;
+            if ((fabs(there - back) <= 1e-12 * there) != is)
+                fail_msg("%s %s: %.17g, %.17g", wr_reflects[model].name, wr_energies[energy], there,
+                         back);
+        }
+}
+
+static void limits_are_finite(void **state)
+{
+    static const double ends[][4] = { { 0, 0, 0, 1.5 },       { 1e6, 1, 1, 1.5 }, { 0, 0, 1, 1e4 },
+                                      { NAN, NAN, NAN, NAN }, { -1, -1, -1, 0 },  { 1e9, 2, 7, 1 },
+                                      { 5, .5, .5, .67 } };
+    const WrVec3 places[] = { { 0, 0, 1 },     { 0, 0, -1 },     { 1, 0, 0 },    { -1, 0, 0 },
+                              { 1, 0, 1e-20 }, { -1, 0, 1e-20 }, { .6, 0, -.8 }, { .6, 0, .8 } };
+    (void)state;
+    for (int model = WR_REFLECT_PHONG; model < WR_REFLECT_COUNT; model++)
+        for (int energy = 0; energy < WR_ENERGY_COUNT; energy++)
+            for (int e = 0; e < 7; e++)
+                for (int k = 0; k < 64; k++) {
+                    const double *x = ends[e];
+                    const WrReflectance of = {
+                        (WrReflect)model, (WrEnergy)energy, x[0], x[1], x[2], x[3]
+                    };
+                    const WrVec3 l = places[k / 8], v = places[k % 8];
+                    const double got = at_once(&of, 1, 1, l, v);
+                    if (!(got >= 0 && got < 1e13) || (l.z <= 0 && got != 0))
+                        fail_msg("model %d, ends %d, places %d: %g", model, e, k, got);
+                }
+}
+
+static void a_normal_turned_past_the_eye_makes_no_jump(void **state)
+{
+    (void)state;
+    for (int model = WR_REFLECT_PHONG; model < WR_REFLECT_COUNT; model++) {
+        const WrReflectance of = { (WrReflect)model, WR_ENERGY_KEPT, 7, .45, .3, 1.5 };
+        const WrVec3 l = tilted(.4, .9);
+        double before = at_once(&of, 1, 1, l, tilted(2e-3, 0));
+        for (int i = 1; i <= 40; i++) {
+            const double mu = 2e-3 - 1e-4 * i, s = sqrt(1 - mu * mu);
+            const double now = at_once(&of, 1, 1, l, (WrVec3){ s, 0, mu });
+            if (!(fabs(now - before) < .02 * (1 + before))) fail_msg("%d at %g", model, mu);
+            before = now;
+        }
+    }
+}
+
+/* ---- pictures ---- */
+
+static WrScene *lit_scene(const char *surface, int model, int energy)
+{
+    WrScene *scene = scene_of(surface);
+    WrMaterial *m = &scene->material;
+    m->model = (WrReflect)model, m->energy = (WrEnergy)energy;
+    m->roughness = .37, m->metalness = .23, m->ior = 1.61, m->tint = .31;
+    m->diffuse = .77, m->specular = .83, m->shininess = 13.7;
+    m->colour = (WrVec3){ .91, .53, .17 };
+    scene->height = 0;
+    scene->dials.aa = WR_AA_POINT;
+    return scene;
+}
+
+static double apart(const WrScene *scene, const WrField *field)
+{
+    enum { W = 41, H = 33 };
+    WrError err = { "" };
+    WrReference r = { 0 };
+    WrPool *pool = wr_pool_new(2);
+    const WrReferenceRequest request = {
+        .field = field, .scene = scene, .width = W, .height = H, .first = 1, .most = 1
+    };
+    if (!wr_reference_render(&request, pool, &r, &err)) fail_msg("%s", err.text);
+    wr_pool_free(pool);
+    Shot shot = shoot(scene, field, W, H, 2, "auto", false);
+    double worst = 0;
+    for (int i = 0; i < W * H * 4; i++)
+        if (r.rgba[i / 4 * 4 + 3] == 1 && shot.frame.rgba[i / 4 * 4 + 3] == 1)
+            worst = fmax(worst, fabs(r.rgba[i] - (double)shot.frame.rgba[i]));
+    put_away(&shot);
+    wr_reference_fini(&r);
+    return worst;
+}
+
+static void pictures_are_the_references(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    for (int model = 0; model < WR_REFLECT_COUNT; model++)
+        for (int energy = 0; energy < WR_ENERGY_COUNT; energy++)
+            for (int in_double = 0; in_double < 2; in_double++) {
+                WrScene *scene = lit_scene("sphere", model, energy);
+                if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
+                const double off = apart(scene, field);
+                if (!(off < (in_double ? 3e-7 : 2e-4)))
+                    fail_msg("%s %s %d: %g apart", wr_reflects[model].name, wr_energies[energy],
+                             in_double, off);
+                wr_scene_free(scene);
+            }
+    wr_field_free(field);
+}
+
+int main(void)
+{
+    WrError err;
+    kernels = wr_kernels_double("auto", &err);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(albedos_are_those_of_the_published_formulas),
+        cmocka_unit_test(a_white_furnace_never_shows_more_than_white),
+        cmocka_unit_test(light_and_eye_can_change_places),
+        cmocka_unit_test(limits_are_finite),
+        cmocka_unit_test(a_normal_turned_past_the_eye_makes_no_jump),
+        cmocka_unit_test(pictures_are_the_references),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
