@@ -120,7 +120,7 @@ static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, W
     return true;
 }
 
-/* The plan of all: a row runs that runs for any. Where none is shown: what the object at hand would take. */
+/* The plan of all: a row runs that runs for any, and samples are taken as they are called for where one object has them so. Where none is shown: what the object at hand would take. */
 static void join_plans(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrGroup *group = renderer->group;
@@ -131,6 +131,7 @@ static void join_plans(WrRenderer *renderer, const WrFrameRequest *request)
         const WrPlan *own = &group->parts[i].renderer->plan;
         if (i == 0) renderer->plan = *own;
         else wr_plan_add(&renderer->plan, own);
+        if (own->sampling == WR_SAMPLING_ADAPTIVE) renderer->plan.sampling = own->sampling;
     }
 }
 
@@ -158,7 +159,7 @@ static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request
 }
 
 /* The parts' jobs, the nearest first. */
-static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool rests,
+static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool rests, int tiles,
                      WrTileJob jobs[WR_OBJECTS_MAX], const WrKeep *keeps[WR_OBJECTS_MAX])
 {
     WrGroup *group = renderer->group;
@@ -167,8 +168,7 @@ static int make_jobs(WrRenderer *renderer, const WrFrameRequest *request, bool r
         WrRenderer *own = part->renderer;
         const WrFrameRequest asked = request_of(part, request);
         WrTileJob job = wr_frame_job(own, &asked);
-        if (wr_frame_may_keep(request) && !own->keep.seen)
-            wr_keep_start(&own->keep, wr_frame_tiles(&job));
+        if (wr_frame_may_keep(request) && !rests) wr_keep_start(&own->keep, tiles);
         job.seen = wr_frame_may_keep(request) && !rests ? own->keep.seen : NULL;
         job.object = part->object;
         keeps[i] = &own->keep;
@@ -213,7 +213,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
                      .scratch = renderer->scratch,
                      .only = request->only,
                      .cancel = rests ? NULL : request->cancel };
-    job.count = make_jobs(renderer, request, rests, jobs, keeps);
+    job.count = make_jobs(renderer, request, rests, wr_frame_tiles(&job.tile), jobs, keeps);
     job.keep_count = rests ? job.count : 0;
     renderer->last = *request;
     const double prepared = wr_clock_seconds() - started;

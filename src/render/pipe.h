@@ -24,6 +24,9 @@ extern const WrPipe wr_pipe, wr_pipe_double;
 
 /* Refine a tile by dials.h's rule: a first sample at each centre, then k x k where it is called for. */
 void wr_refine_tile(const WrTileJob *job, int x, int y, int w, int h, WrTileScratch *scratch);
+/* The same of several objects: jobs[count], the nearest first; canvas: where pixels go; index: of the tile in their `seen`. */
+void wr_refine_group(const WrTileJob *canvas, const WrTileJob *jobs, int count, WrTilePart part,
+                     int index, WrTileScratch *scratch);
 /* Is that for less than K x K everywhere? Told from a few blocks of the picture, whatever part of it is wanted. The
    scratch's counts are spoilt. */
 bool wr_refine_pays(const WrTileJob *job, WrTileScratch *scratch);

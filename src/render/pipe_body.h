@@ -191,7 +191,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         did(watch, WR_EFFECT_PARAMETERS);
         watch_lap(watch, WR_STAGE_PARAMETERS);
     }
-    if (sink->uv) store_parameters(sink, strip);
+    if (sink->uv && !sink->nearest) store_parameters(sink, strip);
     if (job->plan->normals) {
         spared = normal_strip(job, rays, face, sink, strip, scratch, watch);
     } else if (sink->nearest) {
@@ -199,6 +199,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
         keep_near(job, sink, strip, watch);
     }
     if (strip->count == 0) return spared;
+    if (sink->uv && sink->nearest) store_parameters(sink, strip); /* of what is not hidden */
     if (sink->bound) bound_geometry(job, rays, quad, sink, strip, watch);
     watch_lap(watch, WR_STAGE_BOUND);
     if (!lit(sink)) {

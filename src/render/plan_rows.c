@@ -137,6 +137,12 @@ static bool takes_grid(const WrDials *dials)
     return dials->aa == WR_AA_ADAPTIVE || dials->aa == WR_AA_SUPERSAMPLE;
 }
 
+/* Is a bound asked for that nobody knows? Where outlines meet, light may change by anything. */
+static bool unbounded(const WrPlanAsk *ask)
+{
+    return ask->facts.among > 1 && ask->dials->refine == WR_REFINE_BOUND;
+}
+
 static WrVerdict decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrDials *dials = ask->dials;
@@ -144,9 +150,9 @@ static WrVerdict decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const 
     if (!takes_grid(dials))
         return say(WR_VERDICT_NONE, why, "the dial says one sample at the pixel's centre");
     if (dials->samples == 1) return say(WR_VERDICT_NONE, why, "one sample a pixel was asked for");
-    if (dials->aa == WR_AA_ADAPTIVE && ask->facts.among > 1)
+    if (dials->aa == WR_AA_ADAPTIVE && unbounded(ask))
         return say(WR_VERDICT_RUN, why,
-                   "up to K x K were asked for: of several objects all are taken");
+                   "up to K x K were asked for: no bound is known of several objects");
     if (dials->aa == WR_AA_ADAPTIVE && ask->facts.lively)
         return say(WR_VERDICT_RUN, why,
                    "up to K x K were asked for: here fewer would cost more, so all are taken");
@@ -162,8 +168,7 @@ static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)
     const WrDials *dials = ask->dials;
     const bool run = runs(plan, WR_EFFECT_SAMPLES);
     plan->samples = run ? dials->samples : 1;
-    const bool adaptive =
-        dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && ask->facts.among <= 1;
+    const bool adaptive = dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && !unbounded(ask);
     plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
     if (!run) return;
     plan->spread = dials->spread;

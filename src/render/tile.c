@@ -342,21 +342,32 @@ static void render_many(const WrTileJob *job, WrTilePart part, WrTileScratch *sc
     else wr_refine_tile(job, part.x, part.y, part.w, part.h, scratch);
 }
 
-/* The same as codes, by way of the tile's own floats. */
-static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
+WrTileJob wr_tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
     WrTileJob own = *job;
     own.rgba = scratch->mean[0];
     own.rgba_pitch = (size_t)part.w;
     own.x0 = part.x, own.y0 = part.y;
     memset(scratch->mean, 0, (size_t)part.w * (size_t)part.h * sizeof *scratch->mean);
-    render_many(&own, part, scratch);
+    return own;
+}
+
+void wr_tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratch)
+{
     const double start = wr_clock_seconds();
     for (int y = part.y; y < part.y + part.h; y++)
         scratch->not_finite +=
-            job->coder->codes_over(job->bins, wr_tile_behind(job, y)->colour, part.w,
-                                   wr_tile_pixel(&own, part.x, y), code_at(job, part.x, y));
+            apart->coder->codes_over(apart->bins, wr_tile_behind(apart, y)->colour, part.w,
+                                     wr_tile_pixel(apart, part.x, y), code_at(apart, part.x, y));
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+}
+
+/* The same as codes, by way of the tile's own floats. */
+static void render_many_codes(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
+{
+    const WrTileJob apart = wr_tile_apart(job, part, scratch);
+    render_many(&apart, part, scratch);
+    wr_tile_code(&apart, part, scratch);
 }
 
 /* Was the tile spared something in every run? `before`: the samples before it. */

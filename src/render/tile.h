@@ -206,7 +206,7 @@ void wr_tile_size(int samples, bool adaptive, bool blocks, int *tile_w, int *til
 /* A tile or a part of one, within the band; index: of the tile in job->seen. */
 void wr_tile_render(const WrTileJob *job, WrTilePart part, int index, WrTileScratch *scratch);
 /* The same of several objects, jobs[count] in the order in which they are drawn, the nearest first; all are of one
-   picture and one number of samples, not adaptive. canvas: where its pixels go. */
+   picture and one number of samples. canvas: where its pixels go. */
 void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int count,
                           WrTilePart part, int index, WrTileScratch *scratch);
 /* (u,v) and face at one sample of the grid; false where nothing is. Uses scratch. */

@@ -65,6 +65,12 @@ static float farthest(int k, WrTilePart whole, const WrTileScratch *scratch)
     return depth;
 }
 
+float wr_tile_hidden_from(const WrTileJob *job)
+{
+    const float nearest = (float)job->view->nearest;
+    return nearest - FLT_EPSILON * fabsf(nearest);
+}
+
 /* All objects' samples into scratch->sample, and, where wanted, n' into the picture. */
 static void draw(const Touching *touching, int k, WrTilePart whole, bool light, int index,
                  WrTileScratch *scratch)
@@ -75,8 +81,7 @@ static void draw(const Touching *touching, int k, WrTilePart whole, bool light, 
         const WrTilePart part = touching->part[i];
         /* What follows is no nearer: no more is seen (E52). */
         if (i > 0 && !wr_plan_runs(job->plan, WR_EFFECT_HIDDEN) &&
-            farthest(k, whole, scratch) <
-                (float)job->view->nearest - FLT_EPSILON * fabsf((float)job->view->nearest))
+            farthest(k, whole, scratch) < wr_tile_hidden_from(job))
             break;
         if (i > 0 && wr_plan_runs(job->plan, WR_EFFECT_HIDDEN)) wr_did(scratch, WR_EFFECT_HIDDEN);
         const int x = (part.x - whole.x) * k, y = (part.y - whole.y) * k;
@@ -110,31 +115,49 @@ static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *sc
     }
 }
 
+/* Samples where they are called for. */
+static void refine(const WrTileJob *canvas, const WrTileJob *jobs, int count, WrTilePart part,
+                   int index, WrTileScratch *scratch)
+{
+    const WrTileJob apart = canvas->codes ? wr_tile_apart(canvas, part, scratch) : *canvas;
+    wr_refine_group(&apart, jobs, count, part, index, scratch);
+    if (canvas->codes) wr_tile_code(&apart, part, scratch);
+}
+
+/* All samples everywhere. */
+static void sample(const WrTileJob *canvas, const Touching *touching, WrTilePart whole, int index,
+                   WrTileScratch *scratch)
+{
+    const int k = canvas->samples;
+    const int64_t covered = scratch->covered;
+    empty(k, whole, touching->count > 1, scratch);
+    draw(touching, k, whole, true, index, scratch);
+    scratch->covered = covered; /* that was samples */
+    if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
+    const double start = wr_clock_seconds();
+    resolve(canvas, whole, scratch);
+    scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+}
+
 void wr_tile_render_group(const WrTileJob *canvas, const WrTileJob *jobs, int count,
                           WrTilePart tile, int index, WrTileScratch *scratch)
 {
     const int64_t before = scratch->shaded;
-    const int k = canvas->samples;
     Touching touching;
-    double start = wr_clock_seconds();
+    const double start = wr_clock_seconds();
     find_touching(jobs, count, tile, &touching);
     if (canvas->map) wr_tile_start_map(canvas, tile, scratch);
     const WrTilePart none = { tile.x, tile.y, 0, 0 };
     const WrTilePart whole = touching.count > 0 ? united(&touching) : none;
     wr_tile_clear(canvas, tile, whole);
-    empty(k, whole, touching.count > 1, scratch);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     if (touching.count == 0) return;
-    if (canvas->normals && k > 1) {
+    if (canvas->normals && canvas->samples > 1) {
+        empty(1, whole, touching.count > 1, scratch);
         draw(&touching, 1, whole, false, index, scratch);
-        empty(k, whole, touching.count > 1, scratch);
     }
-    const int64_t covered = scratch->covered;
-    draw(&touching, k, whole, true, index, scratch);
-    scratch->covered = covered; /* that was samples */
-    if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
-    start = wr_clock_seconds();
-    resolve(canvas, whole, scratch);
-    scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
+    if (canvas->plan->sampling == WR_SAMPLING_ADAPTIVE)
+        refine(canvas, jobs, count, whole, index, scratch);
+    else sample(canvas, &touching, whole, index, scratch);
     scratch->tiles += scratch->shaded > before;
 }

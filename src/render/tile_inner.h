@@ -32,6 +32,11 @@ WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part);
 void wr_tile_start_map(const WrTileJob *job, WrTilePart whole, WrTileScratch *scratch);
 /* Nothing anywhere on the tile yet; of codes those beside `part` alone, which are written once. */
 void wr_tile_clear(const WrTileJob *job, WrTilePart whole, WrTilePart part);
+/* What is nearer than that hides all of the object (E52). */
+float wr_tile_hidden_from(const WrTileJob *job);
+/* As the job, but into the tile's own floats; then they become codes. */
+WrTileJob wr_tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch);
+void wr_tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratch);
 /* The means of a row of `width` pixels, from k rows of samples at `step` floats, which are overwritten. How many are
    covered. */
 int wr_tile_means(int k, int width, float *sample, size_t step, float *pixel);
