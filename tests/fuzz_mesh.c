@@ -32,6 +32,9 @@ static const struct {
 } good[] = {
     TEXT("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvn 0 0 1\ng a\nf 1/1/1 2/1/1 3//1\n"
                   "f 1 3 4 2\nf -1 -2 -3\n"),
+    TEXT("a.obj", "# all of it without the library\no b\nv 0 0 0\nv 1.25 0 -2e-1\nv 0 1 0\r\n"
+                  "v 0 0 1 .5 1 0\nvt 0 0\nvt 1 .5\nvn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/1/1\n"
+                  "f 1//1 3//1 4//1 2//1\ng c\nf -1 -2 -3\nf 4/2 2/1 1/2\n"),
     TEXT("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                   "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                   "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),

@@ -365,53 +365,9 @@ static void a_file_that_promises_too_much_is_refused(void **state)
     expect_box(&mesh, 2, 3, 4);
 }
 
-/* ---- the whole of a file ---- */
-
-static const char mapped_obj[] = "o left\ng left\nusemtl skin\n"
-                                 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-                                 "vt 0 0\nvt 1 0\nvt 1 0.5\nvt 0 0.5\n"
-                                 "vn 0 0 1\nvn 0 1 0\n"
-                                 "f 1/1/1 2/2/1 3/3/2 4/4/1\n"
-                                 "o right\ng right\nusemtl horn\n"
-                                 "v 2 0 0\nf 2 5 3\n";
-
-/* Each corner has the normal and the (u,v) that the file gives it; a part, its name; what is missing, nothing. */
-static void whole_files(void **state)
-{
-    (void)state;
-    WrMesh mesh = { 0 };
-    WrError err = { "" };
-    if (!wr_mesh_read_whole_bytes("a.obj", mapped_obj, strlen(mapped_obj), &mesh, &err))
-        fail_msg("%s", err.text);
-    assert_int_equal(mesh.triangle_count, 3);
-    assert_int_equal(mesh.part_count, 2);
-    assert_int_equal(mesh.parts[1].first, 2);
-    assert_int_equal(mesh.parts[0].count, 2);
-    assert_string_equal(mesh.parts[0].name, "skin");
-    assert_string_equal(mesh.parts[1].name, "horn");
-    for (int i = 0; i < 6; i++) {
-        const int32_t c = mesh.corners[i / 3][i % 3];
-        const float *p = mesh.points[c];
-        assert_true(mesh.uv[c][0] == p[0] && mesh.uv[c][1] == p[1] / 2);
-        const bool third = p[0] == 1 && p[1] == 1;
-        assert_true(mesh.normals[c][1] == (third ? 1 : 0) && mesh.normals[c][2] == (third ? 0 : 1));
-    }
-    for (int k = 0; k < 3; k++) {
-        const int32_t c = mesh.corners[2][k];
-        assert_true(isnan(mesh.uv[c][0]));
-        assert_true(mesh.normals[c][0] == 0 && mesh.normals[c][2] == 0);
-    }
-    wr_mesh_fini(&mesh);
-    mesh = read_text("a.obj", mapped_obj); /* not asked for */
-    assert_null(mesh.uv);
-    assert_null(mesh.parts);
-    wr_mesh_fini(&mesh);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whole_files),
         cmocka_unit_test(an_obj_file_of_quadrilaterals_becomes_triangles),
         cmocka_unit_test(a_ply_file_is_read),
         cmocka_unit_test(a_binary_stl_file_is_read),

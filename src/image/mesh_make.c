@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "image/assimp.h"
 #include "image/module.h"
+#include "image/obj.h"
 #include "image/ply.h"
 
 #include <math.h>
@@ -89,8 +90,11 @@ bool wr_mesh_make(const void *bytes, size_t length, const char *ending, bool who
                   bool *memory, WrError *err)
 {
     char reason[WR_ASSIMP_REASON] = "";
+    if (!wr_ply_check(bytes, length, err)) return false;
+    const bool obj = !*ending || strcmp(ending, "obj") == 0;
+    if (obj && wr_obj_make(bytes, length, whole, block)) return true;
     const WrAssimpTable *table = library(err);
-    if (!table || !wr_ply_check(bytes, length, err)) return false;
+    if (!table) return false;
     WrAssimpMesh *mesh = table->read(bytes, length, ending, WR_MESH_POINTS_MAX,
                                      WR_MESH_TRIANGLES_MAX, whole, reason);
     if (!mesh) {
