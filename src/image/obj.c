@@ -206,6 +206,7 @@ static WrMeshPart *part_of(Obj *obj)
     return part;
 }
 
+/* Of the angle there; 0 where an edge has no length. */
 static double cosine(const float *at, const float *a, const float *b)
 {
     double ab = 0, aa = 0, bb = 0;
@@ -213,7 +214,7 @@ static double cosine(const float *at, const float *a, const float *b)
         const double u = (double)a[k] - (double)at[k], w = (double)b[k] - (double)at[k];
         ab += u * w, aa += u * u, bb += w * w;
     }
-    return ab / sqrt(aa * bb);
+    return aa * bb > 0 ? ab / sqrt(aa * bb) : 0;
 }
 
 /* The corner whose diagonal cuts a quadrilateral: the one where it is more than a straight angle, if any, where the two
