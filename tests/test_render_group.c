@@ -1,4 +1,4 @@
-/* Several objects: samples where they are called for. */
+/* Several objects: samples where they are called for, and hits that are found once while the view rests. */
 #include "test.h"
 #include "test_render_sets.h"
 
@@ -162,11 +162,120 @@ static void all_samples_are_taken_between_objects(void **state)
     assert_in_range(between, 50, 10000);
 }
 
+/* ---- what a resting view looks at is known ---- */
+
+/* What decides nothing about which object a sample shows. */
+static void change_look(TestRandom *random, Set *set)
+{
+    const int own = (int)(set->count * test_random(random));
+    WrField *next = wr_field_share(set->field[own]);
+    wr_field_set(next, (int)(wr_field_width(next) * test_random(random)),
+                 (int)(wr_field_height(next) * test_random(random)), (float)test_random(random));
+    wr_field_free(set->field[own]);
+    set->fields[own] = set->field[own] = next;
+    if (test_random(random) < 0.5) return;
+    WrScene *scene = wr_scene_clone(set->together);
+    scene->lights[0].strength = between(random, 0.3, 1.2);
+    scene->material.diffuse = between(random, 0.3, 1);
+    wr_scene_free(set->together);
+    set->together = scene;
+}
+
+static void change_view(TestRandom *random, Set *set)
+{
+    WrScene *scene = wr_scene_clone(set->together);
+    if (test_random(random) < 0.5) scene->at.x += between(random, -0.5, 0.5);
+    else if (test_random(random) < 0.5) scene->camera.fov_deg += 1, scene->camera.size *= 1.1;
+    else scene->hidden = !scene->hidden;
+    wr_scene_free(set->together);
+    set->together = scene;
+}
+
+/* A frame of the renderer against a new one's. Was depth asked for? */
+static bool looks_anew(WrRenderer *renderer, const Set *set, int step)
+{
+    WrError err = { "" };
+    WrFrame frame;
+    WrFrameRequest request = request_of(set);
+    request.keep = true;
+    if (!wr_renderer_frame(renderer, &request, &frame, &err)) fail_msg("%s", err.text);
+    request.keep = false;
+    Shot fresh = shoot_set(&request, 1, "auto");
+    if (memcmp(frame.rgba, fresh.frame.rgba, frame_bytes(&frame)) != 0)
+        fail_msg("step %d: another picture", step);
+    put_away(&fresh);
+    assert_int_equal(wr_plan_runs(frame.plan, WR_EFFECT_DEPTH),
+                     wr_plan_runs(frame.plan, WR_EFFECT_NEWTON));
+    assert_true(!frame.plan->rows[WR_EFFECT_DEPTH].ran ||
+                wr_plan_runs(frame.plan, WR_EFFECT_DEPTH));
+    return wr_plan_runs(frame.plan, WR_EFFECT_DEPTH);
+}
+
+static void hits_are_found_once_while_objects_rest(void **state)
+{
+    (void)state;
+    TestRandom random = { 12 };
+    int anew = 0;
+    for (int k = 0; k < (getenv("WR_FULL") ? 60 : 10); k++) {
+        Set set = some_set(&random, 2 + k % 4);
+        WrPool *pool = wr_pool_new(1 + k % 3);
+        WrRenderer *renderer = wr_renderer_new(pool, NULL, NULL);
+        bool rests = false;
+        for (int step = 0; step < 14; step++) {
+            const bool looked = looks_anew(renderer, &set, step);
+            if (rests && looked) fail_msg("set %d, step %d: hits were found anew", k, step);
+            anew += looked;
+            rests = test_random(&random) < 0.7;
+            change_look(&random, &set);
+            if (!rests) change_view(&random, &set);
+        }
+        wr_renderer_free(renderer);
+        wr_pool_free(pool);
+        put_set_away(&set);
+    }
+    assert_in_range(anew, 10, 1000);
+}
+
+/* What filled all of the picture goes aside: what was behind it was never looked at. */
+static void what_was_hidden_is_looked_at_when_it_is_seen(void **state)
+{
+    (void)state;
+    TestRandom random = { 3 };
+    WrScene *front = scene_of("plane"), *back = scene_of("torus");
+    Set set = { .count = 2, .together = front };
+    front->size = 9;
+    front->camera = (WrCamera){
+        .orthographic = true, .eye = { 0, 0, 9 }, .up = { 0, 1, 0 }, .fov_deg = 30, .size = 2.5
+    };
+    back->at = (WrVec3){ 0, 0, -3 };
+    front->others = wr_alloc(1, sizeof *front->others);
+    front->others[front->other_count++] = back;
+    for (int i = 0; i < 2; i++) set.fields[i] = set.field[i] = random_field(64, 48, 3);
+    WrPool *pool = wr_pool_new(2);
+    WrRenderer *renderer = wr_renderer_new(pool, NULL, NULL);
+    looks_anew(renderer, &set, 0);
+    for (int step = 1; step < 4; step++) {
+        WrScene *moved = wr_scene_clone(set.together);
+        moved->at.x += 1.7;
+        wr_scene_free(set.together);
+        set.together = moved;
+        assert_true(looks_anew(renderer, &set, step));
+        change_look(&random, &set);
+        assert_false(looks_anew(renderer, &set, step));
+    }
+    wr_renderer_free(renderer);
+    wr_pool_free(pool);
+    wr_scene_free(set.together);
+    for (int i = 0; i < 2; i++) wr_field_free(set.field[i]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refined_pixels_have_the_bits_of_all_samples),
         cmocka_unit_test(all_samples_are_taken_between_objects),
+        cmocka_unit_test(hits_are_found_once_while_objects_rest),
+        cmocka_unit_test(what_was_hidden_is_looked_at_when_it_is_seen),
         cmocka_unit_test(an_estimate_keeps_near_all_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -238,7 +238,10 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
 {
     WrTileJob job = wr_frame_canvas(renderer, request);
-    if (request) wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
+    if (!request) return job;
+    wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
+    job.sight = renderer->sighting ? &renderer->sight : NULL;
+    job.seen_before = renderer->sighted;
     return job;
 }
 
@@ -345,30 +348,6 @@ static bool prepare_view(WrRenderer *renderer, const WrFrameRequest *request,
     return wr_fail(err, "cancelled");
 }
 
-#define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
-
-/* What the samples of a resting view look at: known from before, or noted from now on. One a pixel, in single precision;
-   not against the planner. */
-static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request,
-                        const WrKernels *kernels)
-{
-    const WrPlan *plan = &renderer->plan;
-    const WrForce *force = request->force;
-    WrSightKey key;
-    if (!renderer->mesh) wr_sight_fini(&renderer->sight);
-    const bool small = (int64_t)request->width * request->height <= SIGHT_MOST;
-    renderer->sighting = small && !renderer->among && wr_frame_may_keep(request) &&
-                         renderer->mesh && plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&
-                         !plan->shading_double && !request->full &&
-                         !(force && (force[WR_EFFECT_DEPTH] || force[WR_EFFECT_NEWTON]));
-    if (!renderer->sighting) return false;
-    const WrTileJob job = { .plan = plan, .scene = renderer->scene };
-    wr_sight_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), kernels);
-    if (wr_sight_bring(&renderer->sight, &key)) return true;
-    renderer->sighting = renderer->sight.u != NULL && wr_plan_runs(plan, WR_EFFECT_AGAIN);
-    return false;
-}
-
 static int tiles_across(const WrTileJob *tile)
 {
     return (tile->width + tile->tile_w - 1) / tile->tile_w;
@@ -403,6 +382,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
     if (!wr_frame_prepare_maps(renderer, request, err)) return false;
     const bool stands = view_stands(renderer, request, &before, &ask);
+    renderer->sighting = renderer->sighted = false; /* not yet known */
     ask.facts.rests = false;
     const WrKernels *last = renderer->kernels;
     renderer->kernels = kernels;
@@ -415,8 +395,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
         if (!prepare_view(renderer, request, kernels, err)) return false;
         if (!stands) look_for_life(renderer, request, &ask);
     }
-    ask.facts.sighted = renderer->sighted = bring_sight(renderer, request, kernels);
-    wr_plan_again(&renderer->plan, &ask);
+    renderer->ask = ask;
     return true;
 }
 
@@ -450,12 +429,12 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     wr_group_free(renderer);
     if (!wr_frame_resize(renderer, request, err)) return false;
     if (!wr_frame_prepare(renderer, request, err)) return false;
+    wr_frame_bring_sight(renderer, request, (WrHash){ 0 },
+                         wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN));
     wr_frame_start_counts(renderer);
     FrameJob job = { .tile = wr_frame_job(renderer, request),
                      .scratch = renderer->scratch,
                      .only = request->only };
-    if (renderer->sighting) job.tile.sight = &renderer->sight;
-    job.tile.seen_before = renderer->sighted;
     start_keep(renderer, request, &job, &own);
     const double prepared = wr_clock_seconds() - started;
     if (!wr_frame_run(renderer, &job)) {

@@ -1,5 +1,5 @@
 /* frame_inner.h - what a renderer holds from frame to frame.
-   Layer 5, private to frame.c, frame_table.c, frame_account.c, group.c. */
+   Layer 5, private to frame.c and its brothers, group.c. */
 #pragma once
 #include "render/frame.h"
 #include "render/keep.h"
@@ -56,6 +56,7 @@ struct WrRenderer {
     bool sighting; /* this frame uses or fills `sight` */
     bool outside;  /* the eye of that view is outside the surface */
     WrKeep keep;
+    WrPlanAsk ask;            /* what this frame's plan was asked */
     WrFrameRequest last;      /* of the last whole or refreshed picture; for its numbers only */
     const WrKernels *kernels; /* of this frame, once it is prepared; then of the last */
     int64_t covered;
@@ -89,6 +90,10 @@ void wr_group_free(WrRenderer *renderer);
 bool wr_frame_resize(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
 /* All that a frame of one object needs before its tiles; false where it cannot be. */
 bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrError *err);
+/* Then, what its samples look at: known from the last frame, or noted where every tile is anew. beside: of the other
+   objects of the picture, 0: there are none. */
+void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
+                          bool anew);
 /* Where its tiles go, and of what size they are; request NULL: for picking. */
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request);
 /* The same, and what they look up. */

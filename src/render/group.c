@@ -18,8 +18,9 @@ struct WrGroup {
     WrScene *scene; /* of the last picture; own share */
     double aspect;
     Part parts[WR_OBJECTS_MAX];
-    int count; /* that are shown */
-    int made;  /* parts that have a renderer */
+    int count;       /* that are shown */
+    int made;        /* parts that have a renderer */
+    uint64_t scenes; /* counts those that were shown */
     WrFrameRequest last;
     bool whole; /* the last picture was finished */
 };
@@ -80,6 +81,7 @@ static void bring_parts(WrRenderer *renderer, const WrFrameRequest *request)
     WrScene *scene = wr_scene_share(request->scene);
     wr_scene_free(group->scene);
     group->scene = scene;
+    group->scenes++;
     group->aspect = aspect;
     group->whole = false;
     group->count = 0;
@@ -147,6 +149,52 @@ static bool group_rests(const WrRenderer *renderer, const WrFrameRequest *reques
     return rest;
 }
 
+/* All that decides which of the objects a sample shows. */
+typedef struct Place {
+    WrViewSight sight;
+    WrShapef shape;
+    WrNewton newton;
+    double deep[3], deep_from, nearest, stretch[3], x0, y0, x1, y1;
+    int object, mu, mv, cull, triangles;
+} Place;
+
+static WrHash place_of(const Part *part, WrHash before)
+{
+    const WrRenderer *own = part->renderer;
+    const WrView *view = &own->view;
+    const WrViewSight sight = wr_view_sight(view);
+    Place place;
+    memset(&place, 0, sizeof place); /* padding too: its bytes are told apart */
+    memcpy(&place.sight, &sight, sizeof sight);
+    memcpy(&place.shape, &view->shape, sizeof place.shape);
+    memcpy(place.deep, view->deep, sizeof place.deep);
+    memcpy(place.stretch, view->stretch, sizeof place.stretch);
+    if (own->mesh) memcpy(&place.newton, &own->mesh->newton, sizeof place.newton);
+    if (own->mesh) place.mu = own->mesh->mu, place.mv = own->mesh->mv;
+    place.deep_from = view->deep_from, place.nearest = view->nearest;
+    place.x0 = view->x0, place.y0 = view->y0, place.x1 = view->x1, place.y1 = view->y1;
+    place.object = part->object, place.cull = view->cull;
+    place.triangles = own->triangles.source != NULL;
+    return wr_hash_bytes(&place, sizeof place, before);
+}
+
+/* What the samples look at, as far as it is known: while all objects stay where they are. */
+static void bring_sights(WrRenderer *renderer, const WrFrameRequest *request, bool anew)
+{
+    WrGroup *group = renderer->group;
+    WrHash all = { .low = 1 };
+    for (int i = 0; i < group->count; i++) {
+        all = place_of(&group->parts[i], all);
+        /* Of a mesh out of a file its triangles are not compared: what is known is so of this scene alone. */
+        if (group->parts[i].renderer->triangles.source)
+            all = wr_hash_bytes(&group->scenes, sizeof group->scenes, all);
+    }
+    for (int i = 0; i < group->count; i++) {
+        const WrFrameRequest own = request_of(&group->parts[i], request);
+        wr_frame_bring_sight(group->parts[i].renderer, &own, all, anew);
+    }
+}
+
 /* Where the group's pixels go. */
 static WrTileJob make_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 {
@@ -202,6 +250,7 @@ bool wr_group_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame
         return false;
     }
     const bool rests = group_rests(renderer, request);
+    bring_sights(renderer, request, !rests);
     join_plans(renderer, request);
     wr_frame_start_counts(renderer);
     if (!rests) wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);

@@ -2,6 +2,7 @@
    that a change of light, material, colour or table does without depth buffer and Newton's method (E26, E27).
    Layer 5, private to the renderer. */
 #pragma once
+#include "base/hash.h"
 #include "render/mesh.h"
 
 #include <stdbool.h>
@@ -17,6 +18,8 @@ typedef struct WrSightKey {
     int width, height; /* pixels */
     bool cull, exact;  /* exact: Newton's last step is evaluated too */
     const WrKernels *kernels;
+    WrHash
+        beside; /* of what else is drawn, which may hide it: what is hidden is not noted. 0: it is alone */
 } WrSightKey;
 
 /* Zero-initialise; fini frees. */
