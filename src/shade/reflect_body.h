@@ -121,12 +121,13 @@ R_INLINE Reflected reflect_torrance_sparrow(VEC n, VEC l, VEC v, Facets wide, bo
                                             const MATTER *m)
 {
     const VEC seen = reflect_seen(n, v), sum = v_add(l, v);
-    const REAL hh = v_dot(sum, sum), len = r_sqrt(hh), vh = reflect_least(K_(0.5) * len, K_(1));
+    const REAL hh = v_dot(sum, sum);
     const bool there = hh > K_(1e-12);
-    const VEC h = v_scale(sum, K_(1) / (there ? len : K_(1)));
+    const REAL len = r_sqrt(there ? hh : K_(1)), vh = reflect_least(K_(0.5) * len, K_(1));
+    const VEC h = v_scale(sum, K_(1) / len);
     const REAL nl = v_dot(seen, l), nv = v_dot(seen, v), nh = v_dot(seen, h), lit = v_dot(n, l);
     const REAL d = spread ? reflect_d_wide(seen, h, wide) : reflect_d(seen, h, m->alpha * m->alpha);
-    const REAL over = K_(1) / nv, cavity = K_(2) * nh / (there ? vh : K_(1));
+    const REAL over = K_(1) / nv, cavity = K_(2) * nh / vh;
     const REAL g = reflect_least(over, reflect_least(cavity, cavity * nl * over));
     const REAL shine = m->ks * m->scale * d * g * reflect_fresnel(vh, m->ior);
     return (Reflected){ m->kd * reflect_positive(lit),
@@ -187,10 +188,12 @@ R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, bool spread, bo
                                const MATTER *m)
 {
     const VEC seen = reflect_seen(n, v), sum = v_add(l, v);
-    const REAL hh = v_dot(sum, sum), len = r_sqrt(hh), a2 = m->alpha * m->alpha;
+    const REAL hh = v_dot(sum, sum), a2 = m->alpha * m->alpha;
     const bool there = hh > K_(1e-12);
-    const VEC h = v_scale(sum, K_(1) / (there ? len : K_(1)));
-    const REAL nl = v_dot(seen, l), nv = v_dot(seen, v), p = reflect_fifth(K_(0.5) * len);
+    const REAL len = r_sqrt(there ? hh : K_(1));
+    const VEC h = v_scale(sum, K_(1) / len);
+    const REAL nl = v_dot(seen, l), nv = v_dot(seen, v),
+               p = reflect_fifth(there ? K_(0.5) * len : K_(0));
     const REAL lit = v_dot(n, l),
                d = spread ? reflect_d_wide(seen, h, wide) : reflect_d(seen, h, a2);
     const REAL up = reflect_positive(nl);

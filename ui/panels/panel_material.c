@@ -11,6 +11,7 @@
 #include "scene/param.h"
 #include "scene/scene.h"
 #include "shade/bump_mode.h"
+#include "shade/reflect.h"
 
 /* ---- bump ---- */
 
@@ -41,13 +42,50 @@ static void bump(WrApp *app)
 
 /* ---- material ---- */
 
+/* Does the model at hand go by this number? */
+static bool counts(const WrReflectInfo *model, const WrSceneParam *param)
+{
+    const ptrdiff_t row = param - wr_scene_params;
+    if (row == WR_SCENE_PARAM_SHININESS) return model->shininess;
+    if (row == WR_SCENE_PARAM_ROUGHNESS) return model->roughness;
+    if (row == WR_SCENE_PARAM_METALNESS) return model->metalness;
+    if (row == WR_SCENE_PARAM_IOR) return model->ior;
+    if (row == WR_SCENE_PARAM_SPECULAR || row == WR_SCENE_PARAM_TINT) return model->shines;
+    return true;
+}
+
+/* The model, and which of its forms where there are two. */
+static void reflection(WrApp *app)
+{
+    const char *models[WR_REFLECT_COUNT];
+    const WrMaterial *m = &wr_app_scene(app)->material;
+    int model = (int)m->model, energy = (int)m->energy;
+    for (int i = 0; i < WR_REFLECT_COUNT; i++) models[i] = wr_reflects[i].title;
+    WrText line = { 0 };
+    wr_gui_label("Reflection");
+    if (wr_gui_choice("model", 0, models, WR_REFLECT_COUNT, &model))
+        wr_text_addf(&line, "material model=%s", wr_reflects[model].name);
+    wr_gui_tip(wr_reflects[model].help);
+    if (wr_reflects[m->model].energies) {
+        wr_gui_label("Energy");
+        if (wr_gui_choice("energy", 0, wr_energies, WR_ENERGY_COUNT, &energy))
+            wr_text_addf(&line, "material energy=%s", wr_energies[energy]);
+        wr_gui_tip("Kept: never more light leaves than came. Published: as the model's source has "
+                   "it");
+    }
+    if (line.length) wr_scene_run(app, &line);
+    wr_text_fini(&line);
+}
+
 static void material(WrApp *app)
 {
     const WrSceneParam *param;
     wr_gui_space(8);
     wr_gui_heading("MATERIAL");
+    reflection(app);
+    const WrReflectInfo *model = &wr_reflects[wr_app_scene(app)->material.model];
     for (int i = 0; (param = wr_scene_param("material", NULL, i)) != NULL; i++)
-        if (param->label) wr_param_row(app, param);
+        if (param->label && counts(model, param)) wr_param_row(app, param);
 }
 
 void wr_panel_material(WrApp *app)
