@@ -61,6 +61,18 @@ static const char *const ring[] = { "table 64x64", "fill 0", "surface torus R=1 
 static const char *const formula[] = { "analytic fourier terms=3,0,0.5,0,0;0,4,0.4,30,60",
                                        "surface cylinder", "bump mode=blinn height=0.03", NULL };
 
+/* The second wears a layer that the composite does not show. */
+static const char *const worn[] = { "table 64x64",
+                                    "grid cells=8x8 width=2",
+                                    "layer rename 1 net",
+                                    "layer add marks",
+                                    "dab 0.3,0.4 radius=9 strength=0.7",
+                                    "layer set marks visible=off",
+                                    "surface sphere R=1",
+                                    "object set layer=net",
+                                    "object add ball at=1.1,0.3,-0.4 size=0.9 layer=marks",
+                                    NULL };
+
 /* What notes a session gave, one a line. */
 static void add_note(void *ctx, const char *text)
 {
@@ -174,6 +186,30 @@ static void another_picture_than_the_kept_one_is_chosen_anew_with_a_note(void **
         assert_int_equal(studies, 1);
         if (!strstr(wr_text_get(&notes), changes[i].what))
             fail_msg("%s: noted \"%s\"", changes[i].line, wr_text_get(&notes));
+        wr_text_fini(&notes);
+        wr_session_free(session);
+    }
+    gone(path);
+}
+
+/* A stroke on what one object alone wears makes another picture, though the composite stays; one on a layer that no object
+   shows does not. */
+static void dials_are_for_what_objects_wear(void **state)
+{
+    (void)state;
+    static const char *const edits[][2] = { { "layer use marks", "dab 0.6,0.5 radius=8" },
+                                            { "layer add unseen", "dab 0.6,0.5 radius=8" } };
+    char *path = test_path("worn.exr");
+    const WrHash before = save_chosen(worn, "tolerance rms=0.01", path);
+    for (int i = 0; i < 2; i++) {
+        int studies;
+        WrText notes = { 0 };
+        WrSession *session = opened(path, &notes);
+        must_run(session, edits[i][0]);
+        must_run(session, edits[i][1]);
+        assert_int_equal(wr_hash_equal(picture(session, SIDE, SIDE, &studies), before), i == 1);
+        assert_int_equal(studies, i == 0);
+        assert_int_equal(strstr(wr_text_get(&notes), "another table") != NULL, i == 0);
         wr_text_fini(&notes);
         wr_session_free(session);
     }
@@ -307,6 +343,7 @@ int main(void)
         cmocka_unit_test(a_saved_document_has_the_same_picture_and_chooses_nothing_anew),
         cmocka_unit_test(what_a_document_keeps_stays_when_it_is_saved_again),
         cmocka_unit_test(another_picture_than_the_kept_one_is_chosen_anew_with_a_note),
+        cmocka_unit_test(dials_are_for_what_objects_wear),
         cmocka_unit_test(kept_dials_are_for_the_document_as_it_was_saved),
         cmocka_unit_test(damaged_dials_are_refused_with_one_clear_error),
         cmocka_unit_test(dials_of_wider_blocks_are_read),

@@ -217,10 +217,50 @@ bool wr_tolerance_choose(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return good;
 }
 
+/* The table of object i; NULL: it is not shown. */
+static const WrField *table_of(const WrFrameRequest *request, int i)
+{
+    if (wr_scene_object(request->scene, i)->hidden) return NULL;
+    return request->fields && request->fields[i] ? request->fields[i] : request->field;
+}
+
+/* Does each object show the table of all layers? */
+static bool is_common(const WrFrameRequest *request)
+{
+    const int count = wr_scene_object_count(request->scene);
+    for (int i = 0; i < count && request->fields; i++)
+        if (request->fields[i]) return false;
+    return true;
+}
+
+uint64_t wr_choice_tables_key(const WrFrameRequest *request)
+{
+    WrHash all = { 0, 0 };
+    if (is_common(request)) return wr_field_key(request->field);
+    for (int i = 0; i < wr_scene_object_count(request->scene); i++) {
+        const WrField *field = table_of(request, i);
+        const uint64_t key = field ? wr_field_key(field) : 0;
+        all = wr_hash_bytes(&key, sizeof key, all);
+    }
+    return all.low;
+}
+
+WrHash wr_choice_tables_hash(const WrFrameRequest *request)
+{
+    WrHash all = { 0, 0 };
+    if (is_common(request)) return wr_field_hash(request->field);
+    for (int i = 0; i < wr_scene_object_count(request->scene); i++) {
+        const WrField *field = table_of(request, i);
+        const WrHash own = field ? wr_field_hash(field) : (WrHash){ 0, 0 };
+        all = wr_hash_bytes(&own, sizeof own, all);
+    }
+    return all;
+}
+
 bool wr_choice_fits(const WrChoice *choice, const WrFrameRequest *request)
 {
     return choice->count > 0 && choice->scene == request->scene &&
-           choice->field_key == wr_field_key(request->field) &&
+           choice->tables_key == wr_choice_tables_key(request) &&
            (choice->turning || choice->turn_deg == request->turn_deg) &&
            choice->width == request->width && choice->height == request->height;
 }

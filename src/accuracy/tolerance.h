@@ -71,7 +71,7 @@ typedef struct WrChoice {
     WrPlan plan; /* what its last picture took: the frame's */
     /* Of what picture it is. */
     const WrScene *scene; /* shared; owned */
-    uint64_t field_key;
+    uint64_t tables_key;  /* wr_choice_tables_key */
     double turn_deg;
     bool turning; /* for any turn */
 } WrChoice;
@@ -97,14 +97,17 @@ void wr_choice_fini(WrChoice *choice);
    each setting alone gives there. */
 bool wr_choice_frame(WrRenderer *renderer, const WrFrameRequest *request, const WrChoice *choice,
                      WrFrame *frame, WrError *err);
-/* Is it of that request's table, scene, size and turn (or for any turn)? */
+/* What tells the tables that a picture shows, those of its objects, from others: in this process, and anywhere. */
+uint64_t wr_choice_tables_key(const WrFrameRequest *request);
+WrHash wr_choice_tables_hash(const WrFrameRequest *request);
+/* Is it of that request's tables, scene, size and turn (or for any turn)? */
 bool wr_choice_fits(const WrChoice *choice, const WrFrameRequest *request);
 /* "12 % of the blocks, edges: mode=exact ... aa=supersample samples=4", a line a part that has blocks. */
 void wr_choice_print(const WrChoice *choice, WrText *text);
 
 /* ---- written down: tolerance_text.c ---- */
 
-/* What a choice was made for besides size and turn, which it knows: hashes of the heights and of the scene, the
+/* What a choice was made for besides size and turn, which it knows: hashes of the tables and of the scene, the
    tolerance included. */
 typedef struct WrChoiceOrigin {
     WrHash table, scene;

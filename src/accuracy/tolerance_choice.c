@@ -89,7 +89,7 @@ void wr_study_settle(const Study *study, WrChoice *out)
     out->width = study->request->width;
     out->height = study->request->height;
     out->scene = wr_scene_share(study->request->scene);
-    out->field_key = wr_field_key(study->request->field);
+    out->tables_key = wr_choice_tables_key(study->request);
     out->turn_deg = study->request->turn_deg;
     out->studies = 1;
     out->frames = study->frames;

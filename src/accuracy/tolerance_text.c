@@ -327,7 +327,7 @@ void wr_choice_read(const char *text, const WrFrameRequest *request, WrChoice *o
                         .met = written.met,
                         .rms = written.rms,
                         .max = written.max,
-                        .field_key = wr_field_key(request->field),
+                        .tables_key = wr_choice_tables_key(request),
                         .turn_deg = written.turn_deg,
                         .turning = written.turning,
                         .count = written.count };

@@ -193,8 +193,7 @@ void wr_session_keep_chosen(WrSession *session, const char *text);
    for, "table", "scene", "size" or "turn"; else NULL. For pictures of any renderer, in any thread. */
 const char *wr_chosen_recall(const char *kept, const WrFrameRequest *request, WrChoice *choice);
 /* A choice as the document keeps it. */
-void wr_chosen_write(const WrChoice *choice, const WrField *field, const WrScene *scene,
-                     WrText *text);
+void wr_chosen_write(const WrChoice *choice, const WrFrameRequest *request, WrText *text);
 /* The same to a file: linear float R, G, B, A (premultiplied, background 0) for exr, tif and tiff, else
    8-bit sRGB over the scene's background. A large one is drawn and written by bands of rows, the same bits;
    under a tolerance, which all of a picture keeps to together, it is held whole. Works whatever options.outputs

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "document/document.h"
-#include "field/field.h"
+#include "document/tables.h"
 #include "render/frame.h"
 #include "scene/scene.h"
 
@@ -22,12 +22,12 @@ const char *wr_session_chosen(const WrSession *session)
     return session->state.chosen;
 }
 
-static WrChoiceOrigin origin_of(const WrField *field, const WrScene *scene)
+static WrChoiceOrigin origin_of(const WrFrameRequest *request)
 {
     WrText text = { 0 };
-    wr_print_identity(scene, &text);
+    wr_print_identity(request->scene, &text);
     const char *lines = wr_text_get(&text);
-    const WrChoiceOrigin origin = { .table = wr_field_hash(field),
+    const WrChoiceOrigin origin = { .table = wr_choice_tables_hash(request),
                                     .scene =
                                         wr_hash_bytes(lines, strlen(lines), (WrHash){ 0, 0 }) };
     wr_text_fini(&text);
@@ -37,16 +37,15 @@ static WrChoiceOrigin origin_of(const WrField *field, const WrScene *scene)
 const char *wr_chosen_recall(const char *kept, const WrFrameRequest *request, WrChoice *choice)
 {
     if (!kept || wr_choice_fits(choice, request)) return NULL;
-    const WrChoiceOrigin origin = origin_of(request->field, request->scene);
+    const WrChoiceOrigin origin = origin_of(request);
     const char *misfit = wr_choice_misfit(kept, &origin, request);
     if (!misfit) wr_choice_read(kept, request, choice);
     return misfit;
 }
 
-void wr_chosen_write(const WrChoice *choice, const WrField *field, const WrScene *scene,
-                     WrText *text)
+void wr_chosen_write(const WrChoice *choice, const WrFrameRequest *request, WrText *text)
 {
-    const WrChoiceOrigin origin = origin_of(field, scene);
+    const WrChoiceOrigin origin = origin_of(request);
     wr_choice_write(choice, &origin, text);
 }
 
@@ -63,16 +62,13 @@ void wr_session_recall_chosen(WrSession *session, const WrFrameRequest *request)
 }
 
 /* What the last picture chose, if that is still what the document is; else what the document keeps. */
-static void add_chosen(WrSession *session, WrText *text)
+static void add_of(WrSession *session, const WrFrameRequest *request, WrText *text)
 {
-    const WrDocument *document = session->state.document;
-    const WrField *field = wr_document_composite(document, session->options.pool);
     const WrChoice *choice = &session->choice;
-    const bool fresh = choice->count > 0 && choice->scene == document->scene &&
-                       choice->field_key == wr_field_key(field);
-    if (document->scene->tolerance.kind == WR_TOLERANCE_NONE || (!fresh && !session->state.chosen))
-        return;
-    const WrChoiceOrigin origin = origin_of(field, document->scene);
+    const bool fresh = choice->count > 0 && choice->scene == request->scene &&
+                       choice->tables_key == wr_choice_tables_key(request);
+    if (!fresh && !session->state.chosen) return;
+    const WrChoiceOrigin origin = origin_of(request);
     WrText chosen = { 0 };
     if (fresh) wr_choice_write(choice, &origin, &chosen);
     else if (wr_choice_is_for(session->state.chosen, &origin))
@@ -82,6 +78,19 @@ static void add_chosen(WrSession *session, WrText *text)
         wr_text_add_word(text, wr_text_get(&chosen));
     }
     wr_text_fini(&chosen);
+}
+
+static void add_chosen(WrSession *session, WrText *text)
+{
+    const WrDocument *document = session->state.document;
+    WrPool *pool = session->options.pool;
+    if (document->scene->tolerance.kind == WR_TOLERANCE_NONE) return;
+    WrTables *tables = wr_document_tables(document, document->scene, &session->table_cache, pool);
+    const WrFrameRequest request = { .field = wr_document_composite(document, pool),
+                                     .fields = wr_tables_fields(tables),
+                                     .scene = document->scene };
+    add_of(session, &request, text);
+    wr_tables_free(tables);
 }
 
 /* The line of a tolerance goes on. */

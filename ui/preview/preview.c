@@ -213,7 +213,7 @@ static bool by_tolerance(WrPreview *preview, const WrFrameRequest *wanted, WrPre
     if (request.map && !wr_choice_frame(preview->renderer, &request, choice, frame, err))
         return false;
     wr_chosen_from(choice, &out->chosen);
-    wr_chosen_write(choice, request.field, request.scene, &text);
+    wr_chosen_write(choice, &request, &text);
     out->kept = wr_strdup(wr_text_get(&text));
     wr_text_fini(&text);
     return true;
