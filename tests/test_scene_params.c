@@ -145,6 +145,9 @@ static void the_plan_looks_at_what_says_so_and_at_nothing_else(void **state)
           "bump mode=exact" },
         { "light point at=1,2,3 strength=0.5", "camera orthographic", "dials aa=filter" },
         { "surface cylinder", "material diffuse=0 specular=0.2", "dials aa=adaptive refine=bound" },
+        { "surface sphere", "material model=oren-nayar roughness=0.4" },
+        { "surface sphere", "material model=ggx metalness=0.5" },
+        { "surface sphere", "material model=torrance-sparrow ior=1.6" },
         { "surface plane", "replicate 3,2", "bump mode=invariant scheme=nearest" },
     };
     static const double special[] = { 0, 1, 0.3, 2500, 1e-3 };

@@ -30,7 +30,7 @@ start plain.wrinkle
 patch=400x400+526+200
 xdotool mousemove $((X + 1000)) $((Y + 300))
 rest
-for _ in 1 2 3 4; do xdotool click 5 && rest; done
+for _ in 1 2 3 4 5; do xdotool click 5 && rest; done
 shot before
 # The folders of the two rows: eleven bright pixels above one another, where no other row has as many or as few.
 read -r colours normals < <(convert before.ppm -crop 1x860+1167+0 +repage -colorspace gray -depth 8 txt:- |

@@ -14,10 +14,14 @@
 
 #define TABLE 512
 
-/* A row of the reference scene; NULL and an error without memory. */
+/* A row of the reference scene; NULL and an error without memory or place. */
 static WrBenchPicture *add(WrBenchSections *all, const char *name, int base, const char *surface,
                            WrBenchMode mode, WrError *err)
 {
+    if (all->count == WR_BENCH_PICTURES) {
+        wr_fail(err, "a section of the bench has at most %d pictures", WR_BENCH_PICTURES);
+        return NULL;
+    }
     WrScene *scene = wr_bench_scene(surface, mode, all->fast, err);
     if (!scene) return NULL;
     WrBenchPicture *p = &all->picture[all->count++];

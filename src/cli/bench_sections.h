@@ -56,7 +56,8 @@ typedef struct WrBenchSection {
     bool (*fill)(WrBenchSections *all, WrError *err);
 } WrBenchSection;
 
-#define WR_BENCH_PICTURES 64
+/* The longest section shows every effect, with it and without. */
+#define WR_BENCH_PICTURES (2 * WR_EFFECT_COUNT)
 
 struct WrBenchSections {
     const WrCli *cli;
