@@ -62,12 +62,12 @@ wr_fuzz(raw generate/terrain_raw.c base/error.c base/memory.c base/progress.c ba
 # Under sanitizers of gcc the rooms cannot be linked with clang's.
 if(NOT WR_SANITIZE)
     # Through the reader process, whose library may crash where the program must not.
-    wr_fuzz(mesh ROOMS image base LIBRARIES -lfreetype -lharfbuzz -lfribidi -lfontconfig -lz -lsleef -ldl -lpthread)
+    wr_fuzz(mesh ROOMS image base LIBRARIES -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -ldl -lpthread)
     wr_fuzz(commands command/parse.c command/value.c command/scene_text.c
             ROOMS command export accuracy render document generate brush scene shade surface noise image field
                   base
-            LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lz -lsleef -lzip -lexpat -ldl -lpthread)
+            LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lzip -lexpat -ldl -lpthread)
     wr_fuzz(myb brush/engine.c brush/engine_path.c brush/preset.c brush/preset_parse.c brush/preset_print.c
             brush/settings.c
-            ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lz -lsleef -lfreetype -ldl -lpthread)
+            ROOMS brush image field base LIBRARIES -lmypaint -ljson-c -lfreetype -lharfbuzz -lfribidi -lfontconfig -lpng16 -lz -lsleef -lfreetype -ldl -lpthread)
 endif()

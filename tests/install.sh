@@ -18,7 +18,7 @@ try() {
     "$tree/bin/wrinkle" render "$tree/share/wrinkle/samples/grid.wrinkle" -o grid.png --size 32x32 \
         >out 2>err || fail "the program in $tree failed: $(cat err)"
     [[ $(head -c 4 grid.png | tail -c 3) == PNG ]] || fail "$tree: grid.png is not a PNG file"
-    LD_DEBUG=files "$tree/bin/wrinkle" render "$tree/share/wrinkle/samples/grid.wrinkle" -o grid.png \
+    LD_DEBUG=files "$tree/bin/wrinkle" render "$tree/share/wrinkle/samples/grid.wrinkle" -o grid.exr \
         --size 8x8 >out 2>trace || fail "the program in $tree failed the second time"
     loaded=$(sed -nE 's/.* (\/[^ ]*wrinkle_[a-z]+\.so).*/\1/p' trace | sort -u)
     [[ -n $loaded ]] || fail "$tree: no module was loaded"
@@ -26,7 +26,7 @@ try() {
         [[ $(readlink -f "$module") == "$(readlink -f "$tree")"/* ]] ||
             fail "$tree: the module was loaded from $module"
     done <<<"$loaded"
-    rm -f grid.png out err trace
+    rm -f grid.png grid.exr out err trace
 }
 
 cmake --install "$build" --prefix "$folder/prefix" >log 2>&1 || fail "$(cat log)"

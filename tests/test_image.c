@@ -686,14 +686,14 @@ static void many_threads_read_at_once(void **state)
 static void a_missing_module_is_an_error_and_the_variable_finds_it(void **state)
 {
     (void)state;
-    write_named("m.png");
+    write_named("m.exr");
     char command[1024];
     char *folder = wr_program_folder();
     mkdir("lonely", 0777);
     snprintf(command, sizeof command, "cp /proc/%ld/exe lonely/program", (long)getpid());
     assert_int_equal(system(command), 0);
     unsetenv("WRINKLE_MODULES");
-    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.png >out.txt")), 3);
+    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.exr >out.txt")), 3);
     WrError err;
     char *text;
     size_t length;
@@ -701,20 +701,20 @@ static void a_missing_module_is_an_error_and_the_variable_finds_it(void **state)
     assert_non_null(strstr(text, "need the program wrinkle-reader, looked for at: "));
     assert_non_null(strstr(text, "/lonely/wrinkle-reader"));
     wr_free(text);
-    const char *inside = "WRINKLE_READER=inside lonely/program --read m.png >out.txt";
+    const char *inside = "WRINKLE_READER=inside lonely/program --read m.exr >out.txt";
     assert_int_equal(WEXITSTATUS(system(inside)), 3);
     assert_true(wr_file_read("out.txt", 4096, &text, &length, &err));
     assert_non_null(strstr(text, "need the module wrinkle_oiio.so, looked for at: "));
     assert_non_null(strstr(text, "/lonely/wrinkle_oiio.so"));
     wr_free(text);
     setenv("WRINKLE_MODULES", folder, 1);
-    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.png >out.txt")), 0);
+    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.exr >out.txt")), 0);
     assert_int_equal(WEXITSTATUS(system(inside)), 0);
     assert_true(wr_file_write("lonely/wrinkle_oiio.so", "not a library", 13, &err));
-    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.png >out.txt")), 0);
+    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.exr >out.txt")), 0);
     assert_int_equal(WEXITSTATUS(system(inside)), 0);
     unsetenv("WRINKLE_MODULES");
-    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.png >out.txt")), 3);
+    assert_int_equal(WEXITSTATUS(system("lonely/program --read m.exr >out.txt")), 3);
     wr_free(folder);
 }
 

@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "image/codec.h"
 #include "image/format.h"
-#include "image/oiio.h"
 #include "image/plain.h"
 #include "image/png.h"
 #include "system/fd.h"
@@ -13,12 +13,27 @@
 
 /* Of the library, or plain. */
 struct WrDecoder {
-    const WrOiioTable *library;
-    WrOiioReader *reader;
+    const WrCodec *library;
+    WrCodecReader *reader;
     WrPlain *plain;
 };
 
 /* The format by the file's first bytes, else by its ending; "plain" for what plain.h reads. */
+static const char *format_of(const unsigned char *bytes, size_t count, const char *ending)
+{
+    const char *format = wr_image_sniff(bytes, count);
+    if (wr_plain_knows(bytes, count, format ? "" : ending)) return "plain";
+    return format ? format : ending;
+}
+
+bool wr_decoder_takes_module(int fd, const char *ending)
+{
+    unsigned char bytes[WR_IMAGE_SNIFF];
+    const int64_t count = wr_fd_read_at(fd, bytes, sizeof bytes, 0);
+    const char *format = format_of(bytes, count > 0 ? (size_t)count : 0, ending);
+    return strcmp(format, "plain") != 0 && strcmp(format, "png") != 0;
+}
+
 static const char *find_format(int fd, const char *ending, WrError *err)
 {
     int copy = wr_fd_copy(fd);
@@ -31,9 +46,7 @@ static const char *find_format(int fd, const char *ending, WrError *err)
     unsigned char bytes[WR_IMAGE_SNIFF];
     rewind(file);
     size_t count = fread(bytes, 1, sizeof bytes, file);
-    const char *format = wr_image_sniff(bytes, count);
-    if (wr_plain_knows(bytes, count, format ? "" : ending)) format = "plain";
-    if (!format) format = ending;
+    const char *format = format_of(bytes, count, ending);
     if (strcmp(format, "png") == 0 && !wr_png_check(file, err)) format = NULL;
     fclose(file);
     return format;
@@ -41,12 +54,12 @@ static const char *find_format(int fd, const char *ending, WrError *err)
 
 static bool is_memory(const char *reason)
 {
-    return strcmp(reason, WR_OIIO_NO_MEMORY) == 0;
+    return strcmp(reason, WR_CODEC_NO_MEMORY) == 0;
 }
 
 WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, WrError *err)
 {
-    char reason[WR_OIIO_REASON] = "";
+    char reason[WR_CODEC_REASON] = "";
     const char *format = find_format(fd, ending, err);
     if (!format) return NULL;
     if (strcmp(format, "plain") == 0) {
@@ -55,9 +68,9 @@ WrDecoder *wr_decoder_open(int fd, const char *ending, int most, bool *memory, W
         if (decoder) *decoder = (WrDecoder){ .plain = plain };
         return decoder;
     }
-    const WrOiioTable *library = wr_oiio(err);
+    const WrCodec *library = wr_codec(format, err);
     if (!library) return NULL;
-    WrOiioReader *reader = library->open(fd, format, most, reason);
+    WrCodecReader *reader = library->open(fd, format, most, reason);
     if (!reader) {
         if (memory) *memory = is_memory(reason);
         wr_fail(err, "%s", reason);
@@ -96,7 +109,7 @@ const char *wr_decoder_attribute(const WrDecoder *decoder, int part, const char 
 bool wr_decoder_read(WrDecoder *decoder, int part, int y, int rows, int channels, float *out,
                      bool *memory, WrError *err)
 {
-    char reason[WR_OIIO_REASON] = "";
+    char reason[WR_CODEC_REASON] = "";
     if (decoder->plain) return wr_plain_read(decoder->plain, y, rows, channels, out, err);
     if (decoder->library->read(decoder->reader, part, y, rows, channels, out, reason)) return true;
     if (memory) *memory = is_memory(reason);

@@ -12,6 +12,10 @@ typedef struct WrError WrError;
 
 typedef struct WrDecoder WrDecoder;
 
+/* Whether reading the file takes the module that holds OpenImageIO (oiio.h): its first bytes, and the ending of its
+ * name where they tell nothing, say so. */
+bool wr_decoder_takes_module(int fd, const char *ending);
+
 /* Open a picture.
  *
  * fd       a regular file or a memory file, open for reading; borrowed, and kept until close

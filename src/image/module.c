@@ -102,7 +102,7 @@ void wr_oiio_warm(void)
     wr_aside_begin(&oiio.loading);
 }
 
-const WrOiioTable *wr_oiio(WrError *err)
+const WrCodec *wr_oiio(WrError *err)
 {
     return wr_module_table(&oiio, err);
 }

@@ -42,7 +42,7 @@ static void settle_library()
 
 /* ---- reading ---- */
 
-struct WrOiioReader {
+struct WrCodecReader {
     int fd;
     std::string path; /* of fd, for formats that insist on one (reopen.c) and for messages */
     std::unique_ptr<FILE, int (*)(FILE *)> file{ nullptr, std::fclose }; /* a copy of fd */
@@ -50,7 +50,7 @@ struct WrOiioReader {
     std::unique_ptr<ImageInput> in;
     std::vector<ImageSpec> specs;
     std::vector<std::vector<const char *>> names;
-    std::vector<WrOiioPart> parts;
+    std::vector<WrCodecPart> parts;
     std::vector<char> codes; /* scratch */
     std::vector<float> band; /* of a tiled file: rows [band_y, band_y + band_rows) of band_part */
     int band_part = -1, band_y = 0, band_rows = 0, band_channels = 0;
@@ -90,12 +90,12 @@ static void unpack_description(ImageSpec &spec)
     }
 }
 
-static bool add_part(WrOiioReader &reader, ImageSpec spec, char *reason)
+static bool add_part(WrCodecReader &reader, ImageSpec spec, char *reason)
 {
     if (!check_spec(spec, reason)) return false;
     unpack_description(spec);
     spec.attribute("wrinkle:orientation", std::to_string(spec.get_int_attribute("Orientation")));
-    WrOiioPart part = {};
+    WrCodecPart part = {};
     part.part.width = spec.width;
     part.part.height = spec.height;
     part.part.channels = spec.nchannels;
@@ -113,7 +113,7 @@ static bool add_part(WrOiioReader &reader, ImageSpec spec, char *reason)
 }
 
 /* Pointers into the specs, once those no longer move. */
-static void name_parts(WrOiioReader &reader)
+static void name_parts(WrCodecReader &reader)
 {
     for (size_t i = 0; i < reader.parts.size(); i++) {
         ImageSpec &spec = reader.specs[i];
@@ -131,7 +131,7 @@ static void name_parts(WrOiioReader &reader)
 }
 
 /* Where the reader may open nothing, most formats read from what is open. */
-static bool give_file(WrOiioReader &reader, char *reason)
+static bool give_file(WrCodecReader &reader, char *reason)
 {
     int copy = wr_fd_copy(reader.fd);
     reader.file.reset(copy < 0 ? nullptr : wr_fd_stream(copy, "rb"));
@@ -143,7 +143,7 @@ static bool give_file(WrOiioReader &reader, char *reason)
     return true;
 }
 
-static bool open_file(WrOiioReader &reader, const char *format, int most, char *reason)
+static bool open_file(WrCodecReader &reader, const char *format, int most, char *reason)
 {
     settle_library();
     if (*format) reader.in = ImageInput::create(format);
@@ -181,11 +181,11 @@ static std::string name_of(int fd)
     return name;
 }
 
-static WrOiioReader *reader_open(int fd, const char *format, int most, char *reason)
+static WrCodecReader *reader_open(int fd, const char *format, int most, char *reason)
 {
-    WrOiioReader *opened = nullptr;
+    WrCodecReader *opened = nullptr;
     guarded(reason, [&] {
-        auto reader = std::make_unique<WrOiioReader>();
+        auto reader = std::make_unique<WrCodecReader>();
         reader->fd = fd;
         reader->path = name_of(fd);
         if (!open_file(*reader, format, most, reason)) return false;
@@ -195,29 +195,29 @@ static WrOiioReader *reader_open(int fd, const char *format, int most, char *rea
     return opened;
 }
 
-static void reader_close(WrOiioReader *reader)
+static void reader_close(WrCodecReader *reader)
 {
-    char reason[WR_OIIO_REASON];
+    char reason[WR_CODEC_REASON];
     guarded(reason, [&] {
         delete reader;
         return true;
     });
 }
 
-static int reader_parts(const WrOiioReader *reader)
+static int reader_parts(const WrCodecReader *reader)
 {
     return static_cast<int>(reader->parts.size());
 }
 
-static const WrOiioPart *reader_part(const WrOiioReader *reader, int part)
+static const WrCodecPart *reader_part(const WrCodecReader *reader, int part)
 {
     return &reader->parts[static_cast<size_t>(part)];
 }
 
-static const char *reader_attribute(const WrOiioReader *reader, int part, const char *name)
+static const char *reader_attribute(const WrCodecReader *reader, int part, const char *name)
 {
     const char *text = nullptr;
-    char reason[WR_OIIO_REASON];
+    char reason[WR_CODEC_REASON];
     guarded(reason, [&] {
         const ImageSpec &spec = reader->specs[static_cast<size_t>(part)];
         const ParamValue *found = spec.find_attribute(name, TypeDesc::STRING);
@@ -228,7 +228,7 @@ static const char *reader_attribute(const WrOiioReader *reader, int part, const 
     return text;
 }
 
-static bool check_read(WrOiioReader &reader, bool ok, char *reason)
+static bool check_read(WrCodecReader &reader, bool ok, char *reason)
 {
     std::string message = reader.in->geterror();
     if (ok && message.empty()) return true;
@@ -243,11 +243,11 @@ static void divide(const Code *codes, size_t count, float divisor, float *out)
 
 /* Values of rows [y, y + rows) in data-window rows: codes of 8 and 16 bits are divided here, exactly
    rounded; half and double become float as they are, other integers by the library. */
-static bool read_band(WrOiioReader &reader, int part, int y, int rows, int channels, float *out,
+static bool read_band(WrCodecReader &reader, int part, int y, int rows, int channels, float *out,
                       char *reason)
 {
     const ImageSpec &spec = reader.specs[static_cast<size_t>(part)];
-    const WrOiioPart &is = reader.parts[static_cast<size_t>(part)];
+    const WrCodecPart &is = reader.parts[static_cast<size_t>(part)];
     size_t count =
         static_cast<size_t>(spec.width) * static_cast<size_t>(rows) * static_cast<size_t>(channels);
     TypeDesc type = is.divisor > 0.0 ? spec.format : TypeDesc(TypeDesc::FLOAT);
@@ -271,7 +271,7 @@ static bool read_band(WrOiioReader &reader, int part, int y, int rows, int chann
 }
 
 /* A tiled file gives whole rows of tiles only: keep the one read last. */
-static bool read_tiled(WrOiioReader &reader, int part, int y, int rows, int channels, float *out,
+static bool read_tiled(WrCodecReader &reader, int part, int y, int rows, int channels, float *out,
                        char *reason)
 {
     const ImageSpec &spec = reader.specs[static_cast<size_t>(part)];
@@ -299,7 +299,7 @@ static bool read_tiled(WrOiioReader &reader, int part, int y, int rows, int chan
     return true;
 }
 
-static bool reader_read(WrOiioReader *reader, int part, int y, int rows, int channels, float *out,
+static bool reader_read(WrCodecReader *reader, int part, int y, int rows, int channels, float *out,
                         char *reason)
 {
     return guarded(reason, [&] {
@@ -311,7 +311,7 @@ static bool reader_read(WrOiioReader *reader, int part, int y, int rows, int cha
 
 /* ---- writing ---- */
 
-struct WrOiioWriter {
+struct WrCodecWriter {
     std::string path;
     std::unique_ptr<Disk> disk; /* outlives `out`; NULL where the library opens the file itself */
     std::unique_ptr<ImageOutput> out;
@@ -373,7 +373,7 @@ static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *
     if (!description.empty()) spec.attribute("ImageDescription", description);
 }
 
-static bool check_write(WrOiioWriter &writer, bool ok, char *reason)
+static bool check_write(WrCodecWriter &writer, bool ok, char *reason)
 {
     std::string message = writer.out->geterror();
     if (writer.disk && writer.disk->error) return fail(reason, std::strerror(writer.disk->error));
@@ -383,8 +383,8 @@ static bool check_write(WrOiioWriter &writer, bool ok, char *reason)
     return fail(reason, message, writer.path);
 }
 
-static bool create_file(WrOiioWriter &writer, int file, const char *format, const WrImageOut *parts,
-                        int count, char *reason)
+static bool create_file(WrCodecWriter &writer, int file, const char *format,
+                        const WrImageOut *parts, int count, char *reason)
 {
     static const TypeDesc types[] = { TypeDesc::UINT8, TypeDesc::UINT16, TypeDesc::FLOAT };
     settle_library();
@@ -416,12 +416,12 @@ static bool create_file(WrOiioWriter &writer, int file, const char *format, cons
     return true;
 }
 
-static WrOiioWriter *writer_create(int file, const char *format, const WrImageOut *parts, int count,
-                                   char *reason)
+static WrCodecWriter *writer_create(int file, const char *format, const WrImageOut *parts,
+                                    int count, char *reason)
 {
-    WrOiioWriter *created = nullptr;
+    WrCodecWriter *created = nullptr;
     guarded(reason, [&] {
-        auto writer = std::make_unique<WrOiioWriter>();
+        auto writer = std::make_unique<WrCodecWriter>();
         writer->path = name_of(file);
         if (!create_file(*writer, file, format, parts, count, reason)) return false;
         created = writer.release();
@@ -430,7 +430,7 @@ static WrOiioWriter *writer_create(int file, const char *format, const WrImageOu
     return created;
 }
 
-static bool writer_write(WrOiioWriter *writer, int y, int rows, const void *pixels, char *reason)
+static bool writer_write(WrCodecWriter *writer, int y, int rows, const void *pixels, char *reason)
 {
     return guarded(reason, [&] {
         errno = 0;
@@ -440,7 +440,7 @@ static bool writer_write(WrOiioWriter *writer, int y, int rows, const void *pixe
     });
 }
 
-static bool writer_next(WrOiioWriter *writer, char *reason)
+static bool writer_next(WrCodecWriter *writer, char *reason)
 {
     return guarded(reason, [&] {
         writer->part++;
@@ -453,11 +453,11 @@ static bool writer_next(WrOiioWriter *writer, char *reason)
 
 /* libpng complains on standard error when a file is closed before it has any of its picture, so one that is
    given up gets black rows until some of it was written. */
-static void complete_png(WrOiioWriter &writer)
+static void complete_png(WrCodecWriter &writer)
 {
     const ImageSpec &spec = writer.specs[0];
     std::vector<char> black(spec.scanline_bytes() * WR_IMAGE_STRIP);
-    char ignored[WR_OIIO_REASON];
+    char ignored[WR_CODEC_REASON];
     while (writer.row < spec.height && writer.disk->tell() == writer.head) {
         int rows = std::min(WR_IMAGE_STRIP, spec.height - writer.row);
         bool ok = writer.out->write_scanlines(writer.row, writer.row + rows, 0, writer.types[0],
@@ -467,7 +467,7 @@ static void complete_png(WrOiioWriter &writer)
     }
 }
 
-static bool writer_finish(WrOiioWriter *writer, bool keep, char *reason)
+static bool writer_finish(WrCodecWriter *writer, bool keep, char *reason)
 {
     bool ok = guarded(reason, [&] {
         if (!keep && writer->png) complete_png(*writer);
@@ -476,7 +476,7 @@ static bool writer_finish(WrOiioWriter *writer, bool keep, char *reason)
         if (writer->disk) writer->disk->empty();
         return check_write(*writer, closed, reason);
     });
-    char ignored[WR_OIIO_REASON];
+    char ignored[WR_CODEC_REASON];
     guarded(ignored, [&] {
         delete writer;
         return true;
@@ -484,8 +484,8 @@ static bool writer_finish(WrOiioWriter *writer, bool keep, char *reason)
     return ok;
 }
 
-extern "C" __attribute__((visibility("default"))) const WrOiioTable wr_oiio_table;
-const WrOiioTable wr_oiio_table = {
+extern "C" __attribute__((visibility("default"))) const WrCodec wr_oiio_table;
+const WrCodec wr_oiio_table = {
     WR_OIIO_VERSION, reader_open,   reader_close, reader_parts, reader_part,   reader_attribute,
     reader_read,     writer_create, writer_write, writer_next,  writer_finish,
 };

@@ -27,7 +27,7 @@ inline bool fail(char *reason, std::string text, const std::string &path = std::
             if (!path.empty()) say_instead(text, before + quoted, "the file");
         if (!path.empty()) say_instead(text, quoted, "the file");
     }
-    one_line(reason, WR_OIIO_REASON, text);
+    one_line(reason, WR_CODEC_REASON, text);
     return false;
 }
 
@@ -37,7 +37,7 @@ template <typename Body> bool guarded(char *reason, Body body)
     try {
         return body();
     } catch (const std::bad_alloc &) {
-        return fail(reason, WR_OIIO_NO_MEMORY);
+        return fail(reason, WR_CODEC_NO_MEMORY);
     } catch (const std::exception &problem) {
         return fail(reason, problem.what());
     } catch (...) {

@@ -1,7 +1,9 @@
 /* The reader process: reads strangers' picture files, so that a hostile one harms nobody else. See wire.h
-   for what it is told and what it answers. It loads the picture library once and then forks for each
-   file, so that no file meets what another one left behind; it never looks at a file itself. */
+   for what it is told and what it answers. It forks for each file, so that no file meets what another one left
+   behind; of a file itself it looks at the first bytes alone, which tell whether the picture library is needed. That is
+   loaded once: when a file needs it, or as soon as there is nothing else to do. */
 #include "base/array.h"
+#include "image/decode.h"
 #include "image/mesh_make.h"
 #include "image/oiio.h"
 #include "image/serve.h"
@@ -19,6 +21,7 @@
 
 #define CONTROL 0        /* descriptor of the control socket */
 #define CHILDREN_MAX 256 /* files being read at once */
+#define IDLE_MS 200      /* a program that wanted one small file has ended by then */
 
 typedef struct Child {
     WrPid pid;
@@ -28,6 +31,7 @@ typedef struct Child {
 typedef struct Process {
     int signals; /* tells of children that ended */
     WR_ARRAY(Child) children;
+    bool warm; /* the picture library is there, as far as it can be */
 } Process;
 
 /* Silent, alone in its session, out of everybody's folders. */
@@ -42,15 +46,19 @@ static void settle(void)
     wr_process_keep_rights();
 }
 
-/* What every reading does first, done once for all children. Trouble shows again when a file is read. */
-static void warm(void)
+/* What every reading by the library does first, done once for all children. Trouble shows again when a file is read.
+   Libraries of the picture library start threads when they are loaded. A child has none of them, but it would inherit
+   for ever what they hold at that moment; once they wait for work they hold nothing. */
+static void warm(Process *process)
 {
-    char reason[WR_OIIO_REASON];
-    const WrOiioTable *library = wr_oiio(NULL);
+    char reason[WR_CODEC_REASON];
+    const WrCodec *library = wr_oiio(NULL);
     int nothing = wr_fd_open_nowhere();
-    WrOiioReader *none = library ? library->open(nothing, "png", 1, reason) : NULL;
+    WrCodecReader *none = library ? library->open(nothing, "tiff", 1, reason) : NULL;
     if (none) library->close(none);
     if (nothing >= 0) wr_fd_close(nothing);
+    wr_process_wait_for_threads();
+    process->warm = true;
 }
 
 /* ---- children ---- */
@@ -64,6 +72,9 @@ static void start_child(Process *process, const WrWireOrder *order, int file, in
         wr_fd_close(channel);
         return;
     }
+    if (!process->warm && order->task == WR_WIRE_PICTURE &&
+        wr_decoder_takes_module(file, order->ending))
+        warm(process);
     if (order->task == WR_WIRE_MESH) wr_mesh_load(NULL); /* here, so that it is loaded but once */
     WrPid pid = wr_child_fork();
     if (pid == 0) {
@@ -136,7 +147,11 @@ static void work(Process *process)
         wr_array_push(&waited, ((WrWaited){ .fd = process->signals, .reads = true }));
         for (int i = 0; i < process->children.count; i++)
             wr_array_push(&waited, ((WrWaited){ .fd = process->children.data[i].channel }));
-        if (!wr_channel_wait_for_any(waited.data, waited.count)) continue;
+        bool news;
+        if (!wr_channel_wait_for_any(waited.data, waited.count, process->warm ? -1 : IDLE_MS,
+                                     &news))
+            continue;
+        if (!news) warm(process);
         for (int i = 0; i < process->children.count; i++) {
             if (!waited.data[2 + i].gone) continue;
             wr_child_kill(process->children.data[i].pid);
@@ -165,10 +180,6 @@ int main(void)
     Process process = { .signals = -1 };
     settle();
     wr_children_hold(); /* before the libraries start threads of their own */
-    warm();
-    /* Libraries of the picture library start threads when they are loaded. A child has none of them, but it
-       would inherit for ever what they hold at that moment; once they wait for work they hold nothing. */
-    wr_process_wait_for_threads();
     process.signals = wr_children_watch();
     if (process.signals >= 0) work(&process);
     for (int i = 0; i < process.children.count; i++) wr_child_kill(process.children.data[i].pid);

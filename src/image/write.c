@@ -64,8 +64,8 @@ static bool fail_write(WrError *err, const char *path, int file, const char *rea
 typedef struct Writing {
     const char *path;
     int file;
-    const WrOiioTable *library;
-    WrOiioWriter *writer;
+    const WrCodec *library;
+    WrCodecWriter *writer;
     float *values; /* scratch: a strip as a reader gives it */
     int packed;    /* rows that the format packs together */
 } Writing;
@@ -95,7 +95,7 @@ static int packed_rows(const char *format)
 static bool write_strip(const Writing *to, int y, int rows, const void *pixels, size_t row,
                         WrError *err)
 {
-    char reason[WR_OIIO_REASON] = "";
+    char reason[WR_CODEC_REASON] = "";
     int piece = WR_IMAGE_STRIP;
     while (piece > to->packed && (size_t)piece * row > PIECE_BYTES) piece /= 2;
     for (int first = 0; first < rows; first += piece) {
@@ -135,9 +135,9 @@ static bool write_part(Writing *to, const WrImageOut *part, WrHash *digest, WrEr
 static bool write_file(const char *path, int file, const char *format, const WrImageOut *parts,
                        int count, WrHash *digests, WrError *err)
 {
-    char reason[WR_OIIO_REASON] = "";
+    char reason[WR_CODEC_REASON] = "";
     Writing to = {
-        .path = path, .file = file, .library = wr_oiio(err), .packed = packed_rows(format)
+        .path = path, .file = file, .library = wr_codec(format, err), .packed = packed_rows(format)
     };
     if (!to.library) return false;
     to.writer = to.library->create(file, format, parts, count, reason);

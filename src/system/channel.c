@@ -144,13 +144,15 @@ bool wr_channel_has_byte(int channel)
     return recv(channel, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 1;
 }
 
-bool wr_channel_wait_for_any(WrWaited *waited, int count)
+bool wr_channel_wait_for_any(WrWaited *waited, int count, int ms, bool *news)
 {
     struct pollfd *ready = calloc((size_t)count, sizeof *ready);
     if (!ready) abort();
     for (int i = 0; i < count; i++)
         ready[i] = (struct pollfd){ .fd = waited[i].fd, .events = waited[i].reads ? POLLIN : 0 };
-    bool good = poll(ready, (nfds_t)count, -1) >= 0;
+    const int changed = poll(ready, (nfds_t)count, ms);
+    const bool good = changed >= 0;
+    *news = changed > 0;
     for (int i = 0; i < count; i++) {
         waited[i].news = good && ready[i].revents != 0;
         waited[i].gone = good && (ready[i].revents & (POLLHUP | POLLERR)) != 0;

@@ -27,11 +27,11 @@ typedef enum WrChannelNews { WR_CHANNEL_QUIET, WR_CHANNEL_NEWS, WR_CHANNEL_FAILE
 WrChannelNews wr_channel_wait(int channel, int ms);
 bool wr_channel_has_byte(int channel); /* not only the other end's farewell */
 
-/* Wait for any of several, for ever: those with `reads` until they can be read, and all until the other end is gone.
-   False if it was for nothing. */
+/* Wait for any of several, ms < 0: for ever: those with `reads` until they can be read, and all until the other end is
+   gone. *news: whether anything came, or only the time is over. False if it was for nothing. */
 typedef struct WrWaited {
     int fd; /* -1: is left out */
     bool reads;
     bool news, gone; /* out */
 } WrWaited;
-bool wr_channel_wait_for_any(WrWaited *waited, int count);
+bool wr_channel_wait_for_any(WrWaited *waited, int count, int ms, bool *news);
