@@ -69,7 +69,7 @@ run_tests() {
     wr_say "$name: built in $((SECONDS - begin)) s"
     begin=$SECONDS
     log=$build/tests.log
-    ctest --test-dir "$build" --parallel "$(nproc)" --timeout 900 "${arguments[@]}" 2>&1 | tee "$log"
+    ctest --test-dir "$build" --parallel $(($(nproc) * 3 / 2)) --timeout 900 "${arguments[@]}" 2>&1 | tee "$log"
     # "97% tests passed, 2 tests failed out of 60"
     local bad all
     read -r bad all < <(sed -nE 's/.* ([0-9]+) tests? failed out of ([0-9]+)$/\1 \2/p' "$log") || true

@@ -38,9 +38,9 @@ scenes=(ribbon bricks-far sphere-poles terrain-grazing bits displacement scratch
 unseen=(rivets-torus curl-tiles bezier-noise cylinder-ridges sphere-gloss plane-fourier cube-letters floor-cells)
 shown=("${scenes[@]}" highlights knot trio) # of the last three only the table
 if [[ -n $quick ]]; then
-    contestants=(painted cube-letters) large=() pieces=2
+    contestants=(painted cube-letters) large=() pieces=1 level=1
 else
-    pieces=12
+    pieces=12 level=9
     contestants=("${scenes[@]}" "${unseen[@]}") large=(ribbon sphere-poles sphere-gloss cube-letters)
 fi
 
@@ -54,7 +54,7 @@ max=(0.3 0.1 0.03)
 # ---- measuring ----
 
 # A picture as small as can be.
-shrink() { convert "$1" -strip -define png:compression-level=9 "${@:3}" "$2"; }
+shrink() { convert "$1" -strip -define "png:compression-level=$level" "${@:3}" "$2"; }
 
 measure() {
     local name=$1 pictures=$keep/$1-differences
