@@ -233,7 +233,8 @@ static bool inspect_one(const WrCli *cli, const WrDocument *document, const WrNo
     }
     WrTables *tables = wr_document_tables(document, document->scene, NULL, cli->pool);
     const WrField *all = wr_document_field(document);
-    compute(document->scene, wr_tables_at_hand(tables, document->scene, all), cli->face, u, v, &q);
+    const int face = wr_surface_face(&document->scene->shape, cli->face, u, v);
+    compute(document->scene, wr_tables_at_hand(tables, document->scene, all), face, u, v, &q);
     wr_tables_free(tables);
     add_point(text, cli->json, &q);
     return true;

@@ -124,6 +124,13 @@ static double length_of(WrVec3 a)
     return sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
 }
 
+/* A face's point, by parts of what it has of u and v. */
+static void part_at(const WrShape *shape, int face, double x, double y, WrSurfacePoint *out)
+{
+    const WrSurfaceCell c = wr_surface_cell(shape, face);
+    wr_surface_at(shape, face, c.u0 + (c.u1 - c.u0) * x, c.v0 + (c.v1 - c.v0) * y, out);
+}
+
 static void measure(const WrShape *shape, Measure *m)
 {
     int faces = wr_surfaces[shape->kind]->faces;
@@ -132,8 +139,8 @@ static void measure(const WrShape *shape, Measure *m)
     for (int i = 0; i < faces * (PROBES + 1) * (PROBES + 1); i++) {
         WrSurfacePoint p;
         int u = i % (PROBES + 1), v = i / (PROBES + 1) % (PROBES + 1);
-        wr_surface_at(shape, i / ((PROBES + 1) * (PROBES + 1)), (double)u / PROBES,
-                      (double)v / PROBES, &p);
+        part_at(shape, i / ((PROBES + 1) * (PROBES + 1)), (double)u / PROBES, (double)v / PROBES,
+                &p);
         const double at[3] = { p.p.x, p.p.y, p.p.z };
         for (int k = 0; k < 3; k++) {
             m->low[k] = at[k] < m->low[k] ? at[k] : m->low[k];
@@ -185,7 +192,7 @@ static void fill_face(const WrShape *shape, int face, const int cells[2], const 
     for (int j = 0; j <= cells[1]; j++)
         for (int i = 0; i <= cells[0]; i++) {
             WrSurfacePoint p;
-            wr_surface_at(shape, face, (double)i / cells[0], (double)j / cells[1], &p);
+            part_at(shape, face, (double)i / cells[0], (double)j / cells[1], &p);
             double *out = net->points[net->point_count++];
             out[0] = scale * (p.p.x - middle[0]);
             out[1] = scale * (p.p.y - middle[1]);

@@ -7,6 +7,7 @@
 #include "render/plan_inner.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
+#include "surface/patches.h"
 #include "system/clock.h"
 
 #include <math.h>
@@ -142,6 +143,25 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     return true;
 }
 
+/* Cells side by side in the table, of which each face or patch has its own; 1, 1 where none has. */
+static void cells_of(const WrScene *scene, int *columns, int *rows)
+{
+    const WrPatches *set = scene->triangles ? scene->triangles->patches : NULL;
+    wr_surface_cells(&scene->shape, columns, rows);
+    if (set && set->table == WR_PATCH_OWN) *columns = set->columns, *rows = set->rows;
+}
+
+/* How long footprints may be: filters read no farther than the margin of a cell. A look-up of side s reads 3 s, the blocks
+   on both sides of its place of the next coarser level, and a texel more for slopes. */
+static double reach_of(const WrScene *scene, double width, double height)
+{
+    int columns, rows;
+    cells_of(scene, &columns, &rows);
+    if (columns * rows == 1) return 0;
+    const double margin = WR_CELL_MARGIN * fmin(fabs(width) / columns, fabs(height) / rows);
+    return fmax((margin - 1) / 3, 0.01);
+}
+
 static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *request, double scale)
 {
     const WrScene *scene = request->scene;
@@ -158,6 +178,8 @@ static WrLookd make_look(const WrRenderer *renderer, const WrFrameRequest *reque
                       .scale_f = by.f,
                       .scale_u = by.u,
                       .scale_v = by.v,
+                      .reach = reach_of(scene, wr_field_width(request->field) * scene->replicate_u,
+                                        wr_field_height(request->field) * scene->replicate_v),
                       .pyramid = wr_plan_runs(plan, WR_EFFECT_FILTER) ? &renderer->pyramid : NULL,
                       .range = renderer->range.seen ? &renderer->range : NULL };
 }
@@ -225,6 +247,7 @@ static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *reques
                                 .rv = rv,
                                 .periodic_u = tint->wrap_u == WR_WRAP_PERIODIC,
                                 .periodic_v = tint->wrap_v == WR_WRAP_PERIODIC };
+    const double reach = reach_of(request->scene, look.width * ru, look.height * rv);
     job->colour = look;
     job->tint = (WrLook){ .width = look.width,
                           .height = look.height,
@@ -232,6 +255,7 @@ static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *reques
                           .rv = rv,
                           .periodic_u = look.periodic_u,
                           .periodic_v = look.periodic_v,
+                          .reach = (float)reach,
                           .pyramid = pyramid };
     job->tint_double = (WrLookd){ .width = look.width,
                                   .height = look.height,
@@ -239,6 +263,7 @@ static void fill_colour(const WrRenderer *renderer, const WrFrameRequest *reques
                                   .rv = rv,
                                   .periodic_u = look.periodic_u,
                                   .periodic_v = look.periodic_v,
+                                  .reach = reach,
                                   .pyramid = pyramid };
 }
 
@@ -258,6 +283,7 @@ static WrLook narrowed(const WrLookd *look, const float *heights, const float *g
                      .scale_f = (float)look->scale_f,
                      .scale_u = (float)look->scale_u,
                      .scale_v = (float)look->scale_v,
+                     .reach = (float)look->reach,
                      .pyramid = look->pyramid,
                      .range = look->range };
 }
@@ -291,6 +317,8 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
                            .wide = fmax(fabs(ru), fabs(rv)) >= WR_WIDE_FROM,
                            .scale_u = by.u,
                            .scale_v = by.v,
+                           .reach = reach_of(scene, relief->source->width * ru,
+                                             relief->source->height * rv),
                            .pyramid = &relief->pyramid };
     job->relief_double = look;
     job->frames = &renderer->frames;

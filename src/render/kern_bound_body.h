@@ -38,6 +38,7 @@ FLAT static void kern_bound_quad(const RAYS *rays, const QUAD *quad, REAL pixel,
     const VEC n = { quad->normal[0], quad->normal[1], quad->normal[2] };
     const REAL len_u = K_(1) / v_dot(eu, eu), len_v = K_(1) / v_dot(ev, ev); /* |Pu|^2, |Pv|^2 */
     const REAL h = K_(0.5) * pixel;
+    const REAL inside = K_(1.5e-6); /* more than a joint (view.c) */
     const RAYS r = *rays;
     const QUAD face = *quad;
     const int count = strip->count;
@@ -54,8 +55,8 @@ FLAT static void kern_bound_quad(const RAYS *rays, const QUAD *quad, REAL pixel,
         REAL v0 = smaller(smaller(a.v, b.v), smaller(c.v, d.v));
         REAL v1 = larger(larger(a.v, b.v), larger(c.v, d.v));
         bool whole = a.front & b.front & c.front & d.front;
-        whole =
-            whole & (u0 > K_(1e-6)) & (u1 < K_(0.999999)) & (v0 > K_(1e-6)) & (v1 < K_(0.999999));
+        whole = whole & (u0 > face.u0 + inside) & (u1 < face.u1 - inside);
+        whole = whole & (v0 > face.v0 + inside) & (v1 < face.v1 - inside);
         REAL du = larger(u1 - u, u - u0), dv = larger(v1 - v, v - v0);
         strip->u_low[i] = u0, strip->u_high[i] = u1;
         strip->v_low[i] = v0, strip->v_high[i] = v1;

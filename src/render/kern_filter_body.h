@@ -100,6 +100,7 @@ FLAT static void kern_spread(const LOOK *look, bool anisotropic, STRIP *strip)
 {
     const REAL most = anisotropic ? (REAL)WR_TAPS_MOST : K_(1);
     const REAL last = (REAL)(look->pyramid->levels - 1);
+    const REAL reach = look->reach > K_(0) ? look->reach : K_(10) * VAST;
     const REAL per_u = K_(1) / ((REAL)look->width * (look->ru != 0.0 ? (REAL)look->ru : K_(1)));
     const REAL per_v = K_(-1) / ((REAL)look->height * (look->rv != 0.0 ? (REAL)look->rv : K_(1)));
     const int count = strip->count;
@@ -107,7 +108,9 @@ FLAT static void kern_spread(const LOOK *look, bool anisotropic, STRIP *strip)
     {
         REAL rx = strip->rx[i], ry = strip->ry[i], wx = strip->wx[i], wy = strip->wy[i];
         REAL r = r_sqrt(rx * rx + ry * ry), w = r_sqrt(wx * wx + wy * wy);
-        REAL major = r > w ? r : w, area = r_abs(rx * wy - ry * wx);
+        REAL major = r > w ? r : w, less = major > reach ? reach / major : K_(1);
+        rx *= less, ry *= less, wx *= less, wy *= less, major *= less;
+        REAL area = r_abs(rx * wy - ry * wx);
         REAL minor = area / (major > K_(1) ? major : K_(1));
         REAL ratio = major / (minor > K_(1) ? minor : K_(1));
         REAL taps = -r_floor(-ratio);

@@ -78,8 +78,10 @@ typedef struct WR_T(WrLook) {
     bool periodic_u, periodic_v;
     bool wide;                      /* reduce r u in double (E10) */
     REAL scale_f, scale_u, scale_v; /* height; height * ru; height * rv */
-    const WrPyramid *pyramid;       /* means and covariances of the slopes (pyramid.h); or NULL */
-    const WrPyramid *range;         /* least and largest slopes; or NULL */
+    REAL
+        reach; /* footprints are no longer, texels: beyond it other faces' heights lie; or 0: as they are */
+    const WrPyramid *pyramid; /* means and covariances of the slopes (pyramid.h); or NULL */
+    const WrPyramid *range;   /* least and largest slopes; or NULL */
 } WR_T(WrLook);
 
 typedef struct WR_T(WrKernLight) {

@@ -46,7 +46,8 @@ static bool misses_quad(const WrView *view, const WrRaysd *rays, const WrQuadd *
         WrVec3 p = v3_sub(v3_mad(q, d, s), o);
         double u = p.x * quad->eu[0] + p.y * quad->eu[1] + p.z * quad->eu[2];
         double v = p.x * quad->ev[0] + p.y * quad->ev[1] + p.z * quad->ev[2];
-        left += u<-1e-6, right += u> 1 + 1e-6, below += v<-1e-6, above += v> 1 + 1e-6;
+        left += u<quad->u0 - 1e-6, right += u> quad->u1 + 1e-6;
+        below += v<quad->v0 - 1e-6, above += v> quad->v1 + 1e-6;
         behind += s <= rays->s_min;
     }
     if (behind > 0) return behind == 4;
@@ -69,8 +70,8 @@ static WrVec3 corner_of(const WrQuadd *quad, int k)
     const WrVec3 origin = { quad->origin[0], quad->origin[1], quad->origin[2] };
     const WrVec3 eu = { quad->eu[0], quad->eu[1], quad->eu[2] };
     const WrVec3 ev = { quad->ev[0], quad->ev[1], quad->ev[2] };
-    const WrVec3 along = v3_mad(origin, eu, k % 2 / v3_dot(eu, eu));
-    return v3_mad(along, ev, k / 2 % 2 / v3_dot(ev, ev));
+    const double u = k % 2 ? quad->u1 : quad->u0, v = k / 2 % 2 ? quad->v1 : quad->v0;
+    return v3_mad(v3_mad(origin, eu, u / v3_dot(eu, eu)), ev, v / v3_dot(ev, ev));
 }
 
 /* Does the scene show that face? Its back is drawn where nothing is left out (E25), and hidden. */

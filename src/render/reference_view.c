@@ -66,7 +66,8 @@ static void hide_faces(WrReferenceView *view)
     bool away[6] = { false }, outside = false;
     for (int face = 0; face < view->info->faces; face++) {
         WrSurfacePoint at;
-        wr_surface_at(view->shape, face, 0.5, 0.5, &at);
+        const WrSurfaceCell c = wr_surface_cell(view->shape, face);
+        wr_surface_at(view->shape, face, (c.u0 + c.u1) / 2, (c.v0 + c.v1) / 2, &at);
         WrVec3 to = view->perspective ? v3_sub(view->eye, at.p) : view->toward;
         away[face] = !(v3_dot(to, at.n_unit) > 0);
         outside = outside || !away[face];
@@ -245,16 +246,20 @@ static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, Wr
     for (int face = 0; face < view->info->faces; face++) {
         if (view->hidden[face]) continue;
         WrSurfacePoint at;
-        wr_surface_at(view->shape, face, 0, 0, &at);
+        const WrSurfaceCell c = wr_surface_cell(view->shape, face);
+        wr_surface_at(view->shape, face, c.u0, c.v0, &at);
         const double dn = v3_dot(ray->d, at.n_unit);
         const double s = v3_dot(v3_sub(at.p, ray->q), at.n_unit) / dn;
         if (!(dn != 0 && s > ray->s_min && isfinite(s)) || (found && s >= hit->s)) continue;
         const WrVec3 w = v3_sub(v3_mad(ray->q, ray->d, s), at.p);
-        const double u = v3_dot(w, at.pu) / v3_dot(at.pu, at.pu);
-        const double v = v3_dot(w, at.pv) / v3_dot(at.pv, at.pv);
+        const double wide = c.u1 - c.u0, high = c.v1 - c.v0;
+        const double x = v3_dot(w, at.pu) / v3_dot(at.pu, at.pu) / wide;
+        const double y = v3_dot(w, at.pv) / v3_dot(at.pv, at.pv) / high;
         const double edge = 0x1p-48; /* a ray along the edge of two faces meets one */
-        if (!(u >= -edge && u <= 1 + edge && v >= -edge && v <= 1 + edge)) continue;
-        *hit = (WrReferenceHit){ .s = s, .u = within(u), .v = within(v), .face = face };
+        if (!(x >= -edge && x <= 1 + edge && y >= -edge && y <= 1 + edge)) continue;
+        *hit = (WrReferenceHit){
+            .s = s, .u = c.u0 + wide * within(x), .v = c.v0 + high * within(y), .face = face
+        };
         found = true;
     }
     return found;

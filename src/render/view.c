@@ -136,8 +136,9 @@ static Extent extent_of_quads(const WrView *view)
         WrVec3 p = { quad->origin[0], quad->origin[1], quad->origin[2] };
         const WrVec3 eu = { quad->eu[0], quad->eu[1], quad->eu[2] };
         const WrVec3 ev = { quad->ev[0], quad->ev[1], quad->ev[2] };
-        p = v3_mad(p, eu, (i & 1) / v3_dot(eu, eu));
-        p = v3_sub(v3_mad(p, ev, (i >> 1 & 1) / v3_dot(ev, ev)), view->eye);
+        p = v3_mad(p, eu, (i & 1 ? quad->u1 : quad->u0) / v3_dot(eu, eu));
+        p = v3_mad(p, ev, (i >> 1 & 1 ? quad->v1 : quad->v0) / v3_dot(ev, ev));
+        p = v3_sub(p, view->eye);
         const double z = view->perspective ? v3_dot(p, view->forward) : 1;
         if (!(z > view->near)) return everything;
         const double x = v3_dot(p, view->right) / z, y = v3_dot(p, view->up) / z;
@@ -210,17 +211,22 @@ static bool joins(const WrShape *shape, const bool facing[6], int own, WrVec3 p)
 static void bound_quad(const WrShape *shape, const bool facing[6], int own, WrQuadd *quad,
                        WrQuad *single)
 {
-    bool side[4]; /* u = 0, u = 1, v = 0, v = 1 */
+    const WrSurfaceCell cell = wr_surface_cell(shape, own);
+    const double sides[4] = { cell.u0, cell.u1, cell.v0, cell.v1 };
+    double to[4];
+    float to_single[4];
     for (int k = 0; k < 4; k++) {
         WrSurfacePoint at;
-        const double to = k % 2;
-        wr_surface_at(shape, own, k < 2 ? to : 0.5, k < 2 ? 0.5 : to, &at);
-        side[k] = joins(shape, facing, own, at.p);
+        wr_surface_at(shape, own, k < 2 ? sides[k] : (cell.u0 + cell.u1) / 2,
+                      k < 2 ? (cell.v0 + cell.v1) / 2 : sides[k], &at);
+        const bool joined = joins(shape, facing, own, at.p);
+        const double more = joined ? k % 2 ? 1 : -1 : 0;
+        to[k] = sides[k] + more * JOINT;
+        to_single[k] = (float)sides[k] + (float)more * JOINT_SINGLE;
     }
-    quad->u0 = side[0] ? -JOINT : 0, quad->u1 = side[1] ? 1 + JOINT : 1;
-    quad->v0 = side[2] ? -JOINT : 0, quad->v1 = side[3] ? 1 + JOINT : 1;
-    single->u0 = side[0] ? -JOINT_SINGLE : 0, single->u1 = side[1] ? 1 + JOINT_SINGLE : 1;
-    single->v0 = side[2] ? -JOINT_SINGLE : 0, single->v1 = side[3] ? 1 + JOINT_SINGLE : 1;
+    quad->u0 = to[0], quad->u1 = to[1], quad->v0 = to[2], quad->v1 = to[3];
+    single->u0 = to_single[0], single->u1 = to_single[1];
+    single->v0 = to_single[2], single->v1 = to_single[3];
 }
 
 static void add_quad(WrView *view, const WrShape *shape, const bool facing[6], int face)

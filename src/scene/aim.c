@@ -191,7 +191,9 @@ static void reach_object(Reach *r, const WrScene *object, const Turns *turns)
         for (int j = 0; j <= cells; j++)
             for (int i = 0; i <= cells; i++) {
                 WrSurfacePoint at;
-                wr_surface_at(&object->shape, face, (double)i / cells, (double)j / cells, &at);
+                const WrSurfaceCell c = wr_surface_cell(&object->shape, face);
+                wr_surface_at(&object->shape, face, c.u0 + (c.u1 - c.u0) * i / cells,
+                              c.v0 + (c.v1 - c.v0) * j / cells, &at);
                 reach_turns(r, turns, at.p);
             }
 }

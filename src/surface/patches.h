@@ -11,11 +11,12 @@
    with whole c (but for WR_PATCH_OWN): a turn by quarters, mirrored or not, and a cell. So along an edge that is joined both neighbours have the
    same place of the table, with the same bits, and the table runs on beyond it (HC151). */
 #pragma once
+#include "surface/surface.h"
 #include "surface/triangles.h"
 
 #define WR_PATCHES_MAX WR_TRIANGLE_PARTS_MAX
 #define WR_PATCH_CUTS_MAX 64
-#define WR_PATCH_MARGIN (1.0 / 32) /* of WR_PATCH_OWN, in parts of a cell: two texels of 64 */
+#define WR_PATCH_MARGIN WR_CELL_MARGIN /* of WR_PATCH_OWN */
 /* How far a triangle is from its patch at most, in parts of the set's radius, while there are no more than
  * WR_PATCH_TRIANGLES. */
 #define WR_PATCH_OFF (1.0 / 4000)

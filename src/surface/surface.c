@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -70,14 +71,17 @@ static bool check_param(const WrSurfaceInfo *info, const WrSurfaceParam *param, 
 {
     static const char axis[3] = { 'x', 'y', 'z' };
     for (int i = 0; i < param->components; i++) {
-        if (value[i] >= param->low && value[i] <= param->high) continue;
+        const bool between = value[i] > param->low && value[i] < param->high;
+        if (value[i] >= param->low && value[i] <= param->high && !(param->ends[0] && between))
+            continue;
         char number[WR_NUMBER_SIZE], low[WR_NUMBER_SIZE], high[WR_NUMBER_SIZE], part[32] = "";
         if (param->components == 3) snprintf(part, sizeof part, " %c", axis[i]);
         if (param->components > 3)
             snprintf(part, sizeof part, " %d %c", i / 3 + 1, axis[i % 3]); /* of the i-th point */
-        return wr_fail(err, "%s %s%s = %s: must be %s..%s (%s)", info->name, param->name, part,
+        return wr_fail(err, "%s %s%s = %s: must be %s%s%s (%s)", info->name, param->name, part,
                        wr_number_print(value[i], number), wr_number_print(param->low, low),
-                       wr_number_print(param->high, high), param->help);
+                       param->ends[0] ? " or " : "..", wr_number_print(param->high, high),
+                       param->help);
     }
     return true;
 }
@@ -139,6 +143,36 @@ double wr_shape_radius(const WrShape *shape)
                     : info->radius ? info->radius(shape)
                                    : sampled_radius(shape);
     return radius > 0 ? radius : 1;
+}
+
+WrSurfaceCell wr_surface_cell(const WrShape *shape, int face)
+{
+    const WrSurfaceInfo *info = wr_surfaces[shape->kind];
+    if (info->cell) return info->cell(shape, face);
+    return (WrSurfaceCell){ 0, 1, 0, 1 };
+}
+
+void wr_surface_cells(const WrShape *shape, int *columns, int *rows)
+{
+    const double part = 1 - 2 * WR_CELL_MARGIN;
+    const WrSurfaceCell cell = wr_surface_cell(shape, 0);
+    const double u = part / (cell.u1 - cell.u0), v = part / (cell.v1 - cell.v0);
+    *columns = u > 1 ? (int)lround(u) : 1;
+    *rows = v > 1 ? (int)lround(v) : 1;
+}
+
+int wr_surface_face(const WrShape *shape, int face, double u, double v)
+{
+    int columns, rows;
+    wr_surface_cells(shape, &columns, &rows);
+    if (columns * rows == 1) return face;
+    for (int i = 0; i < wr_surfaces[shape->kind]->faces; i++) {
+        const WrSurfaceCell c = wr_surface_cell(shape, i);
+        if (fabs(u - (c.u0 + c.u1) / 2) <= 0.5 / columns &&
+            fabs(v - (c.v0 + c.v1) / 2) <= 0.5 / rows)
+            return i;
+    }
+    return face;
 }
 
 void wr_surface_at(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out)

@@ -63,6 +63,13 @@ typedef struct WrSurfacePointf {
     float n_len;
 } WrSurfacePointf;
 
+/* What a face has of u and v: 0..1, or a cell of its own, so that (u,v) tell the face. */
+typedef struct WrSurfaceCell {
+    double u0, u1, v0, v1;
+} WrSurfaceCell;
+#define WR_CELL_MARGIN                                                                             \
+    (1.0 / 32) /* between a face and its cell's border, in parts of a cell: two texels of 64 */
+
 /* How the renderer finds (u,v) from a ray. */
 typedef enum WrInversion {
     WR_INVERT_MESH, /* refined mesh, then Newton's method: works for every surface */
@@ -82,6 +89,8 @@ typedef struct WrSurfaceParam {
     double low, high;                   /* closed range of each component */
     bool length;      /* scales with the object (false: a count, an angle, a fraction) */
     const char *help; /* a few words, with the unit */
+    const char
+        *ends[2]; /* what the window calls low and high, where no other values are; or NULL */
 } WrSurfaceParam;
 
 /* A text that a surface is given by. */
@@ -112,6 +121,7 @@ typedef struct WrSurfaceInfo {
     WrInversion inversion;
     /* The point and all derivatives, in double. face is 0..faces-1. */
     void (*at)(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);
+    WrSurfaceCell (*cell)(const WrShape *shape, int face); /* NULL: 0..1 */
     /* Refuse numbers that make no surface (a fold, a zero size); may be NULL. */
     bool (*check)(const WrShape *shape, WrError *err);
     /* Radius of a ball about the centre that holds the surface; NULL: found by sampling. */
@@ -133,6 +143,11 @@ WrVec3 wr_shape_centre(const WrShape *shape);
 /* Radius of a ball about the centre that holds the whole surface. > 0; 1 if the surface is one
    point at the centre (a patch whose points are all equal). */
 double wr_shape_radius(const WrShape *shape);
+WrSurfaceCell wr_surface_cell(const WrShape *shape, int face);
+/* How many cells lie beside and above one another, where each face has one of its own; else 1, 1. */
+void wr_surface_cells(const WrShape *shape, int *columns, int *rows);
+/* The face whose cell holds (u,v), within its margin; `face` where all have the same. */
+int wr_surface_face(const WrShape *shape, int face, double u, double v);
 /* Evaluate; asserts kind and face. u, v: 0..1; a little outside is fine (Newton's steps). */
 void wr_surface_at(const WrShape *shape, int face, double u, double v, WrSurfacePoint *out);
 /* The shape in single precision with all lengths multiplied by `scale` (a power of two; 1 for

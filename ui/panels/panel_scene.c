@@ -135,6 +135,16 @@ static void surface_texts(WrApp *app)
     }
 }
 
+/* One of two values. */
+static void end_choice(WrApp *app, const WrSurfaceParam *p, const char *label, int offset)
+{
+    WrShape shape = wr_app_scene(app)->shape;
+    int which = shape.value[offset] >= p->high;
+    if (!wr_gui_choice(label, 0, p->ends, 2, &which)) return;
+    shape.value[offset] = which ? p->high : p->low;
+    wr_surface_run(app, &shape, NULL);
+}
+
 static void surface_params(WrApp *app)
 {
     WrShape shape = wr_app_scene(app)->shape;
@@ -156,7 +166,11 @@ static void surface_params(WrApp *app)
             char label[64];
             snprintf(label, sizeof label, "%.48s%s", p->help, p->components == 3 ? parts[i] : "");
             if (label[0] >= 'a' && label[0] <= 'z') label[0] = (char)(label[0] - 'a' + 'A');
-            wr_gui_label(label);
+            wr_gui_label(p->ends[0] ? "Table" : label);
+            if (p->ends[0]) {
+                end_choice(app, p, label, offset);
+                continue;
+            }
             WrEdit edit = wr_gui_number(label, 0, &spec, &shape.value[offset + i]);
             if (edit == WR_EDIT_LIVE && wr_shape_check(&shape, NULL))
                 wr_app_live(app)->shape = shape;

@@ -187,7 +187,8 @@ static bool on_object(const WrPatchPick *pick, const WrScene *scene, int face, d
     const WrSurfaceInfo *info = wr_surfaces[scene->shape.kind];
     if (info->closed_u) u -= floor(u);
     if (info->closed_v) v -= floor(v);
-    if (!(u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0)) return false;
+    const WrSurfaceCell c = wr_surface_cell(&scene->shape, face);
+    if (!(u >= c.u0 && u <= c.u1 && v >= c.v0 && v <= c.v1)) return false;
     return wr_patch_pick_project(pick, face, u, v, out, hidden);
 }
 

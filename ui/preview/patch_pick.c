@@ -109,10 +109,12 @@ static void make_net(WrPatchPick *pick)
     pick->bounds = wr_alloc((size_t)(faces * blocks * blocks), sizeof *pick->bounds);
     for (int face = 0; face < faces; face++) {
         Knot *knots = pick->knots + (size_t)face * side * side;
+        const WrSurfaceCell cell = wr_surface_cell(&pick->shape, face);
         for (int j = 0; j <= n; j++)
             for (int i = 0; i <= n; i++)
                 knots[(size_t)j * side + (size_t)i] =
-                    knot_at(pick, face, (double)i / n, (double)j / n);
+                    knot_at(pick, face, cell.u0 + (cell.u1 - cell.u0) * i / n,
+                            cell.v0 + (cell.v1 - cell.v0) * j / n);
         for (int b = 0; b < blocks * blocks; b++)
             pick->bounds[face * blocks * blocks + b] =
                 bound_block(pick, knots, b % blocks, b / blocks);
@@ -202,7 +204,10 @@ static void try_cell(const WrPatchPick *pick, int face, int i, int j, double x, 
     int n = pick->cells;
     const Knot *k = knots_of(pick, face) + (size_t)j * ((size_t)n + 1) + (size_t)i;
     const Knot *const a[3] = { k, k + 1, k + n + 2 }, *const b[3] = { k, k + n + 2, k + n + 1 };
-    double u0 = (double)i / n, u1 = (i + 1.0) / n, v0 = (double)j / n, v1 = (j + 1.0) / n;
+    const WrSurfaceCell c = wr_surface_cell(&pick->shape, face);
+    const double du = (c.u1 - c.u0) / n, dv = (c.v1 - c.v0) / n;
+    double u0 = c.u0 + du * i, u1 = c.u0 + du * (i + 1), v0 = c.v0 + dv * j,
+           v1 = c.v0 + dv * (j + 1);
     const double ua[3][2] = { { u0, v0 }, { u1, v0 }, { u1, v1 } };
     const double ub[3][2] = { { u0, v0 }, { u1, v1 }, { u0, v1 } };
     try_triangle(a, ua, x, y, face, best);
@@ -246,10 +251,10 @@ static bool spot_at(const WrPatchPick *pick, int face, double u, double v, WrPat
     return true;
 }
 
-static double into(double x, bool closed)
+static double into(double x, bool closed, double low, double high)
 {
     if (closed) return x - floor(x);
-    return x < 0.0 ? 0.0 : x > 1.0 ? 1.0 : x;
+    return x < low ? low : x > high ? high : x;
 }
 
 static bool invert(const double m[4], double out[4])
@@ -274,6 +279,7 @@ static bool polish(const WrPatchPick *pick, double x, double y, WrPatchSpot *spo
 {
     double slopes[4], inverse[4], longest = 2.0 / pick->cells;
     bool closed_u = pick->info->closed_u, closed_v = pick->info->closed_v;
+    const WrSurfaceCell c = wr_surface_cell(&pick->shape, spot->face);
     if (!spot_at(pick, spot->face, spot->u, spot->v, spot, slopes)) return false;
     for (int step = 0; step < NEWTON_STEPS && off(spot, x, y) > CLOSE_ENOUGH; step++) {
         if (!invert(slopes, inverse)) break;
@@ -284,8 +290,8 @@ static bool polish(const WrPatchPick *pick, double x, double y, WrPatchSpot *spo
         for (int half = 0; half < 6 && !better; half++, part /= 2.0) {
             WrPatchSpot next;
             double next_slopes[4];
-            if (!spot_at(pick, spot->face, into(spot->u + part * du, closed_u),
-                         into(spot->v + part * dv, closed_v), &next, next_slopes))
+            if (!spot_at(pick, spot->face, into(spot->u + part * du, closed_u, c.u0, c.u1),
+                         into(spot->v + part * dv, closed_v, c.v0, c.v1), &next, next_slopes))
                 continue;
             better = off(&next, x, y) < off(spot, x, y);
             if (!better) continue;
