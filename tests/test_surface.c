@@ -19,6 +19,10 @@ static WrShape random_shape(WrSurfaceKind kind, TestRandom *random)
         double *value = shape.value;
         for (const WrSurfaceParam *p = wr_surfaces[kind]->params; p->name; p++) {
             for (int i = 0; i < p->components; i++, value++) {
+                if (p->ends[0]) {
+                    *value = between(random, 0, 2) < 1 ? p->low : p->high;
+                    continue;
+                }
                 *value *= between(random, 0.7, 1.4);
                 if (p->low < 0) *value += between(random, -0.15, 0.15);
             }
@@ -275,6 +279,37 @@ static void cube_faces_join_and_read_right_from_outside(void **state)
     }
 }
 
+/* A cell for each face: the same cube, whose (u,v) tell the face. */
+static void faces_with_cells_are_the_same_faces(void **state)
+{
+    (void)state;
+    WrShape whole, cells;
+    wr_shape_default(WR_SURFACE_cube, &whole);
+    cells = whole;
+    cells.value[wr_surface_param_offset(WR_SURFACE_cube, "faces")] = 6;
+    for (int k = 0; k < 60; k++) {
+        const int face = k % 6;
+        const double x = k % 7 / 6.0, y = k % 11 / 10.0;
+        const double u = (face % 3 + 1 / 32.0 + x * 30 / 32) / 3;
+        const double v = (face / 3 + 1 / 32.0 + y * 30 / 32) / 2;
+        WrSurfacePoint a, b;
+        wr_surface_at(&whole, face, x, y, &a);
+        wr_surface_at(&cells, face, u, v, &b);
+        assert_near(v3_len(v3_sub(a.p, b.p)), 0, 1e-14);
+        assert_near(v3_len(v3_sub(v3_scale(a.pu, 3.2), b.pu)), 0, 1e-14);
+        assert_near(v3_len(v3_sub(v3_scale(a.pv, 32 / 15.0), b.pv)), 0, 1e-14);
+        assert_near(v3_len(v3_sub(v3_cross(b.pu, b.pv), b.n)), 0, 1e-13);
+        assert_near(b.n_len, v3_len(b.n), 1e-13);
+        assert_int_equal(wr_surface_face(&cells, 0, u, v), face);
+        assert_int_equal(wr_surface_face(&whole, 2, u, v), 2);
+    }
+    WrError err = { "" };
+    assert_true(wr_shape_check(&cells, NULL));
+    cells.value[wr_surface_param_offset(WR_SURFACE_cube, "faces")] = 3;
+    assert_false(wr_shape_check(&cells, &err));
+    assert_non_null(strstr(err.text, "must be 1 or 6"));
+}
+
 static void folded_corners_are_refused_and_others_are_not(void **state)
 {
     (void)state;
@@ -353,8 +388,10 @@ static void the_radius_holds_the_surface_and_little_more(void **state)
             double radius = wr_shape_radius(&shape), most = 0;
             for (int k = 0; k <= 101 * 101; k++) {
                 WrSurfacePoint o;
-                wr_surface_at(&shape, k % wr_surfaces[kind]->faces, k % 101 / 100.0,
-                              k / 101 / 101.0, &o);
+                const int face = k % wr_surfaces[kind]->faces;
+                const WrSurfaceCell c = wr_surface_cell(&shape, face);
+                wr_surface_at(&shape, face, c.u0 + (c.u1 - c.u0) * (k % 101 / 100.0),
+                              c.v0 + (c.v1 - c.v0) * (k / 101 / 101.0), &o);
                 most = fmax(most, v3_len(v3_sub(o.p, centre)));
             }
             assert_true(most <= radius * (1 + 1e-14));
@@ -429,6 +466,7 @@ int main(void)
         cmocka_unit_test(curling_stretches_nothing),
         cmocka_unit_test(the_curl_is_smooth_across_its_line),
         cmocka_unit_test(cube_faces_join_and_read_right_from_outside),
+        cmocka_unit_test(faces_with_cells_are_the_same_faces),
         cmocka_unit_test(folded_corners_are_refused_and_others_are_not),
         cmocka_unit_test(bad_numbers_are_refused_by_name_value_and_range),
         cmocka_unit_test(the_radius_holds_the_surface_and_little_more),

@@ -69,15 +69,17 @@ static double facing(const WrScene *scene, int face, double u, double v)
 
 /* Seen points of each surface, found again under the pixel where they are seen. Compared in space: at a
  * pole every u is the same point. */
-static void check_round_trip(WrSurfaceKind kind, bool orthographic)
+static void check_round_trip(WrSurfaceKind kind, bool orthographic, bool cells)
 {
     WrScene *scene = scene_of(kind, orthographic);
+    if (cells) scene->shape.value[wr_surface_param_offset(kind, "faces")] = 6;
     WrPatchPick *pick = pick_of(scene);
     double radius = wr_shape_radius(&scene->shape);
     int seen = 0, lost = 0;
     for (int i = 0; i < 600; i++) {
         int face = (int)(random01() * wr_surfaces[kind]->faces);
-        double u = random01(), v = random01();
+        const WrSurfaceCell c = wr_surface_cell(&scene->shape, face);
+        double u = c.u0 + (c.u1 - c.u0) * random01(), v = c.v0 + (c.v1 - c.v0) * random01();
         WrPatchSpot there, back;
         bool hidden;
         if (!wr_patch_pick_project(pick, face, u, v, &there, &hidden) || hidden) continue;
@@ -106,7 +108,8 @@ static void what_is_seen_is_found_under_its_pixel_on_every_surface(void **state)
 {
     (void)state;
     for (int kind = 0; kind < WR_SURFACE_COUNT; kind++)
-        for (int o = 0; o < 2; o++) check_round_trip((WrSurfaceKind)kind, o);
+        for (int o = 0; o < 2; o++) check_round_trip((WrSurfaceKind)kind, o, false);
+    check_round_trip(WR_SURFACE_cube, false, true);
 }
 
 static void it_finds_what_the_renderer_shows_there(void **state)

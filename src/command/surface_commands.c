@@ -346,8 +346,12 @@ const WrCommand wr_command_surface = {
     .print = print_surface,
     .of_object = true,
     .help = "the surface that the table wrinkles",
-    .details = "Parameters that are left out take their defaults. A mesh without a file "
-               "is a square of two triangles.",
+    .details =
+        "Parameters that are left out take their defaults. A mesh without a file is a square of "
+        "two triangles. On a cube faces=6 gives each face a cell of its own of the table, three "
+        "beside two from the lower left (front, right, back; left, top, bottom), within a margin "
+        "of a 32nd: in cells of 64 texels and more no scheme but bspline-fit, and no filter, "
+        "reads another face's heights.",
     .example = "surface torus R=1 r=0.35"
 };
 
