@@ -12,6 +12,7 @@
 #include "render/frame.h"
 #include "render/plan.h"
 #include "scene/param.h"
+#include "scene/preset.h"
 #include "scene/scene.h"
 
 #include <string.h>
@@ -124,6 +125,53 @@ static void each_is_set_by_its_command_and_printed_again(void **state)
     }
 }
 
+/* ---- presets ---- */
+
+static void assert_material(const WrMaterial *have, const WrMaterial *want, const char *what)
+{
+    if (have->model != want->model || have->energy != want->energy || have->gate != want->gate ||
+        memcmp(&have->colour, &want->colour, sizeof have->colour) != 0)
+        fail_msg("%s: another model or colour", what);
+    assert_true(have->ambient == want->ambient && have->diffuse == want->diffuse);
+    assert_true(have->specular == want->specular && have->shininess == want->shininess);
+    assert_true(have->roughness == want->roughness && have->metalness == want->metalness);
+    assert_true(have->ior == want->ior && have->tint == want->tint);
+}
+
+/* Each replaces all that another material had, comes back from its lines, and what else is given comes after it; no
+   white surface of it gives back more than it gets. */
+static void a_preset_is_a_whole_material(void **state)
+{
+    (void)state;
+    const char *const other[] = { "material model=phong tint=0.7 gate=off ior=2.5 ambient=0.9 "
+                                  "metalness=0.25 energy=published colour=0.1,0.2,0.3",
+                                  NULL };
+    for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
+        const WrMaterialPreset *preset = &wr_material_presets[i];
+        WrText line = { 0 };
+        WrSession *session = session_of(other);
+        wr_text_addf(&line, "material preset=%s", preset->name);
+        must_run(session, wr_text_get(&line));
+        assert_material(&doc(session)->scene->material, &preset->material, preset->name);
+        WrSession *again = restored(doc(session)->scene);
+        assert_material(&doc(again)->scene->material, &preset->material, preset->name);
+        wr_text_add(&line, " roughness=0.71");
+        must_run(session, wr_text_get(&line));
+        assert_true(doc(session)->scene->material.roughness == 0.71);
+        assert_true(preset->material.energy == WR_ENERGY_KEPT);
+        for (int c = 0; c < 3; c++) {
+            const double colour = (&preset->material.colour.x)[c];
+            assert_true(colour >= 0 && colour <= 1);
+        }
+        wr_session_free(again);
+        wr_session_free(session);
+        wr_text_fini(&line);
+    }
+    WrSession *session = session_of(other);
+    must_fail(session, "material preset=goldd", "must be one of usual, clay");
+    wr_session_free(session);
+}
+
 /* ---- the plan ---- */
 
 static WrPlan plan_of(WrRenderer *renderer, const WrField *field, const WrScene *scene)
@@ -199,6 +247,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ranges_defaults_and_words_are_sound),
         cmocka_unit_test(each_is_set_by_its_command_and_printed_again),
+        cmocka_unit_test(a_preset_is_a_whole_material),
         cmocka_unit_test(the_plan_looks_at_what_says_so_and_at_nothing_else),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Pictures on the object, chosen in the scene's tab under an X server of its own: a normal map is found, read, changed and taken
+# A material, and pictures on the object, chosen in the scene's tab under an X server of its own: a normal map is found, read, changed and taken
 # off; a colour picture likewise.  window_maps.sh PROGRAM SOURCE-FOLDER
 set -uo pipefail
 program=$1
@@ -30,7 +30,16 @@ start plain.wrinkle
 patch=400x400+526+200
 xdotool mousemove $((X + 1000)) $((Y + 300))
 rest
-for _ in 1 2 3 4 5; do xdotool click 5 && rest; done
+for _ in 1 2 3 4; do xdotool click 5 && rest; done
+# The list of materials, and its second from the right below: gold.
+click 1075 201
+rest
+click 1045 450
+becomes 'material preset=gold' "a material that was chosen by its picture"
+key ctrl+z
+rest
+xdotool mousemove $((X + 1000)) $((Y + 300)) click 5
+rest
 shot before
 # The folders of the two rows: eleven bright pixels above one another, where no other row has as many or as few.
 read -r colours normals < <(convert before.ppm -crop 1x860+1167+0 +repage -colorspace gray -depth 8 txt:- |

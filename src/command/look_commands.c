@@ -9,6 +9,7 @@
 #include "command/scene_args.h"
 #include "document/document.h"
 #include "document/document_file.h"
+#include "scene/preset.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -46,8 +47,10 @@ static bool run_material(WrSession *session, WrCall *call, WrError *err)
 {
     (void)err;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    wr_scene_take(call, NULL, scene);
     WrMaterial *m = &scene->material;
+    if (wr_call_given(call, "preset"))
+        *m = wr_material_presets[wr_call_choice(call, "preset")].material;
+    wr_scene_take(call, NULL, scene);
     if (wr_call_given(call, "model")) m->model = (WrReflect)wr_call_choice(call, "model");
     if (wr_call_given(call, "energy")) m->energy = (WrEnergy)wr_call_choice(call, "energy");
     wr_session_replace_scene(session, scene);
@@ -137,9 +140,18 @@ static const char *energy_choice(int i)
     return i < WR_ENERGY_COUNT ? wr_energies[i] : NULL;
 }
 
+static const char *preset_choice(int i)
+{
+    return i < WR_MATERIAL_PRESETS ? wr_material_presets[i].name : NULL;
+}
+
 static bool row_material(WrForm *out)
 {
-    *out = (WrForm){ .args = { { .name = "model",
+    *out = (WrForm){ .args = { { .name = "preset",
+                                 .type = WR_ARG_CHOICE,
+                                 .choice = preset_choice,
+                                 .help = "all of it at once, before what else is given" },
+                               { .name = "model",
                                  .type = WR_ARG_CHOICE,
                                  .choice = model_choice,
                                  .help = "how light is reflected" },
@@ -148,7 +160,7 @@ static bool row_material(WrForm *out)
                                  .choice = energy_choice,
                                  .help = "kept: never more light than came; published: as the "
                                          "model's source has it" } } };
-    return wr_scene_args("material", NULL, out->args + 2) > 0;
+    return wr_scene_args("material", NULL, out->args + 3) > 0;
 }
 
 static const char *tolerance_off(int i)

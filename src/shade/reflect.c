@@ -21,7 +21,7 @@ const WrReflectInfo wr_reflects[WR_REFLECT_COUNT] = {
     [WR_ROW(WR_REFLECT_OREN_NAYAR)] = { "oren-nayar", "Oren-Nayar",
                                         "small matt facets, no highlight: clay, the moon",
                                         .roughness = true, .energies = true },
-    [WR_ROW(WR_REFLECT_GGX)] = { "ggx", "GGX, metal and roughness",
+    [WR_ROW(WR_REFLECT_GGX)] = { "ggx", "GGX",
                                  "small mirrors over diffuse light, or of metal: as in glTF",
                                  .shines = true, .roughness = true, .metalness = true, .ior = true,
                                  .energies = true },

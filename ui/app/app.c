@@ -33,6 +33,7 @@
 #include "ui/panels/panel_status.h"
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/panel_presets.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/pen/pen.h"
@@ -120,6 +121,7 @@ void wr_app_end(WrApp *app)
     wr_thumbs_free(app);
     wr_shelf_free(app);
     wr_stamp_forget(app);
+    wr_presets_free(app);
     wr_gallery_free(app);
     wr_generate_free(app);
     wr_guide_free(app);

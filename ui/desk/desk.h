@@ -41,6 +41,7 @@ typedef struct WrPatch WrPatch;
 typedef struct WrPatchPaint WrPatchPaint;
 typedef struct WrPen WrPen;
 typedef struct WrPointer WrPointer;
+typedef struct WrPresetTiles WrPresetTiles;
 typedef struct WrPreview WrPreview;
 typedef struct WrRecovery WrRecovery;
 typedef struct WrReplace WrReplace;
@@ -126,6 +127,7 @@ struct WrApp {
     WrLayersHand *layers;
     WrSurfaceHand *surface;
     WrObjectsHand *objects;
+    WrPresetTiles *presets; /* owned; NULL until their list is drawn */
     WrAdjust *adjust;
     WrOutlineAsk *selecting; /* of the dialogs that change the selection */
     WrFinder *finder;

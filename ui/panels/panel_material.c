@@ -3,6 +3,7 @@
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/panels/panel_presets.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
@@ -82,6 +83,7 @@ static void material(WrApp *app)
     const WrSceneParam *param;
     wr_gui_space(8);
     wr_gui_heading("MATERIAL");
+    wr_panel_presets(app);
     reflection(app);
     const WrReflectInfo *model = &wr_reflects[wr_app_scene(app)->material.model];
     for (int i = 0; (param = wr_scene_param("material", NULL, i)) != NULL; i++)

@@ -1,0 +1,178 @@
+/* Materials to begin with: a sphere of each, rendered as the patch is, one in each picture of the window. */
+#include "ui/panels/panel_presets.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "command/session.h"
+#include "image/image.h"
+#include "render/frame.h"
+#include "scene/preset.h"
+
+#include <SDL.h>
+#include <string.h>
+
+#define TILE_UNITS 64
+#define COLUMNS 4
+#define GROUND 0.012f /* linear; the list's own */
+
+struct WrPresetTiles {
+    WrSession *session; /* of the pictures; NULL: not yet */
+    SDL_Texture *texture[WR_MATERIAL_PRESETS];
+    int made; /* that many were tried */
+    int side; /* pixels */
+};
+
+static const char *const studio[] = {
+    "table 4x4",
+    "surface sphere",
+    "camera orthographic eye=0,0,5 size=2.1",
+    "light clear",
+    "light directional to=-0.5,0.7,0.7 strength=0.9",
+    "light directional to=0.9,0.1,0.25 strength=0.5",
+    "light directional to=-0.8,-0.5,0.1 strength=0.25",
+    "dials aa=supersample samples=4",
+};
+
+static bool start(WrPresetTiles *tiles, WrError *err)
+{
+    tiles->session = wr_session_new(NULL);
+    bool good = true;
+    for (size_t i = 0; good && i < sizeof studio / sizeof *studio; i++)
+        good = wr_session_run(tiles->session, studio[i], err);
+    return good;
+}
+
+/* Over the ground, where the sphere is not. */
+static void fill_over(const WrFrame *frame, size_t count, float *rgb)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < 3; c++)
+            rgb[3 * i + c] =
+                wr_srgb_encode(frame->rgba[4 * i + c] + (1 - frame->rgba[4 * i + 3]) * GROUND);
+}
+
+static SDL_Texture *texture_of(SDL_Renderer *renderer, const WrFrame *frame, int side)
+{
+    const size_t count = (size_t)side * (size_t)side;
+    float *rgb = wr_alloc(3 * count, sizeof *rgb);
+    uint8_t *codes = wr_alloc(3 * count, 1);
+    fill_over(frame, count, rgb);
+    wr_image_codes(WR_PIXEL_U8, rgb, 3 * count, codes, NULL);
+    SDL_Texture *texture =
+        SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STATIC, side, side);
+    if (texture) SDL_UpdateTexture(texture, NULL, codes, side * 3);
+    wr_free(rgb);
+    wr_free(codes);
+    return texture;
+}
+
+/* The next picture that is missing. */
+static void make_one(const WrApp *app, WrPresetTiles *tiles)
+{
+    WrError err;
+    WrFrame frame;
+    WrText line = { 0 };
+    const int i = tiles->made++;
+    wr_text_addf(&line, "material preset=%s", wr_material_presets[i].name);
+    if ((tiles->session || start(tiles, &err)) &&
+        wr_session_run(tiles->session, wr_text_get(&line), &err) &&
+        wr_session_frame(tiles->session, tiles->side, tiles->side, 0, &frame, &err))
+        tiles->texture[i] = texture_of(app->renderer, &frame, tiles->side);
+    wr_text_fini(&line);
+}
+
+static void forget(WrApp *app)
+{
+    WrPresetTiles *tiles = app->presets;
+    if (!tiles) return;
+    for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
+        if (tiles->texture[i]) SDL_DestroyTexture(tiles->texture[i]);
+        tiles->texture[i] = NULL;
+    }
+    tiles->made = 0;
+}
+
+void wr_presets_free(WrApp *app)
+{
+    if (!app->presets) return;
+    forget(app);
+    if (app->presets->session) wr_session_free(app->presets->session);
+    wr_free(app->presets);
+    app->presets = NULL;
+}
+
+const WrPart wr_part_presets = { .forget = forget };
+
+/* ---- the list ---- */
+
+/* The preset whose numbers the material has, or -1. */
+static int chosen(const WrMaterial *material)
+{
+    for (int i = 0; i < WR_MATERIAL_PRESETS; i++) {
+        const WrMaterial *m = &wr_material_presets[i].material;
+        if (m->model == material->model && m->energy == material->energy &&
+            m->ambient == material->ambient && m->diffuse == material->diffuse &&
+            m->specular == material->specular && m->shininess == material->shininess &&
+            memcmp(&m->colour, &material->colour, sizeof m->colour) == 0 &&
+            m->roughness == material->roughness && m->metalness == material->metalness &&
+            m->ior == material->ior && m->tint == material->tint && m->gate == material->gate)
+            return i;
+    }
+    return -1;
+}
+
+static bool tile(const WrPresetTiles *tiles, int i, bool at_hand)
+{
+    const double side = wr_gui_px(TILE_UNITS);
+    const WrMaterialPreset *preset = &wr_material_presets[i];
+    if (i % COLUMNS) wr_gui_same_line(8);
+    wr_gui_push_id(i);
+    wr_gui_group_begin();
+    const bool pressed = wr_gui_tile("tile", tiles->texture[i], side, at_hand, false) == 1;
+    wr_gui_tip(preset->help);
+    wr_gui_space(-4);
+    wr_gui_text_cut(WR_FONT_SMALL, at_hand ? WR_COLOUR_TEXT : WR_COLOUR_LABEL, preset->title, side);
+    wr_gui_group_end();
+    wr_gui_pop_id();
+    return pressed;
+}
+
+static void list(WrApp *app, WrPresetTiles *tiles, int at_hand)
+{
+    if (!wr_gui_popup_begin("materials")) return;
+    const int side = wr_gui_px(TILE_UNITS);
+    if (side != tiles->side) forget(app);
+    tiles->side = side;
+    if (tiles->made < WR_MATERIAL_PRESETS) {
+        make_one(app, tiles);
+        wr_app_redraw(app);
+    }
+    wr_gui_width_at_least(COLUMNS * (TILE_UNITS + 8) + 12);
+    int pressed = -1;
+    for (int i = 0; i < WR_MATERIAL_PRESETS; i++)
+        if (tile(tiles, i, i == at_hand)) pressed = i;
+    if (pressed >= 0) {
+        WrText line = { 0 };
+        wr_text_addf(&line, "material preset=%s", wr_material_presets[pressed].name);
+        wr_scene_run(app, &line);
+        wr_text_fini(&line);
+    }
+    if (pressed >= 0 || wr_gui_escape_pressed()) wr_gui_popup_close();
+    wr_gui_popup_end();
+}
+
+void wr_panel_presets(WrApp *app)
+{
+    if (!app->presets) app->presets = wr_alloc(1, sizeof *app->presets);
+    const int at_hand = chosen(&wr_app_scene(app)->material);
+    wr_gui_label("Material");
+    if (wr_gui_button(at_hand >= 0 ? wr_material_presets[at_hand].title : "of your own", false))
+        wr_gui_popup_open("materials");
+    wr_gui_tip("Clay, stone, gold and others, as pictures: a click takes all of their numbers");
+    list(app, app->presets, at_hand);
+}
