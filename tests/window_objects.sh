@@ -48,9 +48,15 @@ key ctrl+q
 ends 0
 
 # The profile's curve in the scene's panel: a point that is dragged is one step.
-printf '%s\n' 'surface revolution' 'dials aa=point' >vase.wrinkle
+printf '%s\n' 'surface revolution' 'dials aa=point' 'background none' >vase.wrinkle
 printf '%s\n' 'width 1200' 'height 800' 'turning 0' 'ants 0' 'tab 1' 'lower 0.1' >config/wrinkle/window.conf
 start vase.wrinkle
+# Where its picture has nothing there are squares of two greys, as many of the one as of the other.
+shot bare
+for grey in '#999999' '#656565'; do
+    seen=$(convert bare.ppm -fill black +opaque "$grey" -fill white -opaque "$grey" -format '%[fx:int(mean*w*h)]' info:)
+    [[ $seen -gt 20000 ]] || complain "nothing behind the vase: only $seen pixels of $grey"
+done
 drag 1127 402 -3 1 10
 becomes 'surface revolution profile=*' "a point of the profile was dragged"
 read -r r < <(newest | sed -E 's/[^;]*;[^;]*;[^;]*;([-0-9.]+),.*/\1/')

@@ -1,5 +1,6 @@
 #include "ui/preview/preview.h"
 #include "ui/preview/accuracy_choice.h"
+#include "ui/preview/chequer.h"
 #include "ui/preview/picture_ran.h"
 #include "ui/jobs/thread.h"
 
@@ -236,8 +237,8 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .dials = &dials,
                                .keep = level > WR_PREVIEW_MOVING,
                                .cancel = &preview->cancel };
-    request.codes.wanted = true;
     request.codes.background = wish->scene->background;
+    request.codes.wanted = request.codes.background.kind != WR_BACKGROUND_NONE;
     WrFrame frame;
     WrPreviewPicture *out = preview->work;
     out->chosen.any = false;
@@ -256,6 +257,8 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     else if (frame.codes)
         memcpy(out->bgra, frame.codes, 4 * (size_t)frame.width * (size_t)frame.height);
     else wr_frame_to_srgb8(&frame, &request.codes.background, true, out->bgra, pool);
+    if (!wish->ran && wish->scene->background.kind == WR_BACKGROUND_NONE && frame.rgba)
+        wr_chequer_behind(&frame, scale, (uint8_t *)out->bgra);
     out->level = level;
     out->way = way;
     out->scale = scale;

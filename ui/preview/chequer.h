@@ -1,0 +1,9 @@
+/* chequer.h - the squares that show where a picture in the window has nothing. */
+#pragma once
+#include <stdint.h>
+
+typedef struct WrFrame WrFrame;
+
+/* Put light and dark squares behind a picture of floats, whose codes are [height][width] B,G,R,A. scale: the picture's
+ * pixels to one of the window's; a square is 8 of these wide. Pixels that are wholly covered keep their codes. */
+void wr_chequer_behind(const WrFrame *frame, double scale, uint8_t *bgra);
