@@ -240,7 +240,7 @@ static void terrains_are_smooth(void **state)
     const float *const all[] = { level, ramp, rough };
     for (int k = 0; k < 3; k++) {
         const WrTerrain terrain = {
-            .heights = all[k], .w = 12, .h = 8, .a = 3, .b = 2, .height = 0.5, .cells = 12
+            .ctx = all[k], .w = 12, .h = 8, .a = 3, .b = 2, .height = 0.5, .cells = 12
         };
         WrError err = { "" };
         float(*points)[48];

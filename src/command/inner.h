@@ -12,6 +12,7 @@
 #include "document/tables.h"
 #include "document/views.h"
 #include "image/image.h"
+#include "scene/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -154,6 +155,12 @@ bool wr_session_reads_back(WrSession *session, const char *path, WrError *err);
 
 /* ---- what commands change ---- */
 
+/* The triangles of `surface terrain file=`, and what is told of them; what its layer= does. */
+WrTriangles *wr_terrain_read(const char *path, const WrShape *shape, WrError *err);
+void wr_terrain_note(WrSession *session, const char *path, const WrTriangles *mesh);
+bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
+/* Terrains take the form of their layers, where those have changed. Called when a command, or a stroke, is done. */
+bool wr_session_follow(WrSession *session, WrError *err);
 /* The layer that edits change. NULL and an error if it is locked or not shown. */
 WrLayer *wr_session_layer(WrSession *session, WrError *err);
 /* "layer 2 \"moss\"": how messages name a layer. */

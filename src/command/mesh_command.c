@@ -7,12 +7,10 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "command/scene_args.h"
-#include "image/image.h"
 #include "image/mesh.h"
 #include "document/document.h"
 #include "scene/scene.h"
 #include "surface/patches.h"
-#include "surface/terrain.h"
 #include "surface/triangles.h"
 
 #include <string.h>
@@ -130,39 +128,6 @@ static WrTriangles *read_patches(const char *path, WrPatchTable table, WrError *
     return made;
 }
 
-static WrTriangles *read_terrain(const char *path, const WrShape *shape, WrError *err)
-{
-    WrImage *image = wr_image_read(path, err);
-    if (!image) return NULL;
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    const size_t channels = (size_t)image->channels;
-    float *heights = wr_try_alloc(pixels, sizeof *heights, "a terrain", err), (*points)[48] = NULL;
-    for (size_t i = 0; i < pixels && heights; i++)
-        heights[i] = wr_image_luma(image->data + i * channels, (int)channels);
-    const WrTerrain terrain = { .heights = heights,
-                                .w = image->width,
-                                .h = image->height,
-                                .a = shape->value[0],
-                                .b = shape->value[1],
-                                .height = shape->value[2],
-                                .cells = (int)shape->value[3] };
-    int columns, rows;
-    WrTriangles *made = NULL;
-    if (heights && wr_terrain_points(&terrain, &points, &columns, &rows, err))
-        made = wr_patches_new((const float(*)[48])points, columns * rows, WR_PATCH_SPLIT, err);
-    wr_free(points);
-    wr_free(heights);
-    wr_image_free(image);
-    return made;
-}
-
-static void note_terrain(WrSession *session, const char *path, const WrTriangles *mesh)
-{
-    const WrPatches *set = mesh->patches;
-    wr_session_note(session, "%s: %d x %d patches in %d triangles", path, (int)set->columns,
-                    (int)set->rows, (int)mesh->triangle_count);
-}
-
 /* HC152: what is open, drawn together or creased is told, since none of it shows at once. */
 static void note_patches(WrSession *session, const char *path, const WrTriangles *mesh)
 {
@@ -194,7 +159,7 @@ static void note_patches(WrSession *session, const char *path, const WrTriangles
 static WrTriangles *read_held(const WrCall *call, const WrShape *shape, const char *path,
                               WrError *err)
 {
-    if (shape->kind == WR_SURFACE_terrain) return read_terrain(path, shape, err);
+    if (shape->kind == WR_SURFACE_terrain) return wr_terrain_read(path, shape, err);
     if (shape->kind == WR_SURFACE_mesh) return read_triangles(path, err);
     return read_patches(path, (WrPatchTable)wr_call_choice(call, "table"), err);
 }
@@ -202,7 +167,7 @@ static WrTriangles *read_held(const WrCall *call, const WrShape *shape, const ch
 static void note_held(WrSession *session, WrSurfaceKind kind, const char *path,
                       const WrTriangles *mesh)
 {
-    if (kind == WR_SURFACE_terrain) note_terrain(session, path, mesh);
+    if (kind == WR_SURFACE_terrain) wr_terrain_note(session, path, mesh);
     else if (kind == WR_SURFACE_mesh) note_mesh(session, path, mesh);
     else note_patches(session, path, mesh);
 }
@@ -255,6 +220,8 @@ static bool run_table(const WrSession *session, const WrCall *call, WrScene *sce
 
 bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
 {
+    if (scene->shape.kind == WR_SURFACE_terrain && wr_call_given(call, "layer"))
+        return wr_terrain_take_layer(session, call, scene, err);
     if (!wr_call_given(call, "file")) {
         if (wr_call_given(call, "sha256")) return wr_fail(err, "sha256= belongs to a file=");
         const bool table = scene->shape.kind == WR_SURFACE_patches && wr_call_given(call, "table");
@@ -269,6 +236,11 @@ bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
 
 void wr_print_mesh(const WrScene *scene, bool content, WrText *text)
 {
+    if (scene->form_layer) {
+        wr_text_add(text, " layer=");
+        wr_text_add_word(text, scene->form_layer);
+        return;
+    }
     if (!scene->triangles) return;
     if (!content || !*scene->triangles_sha256) {
         wr_text_add(text, " file=");
@@ -297,6 +269,13 @@ void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args)
     args[1] = (WrArgSpec){ .name = "sha256",
                            .type = WR_ARG_SHA256,
                            .help = "of the file: another content is then an error" };
+    if (kind == WR_SURFACE_terrain)
+        args[2] = (WrArgSpec){ .name = "layer",
+                               .type = WR_ARG_TEXT,
+                               .shape = "NAME",
+                               .help = "instead: its name or number, bottom 1; the layer is the "
+                                       "ground's form from now on, as it is painted, and hidden "
+                                       "as a bump" };
     if (kind == WR_SURFACE_patches)
         args[2] =
             (WrArgSpec){ .name = "table",

@@ -220,6 +220,7 @@ static bool run_call(WrSession *session, WrCall *call, WrError *err)
     good = run_edit(session, call, err);
     session->depth--;
     if (session->depth > 0) return good;
+    good = good && wr_session_follow(session, err);
     if (!good) wr_session_restore(session);
     else if (view) wr_history_look(session->state.history, session->state.document);
     else wr_session_remember(session, call);

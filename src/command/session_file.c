@@ -187,6 +187,7 @@ bool wr_session_load(WrSession *session, const char *path, WrError *err)
     session->depth--;
     if (!good) wr_error_prefix(err, "%s: ", path);
     session->loading = false;
+    good = good && wr_session_follow(session, err);
     session->embedded = NULL;
     session->embedded_mesh = NULL;
     wr_loaded_free_images(&loaded);

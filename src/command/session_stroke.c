@@ -103,11 +103,13 @@ bool wr_session_stroke_end(WrSession *session, WrError *err)
     wr_painting_end(session, &session->painting);
     WrCall *call = take_call(session);
     bool drawn = wr_call_given(call, "points");
+    const bool good = !drawn || wr_session_follow(session, err);
+    drawn = drawn && good;
     if (drawn) wr_session_remember(session, call);
     else wr_session_restore(session);
     wr_session_journal_stroke_end(session, drawn);
     wr_call_free(call);
-    return true;
+    return good;
 }
 
 void wr_session_stroke_cancel(WrSession *session)

@@ -129,6 +129,8 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
     if (data) wr_shape_take_data(&shape, data);
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     wr_scene_set_triangles(scene, NULL, NULL, NULL);
+    wr_free(scene->form_layer);
+    scene->form_layer = NULL;
     wr_scene_set_shape(scene, &shape);
     wr_surface_data_free(data);
     if (wr_surfaces[shape.kind]->held && !wr_run_mesh(session, call, scene, err)) {

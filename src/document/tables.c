@@ -32,6 +32,28 @@ static WrField *field_of(const WrDocument *document, int index, WrDocument **cac
     return field;
 }
 
+WrField *wr_document_layer_alone(const WrDocument *document, int index, WrPool *pool)
+{
+    return field_of(document, index, NULL, pool);
+}
+
+uint64_t wr_layer_key(const WrLayer *layer)
+{
+    uint32_t how[3] = { (uint32_t)layer->blend };
+    memcpy(how + 1, &layer->opacity, sizeof *how);
+    memcpy(how + 2, &layer->radius, sizeof *how);
+    const uint64_t part[] = { wr_field_key(layer->heights),
+                              layer->cover ? wr_field_key(layer->cover) : 0,
+                              layer->mask ? wr_field_key(layer->mask) : 0,
+                              how[0],
+                              how[1],
+                              how[2] };
+    uint64_t key = 1;
+    for (size_t i = 0; i < sizeof part / sizeof *part; i++)
+        key = (key ^ part[i]) * 0x9e3779b97f4a7c15U, key ^= key >> 32;
+    return key;
+}
+
 WrTables *wr_document_tables(const WrDocument *document, const WrScene *scene, WrTableCache *cache,
                              WrPool *pool)
 {

@@ -4,8 +4,10 @@
 #include "scene/objects.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct WrDocument WrDocument;
+typedef struct WrLayer WrLayer;
 typedef struct WrField WrField;
 typedef struct WrPool WrPool;
 
@@ -26,6 +28,9 @@ typedef struct WrTableCache {
    layer is gone has that too. cache may be NULL. */
 WrTables *wr_document_tables(const WrDocument *document, const WrScene *scene, WrTableCache *cache,
                              WrPool *pool);
+/* What layer `index` alone is; the caller owns it. And a number that tells whether that may be another by now. */
+WrField *wr_document_layer_alone(const WrDocument *document, int index, WrPool *pool);
+uint64_t wr_layer_key(const WrLayer *layer);
 WrTables *wr_tables_share(const WrTables *tables); /* NULL stays NULL */
 void wr_tables_free(WrTables *tables);             /* NULL is fine */
 bool wr_tables_same(const WrTables *a, const WrTables *b);

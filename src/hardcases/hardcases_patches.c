@@ -18,7 +18,7 @@ static float (*rough_points(WrHardGauge *g, int side, double height))[48]
     float heights[SIDE * SIDE * 4], (*points)[48];
     int columns, rows;
     for (int i = 0; i < SIDE * SIDE * 4; i++) heights[i] = wr_hard_float(g);
-    const WrTerrain terrain = { heights, 2 * SIDE, 2 * SIDE, 1, 1, height, side };
+    const WrTerrain terrain = { NULL, heights, 2 * SIDE, 2 * SIDE, 1, 1, height, side };
     return wr_terrain_points(&terrain, &points, &columns, &rows, NULL) ? points : NULL;
 }
 

@@ -112,6 +112,13 @@ WrScene *wr_scene_add_object(const WrScene *scene, bool copy)
     return made;
 }
 
+void wr_scene_set_object(WrScene *scene, int i, WrScene *object)
+{
+    WrScene **place = &scene->others[i < scene->chosen ? i : i - 1];
+    wr_scene_free(*place);
+    *place = object;
+}
+
 WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden)
 {
     WrScene *made = wr_scene_clone(scene);
@@ -119,17 +126,16 @@ WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden)
         made->hidden = hidden;
         return made;
     }
-    WrScene **place = &made->others[i < scene->chosen ? i : i - 1];
-    WrScene *other = wr_scene_clone(*place);
+    WrScene *other = wr_scene_clone(wr_scene_object(scene, i));
     other->hidden = hidden;
-    wr_scene_free(*place);
-    *place = other;
+    wr_scene_set_object(made, i, other);
     return made;
 }
 
 static bool wears(const WrScene *object, const char *layer)
 {
-    return object->layer && strcmp(object->layer, layer) == 0;
+    return (object->layer && strcmp(object->layer, layer) == 0) ||
+           (object->form_layer && strcmp(object->form_layer, layer) == 0);
 }
 
 bool wr_scene_wears(const WrScene *scene, const char *layer)
@@ -141,10 +147,17 @@ bool wr_scene_wears(const WrScene *scene, const char *layer)
     return false;
 }
 
-static void wear(WrScene *object, const char *layer)
+static void rename_one(char **name, const char *from, const char *to)
 {
-    wr_free(object->layer);
-    object->layer = wr_strdup(layer);
+    if (!*name || strcmp(*name, from) != 0) return;
+    wr_free(*name);
+    *name = wr_strdup(to);
+}
+
+static void wear(WrScene *object, const char *from, const char *to)
+{
+    rename_one(&object->layer, from, to);
+    rename_one(&object->form_layer, from, to);
 }
 
 WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const char *to)
@@ -153,11 +166,11 @@ WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const cha
     for (int i = 0; i < scene->other_count; i++) any |= wears(scene->others[i], from);
     if (!any) return NULL;
     WrScene *made = wr_scene_clone(scene);
-    if (wears(made, from)) wear(made, to);
+    wear(made, from, to);
     for (int i = 0; i < made->other_count; i++) {
         if (!wears(made->others[i], from)) continue;
         WrScene *other = wr_scene_clone(made->others[i]);
-        wear(other, to);
+        wear(other, from, to);
         wr_scene_free(made->others[i]);
         made->others[i] = other;
     }

@@ -26,8 +26,11 @@ WrScene *wr_scene_choose(const WrScene *scene, int i);
 /* One more object, at hand and without a name: as the one at hand, or as that of an empty document. */
 WrScene *wr_scene_add_object(const WrScene *scene, bool copy);
 WrScene *wr_scene_hide(const WrScene *scene, int i, bool hidden);
-bool wr_scene_wears(const WrScene *scene, const char *layer); /* does an object that is shown? */
-/* Objects that wear a layer of that name wear the other from now on; NULL where none does. */
+/* Another object (taken) in the place of object i, which is not at hand, of a scene that may be changed. */
+void wr_scene_set_object(WrScene *scene, int i, WrScene *object);
+/* Does an object that is shown, as its table or as its form? */
+bool wr_scene_wears(const WrScene *scene, const char *layer);
+/* Objects that wear a layer of that name, or have its form, wear the other from now on; NULL where none does. */
 WrScene *wr_scene_rename_layer(const WrScene *scene, const char *from, const char *to);
 /* All objects take the scheme, or the normals, of the one at hand: as a dial is turned of the whole scene. Normals of
  * another model (invariant) stay. */

@@ -89,6 +89,8 @@ WrScene *wr_scene_clone(const WrScene *scene)
     if (scene->triangles) clone->triangles = wr_triangles_share(scene->triangles);
     clone->triangles_path = wr_strdup(scene->triangles_path);
     memcpy(clone->triangles_sha256, scene->triangles_sha256, sizeof clone->triangles_sha256);
+    clone->form_layer = wr_strdup(scene->form_layer);
+    clone->form_key = scene->form_key;
     clone->name = wr_strdup(scene->name);
     clone->at = scene->at;
     clone->size = scene->size;
@@ -145,6 +147,7 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene->others);
     wr_triangles_free(scene->triangles);
     wr_free(scene->triangles_path);
+    wr_free(scene->form_layer);
     wr_free(scene->lights);
     wr_scene_drop_views(scene);
     wr_free(scene);

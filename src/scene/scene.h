@@ -19,6 +19,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct WrError WrError;
 typedef struct WrField WrField;
@@ -103,9 +104,12 @@ struct WrScene {
     WrTriangles *triangles; /* shared; NULL: the square of two (wr_triangles_square) */
     char *triangles_path;   /* as WrLaid's */
     char triangles_sha256[65];
-    char *name;  /* of the object; owned; NULL: it was given none */
-    WrVec3 at;   /* where the object's centre stands, world; within 1e9 */
-    double size; /* world units per unit of the object, 1e-9..1e9; of `sizes` the largest */
+    char *
+        form_layer; /* of a terrain: the document's layer whose heights it has; owned; NULL: a file's */
+    uint64_t form_key; /* of those heights when the triangles were made (wr_layer_key) */
+    char *name;        /* of the object; owned; NULL: it was given none */
+    WrVec3 at;         /* where the object's centre stands, world; within 1e9 */
+    double size;       /* world units per unit of the object, 1e-9..1e9; of `sizes` the largest */
     /* Along the object's axes, where they differ or are not above 0; the largest magnitude is 1e-9..1e9. 0,0,0: `size`
        along all. */
     WrVec3 sizes;

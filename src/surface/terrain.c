@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-#define KNOTS 67 /* of 64 cells and one beyond each end */
+#define MOST 1e29 /* of a height: patches go to 1e30 */
+#define KNOTS 67  /* of 64 cells and one beyond each end */
 
 /* The mean over [low, high) of the axis, in whole texels, at least the nearest. */
 static void span_of(double at, double half, int count, int *from, int *to)
@@ -15,16 +16,27 @@ static void span_of(double at, double half, int count, int *from, int *to)
     *to = (int)fmin(fmax(floor(at + half - 0.5), nearest), count - 1);
 }
 
-static double mean_at(const WrTerrain *t, double u, double v, int columns, int rows)
+/* The means about all knots, [rows + 1][columns + 1], v = 0 first; each row of heights is asked for once. */
+static void means_of(const WrTerrain *t, int columns, int rows, float *room, double *means)
 {
-    int i0, i1, j0, j1;
-    double sum = 0;
-    span_of(u * t->w, 0.5 * t->w / columns, t->w, &i0, &i1);
-    span_of((1 - v) * t->h, 0.5 * t->h / rows, t->h, &j0, &j1);
-    for (int j = j0; j <= j1; j++)
-        for (int i = i0; i <= i1; i++)
-            sum += (double)t->heights[(size_t)j * (size_t)t->w + (size_t)i];
-    return sum / ((double)(i1 - i0 + 1) * (j1 - j0 + 1));
+    for (int r = 0; r < t->h; r++) {
+        const float *row =
+            t->row ? t->row(t->ctx, r, room) : (const float *)t->ctx + (size_t)r * (size_t)t->w;
+        for (int k = 0; k < (columns + 1) * (rows + 1); k++) {
+            int i0, i1, j0, j1;
+            span_of((1 - (double)(k / (columns + 1)) / rows) * t->h, 0.5 * t->h / rows, t->h, &j0,
+                    &j1);
+            if (r < j0 || r > j1) {
+                k += columns - k % (columns + 1); /* none of this row of knots */
+                continue;
+            }
+            span_of((double)(k % (columns + 1)) / columns * t->w, 0.5 * t->w / columns, t->w, &i0,
+                    &i1);
+            double sum = r > j0 ? means[k] : 0;
+            for (int i = i0; i <= i1; i++) sum += (double)row[i];
+            means[k] = r < j1 ? sum : sum / ((double)(i1 - i0 + 1) * (j1 - j0 + 1));
+        }
+    }
 }
 
 /* The Bezier points of the spline with these coefficients, `step` apart; beyond the ends it runs on straight. */
@@ -44,13 +56,14 @@ static void spline_points(const double *knots, int cells, double *out, int step)
 }
 
 /* All points' heights, [3 rows + 1][3 columns + 1]. */
-static void spline_grid(const WrTerrain *t, int columns, int rows, double *grid)
+static void spline_grid(const WrTerrain *t, const double *means, int columns, int rows,
+                        double *grid)
 {
     const int wide = 3 * columns + 1;
     double knots[KNOTS];
     for (int j = 0; j <= rows; j++) {
         for (int i = 0; i <= columns; i++)
-            knots[i] = t->height * mean_at(t, (double)i / columns, (double)j / rows, columns, rows);
+            knots[i] = fmin(fmax(t->height * means[j * (columns + 1) + i], -MOST), MOST);
         spline_points(knots, columns, grid + (size_t)j * (size_t)wide, 1);
     }
     for (int i = 0; i < wide; i++) {
@@ -69,11 +82,15 @@ bool wr_terrain_points(const WrTerrain *t, float (**points)[48], int *columns, i
                        WrError *err)
 {
     const int across = cells_of(t, t->a), up = cells_of(t, t->b), wide = 3 * across + 1;
-    double *grid =
-        wr_try_alloc((size_t)wide * (size_t)(3 * up + 1), sizeof *grid, "a terrain", err);
+    const size_t points_at = (size_t)wide * (size_t)(3 * up + 1);
+    double *grid = wr_try_alloc(points_at + KNOTS * KNOTS, sizeof *grid, "a terrain", err);
+    float *room = grid ? wr_try_alloc((size_t)t->w, sizeof *room, "a terrain", err) : NULL;
     float(*out)[48] =
-        grid ? wr_try_alloc((size_t)across * (size_t)up, sizeof *out, "a terrain", err) : NULL;
-    if (out) spline_grid(t, across, up, grid);
+        room ? wr_try_alloc((size_t)across * (size_t)up, sizeof *out, "a terrain", err) : NULL;
+    if (out) {
+        means_of(t, across, up, room, grid + points_at);
+        spline_grid(t, grid + points_at, across, up, grid);
+    }
     for (int k = 0; out && k < 16 * across * up; k++) {
         const int patch = k / 16, x = 3 * (patch % across) + k % 4,
                   y = 3 * (patch / across) + k % 16 / 4;
@@ -82,6 +99,7 @@ bool wr_terrain_points(const WrTerrain *t, float (**points)[48], int *columns, i
         to[1] = (float)(t->b * y / (3 * up));
         to[2] = (float)grid[(size_t)y * (size_t)wide + (size_t)x] + 0.0f;
     }
+    wr_free(room);
     wr_free(grid);
     *points = out;
     *columns = across, *rows = up;

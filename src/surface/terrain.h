@@ -9,8 +9,12 @@
 
 typedef struct WrError WrError;
 
+/* Row j of the heights, from the top (v = 1), finite: in room [w], or wherever it is. */
+typedef const float *WrTerrainRow(const void *ctx, int j, float *room);
+
 typedef struct WrTerrain {
-    const float *heights; /* [h][w], the upper row first: v = 1; borrowed */
+    WrTerrainRow *row; /* NULL: ctx is const float [h][w], the upper row first */
+    const void *ctx;   /* borrowed */
     int w, h;
     double a, b, height; /* height: of 1 */
     int cells;           /* along the longer of a and b; 2..64 */
