@@ -1,0 +1,154 @@
+/* `surface terrain`: ground whose form is a picture's heights, or those of a layer of the document, which it follows. */
+#include "command/inner.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "command/scene_args.h"
+#include "document/document.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/objects.h"
+#include "surface/patches.h"
+#include "surface/terrain.h"
+#include "surface/triangles.h"
+
+#include <string.h>
+
+static const float *row_of_image(const void *ctx, int j, float *room)
+{
+    const WrImage *image = ctx;
+    const size_t channels = (size_t)image->channels, w = (size_t)image->width;
+    const float *from = image->data + (size_t)j * w * channels;
+    for (size_t i = 0; i < w; i++) room[i] = wr_image_luma(from + i * channels, (int)channels);
+    return room;
+}
+
+static const float *row_of_field(const void *ctx, int j, float *room)
+{
+    const WrField *field = ctx;
+    wr_field_read(field, 0, j, wr_field_width(field), 1, room, (size_t)wr_field_width(field));
+    return room;
+}
+
+static WrTriangles *made_of(WrTerrain terrain, const WrShape *shape, WrError *err)
+{
+    float(*points)[48];
+    int columns, rows;
+    terrain.a = shape->value[0], terrain.b = shape->value[1];
+    terrain.height = shape->value[2];
+    terrain.cells = (int)shape->value[3];
+    if (!wr_terrain_points(&terrain, &points, &columns, &rows, err)) return NULL;
+    WrTriangles *made =
+        wr_patches_new((const float(*)[48])points, columns * rows, WR_PATCH_SPLIT, err);
+    wr_free(points);
+    return made;
+}
+
+WrTriangles *wr_terrain_read(const char *path, const WrShape *shape, WrError *err)
+{
+    WrImage *image = wr_image_read(path, err);
+    if (!image) return NULL;
+    const WrTerrain terrain = {
+        .row = row_of_image, .ctx = image, .w = image->width, .h = image->height
+    };
+    WrTriangles *made = made_of(terrain, shape, err);
+    wr_image_free(image);
+    return made;
+}
+
+void wr_terrain_note(WrSession *session, const char *path, const WrTriangles *mesh)
+{
+    const WrPatches *set = mesh->patches;
+    wr_session_note(session, "%s: %d x %d patches in %d triangles", path, (int)set->columns,
+                    (int)set->rows, (int)mesh->triangle_count);
+}
+
+/* ---- of a layer ---------------------------------------------------------------------------------- */
+
+/* Form and bump are two layers: the form is left out of the joined heights, that nothing is there twice. */
+static bool hide_layer(WrSession *session, int index, const WrScene *scene, WrError *err)
+{
+    const WrScene *before = session->state.document->scene;
+    WrLayer *layer = &session->state.document->layers[index];
+    if (scene->layer && strcmp(scene->layer, layer->name) == 0)
+        return wr_fail(err, "the object wears that layer: its form must be another");
+    if (before->form_layer && strcmp(before->form_layer, layer->name) == 0) return true;
+    if (!layer->visible) return true;
+    layer->visible = false;
+    wr_session_note(session, "layer %d is hidden: it is the ground now, and no bump", index + 1);
+    return true;
+}
+
+bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
+{
+    const char *word = wr_call_arg(call, "layer")->text, *name = word;
+    int index;
+    if (wr_call_given(call, "file"))
+        return wr_fail(err, "file= and layer= do not go together: the form is of one of them");
+    if (!session->loading) {
+        if (!wr_session_find_layer(session, word, &index, err) ||
+            !hide_layer(session, index, scene, err))
+            return false;
+        name = session->state.document->layers[index].name;
+    } else if (session->embedded_mesh) { /* until the layers are asked */
+        WrTriangles *mesh = wr_scene_mesh_from_image(session->embedded_mesh, scene->chosen, err);
+        if (!mesh) return false;
+        wr_scene_set_triangles(scene, mesh, NULL, NULL);
+    }
+    scene->form_layer = wr_strdup(name);
+    return true;
+}
+
+static int layer_of(const WrDocument *document, const char *name)
+{
+    int i = document->layer_count - 1;
+    while (i >= 0 && strcmp(document->layers[i].name, name) != 0) i--;
+    return i;
+}
+
+/* Does object i have the form of a layer that is there, and that is another by now? Which. */
+static bool lags(const WrDocument *document, int i, int *index)
+{
+    const WrScene *object = wr_scene_object(document->scene, i);
+    if (!object->form_layer || object->shape.kind != WR_SURFACE_terrain) return false;
+    *index = layer_of(document, object->form_layer);
+    return *index >= 0 &&
+           (!object->triangles || object->form_key != wr_layer_key(&document->layers[*index]));
+}
+
+/* A clone, or NULL and an error. */
+static WrScene *followed(WrSession *session, int i, int index, WrError *err)
+{
+    const WrDocument *document = session->state.document;
+    const WrScene *object = wr_scene_object(document->scene, i);
+    WrField *heights = wr_document_layer_alone(document, index, session->options.pool);
+    const WrTerrain terrain = { .row = row_of_field,
+                                .ctx = heights,
+                                .w = wr_field_width(heights),
+                                .h = wr_field_height(heights) };
+    WrTriangles *made = made_of(terrain, &object->shape, err);
+    wr_field_free(heights);
+    if (!made) return NULL;
+    WrScene *clone = wr_scene_clone(object);
+    wr_scene_set_triangles(clone, made, NULL, NULL);
+    clone->form_key = wr_layer_key(&document->layers[index]);
+    return clone;
+}
+
+bool wr_session_follow(WrSession *session, WrError *err)
+{
+    for (int i = 0; i < wr_scene_object_count(session->state.document->scene); i++) {
+        const WrScene *scene = session->state.document->scene;
+        int index;
+        if (!lags(session->state.document, i, &index)) continue;
+        WrScene *object = followed(session, i, index, err);
+        if (!object) return false;
+        if (i != scene->chosen) {
+            WrScene *all = wr_scene_clone(scene);
+            wr_scene_set_object(all, i, object);
+            object = all;
+        }
+        wr_session_replace_scene(session, object);
+    }
+    return true;
+}
