@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "command/call.h"
+#include "document/document.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 #include "surface/data.h"
@@ -60,7 +61,12 @@ static void run_file(WrApp *app, const WrShape *shape, const char *const *text, 
         wr_text_addf(&line, " %s=", info->texts[k].name);
         wr_text_add_word(&line, text[k]);
     }
+    const char *layer = wr_app_scene(app)->form_layer;
     if (info->held) add_file(&line, shape, file, table);
+    if (shape->kind == WR_SURFACE_terrain && !*file && layer) {
+        wr_text_add(&line, " layer=");
+        wr_text_add_word(&line, layer);
+    }
     wr_scene_run(app, &line);
 }
 
@@ -69,6 +75,35 @@ void wr_surface_run(WrApp *app, const WrShape *shape, const char *const *text)
     int table;
     const char *file = file_of(app, shape->kind, &table);
     run_file(app, shape, text, file, table);
+}
+
+/* The layer that a terrain has its form of, or none: a file. */
+static void form_layer(WrApp *app)
+{
+    const WrScene *scene = wr_app_scene(app);
+    const WrDocument *document = wr_app_document(app);
+    const char *labels[1 + WR_LAYERS_MAX] = { "None" };
+    int which = 0;
+    for (int i = 0; i < document->layer_count; i++) {
+        labels[1 + i] = document->layers[i].name;
+        if (scene->form_layer && strcmp(scene->form_layer, labels[1 + i]) == 0) which = 1 + i;
+    }
+    wr_gui_label("Layer");
+    const bool chosen = wr_gui_choice("form layer", 0, labels, 1 + document->layer_count, &which);
+    wr_gui_tip(
+        "The layer that the ground has its form of: painting there raises hills, painting in "
+        "others wrinkles them");
+    if (!chosen) return;
+    WrText line = { 0 };
+    wr_text_add(&line, "surface terrain");
+    const double *value = scene->shape.value;
+    const WrSurfaceParam *p = wr_surfaces[WR_SURFACE_terrain]->params;
+    for (int k = 0; p[k].name; k++) {
+        wr_text_addf(&line, " %s=", p[k].name);
+        wr_text_add_number(&line, value[k]);
+    }
+    if (which > 0) wr_text_addf(&line, " layer=%d", which);
+    wr_scene_run(app, &line);
 }
 
 /* What a mesh, patches or a terrain are read from. */
@@ -91,6 +126,7 @@ static void surface_file(WrApp *app)
     if (left && wr_gui_escape_pressed()) hand->file_key = 0; /* taken anew */
     else if ((done || left) && *hand->file && strcmp(hand->file, file) != 0)
         run_file(app, shape, NULL, hand->file, table);
+    if (shape->kind == WR_SURFACE_terrain) form_layer(app);
     if (shape->kind != WR_SURFACE_patches || !*file) return;
     static const char *const labels[WR_PATCH_TABLES] = { "Whole", "Whole, joined", "Unfolded",
                                                          "Own cells" };
