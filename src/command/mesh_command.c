@@ -261,21 +261,12 @@ void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args)
     args[0] =
         (WrArgSpec){ .name = "file",
                      .type = WR_ARG_PATH,
-                     .help = kind == WR_SURFACE_terrain
-                                 ? "a picture, black low and white high; what is made of it "
-                                   "is saved inside the document"
-                                 : "the mesh, in its own unit and axes; it is saved inside the "
-                                   "document" };
+                     .help =
+                         "the mesh, in its own unit and axes; it is saved inside the document" };
     args[1] = (WrArgSpec){ .name = "sha256",
                            .type = WR_ARG_SHA256,
                            .help = "of the file: another content is then an error" };
-    if (kind == WR_SURFACE_terrain)
-        args[2] = (WrArgSpec){ .name = "layer",
-                               .type = WR_ARG_TEXT,
-                               .shape = "NAME",
-                               .help = "instead: its name or number, bottom 1; the layer is the "
-                                       "ground's form from now on, as it is painted, and hidden "
-                                       "as a bump" };
+    if (kind == WR_SURFACE_terrain) wr_form_terrain(args);
     if (kind == WR_SURFACE_patches)
         args[2] =
             (WrArgSpec){ .name = "table",

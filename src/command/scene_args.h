@@ -26,6 +26,7 @@ bool wr_scene_take_turn(const char *text, WrScene *scene, WrError *err);
 bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
 void wr_print_mesh(const WrScene *scene, bool content, WrText *text);
 void wr_form_mesh(WrSurfaceKind kind, WrArgSpec *args);
+void wr_form_terrain(WrArgSpec *args); /* what a terrain has otherwise, or besides: 0 and 2 */
 /* The line of `surface` by the content of its file, whatever its path. */
 void wr_print_surface_content(const WrScene *scene, WrText *text);
 void wr_scene_print_vec(WrVec3 v, WrText *text); /* "x,y,z" */

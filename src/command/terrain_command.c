@@ -152,3 +152,17 @@ bool wr_session_follow(WrSession *session, WrError *err)
     }
     return true;
 }
+
+void wr_form_terrain(WrArgSpec *args)
+{
+    args[0] = (WrArgSpec){ .name = "file",
+                           .type = WR_ARG_PATH,
+                           .help = "a picture, black low and white high; what is made of it is "
+                                   "saved inside the document" };
+    args[2] = (WrArgSpec){ .name = "layer",
+                           .type = WR_ARG_TEXT,
+                           .shape = "NAME",
+                           .help = "instead: its name or number, bottom 1; the layer is the "
+                                   "ground's form from now on, as it is painted, and hidden as "
+                                   "a bump" };
+}
