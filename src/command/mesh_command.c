@@ -220,7 +220,7 @@ static bool run_table(const WrSession *session, const WrCall *call, WrScene *sce
 
 bool wr_run_mesh(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
 {
-    if (scene->shape.kind == WR_SURFACE_terrain && wr_call_given(call, "layer"))
+    if (scene->shape.kind == WR_SURFACE_terrain && wr_terrain_names_layer(call))
         return wr_terrain_take_layer(session, call, scene, err);
     if (!wr_call_given(call, "file")) {
         if (wr_call_given(call, "sha256")) return wr_fail(err, "sha256= belongs to a file=");

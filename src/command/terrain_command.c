@@ -79,6 +79,11 @@ static bool hide_layer(WrSession *session, int index, const WrScene *scene, WrEr
     return true;
 }
 
+bool wr_terrain_names_layer(const WrCall *call)
+{
+    return wr_call_given(call, "layer");
+}
+
 bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrError *err)
 {
     const char *word = wr_call_arg(call, "layer")->text, *name = word;
