@@ -160,7 +160,10 @@ WrTriangles *wr_terrain_read(const char *path, const WrShape *shape, WrError *er
 void wr_terrain_note(WrSession *session, const char *path, const WrTriangles *mesh);
 bool wr_terrain_names_layer(const WrCall *call);
 bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrError *err);
-/* Terrains take the form of their layers, where those have changed. Called when a command, or a stroke, is done. */
+/* Is an object's colouring another by now? And its picture, made anew. */
+bool wr_colouring_lags(const WrSession *session, const WrScene *object);
+bool wr_colouring_make(const WrSession *session, WrScene *object, WrError *err);
+/* Terrains take the form of their layers, where those have changed, and colours by height follow. Called when a command, or a stroke, is done. */
 bool wr_session_follow(WrSession *session, WrError *err);
 /* The layer that edits change. NULL and an error if it is locked or not shown. */
 WrLayer *wr_session_layer(WrSession *session, WrError *err);

@@ -129,7 +129,7 @@ static WrImage *linear_colour(const WrImage *from, WrError *err)
 
 void wr_print_colour(const WrScene *scene, bool named, WrText *text)
 {
-    if (!scene->colour) return;
+    if (!scene->colour || scene->colouring.count > 0) return;
     wr_text_add(text, "colour");
     print_laid(&scene->colour_laid, named, text);
     wr_text_add(text, "\n");
@@ -145,7 +145,8 @@ static bool change_colour(WrSession *session, const WrCall *call, WrError *err)
 {
     static const char *const of_file[] = { "channel", "part", "sha256", NULL };
     const WrScene *now = session->state.document->scene;
-    if (!now->colour) return wr_fail(err, "the object has no colour picture: name a file");
+    if (!now->colour || now->colouring.count > 0)
+        return wr_fail(err, "the object has no colour picture: name a file");
     if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
     WrScene *scene = wr_scene_clone(now);
     take_repeat(call, &scene->colour_laid);
@@ -166,7 +167,7 @@ static bool run_colour(WrSession *session, WrCall *call, WrError *err)
     wr_image_free(image);
     if (!off && !colour) return false;
     WrScene *scene = wr_scene_clone(session->state.document->scene);
-    wr_image_free(scene->colour);
+    wr_scene_drop_colour(scene);
     scene->colour = colour;
     take_laid(call, off ? NULL : name, &scene->colour_laid);
     wr_session_replace_scene(session, scene);

@@ -121,11 +121,9 @@ static bool lags(const WrDocument *document, int i, int *index)
            (!object->triangles || object->form_key != wr_layer_key(&document->layers[*index]));
 }
 
-/* A clone, or NULL and an error. */
-static WrScene *followed(WrSession *session, int i, int index, WrError *err)
+static bool take_form(WrSession *session, WrScene *object, int index, WrError *err)
 {
     const WrDocument *document = session->state.document;
-    const WrScene *object = wr_scene_object(document->scene, i);
     WrField *heights = wr_document_layer_alone(document, index, session->options.pool);
     const WrTerrain terrain = { .row = row_of_field,
                                 .ctx = heights,
@@ -133,27 +131,40 @@ static WrScene *followed(WrSession *session, int i, int index, WrError *err)
                                 .h = wr_field_height(heights) };
     WrTriangles *made = made_of(terrain, &object->shape, err);
     wr_field_free(heights);
-    if (!made) return NULL;
-    WrScene *clone = wr_scene_clone(object);
-    wr_scene_set_triangles(clone, made, NULL, NULL);
-    clone->form_key = wr_layer_key(&document->layers[index]);
-    return clone;
+    if (!made) return false;
+    wr_scene_set_triangles(object, made, NULL, NULL);
+    object->form_key = wr_layer_key(&document->layers[index]);
+    return true;
+}
+
+/* Object i with another form, other colours or both. */
+static bool follow_object(WrSession *session, int i, int form, WrError *err)
+{
+    const WrScene *scene = session->state.document->scene;
+    WrScene *object = wr_scene_clone(wr_scene_object(scene, i)), *all = object;
+    const bool good =
+        (form < 0 || take_form(session, object, form, err)) &&
+        (!wr_colouring_lags(session, object) || wr_colouring_make(session, object, err));
+    if (!good) {
+        wr_scene_free(object);
+        return false;
+    }
+    if (i != scene->chosen) {
+        all = wr_scene_clone(scene);
+        wr_scene_set_object(all, i, object);
+    }
+    wr_session_replace_scene(session, all);
+    return true;
 }
 
 bool wr_session_follow(WrSession *session, WrError *err)
 {
     for (int i = 0; i < wr_scene_object_count(session->state.document->scene); i++) {
-        const WrScene *scene = session->state.document->scene;
-        int index;
-        if (!lags(session->state.document, i, &index)) continue;
-        WrScene *object = followed(session, i, index, err);
-        if (!object) return false;
-        if (i != scene->chosen) {
-            WrScene *all = wr_scene_clone(scene);
-            wr_scene_set_object(all, i, object);
-            object = all;
-        }
-        wr_session_replace_scene(session, object);
+        const WrScene *object = wr_scene_object(session->state.document->scene, i);
+        int form = -1;
+        if (!lags(session->state.document, i, &form)) form = -1;
+        if (form < 0 && !wr_colouring_lags(session, object)) continue;
+        if (!follow_object(session, i, form, err)) return false;
     }
     return true;
 }

@@ -238,7 +238,8 @@ const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES] = {
 
 WrImage *wr_object_picture(const WrScene *object, int which)
 {
-    return which == WR_OBJECT_COLOUR ? object->colour : object->normals.image;
+    if (which != WR_OBJECT_COLOUR) return object->normals.image;
+    return object->colouring.count > 0 ? NULL : object->colour; /* made again of the heights */
 }
 
 bool wr_object_any_picture(const WrScene *scene, int which)

@@ -83,6 +83,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->material = scene->material;
     clone->colour = scene->colour ? wr_image_share(scene->colour) : NULL;
     clone->colour_laid = laid_copy(&scene->colour_laid);
+    clone->colouring = scene->colouring;
     clone->normals = scene->normals;
     if (scene->normals.image) wr_image_share(scene->normals.image);
     clone->normals.laid = laid_copy(&scene->normals.laid);
@@ -117,6 +118,15 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->dials = from->dials;
     scene->tolerance = from->tolerance;
     scene->background = from->background;
+}
+
+void wr_scene_drop_colour(WrScene *scene)
+{
+    wr_image_free(scene->colour);
+    wr_free(scene->colour_laid.path);
+    scene->colour = NULL;
+    scene->colour_laid = (WrLaid){ 0 };
+    scene->colouring = (WrColouring){ 0 };
 }
 
 void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, double *rv)

@@ -11,6 +11,7 @@
 #include "field/scheme.h"
 #include "scene/background.h"
 #include "scene/camera.h"
+#include "scene/colouring.h"
 #include "scene/dials.h"
 #include "scene/normal_frame.h"
 #include "shade/bump_mode.h"
@@ -99,6 +100,7 @@ struct WrScene {
     WrMaterial material;
     WrImage *colour; /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
     WrLaid colour_laid;
+    WrColouring colouring; /* what that is made by, if by any (its path is NULL then) */
     WrNormalMap normals;
     /* Of a shape that is a mesh (wr_scene_set_triangles): */
     WrTriangles *triangles; /* shared; NULL: the square of two (wr_triangles_square) */
@@ -158,6 +160,8 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from);
 void wr_scene_free(WrScene *scene);
 /* Take a shape; what it borrows is shared from now on. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
+
+void wr_scene_drop_colour(WrScene *scene); /* no colour picture, and no colouring */
 
 /* How often a picture of the scene is laid over u and v. */
 void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, double *rv);

@@ -1,0 +1,44 @@
+/* colouring.h - colours that go by height and slope, of a terrain's form or of a table: sand below, meadows above, rock where it
+   is steep. They become a colour picture (WrScene.colour), which the renderer and its reference look up as any other.
+   Layer 4. Colours are linear. */
+#pragma once
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrImage WrImage;
+typedef struct WrPatches WrPatches;
+
+#define WR_STOPS_MAX 16
+
+typedef struct WrStop {
+    double height; /* as the table or the terrain's picture has it */
+    double rgb[3];
+} WrStop;
+
+/* What heights and slopes are of. */
+typedef enum WrColouringOf { WR_COLOURING_FORM, WR_COLOURING_TABLE, WR_COLOURINGS } WrColouringOf;
+extern const char *const wr_colouring_names[WR_COLOURINGS]; /* "form", "table" */
+
+typedef struct WrColouring {
+    int count; /* of stops, lowest first; 0: there is none */
+    WrStop stops[WR_STOPS_MAX];
+    bool steep; /* has its colour, which shows from slope[0] on, and alone from slope[1], degrees */
+    double steep_rgb[3], slope[2];
+    WrColouringOf of;
+    uint64_t key; /* of what the picture was made of; 0: it is to be made */
+} WrColouring;
+
+/* Water, sand, meadow, wood, rock and snow over 0..1. */
+void wr_colouring_default(WrColouring *out);
+/* The colour: even beyond the ends, straight between two stops, a step where two have one height; where it is steep mixed
+ * with that colour by t^2 (3 - 2 t). */
+void wr_colouring_at(const WrColouring *colouring, double height, double slope_deg, double rgb[3]);
+/* The picture of a terrain's patches, laid once over it; height: what the terrain made of 1. */
+WrImage *wr_colouring_form(const WrColouring *colouring, const WrPatches *set, double height, int w,
+                           int h, WrError *err);
+/* The picture of a table, texel by texel; its slopes are those of central differences where the table lies on a square of
+ * one unit. height: of 1. */
+WrImage *wr_colouring_table(const WrColouring *colouring, const WrField *field, double height,
+                            WrError *err);
