@@ -1,4 +1,4 @@
-/* `surface terrain layer=`: ground of a layer's form. After whatever edits, picture, form and hash are those of a session that
+/* `surface terrain layer=`: ground of a layer's form, coloured by its height. After whatever edits, picture, form and hash are those of a session that
    makes the same anew; what is form is no bump. */
 #include "test.h"
 #include "test_folder.h"
@@ -23,11 +23,11 @@ static const WrScene *scene_in(const WrSession *session)
 
 static WrSession *ground(void)
 {
-    return session_of((const char *const[]){ "table 50x38", "layer add hill",
-                                             "dab 0.3,0.6 radius=14 strength=0.7", "layer add fine",
-                                             "noise perlin cells=6 amplitude=0.4",
-                                             "surface terrain layer=hill cells=5 height=0.35 b=0.8",
-                                             "bump scheme=bspline height=0.03", NULL });
+    return session_of((const char *const[]){
+        "table 50x38", "layer add hill", "dab 0.3,0.6 radius=14 strength=0.7", "layer add fine",
+        "noise perlin cells=6 amplitude=0.4",
+        "surface terrain layer=hill cells=5 height=0.35 b=0.8", "bump scheme=bspline height=0.03",
+        "colouring ramp steep=0.3,0.2,0.1", NULL });
 }
 
 static float *picture_of(WrSession *session)
@@ -186,6 +186,7 @@ static void each_object_has_its_own_form(void **state)
     WrSession *s = ground();
     must_run(s, "object copy second at=1.5,0,0");
     must_run(s, "surface terrain layer=base cells=4");
+    must_run(s, "colouring ramp of=table");
     must_run(s, "layer use hill");
     const uint64_t own = scene_in(s)->triangles->key,
                    first = wr_scene_object(scene_in(s), 0)->triangles->key;
@@ -193,6 +194,9 @@ static void each_object_has_its_own_form(void **state)
     assert_true(scene_in(s)->triangles->key == own);
     assert_true(wr_scene_object(scene_in(s), 0)->triangles->key != first);
     assert_as_anew(s, "two objects");
+    must_run(s, "layer use fine");
+    must_run(s, "dab 0.3,0.7 radius=9 strength=0.7");
+    assert_as_anew(s, "two objects' colours");
     wr_session_free(s);
 }
 

@@ -187,9 +187,12 @@ void wr_panel_maps(WrApp *app)
     wr_gui_space(8);
     wr_gui_heading("PICTURES");
     wr_gui_push_id(1);
-    file_row(app, &colour, wr_app_scene(app)->colour, &wr_app_scene(app)->colour_laid);
-    if (wr_app_scene(app)->colour) repeat_row(app, &colour, &wr_app_scene(app)->colour_laid);
+    const bool ramp = wr_app_scene(app)->colouring.count > 0;
+    if (!ramp) file_row(app, &colour, wr_app_scene(app)->colour, &wr_app_scene(app)->colour_laid);
+    if (wr_app_scene(app)->colour && !ramp)
+        repeat_row(app, &colour, &wr_app_scene(app)->colour_laid);
     wr_gui_pop_id();
+    wr_panel_colouring(app);
     wr_gui_push_id(2);
     file_row(app, &normals, wr_app_scene(app)->normals.image, &wr_app_scene(app)->normals.laid);
     if (wr_app_scene(app)->normals.image) normal_rows(app);

@@ -1,0 +1,148 @@
+/* Colours by height and slope: a row for each stop, with its height and its colour. Every act is a command line. */
+#include "ui/desk/desk.h"
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/panels/panels.h"
+
+#include "base/text.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void add_rgb(WrText *line, const double rgb[3])
+{
+    for (int c = 0; c < 3; c++) {
+        if (c > 0) wr_text_add(line, ",");
+        wr_text_add_number(line, rint(rgb[c] * 1e4) / 1e4);
+    }
+}
+
+/* Let go: the whole ramp as one line. */
+static void run_ramp(WrApp *app, const WrColouring *own)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "colouring ramp stops=");
+    for (int i = 0; i < own->count; i++) {
+        if (i > 0) wr_text_add(&line, ";");
+        wr_text_add_number(&line, rint(own->stops[i].height * 1e6) / 1e6);
+        wr_text_add(&line, ",");
+        add_rgb(&line, own->stops[i].rgb);
+    }
+    if (own->steep) {
+        wr_text_add(&line, " steep=");
+        add_rgb(&line, own->steep_rgb);
+        wr_text_addf(&line, " slope=%.1f,%.1f", own->slope[0], fmax(own->slope[0], own->slope[1]));
+    }
+    wr_text_addf(&line, " of=%s", wr_colouring_names[own->of]);
+    wr_scene_run(app, &line);
+}
+
+/* A stop stays between its neighbours. */
+static WrEdit height_field(WrColouring *own, int i, double width)
+{
+    const bool first = i == 0, last = i + 1 == own->count;
+    double *height = &own->stops[i].height;
+    const double low = first ? fmin(0, *height) - 0.2 : own->stops[i - 1].height;
+    const double high = last ? fmax(1, *height) + 0.2 : own->stops[i + 1].height;
+    const WrNumber spec = { .low = low,
+                            .high = high > low ? high : low + 1e-6,
+                            .hard_low = first ? -1e30 : low,
+                            .hard_high = last         ? 1e30
+                                         : high > low ? high
+                                                      : low + 1e-6,
+                            .reset = *height,
+                            .decimals = 3,
+                            .tip = "From this height on, as the table has it" };
+    return wr_gui_number("height", width, &spec, height);
+}
+
+/* What was done in a row: nothing, it is being dragged, it was let go. */
+static WrEdit more(WrEdit a, WrEdit b)
+{
+    return a == WR_EDIT_DONE || b == WR_EDIT_DONE ? WR_EDIT_DONE : a == WR_EDIT_NONE ? b : a;
+}
+
+static WrEdit stop_row(WrColouring *own, int i)
+{
+    char label[16];
+    snprintf(label, sizeof label, "Stop %d", i + 1);
+    wr_gui_push_id(100 + i);
+    wr_gui_label(label);
+    const double third = (wr_gui_available() - wr_gui_px(8)) / 2;
+    const WrEdit a = height_field(own, i, third);
+    wr_gui_same_line(8);
+    const WrEdit b = wr_gui_colour("colour", third, own->stops[i].rgb);
+    wr_gui_pop_id();
+    return more(a, b);
+}
+
+static WrEdit steep_rows(WrColouring *own)
+{
+    static const WrNumber spec = { .low = 0,
+                                   .high = 90,
+                                   .decimals = 1,
+                                   .unit = "deg",
+                                   .tip = "Steep places: from which slope on their colour shows, "
+                                          "and from which on it alone" };
+    bool on = own->steep && own->slope[0] < 90;
+    if (wr_gui_check("Steep places have their colour", &on)) {
+        own->steep = true;
+        own->slope[0] = on ? 30 : 90, own->slope[1] = on ? 45 : 90;
+        return WR_EDIT_DONE;
+    }
+    if (!on) return WR_EDIT_NONE;
+    wr_gui_label("Steep");
+    const WrEdit a = wr_gui_colour("steep", 0, own->steep_rgb);
+    wr_gui_label("Slopes");
+    const double half = (wr_gui_available() - wr_gui_px(8)) / 2;
+    const WrEdit b = wr_gui_number("slope from", half, &spec, &own->slope[0]);
+    wr_gui_same_line(8);
+    const WrEdit c = wr_gui_number("slope to", half, &spec, &own->slope[1]);
+    return more(a, more(b, c));
+}
+
+static WrEdit ramp_rows(WrApp *app, WrColouring *own)
+{
+    static const char *const of[WR_COLOURINGS] = { "The form", "The table" };
+    WrEdit done = WR_EDIT_NONE;
+    int which = (int)own->of;
+    const bool terrain = wr_app_scene(app)->shape.kind == WR_SURFACE_terrain;
+    if (terrain) wr_gui_label("Heights of");
+    if (terrain && wr_gui_choice("colouring of", 0, of, WR_COLOURINGS, &which)) {
+        own->of = (WrColouringOf)which;
+        done = WR_EDIT_DONE;
+    }
+    for (int i = 0; i < own->count; i++) done = more(done, stop_row(own, i));
+    if (own->count < WR_STOPS_MAX && wr_gui_button("One more stop", false)) {
+        own->stops[own->count] = own->stops[own->count - 1];
+        own->stops[own->count++].height += 0.1;
+        done = WR_EDIT_DONE;
+    }
+    if (own->count > 1) wr_gui_same_line(8);
+    if (own->count > 1 && wr_gui_button("One less", false)) {
+        own->count--;
+        done = WR_EDIT_DONE;
+    }
+    return more(done, steep_rows(own));
+}
+
+void wr_panel_colouring(WrApp *app)
+{
+    WrColouring own = wr_app_scene(app)->colouring;
+    WrText line = { 0 };
+    bool on = own.count > 0;
+    wr_gui_push_id(3);
+    const bool turned = wr_gui_check("Colours by height and slope", &on);
+    wr_gui_tip("Water, meadows, rock and snow by the heights of the terrain or of the table");
+    if (turned) {
+        wr_text_add(&line, on ? "colouring ramp" : "colouring off");
+        wr_scene_run(app, &line);
+    } else if (on) {
+        const WrEdit edit = ramp_rows(app, &own);
+        if (edit == WR_EDIT_LIVE) wr_app_live(app)->colouring = own; /* the fields keep it */
+        if (edit == WR_EDIT_DONE) run_ramp(app, &own);
+    }
+    wr_gui_pop_id();
+}
