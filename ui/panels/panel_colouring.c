@@ -82,12 +82,12 @@ static WrEdit steep_rows(WrColouring *own)
 {
     static const WrNumber spec = { .low = 0,
                                    .high = 90,
-                                   .decimals = 1,
+                                   .decimals = 0,
                                    .unit = "deg",
                                    .tip = "Steep places: from which slope on their colour shows, "
                                           "and from which on it alone" };
     bool on = own->steep && own->slope[0] < 90;
-    if (wr_gui_check("Steep places have their colour", &on)) {
+    if (wr_gui_check("Steep places apart", &on)) {
         own->steep = true;
         own->slope[0] = on ? 30 : 90, own->slope[1] = on ? 45 : 90;
         return WR_EDIT_DONE;
@@ -134,8 +134,9 @@ void wr_panel_colouring(WrApp *app)
     WrText line = { 0 };
     bool on = own.count > 0;
     wr_gui_push_id(3);
-    const bool turned = wr_gui_check("Colours by height and slope", &on);
-    wr_gui_tip("Water, meadows, rock and snow by the heights of the terrain or of the table");
+    const bool turned = wr_gui_check("Colours by height", &on);
+    wr_gui_tip(
+        "Water, meadows, rock and snow by the heights and slopes of the terrain or of the table");
     if (turned) {
         wr_text_add(&line, on ? "colouring ramp" : "colouring off");
         wr_scene_run(app, &line);
