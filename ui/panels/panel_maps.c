@@ -192,11 +192,11 @@ void wr_panel_maps(WrApp *app)
     if (wr_app_scene(app)->colour && !ramp)
         repeat_row(app, &colour, &wr_app_scene(app)->colour_laid);
     wr_gui_pop_id();
-    wr_panel_colouring(app);
     wr_gui_push_id(2);
     file_row(app, &normals, wr_app_scene(app)->normals.image, &wr_app_scene(app)->normals.laid);
     if (wr_app_scene(app)->normals.image) normal_rows(app);
     if (wr_app_scene(app)->normals.image)
         repeat_row(app, &normals, &wr_app_scene(app)->normals.laid);
     wr_gui_pop_id();
+    wr_panel_colouring(app);
 }
