@@ -255,6 +255,22 @@ static void terrains_are_smooth(void **state)
         assert_int_equal(told->loops, 1);
         assert_int_equal(told->creased + told->turned, 0);
         assert_int_equal(made->patches->columns, 12);
+        for (int i = 0; i < 40;
+             i++) { /* its point by its own u and v: derivatives are differences */
+            const double u = 0.02 + 0.024 * i, v = 0.97 - 0.023 * i, e = 1e-6;
+            WrSurfacePoint at, east, north;
+            wr_terrain_at(made->patches, u, v, &at);
+            wr_terrain_at(made->patches, u + e, v, &east);
+            wr_terrain_at(made->patches, u, v + e, &north);
+            assert_near(at.p.x, 3 * u, 1e-6);
+            assert_near(at.p.y, 2 * v, 1e-6);
+            assert_near(v3_len(v3_sub(v3_sub(east.p, at.p), v3_scale(at.pu, e))), 0, 1e-10);
+            assert_near(v3_len(v3_sub(v3_sub(north.p, at.p), v3_scale(at.pv, e))), 0, 1e-10);
+            assert_near(v3_len(v3_sub(v3_sub(north.pu, at.pu), v3_scale(at.puv, e))), 0, 1e-8);
+            assert_near(v3_len(v3_sub(v3_sub(east.n_unit, at.n_unit), v3_scale(at.n_u, e))), 0,
+                        1e-8);
+            assert_near(v3_len(v3_sub(v3_cross(at.pu, at.pv), at.n)), 0, 1e-9);
+        }
         const WrSurfacePoint mid = patch_at(points[12 * 4 + 6], 0, 0);
         assert_near(mid.p.x, 1.5, 1e-6);
         assert_near(mid.p.y, 1, 1e-6);

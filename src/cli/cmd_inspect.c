@@ -14,7 +14,9 @@
 #include "scene/laid.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
+#include "surface/patches.h"
 #include "surface/surface.h"
+#include "surface/terrain.h"
 
 #include <errno.h>
 #include <float.h>
@@ -45,14 +47,19 @@ static void compute(const WrScene *scene, const WrField *field, int face, double
 {
     WrSurfacePoint *p = &q->point;
     *q = (Quantities){ .u = u, .v = v };
-    wr_surface_at(&scene->shape, face, u, v, p);
+    const WrPatches *ground = scene->shape.kind == WR_SURFACE_terrain && scene->triangles
+                                  ? scene->triangles->patches
+                                  : NULL;
+    if (ground) wr_terrain_at(ground, u, v, p);
+    else wr_surface_at(&scene->shape, face, u, v, p);
     wr_scene_slopes(scene, field, p, u, v, &q->f, &q->fu, &q->fv);
     q->a = wr_bump_axis(p->pu, p->pv, q->fu, q->fv);
     q->d = wr_bump_d(p->n_unit, p->pu, p->pv, q->fu, q->fv);
     q->turned = scene->bump == WR_BUMP_INVARIANT;
     q->d_prime = scaled_d(q);
-    q->n_perturbed = wr_bump_normal(scene->bump, p->n, p->n_unit, p->pu, p->pv, p->n_u, p->n_v,
-                                    q->f, q->fu, q->fv);
+    const bool blinn = ground && scene->bump == WR_BUMP_EXACT; /* as pictures of it have it */
+    q->n_perturbed = wr_bump_normal(blinn ? WR_BUMP_BLINN : scene->bump, p->n, p->n_unit, p->pu,
+                                    p->pv, p->n_u, p->n_v, q->f, q->fu, q->fv);
     /* N as it was is n as it was, not N made unit anew, which may be off in the last digit. */
     const bool still = memcmp(&q->n_perturbed, &p->n, sizeof p->n) == 0;
     q->n_perturbed_unit = still ? p->n_unit : wr_bump_unit(q->n_perturbed, p->n_unit);

@@ -5,8 +5,8 @@
 #include "base/vec.h"
 #include "field/field.h"
 #include "image/image.h"
-#include "surface/patches.h"
 #include "surface/surface.h"
+#include "surface/terrain.h"
 
 #include <math.h>
 #include <string.h>
@@ -63,38 +63,15 @@ static WrImage *picture_of(int w, int h, WrError *err)
 
 /* ---- of a form ---- */
 
-/* Height and slope of patch (i, j) at its own (u,v). */
-static void form_at(const WrPatches *set, int i, int j, double u, double v, double *z,
-                    double *slope)
-{
-    const float *points = set->patch[j * set->columns + i].point;
-    WrShape shape;
-    WrSurfacePoint at;
-    wr_shape_default(WR_SURFACE_bezier, &shape);
-    for (int k = 0; k < 48; k++) shape.value[k] = (double)points[k];
-    wr_surface_at(&shape, 0, u, v, &at);
-    *z = at.p.z;
-    *slope = acos(fmin(fabs(at.n_unit.z), 1));
-}
-
-/* Which cell of `count` a place is in, and where in it. */
-static int cell_of(double at, int count, double *within)
-{
-    const int cell = (int)fmin(floor(at * count), count - 1);
-    *within = at * count - cell;
-    return cell;
-}
-
 WrImage *wr_colouring_form(const WrColouring *colouring, const WrPatches *set, double height, int w,
                            int h, WrError *err)
 {
     WrImage *image = picture_of(w, h, err);
     for (int k = 0; image && k < w * h; k++) {
-        double u, v, z, slope;
-        const int i = cell_of((k % w + 0.5) / w, set->columns, &u);
-        const int j = cell_of(1 - (k / w + 0.5) / h, set->rows, &v);
-        form_at(set, i, j, u, v, &z, &slope);
-        put(colouring, height != 0 ? z / height : 0, slope, image->data + 3 * (size_t)k);
+        WrSurfacePoint at;
+        wr_terrain_at(set, (k % w + 0.5) / w, 1 - (k / w + 0.5) / h, &at);
+        put(colouring, height != 0 ? at.p.z / height : 0, acos(fmin(fabs(at.n_unit.z), 1)),
+            image->data + 3 * (size_t)k);
     }
     return image;
 }

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "surface/patches.h"
 
 #include <math.h>
 
@@ -104,4 +105,29 @@ bool wr_terrain_points(const WrTerrain *t, float (**points)[48], int *columns, i
     *points = out;
     *columns = across, *rows = up;
     return out != NULL;
+}
+
+/* Which cell of `count` a place is in, and where in it. */
+static int cell_of(double at, int count, double *within)
+{
+    const int cell = (int)fmin(fmax(floor(at * count), 0), count - 1);
+    *within = at * count - cell;
+    return cell;
+}
+
+void wr_terrain_at(const WrPatches *set, double u, double v, WrSurfacePoint *out)
+{
+    const double c = set->columns, r = set->rows;
+    double x, y;
+    const int i = cell_of(u, set->columns, &x), j = cell_of(v, set->rows, &y);
+    const float *points = set->patch[j * set->columns + i].point;
+    WrShape shape;
+    wr_shape_default(WR_SURFACE_bezier, &shape);
+    for (int k = 0; k < 48; k++) shape.value[k] = (double)points[k];
+    wr_surface_at(&shape, 0, x, y, out);
+    out->pu = v3_scale(out->pu, c), out->pv = v3_scale(out->pv, r);
+    out->puu = v3_scale(out->puu, c * c), out->pvv = v3_scale(out->pvv, r * r);
+    out->puv = v3_scale(out->puv, c * r);
+    out->n = v3_scale(out->n, c * r), out->n_len *= c * r;
+    out->n_u = v3_scale(out->n_u, c), out->n_v = v3_scale(out->n_v, r);
 }

@@ -8,6 +8,8 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrPatches WrPatches;
+typedef struct WrSurfacePoint WrSurfacePoint;
 
 /* Row j of the heights, from the top (v = 1), finite: in room [w], or wherever it is. */
 typedef const float *WrTerrainRow(const void *ctx, int j, float *room);
@@ -24,3 +26,5 @@ typedef struct WrTerrain {
  * are means over a cell's area. Errors: no memory. */
 bool wr_terrain_points(const WrTerrain *terrain, float (**points)[48], int *columns, int *rows,
                        WrError *err);
+/* The point of a terrain's patches at its own u and v, with all derivatives by these. */
+void wr_terrain_at(const WrPatches *set, double u, double v, WrSurfacePoint *out);
