@@ -101,11 +101,12 @@ static WrSession *busy_session(WrPool *pool, int side)
 
 /* "NAME FORM", or its beginning: done at once whatever the table's size, or not a command of the table's. */
 static const char *const instant[] = {
-    "object",       "table",      "view",         "surface",    "rotate",     "analytic",
-    "bump",         "replicate",  "material",     "light",      "camera",     "dials",
-    "tolerance",    "script",     "history",      "background", "ground",     "layer add",
-    "layer use",    "layer move", "layer rename", "layer set",  "layer solo", "layer duplicate",
-    "layer delete", "select all", "select none",  "fill",       "open",       "redo",
+    "object",       "table",         "view",         "surface",     "rotate",     "analytic",
+    "bump",         "replicate",     "material",     "light",       "camera",     "dials",
+    "tolerance",    "script",        "history",      "background",  "ground",     "layer add",
+    "layer use",    "layer move",    "layer rename", "layer set",   "layer solo", "layer duplicate",
+    "layer delete", "colouring off", "select all",   "select none", "fill",       "open",
+    "redo",
 };
 
 /* Large work. A file that a line reads is made before. */
@@ -156,6 +157,7 @@ static const char *const lines[] = {
     "adjust erode radius=16 layers=all",
     "adjust slope-limit limit=0.001 layers=all",
     "colour big.exr",
+    "colouring ramp",
     "normalmap big.exr",
     "save new.exr",
     "save new.ora",

@@ -1,7 +1,9 @@
 #include "scene/colouring.h"
 
+#include "base/error.h"
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/vec.h"
 #include "field/field.h"
 #include "image/image.h"
@@ -61,6 +63,16 @@ static WrImage *picture_of(int w, int h, WrError *err)
     return image;
 }
 
+/* Where somebody wants it to stop, before another row: the picture goes. */
+static bool stopped(WrImage **image, double done, WrError *err)
+{
+    if (wr_progress_tell(done)) return false;
+    wr_image_free(*image);
+    *image = NULL;
+    wr_fail(err, "cancelled");
+    return true;
+}
+
 /* ---- of a form ---- */
 
 WrImage *wr_colouring_form(const WrColouring *colouring, const WrPatches *set, double height, int w,
@@ -68,6 +80,7 @@ WrImage *wr_colouring_form(const WrColouring *colouring, const WrPatches *set, d
 {
     WrImage *image = picture_of(w, h, err);
     for (int k = 0; image && k < w * h; k++) {
+        if (k % w == 0 && stopped(&image, (double)(k / w) / h, err)) break;
         WrSurfacePoint at;
         wr_terrain_at(set, (k % w + 0.5) / w, 1 - (k / w + 0.5) / h, &at);
         put(colouring, height != 0 ? at.p.z / height : 0, acos(fmin(fabs(at.n_unit.z), 1)),
@@ -85,7 +98,7 @@ WrImage *wr_colouring_table(const WrColouring *colouring, const WrField *field, 
     const size_t pitch = (size_t)w + 2;
     WrImage *image = picture_of(w, h, err);
     float *rows = wr_alloc(3 * pitch, sizeof *rows);
-    for (int j = 0; image && j < h; j++) {
+    for (int j = 0; image && j < h && !stopped(&image, (double)j / h, err); j++) {
         wr_field_read(field, -1, j - 1, w + 2, 3, rows, pitch);
         for (int i = 0; i < w; i++) {
             const float *at = rows + pitch + 1 + i;
