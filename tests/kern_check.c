@@ -330,6 +330,31 @@ static bool run_reflect(const WrKernels *k, Bench *b, int member, int count)
     return true;
 }
 
+static bool run_surround(const WrKernels *k, Bench *b, int member, int count)
+{
+    float texels[4 * 8 * 6];
+    WrStrip *s = &b->strip;
+    WrKernSurround how = { .kd = 0.7f, .colour = { 0.8f, 0.7f, 0.6f }, .mean = 0.9f };
+    WrKernMirror mirror = { .axes = { 0.6f, 0, 0.8f, 0, 1, 0, -0.8f, 0, 0.6f },
+                            .strength = 1.3f,
+                            .rgba = texels + 4 * 9,
+                            .pitch = 8,
+                            .width = 6,
+                            .height = 4,
+                            .even = { 0.3f, 0.4f, 0.5f } };
+    s->count = count;
+    for (int i = 0; i < 4 * 8 * 6; i++) texels[i] = 0.1f + 0.037f * (float)(i * 5 % 23);
+    for (int i = 0; i < 3 * WR_FORM_TERMS; i++)
+        how.form[i / WR_FORM_TERMS][i % WR_FORM_TERMS] = 0.9f - 0.057f * (float)i;
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++) {
+        how.matt[i] = mirror.own[i] = 0.31f - 0.04f * (float)i;
+        how.again[i] = mirror.white[i] = 0.02f * (float)i;
+    }
+    if (member < 6) k->surround[member / 3][member % 3](&how, s);
+    else if (member < 8) (member == 6 ? k->mirror : k->mirror_even)(&mirror, s);
+    return member < 8;
+}
+
 static bool run_hit_at(const WrKernels *k, Bench *b, int member, int count)
 {
     const int shapes[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder, WR_SURFACE_cone };
@@ -406,6 +431,7 @@ static const struct {
     { "look", run_look },         { "bump", run_bump },           { "light", run_light },
     { "shade", run_shade },       { "hit at", run_hit_at },       { "filter", run_filter },
     { "bound", run_bound },       { "bend", run_bend },           { "reflect", run_reflect },
+    { "surround", run_surround },
 };
 #define FAMILIES (int)(sizeof families / sizeof *families)
 

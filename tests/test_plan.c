@@ -385,6 +385,65 @@ static void metal_black(Stage *stage)
     stage->scene->material.specular = 0;
 }
 
+/* Brighter at the right; or of one colour. */
+static void surround(Stage *stage, float step, double strength)
+{
+    WrImage *image = wr_image_new(8, 4, 3, NULL);
+    WrSurroundTold told;
+    for (int i = 0; i < 8 * 4 * 3; i++) image->data[i] = 0.3f + step * (float)(i / 3 % 8);
+    image->type = WR_PIXEL_F32;
+    WrEnvironment *to = &stage->scene->environment;
+    wr_environment_set(to, WR_SURROUND_FILE, wr_surround_new(image, &told, NULL), "sky", NULL);
+    to->strength = strength;
+    wr_image_free(image);
+}
+
+static void surrounded(Stage *stage)
+{
+    surround(stage, 0.07f, 0.7);
+}
+
+static void surrounded_evenly(Stage *stage)
+{
+    surround(stage, 0, 0.7);
+}
+
+static void surrounded_weakly(Stage *stage)
+{
+    surround(stage, 0.07f, 0);
+}
+
+static void surrounded_black(Stage *stage)
+{
+    surrounded(stage);
+    black(stage);
+}
+
+static void surrounded_dull(Stage *stage)
+{
+    surrounded(stage);
+    no_diffuse(stage);
+}
+
+static void no_shine_around(Stage *stage)
+{
+    surrounded(stage);
+    no_specular(stage);
+}
+
+static void matt_around(Stage *stage)
+{
+    surrounded(stage);
+    stage->scene->material.model = WR_REFLECT_OREN_NAYAR;
+}
+
+static void mirror_around(Stage *stage)
+{
+    surrounded(stage);
+    stage->scene->material.model = WR_REFLECT_GGX;
+    stage->scene->material.roughness = 0.1;
+}
+
 typedef struct Case {
     Change on; /* NULL: it runs by force alone */
     Off off[5];
@@ -398,6 +457,21 @@ static const Case cases[WR_EFFECT_COUNT] = {
                             { matt_smooth, 1e-6 },
                             { phong_dull, 1e-6 },
                             { metal_black, NOTHING } } },
+    [WR_EFFECT_SURROUND] = { surrounded,
+                             { { surrounded_weakly, 0 },
+                               { surrounded_black, 0 },
+                               { surrounded_dull, 0 },
+                               { keep_all, NOTHING } } },
+    [WR_EFFECT_HARMONICS] = { surrounded, { { surrounded_evenly, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_MIRROR] = { surrounded,
+                           { { surrounded_weakly, 0 },
+                             { no_shine_around, 0 },
+                             { matt_around, NOTHING },
+                             { keep_all, NOTHING } } },
+    [WR_EFFECT_BLUR] = { surrounded,
+                         { { surrounded_evenly, 1e-5 },
+                           { mirror_around, 0.05 },
+                           { no_shine_around, NOTHING } } },
     [WR_EFFECT_COLOUR] = { coloured, { { white, 0 }, { keep_all, NOTHING } } },
     [WR_EFFECT_NORMALS] = { mapped,
                             { { mapped_flat, 0 },

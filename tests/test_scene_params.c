@@ -115,6 +115,7 @@ static void each_is_set_by_its_command_and_printed_again(void **state)
         draw(&random, p, values);
         write_line(p, values, &line);
         WrSession *session = wr_session_new(NULL);
+        if (strcmp(p->command, "environment") == 0) must_run(session, "environment raking");
         must_run(session, wr_text_get(&line));
         assert_set(doc(session)->scene, i, values, wr_text_get(&line));
         WrSession *other = restored(doc(session)->scene);
@@ -197,6 +198,9 @@ static void the_plan_looks_at_what_says_so_and_at_nothing_else(void **state)
         { "surface sphere", "material model=ggx metalness=0.5" },
         { "surface sphere", "material model=torrance-sparrow ior=1.6" },
         { "surface plane", "replicate 3,2", "bump mode=invariant scheme=nearest" },
+        { "surface sphere", "material model=oren-nayar" },
+        { "surface sphere", "material model=ggx", "environment sky" },
+        { "surface sphere", "material model=torrance-sparrow" },
     };
     static const double special[] = { 0, 1, 0.3, 2500, 1e-3 };
     bool seen[WR_SCENE_PARAM_COUNT] = { false };

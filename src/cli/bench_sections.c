@@ -161,6 +161,14 @@ static void of_facets(WrScene *scene)
     scene->material.model = WR_REFLECT_GGX;
 }
 
+/* Instead of the lamp. */
+static void under_sky(WrScene *scene)
+{
+    scene->light_count = 0;
+    wr_environment_set(&scene->environment, WR_SURROUND_SKY,
+                       wr_surround_built(WR_SURROUND_SKY, NULL), NULL, NULL);
+}
+
 static void supersampled(WrScene *scene)
 {
     scene->dials.aa = WR_AA_SUPERSAMPLE;
@@ -267,6 +275,10 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_MODEL)] = { BUMPED, .with = of_facets, .without = same },
+    [WR_ROW(WR_EFFECT_SURROUND)] = { BUMPED, .with = under_sky, .without = same },
+    [WR_ROW(WR_EFFECT_HARMONICS)] = { BUMPED, .with = under_sky },
+    [WR_ROW(WR_EFFECT_MIRROR)] = { BUMPED, .with = under_sky },
+    [WR_ROW(WR_EFFECT_BLUR)] = { BUMPED, .with = under_sky },
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },

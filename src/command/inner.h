@@ -248,6 +248,7 @@ WrScenePrinter wr_print_rotate, wr_print_camera;
 /* named: with the file's name; else by its content alone. */
 void wr_print_colour(const WrScene *scene, bool named, WrText *text);
 void wr_print_normals(const WrScene *scene, bool named, WrText *text);
+void wr_print_environment(const WrScene *scene, bool named, WrText *text);
 void wr_print_object(const WrScene *scene, int i,
                      WrText *text);                       /* of several: adds it, with its place */
 void wr_print_chosen(const WrScene *scene, WrText *text); /* where that is not the last one */

@@ -19,7 +19,7 @@
 
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
    several is still written as version 2; version 3 no mesh, version 4 no normal map and
-   no objects with different meshes. All are read. */
+   no objects with different meshes, version 5 no surroundings. All are read. */
 #pragma once
 #include "scene/objects.h"
 #include "field/wrap.h"
@@ -35,10 +35,11 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 5
-#define WR_DOCUMENT_VERSION_MESH 4  /* of a file with one mesh and no normal map */
-#define WR_DOCUMENT_VERSION_ALONE 3 /* of a file of one part */
-#define WR_DOCUMENT_VERSION_PARTS 2 /* of a file of several parts without a mesh */
+#define WR_DOCUMENT_VERSION 6
+#define WR_DOCUMENT_VERSION_OBJECTS 5 /* of a file without surroundings */
+#define WR_DOCUMENT_VERSION_MESH 4    /* of a file with one mesh and no normal map */
+#define WR_DOCUMENT_VERSION_ALONE 3   /* of a file of one part */
+#define WR_DOCUMENT_VERSION_PARTS 2   /* of a file of several parts without a mesh */
 
 /* Names of parts. */
 #define WR_DOCUMENT_LAYER "layer:"
@@ -51,6 +52,7 @@ typedef struct WrImageRows WrImageRows;
 typedef enum WrObjectPicture {
     WR_OBJECT_COLOUR,
     WR_OBJECT_NORMALS,
+    WR_OBJECT_SURROUND, /* of the scene: the first object stands for all */
     WR_OBJECT_PICTURES
 } WrObjectPicture;
 typedef struct WrObjectPictureInfo {
@@ -59,8 +61,9 @@ typedef struct WrObjectPictureInfo {
     bool data;        /* its numbers are no colours */
 } WrObjectPictureInfo;
 extern const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES];
-WrImage *wr_object_picture(const WrScene *object, int which); /* borrowed; NULL: it has none */
-bool wr_object_any_picture(const WrScene *scene, int which);  /* has any object of the scene one? */
+/* Borrowed; NULL: it has none. */
+WrImage *wr_object_picture(const WrScene *scene, int object, int which);
+bool wr_object_any_picture(const WrScene *scene, int which); /* has any object of the scene one? */
 
 /* "periodic", "clamp-u", "clamp-v" or "clamp": the word for the wrap of a table, as in commands. Number i
    clamps u where bit 0 is set, v where bit 1 is; NULL after the last. */

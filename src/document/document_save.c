@@ -143,19 +143,23 @@ static const char *range_of(Saving *to, const WrField *field)
     return keep(to, text);
 }
 
+/* The oldest that knows all that is in it. */
+static int version_of(const Saving *to)
+{
+    const WrScene *scene = to->document->scene;
+    if (scene->environment.kind != WR_SURROUND_OFF) return WR_DOCUMENT_VERSION;
+    if (wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene))
+        return WR_DOCUMENT_VERSION_OBJECTS;
+    if (to->mesh) return WR_DOCUMENT_VERSION_MESH;
+    return to->single ? WR_DOCUMENT_VERSION_ALONE : WR_DOCUMENT_VERSION_PARTS;
+}
+
 static void add_composite(Saving *to, const char *scene_text)
 {
     const WrDocument *document = to->document;
     const WrField *f = wr_document_field(document);
     const WrImageAttribute attributes[FILE_ATTRIBUTES] = {
-        { "wrinkle:version",
-          keep_whole(to, "",
-                     (wr_object_any_picture(document->scene, WR_OBJECT_NORMALS) ||
-                      wr_scene_several_meshes(document->scene))
-                         ? WR_DOCUMENT_VERSION
-                     : to->mesh   ? WR_DOCUMENT_VERSION_MESH
-                     : to->single ? WR_DOCUMENT_VERSION_ALONE
-                                  : WR_DOCUMENT_VERSION_PARTS) },
+        { "wrinkle:version", keep_whole(to, "", version_of(to)) },
         { "wrinkle:program", "Wrinkle " WR_VERSION },
         { "wrinkle:scene", scene_text },
         { "wrinkle:wrap", wr_document_wrap_word(wr_field_wrap_u(f), wr_field_wrap_v(f)) },
@@ -234,19 +238,28 @@ static bool same_bits(const WrField *a, const WrField *b)
 const WrObjectPictureInfo wr_object_pictures[WR_OBJECT_PICTURES] = {
     [WR_OBJECT_COLOUR] = { "colour", "colour picture", false },
     [WR_OBJECT_NORMALS] = { "normals", "normal map", true },
+    [WR_OBJECT_SURROUND] = { "environment", "picture of the surroundings", false },
 };
 
-WrImage *wr_object_picture(const WrScene *object, int which)
+/* Built-in surroundings are made again. */
+static WrImage *surroundings(const WrScene *scene)
 {
-    if (which != WR_OBJECT_COLOUR) return object->normals.image;
-    return object->colouring.count > 0 ? NULL : object->colour; /* made again of the heights */
+    return scene->environment.kind == WR_SURROUND_FILE ? scene->environment.light->image : NULL;
+}
+
+WrImage *wr_object_picture(const WrScene *scene, int object, int which)
+{
+    const WrScene *own = wr_scene_object(scene, object);
+    if (which == WR_OBJECT_SURROUND) return object == 0 ? surroundings(scene) : NULL;
+    if (which != WR_OBJECT_COLOUR) return own->normals.image;
+    return own->colouring.count > 0 ? NULL : own->colour; /* made again of the heights */
 }
 
 bool wr_object_any_picture(const WrScene *scene, int which)
 {
     bool any = false;
     for (int i = 0; i < wr_scene_object_count(scene); i++)
-        any |= wr_object_picture(wr_scene_object(scene, i), which) != NULL;
+        any |= wr_object_picture(scene, i, which) != NULL;
     return any;
 }
 
@@ -269,7 +282,7 @@ static bool fits_one_part(const WrDocument *document)
 static void add_picture(Saving *to, int object, int which)
 {
     const WrScene *scene = to->document->scene;
-    WrImage *picture = wr_object_picture(wr_scene_object(scene, object), which);
+    WrImage *picture = wr_object_picture(scene, object, which);
     WrText name = { 0 };
     if (!picture) return;
     wr_text_add(&name, wr_object_pictures[which].part);
@@ -300,7 +313,7 @@ static bool check_pictures(const WrScene *scene, const char *path, WrError *err)
 {
     for (int i = 0; i < wr_scene_object_count(scene); i++)
         for (int k = 0; k < WR_OBJECT_PICTURES; k++) {
-            const WrImage *picture = wr_object_picture(wr_scene_object(scene, i), k);
+            const WrImage *picture = wr_object_picture(scene, i, k);
             if (picture && (picture->width > WR_IMAGE_MAX || picture->height > WR_IMAGE_MAX))
                 return wr_fail(err, "%s: the %s is %dx%d: each side must be 1..%d", path,
                                wr_object_pictures[k].what, picture->width, picture->height,

@@ -278,7 +278,7 @@ static bool add_scene_images(Saving *to, const WrScene *scene, WrError *err)
     if (!wr_scene_meshes_to_image(scene, &to->mesh, err)) return false;
     for (int i = 0; i < wr_scene_object_count(scene) * WR_OBJECT_PICTURES; i++) {
         const int of = i / WR_OBJECT_PICTURES, which = i % WR_OBJECT_PICTURES;
-        const WrImage *picture = wr_object_picture(wr_scene_object(scene, of), which);
+        const WrImage *picture = wr_object_picture(scene, of, which);
         char entry[WR_ORA_PICTURE_NAME], name[WR_ORA_PICTURE_NAME];
         wr_ora_picture_name("data/", of, which, ".exr", entry);
         wr_ora_picture_name("wrinkle:", of, which, "", name);

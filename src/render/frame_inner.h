@@ -3,6 +3,7 @@
 #pragma once
 #include "render/frame.h"
 #include "render/keep.h"
+#include "render/mirror.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
 #include "render/rounded.h"
@@ -31,6 +32,7 @@ struct WrRenderer {
     WrTriangles *square; /* what is shown of a scene whose mesh is not there; owned; or NULL */
     WrTint tint;
     WrRelief relief;
+    WrMirror mirror;
     WrFrames frames;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */

@@ -20,10 +20,13 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_rounded_drop(&renderer->rounded);
     wr_tint_drop(&renderer->tint);
     wr_relief_drop(&renderer->relief);
+    wr_mirror_drop(&renderer->mirror);
     wr_frames_drop(&renderer->frames);
 }
 
 /* The copies of heights that the plan calls for, and none else. */
+#define MIRROR_FINE 32 /* texels over the width of a lobe */
+
 static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
                          WrError *err)
 {
@@ -125,12 +128,28 @@ static bool bring_relief(WrRenderer *renderer, const WrFrameRequest *request, Wr
     return true;
 }
 
+static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const WrPlan *plan = &renderer->plan;
+    const WrSurround *light = request->scene->environment.light;
+    const bool blurred = wr_plan_runs(plan, WR_EFFECT_BLUR);
+    WrGloss gloss;
+    if (!wr_plan_runs(plan, WR_EFFECT_MIRROR) || (light->even && !blurred)) {
+        wr_mirror_drop(&renderer->mirror);
+        return true;
+    }
+    wr_scene_gloss(&request->scene->material, &gloss);
+    return wr_mirror_bring(&renderer->mirror, light, blurred ? &gloss : NULL, MIRROR_FINE,
+                           renderer->pool, err);
+}
+
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
     const WrField *field = request->field;
     WrTint *tint = &renderer->tint;
     if (!bring_relief(renderer, request, err)) return false;
+    if (!bring_mirror(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_tint_drop(tint);
         return true;
@@ -349,6 +368,10 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->looks = looks_of(request, renderer, &look);
     fill_level(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_MODEL)) fill_matter(&renderer->plan, request, job);
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_SURROUND) ||
+        wr_plan_runs(&renderer->plan, WR_EFFECT_MIRROR))
+        wr_surround_look(request->scene, &renderer->plan, renderer->view.rotation,
+                         &renderer->mirror, &job->surround);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) fill_colour(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_NORMALS)) fill_map(renderer, request, scale, job);
 }

@@ -47,6 +47,8 @@
 #define SHINE WrKernShined
 #define MATERIAL WrKernMateriald
 #define MATTER WrKernMatterd
+#define SURROUND WrKernSurroundd
+#define MIRROR WrKernMirrord
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
 #define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
@@ -66,6 +68,8 @@
 #define SHINE WrKernShine
 #define MATERIAL WrKernMaterial
 #define MATTER WrKernMatter
+#define SURROUND WrKernSurround
+#define MIRROR WrKernMirror
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif
@@ -197,6 +201,8 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_light_body.h"
 #include "shade/reflect_body.h"
 #include "render/kern_reflect_body.h"
+#include "shade/surround_body.h"
+#include "render/kern_surround_body.h"
 #include "render/kern_dark_body.h"
 #include "render/kern_filter_body.h"
 #include "render/kern_moments_body.h"
@@ -284,6 +290,10 @@ const KERNELS WR_KERN_TABLE = {
         [WR_REFLECT_OREN_NAYAR] = { kern_matt_1, kern_matt_0 },
         [WR_REFLECT_GGX] = { kern_ggx_1, kern_ggx_0 },
     },
+    .surround = { { kern_surround_00, kern_surround_01, kern_surround_02 },
+                  { kern_surround_10, kern_surround_11, kern_surround_12 } },
+    .mirror = kern_mirror,
+    .mirror_even = kern_mirror_even,
     .tint = kern_tint,
 #ifndef WR_KERN_DOUBLE
     .shade = { { SHADE_ROWS(0, 0), SHADE_ROWS(0, 1) }, { SHADE_ROWS(1, 0), SHADE_ROWS(1, 1) } },

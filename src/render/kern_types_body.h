@@ -111,6 +111,23 @@ typedef void (*WR_T(WrReflectKernel))(const WR_T(WrKernLight) * light,
                                       const WR_T(WrKernMatter) * matter, WrReflectSpread how,
                                       WR_T(WrStrip) * strip);
 
+/* What surroundings do to a strip (shade/gloss.h, shade/surround.h). */
+typedef struct WR_T(WrKernSurround) {
+    REAL form[3][WR_FORM_TERMS]; /* E / pi by n', along the object's axes */
+    REAL kd, colour[3], mean;
+    REAL matt[WR_ALBEDO_TERMS], again[WR_ALBEDO_TERMS];
+} WR_T(WrKernSurround);
+/* The same of what is reflected about the mirrored direction. */
+typedef struct WR_T(WrKernMirror) {
+    REAL axes[9]; /* row-major: the object's axes -> the picture's directions */
+    REAL strength;
+    REAL own[WR_ALBEDO_TERMS], white[WR_ALBEDO_TERMS];
+    const float *rgba; /* WrMirror's, from its first row's first texel; NULL: of one colour */
+    int pitch, width, height;
+    REAL even[3];
+} WR_T(WrKernMirror);
+typedef void (*WR_T(WrSurroundKernel))(const WR_T(WrKernSurround) * how, WR_T(WrStrip) * strip);
+
 typedef void (*WR_T(WrShadeKernel))(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
                                     const WR_T(WrKernShine) * shine,
                                     const WR_T(WrKernMaterial) * material, WR_T(WrStrip) * strip);
@@ -212,6 +229,12 @@ typedef struct WR_T(WrKernels) {
                              WR_T(WrStrip) * strip);
     /* Diffuse light and highlight of other models, as published or kept; NULL: Blinn-Phong's is made of the above. */
     WR_T(WrReflectKernel) reflect[WR_REFLECT_COUNT][WR_ENERGY_COUNT];
+    /* Diffuse light of surroundings; after `view` where it is not Lambert's: [by n', else of one colour] [0: Lambert's;
+       1: by matt; 2: and again]. */
+    WR_T(WrSurroundKernel) surround[2][3];
+    /* What is reflected of them about the mirrored direction: out of the picture, or of one colour. */
+    void (*mirror)(const WR_T(WrKernMirror) * how, WR_T(WrStrip) * strip);
+    void (*mirror_even)(const WR_T(WrKernMirror) * how, WR_T(WrStrip) * strip);
     /* Highlights so far in the surface's colour, to the share t; after all lights. */
     void (*tint)(REAL t, WR_T(WrStrip) * strip);
     /* begin, view, light, diffuse, specular and finish of a single light in one pass, from n' and P: [the light is near]

@@ -23,6 +23,8 @@
 #define NEAR_OF(scratch) (&(scratch)->near)
 #define FAR_OF(scratch) (&(scratch)->far)
 #define LOOK_OF(job) (&(job)->look)
+#define SURROUND_OF(look) (&(look)->single)
+#define MIRROR_OF(look) (&(look)->mirror)
 #define MAP_OF(job) (&(job)->relief)
 #define TINT_OF(job) (&(job)->tint)
 #define VIEWED(view, member) ((view)->member)

@@ -23,6 +23,8 @@
 #define NEAR_OF(scratch) (&(scratch)->wide[1])
 #define FAR_OF(scratch) (&(scratch)->wide[2])
 #define LOOK_OF(job) (&(job)->look_double)
+#define SURROUND_OF(look) (&(look)->wide)
+#define MIRROR_OF(look) (&(look)->mirror_wide)
 #define MAP_OF(job) (&(job)->relief_double)
 #define TINT_OF(job) (&(job)->tint_double)
 #define VIEWED(view, member) ((view)->member##_d)

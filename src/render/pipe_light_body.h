@@ -103,11 +103,37 @@ static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
     watch_lap(watch, WR_STAGE_BOUND);
 }
 
+/* What surroundings add. */
+static void surround_strip(const WrTileJob *job, Strip *strip, Watch *watch)
+{
+    const WrSurroundLook *look = &job->surround;
+    const bool turns = runs(job, WR_EFFECT_HARMONICS);
+    KERNELS_OF(job)->surround[turns][look->shares](SURROUND_OF(look), strip);
+    if (turns) did(watch, WR_EFFECT_HARMONICS);
+    did(watch, WR_EFFECT_SURROUND);
+    watch_lap(watch, WR_STAGE_SURROUND);
+    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
+}
+
+/* What is reflected of them. */
+static void mirror_strip(const WrTileJob *job, Strip *strip, Watch *watch)
+{
+    const Kernels *k = KERNELS_OF(job);
+    const WrSurroundLook *look = &job->surround;
+    (look->mirror.rgba ? k->mirror : k->mirror_even)(MIRROR_OF(look), strip);
+    if (runs(job, WR_EFFECT_BLUR)) did(watch, WR_EFFECT_BLUR);
+    did(watch, WR_EFFECT_MIRROR);
+    watch_lap(watch, WR_STAGE_MIRROR);
+    keep_half3(job, strip->dr, strip->dg, strip->db, strip->count, watch);
+    keep_half3(job, strip->sr, strip->sg, strip->sb, strip->count, watch);
+}
+
 /* One light, and nothing that looks at what its stages leave: the pass that does them at once; else NULL. */
 static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, const WrSink *sink)
 {
     const bool shines = runs(job, WR_EFFECT_SPECULAR);
     if (runs(job, WR_EFFECT_MODEL)) return NULL;
+    if (runs(job, WR_EFFECT_SURROUND) || runs(job, WR_EFFECT_MIRROR)) return NULL;
     if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
     if (!shines && !runs(job, WR_EFFECT_DIFFUSE)) return NULL;
     if (shines && runs(job, WR_EFFECT_SPREAD)) return NULL;
@@ -141,16 +167,19 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     k->begin((REAL)job->scene->material.ambient, strip);
     if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
-    if (specular || sink->bound || reflect_of(job)) k->view(&VIEWED(&job->view->lit, rays), strip);
+    const bool viewed =
+        specular || reflect_of(job) || job->surround.shares > 0 || runs(job, WR_EFFECT_MIRROR);
+    if (viewed || sink->bound) k->view(&VIEWED(&job->view->lit, rays), strip);
     watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
-    if (specular || reflect_of(job))
-        keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
+    if (viewed) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
     for (int i = 0; i < job->view->light_count && (specular || runs(job, WR_EFFECT_DIFFUSE)); i++)
         lamp_strip(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
     if (job->plan->tint != 0) {
         k->tint((REAL)job->plan->tint, strip);
         did(watch, WR_EFFECT_MODEL);
     }
+    if (runs(job, WR_EFFECT_SURROUND)) surround_strip(job, strip, watch);
+    if (runs(job, WR_EFFECT_MIRROR)) mirror_strip(job, strip, watch);
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
 }
 

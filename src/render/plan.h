@@ -28,6 +28,10 @@ typedef enum WrEffect {
     WR_EFFECT_DIFFUSE,
     WR_EFFECT_SPECULAR,
     WR_EFFECT_MODEL,
+    WR_EFFECT_SURROUND,
+    WR_EFFECT_HARMONICS,
+    WR_EFFECT_MIRROR,
+    WR_EFFECT_BLUR,
     WR_EFFECT_COLOUR,
     WR_EFFECT_TINT,
     WR_EFFECT_NORMALS,
@@ -83,7 +87,9 @@ typedef enum WrStage {
     WR_STAGE_TINT, /* the colour picture over footprints */
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
-    WR_STAGE_LIGHT, /* all of a single light in one pass */
+    WR_STAGE_SURROUND, /* diffuse light of surroundings */
+    WR_STAGE_MIRROR,   /* what is reflected of them */
+    WR_STAGE_LIGHT,    /* all of a single light in one pass */
     WR_STAGE_BOUND,
     WR_STAGE_HALF, /* rounding to half precision */
     WR_STAGE_RESOLVE,

@@ -34,10 +34,14 @@ static inline bool wants_filter(const WrDials *dials)
     return dials->aa == WR_AA_FILTER || dials->aa == WR_AA_MOMENTS;
 }
 
+/* Does light of surroundings depend on n'? */
+bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene);
+
 /* Does anything depend on n'? */
 static inline bool lit(const WrPlan *plan, const WrPlanAsk *ask)
 {
-    return runs(plan, WR_EFFECT_DIFFUSE) || runs(plan, WR_EFFECT_SPECULAR) || ask->facts.normals;
+    return runs(plan, WR_EFFECT_DIFFUSE) || runs(plan, WR_EFFECT_SPECULAR) || ask->facts.normals ||
+           wr_plan_surround_turns(plan, ask->scene);
 }
 
 static inline bool still(const WrScene *scene)
@@ -45,11 +49,12 @@ static inline bool still(const WrScene *scene)
     return scene->replicate_u == 0 && scene->replicate_v == 0;
 }
 
-/* As WrEffectInfo has them; these are in plan_light.c, plan_sight.c, plan_runs.c and plan_maps.c. */
+/* As WrEffectInfo has them; these are in plan_light.c, plan_surround.c, plan_sight.c, plan_runs.c and plan_maps.c. */
 typedef WrVerdict WrDecide(const WrPlan *plan, const WrPlanAsk *ask, const char **why);
 typedef void WrSettle(WrPlan *plan, const WrPlanAsk *ask);
 WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspective, wr_decide_again,
     wr_decide_parameters, wr_decide_tangents, wr_decide_hidden, wr_decide_between, wr_decide_beside,
     wr_decide_dark, wr_decide_ground, wr_decide_colour, wr_decide_tint, wr_decide_smooth,
-    wr_decide_blocks, wr_decide_normals, wr_decide_diffuse, wr_decide_specular, wr_decide_model;
+    wr_decide_blocks, wr_decide_normals, wr_decide_diffuse, wr_decide_specular, wr_decide_model,
+    wr_decide_surround, wr_decide_harmonics, wr_decide_mirror, wr_decide_blur;
 WrSettle wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals, wr_settle_model;

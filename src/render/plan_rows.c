@@ -185,6 +185,8 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
         return "no bound is known of a stretched object: K x K everywhere";
     if (runs(plan, WR_EFFECT_MODEL))
         return "no bound is known of this reflection: K x K everywhere";
+    if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
+        return "no bound is known of light from surroundings: K x K everywhere";
     const WrInversion how = surface_of(ask)->inversion;
     if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
         return "no bound is known on this surface: K x K everywhere";
@@ -319,6 +321,24 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                   "highlight, or of matt facets of roughness 0, it is Lambert's",
                                   0, .only_way = true, .spared = WR_RUN_DARK,
                                   .decide = wr_decide_model, .settle = wr_settle_model },
+    [WR_ROW(WR_EFFECT_SURROUND)] = { "E41", "surroundings", WR_PROOF_IDENTICAL, NULL,
+                                     "there are none, or no light comes from them; diffuse is 0, "
+                                     "the colour is black, or ggx's metalness is 1",
+                                     STAGE(SURROUND), .decide = wr_decide_surround },
+    [WR_ROW(WR_EFFECT_HARMONICS)] = { "E42", "harmonics", WR_PROOF_IDENTICAL, NULL,
+                                      "no diffuse light comes from surroundings, or they are of "
+                                      "one colour, for which one coefficient of the nine is enough",
+                                      0, .decide = wr_decide_harmonics },
+    [WR_ROW(
+        WR_EFFECT_MIRROR)] = { "E65", "mirrored surroundings", WR_PROOF_IDENTICAL, NULL,
+                               "there are none, or no light comes from them; specular is 0, the "
+                               "reflection model has no highlight, or its facets' index is 1",
+                               STAGE(MIRROR), .decide = wr_decide_mirror },
+    [WR_ROW(WR_EFFECT_BLUR)] = { "E43", "blurred surroundings", WR_PROOF_BOUNDED,
+                                 "what lies within a 64th of a radian",
+                                 "none are seen in the surface, they are of one colour, or the "
+                                 "lobe is narrower than 1/64, where the surface mirrors",
+                                 0, .decide = wr_decide_blur },
     [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
                                    "there is none, or it is white everywhere", STAGE(COLOUR),
                                    .decide = wr_decide_colour },

@@ -64,6 +64,8 @@ static const char *no_dark(const WrPlan *plan, const WrPlanAsk *ask)
         return "light is forced: it runs everywhere";
     if (v3_len(ask->scene->sizes) > 0) return "the object is stretched: its normals turn with it";
     if (ask->facts.normals) return "normals are wanted everywhere";
+    if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
+        return "surroundings shine there too";
     if (shines && !ask->scene->material.gate) return "a highlight without gate shows there too";
     if (runs(plan, WR_EFFECT_BOUND)) return "a bound of the light's change is wanted everywhere";
     if (runs(plan, WR_EFFECT_HALF)) return "the dial asks for light in half precision";

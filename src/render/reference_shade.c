@@ -45,6 +45,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
     if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
         stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
     if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
+    wr_reference_surround_init(&stage->surround, scene, stage->view.rotation);
     if (!table || formula || scene->height == 0) return true;
     return wr_reference_table_init(&stage->table, field, pool, err);
 }
@@ -53,6 +54,7 @@ void wr_reference_stage_fini(WrReferenceStage *stage)
 {
     wr_reference_view_fini(&stage->view);
     wr_reference_table_fini(&stage->table);
+    wr_reference_surround_fini(&stage->surround);
 }
 
 void wr_reference_height(const WrReferenceStage *stage, double u, double v, double *f, double *fu,
@@ -144,15 +146,13 @@ static double lobe(WrVec3 perturbed, WrVec3 h, double s)
     return nh > 0 ? pow(nh, s) : 0;
 }
 
-/* What one light of strength 1 adds: in the surface's colour, and in its own. */
-static void one_light(const WrReferenceStage *stage, WrVec3 n, WrVec3 l, WrVec3 v,
-                      const double colour[3], double own[3], double *white)
+void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, WrVec3 l, WrVec3 v,
+                       const double colour[3], double own[3], double *white)
 {
-    const WrMaterial *m = &stage->scene->material;
     const WrVec3 h = v3_add(l, v);
     const double nl = v3_dot(n, l), hh = v3_dot(h, h);
     if (m->model != WR_REFLECT_BLINN_PHONG) {
-        wr_reference_reflect(&stage->matter, m->model, m->energy, n, l, v, colour, own, white);
+        wr_reference_reflect(matter, m->model, m->energy, n, l, v, colour, own, white);
     } else {
         *white = 0;
         if (m->specular != 0 && (nl > 0 || !m->gate) && hh > 1e-24)
@@ -178,13 +178,15 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
         const WrReferenceLight *light = &view->lights[i];
         const WrVec3 l = light->point ? unit(v3_sub(light->where, p)) : light->where;
         double own[3], white;
-        one_light(stage, perturbed, l, to, has, own, &white);
+        wr_reference_lamp(m, &stage->matter, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
             diffuse[c] += light->rgb[c] * own[c];
             shine[c] += light->rgb[c] * white;
         }
     }
-    for (int c = 0; c < 3; c++) rgb[c] = has[c] * diffuse[c] + shine[c];
+    double around[3], mirrored[3];
+    wr_reference_surround_light(stage, perturbed, to, has, around, mirrored);
+    for (int c = 0; c < 3; c++) rgb[c] = has[c] * (diffuse[c] + around[c]) + shine[c] + mirrored[c];
 }
 
 bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out)

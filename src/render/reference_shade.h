@@ -1,8 +1,10 @@
 /* reference_shade.h - from a place on the surface to its normal and its light, for the reference.
    Layer 5, private to the reference. */
 #pragma once
+#include "render/reference_surround.h"
 #include "render/reference_table.h"
 #include "render/reference_view.h"
+#include "scene/scene.h"
 #include "shade/bump_mode.h"
 
 #include <stdbool.h>
@@ -11,7 +13,8 @@
 typedef struct WrReferenceStage {
     const WrScene *scene; /* borrowed */
     WrReferenceView view;
-    WrReferenceTable table;      /* empty where F is a formula or has no height */
+    WrReferenceTable table; /* empty where F is a formula or has no height */
+    WrReferenceSurround surround;
     WrMatter matter;             /* of models other than Blinn-Phong's */
     WrBumpMode bump;             /* what the reference takes for the truth */
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
@@ -40,6 +43,10 @@ double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at);
  * perturbed: n' towards the viewer's side. */
 void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
                         WrVec3 perturbed, double rgb[3]);
+
+/* What one light of strength 1 adds: in the surface's colour, and in its own. matter: of the material. */
+void wr_reference_lamp(const WrMaterial *material, const WrMatter *matter, WrVec3 n, WrVec3 l,
+                       WrVec3 v, const double colour[3], double own[3], double *white);
 
 typedef struct WrReferenceSample {
     double rgb[3];

@@ -103,6 +103,7 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
     view->perspective = !place.orthographic;
     view->size = place.size;
+    for (int i = 0; i < 9; i++) view->rotation[i] = place.rotation[i];
     view->eye = point_to_object(&place, place.eye);
     view->right = way_to_object(&place, place.right);
     view->up = way_to_object(&place, place.up);

@@ -32,6 +32,7 @@ typedef struct WrReferenceView {
     double half_w, half_h, depth; /* of the view, at depth 1 or whole; of `middle` */
     double size;                  /* world units per unit of the object */
     double s_min;                 /* of rays: where the near plane stands */
+    double rotation[9];           /* the object's axes -> the world */
     bool perspective;
     bool cull; /* a closed surface seen from outside hides its back */
     bool hidden[6];

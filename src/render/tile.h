@@ -9,6 +9,7 @@
 #include "render/mesh.h"
 #include "render/plan.h"
 #include "render/sight.h"
+#include "render/surround.h"
 #include "render/triangles.h"
 
 #include <stdbool.h>
@@ -48,7 +49,8 @@ typedef struct WrTileJob {
     WrLevel level;       /* how steep the table is where; only for one of the next two */
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
-    WrMatter matter;     /* what the plan's model goes by; kd and ks of what runs */
+    WrMatter matter; /* what the plan's model goes by; kd and ks of what runs */
+    WrSurroundLook surround;
     WrColourLook colour; /* rgba NULL: none */
     WrLook tint;         /* the colour picture's means over footprints; pyramid NULL: not wanted */
     WrLookd tint_double;

@@ -7,6 +7,7 @@
 #include "base/vec.h"
 
 #include <math.h>
+#include <string.h>
 
 /* World position -> kernel position. */
 static WrVec3 bring_in(const WrPlacement *place, double scale, WrVec3 w)
@@ -345,6 +346,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
     view->across = wr_place_shrink_back(&place, place.right);
     view->above = wr_place_shrink_back(&place, place.up);
     view->ahead = wr_place_shrink_back(&place, place.forward);
+    memcpy(view->rotation, place.rotation, sizeof view->rotation);
     view->stretched = place.stretched;
     store(view->stretch, place.stretch);
     store(view->cofactor, place.cofactor);

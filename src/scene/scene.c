@@ -118,6 +118,7 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->dials = from->dials;
     scene->tolerance = from->tolerance;
     scene->background = from->background;
+    wr_environment_copy(&scene->environment, &from->environment);
 }
 
 void wr_scene_drop_colour(WrScene *scene)
@@ -159,6 +160,7 @@ void wr_scene_free(WrScene *scene)
     wr_free(scene->triangles_path);
     wr_free(scene->form_layer);
     wr_free(scene->lights);
+    wr_environment_fini(&scene->environment);
     wr_scene_drop_views(scene);
     wr_free(scene);
 }
@@ -227,11 +229,22 @@ void wr_scene_height(const WrScene *scene, const WrField *field, double u, doubl
     if (fv) *fv = wr_slope_of(slope_v, scene->height, rv);
 }
 
+WrReflectance wr_scene_reflectance(const WrMaterial *m)
+{
+    return (WrReflectance){ m->model, m->energy, m->shininess, m->roughness, m->metalness, m->ior };
+}
+
+void wr_scene_gloss(const WrMaterial *m, WrGloss *gloss)
+{
+    const WrReflectance of = wr_scene_reflectance(m);
+    WrMatter matter;
+    wr_matter_init(&matter, &of);
+    wr_gloss_init(gloss, &of, &matter, m->specular, m->tint, m->gate);
+}
+
 void wr_scene_matter(const WrMaterial *m, WrMatter *matter)
 {
-    const WrReflectance of = {
-        m->model, m->energy, m->shininess, m->roughness, m->metalness, m->ior
-    };
+    const WrReflectance of = wr_scene_reflectance(m);
     wr_matter_init(matter, &of);
     matter->kd = m->diffuse, matter->ks = m->specular;
     matter->colour[0] = m->colour.x, matter->colour[1] = m->colour.y;

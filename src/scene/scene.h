@@ -13,8 +13,10 @@
 #include "scene/camera.h"
 #include "scene/colouring.h"
 #include "scene/dials.h"
+#include "scene/environment.h"
 #include "scene/normal_frame.h"
 #include "shade/bump_mode.h"
+#include "shade/gloss.h"
 #include "shade/reflect.h"
 #include "surface/surface.h"
 
@@ -130,6 +132,7 @@ struct WrScene {
     WrDials dials;
     WrTolerance tolerance;
     WrBackground background;
+    WrEnvironment environment;
     double radius; /* of the shape, once it was found, of one of `others`; private */
 };
 
@@ -155,7 +158,7 @@ WrScene *wr_scene_new(void);
 /* A deep copy that the caller may change until it shares it. */
 WrScene *wr_scene_clone(const WrScene *scene);
 WrScene *wr_scene_share(const WrScene *scene); /* constant time */
-/* What all objects have in common, lights to background, from another scene: for one that may be changed. */
+/* What all objects have in common, lights to surroundings, from another scene: for one that may be changed. */
 void wr_scene_take_shared(WrScene *scene, const WrScene *from);
 void wr_scene_free(WrScene *scene);
 /* Take a shape; what it borrows is shared from now on. */
@@ -231,3 +234,6 @@ void wr_scene_height(const WrScene *scene, const WrField *field, double u, doubl
 
 /* What a material's formulas go by. */
 void wr_scene_matter(const WrMaterial *material, WrMatter *matter);
+WrReflectance wr_scene_reflectance(const WrMaterial *material);
+/* What it does with surroundings. */
+void wr_scene_gloss(const WrMaterial *material, WrGloss *gloss);

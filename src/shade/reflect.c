@@ -83,7 +83,7 @@ void wr_ggx_albedo(double alpha, double mu, double out[2])
         }
 }
 
-/* The polynomial in x = sqrt(mu) through values at Chebyshev's places, by Newton's divided differences. */
+/* By Newton's divided differences. */
 static void fit(const double x[WR_ALBEDO_TERMS], double y[WR_ALBEDO_TERMS],
                 double out[WR_ALBEDO_TERMS])
 {
@@ -95,6 +95,19 @@ static void fit(const double x[WR_ALBEDO_TERMS], double y[WR_ALBEDO_TERMS],
         for (int i = n - 1; i > 0; i--) out[i] = out[i - 1] - x[k] * out[i];
         out[0] = y[k] - x[k] * out[0];
     }
+}
+
+void wr_albedo_places(double x[WR_ALBEDO_TERMS])
+{
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++)
+        x[i] = 0.5 - 0.5 * cos(pi * (i + 0.5) / WR_ALBEDO_TERMS);
+}
+
+void wr_albedo_fit(double y[WR_ALBEDO_TERMS], double out[WR_ALBEDO_TERMS])
+{
+    double x[WR_ALBEDO_TERMS];
+    wr_albedo_places(x);
+    fit(x, y, out);
 }
 
 static double polynomial(const double *terms, double x)
@@ -118,8 +131,8 @@ static double between(int i)
 static void find_albedo(double alpha, Albedo *out)
 {
     double x[WR_ALBEDO_TERMS], y[2][WR_ALBEDO_TERMS], e[2];
+    wr_albedo_places(x);
     for (int i = 0; i < WR_ALBEDO_TERMS; i++) {
-        x[i] = 0.5 - 0.5 * cos(pi * (i + 0.5) / WR_ALBEDO_TERMS);
         wr_ggx_albedo(alpha, x[i] * x[i], e);
         y[0][i] = e[0], y[1][i] = e[1];
     }
@@ -127,8 +140,8 @@ static void find_albedo(double alpha, Albedo *out)
         wr_ggx_albedo(alpha, between(i) * between(i), e);
         out->check[0][i] = e[0], out->check[1][i] = e[1];
     }
-    fit(x, y[0], out->part[0]);
-    fit(x, y[1], out->part[1]);
+    wr_albedo_fit(y[0], out->part[0]);
+    wr_albedo_fit(y[1], out->part[1]);
     out->alpha = alpha;
 }
 

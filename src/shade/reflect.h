@@ -65,3 +65,7 @@ void wr_matter_init(WrMatter *matter, const WrReflectance *of);
 /* The albedo of GGX facets of width alpha at n.v = mu, split by Schlick's Fresnel term: E = f0 out[0] + out[1]. By
    quadrature. */
 void wr_ggx_albedo(double alpha, double mu, double out[2]);
+
+/* The polynomial in x = sqrt(n.v) through values at Chebyshev's places x, which are used up. */
+void wr_albedo_places(double x[WR_ALBEDO_TERMS]);
+void wr_albedo_fit(double y[WR_ALBEDO_TERMS], double out[WR_ALBEDO_TERMS]);

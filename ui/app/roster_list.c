@@ -95,6 +95,7 @@ static WrFileTake *const takes[] = {
     [WR_ROW(WR_FILE_TABLE)] = wr_object_table_take,
     [WR_ROW(WR_FILE_COLOUR)] = wr_map_take_colour,
     [WR_ROW(WR_FILE_NORMALS)] = wr_map_take_normals,
+    [WR_ROW(WR_FILE_SURROUND)] = wr_light_take_surround,
     [WR_ROW(WR_FILE_PRESET)] = wr_shelf_take,
 };
 WR_ROWS_END(takes, WR_FILE_PURPOSES);

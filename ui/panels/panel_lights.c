@@ -1,17 +1,20 @@
 /* The scene's panel: lights. */
 #include "ui/desk/busy.h"
 #include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
 #include "ui/desk/line.h"
 #include "ui/desk/roster.h"
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/jobs/files.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
 #include "base/rows.h"
 #include "base/text.h"
 #include "base/vec.h"
+#include "command/call.h"
 #include "scene/param.h"
 #include "scene/scene.h"
 
@@ -122,7 +125,53 @@ static void lights(WrApp *app)
     }
 }
 
+/* ---- surroundings ---- */
+
+void wr_light_take_surround(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    wr_text_add(&line, "environment ");
+    wr_text_add_word(&line, path);
+    wr_scene_run(app, &line);
+}
+
+static void choose_surround(WrApp *app, WrSurroundKind kind)
+{
+    if (kind != WR_SURROUND_FILE) wr_light_take_surround(app, wr_surround_names[kind]);
+    else if (!wr_files_ask(app->files, WR_FILE_SURROUND, NULL, ""))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+}
+
+static void surroundings(WrApp *app)
+{
+    WR_ROWS(kinds);
+    static const char *const kinds[WR_SURROUND_KINDS] = {
+        [WR_ROW(WR_SURROUND_OFF)] = "None",
+        [WR_ROW(WR_SURROUND_STUDIO)] = "Studio",
+        [WR_ROW(WR_SURROUND_SKY)] = "Sky",
+        [WR_ROW(WR_SURROUND_RAKING)] = "Raking",
+        [WR_ROW(WR_SURROUND_FILE)] = "A picture \xe2\x80\xa6",
+    };
+    WR_ROWS_END(kinds, WR_SURROUND_KINDS);
+    const WrEnvironment *now = &wr_app_scene(app)->environment;
+    int kind = (int)now->kind;
+    wr_gui_space(8);
+    wr_gui_heading("SURROUNDINGS");
+    wr_gui_label("Kind");
+    if (wr_gui_choice("surroundings", 0, kinds, WR_SURROUND_KINDS, &kind)) {
+        choose_surround(app, (WrSurroundKind)kind);
+        return;
+    }
+    wr_gui_tip(now->path ? now->path
+                         : "Light from all sides, beside the lights: seen where the material "
+                           "shines. A picture: by longitude and latitude, such as HDR and EXR");
+    if (now->kind == WR_SURROUND_OFF) return;
+    wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_TURN]);
+    wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_STRENGTH]);
+}
+
 void wr_panel_lights(WrApp *app)
 {
     lights(app);
+    surroundings(app);
 }

@@ -16,8 +16,9 @@ void wr_panel_scene(WrApp *app);
 void wr_panel_objects(WrApp *app);  /* its upper part */
 void wr_panel_material(WrApp *app); /* its lower parts */
 void wr_panel_maps(WrApp *app);
-void wr_panel_colouring(WrApp *app);                   /* a part of that */
-void wr_map_take_colour(WrApp *app, const char *path); /* of a file that was chosen */
+void wr_panel_colouring(WrApp *app);                       /* a part of that */
+void wr_map_take_colour(WrApp *app, const char *path);     /* of a file that was chosen */
+void wr_light_take_surround(WrApp *app, const char *path); /* likewise */
 void wr_map_take_normals(WrApp *app, const char *path);
 void wr_panel_lights(WrApp *app);
 void wr_panel_camera(WrApp *app);

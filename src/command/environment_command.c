@@ -1,0 +1,168 @@
+/* The surroundings as a light. */
+#include "base/error.h"
+#include "base/rows.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "command/scene_args.h"
+#include "document/document.h"
+#include "document/document_file.h"
+#include "image/image.h"
+#include "scene/param.h"
+#include "scene/scene.h"
+
+#include <string.h>
+
+static const char *const set_words[] = { "off", "studio", "sky", "raking", NULL };
+
+void wr_print_environment(const WrScene *scene, bool named, WrText *text)
+{
+    const WrEnvironment *own = &scene->environment;
+    if (own->kind == WR_SURROUND_OFF) return;
+    wr_text_add(text, "environment");
+    if (own->kind != WR_SURROUND_FILE) wr_text_addf(text, " %s", wr_surround_names[own->kind]);
+    else if (named) wr_text_add(text, " "), wr_text_add_word(text, own->path);
+    if (*own->sha256) wr_text_addf(text, " sha256=%s", own->sha256);
+    wr_scene_print_params("environment", NULL, scene, text);
+    wr_text_add(text, "\n");
+}
+
+static void print_environment(const WrScene *scene, WrText *text)
+{
+    wr_print_environment(scene, true, text);
+}
+
+static void note_told(WrSession *session, const char *name, const WrSurroundTold *told)
+{
+    if (told->lost)
+        wr_session_note(session, "%s: %lld numbers that are none became 0", name,
+                        (long long)told->lost);
+    if (told->below)
+        wr_session_note(session, "%s: %lld numbers below 0 became 0", name, (long long)told->below);
+    if (told->above)
+        wr_session_note(session, "%s: %lld numbers beyond 1e9 became 1e9", name,
+                        (long long)told->above);
+    if (told->reduced > 1)
+        wr_session_note(session, "%s: more than %d texels wide: each is the mean of %d x %d", name,
+                        WR_SURROUND_WIDTH, told->reduced, told->reduced);
+}
+
+/* Inside a document the picture that it carries, else the file's. The caller frees it. */
+static WrImage *find_picture(WrSession *session, WrCall *call, const char *name, WrError *err)
+{
+    if (session->loading) {
+        const WrImage *held = session->embedded ? session->embedded[0][WR_OBJECT_SURROUND] : NULL;
+        if (held) return wr_image_share(held);
+        wr_fail(err, "the document names the picture %s but does not hold it", name);
+        return NULL;
+    }
+    char *path = wr_session_input_path(session, name);
+    WrImageWish wish = wr_call_wish(call);
+    wish.keep_lost = true;
+    WrImage *image = NULL;
+    if (wr_session_check_sha256(call, path, err)) image = wr_image_read_wish(path, &wish, err);
+    if (image) wr_session_note_read(session, path, image);
+    wr_free(path);
+    return image;
+}
+
+static WrSurround *read_file(WrSession *session, WrCall *call, const char *name, WrError *err)
+{
+    WrSurroundTold told;
+    WrImage *image = find_picture(session, call, name, err);
+    if (!image) return NULL;
+    WrSurround *light = wr_surround_new(image, &told, err);
+    wr_image_free(image);
+    if (light) note_told(session, name, &told);
+    return light;
+}
+
+static WrSurroundKind kind_of(const char *name)
+{
+    for (int i = 0; set_words[i]; i++)
+        if (strcmp(name, set_words[i]) == 0) return (WrSurroundKind)i;
+    return WR_SURROUND_FILE;
+}
+
+static bool take_light(WrSession *session, WrCall *call, const char *name, WrEnvironment *to,
+                       WrError *err)
+{
+    const WrSurroundKind kind = kind_of(name);
+    const bool file = kind == WR_SURROUND_FILE;
+    WrSurround *light = NULL;
+    if (file) light = read_file(session, call, name, err);
+    else if (kind != WR_SURROUND_OFF) light = wr_surround_built(kind, err);
+    if (!light && kind != WR_SURROUND_OFF) return false;
+    wr_environment_set(to, kind, light, file ? name : NULL,
+                       file ? wr_call_arg(call, "sha256")->text : NULL);
+    return true;
+}
+
+/* What belongs to a file stands in a line that names one, and off takes nothing. */
+static bool check_line(const WrCall *call, const WrScene *now, const char *name, WrError *err)
+{
+    static const char *const of_file[] = { "channel", "part", "sha256" };
+    static const char *const of_light[] = { "turn", "strength" };
+    const WrSurroundKind kind = name ? kind_of(name) : WR_SURROUND_OFF;
+    if (!name && now->environment.kind == WR_SURROUND_OFF)
+        return wr_fail(err, "there are no surroundings: name some");
+    for (int i = 0; i < 3; i++)
+        if (kind != WR_SURROUND_FILE && wr_call_given(call, of_file[i]))
+            return wr_fail(err, "only a line that names a file takes %s=", of_file[i]);
+    for (int i = 0; i < 2; i++)
+        if (name && kind == WR_SURROUND_OFF && wr_call_given(call, of_light[i]))
+            return wr_fail(err, "off takes no %s=", of_light[i]);
+    return true;
+}
+
+static bool run_environment(WrSession *session, WrCall *call, WrError *err)
+{
+    const WrScene *now = session->state.document->scene;
+    const WrArg *file = wr_call_arg(call, "FILE|SET|off");
+    const char *name = file->given ? file->text : NULL;
+    if (!check_line(call, now, name, err)) return false;
+    WrScene *scene = wr_scene_clone(now);
+    if (name && !take_light(session, call, name, &scene->environment, err)) {
+        wr_scene_free(scene);
+        return false;
+    }
+    wr_scene_take(call, NULL, scene);
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static const WrArgSpec args_file[] = { WR_ARGS_OF_FILE,
+                                       { .name = "sha256",
+                                         .type = WR_ARG_SHA256,
+                                         .help = "of the file: another content is then an error" },
+                                       { 0 } };
+
+static bool row_environment(WrForm *out)
+{
+    *out = (WrForm){ .args = { { .name = "FILE|SET|off",
+                                 .type = WR_ARG_PATH,
+                                 .positional = true,
+                                 .words = set_words,
+                                 .help = "a picture by longitude and latitude, or studio, sky, "
+                                         "raking, or off (a file of that name is ./sky). Left out: "
+                                         "those that are there" } } };
+    return wr_scene_args("environment", NULL, out->args + 1) > 0;
+}
+
+const WrCommand wr_command_environment = {
+    .name = "environment",
+    .kind = WR_CLASS_SCENE,
+    .row = row_environment,
+    .more = args_file,
+    .run = run_environment,
+    .print = print_environment,
+    .help = "surroundings that light the objects from all sides",
+    .details =
+        "Beside the lights; `light clear` leaves them alone. A picture is twice as wide as high, "
+        "its middle is -z, its upper border straight up; float ones (EXR, HDR) are taken as "
+        "linear, 8-bit and 16-bit ones decoded from sRGB. Diffuse light of them is by spherical "
+        "harmonics of order 2. The picture is saved inside the document. Only what is given "
+        "changes.",
+    .example = "environment sky turn=30 strength=0.8"
+};

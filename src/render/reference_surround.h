@@ -1,0 +1,28 @@
+/* reference_surround.h - light of surroundings for the reference: a lamp's formulas integrated over all directions, by its own
+   look-up and without a kernel, harmonic or lobe of the renderer's.
+   Layer 5, private to the reference. */
+#pragma once
+#include "base/vec.h"
+
+typedef struct WrScene WrScene;
+typedef struct WrReferenceStage WrReferenceStage;
+
+/* A part of the sphere, as one lamp: the mean direction of its light, and that light times its solid angle over pi. */
+typedef struct WrReferenceSector {
+    WrVec3 where; /* the object's axes; unit */
+    double rgb[3];
+} WrReferenceSector;
+
+typedef struct WrReferenceSurround {
+    WrReferenceSector *sectors; /* [count], owned; NULL: there are no surroundings */
+    int count;
+    double rotation[9];
+} WrReferenceSurround;
+
+/* rotation: the object's axes -> the world. */
+void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *scene,
+                                const double rotation[9]);
+void wr_reference_surround_fini(WrReferenceSurround *surround);
+/* What they add: in the surface's colour, and in their own. n towards the viewer's side; colour as wr_reference_reflect's. */
+void wr_reference_surround_light(const WrReferenceStage *stage, WrVec3 n, WrVec3 v,
+                                 const double colour[3], double own[3], double white[3]);

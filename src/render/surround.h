@@ -1,0 +1,21 @@
+/* surround.h - the scene's surroundings as an object's pictures need them.
+   Layer 5, private to the renderer. */
+#pragma once
+#include "render/kern.h"
+#include "shade/gloss.h"
+
+typedef struct WrMirror WrMirror;
+typedef struct WrPlan WrPlan;
+typedef struct WrScene WrScene;
+
+typedef struct WrSurroundLook {
+    WrKernSurround single;
+    WrKernSurroundd wide;
+    WrKernMirror mirror;
+    WrKernMirrord mirror_wide;
+    int shares; /* of diffuse light: 0: Lambert's; 1: by n.v; 2: and what is reflected again */
+} WrSurroundLook;
+
+/* rotation: the object's axes -> the world, as WrPlacement has it. */
+void wr_surround_look(const WrScene *scene, const WrPlan *plan, const double rotation[9],
+                      const WrMirror *mirror, WrSurroundLook *out);

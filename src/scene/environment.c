@@ -1,0 +1,34 @@
+#include "scene/environment.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+void wr_environment_fini(WrEnvironment *environment)
+{
+    wr_surround_free(environment->light);
+    wr_free(environment->path);
+    environment->light = NULL;
+    environment->path = NULL;
+}
+
+void wr_environment_copy(WrEnvironment *to, const WrEnvironment *from)
+{
+    WrEnvironment copy = *from;
+    copy.light = wr_surround_share(from->light);
+    copy.path = wr_strdup(from->path);
+    wr_environment_fini(to);
+    *to = copy;
+}
+
+void wr_environment_set(WrEnvironment *environment, WrSurroundKind kind, WrSurround *light,
+                        const char *path, const char *sha256)
+{
+    WrEnvironment made = { .kind = kind, .light = light, .strength = 1 };
+    if (kind != WR_SURROUND_OFF && environment->kind != WR_SURROUND_OFF)
+        made.turn_deg = environment->turn_deg, made.strength = environment->strength;
+    made.path = wr_strdup(path);
+    if (sha256) memcpy(made.sha256, sha256, 64);
+    wr_environment_fini(environment);
+    *environment = made;
+}

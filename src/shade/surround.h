@@ -1,0 +1,70 @@
+/* surround.h - surroundings as a light: a picture by longitude and latitude of what comes from each direction, out of a
+   file or of a built-in set, and what diffuse light takes of it.
+   Layer 3.
+
+   y is up. The picture's middle is -z, +x is at three quarters of its width, as seen from inside:
+     u = 1/2 + atan2(x, -z) / 2 pi,   v = 1/2 + atan2(y, hypot(x, z)) / pi
+   bilinear between texels; columns wrap; straight up and down it is the mean of the nearest row, from every side, so that
+   it is continuous everywhere (HC111). */
+#pragma once
+#include "base/vec.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrImage WrImage;
+
+typedef enum WrSurroundKind {
+    WR_SURROUND_OFF,
+    WR_SURROUND_STUDIO,
+    WR_SURROUND_SKY,
+    WR_SURROUND_RAKING,
+    WR_SURROUND_FILE,
+    WR_SURROUND_KINDS
+} WrSurroundKind;
+extern const char *const wr_surround_names[WR_SURROUND_KINDS]; /* "off", "studio" ... "file" */
+
+#define WR_SURROUND_MOST 1e9f  /* what a texel may hold; more, and infinity, becomes that (HC114) */
+#define WR_SURROUND_WIDTH 4096 /* wider pictures are reduced to means of their texels */
+#define WR_HARMONICS 9         /* of order 0, 1, 2 */
+
+typedef struct WrSurround {
+    int refs;          /* atomic */
+    WrImage *image;    /* three channels, linear, 0..WR_SURROUND_MOST; owned */
+    bool even;         /* one colour everywhere */
+    double pole[2][3]; /* means of the first row and of the last */
+    /* L_lm by real harmonics 1; y, z, x; xy, yz, 3zz - 1, xz, xx - yy, each times its root */
+    double harmonic[WR_HARMONICS][3];
+} WrSurround;
+
+/* What of a file's numbers had to be changed. */
+typedef struct WrSurroundTold {
+    int64_t lost, below, above; /* no numbers: 0; negative: 0; beyond WR_SURROUND_MOST */
+    int reduced;                /* texels a side that each one is the mean of; 1: none */
+} WrSurroundTold;
+
+/* Of any picture, which is not changed: codes are decoded from sRGB, alpha is left out. Errors: no memory, cancelled. */
+WrSurround *wr_surround_new(const WrImage *image, WrSurroundTold *told, WrError *err);
+/* A built-in set; not off and not a file's. */
+WrSurround *wr_surround_built(WrSurroundKind kind, WrError *err);
+WrSurround *wr_surround_share(const WrSurround *surround); /* NULL is fine */
+void wr_surround_free(WrSurround *surround);               /* NULL is fine */
+
+/* The direction of u, v and back; of no direction (0,0,0) the middle. */
+WrVec3 wr_surround_direction(double u, double v);
+void wr_surround_place(WrVec3 direction, double *u, double *v);
+/* What comes from a place of the picture, and from a direction of any length. */
+void wr_surround_at_place(const WrSurround *surround, double u, double v, double rgb[3]);
+void wr_surround_at(const WrSurround *surround, WrVec3 direction, double rgb[3]);
+
+/* Row-major: a direction of the world -> the same of the picture, where the surroundings are turned about the world's y
+   by an angle of any size; whole turns are taken off exactly (HC116). */
+void wr_surround_turn(double turn_deg, double out[9]);
+
+#define WR_FORM_TERMS 10
+/* Diffuse light over pi, as a lamp's n.l: E / pi = k + b n + n Q n, by Lambert's cosine (Ramamoorthi, Hanrahan 2001), as
+   k, bx by bz, Qxx Qyy Qzz, 2Qxy 2Qyz 2Qxz for each colour. axes: row-major, what n is of -> the picture's directions.
+   Of surroundings that are nowhere below 0 it is off by -19/480 to 3/32 of the integral of L at most, and may be below 0. */
+void wr_surround_form(const WrSurround *surround, const double axes[9], double strength,
+                      double out[3][WR_FORM_TERMS]);
