@@ -159,6 +159,7 @@ static const char *const lines[] = {
     "colour big.exr",
     "colouring ramp",
     "normalmap big.exr",
+    "environment big.exr",
     "save new.exr",
     "save new.ora",
     "export height new.png",
