@@ -8,7 +8,9 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "command/session.h"
+#include "base/text.h"
 #include "image/image.h"
+#include "scene/scene.h"
 
 typedef struct Bytes {
     uint8_t *data; /* owned */
@@ -432,6 +434,37 @@ static void commands_choose_and_tell_what_they_took(void **state)
     wr_session_free(s);
 }
 
+/* Its lines take the same channels again: from a script beside the file, and in a document without it. */
+static void a_scene_names_the_channels_that_its_pictures_took(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "Depth.Z", "diffuse.B", "diffuse.G", "diffuse.R" };
+    WrError err = { "" };
+    WrText lines = { 0 }, again = { 0 }, one = { 0 };
+    WrSession *s = wr_session_new(NULL), *opened = wr_session_new(NULL),
+              *script = wr_session_new(NULL);
+    write_layers("maps.exr", names, 4, 2);
+    must_run(s, "colour maps.exr channel=Depth.Z part=2 repeat=once");
+    must_run(s, "normalmap maps.exr channel=diffuse");
+    wr_session_scene_text(s, &lines);
+    assert_non_null(strstr(wr_text_get(&lines), "colour maps.exr channel=Depth.Z part=2 "));
+    assert_non_null(strstr(wr_text_get(&lines), "normalmap maps.exr channel=diffuse "));
+    assert_true(wr_session_save(s, "kept.exr", &err));
+    const char *line = strstr(wr_text_get(&lines), "colour maps");
+    wr_text_add_n(&one, line, strcspn(line, "\n"));
+    must_run(script, wr_text_get(&one));
+    assert_int_equal(unlink("maps.exr"), 0);
+    if (!wr_session_open(opened, "kept.exr", &err)) fail_msg("%s", err.text);
+    wr_session_scene_text(opened, &again);
+    assert_string_equal(wr_text_get(&lines), wr_text_get(&again));
+    const WrImage *took = wr_session_document(s)->scene->colour;
+    const WrImage *same = wr_session_document(script)->scene->colour;
+    assert_int_equal(took->channels, 1);
+    assert_memory_equal(took->data, same->data, 15 * sizeof(float));
+    wr_text_fini(&lines), wr_text_fini(&again), wr_text_fini(&one);
+    wr_session_free(s), wr_session_free(opened), wr_session_free(script);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -445,6 +478,7 @@ int main(void)
         cmocka_unit_test(channels_in_layers_are_not_mixed),
         cmocka_unit_test(a_part_is_chosen_by_number_or_name),
         cmocka_unit_test(commands_choose_and_tell_what_they_took),
+        cmocka_unit_test(a_scene_names_the_channels_that_its_pictures_took),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

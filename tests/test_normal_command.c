@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "image/image.h"
 #include "render/frame.h"
+#include "scene/normal_map.h"
 #include "scene/objects.h"
 #include "scene/scene.h"
 
@@ -118,6 +119,35 @@ static void settings_change_without_the_file(void **state)
     assert_null(map_of(s)->image);
     must_run(s, "undo"), must_run(s, "normalmap off");
     assert_null(map_of(s)->image);
+    wr_session_free(s);
+}
+
+/* To the object's axes nothing changes; back again what looks away is brought to the horizon, and counted. */
+static void the_space_changes_without_the_file(void **state)
+{
+    (void)state;
+    Said said = { "" };
+    WrError err = { "" };
+    WrSession *s = told_session(&said);
+    const float n[6] = { 0.6F, 0, -0.8F, 0.48F, 0.6F, 0.64F };
+    assert_true(wr_image_write_pixels("two.exr", 2, 1, 3, WR_PIXEL_F32, true, n, &err));
+    must_run(s, "normalmap two.exr space=object green=up");
+    assert_int_equal(unlink("two.exr"), 0);
+    must_run(s, "normalmap space=tangent");
+    expect_told(&said, "1 texels that look away");
+    const float *made = map_of(s)->image->data;
+    assert_near(made[0], 1, 1e-5);
+    assert_near(made[2], WR_NORMAL_LEAST / hypot(0.6, WR_NORMAL_LEAST), 1e-6);
+    for (int c = 0; c < 3; c++) assert_near(made[3 + c], n[3 + c], 1e-6);
+    assert_false(map_of(s)->object);
+    const WrHash tangent = wr_session_hash(s);
+    must_run(s, "normalmap space=object strength=0.5");
+    assert_true(map_of(s)->object && map_of(s)->strength == 0.5);
+    must_run(s, "undo");
+    assert_true(wr_hash_equal(wr_session_hash(s), tangent));
+    must_run(s, "undo");
+    assert_near(map_of(s)->image->data[2], -0.8, 1e-6);
+    must_fail(s, "normalmap space=object channels=2", "names a file");
     wr_session_free(s);
 }
 
@@ -309,6 +339,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_taken_is_told),
         cmocka_unit_test(settings_change_without_the_file),
+        cmocka_unit_test(the_space_changes_without_the_file),
         cmocka_unit_test(what_makes_no_sense_is_refused),
         cmocka_unit_test(files_bring_them_back),
         cmocka_unit_test(maps_are_recovered_without_their_files),

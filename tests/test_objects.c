@@ -79,6 +79,78 @@ static void commands_are_about_the_chosen_one(void **state)
     wr_session_free(session);
 }
 
+/* With several objects it is the same edit as turn=, under that name; undo takes it back. */
+static void rotate_turns_the_chosen_one(void **state)
+{
+    (void)state;
+    WrSession *session = session_of(three), *other = session_of(three);
+    must_run(session, "object choose band"), must_run(other, "object choose band");
+    const WrHash before = wr_session_hash(session);
+    must_run(session, "rotate 12.375,-71,0.1");
+    must_run(other, "object set turn=12.375,-71,0.1");
+    assert_true(wr_hash_equal(wr_session_hash(session), wr_session_hash(other)));
+    assert_false(wr_hash_equal(wr_session_hash(session), before));
+    assert_string_equal(wr_session_last_command(session), wr_session_last_command(other));
+    must_run(session, "undo");
+    assert_true(wr_hash_equal(wr_session_hash(session), before));
+    must_run(session, "redo");
+    must_run(session, "rotate pose=own");
+    assert_false(scene_of(session)->posed);
+    wr_session_free(session);
+    wr_session_free(other);
+}
+
+static void expect_heights(const char *path, const WrField *want)
+{
+    WrError err = { "" };
+    WrImage *image = wr_image_read(path, &err);
+    if (!image) fail_msg("%s", err.text);
+    for (int j = 0; j < image->height; j++)
+        for (int i = 0; i < image->width; i++)
+            assert_true(image->data[j * image->width + i] == wr_field_get(want, i, j));
+    wr_image_free(image);
+}
+
+/* Of each object the layer that it wears, else that of all. */
+static void exports_take_the_table_of_an_object(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "table 23x14",
+                                         "noise perlin cells=3",
+                                         "layer rename 1 first",
+                                         "layer add second",
+                                         "noise value cells=5",
+                                         "object set name=left layer=first",
+                                         "object add right layer=second",
+                                         "object add both",
+                                         "export height left.exr object=left",
+                                         "export height right.exr object=right",
+                                         "export height both.exr object=both",
+                                         "export height all.exr",
+                                         "export lines left.svg object=left",
+                                         "export profile right.svg object=right" };
+    const WrSessionOptions options = { .outputs = true };
+    WrSession *session = wr_session_new(&options);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) must_run(session, lines[i]);
+    const WrDocument *document = wr_session_document(session);
+    expect_heights("left.exr", document->layers[0].heights);
+    expect_heights("right.exr", document->layers[1].heights);
+    expect_heights("both.exr", wr_document_field(document));
+    expect_heights("all.exr", wr_document_field(document));
+    must_fail(session, "export normal+y none.png object=middle", "object 'middle'");
+    must_run(session, "object choose left");
+    must_run(session, "analytic poly c=1,2,0.3");
+    must_run(session, "export height poly.exr object=left");
+    WrImage *poly = wr_image_read("poly.exr", NULL);
+    assert_non_null(poly);
+    assert_true(poly->data[0] != wr_field_get(document->layers[0].heights, 0, 0));
+    wr_image_free(poly);
+    must_run(session, "object choose right");
+    must_run(session, "export height right.exr object=right");
+    expect_heights("right.exr", document->layers[1].heights);
+    wr_session_free(session);
+}
+
 static void what_cannot_be_is_told(void **state)
 {
     (void)state;
@@ -91,7 +163,7 @@ static void what_cannot_be_is_told(void **state)
     must_fail(session, "object set at=1,2", "at");
     must_fail(session, "object set turn=1,2", "own");
     must_fail(session, "object add", "NAME");
-    must_fail(session, "rotate 1,2,3", "object set turn=");
+    must_fail(session, "rotate", "one of x,y,z");
     must_run(session, "object remove box");
     must_run(session, "object remove band");
     must_fail(session, "object remove", "at least one");
@@ -228,6 +300,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(commands_are_about_the_chosen_one),
+        cmocka_unit_test(exports_take_the_table_of_an_object),
+        cmocka_unit_test(rotate_turns_the_chosen_one),
         cmocka_unit_test(what_cannot_be_is_told),
         cmocka_unit_test(each_can_be_undone),
         cmocka_unit_test(files_bring_them_back),

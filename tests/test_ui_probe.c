@@ -6,7 +6,7 @@
 #include "base/pool.h"
 #include "base/progress.h"
 #include "field/field.h"
-#include "scene/scene.h"
+#include "scene/objects.h"
 
 #include "ui/preview/accuracy_choice.h"
 #include "ui/accuracy/accuracy_probe.h"
@@ -103,6 +103,36 @@ static void what_the_view_does_not_show_has_no_footprint(void **state)
     wr_work_free(front);
     wr_work_free(back);
     wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+/* A ball before a plane: the pixel tells of what is seen there, whichever of them is at hand. */
+static void of_several_objects_the_nearest_is_told(void **state)
+{
+    (void)state;
+    WrField *field = waves();
+    WrScene *plane = scene_of("plane");
+    plane->camera.fit = false;
+    plane->camera.eye = (WrVec3){ 0.3, -0.2, 5 };
+    WrScene *several = wr_scene_add_object(plane, false);
+    wr_shape_default(WR_SURFACE_sphere, &several->shape);
+    several->size = 0.21;
+    several->at = (WrVec3){ 0.05, 0.02, 0.7 };
+    WrScene *other = wr_scene_choose(several, 0);
+    for (int k = 0; k < 2; k++)
+        for (int beside = 0; beside < 2; beside++) {
+            WrWork *work =
+                wr_work_new(WR_WORK_PROBE, NULL, field, k ? other : several, 0, 301, 203);
+            work->x = 150.5 + 24 * beside, work->y = 99.5;
+            assert_true(wr_accuracy_probe(work) && work->probe.hit && work->seen);
+            assert_int_equal(work->object, !beside);
+            const WrVec3 p = work->probe.at.p;
+            assert_near(beside ? p.z : v3_len(p), beside ? 0 : 1, 1e-9);
+            wr_work_free(work);
+        }
+    wr_scene_free(several);
+    wr_scene_free(other);
+    wr_scene_free(plane);
     wr_field_free(field);
 }
 
@@ -252,6 +282,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_place_is_the_same_by_its_pixel_and_by_its_parameters),
         cmocka_unit_test(what_the_view_does_not_show_has_no_footprint),
+        cmocka_unit_test(of_several_objects_the_nearest_is_told),
         cmocka_unit_test(a_flat_table_turns_nothing_and_drops_nothing),
         cmocka_unit_test(the_text_holds_numbers_that_read_back_whole),
         cmocka_unit_test(the_finest_of_each_axis_is_kept_of_kinds_that_are_there),

@@ -12,6 +12,7 @@
 #include "field/field.h"
 #include "generate/noise_rows.h"
 #include "scene/laid.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "surface/patches.h"
@@ -99,11 +100,23 @@ static void add_vector(WrText *text, bool json, const char *name, WrVec3 a)
     wr_text_add(text, json ? "]" : "\n");
 }
 
-static void add_point(WrText *text, bool json, const Quantities *q)
+/* Which object that is about, where there are several. */
+static void add_object(WrText *text, bool json, const WrScene *scene)
+{
+    char buffer[WR_OBJECT_LABEL];
+    const char *label = wr_scene_object_label(scene, scene->chosen, buffer);
+    if (wr_scene_object_count(scene) == 1) return;
+    add_name(text, json, "object");
+    if (json) wr_text_add_json_string(text, label);
+    else wr_text_addf(text, "%s\n", label);
+}
+
+static void add_point(WrText *text, bool json, const WrScene *scene, const Quantities *q)
 {
     const WrSurfacePoint *p = &q->point;
     if (json) wr_text_add(text, "{");
     else if (text->length) wr_text_add(text, "\n");
+    add_object(text, json, scene);
     add_number(text, json, "u", q->u);
     add_number(text, json, "v", q->v);
     add_vector(text, json, "P", p->p);
@@ -243,7 +256,7 @@ static bool inspect_one(const WrCli *cli, const WrDocument *document, const WrNo
     const int face = wr_surface_face(&document->scene->shape, cli->face, u, v);
     compute(document->scene, wr_tables_at_hand(tables, document->scene, all), face, u, v, &q);
     wr_tables_free(tables);
-    add_point(text, cli->json, &q);
+    add_point(text, cli->json, document->scene, &q);
     return true;
 }
 

@@ -85,7 +85,7 @@ bool wr_colouring_make(const WrSession *session, WrScene *object, WrError *err)
     WrImage *made = form ? made_by_form(session, object, err) : made_by_table(session, object, err);
     if (!made) return false;
     wr_image_free(object->colour);
-    wr_free(object->colour_laid.path);
+    wr_laid_fini(&object->colour_laid);
     object->colour = made;
     object->colour_laid = (WrLaid){ .own = form, .ru = form, .rv = form };
     object->colouring.key = key_of(session, object);

@@ -245,6 +245,8 @@ WrHandler wr_run_undo, wr_run_redo, wr_run_view; /* history_commands.c */
 /* The scene's canonical lines: each command's row prints its own. */
 typedef void WrScenePrinter(const WrScene *scene, WrText *text);
 WrScenePrinter wr_print_rotate, wr_print_camera;
+/* A `rotate` as the edit that turns one of several objects; false where it says neither or both. */
+bool wr_rotate_as_edit(const WrCall *call, WrText *text);
 /* named: with the file's name; else by its content alone. */
 void wr_print_colour(const WrScene *scene, bool named, WrText *text);
 void wr_print_normals(const WrScene *scene, bool named, WrText *text);

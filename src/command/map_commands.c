@@ -19,11 +19,20 @@
 
 /* ---- what both have ---- */
 
-/* Where a picture is from and how often it is laid: " FILE sha256=... repeat=...". */
+static void print_word(const char *name, const char *word, WrText *text)
+{
+    if (!word) return;
+    wr_text_addf(text, " %s=", name);
+    wr_text_add_word(text, word);
+}
+
+/* Where a picture is from and how often it is laid: " FILE channel=... part=... sha256=... repeat=...". */
 static void print_laid(const WrLaid *laid, bool named, WrText *text)
 {
     const double ru = laid->ru, rv = laid->rv;
     if (named) wr_text_add(text, " "), wr_text_add_word(text, laid->path);
+    print_word("channel", laid->channel, text);
+    print_word("part", laid->part, text);
     if (*laid->sha256) wr_text_addf(text, " sha256=%s", laid->sha256);
     if (laid->own && ru == 1 && rv == 1) {
         wr_text_add(text, " repeat=once");
@@ -63,13 +72,17 @@ static void take_repeat(const WrCall *call, WrLaid *laid)
 }
 
 /* Another file's picture: laid as the table is, unless the line says otherwise. */
-static void take_laid(const WrCall *call, const char *name, WrLaid *laid)
+static void take_laid(WrCall *call, const char *name, WrLaid *laid)
 {
     const char *hex = wr_call_arg(call, "sha256")->text;
-    wr_free(laid->path);
-    *laid = (WrLaid){ .path = wr_strdup(name) };
-    if (name && hex) memcpy(laid->sha256, hex, 64);
-    if (name) take_repeat(call, laid);
+    const WrImageWish wish = wr_call_wish(call);
+    wr_laid_fini(laid);
+    if (!name) return;
+    laid->path = wr_strdup(name);
+    laid->channel = wr_strdup(wish.channel);
+    laid->part = wr_strdup(wish.part);
+    if (hex) memcpy(laid->sha256, hex, 64);
+    take_repeat(call, laid);
 }
 
 /* The picture that a line names: inside a document the one that it carries, else the file's. The caller frees it. */
@@ -282,24 +295,48 @@ static bool take_normals(WrSession *session, WrCall *call, const char *name, WrN
     return true;
 }
 
-/* What a line without a file changes of the map that is there. */
-static bool change_normals(const WrCall *call, WrNormalMap *map, WrError *err)
+/* What its second numbers count from now on. */
+static bool change_green(const WrCall *call, WrNormalMap *map, WrError *err)
 {
-    static const char *const of_file[] = { "space", "channels", "channel", "part", "sha256", NULL };
+    const int green = wr_call_choice(call, "green");
+    if (!wr_call_given(call, "green")) return true;
+    if (green == WR_GREEN_AUTO)
+        return wr_fail(err, "green=auto: only a line that names a file takes it");
+    if ((green == WR_GREEN_DOWN) == map->green_down) return true;
+    WrImage *turned = wr_normal_map_turned(map->image, err);
+    if (!turned) return false;
+    wr_image_free(map->image);
+    map->image = turned;
+    map->green_down = !map->green_down;
+    return true;
+}
+
+/* The vectors that are there, taken along other axes: what looks away from a tangent plane is brought to its horizon. */
+static bool change_space(WrSession *session, const WrCall *call, WrNormalMap *map, WrError *err)
+{
+    const bool object = wr_call_choice(call, "space") == 1;
+    int64_t away;
+    if (!wr_call_given(call, "space") || object == map->object) return true;
+    WrImage *taken =
+        object ? wr_image_share(map->image) : wr_normal_map_raised(map->image, &away, err);
+    if (!taken) return false;
+    if (!object && away)
+        wr_session_note(session, "%lld texels that look away were brought to the horizon",
+                        (long long)away);
+    wr_image_free(map->image);
+    map->image = taken;
+    map->object = object;
+    map->frame = WR_FRAME_AUTO;
+    return true;
+}
+
+/* What a line without a file changes of the map that is there. */
+static bool change_normals(WrSession *session, const WrCall *call, WrNormalMap *map, WrError *err)
+{
+    static const char *const of_file[] = { "channels", "channel", "part", "sha256", NULL };
     if (!map->image) return wr_fail(err, "the object has no normal map: name a file");
     if (!refuse_without(call, of_file, "only a line that names a file takes", err)) return false;
-    if (wr_call_given(call, "green")) {
-        const int green = wr_call_choice(call, "green");
-        if (green == WR_GREEN_AUTO)
-            return wr_fail(err, "green=auto: only a line that names a file takes it");
-        if ((green == WR_GREEN_DOWN) != map->green_down) {
-            WrImage *turned = wr_normal_map_turned(map->image, err);
-            if (!turned) return false;
-            wr_image_free(map->image);
-            map->image = turned;
-            map->green_down = !map->green_down;
-        }
-    }
+    if (!change_green(call, map, err) || !change_space(session, call, map, err)) return false;
     if (map->object && wr_call_given(call, "frame"))
         return wr_fail(err, "frame=: this map is of the object's axes");
     take_repeat(call, &map->laid);
@@ -319,10 +356,11 @@ static bool run_normals(WrSession *session, WrCall *call, WrError *err)
     bool good = true;
     if (off) {
         wr_image_free(map->image);
-        wr_free(map->laid.path);
+        wr_laid_fini(&map->laid);
         *map = (WrNormalMap){ 0 };
     } else {
-        good = name ? take_normals(session, call, name, map, err) : change_normals(call, map, err);
+        good = name ? take_normals(session, call, name, map, err)
+                    : change_normals(session, call, map, err);
     }
     if (good && wr_call_given(call, "frame"))
         map->frame = (WrNormalFrame)wr_call_choice(call, "frame");
@@ -368,12 +406,14 @@ static const WrArgSpec args_normals[] = {
       .positional = true,
       .words = none_words,
       .help = "a picture of normals, or off (none is off too; a file of that name is ./off). Left "
-              "out: the one that is there, of which strength, repeat, frame and green may change" },
+              "out: the one that is there, of which strength, repeat, space, frame and green may "
+              "change" },
     { .name = "space",
       .type = WR_ARG_CHOICE,
       .words = spaces,
       .fallback_text = "tangent",
-      .help = "tangent: x along u, y along v, z up; object: along the object's axes" },
+      .help = "tangent: x along u, y along v, z up; object: along the object's axes. Without a "
+              "file the vectors that are there are taken so" },
     { .name = "frame",
       .type = WR_ARG_CHOICE,
       .words = wr_normal_frame_names,

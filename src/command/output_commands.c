@@ -112,7 +112,7 @@ static bool form_export(int i, WrForm *out)
     *out = (WrForm){ .name = kind->name, .help = kind->help };
     for (int k = 0; k < WR_EXPORT_OPTIONS && kind->options[k].name; k++)
         out->args[k] = (WrArgSpec){ .name = kind->options[k].name,
-                                    .type = WR_ARG_TEXT,
+                                    .type = kind->options[k].named ? WR_ARG_NAME : WR_ARG_TEXT,
                                     .shape = kind->options[k].values,
                                     .help = kind->options[k].help,
                                     .check = check_export_option,

@@ -3,11 +3,13 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "command/commands.h"
 #include "command/estimate.h"
 #include "command/inner.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "render/frame.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "system/path.h"
 
@@ -275,11 +277,28 @@ static void foretell(WrSession *session, const WrCall *call)
                         call->form_name, text);
 }
 
+/* How a scene's only object is turned is a view; of several each is turned by an edit: `rotate` is that one then. */
+static bool parse(const WrSession *session, const char *line, WrCall **out, WrError *err)
+{
+    if (!wr_call_parse(line, false, out, err)) return false;
+    if ((*out)->command != &wr_command_rotate ||
+        wr_scene_object_count(session->state.document->scene) == 1)
+        return true;
+    WrText edit = { 0 };
+    bool good = true;
+    if (wr_rotate_as_edit(*out, &edit)) {
+        wr_call_free(*out);
+        good = wr_call_parse(wr_text_get(&edit), false, out, err);
+    }
+    wr_text_fini(&edit);
+    return good;
+}
+
 bool wr_session_run(WrSession *session, const char *line, WrError *err)
 {
     WrCall *call;
     if (!wr_session_refuse_in_stroke(session, err)) return false;
-    if (!wr_call_parse(line, false, &call, err)) return false;
+    if (!parse(session, line, &call, err)) return false;
     if (session->options.foretell && !session->opening) foretell(session, call);
     bool good = run_call(session, call, err);
     if (!good && wr_progress_stopped()) wr_fail(err, "cancelled"); /* whatever was left half done */

@@ -142,15 +142,23 @@ static bool run_surface(WrSession *session, WrCall *call, WrError *err)
     return true;
 }
 
+bool wr_rotate_as_edit(const WrCall *call, WrText *text)
+{
+    const bool own = wr_call_given(call, "pose");
+    const WrArg *turn = wr_call_arg(call, "x,y,z");
+    if (own == turn->given) return false;
+    wr_text_add(text, "object set turn=");
+    if (own) wr_text_add(text, WR_OWN_TURN);
+    for (int i = 0; turn->given && i < 3; i++) {
+        if (i > 0) wr_text_add(text, ",");
+        wr_text_add_number(text, turn->numbers[i]);
+    }
+    return true;
+}
+
 static bool run_rotate(WrSession *session, WrCall *call, WrError *err)
 {
     bool own = wr_call_given(call, "pose"), turned = wr_call_given(call, "x,y,z");
-    const int objects = wr_scene_object_count(session->state.document->scene);
-    if (objects > 1)
-        return wr_fail(err,
-                       "the scene has %d objects: `object set turn=x,y,z` turns the chosen one, "
-                       "`camera` looks from elsewhere",
-                       objects);
     if (own == turned) return wr_fail(err, "needs one of x,y,z and pose=own");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     scene->posed = turned;
@@ -367,8 +375,9 @@ const WrCommand wr_command_rotate = {
     .help = "the object's orientation",
     .details =
         "It replaces the pose in which the surface first shows itself, and turns about the "
-        "object's centre, which stands at the world's origin. A view is no edit: undo leaves it "
-        "as it is, `view back` goes back.",
+        "object's centre. A view is no edit: undo leaves it as it is, `view back` goes back. Of "
+        "several objects, a ground being one, it turns the chosen one, which is an edit: "
+        "`object set turn=`.",
     .example = "rotate -90,0,30"
 };
 

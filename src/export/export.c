@@ -5,6 +5,7 @@
 #include "base/pool.h"
 #include "document/document.h"
 #include "document/document_file.h"
+#include "document/tables.h"
 #include "export/job.h"
 #include "field/analytic.h"
 #include "field/field.h"
@@ -169,6 +170,38 @@ static bool write_job(WrExportJob *job, const char *path, WrError *err)
     return ok;
 }
 
+/* Take what that object wears in place of the table of all layers; the tables are the caller's to free. */
+static bool take_object(WrExportJob *job, const WrDocument *document, WrTables **tables,
+                        WrError *err)
+{
+    const int index = wr_scene_object_find(document->scene, job->options.object);
+    if (index < 0)
+        return wr_fail(err, "object '%.60s': the scene has none of that name", job->options.object);
+    *tables = wr_document_tables(document, document->scene, NULL, job->pool);
+    const WrField *own = *tables ? wr_tables_fields(*tables)[index] : NULL;
+    if (own) job->field = own;
+    job->scene = wr_scene_object(document->scene, index);
+    return true;
+}
+
+static bool run_job(WrExportJob *job, const char *path, WrError *err)
+{
+    if (!settle_options(job->kind, job->scene, path, &job->options, err)) return false;
+    job->width = wr_field_width(job->field);
+    job->height = wr_field_height(job->field);
+    job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
+    job->report = (WrExportReport){ .width = job->width,
+                                    .height = job->height,
+                                    .zero_code = -1,
+                                    .channels = job->kind->channels,
+                                    .depth = job->options.depth };
+    job->u = wr_alloc((size_t)job->width, sizeof *job->u);
+    for (int i = 0; i < job->width; i++) job->u[i] = (i + 0.5) / job->width;
+    bool ok = job->kind->write ? job->kind->write(job, path, err) : write_job(job, path, err);
+    wr_free(job->u);
+    return ok;
+}
+
 bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
                WrPool *pool, const char *path, WrExportReport *report, WrError *err)
 {
@@ -177,19 +210,10 @@ bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExp
                         .scene = document->scene,
                         .options = *options,
                         .pool = pool };
-    if (!settle_options(kind, job.scene, path, &job.options, err)) return false;
-    job.width = wr_field_width(job.field);
-    job.height = wr_field_height(job.field);
-    job.analytic = job.scene->analytic.kind != WR_ANALYTIC_OFF;
-    job.report = (WrExportReport){ .width = job.width,
-                                   .height = job.height,
-                                   .zero_code = -1,
-                                   .channels = kind->channels,
-                                   .depth = job.options.depth };
-    job.u = wr_alloc((size_t)job.width, sizeof *job.u);
-    for (int i = 0; i < job.width; i++) job.u[i] = (i + 0.5) / job.width;
-    bool ok = kind->write ? kind->write(&job, path, err) : write_job(&job, path, err);
-    wr_free(job.u);
+    WrTables *tables = NULL;
+    bool ok =
+        (!options->object || take_object(&job, document, &tables, err)) && run_job(&job, path, err);
+    wr_tables_free(tables);
     if (ok && report) *report = job.report;
     return ok;
 }

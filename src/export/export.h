@@ -4,7 +4,8 @@
 
    The cell is exported as it is painted: replicate, surface and camera are not in it. Row 0 of a file is
    the top row of the table. While the scene has an analytic F, that is sampled at the texels' centres
-   instead of the table, at the table's size. Files are whole replacements (base/file.h): on any failure
+   instead of the table, at the table's size. object= takes what one of the scene's objects wears instead: its layer or its
+   formula, and its scheme. Files are whole replacements (base/file.h): on any failure
    the target is as it was. The bytes are the same on any number of threads.
 
    height, integer codes 0..M, M = 255 or 65535 (never 256 or 65536):
@@ -44,7 +45,9 @@ typedef struct WrExportOptions {
     double low, high;      /* range given: F of code 0 and of the last code, low < high */
     double cell_w, cell_h; /* normals: size of the unit cell in scene units, > 0 */
     int scheme;            /* normals: a WrScheme, or -1 for the scene's */
-    bool dither;           /* depth 8 only: ordered dither of up to half a code either way */
+    const char *
+        object; /* whose table; borrowed; NULL: of all layers, scheme and formula of the object at hand */
+    bool dither; /* depth 8 only: ordered dither of up to half a code either way */
     /* lines: */
     int lines_u, lines_v; /* lines along u, along v: 0..1024, not both 0; at most one a texel */
     double turn_deg, tilt_deg; /* about the vertical; above the horizon, 0..90 */
@@ -77,6 +80,7 @@ typedef struct WrExportOptionInfo {
     const char *help;   /* a sentence with the default */
     bool (*set)(WrExportOptions *options, const char *value,
                 WrError *err); /* use wr_export_option */
+    bool named;                /* its value is the name of something of the document */
 } WrExportOptionInfo;
 
 #define WR_EXPORT_OPTIONS 7 /* most options of a kind */

@@ -78,6 +78,14 @@ static bool set_dither(WrExportOptions *options, const char *value, WrError *err
     return true;
 }
 
+/* Whether there is one of that name is seen when it is exported. */
+static bool set_object(WrExportOptions *options, const char *value, WrError *err)
+{
+    if (!*value) return wr_fail(err, "object: must be the name of one of the scene's objects");
+    options->object = value;
+    return true;
+}
+
 /* "MxN", whole numbers */
 static bool parse_size(const char *value, double low, double high, int *a, int *b)
 {
@@ -203,16 +211,22 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
         "dither", "on or off", "hides the steps of 8-bit files; left out: off", set_dither         \
     }
 
+#define OBJECT                                                                                     \
+    {                                                                                              \
+        "object", "NAME", "the table that this object wears; left out: that of all layers",        \
+            set_object, true                                                                       \
+    }
+
 #define NORMAL_OPTIONS                                                                             \
     {                                                                                              \
-        DEPTH, CELL, SCHEME, DITHER                                                                \
+        DEPTH, CELL, SCHEME, DITHER, OBJECT                                                        \
     }
 
 const WrExportKind wr_export_kinds[] = {
     { .name = "height",
       .label = "height",
       .help = "the table itself: one channel, white is high",
-      .options = { DEPTH, RANGE, DITHER },
+      .options = { DEPTH, RANGE, DITHER, OBJECT },
       .channels = 1,
       .prepare = wr_export_height_prepare,
       .rows = wr_export_height_rows,
@@ -245,8 +259,8 @@ const WrExportKind wr_export_kinds[] = {
                      set_relief },
                    { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
                    { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen },
-                   { "hidden", "on or off", "draw what is hidden too; left out: off",
-                     set_hidden } },
+                   { "hidden", "on or off", "draw what is hidden too; left out: off", set_hidden },
+                   OBJECT },
       .channels = 1,
       .write = wr_export_drawing_write },
     { .name = "profile",
@@ -258,7 +272,8 @@ const WrExportKind wr_export_kinds[] = {
                    { "grid", "N", "divisions of the line; left out: 8", set_grid },
                    SCHEME,
                    { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
-                   { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen } },
+                   { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen },
+                   OBJECT },
       .channels = 1,
       .write = wr_export_profile_write },
 };

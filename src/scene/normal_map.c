@@ -84,6 +84,16 @@ static bool is_converted(const Reading *r)
 
 /* ---- vectors ------------------------------------------------------------------------------------- */
 
+/* A unit vector; true if it looked away from a tangent plane. */
+static bool put_vector(double x, double y, double z, bool object, float out[3])
+{
+    const bool away = !object && z < WR_NORMAL_LEAST;
+    if (away) z = WR_NORMAL_LEAST;
+    const double unit = 1 / sqrt(x * x + y * y + z * z);
+    out[0] = (float)(x * unit), out[1] = (float)(y * unit), out[2] = (float)(z * unit);
+    return away;
+}
+
 /* One texel's; true if it looked away. */
 static bool read_vector(const Reading *r, size_t i, float out[3])
 {
@@ -97,11 +107,7 @@ static bool read_vector(const Reading *r, size_t i, float out[3])
         return true;
     }
     x /= length, y /= length, z /= length;
-    const bool away = !r->object && z < WR_NORMAL_LEAST;
-    if (away) z = WR_NORMAL_LEAST;
-    const double unit = 1 / sqrt(x * x + y * y + z * z);
-    out[0] = (float)(x * unit), out[1] = (float)(y * unit), out[2] = (float)(z * unit);
-    return away;
+    return put_vector(x, y, z, r->object, out);
 }
 
 void wr_normal_map_slopes(const float n[3], double *p, double *q)
@@ -187,6 +193,19 @@ WrImage *wr_normal_map_turned(const WrImage *map, WrError *err)
     to->type = WR_PIXEL_F32;
     memcpy(to->data, map->data, 3 * texels_of(map) * sizeof *map->data);
     turn_green(to);
+    return to;
+}
+
+WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err)
+{
+    WrImage *to = wr_image_new(map->width, map->height, 3, err);
+    *away = 0;
+    if (!to) return NULL;
+    to->type = WR_PIXEL_F32;
+    for (size_t i = 0; i < texels_of(map); i++) {
+        const float *n = map->data + 3 * i;
+        *away += put_vector((double)n[0], (double)n[1], (double)n[2], false, to->data + 3 * i);
+    }
     return to;
 }
 

@@ -44,6 +44,8 @@ WrImage *wr_normal_map_read_object(const WrImage *from, bool green_down, WrNorma
                                    WrError *err);
 /* A copy whose second numbers run the other way. */
 WrImage *wr_normal_map_turned(const WrImage *map, WrError *err);
+/* Vectors of any direction as ones of the tangent plane: z of WR_NORMAL_LEAST and less is that, and counted. */
+WrImage *wr_normal_map_raised(const WrImage *map, int64_t *away, WrError *err);
 /* What a document holds, which is as reading made it: the same picture, shared. An error where it is something else, by
    more than 4 ulp of |n|^2. */
 WrImage *wr_normal_map_keep(const WrImage *held, bool object, WrError *err);

@@ -62,7 +62,17 @@ static WrLaid laid_copy(const WrLaid *laid)
 {
     WrLaid copy = *laid;
     copy.path = wr_strdup(laid->path);
+    copy.channel = wr_strdup(laid->channel);
+    copy.part = wr_strdup(laid->part);
     return copy;
+}
+
+void wr_laid_fini(WrLaid *laid)
+{
+    wr_free(laid->path);
+    wr_free(laid->channel);
+    wr_free(laid->part);
+    *laid = (WrLaid){ 0 };
 }
 
 WrScene *wr_scene_clone(const WrScene *scene)
@@ -124,9 +134,8 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
 void wr_scene_drop_colour(WrScene *scene)
 {
     wr_image_free(scene->colour);
-    wr_free(scene->colour_laid.path);
+    wr_laid_fini(&scene->colour_laid);
     scene->colour = NULL;
-    scene->colour_laid = (WrLaid){ 0 };
     scene->colouring = (WrColouring){ 0 };
 }
 
@@ -149,9 +158,9 @@ void wr_scene_free(WrScene *scene)
     wr_surface_data_free((WrSurfaceData *)scene->shape.data);
     wr_free(scene->analytic.terms);
     if (scene->colour) wr_image_free(scene->colour);
-    wr_free(scene->colour_laid.path);
+    wr_laid_fini(&scene->colour_laid);
     if (scene->normals.image) wr_image_free(scene->normals.image);
-    wr_free(scene->normals.laid.path);
+    wr_laid_fini(&scene->normals.laid);
     wr_free(scene->name);
     wr_free(scene->layer);
     for (int i = 0; i < scene->other_count; i++) wr_scene_free(scene->others[i]);

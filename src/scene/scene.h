@@ -70,7 +70,8 @@ typedef struct WrTolerance {
 
 /* Where a picture that is laid over u and v is from, and how often it is laid. */
 typedef struct WrLaid {
-    char *path; /* as the command named it; owned; NULL without */
+    char *path;           /* as the command named it; owned; NULL without */
+    char *channel, *part; /* of the file that were asked for, likewise */
     char sha256[65];
     bool own; /* it is laid as often as the next say; else as often as the table */
     double ru, rv;
@@ -165,7 +166,7 @@ void wr_scene_free(WrScene *scene);
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
 
 void wr_scene_drop_colour(WrScene *scene); /* no colour picture, and no colouring */
-
+void wr_laid_fini(WrLaid *laid);           /* frees what it owns; it is none then */
 /* How often a picture of the scene is laid over u and v. */
 void wr_scene_repeat(const WrScene *scene, const WrLaid *laid, double *ru, double *rv);
 

@@ -52,6 +52,7 @@ typedef struct WrInspector {
     bool on_table;
     double x, y; /* of the place: shares of the view; u, v of the patch */
     WrProbe probe;
+    char object[64];   /* of several, which it is about; "" of the only one */
     bool known, seen;  /* probe holds; see WrWork.seen */
     uint64_t asked_of; /* state that was asked about last */
     bool asked_table;

@@ -21,11 +21,13 @@
 #include "field/field.h"
 #include "render/reference.h"
 #include "scene/dials.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 
 #include <SDL.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static void note_view(WrApp *app)
@@ -178,6 +180,14 @@ static void take_look(WrApp *app)
     wr_work_free(work);
 }
 
+static void name_object(const WrWork *work, WrInspector *inspector)
+{
+    char buffer[WR_OBJECT_LABEL];
+    const bool several = wr_scene_object_count(work->scene) > 1;
+    snprintf(inspector->object, sizeof inspector->object, "%s",
+             several ? wr_scene_object_label(work->scene, work->object, buffer) : "");
+}
+
 static void take_probe(WrApp *app)
 {
     WrInspector *inspector = &app->accuracy->inspector;
@@ -186,6 +196,7 @@ static void take_probe(WrApp *app)
     inspector->known = work->done && work->probe.hit;
     inspector->seen = work->seen;
     inspector->probe = work->probe;
+    name_object(work, inspector);
     inspector->copied = false;
     wr_work_free(work);
 }

@@ -7,6 +7,7 @@
 #include "field/field.h"
 #include "render/reference.h"
 #include "scene/laid.h"
+#include "scene/objects.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 #include "surface/surface.h"
@@ -61,12 +62,44 @@ static double apart(double a, double b)
     return d < 1 - d ? d : 1 - d;
 }
 
+/* How far before the eye a point of that object lies. */
+static double depth_of(const WrWork *work, const WrScene *scene, WrVec3 p)
+{
+    WrPlacement at;
+    if (!wr_scene_place(scene, work->turn_deg, (double)work->width / work->height, &at, NULL))
+        return INFINITY;
+    return v3_dot(v3_sub(wr_place_world(&at, p), at.eye), at.forward);
+}
+
+/* The nearest of the objects at that pixel; none: the one at hand has nothing there either. */
+static bool probe_nearest(WrWork *work)
+{
+    const WrField *const *fields = wr_tables_fields(work->tables);
+    double nearest = INFINITY;
+    bool good = true;
+    work->probe = (WrProbe){ 0 };
+    for (int i = 0; good && i < wr_scene_object_count(work->scene); i++) {
+        if (wr_scene_object(work->scene, i)->hidden) continue;
+        WrScene *part = wr_scene_part(work->scene, i, (double)work->width / work->height);
+        const WrField *field = fields && fields[i] ? fields[i] : work->field;
+        WrProbe seen;
+        good = wr_reference_probe(field, part, work->width, work->height, work->turn_deg, work->x,
+                                  work->y, &seen, &work->err);
+        const double depth = good && seen.hit ? depth_of(work, part, seen.at.p) : INFINITY;
+        if (depth < nearest) nearest = depth, work->probe = seen, work->object = i;
+        wr_scene_free(part);
+    }
+    return good;
+}
+
 bool wr_accuracy_probe(WrWork *work)
 {
     double x = work->x, y = work->y;
     WrProbe seen;
     const WrField *field = wr_tables_at_hand(work->tables, work->scene, work->field);
     work->seen = true;
+    work->object = work->scene->chosen;
+    if (!work->on_table && wr_scene_object_count(work->scene) > 1) return probe_nearest(work);
     if (!work->on_table)
         return wr_reference_probe(field, work->scene, work->width, work->height, work->turn_deg, x,
                                   y, &work->probe, &work->err);

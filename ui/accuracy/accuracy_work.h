@@ -67,6 +67,7 @@ typedef struct WrWork {
     WrHardReport *report; /* owned */
     uint8_t *bgra[2];     /* pair: [height][width][4]; owned */
     WrProbe probe;
+    int object; /* probe: which of the scene's objects it is about */
     bool
         seen; /* probe: of a place of the table: the view shows it, and footprint, level and rgb hold */
 } WrWork;

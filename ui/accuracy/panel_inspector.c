@@ -109,6 +109,10 @@ void wr_panel_inspector(WrApp *app)
     }
     wr_gui_same_line(10);
     wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, in->on_table ? "table" : "patch");
+    if (in->object[0]) {
+        wr_gui_same_line(10);
+        wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_STRONG, in->object, wr_gui_available());
+    }
     wr_gui_space(2);
     table(in);
 }

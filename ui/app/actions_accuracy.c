@@ -53,6 +53,7 @@ void wr_act_inspector_copy(WrApp *app)
     WrInspector *in = &app->accuracy->inspector;
     WrText text = { 0 };
     if (!in->known) return;
+    if (in->object[0]) wr_text_addf(&text, "%-10s %s\n", "object", in->object);
     wr_accuracy_probe_text(&in->probe, in->seen, &text);
     in->copied = SDL_SetClipboardText(wr_text_get(&text)) == 0;
     wr_text_fini(&text);

@@ -129,10 +129,9 @@ static void repeat_row(WrApp *app, const Map *map, const WrLaid *laid)
     wr_text_fini(&value);
 }
 
-/* A choice of words of the command's; the file is read again where what was read depends on it. */
+/* A choice of words of the command's. */
 static void word_row(WrApp *app, const char *label, const char *name, const char *const *titles,
-                     const char *const *words, int count, int now, const char *again,
-                     const char *tip)
+                     const char *const *words, int count, int now, const char *tip)
 {
     int chosen = now;
     wr_gui_label(label);
@@ -141,7 +140,6 @@ static void word_row(WrApp *app, const char *label, const char *name, const char
     if (!changed || chosen == now) return;
     WrText line = { 0 };
     wr_text_add(&line, normals.verb);
-    if (again) wr_text_add(&line, " "), wr_text_add_word(&line, again);
     wr_text_addf(&line, " %s=%s", name, words[chosen]);
     wr_scene_run(app, &line);
 }
@@ -161,13 +159,13 @@ static void normal_rows(WrApp *app)
                                        .decimals = 2,
                                        .tip = "Its slopes times this" };
     const WrNormalMap map = wr_app_scene(app)->normals;
-    word_row(app, "Space", "space", spaces, space_words, 2, map.object, map.laid.path,
+    word_row(app, "Space", "space", spaces, space_words, 2, map.object,
              "What its three numbers run along: u, v and up, or the object's own axes");
-    word_row(app, "Green", "green", greens, green_words, 2, map.green_down, NULL,
+    word_row(app, "Green", "green", greens, green_words, 2, map.green_down,
              "Which way its second number runs: up the picture (OpenGL, +Y) or down (DirectX, -Y)");
     if (!map.object)
         word_row(app, "Frame", "frame", frames, wr_normal_frame_names, WR_FRAME_OBJECT,
-                 (int)map.frame, NULL,
+                 (int)map.frame,
                  "Which way it turns the normal: as slopes of heights, as our own export writes "
                  "them, or in the frames that other programs bake in. Automatic: on a mesh those "
                  "of MikkTSpace");
