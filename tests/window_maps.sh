@@ -68,6 +68,18 @@ xdotool key Return
 rest
 becomes 'normalmap green=up' "green up"
 
+# Its space, without the file.
+mv n.png gone.png
+click 1100 $((normals + 33))
+xdotool key Down
+rest
+xdotool key Return
+rest
+becomes 'normalmap space=object' "along the object's axes"
+key ctrl+z
+rest
+mv gone.png n.png
+
 click 1167 "$normals"
 becomes 'normalmap off' "the normal map taken off"
 home

@@ -44,8 +44,62 @@ save_as painted.exr
 "$program" inspect painted.exr --json >painted.json
 jq -e '.layer_list | map(select(.name == "first" and .active)) | length == 1' painted.json >/dev/null ||
     complain "the layer of the object under the brush is not active: $(jq -c .layer_list painted.json)"
-key ctrl+q
-ends 0
+
+# The camera's keys on the pad of numbers: six sides, round by steps, kind, fill; the last view comes back.
+key a # no longer painting
+xdotool mousemove $((X + mx + 60)) $((Y + my - 250))
+for side in 'KP_End front' 'ctrl+KP_End back' 'KP_Next right' 'ctrl+KP_Next left' 'KP_Home top' 'ctrl+KP_Home bottom'; do
+    key "${side% *}"
+    becomes "camera from ${side#* }" "the key of that side, ${side#* }"
+done
+key KP_End
+for step in 'KP_Left -*,0' 'KP_Right [1-9]*,0' 'KP_Up 0,[1-9]*' 'KP_Down 0,-*'; do
+    key "${step% *}"
+    becomes "camera orbit ${step#* }" "a step round by ${step% *}"
+done
+key alt+Left
+becomes 'view back' "the view before"
+key KP_Begin
+becomes 'camera perspective' "the other kind of camera"
+key KP_End
+key Home
+becomes 'camera fill *' "the objects fill the picture"
+
+# Shift and a drag move it sideways, eye and target by the same; the middle button takes it round; the wheel comes closer.
+spot() { newest | sed -E "s/.* $1=([-0-9.]+),([-0-9.]+),([-0-9.]+).*/\1 \2 \3/"; }
+xdotool keydown shift
+drag $((mx + 60)) $((my + 250)) -5 3 10
+xdotool keyup shift
+rest
+becomes 'camera perspective eye=* target=*' "a drag with Shift"
+read -r ex ey ez < <(spot eye)
+read -r tx ty _ < <(spot target)
+awk -v ex="$ex" -v ey="$ey" -v tx="$tx" -v ty="$ty" \
+    'BEGIN { exit !(tx > 0.02 && ty > 0.01 && (ex - tx) ^ 2 < 1e-4 && (ey - ty) ^ 2 < 1e-4) }' ||
+    complain "sideways: the eye is at $ex,$ey, the target at $tx,$ty"
+xdotool mousemove $((X + mx + 60)) $((Y + my + 250)) click 4
+closer() {
+    local z
+    read -r _ _ z < <(spot eye)
+    awk -v z="$z" -v ez="$ez" 'BEGIN { exit !(z > 0 && z < 0.95 * ez) }'
+}
+until_true 120 "a turn of the wheel" closer
+
+# The ground by the search, under the objects; their camera still goes round by a drag beside them.
+search() {
+    key ctrl+Return
+    rest
+    xdotool type --delay 20 "$1"
+    rest
+    key Return
+}
+search ground
+becomes 'ground on' "the ground is laid"
+search ground
+becomes 'ground off' "the ground is taken away"
+kill -KILL "$pid"
+wait "$pid" 2>/dev/null
+rm -f state/wrinkle/journals/*
 
 # The profile's curve in the scene's panel: a point that is dragged is one step.
 printf '%s\n' 'surface revolution' 'dials aa=point' 'background none' >vase.wrinkle
