@@ -66,7 +66,7 @@ static WrEdit more(WrEdit a, WrEdit b)
 
 static WrEdit stop_row(WrColouring *own, int i)
 {
-    char label[16];
+    char label[24];
     snprintf(label, sizeof label, "Stop %d", i + 1);
     wr_gui_push_id(100 + i);
     wr_gui_label(label);
