@@ -31,17 +31,10 @@ static const WrPatches *form_of(const WrScene *object)
     return form && object->triangles ? object->triangles->patches : NULL;
 }
 
-static int layer_of(const WrDocument *document, const char *name)
-{
-    int i = name ? document->layer_count - 1 : -1;
-    while (i >= 0 && strcmp(document->layers[i].name, name) != 0) i--;
-    return i;
-}
-
 static uint64_t key_of(const WrSession *session, const WrScene *object)
 {
     const WrDocument *document = session->state.document;
-    const int layer = layer_of(document, object->layer);
+    const int layer = wr_layer_named(document, object->layer);
     uint64_t key, height;
     if (form_of(object)) return object->triangles->key | 1;
     key = layer >= 0 ? wr_layer_key(&document->layers[layer])
@@ -53,7 +46,7 @@ static uint64_t key_of(const WrSession *session, const WrScene *object)
 static WrImage *made_by_table(const WrSession *session, const WrScene *object, WrError *err)
 {
     const WrDocument *document = session->state.document;
-    const int layer = layer_of(document, object->layer);
+    const int layer = wr_layer_named(document, object->layer);
     WrField *own =
         layer >= 0 ? wr_document_layer_alone(document, layer, session->options.pool) : NULL;
     const WrField *field = own ? own : wr_document_composite(document, session->options.pool);

@@ -37,13 +37,6 @@ static bool check_room(const WrDocument *document, WrError *err)
 
 /* ---- making and removing ---- */
 
-static bool is_taken(const WrDocument *document, const char *name)
-{
-    for (int i = 0; i < document->layer_count; i++)
-        if (strcmp(document->layers[i].name, name) == 0) return true;
-    return false;
-}
-
 /* "layer 3": the first number from the count on that no layer has yet. */
 static void free_name(const WrDocument *document, WrText *text)
 {
@@ -51,7 +44,7 @@ static void free_name(const WrDocument *document, WrText *text)
     do {
         wr_text_clear(text);
         wr_text_addf(text, "layer %d", number++);
-    } while (is_taken(document, wr_text_get(text)));
+    } while (wr_layer_named(document, wr_text_get(text)) >= 0);
 }
 
 static void take_settings(const WrCall *call, WrLayer *layer)

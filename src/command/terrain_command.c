@@ -104,19 +104,12 @@ bool wr_terrain_take_layer(WrSession *session, WrCall *call, WrScene *scene, WrE
     return true;
 }
 
-static int layer_of(const WrDocument *document, const char *name)
-{
-    int i = document->layer_count - 1;
-    while (i >= 0 && strcmp(document->layers[i].name, name) != 0) i--;
-    return i;
-}
-
 /* Does object i have the form of a layer that is there, and that is another by now? Which. */
 static bool lags(const WrDocument *document, int i, int *index)
 {
     const WrScene *object = wr_scene_object(document->scene, i);
     if (!object->form_layer || object->shape.kind != WR_SURFACE_terrain) return false;
-    *index = layer_of(document, object->form_layer);
+    *index = wr_layer_named(document, object->form_layer);
     return *index >= 0 &&
            (!object->triangles || object->form_key != wr_layer_key(&document->layers[*index]));
 }

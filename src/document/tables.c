@@ -6,9 +6,9 @@
 
 #include <string.h>
 
-static int layer_of(const WrDocument *document, const char *name)
+int wr_layer_named(const WrDocument *document, const char *name)
 {
-    int i = document->layer_count - 1;
+    int i = name ? document->layer_count - 1 : -1;
     while (i >= 0 && strcmp(document->layers[i].name, name) != 0) i--;
     return i;
 }
@@ -61,7 +61,7 @@ WrTables *wr_document_tables(const WrDocument *document, const WrScene *scene, W
     const int count = wr_scene_object_count(scene);
     for (int i = 0; i < count && i < WR_OBJECTS_MAX; i++) {
         const char *name = wr_scene_object(scene, i)->layer;
-        const int index = name ? layer_of(document, name) : -1;
+        const int index = name ? wr_layer_named(document, name) : -1;
         if (index < 0) continue;
         if (!tables) tables = wr_alloc(1, sizeof *tables);
         tables->refs = 1;

@@ -1,6 +1,6 @@
 /* Planes of real numbers, line by line. Columns are gathered a few at a time, so that caches see whole
    lines of them. */
-#include "generate/fft.h"
+#include "generate/fft_plane.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"

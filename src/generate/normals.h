@@ -3,7 +3,7 @@
    Layer 4, private to this room. */
 #pragma once
 #include "base/rows.h"
-#include "generate/fft.h"
+#include "generate/fft_plane.h"
 #include "generate/terrain.h"
 
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "generate/fft.h"
+#include "generate/fft_plane.h"
 #include "generate/picture.h"
 
 #include <string.h>

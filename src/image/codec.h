@@ -50,5 +50,7 @@ typedef struct WrCodec {
     bool (*finish)(WrCodecWriter *writer, bool keep, char *reason);
 } WrCodec;
 
+/* Whether files of a format are read and written by the module that holds OpenImageIO. */
+bool wr_codec_takes_module(const char *format);
 /* By OpenImageIO's name of the format, or an ending. NULL and an error that says where its module was looked for. */
 const WrCodec *wr_codec(const char *format, WrError *err);

@@ -31,7 +31,7 @@ bool wr_decoder_takes_module(int fd, const char *ending)
     unsigned char bytes[WR_IMAGE_SNIFF];
     const int64_t count = wr_fd_read_at(fd, bytes, sizeof bytes, 0);
     const char *format = format_of(bytes, count > 0 ? (size_t)count : 0, ending);
-    return strcmp(format, "plain") != 0 && strcmp(format, "png") != 0;
+    return strcmp(format, "plain") != 0 && wr_codec_takes_module(format);
 }
 
 static const char *find_format(int fd, const char *ending, WrError *err)

@@ -92,12 +92,13 @@ WrImage *wr_image_rows_whole(WrImageRows *rows, WrError *err);
 bool wr_image_apply_range(WrImage *image);
 
 /* Files are read by a process of its own, so that a hostile one can only end that: with one clear error
- * here. It is started when the first file is read, which takes a quarter of a second, and kept. This starts
+ * here. It is started when the first file is read, and kept; the library that reads other pictures than PNG takes it a
+ * quarter of a second once. This starts
  * it ahead of need and returns at once; any thread. With WRINKLE_READER=inside in the environment files are
  * read in this process, for debugging. */
 void wr_image_warm(void);
-/* The library that writes them is loaded into this process, with some 260 others, when the first file is written,
- * which takes half a second, or a few where the disk is slow. This begins ahead of need and returns at once; any
+/* The library that writes all but PNG is loaded into this process, with some 260 others, when the first such file is
+ * written, which takes half a second, or a few where the disk is slow. This begins ahead of need and returns at once; any
  * thread. */
 void wr_image_warm_writing(void);
 

@@ -1,12 +1,11 @@
 /* oiio.cpp - the only file that knows OpenImageIO: it becomes the module wrinkle_oiio.so. What it does
    is in oiio.h. Ways of the library that it guards against:
-   - a damaged TIFF, and a PNG on a full disk, succeed everywhere and only leave an error message: after
-     every call a message counts as failure;
+   - a damaged TIFF succeeds everywhere and only leaves an error message: after every call a message counts
+     as failure;
    - limits on sizes are enforced by few readers: the checks here are the ones that hold;
    - integer codes pass through float factors: they are read as they are and divided here;
    - alpha is multiplied into colours unless told otherwise;
-   - libjpeg ends the whole program when it cannot write, and libpng talks on standard error: they never
-     get to see that a disk is full;
+   - libjpeg ends the whole program when it cannot write: it never gets to see that a disk is full;
    - EXR of several parts and TIFF are written to a file that the library opens, and it misses failures at
      the end: the caller gives it a memory file, and reads back what was written; libtiff is listened to. */
 extern "C" {
@@ -318,9 +317,6 @@ struct WrCodecWriter {
     std::vector<ImageSpec> specs;
     std::vector<TypeDesc> types;
     size_t part = 0;
-    int row = 0;      /* how many rows of the part are written */
-    int64_t head = 0; /* bytes before the first of them */
-    bool png = false;
 };
 
 static void name_channels(ImageSpec &spec, const WrImageOut &part)
@@ -391,7 +387,6 @@ static bool create_file(WrCodecWriter &writer, int file, const char *format,
     forget_tiff_error();
     writer.out = ImageOutput::create(format);
     if (!writer.out) return fail(reason, OIIO::geterror(), writer.path);
-    writer.png = !std::strcmp(format, "png");
     for (int i = 0; i < count; i++) {
         ImageSpec spec(parts[i].width, parts[i].height, parts[i].channels, types[parts[i].type]);
         /* The parts of an EXR file share one display window. */
@@ -410,7 +405,6 @@ static bool create_file(WrCodecWriter &writer, int file, const char *format,
     bool ok = count > 1 ? writer.out->open(writer.path, count, writer.specs.data())
                         : writer.out->open(writer.path, writer.specs[0]);
     if (!check_write(writer, ok, reason)) return false;
-    if (writer.disk) writer.head = writer.disk->tell();
     if (writer.out->spec().format != writer.types[0])
         return fail(reason, "the format does not hold this type");
     return true;
@@ -435,7 +429,6 @@ static bool writer_write(WrCodecWriter *writer, int y, int rows, const void *pix
     return guarded(reason, [&] {
         errno = 0;
         bool ok = writer->out->write_scanlines(y, y + rows, 0, writer->types[writer->part], pixels);
-        writer->row = y + rows;
         return check_write(*writer, ok, reason);
     });
 }
@@ -444,33 +437,15 @@ static bool writer_next(WrCodecWriter *writer, char *reason)
 {
     return guarded(reason, [&] {
         writer->part++;
-        writer->row = 0;
         bool ok = writer->out->open(writer->path, writer->specs[writer->part],
                                     ImageOutput::AppendSubimage);
         return check_write(*writer, ok, reason);
     });
 }
 
-/* libpng complains on standard error when a file is closed before it has any of its picture, so one that is
-   given up gets black rows until some of it was written. */
-static void complete_png(WrCodecWriter &writer)
-{
-    const ImageSpec &spec = writer.specs[0];
-    std::vector<char> black(spec.scanline_bytes() * WR_IMAGE_STRIP);
-    char ignored[WR_CODEC_REASON];
-    while (writer.row < spec.height && writer.disk->tell() == writer.head) {
-        int rows = std::min(WR_IMAGE_STRIP, spec.height - writer.row);
-        bool ok = writer.out->write_scanlines(writer.row, writer.row + rows, 0, writer.types[0],
-                                              black.data());
-        if (!check_write(writer, ok, ignored)) return;
-        writer.row += rows;
-    }
-}
-
-static bool writer_finish(WrCodecWriter *writer, bool keep, char *reason)
+static bool writer_finish(WrCodecWriter *writer, bool, char *reason)
 {
     bool ok = guarded(reason, [&] {
-        if (!keep && writer->png) complete_png(*writer);
         errno = 0;
         bool closed = writer->out->close();
         if (writer->disk) writer->disk->empty();

@@ -1,5 +1,5 @@
-/* png.h - whether a PNG file is whole, before the library sees it: libpng talks on standard error about
-   damaged ones, allocates what a damaged length says, and forgives a missing end.
+/* png.h - whether a PNG file is whole, before the library sees it: libpng allocates what a damaged length
+   says, and forgives a missing end.
    Private to this room. Source: PNG specification (ISO/IEC 15948), 5.3 chunk layout, annex D. */
 #pragma once
 #include <stdbool.h>

@@ -63,7 +63,12 @@ const WrCodec wr_png_codec = {
     .finish = wr_png_finish,
 };
 
+bool wr_codec_takes_module(const char *format)
+{
+    return strcmp(format, "png") != 0;
+}
+
 const WrCodec *wr_codec(const char *format, WrError *err)
 {
-    return strcmp(format, "png") == 0 ? &wr_png_codec : wr_oiio(err);
+    return wr_codec_takes_module(format) ? wr_oiio(err) : &wr_png_codec;
 }

@@ -12,6 +12,8 @@
 
 #include <math.h>
 
+#define MIRROR_FINE 32 /* texels over the width of a lobe */
+
 void wr_frame_drop_tables(WrRenderer *renderer)
 {
     wr_table_fini(&renderer->table);
@@ -25,8 +27,6 @@ void wr_frame_drop_tables(WrRenderer *renderer)
 }
 
 /* The copies of heights that the plan calls for, and none else. */
-#define MIRROR_FINE 32 /* texels over the width of a lobe */
-
 static bool bring_copies(WrRenderer *renderer, const WrFrameRequest *request, bool slope_free,
                          WrError *err)
 {

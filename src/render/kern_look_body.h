@@ -298,10 +298,25 @@ FLAT static void kern_look_catmull(const LOOK *look, STRIP *strip)
     look_cubic(look, strip, catmull_weights);
 }
 
+/* Bilinear between four texels of R, G, B, A from at on, by ta and tb: 4 numbers a sample, in top. */
+ALWAYS void mix_texels(const float *restrict rgba, int pitch, STRIP *strip)
+{
+    const int count = strip->count;
+    REAL *restrict const texel = strip->top;
+    for (int k = 0; k < count; k++) {
+        const float *top = rgba + 4 * (ptrdiff_t)strip->at[k], *low = top + 4 * (ptrdiff_t)pitch;
+        const REAL a = strip->ta[k], b = strip->tb[k];
+        Four t0 = load_floats(top), t1 = load_floats(top + 4);
+        Four l0 = load_floats(low), l1 = load_floats(low + 4);
+        Four upper = t0 + a * (t1 - t0), lower = l0 + a * (l1 - l0);
+        Four c = upper + b * (lower - upper);
+        memcpy(texel + 4 * k, &c, sizeof c);
+    }
+}
+
 /* Bilinear C(u,v): Catmull's texturing, with the table's replication. */
 FLAT static void kern_colour(const WrColourLook *look, STRIP *strip)
 {
-    const float *restrict const rgba = look->rgba;
     const int pitch = look->pitch, count = strip->count;
     const REAL W = (REAL)look->width, H = (REAL)look->height;
     reduce_axis(count, strip->u, look->ru, false, look->periodic_u, strip->tu, strip->inside_u);
@@ -314,16 +329,8 @@ FLAT static void kern_colour(const WrColourLook *look, STRIP *strip)
         strip->ta[k] = x - i;
         strip->tb[k] = y - j;
     }
-    REAL *restrict const texel = strip->top;
-    for (int k = 0; k < count; k++) {
-        const float *top = rgba + 4 * (ptrdiff_t)strip->at[k], *low = top + 4 * (ptrdiff_t)pitch;
-        const REAL a = strip->ta[k], b = strip->tb[k];
-        Four t0 = load_floats(top), t1 = load_floats(top + 4);
-        Four l0 = load_floats(low), l1 = load_floats(low + 4);
-        Four upper = t0 + a * (t1 - t0), lower = l0 + a * (l1 - l0);
-        Four c = upper + b * (lower - upper);
-        memcpy(texel + 4 * k, &c, sizeof c);
-    }
+    mix_texels(look->rgba, pitch, strip);
+    const REAL *restrict const texel = strip->top;
     SIMD for (int k = 0; k < count; k++)
     {
         strip->cr[k] = texel[4 * k];

@@ -70,22 +70,6 @@ ALWAYS void find_mirrored(const MIRROR *how, STRIP *strip)
     }
 }
 
-ALWAYS void look_mirrored(const MIRROR *how, STRIP *strip)
-{
-    const float *restrict const rgba = how->rgba;
-    const int pitch = how->pitch, count = strip->count;
-    REAL *restrict const texel = strip->top;
-    for (int k = 0; k < count; k++) {
-        const float *top = rgba + 4 * (ptrdiff_t)strip->at[k], *low = top + 4 * (ptrdiff_t)pitch;
-        const REAL a = strip->ta[k], b = strip->tb[k];
-        Four t0 = load_floats(top), t1 = load_floats(top + 4);
-        Four l0 = load_floats(low), l1 = load_floats(low + 4);
-        Four upper = t0 + a * (t1 - t0), lower = l0 + a * (l1 - l0);
-        Four c = upper + b * (lower - upper);
-        memcpy(texel + 4 * k, &c, sizeof c);
-    }
-}
-
 ALWAYS void add_mirrored(const MIRROR *how, const bool even, STRIP *strip)
 {
     const MIRROR m = *how;
@@ -106,7 +90,7 @@ ALWAYS void add_mirrored(const MIRROR *how, const bool even, STRIP *strip)
 FLAT static void kern_mirror(const MIRROR *how, STRIP *strip)
 {
     find_mirrored(how, strip);
-    look_mirrored(how, strip);
+    mix_texels(how->rgba, how->pitch, strip);
     add_mirrored(how, false, strip);
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/exactmath.h"
+#include "base/fft.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/progress.h"
@@ -59,36 +60,6 @@ typedef struct Complex {
     double re, im;
 } Complex;
 
-/* In place; `turn` [count / 2]: cos, sin of -2 pi i / count, or of the other sign for the way back. */
-static void transform(Complex *x, int count, const Complex *turn)
-{
-    for (int i = 1, j = 0; i < count; i++) {
-        int bit = count >> 1;
-        for (; j & bit; bit >>= 1) j ^= bit;
-        j ^= bit;
-        const Complex swap = x[i];
-        if (i < j) x[i] = x[j], x[j] = swap;
-    }
-    for (int half = 1; half < count; half *= 2)
-        for (int from = 0; from < count; from += 2 * half)
-            for (int k = 0; k < half; k++) {
-                const Complex w = turn[k * (count / 2 / half)];
-                Complex *a = &x[from + k], *b = a + half;
-                const Complex y = { b->re * w.re - b->im * w.im, b->re * w.im + b->im * w.re };
-                *b = (Complex){ a->re - y.re, a->im - y.im };
-                *a = (Complex){ a->re + y.re, a->im + y.im };
-            }
-}
-
-static void fill_turns(Complex *turn, int count, double sign)
-{
-    for (int i = 0; i < count / 2; i++) {
-        double s, c;
-        wr_sincos_turns((double)i / count, &s, &c);
-        turn[i] = (Complex){ c, sign * s };
-    }
-}
-
 /* ---- the sphere ---- */
 
 typedef struct Blur {
@@ -96,7 +67,7 @@ typedef struct Blur {
     int width, height, orders; /* waves 0 .. orders - 1 */
     int places;                /* that a texel is the mean of, a side */
     Complex *wave;             /* [3][orders][height]: of rows, then blurred */
-    Complex *there, *back;     /* turns */
+    WrFft *fft;                /* of a row */
     double *sine, *cosine,
         *weight;   /* [height] of a row's angle from the upper pole; of its integral */
     double *order; /* [orders] */
@@ -132,18 +103,20 @@ static void row_to_waves(int j, int worker, void *ctx)
     (void)worker;
     if (wr_progress_stopped()) return;
     Complex *row = wr_alloc(3 * (size_t)b->width, sizeof *row);
+    double *scratch = wr_alloc(wr_fft_scratch(b->fft), sizeof *scratch);
     for (int i = 0; i < b->width; i++) {
         double rgb[3];
         texel(b, i, j, rgb);
         for (int c = 0; c < 3; c++) row[c * b->width + i] = (Complex){ rgb[c], 0 };
     }
     for (int c = 0; c < 3; c++) {
-        transform(row + c * b->width, b->width, b->there);
+        wr_fft_run(b->fft, &row[c * b->width].re, scratch);
         for (int m = 0; m < b->orders; m++) {
             const Complex x = row[c * b->width + m];
             wave_of(b, c, m)[j] = (Complex){ x.re / b->width, x.im / b->width };
         }
     }
+    wr_free(scratch);
     wr_free(row);
 }
 
@@ -153,17 +126,19 @@ static void waves_to_row(int j, int worker, void *ctx)
     const int w = b->width;
     (void)worker;
     Complex *row = wr_alloc((size_t)w, sizeof *row);
+    double *scratch = wr_alloc(wr_fft_scratch(b->fft), sizeof *scratch);
     for (int c = 0; c < 3; c++) {
         memset(row, 0, (size_t)w * sizeof *row);
         for (int m = 0; m < b->orders; m++) {
             const Complex x = wave_of(b, c, m)[j];
-            row[m] = x;
-            if (m > 0) row[w - m] = (Complex){ x.re, -x.im };
+            row[m] = (Complex){ x.re, -x.im }; /* the way back is that of the conjugate */
+            if (m > 0) row[w - m] = x;
         }
-        transform(row, w, b->back);
+        wr_fft_run(b->fft, &row->re, scratch);
         for (int i = 0; i < w; i++)
             b->out[3 * ((size_t)j * (size_t)w + (size_t)i) + (size_t)c] = (float)fmax(row[i].re, 0);
     }
+    wr_free(scratch);
     wr_free(row);
 }
 
@@ -265,12 +240,12 @@ bool wr_surround_blur(const WrSurround *surround, const WrGloss *gloss, int widt
     b.places = least_texels(surround->image->width, width);
     b.sine = wr_alloc(4 * h, sizeof *b.sine);
     b.cosine = b.sine + h, b.weight = b.cosine + h, b.order = b.weight + h;
-    b.there = wr_alloc((size_t)width, sizeof *b.there), b.back = b.there + h;
-    fill_turns(b.there, width, -1);
-    fill_turns(b.back, width, 1);
     fill_rows(&b);
     fill_orders(&b, gloss);
-    b.wave = wr_try_alloc(3 * (size_t)b.orders * h, sizeof *b.wave, "blurred surroundings", err);
+    b.fft = wr_fft_new(width, err);
+    if (b.fft)
+        b.wave =
+            wr_try_alloc(3 * (size_t)b.orders * h, sizeof *b.wave, "blurred surroundings", err);
     if (b.wave) {
         wr_pool_run(pool, b.height, row_to_waves, &b);
         wr_pool_run(pool, b.orders, blur_wave, &b);
@@ -278,7 +253,7 @@ bool wr_surround_blur(const WrSurround *surround, const WrGloss *gloss, int widt
     }
     const bool good = b.wave && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
     wr_free(b.wave);
-    wr_free(b.there);
+    wr_fft_free(b.fft);
     wr_free(b.sine);
     return good;
 }

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
-
 enum { RINGS = 32, SPOKES = 24 };
 
 /* What one lamp adds, as in shade/reflect_body.h: of the highlight, without ks. n = (0, 0, 1), v = (sin, 0, nv). */
@@ -60,7 +58,7 @@ static double integral(Lamp *lamp, const WrReflectance *of, const WrMatter *m, d
         for (int j = 0; j < SPOKES; j++) {
             const double t = (i + 0.5) / RINGS, f = t * t * (3 - 2 * t); /* of the facets */
             const double c = sqrt((1 - f) / (1 + f * (a2 - 1))), s = sqrt(fmax(0, 1 - c * c));
-            const double vh = sv * s * cos(pi * (j + 0.5) / SPOKES) + nv * c;
+            const double vh = sv * s * cos(WR_PI * (j + 0.5) / SPOKES) + nv * c;
             const double nl = 2 * vh * c - nv, w = c * c * (a2 - 1) + 1;
             if (vh <= 0 || (gated && nl <= 0)) continue;
             const Place at = { nl, nv, c, vh, 2 * nl * nv - (2 * vh * vh - 1) };
@@ -77,19 +75,12 @@ static double matt_integral(double nv, bool fresnels)
     for (int i = 0; i < RINGS; i++)
         for (int j = 0; j < SPOKES; j++) {
             const double nl = sqrt((i + 0.5) / RINGS), sl = sqrt(1 - nl * nl);
-            const double lv = sv * sl * cos(pi * (j + 0.5) / SPOKES) + nl * nv;
+            const double lv = sv * sl * cos(WR_PI * (j + 0.5) / SPOKES) + nl * nv;
             const double off = fmax(0, 1 - sqrt(fmax(0, (1 + lv) / 2)));
             const double q = fmax(0, lv - nl * nv) / fmax(nl, nv);
             sum += fresnels ? off * off * off * off * off : q;
         }
     return sum / (RINGS * SPOKES);
-}
-
-static double polynomial(const double *terms, double x)
-{
-    double sum = 0;
-    for (int i = WR_ALBEDO_TERMS - 1; i >= 0; i--) sum = sum * x + terms[i];
-    return sum;
 }
 
 /* ---- diffuse light ---- */
@@ -104,7 +95,7 @@ static double matt_albedo(const WrMatter *m, double mu)
 {
     const double s = sqrt(fmax(0, 1 - mu * mu));
     const double rest = s * mu * (1 + s + s * s) / (1 + s) - s;
-    return m->a + m->b / pi * (s * (acos(mu) - s * mu) + 2.0 / 3 * rest);
+    return m->a + m->b / WR_PI * (s * (acos(mu) - s * mu) + 2.0 / 3 * rest);
 }
 
 static void init_matt(WrGloss *g, const WrReflectance *of, const WrMatter *m)
@@ -117,7 +108,7 @@ static void init_matt(WrGloss *g, const WrReflectance *of, const WrMatter *m)
         if (of->model == WR_REFLECT_GGX && published) matt[i] = published_ggx(m, mu);
         else if (of->model == WR_REFLECT_GGX)
             matt[i] =
-                (1 - m->metal) * (m->again > 0 ? 1 - fmin(polynomial(m->albedo, x[i]), 1) : 0);
+                (1 - m->metal) * (m->again > 0 ? 1 - fmin(wr_albedo_at(m->albedo, x[i]), 1) : 0);
         else if (published) matt[i] = m->a + m->b * matt_integral(mu, false);
         else matt[i] = matt_albedo(m, mu), again[i] = m->again > 0 ? fmax(0, 1 - matt[i]) : 0;
     }

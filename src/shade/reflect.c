@@ -110,7 +110,7 @@ void wr_albedo_fit(double y[WR_ALBEDO_TERMS], double out[WR_ALBEDO_TERMS])
     fit(x, y, out);
 }
 
-static double polynomial(const double *terms, double x)
+double wr_albedo_at(const double terms[WR_ALBEDO_TERMS], double x)
 {
     double sum = 0;
     for (int i = WR_ALBEDO_TERMS - 1; i >= 0; i--) sum = sum * x + terms[i];
@@ -166,8 +166,8 @@ static void raise_fit(double *terms, const Albedo *albedo, double f0)
     double most = 0; /* more: .02 + (1 - mu)^5 */
     for (int i = 0; i < CHECKS; i++) {
         const double exact = f0 * albedo->check[0][i] + albedo->check[1][i];
-        const double low = exact - polynomial(terms, between(i));
-        most = fmax(most, low / polynomial(more, between(i)));
+        const double low = exact - wr_albedo_at(terms, between(i));
+        most = fmax(most, low / wr_albedo_at(more, between(i)));
     }
     for (int i = 0; i < WR_ALBEDO_TERMS; i++) terms[i] += most * more[i];
     terms[0] += 1e-4 + 1e-3 * f0; /* of the quadrature */

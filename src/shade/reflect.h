@@ -66,6 +66,7 @@ void wr_matter_init(WrMatter *matter, const WrReflectance *of);
    quadrature. */
 void wr_ggx_albedo(double alpha, double mu, double out[2]);
 
-/* The polynomial in x = sqrt(n.v) through values at Chebyshev's places x, which are used up. */
+/* The polynomial in x = sqrt(n.v), terms of x^0 on, through values y at Chebyshev's places; y is used up. And its value. */
 void wr_albedo_places(double x[WR_ALBEDO_TERMS]);
 void wr_albedo_fit(double y[WR_ALBEDO_TERMS], double out[WR_ALBEDO_TERMS]);
+double wr_albedo_at(const double terms[WR_ALBEDO_TERMS], double x);

@@ -174,14 +174,20 @@ R_INLINE REAL reflect_kept(REAL rho, REAL mean)
     return r * mean / (K_(1) - r * (K_(1) - mean));
 }
 
-R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
+/* wr_albedo_fit's polynomial. */
+R_INLINE REAL reflect_terms(const REAL *a, REAL x)
 {
-    const REAL x = r_sqrt(reflect_least(reflect_positive(mu), K_(1)));
-    const REAL *a = m->albedo, xx = x * x, x4 = xx * xx;
+    const REAL xx = x * x, x4 = xx * xx;
     const REAL low = (a[0] + a[1] * x) + (a[2] + a[3] * x) * xx;
     const REAL mid = (a[4] + a[5] * x) + (a[6] + a[7] * x) * xx;
     const REAL high = (a[8] + a[9] * x) + a[10] * xx;
-    return reflect_least(low + (mid + high * x4) * x4, K_(1));
+    return low + (mid + high * x4) * x4;
+}
+
+R_INLINE REAL reflect_albedo(REAL mu, const MATTER *m)
+{
+    const REAL x = r_sqrt(reflect_least(reflect_positive(mu), K_(1)));
+    return reflect_least(reflect_terms(m->albedo, x), K_(1));
 }
 
 R_INLINE Reflected reflect_ggx(VEC n, VEC l, VEC v, Facets wide, bool spread, bool kept,

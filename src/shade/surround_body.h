@@ -11,14 +11,10 @@ R_INLINE REAL surround_light(const REAL *f, VEC n)
     return reflect_positive(f[0] + (x + (y + z)));
 }
 
-/* A polynomial in x = sqrt(n.v), such as shares of light are. */
+/* A share of light, by x = sqrt(n.v). */
 R_INLINE REAL surround_share(const REAL *a, REAL x)
 {
-    const REAL xx = x * x, x4 = xx * xx;
-    const REAL low = (a[0] + a[1] * x) + (a[2] + a[3] * x) * xx;
-    const REAL mid = (a[4] + a[5] * x) + (a[6] + a[7] * x) * xx;
-    const REAL high = (a[8] + a[9] * x) + a[10] * xx;
-    return reflect_positive(low + (mid + high * x4) * x4);
+    return reflect_positive(reflect_terms(a, x));
 }
 
 R_INLINE REAL surround_root(VEC n, VEC v)

@@ -52,12 +52,8 @@ void wr_patch_picks_forget(WrApp *app)
 static void use_layer(WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
-    const char *name = document->scene->layer;
-    for (int i = document->layer_count - 1; name && i >= 0; i--) {
-        if (strcmp(document->layers[i].name, name) != 0) continue;
-        if (i != document->active) wr_app_run_linef(app, "layer use %d", i + 1);
-        return;
-    }
+    const int layer = wr_layer_named(document, document->scene->layer);
+    if (layer >= 0 && layer != document->active) wr_app_run_linef(app, "layer use %d", layer + 1);
 }
 
 bool wr_patch_choose(WrApp *app, const WrPointer *at)

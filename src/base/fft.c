@@ -1,4 +1,4 @@
-#include "generate/fft.h"
+#include "base/fft.h"
 
 #include "base/error.h"
 #include "base/exactmath.h"
