@@ -446,7 +446,9 @@ static void a_scene_names_the_channels_that_its_pictures_took(void **state)
     write_layers("maps.exr", names, 4, 2);
     must_run(s, "colour maps.exr channel=Depth.Z part=2 repeat=once");
     must_run(s, "normalmap maps.exr channel=diffuse");
+    must_run(s, "environment maps.exr channel=diffuse part=1 turn=30");
     wr_session_scene_text(s, &lines);
+    assert_non_null(strstr(wr_text_get(&lines), "environment maps.exr channel=diffuse part=1 "));
     assert_non_null(strstr(wr_text_get(&lines), "colour maps.exr channel=Depth.Z part=2 "));
     assert_non_null(strstr(wr_text_get(&lines), "normalmap maps.exr channel=diffuse "));
     assert_true(wr_session_save(s, "kept.exr", &err));

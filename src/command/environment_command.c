@@ -23,6 +23,8 @@ void wr_print_environment(const WrScene *scene, bool named, WrText *text)
     wr_text_add(text, "environment");
     if (own->kind != WR_SURROUND_FILE) wr_text_addf(text, " %s", wr_surround_names[own->kind]);
     else if (named) wr_text_add(text, " "), wr_text_add_word(text, own->path);
+    wr_print_word("channel", own->channel, text);
+    wr_print_word("part", own->part, text);
     if (*own->sha256) wr_text_addf(text, " sha256=%s", own->sha256);
     wr_scene_print_params("environment", NULL, scene, text);
     wr_text_add(text, "\n");
@@ -96,6 +98,8 @@ static bool take_light(WrSession *session, WrCall *call, const char *name, WrEnv
     if (!light && kind != WR_SURROUND_OFF) return false;
     wr_environment_set(to, kind, light, file ? name : NULL,
                        file ? wr_call_arg(call, "sha256")->text : NULL);
+    const WrImageWish wish = wr_call_wish(call);
+    if (file) to->channel = wr_strdup(wish.channel), to->part = wr_strdup(wish.part);
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/scene_args.h"
 #include "document/document.h"
 #include "document/document_file.h"
 #include "base/hash.h"
@@ -19,20 +20,13 @@
 
 /* ---- what both have ---- */
 
-static void print_word(const char *name, const char *word, WrText *text)
-{
-    if (!word) return;
-    wr_text_addf(text, " %s=", name);
-    wr_text_add_word(text, word);
-}
-
 /* Where a picture is from and how often it is laid: " FILE channel=... part=... sha256=... repeat=...". */
 static void print_laid(const WrLaid *laid, bool named, WrText *text)
 {
     const double ru = laid->ru, rv = laid->rv;
     if (named) wr_text_add(text, " "), wr_text_add_word(text, laid->path);
-    print_word("channel", laid->channel, text);
-    print_word("part", laid->part, text);
+    wr_print_word("channel", laid->channel, text);
+    wr_print_word("part", laid->part, text);
     if (*laid->sha256) wr_text_addf(text, " sha256=%s", laid->sha256);
     if (laid->own && ru == 1 && rv == 1) {
         wr_text_add(text, " repeat=once");

@@ -72,6 +72,13 @@ void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *
     }
 }
 
+void wr_print_word(const char *name, const char *word, WrText *text)
+{
+    if (!word) return;
+    wr_text_addf(text, " %s=", name);
+    wr_text_add_word(text, word);
+}
+
 void wr_scene_print_vec(WrVec3 v, WrText *text)
 {
     const double numbers[3] = { v.x, v.y, v.z };

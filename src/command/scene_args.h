@@ -30,5 +30,7 @@ void wr_form_terrain(WrArgSpec *args); /* what a terrain has otherwise, or besid
 /* The line of `surface` by the content of its file, whatever its path. */
 void wr_print_surface_content(const WrScene *scene, WrText *text);
 void wr_scene_print_vec(WrVec3 v, WrText *text); /* "x,y,z" */
+/* " name=word", as a line has it; nothing where word is NULL. */
+void wr_print_word(const char *name, const char *word, WrText *text);
 /* "x,y,z" of one. */
 void wr_scene_print_value(const WrSceneParam *param, const void *owner, WrText *text);

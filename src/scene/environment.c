@@ -8,8 +8,10 @@ void wr_environment_fini(WrEnvironment *environment)
 {
     wr_surround_free(environment->light);
     wr_free(environment->path);
+    wr_free(environment->channel);
+    wr_free(environment->part);
     environment->light = NULL;
-    environment->path = NULL;
+    environment->path = environment->channel = environment->part = NULL;
 }
 
 void wr_environment_copy(WrEnvironment *to, const WrEnvironment *from)
@@ -17,6 +19,8 @@ void wr_environment_copy(WrEnvironment *to, const WrEnvironment *from)
     WrEnvironment copy = *from;
     copy.light = wr_surround_share(from->light);
     copy.path = wr_strdup(from->path);
+    copy.channel = wr_strdup(from->channel);
+    copy.part = wr_strdup(from->part);
     wr_environment_fini(to);
     *to = copy;
 }

@@ -9,8 +9,9 @@ typedef struct WrScene WrScene;
 
 typedef struct WrEnvironment {
     WrSurroundKind kind;
-    WrSurround *light; /* owned share; NULL where the kind is off */
-    char *path;        /* of a file: as the command named it; owned */
+    WrSurround *light;    /* owned share; NULL where the kind is off */
+    char *path;           /* of a file: as the command named it; owned */
+    char *channel, *part; /* of it that were asked for, likewise */
     char sha256[65];
     double turn_deg; /* about the world's y axis, as the turntable turns */
     double strength; /* 0..1e6: times what the picture holds */
