@@ -527,7 +527,7 @@ static void all_sets_make_the_same_codes(void **state)
     (void)state;
     const char *const names[] = { "v1", "v2", "v3", "v4" };
     static uint32_t bins[WR_CODE_BINS + 1], want[WR_SPAN], got[WR_SPAN];
-    static float rgba[WR_SPAN][4];
+    static float rgba[WR_SPAN + 1][4];
     const float ground[3] = { 0.3f, 0.05f, 0.9f };
     const WrKernels *ref = wr_kernels_get("ref", false, NULL);
     TestRandom random = { seed };
@@ -537,7 +537,8 @@ static void all_sets_make_the_same_codes(void **state)
         const int count = round < 20 ? round : 237 + round % 20;
         fill_strip(&random, strip);
         strip->count = count;
-        for (int i = 0; i < WR_SPAN * 4; i++) rgba[i / 4][i % 4] = (float)test_random(&random);
+        for (int i = 0; i < (WR_SPAN + 1) * 4; i++)
+            rgba[i / 4][i % 4] = (float)test_random(&random);
         strip->cg[3] = NAN, strip->cb[7] = -INFINITY, rgba[5][1] = INFINITY;
         for (int i = 0; i < 4; i++) {
             const WrKernels *set = wr_kernels_get(names[i], false, NULL);
@@ -546,6 +547,14 @@ static void all_sets_make_the_same_codes(void **state)
             assert_memory_equal(got, want, (size_t)count * sizeof *got);
             assert_int_equal(set->codes_over(bins, ground, count, rgba[0], got),
                              ref->codes_over(bins, ground, count, rgba[0], want));
+            assert_memory_equal(got, want, (size_t)count * sizeof *got);
+        }
+        for (int i = 0; i < 4; i++) {
+            const WrKernels *set = wr_kernels_get(names[i], false, NULL);
+            const WrToneCurve tone = { 1.37f, round & 1 ? 0.5f : 3e38f, false };
+            if (!set) continue;
+            assert_int_equal(set->codes_behind(bins, &tone, rgba[1], count, rgba[0], got),
+                             ref->codes_behind(bins, &tone, rgba[1], count, rgba[0], want));
             assert_memory_equal(got, want, (size_t)count * sizeof *got);
         }
         if (count > 7) assert_true(ref->codes(bins, strip, want) >= 2);

@@ -53,12 +53,34 @@ static void every_value_has_the_code_of_the_borders(void **state)
 
 /* ---- pictures ---- */
 
-static const WrBackground grounds[] = {
-    { .top = { 0, 0, 0 } },
-    { .top = { 0.13, 0.4, 0.021 } },
-    { .kind = WR_BACKGROUND_NONE, .top = { 1, 0.7, 0.00012 } },
-    { WR_BACKGROUND_GRADIENT, { 0.02, 0.4, 1.7 }, { 0.9, 0.4, 0.00012 } },
+static const WrFrameCodes ways[] = {
+    { .background.top = { 0, 0, 0 } },
+    { .background.top = { 0.13, 0.4, 0.021 } },
+    { .background = { WR_BACKGROUND_NONE, { 1, 0.7, 0.00012 }, { 0 } } },
+    { .background = { WR_BACKGROUND_GRADIENT, { 0.02, 0.4, 1.7 }, { 0.9, 0.4, 0.00012 } } },
+    { .background = { WR_BACKGROUND_GRADIENT, { 0.02, 0.4, 1.7 }, { 0.9, 0.4, 0.00012 } },
+      .tone = { WR_TONE_SOFT, 1.37 } },
+    { .background.kind = WR_BACKGROUND_SURROUNDINGS },
+    { .background.kind = WR_BACKGROUND_SURROUNDINGS, .tone.exposure = -0.71 },
 };
+#define WAYS ((int)(sizeof ways / sizeof *ways))
+
+/* Surroundings for the ways that show them. */
+static void bring_sky(WrScene *scene)
+{
+    WrError err = { "" };
+    wr_environment_set(&scene->environment, WR_SURROUND_SKY,
+                       wr_surround_built(WR_SURROUND_SKY, &err), NULL, NULL);
+    scene->environment.turn_deg = 33.3;
+}
+
+static WrFrameCodes way_for(int i, const WrScene *scene)
+{
+    WrFrameCodes way = ways[i];
+    way.wanted = true;
+    way.scene = scene;
+    return way;
+}
 
 static void expect_codes(const WrFrame *frame, const uint8_t *bytes, const char *what)
 {
@@ -73,10 +95,10 @@ static void expect_codes(const WrFrame *frame, const uint8_t *bytes, const char 
 }
 
 /* The float picture made into codes. */
-static uint8_t *bytes_of(const WrFrame *frame, const WrBackground *ground, int64_t *not_finite)
+static uint8_t *bytes_of(const WrFrame *frame, const WrFrameCodes *how, int64_t *not_finite)
 {
     uint8_t *bytes = wr_alloc((size_t)frame->width * (size_t)frame->height, 4);
-    *not_finite = wr_frame_to_srgb8(frame, ground, true, bytes, NULL);
+    *not_finite = wr_frame_to_srgb8(frame, how, true, bytes, NULL);
     return bytes;
 }
 
@@ -93,7 +115,8 @@ static void try_case(const Case *c, const WrField *field, WrField *edited, TestR
                                .width = 41 + (int)(300 * test_random(random)),
                                .height = 37 + (int)(60 * test_random(random)),
                                .turn_deg = 25 };
-    const WrBackground *ground = &grounds[(int)(4 * test_random(random))];
+    if (test_random(random) < 0.5) bring_sky(scene);
+    const WrFrameCodes way = way_for((int)(WAYS * test_random(random)), scene);
     WrPool *pool = wr_pool_new(threads[(int)(3 * test_random(random))]);
     WrRenderer *floats = wr_renderer_new(pool, isa, &err),
                *codes = wr_renderer_new(pool, isa, &err);
@@ -105,9 +128,8 @@ static void try_case(const Case *c, const WrField *field, WrField *edited, TestR
         request.codes.wanted = false;
         if (!wr_renderer_frame(floats, &request, &frame, &err)) fail_msg("%s", err.text);
         const int64_t covered = frame.covered;
-        uint8_t *bytes = bytes_of(&frame, ground, &not_finite);
-        request.codes.wanted = true;
-        request.codes.background = *ground;
+        uint8_t *bytes = bytes_of(&frame, &way, &not_finite);
+        request.codes = way;
         if (!wr_renderer_frame(codes, &request, &frame, &err)) fail_msg("%s", err.text);
         snprintf(what, sizeof what, "%s aa=%d %dx%d %s%s, step %d", c->surface, (int)c->aa,
                  request.width, request.height, isa, fast ? " fast" : "", step);
@@ -149,27 +171,83 @@ static void codes_and_floats_leave_each_other_alone(void **state)
     WrField *field = bumpy_field(61, 37);
     WrScene *scene = scene_of("sphere");
     WrRenderer *renderer = wr_renderer_new(NULL, NULL, &err);
+    bring_sky(scene);
     Shot fresh = shoot(scene, field, 301, 50, 1, "auto", false);
-    for (int step = 0; step < 16; step++) {
-        const WrBackground *ground = &grounds[step / 2 % 4];
+    for (int step = 0; step < 4 * WAYS; step++) {
+        WrFrameCodes way = way_for(step / 2 % WAYS, scene);
         int64_t not_finite;
         WrFrame frame;
-        WrFrameRequest request = { .field = field,
-                                   .scene = scene,
-                                   .width = 301,
-                                   .height = 50,
-                                   .turn_deg = 15,
-                                   .keep = true,
-                                   .codes.wanted = step % 4 != 3 };
-        request.codes.background = *ground;
+        WrFrameRequest request = {
+            .field = field, .scene = scene, .width = 301, .height = 50, .turn_deg = 15, .keep = true
+        };
+        way.wanted = step % 4 != 3;
+        request.codes = way;
         assert_true(wr_renderer_frame(renderer, &request, &frame, &err));
-        uint8_t *bytes = bytes_of(&fresh.frame, ground, &not_finite);
+        uint8_t *bytes = bytes_of(&fresh.frame, &way, &not_finite);
         if (request.codes.wanted) expect_codes(&frame, bytes, "by turns");
         else assert_memory_equal(frame.rgba, fresh.frame.rgba, frame_bytes(&frame));
         wr_free(bytes);
     }
     wr_renderer_free(renderer);
     put_away(&fresh);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+/* A background of surroundings, and the curve, by their own formulas: the ray of each pixel, turned by hand about y, and
+   light in double. */
+static void what_lies_behind_is_what_each_ray_meets(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    WrField *field = bumpy_field(11, 7);
+    WrScene *scene = scene_of("sphere");
+    WrPool *pool = wr_pool_new(3);
+    WrRenderer *renderer = wr_renderer_new(pool, NULL, &err);
+    enum { W = 67, H = 45 };
+    bring_sky(scene);
+    scene->environment.strength = 0.83;
+    scene->camera.fit = false;
+    scene->camera.eye = (WrVec3){ 2.5, 0.4, 3.1 };
+    scene->camera.target = (WrVec3){ 0.2, 0.1, -0.3 };
+    scene->camera.fov_deg = 71;
+    const double angle = 33.3 * M_PI / 180, half = tan(71 * M_PI / 360);
+    const WrVec3 ahead =
+        v3_unit(v3_sub(scene->camera.target, scene->camera.eye), (WrVec3){ 0, 0, 1 });
+    const WrVec3 right = v3_unit(v3_cross(ahead, (WrVec3){ 0, 1, 0 }), (WrVec3){ 1, 0, 0 });
+    const WrVec3 up = v3_cross(right, ahead);
+    WrFrame frame;
+    WrFrameRequest request = { .field = field, .scene = scene, .width = W, .height = H };
+    request.codes = way_for(WAYS - 1, scene);
+    request.codes.tone = (WrTone){ WR_TONE_SOFT, 0.6 };
+    int bare = 0;
+    WrFrameRequest floats = request;
+    floats.codes.wanted = false;
+    assert_true(wr_renderer_frame(renderer, &floats, &frame, &err));
+    bool covered[W * H];
+    for (int i = 0; i < W * H; i++) covered[i] = frame.rgba[4 * i + 3] > 0;
+    assert_true(wr_renderer_frame(renderer, &request, &frame, &err));
+    for (int i = 0; i < W * H; i++) {
+        const double x = (2.0 * (i % W + 0.5) / W - 1) * half * W / H;
+        const double y = (1 - 2.0 * (i / W + 0.5) / H) * half;
+        const WrVec3 d = v3_mad(v3_mad(ahead, right, x), up, y);
+        /* the surroundings are turned by `angle` about y, so what is seen lies at the direction turned back */
+        const WrVec3 back = { d.x * cos(angle) - d.z * sin(angle), d.y,
+                              d.x * sin(angle) + d.z * cos(angle) };
+        double rgb[3];
+        if (covered[i]) continue;
+        wr_surround_at(scene->environment.light, back, rgb);
+        for (int c = 0; c < 3; c++) {
+            const double light = 0.83 * rgb[c] * pow(2, 0.6);
+            const double seen = light > 0.5 ? 1 - 1 / (4 * light) : light;
+            const double code = 255 * (double)wr_srgb_encode((float)seen);
+            assert_near((frame.codes[i] >> (16 - 8 * c)) & 255, code, 0.51);
+        }
+        bare++;
+    }
+    assert_true(bare > W * H / 4);
+    wr_renderer_free(renderer);
+    wr_pool_free(pool);
     wr_scene_free(scene);
     wr_field_free(field);
 }
@@ -226,6 +304,7 @@ int main(void)
         cmocka_unit_test(every_value_has_the_code_of_the_borders),
         cmocka_unit_test(codes_are_those_of_the_float_picture),
         cmocka_unit_test(codes_and_floats_leave_each_other_alone),
+        cmocka_unit_test(what_lies_behind_is_what_each_ray_meets),
         cmocka_unit_test(one_light_in_one_pass_has_the_bits_of_the_stages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

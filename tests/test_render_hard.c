@@ -230,7 +230,7 @@ static void hc96_a_value_that_is_not_a_number_becomes_black_and_is_counted(void 
     float rgba[] = { NAN, 0.5f, 0, 1, INFINITY, 1, 2, 1, -1, 0.25f, 1, 1 };
     WrFrame frame = { .width = 3, .height = 1, .rgba = rgba };
     uint8_t out[9];
-    assert_int_equal(wr_frame_to_srgb8(&frame, &(const WrBackground){ 0 }, false, out, NULL), 2);
+    assert_int_equal(wr_frame_to_srgb8(&frame, &(const WrFrameCodes){ 0 }, false, out, NULL), 2);
     const uint8_t want[] = { 0, 188, 0, 0, 255, 255, 0, 137, 255 };
     assert_memory_equal(out, want, 9);
 }
@@ -244,7 +244,7 @@ static void codes_of_8_bits_are_those_of_the_curve(void **state)
         float rgba[] = { x, x, x, 1 };
         WrFrame frame = { .width = 1, .height = 1, .rgba = rgba };
         uint8_t out[3];
-        assert_int_equal(wr_frame_to_srgb8(&frame, &(const WrBackground){ 0 }, false, out, NULL),
+        assert_int_equal(wr_frame_to_srgb8(&frame, &(const WrFrameCodes){ 0 }, false, out, NULL),
                          0);
         double code = 255 * (double)wr_srgb_encode(x); /* within rounding of the float borders */
         assert_near(out[0], code, 0.5 + 2e-4);

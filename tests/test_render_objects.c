@@ -169,10 +169,10 @@ static void parts_of_the_picture_are_the_wholes(void **state)
         assert_true(wr_renderer_frame(renderer, &request, &frame, &err));
         assert_memory_equal(frame.rgba, whole.frame.rgba + 4 * 7 * W, 29 * W * 4 * sizeof(float));
         request.first = request.rows = 0;
-        request.codes = (WrFrameCodes){ true, { .top = { 0.1, 0.4, 0.02 } } };
+        request.codes = (WrFrameCodes){ true, .background.top = { 0.1, 0.4, 0.02 } };
         assert_true(wr_renderer_frame(renderer, &request, &frame, &err));
         uint8_t bgra[W * H * 4];
-        wr_frame_to_srgb8(&whole.frame, &request.codes.background, true, bgra, pool);
+        wr_frame_to_srgb8(&whole.frame, &request.codes, true, bgra, pool);
         assert_memory_equal(frame.codes, bgra, sizeof bgra);
         request.codes.wanted = false;
         unsigned char only[((W + 7) / 8) * ((H + 7) / 8)];

@@ -99,6 +99,50 @@ static void a_gradient_is_even_and_whole(void **state)
     wr_session_free(banded);
 }
 
+/* The same before surroundings, developed: bands, tolerances and float files too; documents keep how. */
+static void surroundings_stand_behind_and_light_is_developed(void **state)
+{
+    (void)state;
+    static const char *const lines[] = { "background plain colour=0.4,0.3,0.2",
+                                         "environment raking turn=71.5", "background surroundings",
+                                         "tone soft exposure=-0.37" };
+    WrSession *session = renderer_of(0), *banded = renderer_of(4096);
+    for (int i = 0; i < 4; i++) must_run(session, lines[i]), must_run(banded, lines[i]);
+    must_run(session, "material ambient=0.1");
+    must_run(banded, "material ambient=0.1");
+    WrImage *whole = rendered(session, "sky.png"), *bands = rendered(banded, "bands.png");
+    const size_t size = (size_t)whole->width * (size_t)whole->height * 3 * sizeof(float);
+    assert_memory_equal(whole->data, bands->data, size);
+    wr_image_free(bands);
+    must_run(banded, "tolerance max=1");
+    wr_image_free(rendered(banded, "tolerant.png"));
+    must_run(session, "save sky.ora");
+    WrSession *other = renderer_of(0);
+    must_run(other, "open sky.ora");
+    bands = rendered(other, "again.png");
+    assert_memory_equal(whole->data, bands->data, size);
+    WrImage *light = rendered(session, "light.exr");
+    must_run(session, "tone clip exposure=0");
+    WrImage *same = rendered(session, "same.exr");
+    assert_memory_equal(light->data, same->data, size / 3 * 4);
+    int covered = 0;
+    for (int i = 0; i < light->width * light->height; i++) {
+        if (light->data[4 * i + 3] < 1) continue;
+        for (int c = 0; c < 3; c++) {
+            const double seen = (double)light->data[4 * i + c] * pow(2, -0.37);
+            const double soft = seen > 0.5 ? 1 - 1 / (4 * seen) : seen;
+            assert_near(whole->data[3 * i + c], wr_srgb_encode((float)soft), 0.52 / 255);
+        }
+        covered++;
+    }
+    assert_true(covered > 100);
+    WrImage *all[] = { whole, bands, light, same };
+    for (int i = 0; i < 4; i++) wr_image_free(all[i]);
+    wr_session_free(session);
+    wr_session_free(banded);
+    wr_session_free(other);
+}
+
 /* Alpha is coverage, colours are not premultiplied, and edges are mixed with what lies behind them. */
 static void edges_stand_before_their_background(void **state)
 {
@@ -534,6 +578,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_document_keeps_its_background),
         cmocka_unit_test(a_gradient_is_even_and_whole),
+        cmocka_unit_test(surroundings_stand_behind_and_light_is_developed),
         cmocka_unit_test(edges_stand_before_their_background),
         cmocka_unit_test(a_filled_picture_has_no_room_left),
         cmocka_unit_test(the_camera_goes_where_it_is_sent),

@@ -91,6 +91,25 @@ choose n.png "$colours"
 becomes 'colour *n.png sha256=*' "a colour picture that was chosen"
 key ctrl+z
 rest
+
+# Surroundings behind the patch, turned by Shift and the right button: what the gold mirrors turns with them.
+kill -KILL "$pid"
+wait "$pid" 2>/dev/null
+rm -rf state/wrinkle/journals/*
+printf '%s\n' 'surface sphere' 'material preset=gold' 'environment sky' 'background surroundings' 'tone soft exposure=-1' >sky.wrinkle
+start sky.wrinkle
+home
+shot level
+xdotool mousemove $((X + 620)) $((Y + 300))
+xdotool keydown shift mousedown 3
+for _ in 1 2 3 4 5 6; do xdotool mousemove_relative -- 10 0; done
+xdotool mouseup 3 keyup shift
+becomes 'environment turn=[1-9]*' "the surroundings were turned"
+home
+shot turned
+[[ $(compare -metric AE -extract $patch level.ppm turned.ppm null: 2>&1 | cut -d' ' -f1) -gt 1000 ]] ||
+    complain "what the patch mirrors did not turn"
+
 kill -KILL "$pid"
 wait "$pid" 2>/dev/null
 pid=''

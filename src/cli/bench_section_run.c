@@ -77,7 +77,7 @@ static WrScene *scene_of_round(const WrBenchPicture *p, int round)
 
 static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int round, WrError *err)
 {
-    static const WrBackground background = { 0 };
+    static const WrFrameCodes black = { 0 };
     const bool rests =
         p->view == WR_BENCH_RESTS || p->view == WR_BENCH_PAINTS || p->view == WR_BENCH_RELIT;
     WrScene *scene = scene_of_round(p, round);
@@ -98,7 +98,7 @@ static bool draw(const WrBenchSections *all, WrBenchPicture *p, Lane *lane, int 
     const bool drawn = lane->renderer && wr_renderer_frame(lane->renderer, &request, &frame, err);
     wr_scene_free(scene);
     if (!drawn) return false;
-    if (lane->bytes) wr_frame_to_srgb8(&frame, &background, false, lane->bytes, all->cli->pool);
+    if (lane->bytes) wr_frame_to_srgb8(&frame, &black, false, lane->bytes, all->cli->pool);
     if (round >= 0) lane->ms[round] = 1e3 * (wr_clock_seconds() - start);
     p->samples = frame.shaded;
     wr_bench_picture_count(all, p, &frame);

@@ -189,8 +189,7 @@ bool wr_sampler_paint(WrSampler *sampler, const WrPreset *preset, uint8_t *grey,
     WrFrameRequest request = {
         .field = field, .scene = sampler->scene, .width = sampler->width, .height = sampler->height
     };
-    request.codes.wanted = true;
-    request.codes.background = sampler->scene->background;
+    request.codes = wr_frame_codes_of(sampler->scene, true);
     bool good = wr_renderer_frame(sampler->renderer, &request, &frame, err);
     if (good) {
         size_t count = (size_t)sampler->width * (size_t)sampler->height;

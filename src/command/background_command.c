@@ -27,10 +27,11 @@ static void print_background(const WrScene *scene, WrText *text)
                bottom = memcmp(own->bottom, usual, sizeof own->bottom) != 0;
     if (bottom || own->kind == WR_BACKGROUND_GRADIENT)
         print_kind(WR_BACKGROUND_GRADIENT, scene, text);
-    if (own->kind == WR_BACKGROUND_PLAIN ? top || bottom
-                                         : top && !bottom && own->kind == WR_BACKGROUND_NONE)
+    const bool colourless =
+        own->kind == WR_BACKGROUND_NONE || own->kind == WR_BACKGROUND_SURROUNDINGS;
+    if (own->kind == WR_BACKGROUND_PLAIN ? top || bottom : top && !bottom && colourless)
         print_kind(WR_BACKGROUND_PLAIN, scene, text);
-    if (own->kind == WR_BACKGROUND_NONE) print_kind(WR_BACKGROUND_NONE, scene, text);
+    if (colourless) print_kind(own->kind, scene, text);
 }
 
 static bool run_background(WrSession *session, WrCall *call, WrError *err)
@@ -50,6 +51,8 @@ static bool form_background(int i, WrForm *out)
         [WR_ROW(WR_BACKGROUND_PLAIN)] = "one colour",
         [WR_ROW(WR_BACKGROUND_GRADIENT)] = "one colour goes over into another, from top to bottom",
         [WR_ROW(WR_BACKGROUND_NONE)] = "none: files that hold alpha have it, such as PNG",
+        [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] =
+            "the surroundings (`environment`), as the camera sees them",
     };
     WR_ROWS_END(help, WR_BACKGROUND_KINDS);
     if (i >= WR_BACKGROUND_KINDS) return false;
@@ -68,6 +71,7 @@ const WrCommand wr_command_background = {
     .help = "what stands behind the objects",
     .details = "Of 8-bit pictures, and in the window. Only what is given changes. EXR and TIFF "
                "hold coverage in its place. Files without alpha, such as JPEG, have the plain "
-               "colour where there is none.",
+               "colour where there is none, and so has a scene without surroundings. An "
+               "orthographic camera sees one direction of them.",
     .example = "background gradient top=0.12,0.16,0.24 bottom=0.5,0.47,0.42"
 };

@@ -117,6 +117,7 @@ typedef struct Picture {
     double drawn;       /* of a band's work: drawing it; its place in the file is the rest */
     bool linear, alpha; /* of the file: float; codes with alpha */
     int64_t replaced;
+    int64_t clipped; /* pixels of codes that are full in some colour */
 } Picture;
 
 /* Rows of a band: whole strips, as files are written; all where they fit. pixel: bytes. */
@@ -159,6 +160,31 @@ static bool draw_band(Picture *picture, int y, WrError *err)
     return good;
 }
 
+/* Of scenes whose light is developed, or comes from all sides: elsewhere a highlight is meant to be white. */
+static void count_clipped(Picture *picture, int rows, const uint8_t *codes)
+{
+    const WrScene *scene = picture->request.scene;
+    const size_t channels = picture->alpha ? 4 : 3;
+    const size_t count = (size_t)picture->request.width * (size_t)rows;
+    if (picture->linear) return;
+    if (!scene->environment.light && wr_tone_curve(&scene->tone).plain) return;
+    for (size_t i = 0; i < count; i++, codes += channels)
+        picture->clipped += codes[0] == 255 || codes[1] == 255 || codes[2] == 255;
+}
+
+#define CLIPPED_TOLD 0.005 /* of a picture's pixels: less is sparkle */
+
+static void tell_clipped(const Picture *picture, const char *path)
+{
+    const double pixels = (double)picture->request.width * picture->request.height;
+    const double share = (double)picture->clipped / pixels;
+    if (share > CLIPPED_TOLD)
+        wr_session_note(picture->session,
+                        "%s: %.1f %% of the pixels are clipped; `tone soft`, or less exposure, "
+                        "shows what is there",
+                        path, 100 * share);
+}
+
 /* Rows of the file: linear float, or 8-bit sRGB over the scene's background. */
 static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
 {
@@ -173,10 +199,12 @@ static bool give_rows(void *ctx, int y, int rows, void *out, WrError *err)
     if (strip.codes) wr_codes_to_rgb(strip.codes + before, (size_t)rows * width, out);
     else if (picture->linear) memcpy(out, strip.rgba, (size_t)rows * row);
     else if (picture->alpha)
-        picture->replaced += wr_frame_to_alpha8(&strip, out, picture->session->options.pool);
+        picture->replaced += wr_frame_to_alpha8(&strip, &picture->request.scene->tone, out,
+                                                picture->session->options.pool);
     else
-        picture->replaced += wr_frame_to_srgb8(&strip, &picture->request.scene->background, false,
-                                               out, picture->session->options.pool);
+        picture->replaced += wr_frame_to_srgb8(&strip, &picture->request.codes, false, out,
+                                               picture->session->options.pool);
+    count_clipped(picture, rows, out);
     const double share = (double)(y + rows - picture->first) / picture->frame.height;
     return wr_progress_tell(done_of(picture, picture->drawn + (1 - picture->drawn) * share)) ||
            wr_fail(err, "cancelled");
@@ -228,6 +256,7 @@ static bool write_picture(Picture *picture, const char *path, WrError *err)
     if (picture->replaced)
         wr_session_note(picture->session, "%s: %lld values were not finite and became 0", path,
                         (long long)picture->replaced);
+    tell_clipped(picture, path);
     return true;
 }
 
@@ -285,8 +314,8 @@ bool wr_session_render(WrSession *session, const char *path, int width, int heig
     const WrScene *scene = picture.request.scene;
     const bool floats = linear || picture.alpha;
     picture.step = band_rows(session, width, height, floats ? 4 * sizeof(float) : sizeof(uint32_t));
-    picture.request.codes.wanted = !floats && scene->tolerance.kind == WR_TOLERANCE_NONE;
-    picture.request.codes.background = scene->background;
+    picture.request.codes =
+        wr_frame_codes_of(scene, !floats && scene->tolerance.kind == WR_TOLERANCE_NONE);
     WrProgressPart part;
     const WrProgress *whole = wr_progress_enter(&part, 0.0, DRAWN);
     bool good = draw_first(&picture, err);

@@ -365,7 +365,7 @@ static bool hc96(WrHardGauge *g, WrError *err)
     (void)err;
     float rgba[] = { NAN, 0.5f, 0, 1, INFINITY, 1, 2, 1, -1, 0.25f, -INFINITY, 1 };
     const WrFrame frame = { .width = 3, .height = 1, .rgba = rgba };
-    const WrBackground black = { 0 };
+    const WrFrameCodes black = { 0 };
     uint8_t out[9], codes[12];
     const int64_t wild = wr_frame_to_srgb8(&frame, &black, false, out, g->pool);
     wr_hard_holds(g, WR_HARD_FLOAT, wild == 3);

@@ -71,7 +71,7 @@ void wr_renderer_free(WrRenderer *renderer)
     wr_free(renderer->scratch);
     wr_free(renderer->rgba);
     wr_free(renderer->codes);
-    wr_free(renderer->behind);
+    wr_backdrop_fini(&renderer->backdrop);
     wr_free(renderer);
 }
 
@@ -177,55 +177,39 @@ static void render_tile(int index, int worker, void *ctx)
     job->scratch[worker]->all += wr_clock_seconds() - start;
 }
 
-/* The background of the rows that are wanted, or the one of all. */
-static void fill_behind(WrRenderer *renderer, const WrBackground *background, const WrTileJob *job)
-{
-    const int count = job->behind_step ? job->rows : 1;
-    const float nothing[4] = { 0 };
-    if (renderer->behind_room < count) {
-        wr_free(renderer->behind);
-        renderer->behind = wr_alloc((size_t)count, sizeof *renderer->behind);
-        renderer->behind_room = count;
-    }
-    for (int i = 0; i < count; i++) {
-        WrBehind *behind = &renderer->behind[i];
-        wr_background_row(background, job->top + i, job->height, behind->colour);
-        job->coder->codes_over(job->bins, behind->colour, 1, nothing, &behind->code);
-    }
-}
-
 static void want_codes(WrRenderer *renderer, const WrFrameCodes *codes, WrTileJob *job)
 {
     job->codes = renderer->codes;
     job->rgba = NULL;
-    job->behind_step = codes->background.kind == WR_BACKGROUND_GRADIENT;
-    fill_behind(renderer, &codes->background, job);
-    job->behind = renderer->behind;
+    job->coder.tone = wr_tone_curve(&codes->tone);
+    wr_backdrop_bring(&renderer->backdrop, codes, renderer->radius, job->width, job->height,
+                      job->top, job->rows, &job->coder, renderer->pool);
+    job->backdrop = &renderer->backdrop;
 }
 
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
 {
     const WrPlan *plan = &renderer->plan;
-    WrTileJob job = { .view = &renderer->view,
-                      .plan = plan,
-                      .scene = renderer->scene,
-                      .pipe = plan->shading_double ? &wr_pipe_double : &wr_pipe,
-                      .kernels =
-                          request ? renderer->kernels : wr_kernels_get(renderer->isa, false, NULL),
-                      .kernels_double = wr_kernels_double(renderer->isa, NULL),
-                      .mesh = renderer->mesh,
-                      .triangles = renderer->triangles.source ? &renderer->triangles : NULL,
-                      .newton = renderer->mesh && plan->newton != 0,
-                      .samples = renderer->samples,
-                      .width = renderer->width,
-                      .height = renderer->height,
-                      .top = renderer->top,
-                      .rows = renderer->rows,
-                      .rgba = renderer->rgba,
-                      .rgba_pitch = (size_t)renderer->width,
-                      .y0 = renderer->top,
-                      .bins = renderer->bins,
-                      .coder = wr_kernels_get(renderer->isa, false, NULL) };
+    WrTileJob job = {
+        .view = &renderer->view,
+        .plan = plan,
+        .scene = renderer->scene,
+        .pipe = plan->shading_double ? &wr_pipe_double : &wr_pipe,
+        .kernels = request ? renderer->kernels : wr_kernels_get(renderer->isa, false, NULL),
+        .kernels_double = wr_kernels_double(renderer->isa, NULL),
+        .mesh = renderer->mesh,
+        .triangles = renderer->triangles.source ? &renderer->triangles : NULL,
+        .newton = renderer->mesh && plan->newton != 0,
+        .samples = renderer->samples,
+        .width = renderer->width,
+        .height = renderer->height,
+        .top = renderer->top,
+        .rows = renderer->rows,
+        .rgba = renderer->rgba,
+        .rgba_pitch = (size_t)renderer->width,
+        .y0 = renderer->top,
+        .coder = { wr_kernels_get(renderer->isa, false, NULL), renderer->bins, { .plain = true } }
+    };
     if (job.triangles)
         job.triangle_look = wr_frame_look_up(&renderer->triangles, renderer->view.scale);
     if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
@@ -279,7 +263,8 @@ bool wr_frame_may_keep(const WrFrameRequest *request)
 bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)
 {
     return a->wanted == b->wanted &&
-           (!a->wanted || wr_background_equal(&a->background, &b->background));
+           (!a->wanted || (wr_background_equal(&a->background, &b->background) &&
+                           wr_tone_equal(&a->tone, &b->tone)));
 }
 
 /* Does the last picture show what this request asks for, but for edits of the table? */

@@ -4,6 +4,7 @@
 #pragma once
 #include "render/plan.h"
 #include "scene/background.h"
+#include "scene/tone.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,7 +24,12 @@ typedef struct WrRenderer WrRenderer;
 typedef struct WrFrameCodes {
     bool wanted; /* instead of rgba */
     WrBackground background;
+    WrTone tone;
+    const WrScene
+        *scene; /* whose surroundings and camera a background of surroundings shows; borrowed */
 } WrFrameCodes;
+/* As the scene says. */
+WrFrameCodes wr_frame_codes_of(const WrScene *scene, bool wanted);
 
 /* What a pixel took. */
 typedef enum WrMapBit {
@@ -103,12 +109,12 @@ const char *wr_renderer_isa(const WrRenderer *renderer); /* as it was asked for 
 bool wr_renderer_frame(WrRenderer *renderer, const WrFrameRequest *request, WrFrame *frame,
                        WrError *err);
 
-/* 8-bit sRGB over a background: bytes [height][width][channels], channels 3, or 4 with
+/* 8-bit sRGB, developed, over a background: bytes [height][width][channels], channels 3, or 4 with
    opaque alpha in memory order B,G,R,A when bgra. Non-finite counts as 0; returns how many (HC96). */
-int64_t wr_frame_to_srgb8(const WrFrame *frame, const WrBackground *background, bool bgra,
-                          uint8_t *out, WrPool *pool);
+int64_t wr_frame_to_srgb8(const WrFrame *frame, const WrFrameCodes *how, bool bgra, uint8_t *out,
+                          WrPool *pool);
 /* The same with alpha, over nothing: bytes R,G,B,A, not premultiplied. */
-int64_t wr_frame_to_alpha8(const WrFrame *frame, uint8_t *out, WrPool *pool);
+int64_t wr_frame_to_alpha8(const WrFrame *frame, const WrTone *tone, uint8_t *out, WrPool *pool);
 
 /* `count` of them as bytes R,G,B; out [count][3]. */
 void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out);

@@ -1,6 +1,7 @@
 /* frame_inner.h - what a renderer holds from frame to frame.
    Layer 5, private to frame.c and its brothers, group.c. */
 #pragma once
+#include "render/coder.h"
 #include "render/frame.h"
 #include "render/keep.h"
 #include "render/mirror.h"
@@ -37,10 +38,9 @@ struct WrRenderer {
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
-    float *rgba;      /* the last picture, or the last band of it ... */
-    uint32_t *codes;  /* ... or the same as codes; each made when it is first wanted */
-    WrBehind *behind; /* what lies behind them, one a row or one for all; owned */
-    int behind_room;
+    float *rgba;         /* the last picture, or the last band of it ... */
+    uint32_t *codes;     /* ... or the same as codes; each made when it is first wanted */
+    WrBackdrop backdrop; /* what lies behind them */
     uint32_t bins[WR_CODE_BINS + 1];
     int width, height;
     int top, rows; /* of the picture: what rgba holds */

@@ -7,6 +7,7 @@
    object space: lights and eye are turned into it once a frame, so that no normal is ever rotated. */
 #pragma once
 #include "field/scheme.h"
+#include "scene/tone.h"
 #include "shade/bump_mode.h"
 #include "shade/reflect.h"
 #include "shade/surround.h"

@@ -307,6 +307,7 @@ const KERNELS WR_KERN_TABLE = {
     .ambient = kern_ambient,
     .codes = kern_codes,
     .codes_over = kern_codes_over,
+    .codes_behind = kern_codes_behind,
     .bound_sphere = kern_bound_sphere,
     .bound_quad = kern_bound_quad,
     .bound_slopes = kern_bound_slopes,

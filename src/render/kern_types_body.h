@@ -256,6 +256,9 @@ typedef struct WR_T(WrKernels) {
     int (*codes)(const uint32_t *bins, const WR_T(WrStrip) * strip, uint32_t *out);
     int (*codes_over)(const uint32_t *bins, const float background[3], int count, const float *rgba,
                       uint32_t *out);
+    /* The same of colours that are toned, each over its own [count][4]. */
+    int (*codes_behind)(const uint32_t *bins, const WrToneCurve *tone, const float *behind,
+                        int count, const float *rgba, uint32_t *out);
 
     /* Of `count` pixels the means that one sample each and its neighbours give, and how far they may be off; row[2] holds
        the samples, RGBA, with two more on either side, the others the rows above and below. weight: of second

@@ -226,6 +226,21 @@ static int store_run(const Strip *strip, float *restrict out)
     return fresh;
 }
 
+/* A strip's colours as codes; how many numbers were not finite. */
+static int64_t make_codes(const WrTileJob *job, const Strip *strip, uint32_t *to)
+{
+    const WrBehind nothing = { 0 };
+    float rgba[WR_SPAN][4];
+    if (job->coder.tone.plain) return KERNELS_OF(job)->codes(job->coder.bins, strip, to);
+    for (int i = 0; i < strip->count; i++) {
+        rgba[i][0] = (float)strip->cr[i];
+        rgba[i][1] = (float)strip->cg[i];
+        rgba[i][2] = (float)strip->cb[i];
+        rgba[i][3] = 1.0f;
+    }
+    return wr_code_row(&job->coder, &nothing, 0, strip->count, rgba[0], to);
+}
+
 /* The same as codes, whose alpha is 0 where nothing is yet; once: each to its place at once. */
 static void store_codes(const WrTileJob *job, const Strip *strip, bool run, const WrSink *sink,
                         WrTileScratch *scratch)
@@ -234,7 +249,7 @@ static void store_codes(const WrTileJob *job, const Strip *strip, bool run, cons
     const bool direct = sink->once && run;
     uint32_t *to = direct ? out + strip->index[0] : codes;
     int fresh = 0;
-    scratch->not_finite += KERNELS_OF(job)->codes(job->bins, strip, to);
+    scratch->not_finite += make_codes(job, strip, to);
     for (int i = 0; i < strip->count && !direct; i++) {
         fresh += out[strip->index[i]] >> 24 == 0;
         out[strip->index[i]] = codes[i];

@@ -1,7 +1,8 @@
 #include "base/pool.h"
+#include "render/coder.h"
 #include "render/frame.h"
-#include "render/kern.h"
-#include "render/srgb_codes.h"
+
+#include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,8 +19,8 @@ void wr_code_bins_fill(uint32_t bins[WR_CODE_BINS + 1])
 
 typedef struct ResolveJob {
     const WrFrame *frame;
-    const WrKernels *kernels;
-    const WrBackground *background; /* NULL: none; alpha is wanted */
+    WrCoder coder;
+    WrBackdrop backdrop;
     bool bgra;
     uint8_t *out;
     int64_t not_finite; /* atomic */
@@ -46,7 +47,7 @@ static void alpha_row(int y, int worker, void *ctx)
 {
     (void)worker;
     ResolveJob *job = ctx;
-    const float behind[3] = { 0 };
+    const WrBehind behind = { 0 };
     const int width = job->frame->width;
     const float *in = job->frame->rgba + (size_t)y * (size_t)width * 4;
     uint8_t *out = job->out + (size_t)y * (size_t)width * 4;
@@ -56,7 +57,7 @@ static void alpha_row(int y, int worker, void *ctx)
         float own[WR_SPAN][4];
         const int count = width - x < WR_SPAN ? width - x : WR_SPAN;
         part_from_alpha(in + 4 * (size_t)x, count, own);
-        not_finite += job->kernels->codes_over(job->bins, behind, count, own[0], codes);
+        not_finite += wr_code_row(&job->coder, &behind, 0, count, own[0], codes);
         for (int i = 0; i < count; i++) {
             uint8_t *to = out + 4 * (size_t)(x + i);
             wr_codes_to_rgb(codes + i, 1, to);
@@ -74,12 +75,11 @@ static void resolve_row(int y, int worker, void *ctx)
     const float *in = job->frame->rgba + (size_t)y * (size_t)width * 4;
     uint8_t *out = job->out + (size_t)y * (size_t)width * (size_t)channels;
     int64_t not_finite = 0;
-    float behind[3];
-    wr_background_row(job->background, job->frame->first + y, job->frame->of, behind);
     for (int x = 0; x < width; x += WR_SPAN) {
         uint32_t codes[WR_SPAN];
         const int count = width - x < WR_SPAN ? width - x : WR_SPAN;
-        not_finite += job->kernels->codes_over(job->bins, behind, count, in + 4 * (size_t)x, codes);
+        not_finite += wr_code_row(&job->coder, wr_backdrop_at(&job->backdrop, x, y),
+                                  job->backdrop.across, count, in + 4 * (size_t)x, codes);
         if (job->bgra) memcpy(out + 4 * (size_t)x, codes, (size_t)count * sizeof *codes);
         else wr_codes_to_rgb(codes, (size_t)count, out + 3 * (size_t)x);
     }
@@ -95,23 +95,33 @@ void wr_codes_to_rgb(const uint32_t *codes, size_t count, uint8_t *out)
     }
 }
 
-static int64_t resolve(ResolveJob *job, WrPiece row, WrPool *pool)
+static WrCoder coder_of(ResolveJob *job, const WrTone *tone)
 {
-    job->kernels = wr_kernels_get(NULL, false, NULL);
     wr_code_bins_fill(job->bins);
-    wr_pool_run(pool, job->frame->height, row, job);
-    return job->not_finite;
+    return (WrCoder){ wr_kernels_get(NULL, false, NULL), job->bins, wr_tone_curve(tone) };
 }
 
-int64_t wr_frame_to_srgb8(const WrFrame *frame, const WrBackground *background, bool bgra,
-                          uint8_t *out, WrPool *pool)
+WrFrameCodes wr_frame_codes_of(const WrScene *scene, bool wanted)
 {
-    ResolveJob job = { .frame = frame, .background = background, .bgra = bgra, .out = out };
-    return resolve(&job, resolve_row, pool);
+    return (WrFrameCodes){ wanted, scene->background, scene->tone, scene };
 }
 
-int64_t wr_frame_to_alpha8(const WrFrame *frame, uint8_t *out, WrPool *pool)
+int64_t wr_frame_to_srgb8(const WrFrame *frame, const WrFrameCodes *how, bool bgra, uint8_t *out,
+                          WrPool *pool)
+{
+    ResolveJob job = { .frame = frame, .bgra = bgra, .out = out };
+    job.coder = coder_of(&job, &how->tone);
+    wr_backdrop_bring(&job.backdrop, how, 0, frame->width, frame->of, frame->first, frame->height,
+                      &job.coder, pool);
+    wr_pool_run(pool, frame->height, resolve_row, &job);
+    wr_backdrop_fini(&job.backdrop);
+    return job.not_finite;
+}
+
+int64_t wr_frame_to_alpha8(const WrFrame *frame, const WrTone *tone, uint8_t *out, WrPool *pool)
 {
     ResolveJob job = { .frame = frame, .out = out };
-    return resolve(&job, alpha_row, pool);
+    job.coder = coder_of(&job, tone);
+    wr_pool_run(pool, frame->height, alpha_row, &job);
+    return job.not_finite;
 }

@@ -136,10 +136,18 @@ static void put_codes(const uint32_t *restrict from, int count, uint32_t *restri
     for (int x = 0; x < count; x++) to[x] = from[x] | 0xff000000U;
 }
 
-static void fill_codes(uint32_t *to, int count, uint32_t code)
+/* What lies behind `count` pixels from (x, y) on; mask: 0xffffff leaves its alpha 0. */
+static void fill_codes(const WrTileJob *job, int x, int y, int count, uint32_t mask,
+                       uint32_t *restrict to)
 {
+    const WrBehind *behind = wr_tile_behind(job, x, y);
+    if (job->backdrop->across) {
+        for (int i = 0; i < count; i++) to[i] = behind[i].code & mask;
+        return;
+    }
+    const uint32_t code = behind->code & mask;
 #pragma omp simd
-    for (int x = 0; x < count; x++) to[x] = code;
+    for (int i = 0; i < count; i++) to[i] = code;
 }
 
 /* What other objects have left there, for rows that are packed. */
@@ -160,8 +168,7 @@ static void fill_packed(const WrTileJob *job, const WrDepthTile *tile, int top, 
                         uint32_t *codes)
 {
     for (int y = 0; y < rows; y++)
-        fill_codes(codes + y * tile->w, tile->w,
-                   wr_tile_behind(job, tile->y + top + y)->code & 0xffffffU);
+        fill_codes(job, tile->x, tile->y + top + y, tile->w, 0xffffffU, codes + y * tile->w);
 }
 
 /* Several short rows in one strip. */
@@ -222,9 +229,8 @@ void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const
         WrSink sink = row_sink(out, y);
         uint32_t *to = sink.codes;
         sink.once = to && !sink.nearest && job->view->quad_count < 2;
-        const uint32_t behind = to ? wr_tile_behind(job, tile->y + y)->code : 0;
-        if (sink.once) fill_codes(to, tile->w, behind);
-        else if (to) fill_codes(sink.codes = codes, tile->w, behind & 0xffffffU);
+        if (sink.once) fill_codes(job, tile->x, tile->y + y, tile->w, 0xffffffffU, to);
+        else if (to) fill_codes(job, tile->x, tile->y + y, tile->w, 0xffffffU, sink.codes = codes);
         job->pipe->row(job, k, tile, y, &sink, scratch);
         if (to && !sink.once) put_codes(codes, tile->w, to);
     }
@@ -271,14 +277,11 @@ static void clear_codes(const WrTileJob *job, WrTilePart whole, WrTilePart part)
 {
     const int left = part.x - whole.x, right = whole.x + whole.w - part.x - part.w;
     for (int y = whole.y; y < whole.y + whole.h; y++) {
-        const uint32_t backdrop = wr_tile_behind(job, y)->code;
+        const bool beside = part.w <= 0 || y < part.y || y >= part.y + part.h;
+        const int from = beside ? whole.w : left, rest = beside ? 0 : right;
         uint32_t *row = code_at(job, whole.x, y);
-        if (part.w <= 0 || y < part.y || y >= part.y + part.h) {
-            fill_codes(row, whole.w, backdrop);
-            continue;
-        }
-        fill_codes(row, left, backdrop);
-        fill_codes(row + whole.w - right, right, backdrop);
+        fill_codes(job, whole.x, y, from, 0xffffffffU, row);
+        fill_codes(job, whole.x + whole.w - rest, y, rest, 0xffffffffU, row + whole.w - rest);
     }
 }
 
@@ -352,13 +355,18 @@ WrTileJob wr_tile_apart(const WrTileJob *job, WrTilePart part, WrTileScratch *sc
     return own;
 }
 
+void wr_tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
+                      WrTileScratch *scratch)
+{
+    scratch->not_finite += wr_code_row(&job->coder, wr_tile_behind(job, x, y),
+                                       job->backdrop->across, width, rgba, code_at(job, x, y));
+}
+
 void wr_tile_code(const WrTileJob *apart, WrTilePart part, WrTileScratch *scratch)
 {
     const double start = wr_clock_seconds();
     for (int y = part.y; y < part.y + part.h; y++)
-        scratch->not_finite +=
-            apart->coder->codes_over(apart->bins, wr_tile_behind(apart, y)->colour, part.w,
-                                     wr_tile_pixel(apart, part.x, y), code_at(apart, part.x, y));
+        wr_tile_code_row(apart, part.x, y, part.w, wr_tile_pixel(apart, part.x, y), scratch);
     scratch->whole[WR_STAGE_RESOLVE] += wr_clock_seconds() - start;
 }
 

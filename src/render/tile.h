@@ -2,6 +2,7 @@
    the samples of each pixel.
    Layer 5, private to the renderer. */
 #pragma once
+#include "render/coder.h"
 #include "render/frame.h"
 #include "scene/scene.h"
 #include "render/keep.h"
@@ -21,12 +22,6 @@
 
 typedef struct WrFrames WrFrames;
 typedef struct WrPipe WrPipe;
-
-/* What stands behind a row of a picture of codes. */
-typedef struct WrBehind {
-    float colour[3];
-    uint32_t code; /* the same, opaque */
-} WrBehind;
 
 /* What all tiles of a frame share; read only while they run. */
 typedef struct WrTileJob {
@@ -67,14 +62,12 @@ typedef struct WrTileJob {
     size_t rgba_pitch; /* pixels a row */
     int x0, y0;
     uint32_t *codes; /* the band as 8-bit codes over `background`; or NULL */
-    const uint32_t *bins;
-    const WrKernels *coder; /* that makes codes: of the exact ones, whatever the others are */
-    const WrBehind *behind; /* the background, of the band's first row; from row to row: */
-    int behind_step;        /* 1; 0: it is the same in all */
-    float *normals;         /* WrFrameRequest's; or NULL */
-    uint8_t *map;           /* likewise */
-    WrBlocks *seen;         /* [tiles] to fill with what each tile looks at; NULL: not wanted */
-    int object;             /* which of the scene's it draws */
+    WrCoder coder;
+    const WrBackdrop *backdrop; /* of the band */
+    float *normals;             /* WrFrameRequest's; or NULL */
+    uint8_t *map;               /* likewise */
+    WrBlocks *seen;             /* [tiles] to fill with what each tile looks at; NULL: not wanted */
+    int object;                 /* which of the scene's it draws */
 } WrTileJob;
 
 /* What a sample of several objects shows. */

@@ -108,10 +108,7 @@ static void resolve(const WrTileJob *canvas, WrTilePart whole, WrTileScratch *sc
     for (int y = 0; y < whole.h; y++) {
         float *to = canvas->codes ? row[0] : wr_tile_pixel(canvas, whole.x, whole.y + y);
         scratch->covered += wr_tile_means(k, whole.w, scratch->sample[y * k][0], step, to);
-        if (canvas->codes)
-            scratch->not_finite += canvas->coder->codes_over(
-                canvas->bins, wr_tile_behind(canvas, whole.y + y)->colour, whole.w, row[0],
-                canvas->codes + wr_tile_place(canvas, whole.x, whole.y + y));
+        if (canvas->codes) wr_tile_code_row(canvas, whole.x, whole.y + y, whole.w, row[0], scratch);
     }
 }
 

@@ -17,11 +17,14 @@ typedef struct WrTileRows {
     size_t nearest_step;
 } WrTileRows;
 
-/* What lies behind row y of the picture; only where codes are wanted. */
-static inline const WrBehind *wr_tile_behind(const WrTileJob *job, int y)
+/* What lies behind a pixel of the picture; only where codes are wanted. */
+static inline const WrBehind *wr_tile_behind(const WrTileJob *job, int x, int y)
 {
-    return &job->behind[(y - job->top) * job->behind_step];
+    return wr_backdrop_at(job->backdrop, x, y - job->top);
 }
+/* A row of premultiplied colours, [width][4], to the picture's codes. */
+void wr_tile_code_row(const WrTileJob *job, int x, int y, int width, const float *rgba,
+                      WrTileScratch *scratch);
 
 /* All samples of a tile of the grid of k a pixel. */
 void wr_tile_samples(const WrTileJob *job, int k, const WrDepthTile *tile, const WrTileRows *out,

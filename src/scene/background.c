@@ -10,6 +10,7 @@ const char *const wr_background_names[WR_BACKGROUND_KINDS] = {
     [WR_ROW(WR_BACKGROUND_PLAIN)] = "plain",
     [WR_ROW(WR_BACKGROUND_GRADIENT)] = "gradient",
     [WR_ROW(WR_BACKGROUND_NONE)] = "none",
+    [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] = "surroundings",
 };
 WR_ROWS_END(wr_background_names, WR_BACKGROUND_KINDS);
 

@@ -165,6 +165,10 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                                    IN_SCENE(background.bottom), GROUND_RANGE,
                                                    .label = "Bottom",
                                                    .help = "at its lower border, linear" },
+    [WR_ROW(WR_SCENE_PARAM_EXPOSURE)] = { "tone", NULL, "exposure", IN_SCENE(tone.exposure),
+                                          .components = 1, .low = -20, .high = 20, .unit = "stops",
+                                          .label = "Exposure",
+                                          .help = "one more is twice the light", SLIDER(-4, 4, 2) },
 };
 WR_ROWS_END(wr_scene_params, WR_SCENE_PARAM_COUNT);
 

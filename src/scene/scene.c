@@ -129,6 +129,7 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->tolerance = from->tolerance;
     scene->background = from->background;
     wr_environment_copy(&scene->environment, &from->environment);
+    scene->tone = from->tone;
 }
 
 void wr_scene_drop_colour(WrScene *scene)

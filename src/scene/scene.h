@@ -15,6 +15,7 @@
 #include "scene/dials.h"
 #include "scene/environment.h"
 #include "scene/normal_frame.h"
+#include "scene/tone.h"
 #include "shade/bump_mode.h"
 #include "shade/gloss.h"
 #include "shade/reflect.h"
@@ -134,6 +135,7 @@ struct WrScene {
     WrTolerance tolerance;
     WrBackground background;
     WrEnvironment environment;
+    WrTone tone;
     double radius; /* of the shape, once it was found, of one of `others`; private */
 };
 

@@ -104,7 +104,8 @@ static bool pair(WrWork *work, WrPool *pool, const WrProgress *progress)
         work->bgra[i] = wr_try_alloc((size_t)frame.width * (size_t)frame.height, 4,
                                      "the pictures to compare", &work->err);
         if (!work->bgra[i]) return false;
-        wr_frame_to_srgb8(&frame, &request.scene->background, true, work->bgra[i], pool);
+        const WrFrameCodes codes = wr_frame_codes_of(request.scene, false);
+        wr_frame_to_srgb8(&frame, &codes, true, work->bgra[i], pool);
     }
     return true;
 }

@@ -150,7 +150,7 @@ static void release(WrApp *app, const WrPointer *at)
     if (grab == WR_GRAB_TOOL && tool->release) tool->release(app, at);
     if (grab == WR_GRAB_PATCH_PAINT) wr_patch_paint_release(app, at);
     if (grab == WR_GRAB_RESIZE) finish_resize(app, at);
-    if (grab == WR_GRAB_ORBIT || grab == WR_GRAB_LIGHT || grab == WR_GRAB_HANDLE) {
+    if (wr_grab_on_patch(grab)) {
         app->hand->grab = grab;
         wr_patch_release(app);
         app->hand->grab = WR_GRAB_NONE;
@@ -223,6 +223,7 @@ static void drag(WrApp *app, const WrPointer *at)
     case WR_GRAB_PANELS: app->settings->lower = wr_layout_lower_at(app->layout, (int)at->y); break;
     case WR_GRAB_ORBIT:
     case WR_GRAB_LIGHT:
+    case WR_GRAB_SURROUND:
     case WR_GRAB_HANDLE: wr_patch_drag(app, at); break;
     case WR_GRAB_NONE: break;
     }

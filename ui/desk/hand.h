@@ -30,8 +30,16 @@ typedef enum WrGrab {
     WR_GRAB_SYMMETRY, /* its centre */
     WR_GRAB_ORBIT,
     WR_GRAB_LIGHT,
-    WR_GRAB_HANDLE /* of the chosen object, on the patch */
+    WR_GRAB_SURROUND, /* they are turned */
+    WR_GRAB_HANDLE    /* of the chosen object, on the patch */
 } WrGrab;
+
+/* One that patch_hand.c carries on. */
+static inline bool wr_grab_on_patch(WrGrab grab)
+{
+    return grab == WR_GRAB_ORBIT || grab == WR_GRAB_LIGHT || grab == WR_GRAB_SURROUND ||
+           grab == WR_GRAB_HANDLE;
+}
 
 typedef struct WrHand {
     WrPointer at;    /* newest position */

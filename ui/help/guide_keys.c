@@ -95,6 +95,7 @@ static const Row layers[] = { { WR_ACT(select_rect),
                               { NULL, NULL } };
 static const Row patch[] = { { "*Drag*", "turn it" },
                              { "*Right drag*", "move the light; or drag the small sun" },
+                             { "*Shift, right drag*", "turn the surroundings" },
                              { "*Wheel*", "closer, farther" },
                              { "*Space over it*", "pause and go on turning" },
                              { NULL, NULL } };

@@ -8,6 +8,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
+#include "ui/patch/patch.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/param_row.h"
 
@@ -140,6 +141,7 @@ static void background(WrApp *app)
         [WR_ROW(WR_BACKGROUND_PLAIN)] = "One colour",
         [WR_ROW(WR_BACKGROUND_GRADIENT)] = "Gradient",
         [WR_ROW(WR_BACKGROUND_NONE)] = "None",
+        [WR_ROW(WR_BACKGROUND_SURROUNDINGS)] = "Surroundings",
     };
     WR_ROWS_END(kinds, WR_BACKGROUND_KINDS);
     int kind = (int)wr_app_scene(app)->background.kind;
@@ -152,10 +154,39 @@ static void background(WrApp *app)
         wr_scene_run(app, &line);
     }
     wr_gui_tip("Behind the objects, here and in 8-bit pictures. None: pictures that hold alpha, "
-               "such as PNG, have it.");
+               "such as PNG, have it. Surroundings: those of the Lights panel.");
     const WrSceneParam *param;
     for (int i = 0; (param = wr_scene_param("background", wr_background_names[kind], i)); i++)
         wr_param_row(app, param);
+}
+
+/* ---- light to picture ---- */
+
+static void tone(WrApp *app)
+{
+    WR_ROWS(kinds);
+    static const char *const kinds[WR_TONE_KINDS] = {
+        [WR_ROW(WR_TONE_CLIP)] = "Clip",
+        [WR_ROW(WR_TONE_SOFT)] = "Soft",
+    };
+    WR_ROWS_END(kinds, WR_TONE_KINDS);
+    int kind = (int)wr_app_scene(app)->tone.kind;
+    WrText line = { 0 };
+    wr_gui_space(8);
+    wr_gui_heading("EXPOSURE");
+    wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_EXPOSURE]);
+    wr_gui_label("Highlights");
+    if (wr_gui_choice("tone", 0, kinds, WR_TONE_KINDS, &kind)) {
+        wr_text_addf(&line, "tone %s", wr_tone_names[kind]);
+        wr_scene_run(app, &line);
+    }
+    wr_gui_tip("Clip: light beyond 1 is white. Soft: from one half on it bends over and keeps its "
+               "form. Here and in 8-bit pictures; EXR and TIFF keep light as it is.");
+    wr_gui_check("Mark what is clipped", &app->patch->marked);
+    wr_gui_tip("Stripes where a colour is full, so that more light would not show");
+    wr_text_addf(&line, "%.1f %% of the picture is clipped", 100 * app->patch->clipped);
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&line));
+    wr_text_fini(&line);
 }
 
 void wr_panel_camera(WrApp *app)
@@ -163,4 +194,5 @@ void wr_panel_camera(WrApp *app)
     placed(app);
     views(app);
     background(app);
+    tone(app);
 }

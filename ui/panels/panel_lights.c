@@ -162,9 +162,12 @@ static void surroundings(WrApp *app)
         choose_surround(app, (WrSurroundKind)kind);
         return;
     }
-    wr_gui_tip(now->path ? now->path
-                         : "Light from all sides, beside the lights: seen where the material "
-                           "shines. A picture: by longitude and latitude, such as HDR and EXR");
+    wr_gui_tip(
+        now->path
+            ? now->path
+            : "Light from all sides, beside the lights: seen where the material "
+              "shines. A picture: by longitude and latitude, such as HDR and EXR. Shift and the "
+              "right button turn them on the patch");
     if (now->kind == WR_SURROUND_OFF) return;
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_TURN]);
     wr_param_row(app, &wr_scene_params[WR_SCENE_PARAM_ENVIRONMENT_STRENGTH]);

@@ -70,8 +70,7 @@ static void hold_still(WrApp *app)
 static bool turns(const WrApp *app)
 {
     return app->settings->turning && !is_held(app) && app->visible && app->layout->patch.w > 0 &&
-           app->hand->grab != WR_GRAB_ORBIT && app->hand->grab != WR_GRAB_LIGHT &&
-           app->hand->grab != WR_GRAB_HANDLE;
+           !wr_grab_on_patch(app->hand->grab);
 }
 
 /* The tables of the scene's objects, where not all have that of all layers. The caller's. */
@@ -95,7 +94,8 @@ static bool differs(const WrApp *app)
     return !p->wished_field || wr_field_key(p->wished_field) != wr_field_key(wr_app_field(app)) ||
            other_tables(app) || p->wished_scene != wr_app_scene(app) ||
            p->wished_turn != p->turn_deg || p->wished_w != app->layout->patch.w ||
-           p->wished_h != app->layout->patch.h || p->wished_ran != p->ran;
+           p->wished_h != app->layout->patch.h || p->wished_ran != p->ran ||
+           p->wished_marked != p->marked;
 }
 
 /* Only the table differs from what a resting, finished picture shows (or is being refreshed to show): the
@@ -106,7 +106,7 @@ static bool only_edited(const WrApp *app)
     return p->wished_field && !p->wished_moving && p->wished_scene == wr_app_scene(app) &&
            p->wished_turn == p->turn_deg && p->wished_w == app->layout->patch.w &&
            p->wished_h == app->layout->patch.h && p->wished_ran == p->ran &&
-           (p->refreshing || wr_preview_settled(app->preview));
+           p->wished_marked == p->marked && (p->refreshing || wr_preview_settled(app->preview));
 }
 
 static void wish(WrApp *app, bool moving)
@@ -124,7 +124,8 @@ static void wish(WrApp *app, bool moving)
                         .chosen = moving ? NULL : wr_session_chosen(app->session),
                         .moving = moving,
                         .painting = is_painted(app),
-                        .ran = p->ran };
+                        .ran = p->ran,
+                        .marked = p->marked };
     wr_preview_want(app->preview, &w);
     wr_field_free(p->wished_field);
     wr_tables_free(p->wished_tables);
@@ -138,6 +139,7 @@ static void wish(WrApp *app, bool moving)
     p->wished_moving = moving;
     p->wished_painted = is_painted(app);
     p->wished_ran = p->ran;
+    p->wished_marked = p->marked;
     p->outstanding = moving;
     p->refreshing = false;
     p->wished_at = wr_clock_seconds();
@@ -165,6 +167,7 @@ static void take_picture(WrApp *app)
     }
     if (picture->serial == 0 || (picture->serial == p->serial && p->texture)) return;
     p->serial = picture->serial;
+    p->clipped = picture->clipped;
     p->seen = picture->tag;
     p->outstanding = false;
     keep_chosen(app, picture);

@@ -32,8 +32,10 @@ typedef struct WrPatch {
     WrScene *wished_scene;
     double wished_turn;
     int wished_w, wished_h;
-    bool wished_moving, wished_painted, wished_ran;
+    bool wished_moving, wished_painted, wished_ran, wished_marked;
     bool ran;         /* it shows where each effect ran */
+    bool marked;      /* pixels that are full in some colour are striped */
+    double clipped;   /* their share of the picture that is shown */
     bool refreshing;  /* sharp pictures are being brought up to date by an edit */
     bool outstanding; /* a moving picture was wished for and has not come */
     bool held;        /* it stands still to be painted on */
@@ -50,6 +52,7 @@ typedef struct WrPatch {
     bool rounds;          /* it moves it round its target */
     int light;            /* index of the light being moved */
     double light_x, light_y;
+    double from_turn;      /* of the surroundings, when they were taken */
     double zoom_commit_at; /* clock at which a zoom by the wheel becomes a command; 0: none */
     bool zoom_angle;       /* it is of the angle of view */
 } WrPatch;

@@ -104,6 +104,28 @@ static void commit_light(WrApp *app)
     wr_text_fini(&line);
 }
 
+/* ---- surroundings ---- */
+
+/* Half a turn for a drag across the view; what is near follows the hand, as when the patch turns. */
+static void turn_surroundings(WrApp *app, const WrPointer *at)
+{
+    const double dx = at->x - app->hand->start.x;
+    if (!app->live && fabs(dx) < CLICK) return;
+    const double deg = app->patch->from_turn + 180 * dx / app->layout->patch.w;
+    wr_app_live(app)->environment.turn_deg = wr_line_round(deg - 360 * rint(deg / 360), 1);
+}
+
+static void commit_surroundings(WrApp *app)
+{
+    if (!app->live) return;
+    WrText line = { 0 };
+    wr_text_add(&line, "environment");
+    wr_line_number(&line, "turn", app->live->environment.turn_deg);
+    wr_app_live_end(app);
+    wr_app_run_line(app, wr_text_get(&line));
+    wr_text_fini(&line);
+}
+
 /* ---- turning by hand ----
 
    One object is turned itself; among several the camera goes round its target, and one of them turns by its handles.
@@ -211,6 +233,11 @@ bool wr_patch_press(WrApp *app, const WrPointer *at)
     wr_patch_commit_zoom(app, true);
     int light = light_under(app, at);
     bool right = at->button == SDL_BUTTON_RIGHT;
+    if (right && (at->mods & WR_MOD_SHIFT) && wr_app_scene(app)->environment.light) {
+        app->hand->grab = WR_GRAB_SURROUND;
+        p->from_turn = wr_app_scene(app)->environment.turn_deg;
+        return true;
+    }
     if (right && light < 0 && wr_app_scene(app)->light_count > 0) light = 0;
     if (light >= 0 && at->button != SDL_BUTTON_MIDDLE) {
         WrPlacement placed;
@@ -239,6 +266,7 @@ void wr_patch_drag(WrApp *app, const WrPointer *at)
         move_light(app, app->patch->light_x + at->x - app->hand->start.x,
                    app->patch->light_y + at->y - app->hand->start.y);
     else if (app->hand->grab == WR_GRAB_HANDLE) wr_patch_handle_drag(app, at);
+    else if (app->hand->grab == WR_GRAB_SURROUND) turn_surroundings(app, at);
     else orbit(app, at);
 }
 
@@ -246,6 +274,7 @@ void wr_patch_release(WrApp *app)
 {
     if (app->hand->grab == WR_GRAB_LIGHT) commit_light(app);
     else if (app->hand->grab == WR_GRAB_HANDLE) wr_patch_handle_release(app);
+    else if (app->hand->grab == WR_GRAB_SURROUND) commit_surroundings(app);
     else commit_orbit(app);
 }
 

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-bool wr_picture_ran_room(WrPictureRan *ran, int width, int height, WrError *err)
+static bool make_room(WrPictureRan *ran, int width, int height, WrError *err)
 {
     if (ran->map && ran->width == width && ran->height == height) return true;
     wr_free(ran->map);
@@ -14,6 +14,13 @@ bool wr_picture_ran_room(WrPictureRan *ran, int width, int height, WrError *err)
     ran->width = width;
     ran->height = height;
     return ran->map != NULL;
+}
+
+bool wr_picture_ran_bring(WrPictureRan *ran, WrFrameRequest *request, WrError *err)
+{
+    if (!make_room(ran, request->width, request->height, err)) return false;
+    request->map = ran->map;
+    return true;
 }
 
 void wr_picture_ran_show(const WrPictureRan *ran, WrPreviewPicture *out)

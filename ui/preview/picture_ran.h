@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 typedef struct WrError WrError;
+typedef struct WrFrameRequest WrFrameRequest;
 typedef struct WrPreviewPicture WrPreviewPicture;
 
 /* What each pixel took, as the renderer left it: of pixels that a resting view keeps it is kept too. */
@@ -12,6 +13,7 @@ typedef struct WrPictureRan {
     int width, height;
 } WrPictureRan;
 
-bool wr_picture_ran_room(WrPictureRan *ran, int width, int height, WrError *err);
+/* Have the request fill the map. Errors: no memory. */
+bool wr_picture_ran_bring(WrPictureRan *ran, WrFrameRequest *request, WrError *err);
 /* Into the picture's pixels, of the same size, and its counts. */
 void wr_picture_ran_show(const WrPictureRan *ran, WrPreviewPicture *out);

@@ -1,6 +1,7 @@
 #include "ui/preview/preview.h"
 #include "ui/preview/accuracy_choice.h"
 #include "ui/preview/chequer.h"
+#include "ui/preview/clipped.h"
 #include "ui/preview/picture_ran.h"
 #include "ui/jobs/thread.h"
 
@@ -36,7 +37,7 @@ typedef struct Wish {
     int width, height;
     int64_t tag;
     char *chosen; /* owned */
-    bool moving, painting, ran;
+    bool moving, painting, ran, marked;
 } Wish;
 
 struct WrPreview {
@@ -237,17 +238,15 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .dials = &dials,
                                .keep = level > WR_PREVIEW_MOVING,
                                .cancel = &preview->cancel };
-    request.codes.background = wish->scene->background;
-    request.codes.wanted = request.codes.background.kind != WR_BACKGROUND_NONE;
+    request.codes =
+        wr_frame_codes_of(wish->scene, wish->scene->background.kind != WR_BACKGROUND_NONE);
     WrFrame frame;
     WrPreviewPicture *out = preview->work;
     out->chosen.any = false;
     wr_free(out->kept);
     out->kept = NULL;
     out->ran = wish->ran;
-    if (wish->ran && !wr_picture_ran_room(&preview->ran, request.width, request.height, err))
-        return false;
-    if (wish->ran) request.map = preview->ran.map;
+    if (wish->ran && !wr_picture_ran_bring(&preview->ran, &request, err)) return false;
     bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
                     ? by_tolerance(preview, &request, out, &frame, err)
                     : wr_renderer_frame(renderer, &request, &frame, err);
@@ -256,9 +255,10 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
     if (wish->ran) wr_picture_ran_show(&preview->ran, out);
     else if (frame.codes)
         memcpy(out->bgra, frame.codes, 4 * (size_t)frame.width * (size_t)frame.height);
-    else wr_frame_to_srgb8(&frame, &request.codes.background, true, out->bgra, pool);
-    if (!wish->ran && wish->scene->background.kind == WR_BACKGROUND_NONE && frame.rgba)
-        wr_chequer_behind(&frame, scale, (uint8_t *)out->bgra);
+    else wr_frame_to_srgb8(&frame, &request.codes, true, out->bgra, pool);
+    if (!wish->ran && !request.codes.wanted && frame.rgba)
+        wr_chequer_behind(&frame, &wish->scene->tone, scale, (uint8_t *)out->bgra);
+    out->clipped = wish->ran ? 0 : wr_clipped(out->bgra, out->width, out->height, wish->marked);
     out->level = level;
     out->way = way;
     out->scale = scale;
@@ -290,14 +290,14 @@ static void answer_point(WrPreview *preview, WrRenderer *renderer, int width, in
     wr_mutex_unlock(&preview->lock);
 }
 
-/* Does the wish ask for what is shown, but for an edit of the table? Then the sharp picture is brought up to
- * date where the edit reaches, instead of starting coarse again. */
+/* Is the wish what is shown, but for an edit of the table? Then it is brought up to date where that reaches. */
 static bool only_edited(const WrPreview *preview)
 {
     const Wish *now = &preview->now, *next = &preview->next;
     return now->field && preview->level > WR_PREVIEW_MOVING && !next->moving && !now->moving &&
-           now->ran == next->ran && now->scene == next->scene && now->turn_deg == next->turn_deg &&
-           now->width == next->width && now->height == next->height;
+           now->ran == next->ran && now->marked == next->marked && now->scene == next->scene &&
+           now->turn_deg == next->turn_deg && now->width == next->width &&
+           now->height == next->height;
 }
 
 /* Take up the next wish, or go on with the present one; false: nothing to do. Called under the lock. */
@@ -430,7 +430,8 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
                             .chosen = wish->chosen ? wr_strdup(wish->chosen) : NULL,
                             .moving = wish->moving,
                             .painting = wish->painting,
-                            .ran = wish->ran };
+                            .ran = wish->ran,
+                            .marked = wish->marked };
     /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
     if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     preview->settled = false;

@@ -49,6 +49,7 @@ typedef struct WrPreviewWish {
         chosen; /* the dials that the document keeps for its tolerance; NULL: none; copied by the call */
     bool painting; /* edits follow one another: be quick rather than fine, and do not refine yet */
     bool ran;      /* show where each effect ran, in false colours, instead */
+    bool marked;   /* stripe pixels that are full in some colour */
     bool moving;   /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
 } WrPreviewWish;
 
@@ -72,6 +73,7 @@ typedef struct WrPreviewPicture {
     WrPlan plan;
     bool ran;           /* it shows where each effect ran, ... */
     WrRanCounts counts; /* ... on so many pixels */
+    double clipped;     /* share of its pixels that are full in some colour */
     WrChosen chosen;    /* what the scene's tolerance chose for it */
     char *
         kept; /* the same as the document keeps it (wr_choice_write); owned; NULL: nothing was chosen */
