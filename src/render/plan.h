@@ -170,10 +170,13 @@ typedef enum WrPrecision {
      lean        by the whole covariance; else by its trace
      inversion   how rays meet the surface
      mesh, newton, texels, spread, refine, contrast    as the dials of that name
-     heights     what they are rounded to */
+     heights     what they are rounded to
+     harmonics, gloss    as the dials of that name */
 #define WR_PLAN_SETTINGS(X)                                                                        \
     X(MODEL, WrReflect, model)                                                                     \
     X(MODEL, double, tint)                                                                         \
+    X(HARMONICS, int, harmonics)                                                                   \
+    X(BLUR, double, gloss)                                                                         \
     X(TINT, bool, tint_anisotropic)                                                                \
     X(NORMALS, bool, map_filtered)                                                                 \
     X(NORMALS, bool, map_anisotropic)                                                              \

@@ -328,7 +328,8 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_HARMONICS)] = { "E42", "harmonics", WR_PROOF_IDENTICAL, NULL,
                                       "no diffuse light comes from surroundings, or they are of "
                                       "one colour, for which one coefficient of the nine is enough",
-                                      0, .decide = wr_decide_harmonics },
+                                      0, .decide = wr_decide_harmonics,
+                                      .settle = wr_settle_harmonics },
     [WR_ROW(
         WR_EFFECT_MIRROR)] = { "E65", "mirrored surroundings", WR_PROOF_IDENTICAL, NULL,
                                "there are none, or no light comes from them; specular is 0, the "
@@ -338,7 +339,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "what lies within a 64th of a radian",
                                  "none are seen in the surface, they are of one colour, or the "
                                  "lobe is narrower than 1/64, where the surface mirrors",
-                                 0, .decide = wr_decide_blur },
+                                 0, .decide = wr_decide_blur, .settle = wr_settle_blur },
     [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
                                    "there is none, or it is white everywhere", STAGE(COLOUR),
                                    .decide = wr_decide_colour },

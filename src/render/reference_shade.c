@@ -164,7 +164,7 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
 }
 
 void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
-                        WrVec3 perturbed, double rgb[3])
+                        WrVec3 perturbed, WrReferenceShare share, double rgb[3])
 {
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceView *view = &stage->view;
@@ -185,11 +185,12 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
         }
     }
     double around[3], mirrored[3];
-    wr_reference_surround_light(stage, perturbed, to, has, around, mirrored);
+    wr_reference_surround_light(stage, perturbed, to, has, share, around, mirrored);
     for (int c = 0; c < 3; c++) rgb[c] = has[c] * (diffuse[c] + around[c]) + shine[c] + mirrored[c];
 }
 
-bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out)
+bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceShare share,
+                         WrReferenceSample *out)
 {
     const WrReferenceView *view = &stage->view;
     const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
@@ -205,7 +206,7 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     out->lost = hit.lost;
     out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
     out->normal = wr_reference_normal_stretched(view, out->normal);
-    wr_reference_light(stage, wr_reference_stretched(view, at.p), hit.u, hit.v, out->normal,
+    wr_reference_light(stage, wr_reference_stretched(view, at.p), hit.u, hit.v, out->normal, share,
                        out->rgb);
     return true;
 }

@@ -93,7 +93,7 @@ typedef enum WrArithmetic {
     WR_ARITHMETIC_COUNT
 } WrArithmetic;
 
-/* Zero but for samples, newton, heights is not the default: see wr_dials_default. */
+/* Zero is not the default of all: see wr_dials_default. */
 typedef struct WrDials {
     WrAntialias aa;
     int samples; /* supersample: K of K x K; adaptive: the most; 1..64 */
@@ -108,6 +108,8 @@ typedef struct WrDials {
     WrHeights heights;
     WrShading shading;
     WrArithmetic arithmetic;
+    int harmonics; /* order up to which diffuse light of surroundings is kept: 0..2 */
+    double gloss;  /* texels over the width of a lobe that surroundings are blurred by: 4..128 */
 } WrDials;
 
 WrDials wr_dials_default(void);
@@ -127,6 +129,8 @@ typedef enum WrDialId {
     WR_DIAL_MESH,
     WR_DIAL_NEWTON,
     WR_DIAL_TEXELS,
+    WR_DIAL_HARMONICS,
+    WR_DIAL_GLOSS,
     WR_DIAL_HEIGHTS,
     WR_DIAL_SHADING,
     WR_DIAL_ARITHMETIC,
@@ -139,6 +143,7 @@ typedef enum WrAxis {
     WR_AXIS_NORMAL,
     WR_AXIS_ANTIALIASING,
     WR_AXIS_VISIBILITY,
+    WR_AXIS_LIGHT,
     WR_AXIS_ARITHMETIC,
     WR_AXIS_COUNT
 } WrAxis;
