@@ -26,7 +26,7 @@ static const char *const ids[] = {
     "HC135", "HC136", "HC137", "HC138", "HC139", "HC140", "HC141", "HC142", "HC143", "HC144",
     "HC149", "HC150", "HC151", "HC152", "HC153", "HC154", "HC156", "HC157", "HC158", "HC159",
     "HC160", "HC161", "HC162", "HC163", "HC164", "HC165", "HC166", "HC167", "HC168", "HC169",
-    "HC170", "HC171", "HC172", "HC173", "HC174", "HC175", "HC176", "HC177", "HC178",
+    "HC170", "HC171", "HC172", "HC173", "HC174", "HC175", "HC176", "HC177", "HC178", "HC179",
 };
 
 static void all_are_there_once_and_in_order(void **state)

@@ -235,6 +235,11 @@ static void behind(WrScene *scene)
     add_another(scene, (WrVec3){ 0, 0, -2 }, 0.5);
 }
 
+static void to_horizon(WrScene *scene)
+{
+    scene->shape.value[2] = 1;
+}
+
 static void orthographic(WrScene *scene)
 {
     scene->camera.orthographic = true;
@@ -312,6 +317,10 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_BETWEEN)] = { BUMPED, .with = beside, .without = same },
     [WR_ROW(WR_EFFECT_SMOOTH)] = { MESHED, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_BLOCKS)] = { MESHED, .with = same, .other = "sphere" },
+    [WR_ROW(WR_EFFECT_HORIZON)] = { .surface = "plane",
+                                    .mode = WR_BENCH_BUMP,
+                                    .with = to_horizon,
+                                    .without = same },
 };
 WR_ROWS_END(effects, WR_EFFECT_COUNT);
 

@@ -99,5 +99,9 @@ static const WrHardCase rows[] = {
     ROW(178, WR_HARD_TABLE, "colours by height: two stops at one height, a step of slope, cliffs",
         "a step where told, straight between, even beyond; no NaN; the seam does not show",
         "violations", 0, 0, "table 64x64\nnoise perlin cells=8\nsurface plane\ncolouring ramp"),
+    ROW(179, WR_HARD_RENDER, "ground without end: from below, along it, upon it, from far away",
+        "numbers, and the coverage and light that the reference has", "of pixels", 0.01, 0.01,
+        WAVES "surface plane endless=1\nrotate -90,0,0\nbump height=0.02\n"
+              "camera perspective eye=0,-0.4,2 target=0,-0.2,0 up=0,1,0 fov=60"),
 };
 WR_HARD_LIST(later, rows);

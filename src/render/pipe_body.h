@@ -63,6 +63,7 @@ static bool lit(const WrSink *sink)
     return sink->rgba || sink->codes;
 }
 
+#include "render/pipe_horizon_body.h"
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"
 #include "render/pipe_depth_body.h"
@@ -140,6 +141,7 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
         look(job, rays, strip, scratch, watch);
     if (bump != WR_BUMP_NONE && runs(job, WR_EFFECT_NORMALS))
         look_map(job, rays, strip, scratch, watch);
+    if (bump != WR_BUMP_NONE && runs(job, WR_EFFECT_HORIZON)) ease_slopes(job, rays, strip);
     if (bump != WR_BUMP_NONE && bends_at_once(job, sink)) {
         k->bend[job->plan->inversion](rays, &VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
@@ -330,6 +332,7 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
     if (lit(sink)) scratch->spared[spared] += strip->count;
     if (job->map) note_map(job, rays, spared, strip, scratch);
     store(job, sink, strip, scratch);
+    if (runs(job, WR_EFFECT_HORIZON)) fade_strip(job, rays, sink, strip, watch);
     watch_lap(watch, WR_STAGE_STORE);
     if (lit(sink)) scratch->shaded += strip->count;
 }
@@ -406,7 +409,7 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
 {
     if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !job->plan->map_filtered &&
-        !sink->bound && !job->map)
+        !sink->bound && !job->map && !runs(job, WR_EFFECT_HORIZON))
         return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];

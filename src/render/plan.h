@@ -62,6 +62,7 @@ typedef enum WrEffect {
     WR_EFFECT_BETWEEN,
     WR_EFFECT_SMOOTH,
     WR_EFFECT_BLOCKS,
+    WR_EFFECT_HORIZON,
     WR_EFFECT_COUNT
 } WrEffect;
 

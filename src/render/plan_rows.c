@@ -491,5 +491,10 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "normals all look away from the eye",
                                    0, .only_way = true, .manner = true,
                                    .decide = wr_decide_blocks },
+    [WR_ROW(WR_EFFECT_HORIZON)] = { "E67", "horizon", WR_PROOF_IDENTICAL, NULL,
+                                    "no plane goes on to the horizon, or rays are parallel. Else "
+                                    "slopes ease off where a pixel holds half a period, "
+                                    "and the plane fades where it holds all its sides",
+                                    0, .only_way = true, .decide = wr_decide_horizon },
 };
 WR_ROWS_END(wr_effects, WR_EFFECT_COUNT);

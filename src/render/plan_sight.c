@@ -129,6 +129,16 @@ WrVerdict wr_decide_between(const WrPlan *plan, const WrPlanAsk *ask, const char
     return say(WR_VERDICT_RUN, why, "objects may hide others where their outlines meet");
 }
 
+WrVerdict wr_decide_horizon(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    (void)plan;
+    if (!wr_shape_endless(&ask->scene->shape))
+        return say(WR_VERDICT_NONE, why, "the surface ends, and so does what a pixel holds of it");
+    if (ask->scene->camera.orthographic)
+        return say(WR_VERDICT_NONE, why, "parallel rays: every pixel holds as much of the plane");
+    return say(WR_VERDICT_RUN, why, "the plane goes on to the horizon, where it fades");
+}
+
 /* ---- of a mesh out of a file ---- */
 
 static const char not_held[] = "the surface is no mesh out of a file";

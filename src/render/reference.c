@@ -83,13 +83,13 @@ static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t
 {
     const int k = pass->k;
     double sums[3][SAMPLES_MAX], row[3][SAMPLES_MAX];
-    int hits = 0;
+    double hits = 0;
     for (int j = 0; j < k; j++) {
         for (int i = 0; i < k; i++) {
             WrReferenceSample sample = { .rgb = { 0, 0, 0 } };
             if (sample_set(pass->set, x + (i + 0.5) / k, y + (j + 0.5) / k, share_of(k, i, j),
                            &sample)) {
-                hits++;
+                hits += sample.cover;
                 *lost += sample.lost;
             }
             for (int c = 0; c < 3; c++) row[c][i] = sample.rgb[c];
@@ -97,7 +97,7 @@ static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t
         for (int c = 0; c < 3; c++) sums[c][j] = pair_sum(row[c], k);
     }
     for (int c = 0; c < 3; c++) rgba[c] = pair_sum(sums[c], k) / (k * k);
-    rgba[3] = (double)hits / (k * k);
+    rgba[3] = hits / (k * k);
 }
 
 static void render_row(int y, int worker, void *ctx)

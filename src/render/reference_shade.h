@@ -52,6 +52,7 @@ typedef struct WrReferenceSample {
     double rgb[3];
     WrVec3 normal; /* n' towards the viewer's side */
     bool lost;
+    double cover; /* 1; of a plane that fades towards the horizon less; rgb holds it already */
     double depth; /* before the eye, along the view, in the world */
 } WrReferenceSample;
 /* The reference's intensity at (x, y), pixels from the top left corner; false where the object is not. */

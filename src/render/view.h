@@ -34,7 +34,7 @@ typedef struct WrView {
     WrVec3 across, above, ahead; /* where they point: the same, unless the object is stretched */
     /* The object is stretched (WrPlacement): stretch and what normals are multiplied with; 1 where it is not. */
     double rotation[9]; /* the object's axes -> the world */
-    bool stretched;
+    bool stretched, endless;
     double stretch[3], cofactor[3];
     double half_w, half_h; /* of the view: at depth 1, or the whole, orthographic */
     double near;           /* depth of the near plane */
