@@ -129,8 +129,9 @@ static void bench_init(Bench *b, TestRandom *random)
         wr_shape_default((WrSurfaceKind)kind, &shape);
         wr_shape_scaled(&shape, 1, &b->shape[kind]);
     }
-    b->quad =
-        (WrQuad){ { -0.9f, -0.8f, 0 }, { 0, 0, 1 }, { 0.6f, 0, 0 }, { 0, 0.6f, 0 }, 0, 1, 0, 1 };
+    b->quad = (WrQuad){
+        { -0.9f, -0.8f, 0 }, { 0, 0, 1 }, { 0.6f, 0, 0 }, { 0, 0.6f, 0 }, 0, 1, 0, 1, 0, 1
+    };
     WrField *field = wr_field_new(SIDE, SIDE, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < SIDE; j++)
         for (int i = 0; i < SIDE; i++) wr_field_set(field, i, j, between(random, -1, 1));

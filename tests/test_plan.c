@@ -112,11 +112,6 @@ static void invariant_square(Stage *stage)
     take_surface(stage, "plane");
 }
 
-static void displaced(Stage *stage)
-{
-    stage->scene->displaced = true;
-}
-
 static void exact(Stage *stage)
 {
     stage->scene->bump = WR_BUMP_EXACT;
@@ -449,6 +444,20 @@ static void mirror_around(Stage *stage)
     stage->scene->material.roughness = 0.1;
 }
 
+static void to_horizon(Stage *stage)
+{
+    wr_shape_default(WR_SURFACE_plane, &stage->scene->shape);
+    stage->scene->shape.value[2] = 1;
+    stage->scene->posed = true;
+    stage->scene->rotate_deg = (WrVec3){ -80, 0, 0 };
+}
+
+static void to_horizon_parallel(Stage *stage)
+{
+    to_horizon(stage);
+    stage->scene->camera.orthographic = true;
+}
+
 typedef struct Case {
     Change on; /* NULL: it runs by force alone */
     Off off[5];
@@ -489,7 +498,6 @@ static const Case cases[WR_EFFECT_COUNT] = {
                            { tinted_still, 0 },
                            { coloured, NOTHING },
                            { filtered, NOTHING } } },
-    [WR_EFFECT_DISPLACED] = { displaced, { { keep_all, NOTHING } } },
     [WR_EFFECT_BUMP] = { keep_all,
                          { { no_height, 0 },
                            { no_replication, 0 },
@@ -539,6 +547,8 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_SMOOTH] = { mesh_ball,
                            { { mesh_square, 1e-5 }, { mesh_dark, 1e-5 }, { keep_all, NOTHING } } },
     [WR_EFFECT_BLOCKS] = { mesh_square, { { mesh_ball, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_HORIZON] = { to_horizon,
+                            { { to_horizon_parallel, NOTHING }, { keep_all, NOTHING } } },
 };
 
 static Stage stage_of(Change change)

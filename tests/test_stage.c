@@ -401,6 +401,7 @@ static void the_ground_lies_under_what_is_shown(void **state)
     must_run(session, "ground on");
     assert_near(ground_of(session)->at.y, -0.5, 1e-3);
     assert_near(ground_of(session)->size, 6, 1e-9);
+    assert_true(wr_shape_endless(&ground_of(session)->shape));
     assert_int_equal(scene_of(session)->chosen, 0);
     const double ball = wr_scene_ball(scene_of(session));
     assert_near(ball, 0.5, 1e-9); /* a camera that fits does not mind it */
@@ -417,12 +418,17 @@ static void the_ground_lies_under_what_is_shown(void **state)
     WrSession *other = wr_session_new(NULL);
     must_run(other, "open kept.exr");
     assert_true(ground_of(other)->still && ground_of(other)->at.y == -0.75);
+    assert_true(wr_shape_endless(&ground_of(other)->shape));
     must_run(other, "ground off");
     assert_null(ground_of(other));
     must_fail(other, "ground off", "there is no ground");
-    must_run(other, "undo");
-    assert_non_null(ground_of(other));
+    must_run(other, "ground on size=3"); /* as it was before grounds went on */
+    assert_false(wr_shape_endless(&ground_of(other)->shape));
+    must_run(other, "ground on endless=on");
+    assert_true(wr_shape_endless(&ground_of(other)->shape) && ground_of(other)->size == 3);
     must_run(other, "object choose ground");
+    must_run(other, "surface torus");
+    must_fail(other, "ground on endless=on", "only a plane has a horizon");
     must_run(other, "object set still=off");
     must_fail(other, "ground on", "turns with the others");
     wr_session_free(session);

@@ -29,14 +29,19 @@ static WrSurround *surroundings(int w, int h, Sky *sky)
 
 static const double unturned[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
-/* E / pi of a normal. */
-static double light_of(const WrSurround *s, const double axes[9], WrVec3 n, int c)
+/* E / pi of a normal, up to that order. */
+static double light_up_to(const WrSurround *s, const double axes[9], int order, WrVec3 n, int c)
 {
     double f[3][WR_FORM_TERMS];
-    wr_surround_form(s, axes, 1, f);
+    wr_surround_form(s, axes, 1, order, f);
     const double *k = f[c];
     return k[0] + k[1] * n.x + k[2] * n.y + k[3] * n.z + k[4] * n.x * n.x + k[5] * n.y * n.y +
            k[6] * n.z * n.z + k[7] * n.x * n.y + k[8] * n.y * n.z + k[9] * n.z * n.x;
+}
+
+static double light_of(const WrSurround *s, const double axes[9], WrVec3 n, int c)
+{
+    return light_up_to(s, axes, 2, n, c);
 }
 
 static WrVec3 random_direction(TestRandom *random)
@@ -63,6 +68,24 @@ static double half(WrVec3 d, int c)
 {
     (void)c;
     return d.y > 0 ? 1 : 0;
+}
+
+/* Of L = a + b (d.e): a, then a + 2/3 b (n.e), and nothing more. */
+static void fewer_orders_leave_out_what_is_beyond_them(void **state)
+{
+    (void)state;
+    TestRandom random = { 5 };
+    WrSurround *one = surroundings(151, 73, linear);
+    for (int k = 0; k < 20; k++) {
+        const WrVec3 n = random_direction(&random);
+        for (int c = 0; c < 3; c++) {
+            const double mean = 1.1 + 0.3 * c;
+            const double turned = mean + 2.0 / 3 * (0.7 - 0.2 * c) * v3_dot(n, east);
+            assert_near(light_up_to(one, unturned, 0, n, c), mean, 2e-3);
+            assert_near(light_up_to(one, unturned, 1, n, c), turned, 2e-3);
+        }
+    }
+    wr_surround_free(one);
 }
 
 static void harmonics_are_those_of_the_closed_forms(void **state)
@@ -428,6 +451,7 @@ static void turning_is_shifting_the_picture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fewer_orders_leave_out_what_is_beyond_them),
         cmocka_unit_test(harmonics_are_those_of_the_closed_forms),
         cmocka_unit_test(a_sun_is_within_the_bounds),
         cmocka_unit_test(poles_and_seam_are_continuous),

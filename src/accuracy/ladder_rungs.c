@@ -144,6 +144,10 @@ WrScene *wr_ladder_best_but(const WrScene *scene, WrAxis axis)
         best->dials.newton = dials.newton;
         best->dials.texels = dials.texels;
     }
+    if (axis != WR_AXIS_LIGHT) {
+        best->dials.harmonics = 2;
+        best->dials.gloss = 64;
+    }
     if (axis != WR_AXIS_ARITHMETIC) {
         best->dials.heights = WR_HEIGHTS_FLOAT;
         best->dials.shading = WR_SHADING_FLOAT;

@@ -336,8 +336,9 @@ static void add_series(WrText *text)
     static const struct {
         const char *colour;
         int mark;
-    } looks[WR_AXIS_COUNT + 1] = { { "#0072b2", 7 },  { "#d55e00", 5 },  { "#009e73", 9 },
-                                   { "#cc79a7", 11 }, { "#e69f00", 13 }, { "#56b4e9", 15 } };
+    } looks[WR_AXIS_COUNT + 1] = { { "#0072b2", 7 },  { "#d55e00", 5 }, { "#009e73", 9 },
+                                   { "#cc79a7", 11 }, { "#b8a000", 3 }, { "#e69f00", 13 },
+                                   { "#56b4e9", 15 } };
     wr_text_add(text, "plot $front using 1:2 with steps lw 2 lc rgb '#303030' title 'front', \\\n");
     for (int axis = 0; axis <= WR_AXIS_COUNT; axis++) {
         wr_text_addf(text,

@@ -192,11 +192,6 @@ static void moments(WrScene *scene)
     scene->dials.aa = WR_AA_MOMENTS;
 }
 
-static void displaced(WrScene *scene)
-{
-    scene->displaced = true;
-}
-
 static void smooth(WrScene *scene)
 {
     scene->bump = WR_BUMP_NONE;
@@ -238,6 +233,11 @@ static void beside(WrScene *scene)
 static void behind(WrScene *scene)
 {
     add_another(scene, (WrVec3){ 0, 0, -2 }, 0.5);
+}
+
+static void to_horizon(WrScene *scene)
+{
+    scene->shape.value[2] = 1;
 }
 
 static void orthographic(WrScene *scene)
@@ -287,7 +287,6 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
-    [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
     [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },
@@ -318,6 +317,10 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_BETWEEN)] = { BUMPED, .with = beside, .without = same },
     [WR_ROW(WR_EFFECT_SMOOTH)] = { MESHED, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_BLOCKS)] = { MESHED, .with = same, .other = "sphere" },
+    [WR_ROW(WR_EFFECT_HORIZON)] = { .surface = "plane",
+                                    .mode = WR_BENCH_BUMP,
+                                    .with = to_horizon,
+                                    .without = same },
 };
 WR_ROWS_END(effects, WR_EFFECT_COUNT);
 

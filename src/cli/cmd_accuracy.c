@@ -77,10 +77,11 @@ static bool check_line(const WrCli *cli, WrError *err)
 {
     WrFileInfo info;
     if (find_axis(cli->axis) < 0)
-        return wr_fail(err,
-                       "--axis %.40s: must be derivative, normal, antialiasing, visibility or "
-                       "arithmetic",
-                       cli->axis);
+        return wr_fail(
+            err,
+            "--axis %.40s: must be derivative, normal, antialiasing, visibility, light or "
+            "arithmetic",
+            cli->axis);
     if (cli->sized && (cli->width > LARGEST || cli->height > LARGEST))
         return wr_fail(err, "--size %dx%d: the reference takes at most %d along a side", cli->width,
                        cli->height, LARGEST);

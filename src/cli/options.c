@@ -266,7 +266,7 @@ static const struct Option {
       "what each setting of MyPaint's presets means for heights, as a table",
       .flag = offsetof(WrCli, settings) },
     { "--axis", NULL, "NAME", WR_OPTION_ACCURACY,
-      "only this one: derivative, normal, antialiasing, visibility or arithmetic",
+      "only this one: derivative, normal, antialiasing, visibility, light or arithmetic",
       .set = set_axis },
     { "--runs", NULL, "N", WR_OPTION_ACCURACY, "timed runs of each rung, 3..64 (9)",
       .set = set_runs },

@@ -7,9 +7,11 @@
 #include "document/document.h"
 #include "scene/aim.h"
 #include "scene/objects.h"
+#include "surface/surface.h"
 
 #define GROUND "ground"
 #define WIDE 12.0 /* times the radius of what stands on it */
+#define ENDLESS 2 /* of a plane's values */
 
 enum { FORM_ON, FORM_OFF, GROUND_FORMS };
 
@@ -24,6 +26,7 @@ static WrScene *new_ground(const WrScene *scene)
     made->rotate_deg = (WrVec3){ -90, 0, 0 };
     made->bump = WR_BUMP_NONE;
     made->material.specular = 0;
+    made->shape.value[ENDLESS] = 1;
     made->material.colour = (WrVec3){ 0.4, 0.4, 0.4 };
     made->size = WIDE * wr_scene_ball(scene);
     return made;
@@ -36,6 +39,21 @@ static void print_nothing(const WrScene *scene, WrText *text)
     (void)text;
 }
 
+/* To the horizon or not: a new one of a size that is told ends there. */
+static bool set_end(const WrCall *call, bool fresh, WrScene *made, WrError *err)
+{
+    double *endless = &made->shape.value[ENDLESS];
+    if (!wr_call_given(call, "endless")) {
+        if (fresh && wr_call_given(call, "size")) *endless = 0;
+        return true;
+    }
+    if (made->shape.kind != WR_SURFACE_plane)
+        return wr_fail(err, "endless=: the ground is a %s by now; only a plane has a horizon",
+                       wr_surfaces[made->shape.kind]->name);
+    *endless = wr_call_choice(call, "endless");
+    return true;
+}
+
 static bool run_on(const WrCall *call, const WrScene *scene, int index, WrScene **out, WrError *err)
 {
     double height;
@@ -45,6 +63,10 @@ static bool run_on(const WrCall *call, const WrScene *scene, int index, WrScene 
     made->at.y = height;
     made->hidden = false;
     if (wr_call_given(call, "size")) made->size = wr_call_number(call, "size");
+    if (!set_end(call, index < 0, made, err)) {
+        wr_scene_free(made);
+        return false;
+    }
     if (wr_call_given(call, "colour")) {
         const double *rgb = wr_call_arg(call, "colour")->numbers;
         made->material.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
@@ -99,7 +121,13 @@ static const WrForm ground_forms[] = {
                                       .components = 3,
                                       .shape = "r,g,b",
                                       .high = 1e6,
-                                      .help = "linear; left out: as it is" } } },
+                                      .help = "linear; left out: as it is" },
+                                    { .name = "endless",
+                                      .type = WR_ARG_CHOICE,
+                                      .words = wr_off_on,
+                                      .help = "it goes on to the horizon, where it fades; left "
+                                              "out: as it is, at first on "
+                                              "unless size= is given" } } },
     [WR_ROW(FORM_OFF)] = { .name = "off", .help = "take it away" },
 };
 WR_ROWS_END(ground_forms, GROUND_FORMS);
@@ -114,7 +142,8 @@ const WrCommand wr_command_ground = {
     .run = run_ground,
     .print = print_nothing,
     .help = "a floor under the objects",
-    .details = "It is an object of the name " GROUND ": a plane that looks up and stands still "
+    .details = "It is an object of the name " GROUND
+               ": a plane that looks up, goes on to the horizon and stands still "
                "(`object set still=on`) while the turntable turns the others. The chosen object "
                "stays the chosen one; choose the ground to give it a surface or bumps of its own.",
     .example = "ground on colour=0.3,0.25,0.2"

@@ -112,6 +112,9 @@ static bool settle_options(const WrExportKind *kind, const WrScene *scene, const
         if (!wr_image_deepest(path, &type, err)) return false;
         options->depth = type == WR_PIXEL_U8 ? 8 : type == WR_PIXEL_U16 ? 16 : 32;
     }
+    if (kind->floats && options->depth != 32)
+        return wr_fail(err, "%s are floats, which %s does not hold: exr and tiff do", kind->name,
+                       path);
     if (options->depth != 8 && options->depth != 16 && options->depth != 32)
         return wr_fail(err, "depth %d: must be 8, 16 or 32", options->depth);
     if (!wr_image_can_write(path, type_of(options->depth), kind->channels, true, err)) return false;
@@ -160,6 +163,7 @@ static bool write_job(WrExportJob *job, const char *path, WrError *err)
                        .height = job->height,
                        .channels = job->kind->channels,
                        .type = type_of(job->options.depth),
+                       .channel_names = job->kind->channel_names,
                        .attributes = attributes,
                        .attribute_count = job->attribute_count,
                        .data = true,
@@ -238,7 +242,8 @@ void wr_export_report_text(const WrExportReport *report, WrText *text)
                                        : "32-bit floats");
     if (report->channels == 1) {
         char buffer[WR_NUMBER_SIZE];
-        wr_text_addf(text, ", heights %s", wr_number_print_float((float)report->low, buffer));
+        wr_text_addf(text, ", %s %s", report->quantity ? report->quantity : "heights",
+                     wr_number_print_float((float)report->low, buffer));
         wr_text_addf(text, " to %s", wr_number_print_float((float)report->high, buffer));
     }
     if (report->ranged) {

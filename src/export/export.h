@@ -21,6 +21,14 @@
    second component. In a +Y map the upper flank of a bump is bright green. Codes are
    round(M (n/2 + 1/2)); float files hold n/2 + 1/2.
 
+   slopes, two channels of floats: p = height dF/dU / cell_w, q = height dF/dV / cell_h, V up, with the scheme's derivatives
+   at each texel's centre. slope: atan sqrt(p^2 + q^2), 0 to 90 degrees as 0..M; float files hold degrees.
+
+   curvature: minus the mean curvature of the relief over the cell, so that ridges are bright and grooves dark,
+     H = ((1 + q^2) r - 2 p q s + (1 + p^2) t) / (2 (1 + p^2 + q^2)^(3/2)),   bumps have H < 0
+   with r, s, t the means of the second derivatives over a texel, that is differences of p and q across it. Codes are
+   Z + round((Z - 1) (-H) / full), Z = 128 or 32768, clamped: 0 is exact; float files hold -H, 1 / scene unit.
+
    lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
    white; vectors where the ending is svg, else a picture of 8 bits. profile: F along a line of the cell
    as a chart, by the scheme's interpolation. */
@@ -47,6 +55,7 @@ typedef struct WrExportOptions {
     int scheme;            /* normals: a WrScheme, or -1 for the scene's */
     const char *
         object; /* whose table; borrowed; NULL: of all layers, scheme and formula of the object at hand */
+    double full; /* curvature: what is white, 1 / scene unit; 0: the largest that there is */
     bool dither; /* depth 8 only: ordered dither of up to half a code either way */
     /* lines: */
     int lines_u, lines_v; /* lines along u, along v: 0..1024, not both 0; at most one a texel */
@@ -69,9 +78,10 @@ typedef struct WrExportReport {
     double low, high; /* smallest and largest F, table units */
     bool ranged;      /* integer heights: the next four hold */
     double code_low, code_high; /* F of code 0 and of the last code */
-    int zero_code;    /* the code of F = 0 when it is exact by construction (signed), else -1 */
-    double amplitude; /* signed: A */
-    int64_t lines;    /* drawings: visible stretches of lines; else 0 */
+    int zero_code;        /* the code of F = 0 when it is exact by construction (signed), else -1 */
+    double amplitude;     /* signed: A */
+    const char *quantity; /* what low and high are of: "curvature"; NULL: heights */
+    int64_t lines;        /* drawings: visible stretches of lines; else 0 */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -91,7 +101,9 @@ typedef struct WrExportKind {
     const char *name, *label, *help;
     WrExportOptionInfo options[WR_EXPORT_OPTIONS + 1]; /* a NULL name ends the list */
     int channels;
-    double green; /* normals: sign of the second component */
+    bool floats;                      /* no codes: the file must hold floats */
+    const char *const *channel_names; /* [channels]; NULL: the usual ones */
+    double green;                     /* normals: sign of the second component */
     /* What must be known of the whole table before the first row (ranges). May be NULL. */
     void (*prepare)(WrExportJob *job);
     /* Write the whole file, in place of what follows: drawings. The job's options are settled. May be
@@ -103,7 +115,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 5
+#define WR_EXPORT_KIND_COUNT 8
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

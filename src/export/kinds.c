@@ -54,6 +54,17 @@ static bool set_cell(WrExportOptions *options, const char *value, WrError *err)
     return true;
 }
 
+static bool set_full(WrExportOptions *options, const char *value, WrError *err)
+{
+    double full = 0.0;
+    if (strcmp(value, "auto") != 0 &&
+        (!wr_number_parse(value, strlen(value), &full) || !(full > 0.0) || !isfinite(full)))
+        return wr_fail(err, "full '%.40s': must be a curvature above 0, 1 / scene unit, or auto",
+                       value);
+    options->full = full;
+    return true;
+}
+
 static bool set_scheme(WrExportOptions *options, const char *value, WrError *err)
 {
     int scheme = wr_scheme_find(value);
@@ -222,6 +233,8 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
         DEPTH, CELL, SCHEME, DITHER, OBJECT                                                        \
     }
 
+static const char *const slope_names[] = { "dF_du", "dF_dv" };
+
 const WrExportKind wr_export_kinds[] = {
     { .name = "height",
       .label = "height",
@@ -247,6 +260,40 @@ const WrExportKind wr_export_kinds[] = {
       .green = -1.0,
       .rows = wr_export_normal_rows,
       .describe = wr_export_normal_describe },
+    { .name = "slopes",
+      .label = "slopes",
+      .help = "dF/du and dF/dv as two channels of floats, in scene units: exr or tiff",
+      .options = { CELL, SCHEME, OBJECT },
+      .channels = 2,
+      .floats = true,
+      .channel_names = slope_names,
+      .rows = wr_export_slopes_rows,
+      .describe = wr_export_derived_describe },
+    { .name = "slope",
+      .label = "steepness",
+      .help = "the angle of the relief, 0 to 90 degrees; float files hold degrees",
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT },
+      .channels = 1,
+      .prepare = wr_export_slope_prepare,
+      .rows = wr_export_slope_rows,
+      .describe = wr_export_derived_describe },
+    { .name = "curvature",
+      .label = "curvature",
+      .help = "mean curvature, ridges bright, grooves dark, level in the middle; float files "
+              "hold it, ridges above 0",
+      .options = { DEPTH,
+                   CELL,
+                   SCHEME,
+                   DITHER,
+                   OBJECT,
+                   { "full", "CURVATURE or auto",
+                     "what is white, 1 / scene unit, and its opposite black; left out: the largest "
+                     "there is",
+                     set_full } },
+      .channels = 1,
+      .prepare = wr_export_curvature_prepare,
+      .rows = wr_export_curvature_rows,
+      .describe = wr_export_derived_describe },
     { .name = "lines",
       .label = "line drawing",
       .help = "the cell as a 3D line drawing with hidden lines removed: svg, or a picture",

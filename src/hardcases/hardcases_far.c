@@ -209,6 +209,37 @@ bool wr_hard_hc168(WrHardGauge *g, WrError *err)
     return good;
 }
 
+/* A plane without end: from above and below, looking up, along it and away from it, upon it, and from so far that its sides
+   are less than a pixel. What a pixel far away holds is infinite by the formula. */
+bool wr_hard_hc179(WrHardGauge *g, WrError *err)
+{
+    static const struct {
+        double eye, up; /* the eye's height; how much the view looks up */
+    } sights[] = { { 0.5, -0.1 },  { 0.5, 0 },    { -0.7, 0.2 }, { -0.7, -0.3 }, { 1e-6, 0 },
+                   { -1e-9, 0.1 }, { 40, -0.02 }, { 1e6, -0.5 }, { 1e9, -1.5 },  { 0, 0 } };
+    WrField *field = wr_hard_waves(32, 32);
+    bool good = true;
+    for (int k = 0; k < 10 && good; k++) {
+        WrScene *scene = scene_of(WR_SURFACE_plane);
+        const WrFrameRequest request = {
+            .field = field, .scene = scene, .width = 40, .height = 40
+        };
+        const WrVec3 eye = { wr_hard_between(g, -3, 3), wr_hard_between(g, -3, 3), sights[k].eye };
+        scene->shape.value[2] = 1;
+        scene->camera = (WrCamera){ .eye = eye,
+                                    .target = v3_add(eye, (WrVec3){ 0.2, 1, sights[k].up }),
+                                    .up = { 0, 0, 1 },
+                                    .fov_deg = 60 };
+        give_light(scene, WR_LIGHT_DIRECTIONAL, (WrVec3){ 0.2, 0.3, 0.7 });
+        good = wr_hard_tame(g, field, scene, err);
+        scene->height = scene->material.specular = 0.0;
+        if (sights[k].eye != 0) good = good && against_reference(g, &request, 1, 0.02, err);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+    return good;
+}
+
 /* Under 0.01 degrees, beside the window that this is at the object. */
 bool wr_hard_hc170(WrHardGauge *g, WrError *err)
 {

@@ -88,5 +88,20 @@ static const WrHardCase rows[] = {
     ROW(175, WR_HARD_TABLE, "heights of 1e30 that the scene makes 1e300 times as high",
         "no picture holds a NaN", "violations", 0, 0,
         WAVES "adjust multiply factor=1e30\nsurface torus\nbump mode=exact height=1e30"),
+    ROW(176, WR_HARD_TABLE, "a cube's face beside cells of one table that are higher",
+        "what lies in other cells does not show, to the bit, by look-ups and by filters",
+        "violations", 0, 0,
+        "table 192x128\nnoise perlin cells=8\nsurface cube faces=6\nbump height=0.05"),
+    ROW(177, WR_HARD_GEOMETRY, "ground of layers: level, rising, of one texel, as high as a float",
+        "level ground is level, rising ground rises as evenly; heights stay numbers",
+        "of the height", NAN, 1e-6,
+        "table 33x20\nlayer add form\nfill 0.4\nsurface terrain layer=form"),
+    ROW(178, WR_HARD_TABLE, "colours by height: two stops at one height, a step of slope, cliffs",
+        "a step where told, straight between, even beyond; no NaN; the seam does not show",
+        "violations", 0, 0, "table 64x64\nnoise perlin cells=8\nsurface plane\ncolouring ramp"),
+    ROW(179, WR_HARD_RENDER, "ground without end: from below, along it, upon it, from far away",
+        "numbers, and the coverage and light that the reference has", "of pixels", 0.01, 0.01,
+        WAVES "surface plane endless=1\nrotate -90,0,0\nbump height=0.02\n"
+              "camera perspective eye=0,-0.4,2 target=0,-0.2,0 up=0,1,0 fov=60"),
 };
 WR_HARD_LIST(later, rows);

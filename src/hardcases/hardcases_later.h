@@ -1,4 +1,4 @@
-/* hardcases_later.h - the measurements of HC156 to HC175, in two files by what they are about, for the one
+/* hardcases_later.h - the measurements of HC156 on, in files by what they are about, for the one
    list of their rows.
    Layer 6, private to this room. */
 #pragma once
@@ -18,7 +18,8 @@ bool wr_hard_tame(WrHardGauge *gauge, const WrField *field, const WrScene *scene
 /* clang-format off */
 #define WR_HARD_LATER(X)                                                                           \
     X(156) X(157) X(158) X(159) X(160) X(161) X(162) X(163) X(164) X(165)                          \
-    X(166) X(167) X(168) X(169) X(170) X(171) X(172) X(173) X(174) X(175)
+    X(166) X(167) X(168) X(169) X(170) X(171) X(172) X(173) X(174) X(175)                          \
+    X(176) X(177) X(178) X(179)
 /* clang-format on */
 #define WR_HARD_DECLARE(number) bool wr_hard_hc##number(WrHardGauge *gauge, WrError *err);
 WR_HARD_LATER(WR_HARD_DECLARE)

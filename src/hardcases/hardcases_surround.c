@@ -71,7 +71,7 @@ static double lit(WrHardGauge *g, int set, const WrSurround *from, WrVec3 n)
     WrStrip *s = g->strip;
     double form[3][WR_FORM_TERMS];
     WrKernSurround how = { .kd = 1 };
-    wr_surround_form(from, straight, 1, form);
+    wr_surround_form(from, straight, 1, 2, form);
     for (int i = 0; i < WR_FORM_TERMS; i++) how.form[0][i] = (float)form[0][i];
     s->count = 1;
     s->bx[0] = (float)n.x, s->by[0] = (float)n.y, s->bz[0] = (float)n.z;
@@ -148,7 +148,7 @@ static bool hc113(WrHardGauge *g, WrError *err)
     if (!from) return false;
     const double all = 2 * sqrt(3.14159265358979323846) * from->harmonic[0][0];
     double form[3][WR_FORM_TERMS];
-    wr_surround_form(from, straight, 1, form);
+    wr_surround_form(from, straight, 1, 2, form);
     for (int i = 0; i < 200; i++) {
         const WrVec3 n = random_unit(g);
         const double want = fmax(0, v3_dot(n, east)) * (all - 0.4 * 3.14159265358979323846) /

@@ -12,8 +12,6 @@
 
 #include <math.h>
 
-#define MIRROR_FINE 32 /* texels over the width of a lobe */
-
 void wr_frame_drop_tables(WrRenderer *renderer)
 {
     wr_table_fini(&renderer->table);
@@ -139,7 +137,7 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
         return true;
     }
     wr_scene_gloss(&request->scene->material, &gloss);
-    return wr_mirror_bring(&renderer->mirror, light, blurred ? &gloss : NULL, MIRROR_FINE,
+    return wr_mirror_bring(&renderer->mirror, light, blurred ? &gloss : NULL, plan->gloss,
                            renderer->pool, err);
 }
 

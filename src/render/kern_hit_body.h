@@ -218,6 +218,7 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
     const VEC ev = { quad->ev[0], quad->ev[1], quad->ev[2] };
     const REAL s_min = rays->s_min;
     const REAL u0 = quad->u0, u1 = quad->u1, v0 = quad->v0, v1 = quad->v1;
+    const REAL least = quad->least, most = quad->most;
     SIMD for (int i = 0; i < count; i++)
     {
         Ray ray = ray_of(rays, strip, i, gx, gy, spread);
@@ -228,8 +229,8 @@ ALWAYS int hit_quad(const RAYS *rays, const QUAD *quad, REAL gx, REAL gy, int co
         REAL u = v_dot(p, eu), v = v_dot(p, ev);
         bool in = (u >= u0) & (u <= u1) & (v >= v0) & (v <= v1);
         bool met = (s > s_min) & (s < MISS) & (dn != 0.0f);
-        strip->u[i] = clamp01(u);
-        strip->v[i] = clamp01(v);
+        strip->u[i] = u > least ? (u < most ? u : most) : least;
+        strip->v[i] = v > least ? (v < most ? v : most) : least;
         strip->s[i] = in & met ? s : MISS;
     }
     REAL *const move[] = { strip->u, strip->v, strip->x, strip->y };

@@ -66,6 +66,7 @@ typedef struct WR_T(WrQuad) {
     REAL origin[3], normal[3];
     REAL eu[3], ev[3];   /* Pu / |Pu|^2, Pv / |Pv|^2: dot products give u, v */
     REAL u0, u1, v0, v1; /* what of u and v is on it: 0..1, a little more where another joins on */
+    REAL least, most;    /* u and v are brought to within them: 0 and 1, unless it is endless */
 } WR_T(WrQuad);
 
 /* Where and how heights are looked up. Contiguous copies with an apron (table.h). */

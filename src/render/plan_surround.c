@@ -35,8 +35,22 @@ WrVerdict wr_decide_harmonics(const WrPlan *plan, const WrPlanAsk *ask, const ch
     if (ask->scene->environment.light->even)
         return say(WR_VERDICT_SPARED, why,
                    "the surroundings are of one colour: one coefficient is all of them");
+    if (ask->dials->harmonics == 0)
+        return say(WR_VERDICT_NONE, why, "harmonics=0: the mean of them is all that is asked for");
     return say(WR_VERDICT_RUN, why,
-               "diffuse light of them turns with the normal: by 9 coefficients");
+               ask->dials->harmonics == 1
+                   ? "diffuse light of them turns with the normal: by 4 coefficients"
+                   : "diffuse light of them turns with the normal: by 9 coefficients");
+}
+
+void wr_settle_harmonics(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->harmonics = runs(plan, WR_EFFECT_HARMONICS) ? ask->dials->harmonics : 0;
+}
+
+void wr_settle_blur(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->gloss = runs(plan, WR_EFFECT_BLUR) ? ask->dials->gloss : 0;
 }
 
 WrVerdict wr_decide_mirror(const WrPlan *plan, const WrPlanAsk *ask, const char **why)

@@ -54,12 +54,23 @@ static double pair_sum(double *values, int count)
     return count > 0 ? values[0] : 0;
 }
 
-static bool sample_set(const Set *set, double x, double y, WrReferenceSample *out)
+static const WrReferenceShare all = { 0, 1 };
+
+/* Of light from all sides each of a pixel's k x k samples takes a k-th: that of a lattice which has each part at k places,
+   spread evenly. */
+static WrReferenceShare share_of(int k, int i, int j)
+{
+    const int step = (int)(0.382 * k) | 1;
+    return k < 4 ? all : (WrReferenceShare){ (i + step * j) % k, k };
+}
+
+static bool sample_set(const Set *set, double x, double y, WrReferenceShare share,
+                       WrReferenceSample *out)
 {
     bool any = false;
     for (int i = 0; i < set->count; i++) {
         WrReferenceSample sample;
-        if (!wr_reference_sample(&set->stage[i], x, y, &sample)) continue;
+        if (!wr_reference_sample(&set->stage[i], x, y, share, &sample)) continue;
         if (any && !(sample.depth < out->depth)) continue;
         any = true;
         *out = sample;
@@ -72,12 +83,13 @@ static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t
 {
     const int k = pass->k;
     double sums[3][SAMPLES_MAX], row[3][SAMPLES_MAX];
-    int hits = 0;
+    double hits = 0;
     for (int j = 0; j < k; j++) {
         for (int i = 0; i < k; i++) {
             WrReferenceSample sample = { .rgb = { 0, 0, 0 } };
-            if (sample_set(pass->set, x + (i + 0.5) / k, y + (j + 0.5) / k, &sample)) {
-                hits++;
+            if (sample_set(pass->set, x + (i + 0.5) / k, y + (j + 0.5) / k, share_of(k, i, j),
+                           &sample)) {
+                hits += sample.cover;
                 *lost += sample.lost;
             }
             for (int c = 0; c < 3; c++) row[c][i] = sample.rgb[c];
@@ -85,7 +97,7 @@ static void sample_pixel(const Pass *pass, int x, int y, double rgba[4], int64_t
         for (int c = 0; c < 3; c++) sums[c][j] = pair_sum(row[c], k);
     }
     for (int c = 0; c < 3; c++) rgba[c] = pair_sum(sums[c], k) / (k * k);
-    rgba[3] = (double)hits / (k * k);
+    rgba[3] = hits / (k * k);
 }
 
 static void render_row(int y, int worker, void *ctx)
@@ -99,7 +111,7 @@ static void render_row(int y, int worker, void *ctx)
         if (!wanted(request, x, y)) continue;
         sample_pixel(pass, x, y, pass->rgba + 4 * (row + (size_t)x), &pass->lost[y]);
         WrReferenceSample centre;
-        if (!pass->normal || !sample_set(pass->set, x + 0.5, y + 0.5, &centre)) continue;
+        if (!pass->normal || !sample_set(pass->set, x + 0.5, y + 0.5, all, &centre)) continue;
         double *n = pass->normal + 3 * (row + (size_t)x);
         n[0] = centre.normal.x, n[1] = centre.normal.y, n[2] = centre.normal.z;
     }

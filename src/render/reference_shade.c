@@ -164,7 +164,7 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
 }
 
 void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
-                        WrVec3 perturbed, double rgb[3])
+                        WrVec3 perturbed, WrReferenceShare share, double rgb[3])
 {
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceView *view = &stage->view;
@@ -185,11 +185,51 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
         }
     }
     double around[3], mirrored[3];
-    wr_reference_surround_light(stage, perturbed, to, has, around, mirrored);
+    wr_reference_surround_light(stage, perturbed, to, has, share, around, mirrored);
     for (int c = 0; c < 3; c++) rgb[c] = has[c] * (diffuse[c] + around[c]) + shine[c] + mirrored[c];
 }
 
-bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out)
+/* How a pixel's steps move the hit along the plane, in u and v: q + s d, where s changes so that it stays on it. */
+static double step_squared(const WrReferenceRay *ray, const WrReferenceRay *step, double s,
+                           const WrSurfacePoint *at, double ru, double rv)
+{
+    const WrVec3 free = v3_mad(step->q, step->d, s);
+    const double ds = -v3_dot(free, at->n_unit) / v3_dot(ray->d, at->n_unit);
+    const WrVec3 moved = v3_mad(free, ray->d, ds);
+    const double du = ru * v3_dot(moved, at->pu) / v3_dot(at->pu, at->pu);
+    const double dv = rv * v3_dot(moved, at->pv) / v3_dot(at->pv, at->pv);
+    return du * du + dv * dv;
+}
+
+/* 1 up to a quarter of half a period, or of the plane, in a pixel; 0 from a whole one. */
+static double left_of(double squares)
+{
+    const double t = fmin(fmax((sqrt(squares) - 0.25) / 0.75, 0), 1);
+    return 1 - t * t * (3 - 2 * t);
+}
+
+/* What is left of slopes there, and what of the plane. */
+static double eased_at(const WrReferenceStage *stage, const WrReferenceRay *ray,
+                       const WrReferenceHit *hit, const WrSurfacePoint *at, double *cover)
+{
+    const WrScene *scene = stage->scene;
+    const double ru = 2 * fmax(1, fabs(scene->replicate_u)); /* of half periods */
+    const double rv = 2 * fmax(1, fabs(scene->replicate_v));
+    double periods = 0, sides = 0;
+    WrReferenceRay step[2];
+    *cover = 1;
+    if (!wr_shape_endless(stage->view.shape) || !stage->view.perspective) return 1;
+    wr_reference_view_spread(&stage->view, &step[0], &step[1]);
+    for (int k = 0; k < 2; k++) {
+        periods += step_squared(ray, &step[k], hit->s, at, ru, rv);
+        sides += step_squared(ray, &step[k], hit->s, at, 1, 1);
+    }
+    *cover = isfinite(sides) ? left_of(sides) : 0;
+    return isfinite(periods) ? left_of(periods) : 0;
+}
+
+bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceShare share,
+                         WrReferenceSample *out)
 {
     const WrReferenceView *view = &stage->view;
     const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
@@ -200,12 +240,15 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     wr_reference_view_at(view, &hit, &at);
     if (stage->scene->height != 0) wr_reference_height(stage, hit.u, hit.v, &f, &fu, &fv);
     wr_reference_add_map(stage, &hit, &at, &fu, &fv);
+    const double eased = eased_at(stage, &ray, &hit, &at, &out->cover);
+    fu *= eased, fv *= eased;
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
     out->normal = v3_scale(perturbed, wr_reference_side(view, &at));
     out->lost = hit.lost;
     out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
     out->normal = wr_reference_normal_stretched(view, out->normal);
-    wr_reference_light(stage, wr_reference_stretched(view, at.p), hit.u, hit.v, out->normal,
+    wr_reference_light(stage, wr_reference_stretched(view, at.p), hit.u, hit.v, out->normal, share,
                        out->rgb);
+    for (int c = 0; c < 3; c++) out->rgb[c] *= out->cover;
     return true;
 }

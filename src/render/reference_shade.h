@@ -40,9 +40,9 @@ WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, 
 /* +1 where n points to the viewer's side of the surface, -1 where its back is seen. */
 double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at);
 /* I = C (ka + sum kd L max(0, n'.l)) + sum ks L max(0, n'.h)^s, the highlight gated as the material says.
- * perturbed: n' towards the viewer's side. */
+ * perturbed: n' towards the viewer's side. share: of what surroundings send. */
 void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
-                        WrVec3 perturbed, double rgb[3]);
+                        WrVec3 perturbed, WrReferenceShare share, double rgb[3]);
 
 /* What one light of strength 1 adds: in the surface's colour, and in its own. matter: of the material. */
 void wr_reference_lamp(const WrMaterial *material, const WrMatter *matter, WrVec3 n, WrVec3 l,
@@ -52,7 +52,9 @@ typedef struct WrReferenceSample {
     double rgb[3];
     WrVec3 normal; /* n' towards the viewer's side */
     bool lost;
+    double cover; /* 1; of a plane that fades towards the horizon less; rgb holds it already */
     double depth; /* before the eye, along the view, in the world */
 } WrReferenceSample;
 /* The reference's intensity at (x, y), pixels from the top left corner; false where the object is not. */
-bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceSample *out);
+bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceShare share,
+                         WrReferenceSample *out);

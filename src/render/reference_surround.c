@@ -116,9 +116,15 @@ void wr_reference_surround_fini(WrReferenceSurround *surround)
     *surround = (WrReferenceSurround){ 0 };
 }
 
+/* Is the part at that column and row of a grid one of the share's? Neighbours belong to others. */
+static bool takes(WrReferenceShare share, int column, int row)
+{
+    return (column + 7 * row) % share.of == share.part;
+}
+
 /* Diffuse light: every part of the sphere is a lamp. */
 static void add_diffuse(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const double colour[3],
-                        double own[3])
+                        WrReferenceShare share, double own[3])
 {
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceSurround *from = &stage->surround;
@@ -126,11 +132,12 @@ static void add_diffuse(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const
     WrMaterial only = *m;
     matter.ks = only.specular = 0;
     for (int i = 0; i < from->count; i++) {
+        if (!takes(share, i % ACROSS, i / ACROSS)) continue;
         const WrReferenceSector *sector = &from->sectors[i];
         double one[3], white;
         if (!(v3_dot(n, sector->where) > 0)) continue;
         wr_reference_lamp(&only, &matter, n, sector->where, v, colour, one, &white);
-        for (int c = 0; c < 3; c++) own[c] += one[c] * sector->rgb[c];
+        for (int c = 0; c < 3; c++) own[c] += share.of * one[c] * sector->rgb[c];
     }
 }
 
@@ -155,7 +162,7 @@ static double width_of(const WrMaterial *m, const WrMatter *matter)
 
 /* Highlights: facets h, as many as stand that way, each mirrors what comes from 2 (v.h) h - v. */
 static void add_shine(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const double colour[3],
-                      double own[3], double white[3])
+                      WrReferenceShare part, double own[3], double white[3])
 {
     const double short_of =
         fmax(0, 1e-3 - v3_dot(n, v)); /* facets lie about the normal that is seen */
@@ -167,6 +174,7 @@ static void add_shine(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const d
     const WrVec3 other = fabs(seen.x) < 0.5 ? (WrVec3){ 1, 0, 0 } : (WrVec3){ 0, 1, 0 };
     const WrVec3 e = v3_unit(v3_cross(seen, other), other), f = v3_cross(seen, e);
     for (int i = 0; i < FACETS * FACETS; i++) {
+        if (!takes(part, i % FACETS, i / FACETS)) continue;
         const double t = (i / FACETS + 0.5) / FACETS, x = t * t * (3 - 2 * t);
         const double turn = 2 * pi * (i % FACETS + 0.5) / FACETS;
         const double c = sqrt((1 - x) / (1 + x * (a2 - 1))), s = sqrt(fmax(0, 1 - c * c));
@@ -174,7 +182,8 @@ static void add_shine(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const d
                                 v3_add(v3_scale(e, s * cos(turn)), v3_scale(f, s * sin(turn))));
         const double vh = v3_dot(v, h), w = 1 + c * c * (a2 - 1);
         if (!(vh > 0)) continue;
-        const double share = 4 * vh * w * w / (a2 * c) * 6 * t * (1 - t) / (FACETS * FACETS);
+        const double share =
+            part.of * 4 * vh * w * w / (a2 * c) * 6 * t * (1 - t) / (FACETS * FACETS);
         const WrVec3 l = v3_sub(v3_scale(h, 2 * vh), v);
         double one[3], shine, rgb[3];
         wr_reference_lamp(&only, &matter, n, l, v, colour, one, &shine);
@@ -186,12 +195,13 @@ static void add_shine(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const d
 }
 
 void wr_reference_surround_light(const WrReferenceStage *stage, WrVec3 n, WrVec3 v,
-                                 const double colour[3], double own[3], double white[3])
+                                 const double colour[3], WrReferenceShare share, double own[3],
+                                 double white[3])
 {
     const WrMaterial *m = &stage->scene->material;
     for (int c = 0; c < 3; c++) own[c] = white[c] = 0;
     if (stage->surround.count == 0) return;
-    if (m->diffuse != 0) add_diffuse(stage, n, v, colour, own);
+    if (m->diffuse != 0) add_diffuse(stage, n, v, colour, share, own);
     if (m->specular != 0 && wr_reflects[m->model].shines)
-        add_shine(stage, n, v, colour, own, white);
+        add_shine(stage, n, v, colour, share, own, white);
 }

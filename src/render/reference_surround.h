@@ -13,6 +13,12 @@ typedef struct WrReferenceSector {
     double rgb[3];
 } WrReferenceSector;
 
+/* Which of the parts of an integral over directions a sample takes, in the place of all: where a pixel has many samples,
+   each takes others, so that together they take all of them several times. */
+typedef struct WrReferenceShare {
+    int part, of; /* 0 <= part < of; of 1: all */
+} WrReferenceShare;
+
 typedef struct WrReferenceSurround {
     WrReferenceSector *sectors; /* [count], owned; NULL: there are no surroundings */
     int count;
@@ -25,4 +31,5 @@ void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *sc
 void wr_reference_surround_fini(WrReferenceSurround *surround);
 /* What they add: in the surface's colour, and in their own. n towards the viewer's side; colour as wr_reference_reflect's. */
 void wr_reference_surround_light(const WrReferenceStage *stage, WrVec3 n, WrVec3 v,
-                                 const double colour[3], double own[3], double white[3]);
+                                 const double colour[3], WrReferenceShare share, double own[3],
+                                 double white[3]);

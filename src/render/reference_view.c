@@ -100,9 +100,6 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
                                .height = height };
     WrPlacement place;
     const double aspect = (double)width / height;
-    if (scene->displaced && !view->info->held && scene->height != 0)
-        return wr_fail(err,
-                       "the reference knows no displaced surface: it takes `bump displaced=off`");
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
     view->perspective = !place.orthographic;
     view->size = place.size;
@@ -260,6 +257,11 @@ static bool hit_faces(const WrReferenceView *view, const WrReferenceRay *ray, Wr
         const double x = v3_dot(w, at.pu) / v3_dot(at.pu, at.pu) / wide;
         const double y = v3_dot(w, at.pv) / v3_dot(at.pv, at.pv) / high;
         const double edge = 0x1p-48; /* a ray along the edge of two faces meets one */
+        if (wr_shape_endless(view->shape)) {
+            if (!(fmax(fabs(x), fabs(y)) <= WR_ENDLESS)) continue;
+            *hit = (WrReferenceHit){ .s = s, .u = x, .v = y, .face = face };
+            return true;
+        }
         if (!(x >= -edge && x <= 1 + edge && y >= -edge && y <= 1 + edge)) continue;
         *hit = (WrReferenceHit){
             .s = s, .u = c.u0 + wide * within(x), .v = c.v0 + high * within(y), .face = face

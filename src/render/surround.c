@@ -65,7 +65,7 @@ void wr_surround_look(const WrScene *scene, const WrPlan *plan, const double rot
     wr_scene_gloss(m, &gloss);
     wr_surround_turn(from->turn_deg, turn);
     product(turn, rotation, axes);
-    wr_surround_form(from->light, axes, from->strength, wide->form);
+    wr_surround_form(from->light, axes, from->strength, plan->harmonics, wide->form);
     wide->kd = wr_plan_runs(plan, WR_EFFECT_SURROUND) ? m->diffuse : 0;
     wide->colour[0] = m->colour.x, wide->colour[1] = m->colour.y, wide->colour[2] = m->colour.z;
     wide->mean = gloss.mean;

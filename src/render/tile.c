@@ -264,7 +264,7 @@ static void render_samples(const WrTileJob *job, WrTilePart part, WrTileScratch 
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     wr_tile_samples(job, k, &tile, &out, scratch);
     scratch->covered = covered; /* that was samples */
-    wr_did(scratch, WR_EFFECT_SAMPLES);
+    if (k > 1) wr_did(scratch, WR_EFFECT_SAMPLES);
     start = wr_clock_seconds();
     for (int y = 0; y < part.h; y++)
         scratch->covered += wr_tile_means(k, part.w, scratch->sample[y * k][0], step,
@@ -341,7 +341,7 @@ WrTilePart wr_tile_touched(const WrTileJob *job, WrTilePart part)
 /* Several samples a pixel. */
 static void render_many(const WrTileJob *job, WrTilePart part, WrTileScratch *scratch)
 {
-    if (job->plan->sampling == WR_SAMPLING_ALL) render_samples(job, part, scratch);
+    if (job->plan->sampling != WR_SAMPLING_ADAPTIVE) render_samples(job, part, scratch);
     else wr_refine_tile(job, part.x, part.y, part.w, part.h, scratch);
 }
 
@@ -403,7 +403,7 @@ void wr_tile_render(const WrTileJob *job, WrTilePart whole, int index, WrTileScr
     wr_tile_clear(job, whole, part);
     scratch->whole[WR_STAGE_CLEAR] += wr_clock_seconds() - start;
     if (part.w > 0 && part.h > 0) {
-        const bool one = job->plan->sampling == WR_SAMPLING_ONE;
+        const bool one = job->plan->sampling == WR_SAMPLING_ONE && !job->view->endless;
         if (one || job->normals) render_point(job, part, one, scratch);
         if (!one && job->codes) render_many_codes(job, part, scratch);
         else if (!one) render_many(job, part, scratch);

@@ -11,7 +11,6 @@
 #include "render/plan.h"
 #include "render/sight.h"
 #include "render/surround.h"
-#include "render/dice.h"
 #include "render/triangles.h"
 
 #include <stdbool.h>
@@ -37,9 +36,8 @@ typedef struct WrTileJob {
         *sight; /* what the view's samples look at, or where that is noted; NULL: neither */
     const WrViewTriangles *triangles; /* a mesh out of a file; or NULL */
     WrTriangleLook triangle_look;
-    const WrDice *dice; /* of a displaced surface, what the triangles are; or NULL */
-    bool seen_before;   /* it is known */
-    bool newton;        /* the mesh's parameters are made exact */
+    bool seen_before; /* it is known */
+    bool newton;      /* the mesh's parameters are made exact */
     WrLook look;
     WrLookd look_double; /* where kernels_double looks */
     WrEffects looks;     /* what a look-up in the table does, by what it was given */
@@ -133,7 +131,6 @@ typedef struct WrTileScratch {
     double whole[WR_STAGE_COUNT];   /* of what is measured each time */
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */
-    int face;                       /* of a displaced surface: that the strip's samples lie on */
     int64_t met;   /* samples of the last tile that was refined that met something, however often */
     int64_t tiles; /* that held anything */
     int64_t not_finite;           /* numbers that were not finite, among codes */

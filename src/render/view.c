@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "field/field.h"
 #include "scene/scene.h"
 #include "base/vec.h"
 
@@ -38,13 +37,17 @@ static void narrow_rays(const WrRaysd *in, WrRays *out)
 /* An eye nearer than that, in radii: rays start at it and not at the object's centre, so that what lies a
    hair before the eye is as exact as its distance. */
 #define CLOSE 1.5
+#define LOW 1e-4 /* nor above a plane without end by less than this part of the way to its centre */
 
 /* Rays as affine functions of the sample's grid position (i, j), whose centre is (i + 1/2, j + 1/2). */
 static void make_rays(const WrView *view, WrVec3 centre, double grid_w, double grid_h,
                       WrRaysd *rays)
 {
     const WrVec3 ahead = v3_sub(centre, view->eye);
-    const bool close = v3_len(ahead) < CLOSE * view->radius;
+    const double away = v3_len(ahead);
+    const bool low =
+        view->endless && fabs(view->eye.z) < LOW * away; /* what is near is not ahead */
+    const bool close = away < CLOSE * view->radius || low;
     double depth = close ? 0.0 : v3_dot(ahead, view->forward); /* of the reference plane */
     WrVec3 middle = v3_mad(view->eye, view->ahead, depth);
     WrVec3 x = v3_scale(view->across, 2.0 * view->half_w / grid_w);
@@ -229,6 +232,16 @@ static void bound_quad(const WrShape *shape, const bool facing[6], int own, WrQu
     quad->u0 = to[0], quad->u1 = to[1], quad->v0 = to[2], quad->v1 = to[3];
     single->u0 = to_single[0], single->u1 = to_single[1];
     single->v0 = to_single[2], single->v1 = to_single[3];
+    quad->least = single->least = 0, quad->most = single->most = 1;
+}
+
+/* As far as rays are followed, whatever its sides. */
+static void unbound_quad(WrQuadd *quad, WrQuad *single)
+{
+    quad->u0 = quad->v0 = quad->least = -WR_ENDLESS;
+    quad->u1 = quad->v1 = quad->most = WR_ENDLESS;
+    single->u0 = single->v0 = single->least = (float)-WR_ENDLESS;
+    single->u1 = single->v1 = single->most = (float)WR_ENDLESS;
 }
 
 static void add_quad(WrView *view, const WrShape *shape, const bool facing[6], int face)
@@ -244,7 +257,8 @@ static void add_quad(WrView *view, const WrShape *shape, const bool facing[6], i
     store(quad->ev, v3_scale(pv, 1.0 / v3_dot(pv, pv)));
     narrow(single->origin, quad->origin), narrow(single->normal, quad->normal);
     narrow(single->eu, quad->eu), narrow(single->ev, quad->ev);
-    bound_quad(shape, facing, face, quad, single);
+    if (wr_shape_endless(shape)) unbound_quad(quad, single);
+    else bound_quad(shape, facing, face, quad, single);
     view->quad_face[view->quad_count++] = face;
 }
 
@@ -285,7 +299,7 @@ static void find_depth(WrView *view, const WrCamera *camera, const WrPlacement *
     const double middle = v3_dot(place->forward, v3_sub(place->position, camera->target));
     store(view->deep, deep);
     view->deep_from = middle - v3_dot(deep, centre);
-    view->nearest = middle - place->radius * place->size;
+    view->nearest = view->endless ? -INFINITY : middle - place->radius * place->size;
 }
 
 /* Those that shine; where none does all of them, for who forces light. */
@@ -326,24 +340,6 @@ static void scale_shape(const WrShape *shape, double scale, WrShape *out)
             out->value[at] = shape->value[at] * (info->params[p].length ? scale : 1.0);
 }
 
-bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, double turn_deg,
-                  int width, int height, double *rise, WrError *err)
-{
-    WrPlacement place;
-    float low, high;
-    *rise = -1;
-    if (!wr_scene_place_sized(scene, radius, turn_deg, (double)width / height, &place, err))
-        return false;
-    if (scene->analytic.kind != WR_ANALYTIC_OFF) return true;
-    wr_field_range(field, &low, &high);
-    const double most = fabs(scene->height) * fmax(fabs((double)low), fabs((double)high));
-    const double reach = (place.radius + most) * place.size;
-    const double depth = v3_dot(v3_sub(place.position, place.eye), place.forward) - reach;
-    const double per = height / (2 * place.half_height) / (place.orthographic ? 1 : depth);
-    if (place.orthographic || depth > 0) *rise = most * place.size * per;
-    return true;
-}
-
 bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,
                   double turn_deg, int width, int height, WrError *err)
 {
@@ -367,6 +363,7 @@ bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPla
     view->ahead = wr_place_shrink_back(&place, place.forward);
     memcpy(view->rotation, place.rotation, sizeof view->rotation);
     view->stretched = place.stretched;
+    view->endless = wr_shape_endless(&scene->shape);
     store(view->stretch, place.stretch);
     store(view->cofactor, place.cofactor);
     view->half_h = place.half_height * (view->perspective ? 1.0 : view->scale / place.size);

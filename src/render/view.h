@@ -7,7 +7,6 @@
 #include <stdbool.h>
 
 typedef struct WrError WrError;
-typedef struct WrField WrField;
 typedef struct WrScene WrScene;
 
 /* The rays of a grid of k x k samples a pixel. */
@@ -35,7 +34,7 @@ typedef struct WrView {
     WrVec3 across, above, ahead; /* where they point: the same, unless the object is stretched */
     /* The object is stretched (WrPlacement): stretch and what normals are multiplied with; 1 where it is not. */
     double rotation[9]; /* the object's axes -> the world */
-    bool stretched;
+    bool stretched, endless;
     double stretch[3], cofactor[3];
     double half_w, half_h; /* of the view: at depth 1, or the whole, orthographic */
     double near;           /* depth of the near plane */
@@ -59,10 +58,6 @@ typedef struct WrView {
    ones: it is farther than any of the object. radius: wr_shape_radius of the scene's. */
 bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int width, int height,
                      bool *outside, WrError *err);
-/* How many pixels F could move a point of the surface in the picture, at most: |F| f / z at the nearest that it can come
-   to; below 0: not known. */
-bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, double turn_deg,
-                  int width, int height, double *rise, WrError *err);
 /* Fill a view, with what the plan says of samples, backs and perspective; all checks were made when the scene was accepted, so this fails only for a camera that
    cannot look (eye on target). Call fini even then. */
 bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,

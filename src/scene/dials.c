@@ -10,17 +10,23 @@
 
 WR_ROWS(wr_axis_labels);
 const char *const wr_axis_labels[WR_AXIS_COUNT] = {
-    [WR_ROW(WR_AXIS_DERIVATIVE)] = "derivative of F", [WR_ROW(WR_AXIS_NORMAL)] = "normal",
-    [WR_ROW(WR_AXIS_ANTIALIASING)] = "antialiasing",  [WR_ROW(WR_AXIS_VISIBILITY)] = "visibility",
+    [WR_ROW(WR_AXIS_DERIVATIVE)] = "derivative of F",
+    [WR_ROW(WR_AXIS_NORMAL)] = "normal",
+    [WR_ROW(WR_AXIS_ANTIALIASING)] = "antialiasing",
+    [WR_ROW(WR_AXIS_VISIBILITY)] = "visibility",
+    [WR_ROW(WR_AXIS_LIGHT)] = "light",
     [WR_ROW(WR_AXIS_ARITHMETIC)] = "arithmetic",
 };
 WR_ROWS_END(wr_axis_labels, WR_AXIS_COUNT);
 
 WrDials wr_dials_default(void)
 {
-    return (WrDials){
-        .samples = 4, .contrast = 0.002, .newton = -1, .dice = 0.5, .heights = WR_HEIGHTS_FLOAT
-    };
+    return (WrDials){ .samples = 4,
+                      .contrast = 0.002,
+                      .newton = -1,
+                      .heights = WR_HEIGHTS_FLOAT,
+                      .harmonics = 2,
+                      .gloss = 32 };
 }
 
 void wr_dials_smooth(WrDials *dials)
@@ -82,7 +88,8 @@ MEMBER(contrast, double, dials.contrast)
 MEMBER(mesh, int, dials.mesh)
 MEMBER(newton, int, dials.newton)
 MEMBER(texels, double, dials.texels)
-MEMBER(dice, double, dials.dice)
+MEMBER(harmonics, int, dials.harmonics)
+MEMBER(gloss, double, dials.gloss)
 MEMBER(heights, WrHeights, dials.heights)
 MEMBER(shading, WrShading, dials.shading)
 MEMBER(arithmetic, WrArithmetic, dials.arithmetic)
@@ -119,9 +126,9 @@ static bool with_mesh(const WrScene *scene)
     return wr_surfaces[scene->shape.kind]->inversion == WR_INVERT_MESH;
 }
 
-static bool with_dice(const WrScene *scene)
+static bool with_surroundings(const WrScene *scene)
 {
-    return scene->displaced && !wr_surfaces[scene->shape.kind]->held;
+    return scene->environment.light != NULL;
 }
 
 /* ---- the table ---- */
@@ -130,8 +137,9 @@ static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
 static const double contrast_rungs[] = { 0.05, 0.02, 0.005, 0.002, 0.0005, NAN };
 static const double mesh_rungs[] = { -2, -1, 0, 1, NAN };
 static const double newton_rungs[] = { 0, 1, 2, 3, NAN };
+static const double harmonic_rungs[] = { 0, 1, 2, NAN };
+static const double gloss_rungs[] = { 8, 16, 32, 64, NAN };
 static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
-static const double dice_rungs[] = { 1, 0.5, 0.25, NAN };
 
 #define CHOICES(name, count_) .choices = (count_), .choice = name##_name
 #define MEMBERS(name) .get = get_##name, .set = set_##name
@@ -185,10 +193,14 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                  "a step shorter than so many texels; 0: never before its last",
                                  .low = 0, .high = 16, MEMBERS(texels), .matters = with_mesh,
                                  .rungs = texel_rungs },
-    [WR_ROW(WR_DIAL_DICE)] = { "dice", "dials", WR_AXIS_VISIBILITY, "Facets",
-                               "pixels; so near are a displaced surface's facets to it",
-                               .low = 0.0625, .high = 16, MEMBERS(dice), .matters = with_dice,
-                               .rungs = dice_rungs },
+    [WR_ROW(WR_DIAL_HARMONICS)] = { "harmonics", "dials", WR_AXIS_LIGHT, "Diffuse light",
+                                    "of surroundings, by harmonics up to this order", .low = 0,
+                                    .high = 2, .whole = true, MEMBERS(harmonics),
+                                    .matters = with_surroundings, .rungs = harmonic_rungs },
+    [WR_ROW(WR_DIAL_GLOSS)] = { "gloss", "dials", WR_AXIS_LIGHT, "Reflections",
+                                "texels over the width of what surroundings are blurred by",
+                                .low = 4, .high = 128, MEMBERS(gloss), .matters = with_surroundings,
+                                .rungs = gloss_rungs },
     [WR_ROW(WR_DIAL_HEIGHTS)] = { "heights", "dials", WR_AXIS_ARITHMETIC, "Heights",
                                   "what a height is stored as when it is looked up",
                                   CHOICES(heights, WR_HEIGHTS_COUNT), MEMBERS(heights),

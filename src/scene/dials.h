@@ -93,7 +93,7 @@ typedef enum WrArithmetic {
     WR_ARITHMETIC_COUNT
 } WrArithmetic;
 
-/* Zero but for samples, newton, heights is not the default: see wr_dials_default. */
+/* Zero is not the default of all: see wr_dials_default. */
 typedef struct WrDials {
     WrAntialias aa;
     int samples; /* supersample: K of K x K; adaptive: the most; 1..64 */
@@ -105,10 +105,11 @@ typedef struct WrDials {
     int mesh;        /* -4..4: curved surfaces' grid is 2^mesh times as fine each way */
     int newton;      /* most steps of the inversion, 0..8; -1: as many as the mesh calls for */
     double texels; /* the inversion stops where its step is shorter than so many texels; 0: never */
-    double dice;   /* pixels: so near are a displaced surface's facets to it; 1/16..16 */
     WrHeights heights;
     WrShading shading;
     WrArithmetic arithmetic;
+    int harmonics; /* order up to which diffuse light of surroundings is kept: 0..2 */
+    double gloss;  /* texels over the width of a lobe that surroundings are blurred by: 4..128 */
 } WrDials;
 
 WrDials wr_dials_default(void);
@@ -128,7 +129,8 @@ typedef enum WrDialId {
     WR_DIAL_MESH,
     WR_DIAL_NEWTON,
     WR_DIAL_TEXELS,
-    WR_DIAL_DICE,
+    WR_DIAL_HARMONICS,
+    WR_DIAL_GLOSS,
     WR_DIAL_HEIGHTS,
     WR_DIAL_SHADING,
     WR_DIAL_ARITHMETIC,
@@ -141,6 +143,7 @@ typedef enum WrAxis {
     WR_AXIS_NORMAL,
     WR_AXIS_ANTIALIASING,
     WR_AXIS_VISIBILITY,
+    WR_AXIS_LIGHT,
     WR_AXIS_ARITHMETIC,
     WR_AXIS_COUNT
 } WrAxis;

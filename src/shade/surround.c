@@ -198,7 +198,7 @@ static bool find_light(WrSurround *s, WrError *err)
 }
 
 /* k, b and Q of one colour in the picture's directions. */
-static void world_form(const double l[WR_HARMONICS][3], int c, double *k, double b[3], double q[9])
+static void world_form(double l[WR_HARMONICS][3], int c, double *k, double b[3], double q[9])
 {
     const double k0 = 0.5 / sqrt(WR_PI), k1 = sqrt(3 / (4 * WR_PI)), k2 = 0.5 * sqrt(15 / WR_PI);
     const double k20 = 0.25 * sqrt(5 / WR_PI), k22 = 0.5 * k2, one = 2.0 / 3, two = 0.25;
@@ -219,12 +219,14 @@ static double turned(const double a[9], const double q[9], int r, int s)
     return sum;
 }
 
-void wr_surround_form(const WrSurround *surround, const double a[9], double strength,
+void wr_surround_form(const WrSurround *surround, const double a[9], double strength, int order,
                       double out[3][WR_FORM_TERMS])
 {
+    double l[WR_HARMONICS][3] = { { 0 } };
+    memcpy(l, surround->harmonic, (size_t)((order + 1) * (order + 1)) * sizeof *l);
     for (int c = 0; c < 3; c++) {
         double k, b[3], q[9], *f = out[c];
-        world_form(surround->harmonic, c, &k, b, q);
+        world_form(l, c, &k, b, q);
         f[0] = k;
         for (int r = 0; r < 3; r++) {
             f[1 + r] = a[r] * b[0] + a[3 + r] * b[1] + a[6 + r] * b[2];

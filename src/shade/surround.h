@@ -65,6 +65,6 @@ void wr_surround_turn(double turn_deg, double out[9]);
 #define WR_FORM_TERMS 10
 /* Diffuse light over pi, as a lamp's n.l: E / pi = k + b n + n Q n, by Lambert's cosine (Ramamoorthi, Hanrahan 2001), as
    k, bx by bz, Qxx Qyy Qzz, 2Qxy 2Qyz 2Qxz for each colour. axes: row-major, what n is of -> the picture's directions.
-   Of surroundings that are nowhere below 0 it is off by -19/480 to 3/32 of the integral of L at most, and may be below 0. */
-void wr_surround_form(const WrSurround *surround, const double axes[9], double strength,
+   order: 0, 1 or 2: what is beyond it is left out. Of surroundings that are nowhere below 0 it is off by -19/480 to 3/32 of the integral of L at most, and may be below 0. */
+void wr_surround_form(const WrSurround *surround, const double axes[9], double strength, int order,
                       double out[3][WR_FORM_TERMS]);

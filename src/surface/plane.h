@@ -1,5 +1,5 @@
 /* plane.h - the flat patch: P = (a u, b v, 0), N = (0, 0, ab).
-   Blinn's N' is exact on it, whatever F. */
+   Blinn's N' is exact on it, whatever F. Endless, u and v are any numbers: it reaches to the horizon. */
 
 R_INLINE void FN(plane_at)(const SHAPE *s, int face, REAL u, REAL v, POINT *o)
 {
@@ -27,7 +27,16 @@ static const WrSurfaceInfo plane_row = {
     .label = "Plane",
     .help = "a flat rectangle, a wide and b high, facing the viewer",
     .params = { { "a", 1, { 1 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "width" },
-                { "b", 1, { 1 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "height" } },
+                { "b", 1, { 1 }, WR_LENGTH_MIN, WR_LENGTH_MAX, true, "height" },
+                { "endless",
+                  1,
+                  { 0 },
+                  0,
+                  1,
+                  false,
+                  "1: it goes on beyond its sides, to the horizon",
+                  { "Ends at its sides", "Goes on to the horizon" } } },
+    .endless = true,
     .centre_half_ab = true,
     .open = true,
     .faces = 1,

@@ -152,6 +152,11 @@ WrSurfaceCell wr_surface_cell(const WrShape *shape, int face)
     return (WrSurfaceCell){ 0, 1, 0, 1 };
 }
 
+bool wr_shape_endless(const WrShape *shape)
+{
+    return wr_surfaces[shape->kind]->endless && shape->value[2] > 0.5;
+}
+
 void wr_surface_cells(const WrShape *shape, int *columns, int *rows)
 {
     const double part = 1 - 2 * WR_CELL_MARGIN;

@@ -116,7 +116,8 @@ typedef struct WrSurfaceInfo {
     int faces;                  /* 1; cube 6, each with its own (u,v) */
     bool flat;                  /* shape operator 0 everywhere: blinn is exact */
     bool unit_sized;            /* fixed size (curl): not rescaled by the renderer */
-    bool convex_closed;         /* a closed convex body: front faces hide all else */
+    bool endless; /* may go on beyond 0..1, where its value after a and b is above 0 (plane) */
+    bool convex_closed; /* a closed convex body: front faces hide all else */
     bool held; /* a mesh: its places, and whether it is closed, are the scene's triangles' */
     WrInversion inversion;
     /* The point and all derivatives, in double. face is 0..faces-1. */
@@ -144,6 +145,9 @@ WrVec3 wr_shape_centre(const WrShape *shape);
    point at the centre (a patch whose points are all equal). */
 double wr_shape_radius(const WrShape *shape);
 WrSurfaceCell wr_surface_cell(const WrShape *shape, int face);
+/* Does it go on beyond u, v 0..1, as far as WR_ENDLESS either way? Beyond that float knows no place within the table. */
+bool wr_shape_endless(const WrShape *shape);
+#define WR_ENDLESS 0x1p20
 /* How many cells lie beside and above one another, where each face has one of its own; else 1, 1. */
 void wr_surface_cells(const WrShape *shape, int *columns, int *rows);
 /* The face whose cell holds (u,v), within its margin; `face` where all have the same. */

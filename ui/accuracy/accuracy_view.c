@@ -41,7 +41,7 @@ void wr_accuracy_show(WrApp *app, WrPatchLook look)
     a->look = look;
     a->look_of = 0;
     a->flicker_since = wr_clock_seconds();
-    app->patch->ran = look == WR_PATCH_RAN;
+    app->patch->look.ran = look == WR_PATCH_RAN;
     if (look != WR_PATCH_PLAIN && look != WR_PATCH_RAN)
         app->settings->turning = false; /* what is compared must stand still */
     wr_app_redraw(app);

@@ -25,8 +25,8 @@
 #define PLOT_UNITS 210 /* its height */
 #define REACH_UNITS 12 /* from the pointer to a point */
 
-static const WrColour axis_colours[] = { 0xff4a8fdcu, 0xffe8a25cu, 0xff4fb39au,
-                                         0xffb191d6u, 0xffd8c95cu, 0xffc4c4c4u };
+static const WrColour axis_colours[] = { 0xff4a8fdcu, 0xffe8a25cu, 0xff4fb39au, 0xffb191d6u,
+                                         0xffe07f8eu, 0xffd8c95cu, 0xffc4c4c4u };
 _Static_assert(WR_LENGTH(axis_colours) == WR_AXIS_COUNT + 1, "and one for several axes at once");
 
 typedef struct Plot {
@@ -205,8 +205,8 @@ static void tell(const WrAccuracy *a, int present, bool old)
 
 static void legend(void)
 {
-    static const char *const labels[] = { "slopes",     "normal",     "antialiasing",
-                                          "visibility", "arithmetic", "several" };
+    static const char *const labels[] = { "slopes", "normal",     "antialiasing", "visibility",
+                                          "light",  "arithmetic", "several" };
     _Static_assert(WR_LENGTH(labels) == WR_AXIS_COUNT + 1, "a label for each colour");
     const double s = wr_gui_scale(), line = wr_gui_line_height(WR_FONT_SMALL),
                  from = wr_gui_place();

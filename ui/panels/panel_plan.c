@@ -3,6 +3,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/panels/panels.h"
+#include "ui/patch/patch.h"
 #include "ui/preview/preview.h"
 
 #include "base/rows.h"
@@ -10,18 +11,39 @@
 
 #include <stdio.h>
 
-static void effect(const WrPlanRow *e)
+/* The eye of a row: the picture without that effect, or with it; again: as the plan has it. */
+static void eye(WrApp *app, int effect, bool runs)
+{
+    WrPreviewLook *look = &app->patch->look;
+    const bool forced = look->force && (int)look->effect == effect;
+    wr_gui_push_id(effect);
+    if (wr_gui_icon_button("eye", runs ? WR_ICON_EYE : WR_ICON_EYE_OFF, 18, forced)) {
+        look->effect = (WrEffect)effect;
+        look->force = forced ? WR_FORCE_NONE : runs ? WR_FORCE_OFF : WR_FORCE_ON;
+    }
+    wr_gui_pop_id();
+    wr_gui_tip(forced ? "As the plan has it again"
+               : runs ? "The picture without it, to compare; a click again brings it back"
+                      : "The picture with it, to compare");
+    wr_gui_same_line(6);
+}
+
+/* Whether a picture can be had both ways. */
+static bool has_eye(const WrPlanRow *row, const WrEffectInfo *info)
+{
+    return row->verdict != WR_VERDICT_NONE && !(row->run && info->only_way);
+}
+
+static void effect(WrApp *app, int i, const WrPlanRow *e)
 {
     WR_ROWS(proofs);
     static const char *const proofs[] = { [WR_ROW(WR_PROOF_IDENTICAL)] = "same bits",
                                           [WR_ROW(WR_PROOF_BOUNDED)] = "bounded",
                                           [WR_ROW(WR_PROOF_POLICY)] = "by choice" };
     WR_ROWS_END(proofs, WR_PROOF_COUNT);
-    char text[96];
+    char text[240];
+    if (has_eye(e, &wr_effects[i])) eye(app, i, e->run);
     wr_gui_text(WR_FONT_TEXT, e->run ? WR_COLOUR_STRONG : 0xff868686u, e->name);
-    wr_gui_same_line(8);
-    snprintf(text, sizeof text, "%s, %s", e->rule, e->run ? "runs" : proofs[e->proof]);
-    wr_gui_text(WR_FONT_SMALL, e->run ? WR_COLOUR_ACCENT : 0xff868686u, text);
     if (e->run && e->ns_per_pixel > 0.0) {
         snprintf(text, sizeof text, "%.3g ns", e->ns_per_pixel);
         wr_gui_same_line(8);
@@ -30,8 +52,17 @@ static void effect(const WrPlanRow *e)
         wr_gui_tip("Nanoseconds a pixel, measured in the last picture");
     }
     wr_gui_space(-6);
-    wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : 0xff767676u, e->reason);
+    if (e->run) snprintf(text, sizeof text, "%s: %s", e->rule, e->reason);
+    else snprintf(text, sizeof text, "%s, %s: %s", e->rule, proofs[e->proof], e->reason);
+    wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : 0xff767676u, text);
     wr_gui_space(4);
+}
+
+/* Among those that run? One that is looked at both ways stays where it was, under the pointer. */
+static bool belongs(const WrApp *app, int effect, bool runs)
+{
+    const WrPreviewLook *look = &app->patch->look;
+    return look->force && (int)look->effect == effect ? look->force == WR_FORCE_OFF : runs;
 }
 
 void wr_panel_plan(WrApp *app)
@@ -48,7 +79,8 @@ void wr_panel_plan(WrApp *app)
         wr_gui_heading(pass == 0 ? "RUNS" : "LEFT OUT");
         wr_gui_space(2);
         for (int i = 0; i < WR_EFFECT_COUNT; i++)
-            if (picture->plan.rows[i].run == (pass == 0)) effect(&picture->plan.rows[i]);
+            if (belongs(app, i, picture->plan.rows[i].run) == (pass == 0))
+                effect(app, i, &picture->plan.rows[i]);
         wr_gui_space(8);
     }
 }

@@ -15,10 +15,12 @@
 #include "ui/preview/preview.h"
 #include "ui/preview/rotation.h"
 #include "ui/tools/stroke_hand.h"
+#include "ui/views/overlay.h"
 
 #include "command/session.h"
 #include "document/document.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "field/field.h"
 #include "scene/backs.h"
 #include "scene/scene.h"
@@ -94,8 +96,7 @@ static bool differs(const WrApp *app)
     return !p->wished_field || wr_field_key(p->wished_field) != wr_field_key(wr_app_field(app)) ||
            other_tables(app) || p->wished_scene != wr_app_scene(app) ||
            p->wished_turn != p->turn_deg || p->wished_w != app->layout->patch.w ||
-           p->wished_h != app->layout->patch.h || p->wished_ran != p->ran ||
-           p->wished_marked != p->marked;
+           p->wished_h != app->layout->patch.h || !wr_preview_look_same(&p->wished_look, &p->look);
 }
 
 /* Only the table differs from what a resting, finished picture shows (or is being refreshed to show): the
@@ -105,8 +106,8 @@ static bool only_edited(const WrApp *app)
     const WrPatch *p = app->patch;
     return p->wished_field && !p->wished_moving && p->wished_scene == wr_app_scene(app) &&
            p->wished_turn == p->turn_deg && p->wished_w == app->layout->patch.w &&
-           p->wished_h == app->layout->patch.h && p->wished_ran == p->ran &&
-           p->wished_marked == p->marked && (p->refreshing || wr_preview_settled(app->preview));
+           p->wished_h == app->layout->patch.h && wr_preview_look_same(&p->wished_look, &p->look) &&
+           (p->refreshing || wr_preview_settled(app->preview));
 }
 
 static void wish(WrApp *app, bool moving)
@@ -124,8 +125,7 @@ static void wish(WrApp *app, bool moving)
                         .chosen = moving ? NULL : wr_session_chosen(app->session),
                         .moving = moving,
                         .painting = is_painted(app),
-                        .ran = p->ran,
-                        .marked = p->marked };
+                        .look = p->look };
     wr_preview_want(app->preview, &w);
     wr_field_free(p->wished_field);
     wr_tables_free(p->wished_tables);
@@ -138,8 +138,7 @@ static void wish(WrApp *app, bool moving)
     p->wished_h = room->h;
     p->wished_moving = moving;
     p->wished_painted = is_painted(app);
-    p->wished_ran = p->ran;
-    p->wished_marked = p->marked;
+    p->wished_look = p->look;
     p->outstanding = moving;
     p->refreshing = false;
     p->wished_at = wr_clock_seconds();
@@ -290,6 +289,20 @@ static void draw_ring(const WrApp *app, const WrPreviewPicture *picture)
                         2.0 * s);
 }
 
+/* That an effect was left out by hand, or added, is not to be forgotten. */
+static void draw_look(const WrApp *app)
+{
+    const WrPreviewLook *look = &app->patch->look;
+    const SDL_Rect *room = &app->layout->patch;
+    WrText text = { 0 };
+    if (!look->force) return;
+    wr_text_addf(&text, "%s: %s", look->force == WR_FORCE_OFF ? "without" : "with",
+                 wr_effects[look->effect].name);
+    wr_overlay_label(room->x + room->w / 2.0, room->y + room->h - 24.0 * wr_gui_scale(),
+                     wr_text_get(&text));
+    wr_text_fini(&text);
+}
+
 void wr_patch_overlay(WrApp *app)
 {
     const SDL_Rect *room = &app->layout->patch;
@@ -298,6 +311,7 @@ void wr_patch_overlay(WrApp *app)
     wr_patch_draw_lights(app);
     wr_patch_handles_draw(app);
     draw_ring(app, wr_preview_picture(app->preview));
+    draw_look(app);
     wr_gui_draw_unclip();
     int gap = wr_gui_px(12);
     if (room->w <= wr_gui_px(140)) return;

@@ -3,6 +3,7 @@
 #include "ui/desk/desk.h"
 #include "ui/desk/roster.h"
 #include "ui/patch/patch_objects.h"
+#include "ui/preview/preview.h"
 #include "ui/preview/rotation.h"
 
 #include "document/tables.h"
@@ -32,9 +33,8 @@ typedef struct WrPatch {
     WrScene *wished_scene;
     double wished_turn;
     int wished_w, wished_h;
-    bool wished_moving, wished_painted, wished_ran, wished_marked;
-    bool ran;         /* it shows where each effect ran */
-    bool marked;      /* pixels that are full in some colour are striped */
+    bool wished_moving, wished_painted;
+    WrPreviewLook look, wished_look;
     double clipped;   /* their share of the picture that is shown */
     bool refreshing;  /* sharp pictures are being brought up to date by an edit */
     bool outstanding; /* a moving picture was wished for and has not come */

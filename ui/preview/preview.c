@@ -1,7 +1,6 @@
 #include "ui/preview/preview.h"
 #include "ui/preview/accuracy_choice.h"
-#include "ui/preview/chequer.h"
-#include "ui/preview/clipped.h"
+#include "ui/preview/picture_put.h"
 #include "ui/preview/picture_ran.h"
 #include "ui/jobs/thread.h"
 
@@ -37,7 +36,8 @@ typedef struct Wish {
     int width, height;
     int64_t tag;
     char *chosen; /* owned */
-    bool moving, painting, ran, marked;
+    bool moving, painting;
+    WrPreviewLook look;
 } Wish;
 
 struct WrPreview {
@@ -240,25 +240,22 @@ static bool render(WrPreview *preview, WrRenderer *renderer, WrPool *pool, WrPre
                                .cancel = &preview->cancel };
     request.codes =
         wr_frame_codes_of(wish->scene, wish->scene->background.kind != WR_BACKGROUND_NONE);
+    WrForce force[WR_EFFECT_COUNT] = { 0 };
+    force[wish->look.effect] = wish->look.force;
+    if (wish->look.force) request.force = force;
     WrFrame frame;
     WrPreviewPicture *out = preview->work;
     out->chosen.any = false;
     wr_free(out->kept);
     out->kept = NULL;
-    out->ran = wish->ran;
-    if (wish->ran && !wr_picture_ran_bring(&preview->ran, &request, err)) return false;
+    out->ran = wish->look.ran;
+    if (wish->look.ran && !wr_picture_ran_bring(&preview->ran, &request, err)) return false;
     bool good = level == WR_PREVIEW_FINAL && has_tolerance(wish)
                     ? by_tolerance(preview, &request, out, &frame, err)
                     : wr_renderer_frame(renderer, &request, &frame, err);
     if (!good) return false;
     if (!make_room(out, frame.width, frame.height, err)) return false;
-    if (wish->ran) wr_picture_ran_show(&preview->ran, out);
-    else if (frame.codes)
-        memcpy(out->bgra, frame.codes, 4 * (size_t)frame.width * (size_t)frame.height);
-    else wr_frame_to_srgb8(&frame, &request.codes, true, out->bgra, pool);
-    if (!wish->ran && !request.codes.wanted && frame.rgba)
-        wr_chequer_behind(&frame, &wish->scene->tone, scale, (uint8_t *)out->bgra);
-    out->clipped = wish->ran ? 0 : wr_clipped(out->bgra, out->width, out->height, wish->marked);
+    wr_picture_put(out, &frame, &request, &wish->look, scale, &preview->ran, pool);
     out->level = level;
     out->way = way;
     out->scale = scale;
@@ -295,7 +292,7 @@ static bool only_edited(const WrPreview *preview)
 {
     const Wish *now = &preview->now, *next = &preview->next;
     return now->field && preview->level > WR_PREVIEW_MOVING && !next->moving && !now->moving &&
-           now->ran == next->ran && now->marked == next->marked && now->scene == next->scene &&
+           wr_preview_look_same(&now->look, &next->look) && now->scene == next->scene &&
            now->turn_deg == next->turn_deg && now->width == next->width &&
            now->height == next->height;
 }
@@ -430,8 +427,7 @@ void wr_preview_want(WrPreview *preview, const WrPreviewWish *wish)
                             .chosen = wish->chosen ? wr_strdup(wish->chosen) : NULL,
                             .moving = wish->moving,
                             .painting = wish->painting,
-                            .ran = wish->ran,
-                            .marked = wish->marked };
+                            .look = wish->look };
     /* A moving picture is done in a moment; a sharp one would hold up the new wish. */
     if (!preview->now.moving) __atomic_store_n(&preview->cancel, 1, __ATOMIC_RELAXED);
     preview->settled = false;

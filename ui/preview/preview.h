@@ -38,6 +38,15 @@ WrPreview *wr_preview_new(int threads, const char *isa, Uint32 ready_event);
 /* Stops the thread, cancelling what it does. NULL is fine. */
 void wr_preview_free(WrPreview *preview);
 
+/* How a picture is shown, besides what the scene says. */
+typedef struct WrPreviewLook {
+    bool ran;        /* where each effect ran, in false colours, instead */
+    bool marked;     /* pixels that are full in some colour are striped */
+    WrForce force;   /* one effect is left out, or run though it need not: before and after */
+    WrEffect effect; /* which; of no meaning without force */
+} WrPreviewLook;
+bool wr_preview_look_same(const WrPreviewLook *a, const WrPreviewLook *b);
+
 typedef struct WrPreviewWish {
     const WrField *field; /* shared by the call, as is the scene */
     const WrScene *scene;
@@ -48,9 +57,8 @@ typedef struct WrPreviewWish {
     const char *
         chosen; /* the dials that the document keeps for its tolerance; NULL: none; copied by the call */
     bool painting; /* edits follow one another: be quick rather than fine, and do not refine yet */
-    bool ran;      /* show where each effect ran, in false colours, instead */
-    bool marked;   /* stripe pixels that are full in some colour */
-    bool moving;   /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
+    WrPreviewLook look;
+    bool moving; /* more wishes will follow at once: do not go beyond WR_PREVIEW_MOVING */
 } WrPreviewWish;
 
 /* Replace the wish. A sharp picture under way for an older one is given up. */

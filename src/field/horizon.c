@@ -1,0 +1,248 @@
+#include "field/horizon.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+
+#include <limits.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#define PI 3.14159265358979323846
+#define FINEST 256 /* steps of a line once round the table, at least */
+#define AHEAD                                                                                      \
+    131072 /* samples that a line looks ahead, at most: no longer ones are swept at once */
+
+/* ---- one line ------------------------------------------------------------------------------------ */
+
+/* Heights at 0 .. n + ahead - 1, slopes of the first n; hull: [n + ahead]. */
+static void sweep(const double *heights, int n, int ahead, double *slope, int *hull)
+{
+    int top = 0;
+    for (int i = n + ahead - 1; i >= 0; i--) {
+        double best = 0;
+        while (top > 0) {
+            best = (heights[hull[top - 1]] - heights[i]) / (hull[top - 1] - i);
+            if (top == 1) break;
+            const int next = hull[top - 2];
+            if ((heights[next] - heights[i]) / (next - i) < best) break;
+            top--;
+        }
+        if (i < n) slope[i] = best > 0 ? best : 0;
+        hull[top++] = i;
+    }
+}
+
+void wr_horizon_line(const double *heights, int n, double *slope, int *hull)
+{
+    double *twice = wr_alloc_unset(2 * (size_t)n, sizeof *twice);
+    for (int i = 0; i < 2 * n; i++) twice[i] = heights[i % n];
+    sweep(twice, n, n, slope, hull);
+    wr_free(twice);
+}
+
+/* ---- a table ------------------------------------------------------------------------------------- */
+
+/* One direction of a table: lines that advance by a texel along one axis, their own, while they drift along the other,
+   and so close in themselves after whole turns about the table. */
+typedef struct Course {
+    bool upright, back; /* their own axis is j; they run against it */
+    int along, across;  /* texels of both axes */
+    int turns;          /* about the own axis, after which they have drifted by whole texels ... */
+    int drift;          /* ... as many as these */
+    double step;        /* texels from sample to sample */
+} Course;
+
+typedef struct Making {
+    WrHorizon *horizon;
+    const float *heights;
+    double sign;
+    float steepest[WR_HORIZON_MOST];
+    bool failed[WR_HORIZON_MOST];
+} Making;
+
+static Course course_of(const WrHorizon *h, int direction)
+{
+    double x, y;
+    wr_horizon_direction(direction, h->directions, &x, &y);
+    const bool upright = fabs(y) > fabs(x);
+    const double own = upright ? y : x, other = upright ? x : y;
+    Course c = { .upright = upright, .back = own < 0 };
+    c.along = upright ? h->height : h->width;
+    c.across = upright ? h->width : h->height;
+    c.turns = (FINEST + c.along - 1) / c.along;
+    const double round = (double)c.turns * c.along;
+    c.drift = (int)lrint(round * other);
+    c.step = hypot(1, c.drift / round);
+    return c;
+}
+
+static int whole_mod(int64_t a, int n)
+{
+    const int left = (int)(a % n);
+    return left < 0 ? left + n : left;
+}
+
+static double texel(const Making *m, const Course *c, int along, int across)
+{
+    const int own = c->back ? c->along - 1 - along : along;
+    const int i = c->upright ? across : own, j = c->upright ? own : across;
+    return m->sign * (double)m->heights[(size_t)j * (size_t)m->horizon->width + (size_t)i];
+}
+
+/* Sample k of the line that starts in row `first` of the other axis. */
+static double sample(const Making *m, const Course *c, int first, int64_t k)
+{
+    const int64_t round = (int64_t)c->turns * c->along;
+    const double drifted = (double)(k % round) * c->drift / (double)round;
+    const double low = floor(drifted), part = drifted - low;
+    const int64_t at = first + (k / round) * c->drift + (int64_t)low;
+    const int along = (int)(k % c->along);
+    const double a = texel(m, c, along, whole_mod(at, c->across));
+    if (part == 0) return a;
+    return a + part * (texel(m, c, along, whole_mod(at + 1, c->across)) - a);
+}
+
+typedef struct Line {
+    double *heights, *slope;
+    int *hull;
+    float *sheared; /* [across][along], where the lines meet the first turn */
+} Line;
+
+/* One turn's slopes of the lines' first texels into the sheared table. */
+static void note(const Course *c, int first, int64_t k, int count, Line *line)
+{
+    const int64_t round = (int64_t)c->turns * c->along;
+    for (int i = 0; i < count; i++) {
+        const int64_t in = (k + i) % round;
+        if (in >= c->along) continue;
+        const int row = whole_mod(first + (k + i) / round * c->drift, c->across);
+        line->sheared[(size_t)row * (size_t)c->along + (size_t)in] =
+            (float)(line->slope[i] / c->step);
+    }
+}
+
+static int common(int a, int b)
+{
+    return b == 0 ? a : common(b, a % b);
+}
+
+/* A closed line, a piece at a time, each with one period, or as much as is looked ahead, after it. */
+static void run_line(const Making *m, const Course *c, int first, int64_t period, Line *line)
+{
+    const int ahead = period < AHEAD ? (int)period : AHEAD;
+    for (int64_t k = 0; k < period; k += ahead) {
+        const int count = period - k < ahead ? (int)(period - k) : ahead;
+        for (int i = 0; i < count + ahead; i++)
+            line->heights[i] = sample(m, c, first, (k + i) % period);
+        sweep(line->heights, count, ahead, line->slope, line->hull);
+        note(c, first, k, count, line);
+    }
+}
+
+/* The slopes at the texels, between the two lines beside each. */
+static void unshear(Making *m, const Course *c, int direction, const float *sheared)
+{
+    const WrHorizon *h = m->horizon;
+    const double rate = (double)c->drift / ((double)c->turns * c->along);
+    for (int along = 0; along < c->along; along++)
+        for (int across = 0; across < c->across; across++) {
+            const double at = across - along * rate, low = floor(at);
+            const int row = whole_mod((int64_t)low, c->across);
+            const int next = row + 1 < c->across ? row + 1 : 0;
+            const float a = sheared[(size_t)row * (size_t)c->along + (size_t)along];
+            const float b = sheared[(size_t)next * (size_t)c->along + (size_t)along];
+            const float slope = a + (float)(at - low) * (b - a);
+            const int own = c->back ? c->along - 1 - along : along;
+            const size_t i = (size_t)(c->upright ? across : own);
+            const size_t j = (size_t)(c->upright ? own : across);
+            h->slope[(j * (size_t)h->width + i) * (size_t)h->directions + (size_t)direction] =
+                slope;
+            m->steepest[direction] = fmaxf(m->steepest[direction], slope);
+        }
+}
+
+static bool hold_line(Line *line, const Course *c, int ahead)
+{
+    const char *what = "horizons of the table";
+    WrError err;
+    line->heights = wr_try_alloc(2 * (size_t)ahead, sizeof(double), what, &err);
+    line->slope = wr_try_alloc((size_t)ahead, sizeof(double), what, &err);
+    line->hull = wr_try_alloc(2 * (size_t)ahead, sizeof(int), what, &err);
+    line->sheared = wr_try_alloc((size_t)c->along * (size_t)c->across, sizeof(float), what, &err);
+    return line->heights && line->slope && line->hull && line->sheared;
+}
+
+static void run_direction(int direction, int worker, void *ctx)
+{
+    Making *m = ctx;
+    const Course c = course_of(m->horizon, direction);
+    const int lines = common(c.across, abs(c.drift) % c.across);
+    const int64_t period = (int64_t)c.turns * c.along * (c.across / lines);
+    const int ahead = period < AHEAD ? (int)period : AHEAD;
+    Line line;
+    (void)worker;
+    m->failed[direction] = !hold_line(&line, &c, ahead);
+    for (int first = 0; first < lines && !m->failed[direction]; first++)
+        run_line(m, &c, first, period, &line);
+    if (!m->failed[direction]) unshear(m, &c, direction, line.sheared);
+    wr_free(line.heights);
+    wr_free(line.slope);
+    wr_free(line.hull);
+    wr_free(line.sheared);
+}
+
+static bool make_all(Making *m, WrPool *pool, WrError *err)
+{
+    WrHorizon *h = m->horizon;
+    if (!wr_pool_run(pool, h->directions, run_direction, m))
+        return wr_fail(err, "horizons of the table: cancelled");
+    for (int k = 0; k < h->directions; k++) {
+        if (m->failed[k]) return wr_fail(err, "horizons of the table: not enough memory");
+        h->steepest = fmaxf(h->steepest, m->steepest[k]);
+    }
+    return true;
+}
+
+bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, double sign,
+                     WrPool *pool, WrError *err)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    const size_t texels = (size_t)w * (size_t)h;
+    float *heights = wr_try_alloc(texels, sizeof *heights, "horizons of the table", err);
+    wr_horizon_drop(horizon);
+    *horizon = (WrHorizon){ w, h, directions, NULL, 0 };
+    if (heights)
+        horizon->slope =
+            wr_try_alloc(texels * (size_t)directions, sizeof(float), "horizons of the table", err);
+    bool good = horizon->slope != NULL;
+    if (good) {
+        Making making = { .horizon = horizon, .heights = heights, .sign = sign };
+        wr_field_read(field, 0, 0, w, h, heights, (size_t)w);
+        good = make_all(&making, pool, err);
+    }
+    wr_free(heights);
+    if (!good) wr_horizon_drop(horizon);
+    return good;
+}
+
+void wr_horizon_drop(WrHorizon *horizon)
+{
+    wr_free(horizon->slope);
+    *horizon = (WrHorizon){ 0 };
+}
+
+/* ---- a sky --------------------------------------------------------------------------------------- */
+
+double wr_horizon_sky(const double *slope, int directions, const double n[3])
+{
+    double sum = 0;
+    for (int k = 0; k < directions; k++) {
+        const double phi = 2 * PI * k / directions, out = n[0] * cos(phi) + n[1] * sin(phi);
+        const double h = fmax(atan(slope[k]), atan2(-out, n[2]));
+        const double up = cos(h);
+        sum += n[2] * up * up / 2 + out * ((PI / 2 - h) / 2 - sin(2 * h) / 4);
+    }
+    return 2 * sum / directions;
+}

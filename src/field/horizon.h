@@ -1,0 +1,62 @@
+/* horizon.h - how high the relief stands about each of its points: what shadows and occludes it.
+   Layer 1. Slopes are heights over distances, both of the table: of table units over texels here. */
+#pragma once
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrError WrError;
+typedef struct WrField WrField;
+typedef struct WrPool WrPool;
+
+/* The horizon of a polyline through n >= 1 heights one step apart that repeats without end, seen along rising indices:
+ *   slope[i] = sup over t > 0 of (F(i + t) - F(i)) / t,
+ * 0 where nothing is higher. Exact at the samples: corners of the upper hull, swept from right to left over two periods,
+ * with as much work as samples. hull: scratch, [2 n] */
+void wr_horizon_line(const double *heights, int n, double *slope, int *hull);
+
+/* Of a table's directions, a multiple of 4. */
+#define WR_HORIZON_LEAST 4
+#define WR_HORIZON_MOST 64
+
+/* Direction k of a table's: x along rising i, y along rising j, the larger of them 1. They go round a square in equal
+ * steps, from x to y, so that lines meet texels evenly and no angle is asked for where one is looked up. */
+static inline void wr_horizon_direction(int k, int directions, double *x, double *y)
+{
+    const int side = (8 * k + directions) / (2 * directions) % 4;
+    const double t = 2 * (4.0 * k / directions - (side == 0 && 2 * k > directions ? 4 : side));
+    *x = side == 0 ? 1 : side == 1 ? -t : side == 2 ? -1 : t;
+    *y = side == 0 ? t : side == 1 ? 1 : side == 2 ? -t : -1;
+}
+
+/* The horizon of a table that repeats on both axes: slope[(j * width + i) * directions + k] at the centre of texel (i, j)
+ * in direction k. Zero-initialise; drop frees. */
+typedef struct WrHorizon {
+    int width, height, directions;
+    float *slope; /* owned */
+    float steepest;
+} WrHorizon;
+
+/* Heights are times `sign`, 1 or -1, first: what looks up where the relief stands inside out.
+ * Lines close in themselves: their directions are off by up to 1/512 radian, and of sides of whole
+ * sixteenths by nothing. What lies between rows is interpolated: slopes are right to the square of a texel.
+ * Errors: no memory. */
+bool wr_horizon_make(WrHorizon *horizon, const WrField *field, int directions, double sign,
+                     WrPool *pool, WrError *err);
+void wr_horizon_drop(WrHorizon *horizon);
+
+/* The share that is seen of a round lamp of angular radius a, whose middle stands at an elevation over a straight horizon:
+ * 1/2 + (x sqrt(1 - x^2) + asin x) / pi with x = (elevation - horizon) / a. Of radius 0: 1 above it or on it, else 0. */
+static inline double wr_horizon_lamp(double elevation, double horizon, double a)
+{
+    const double over = elevation - horizon;
+    if (!(fabs(over) < a)) return over >= 0 ? 1 : 0;
+    const double x = over / a;
+    return 0.5 + (x * sqrt(1 - x * x) + asin(x)) / 3.14159265358979323846;
+}
+
+/* The share of the light of a whole sky that reaches a point whose unit normal is n, z up:
+ *   1/pi sum of dphi (n_z cos^2 h / 2 + n_phi ((pi/2 - h)/2 - sin 2h / 4)),   n_phi = n . (cos phi, sin phi),
+ * h the higher of horizon and surface, of `directions` slopes at equal steps of phi from x to y. 1 where nothing stands
+ * above the surface's own plane, and that is level. */
+double wr_horizon_sky(const double *slope, int directions, const double n[3]);
