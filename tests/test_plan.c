@@ -112,6 +112,11 @@ static void invariant_square(Stage *stage)
     take_surface(stage, "plane");
 }
 
+static void displaced(Stage *stage)
+{
+    stage->scene->displaced = true;
+}
+
 static void exact(Stage *stage)
 {
     stage->scene->bump = WR_BUMP_EXACT;
@@ -498,6 +503,7 @@ static const Case cases[WR_EFFECT_COUNT] = {
                            { tinted_still, 0 },
                            { coloured, NOTHING },
                            { filtered, NOTHING } } },
+    [WR_EFFECT_DISPLACED] = { displaced, { { keep_all, NOTHING } } },
     [WR_EFFECT_BUMP] = { keep_all,
                          { { no_height, 0 },
                            { no_replication, 0 },

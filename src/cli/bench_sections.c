@@ -192,6 +192,11 @@ static void moments(WrScene *scene)
     scene->dials.aa = WR_AA_MOMENTS;
 }
 
+static void displaced(WrScene *scene)
+{
+    scene->displaced = true;
+}
+
 static void smooth(WrScene *scene)
 {
     scene->bump = WR_BUMP_NONE;
@@ -287,6 +292,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
+    [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
     [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },

@@ -51,6 +51,7 @@ void wr_renderer_forget(WrRenderer *renderer)
     wr_frame_drop_tables(renderer);
     wr_frame_drop_meshes(renderer, NULL);
     wr_view_triangles_fini(&renderer->triangles);
+    wr_dice_fini(&renderer->dice);
     wr_triangles_free(renderer->square);
     renderer->square = NULL;
     wr_sight_fini(&renderer->sight);
@@ -212,6 +213,7 @@ WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request)
     };
     if (job.triangles)
         job.triangle_look = wr_frame_look_up(&renderer->triangles, renderer->view.scale);
+    job.dice = renderer->dice.triangles ? &renderer->dice : NULL;
     if (request && request->codes.wanted) want_codes(renderer, &request->codes, &job);
     if (request) job.normals = request->normals, job.map = request->map;
     wr_tile_size(job.samples, plan->sampling == WR_SAMPLING_ADAPTIVE, request && request->only,
@@ -253,6 +255,16 @@ static bool find_outside(WrRenderer *renderer, const WrFrameRequest *request, bo
     return same_view(renderer, request) ||
            wr_view_outside(request->scene, radius_of(renderer, &request->scene->shape),
                            request->turn_deg, request->width, request->height, outside, err);
+}
+
+/* Pixels that F could move a point of a surface that is displaced. */
+static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, double *rise,
+                      WrError *err)
+{
+    *rise = -1;
+    return !request->scene->displaced ||
+           wr_view_rise(request->scene, request->field, radius_of(renderer, &request->scene->shape),
+                        request->turn_deg, request->width, request->height, rise, err);
 }
 
 bool wr_frame_may_keep(const WrFrameRequest *request)
@@ -364,6 +376,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     ask.facts.normals = request->normals;
     ask.facts.among = renderer->among;
     if (!find_outside(renderer, request, &ask.facts.outside, err)) return false;
+    if (!find_rise(renderer, request, &ask.facts.rise, err)) return false;
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
     if (!wr_frame_prepare_maps(renderer, request, err)) return false;
     const bool stands = view_stands(renderer, request, &before, &ask);

@@ -2,6 +2,7 @@
    Layer 5, private to frame.c and its brothers, group.c. */
 #pragma once
 #include "render/coder.h"
+#include "render/dice.h"
 #include "render/frame.h"
 #include "render/keep.h"
 #include "render/mirror.h"
@@ -31,6 +32,7 @@ struct WrRenderer {
         *mesh;                 /* mesh: of the last frame; the others, of frames that hold */
     WrViewTriangles triangles; /* of a mesh out of a file */
     WrTriangles *square; /* what is shown of a scene whose mesh is not there; owned; or NULL */
+    WrDice dice;         /* of a displaced surface: what `triangles` has */
     WrTint tint;
     WrRelief relief;
     WrMirror mirror;

@@ -36,9 +36,24 @@ static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
 
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene)
 {
+    if (renderer->dice.triangles) return renderer->dice.triangles;
     if (scene->triangles) return scene->triangles;
     if (!renderer->square) renderer->square = wr_triangles_square();
     return renderer->square;
+}
+
+/* Of a displaced surface. What stands nearer than the base's ball is known to what compares several objects. */
+static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const WrPlan *plan = &renderer->plan;
+    WrView *view = &renderer->view;
+    wr_dice_fini(&renderer->dice);
+    if (!wr_plan_runs(plan, WR_EFFECT_DISPLACED)) return true;
+    if (!wr_dice_make(&renderer->dice, request->scene, renderer->looked, view, plan->dice,
+                      renderer->pool, err))
+        return false;
+    view->nearest -= renderer->dice.rise * request->scene->size;
+    return true;
 }
 
 static bool prepare_triangles(WrRenderer *renderer, const WrScene *scene, WrError *err)
@@ -69,7 +84,7 @@ bool wr_frame_prepare_meshes(WrRenderer *renderer, const WrFrameRequest *request
                              const WrKernels *kernels, WrError *err)
 {
     prepare_mesh(renderer, request, kernels);
-    return prepare_triangles(renderer, request->scene, err);
+    return prepare_dice(renderer, request, err) && prepare_triangles(renderer, request->scene, err);
 }
 
 bool wr_renderer_pick_triangle(WrRenderer *renderer, double x, double y, int32_t *triangle)

@@ -30,32 +30,21 @@ static bool runs(const WrTileJob *job, WrEffect effect)
     return wr_plan_runs(job->plan, effect);
 }
 
+/* Triangles that are the surface itself: its frame comes with the hit. */
+static bool met_whole(const WrTileJob *job)
+{
+    return job->triangles && !job->dice;
+}
+
 static void did(const Watch *watch, WrEffect effect)
 {
     wr_did(watch->scratch, effect);
 }
 
+#include "render/pipe_half_body.h"
 #include "render/pipe_look_body.h"
 #include "render/pipe_map_body.h"
 #include "system/clock.h"
-
-/* ---- half precision ------------------------------------------------------------------------------ */
-
-static void keep_half(REAL *x, int count)
-{
-#pragma omp simd
-    for (int i = 0; i < count; i++) x[i] = (REAL)wr_round_half((float)x[i]);
-}
-
-static void keep_half3(const WrTileJob *job, REAL *x, REAL *y, REAL *z, int count, Watch *watch)
-{
-    if (!runs(job, WR_EFFECT_HALF)) return;
-    keep_half(x, count);
-    keep_half(y, count);
-    keep_half(z, count);
-    did(watch, WR_EFFECT_HALF);
-    watch_lap(watch, WR_STAGE_HALF);
-}
 
 /* Is light worked out? */
 static bool lit(const WrSink *sink)
@@ -67,6 +56,7 @@ static bool lit(const WrSink *sink)
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"
 #include "render/pipe_depth_body.h"
+#include "render/pipe_displaced_body.h"
 
 /* Where on the surface each pixel lies, and how far its normal turns there. */
 static void bound_geometry(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
@@ -119,7 +109,8 @@ static void surface_strip(const WrTileJob *job, int face, bool level, const WrSi
                           Strip *strip, Watch *watch)
 {
     const WR_T(WrRound) *round = round_of(job);
-    if (job->triangles) return; /* all of it came with the hit */
+    if (job->dice) base_strip(job, face, strip, watch);
+    if (job->triangles) return; /* all of it came with the hit, or has come now */
     if (round && runs(job, WR_EFFECT_TANGENTS) && !level && !bends_at_once(job, sink)) {
         round->tangents(&VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
@@ -146,6 +137,7 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
         k->bend[job->plan->inversion](rays, &VIEWED(job->view, shape), strip);
         did(watch, WR_EFFECT_TANGENTS);
     } else k->bump[bump](rays, strip);
+    if (job->dice) face_viewer(job, rays, strip);
     scratch->ran |= normal_effects[bump] &
                     (runs(job, WR_EFFECT_BUMP) ? ~(WrEffects)0 : ~WR_EFFECT_BIT(WR_EFFECT_BUMP));
     watch_lap(watch, WR_STAGE_BUMP);
@@ -186,7 +178,7 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
 static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, const WrSink *sink,
                             Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
-    const int face = quad >= 0 ? job->view->quad_face[quad] : 0;
+    const int face = quad >= 0 ? job->view->quad_face[quad] : job->dice ? scratch->face : 0;
     unsigned spared = 0;
     if (runs(job, WR_EFFECT_PARAMETERS) && !job->triangles) {
         round_of(job)->params(&VIEWED(job->view, shape), strip);
@@ -366,8 +358,10 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
     Watch watch = watch_start(scratch);
     if (places->count == 0) return;
     if (job->triangles) {
-        meet_places(job, rays, tile, places, runs(job, WR_EFFECT_PARAMETERS), strip, &watch);
-        finish_strip(job, rays, -1, sink, scratch, &watch);
+        for (scratch->face = 0; scratch->face < faces_of(job); scratch->face++) {
+            meet_places(job, rays, tile, places, runs(job, WR_EFFECT_PARAMETERS), scratch, &watch);
+            finish_strip(job, rays, -1, sink, scratch, &watch);
+        }
         return;
     }
     if (job->mesh) {
@@ -432,8 +426,10 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     Watch watch = watch_start(scratch);
     const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
     if (job->triangles) {
-        meet_row(job, rays, tile, y, strip, &watch);
-        finish_strip(job, rays, -1, sink, scratch, &watch);
+        for (scratch->face = 0; scratch->face < faces_of(job); scratch->face++) {
+            meet_row(job, rays, tile, y, scratch, &watch);
+            finish_strip(job, rays, -1, sink, scratch, &watch);
+        }
         return;
     }
     if (job->mesh) {
@@ -472,7 +468,11 @@ static bool pick(const WrTileJob *job, int gx, int gy, WrTileScratch *scratch, d
     *face = 0;
     if (job->triangles) {
         WrDepthTile tile = wr_tile_depth(job, job->samples, gx, gy, 1, 1, scratch);
-        meet_places(job, rays, &tile, places, true, strip, &watch);
+        for (scratch->face = 0; scratch->face < faces_of(job) && strip->count == 0;
+             scratch->face++) {
+            meet_places(job, rays, &tile, places, true, scratch, &watch);
+            *face = scratch->face;
+        }
         if (strip->count > 0) scratch->picked = (int32_t)tile.u[0];
     } else if (job->mesh) {
         WrDepthTile tile = wr_tile_depth(job, job->samples, gx, gy, 1, 1, scratch);

@@ -180,7 +180,7 @@ static void look_filtered(const WrTileJob *job, const Rays *rays, Strip *strip,
 {
     const Kernels *k = KERNELS_OF(job);
     did(watch, WR_EFFECT_FILTER);
-    (job->triangles ? k->footprint_met : k->footprint)(rays, LOOK_OF(job), 1, strip);
+    (met_whole(job) ? k->footprint_met : k->footprint)(rays, LOOK_OF(job), 1, strip);
     k->spread(LOOK_OF(job), job->plan->anisotropic, strip);
     for (int i = 0; i < strip->count; i++) strip->suu[i] = strip->suv[i] = strip->svv[i] = 0;
     const int wide = count_wide(strip, scratch->wide_of);
@@ -259,7 +259,7 @@ static void look_tint(const WrTileJob *job, const Rays *rays, Strip *strip, WrTi
 {
     const Kernels *k = KERNELS_OF(job);
     did(watch, WR_EFFECT_TINT);
-    (job->triangles ? k->footprint_met : k->footprint)(rays, TINT_OF(job), 1, strip);
+    (met_whole(job) ? k->footprint_met : k->footprint)(rays, TINT_OF(job), 1, strip);
     k->spread(TINT_OF(job), job->plan->tint_anisotropic, strip);
     const int wide = count_wide(strip, scratch->tint_of);
     watch_lap(watch, WR_STAGE_TINT);

@@ -45,7 +45,7 @@ static void map_levels(const WrTileJob *job, const Rays *rays, Strip *strip)
     const Kernels *k = KERNELS_OF(job);
     const REAL last = (REAL)(MAP_OF(job)->pyramid->levels - 2);
     if (job->plan->map_filtered) {
-        (job->triangles ? k->footprint_met : k->footprint)(rays, MAP_OF(job), 1, strip);
+        (met_whole(job) ? k->footprint_met : k->footprint)(rays, MAP_OF(job), 1, strip);
         k->spread(MAP_OF(job), job->plan->map_anisotropic, strip);
     }
     for (int i = 0; i < strip->count; i++) {
@@ -158,7 +158,7 @@ static REAL slopes_per_gradient(const WrTileJob *job, const Strip *strip, int i,
     const VEC pu = along_u(strip, i);
     const VEC pv = along_v(strip, i);
     REAL k = (REAL)1;
-    if (job->triangles) { /* Pu and Pv are the gradients of v and u, laid across n; |N| is 1 */
+    if (met_whole(job)) { /* Pu and Pv are the gradients of v and u, laid across n; |N| is 1 */
         const REAL along = v_dot(n, v_cross(pu, pv)), size = length_of(pu) * length_of(pv);
         k = along > (REAL)1e-6 * size || -along > (REAL)1e-6 * size ? (REAL)1 / along : (REAL)0;
     }
@@ -191,7 +191,7 @@ static void turn_into_slopes(const WrTileJob *job, Strip *strip, int i)
     const bool object = frame == WR_FRAME_OBJECT;
     REAL p = strip->fu[i], q = strip->fv[i];
     Axes at = { zero, zero, n };
-    if (!object) at = job->triangles ? triangle_axes(job, strip, i) : patch_axes(frame, strip, i);
+    if (!object) at = met_whole(job) ? triangle_axes(job, strip, i) : patch_axes(frame, strip, i);
     if (!object && !(v_dot(at.t, at.t) > (REAL)0 && v_dot(at.b, at.b) > (REAL)0)) p = q = 0;
     VEC m = v_mad(v_mad(at.n, at.t, -p), at.b, -q);
     if (object) m = (VEC){ strip->fu[i], strip->fv[i], strip->f[i] };

@@ -35,6 +35,7 @@ typedef enum WrEffect {
     WR_EFFECT_COLOUR,
     WR_EFFECT_TINT,
     WR_EFFECT_NORMALS,
+    WR_EFFECT_DISPLACED,
     WR_EFFECT_BUMP,
     WR_EFFECT_GRADIENT,
     WR_EFFECT_WIDE,
@@ -170,7 +171,7 @@ typedef enum WrPrecision {
      anisotropic, tint_anisotropic    of several look-ups
      lean        by the whole covariance; else by its trace
      inversion   how rays meet the surface
-     mesh, newton, texels, spread, refine, contrast    as the dials of that name
+     mesh, newton, texels, dice, spread, refine, contrast    as the dials of that name
      heights     what they are rounded to
      harmonics, gloss    as the dials of that name */
 #define WR_PLAN_SETTINGS(X)                                                                        \
@@ -182,6 +183,7 @@ typedef enum WrPrecision {
     X(NORMALS, bool, map_filtered)                                                                 \
     X(NORMALS, bool, map_anisotropic)                                                              \
     X(NORMALS, WrNormalFrame, map_frame)                                                           \
+    X(DISPLACED, double, dice)                                                                     \
     X(BUMP, WrBumpMode, bump)                                                                      \
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \
@@ -241,6 +243,7 @@ typedef struct WrPlanFacts {
     bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
     bool sighted;    /* what the view's samples look at is known from the last picture */
     int among;       /* objects that are shown; 0 or 1: this one alone */
+    double rise;     /* pixels that F could move a point at most; below 0: not known */
     bool rests;    /* the last picture is kept, and was made by the same plan of the same request */
     double sloped; /* the share of the table's tiles that have a slope; below 0: not known */
 } WrPlanFacts;

@@ -22,7 +22,7 @@ static const char *no_bump(const WrPlan *plan, const WrPlanAsk *ask)
     if (!lit(plan, ask)) return "no light depends on the normal";
     if (scene->height == 0) return "height is 0";
     if (table && facts->zero) return "the table is 0 everywhere";
-    if (scene->bump == WR_BUMP_EXACT && !surface_of(ask)->flat) return NULL;
+    if (wr_plan_normal(plan, ask) == WR_BUMP_EXACT && !surface_of(ask)->flat) return NULL;
     if (still(scene)) return "replication is 0,0: F is constant";
     if (table && facts->flat) return "every texel of the table is equal";
     if (table && facts->slope_free) return "the scheme sees no slope anywhere in the table";
@@ -31,7 +31,8 @@ static const char *no_bump(const WrPlan *plan, const WrPlanAsk *ask)
 
 static WrVerdict decide_bump(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    if (ask->scene->bump == WR_BUMP_NONE) return say(WR_VERDICT_NONE, why, "bump mode is none");
+    if (wr_plan_normal(plan, ask) == WR_BUMP_NONE)
+        return say(WR_VERDICT_NONE, why, "bump mode is none");
     const char *reason = no_bump(plan, ask);
     if (reason) return say(WR_VERDICT_SPARED, why, reason);
     return say(WR_VERDICT_RUN, why, "the table has slopes and a light shows them");
@@ -68,16 +69,10 @@ static WrVerdict decide_wide(const WrPlan *plan, const WrPlanAsk *ask, const cha
                "replication of 1024 and more loses texels in single precision");
 }
 
-/* Is the mesh cut from patches? */
-static bool is_cut(const WrPlanAsk *ask)
-{
-    return ask->scene->triangles && ask->scene->triangles->patches;
-}
-
 static WrVerdict decide_invariant(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     const WrShape *shape = &ask->scene->shape;
-    if (ask->scene->bump != WR_BUMP_INVARIANT)
+    if (wr_plan_normal(plan, ask) != WR_BUMP_INVARIANT)
         return say(WR_VERDICT_NONE, why, "bump mode is not invariant");
     if (!runs(plan, WR_EFFECT_BUMP) && !runs(plan, WR_EFFECT_NORMALS))
         return say(WR_VERDICT_NONE, why, "bump does not run");
@@ -90,44 +85,6 @@ static void settle_invariant(WrPlan *plan, const WrPlanAsk *ask)
 {
     (void)ask;
     if (runs(plan, WR_EFFECT_INVARIANT)) plan->bump = WR_BUMP_INVARIANT;
-}
-
-static WrVerdict decide_exact(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    if (ask->scene->bump != WR_BUMP_EXACT)
-        return say(WR_VERDICT_NONE, why, "bump mode is not exact");
-    if (!runs(plan, WR_EFFECT_BUMP)) return say(WR_VERDICT_NONE, why, "bump does not run");
-    if (surface_of(ask)->held)
-        return say(WR_VERDICT_NONE, why,
-                   is_cut(ask) ? "on sets of patches blinn takes the exact normal's place"
-                               : "triangles are flat: blinn is exact on them for any F");
-    if (surface_of(ask)->flat)
-        return say(WR_VERDICT_SPARED, why, "the base is flat: blinn is exact there for any F");
-    return say(WR_VERDICT_RUN, why, "bump mode is exact and the base is curved");
-}
-
-static void settle_exact(WrPlan *plan, const WrPlanAsk *ask)
-{
-    (void)ask;
-    if (runs(plan, WR_EFFECT_EXACT)) plan->bump = WR_BUMP_EXACT;
-}
-
-static WrVerdict decide_curvature(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    if (surface_of(ask)->held)
-        return say(WR_VERDICT_NONE, why,
-                   is_cut(ask) ? "only the exact normal needs them"
-                               : "triangles are flat: there are none");
-    if (runs(plan, WR_EFFECT_EXACT))
-        return say(WR_VERDICT_RUN, why, "the exact normal needs how n turns");
-    return say(WR_VERDICT_SPARED, why, "only the exact normal needs them");
-}
-
-static void settle_curvature(WrPlan *plan, const WrPlanAsk *ask)
-{
-    plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) ||
-                    runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_TINT) ||
-                    runs(plan, WR_EFFECT_NORMALS);
 }
 
 /* ---- samples ---- */
@@ -188,6 +145,8 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
     if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
         return "no bound is known of light from surroundings: K x K everywhere";
     const WrInversion how = surface_of(ask)->inversion;
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return "no bound is known of a displaced surface: K x K everywhere";
     if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
         return "no bound is known on this surface: K x K everywhere";
     if (runs(plan, WR_EFFECT_COLOUR))
@@ -354,6 +313,12 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                     "the normal",
                                     STAGE(NORMALS), .spared = WR_RUN_DARK,
                                     .decide = wr_decide_normals, .settle = wr_settle_normals },
+    [WR_ROW(WR_EFFECT_DISPLACED)] = { "E50", "displacement", WR_PROOF_BOUNDED,
+                                      "half a pixel, of where a point of the surface is seen",
+                                      "the surface is not displaced, or F moves no point of it by "
+                                      "half a pixel: bump suffices",
+                                      0, .finer = true, .decide = wr_decide_displaced,
+                                      .settle = wr_settle_displaced },
     [WR_ROW(WR_EFFECT_BUMP)] = { "E6", "bump", WR_PROOF_IDENTICAL, NULL,
                                  "the mode is none; height or replication is 0; all texels are "
                                  "equal; the "
@@ -381,10 +346,12 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                   .settle = settle_invariant },
     [WR_ROW(WR_EFFECT_EXACT)] = { "E12", "exact normal", WR_PROOF_BOUNDED, "rounding of the normal",
                                   "the mode is not exact; on flat surfaces blinn is exact",
-                                  STAGE(BUMP), .decide = decide_exact, .settle = settle_exact },
+                                  STAGE(BUMP), .decide = wr_decide_exact,
+                                  .settle = wr_settle_exact },
     [WR_ROW(WR_EFFECT_CURVATURE)] = { "E13", "second derivatives", WR_PROOF_IDENTICAL, NULL,
                                       "E12 is left out", STAGE(CURVATURE), .only_way = true,
-                                      .decide = decide_curvature, .settle = settle_curvature },
+                                      .decide = wr_decide_curvature,
+                                      .settle = wr_settle_curvature },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
                                     "one sample a pixel was asked for", STAGE(RESOLVE),
                                     .decide = decide_samples, .settle = settle_samples },

@@ -20,7 +20,8 @@ static bool is_held(const WrPlanAsk *ask)
 
 WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    (void)plan;
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "a displaced surface may fold: its back can be seen");
     if (!is_closed(ask))
         return say(WR_VERDICT_RUN, why, "the surface is open: its back can be seen");
     if (!ask->facts.outside)
@@ -30,7 +31,8 @@ WrVerdict wr_decide_back(const WrPlan *plan, const WrPlanAsk *ask, const char **
 
 WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    (void)plan;
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "facets of the displaced surface hide others");
     if (surface_of(ask)->inversion != WR_INVERT_MESH && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
     if (ask->facts.sighted)
@@ -40,7 +42,8 @@ WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char *
 
 void wr_settle_depth(WrPlan *plan, const WrPlanAsk *ask)
 {
-    plan->inversion = surface_of(ask)->inversion;
+    plan->inversion =
+        runs(plan, WR_EFFECT_DISPLACED) ? WR_INVERT_TRIANGLES : surface_of(ask)->inversion;
     if (plan->inversion == WR_INVERT_MESH) plan->mesh = ask->dials->mesh;
 }
 
@@ -73,6 +76,8 @@ WrVerdict wr_decide_perspective(const WrPlan *plan, const WrPlanAsk *ask, const 
 /* Not under a bound, which looks at blocks of texels beyond those that the picture reads. */
 WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "an edit moves the displaced surface: facets are new");
     if (!ask->facts.rests || runs(plan, WR_EFFECT_BOUND))
         return say(WR_VERDICT_RUN, why, "a new picture: every tile is rendered");
     return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
@@ -89,6 +94,8 @@ static bool is_round(const WrPlanAsk *ask)
 
 WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_RUN, why, "the displaced surface's frame goes by them");
     if (!is_round(ask) && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
     if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR) ||
@@ -101,7 +108,7 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const c
 
 WrVerdict wr_decide_tangents(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
-    if (!is_round(ask) && !is_held(ask))
+    if (runs(plan, WR_EFFECT_DISPLACED) || (!is_round(ask) && !is_held(ask)))
         return say(WR_VERDICT_NONE, why, "the surface's formula gives them with the point");
     if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
     if (plan->bump != WR_BUMP_NONE || runs(plan, WR_EFFECT_FILTER))

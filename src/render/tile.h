@@ -11,6 +11,7 @@
 #include "render/plan.h"
 #include "render/sight.h"
 #include "render/surround.h"
+#include "render/dice.h"
 #include "render/triangles.h"
 
 #include <stdbool.h>
@@ -36,8 +37,9 @@ typedef struct WrTileJob {
         *sight; /* what the view's samples look at, or where that is noted; NULL: neither */
     const WrViewTriangles *triangles; /* a mesh out of a file; or NULL */
     WrTriangleLook triangle_look;
-    bool seen_before; /* it is known */
-    bool newton;      /* the mesh's parameters are made exact */
+    const WrDice *dice; /* of a displaced surface, what the triangles are; or NULL */
+    bool seen_before;   /* it is known */
+    bool newton;        /* the mesh's parameters are made exact */
     WrLook look;
     WrLookd look_double; /* where kernels_double looks */
     WrEffects looks;     /* what a look-up in the table does, by what it was given */
@@ -131,6 +133,7 @@ typedef struct WrTileScratch {
     double whole[WR_STAGE_COUNT];   /* of what is measured each time */
     double all;                     /* of all its tiles */
     int64_t covered, shaded;        /* pixels, samples */
+    int face;                       /* of a displaced surface: that the strip's samples lie on */
     int64_t met;   /* samples of the last tile that was refined that met something, however often */
     int64_t tiles; /* that held anything */
     int64_t not_finite;           /* numbers that were not finite, among codes */

@@ -181,7 +181,7 @@ bool wr_view_triangles_prepare(WrViewTriangles *to, const WrTriangles *source, c
                                bool blocks_apart, WrPool *pool, WrError *err)
 {
     Job job = { to, view, blocks_apart };
-    if (to->source != source) {
+    if (to->source != source || (blocks_apart && !to->coned)) {
         WrTriangles *shared = wr_triangles_share(source);
         wr_view_triangles_fini(to);
         to->source = shared;
@@ -189,7 +189,8 @@ bool wr_view_triangles_prepare(WrViewTriangles *to, const WrTriangles *source, c
             wr_view_triangles_fini(to);
             return false;
         }
-        wr_pool_run(pool, to->block_count, make_cone, to);
+        if (blocks_apart) wr_pool_run(pool, to->block_count, make_cone, to);
+        to->coned = blocks_apart;
         to->whole = false;
     }
     const WrViewSight sight = wr_view_sight(view);

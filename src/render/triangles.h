@@ -28,8 +28,8 @@ typedef struct WrViewTriangles {
     int32_t block_count, group_count;
     WrViewSight sight; /* what the rest was projected for */
     double scale;
-    bool cull, whole;
-    int32_t *sx, *sy; /* corners, projected, 1/256 samples */
+    bool cull, whole, coned; /* coned: the cones are made */
+    int32_t *sx, *sy;        /* corners, projected, 1/256 samples */
     float *close;
     unsigned char *out;               /* WrVertexPlace */
     WrViewMeshBlock *blocks, *groups; /* x0 > x1: nothing of it is seen */

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "field/field.h"
 #include "scene/scene.h"
 #include "base/vec.h"
 
@@ -338,6 +339,24 @@ static void scale_shape(const WrShape *shape, double scale, WrShape *out)
     for (int p = 0; p < WR_SURFACE_PARAMS && info->params[p].name; p++)
         for (int i = 0; i < info->params[p].components; i++, at++)
             out->value[at] = shape->value[at] * (info->params[p].length ? scale : 1.0);
+}
+
+bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, double turn_deg,
+                  int width, int height, double *rise, WrError *err)
+{
+    WrPlacement place;
+    float low, high;
+    *rise = -1;
+    if (!wr_scene_place_sized(scene, radius, turn_deg, (double)width / height, &place, err))
+        return false;
+    if (scene->analytic.kind != WR_ANALYTIC_OFF) return true;
+    wr_field_range(field, &low, &high);
+    const double most = fabs(scene->height) * fmax(fabs((double)low), fabs((double)high));
+    const double reach = (place.radius + most) * place.size;
+    const double depth = v3_dot(v3_sub(place.position, place.eye), place.forward) - reach;
+    const double per = height / (2 * place.half_height) / (place.orthographic ? 1 : depth);
+    if (place.orthographic || depth > 0) *rise = most * place.size * per;
+    return true;
 }
 
 bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,

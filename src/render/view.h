@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 typedef struct WrError WrError;
+typedef struct WrField WrField;
 typedef struct WrScene WrScene;
 
 /* The rays of a grid of k x k samples a pixel. */
@@ -58,6 +59,10 @@ typedef struct WrView {
    ones: it is farther than any of the object. radius: wr_shape_radius of the scene's. */
 bool wr_view_outside(const WrScene *scene, double radius, double turn_deg, int width, int height,
                      bool *outside, WrError *err);
+/* How many pixels F could move a point of the surface in the picture, at most: |F| f / z at the nearest that it can come
+   to; below 0: not known. */
+bool wr_view_rise(const WrScene *scene, const WrField *field, double radius, double turn_deg,
+                  int width, int height, double *rise, WrError *err);
 /* Fill a view, with what the plan says of samples, backs and perspective; all checks were made when the scene was accepted, so this fails only for a camera that
    cannot look (eye on target). Call fini even then. */
 bool wr_view_init(WrView *view, const WrScene *scene, double radius, const WrPlan *plan,

@@ -24,6 +24,7 @@ WrDials wr_dials_default(void)
     return (WrDials){ .samples = 4,
                       .contrast = 0.002,
                       .newton = -1,
+                      .dice = 0.5,
                       .heights = WR_HEIGHTS_FLOAT,
                       .harmonics = 2,
                       .gloss = 32 };
@@ -90,6 +91,7 @@ MEMBER(newton, int, dials.newton)
 MEMBER(texels, double, dials.texels)
 MEMBER(harmonics, int, dials.harmonics)
 MEMBER(gloss, double, dials.gloss)
+MEMBER(dice, double, dials.dice)
 MEMBER(heights, WrHeights, dials.heights)
 MEMBER(shading, WrShading, dials.shading)
 MEMBER(arithmetic, WrArithmetic, dials.arithmetic)
@@ -131,6 +133,11 @@ static bool with_surroundings(const WrScene *scene)
     return scene->environment.light != NULL;
 }
 
+static bool with_dice(const WrScene *scene)
+{
+    return scene->displaced && !wr_surfaces[scene->shape.kind]->held;
+}
+
 /* ---- the table ---- */
 
 static const double sample_rungs[] = { 2, 3, 4, 8, 16, NAN };
@@ -140,6 +147,7 @@ static const double newton_rungs[] = { 0, 1, 2, 3, NAN };
 static const double harmonic_rungs[] = { 0, 1, 2, NAN };
 static const double gloss_rungs[] = { 8, 16, 32, 64, NAN };
 static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
+static const double dice_rungs[] = { 1, 0.5, 0.25, NAN };
 
 #define CHOICES(name, count_) .choices = (count_), .choice = name##_name
 #define MEMBERS(name) .get = get_##name, .set = set_##name
@@ -201,6 +209,10 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                 "texels over the width of what surroundings are blurred by",
                                 .low = 4, .high = 128, MEMBERS(gloss), .matters = with_surroundings,
                                 .rungs = gloss_rungs },
+    [WR_ROW(WR_DIAL_DICE)] = { "dice", "dials", WR_AXIS_VISIBILITY, "Facets",
+                               "pixels; so near are a displaced surface's facets to it",
+                               .low = 0.0625, .high = 16, MEMBERS(dice), .matters = with_dice,
+                               .rungs = dice_rungs },
     [WR_ROW(WR_DIAL_HEIGHTS)] = { "heights", "dials", WR_AXIS_ARITHMETIC, "Heights",
                                   "what a height is stored as when it is looked up",
                                   CHOICES(heights, WR_HEIGHTS_COUNT), MEMBERS(heights),

@@ -27,6 +27,10 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                         .planned = true, .unit = "scene units", .label = "Height",
                                         .help = "displacement where the table is 1",
                                         SLIDER(0, 0.3, 4) },
+    [WR_ROW(WR_SCENE_PARAM_DISPLACED)] = { "bump", NULL, "displaced", IN_SCENE(displaced),
+                                           .planned = true, .sparse = true,
+                                           .help = "F moves the surface itself, with outlines; "
+                                                   "off: it turns the normal alone" },
     [WR_ROW(WR_SCENE_PARAM_REPLICATE)] = { "replicate", NULL, "ru,rv", .positional = true,
                                            .required = true, IN_SCENE(replicate_u), .components = 2,
                                            .low = -1e9, .high = 1e9, .fallback = { 1, 1 },

@@ -85,6 +85,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->bump = scene->bump;
     clone->scheme = scene->scheme;
     clone->height = scene->height;
+    clone->displaced = scene->displaced;
     clone->replicate_u = scene->replicate_u;
     clone->replicate_v = scene->replicate_v;
     clone->analytic = scene->analytic;
@@ -237,6 +238,26 @@ void wr_scene_height(const WrScene *scene, const WrField *field, double u, doubl
     if (f) *f = wr_slope_bounded(scene->height * value);
     if (fu) *fu = wr_slope_of(slope_u, scene->height, ru);
     if (fv) *fv = wr_slope_of(slope_v, scene->height, rv);
+}
+
+void wr_scene_heights(const WrScene *scene, const WrField *field, int count, const double *u,
+                      const double *v, double *f)
+{
+    double x[WR_HEIGHTS_RUN], y[WR_HEIGHTS_RUN];
+    const bool formula = scene->analytic.kind != WR_ANALYTIC_OFF;
+    for (int i = 0; i < count && formula; i++)
+        wr_scene_height(scene, field, u[i], v[i], &f[i], NULL, NULL);
+    for (int from = 0; from < count && !formula; from += WR_HEIGHTS_RUN) {
+        const int n = count - from < WR_HEIGHTS_RUN ? count - from : WR_HEIGHTS_RUN;
+        for (int i = 0; i < n; i++) {
+            x[i] = table_parameter(u[from + i], scene->replicate_u,
+                                   wr_field_wrap_u(field) == WR_WRAP_CLAMP);
+            y[i] = table_parameter(v[from + i], scene->replicate_v,
+                                   wr_field_wrap_v(field) == WR_WRAP_CLAMP);
+        }
+        wr_field_sample(field, scene->scheme, (size_t)n, x, y, f + from, NULL, NULL);
+        for (int i = from; i < from + n; i++) f[i] = wr_slope_bounded(scene->height * f[i]);
+    }
 }
 
 WrReflectance wr_scene_reflectance(const WrMaterial *m)

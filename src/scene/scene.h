@@ -98,7 +98,8 @@ struct WrScene {
     WrVec3 rotate_deg; /* about the world's x, then y, then z */
     WrBumpMode bump;
     WrScheme scheme;
-    double height; /* scene units per table unit; any finite value */
+    double height;  /* scene units per table unit; any finite value */
+    bool displaced; /* F moves the surface itself, P + F n; else its normal alone */
     double replicate_u, replicate_v;
     WrAnalytic analytic; /* replaces the table while its kind is not OFF; terms owned */
     WrMaterial material;
@@ -234,6 +235,10 @@ WrVec3 wr_place_dual_back(const WrPlacement *place, WrVec3 world);
  * finite, and carry the factors height, height ru, height rv. */
 void wr_scene_height(const WrScene *scene, const WrField *field, double u, double v, double *f,
                      double *fu, double *fv);
+/* F alone at `count` places, with the same bits. */
+#define WR_HEIGHTS_RUN 256
+void wr_scene_heights(const WrScene *scene, const WrField *field, int count, const double *u,
+                      const double *v, double *f);
 
 /* What a material's formulas go by. */
 void wr_scene_matter(const WrMaterial *material, WrMatter *matter);

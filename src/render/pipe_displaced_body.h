@@ -1,0 +1,48 @@
+/* pipe_displaced_body.h - the frame of a displaced surface where rays met its facets. A part of pipe_body.h. */
+
+/* Of a displaced surface: the base's frame at u and v; P stays where the ray met the facet. */
+static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watch)
+{
+    const size_t size = (size_t)strip->count * sizeof(REAL);
+    memcpy(strip->bx, strip->px, size);
+    memcpy(strip->by, strip->py, size);
+    memcpy(strip->bz, strip->pz, size);
+    KERNELS_OF(job)->geometry[job->view->shape_d.kind](&VIEWED(job->view, shape), face, strip);
+    memcpy(strip->px, strip->bx, size);
+    memcpy(strip->py, strip->by, size);
+    memcpy(strip->pz, strip->bz, size);
+    did(watch, WR_EFFECT_DISPLACED);
+    watch_lap(watch, WR_STAGE_GEOMETRY);
+}
+
+/* The facet's normal times its area, twice. */
+static void facet_of(const WrTriangleLook *look, int32_t triangle, REAL n[3])
+{
+    const int32_t *corner = look->triangles + 3 * (size_t)triangle;
+    const float *a = look->corners + 8 * (size_t)corner[0];
+    const float *b = look->corners + 8 * (size_t)corner[1];
+    const float *c = look->corners + 8 * (size_t)corner[2];
+    REAL e[3], f[3];
+    for (int k = 0; k < 3; k++) e[k] = (REAL)(b[k] - a[k]), f[k] = (REAL)(c[k] - a[k]);
+    n[0] = e[1] * f[2] - e[2] * f[1];
+    n[1] = e[2] * f[0] - e[0] * f[2];
+    n[2] = e[0] * f[1] - e[1] * f[0];
+}
+
+/* n' of a displaced surface is on the side of the facet that is seen, whichever side of the base that is. */
+static void face_viewer(const WrTileJob *job, const Rays *rays, Strip *strip)
+{
+    const REAL *at = rays->perspective ? rays->eye : rays->toward;
+    const REAL move = rays->perspective ? (REAL)1 : (REAL)0;
+    for (int i = 0; i < strip->count; i++) {
+        REAL n[3];
+        facet_of(&job->triangle_look, strip->triangle[i], n);
+        const REAL to = n[0] * (at[0] - move * strip->px[i]) +
+                        n[1] * (at[1] - move * strip->py[i]) + n[2] * (at[2] - move * strip->pz[i]);
+        const REAL along = n[0] * strip->bx[i] + n[1] * strip->by[i] + n[2] * strip->bz[i];
+        const REAL sign = to * along < (REAL)0 ? (REAL)-1 : (REAL)1;
+        strip->bx[i] *= sign;
+        strip->by[i] *= sign;
+        strip->bz[i] *= sign;
+    }
+}

@@ -1,0 +1,221 @@
+/* Displaced surfaces: outlines against closed forms, no holes between facets, what is left out, what never ends. */
+#include "test.h"
+#include "test_render_scenes.h"
+
+#include "render/dice.h"
+#include "render/plan.h"
+#include "render/view.h"
+
+static WrField *level_field(double value)
+{
+    WrField *field = wr_field_new(37, 22, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    for (int j = 0; j < 22; j++)
+        for (int i = 0; i < 37; i++) wr_field_set(field, i, j, (float)value);
+    return field;
+}
+
+static WrScene *displaced_of(const char *surface, double height)
+{
+    WrScene *scene = scene_of(surface);
+    scene->displaced = true;
+    scene->height = height;
+    return scene;
+}
+
+static void look_from(WrScene *scene, double distance)
+{
+    scene->camera.fit = false;
+    scene->camera.eye = (WrVec3){ 0, 0, distance };
+}
+
+/* ---- closed forms ---- */
+
+/* The ball of radius R + c, seen from d, has the outline of radius f (R + c) / sqrt(d^2 - (R + c)^2). */
+static void a_raised_ball_is_a_larger_ball(void **state)
+{
+    (void)state;
+    static const double way[][3] = { { 0.83, 0.137, 4.1 }, { 1.21, -0.31, 5.3 } };
+    for (int k = 0; k < 2; k++) {
+        WrScene *scene = displaced_of("sphere", 0.73);
+        WrField *field = level_field(way[k][1] / 0.73);
+        scene->shape.value[0] = way[k][0];
+        look_from(scene, way[k][2]);
+        Shot shot = shoot(scene, field, 301, 301, 2, "auto", false);
+        assert_true(wr_plan_runs(shot.frame.plan, WR_EFFECT_DISPLACED));
+        const double r = way[k][0] + way[k][1], d = way[k][2];
+        const double f = 150.5 / tan(scene->camera.fov_deg * WR_PI / 360);
+        const double want = f * r / sqrt(d * d - r * r);
+        assert_near(sqrt((double)shot.frame.covered / WR_PI), want, 0.5);
+        put_away(&shot);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+/* A plane that faces the eye at d and comes nearer by c grows by d / (d - c), which bump does not show. */
+static void a_raised_plane_comes_nearer(void **state)
+{
+    (void)state;
+    const double c = 0.4173, d = 2.9;
+    WrField *field = level_field(c);
+    double side[2];
+    for (int k = 0; k < 2; k++) {
+        WrScene *scene = displaced_of("plane", 1);
+        scene->displaced = k == 1;
+        scene->still = true;
+        look_from(scene, d);
+        Shot shot = shoot(scene, field, 301, 301, 1, "auto", false);
+        side[k] = sqrt((double)shot.frame.covered);
+        put_away(&shot);
+        wr_scene_free(scene);
+    }
+    const double f = 150.5 / tan(35 * WR_PI / 360);
+    assert_near(side[0], f / d, 1);
+    assert_near(side[1], f / (d - c), 1);
+    wr_field_free(field);
+}
+
+/* ---- cracks (HC124) ---- */
+
+/* An edge of a facet, by where its ends are; forth or back. */
+typedef struct Edge {
+    float end[2][3];
+    int way;
+} Edge;
+
+static int compare_edges(const void *a, const void *b)
+{
+    return memcmp(((const Edge *)a)->end, ((const Edge *)b)->end, sizeof((const Edge *)a)->end);
+}
+
+static Edge edge_of(const float *from, const float *to)
+{
+    Edge edge = { .way = memcmp(from, to, 3 * sizeof *from) < 0 ? 1 : -1 };
+    memcpy(edge.end[edge.way < 0], from, 3 * sizeof *from);
+    memcpy(edge.end[edge.way > 0], to, 3 * sizeof *to);
+    return edge;
+}
+
+/* Edges of the facets that are not met as often one way as the other: each is a crack. */
+static int cracks(const WrTriangles *t)
+{
+    const int32_t most = 3 * t->triangle_count;
+    Edge *edges = wr_alloc((size_t)most, sizeof *edges);
+    int32_t count = 0;
+    int open = 0;
+    for (int32_t i = 0; i < most; i++) {
+        const int32_t *c = t->triangles[i / 3].corner;
+        const float *from = t->corners[c[i % 3]].p, *to = t->corners[c[(i + 1) % 3]].p;
+        if (memcmp(from, to, 3 * sizeof *from) != 0) edges[count++] = edge_of(from, to);
+    }
+    qsort(edges, (size_t)count, sizeof *edges, compare_edges);
+    for (int32_t i = 0, end; i < count; i = end) {
+        int sum = 0;
+        for (end = i; end < count && compare_edges(&edges[i], &edges[end]) == 0; end++)
+            sum += edges[end].way;
+        open += sum != 0;
+    }
+    wr_free(edges);
+    return open;
+}
+
+/* The facets of a closed surface are closed, at four rates, wherever its domain ends. */
+static void no_ray_passes_between_facets(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = { "cube", "sphere", "torus", "cube" };
+    static const double dice[] = { 16, 4, 1.7, 0.5 };
+    WrField *field = random_field(29, 23, 77);
+    for (int k = 0; k < 16; k++) {
+        WrScene *scene = displaced_of(kinds[k % 4], k % 4 == 2 ? -0.19 : 0.23);
+        scene->replicate_u = k / 4 % 2 ? 1.37 : 2, scene->replicate_v = 1;
+        if (k % 4 == 3) scene->shape.value[1] = 6; /* a cell of the table for each face */
+        Shot shot = shoot(scene, field, 97, 83, 1, "auto", false);
+        WrView view;
+        WrDice made = { 0 };
+        assert_true(wr_view_init(&view, scene, wr_shape_radius(&scene->shape), shot.frame.plan, 15,
+                                 97, 83, NULL));
+        assert_true(wr_dice_make(&made, scene, field, &view, dice[k / 4], shot.pool, NULL));
+        const int count = cracks(made.triangles);
+        if (count > 0) fail_msg("%s %d, dice %g: %d cracks", kinds[k % 4], k, dice[k / 4], count);
+        wr_dice_fini(&made);
+        wr_view_fini(&view);
+        put_away(&shot);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+/* ---- what never ends (HC125) ---- */
+
+static void no_heights_make_nonsense(void **state)
+{
+    (void)state;
+    static const double height[] = { -1, 1e6 };
+    for (int k = 0; k < 2; k++) {
+        WrField *field = k == 0 ? level_field(1) : random_field(31, 17, 5);
+        WrScene *scene = displaced_of("sphere", height[k]);
+        Shot shot = shoot(scene, field, 40, 33, 2, "auto", false);
+        for (int i = 0; i < 40 * 33 * 4; i++) assert_true(isfinite(shot.frame.rgba[i]));
+        put_away(&shot);
+        wr_scene_free(scene);
+        wr_field_free(field);
+    }
+}
+
+/* ---- what is left out (E50) ---- */
+
+/* Less than half a pixel: bump, with its bits. */
+static void what_nobody_sees_is_bump(void **state)
+{
+    (void)state;
+    WrField *field = random_field(64, 64, 9);
+    WrScene *flat = scene_of("sphere"), *raised = displaced_of("sphere", 0.001);
+    flat->height = 0.001;
+    Shot a = shoot(flat, field, 150, 150, 1, "auto", false);
+    Shot b = shoot(raised, field, 150, 150, 1, "auto", false);
+    assert_false(wr_plan_runs(b.frame.plan, WR_EFFECT_DISPLACED));
+    assert_true(same_picture(&a, &b));
+    put_away(&a);
+    put_away(&b);
+    wr_scene_free(flat);
+    wr_scene_free(raised);
+    wr_field_free(field);
+}
+
+static void the_bits_are_the_same(void **state)
+{
+    (void)state;
+    static const char *const isas[] = { "v1", "v3", "v4" };
+    static const char *const kinds[] = { "torus", "cube", "cone" };
+    WrField *field = random_field(33, 20, 8);
+    for (int i = 0; i < 3; i++) {
+        WrScene *scene = displaced_of(kinds[i], 0.07);
+        scene->scheme = i == 0 ? WR_SCHEME_BSPLINE : WR_SCHEME_CENTRAL;
+        if (i == 1) scene->dials.aa = WR_AA_SUPERSAMPLE, scene->dials.samples = 2;
+        Shot first = shoot(scene, field, 111, 90, 1, "ref", false);
+        assert_true(wr_plan_runs(first.frame.plan, WR_EFFECT_DISPLACED));
+        for (int k = 0; k < 3; k++) {
+            if (!wr_kernels_get(isas[k], false, NULL)) continue;
+            Shot other = shoot(scene, field, 111, 90, 2, isas[k], k == 1);
+            if (!same_picture(&first, &other)) fail_msg("%s, %s", kinds[i], isas[k]);
+            put_away(&other);
+        }
+        put_away(&first);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_raised_ball_is_a_larger_ball),
+        cmocka_unit_test(a_raised_plane_comes_nearer),
+        cmocka_unit_test(no_ray_passes_between_facets),
+        cmocka_unit_test(no_heights_make_nonsense),
+        cmocka_unit_test(what_nobody_sees_is_bump),
+        cmocka_unit_test(the_bits_are_the_same),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
