@@ -15,6 +15,8 @@ WrVerdict wr_decide_displaced(const WrPlan *plan, const WrPlanAsk *ask, const ch
     if (!scene->displaced) return say(WR_VERDICT_NONE, why, "the table turns the normal alone");
     if (surface_of(ask)->held)
         return say(WR_VERDICT_NONE, why, "meshes and patches out of files are not displaced");
+    if (wr_shape_endless(&scene->shape))
+        return say(WR_VERDICT_NONE, why, "a plane without end is not displaced");
     if (scene->height == 0) return say(WR_VERDICT_SPARED, why, "height is 0: F is 0");
     if (scene->analytic.kind == WR_ANALYTIC_OFF && ask->facts.zero)
         return say(WR_VERDICT_SPARED, why, "the table is 0 everywhere");
