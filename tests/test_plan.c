@@ -129,6 +129,11 @@ static void exact_cube(Stage *stage)
     take_surface(stage, "cube");
 }
 
+static void shadowed(Stage *stage)
+{
+    stage->scene->material.shadow = true;
+}
+
 static void supersampled(Stage *stage)
 {
     stage->scene->dials.aa = WR_AA_SUPERSAMPLE;
@@ -515,6 +520,7 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_INVARIANT] = { invariant, { { invariant_square, 1e-5 }, { keep_all, NOTHING } } },
     [WR_EFFECT_EXACT] = { exact, { { exact_cube, 1e-5 }, { keep_all, NOTHING } } },
     [WR_EFFECT_CURVATURE] = { exact, { { keep_all, 0 }, { smooth, 0 } } },
+    [WR_EFFECT_SHADOW] = { shadowed, { { keep_all, NOTHING } } },
     [WR_EFFECT_SAMPLES] = { supersampled, { { keep_all, NOTHING }, { one_sample, NOTHING } } },
     [WR_EFFECT_BOUND] = { bounded, { { keep_all, NOTHING }, { bounded_torus, NOTHING } } },
     [WR_EFFECT_FILTER] = { filtered, { { filtered_still, 0 }, { keep_all, NOTHING } } },

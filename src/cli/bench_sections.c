@@ -169,6 +169,11 @@ static void under_sky(WrScene *scene)
                        wr_surround_built(WR_SURROUND_SKY, NULL), NULL, NULL);
 }
 
+static void shadowed(WrScene *scene)
+{
+    scene->material.shadow = true;
+}
+
 static void supersampled(WrScene *scene)
 {
     scene->dials.aa = WR_AA_SUPERSAMPLE;
@@ -299,6 +304,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_INVARIANT)] = { BUMPED, .with = invariant },
     [WR_ROW(WR_EFFECT_EXACT)] = { BUMPED, .with = exact },
     [WR_ROW(WR_EFFECT_CURVATURE)] = { BUMPED, .with = exact, .without = same },
+    [WR_ROW(WR_EFFECT_SHADOW)] = { BUMPED, .with = shadowed, .without = same },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { BUMPED, .with = supersampled },
     [WR_ROW(WR_EFFECT_BOUND)] = { BUMPED, .with = bounded },
     [WR_ROW(WR_EFFECT_FILTER)] = { BUMPED, .with = filtered },

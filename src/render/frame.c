@@ -269,7 +269,7 @@ static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, doubl
 
 bool wr_frame_may_keep(const WrFrameRequest *request)
 {
-    return request->keep && !request->only && !request->rows;
+    return request->keep && !request->only && !request->rows && !request->scene->material.shadow;
 }
 
 bool wr_frame_same_output(const WrFrameCodes *a, const WrFrameCodes *b)

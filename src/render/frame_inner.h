@@ -1,6 +1,7 @@
 /* frame_inner.h - what a renderer holds from frame to frame.
    Layer 5, private to frame.c and its brothers, group.c. */
 #pragma once
+#include "field/horizon.h"
 #include "render/coder.h"
 #include "render/dice.h"
 #include "render/frame.h"
@@ -36,6 +37,9 @@ struct WrRenderer {
     WrTint tint;
     WrRelief relief;
     WrMirror mirror;
+    WrHorizon horizon; /* of the table with this key, times this sign */
+    uint64_t horizon_key;
+    double horizon_sign;
     WrFrames frames;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */

@@ -12,6 +12,8 @@
 
 #include <math.h>
 
+#define WR_HORIZONS 32 /* directions in which horizons of the table are kept */
+
 void wr_frame_drop_tables(WrRenderer *renderer)
 {
     wr_table_fini(&renderer->table);
@@ -21,6 +23,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_tint_drop(&renderer->tint);
     wr_relief_drop(&renderer->relief);
     wr_mirror_drop(&renderer->mirror);
+    wr_horizon_drop(&renderer->horizon);
     wr_frames_drop(&renderer->frames);
 }
 
@@ -91,6 +94,8 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     WrPlan *plan = &renderer->plan;
     WrPlanFacts *facts = &ask->facts;
     facts->flat = wr_table_flat(table, field);
+    facts->ends =
+        wr_field_wrap_u(field) != WR_WRAP_PERIODIC || wr_field_wrap_v(field) != WR_WRAP_PERIODIC;
     facts->zero = facts->flat && wr_field_get(field, 0, 0) == 0.0f;
     wr_plan_build(plan, ask);
     if (!round_heights(renderer, request, err)) return false;
@@ -141,6 +146,22 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
                            renderer->pool, err);
 }
 
+/* The table's horizons, made anew after an edit. */
+static bool bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    const double sign = request->scene->height < 0 ? -1 : 1;
+    const uint64_t key = wr_field_key(renderer->looked);
+    WrHorizon *horizon = &renderer->horizon;
+    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_SHADOW)) {
+        if (!request->hold) wr_horizon_drop(horizon);
+        return true;
+    }
+    if (horizon->slope && renderer->horizon_key == key && renderer->horizon_sign == sign)
+        return true;
+    renderer->horizon_key = key, renderer->horizon_sign = sign;
+    return wr_horizon_make(horizon, renderer->looked, WR_HORIZONS, sign, renderer->pool, err);
+}
+
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     const WrPlan *plan = &renderer->plan;
@@ -148,6 +169,7 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     WrTint *tint = &renderer->tint;
     if (!bring_relief(renderer, request, err)) return false;
     if (!bring_mirror(renderer, request, err)) return false;
+    if (!bring_horizon(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_tint_drop(tint);
         return true;
@@ -364,6 +386,8 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->look_double = look;
     job->look = narrowed(&look, heights->data, gradient->data);
     job->looks = looks_of(request, renderer, &look);
+    job->horizon = wr_plan_runs(&renderer->plan, WR_EFFECT_SHADOW) ? &renderer->horizon : NULL;
+    job->relief_height = fabs(request->scene->height) * scale;
     fill_level(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_MODEL)) fill_matter(&renderer->plan, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_SURROUND) ||

@@ -3,6 +3,7 @@
 
 #include "base/kernmath.h"
 #include "base/vec.h"
+#include "field/horizon.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
 #include "scene/normal_map.h"

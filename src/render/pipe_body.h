@@ -53,6 +53,7 @@ static bool lit(const WrSink *sink)
 }
 
 #include "render/pipe_horizon_body.h"
+#include "render/pipe_shadow_body.h"
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"
 #include "render/pipe_depth_body.h"
@@ -100,8 +101,8 @@ static bool bends_at_once(const WrTileJob *job, const WrSink *sink)
 {
     return job->plan->bump == WR_BUMP_BLINN && KERNELS_OF(job)->bend[job->plan->inversion] &&
            !runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) &&
-           !runs(job, WR_EFFECT_SPREAD) && !job->plan->map_filtered &&
-           job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
+           !runs(job, WR_EFFECT_SPREAD) && !runs(job, WR_EFFECT_SHADOW) &&
+           !job->plan->map_filtered && job->plan->map_frame == WR_FRAME_GRADIENT && !sink->bound;
 }
 
 /* P, n, and what else of the surface's frame the plan asks for. */

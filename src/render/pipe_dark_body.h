@@ -60,6 +60,7 @@ static bool is_level(const WrTileJob *job, const Strip *strip)
 {
     float steepest[2];
     if (!job->ground || job->plan->bump == WR_BUMP_NONE) return false;
+    if (runs(job, WR_EFFECT_SHADOW)) return false; /* the tangents are wanted */
     find_steepest(job, strip, steepest);
     return steepest[0] == 0.0f && steepest[1] == 0.0f;
 }

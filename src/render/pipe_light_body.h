@@ -103,6 +103,17 @@ static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
     watch_lap(watch, WR_STAGE_BOUND);
 }
 
+/* The same where the relief does not hide it. */
+static void shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
+                          const WrSink *sink, Strip *strip, Watch *watch)
+{
+    Sums before;
+    const bool shadows = runs(job, WR_EFFECT_SHADOW);
+    if (shadows) keep_sums(strip, &before);
+    lamp_strip(job, rays, light, sink, strip, watch);
+    if (shadows) shadow_strip(job, &before, strip, watch);
+}
+
 /* What surroundings add. */
 static void surround_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 {
@@ -132,7 +143,7 @@ static void mirror_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, const WrSink *sink)
 {
     const bool shines = runs(job, WR_EFFECT_SPECULAR);
-    if (runs(job, WR_EFFECT_MODEL)) return NULL;
+    if (runs(job, WR_EFFECT_MODEL) || runs(job, WR_EFFECT_SHADOW)) return NULL;
     if (runs(job, WR_EFFECT_SURROUND) || runs(job, WR_EFFECT_MIRROR)) return NULL;
     if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
     if (!shines && !runs(job, WR_EFFECT_DIFFUSE)) return NULL;
@@ -173,7 +184,7 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     watch_lap(watch, specular ? WR_STAGE_SPECULAR : WR_STAGE_DIFFUSE);
     if (viewed) keep_half3(job, strip->vx, strip->vy, strip->vz, strip->count, watch);
     for (int i = 0; i < job->view->light_count && (specular || runs(job, WR_EFFECT_DIFFUSE)); i++)
-        lamp_strip(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
+        shadowed_lamp(job, rays, &VIEWED(job->view, lights)[i], sink, strip, watch);
     if (job->plan->tint != 0) {
         k->tint((REAL)job->plan->tint, strip);
         did(watch, WR_EFFECT_MODEL);

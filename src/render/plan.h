@@ -42,6 +42,7 @@ typedef enum WrEffect {
     WR_EFFECT_INVARIANT,
     WR_EFFECT_EXACT,
     WR_EFFECT_CURVATURE,
+    WR_EFFECT_SHADOW,
     WR_EFFECT_SAMPLES,
     WR_EFFECT_BOUND,
     WR_EFFECT_FILTER,
@@ -91,6 +92,7 @@ typedef enum WrStage {
     WR_STAGE_SPECULAR,
     WR_STAGE_SURROUND, /* diffuse light of surroundings */
     WR_STAGE_MIRROR,   /* what is reflected of them */
+    WR_STAGE_SHADOW,   /* lamps that the relief hides */
     WR_STAGE_LIGHT,    /* all of a single light in one pass */
     WR_STAGE_BOUND,
     WR_STAGE_HALF, /* rounding to half precision */
@@ -239,6 +241,7 @@ typedef struct WrPlanFacts {
     bool zero;       /* every texel 0 */
     bool slope_free; /* the gradient table is 0 everywhere, though the table is not flat */
     bool normals;    /* the caller wants n' itself */
+    bool ends;       /* the table ends at an axis' ends: it does not repeat */
     bool outside;    /* the eye is outside a closed surface, for certain */
     bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
     bool sighted;    /* what the view's samples look at is known from the last picture */

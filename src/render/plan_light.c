@@ -68,3 +68,34 @@ void wr_settle_model(WrPlan *plan, const WrPlanAsk *ask)
     plan->model = run ? m->model : WR_REFLECT_BLINN_PHONG;
     plan->tint = run && runs(plan, WR_EFFECT_SPECULAR) ? m->tint : 0;
 }
+
+/* Why the relief's horizon is not known, or NULL. */
+static const char *no_horizon(const WrPlan *plan, const WrPlanAsk *ask)
+{
+    const WrVec3 sizes = ask->scene->sizes;
+    int columns, rows;
+    wr_surface_cells(&ask->scene->shape, &columns, &rows);
+    if (plan->source == WR_SOURCE_FORMULA)
+        return "the relief is a formula: only tables have shadows";
+    if (surface_of(ask)->held) return "on meshes and patches the relief has no shadows yet";
+    if (columns * rows != 1)
+        return "where each face has its own part of the table it has no shadows yet";
+    if (ask->scene->displaced) return "on a displaced surface the relief has no shadows yet";
+    if (ask->facts.ends) return "the table ends at its edges: shadows are of tables that repeat";
+    if (sizes.x != 0 || sizes.y != 0 || sizes.z != 0)
+        return "the object is stretched along an axis: its relief has no shadows yet";
+    return NULL;
+}
+
+WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!ask->scene->material.shadow)
+        return say(WR_VERDICT_NONE, why, "the material asks for no shadows");
+    const char *reason = no_horizon(plan, ask);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
+        return say(WR_VERDICT_NONE, why, "no light is worked out");
+    if (!runs(plan, WR_EFFECT_BUMP) || plan->source != WR_SOURCE_TABLE)
+        return say(WR_VERDICT_NONE, why, "there is no relief to throw any");
+    return say(WR_VERDICT_RUN, why, "lamps below the relief's horizon are hidden");
+}

@@ -109,3 +109,19 @@ void wr_settle_normals(WrPlan *plan, const WrPlanAsk *ask)
         runs(plan, WR_EFFECT_NORMALS) && wants_filter(ask->dials) && !map_still(ask->scene);
     plan->map_anisotropic = plan->map_filtered && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }
+
+WrVerdict wr_decide_filter(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!wants_filter(ask->dials))
+        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
+    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
+    if (still(ask->scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: F is constant");
+    return say(WR_VERDICT_RUN, why,
+               "footprints over a texel look up a pyramid; smaller ones level 0");
+}
+
+void wr_settle_filter(WrPlan *plan, const WrPlanAsk *ask)
+{
+    plan->anisotropic =
+        runs(plan, WR_EFFECT_FILTER) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
+}

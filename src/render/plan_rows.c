@@ -136,6 +136,7 @@ static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)
 /* Why no bound on the intensity's change over a pixel is known, or NULL if one is. */
 static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
 {
+    if (runs(plan, WR_EFFECT_SHADOW)) return "no bound is known of shadows: K x K everywhere";
     if (ask->dials->shading == WR_SHADING_HALF)
         return "no bound is known of rounding to half precision: K x K everywhere";
     if (v3_len(ask->scene->sizes) > 0)
@@ -174,22 +175,6 @@ static WrVerdict decide_bound(const WrPlan *plan, const WrPlanAsk *ask, const ch
                    "bounds would spare too little of this view: K x K everywhere");
     return say(WR_VERDICT_RUN, why,
                "K x K only where the intensity may change by more than `contrast`");
-}
-
-static WrVerdict decide_filter(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    if (!wants_filter(ask->dials))
-        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
-    if (plan->source != WR_SOURCE_TABLE) return say(WR_VERDICT_NONE, why, "no table is looked up");
-    if (still(ask->scene)) return say(WR_VERDICT_SPARED, why, "replication is 0,0: F is constant");
-    return say(WR_VERDICT_RUN, why,
-               "footprints over a texel look up a pyramid; smaller ones level 0");
-}
-
-static void settle_filter(WrPlan *plan, const WrPlanAsk *ask)
-{
-    plan->anisotropic =
-        runs(plan, WR_EFFECT_FILTER) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }
 
 static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
@@ -352,6 +337,14 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                       "E12 is left out", STAGE(CURVATURE), .only_way = true,
                                       .decide = wr_decide_curvature,
                                       .settle = wr_settle_curvature },
+    [WR_ROW(WR_EFFECT_SHADOW)] = { "E47", "relief shadow", WR_PROOF_IDENTICAL, NULL,
+                                   "the material asks for none, no light is worked out, there is "
+                                   "no relief; of "
+                                   "formulas, tables that end, meshes, faces with tables of their "
+                                   "own and stretched "
+                                   "objects it is not known. Lamps above the steepest horizon of "
+                                   "all look none up",
+                                   STAGE(SHADOW), .only_way = true, .decide = wr_decide_shadow },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
                                     "one sample a pixel was asked for", STAGE(RESOLVE),
                                     .decide = decide_samples, .settle = settle_samples },
@@ -368,8 +361,8 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "the dials ask for no filtering, or no table is looked up; "
                                    "footprints "
                                    "up to one texel look up the table itself",
-                                   STAGE(FOOTPRINT) | STAGE(PYRAMID), .decide = decide_filter,
-                                   .settle = settle_filter },
+                                   STAGE(FOOTPRINT) | STAGE(PYRAMID), .decide = wr_decide_filter,
+                                   .settle = wr_settle_filter },
     [WR_ROW(WR_EFFECT_BACK)] = { "E25", "back faces", WR_PROOF_IDENTICAL, NULL,
                                  "a closed body seen from outside hides its own back", 0,
                                  .decide = wr_decide_back },

@@ -112,7 +112,7 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
         probe.level = level_of(probe.footprint);
         probe.samples = samples_of(&scene->dials);
         const WrVec3 seen = v3_scale(probe.perturbed, wr_reference_side(view, at));
-        wr_reference_light(&looker.stage, wr_reference_stretched(view, at->p), hit.u, hit.v,
+        wr_reference_light(&looker.stage, at, hit.u, hit.v,
                            wr_reference_normal_stretched(view, seen), (WrReferenceShare){ 0, 1 },
                            probe.rgb);
     }

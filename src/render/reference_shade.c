@@ -29,6 +29,23 @@ static bool has_slopes(const WrScene *scene)
     return scene->height != 0 || (scene->normals.image && scene->normals.strength != 0);
 }
 
+/* Does the relief throw shadows, and from what height? */
+static void note_shadow(WrReferenceStage *stage, const WrField *field)
+{
+    const WrScene *scene = stage->scene;
+    int columns, rows;
+    float low, high;
+    wr_surface_cells(&scene->shape, &columns, &rows);
+    if (!scene->material.shadow || wr_surfaces[scene->shape.kind]->held || columns * rows != 1)
+        return;
+    if (!stage->periodic_u || !stage->periodic_v || scene->bump == WR_BUMP_NONE) return;
+    if (scene->sizes.x != 0 || scene->sizes.y != 0 || scene->sizes.z != 0) return;
+    wr_field_range(field, &low, &high);
+    stage->shadow = fabs(scene->height) * ((double)high - (double)low);
+    stage->texels[0] = fabs(scene->replicate_u) * wr_field_width(field);
+    stage->texels[1] = fabs(scene->replicate_v) * wr_field_height(field);
+}
+
 bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
                              double turn_deg, int width, int height, bool table, WrPool *pool,
                              WrError *err)
@@ -47,6 +64,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
     if (!wr_reference_view_init(&stage->view, scene, turn_deg, width, height, err)) return false;
     wr_reference_surround_init(&stage->surround, scene, stage->view.rotation);
     if (!table || formula || scene->height == 0) return true;
+    note_shadow(stage, field);
     return wr_reference_table_init(&stage->table, field, pool, err);
 }
 
@@ -163,11 +181,36 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
     *white *= 1 - m->tint;
 }
 
-void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
+/* Is a lamp in direction l hidden by the relief? Over the tangent plane the ray rises by n.l per length, and (a, b) is how it
+   moves in u and v: it is marched by an eighth of a texel until it is above everything. */
+static bool is_hidden(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
+                      WrVec3 l)
+{
+    const double e = v3_dot(at->pu, at->pu), f = v3_dot(at->pu, at->pv), g = v3_dot(at->pv, at->pv);
+    const double lu = v3_dot(l, at->pu), lv = v3_dot(l, at->pv), det = e * g - f * f;
+    const double up = v3_dot(l, at->n_unit);
+    if (!(det > 0) || wr_reference_side(&stage->view, at) < 0) return false;
+    if (up < 0) return true;
+    const double a = (g * lu - f * lv) / det, b = (e * lv - f * lu) / det;
+    const double moves = hypot(a * stage->texels[0], b * stage->texels[1]);
+    const double farthest = 4 * (stage->texels[0] + stage->texels[1]);
+    double from, fu, fv, here;
+    wr_reference_height(stage, u, v, &from, &fu, &fv);
+    for (double way = 0.125; moves > 0 && way < farthest; way += 0.125) {
+        const double t = way / moves;
+        if (t * up > stage->shadow) return false;
+        wr_reference_height(stage, u + t * a, v + t * b, &here, &fu, &fv);
+        if (here - from > t * up) return true;
+    }
+    return false;
+}
+
+void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
                         WrVec3 perturbed, WrReferenceShare share, double rgb[3])
 {
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceView *view = &stage->view;
+    const WrVec3 p = wr_reference_stretched(view, at->p);
     const WrVec3 to = view->perspective ? unit(v3_sub(view->lit_eye, p)) : view->lit_toward;
     double diffuse[3] = { m->ambient, m->ambient, m->ambient }, shine[3] = { 0, 0, 0 };
     double colour[3] = { 1, 1, 1 };
@@ -178,6 +221,7 @@ void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, doubl
         const WrReferenceLight *light = &view->lights[i];
         const WrVec3 l = light->point ? unit(v3_sub(light->where, p)) : light->where;
         double own[3], white;
+        if (stage->shadow > 0 && is_hidden(stage, at, u, v, l)) continue;
         wr_reference_lamp(m, &stage->matter, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
             diffuse[c] += light->rgb[c] * own[c];
@@ -247,8 +291,7 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     out->lost = hit.lost;
     out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
     out->normal = wr_reference_normal_stretched(view, out->normal);
-    wr_reference_light(stage, wr_reference_stretched(view, at.p), hit.u, hit.v, out->normal, share,
-                       out->rgb);
+    wr_reference_light(stage, &at, hit.u, hit.v, out->normal, share, out->rgb);
     for (int c = 0; c < 3; c++) out->rgb[c] *= out->cover;
     return true;
 }

@@ -18,6 +18,9 @@ typedef struct WrReferenceStage {
     WrMatter matter;             /* of models other than Blinn-Phong's */
     WrBumpMode bump;             /* what the reference takes for the truth */
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
+    double
+        shadow; /* scene units from the lowest to the highest of a relief that throws shadows; else 0 */
+    double texels[2]; /* of the table along u and v of the patch */
 } WrReferenceStage;
 
 /* field may be NULL where the scene's F is a formula. table: also find its coefficients.
@@ -41,7 +44,7 @@ WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, 
 double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at);
 /* I = C (ka + sum kd L max(0, n'.l)) + sum ks L max(0, n'.h)^s, the highlight gated as the material says.
  * perturbed: n' towards the viewer's side. share: of what surroundings send. */
-void wr_reference_light(const WrReferenceStage *stage, WrVec3 p, double u, double v,
+void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
                         WrVec3 perturbed, WrReferenceShare share, double rgb[3]);
 
 /* What one light of strength 1 adds: in the surface's colour, and in its own. matter: of the material. */

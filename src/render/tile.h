@@ -22,6 +22,7 @@
 #define WR_TILE_ROOM (WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H + WR_WALK_PAD)
 
 typedef struct WrFrames WrFrames;
+typedef struct WrHorizon WrHorizon;
 typedef struct WrPipe WrPipe;
 
 /* What all tiles of a frame share; read only while they run. */
@@ -41,9 +42,11 @@ typedef struct WrTileJob {
     bool seen_before;   /* it is known */
     bool newton;        /* the mesh's parameters are made exact */
     WrLook look;
-    WrLookd look_double; /* where kernels_double looks */
-    WrEffects looks;     /* what a look-up in the table does, by what it was given */
-    WrLevel level;       /* how steep the table is where; only for one of the next two */
+    WrLookd look_double;      /* where kernels_double looks */
+    WrEffects looks;          /* what a look-up in the table does, by what it was given */
+    const WrHorizon *horizon; /* of the table, for shadows; NULL: none */
+    double relief_height;     /* of a table unit, kernel units, above 0 */
+    WrLevel level;            /* how steep the table is where; only for one of the next two */
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
     WrMatter matter; /* what the plan's model goes by; kd and ks of what runs */

@@ -50,6 +50,7 @@ typedef struct WrMaterial {
     WrReflect model;
     WrEnergy energy;
     double roughness, metalness, ior;
+    bool shadow; /* the relief hides lamps from itself */
     double tint; /* share of the highlight that has the surface's colour */
 } WrMaterial;
 
