@@ -92,7 +92,7 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                               "colour",
                                       SLIDER(0, 1, 2) },
     [WR_ROW(WR_SCENE_PARAM_SHADOW)] = { "material", NULL, "shadow", IN_SCENE(material.shadow),
-                                        .planned = true, .sparse = true, .label = "Shadows",
+                                        .planned = true, .sparse = true,
                                         .help = "the relief throws shadows on itself" },
     [WR_ROW(WR_SCENE_PARAM_LIGHT_TO)] = { "light", "directional", "to", .required = true,
                                           IN_LIGHT(where), PLACE_RANGE,
