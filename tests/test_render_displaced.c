@@ -157,6 +157,8 @@ static void no_heights_make_nonsense(void **state)
         WrScene *scene = displaced_of("sphere", height[k]);
         Shot shot = shoot(scene, field, 40, 33, 2, "auto", false);
         for (int i = 0; i < 40 * 33 * 4; i++) assert_true(isfinite(shot.frame.rgba[i]));
+        const char *why = shot.frame.plan->rows[WR_EFFECT_DISPLACED].reason;
+        assert_int_equal(strstr(why, "as many as there may be") != NULL, k == 1);
         put_away(&shot);
         wr_scene_free(scene);
         wr_field_free(field);

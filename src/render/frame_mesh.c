@@ -5,6 +5,7 @@
 #include "surface/patches.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* All but one, which may be NULL. */
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
@@ -53,6 +54,11 @@ static bool prepare_dice(WrRenderer *renderer, const WrFrameRequest *request, Wr
                       renderer->pool, err))
         return false;
     view->nearest -= renderer->dice.rise * request->scene->size;
+    if (renderer->dice.epsilon > plan->dice)
+        snprintf(renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
+                 sizeof renderer->plan.rows[WR_EFFECT_DISPLACED].reason,
+                 "facets are as many as there may be: they are within %.3g pixels, not %.3g",
+                 renderer->dice.epsilon, plan->dice);
     return true;
 }
 
