@@ -17,7 +17,7 @@ BEGIN {
     may["generate"] = base "field surface noise image "
     may["brush"] = base "field image "
     may["scene"] = base "field surface shade image "
-    may["render"] = base "field image surface shade scene "
+    may["render"] = base "field noise image surface shade scene "
     may["accuracy"] = base "field image surface shade scene render "
     may["document"] = base "field scene image "
     may["hardcases"] = may["document"] "noise surface shade generate brush render accuracy document "

@@ -370,6 +370,36 @@ static void one_behind(Stage *stage)
     scene->others[scene->other_count++] = wall;
 }
 
+static void wooden(Stage *stage)
+{
+    stage->scene->grain = wr_grains[WR_GRAIN_WOOD].usual;
+}
+
+static void wooden_white(Stage *stage)
+{
+    wooden(stage);
+    WrGrain *grain = &stage->scene->grain;
+    for (int c = 0; c < 3; c++) grain->light[c] = grain->dark[c] = 1;
+}
+
+static void wooden_even(Stage *stage)
+{
+    wooden(stage);
+    WrGrain *grain = &stage->scene->grain;
+    for (int c = 0; c < 3; c++) grain->light[c] = grain->dark[c] = 0.37;
+}
+
+static void wooden_round(Stage *stage)
+{
+    wooden(stage);
+    stage->scene->grain.amount = 0;
+}
+
+static void checkered_through(Stage *stage)
+{
+    stage->scene->grain = wr_grains[WR_GRAIN_CHECKER].usual;
+}
+
 static void of_facets(Stage *stage)
 {
     stage->scene->material.model = WR_REFLECT_GGX;
@@ -502,6 +532,12 @@ static const Case cases[WR_EFFECT_COUNT] = {
                               { mapped_still, 0 },
                               { mapped_dark, 0 },
                               { mapped_smooth, NOTHING },
+                              { keep_all, NOTHING } } },
+    [WR_EFFECT_GRAIN] = { wooden, { { wooden_white, 0 }, { keep_all, NOTHING } } },
+    [WR_EFFECT_OCTAVES] = { wooden,
+                            { { wooden_round, 0 },
+                              { checkered_through, NOTHING },
+                              { wooden_even, NOTHING },
                               { keep_all, NOTHING } } },
     [WR_EFFECT_TINT] = { tinted,
                          { { tinted_evenly, 0 },

@@ -31,7 +31,7 @@ static bool spared(const WrPlan *plan)
                                        WR_EFFECT_EXACT,   WR_EFFECT_SAMPLES, WR_EFFECT_CURVATURE,
                                        WR_EFFECT_BOUND,   WR_EFFECT_FILTER,  WR_EFFECT_BACK,
                                        WR_EFFECT_ROUNDED, WR_EFFECT_DOUBLE,  WR_EFFECT_HALF,
-                                       WR_EFFECT_TINT,    WR_EFFECT_NORMALS };
+                                       WR_EFFECT_TINT,    WR_EFFECT_NORMALS, WR_EFFECT_GRAIN };
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (wr_plan_runs(plan, others[i])) return false;
     return plan->sampling == WR_SAMPLING_ONE;

@@ -174,6 +174,11 @@ static void shadowed(WrScene *scene)
     scene->material.shadow = true;
 }
 
+static void wooden(WrScene *scene)
+{
+    scene->grain = wr_grains[WR_GRAIN_WOOD].usual;
+}
+
 static void supersampled(WrScene *scene)
 {
     scene->dials.aa = WR_AA_SUPERSAMPLE;
@@ -296,6 +301,8 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_BLUR)] = { BUMPED, .with = under_sky },
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
+    [WR_ROW(WR_EFFECT_GRAIN)] = { BUMPED, .with = wooden, .without = same },
+    [WR_ROW(WR_EFFECT_OCTAVES)] = { BUMPED, .with = wooden },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
     [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },

@@ -4,6 +4,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "render/frame_inner.h"
+#include "render/grain_fill.h"
 #include "render/plan_inner.h"
 #include "scene/scene.h"
 #include "shade/slope.h"
@@ -364,6 +365,13 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
     job->relief = narrowed(&look, NULL, NULL);
 }
 
+static void fill_grain(const WrPlan *plan, const WrGrain *grain, double scale, WrTileJob *job)
+{
+    wr_grain_kern_fill(grain, plan->grain, wr_plan_runs(plan, WR_EFFECT_OCTAVES), scale,
+                       &job->grain_double);
+    wr_grain_kern_narrow(&job->grain_double, &job->grain);
+}
+
 static void fill_matter(const WrPlan *plan, const WrFrameRequest *request, WrTileJob *job)
 {
     const WrMaterial *m = &request->scene->material;
@@ -389,6 +397,8 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->horizon = wr_plan_runs(&renderer->plan, WR_EFFECT_SHADOW) ? &renderer->horizon : NULL;
     job->relief_height = fabs(request->scene->height) * scale;
     fill_level(renderer, request, job);
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_GRAIN))
+        fill_grain(&renderer->plan, &request->scene->grain, renderer->view.scale, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_MODEL)) fill_matter(&renderer->plan, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_SURROUND) ||
         wr_plan_runs(&renderer->plan, WR_EFFECT_MIRROR))

@@ -9,6 +9,7 @@
 #include "field/scheme.h"
 #include "scene/tone.h"
 #include "shade/bump_mode.h"
+#include "shade/grain.h"
 #include "shade/reflect.h"
 #include "shade/surround.h"
 #include "surface/surface.h"

@@ -4,6 +4,7 @@
    scalars, no library call that does not vectorise.
    A header without a guard, by intention. */
 #include "base/rows.h"
+#include "noise/lattice.h"
 #include "render/kern.h"
 #include "render/kern_double_math.h"
 #include "render/pyramid.h"
@@ -49,6 +50,7 @@
 #define MATTER WrKernMatterd
 #define SURROUND WrKernSurroundd
 #define MIRROR WrKernMirrord
+#define GRAIN WrKernGraind
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
 #define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
@@ -70,6 +72,7 @@
 #define MATTER WrKernMatter
 #define SURROUND WrKernSurround
 #define MIRROR WrKernMirror
+#define GRAIN WrKernGrain
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif
@@ -205,6 +208,7 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_surround_body.h"
 #include "render/kern_dark_body.h"
 #include "render/kern_filter_body.h"
+#include "render/kern_grain_body.h"
 #include "render/kern_moments_body.h"
 #include "render/kern_bound_body.h"
 #include "render/kern_store_body.h"
@@ -277,6 +281,7 @@ const KERNELS WR_KERN_TABLE = {
     .widen = kern_widen,
     .colour = kern_colour,
     .colour_pyramid = kern_colour_pyramid,
+    .grain = kern_grain,
     .view = kern_view,
     .begin = kern_begin,
     .light = kern_light,

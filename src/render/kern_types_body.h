@@ -108,6 +108,16 @@ typedef struct WR_T(WrKernMatter) {
     REAL kd, ks, colour[3], shininess, scale, alpha, ior, f0, metal, a, b, mean, again;
     REAL albedo[WR_ALBEDO_TERMS];
 } WR_T(WrKernMatter);
+/* A solid texture as kernels want it: frequencies and rings a kernel unit; octaves 0: no noise. */
+typedef struct WR_T(WrKernGrain) {
+    WrGrainKind kind;
+    WrGrainAxis axis;
+    bool creased;
+    REAL light[3], dark[3], rings, share, amount;
+    int octaves;
+    uint32_t start[WR_GRAIN_OCTAVES]; /* of the chain of hashes */
+    REAL frequency[WR_GRAIN_OCTAVES], amplitude[WR_GRAIN_OCTAVES], offset[WR_GRAIN_OCTAVES][3];
+} WR_T(WrKernGrain);
 typedef void (*WR_T(WrReflectKernel))(const WR_T(WrKernLight) * light,
                                       const WR_T(WrKernMatter) * matter, WrReflectSpread how,
                                       WR_T(WrStrip) * strip);
@@ -219,6 +229,8 @@ typedef struct WR_T(WrKernels) {
     void (*colour)(const WrColourLook *look, WR_T(WrStrip) * strip); /* after begin */
     /* C from its pyramid at u, v and level. */
     void (*colour_pyramid)(const WR_T(WrLook) * look, WR_T(WrStrip) * strip);
+    /* C times the solid texture at P; over: `colour` has brought C, else it is 1. */
+    void (*grain)(const WR_T(WrKernGrain) * grain, bool over, WR_T(WrStrip) * strip);
     void (*light)(const WR_T(WrKernLight) * light, WR_T(WrStrip) * strip);
     void (*diffuse)(const WR_T(WrKernLight) * light, REAL kd, WR_T(WrStrip) * strip);
     void (*specular)(const WR_T(WrKernLight) * light, REAL ks, REAL shininess, bool gate,

@@ -28,6 +28,7 @@
 #define MIRROR_OF(look) (&(look)->mirror_wide)
 #define MAP_OF(job) (&(job)->relief_double)
 #define TINT_OF(job) (&(job)->tint_double)
+#define GRAIN_OF(job) (&(job)->grain_double)
 #define VIEWED(view, member) ((view)->member##_d)
 #define MORE_STEPS 1 /* one step of Newton's method more: twice the digits */
 #define TURN 0x1p-47 /* part of a tangent that Newton's last step may change it by */

@@ -148,8 +148,8 @@ static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, c
     if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
     if (!shines && !runs(job, WR_EFFECT_DIFFUSE)) return NULL;
     if (shines && runs(job, WR_EFFECT_SPREAD)) return NULL;
-    return KERNELS_OF(job)->shade[VIEWED(job->view, lights)->point][rays->perspective][shines]
-                                 [runs(job, WR_EFFECT_COLOUR)];
+    return KERNELS_OF(job)
+        ->shade[VIEWED(job->view, lights)->point][rays->perspective][shines][pictured(job)];
 }
 
 static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKernel) shade,
@@ -176,7 +176,7 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     const bool specular = runs(job, WR_EFFECT_SPECULAR);
     const WrVec3 c = job->scene->material.colour;
     k->begin((REAL)job->scene->material.ambient, strip);
-    if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
+    bring_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
     const bool viewed =
         specular || reflect_of(job) || job->surround.shares > 0 || runs(job, WR_EFFECT_MIRROR);
@@ -201,8 +201,8 @@ static void ambient_strip(const WrTileJob *job, const Rays *rays, Strip *strip, 
     const WR_T(WrKernMaterial) material = {
         (REAL)m->ambient, (REAL)0, { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z }
     };
-    if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
-    KERNELS_OF(job)->ambient(&material, runs(job, WR_EFFECT_COLOUR), strip);
+    bring_colour(job, rays, strip, watch->scratch, watch);
+    KERNELS_OF(job)->ambient(&material, pictured(job), strip);
     watch_lap(watch, WR_STAGE_LIGHT);
 }
 
@@ -215,7 +215,7 @@ static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *si
         light_by_stages(job, rays, sink, strip, watch);
         return;
     }
-    if (runs(job, WR_EFFECT_COLOUR)) look_colour(job, rays, strip, watch->scratch, watch);
+    bring_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
     light_at_once(job, &VIEWED(&job->view->lit, rays), shade, strip, watch);
 }

@@ -281,3 +281,22 @@ static void look_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
     KERNELS_OF(job)->colour(&job->colour, strip);
     watch_lap(watch, WR_STAGE_COLOUR);
 }
+
+/* Does C differ from place to place? */
+static bool pictured(const WrTileJob *job)
+{
+    return runs(job, WR_EFFECT_COLOUR) || runs(job, WR_EFFECT_GRAIN);
+}
+
+/* C of the colour picture, of the solid texture at P, or of both. */
+static void bring_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
+                         WrTileScratch *scratch, Watch *watch)
+{
+    const bool over = runs(job, WR_EFFECT_COLOUR);
+    if (over) look_colour(job, rays, strip, scratch, watch);
+    if (!runs(job, WR_EFFECT_GRAIN)) return;
+    KERNELS_OF(job)->grain(GRAIN_OF(job), over, strip);
+    did(watch, WR_EFFECT_GRAIN);
+    if (runs(job, WR_EFFECT_OCTAVES)) did(watch, WR_EFFECT_OCTAVES);
+    watch_lap(watch, WR_STAGE_GRAIN);
+}

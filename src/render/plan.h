@@ -6,6 +6,7 @@
 #include "scene/dials.h"
 #include "scene/normal_frame.h"
 #include "shade/bump_mode.h"
+#include "shade/grain.h"
 #include "shade/reflect.h"
 #include "surface/surface.h"
 
@@ -34,6 +35,8 @@ typedef enum WrEffect {
     WR_EFFECT_BLUR,
     WR_EFFECT_COLOUR,
     WR_EFFECT_TINT,
+    WR_EFFECT_GRAIN,
+    WR_EFFECT_OCTAVES,
     WR_EFFECT_NORMALS,
     WR_EFFECT_DISPLACED,
     WR_EFFECT_BUMP,
@@ -87,7 +90,8 @@ typedef enum WrStage {
     WR_STAGE_BUMP,
     WR_STAGE_SPREAD,
     WR_STAGE_COLOUR,
-    WR_STAGE_TINT, /* the colour picture over footprints */
+    WR_STAGE_TINT,  /* the colour picture over footprints */
+    WR_STAGE_GRAIN, /* solid textures */
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
     WR_STAGE_SURROUND, /* diffuse light of surroundings */
@@ -164,6 +168,7 @@ typedef enum WrPrecision {
    renderer reads these and the rows, and neither scene nor dials, to choose what it does.
      model       how lamps are reflected; blinn-phong where that comes to the same
      tint        share of highlights that has the surface's colour
+     grain       of the solid texture; off: its first colour alone
      map_filtered, map_anisotropic    the normal map's slopes over footprints
      map_frame   what its vectors are turned by; gradient where there are none
      bump        as simplified: BLINN for exact on a flat base, ...
@@ -182,6 +187,7 @@ typedef enum WrPrecision {
     X(HARMONICS, int, harmonics)                                                                   \
     X(BLUR, double, gloss)                                                                         \
     X(TINT, bool, tint_anisotropic)                                                                \
+    X(GRAIN, WrGrainKind, grain)                                                                   \
     X(NORMALS, bool, map_filtered)                                                                 \
     X(NORMALS, bool, map_anisotropic)                                                              \
     X(NORMALS, WrNormalFrame, map_frame)                                                           \

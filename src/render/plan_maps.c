@@ -58,6 +58,50 @@ void wr_settle_tint(WrPlan *plan, const WrPlanAsk *ask)
         runs(plan, WR_EFFECT_TINT) && ask->dials->footprint == WR_FOOTPRINT_ANISOTROPIC;
 }
 
+/* ---- a solid texture ---- */
+
+static bool one_colour(const WrGrain *grain)
+{
+    for (int c = 0; c < 3; c++)
+        if (grain->light[c] != grain->dark[c]) return false;
+    return true;
+}
+
+static bool all_white(const WrGrain *grain)
+{
+    return one_colour(grain) && grain->light[0] == 1 && grain->light[1] == 1 &&
+           grain->light[2] == 1;
+}
+
+WrVerdict wr_decide_grain(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrGrain *grain = &ask->scene->grain;
+    (void)plan;
+    if (grain->kind == WR_GRAIN_OFF)
+        return say(WR_VERDICT_NONE, why, "the object has no solid texture");
+    if (all_white(grain)) return say(WR_VERDICT_SPARED, why, "both its colours are white");
+    if (one_colour(grain))
+        return say(WR_VERDICT_RUN, why, "both its colours are one: no pattern is worked out");
+    return say(WR_VERDICT_RUN, why, "the object is cut out of it");
+}
+
+void wr_settle_grain(WrPlan *plan, const WrPlanAsk *ask)
+{
+    const WrGrain *grain = &ask->scene->grain;
+    plan->grain = runs(plan, WR_EFFECT_GRAIN) && !one_colour(grain) ? grain->kind : WR_GRAIN_OFF;
+}
+
+WrVerdict wr_decide_octaves(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (plan->grain == WR_GRAIN_OFF)
+        return say(WR_VERDICT_NONE, why, "no solid pattern is worked out");
+    if (!wr_grains[plan->grain].noisy)
+        return say(WR_VERDICT_NONE, why, "the solid texture has no noise");
+    if (ask->scene->grain.amount == 0)
+        return say(WR_VERDICT_SPARED, why, "the solid texture's noise has the amount 0");
+    return say(WR_VERDICT_RUN, why, "noise moves the solid texture");
+}
+
 /* ---- a normal map ---- */
 
 /* Straight up everywhere: it adds slopes of 0. */

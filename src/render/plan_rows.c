@@ -125,7 +125,8 @@ static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)
     const WrDials *dials = ask->dials;
     const bool run = runs(plan, WR_EFFECT_SAMPLES);
     plan->samples = run ? dials->samples : 1;
-    const bool adaptive = dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && !unbounded(ask);
+    const bool adaptive = dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && !unbounded(ask) &&
+                          plan->grain == WR_GRAIN_OFF; /* which may change within any pixel */
     plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
     if (!run) return;
     plan->spread = dials->spread;
@@ -152,6 +153,8 @@ static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
         return "no bound is known on this surface: K x K everywhere";
     if (runs(plan, WR_EFFECT_COLOUR))
         return "no bound is known for a colour picture: K x K everywhere";
+    if (runs(plan, WR_EFFECT_GRAIN))
+        return "no bound is known for a solid texture: K x K everywhere";
     if (runs(plan, WR_EFFECT_NORMALS))
         return "no bound is known for a normal map: K x K everywhere";
     if (plan->bump == WR_BUMP_NONE) return NULL;
@@ -292,6 +295,15 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "or it is of one colour; footprints up to one of its texels look "
                                  "up the picture itself",
                                  STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
+    [WR_ROW(WR_EFFECT_GRAIN)] = { "E46", "solid texture", WR_PROOF_IDENTICAL, NULL,
+                                  "there is none, or both its colours are white; of two that are "
+                                  "one the pattern is left out",
+                                  STAGE(GRAIN), .decide = wr_decide_grain,
+                                  .settle = wr_settle_grain },
+    [WR_ROW(WR_EFFECT_OCTAVES)] = { "E45", "solid noise", WR_PROOF_IDENTICAL, NULL,
+                                    "no pattern is worked out, it has no noise, or the noise's "
+                                    "amount is 0",
+                                    STAGE(GRAIN), .decide = wr_decide_octaves },
     [WR_ROW(WR_EFFECT_NORMALS)] = { "E58", "normal map", WR_PROOF_IDENTICAL, NULL,
                                     "there is none, or it is straight up everywhere; its strength "
                                     "or repetition is 0; the mode is none; no light depends on "

@@ -4,6 +4,7 @@
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
+#include "render/reference_grain.h"
 #include "render/reference_reflect.h"
 #include "scene/laid.h"
 #include "scene/scene.h"
@@ -58,6 +59,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
         stage->periodic_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     }
     wr_scene_matter(&scene->material, &stage->matter);
+    wr_grain_noise(&scene->grain, &stage->grain);
     stage->bump = has_slopes(scene) ? truth_of(scene->bump) : WR_BUMP_NONE;
     if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
         stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
@@ -205,6 +207,18 @@ static bool is_hidden(const WrReferenceStage *stage, const WrSurfacePoint *at, d
     return false;
 }
 
+/* C at a place of the surface without the material's. */
+static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u, double v,
+                         double rgb[3])
+{
+    double solid[3];
+    rgb[0] = rgb[1] = rgb[2] = 1;
+    if (stage->scene->colour) picture_colour(stage, u, v, rgb);
+    if (stage->scene->grain.kind == WR_GRAIN_OFF) return;
+    wr_reference_grain(&stage->scene->grain, &stage->grain, object, solid);
+    for (int c = 0; c < 3; c++) rgb[c] *= solid[c];
+}
+
 void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
                         WrVec3 perturbed, WrReferenceShare share, double rgb[3])
 {
@@ -213,8 +227,8 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
     const WrVec3 p = wr_reference_stretched(view, at->p);
     const WrVec3 to = view->perspective ? unit(v3_sub(view->lit_eye, p)) : view->lit_toward;
     double diffuse[3] = { m->ambient, m->ambient, m->ambient }, shine[3] = { 0, 0, 0 };
-    double colour[3] = { 1, 1, 1 };
-    if (stage->scene->colour) picture_colour(stage, u, v, colour);
+    double colour[3];
+    place_colour(stage, at->p, u, v, colour);
     const double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1],
                             m->colour.z * colour[2] };
     for (int i = 0; i < view->light_count; i++) {

@@ -1,6 +1,7 @@
 /* reference_shade.h - from a place on the surface to its normal and its light, for the reference.
    Layer 5, private to the reference. */
 #pragma once
+#include "noise/octaves.h"
 #include "render/reference_surround.h"
 #include "render/reference_table.h"
 #include "render/reference_view.h"
@@ -16,6 +17,7 @@ typedef struct WrReferenceStage {
     WrReferenceTable table; /* empty where F is a formula or has no height */
     WrReferenceSurround surround;
     WrMatter matter;             /* of models other than Blinn-Phong's */
+    WrOctavesPlan grain;         /* the solid texture's noise */
     WrBumpMode bump;             /* what the reference takes for the truth */
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
     double

@@ -54,6 +54,8 @@ typedef struct WrTileJob {
     WrColourLook colour; /* rgba NULL: none */
     WrLook tint;         /* the colour picture's means over footprints; pyramid NULL: not wanted */
     WrLookd tint_double;
+    WrKernGrain grain; /* the solid texture */
+    WrKernGraind grain_double;
     WrLook relief; /* the normal map's slopes (relief.h); pyramid NULL: none */
     WrLookd relief_double;
     const WrFrames *frames; /* of the mesh's corners, that the map is turned by; or NULL */

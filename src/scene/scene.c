@@ -92,6 +92,7 @@ WrScene *wr_scene_clone(const WrScene *scene)
     clone->analytic.terms =
         copied(scene->analytic.terms, scene->analytic.count, sizeof *scene->analytic.terms);
     clone->material = scene->material;
+    clone->grain = scene->grain;
     clone->colour = scene->colour ? wr_image_share(scene->colour) : NULL;
     clone->colour_laid = laid_copy(&scene->colour_laid);
     clone->colouring = scene->colouring;

@@ -18,6 +18,7 @@
 #include "scene/tone.h"
 #include "shade/bump_mode.h"
 #include "shade/gloss.h"
+#include "shade/grain.h"
 #include "shade/reflect.h"
 #include "surface/surface.h"
 
@@ -104,6 +105,7 @@ struct WrScene {
     double replicate_u, replicate_v;
     WrAnalytic analytic; /* replaces the table while its kind is not OFF; terms owned */
     WrMaterial material;
+    WrGrain grain;   /* the solid texture that it is cut out of */
     WrImage *colour; /* C(u,v), shared, linear RGB in 0..; NULL: the material's colour alone */
     WrLaid colour_laid;
     WrColouring colouring; /* what that is made by, if by any (its path is NULL then) */

@@ -1,0 +1,88 @@
+/* The solid texture that an object is cut out of. */
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "command/scene_args.h"
+#include "document/document.h"
+#include "scene/scene.h"
+#include "shade/grain.h"
+
+#include <string.h>
+
+/* Is there none, and were none of its numbers ever touched? */
+static bool untouched(const WrGrain *grain)
+{
+    const WrGrain *usual = &wr_grains[WR_GRAIN_OFF].usual;
+    return grain->kind == WR_GRAIN_OFF && grain->axis == usual->axis &&
+           memcmp(grain->light, usual->light, sizeof grain->light) == 0 &&
+           memcmp(grain->dark, usual->dark, sizeof grain->dark) == 0 &&
+           grain->rings == usual->rings && grain->share == usual->share &&
+           grain->amount == usual->amount && grain->cells == usual->cells &&
+           grain->octaves == usual->octaves && grain->ratio == usual->ratio;
+}
+
+static void print_grain(const WrScene *scene, WrText *text)
+{
+    const WrGrain *grain = &scene->grain;
+    if (untouched(grain)) return;
+    wr_text_addf(text, "grain %s axis=%s", wr_grains[grain->kind].name, wr_grain_axes[grain->axis]);
+    wr_scene_print_params("grain", NULL, scene, text);
+    wr_text_add(text, "\n");
+}
+
+static bool run_grain(WrSession *session, WrCall *call, WrError *err)
+{
+    (void)err;
+    const WrArg *kind = wr_call_arg(call, "KIND");
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    WrGrain *grain = &scene->grain;
+    if (kind->given && kind->choice == WR_GRAIN_OFF) grain->kind = WR_GRAIN_OFF;
+    else if (kind->given && kind->choice != (int)grain->kind)
+        *grain = wr_grains[kind->choice].usual;
+    wr_scene_take(call, NULL, scene);
+    if (wr_call_given(call, "axis")) grain->axis = (WrGrainAxis)wr_call_choice(call, "axis");
+    wr_session_replace_scene(session, scene);
+    return true;
+}
+
+static const char *axis_choice(int i)
+{
+    return i < WR_GRAIN_AXES ? wr_grain_axes[i] : NULL;
+}
+
+static const char *kind_choice(int i)
+{
+    return i < WR_GRAIN_KINDS ? wr_grains[i].name : NULL;
+}
+
+static bool row_grain(WrForm *out)
+{
+    *out =
+        (WrForm){ .args = { { .name = "KIND",
+                              .type = WR_ARG_CHOICE,
+                              .positional = true,
+                              .choice = kind_choice,
+                              .help = "rings about the axis, moved by noise; bands along it, moved "
+                                      "by creased noise; cubes of two colours; specks; one colour "
+                                      "going over into the other. Left out: that which is there" },
+                            { .name = "axis",
+                              .type = WR_ARG_CHOICE,
+                              .choice = axis_choice,
+                              .help = "of the object, which rings go round and bands along" } } };
+    return wr_scene_args("grain", NULL, out->args + 2) > 0;
+}
+
+const WrCommand wr_command_grain = {
+    .name = "grain",
+    .kind = WR_CLASS_SCENE,
+    .row = row_grain,
+    .run = run_grain,
+    .print = print_grain,
+    .of_object = true,
+    .help = "a solid texture that the object is cut out of",
+    .details = "It goes through the object and turns with it: rings of wood end where it is cut "
+               "open. Its colours are multiplied with the material's and the colour picture's. Of "
+               "another kind than before all numbers that are not given are that kind's usual "
+               "ones; else only what is given changes. off keeps the numbers.",
+    .example = "grain wood rings=12 amount=0.6"
+};

@@ -1,0 +1,44 @@
+#include "render/grain_fill.h"
+
+#include "noise/octaves.h"
+
+void wr_grain_kern_fill(const WrGrain *grain, WrGrainKind kind, bool noisy, double scale,
+                        WrKernGraind *out)
+{
+    WrOctavesPlan noise;
+    wr_grain_noise(grain, &noise);
+    *out = (WrKernGraind){ .kind = kind,
+                           .axis = grain->axis,
+                           .creased = wr_grains[grain->kind].creased,
+                           .rings = grain->rings / scale,
+                           .share = grain->share,
+                           .amount = grain->amount,
+                           .octaves = noisy ? noise.used : 0 };
+    for (int c = 0; c < 3; c++) out->light[c] = grain->light[c], out->dark[c] = grain->dark[c];
+    for (int i = 0; i < out->octaves; i++) {
+        const WrOctave *octave = &noise.octave[i];
+        out->start[i] = wr_lattice_hash_start(octave->noise.lattice.seed);
+        out->frequency[i] = octave->frequency[0] / scale;
+        out->amplitude[i] = octave->amplitude;
+        for (int a = 0; a < 3; a++) out->offset[i][a] = octave->offset[a];
+    }
+}
+
+void wr_grain_kern_narrow(const WrKernGraind *grain, WrKernGrain *out)
+{
+    *out = (WrKernGrain){ .kind = grain->kind,
+                          .axis = grain->axis,
+                          .creased = grain->creased,
+                          .rings = (float)grain->rings,
+                          .share = (float)grain->share,
+                          .amount = (float)grain->amount,
+                          .octaves = grain->octaves };
+    for (int c = 0; c < 3; c++)
+        out->light[c] = (float)grain->light[c], out->dark[c] = (float)grain->dark[c];
+    for (int i = 0; i < grain->octaves; i++) {
+        out->start[i] = grain->start[i];
+        out->frequency[i] = (float)grain->frequency[i];
+        out->amplitude[i] = (float)grain->amplitude[i];
+        for (int a = 0; a < 3; a++) out->offset[i][a] = (float)grain->offset[i][a];
+    }
+}

@@ -1,0 +1,58 @@
+/* grain.h - solid textures: a pattern in space out of which an object is cut, so that its grain goes through it and stays
+   where it is however the object turns.
+   Layer 3. The reference renderer has formulas of its own, on purpose.
+
+   At the point P of the object, in scene units, before it is turned and stretched:
+
+     N = sum over i of r^-i f_i(2^i q P),  f value noise (noise/noise.h);  T = the same of |f_i|
+     wood      t = k rho + A N, rho the distance from the axis;  g = 1 where frac t >= 1 - d
+     marble    t = k z + A T, z along the axis;                  g = 1/2 + 1/2 sin 2 pi t
+     checker   g = the parity of floor k x + floor k y + floor k z
+     granite   g = A T, at most 1
+     noise     g = 1/2 + A N / 2, within 0 and 1
+
+   The colour is light + g (dark - light), times the material's colour and the colour picture. */
+#pragma once
+#include <stdbool.h>
+
+typedef struct WrOctavesPlan WrOctavesPlan;
+
+typedef enum WrGrainKind {
+    WR_GRAIN_OFF,
+    WR_GRAIN_WOOD,
+    WR_GRAIN_MARBLE,
+    WR_GRAIN_CHECKER,
+    WR_GRAIN_GRANITE,
+    WR_GRAIN_NOISE,
+    WR_GRAIN_KINDS
+} WrGrainKind;
+
+typedef enum WrGrainAxis { WR_GRAIN_X, WR_GRAIN_Y, WR_GRAIN_Z, WR_GRAIN_AXES } WrGrainAxis;
+extern const char *const wr_grain_axes[WR_GRAIN_AXES]; /* as in commands */
+
+typedef struct WrGrain {
+    WrGrainKind kind;
+    WrGrainAxis axis;
+    double light[3], dark[3]; /* linear RGB */
+    double rings;             /* k: rings, bands or cells of the board a scene unit */
+    double share;             /* d: of a ring, that is dark; 0..1 */
+    double amount; /* A: how far noise moves rings, in rings; of granite and noise their contrast */
+    double cells;  /* q: cells of noise a scene unit, of the first octave */
+    double octaves; /* 1..WR_GRAIN_OCTAVES, whole */
+    double ratio;   /* r: each octave is that much weaker than the one before; above 1 */
+} WrGrain;
+
+#define WR_GRAIN_OCTAVES 10
+
+typedef struct WrGrainInfo {
+    const char *name, *title, *help;
+    bool ringed;  /* rings, and the axis that they go by, count */
+    bool shared;  /* share counts */
+    bool noisy;   /* noise counts */
+    bool creased; /* of |f| */
+    WrGrain usual;
+} WrGrainInfo;
+extern const WrGrainInfo wr_grains[WR_GRAIN_KINDS];
+
+/* The noise of one: how many octaves, where, and how strong. */
+void wr_grain_noise(const WrGrain *grain, WrOctavesPlan *out);
