@@ -46,6 +46,7 @@ WrScene *wr_scene_new(void)
     wr_scene_params_reset(scene->lights, true);
     scene->light_count = 1;
     scene->dials = wr_dials_default();
+    scene->grain = wr_grains[WR_GRAIN_OFF].usual;
     return scene;
 }
 

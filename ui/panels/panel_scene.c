@@ -264,6 +264,7 @@ void wr_panel_scene(WrApp *app)
     surface(app);
     wr_panel_material(app);
     wr_panel_maps(app);
+    wr_panel_solid(app);
     wr_panel_lights(app);
     wr_panel_camera(app);
     wr_gui_space(8);

@@ -1,0 +1,90 @@
+/* The scene's panel: what the relief does besides turning normals, and the solid that the object is cut out of. */
+#include "ui/desk/scene_line.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/param_row.h"
+
+#include "base/rows.h"
+#include "base/text.h"
+#include "scene/param.h"
+#include "scene/scene.h"
+
+/* A switch of the scene. */
+static void flag(WrApp *app, WrSceneParamId id, const char *label, const char *tip)
+{
+    const WrSceneParam *param = &wr_scene_params[id];
+    double value[3];
+    wr_scene_param_get(param, wr_app_scene(app), value);
+    bool on = value[0] != 0;
+    const bool changed = wr_gui_check(label, &on);
+    wr_gui_tip(tip);
+    if (!changed) return;
+    WrText line = { 0 };
+    wr_text_addf(&line, "%s %s=%s", param->command, param->name, on ? "on" : "off");
+    wr_scene_run(app, &line);
+}
+
+static void relief(WrApp *app)
+{
+    wr_gui_space(8);
+    wr_gui_heading("RELIEF");
+    flag(app, WR_SCENE_PARAM_SHADOW, "Throws shadows on itself",
+         "By how high the relief stands about each texel, seen from there; lamps only");
+    flag(app, WR_SCENE_PARAM_DISPLACED, "Moves the surface itself",
+         "True displacement, outline included, in place of bump mapping that imitates it. Slower; "
+         "each edit cuts the surface anew");
+}
+
+/* Is the number one that this kind of solid goes by? */
+static bool counts(const WrGrainInfo *info, WrSceneParamId id)
+{
+    switch (id) {
+    case WR_SCENE_PARAM_GRAIN_RINGS: return info->ringed;
+    case WR_SCENE_PARAM_GRAIN_SHARE: return info->shared;
+    case WR_SCENE_PARAM_GRAIN_AMOUNT:
+    case WR_SCENE_PARAM_GRAIN_CELLS:
+    case WR_SCENE_PARAM_GRAIN_OCTAVES:
+    case WR_SCENE_PARAM_GRAIN_RATIO: return info->noisy;
+    default: return true;
+    }
+}
+
+static void choose(WrApp *app, const char *id, const char *const *names, int count, int now,
+                   const char *format, const char *const *words)
+{
+    if (!wr_gui_choice(id, 0, names, count, &now)) return;
+    WrText line = { 0 };
+    wr_text_add(&line, format);
+    wr_text_add(&line, words[now]);
+    wr_scene_run(app, &line);
+}
+
+static void solid(WrApp *app)
+{
+    static const char *const axes[WR_GRAIN_AXES] = { "X", "Y", "Z" };
+    const char *titles[WR_GRAIN_KINDS], *words[WR_GRAIN_KINDS];
+    const WrGrain *grain = &wr_app_scene(app)->grain;
+    const WrGrainInfo *info = &wr_grains[grain->kind];
+    for (int i = 0; i < WR_GRAIN_KINDS; i++)
+        titles[i] = wr_grains[i].title, words[i] = wr_grains[i].name;
+    wr_gui_space(8);
+    wr_gui_heading("SOLID TEXTURE");
+    wr_gui_label("Cut out of");
+    choose(app, "grain", titles, WR_GRAIN_KINDS, (int)grain->kind, "grain ", words);
+    wr_gui_tip("A pattern that goes through the object and stays where it is while that turns; its "
+               "colours are multiplied with the material's");
+    if (wr_app_scene(app)->grain.kind == WR_GRAIN_OFF) return;
+    if (info->ringed && info->noisy) {
+        wr_gui_label("Axis");
+        choose(app, "axis", axes, WR_GRAIN_AXES, (int)grain->axis, "grain axis=", wr_grain_axes);
+    }
+    for (int id = WR_SCENE_PARAM_GRAIN_LIGHT; id <= WR_SCENE_PARAM_GRAIN_RATIO; id++)
+        if (counts(info, (WrSceneParamId)id)) wr_param_row(app, &wr_scene_params[id]);
+}
+
+void wr_panel_solid(WrApp *app)
+{
+    relief(app);
+    solid(app);
+}
