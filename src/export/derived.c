@@ -236,12 +236,7 @@ void wr_export_curvature_rows(WrExportJob *job, int y, int rows, void *out)
 void wr_export_derived_describe(WrExportJob *job)
 {
     const WrExportReport *report = &job->report;
-    wr_text_add(wr_export_attribute(job, "wrinkle:scheme"), wr_schemes[job->options.scheme].name);
-    WrText *cell = wr_export_attribute(job, "wrinkle:cell");
-    wr_text_add_number(cell, job->options.cell_w);
-    wr_text_add(cell, ",");
-    wr_text_add_number(cell, job->options.cell_h);
-    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);
+    wr_export_describe_slopes(job);
     if (!report->ranged) return;
     WrText *codes = wr_export_attribute(job, "wrinkle:codes"); /* `range` is of heights */
     wr_text_add_number(codes, report->code_low);

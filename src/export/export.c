@@ -96,6 +96,16 @@ WrText *wr_export_attribute(WrExportJob *job, const char *name)
     return &job->attribute_texts[job->attribute_count++];
 }
 
+void wr_export_describe_slopes(WrExportJob *job)
+{
+    wr_text_add(wr_export_attribute(job, "wrinkle:scheme"), wr_schemes[job->options.scheme].name);
+    WrText *cell = wr_export_attribute(job, "wrinkle:cell");
+    wr_text_add_number(cell, job->options.cell_w);
+    wr_text_add(cell, ",");
+    wr_text_add_number(cell, job->options.cell_h);
+    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);
+}
+
 /* ---- one export ---- */
 
 static WrPixelType type_of(int depth)

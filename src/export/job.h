@@ -49,6 +49,9 @@ void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void 
 /* A new attribute's text, to be filled. */
 WrText *wr_export_attribute(WrExportJob *job, const char *name);
 
+/* What slopes go by: scheme, cell, height. */
+void wr_export_describe_slopes(WrExportJob *job);
+
 /* Heights of rows [y, y + rows) in table units; returns how many were not finite and became 0. */
 int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out);
 

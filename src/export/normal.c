@@ -187,10 +187,5 @@ void wr_export_normal_describe(WrExportJob *job)
 {
     wr_text_add(wr_export_attribute(job, "wrinkle:convention"),
                 job->kind->green > 0.0 ? "+Y" : "-Y");
-    wr_text_add(wr_export_attribute(job, "wrinkle:scheme"), wr_schemes[job->options.scheme].name);
-    WrText *cell = wr_export_attribute(job, "wrinkle:cell");
-    wr_text_add_number(cell, job->options.cell_w);
-    wr_text_add(cell, ",");
-    wr_text_add_number(cell, job->options.cell_h);
-    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);
+    wr_export_describe_slopes(job);
 }
