@@ -101,11 +101,14 @@ static WrSession *busy_session(WrPool *pool, int side)
 
 /* "NAME FORM", or its beginning: done at once whatever the table's size, or not a command of the table's. */
 static const char *const instant[] = {
-    "object",       "table",         "view",         "surface",     "rotate",     "analytic",
-    "bump",         "replicate",     "material",     "light",       "camera",     "dials",
-    "tolerance",    "script",        "history",      "background",  "ground",     "layer add",
-    "layer use",    "layer move",    "layer rename", "layer set",   "layer solo", "layer duplicate",
-    "layer delete", "colouring off", "select all",   "select none", "fill",       "open",
+    "object",     "table",           "view",         "surface",
+    "rotate",     "analytic",        "bump",         "replicate",
+    "material",   "light",           "camera",       "dials",
+    "tolerance",  "script",          "history",      "background",
+    "ground",     "layer add",       "grain",        "tone",
+    "layer use",  "layer move",      "layer rename", "layer set",
+    "layer solo", "layer duplicate", "layer delete", "colouring off",
+    "select all", "select none",     "fill",         "open",
     "redo",
 };
 
