@@ -171,6 +171,9 @@ static const char *const lines[] = {
     "export normal-y new2.png",
     "export lines new3.png",
     "export profile new4.png",
+    "export slopes new5.exr",
+    "export slope new6.png",
+    "export curvature new7.png",
     "render new5.png size=700x700",
     "undo 5",
 };
