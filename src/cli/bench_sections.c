@@ -304,7 +304,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_GRAIN)] = { BUMPED, .with = wooden, .without = same },
     [WR_ROW(WR_EFFECT_OCTAVES)] = { BUMPED, .with = wooden },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
-    [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact },
+    [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact, .forced = true },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_GRADIENT)] = { BUMPED, .with = same, .without = bilinear },
     [WR_ROW(WR_EFFECT_WIDE)] = { BUMPED, .with = far_replicated },
