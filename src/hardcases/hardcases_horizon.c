@@ -40,7 +40,7 @@ static bool table_of(WrHardGauge *g, int w, int h, int kind, WrError *err)
 
 static void line_of(WrHardGauge *g, int n, int kind)
 {
-    double heights[SIDE], slope[SIDE];
+    double heights[SIDE] = { 0 }, slope[SIDE];
     int hull[2 * SIDE];
     for (int i = 0; i < n; i++)
         heights[i] = kind == 0 ? -2.7 : kind == 1 ? 0.37 * i : wr_hard_between(g, -1, 1);
