@@ -178,6 +178,7 @@ static bool write_job(WrExportJob *job, const char *path, WrError *err)
                        .attribute_count = job->attribute_count,
                        .data = true,
                        .rows = job_rows,
+                       .seen = wr_export_receipt,
                        .ctx = job };
     bool ok = wr_image_write(path, &out, 1, err);
     for (int i = 0; i < job->attribute_count; i++) wr_text_fini(&job->attribute_texts[i]);
@@ -198,6 +199,11 @@ static bool take_object(WrExportJob *job, const WrDocument *document, WrTables *
     return true;
 }
 
+static const char *convention_of(const WrExportKind *kind)
+{
+    return kind->green > 0 ? "+Y (green up)" : kind->green < 0 ? "-Y (green down)" : NULL;
+}
+
 static bool run_job(WrExportJob *job, const char *path, WrError *err)
 {
     if (!settle_options(job->kind, job->scene, path, &job->options, err)) return false;
@@ -208,6 +214,7 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
                                     .height = job->height,
                                     .zero_code = -1,
                                     .channels = job->kind->channels,
+                                    .convention = convention_of(job->kind),
                                     .depth = job->options.depth };
     job->u = wr_alloc((size_t)job->width, sizeof *job->u);
     for (int i = 0; i < job->width; i++) job->u[i] = (i + 0.5) / job->width;
@@ -238,6 +245,15 @@ static void add_count(WrText *text, int64_t count, const char *what)
         wr_text_addf(text, "; %lld texel%s %s", (long long)count, count == 1 ? "" : "s", what);
 }
 
+static void add_receipt(const WrExportReport *report, WrText *text)
+{
+    wr_text_add(text, "; read back: ");
+    if (report->worst > 0)
+        wr_text_addf(text, "wrong by at most %.3g%s", report->worst,
+                     report->convention ? " degrees" : "");
+    else wr_text_add(text, "exact");
+}
+
 void wr_export_report_text(const WrExportReport *report, WrText *text)
 {
     if (report->lines) {
@@ -263,6 +279,8 @@ void wr_export_report_text(const WrExportReport *report, WrText *text)
         wr_text_add_number(text, report->code_high);
         if (report->zero_code >= 0) wr_text_addf(text, " with 0 at code %d", report->zero_code);
     }
+    if (report->convention) wr_text_addf(text, ", %s", report->convention);
     add_count(text, report->clipped, "outside the range, clipped");
     add_count(text, report->replaced, "not finite, replaced by 0");
+    if (report->seen) add_receipt(report, text);
 }

@@ -81,7 +81,11 @@ typedef struct WrExportReport {
     int zero_code;        /* the code of F = 0 when it is exact by construction (signed), else -1 */
     double amplitude;     /* signed: A */
     const char *quantity; /* what low and high are of: "curvature"; NULL: heights */
-    int64_t lines;        /* drawings: visible stretches of lines; else 0 */
+    const char *convention; /* normals: "+Y (green up)"; else NULL */
+    /* What reading the written file back showed; `seen` is false where nothing could be compared: drawings, limits on file sizes. */
+    bool seen;
+    double worst;  /* largest error: table units, or the quantity's; of normals degrees */
+    int64_t lines; /* drawings: visible stretches of lines; else 0 */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -128,7 +132,10 @@ WrExportOptions wr_export_default(
 bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const char *name,
                       const char *value, WrError *err);
 
-/* Write the file.
+/* Write the file. Before it takes its name it is read back by the reader process, and what stands there is
+ * compared with the table itself (report: seen, worst). Codes may be wrong by half a code, dithered ones by a whole one,
+ * floats not at all: else it is an error, and the old file stays. Formats that lose by their nature (JPEG) are
+ * only measured.
  *
  * document  read only     pool  may be NULL: one thread
  * path      the format goes by its ending

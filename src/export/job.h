@@ -46,6 +46,9 @@ void wr_export_store_code(const WrExportJob *job, void *out, size_t i, double x,
 typedef void (*WrExportPiece)(WrExportJob *job, int y, int rows, void *ctx);
 void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void *ctx);
 
+/* receipt.c: what stands on the disk, a WrRowSeen of the job; its largest error goes into the report. */
+bool wr_export_receipt(void *ctx, int y, int rows, const float *values, bool exact, WrError *err);
+
 /* A new attribute's text, to be filled. */
 WrText *wr_export_attribute(WrExportJob *job, const char *name);
 

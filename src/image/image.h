@@ -125,6 +125,12 @@ typedef struct WrImageAttribute {
    WR_IMAGE_STRIP rows, downwards, each row once. Return false to stop (the write then fails with `err`). */
 typedef bool (*WrRowSource)(void *ctx, int y, int rows, void *out, WrError *err);
 
+/* What stands on the disk of rows [y, y + rows), before the file takes its target's place: values as WrImage has
+   them, all channels, in the part's order; exact: the format keeps every code and float. Called downwards, each row
+   once; not at all where a limit on file sizes (ulimit -f) leaves no room for rows, which are then only hashed. Return false where it is not what it should be (the write then fails with `err`, the old file stays). */
+typedef bool (*WrRowSeen)(void *ctx, int y, int rows, const float *values, bool exact,
+                          WrError *err);
+
 typedef struct WrImageOut {
     int width, height, channels;
     WrPixelType type;                 /* integer types hold finished codes */
@@ -138,6 +144,7 @@ typedef struct WrImageOut {
     const uint8_t *profile; /* an ICC profile that goes into the file; NULL: none */
     size_t profile_size;
     WrRowSource rows;
+    WrRowSeen seen; /* NULL: nobody but the writer looks */
     void *ctx;
     bool tells; /* rows tells itself how far the part is: it is most of the work */
 } WrImageOut;

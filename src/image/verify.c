@@ -2,10 +2,14 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "image/decode.h"
 #include "image/exr_chunks.h"
 #include "image/image.h"
 #include "image/read_inner.h"
 #include "system/fd.h"
+#include "system/process.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -31,12 +35,55 @@ static bool verify_texts(WrImageFile *file, int index, const WrImageOut *part, W
     return true;
 }
 
+/* EXR gives channels back in the order of their names. */
+static bool same_order(const WrImageOut *part, const WrImagePart *is)
+{
+    if (is->channels != part->channels) return false;
+    for (int c = 0; part->channel_names && c < is->channels; c++)
+        if (strcmp(part->channel_names[c], is->channel_names[c]) != 0) return false;
+    return true;
+}
+
+/* Rows travel through a memory file, two strips at a time at most, on which a limit on file sizes holds as well; digests
+ * travel without. */
+static bool rows_fit(const WrImageOut *part)
+{
+    const size_t row = (size_t)part->width * (size_t)part->channels * sizeof(float);
+    return 2 * (uint64_t)row * WR_IMAGE_STRIP < wr_process_file_limit();
+}
+
+/* Strip by strip into the digest, and to whoever asked to see what stands there. */
+static bool show_rows(WrImageFile *file, int index, const WrImageOut *part, bool exact,
+                      WrHash *have, WrError *err)
+{
+    const size_t row = (size_t)part->width * (size_t)part->channels;
+    float *values = wr_try_alloc(row * WR_IMAGE_STRIP, sizeof *values, "rows of a picture", err);
+    bool good = values != NULL;
+    for (int y = 0; y < part->height && good; y += WR_IMAGE_STRIP) {
+        int rows = part->height - y < WR_IMAGE_STRIP ? part->height - y : WR_IMAGE_STRIP;
+        good = (!wr_progress_stopped() || wr_fail(err, "cancelled")) &&
+               wr_image_file_read_rows(file, index, y, rows, values, err);
+        if (good) wr_digest_strip(have, values, row * (size_t)rows);
+        good = good && part->seen(part->ctx, y, rows, values, exact, err);
+    }
+    wr_free(values);
+    return good;
+}
+
+static bool digest_rows(WrImageFile *file, int index, int height, WrHash *have, WrError *err)
+{
+    for (int y = 0; y < height; y += WR_IMAGE_BAND) {
+        int rows = height - y < WR_IMAGE_BAND ? height - y : WR_IMAGE_BAND;
+        if (!wr_image_file_digest(file, index, y, rows, have, err)) return false;
+    }
+    return true;
+}
+
 static bool verify_part(WrImageFile *file, int index, const WrImageFormat *format,
                         const WrImageOut *part, WrHash want, WrError *err)
 {
     WrImagePart is = wr_image_file_part(file, index);
     WrHash have = { 0 };
-    /* EXR gives channels back in the order of their names. */
     bool exact = format->exact && !(part->channel_names && part->channels > 1);
     if (is.width != part->width || is.height != part->height)
         return wr_fail(err, "part %d is %dx%d, not %dx%d", index + 1, is.width, is.height,
@@ -44,10 +91,10 @@ static bool verify_part(WrImageFile *file, int index, const WrImageFormat *forma
     if (exact && is.channels != part->channels)
         return wr_fail(err, "part %d has %d channels, not %d", index + 1, is.channels,
                        part->channels);
-    for (int y = 0; y < is.height; y += WR_IMAGE_BAND) {
-        int rows = is.height - y < WR_IMAGE_BAND ? is.height - y : WR_IMAGE_BAND;
-        if (!wr_image_file_digest(file, index, y, rows, &have, err)) return false;
-    }
+    bool shown = part->seen && same_order(part, &is) && rows_fit(part);
+    if (!(shown ? show_rows(file, index, part, format->exact, &have, err)
+                : digest_rows(file, index, is.height, &have, err)))
+        return false;
     if (exact && !wr_hash_equal(have, want))
         return wr_fail(err, "texels of part %d are not what was written", index + 1);
     /* Other formats keep our texts as lines of one, if at all. */
