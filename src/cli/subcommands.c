@@ -22,7 +22,10 @@ const WrSubcommand wr_subcommands[] = {
       "whole.",
       wr_cli_render },
     { "export", "export [FILE] --as KIND [name=value...] -o OUT", "the table for other programs",
-      BIT(OUT) | BIT(AS), "`wrinkle help export` lists the kinds and what each takes.",
+      BIT(OUT) | BIT(AS),
+      "`wrinkle help export` lists the kinds and what each takes. `--as SET -o FOLDER` writes the "
+      "maps that a program wants, "
+      "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray.",
       wr_cli_export },
     { "inspect", "inspect [FILE] [--at U,V]... [--noise COMMAND] [--json]",
       "every quantity of the formulas at a point", BIT(AT) | BIT(NOISE) | BIT(FACE) | BIT(JSON),
