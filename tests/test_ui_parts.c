@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "field/field.h"
+#include "field/seam.h"
 #include "system/clock.h"
 
 #include "ui/canvas/ants.h"
@@ -19,7 +20,6 @@
 #include "ui/desk/layout.h"
 #include "ui/preview/rotation.h"
 #include "ui/gui/screen.h"
-#include "ui/canvas/seam.h"
 #include "ui/desk/search.h"
 #include "ui/desk/settings.h"
 #include "ui/canvas/thumb.h"
@@ -491,7 +491,7 @@ static void waves_that_fit_the_cell_have_no_seam(void **state)
 {
     (void)state;
     WrField *field = table_of(512, 200, waves);
-    WrSeam seam = wr_seam_measure(field);
+    WrSeam seam = wr_seam_measure(field, 256);
     assert_true(seam.u.wraps && seam.v.wraps);
     assert_false(seam.u.jumps || seam.u.creases || seam.v.jumps || seam.v.creases);
     wr_field_free(field);
@@ -501,7 +501,7 @@ static void a_slope_that_does_not_fit_jumps_by_what_is_missing(void **state)
 {
     (void)state;
     WrField *field = table_of(256, 256, slope_in_u);
-    WrSeam seam = wr_seam_measure(field);
+    WrSeam seam = wr_seam_measure(field, 256);
     assert_true(seam.u.jumps);
     assert_near(seam.u.jump, 1.0, 1e-3); /* from 1 back to 0 */
     assert_near(seam.u.jump_most, 1.0, 1e-3);
@@ -514,7 +514,7 @@ static void a_ridge_on_the_edge_is_a_crease_and_no_jump(void **state)
 {
     (void)state;
     WrField *field = table_of(256, 64, ridge);
-    WrSeam seam = wr_seam_measure(field);
+    WrSeam seam = wr_seam_measure(field, 256);
     assert_true(seam.u.creases);
     assert_near(seam.u.crease, 8.0 / 256, 0.05 * 8.0 / 256); /* slope 4 to slope -4, per texel */
     assert_true(seam.u.jump < 0.01 * seam.u.crease);
@@ -527,9 +527,9 @@ static void an_axis_that_ends_has_no_seam_to_measure(void **state)
     WrField *field = wr_field_new(64, 64, WR_WRAP_CLAMP, WR_WRAP_PERIODIC, 0, NULL);
     WrField *tiny = wr_field_new(1, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
     for (int j = 0; j < 64; j++) wr_field_set(field, 0, j, 9.0f);
-    assert_false(wr_seam_measure(field).u.wraps || wr_seam_measure(field).u.jumps);
-    assert_true(wr_seam_measure(field).v.wraps);
-    assert_false(wr_seam_measure(tiny).u.wraps || wr_seam_measure(tiny).v.wraps);
+    assert_false(wr_seam_measure(field, 256).u.wraps || wr_seam_measure(field, 256).u.jumps);
+    assert_true(wr_seam_measure(field, 256).v.wraps);
+    assert_false(wr_seam_measure(tiny, 256).u.wraps || wr_seam_measure(tiny, 256).v.wraps);
     wr_field_free(tiny);
     wr_field_free(field);
 }

@@ -94,20 +94,23 @@ static bool put_vector(double x, double y, double z, bool object, float out[3])
     return away;
 }
 
-/* One texel's; true if it looked away. */
-static bool read_vector(const Reading *r, size_t i, float out[3])
+/* One texel's. */
+static void read_vector(const Reading *r, size_t i, float out[3], WrNormalTold *told)
 {
     const float *t = texel_of(r, i);
     double x = number(r, (double)t[0]), y = number(r, (double)t[1]);
     const double xy = x * x + y * y;
     double z = r->channels == 3 ? number(r, (double)t[2]) : sqrt(fmax(0, 1 - xy));
-    const double length = sqrt(xy + z * z);
+    const double length = sqrt(xy + z * z), off = r->channels == 3 ? fabs(length - 1) : 0;
+    told->off = fmax(told->off, off);
+    told->off_mean += off / (double)texels_of(r->from);
     if (!(length > 0)) { /* no direction */
         out[0] = out[1] = 0, out[2] = 1;
-        return true;
+        told->away++;
+        return;
     }
     x /= length, y /= length, z /= length;
-    return put_vector(x, y, z, r->object, out);
+    told->away += put_vector(x, y, z, r->object, out);
 }
 
 void wr_normal_map_slopes(const float n[3], double *p, double *q)
@@ -176,7 +179,7 @@ static WrImage *read_vectors(Reading *r, WrNormalTold *told, WrError *err)
             wr_fail(err, "cancelled");
             return NULL;
         }
-        told->away += read_vector(r, i, to->data + 3 * i);
+        read_vector(r, i, to->data + 3 * i, told);
     }
     return to;
 }

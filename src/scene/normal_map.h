@@ -33,6 +33,7 @@ typedef struct WrNormalTold {
     bool centred;    /* its codes stand for 0 at 128 or 32768 */
     bool converted;  /* its x and y have the mean that a colour conversion gives: it may be bent */
     int64_t away;    /* texels that looked away, or lay beyond the rim */
+    double off, off_mean; /* how far the lengths of three numbers are from 1: at most, on average */
 } WrNormalTold;
 
 /* Unit vectors, x along u, y along v, z >= about WR_NORMAL_LEAST: a picture of three channels. channels: 2, 3, or 0: as

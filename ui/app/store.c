@@ -4,7 +4,6 @@
 #include "ui/app/timing.h"
 #include "ui/canvas/canvas.h"
 #include "ui/canvas/outline.h"
-#include "ui/canvas/seam.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/dialog.h"
@@ -31,6 +30,7 @@
 #include "ui/views/marks.h"
 
 #include "base/memory.h"
+#include "field/seam.h"
 
 typedef struct Store {
     WrApp app; /* the first: who frees it frees all */

@@ -1,7 +1,6 @@
 /* The seam meter: a square on the canvas, one side an edge of the cell; quiet where the table goes on
    smoothly, orange where it jumps. */
 #include "ui/views/panel_seam.h"
-#include "ui/canvas/seam.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/session_view.h"
@@ -11,6 +10,7 @@
 #include "base/text.h"
 #include "command/session.h"
 #include "field/field.h"
+#include "field/seam.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -49,7 +49,7 @@ static void measure(WrApp *app)
     const WrField *field = wr_app_field(app);
     uint64_t key = wr_field_key(field);
     if (key == app->seam_key || wr_session_in_stroke(app->session)) return;
-    *app->seam = wr_seam_measure(field);
+    *app->seam = wr_seam_measure(field, 256);
     app->seam_key = key;
 }
 

@@ -1,4 +1,6 @@
-/* seam.h - does a table go on smoothly where its edges meet? Pure; tested without a window. */
+/* seam.h - does a table go on smoothly where its edges meet?
+   Layer 1. Of the texels alone; what a scheme makes of them over the edge is the certificate's affair
+   (field/certificate.h). */
 #pragma once
 #include <stdbool.h>
 
@@ -9,9 +11,10 @@ typedef struct WrField WrField;
  * mean squares along the edge; `inside` is the largest of the same over columns (rows) within the table.
  * In table units, creases in table units a texel. */
 typedef struct WrSeamEdge {
-    bool wraps;                          /* false: the axis ends there, and nothing is measured */
-    double jump, jump_inside, jump_most; /* jump_most: the largest single one on the edge */
-    double crease, crease_inside;
+    bool wraps; /* false: the axis ends there, and nothing is measured */
+    double jump, jump_inside;
+    double jump_most, jump_most_inside; /* the largest single ones */
+    double crease, crease_inside, crease_most, crease_most_inside;
     bool jumps, creases; /* clearly more than anywhere inside */
 } WrSeamEdge;
 
@@ -20,6 +23,8 @@ typedef struct WrSeam {
     WrSeamEdge v; /* where the bottom meets the top */
 } WrSeam;
 
-/* Looks at no more than 256 places along an edge and 256 lines inside, however large the table. Axes of
+#define WR_SEAM_CLEARLY 1.5 /* times what is found inside */
+
+/* Looks at no more than `looks` places along an edge and so many lines inside, however large the table. Axes of
  * fewer than 4 texels have no seam to speak of. */
-WrSeam wr_seam_measure(const WrField *field);
+WrSeam wr_seam_measure(const WrField *field, int looks);
