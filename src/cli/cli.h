@@ -100,6 +100,7 @@ typedef enum WrOption {
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_MARKDOWN,  /* --markdown */
     WR_OPTION_EXPLAIN,   /* --measure, --map */
+    WR_OPTION_CHECK,     /* --as, of pictures */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */
 } WrOption;
@@ -147,6 +148,7 @@ int wr_cli_paint(const WrCli *cli);
 int wr_cli_run(const WrCli *cli);
 int wr_cli_render(const WrCli *cli);
 int wr_cli_export(const WrCli *cli);
+int wr_cli_check(const WrCli *cli);
 int wr_cli_inspect(const WrCli *cli);
 int wr_cli_explain(const WrCli *cli);
 int wr_cli_accuracy(const WrCli *cli);

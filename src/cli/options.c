@@ -223,6 +223,8 @@ static const struct Option {
     { "-o", "--output", "OUT", WR_OPTION_OUT, "the file to write", .set = set_out },
     { "--as", NULL, "KIND", WR_OPTION_AS, "what to export; `wrinkle help export` lists the kinds",
       .set = set_kind },
+    { "--as", NULL, "KIND", WR_OPTION_CHECK,
+      "what the files are: height, normal, slopes or colour (found out)", .set = set_kind },
     { "--size", NULL, "WxH", WR_OPTION_SIZE, "of the picture in pixels (512x512)",
       .set = set_size },
     { "--size", NULL, "WxH", WR_OPTION_ACCURACY, "of the pictures in pixels (256x256)",

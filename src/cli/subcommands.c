@@ -27,6 +27,18 @@ const WrSubcommand wr_subcommands[] = {
       "maps that a program wants, "
       "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray.",
       wr_cli_export },
+    { "check", "check FILE... [--as KIND] [--json]",
+      "whether pictures are seamless cells, and what they hold",
+      BIT(CHECK) | BIT(JSON) | BIT(ALL_WORDS),
+      "Of any picture, whoever made it: do opposite edges meet, beside the breaks inside; how fine "
+      "are its "
+      "numbers;\n"
+      "of normals which way green runs, whether their lengths are 1, and whether a height has such "
+      "slopes.\n"
+      "The status is 1 where a problem is found or a file cannot be read; all files are looked at. "
+      "--json: one\n"
+      "object a line.",
+      wr_cli_check },
     { "inspect", "inspect [FILE] [--at U,V]... [--noise COMMAND] [--json]",
       "every quantity of the formulas at a point", BIT(AT) | BIT(NOISE) | BIT(FACE) | BIT(JSON),
       "Without --at: the table's size, the layers and the document's hash. In object space, in "

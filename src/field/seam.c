@@ -44,6 +44,7 @@ static void measure_inside(const WrField *field, bool along_v, int size, int len
     for (int n = 0; n < looks; n++) {
         const int line = 2 + (int)((int64_t)n * inside / looks);
         const Breaks b = measure_line(field, along_v, line, length, most);
+        edge->rank += b.jump < edge->jump ? 1.0 / looks : 0;
         edge->jump_inside = fmax(edge->jump_inside, b.jump);
         edge->crease_inside = fmax(edge->crease_inside, b.crease);
         edge->jump_most_inside = fmax(edge->jump_most_inside, b.jump_most);

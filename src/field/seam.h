@@ -15,6 +15,7 @@ typedef struct WrSeamEdge {
     double jump, jump_inside;
     double jump_most, jump_most_inside; /* the largest single ones */
     double crease, crease_inside, crease_most, crease_most_inside;
+    double rank;         /* share of the lines inside whose jump is smaller, 0..1 */
     bool jumps, creases; /* clearly more than anywhere inside */
 } WrSeamEdge;
 

@@ -1,0 +1,237 @@
+#include "cli/cli.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "export/check.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- for people ---- */
+
+static const char *const kind_names[WR_CHECK_KIND_COUNT] = {
+    [WR_CHECK_HEIGHT] = "heights",
+    [WR_CHECK_NORMAL] = "normals",
+    [WR_CHECK_SLOPES] = "slopes",
+    [WR_CHECK_COLOUR] = "colours",
+};
+
+static void add_edge(WrText *text, const char *name, const WrCheckEdge *edge)
+{
+    wr_text_addf(text, "  %-8s ", name);
+    if (!edge->judged) {
+        wr_text_add(text, "too few texels to tell\n");
+        return;
+    }
+    wr_text_addf(text, "%s: ", edge->seam ? "A SEAM" : "seamless");
+    if (edge->jump > 0 || edge->inside > 0)
+        wr_text_addf(text, "breaks by up to %.3g, inside by up to %.3g; ", edge->jump,
+                     edge->inside);
+    wr_text_addf(text, "%.3g of the worst, more than at %.3g %% of the lines%s\n", edge->ratio,
+                 100 * edge->rank,
+                 edge->repeats ? "; the last line is the first one again: leave it out" : "");
+}
+
+static void add_numbers(WrText *text, const WrCheck *check)
+{
+    const WrCheckNumbers *n = &check->numbers;
+    const bool many = n->distinct >= WR_CHECK_DISTINCT && check->depth == 32;
+    wr_text_addf(text, "  numbers  %d%s different, %.6g to %.6g", n->distinct,
+                 many ? " or more" : "", n->low, n->high);
+    if (n->half) wr_text_add(text, ", half precision");
+    else if (n->judged && n->bits < check->depth)
+        wr_text_addf(text, ", %d bit%s would hold them", n->bits, n->bits == 1 ? "" : "s");
+    wr_text_add(text, "\n");
+    if (check->kind == WR_CHECK_HEIGHT && n->distinct > 1)
+        wr_text_addf(text, "  ends     %.3g %% are the lowest, %.3g %% the highest\n",
+                     100 * n->at_low, 100 * n->at_high);
+}
+
+static void add_normals(WrText *text, const WrCheck *check)
+{
+    const WrCheckNormals *n = &check->normals;
+    if (check->kind != WR_CHECK_NORMAL && check->kind != WR_CHECK_SLOPES) return;
+    wr_text_addf(text, "  green    %s\n",
+                 !n->green_known ? "up or down cannot be told"
+                 : n->green_down ? "down (-Y)"
+                                 : "up (+Y)");
+    if (n->lengths) wr_text_addf(text, "  lengths  1, off by up to %.3g\n", n->off);
+    if (n->curl_known)
+        wr_text_addf(text, "  curl     %.3g (0: of a height, 1: of none)\n", n->curl);
+}
+
+static const char *problem_text(WrCheckProblem problem)
+{
+    switch (problem) {
+    case WR_CHECK_SEAM_U: return "left and right edge do not meet";
+    case WR_CHECK_SEAM_V: return "top and bottom edge do not meet";
+    case WR_CHECK_LOST: return "numbers that are not finite";
+    case WR_CHECK_STEPS: return "the steps of 8 bits or fewer in a deeper file";
+    case WR_CHECK_LENGTH: return "normals whose length is not 1";
+    case WR_CHECK_AWAY: return "normals that look away from the surface";
+    case WR_CHECK_CURL: return "no height has these slopes";
+    case WR_CHECK_CONVERTED: return "its mean is that of data converted as if they were colours";
+    case WR_CHECK_LABEL: return "its label makes no sense, or tells another green than it has";
+    case WR_CHECK_PROBLEM_COUNT: break;
+    }
+    return "";
+}
+
+static void add_lines(WrText *text, const char *path, const WrCheck *check)
+{
+    wr_text_addf(text, "%s: %dx%d, %d channel%s of %s, %s", path, check->width, check->height,
+                 check->channels, check->channels == 1 ? "" : "s",
+                 check->depth == 8    ? "8 bits"
+                 : check->depth == 16 ? "16 bits"
+                                      : "floats",
+                 kind_names[check->kind]);
+    wr_text_addf(text, "%s%s\n", check->label ? "; labelled " : "",
+                 check->label ? check->label : "");
+    add_edge(text, "u", &check->u);
+    add_edge(text, "v", &check->v);
+    add_numbers(text, check);
+    add_normals(text, check);
+    for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++)
+        if (check->problems >> i & 1)
+            wr_text_addf(text, "  PROBLEM  %s\n", problem_text((WrCheckProblem)i));
+    if (!check->problems) wr_text_add(text, "  good\n");
+}
+
+/* ---- for programs ---- */
+
+static void json_number(WrText *text, const char *name, double x)
+{
+    wr_text_addf(text, ",\"%s\":", name);
+    wr_text_add_json_number(text, x);
+}
+
+static void json_string(WrText *text, const char *name, const char *value)
+{
+    wr_text_addf(text, ",\"%s\":", name);
+    if (value) wr_text_add_json_string(text, value);
+    else wr_text_add(text, "null");
+}
+
+static const char *truth(bool yes)
+{
+    return yes ? "true" : "false";
+}
+
+static void json_edge(WrText *text, const char *name, const WrCheckEdge *edge)
+{
+    wr_text_addf(text, ",\"%s\":{\"seamless\":%s", name,
+                 edge->judged ? truth(!edge->seam) : "null");
+    json_number(text, "break", edge->jump);
+    json_number(text, "inside", edge->inside);
+    json_number(text, "ratio", edge->ratio);
+    json_number(text, "rank", edge->rank);
+    wr_text_addf(text, ",\"repeats\":%s}", truth(edge->repeats));
+}
+
+static void json_numbers(WrText *text, const WrCheckNumbers *n)
+{
+    wr_text_addf(text, ",\"numbers\":{\"distinct\":%d,\"bits\":", n->distinct);
+    if (n->judged) wr_text_addf(text, "%d", n->bits);
+    else wr_text_add(text, "null");
+    wr_text_addf(text, ",\"half\":%s", truth(n->half));
+    json_number(text, "low", n->low);
+    json_number(text, "high", n->high);
+    json_number(text, "at_low", n->at_low);
+    json_number(text, "at_high", n->at_high);
+    wr_text_add(text, "}");
+}
+
+static void json_normals(WrText *text, const WrCheck *check)
+{
+    const WrCheckNormals *n = &check->normals;
+    wr_text_add(text, ",\"normals\":");
+    if (check->kind != WR_CHECK_NORMAL && check->kind != WR_CHECK_SLOPES) {
+        wr_text_add(text, "null");
+        return;
+    }
+    wr_text_addf(text, "{\"green\":%s",
+                 !n->green_known ? "null"
+                 : n->green_down ? "\"down\""
+                                 : "\"up\"");
+    json_number(text, "off", n->lengths ? n->off : NAN);
+    json_number(text, "curl", n->curl_known ? n->curl : NAN);
+    wr_text_addf(text, ",\"away\":%lld}", (long long)n->away);
+}
+
+static void add_object(WrText *text, const char *path, const WrCheck *check)
+{
+    wr_text_add(text, "{\"file\":");
+    wr_text_add_json_string(text, path);
+    wr_text_addf(text, ",\"width\":%d,\"height\":%d,\"channels\":%d,\"depth\":%d", check->width,
+                 check->height, check->channels, check->depth);
+    json_string(text, "kind", wr_check_kinds[check->kind]);
+    json_string(text, "label", check->label);
+    json_edge(text, "u", &check->u);
+    json_edge(text, "v", &check->v);
+    json_numbers(text, &check->numbers);
+    json_normals(text, check);
+    wr_text_addf(text, ",\"not_finite\":%lld,\"problems\":[", (long long)check->replaced);
+    bool any = false;
+    for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++) {
+        if (!(check->problems >> i & 1)) continue;
+        wr_text_addf(text, "%s\"%s\"", any ? "," : "", wr_check_problems[i]);
+        any = true;
+    }
+    wr_text_add(text, "]}\n");
+}
+
+/* ---- the subcommand ---- */
+
+static bool find_kind(const WrCli *cli, int *kind, WrError *err)
+{
+    *kind = -1;
+    for (int i = 0; cli->kind && wr_check_kinds[i]; i++)
+        if (strcmp(cli->kind, wr_check_kinds[i]) == 0) *kind = i;
+    if (!cli->kind || *kind >= 0) return true;
+    return wr_fail(err, "--as %.60s: must be height, normal, slopes or colour", cli->kind);
+}
+
+static bool check_line(const WrCli *cli, WrError *err)
+{
+    for (int i = 0; i < cli->word_count; i++)
+        if (cli->words[i][0] == '-' && cli->words[i][1])
+            return wr_fail(err, "check: unknown option %.60s: see `wrinkle check --help`",
+                           cli->words[i]);
+    return cli->word_count > 0 || wr_fail(err, "check: needs a FILE, or several");
+}
+
+/* One file; what is wrong with it, or with reading it, is 1. */
+static int check_one(const WrCli *cli, const char *path, int kind)
+{
+    WrCheck check;
+    WrError err = { "" };
+    WrText text = { 0 };
+    const bool read = wr_check_file(path, kind, &check, &err);
+    int status = read ? WR_EXIT_DONE : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    if (status == WR_EXIT_INTERRUPTED) return status;
+    if (read && cli->json) add_object(&text, path, &check);
+    else if (read) add_lines(&text, path, &check);
+    else if (cli->json) {
+        wr_text_add(&text, "{\"file\":");
+        wr_text_add_json_string(&text, path);
+        json_string(&text, "error", err.text);
+        wr_text_add(&text, "}\n");
+    }
+    if (wr_cli_print(cli, &text) != WR_EXIT_DONE || (read && check.problems))
+        status = WR_EXIT_FAILED;
+    wr_text_fini(&text);
+    return status;
+}
+
+int wr_cli_check(const WrCli *cli)
+{
+    WrError err;
+    int kind, status = WR_EXIT_DONE;
+    if (!check_line(cli, &err)) return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
+    if (!find_kind(cli, &kind, &err)) return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    for (int i = 0; i < cli->word_count && status != WR_EXIT_INTERRUPTED; i++) {
+        const int one = check_one(cli, cli->words[i], kind);
+        if (one != WR_EXIT_DONE) status = one;
+    }
+    return status;
+}

@@ -1,0 +1,318 @@
+#include "export/check_inner.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "export/export.h"
+#include "field/field.h"
+#include "field/seam.h"
+#include "image/image.h"
+#include "scene/normal_map.h"
+
+#include <math.h>
+#include <string.h>
+
+#define JUDGED 8         /* texels of an axis */
+#define LOOKS 2048       /* along an edge, and lines inside */
+#define NORMAL_OFF 0.15  /* from length 1 on average, at most, to be taken for normals */
+#define NORMAL_AWAY 0.05 /* share */
+#define CURLED                                                                                     \
+    0.6 /* more is no height; of noise from texel to texel B-splines leave 0.24, Sobel's filter 0.45 */
+
+const char *const wr_check_kinds[] = { WR_CHECK_KINDS(WR_WORD) NULL };
+const char *const wr_check_problems[] = { WR_CHECK_PROBLEMS(WR_WORD) NULL };
+
+/* ---- edges ---- */
+
+/* One colour as a table that goes round. */
+static WrField *field_of(const WrCheckPicture *p, int colour, WrError *err)
+{
+    const int w = p->image->width, h = p->image->height;
+    WrField *field = wr_field_new(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err);
+    float *row = wr_alloc_unset((size_t)w, sizeof *row);
+    for (int j = 0; field && j < h; j++) {
+        const float *from = p->image->data + (size_t)j * (size_t)w * (size_t)p->image->channels;
+        for (int i = 0; i < w; i++) row[i] = from[i * p->image->channels + colour];
+        wr_field_write(field, 0, j, w, 1, row, (size_t)w);
+    }
+    wr_free(row);
+    return field;
+}
+
+static double ratio_of(double over, double inside, double noise)
+{
+    return over > 0 ? over / (inside + noise) : 0;
+}
+
+/* noise: rounding of the numbers; a single break is a sum of four of them, of weights 1, 3, 3, 1 halves. */
+static double worst_ratio(const WrSeamEdge *e, double noise)
+{
+    const double jump = fmax(ratio_of(e->jump, e->jump_inside, noise / 2),
+                             ratio_of(e->jump_most, e->jump_most_inside, noise));
+    const double crease = fmax(ratio_of(e->crease, e->crease_inside, noise / 2),
+                               ratio_of(e->crease_most, e->crease_most_inside, noise));
+    return fmax(jump, crease);
+}
+
+static void take_worse(const WrSeamEdge *e, int size, double noise, WrCheckEdge *edge)
+{
+    const double ratio = worst_ratio(e, noise);
+    edge->judged = size >= JUDGED;
+    if (!edge->judged || ratio < edge->ratio) return;
+    edge->ratio = ratio;
+    edge->rank = e->rank;
+    edge->jump = e->jump_most;
+    edge->inside = e->jump_most_inside;
+    edge->seam = ratio > WR_SEAM_CLEARLY;
+}
+
+/* Is the last column (row) the first one again? */
+static bool is_repeated(const WrCheckPicture *p, bool columns)
+{
+    const int w = p->image->width, h = p->image->height, step = p->image->channels;
+    const int length = columns ? h : w;
+    const size_t along = (size_t)step * (columns ? (size_t)w : 1);
+    const size_t last = (size_t)step * (columns ? (size_t)(w - 1) : (size_t)w * (size_t)(h - 1));
+    for (size_t k = 0; k < (size_t)length; k++)
+        for (int c = 0; c < p->colours; c++) {
+            const float *first = p->image->data + k * along + c;
+            if (first[0] < first[last] || first[0] > first[last]) return false;
+        }
+    return true;
+}
+
+static bool check_edges(const WrCheckPicture *p, WrCheck *check, WrError *err)
+{
+    const double size = fmax(fabs(check->numbers.low), fabs(check->numbers.high));
+    const double noise = wr_check_step(&check->numbers) + 1e-6 * size;
+    for (int c = 0; c < p->colours; c++) {
+        if (wr_progress_stopped()) return wr_fail(err, "cancelled");
+        WrField *field = field_of(p, c, err);
+        if (!field) return false;
+        const WrSeam seam = wr_seam_measure(field, LOOKS);
+        wr_field_free(field);
+        take_worse(&seam.u, check->width, noise, &check->u);
+        take_worse(&seam.v, check->height, noise, &check->v);
+    }
+    check->u.repeats = check->u.seam && is_repeated(p, true);
+    check->v.repeats = check->v.seam && is_repeated(p, false);
+    return true;
+}
+
+/* ---- what it is ---- */
+
+static bool is_grey(const WrImage *image)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < count; i++) {
+        const float *t = image->data + i * (size_t)image->channels;
+        if (t[0] < t[1] || t[0] > t[1] || t[1] < t[2] || t[1] > t[2]) return false;
+    }
+    return true;
+}
+
+static bool looks_normal(const WrImage *image, const WrNormalTold *told)
+{
+    const double texels = (double)image->width * (double)image->height;
+    return told->off_mean < NORMAL_OFF && (double)told->away < NORMAL_AWAY * texels;
+}
+
+static const char *label_of(const WrImageLabel *label)
+{
+    static const char kind[] = "wrinkle:kind=";
+    if (label->kind == WR_LABEL_HEIGHT) return "height";
+    if (label->kind == WR_LABEL_NORMAL_UP) return "normal+y";
+    if (label->kind == WR_LABEL_NORMAL_DOWN) return "normal-y";
+    if (strncmp(label->refused, kind, sizeof kind - 1) != 0) return NULL;
+    const WrExportKind *export = wr_export_find(label->refused + sizeof kind - 1);
+    return export ? export->name : NULL;
+}
+
+static WrCheckKind kind_of(const WrImage *image, const WrNormalTold *told, const WrCheck *check)
+{
+    const WrLabelKind label = image->label.kind;
+    if (label == WR_LABEL_NORMAL_UP || label == WR_LABEL_NORMAL_DOWN) return WR_CHECK_NORMAL;
+    if (image->channels < 3 || label == WR_LABEL_HEIGHT || is_grey(image)) return WR_CHECK_HEIGHT;
+    if (check->label || !looks_normal(image, told)) return WR_CHECK_COLOUR;
+    return WR_CHECK_NORMAL;
+}
+
+/* ---- normals ---- */
+
+static void take_told(const WrNormalTold *told, WrCheckNormals *normals)
+{
+    normals->green_known = !told->undecided;
+    normals->green_down = told->green_down;
+    normals->lengths = told->channels == 3;
+    normals->off = told->off;
+    normals->away = told->away;
+    normals->converted = told->converted;
+}
+
+static bool check_normals(const WrImage *image, int kind, WrCheck *check, WrError *err)
+{
+    WrNormalTold told = { 0 };
+    const bool could = kind == WR_CHECK_NORMAL || (kind < 0 && image->channels >= 3);
+    WrImage *map = could ? wr_normal_map_read(image, WR_GREEN_AUTO, 0, &told, err) : NULL;
+    if (could && !map) return false;
+    check->kind = kind < 0 ? kind_of(image, &told, check) : (WrCheckKind)kind;
+    const bool codes = check->numbers.bits < 32;
+    const double step = codes ? 2.0 / ((1 << check->numbers.bits) - 1) : 1e-6;
+    if (check->kind == WR_CHECK_NORMAL && map) {
+        take_told(&told, &check->normals);
+        wr_check_curl(map, step, &check->normals);
+    }
+    wr_image_free(map);
+    return true;
+}
+
+/* Slopes (p, q) as the normals that have them. */
+static bool check_slopes(const WrImage *slopes, WrCheck *check, WrError *err)
+{
+    WrNormalTold told;
+    WrImage *normals = wr_image_new(slopes->width, slopes->height, 3, err);
+    if (!normals) return false;
+    normals->type = WR_PIXEL_F32;
+    for (size_t i = 0; i < (size_t)slopes->width * (size_t)slopes->height; i++) {
+        const double p = (double)slopes->data[2 * i], q = (double)slopes->data[2 * i + 1];
+        const double unit = 1 / sqrt(1 + p * p + q * q);
+        normals->data[3 * i] = (float)(-p * unit);
+        normals->data[3 * i + 1] = (float)(-q * unit);
+        normals->data[3 * i + 2] = (float)unit;
+    }
+    WrImage *map = wr_normal_map_read(normals, WR_GREEN_AUTO, 3, &told, err);
+    if (map) {
+        take_told(&told, &check->normals);
+        check->normals.lengths = false; /* made here */
+        wr_check_curl(map, 1e-6, &check->normals);
+    }
+    wr_image_free(map);
+    wr_image_free(normals);
+    check->kind = WR_CHECK_SLOPES;
+    return map != NULL;
+}
+
+/* ---- what is wrong ---- */
+
+/* How far rounding moves a length from 1: half a code of 2/M in each number, one where 0 has a code of its own. */
+static double most_off(const WrCheck *check)
+{
+    if (check->numbers.half) return 2e-3;
+    return check->numbers.bits < 32 ? 2 * sqrt(3) / ((1 << check->numbers.bits) - 1) : 1e-4;
+}
+
+static bool labels_lie(const WrImage *image, const WrCheck *check)
+{
+    const bool down = image->label.kind == WR_LABEL_NORMAL_DOWN;
+    const bool told = down || image->label.kind == WR_LABEL_NORMAL_UP;
+    if (image->label.refused[0] && !label_of(&image->label)) return true;
+    if (image->label.refused[0] && image->label.kind != WR_LABEL_NONE) return true;
+    return told && check->normals.green_known && check->normals.green_down != down;
+}
+
+static void find_problems(const WrImage *image, WrCheck *check)
+{
+    const WrCheckNormals *n = &check->normals;
+    const bool found[WR_CHECK_PROBLEM_COUNT] = {
+        [WR_CHECK_SEAM_U] = check->u.seam,
+        [WR_CHECK_SEAM_V] = check->v.seam,
+        [WR_CHECK_LOST] = check->replaced > 0,
+        [WR_CHECK_STEPS] = check->depth > 8 && check->numbers.judged && check->numbers.bits <= 8,
+        [WR_CHECK_LENGTH] = n->lengths && n->off > most_off(check),
+        [WR_CHECK_AWAY] = n->away > 0,
+        [WR_CHECK_CURL] = n->curl_known && n->curl > CURLED,
+        [WR_CHECK_CONVERTED] = n->converted,
+        [WR_CHECK_LABEL] = labels_lie(image, check),
+    };
+    for (int i = 0; i < WR_CHECK_PROBLEM_COUNT; i++) check->problems |= (unsigned)found[i] << i;
+}
+
+/* ---- files ---- */
+
+static bool check_image(const WrImage *image, int colours, int kind, WrCheck *check, WrError *err)
+{
+    const WrCheckPicture picture = { image, colours };
+    check->width = image->width;
+    check->height = image->height;
+    check->channels = image->channels;
+    check->depth = image->type == WR_PIXEL_U8 ? 8 : image->type == WR_PIXEL_U16 ? 16 : 32;
+    check->replaced = image->replaced;
+    check->label = label_of(&image->label);
+    wr_check_numbers(&picture, &check->numbers);
+    const bool slopes = kind == WR_CHECK_SLOPES;
+    if (!(slopes ? check_slopes(image, check, err) : check_normals(image, kind, check, err)) ||
+        !check_edges(&picture, check, err))
+        return false;
+    find_problems(image, check);
+    return true;
+}
+
+/* The two channels of floats of a file's first part, where it has two and they are not grey and coverage; else NULL, and
+ * only where something went wrong an error. */
+static WrImage *read_slopes(const char *path, WrError *err)
+{
+    WrImageFile *file = wr_image_file_open(path, err);
+    if (!file) return NULL;
+    const WrImagePart part = wr_image_file_part(file, 0);
+    const char *second = part.channels == 2 ? part.channel_names[1] : "A";
+    const bool two = part.type == WR_PIXEL_F32 && strcmp(second, "A") != 0;
+    WrImage *slopes = two ? wr_image_new(part.width, part.height, 2, err) : NULL;
+    if (slopes && !wr_image_file_read(file, 0, slopes->data, err)) {
+        wr_image_free(slopes);
+        slopes = NULL;
+    }
+    wr_image_file_close(file);
+    return slopes;
+}
+
+/* What is not finite is 0, and counted. */
+static void replace_lost(WrImage *slopes)
+{
+    const size_t count = (size_t)slopes->width * (size_t)slopes->height;
+    for (size_t i = 0; i < count; i++) {
+        float *t = slopes->data + 2 * i;
+        slopes->replaced += !isfinite(t[0]) || !isfinite(t[1]);
+        for (int c = 0; c < 2; c++) t[c] = isfinite(t[c]) ? t[c] : 0;
+    }
+}
+
+/* In place of a picture of which only the first of two channels was read. */
+static WrImage *take_slopes(const char *path, WrImage *image, WrError *err)
+{
+    WrError none = { "" };
+    WrImage *slopes = read_slopes(path, &none);
+    if (none.text[0]) *err = none;
+    if (slopes) {
+        slopes->type = WR_PIXEL_F32;
+        slopes->label = image->label;
+        replace_lost(slopes);
+    }
+    if (slopes || none.text[0]) wr_image_free(image);
+    return slopes ? slopes : none.text[0] ? NULL : image;
+}
+
+static int colours_of(const WrImage *image, int kind)
+{
+    if (image->channels >= 3) return 3;
+    return kind == WR_CHECK_SLOPES || kind == WR_CHECK_NORMAL ? image->channels : 1;
+}
+
+bool wr_check_file(const char *path, int kind, WrCheck *check, WrError *err)
+{
+    *check = (WrCheck){ 0 };
+    WrImage *image = wr_image_read(path, err);
+    const bool part = image && image->type == WR_PIXEL_F32 && (image->taken[0] || image->channels == 2);
+    if (part && (kind < 0 || kind == WR_CHECK_SLOPES)) {
+        WrImage *both = take_slopes(path, image, err);
+        if (both && both != image) kind = WR_CHECK_SLOPES;
+        image = both;
+    }
+    if (!image) return false;
+    if (kind == WR_CHECK_SLOPES && image->channels != 2) {
+        wr_image_free(image);
+        return wr_fail(err, "%s: slopes are two channels of floats; it has none such", path);
+    }
+    const bool good = check_image(image, colours_of(image, kind), kind, check, err);
+    wr_image_free(image);
+    return good;
+}
