@@ -45,7 +45,7 @@ expect 0 --version
 has out 'wrinkle 0.'
 expect 0 --help
 has out 'wrinkle render'
-for command in run render export inspect explain help; do
+for command in run render export check inspect explain help; do
     expect 0 "$command" --help
     has out "wrinkle $command"
     expect 0 "$command" -h
@@ -469,6 +469,22 @@ expect 0 recover
 has out 'nothing to recover'
 rm -rf mine.exr part.exr rest.exr all.wrinkle shown want got state
 empty 'a recovery'
+
+# ---- check: pictures of anybody's, good, with a seam, and none at all ----
+expect 2 check
+expect 2 check --nosuch a.png
+expect 1 check --as nosuch a.png
+expect 1 check none.png
+expect 0 export --do 'table 41x23' --do 'analytic fourier terms=2,1,0.3,17,40' --as normal-y -o good.png
+expect 0 export --do 'table 41x23' --do 'analytic poly c=1,0,1' --as height -o 'a "ramp".png'
+head -c 300 good.png >cut.png
+expect 0 check good.png
+"$program" check --json 'a "ramp".png' cut.png good.png >out 2>err
+is 'status of check' $? 1
+is 'check as JSON' "$(jq -c '[.file, .u.seamless, .v.seamless, .normals.green, .problems, (.error | type)]' out | tr '\n' ' ')" \
+    '["a \"ramp\".png",false,true,null,["seam-u"],"null"] ["cut.png",null,null,null,null,"string"] ["good.png",true,true,"down",[],"null"] '
+rm -f good.png cut.png 'a "ramp".png'
+empty 'a check'
 
 if [[ $failures != 0 ]]; then
     printf '%d failures\n' "$failures"

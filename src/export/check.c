@@ -301,7 +301,8 @@ bool wr_check_file(const char *path, int kind, WrCheck *check, WrError *err)
 {
     *check = (WrCheck){ 0 };
     WrImage *image = wr_image_read(path, err);
-    const bool part = image && image->type == WR_PIXEL_F32 && (image->taken[0] || image->channels == 2);
+    const bool part =
+        image && image->type == WR_PIXEL_F32 && (image->taken[0] || image->channels == 2);
     if (part && (kind < 0 || kind == WR_CHECK_SLOPES)) {
         WrImage *both = take_slopes(path, image, err);
         if (both && both != image) kind = WR_CHECK_SLOPES;
