@@ -19,6 +19,28 @@ typedef struct Slopes {
     double *u, *v, *p, *q; /* [width] each */
 } Slopes;
 
+/* A stretch of rows under way. band: NULL for a formula, or where memory is gone. */
+typedef struct Rows {
+    const WrExportJob *job;
+    WrFieldBand *band;
+} Rows;
+
+static Rows open_rows(const WrExportJob *job, int y, int rows)
+{
+    const WrScheme scheme = (WrScheme)job->options.scheme;
+    return (Rows){ job, job->analytic ? NULL : wr_field_band_new(job->field, scheme, y, rows) };
+}
+
+static void find_slopes_of_table(const Rows *rows, Slopes *s)
+{
+    const WrExportJob *job = rows->job;
+    const size_t count = (size_t)job->width;
+    if (rows->band) wr_field_band_sample(rows->band, count, s->u, s->v, NULL, s->p, s->q);
+    else
+        wr_field_sample(job->field, (WrScheme)job->options.scheme, count, s->u, s->v, NULL, s->p,
+                        s->q);
+}
+
 static Slopes new_slopes(const WrExportJob *job)
 {
     const size_t width = (size_t)job->width;
@@ -27,22 +49,21 @@ static Slopes new_slopes(const WrExportJob *job)
 }
 
 /* At the centres of row y moved by so many texels to the right and upwards. */
-static void find_slopes(const WrExportJob *job, int y, double right, double up, Slopes *s)
+static void find_slopes(const Rows *rows, int y, double right, double up, Slopes *s)
 {
+    const WrExportJob *job = rows->job;
     const double height = job->scene->height, w = job->options.cell_w, h = job->options.cell_h;
     const double v = wr_export_row_v(job, y) + up / job->height;
     for (int i = 0; i < job->width; i++) s->u[i] = job->u[i] + right / job->width, s->v[i] = v;
     if (job->analytic)
         for (int i = 0; i < job->width; i++)
             wr_analytic_sample(&job->scene->analytic, s->u[i], v, NULL, &s->p[i], &s->q[i]);
-    else
-        wr_field_sample(job->field, (WrScheme)job->options.scheme, (size_t)job->width, s->u, s->v,
-                        NULL, s->p, s->q);
+    else find_slopes_of_table(rows, s);
     for (int i = 0; i < job->width; i++) s->p[i] *= height / w, s->q[i] *= height / h;
 }
 
 /* What a kind makes of a row, [width] numbers a channel, one channel after the other; how many were not finite. */
-typedef int64_t Derive(const WrExportJob *job, int y, double *out);
+typedef int64_t Derive(const Rows *rows, int y, double *out);
 
 static int64_t settle(double *x)
 {
@@ -51,11 +72,12 @@ static int64_t settle(double *x)
     return 1;
 }
 
-static int64_t both_slopes(const WrExportJob *job, int y, double *out)
+static int64_t both_slopes(const Rows *rows, int y, double *out)
 {
+    const WrExportJob *job = rows->job;
     Slopes s = new_slopes(job);
     int64_t replaced = 0;
-    find_slopes(job, y, 0, 0, &s);
+    find_slopes(rows, y, 0, 0, &s);
     for (int i = 0; i < job->width; i++) {
         out[i] = s.p[i], out[job->width + i] = s.q[i];
         replaced += settle(&out[i]) + settle(&out[job->width + i]);
@@ -64,11 +86,12 @@ static int64_t both_slopes(const WrExportJob *job, int y, double *out)
     return replaced;
 }
 
-static int64_t steepness(const WrExportJob *job, int y, double *out)
+static int64_t steepness(const Rows *rows, int y, double *out)
 {
+    const WrExportJob *job = rows->job;
     Slopes s = new_slopes(job);
     int64_t replaced = 0;
-    find_slopes(job, y, 0, 0, &s);
+    find_slopes(rows, y, 0, 0, &s);
     for (int i = 0; i < job->width; i++) {
         out[i] = atan(hypot(s.p[i], s.q[i])) * 180 / WR_PI;
         replaced += settle(&out[i]);
@@ -78,26 +101,28 @@ static int64_t steepness(const WrExportJob *job, int y, double *out)
 }
 
 /* Differences of slopes across a texel, per scene unit. */
-static void find_bend(const WrExportJob *job, int y, bool across, Slopes *a, Slopes *b)
+static void find_bend(const Rows *rows, int y, bool across, Slopes *a, Slopes *b)
 {
+    const WrExportJob *job = rows->job;
     const double right = across ? 0.5 : 0, up = across ? 0 : 0.5;
     const double step =
         across ? job->options.cell_w / job->width : job->options.cell_h / job->height;
-    find_slopes(job, y, right, up, a);
-    find_slopes(job, y, -right, -up, b);
+    find_slopes(rows, y, right, up, a);
+    find_slopes(rows, y, -right, -up, b);
     for (int i = 0; i < job->width; i++) {
         a->p[i] = (a->p[i] - b->p[i]) / step;
         a->q[i] = (a->q[i] - b->q[i]) / step;
     }
 }
 
-static int64_t bend(const WrExportJob *job, int y, double *out)
+static int64_t bend(const Rows *rows, int y, double *out)
 {
+    const WrExportJob *job = rows->job;
     Slopes at = new_slopes(job), u = new_slopes(job), v = new_slopes(job), other = new_slopes(job);
     int64_t replaced = 0;
-    find_slopes(job, y, 0, 0, &at);
-    find_bend(job, y, true, &u, &other);
-    find_bend(job, y, false, &v, &other);
+    find_slopes(rows, y, 0, 0, &at);
+    find_bend(rows, y, true, &u, &other);
+    find_bend(rows, y, false, &v, &other);
     for (int i = 0; i < job->width; i++) {
         const double p = at.p[i], q = at.q[i], n2 = 1 + p * p + q * q;
         const double r = u.p[i], s = 0.5 * (u.q[i] + v.p[i]), t = v.q[i];
@@ -122,10 +147,12 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
     Extent *extent = ctx;
     double low = INFINITY, high = -INFINITY;
     double *row = wr_alloc((size_t)job->width, sizeof *row);
+    const Rows stretch = open_rows(job, y, rows);
     for (int j = 0; j < rows; j++) {
-        extent->derive(job, y + j, row);
+        extent->derive(&stretch, y + j, row);
         for (int i = 0; i < job->width; i++) low = fmin(low, row[i]), high = fmax(high, row[i]);
     }
+    wr_field_band_free(stretch.band);
     wr_free(row);
     wr_mutex_lock(&extent->lock);
     extent->low = fmin(extent->low, low);
@@ -197,9 +224,10 @@ static void derived_piece(WrExportJob *job, int y, int rows, void *ctx)
     const double full = job->report.amplitude;
     int64_t replaced = 0, clipped = 0;
     double *row = wr_alloc((size_t)(channels * width), sizeof *row);
+    const Rows stretch = open_rows(job, y, rows);
     for (int j = 0; j < rows; j++) {
         const size_t first = (size_t)(y - strip->y + j) * (size_t)width;
-        replaced += strip->derive(job, y + j, row);
+        replaced += strip->derive(&stretch, y + j, row);
         for (int i = 0; i < channels * width; i++) {
             const int column = i % width, channel = i / width;
             const size_t at = (first + (size_t)column) * (size_t)channels + (size_t)channel;
@@ -207,6 +235,7 @@ static void derived_piece(WrExportJob *job, int y, int rows, void *ctx)
             put(job, strip->out, at, row[i], (WrExportTexel){ column, y + j, channel });
         }
     }
+    wr_field_band_free(stretch.band);
     wr_free(row);
     __atomic_fetch_add(&job->report.replaced, replaced, __ATOMIC_RELAXED);
     __atomic_fetch_add(&job->report.clipped, clipped, __ATOMIC_RELAXED);

@@ -70,6 +70,18 @@ int wr_scheme_find(const char *name);
 void wr_field_sample(const WrField *field, WrScheme scheme, size_t count, const double *u,
                      const double *v, double *f, double *fu, double *fv);
 
+/* The same, many times near the same rows: the taps that they need are read, and fitted, once.
+ *
+ * row, rows  of the table, from the top; points may lie up to a texel outside of them. Further ones are right
+ *            too, and slow.
+ * Errors     NULL where memory is gone    Owner  the caller; the field stays as it is meanwhile
+ * The bits are those of wr_field_sample. */
+typedef struct WrFieldBand WrFieldBand;
+WrFieldBand *wr_field_band_new(const WrField *field, WrScheme scheme, int row, int rows);
+void wr_field_band_free(WrFieldBand *band); /* NULL is fine */
+void wr_field_band_sample(const WrFieldBand *band, size_t count, const double *u, const double *v,
+                          double *f, double *fu, double *fv);
+
 /* The paper's formula to the letter, as the historical rung and for tests: four bilinear look-ups,
  * FU = (FVAL(U + E, V) - FVAL(U - E, V)) / (2 E) with E = 1/W, FV with 1/H. Equals `central` to
  * rounding, but within 1.5 texels of the ends of a clamped axis: there FVAL is the constant outside.
