@@ -48,7 +48,9 @@ key KP_Next
 becomes 'camera from right' "another view"
 click 1000 282
 becomes 'camera use "view 1"' "the view that was kept"
-xdotool mousemove $((X + 1174)) $((Y + 282)) click 1
+xdotool mousemove $((X + 1174)) $((Y + 282))
+rest # with the icon's tip, which lies over a row
+xdotool click 1
 becomes 'camera forget "view 1"' "the view forgotten"
 pick 1110 343 2
 becomes 'background gradient' "a gradient behind"

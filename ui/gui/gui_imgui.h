@@ -31,6 +31,9 @@ struct WrGui {
     bool fits;         /* a window that fits its content was not as in the frame before */
     double fitted;     /* fitted_sizes */
     bool tip_waits;    /* the pointer rests where a tip will be shown */
+    ImVec2 tip_at;     /* the corner of the item that it rests on, */
+    double tip_since;  /* since then, */
+    int tip_frame;     /* as of this frame */
     int popups;        /* open when the frame began */
     bool list_open;    /* a list or a menu was among them: the keys of this frame are for it */
     bool keys_dropped; /* keys were let go for the widgets after their frame had begun */

@@ -182,13 +182,25 @@ extern "C" double wr_gui_line_height(WrFont font)
     return (double)wr_gui_size_of(wr_gui_current()->fonts[font]);
 }
 
+/* Seconds for which the pointer has been on the last item. The library's own timer begins anew in each frame on an item
+ * that lies over another, as icons in rows do. */
+static double rested()
+{
+    WrGui *gui = wr_gui_current();
+    const ImVec2 at = ImGui::GetItemRectMin();
+    const int frame = ImGui::GetFrameCount();
+    const bool same = at.x == gui->tip_at.x && at.y == gui->tip_at.y && frame - gui->tip_frame <= 1;
+    if (!same) gui->tip_since = ImGui::GetTime();
+    gui->tip_at = at, gui->tip_frame = frame;
+    return ImGui::GetTime() - gui->tip_since;
+}
+
 extern "C" void wr_gui_tip(const char *text)
 try {
     if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (ImGui::IsMouseDown(0)) return;
-    if (ImGui::GetCurrentContext()->HoveredIdTimer < TIP_SECONDS) {
-        /* without an id the timer stands still: no tip would ever come */
-        if (ImGui::GetHoveredID() != 0) wr_gui_current()->tip_waits = true;
+    if (rested() < (double)TIP_SECONDS) {
+        wr_gui_current()->tip_waits = true;
         return;
     }
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(10), px(8)));
