@@ -32,7 +32,7 @@
 
 #define TURN_DEG_PER_SECOND 14.0
 #define PICTURE_SECONDS (1.0 / 40.0) /* between moving pictures */
-#define QUICK_SECONDS (1.0 / 100.0)  /* the same while it is painted on: soon, not often */
+#define QUICK_SECONDS (1.0 / 150.0)  /* the same while it is painted on: soon, not often */
 #define REST_SECONDS 0.12            /* without change before the picture is made sharp */
 
 /* ---- wishes ---- */
