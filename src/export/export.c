@@ -1,6 +1,7 @@
 #include "export/export.h"
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/pool.h"
 #include "document/document.h"
@@ -14,6 +15,7 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <string.h>
 
 WrExportOptions wr_export_default(void)
 {
@@ -31,7 +33,9 @@ WrExportOptions wr_export_default(void)
                               .drawing_h = 768,
                               .pen = 1.0,
                               .at = 0.5,
-                              .grid = 8 };
+                              .grid = 8,
+                              .solid_size = 100.0,
+                              .solid_error = 0.05 };
 }
 
 /* ---- what the kinds share ---- */
@@ -116,6 +120,9 @@ static WrPixelType type_of(int depth)
 static bool settle_options(const WrExportKind *kind, const WrScene *scene, const char *path,
                            WrExportOptions *options, WrError *err)
 {
+    char ending[16];
+    if (kind->ending && strcmp(wr_path_ending(path, ending), kind->ending) != 0)
+        return wr_fail(err, "%s: %s files end in .%s", path, kind->name, kind->ending);
     if (kind->write) return true; /* it sees to its own */
     if (options->depth == 0) {
         WrPixelType type;
@@ -254,8 +261,21 @@ static void add_receipt(const WrExportReport *report, WrText *text)
     else wr_text_add(text, "exact");
 }
 
+static void add_solid(const WrExportReport *report, WrText *text)
+{
+    const double *size = report->solid_size;
+    wr_text_addf(text,
+                 "%lld triangles, off by at most %.3g mm; %.6g x %.6g x %.6g mm, volume %.6g mm3",
+                 (long long)report->triangles, report->solid_error, size[0], size[1], size[2],
+                 report->solid_volume);
+}
+
 void wr_export_report_text(const WrExportReport *report, WrText *text)
 {
+    if (report->triangles) {
+        add_solid(report, text);
+        return;
+    }
     if (report->lines) {
         wr_text_addf(text, "%dx%d pixels", report->width, report->height);
         if (report->lines > 1)

@@ -31,7 +31,11 @@
 
    lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
    white; vectors where the ending is svg, else a picture of 8 bits. profile: F along a line of the cell
-   as a chart, by the scheme's interpolation. */
+   as a chart, by the scheme's interpolation.
+
+   stl, ply, obj: the relief on its surface (replicated, stretched as the object is) as a closed body of triangles in
+   millimetres: open sheets get a back, tubes are filled or get a wall. Decimated: no sample of the table lies farther from
+   its triangle than the error that was asked for, and the report says how far the farthest does. */
 #pragma once
 #include <stdbool.h>
 #include <stdint.h>
@@ -68,6 +72,10 @@ typedef struct WrExportOptions {
     bool along_v; /* along v, else along u */
     double at;    /* the other coordinate, 0..1 */
     int grid;     /* divisions of the line, 1..256 */
+    /* stl, ply, obj, in millimetres: */
+    double solid_size;      /* longest side of the surface without its relief, > 0 */
+    double solid_error;     /* how far a sample may be off, > 0 */
+    double solid_thickness; /* under the lowest sample; 0: 2 for a sheet, a tube is filled */
 } WrExportOptions;
 
 /* What was written, for the user to read. */
@@ -86,6 +94,11 @@ typedef struct WrExportReport {
     bool seen;
     double worst;  /* largest error: table units, or the quantity's; of normals degrees */
     int64_t lines; /* drawings: visible stretches of lines; else 0 */
+    /* Solids, in millimetres; triangles 0: none */
+    int64_t triangles;
+    double solid_error;   /* the largest distance of a sample of the table */
+    double solid_size[3]; /* of the body, relief and back included */
+    double solid_volume;  /* mm3 */
 } WrExportReport;
 
 typedef struct WrExportOptionInfo {
@@ -108,6 +121,7 @@ typedef struct WrExportKind {
     bool floats;                      /* no codes: the file must hold floats */
     const char *const *channel_names; /* [channels]; NULL: the usual ones */
     double green;                     /* normals: sign of the second component */
+    const char *ending; /* the one that its files must have; NULL: a picture's or a drawing's */
     /* What must be known of the whole table before the first row (ranges). May be NULL. */
     void (*prepare)(WrExportJob *job);
     /* Write the whole file, in place of what follows: drawings. The job's options are settled. May be
@@ -119,7 +133,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 8
+#define WR_EXPORT_KIND_COUNT 11
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

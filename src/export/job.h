@@ -58,7 +58,7 @@ void wr_export_describe_slopes(WrExportJob *job);
 /* Heights of rows [y, y + rows) in table units; returns how many were not finite and became 0. */
 int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out);
 
-/* height.c, normal.c, derived.c, drawing.c, profile.c: the functions of the kinds. */
+/* height.c, normal.c, derived.c, drawing.c, profile.c, solid.c: the functions of the kinds. */
 void wr_export_height_prepare(WrExportJob *job);
 void wr_export_height_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_height_describe(WrExportJob *job);
@@ -72,3 +72,4 @@ void wr_export_curvature_prepare(WrExportJob *job);
 void wr_export_derived_describe(WrExportJob *job);
 bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err);
+bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err);

@@ -196,6 +196,31 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
     return true;
 }
 
+/* Millimetres. */
+static bool parse_length(const char *name, const char *value, double *out, WrError *err)
+{
+    double mm;
+    if (!wr_number_parse(value, strlen(value), &mm) || !(mm >= 1e-6 && mm <= 1e6))
+        return wr_fail(err, "%s '%.40s': must be millimetres, 1e-6..1e6", name, value);
+    *out = mm;
+    return true;
+}
+
+static bool set_solid_size(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_length("size", value, &options->solid_size, err);
+}
+
+static bool set_solid_error(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_length("error", value, &options->solid_error, err);
+}
+
+static bool set_thickness(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_length("thickness", value, &options->solid_thickness, err);
+}
+
 #define DEPTH                                                                                      \
     {                                                                                              \
         "depth", "8, 16 or 32",                                                                    \
@@ -231,6 +256,18 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
 #define NORMAL_OPTIONS                                                                             \
     {                                                                                              \
         DEPTH, CELL, SCHEME, DITHER, OBJECT                                                        \
+    }
+
+#define SOLID_OPTIONS                                                                              \
+    {                                                                                              \
+        { "size", "MM", "longest side of the surface, its relief left out; left out: 100",         \
+          set_solid_size },                                                                        \
+            { "error", "MM", "how far a texel may be from its triangle; left out: 0.05",           \
+              set_solid_error },                                                                   \
+            { "thickness", "MM",                                                                   \
+              "under the lowest texel; left out: 2 for a sheet, a tube is filled",                 \
+              set_thickness },                                                                     \
+            OBJECT                                                                                 \
     }
 
 static const char *const slope_names[] = { "dF_du", "dF_dv" };
@@ -323,6 +360,24 @@ const WrExportKind wr_export_kinds[] = {
                    OBJECT },
       .channels = 1,
       .write = wr_export_profile_write },
+    { .name = "stl",
+      .label = "solid, STL",
+      .help = "the relief on its surface as a closed body in millimetres, for printing and milling",
+      .options = SOLID_OPTIONS,
+      .ending = "stl",
+      .write = wr_export_solid_write },
+    { .name = "ply",
+      .label = "solid, PLY",
+      .help = "the same body as a binary PLY file",
+      .options = SOLID_OPTIONS,
+      .ending = "ply",
+      .write = wr_export_solid_write },
+    { .name = "obj",
+      .label = "solid, OBJ",
+      .help = "the same body as an OBJ file",
+      .options = SOLID_OPTIONS,
+      .ending = "obj",
+      .write = wr_export_solid_write },
 };
 _Static_assert(WR_LENGTH(wr_export_kinds) == WR_EXPORT_KIND_COUNT, "export.h counts them");
 

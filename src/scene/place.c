@@ -67,6 +67,14 @@ static void place_stretch(WrVec3 sizes, WrPlacement *out)
     out->cofactor = (WrVec3){ all / s.x, all / s.y, all / s.z };
 }
 
+void wr_scene_stretch(const WrScene *scene, WrVec3 *stretch, WrVec3 *cofactor)
+{
+    WrPlacement place;
+    place_stretch(scene->sizes, &place);
+    *stretch = place.stretch;
+    *cofactor = place.cofactor;
+}
+
 bool wr_scene_is_thin(const WrScene *scene)
 {
     WrPlacement place;

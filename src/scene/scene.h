@@ -207,6 +207,9 @@ typedef struct WrPlacement {
     double ball;   /* of all objects about the world's origin (objects.h) */
 } WrPlacement;
 
+/* Those two of the object, whatever the camera. */
+void wr_scene_stretch(const WrScene *scene, WrVec3 *stretch, WrVec3 *cofactor);
+
 /* The placement for a picture `aspect` times as wide as high, after a turn about the world's y.
  *
  * turn_deg   any finite value; whole turns are taken off exactly (HC87)

@@ -1,0 +1,207 @@
+#include "export/solid.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "export/job.h"
+#include "export/solid_file.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#define BOX_STEPS 64 /* along each direction of a face, to find its size: quarters are among them */
+#define SHARP                                                                                      \
+    0.0625 /* of |mean normal|^2, at least: a point moves at most 16 times as far as its height */
+#define SHEET 2.0 /* mm: of an open surface, unless told */
+
+/* ---- points ---- */
+
+/* d with n . d = f for all of several normals, near enough: mean f along the mean normal m, over |m|^2. */
+static WrVec3 moved(WrVec3 normals, double f, int count)
+{
+    const WrVec3 m = v3_scale(normals, 1.0 / count);
+    return v3_scale(m, f / count / fmax(v3_dot(m, m), SHARP));
+}
+
+static double height_at(WrSolid *s, const WrSolidSight *at)
+{
+    double f;
+    wr_scene_height(s->scene, s->field, at->u, at->v, &f, NULL, NULL);
+    s->low = fmin(s->low, f);
+    s->high = fmax(s->high, f);
+    return f;
+}
+
+void wr_solid_place(WrSolid *solid, const WrSolidSight *sights, int count, bool back, float out[3])
+{
+    WrVec3 p = { 0, 0, 0 }, n = p, across = p;
+    double f = 0.0;
+    for (int i = 0; i < count; i++) {
+        WrSurfacePoint o;
+        wr_surface_at(&solid->scene->shape, sights[i].face, sights[i].u, sights[i].v, &o);
+        p = v3_add(p, o.p);
+        n = v3_add(n, o.n_unit);
+        const WrVec3 c = { solid->cofactor.x * o.n_unit.x, solid->cofactor.y * o.n_unit.y,
+                           solid->cofactor.z * o.n_unit.z };
+        across = v3_add(across, v3_unit(c, o.n_unit));
+        f += back ? solid->low : height_at(solid, &sights[i]);
+    }
+    p = v3_add(v3_scale(p, 1.0 / count), moved(n, f, count));
+    const WrVec3 at = { (solid->stretch.x * p.x - solid->middle.x) * solid->scale,
+                        (solid->stretch.y * p.y - solid->middle.y) * solid->scale,
+                        (solid->stretch.z * p.z - solid->middle.z) * solid->scale };
+    const WrVec3 under =
+        back ? moved(across, -solid->thickness * count, count) : (WrVec3){ 0, 0, 0 };
+    const WrVec3 end = v3_add(at, under);
+    out[0] = (float)end.x, out[1] = (float)end.y, out[2] = (float)end.z;
+}
+
+int32_t wr_solid_add_bare(WrSolid *solid, const float at[3])
+{
+    if (solid->point_count == solid->point_room) {
+        const int32_t room = solid->point_room ? 2 * solid->point_room : 1024;
+        solid->points = wr_realloc(solid->points, (size_t)solid->point_room, (size_t)room,
+                                   sizeof *solid->points);
+        solid->point_room = room;
+    }
+    memcpy(solid->points[solid->point_count], at, sizeof *solid->points);
+    return solid->point_count++;
+}
+
+int32_t wr_solid_add_point(WrSolid *solid, const WrSolidSight *sights, int count)
+{
+    float at[3];
+    wr_array_push(&solid->first, solid->sights.count);
+    for (int i = 0; i < count; i++) wr_array_push(&solid->sights, sights[i]);
+    wr_solid_place(solid, sights, count, false, at);
+    return wr_solid_add_bare(solid, at);
+}
+
+void wr_solid_add_triangle(WrSolid *solid, int32_t a, int32_t b, int32_t c)
+{
+    if (solid->triangle_count == solid->triangle_room) {
+        const int32_t room = solid->triangle_room ? 2 * solid->triangle_room : 1024;
+        solid->triangles = wr_realloc(solid->triangles, (size_t)solid->triangle_room, (size_t)room,
+                                      sizeof *solid->triangles);
+        solid->triangle_room = room;
+    }
+    int32_t *t = solid->triangles[solid->triangle_count++];
+    t[0] = a, t[1] = b, t[2] = c;
+}
+
+/* ---- the scene in millimetres ---- */
+
+static void grow(WrVec3 *low, WrVec3 *high, WrVec3 p)
+{
+    *low = (WrVec3){ fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z) };
+    *high = (WrVec3){ fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z) };
+}
+
+/* The longest side of the smooth surface becomes `size`, its middle the origin. */
+static void set_scale(WrSolid *s, double size)
+{
+    WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
+    for (int face = 0; face < s->faces; face++) {
+        const WrSurfaceCell c = wr_surface_cell(&s->scene->shape, face);
+        for (int k = 0; k < (BOX_STEPS + 1) * (BOX_STEPS + 1); k++) {
+            const double i = k % (BOX_STEPS + 1), j = k / (BOX_STEPS + 1);
+            WrSurfacePoint o;
+            wr_surface_at(&s->scene->shape, face, c.u0 + (c.u1 - c.u0) * i / BOX_STEPS,
+                          c.v0 + (c.v1 - c.v0) * j / BOX_STEPS, &o);
+            grow(&low, &high,
+                 (WrVec3){ s->stretch.x * o.p.x, s->stretch.y * o.p.y, s->stretch.z * o.p.z });
+        }
+    }
+    const WrVec3 d = v3_sub(high, low);
+    s->middle = v3_scale(v3_add(low, high), 0.5);
+    s->scale = size / fmax(d.x, fmax(d.y, d.z));
+}
+
+static bool check(const WrExportJob *job, WrError *err)
+{
+    const WrExportOptions *o = &job->options;
+    const WrSurfaceInfo *info = wr_surfaces[job->scene->shape.kind];
+    if (info->held)
+        return wr_fail(err,
+                       "%s: solids are made of surfaces by formulas, which a %s is not; `wrinkle "
+                       "help surface` lists them",
+                       job->kind->name, info->name);
+    if (!(o->solid_size > 0) || !(o->solid_error > 0) || o->solid_thickness < 0)
+        return wr_fail(err, "size %g, error %g, thickness %g: must be above 0, in millimetres",
+                       o->solid_size, o->solid_error, o->solid_thickness);
+    return true;
+}
+
+/* A tube is filled unless it is told how thick; a sheet must have a thickness. */
+static double thickness_of(const WrExportJob *job)
+{
+    const double told = job->options.solid_thickness;
+    return told > 0.0 || !wr_surfaces[job->scene->shape.kind]->open ? told : SHEET;
+}
+
+/* ---- the export ---- */
+
+static bool make(WrSolid *s, WrError *err)
+{
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, 0.3);
+    bool good = wr_solid_measure(s, err);
+    wr_progress_set(whole);
+    if (!good) return false;
+    wr_solid_lay(s);
+    wr_progress_enter(&part, 0.3, 0.7);
+    good = wr_solid_refine(s, err);
+    wr_progress_set(whole);
+    return good && wr_solid_close(s, err);
+}
+
+static void free_solid(WrSolid *s)
+{
+    for (int face = 0; face < WR_SOLID_FACES; face++) wr_free(s->lattice[face].at);
+    wr_array_free(&s->relief);
+    wr_array_free(&s->sights);
+    wr_array_free(&s->first);
+    wr_free(s->points);
+    wr_free(s->triangles);
+}
+
+static void report(WrExportJob *job, const WrSolid *s)
+{
+    WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
+    for (int32_t i = 0; i < s->point_count; i++)
+        grow(&low, &high, (WrVec3){ s->points[i][0], s->points[i][1], s->points[i][2] });
+    job->report.triangles = s->triangle_count;
+    job->report.solid_error = s->worst;
+    job->report.solid_volume = wr_solid_volume(s);
+    job->report.solid_size[0] = high.x - low.x;
+    job->report.solid_size[1] = high.y - low.y;
+    job->report.solid_size[2] = high.z - low.z;
+    job->report.low = s->low;
+    job->report.high = s->high;
+}
+
+bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
+{
+    if (!check(job, err)) return false;
+    WrSolid s = { .scene = job->scene,
+                  .field = job->field,
+                  .pool = job->pool,
+                  .error = job->options.solid_error,
+                  .thickness = thickness_of(job),
+                  .faces = wr_surfaces[job->scene->shape.kind]->faces,
+                  .low = INFINITY,
+                  .high = -INFINITY };
+    wr_scene_stretch(job->scene, &s.stretch, &s.cofactor);
+    set_scale(&s, job->options.solid_size);
+    WrProgressPart part;
+    bool good = make(&s, err);
+    if (good) {
+        const WrProgress *whole = wr_progress_enter(&part, 0.7, 1.0);
+        report(job, &s);
+        good = wr_solid_write(&s, job->kind->ending, path, err);
+        wr_progress_set(whole);
+    }
+    free_solid(&s);
+    return good;
+}

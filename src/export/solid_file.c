@@ -1,0 +1,148 @@
+#include "export/solid_file.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/progress.h"
+#include "base/text.h"
+
+#include <string.h>
+
+#define WORDS "Wrinkle, lengths in millimetres"
+#define BLOCK ((size_t)1 << 20) /* bytes that are written at once */
+#define LINE 256                /* bytes of one entry, at most */
+
+/* Bytes on their way into the file. */
+typedef struct Out {
+    WrFileTarget target;
+    WrText bytes;
+    int64_t done, all; /* entries */
+} Out;
+
+static bool flush(Out *out, WrError *err)
+{
+    if (!wr_progress_tell((double)out->done / (double)out->all)) return wr_fail(err, "cancelled");
+    const bool good = wr_file_put(&out->target, out->bytes.data, out->bytes.length, err);
+    wr_text_clear(&out->bytes);
+    return good;
+}
+
+/* One more entry is complete. */
+static bool entry(Out *out, WrError *err)
+{
+    out->done++;
+    return out->bytes.length + LINE < BLOCK || flush(out, err);
+}
+
+static void add_u32(Out *out, uint32_t x)
+{
+    const char bytes[4] = { (char)(x & 255), (char)(x >> 8 & 255), (char)(x >> 16 & 255),
+                            (char)(x >> 24) };
+    wr_text_add_n(&out->bytes, bytes, 4);
+}
+
+static void add_float(Out *out, float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, 4);
+    add_u32(out, bits);
+}
+
+static void add_place(Out *out, const float at[3])
+{
+    for (int k = 0; k < 3; k++) add_float(out, at[k]);
+}
+
+/* ---- STL ---- */
+
+static WrVec3 normal_of(const WrSolid *s, const int32_t *t)
+{
+    WrVec3 p[3];
+    for (int k = 0; k < 3; k++)
+        p[k] = (WrVec3){ s->points[t[k]][0], s->points[t[k]][1], s->points[t[k]][2] };
+    return v3_unit(v3_cross(v3_sub(p[1], p[0]), v3_sub(p[2], p[0])), (WrVec3){ 0, 0, 1 });
+}
+
+static bool write_stl(const WrSolid *s, Out *out, WrError *err)
+{
+    char head[80] = WORDS;
+    wr_text_add_n(&out->bytes, head, sizeof head);
+    add_u32(out, (uint32_t)s->triangle_count);
+    bool good = true;
+    for (int32_t i = 0; i < s->triangle_count && good; i++) {
+        const int32_t *t = s->triangles[i];
+        const WrVec3 n = normal_of(s, t);
+        add_place(out, (const float[3]){ (float)n.x, (float)n.y, (float)n.z });
+        for (int k = 0; k < 3; k++) add_place(out, s->points[t[k]]);
+        wr_text_add_n(&out->bytes, "\0", 2);
+        good = entry(out, err);
+    }
+    return good;
+}
+
+/* ---- PLY ---- */
+
+static bool write_ply(const WrSolid *s, Out *out, WrError *err)
+{
+    wr_text_addf(&out->bytes,
+                 "ply\nformat binary_little_endian 1.0\ncomment " WORDS "\nelement vertex %d\n"
+                 "property float x\nproperty float y\nproperty float z\nelement face %d\n"
+                 "property list uchar int vertex_indices\nend_header\n",
+                 s->point_count, s->triangle_count);
+    bool good = true;
+    for (int32_t i = 0; i < s->point_count && good; i++) {
+        add_place(out, s->points[i]);
+        good = entry(out, err);
+    }
+    for (int32_t i = 0; i < s->triangle_count && good; i++) {
+        wr_text_add_n(&out->bytes, "\3", 1);
+        for (int k = 0; k < 3; k++) add_u32(out, (uint32_t)s->triangles[i][k]);
+        good = entry(out, err);
+    }
+    return good;
+}
+
+/* ---- OBJ ---- */
+
+static bool write_obj(const WrSolid *s, Out *out, WrError *err)
+{
+    char number[WR_NUMBER_SIZE];
+    bool good = true;
+    wr_text_add(&out->bytes, "# " WORDS "\no relief\n");
+    for (int32_t i = 0; i < s->point_count && good; i++) {
+        wr_text_add(&out->bytes, "v");
+        for (int k = 0; k < 3; k++) {
+            wr_text_add(&out->bytes, " ");
+            wr_text_add(&out->bytes, wr_number_print_float(s->points[i][k], number));
+        }
+        wr_text_add(&out->bytes, "\n");
+        good = entry(out, err);
+    }
+    for (int32_t i = 0; i < s->triangle_count && good; i++) {
+        const int32_t *t = s->triangles[i];
+        wr_text_addf(&out->bytes, "f %d %d %d\n", t[0] + 1, t[1] + 1, t[2] + 1);
+        good = entry(out, err);
+    }
+    return good;
+}
+
+/* ---- the file ---- */
+
+static bool write_as(const WrSolid *s, const char *ending, Out *out, WrError *err)
+{
+    if (strcmp(ending, "stl") == 0) return write_stl(s, out, err);
+    return strcmp(ending, "ply") == 0 ? write_ply(s, out, err) : write_obj(s, out, err);
+}
+
+bool wr_solid_write(const WrSolid *solid, const char *ending, const char *path, WrError *err)
+{
+    Out out = { .all = (int64_t)solid->point_count + solid->triangle_count };
+    if (!wr_file_begin(&out.target, path, err)) return false;
+    bool good = write_as(solid, ending, &out, err) && flush(&out, err);
+    wr_text_fini(&out.bytes);
+    if (!good) {
+        wr_file_abort(&out.target);
+        return false;
+    }
+    wr_file_verified(&out.target);
+    return wr_file_commit(&out.target, err);
+}
