@@ -174,6 +174,9 @@ static const char *const lines[] = {
     "export slopes new5.exr",
     "export slope new6.png",
     "export curvature new7.png",
+    "export stl new8.stl",
+    "export ply new9.ply error=0.3",
+    "export obj new10.obj error=0.3",
     "render new5.png size=700x700",
     "undo 5",
 };

@@ -345,6 +345,9 @@ static const Price prices[] = {
     { "export", "height", texels, .ns = 150, .bytes = 6 },
     { "export", "lines", drawing, .ns = 210, .bytes = 4.5, .more = 600 },
     { "export", "profile", drawing, .ns = 0, .bytes = 0, .more = 90 },
+    UNKNOWN("export", "stl"),
+    UNKNOWN("export", "ply"),
+    UNKNOWN("export", "obj"),
     { "render", NULL, picture, .ns = 33, .bytes = 17 },
     { "script", NULL, .count = NULL },
 };

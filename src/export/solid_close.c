@@ -153,6 +153,7 @@ static bool add_shell(WrSolid *s, int32_t *back, int32_t points, WrError *err)
     for (int32_t i = 0; i < s->relief.count; i++) {
         const WrSolidTriangle *t = &s->relief.data[i];
         if (is_pole(t)) continue;
+        if (i % 4096 == 0 && wr_progress_stopped()) return wr_fail(err, "cancelled");
         if (folds(s, t, back))
             return wr_fail(
                 err,

@@ -103,6 +103,7 @@ static double error_of(const WrSolid *s, const WrSolidTriangle *t, double enough
     for (int j = first_at(low, l->step_v, l->first_v); j <= last; j++) {
         const double v = (l->first_v + j + 0.5) * l->step_v;
         double from, to;
+        if (wr_progress_stopped()) break;
         if (!row_of(t, fmin(fmax(v, low), high), &from, &to)) continue;
         const int end = last_at(to, l->step_u, l->first_u, l->count_u);
         for (int i = first_at(from, l->step_u, l->first_u); i <= end; i++) {

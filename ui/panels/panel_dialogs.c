@@ -147,7 +147,15 @@ void wr_dialog_import(WrApp *app)
 /* What it will take does not go by the name. */
 static void add_export_line(const WrApp *app, WrText *line)
 {
-    wr_text_addf(line, "export %s x.png", wr_export_kinds[app->forms->kind].name);
+    const WrExportKind *kind = &wr_export_kinds[app->forms->kind];
+    wr_text_addf(line, "export %s x.%s", kind->name, kind->ending ? kind->ending : "png");
+}
+
+static void ask_export_file(WrApp *app, const char *ending)
+{
+    char name[24];
+    snprintf(name, sizeof name, "%s.%s", ending ? "relief" : "height", ending ? ending : "png");
+    if (!wr_files_ask(app->files, WR_FILE_EXPORT, NULL, name)) wr_dialog_open(app, WR_DIALOG_FILE);
 }
 
 void wr_dialog_export(WrApp *app)
@@ -168,16 +176,17 @@ void wr_dialog_export(WrApp *app)
         wr_gui_label("Codes hold");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
-    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
-                        "The format goes by the file's ending: png and tif with 16 bits, exr with "
-                        "float, jpg with 8.");
+    if (!wr_export_kinds[f->kind].ending)
+        wr_gui_text_wrapped(
+            WR_FONT_SMALL, WR_COLOUR_LABEL,
+            "The format goes by the file's ending: png and tif with 16 bits, exr with "
+            "float, jpg with 8.");
     WrText line = { 0 };
     add_export_line(app, &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
     wr_panel_estimate(app, wr_text_get(&line));
     wr_text_fini(&line);
-    if (agreed && !wr_files_ask(app->files, WR_FILE_EXPORT, NULL, "height.png"))
-        wr_dialog_open(app, WR_DIALOG_FILE);
+    if (agreed) ask_export_file(app, wr_export_kinds[f->kind].ending);
     wr_gui_dialog_end();
 }
 

@@ -1,0 +1,416 @@
+/* Solids as files: closed, outside out, of the volume that closed forms say, and no texel farther off than was asked. */
+#include "test.h"
+#include "test_folder.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "document/document.h"
+#include "export/export.h"
+#include "field/field.h"
+#include "image/mesh.h"
+#include "scene/scene.h"
+#include "surface/data.h"
+
+/* ---- documents ---- */
+
+static TestRandom random_state = { 77 };
+
+static float random_of(double low, double high)
+{
+    return (float)(low + (high - low) * test_random(&random_state));
+}
+
+/* A table of random heights that lie together in blobs, as reliefs do; `rough` 0: all of it one height. */
+static WrDocument *document_of(int width, int height, double rough, WrWrap wrap)
+{
+    WrDocument *document = wr_document_new();
+    WrField *field = wr_field_new(width, height, wrap, wrap, random_of(0.1, 0.4), NULL);
+    for (int j = 0; j < height && rough > 0; j++)
+        for (int i = 0; i < width; i++) wr_field_set(field, i, j, random_of(-rough, rough));
+    wr_field_free(document->layers[0].heights);
+    document->layers[0].heights = field;
+    WrScene *scene = wr_scene_clone(document->scene);
+    wr_scene_free(document->scene);
+    document->scene = scene;
+    scene->height = 0.0713;
+    scene->scheme = WR_SCHEME_BILINEAR;
+    return document;
+}
+
+static void set_surface(WrDocument *document, WrSurfaceKind kind)
+{
+    WrShape shape;
+    wr_shape_default(kind, &shape);
+    wr_scene_set_shape(document->scene, &shape);
+}
+
+/* ---- files ---- */
+
+typedef struct Body {
+    WrMesh mesh;
+    double volume; /* mm3 */
+} Body;
+
+static void set_options(const char *kind, const char *settings, WrExportOptions *options)
+{
+    char text[120], *rest = text;
+    snprintf(text, sizeof text, "%s", settings);
+    *options = wr_export_default();
+    for (char *word; (word = strsep(&rest, " "));) {
+        WrError err = { "" };
+        char *equals = strchr(word, '=');
+        if (!equals) continue;
+        *equals = '\0';
+        if (!wr_export_option(wr_export_find(kind), options, word, equals + 1, &err))
+            fail_msg("%s", err.text);
+    }
+}
+
+static bool try_export(const WrDocument *document, const char *kind, const char *settings,
+                       const char *path, WrExportReport *report, WrError *err)
+{
+    WrExportOptions options;
+    WrPool *pool = wr_pool_new(2);
+    set_options(kind, settings, &options);
+    const bool good = wr_export(wr_export_find(kind), document, &options, pool, path, report, err);
+    wr_pool_free(pool);
+    return good;
+}
+
+static WrVec3 point_of(const WrMesh *mesh, int32_t i)
+{
+    return (WrVec3){ mesh->points[i][0], mesh->points[i][1], mesh->points[i][2] };
+}
+
+static double volume_of(const WrMesh *mesh)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < mesh->triangle_count; i++) {
+        const int32_t *t = mesh->corners[i];
+        sum += v3_dot(point_of(mesh, t[0]), v3_cross(point_of(mesh, t[1]), point_of(mesh, t[2])));
+    }
+    return sum / 6;
+}
+
+static Body read_body(const char *path)
+{
+    Body body;
+    WrError err = { "" };
+    if (!wr_mesh_read(path, &body.mesh, &err)) fail_msg("%s", err.text);
+    body.volume = volume_of(&body.mesh);
+    return body;
+}
+
+static Body export_body(const WrDocument *document, const char *kind, const char *settings,
+                        WrExportReport *report)
+{
+    char path[32];
+    WrError err = { "" };
+    snprintf(path, sizeof path, "body.%s", kind);
+    if (!try_export(document, kind, settings, path, report, &err)) fail_msg("%s", err.text);
+    Body body = read_body(path);
+    assert_int_equal(body.mesh.triangle_count, report->triangles);
+    assert_near(body.volume, report->solid_volume, 1e-5 * report->solid_volume);
+    return body;
+}
+
+/* ---- closedness, by places alone, as a slicer joins the triangles of an STL ---- */
+
+typedef struct Corner {
+    float at[3];
+    int32_t of; /* three times the triangle, and which of its corners */
+} Corner;
+
+static int by_place(const void *a, const void *b)
+{
+    const Corner *p = a, *q = b;
+    for (int k = 0; k < 3; k++)
+        if (p->at[k] != q->at[k]) return p->at[k] < q->at[k] ? -1 : 1;
+    return 0;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const int64_t p = *(const int64_t *)a, q = *(const int64_t *)b;
+    return (p > q) - (p < q);
+}
+
+/* Each side once in each direction; no triangle without area; Euler's number. */
+static int64_t check_closed(const WrMesh *mesh, const char *what)
+{
+    const int32_t count = 3 * mesh->triangle_count;
+    Corner *corners = wr_alloc((size_t)count, sizeof *corners);
+    int32_t *name = wr_alloc((size_t)count, sizeof *name);
+    int64_t *sides = wr_alloc((size_t)count, sizeof *sides),
+            *back = wr_alloc((size_t)count, sizeof *back);
+    int32_t places = 0;
+    for (int32_t i = 0; i < count; i++) {
+        memcpy(corners[i].at, mesh->points[mesh->corners[i / 3][i % 3]], sizeof corners[i].at);
+        corners[i].of = i;
+    }
+    qsort(corners, (size_t)count, sizeof *corners, by_place);
+    for (int32_t i = 0; i < count; i++) {
+        places += i == 0 || by_place(&corners[i - 1], &corners[i]) != 0;
+        name[corners[i].of] = places - 1;
+    }
+    for (int32_t i = 0; i < count; i++) {
+        const int64_t a = name[i], b = name[i - i % 3 + (i + 1) % 3];
+        if (a == b) fail_msg("%s: triangle %d has no area", what, i / 3);
+        sides[i] = a << 32 | b;
+        back[i] = b << 32 | a;
+    }
+    qsort(sides, (size_t)count, sizeof *sides, by_value);
+    qsort(back, (size_t)count, sizeof *back, by_value);
+    for (int32_t i = 0; i < count; i++) {
+        if (sides[i] != back[i]) fail_msg("%s: not closed", what);
+        if (i > 0 && sides[i] == sides[i - 1]) fail_msg("%s: a side twice", what);
+    }
+    wr_free(corners);
+    wr_free(name);
+    wr_free(sides);
+    wr_free(back);
+    return places - count / 2 + mesh->triangle_count;
+}
+
+/* ---- tests ---- */
+
+static void a_flat_plane_is_a_box(void **state)
+{
+    (void)state;
+    WrExportReport report;
+    WrDocument *document = document_of(19, 31, 0, WR_WRAP_PERIODIC);
+    document->scene->shape.value[0] = 1.37;
+    document->scene->shape.value[1] = 0.71;
+    Body body = export_body(document, "stl", "size=83.7 thickness=3.31", &report);
+    const double volume = 83.7 * (83.7 * 0.71 / 1.37) * 3.31;
+    assert_near(body.volume, volume, 1e-6 * volume);
+    assert_near(report.solid_size[0], 83.7, 1e-4);
+    assert_near(report.solid_size[1], 83.7 * 0.71 / 1.37, 1e-4);
+    assert_near(report.solid_size[2], 3.31, 1e-5);
+    assert_true(report.triangles <= 40 && report.solid_error < 1e-5);
+    assert_int_equal(check_closed(&body.mesh, "box"), 2);
+    wr_mesh_fini(&body.mesh);
+    wr_document_free(document);
+}
+
+/* Corners lie on the surface, so a convex body is smaller, by no more than its error all over. */
+static void smooth_bodies_have_the_volumes_of_their_formulas(void **state)
+{
+    (void)state;
+    const double e = 0.0217, size = 47.3;
+    for (int which = 0; which < 3; which++) {
+        WrExportReport report;
+        WrDocument *document = document_of(23, 17, 0, WR_WRAP_PERIODIC);
+        static const WrSurfaceKind kinds[] = { WR_SURFACE_sphere, WR_SURFACE_cylinder,
+                                               WR_SURFACE_cylinder };
+        set_surface(document, kinds[which]);
+        const double *value = document->scene->shape.value;
+        float f;
+        wr_field_read(document->layers[0].heights, 0, 0, 1, 1, &f, 1);
+        const double rise = f * document->scene->height;
+        Body body = export_body(document, "ply",
+                                which == 2 ? "size=47.3 error=0.0217 thickness=1.9"
+                                           : "size=47.3 error=0.0217",
+                                &report);
+        assert_true(report.solid_error <= e && report.solid_error > 0.2 * e);
+        double volume, area;
+        if (which == 0) {
+            const double r = size / 2 * (1 + rise / value[0]);
+            volume = 4 * M_PI / 3 * r * r * r, area = 4 * M_PI * r * r;
+        } else {
+            const double unit = size / fmax(2 * value[0], value[1]);
+            const double r = unit * (value[0] + rise), h = unit * value[1];
+            const double inner = which == 2 ? r - 1.9 : 0;
+            volume = M_PI * (r * r - inner * inner) * h, area = 2 * M_PI * r * h;
+        }
+        assert_true(body.volume < volume * (which == 2 ? 1.01 : 1 + 1e-6));
+        assert_true(body.volume > volume - 1.01 * e * area);
+        assert_int_equal(check_closed(&body.mesh, "smooth"), which == 2 ? 0 : 2);
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
+/* Every surface by a formula, tables of odd sizes, all schemes, odd and broken repeats, stretched and mirrored. */
+static void every_surface_is_closed(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = { "stl", "ply", "obj" };
+    for (int kind = 0; kind < WR_SURFACE_COUNT; kind++) {
+        if (wr_surfaces[kind]->held) continue;
+        WrExportReport report;
+        WrDocument *document =
+            document_of(5 + kind, 23 - kind, 0.5, kind % 3 ? WR_WRAP_PERIODIC : WR_WRAP_CLAMP);
+        set_surface(document, (WrSurfaceKind)kind);
+        document->scene->scheme = (WrScheme)(kind % WR_SCHEME_COUNT);
+        if (kind % 2) document->scene->replicate_u = 2;
+        if (kind % 5 == 1) document->scene->replicate_v = -1.37;
+        if (kind % 4 == 3) document->scene->sizes = (WrVec3){ 1.31, -0.83, 0.97 };
+        Body body =
+            export_body(document, kinds[kind % 3], "size=31.7 error=0.31 thickness=0.61", &report);
+        const int64_t euler = check_closed(&body.mesh, wr_surfaces[kind]->name);
+        const bool ring = kind == WR_SURFACE_torus || kind == WR_SURFACE_cylinder;
+        if (kind != WR_SURFACE_revolution) assert_int_equal(euler, ring ? 0 : 2);
+        assert_true(body.volume > 0 && report.solid_error <= 0.31f);
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
+/* The square of the distance of p from a triangle: over a + s e + t f it is a quadratic in s and t. */
+static double distance2(WrVec3 p, WrVec3 a, WrVec3 b, WrVec3 c)
+{
+    const WrVec3 e = v3_sub(b, a), f = v3_sub(c, a), g = v3_sub(p, a);
+    const double ee = v3_dot(e, e), ef = v3_dot(e, f), ff = v3_dot(f, f);
+    const double eg = v3_dot(e, g), fg = v3_dot(f, g), det = ee * ff - ef * ef;
+    const double s = (ff * eg - ef * fg) / det, t = (ee * fg - ef * eg) / det;
+    if (s >= 0 && t >= 0 && s + t <= 1) {
+        const WrVec3 d = v3_mad(v3_mad(g, e, -s), f, -t);
+        return v3_dot(d, d);
+    }
+    const WrVec3 from[3] = { a, b, c }, to[3] = { b, c, a };
+    double least = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const WrVec3 side = v3_sub(to[k], from[k]), q = v3_sub(p, from[k]);
+        const double x = fmin(fmax(v3_dot(q, side) / v3_dot(side, side), 0), 1);
+        const WrVec3 d = v3_mad(q, side, -x);
+        least = fmin(least, v3_dot(d, d));
+    }
+    return least;
+}
+
+static double distance(const WrMesh *mesh, WrVec3 p)
+{
+    double least = INFINITY;
+    for (int32_t i = 0; i < mesh->triangle_count; i++) {
+        const int32_t *t = mesh->corners[i];
+        least = fmin(
+            least, distance2(p, point_of(mesh, t[0]), point_of(mesh, t[1]), point_of(mesh, t[2])));
+    }
+    return sqrt(least);
+}
+
+/* The texel's place in millimetres, by formulas of our own: a plane a by b, a torus. */
+static WrVec3 texel(const WrDocument *document, bool torus, int i, int j, double size)
+{
+    const WrField *field = document->layers[0].heights;
+    const double *value = document->scene->shape.value;
+    const double u = (i + 0.5) / wr_field_width(field), v = 1 - (j + 0.5) / wr_field_height(field);
+    float f;
+    wr_field_read(field, i, j, 1, 1, &f, 1);
+    const double h = document->scene->height * f;
+    if (!torus) {
+        const double unit = size / fmax(value[0], value[1]);
+        return (WrVec3){ unit * value[0] * (u - 0.5), unit * value[1] * (v - 0.5), unit * h };
+    }
+    const double R = value[0], r = value[1], unit = size / (2 * (R + r));
+    const double x = 2 * M_PI * u, y = 2 * M_PI * v, d = R + (r + h) * cos(y);
+    return (WrVec3){ unit * d * cos(x), unit * d * sin(x), unit * (r + h) * sin(y) };
+}
+
+static void no_texel_is_farther_off_than_was_asked(void **state)
+{
+    (void)state;
+    int64_t before = 0;
+    for (int which = 0; which < 4; which++) {
+        static const char *const settings[] = { "size=61.3 error=0.173", "size=61.3 error=0.73",
+                                                "size=61.3 error=0.211", "size=61.3 error=0.93" };
+        static const double errors[] = { 0.173, 0.73, 0.211, 0.93 };
+        WrExportReport report;
+        WrDocument *document = document_of(17, 13, 0.4, WR_WRAP_PERIODIC);
+        const bool torus = which >= 2;
+        if (torus) set_surface(document, WR_SURFACE_torus);
+        Body body = export_body(document, "ply", settings[which], &report);
+        double worst = 0;
+        for (int j = 0; j < 13; j++)
+            for (int i = 0; i < 17; i++)
+                worst = fmax(worst, distance(&body.mesh, texel(document, torus, i, j, 61.3)));
+        assert_true(report.solid_error <= (float)errors[which]);
+        if (worst > report.solid_error + 2e-5)
+            fail_msg("%d: %g, told %g", which, worst, report.solid_error);
+        assert_true(worst > 0.1 * errors[which]); /* no finer than was asked for */
+        if (which % 2) assert_true(report.triangles < before);
+        before = report.triangles;
+        wr_mesh_fini(&body.mesh);
+        wr_document_free(document);
+    }
+}
+
+static void what_cannot_be_made_is_told(void **state)
+{
+    (void)state;
+    static const struct {
+        int kind;
+        const char *settings, *path, *part;
+    } bad[] = {
+        { WR_SURFACE_plane, "", "a.png", "stl files end in .stl" },
+        { WR_SURFACE_mesh, "", "a.stl", "surfaces by formulas" },
+        { WR_SURFACE_cone, "thickness=60", "a.stl", "leave room for" },
+        { WR_SURFACE_plane, "size=1000 error=1e-6", "a.stl", "takes more than" },
+    };
+    const int count = 4 - (getenv("WR_FULL") == NULL); /* the last takes seconds */
+    WrError err = { "" };
+    assert_true(wr_file_write("a.stl", "old", 3, &err) && wr_file_write("a.png", "old", 3, &err));
+    for (int i = 0; i < count; i++) {
+        WrExportReport report;
+        WrDocument *document = document_of(9, 7, 0.5, WR_WRAP_PERIODIC);
+        set_surface(document, (WrSurfaceKind)bad[i].kind);
+        assert_false(try_export(document, "stl", bad[i].settings, bad[i].path, &report, &err));
+        if (!strstr(err.text, bad[i].part)) fail_msg("%s: not \"%s\"", err.text, bad[i].part);
+        char *bytes;
+        size_t length;
+        assert_true(wr_file_read(bad[i].path, 99, &bytes, &length, &err));
+        assert_string_equal(bytes, "old");
+        wr_free(bytes);
+        wr_document_free(document);
+    }
+    static const char *const values[] = { "0", "-1", "1e7", "nan", "", "2mm" };
+    static const char *const names[] = { "size", "error", "thickness" };
+    for (int i = 0; i < 18; i++) {
+        WrExportOptions options = wr_export_default();
+        assert_false(
+            wr_export_option(wr_export_find("ply"), &options, names[i % 3], values[i / 3], &err));
+        assert_non_null(strstr(err.text, "must be millimetres"));
+    }
+}
+
+static void an_stl_says_millimetres(void **state)
+{
+    (void)state;
+    WrExportReport report;
+    WrDocument *document = document_of(9, 7, 0.5, WR_WRAP_PERIODIC);
+    Body body = export_body(document, "stl", "error=2", &report);
+    char *bytes;
+    size_t length;
+    WrError err;
+    assert_true(wr_file_read("body.stl", 1 << 20, &bytes, &length, &err));
+    assert_int_equal(length, 84 + 50 * report.triangles);
+    assert_non_null(strstr(bytes, "millimetres"));
+    assert_memory_not_equal(bytes, "solid", 5); /* that would be a text */
+    for (int64_t i = 0; i < report.triangles; i++) {
+        float n[12];
+        memcpy(n, bytes + 84 + 50 * i, sizeof n);
+        const WrVec3 p = { n[3], n[4], n[5] }, q = { n[6], n[7], n[8] }, r = { n[9], n[10], n[11] };
+        const WrVec3 want = v3_unit(v3_cross(v3_sub(q, p), v3_sub(r, p)), p);
+        assert_near(v3_dot(want, (WrVec3){ n[0], n[1], n[2] }), 1, 1e-5);
+    }
+    wr_free(bytes);
+    wr_mesh_fini(&body.mesh);
+    wr_document_free(document);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flat_plane_is_a_box),
+        cmocka_unit_test(smooth_bodies_have_the_volumes_of_their_formulas),
+        cmocka_unit_test(every_surface_is_closed),
+        cmocka_unit_test(no_texel_is_farther_off_than_was_asked),
+        cmocka_unit_test(what_cannot_be_made_is_told),
+        cmocka_unit_test(an_stl_says_millimetres),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}
