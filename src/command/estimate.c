@@ -265,6 +265,10 @@ static void drawing(const Job *job, const Price *p, WrEstimate *out)
     {                                                                                              \
         "adjust", name, filter, .ns = (price), .more = (wider), .bytes = 9                         \
     }
+#define BODY(form)                                                                                 \
+    {                                                                                              \
+        "export", form, .unknown = "it goes by the relief, and by its error="                      \
+    }
 #define UNKNOWN(verb, form)                                                                        \
     {                                                                                              \
         verb, form, .unknown = "it goes by what is in the file"                                    \
@@ -345,9 +349,9 @@ static const Price prices[] = {
     { "export", "height", texels, .ns = 150, .bytes = 6 },
     { "export", "lines", drawing, .ns = 210, .bytes = 4.5, .more = 600 },
     { "export", "profile", drawing, .ns = 0, .bytes = 0, .more = 90 },
-    UNKNOWN("export", "stl"),
-    UNKNOWN("export", "ply"),
-    UNKNOWN("export", "obj"),
+    BODY("stl"),
+    BODY("ply"),
+    BODY("obj"),
     { "render", NULL, picture, .ns = 33, .bytes = 17 },
     { "script", NULL, .count = NULL },
 };

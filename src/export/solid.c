@@ -99,7 +99,7 @@ static void grow(WrVec3 *low, WrVec3 *high, WrVec3 p)
 }
 
 /* The longest side of the smooth surface becomes `size`, its middle the origin. */
-static void set_scale(WrSolid *s, double size)
+static void set_scale(WrSolid *s)
 {
     WrVec3 low = { INFINITY, INFINITY, INFINITY }, high = { -INFINITY, -INFINITY, -INFINITY };
     for (int face = 0; face < s->faces; face++) {
@@ -115,7 +115,7 @@ static void set_scale(WrSolid *s, double size)
     }
     const WrVec3 d = v3_sub(high, low);
     s->middle = v3_scale(v3_add(low, high), 0.5);
-    s->scale = size / fmax(d.x, fmax(d.y, d.z));
+    s->scale = s->size / fmax(d.x, fmax(d.y, d.z));
 }
 
 static bool check(const WrExportJob *job, WrError *err)
@@ -187,13 +187,14 @@ bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
     WrSolid s = { .scene = job->scene,
                   .field = job->field,
                   .pool = job->pool,
+                  .size = job->options.solid_size,
                   .error = job->options.solid_error,
                   .thickness = thickness_of(job),
                   .faces = wr_surfaces[job->scene->shape.kind]->faces,
                   .low = INFINITY,
                   .high = -INFINITY };
     wr_scene_stretch(job->scene, &s.stretch, &s.cofactor);
-    set_scale(&s, job->options.solid_size);
+    set_scale(&s);
     WrProgressPart part;
     bool good = make(&s, err);
     if (good) {

@@ -131,12 +131,14 @@ static int32_t add_back_point(WrSolid *s, int32_t of)
     return wr_solid_add_bare(s, at);
 }
 
+/* Its back looks another way than it does. A mirrored object's triangles run with the clock. */
 static bool folds(const WrSolid *s, const WrSolidTriangle *t, const int32_t *back)
 {
+    const double way = s->stretch.x * s->stretch.y * s->stretch.z;
     const int32_t *p = t->point;
     WrVec3 out = { 0, 0, 0 };
     for (int k = 0; k < 3; k++) out = v3_add(out, v3_sub(point(s, p[k]), point(s, back[p[k]])));
-    return !(v3_dot(area(s, back[p[0]], back[p[1]], back[p[2]]), out) > 0);
+    return !(v3_dot(area(s, back[p[0]], back[p[1]], back[p[2]]), out) * way > 0);
 }
 
 static bool is_pole(const WrSolidTriangle *t)

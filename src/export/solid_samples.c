@@ -10,15 +10,18 @@
 
 #include <math.h>
 
-#define FINE 1000 /* samples along each direction, at least */
+#define FINEST 2000 /* samples along each direction, at least, for the smallest error */
+#define COARSEST 64 /* for the largest */
+#define CLOSE                                                                                      \
+    16.0 /* times sqrt(size / error): a ball between two samples is off by 1/100 of the error */
 
 /* Along one direction of a face, from `from` to `to`: a texel's centre is k + 1/2 texels from 0, and stays a sample where
    each texel has an odd number of them. */
-static bool lay_direction(double texels, double from, double to, double *first, double *step,
-                          int *count)
+static bool lay_direction(double texels, double fine, double from, double to, double *first,
+                          double *step, int *count)
 {
     const double there = fmax(texels * (to - from), 1.0);
-    double each = ceil(FINE / there);
+    double each = ceil(fine / there);
     each += fmod(each, 2.0) == 0.0;
     *step = 1.0 / (fmax(texels, 1.0) * each);
     *first = ceil(from / *step - 0.5);
@@ -32,9 +35,10 @@ static bool lay_lattice(WrSolid *solid, int face, int64_t *samples, WrError *err
     const WrScene *scene = solid->scene;
     const WrSurfaceCell cell = wr_surface_cell(&scene->shape, face);
     WrSolidLattice *l = &solid->lattice[face];
-    const bool fits = lay_direction(wr_field_width(solid->field) * fabs(scene->replicate_u),
+    const double fine = fmin(fmax(CLOSE * sqrt(solid->size / solid->error), COARSEST), FINEST);
+    const bool fits = lay_direction(wr_field_width(solid->field) * fabs(scene->replicate_u), fine,
                                     cell.u0, cell.u1, &l->first_u, &l->step_u, &l->count_u) &
-                      lay_direction(wr_field_height(solid->field) * fabs(scene->replicate_v),
+                      lay_direction(wr_field_height(solid->field) * fabs(scene->replicate_v), fine,
                                     cell.v0, cell.v1, &l->first_v, &l->step_v, &l->count_v);
     *samples += (int64_t)l->count_u * l->count_v;
     if (fits && *samples <= WR_SOLID_SAMPLES) return true;

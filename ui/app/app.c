@@ -88,7 +88,9 @@ bool wr_app_begin(WrApp *app, WrError *err)
                              .cells_u = 8,
                              .cells_v = 8,
                              .line_width = 8,
-                             .high = 1 };
+                             .high = 1,
+                             .solid_size = 100,
+                             .solid_error = 0.05 };
     app->visible = true;
     wr_app_read_keys(app);
     wr_shelf_start(app);

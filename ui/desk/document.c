@@ -325,26 +325,6 @@ void wr_file_take_import(WrApp *app, const char *path)
     wr_text_fini(&line);
 }
 
-void wr_file_take_export(WrApp *app, const char *path)
-{
-    WR_ROWS(ranges);
-    static const char *const ranges[] = { [WR_ROW(WR_RANGE_AUTO)] = "auto",
-                                          [WR_ROW(WR_RANGE_UNIT)] = "0,1",
-                                          [WR_ROW(WR_RANGE_SIGNED)] = "signed" };
-    WR_ROWS_END(ranges, WR_RANGES);
-    const WrForms *forms = app->forms;
-    const WrCommand *command = wr_command_find("export");
-    WrForm form;
-    if (!command || !command->form || !command->form(forms->kind, &form)) return;
-    WrText line = { 0 };
-    wr_text_addf(&line, "export %s ", form.name);
-    wr_text_add_word(&line, path);
-    if (strcmp(form.name, "height") == 0) wr_text_addf(&line, " range=%s", ranges[forms->range]);
-    if (wr_app_run_line(app, wr_text_get(&line)) && app->messages->list.count == 0)
-        wr_app_say(app, "Exported %s", path);
-    wr_text_fini(&line);
-}
-
 void wr_app_file_chosen(WrApp *app, WrFilePurpose purpose, const char *path)
 {
     bool asks = wr_files_writes(purpose) && !wr_files_agreed(app->files) &&

@@ -144,11 +144,31 @@ void wr_dialog_import(WrApp *app)
     wr_gui_dialog_end();
 }
 
-/* What it will take does not go by the name. */
-static void add_export_line(const WrApp *app, WrText *line)
+static void add_export_line(const WrApp *app, const char *path, WrText *line)
 {
-    const WrExportKind *kind = &wr_export_kinds[app->forms->kind];
-    wr_text_addf(line, "export %s x.%s", kind->name, kind->ending ? kind->ending : "png");
+    WR_ROWS(ranges);
+    static const char *const ranges[] = { [WR_ROW(WR_RANGE_AUTO)] = "auto",
+                                          [WR_ROW(WR_RANGE_UNIT)] = "0,1",
+                                          [WR_ROW(WR_RANGE_SIGNED)] = "signed" };
+    WR_ROWS_END(ranges, WR_RANGES);
+    const WrForms *f = app->forms;
+    const WrExportKind *kind = &wr_export_kinds[f->kind];
+    wr_text_addf(line, "export %s ", kind->name);
+    wr_text_add_word(line, path);
+    if (strcmp(kind->name, "height") == 0) wr_text_addf(line, " range=%s", ranges[f->range]);
+    if (!kind->ending) return;
+    wr_line_number(line, "size", f->solid_size);
+    wr_line_number(line, "error", f->solid_error);
+    if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
+}
+
+void wr_file_take_export(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    add_export_line(app, path, &line);
+    if (wr_app_run_line(app, wr_text_get(&line)) && app->messages->list.count == 0)
+        wr_app_say(app, "Exported %s", path);
+    wr_text_fini(&line);
 }
 
 static void ask_export_file(WrApp *app, const char *ending)
@@ -156,6 +176,17 @@ static void ask_export_file(WrApp *app, const char *ending)
     char name[24];
     snprintf(name, sizeof name, "%s.%s", ending ? "relief" : "height", ending ? ending : "png");
     if (!wr_files_ask(app->files, WR_FILE_EXPORT, NULL, name)) wr_dialog_open(app, WR_DIALOG_FILE);
+}
+
+static void solid_numbers(WrForms *f)
+{
+    number("Size", 10, 300, 1, 1e4, 100, 1, "mm", &f->solid_size);
+    number("Error", 0.01, 1, 0.001, 100, 0.05, 3, "mm", &f->solid_error);
+    number("Thickness", 0, 10, 0, 1e3, 0, 2, "mm", &f->solid_thickness);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL,
+                        "Size is the longest side of the surface without its relief. No texel is "
+                        "farther from its triangle than the error. Thickness 0: 2 mm under a "
+                        "sheet, and tubes are filled.");
 }
 
 void wr_dialog_export(WrApp *app)
@@ -176,13 +207,14 @@ void wr_dialog_export(WrApp *app)
         wr_gui_label("Codes hold");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
-    if (!wr_export_kinds[f->kind].ending)
+    if (wr_export_kinds[f->kind].ending) solid_numbers(f);
+    else
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_LABEL,
             "The format goes by the file's ending: png and tif with 16 bits, exr with "
             "float, jpg with 8.");
     WrText line = { 0 };
-    add_export_line(app, &line);
+    add_export_line(app, "x.png", &line);
     const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
     wr_panel_estimate(app, wr_text_get(&line));
     wr_text_fini(&line);
@@ -237,7 +269,7 @@ static void file_line(const WrApp *app, WrText *line)
 {
     const WrFilePurpose of = wr_files_purpose(app->files);
     if (of == WR_FILE_SAVE) wr_text_add(line, "save x.exr");
-    if (of == WR_FILE_EXPORT) add_export_line(app, line);
+    if (of == WR_FILE_EXPORT) add_export_line(app, "x.png", line);
     if (of == WR_FILE_RENDER) add_render_line(app, "x.png", line);
 }
 
