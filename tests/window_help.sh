@@ -50,7 +50,7 @@ serve() {
     done
     mkfifo "$folder/display"
     # -r: a key that is held is pressed once, or the window would never rest meanwhile.
-    Xvfb -r -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
+    Xvfb -r -noreset -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3>"$folder/display" >"$folder/server.log" 2>&1 &
     server=$!
     read -r -t 30 number <"$folder/display" || { cat "$folder/server.log"; exit 1; }
     export DISPLAY=:$number

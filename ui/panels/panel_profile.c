@@ -157,7 +157,7 @@ void wr_profile_row(WrApp *app)
     wr_gui_tip("The profile and its mirror; drag its points, click beside them for one more. Ctrl "
                "and a click takes one away, Shift and a click makes a corner of it, or smooth.");
     if (pad.pressed) press(app, hand, over, r, z);
-    if (hand->held > 0 && pad.held) drag(app, hand, r, z);
+    if (hand->held > 0 && (pad.held || pad.released)) drag(app, hand, r, z);
     if (hand->held == 0 || (!pad.released && pad.held)) return;
     hand->held = 0;
     if (hand->moved) run(app, hand);
