@@ -117,10 +117,10 @@ typedef struct WrExportJob WrExportJob; /* private to the room */
 typedef struct WrExportKind {
     const char *name, *label, *help;
     WrExportOptionInfo options[WR_EXPORT_OPTIONS + 1]; /* a NULL name ends the list */
-    int channels;
-    bool floats;                      /* no codes: the file must hold floats */
-    const char *const *channel_names; /* [channels]; NULL: the usual ones */
-    double green;                     /* normals: sign of the second component */
+    int channels;                                      /* of a picture; 0 of a body */
+    bool floats;                                       /* no codes: the file must hold floats */
+    const char *const *channel_names;                  /* [channels]; NULL: the usual ones */
+    double green;                                      /* normals: sign of the second component */
     const char *ending; /* the one that its files must have; NULL: a picture's or a drawing's */
     /* What must be known of the whole table before the first row (ranges). May be NULL. */
     void (*prepare)(WrExportJob *job);
