@@ -21,6 +21,7 @@
 #include "ui/desk/hand.h"
 #include "ui/desk/layout.h"
 #include "ui/desk/messages.h"
+#include "ui/desk/settings.h"
 #include "ui/jobs/files.h"
 
 #include <stdlib.h>
@@ -291,6 +292,45 @@ static void the_first_stroke_is_undone_before_it_is_drawn(void **state)
     finish(&bench);
 }
 
+static void draw_again(WrApp *app)
+{
+    const double before = app->drawn_at;
+    double end = wr_clock_seconds() + PATIENCE;
+    while (app->drawn_at == before && wr_clock_seconds() < end) {
+        app->redraw = 2;
+        SDL_PushEvent(&(SDL_Event){ .type = app->ready_event });
+        wr_app_step(app);
+    }
+}
+
+/* Motion, button up and leaving the window come before one picture: the number is where the button went up. */
+static void a_number_is_where_the_button_went_up(void **state)
+{
+    (void)state;
+    Bench bench;
+    begin(&bench);
+    WrApp *app = bench.app;
+    const int x = 320, y = 51; /* the brush's size, in the bar at the top */
+    const double before = app->settings->brush.radius;
+    SDL_Event move = { .motion = { .type = SDL_MOUSEMOTION, .x = x, .y = y } };
+    SDL_Event leave = { .window = { .type = SDL_WINDOWEVENT,
+                                    .windowID = SDL_GetWindowID(app->window),
+                                    .event = SDL_WINDOWEVENT_LEAVE } };
+    SDL_Event down = button(SDL_MOUSEBUTTONDOWN, x, y), up = button(SDL_MOUSEBUTTONUP, x + 25, y);
+    SDL_PushEvent(&move);
+    draw_again(app);
+    SDL_PushEvent(&down);
+    draw_again(app);
+    assert_true(app->settings->brush.radius == before);
+    SDL_PushEvent(&up);
+    SDL_PushEvent(&leave);
+    draw_again(app);
+    draw_again(app);
+    const double ratio = app->settings->brush.radius / before;
+    if (!(ratio > 1.05 && ratio < 50)) fail_msg("%g times the size", ratio);
+    finish(&bench);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -300,6 +340,7 @@ int main(void)
         cmocka_unit_test(keys_wait_while_the_journal_is_tended),
         cmocka_unit_test(a_cancel_is_no_error_and_then_it_closes),
         cmocka_unit_test(the_first_stroke_is_undone_before_it_is_drawn),
+        cmocka_unit_test(a_number_is_where_the_button_went_up),
     };
     return cmocka_run_group_tests(tests, enter_window, remove_folder);
 }

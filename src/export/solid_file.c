@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/progress.h"
+#include "base/rows.h"
 #include "base/text.h"
 
 #include <string.h>
@@ -127,17 +128,27 @@ static bool write_obj(const WrSolid *s, Out *out, WrError *err)
 
 /* ---- the file ---- */
 
-static bool write_as(const WrSolid *s, const char *ending, Out *out, WrError *err)
+typedef bool Write(const WrSolid *s, Out *out, WrError *err);
+
+static const struct {
+    const char *ending;
+    Write *write;
+} formats[] = { { "stl", write_stl }, { "ply", write_ply }, { "obj", write_obj } };
+
+static Write *format_of(const char *ending)
 {
-    if (strcmp(ending, "stl") == 0) return write_stl(s, out, err);
-    return strcmp(ending, "ply") == 0 ? write_ply(s, out, err) : write_obj(s, out, err);
+    for (int i = 0; i < WR_LENGTH(formats); i++)
+        if (strcmp(ending, formats[i].ending) == 0) return formats[i].write;
+    return NULL;
 }
 
 bool wr_solid_write(const WrSolid *solid, const char *ending, const char *path, WrError *err)
 {
     Out out = { .all = (int64_t)solid->point_count + solid->triangle_count };
+    Write *write = format_of(ending);
+    if (!write) return wr_fail(err, "%s: no format of solids ends in .%s", path, ending);
     if (!wr_file_begin(&out.target, path, err)) return false;
-    bool good = write_as(solid, ending, &out, err) && flush(&out, err);
+    bool good = write(solid, &out, err) && flush(&out, err);
     wr_text_fini(&out.bytes);
     if (!good) {
         wr_file_abort(&out.target);

@@ -4,5 +4,6 @@
 #pragma once
 #include "export/solid.h"
 
-/* ending: "stl", "ply" or "obj". Errors: anything about the file. */
+/* Each stretch is read back as it is written. ending: "stl", "ply" or "obj".
+ * Errors: another ending, cancelled, anything about the file, which then is as it was. */
 bool wr_solid_write(const WrSolid *solid, const char *ending, const char *path, WrError *err);

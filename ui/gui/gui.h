@@ -266,10 +266,11 @@ bool wr_gui_key_pressed(SDL_Scancode key); /* in this frame, or repeated; text f
 
 /* ---- fields to draw on and to point at ---- */
 typedef struct WrPad {
-    double x, y, w, h;            /* pixels of the window */
-    double pointer_x, pointer_y;  /* the same */
-    bool hovered;                 /* the pointer is on it */
-    bool pressed, held, released; /* the left button, on it: went down, is down, went up */
+    double x, y, w, h;           /* pixels of the window */
+    double pointer_x, pointer_y; /* the same; where it left the window while it is outside */
+    bool hovered;                /* the pointer is on it */
+    bool pressed, held,
+        released; /* the left button, on it: went down, is down, went up at the pointer */
 } WrPad;
 /* w x h pixels; w <= 0: what is left of the row. Until pad_end the drawing below goes to it, clipped. */
 WrPad wr_gui_pad_begin(const char *id, double w, double h);

@@ -181,11 +181,11 @@ try {
     int button;
     switch (event->type) {
     case SDL_MOUSEMOTION:
-        io.MousePos = ImVec2((float)event->motion.x, (float)event->motion.y);
+        io.MousePos = gui->pointer = ImVec2((float)event->motion.x, (float)event->motion.y);
         break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:
-        io.MousePos = ImVec2((float)event->button.x, (float)event->button.y);
+        io.MousePos = gui->pointer = ImVec2((float)event->button.x, (float)event->button.y);
         button = button_index(event->button.button);
         if (button < 0) break;
         gui->held[button] = event->type == SDL_MOUSEBUTTONDOWN;

@@ -30,6 +30,7 @@ struct WrGui {
     ImGuiID selecting; /* a text area that gets the keyboard: its text will be selected */
     bool fits;         /* a window that fits its content was not as in the frame before */
     double fitted;     /* fitted_sizes */
+    ImVec2 pointer;    /* where it was last, the window left or not */
     bool tip_waits;    /* the pointer rests where a tip will be shown */
     ImVec2 tip_at;     /* the corner of the item that it rests on, */
     double tip_since;  /* since then, */

@@ -125,7 +125,7 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActivated()) {
         gui->dragging = item;
-        gui->drag_x = io.MousePos.x;
+        gui->drag_x = gui->pointer.x;
         gui->drag_from = place_of(spec, *value);
         gui->drag_value = *value;
         gui->moved = false;
@@ -136,9 +136,9 @@ static WrEdit drag_field(WrGui *gui, ImGuiID item, float width, const WrNumber *
         }
     }
     if (gui->dragging == item) {
-        float dx = io.MousePos.x - gui->drag_x;
+        float dx = gui->pointer.x - gui->drag_x;
         if (fabsf(dx) > 2) gui->moved = true;
-        if (gui->moved && ImGui::IsItemActive())
+        if (gui->moved && (ImGui::IsItemActive() || ImGui::IsItemDeactivated()))
             gui->drag_value =
                 value_at(spec, gui->drag_from + (double)(dx / width) * (io.KeyShift ? 0.1 : 1.0));
         /* Held still it changes nothing: the caller has it already. */

@@ -6,7 +6,7 @@ try {
     WrGui *gui = wr_gui_current();
     float wide = w > 0 ? (float)w : ImGui::GetContentRegionAvail().x;
     ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + wide, at.y + (float)h);
-    ImVec2 pointer = ImGui::GetIO().MousePos;
+    ImVec2 pointer = gui->pointer;
     ImGui::InvisibleButton(id, ImVec2(wide, (float)h));
     ImDrawList *list = ImGui::GetWindowDrawList();
     list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));

@@ -278,7 +278,7 @@ WrEdit wr_tester_curve(WrApp *app, double side, WrPenCurve *curve)
     WrPad pad = wr_gui_pad_begin("curve", side, side);
     double raw = (pad.pointer_x - pad.x) / pad.w, out = 1.0 - (pad.pointer_y - pad.y) / pad.h;
     if (pad.pressed) t->grip = nearest_point(curve, raw, out);
-    if (pad.held && t->grip >= 0) {
+    if ((pad.held || pad.released) && t->grip >= 0) {
         drag_point(curve, t->grip, raw, out);
         edit = WR_EDIT_LIVE;
     }
