@@ -31,6 +31,21 @@ tell() {
         "$count" "$cases"
 }
 
+# Rows whose texts are no expressions by themselves, by their brackets and their ends: they could not be planted.
+open_rows() {
+    # shellcheck disable=SC2016  # perl's names
+    perl -F'\t' -lane '
+        next if /^#/ || @F < 4;
+        for (@F[2, 3]) {
+            my $rest = $_;
+            1 while $rest =~ s/\([^][(){}]*\)|\[[^][(){}]*\]|\{[^][(){}]*\}//;
+            next if $rest !~ /[][(){}]|;$/;
+            print "mutate: no expression by itself: $_";
+            $bad = 1;
+        }
+        END { exit !!$bad }' "$table"
+}
+
 # Texts that are not there, and a page that tells other counts.
 check() {
     local bad=0 rows file old new
@@ -39,6 +54,7 @@ check() {
         [[ -n $new && -f $source/$file ]] || { echo "mutate: not four columns, or no file: $rows $file"; bad=1; }
         grep -qF -- "$old" "$source/$file" || { echo "mutate: $file does not hold: $old"; bad=1; }
     done < <(grep -v '^#' "$table")
+    open_rows || bad=1
     ! is_hard || grep -qxF -- "$(tell)" "$source/samples/accuracy/README.md" ||
         { echo "mutate: samples/accuracy/README.md lacks: $(tell)"; bad=1; }
     return $bad
