@@ -31,7 +31,7 @@ tell() {
         "$count" "$cases"
 }
 
-# Rows whose texts are no expressions by themselves, by their brackets and their ends: they could not be planted.
+# Rows whose texts are no expressions by themselves, by brackets, commas and ends: they could not be planted.
 open_rows() {
     # shellcheck disable=SC2016  # perl's names
     perl -F'\t' -lane '
@@ -39,7 +39,7 @@ open_rows() {
         for (@F[2, 3]) {
             my $rest = $_;
             1 while $rest =~ s/\([^][(){}]*\)|\[[^][(){}]*\]|\{[^][(){}]*\}//;
-            next if $rest !~ /[][(){}]|;$/;
+            next if $rest !~ /[][(){},]|;$/;
             print "mutate: no expression by itself: $_";
             $bad = 1;
         }
