@@ -58,7 +58,7 @@ static bool check_file(WrCall *call, const char *param, const char *path, WrErro
 {
     char hex[65];
     const char *name = wr_call_hash_name(call, (int)(wr_call_arg(call, param) - call->args));
-    return wr_sha256_file(path, hex, err) &&
+    return wr_input_sha256(path, hex, err) &&
            wr_call_check_sha256(call, name ? name : "sha256", path, hex, err);
 }
 

@@ -188,7 +188,9 @@ static WrTriangles *find_mesh(WrSession *session, WrCall *call, const WrShape *s
     WrSha256Work *hash = wr_sha256_begin(path);
     mesh = read_held(call, shape, path, err);
     WrError why = { "" };
-    if (!wr_sha256_end(hash, hex, &why) ||
+    char ending[16];
+    const bool parts = strcmp(wr_path_ending(path, ending), "gltf") == 0;
+    if (!wr_sha256_end(hash, hex, &why) || (parts && !wr_input_sha256(path, hex, &why)) ||
         !wr_call_check_sha256(call, "sha256", path, hex, &why)) { /* what it is comes first */
         wr_triangles_free(mesh);
         mesh = NULL;

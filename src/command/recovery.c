@@ -140,7 +140,7 @@ static char *with_copies(const char *journal, const char *line)
         const char *name = call->args[i].text, *hash = wr_call_hash_name(call, i);
         if (!hash || !wr_call_given(call, hash) || !wr_call_names_file(call, i)) continue;
         const char *sha256 = wr_call_arg(call, hash)->text;
-        if (wr_sha256_file(name, hex, NULL) && strcmp(hex, sha256) == 0) continue;
+        if (wr_input_sha256(name, hex, NULL) && strcmp(hex, sha256) == 0) continue;
         wr_text_clear(&copy);
         if (wr_journal_kept_file(journal, sha256, name, &copy, NULL))
             wr_call_set_text(call, call->specs[i].name, wr_text_get(&copy));

@@ -4,16 +4,28 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "document/document_file.h"
+#include "image/gltf.h"
 
 #include <string.h>
 
 /* ---- files ---- */
 
+bool wr_input_sha256(const char *path, char hex[65], WrError *err)
+{
+    WrText text = { 0 };
+    bool packed, good = wr_gltf_pack(path, &text, &packed, err);
+    if (good && packed) wr_sha256_bytes(text.data, text.length, hex);
+    else if (good) good = wr_sha256_file(path, hex, err);
+    wr_text_fini(&text);
+    return good;
+}
+
 bool wr_session_check_sha256(WrCall *call, const char *path, WrError *err)
 {
     char hex[65];
-    return wr_sha256_file(path, hex, err) && wr_call_check_sha256(call, "sha256", path, hex, err);
+    return wr_input_sha256(path, hex, err) && wr_call_check_sha256(call, "sha256", path, hex, err);
 }
 
 bool wr_call_check_sha256(WrCall *call, const char *name, const char *path, const char *hex,

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "document/document_file.h"
+#include "image/gltf.h"
 #include "scene/scene.h"
 #include "system/path.h"
 
@@ -26,13 +27,25 @@ static void forget_kept(WrSession *session)
     wr_array_free(&session->kept);
 }
 
+/* A glTF is kept with its parts, as one file: they lie beside it under names that others' parts have too. */
+static bool keep_content(WrSession *session, const char *path, const char *sha256)
+{
+    WrText text = { 0 };
+    bool packed, kept = wr_gltf_pack(path, &text, &packed, NULL);
+    if (kept)
+        kept = packed ? wr_journal_keep_bytes(session->journal, path, text.data, text.length,
+                                              sha256, NULL)
+                      : wr_journal_keep_file(session->journal, path, sha256, NULL);
+    wr_text_fini(&text);
+    return kept;
+}
+
 /* Looks for the copy only once: strokes name the same brush again and again. */
 static void keep(WrSession *session, const char *path, const char *sha256)
 {
     for (int i = 0; i < session->kept.count; i++)
         if (strcmp(session->kept.data[i], sha256) == 0) return;
-    if (wr_journal_keep_file(session->journal, path, sha256, NULL))
-        wr_array_push(&session->kept, wr_strdup(sha256));
+    if (keep_content(session, path, sha256)) wr_array_push(&session->kept, wr_strdup(sha256));
 }
 
 /* A preset looks for its tip beside itself, by its name. */
@@ -64,7 +77,7 @@ static bool file_of(WrSession *session, const WrCall *call, int index, const cha
         return true;
     }
     char *seen = wr_path_join(folder ? folder : ".", word), *full = wr_path_real(seen);
-    bool good = full && wr_sha256_file(full, hex, NULL);
+    bool good = full && wr_input_sha256(full, hex, NULL);
     if (good) wr_text_add(path, full);
     free(full);
     wr_free(seen);

@@ -409,7 +409,18 @@ void wr_journal_put_off(WrJournal *journal)
 bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err)
 {
     if (!journal->path) return wr_fail(err, "%s", journal->reason);
-    return wr_journal_keep(journal->options.folder, journal->files, path, sha256, err);
+    return wr_journal_keep(journal->options.folder, journal->files, path, -1, sha256, err);
+}
+
+bool wr_journal_keep_bytes(WrJournal *journal, const char *path, const void *bytes, size_t length,
+                           const char *sha256, WrError *err)
+{
+    if (!journal->path) return wr_fail(err, "%s", journal->reason);
+    int from = wr_fd_in_memory(path, bytes, length, err);
+    if (from < 0) return false;
+    bool good = wr_journal_keep(journal->options.folder, journal->files, path, from, sha256, err);
+    wr_fd_close(from);
+    return good;
 }
 
 bool wr_journal_keep_named(WrJournal *journal, const char *path, WrError *err)

@@ -155,6 +155,10 @@ const char *wr_journal_path(const WrJournal *journal); /* of NAME.wj; "" without
  * refused. Fails without harm to the journal: a replay then depends on the file itself. */
 bool wr_journal_keep_file(WrJournal *journal, const char *path, const char *sha256, WrError *err);
 
+/* The same of bytes in memory that stand for the file: a glTF with its parts in it. sha256: of the bytes. */
+bool wr_journal_keep_bytes(WrJournal *journal, const char *path, const void *bytes, size_t length,
+                           const char *sha256, WrError *err);
+
 /* Keep a copy under the file's own name, for a kept file that names it as its neighbour. Where another file
  * of that name is kept already, that one stays: then this fails. */
 bool wr_journal_keep_named(WrJournal *journal, const char *path, WrError *err);

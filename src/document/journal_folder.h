@@ -31,9 +31,10 @@ int wr_journal_open(const char *path, WrError *err);
    no longer names this file. */
 bool wr_journal_lock(int fd, const char *path, WrLock how);
 
-/* wr_journal_keep_file for the journal whose files are in `files`, one of those of `folder`. */
-bool wr_journal_keep(const char *folder, const char *files, const char *path, const char *sha256,
-                     WrError *err);
+/* wr_journal_keep_file for the journal whose files are in `files`, one of those of `folder`. from: its content, open at
+   its beginning, or -1: that of the file at `path`. */
+bool wr_journal_keep(const char *folder, const char *files, const char *path, int from,
+                     const char *sha256, WrError *err);
 
 /* wr_journal_keep_named. */
 bool wr_journal_keep_as_named(const char *files, const char *path, WrError *err);

@@ -71,10 +71,9 @@ static bool copy_bytes(int from, int to)
 
 /* Copy to a temporary name, check the copy rather than the file (which may be changing), then give
    it its name. */
-static bool copy_file(const char *path, const char *target, const char *sha256, WrError *err)
+static bool copy_open(int from, const char *path, const char *target, const char *sha256,
+                      WrError *err)
 {
-    int from = wr_file_open(path, WR_FILE_MOST, NULL, err);
-    if (from < 0) return false;
     WrText half = { 0 };
     wr_text_addf(&half, "%s.new", target);
     const char *temporary = wr_text_get(&half);
@@ -82,7 +81,6 @@ static bool copy_file(const char *path, const char *target, const char *sha256, 
     int to = wr_fd_open(temporary, WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_PRIVATE);
     bool ok = to >= 0 && copy_bytes(from, to) && wr_fd_sync(to);
     if (!ok) wr_fail(err, "%s: no copy can be kept (%s)", path, strerror(errno));
-    wr_fd_close(from);
     if (to >= 0) wr_fd_close(to);
     if (ok && !content_is(temporary, sha256))
         ok = wr_fail(err, "%s: no copy can be kept: its content is not %.12s... any more", path,
@@ -94,8 +92,17 @@ static bool copy_file(const char *path, const char *target, const char *sha256, 
     return ok;
 }
 
-bool wr_journal_keep(const char *folder, const char *files, const char *path, const char *sha256,
-                     WrError *err)
+static bool copy_file(const char *path, const char *target, const char *sha256, WrError *err)
+{
+    int from = wr_file_open(path, WR_FILE_MOST, NULL, err);
+    if (from < 0) return false;
+    bool ok = copy_open(from, path, target, sha256, err);
+    wr_fd_close(from);
+    return ok;
+}
+
+bool wr_journal_keep(const char *folder, const char *files, const char *path, int from,
+                     const char *sha256, WrError *err)
 {
     if (!wr_journal_is_sha256(sha256))
         return wr_fail(err, "%s: its SHA-256 must be 64 lower-case hex digits", path);
@@ -105,7 +112,8 @@ bool wr_journal_keep(const char *folder, const char *files, const char *path, co
     bool ok = wr_path_is_there(wr_text_get(&target));
     if (!ok && wr_journal_make_folder(files, err))
         ok = link_sibling(folder, wr_text_get(&target), wr_text_get(&name), sha256) ||
-             copy_file(path, wr_text_get(&target), sha256, err);
+             (from < 0 ? copy_file(path, wr_text_get(&target), sha256, err)
+                       : copy_open(from, path, wr_text_get(&target), sha256, err));
     if (ok) wr_journal_sync_path(files, NULL);
     wr_text_fini(&name);
     wr_text_fini(&target);

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "image/gltf.h"
 #include "image/mesh_make.h"
 #include "image/reader.h"
 #include "system/fd.h"
@@ -108,7 +109,7 @@ static bool read_outside(Order order, int fd, WrMesh *out, WrError *err)
            take(order.name, block, length, out, err);
 }
 
-static bool read_file(const char *path, bool whole, WrMesh *out, WrError *err)
+static bool read_alone(const char *path, bool whole, WrMesh *out, WrError *err)
 {
     const Order order = { path, whole };
     int fd = wr_reader_file(path, WR_MESH_FILE_MAX, err);
@@ -140,6 +141,16 @@ static bool read_bytes(const char *name, const void *bytes, size_t length, bool 
     if (fd < 0) return false;
     bool good = read_outside(order, fd, out, err);
     wr_fd_close(fd);
+    return good;
+}
+
+static bool read_file(const char *path, bool whole, WrMesh *out, WrError *err)
+{
+    WrText text = { 0 };
+    bool packed, good = wr_gltf_pack(path, &text, &packed, err);
+    if (good && packed) good = read_bytes(path, text.data, text.length, whole, out, err);
+    else if (good) good = read_alone(path, whole, out, err);
+    wr_text_fini(&text);
     return good;
 }
 

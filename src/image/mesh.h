@@ -32,7 +32,7 @@ typedef struct WrMesh {
     char *block; /* owned: all */
 } WrMesh;
 
-/* Read a file. out: the caller's (fini); untouched on failure.
+/* Read a file, and of a glTF the buffers beside it (gltf.h). out: the caller's (fini); untouched on failure.
  * Errors   name the file: it cannot be read, is of no known kind, is damaged or hostile; it holds no
  *          triangle, or too many; a point is not finite (the first such one is named)
  * Threads  any number at once */
