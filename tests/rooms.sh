@@ -39,7 +39,8 @@ BEGIN {
     library["ft2build"] = library["freetype/"] = "image ui" # the type of the window is drawn with it too
     library["hb"] = library["fribidi"] = library["fontconfig/"] = library["zlib"] = "image"
     library["sleef"] = library["xxhash"] = library["sha2"] = "base"
-    library["libmypaint"] = library["mypaint"] = library["json-c/"] = "brush"
+    library["libmypaint"] = library["mypaint"] = "brush"
+    library["json-c/"] = "brush image" # presets; what a glTF names
 }
 FNR == 1 {
     count = split(FILENAME, part, "/")
