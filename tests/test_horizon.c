@@ -3,6 +3,7 @@
 #include "test.h"
 #include "test_render_scenes.h"
 
+#include "image/image.h"
 #include "scene/objects.h"
 
 #define WIDE 75
@@ -154,6 +155,43 @@ static void fading_goes_by_pixels_whatever_the_samples(void **state)
     wr_field_free(field);
 }
 
+/* Squares of 0 and 1 whose mean is known, one texel each; each pixel one sample, and the dials ask for no filter. What a pixel
+   holds many of is their mean: as single texels, half of the pixels would be off by half of it. */
+static void far_colours_are_the_mean_of_their_picture(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(61, 47);
+    WrScene *scene = plane_of(true, 0.5);
+    scene->bump = WR_BUMP_NONE;
+    scene->material.specular = 0;
+    Shot white = picture(scene, field, "auto");
+    scene->colour = wr_image_new(310, 170, 3, NULL);
+    double mean = 0;
+    uint32_t random = 2026;
+    for (int i = 0; i < 310 * 170; i++) {
+        random = random * 1664525u + 1013904223u;
+        const float value = random >> 30 == 0; /* one in four */
+        for (int c = 0; c < 3; c++) scene->colour->data[3 * i + c] = value;
+        mean += (double)value / (310 * 170);
+    }
+    Shot shot = picture(scene, field, "auto");
+    double off = 0;
+    int count = 0;
+    for (int i = 0; i < WIDE * HIGH / 2; i++) {
+        const float *w = white.frame.rgba + 4 * i, *p = shot.frame.rgba + 4 * i;
+        if (!(w[3] > 0) || w[3] >= 1 || !(w[1] > 0.001f)) continue;
+        const double share = (double)p[1] / (double)w[1] - mean;
+        off += share * share;
+        count++;
+    }
+    assert_true(count > 40);
+    if (!(sqrt(off / count) < 0.04)) fail_msg("%g of %d", sqrt(off / count), count);
+    put_away(&white);
+    put_away(&shot);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -161,6 +199,7 @@ int main(void)
         cmocka_unit_test(it_fades_at_the_horizon),
         cmocka_unit_test(pictures_are_those_of_the_reference),
         cmocka_unit_test(fading_goes_by_pixels_whatever_the_samples),
+        cmocka_unit_test(far_colours_are_the_mean_of_their_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,7 +40,9 @@ WrVerdict wr_decide_tint(const WrPlan *plan, const WrPlanAsk *ask, const char **
 {
     double ru, rv;
     wr_scene_repeat(ask->scene, &ask->scene->colour_laid, &ru, &rv);
-    if (!wants_filter(ask->dials))
+    /* Towards a horizon a pixel holds any number of the picture's texels, whatever the dials say, as it does of slopes (E67). */
+    const bool endless = wr_shape_endless(&ask->scene->shape) && !ask->scene->camera.orthographic;
+    if (!wants_filter(ask->dials) && !endless)
         return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
     if (!runs(plan, WR_EFFECT_COLOUR))
         return say(WR_VERDICT_NONE, why, "no colour picture is looked up");

@@ -291,7 +291,8 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "there is none, or it is white everywhere", STAGE(COLOUR),
                                    .decide = wr_decide_colour },
     [WR_ROW(WR_EFFECT_TINT)] = { "E64", "filtered colour", WR_PROOF_IDENTICAL, NULL,
-                                 "the dials ask for no filtering, no colour picture is looked up, "
+                                 "the dials ask for no filtering and no plane goes on to the "
+                                 "horizon, no colour picture is looked up, "
                                  "or it is of one colour; footprints up to one of its texels look "
                                  "up the picture itself",
                                  STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
