@@ -173,6 +173,7 @@ static void a_crash_loses_neither_of_two_models(void **state)
     if (!wr_session_recover(sessions[1], journal, false, &how, &err)) fail_msg("%s", err.text);
     assert_true(how.whole);
     assert_true(wr_hash_equal(wr_session_hash(sessions[1]), want));
+    wr_recovered_fini(&how);
     wr_session_free(sessions[1]);
     wr_free(journal);
 }
