@@ -94,7 +94,7 @@ void wr_scene_print_params(const char *command, const char *form, const void *ow
     for (int i = 0; (p = wr_scene_param(command, form, i)) != NULL; i++) {
         double values[3] = { 0 };
         wr_scene_param_get(p, owner, values);
-        if (p->sparse && values[0] == p->fallback[0]) continue;
+        if (p->positional || (p->sparse && values[0] == p->fallback[0])) continue;
         wr_text_addf(text, " %s=", p->name);
         wr_scene_print_value(p, owner, text);
     }

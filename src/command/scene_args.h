@@ -16,7 +16,7 @@ typedef struct WrText WrText;
 int wr_scene_args(const char *command, const char *form, WrArgSpec *out);
 /* What the line gives, and the default of what it does not give but fills, put into `owner`: the scene, or the light. */
 void wr_scene_take(const WrCall *call, const char *form, void *owner);
-/* " name=value" of each. */
+/* " name=value" of each that has its name in the line. */
 void wr_scene_print_params(const char *command, const char *form, const void *owner, WrText *text);
 /* The object's turn as "x,y,z" or that word: the pose in which its surface first shows itself. */
 #define WR_OWN_TURN "own"

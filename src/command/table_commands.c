@@ -8,6 +8,7 @@
 #include "document/document_file.h"
 #include "field/field.h"
 #include "generate/generator.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <string.h>
@@ -104,16 +105,22 @@ static bool run_open(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
-static bool same_size(const WrField *a, const WrField *b)
+static bool same_table(const WrField *a, const WrField *b)
 {
-    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b);
+    return wr_field_width(a) == wr_field_width(b) && wr_field_height(a) == wr_field_height(b) &&
+           wr_field_wrap_u(a) == wr_field_wrap_u(b) && wr_field_wrap_v(a) == wr_field_wrap_v(b);
 }
 
-/* A picture of another size makes the table another; so it can only where there is nothing but one layer. */
+/* Is there nothing but one layer, so that the table may become another? */
+static bool is_alone(const WrDocument *document)
+{
+    return document->layer_count == 1 && !document->selection && !document->layers[0].mask;
+}
+
 static bool replace_table(WrSession *session, WrLayer *layer, WrField *field, WrError *err)
 {
     const WrDocument *document = session->state.document;
-    if (document->layer_count > 1 || document->selection || layer->mask) {
+    if (!is_alone(document)) {
         wr_fail(err,
                 "the picture is %dx%d, the table %dx%d: with more layers, a mask or a selection it "
                 "must be resampled (fit=table)",
@@ -209,6 +216,30 @@ WrField *wr_session_heights_of(WrSession *session, WrImageRows *rows, const char
     return field;
 }
 
+/* The table that a picture makes: its size, and the edges that its label tells. */
+static WrField *table_of(const WrDocument *document, const WrImage *image, bool labels,
+                         WrError *err)
+{
+    const WrImageLabel *label = &image->label;
+    const WrField *old = document->layers[0].heights;
+    WrWrap wrap[2] = { wr_field_wrap_u(old), wr_field_wrap_v(old) };
+    for (int k = 0; labels && label->wrapped && is_alone(document) && k < 2; k++)
+        wrap[k] = label->clamp[k] ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC;
+    return wr_field_new(image->width, image->height, wrap[0], wrap[1], 0, err);
+}
+
+/* The cell is as large as its label tells, if that is more than every file does. */
+static void take_cell(WrSession *session, const WrImageLabel *label, const char *path)
+{
+    WrCellSize cell = { label->cell[0], label->cell[1], label->mm, label->mm ? label->height : 1 };
+    if (!label->sized || !wr_cell_size_given(&cell)) return;
+    WrScene *scene = wr_scene_clone(session->state.document->scene);
+    scene->cell = cell;
+    wr_session_replace_scene(session, scene);
+    wr_session_note(session, "%s: its label tells that the cell is %g x %g %s: so it is taken",
+                    path, cell.w, cell.h, cell.mm ? "mm" : "scene units");
+}
+
 static bool run_image(WrSession *session, WrCall *call, WrError *err)
 {
     const bool fit = wr_call_given(call, "fit"), labels = wr_call_choice(call, "labels") == 0;
@@ -223,16 +254,16 @@ static bool run_image(WrSession *session, WrCall *call, WrError *err)
     const WrImage *image = rows ? wr_image_rows_head(rows) : NULL;
     WrField *like = !image ? NULL
                     : fit  ? wr_field_share(old)
-                           : wr_field_new(image->width, image->height, wr_field_wrap_u(old),
-                                          wr_field_wrap_v(old), 0, err);
+                           : table_of(session->state.document, image, labels, err);
     WrField *field = like ? wr_session_heights_of(session, rows, path, labels, like, err) : NULL;
     wr_field_free(like);
+    bool good = field != NULL;
+    if (good && (fit || same_table(field, old))) wr_session_put_heights(session, layer, field);
+    else if (good) good = replace_table(session, layer, field, err);
+    if (good && !fit && labels) take_cell(session, &image->label, path);
     wr_free(path);
     wr_image_rows_close(rows);
-    if (!field) return false;
-    if (!same_size(field, old)) return replace_table(session, layer, field, err);
-    wr_session_put_heights(session, layer, field);
-    return true;
+    return good;
 }
 
 static const char *labels_name(int i)

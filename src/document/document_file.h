@@ -19,7 +19,7 @@
 
    Version 1 knew layers by name and heights alone, all added; version 2 no file of one part, so that one of
    several is still written as version 2; version 3 no mesh, version 4 no normal map and
-   no objects with different meshes, version 5 no surroundings. All are read. */
+   no objects with different meshes, version 5 no surroundings, version 6 no size of the cell. All are read. */
 #pragma once
 #include "scene/objects.h"
 #include "field/wrap.h"
@@ -35,11 +35,12 @@ typedef struct WrField WrField;
 typedef struct WrImage WrImage;
 typedef struct WrImageRows WrImageRows;
 
-#define WR_DOCUMENT_VERSION 6
-#define WR_DOCUMENT_VERSION_OBJECTS 5 /* of a file without surroundings */
-#define WR_DOCUMENT_VERSION_MESH 4    /* of a file with one mesh and no normal map */
-#define WR_DOCUMENT_VERSION_ALONE 3   /* of a file of one part */
-#define WR_DOCUMENT_VERSION_PARTS 2   /* of a file of several parts without a mesh */
+#define WR_DOCUMENT_VERSION 7
+#define WR_DOCUMENT_VERSION_SURROUND 6 /* of a file without a size of its cell */
+#define WR_DOCUMENT_VERSION_OBJECTS 5  /* of a file without surroundings */
+#define WR_DOCUMENT_VERSION_MESH 4     /* of a file with one mesh and no normal map */
+#define WR_DOCUMENT_VERSION_ALONE 3    /* of a file of one part */
+#define WR_DOCUMENT_VERSION_PARTS 2    /* of a file of several parts without a mesh */
 
 /* Names of parts. */
 #define WR_DOCUMENT_LAYER "layer:"

@@ -147,7 +147,8 @@ static const char *range_of(Saving *to, const WrField *field)
 static int version_of(const Saving *to)
 {
     const WrScene *scene = to->document->scene;
-    if (scene->environment.kind != WR_SURROUND_OFF) return WR_DOCUMENT_VERSION;
+    if (wr_cell_size_given(&scene->cell)) return WR_DOCUMENT_VERSION;
+    if (scene->environment.kind != WR_SURROUND_OFF) return WR_DOCUMENT_VERSION_SURROUND;
     if (wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene))
         return WR_DOCUMENT_VERSION_OBJECTS;
     if (to->mesh) return WR_DOCUMENT_VERSION_MESH;

@@ -196,7 +196,8 @@ int wr_ora_version(const WrScene *scene)
 {
     const bool new =
         wr_object_any_picture(scene, WR_OBJECT_NORMALS) || wr_scene_several_meshes(scene);
-    return new ? WR_ORA_VERSION : WR_ORA_VERSION_PLAIN;
+    if (wr_cell_size_given(&scene->cell)) return WR_ORA_VERSION;
+    return new ? WR_ORA_VERSION_OBJECTS : WR_ORA_VERSION_PLAIN;
 }
 
 const char *wr_ora_picture_name(const char *prefix, int object, int which, const char *suffix,

@@ -22,8 +22,6 @@ WrExportOptions wr_export_default(void)
     return (WrExportOptions){ .range = WR_EXPORT_RANGE_AUTO,
                               .low = 0.0,
                               .high = 1.0,
-                              .cell_w = 1.0,
-                              .cell_h = 1.0,
                               .scheme = -1,
                               .lines_u = 64,
                               .lines_v = 64,
@@ -34,7 +32,6 @@ WrExportOptions wr_export_default(void)
                               .pen = 1.0,
                               .at = 0.5,
                               .grid = 8,
-                              .solid_size = 100.0,
                               .solid_error = 0.05 };
 }
 
@@ -103,11 +100,6 @@ WrText *wr_export_attribute(WrExportJob *job, const char *name)
 void wr_export_describe_slopes(WrExportJob *job)
 {
     wr_text_add(wr_export_attribute(job, "wrinkle:scheme"), wr_schemes[job->options.scheme].name);
-    WrText *cell = wr_export_attribute(job, "wrinkle:cell");
-    wr_text_add_number(cell, job->options.cell_w);
-    wr_text_add(cell, ",");
-    wr_text_add_number(cell, job->options.cell_h);
-    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);
 }
 
 /* ---- one export ---- */
@@ -142,6 +134,8 @@ static bool settle_options(const WrExportKind *kind, const WrScene *scene, const
         !(options->low < options->high && isfinite(options->high - options->low)))
         return wr_fail(err, "range %g,%g: LOW must be below HIGH, both finite", options->low,
                        options->high);
+    if (options->cell_w == 0.0) options->cell_w = scene->cell.w;
+    if (options->cell_h == 0.0) options->cell_h = scene->cell.h;
     if (!(options->cell_w > 0.0) || !(options->cell_h > 0.0) || !isfinite(options->cell_w) ||
         !isfinite(options->cell_h))
         return wr_fail(err, "cell %g,%g: both sizes must be above 0", options->cell_w,
@@ -165,6 +159,12 @@ static void describe(WrExportJob *job)
     wr_text_add(wr_export_attribute(job, "wrinkle:kind"), job->kind->name);
     wr_text_add(wr_export_attribute(job, "wrinkle:wrap"),
                 wr_document_wrap_word(wr_field_wrap_u(job->field), wr_field_wrap_v(job->field)));
+    WrText *cell = wr_export_attribute(job, "wrinkle:cell");
+    wr_text_add_number(cell, job->options.cell_w);
+    wr_text_add(cell, ",");
+    wr_text_add_number(cell, job->options.cell_h);
+    wr_text_add(wr_export_attribute(job, "wrinkle:unit"), job->scene->cell.mm ? "mm" : "scene");
+    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);
     job->kind->describe(job);
 }
 
@@ -206,6 +206,14 @@ static bool take_object(WrExportJob *job, const WrDocument *document, WrTables *
     return true;
 }
 
+/* The scene with its height in the unit of the cell's size. */
+static WrScene *in_unit(const WrScene *scene)
+{
+    WrScene *own = wr_scene_clone(scene);
+    own->height = wr_scene_relief(scene);
+    return own;
+}
+
 static const char *convention_of(const WrExportKind *kind)
 {
     return kind->green > 0 ? "+Y (green up)" : kind->green < 0 ? "-Y (green down)" : NULL;
@@ -239,8 +247,11 @@ bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExp
                         .options = *options,
                         .pool = pool };
     WrTables *tables = NULL;
-    bool ok =
-        (!options->object || take_object(&job, document, &tables, err)) && run_job(&job, path, err);
+    WrScene *scaled = NULL;
+    bool ok = !options->object || take_object(&job, document, &tables, err);
+    if (ok && !kind->write) job.scene = scaled = in_unit(job.scene);
+    ok = ok && run_job(&job, path, err);
+    wr_scene_free(scaled);
     wr_tables_free(tables);
     if (ok && report) *report = job.report;
     return ok;

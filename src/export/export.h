@@ -17,6 +17,7 @@
 
    normal+y, normal-y: at each texel's centre
      n = normalise(-height dF/dU / cell_w, -height dF/dV / cell_h, 1)
+   (in millimetres, where the document's cell is told so, with its height; else in scene units)
    with dF/dU, dF/dV the scheme's derivatives of the table over the unit cell, V up. normal-y negates the
    second component. In a +Y map the upper flank of a bump is bright green. Codes are
    round(M (n/2 + 1/2)); float files hold n/2 + 1/2.
@@ -55,7 +56,7 @@ typedef struct WrExportOptions {
     int depth; /* bits a channel: 8, 16, 32 (float); 0 = the deepest that the ending holds */
     WrExportRange range;   /* integer heights only; given is the only one that clips */
     double low, high;      /* range given: F of code 0 and of the last code, low < high */
-    double cell_w, cell_h; /* normals: size of the unit cell in scene units, > 0 */
+    double cell_w, cell_h; /* size of the unit cell in the unit of the scene's; 0: the scene's */
     int scheme;            /* normals: a WrScheme, or -1 for the scene's */
     const char *
         object; /* whose table; borrowed; NULL: of all layers, scheme and formula of the object at hand */
@@ -73,7 +74,8 @@ typedef struct WrExportOptions {
     double at;    /* the other coordinate, 0..1 */
     int grid;     /* divisions of the line, 1..256 */
     /* stl, ply, obj, in millimetres: */
-    double solid_size;      /* longest side of the surface without its relief, > 0 */
+    double solid_size;      /* longest side of the surface without its relief; 0: as the document's
+                               cell says of a plane, if in millimetres, else 100 */
     double solid_error;     /* how far a sample may be off, > 0 */
     double solid_thickness; /* under the lowest sample; 0: 2 for a sheet, a tube is filled */
 } WrExportOptions;
@@ -137,8 +139,8 @@ typedef struct WrExportKind {
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 
-WrExportOptions wr_export_default(
-    void); /* depth 0, range auto, cell 1,1, the scene's scheme, no dither; 64 lines each way
+WrExportOptions
+wr_export_default(void); /* depth 0, range auto, the scene's scheme, no dither; 64 lines each way
                             seen from 30,35 */
 
 /* Set one option from its text as in a command: ("range", "0,1"). Errors name the option, the value and

@@ -179,5 +179,4 @@ void wr_export_height_describe(WrExportJob *job)
     } else { /* where it falls between the codes */
         wr_text_add_number(text, code_of(job, 0.0));
     }
-    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);
 }

@@ -11,7 +11,7 @@
 typedef struct WrField WrField;
 typedef struct WrScene WrScene;
 
-#define WR_EXPORT_ATTRIBUTES 8 /* at most */
+#define WR_EXPORT_ATTRIBUTES 16 /* at most */
 
 struct WrExportJob {
     const WrExportKind *kind;
@@ -52,7 +52,7 @@ bool wr_export_receipt(void *ctx, int y, int rows, const float *values, bool exa
 /* A new attribute's text, to be filled. */
 WrText *wr_export_attribute(WrExportJob *job, const char *name);
 
-/* What slopes go by: scheme, cell, height. */
+/* What slopes go by besides the cell and its height, which all files tell: the scheme. */
 void wr_export_describe_slopes(WrExportJob *job);
 
 /* Heights of rows [y, y + rows) in table units; returns how many were not finite and became 0. */

@@ -47,8 +47,7 @@ static bool set_cell(WrExportOptions *options, const char *value, WrError *err)
 {
     double w, h;
     if (!parse_pair(value, &w, &h) || !(w > 0.0) || !(h > 0.0))
-        return wr_fail(err, "cell '%.80s': must be WIDTH,HEIGHT in scene units, both above 0",
-                       value);
+        return wr_fail(err, "cell '%.80s': must be WIDTH,HEIGHT, both above 0", value);
     options->cell_w = w;
     options->cell_h = h;
     return true;
@@ -236,7 +235,8 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
     }
 #define CELL                                                                                       \
     {                                                                                              \
-        "cell", "WIDTH,HEIGHT", "size of the unit cell in scene units; left out: 1,1", set_cell    \
+        "cell", "WIDTH,HEIGHT", "size of the unit cell; left out: the document's (`cell`)",        \
+            set_cell                                                                               \
     }
 #define SCHEME                                                                                     \
     {                                                                                              \
@@ -260,7 +260,9 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
 
 #define SOLID_OPTIONS                                                                              \
     {                                                                                              \
-        { "size", "MM", "longest side of the surface, its relief left out; left out: 100",         \
+        { "size", "MM",                                                                            \
+          "longest side of the surface without its relief; left out: of a plane what "             \
+          "`cell mm=on` says, else 100",                                                           \
           set_solid_size },                                                                        \
             { "error", "MM", "how far a texel may be from its triangle; left out: 0.05",           \
               set_solid_error },                                                                   \

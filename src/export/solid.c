@@ -115,7 +115,21 @@ static void set_scale(WrSolid *s)
     }
     const WrVec3 d = v3_sub(high, low);
     s->middle = v3_scale(v3_add(low, high), 0.5);
-    s->scale = s->size / fmax(d.x, fmax(d.y, d.z));
+    s->scale = s->true_width > 0 ? s->true_width / d.x : s->size / fmax(d.x, fmax(d.y, d.z));
+}
+
+/* A plane is as wide as its cells, and as high as they say, where they are told in millimetres. */
+static WrScene *true_scene(const WrExportJob *job, WrSolid *s)
+{
+    const WrScene *scene = job->scene;
+    if (!scene->cell.mm || job->options.solid_size > 0 || scene->shape.kind != WR_SURFACE_plane)
+        return NULL;
+    s->true_width = scene->cell.w * fabs(scene->replicate_u);
+    if (!(s->true_width > 0)) return NULL;
+    set_scale(s);
+    WrScene *own = wr_scene_clone(scene);
+    own->height = scene->cell.height / s->scale;
+    return own;
 }
 
 static bool check(const WrExportJob *job, WrError *err)
@@ -127,7 +141,7 @@ static bool check(const WrExportJob *job, WrError *err)
                        "%s: solids are made of surfaces by formulas, which a %s is not; `wrinkle "
                        "help surface` lists them",
                        job->kind->name, info->name);
-    if (!(o->solid_size > 0) || !(o->solid_error > 0) || o->solid_thickness < 0)
+    if (!(o->solid_size >= 0) || !(o->solid_error > 0) || o->solid_thickness < 0)
         return wr_fail(err, "size %g, error %g, thickness %g: must be above 0, in millimetres",
                        o->solid_size, o->solid_error, o->solid_thickness);
     return true;
@@ -187,14 +201,16 @@ bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
     WrSolid s = { .scene = job->scene,
                   .field = job->field,
                   .pool = job->pool,
-                  .size = job->options.solid_size,
+                  .size = job->options.solid_size > 0 ? job->options.solid_size : 100,
                   .error = job->options.solid_error,
                   .thickness = thickness_of(job),
                   .faces = wr_surfaces[job->scene->shape.kind]->faces,
                   .low = INFINITY,
                   .high = -INFINITY };
     wr_scene_stretch(job->scene, &s.stretch, &s.cofactor);
-    set_scale(&s);
+    WrScene *own = true_scene(job, &s);
+    if (own) s.scene = own;
+    else set_scale(&s);
     WrProgressPart part;
     bool good = make(&s, err);
     if (good) {
@@ -204,5 +220,6 @@ bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err)
         wr_progress_set(whole);
     }
     free_solid(&s);
+    wr_scene_free(own);
     return good;
 }

@@ -54,9 +54,10 @@ typedef struct WrSolid {
     const WrScene *scene;
     const WrField *field;
     WrPool *pool;
-    double size;      /* mm: longest side of the smooth surface */
-    double error;     /* mm asked for */
-    double thickness; /* mm under the lowest sample; 0: filled, open ends closed flat */
+    double size;       /* mm: longest side of the smooth surface */
+    double true_width; /* mm: its width instead; 0: that side */
+    double error;      /* mm asked for */
+    double thickness;  /* mm under the lowest sample; 0: filled, open ends closed flat */
     WrVec3 stretch, cofactor, middle; /* a point is (stretch P - middle) scale */
     double scale;                     /* mm a unit of the object */
     int faces;

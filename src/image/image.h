@@ -28,8 +28,13 @@ typedef struct WrImageLabel {
     bool ranged; /* integer heights: F = low + step (code - zero) */
     double low, step;
     int zero;
-    double cell[2], height; /* normals: as export had them; height may be below 0 */
-    char refused[96];       /* "wrinkle:range=nan,1": what made no sense and was not used; "" */
+    bool sized; /* tells how large the cell is: the next three hold */
+    bool mm;    /* cell and height are millimetres, else scene units */
+    double cell[2],
+        height;   /* as export had them, of normals and slopes in any case; height may be below 0 */
+    bool wrapped; /* tells what lies beyond the edges: the next one holds */
+    bool clamp[2];    /* u, v */
+    char refused[96]; /* "wrinkle:range=nan,1": what made no sense and was not used; "" */
 } WrImageLabel;
 
 /* A picture in memory: float, channels interleaved, row 0 on top. Integer files read as code / 255 or

@@ -58,21 +58,51 @@ static void read_range(WrImageFile *file, int part, double last, WrImageLabel *l
     label->step = amplitude / (zero - 1);
 }
 
-static void read_normals(WrImageFile *file, int part, WrImageLabel *label)
+/* The cell and what F = 1 is high; false where it was told wrong. Of scene units the height is no more than the bumps'
+ * of the scene it came from: only slopes need one that makes sense. */
+static bool read_cell(WrImageFile *file, int part, bool slopes, WrImageLabel *label)
 {
     const char *cell = wr_image_file_attribute(file, part, "wrinkle:cell");
     const char *height = wr_image_file_attribute(file, part, "wrinkle:height");
+    bool good = true;
     label->cell[0] = label->cell[1] = label->height = 1;
-    if (cell && (!pair(cell, &label->cell[0], &label->cell[1]) || !(label->cell[0] > 0) ||
-                 !(label->cell[1] > 0) || label->cell[0] > 1e9 || label->cell[1] > 1e9)) {
+    if (cell && (!pair(cell, &label->cell[0], &label->cell[1]) || !(label->cell[0] >= 1e-9) ||
+                 !(label->cell[1] >= 1e-9) || label->cell[0] > 1e9 || label->cell[1] > 1e9)) {
         refuse(label, "wrinkle:cell", cell);
         label->cell[0] = label->cell[1] = 1;
+        good = false;
     }
-    if (height && (!number(height, &label->height) || label->height == 0 ||
-                   fabs(label->height) > 1e9 || fabs(label->height) < 1e-9)) {
+    if (height && (slopes || label->mm) &&
+        (!number(height, &label->height) || !(fabs(label->height) <= 1e9) ||
+         fabs(label->height) < 1e-9 || (label->mm && label->height < 0))) {
         refuse(label, "wrinkle:height", height);
         label->height = 1;
+        good = false;
     }
+    return good && cell && height;
+}
+
+static void read_size(WrImageFile *file, int part, bool slopes, WrImageLabel *label)
+{
+    const char *unit = wr_image_file_attribute(file, part, "wrinkle:unit");
+    label->mm = unit && strcmp(unit, "mm") == 0;
+    const bool known = unit && (label->mm || strcmp(unit, "scene") == 0);
+    if (unit && !known) refuse(label, "wrinkle:unit", unit);
+    if (!slopes && !known) return;
+    label->sized = read_cell(file, part, slopes, label) && known;
+}
+
+static void read_wrap(WrImageFile *file, int part, WrImageLabel *label)
+{
+    static const char *const words[] = { "periodic", "clamp-u", "clamp-v", "clamp" };
+    const char *word = wr_image_file_attribute(file, part, "wrinkle:wrap");
+    if (!word) return;
+    for (int i = 0; i < 4; i++) {
+        if (strcmp(word, words[i]) != 0) continue;
+        label->wrapped = true;
+        label->clamp[0] = i & 1, label->clamp[1] = i >> 1;
+    }
+    if (!label->wrapped) refuse(label, "wrinkle:wrap", word);
 }
 
 void wr_image_label_read(WrImageFile *file, int part, WrPixelType type, WrImageLabel *label)
@@ -85,10 +115,12 @@ void wr_image_label_read(WrImageFile *file, int part, WrPixelType type, WrImageL
         if (type != WR_PIXEL_F32) read_range(file, part, wr_pixel_last(type), label);
     } else if (strcmp(kind, "normal+y") == 0 || strcmp(kind, "normal-y") == 0) {
         label->kind = kind[6] == '+' ? WR_LABEL_NORMAL_UP : WR_LABEL_NORMAL_DOWN;
-        read_normals(file, part, label);
     } else {
         refuse(label, "wrinkle:kind", kind);
+        return;
     }
+    read_size(file, part, label->kind != WR_LABEL_HEIGHT, label);
+    read_wrap(file, part, label);
 }
 
 bool wr_image_apply_range(WrImage *image)

@@ -16,6 +16,8 @@
 _Static_assert(sizeof(WrVec3) == 3 * sizeof(double), "vectors are read as numbers");
 _Static_assert(offsetof(WrScene, replicate_v) == offsetof(WrScene, replicate_u) + sizeof(double),
                "the two are read as one pair");
+_Static_assert(offsetof(WrScene, cell.h) == offsetof(WrScene, cell.w) + sizeof(double),
+               "the two are read as one pair");
 
 WR_ROWS(wr_scene_params);
 const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
@@ -222,6 +224,19 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                           .components = 1, .low = -20, .high = 20, .unit = "stops",
                                           .label = "Exposure",
                                           .help = "one more is twice the light", SLIDER(-4, 4, 2) },
+    [WR_ROW(WR_SCENE_PARAM_CELL_SIZE)] = { "cell", NULL, "WIDTH,HEIGHT", .positional = true,
+                                           .required = true, IN_SCENE(cell.w), .components = 2,
+                                           .low = 1e-9, .high = 1e9, .fallback = { 1, 1 },
+                                           .label = "Cell",
+                                           .help = "its sides along u and v", SLIDER(0.1, 1000, -1),
+                                           .logarithmic = true },
+    [WR_ROW(WR_SCENE_PARAM_CELL_MM)] = { "cell", NULL, "mm", IN_SCENE(cell.mm),
+                                         .help = "in millimetres; off: in scene units" },
+    [WR_ROW(WR_SCENE_PARAM_CELL_HEIGHT)] = { "cell", NULL, "height", IN_SCENE(cell.height),
+                                             .components = 1, .low = 1e-9, .high = 1e9,
+                                             .fallback = { 1 }, .unit = "mm", .label = "F = 1 is",
+                                             .help = "where the table is 1, with mm=on",
+                                             SLIDER(0.01, 100, -1), .logarithmic = true },
 };
 WR_ROWS_END(wr_scene_params, WR_SCENE_PARAM_COUNT);
 

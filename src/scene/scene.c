@@ -133,6 +133,17 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     scene->background = from->background;
     wr_environment_copy(&scene->environment, &from->environment);
     scene->tone = from->tone;
+    scene->cell = from->cell;
+}
+
+bool wr_cell_size_given(const WrCellSize *cell)
+{
+    return cell->w != 1 || cell->h != 1 || cell->mm || cell->height != 1;
+}
+
+double wr_scene_relief(const WrScene *scene)
+{
+    return scene->cell.mm ? scene->cell.height : scene->height;
 }
 
 void wr_scene_drop_colour(WrScene *scene)

@@ -93,6 +93,13 @@ typedef struct WrNormalMap {
     double strength;     /* -100..100: its slopes' factor */
 } WrNormalMap;
 
+/* How large the unit cell is for other programs: what exports, solids and labels go by. Pictures do not. */
+typedef struct WrCellSize {
+    double w, h; /* above 0: scene units, or millimetres */
+    bool mm;
+    double height; /* millimetres of F = 1; in scene units that is the scene's `height` */
+} WrCellSize;
+
 struct WrScene {
     int refs;          /* atomic; private to scene.c */
     WrShape shape;     /* its data is shared with it: set by wr_scene_set_shape */
@@ -140,6 +147,7 @@ struct WrScene {
     WrBackground background;
     WrEnvironment environment;
     WrTone tone;
+    WrCellSize cell;
     double radius; /* of the shape, once it was found, of one of `others`; private */
 };
 
@@ -155,6 +163,9 @@ WrTriangles *wr_scene_mesh_from_image(const WrImage *image, int object, WrError 
 bool wr_scene_several_meshes(const WrScene *scene); /* do objects have different ones? */
 
 size_t wr_scene_mesh_bytes(const WrTriangles *triangles); /* that it takes in memory */
+
+bool wr_cell_size_given(const WrCellSize *cell); /* other than 1,1 scene units */
+double wr_scene_relief(const WrScene *scene); /* height of F = 1 in the unit of the cell's size */
 
 WrSceneView wr_scene_view(const WrScene *scene);
 void wr_scene_set_view(WrScene *scene, const WrSceneView *view);

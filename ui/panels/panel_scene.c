@@ -267,5 +267,6 @@ void wr_panel_scene(WrApp *app)
     wr_panel_solid(app);
     wr_panel_lights(app);
     wr_panel_camera(app);
+    wr_panel_cell(app);
     wr_gui_space(8);
 }

@@ -22,6 +22,7 @@ void wr_light_take_surround(WrApp *app, const char *path); /* likewise */
 void wr_map_take_normals(WrApp *app, const char *path);
 void wr_panel_lights(WrApp *app);
 void wr_panel_camera(WrApp *app);
+void wr_panel_cell(WrApp *app);
 void wr_panel_solid(WrApp *app); /* relief and solid textures */
 void wr_panel_plan(WrApp *app);
 void wr_panel_history(WrApp *app);
