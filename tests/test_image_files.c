@@ -467,6 +467,56 @@ static void a_scene_names_the_channels_that_its_pictures_took(void **state)
     wr_session_free(s), wr_session_free(opened), wr_session_free(script);
 }
 
+/* ---- what stands there is shown in the part's order, whatever the format's ---- */
+
+typedef struct Shown {
+    int rows, wrong;
+} Shown;
+
+static bool fill_rows(void *ctx, int y, int rows, void *out, WrError *err)
+{
+    (void)ctx;
+    (void)err;
+    float *at = out;
+    for (int j = 0; j < rows; j++)
+        for (int i = 0; i < 7; i++)
+            for (int c = 0; c < 3; c++) *at++ = (float)(0.37 * c + 0.01 * i + 0.0013 * (y + j));
+    return true;
+}
+
+static bool look_at_rows(void *ctx, int y, int rows, const float *values, bool exact, WrError *err)
+{
+    (void)exact;
+    Shown *shown = ctx;
+    float want[7 * 3 * WR_IMAGE_STRIP];
+    fill_rows(NULL, y, rows, want, err);
+    shown->rows += rows;
+    for (int i = 0; i < 7 * 3 * rows; i++) shown->wrong += want[i] != values[i];
+    return true;
+}
+
+static void channels_are_shown_in_the_order_in_which_they_were_given(void **state)
+{
+    (void)state;
+    static const char *const orders[][3] = { { "a", "b", "c" }, { "z_h", "b", "m" } };
+    for (int k = 0; k < 2; k++) {
+        Shown shown = { 0, 0 };
+        WrError err = { "" };
+        const WrImageOut out = { .width = 7,
+                                 .height = 93,
+                                 .channels = 3,
+                                 .type = WR_PIXEL_F32,
+                                 .channel_names = orders[k],
+                                 .data = true,
+                                 .rows = fill_rows,
+                                 .seen = look_at_rows,
+                                 .ctx = &shown };
+        if (!wr_image_write("channels.exr", &out, 1, &err)) fail_msg("%s", err.text);
+        assert_int_equal(shown.rows, 93);
+        assert_int_equal(shown.wrong, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -481,6 +531,7 @@ int main(void)
         cmocka_unit_test(a_part_is_chosen_by_number_or_name),
         cmocka_unit_test(commands_choose_and_tell_what_they_took),
         cmocka_unit_test(a_scene_names_the_channels_that_its_pictures_took),
+        cmocka_unit_test(channels_are_shown_in_the_order_in_which_they_were_given),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -2,6 +2,8 @@
 #include "test.h"
 #include "test_folder.h"
 
+#include <sys/resource.h>
+
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -199,6 +201,41 @@ static void the_sentence_tells_what_was_seen(void **state)
     wr_text_fini(&text);
 }
 
+/* 64 rows at a time travel from the reader, twice, which a limit on file sizes holds for as well: 2 x 64 x 515 x 4 bytes
+   here. The file, being flat, is smaller. */
+static void what_was_not_compared_is_said(void **state)
+{
+    (void)state;
+    struct rlimit old, small;
+    WrError err = { "" };
+    WrExportReport report;
+    WrText text = { 0 };
+    WrDocument *document = wr_document_new();
+    WrField *field = wr_field_new(515, 70, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.3f, NULL);
+    WrExportOptions options = wr_export_default();
+    wr_field_free(document->layers[0].heights);
+    document->layers[0].heights = field;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+    small = (struct rlimit){ 260000, old.rlim_max };
+    for (int limited = 0; limited < 2; limited++) {
+        if (limited) setrlimit(RLIMIT_FSIZE, &small);
+        bool good = wr_export(wr_export_find("height"), document, &options, NULL, "flat.png",
+                              &report, &err);
+        setrlimit(RLIMIT_FSIZE, &old);
+        if (!good) fail_msg("%s", err.text);
+        assert_true(report.seen == !limited && report.unseen == limited);
+        wr_text_clear(&text);
+        wr_export_report_text(&report, &text);
+        const char *said = strstr(wr_text_get(&text), "; read back");
+        assert_string_equal(said, limited ? "; read back whole, but not compared with the table: a "
+                                            "limit on file sizes (ulimit -f) leaves no room for "
+                                            "its rows"
+                                          : "; read back: exact");
+    }
+    wr_text_fini(&text);
+    wr_document_free(document);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -207,6 +244,7 @@ int main(void)
         cmocka_unit_test(codes_beyond_their_bound_are_errors_and_leave_the_old_file),
         cmocka_unit_test(every_kind_is_read_back_within_its_bound),
         cmocka_unit_test(the_sentence_tells_what_was_seen),
+        cmocka_unit_test(what_was_not_compared_is_said),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

@@ -31,8 +31,10 @@ static bool write_set(const char *name, const char *const *words, int count, WrE
 {
     WrDocument *document = bump_document();
     WrText told = { 0 };
-    WrSetOrder order = { wr_export_set_find(name), ".", "clay", words, count };
-    bool good = wr_export_set(&order, document, NULL, &told, err);
+    WrSet *set = wr_set_find(name, err);
+    WrSetOrder order = { set, ".", "clay", words, count };
+    bool good = set && wr_export_set(&order, document, NULL, &told, err);
+    wr_set_free(set);
     wr_text_fini(&told);
     wr_document_free(document);
     return good;
@@ -57,6 +59,7 @@ static void every_set_has_the_names_and_formats_of_its_program(void **state)
         { "godot", "clay_height.png", WR_PIXEL_U8, 1, 0 },
         { "substance", "clay_Height.png", WR_PIXEL_U16, 1, 0 },
         { "substance", "clay_Normal.png", WR_PIXEL_U16, 3, -1 },
+        { "substance", "clay_Curvature.png", WR_PIXEL_U16, 1, 0 },
         { "renderman", "clay_disp.exr", WR_PIXEL_F32, 1, 0 },
         { "arnold", "clay_disp.exr", WR_PIXEL_F32, 1, 0 },
         { "arnold", "clay_normal.exr", WR_PIXEL_F32, 3, 1 },
@@ -93,7 +96,7 @@ static void count_left(int *count)
     WrFolder *folder = wr_folder_open(".");
     const char *name;
     *count = 0;
-    while ((name = wr_folder_next(folder))) *count += strncmp(name, ".wrinkle-set", 12) == 0;
+    while ((name = wr_folder_next(folder))) *count += name[0] == '.';
     wr_folder_close(folder);
 }
 
@@ -108,7 +111,7 @@ static void all_files_of_a_set_are_replaced_or_none(void **state)
     assert_true(wr_file_write("T_clay_N.png", "old", 3, &err));
     assert_true(wr_folder_make("T_clay_H.png", WR_FOLDER_FOR_ALL));
     assert_false(write_set("unreal", NULL, 0, &err));
-    assert_non_null(strstr(err.text, "T_clay_H.png: cannot be written"));
+    assert_non_null(strstr(err.text, "T_clay_H.png: is a folder"));
     assert_holds("T_clay_N.png", "old");
     assert_true(wr_path_remove("T_clay_N.png"));
     assert_false(write_set("unreal", NULL, 0, &err));
@@ -133,12 +136,150 @@ static void words_go_to_the_maps_that_have_them(void **state)
     assert_non_null(strstr(err.text, "cell '0,1'"));
 }
 
+/* ---- the user's own ---- */
+
+static void own_set(const char *name, const char *text)
+{
+    WrError err = { "" };
+    char path[80];
+    snprintf(path, sizeof path, "config/wrinkle/sets/%s.set", name);
+    if (!wr_file_write(path, text, strlen(text), &err)) fail_msg("%s", err.text);
+}
+
+static void an_own_set_is_written_as_its_lines_say(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    own_set("studio",
+            "\r\n# ours\nabout a renderer of our own\r\n\tnormal-y  N_*.v1.png depth=8 \r\n"
+            "height *-h.tif depth=16 range=signed\nlines *.svg lines=4x4");
+    WrSet *set = wr_set_find("studio", &err);
+    if (!set) fail_msg("%s", err.text);
+    assert_true(set->own && set->maps.count == 3);
+    assert_string_equal(set->about, "a renderer of our own");
+    wr_set_free(set);
+    if (!write_set("studio", NULL, 0, &err)) fail_msg("%s", err.text);
+    static const char *const files[] = { "N_clay.v1.png", "clay-h.tif", "clay.svg" };
+    for (int i = 0; i < 3; i++) assert_true(wr_path_remove(files[i]));
+    WrSetNames names = wr_set_names();
+    assert_int_equal(names.names.count, WR_SET_ROWS + 1);
+    assert_string_equal(names.names.data[WR_SET_ROWS], "studio");
+    wr_set_names_free(&names);
+}
+
+static void an_own_set_goes_before_ours(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    own_set("gltf", "height *_mine.png");
+    wr_path_remove("clay_normal.png");
+    if (!write_set("gltf", NULL, 0, &err)) fail_msg("%s", err.text);
+    assert_true(wr_path_remove("clay_mine.png"));
+    assert_false(wr_path_is_there("clay_normal.png"));
+    assert_true(wr_path_remove("config/wrinkle/sets/gltf.set"));
+}
+
+static void wrong_lines_are_refused_by_number(void **state)
+{
+    (void)state;
+    char many[4000] = "", settings[400] = "height *.png";
+    for (int i = 0; i <= WR_SET_MAPS; i++)
+        snprintf(many + strlen(many), sizeof many - strlen(many), "height %d_*.png\n", i);
+    for (int i = 0; i <= 12; i++) strcat(settings, " range=auto");
+    const struct {
+        const char *text, *says;
+    } wrong[] = {
+        { "# a\nnorml *_N.png",
+          "bad.set:2: 'norml' is no kind of map: must be about, or one of height" },
+        { "height", "bad.set:1: height: needs a file's name" },
+        { "height ../*_x.png", "without a folder" },
+        { "height /tmp/*_x.png", "without a folder" },
+        { "height .*.png", "without a folder" },
+        { "height x.png", "must have one *" },
+        { "height *_*.png", "must have one *" },
+        { "height *", "must have one *" },
+        { "height *.xyz", "ending 'xyz'" },
+        { "height *.png depth=7", "bad.set:1: depth '7': must be 8, 16 or 32" },
+        { "height *.png depth", "must be a setting, name=value" },
+        { "height *.png nosuch=1", "height has no option 'nosuch'; it has depth" },
+        { "height *.png depth=8 depth=16", "depth= is given twice" },
+        { "height *.png\n\nnormal+y *.png", "bad.set:3: '*.png' is written twice" },
+        { "height *.jpg depth=16", "JPEG holds 8 bits" },
+        { "slopes *.png", "PNG holds 8 or 16 bits" },
+        { "stl *.ply", "stl files end in .stl" },
+        { "height \033*.png", "control character" },
+        { "about nothing", "bad.set: no map in it" },
+        { many, "bad.set:33: more than 32 maps" },
+        { settings, "more than 8 settings" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        WrError err = { "" };
+        own_set("bad", wrong[i].text);
+        WrSet *set = wr_set_find("bad", &err);
+        if (set) fail_msg("taken: %s", wrong[i].text);
+        if (!strstr(err.text, wrong[i].says))
+            fail_msg("%s: says %s, without %s", wrong[i].text, err.text, wrong[i].says);
+    }
+}
+
+static void hostile_files_and_names_are_refused(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    char *large = malloc(WR_SET_FILE_MOST + 2);
+    memset(large, '#', WR_SET_FILE_MOST + 1);
+    large[WR_SET_FILE_MOST + 1] = '\0';
+    own_set("bad", large);
+    free(large);
+    assert_null(wr_set_find("bad", &err));
+    assert_non_null(strstr(err.text, "65537 bytes: a set has at most 65536"));
+    assert_true(wr_file_write("config/wrinkle/sets/bad.set", "height\0*.png", 12, &err));
+    assert_null(wr_set_find("bad", &err));
+    assert_non_null(strstr(err.text, "NUL byte"));
+    assert_null(wr_set_find("../sets/studio", &err));
+    assert_non_null(strstr(err.text, "unknown set: must be one of blender, gltf"));
+    assert_true(wr_path_remove("config/wrinkle/sets/bad.set"));
+    assert_true(wr_folder_make("config/wrinkle/sets/bad.set", WR_FOLDER_FOR_ALL));
+    assert_null(wr_set_find("bad", &err));
+    assert_true(wr_folder_remove("config/wrinkle/sets/bad.set"));
+    WrDocument *document = bump_document();
+    WrText told = { 0 };
+    WrSet *set = wr_set_find("unity", &err);
+    static const char *const names[] = { "../x", "a\nb", "" };
+    for (int i = 0; i < 3; i++) {
+        WrSetOrder order = { set, ".", names[i], NULL, 0 };
+        assert_false(wr_export_set(&order, document, NULL, &told, &err));
+        assert_non_null(strstr(err.text, "must be the cell's name"));
+    }
+    WrSetOrder order = { set, "nowhere", "clay", NULL, 0 };
+    assert_false(wr_export_set(&order, document, NULL, &told, &err));
+    assert_non_null(strstr(err.text, "nowhere: is no folder"));
+    wr_set_free(set);
+    wr_text_fini(&told);
+    wr_document_free(document);
+}
+
+static int enter_with_settings(void **state)
+{
+    if (enter_folder(state) != 0) return -1;
+    char path[200];
+    snprintf(path, sizeof path, "%s/config", (char *)*state);
+    return mkdir("config", 0700) || mkdir("config/wrinkle", 0700) ||
+                   mkdir("config/wrinkle/sets", 0700)
+               ? -1
+               : setenv("XDG_CONFIG_HOME", path, 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_set_has_the_names_and_formats_of_its_program),
         cmocka_unit_test(all_files_of_a_set_are_replaced_or_none),
         cmocka_unit_test(words_go_to_the_maps_that_have_them),
+        cmocka_unit_test(an_own_set_is_written_as_its_lines_say),
+        cmocka_unit_test(an_own_set_goes_before_ours),
+        cmocka_unit_test(wrong_lines_are_refused_by_number),
+        cmocka_unit_test(hostile_files_and_names_are_refused),
     };
-    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+    return cmocka_run_group_tests(tests, enter_with_settings, remove_folder);
 }

@@ -11,6 +11,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool wr_file_read(const char *path, size_t limit, char **bytes, size_t *length, WrError *err)
@@ -75,6 +76,15 @@ int wr_fd_in_memory(const char *name, const void *bytes, size_t length, WrError 
     wr_fail(err, "%s: no memory to read it from (%s)", name, strerror(errno));
     if (fd >= 0) wr_fd_close(fd);
     return -1;
+}
+
+char *wr_config_path(const char *name)
+{
+    const char *xdg = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
+    WrText path = { 0 };
+    if (xdg && xdg[0] == '/') wr_text_addf(&path, "%s/wrinkle/%s", xdg, name);
+    else if (home && home[0] == '/') wr_text_addf(&path, "%s/.config/wrinkle/%s", home, name);
+    return path.data;
 }
 
 /* Told by the build; a fuzzer that is made of single files has none. */

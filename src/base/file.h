@@ -64,8 +64,23 @@ const char *wr_file_why(int error, char text[WR_FILE_WHY]);
 /* The same where a library tells of it in words of its own, among them the system's; else those words. */
 const char *wr_file_why_told(const char *reason, char text[WR_FILE_WHY]);
 
-/* Remove what killed programs of this user left half-written in a folder: the name must tell a process of this
-   machine that is gone, and nobody may hold the file. */
+/* ---- several files together ---- */
+
+/* Files that take their places together. From begin on, what this thread commits (wr_file_commit) stays under its
+ * temporary name, whole and on the disk, and is only noted; commit then gives all of them their names, and where one
+ * fails puts back what stood there before. A kill on the way leaves a list of them in their folder, by which
+ * wr_file_sweep, that is the next program that writes or opens something there, gives the rest their names too.
+ *
+ * Threads  a group belongs to one, and there is one group at a time
+ * Errors   those of writing; then every target is as it was
+ * Links to files of another folder get their files as well, but a kill may come between those and the others. */
+typedef struct WrFileGroup WrFileGroup;
+WrFileGroup *wr_file_group_begin(void);
+bool wr_file_group_commit(WrFileGroup *group, WrError *err); /* ends it either way */
+void wr_file_group_abort(WrFileGroup *group);                /* likewise; NULL is fine */
+
+/* Remove what killed programs of this user left half-written in a folder, and end what they had begun with a group of
+   whole files: the name must tell a process of this machine that is gone, and nobody may hold the file. */
 void wr_file_sweep(const char *folder);
 /* A number of this machine, by its name: HOST above, in hexadecimal. */
 uint32_t wr_file_host(void);
@@ -86,6 +101,10 @@ char *wr_path_folder(const char *path);
 char *wr_path_join(const char *folder, const char *path);
 /* The ending in lower case without its dot ("PNG" file -> "png"), "" if none. Points into `buffer`. */
 const char *wr_path_ending(const char *path, char buffer[16]);
+
+/* A file of the user's settings: NAME in the folder wrinkle of $XDG_CONFIG_HOME, or of ~/.config. Caller frees with
+   wr_free; NULL where neither is known. */
+char *wr_config_path(const char *name);
 
 /* Find a data file that ships with the program ("samples/bricks.wrinkle"): under $WRINKLE_DATA, under
  * ../share/wrinkle beside the program's folder (installed), in the folder above it (a build folder inside a

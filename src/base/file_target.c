@@ -1,7 +1,7 @@
 /* Files that take the place of others: there whole or not at all. Everything that the program writes goes
    through here. */
 #include "base/error.h"
-#include "base/file.h"
+#include "base/file_inner.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -44,13 +44,10 @@ uint32_t wr_file_host(void)
     return (uint32_t)wr_hash_bytes(name, strlen(name), (WrHash){ .low = 0, .high = 0 }).low;
 }
 
-/* FOLDER/.NAME.PID-HOST-RANDOM.part.ending: whose it is, and what nobody can know beforehand. */
-static char *choose_name(const char *folder, const char *name)
+char *wr_file_hidden_name(const char *folder, const char *name, const char *ending)
 {
     uint64_t random = 0;
-    char ending[16];
     WrText text = { 0 };
-    wr_path_ending(name, ending);
     if (!wr_random_bytes(&random, sizeof random)) return NULL;
     wr_text_addf(&text, "%s/.%.100s.%ld-%08x-%016llx.part%s%s", folder, name, (long)wr_process_id(),
                  (unsigned)wr_file_host(), (unsigned long long)random, *ending ? "." : "", ending);
@@ -65,9 +62,8 @@ static const char *skip_digits(const char *text, int base)
     return p > text ? p : NULL;
 }
 
-/* The process of this machine whose file of half the way that is, by the name alone; 0: no such file. In a folder
-   that several machines write to, another's processes cannot be asked for. */
-static long owner_by_name(const char *name)
+/* In a folder that several machines write to, another's processes cannot be asked for. */
+long wr_file_owner(const char *name)
 {
     const char *tail = NULL;
     if (name[0] != '.') return 0;
@@ -87,12 +83,16 @@ static long owner_by_name(const char *name)
 
 void wr_file_sweep(const char *folder)
 {
-    WrFolder *dir = wr_folder_open(folder);
-    for (const char *name; dir && (name = wr_folder_next(dir));) {
-        long pid = owner_by_name(name);
-        if (pid && !wr_process_lives(pid)) wr_folder_drop_unheld(dir, name);
+    for (int pass = 0; pass < 2; pass++) { /* files that a list names must not be removed before */
+        WrFolder *dir = wr_folder_open(folder);
+        for (const char *name; dir && (name = wr_folder_next(dir));) {
+            long pid = wr_file_owner(name);
+            if (!pid || wr_process_lives(pid)) continue;
+            if (pass == 0) wr_file_group_finish(folder, dir, name);
+            else wr_folder_drop_unheld(dir, name);
+        }
+        wr_folder_close(dir);
     }
-    wr_folder_close(dir);
 }
 
 /* ---- writing ---- */
@@ -172,10 +172,12 @@ static bool create(WrFileTarget *target, const char *folder, WrError *err)
     const char *slash = strrchr(target->path, '/'), *name = slash ? slash + 1 : target->path;
     const unsigned how =
         WR_OPEN_READ | WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_NO_LINK | WR_OPEN_PRIVATE;
+    char ending[16];
+    wr_path_ending(name, ending);
     errno = EEXIST;
     for (int i = 0; i < TRIES && target->fd < 0 && errno == EEXIST; i++) {
         wr_free(target->temporary);
-        target->temporary = choose_name(folder, name);
+        target->temporary = wr_file_hidden_name(folder, name, ending);
         if (!target->temporary) break;
         target->fd = wr_fd_open(target->temporary, how);
     }
@@ -234,7 +236,7 @@ void wr_file_verified(WrFileTarget *target)
     target->verified = true;
 }
 
-static void sync_folder(const char *path)
+void wr_file_sync_folder(const char *path)
 {
     char *folder = wr_path_folder(path);
     int fd = wr_fd_open(folder, WR_OPEN_READ);
@@ -266,13 +268,15 @@ bool wr_file_commit(WrFileTarget *target, WrError *err)
         errno = saved;
     }
     /* Only a file that was closed without trouble: some file systems tell then what went wrong. */
-    good = good && wr_fd_close(fd) && wr_path_rename(target->temporary, target->path);
+    good = good && wr_fd_close(fd);
+    if (good && wr_file_group_takes(target)) return true;
+    good = good && wr_path_rename(target->temporary, target->path);
     if (!good) {
         fail_by_system(target, err);
         wr_file_abort(target);
         return false;
     }
-    sync_folder(target->path);
+    wr_file_sync_folder(target->path);
     release(target);
     return true;
 }

@@ -114,9 +114,10 @@ bool wr_cli_parse(int argc, char **argv, WrCli *cli, int *status, WrError *err);
 void wr_cli_fini(WrCli *cli);
 /* The help of one subcommand with its options, or of the program where command is NULL. */
 void wr_cli_help(const WrSubcommand *command, WrText *text);
-/* Every subcommand with its options, in Markdown; and what the plan may leave out, as a table. */
+/* Every subcommand with its options, in Markdown; and what the plan may leave out, and the sets of maps, as tables. */
 void wr_cli_markdown_subcommands(WrText *text);
 void wr_cli_markdown_effects(WrText *text);
+void wr_cli_markdown_sets(WrText *text);
 /* Option i that a subcommand takes, or of those that all take: its name, other name, value and help (NULL: none).
  * False past the last. */
 bool wr_cli_option(const WrSubcommand *command, bool common, int i, const char *out[4]);

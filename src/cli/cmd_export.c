@@ -28,26 +28,26 @@ static bool read_options(const WrCli *cli, const WrExportKind *kind, WrExportOpt
     return true;
 }
 
-static bool find_kind(const char *name, const WrExportKind **kind, WrError *err)
+/* Neither kind nor set. */
+static bool fail_unknown(const char *name, WrError *err)
 {
-    *kind = wr_export_find(name);
-    if (*kind) return true;
     WrText names = { 0 };
+    WrSetNames sets = wr_set_names();
     for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
         wr_text_addf(&names, "%s%s", i ? ", " : "", wr_export_kinds[i].name);
-    for (int i = 0; i < WR_EXPORT_SET_COUNT; i++)
-        wr_text_addf(&names, "%s%s", i ? ", " : "; or a set: ", wr_export_sets[i].name);
+    for (int i = 0; i < sets.names.count; i++)
+        wr_text_addf(&names, "%s%s", i ? ", " : "; or a set: ", sets.names.data[i]);
     wr_fail(err, "--as %.60s: unknown kind: must be one of %s", name, wr_text_get(&names));
     wr_text_fini(&names);
+    wr_set_names_free(&sets);
     return false;
 }
 
-static bool export_file(const WrCli *cli, WrText *report, WrError *err)
+static bool export_file(const WrCli *cli, const WrExportKind *kind, WrText *report, WrError *err)
 {
-    const WrExportKind *kind;
     WrExportOptions options = wr_export_default();
     WrExportReport written;
-    if (!find_kind(cli->kind, &kind, err) || !read_options(cli, kind, &options, err)) return false;
+    if (!read_options(cli, kind, &options, err)) return false;
     WrSession *session = wr_cli_load(cli, false, err);
     if (!session) return false;
     bool good =
@@ -61,24 +61,36 @@ static bool export_file(const WrCli *cli, WrText *report, WrError *err)
     return good;
 }
 
-/* The document's name without folder and ending; without a document the program's. */
-static void cell_name(const WrCli *cli, WrText *name)
-{
-    const char *file = cli->file ? cli->file : "wrinkle", *slash = strrchr(file, '/');
-    const char *base = slash ? slash + 1 : file, *dot = strrchr(base, '.');
-    wr_text_add_n(name, base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
-}
-
-static bool export_maps(const WrCli *cli, const WrExportSet *set, WrText *report, WrError *err)
+static bool export_maps(const WrCli *cli, const WrSet *set, WrText *report, WrError *err)
 {
     WrSession *session = wr_cli_load(cli, false, err);
     if (!session) return false;
     WrText name = { 0 };
-    cell_name(cli, &name);
+    wr_set_cell_name(cli->file, &name);
     WrSetOrder order = { set, cli->out, wr_text_get(&name), cli->words, cli->word_count };
     bool good = wr_export_set(&order, wr_session_document(session), cli->pool, report, err);
     wr_text_fini(&name);
     wr_session_free(session);
+    return good;
+}
+
+static bool is_set(const char *name)
+{
+    WrSetNames sets = wr_set_names();
+    bool found = false;
+    for (int i = 0; i < sets.names.count; i++) found |= strcmp(sets.names.data[i], name) == 0;
+    wr_set_names_free(&sets);
+    return found;
+}
+
+static bool export_as(const WrCli *cli, WrText *report, WrError *err)
+{
+    const WrExportKind *kind = wr_export_find(cli->kind);
+    if (kind) return export_file(cli, kind, report, err);
+    if (!is_set(cli->kind)) return fail_unknown(cli->kind, err);
+    WrSet *set = wr_set_find(cli->kind, err);
+    bool good = set && export_maps(cli, set, report, err);
+    wr_set_free(set);
     return good;
 }
 
@@ -90,9 +102,8 @@ int wr_cli_export(const WrCli *cli)
         wr_fail(&err, "export: needs %s", cli->kind ? "-o OUT" : "--as KIND");
         return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
     }
-    const WrExportSet *set = wr_export_set_find(cli->kind);
-    bool good = set ? export_maps(cli, set, &report, &err) : export_file(cli, &report, &err);
-    int status = good ? wr_cli_print(cli, &report) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    int status = export_as(cli, &report, &err) ? wr_cli_print(cli, &report)
+                                               : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
     wr_text_fini(&report);
     return status;
 }

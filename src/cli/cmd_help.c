@@ -14,7 +14,8 @@ static int print_markdown(const WrCli *cli)
         void (*add)(WrText *text);
     } parts[] = { { "verbs", wr_help_markdown_verbs },
                   { "subcommands", wr_cli_markdown_subcommands },
-                  { "effects", wr_cli_markdown_effects } };
+                  { "effects", wr_cli_markdown_effects },
+                  { "sets", wr_cli_markdown_sets } };
     WrText text = { 0 };
     WrError err;
     bool good = true;

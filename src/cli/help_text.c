@@ -1,4 +1,6 @@
 #include "base/text.h"
+#include "export/export.h"
+#include "export/sets.h"
 #include "cli/cli.h"
 #include "command/help.h"
 #include "render/plan.h"
@@ -96,5 +98,32 @@ void wr_cli_markdown_effects(WrText *text)
         wr_text_addf(text, " | %s%s", wr_proof_letter(e->proof), e->bound ? ": " : "");
         if (e->bound) wr_help_markdown_cell(text, e->bound);
         wr_text_add(text, " |\n");
+    }
+}
+
+/* A kind and its settings, as a set's line has them. */
+static void add_map(const WrSetMap *map, WrText *text)
+{
+    wr_text_addf(text, "`%sNAME%s` (%s", map->before, map->after, map->kind->name);
+    for (int i = 0; i < WR_SET_SETTINGS && map->settings[i]; i++)
+        wr_text_addf(text, " %s", map->settings[i]);
+    wr_text_add(text, ")");
+}
+
+void wr_cli_markdown_sets(WrText *text)
+{
+    wr_text_add(text, "| set | is | files |\n| --- | --- | --- |\n");
+    for (int i = 0; i < WR_SET_ROWS; i++) {
+        const WrSetRow *row = &wr_set_rows[i];
+        WrSet *set = wr_set_parse(row->name, row->maps, row->name, NULL);
+        wr_text_addf(text, "| `%s` | ", row->name);
+        wr_help_markdown_cell(text, row->about);
+        wr_text_add(text, " | ");
+        for (int k = 0; set && k < set->maps.count; k++) {
+            wr_text_add(text, k ? ", " : "");
+            add_map(&set->maps.data[k], text);
+        }
+        wr_text_add(text, " |\n");
+        wr_set_free(set);
     }
 }

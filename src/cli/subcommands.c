@@ -25,7 +25,8 @@ const WrSubcommand wr_subcommands[] = {
       BIT(OUT) | BIT(AS),
       "`wrinkle help export` lists the kinds and what each takes. `--as SET -o FOLDER` writes the "
       "maps that a program wants, "
-      "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray.",
+      "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
+      "those of your own, NAME.set in the folder sets of your settings.",
       wr_cli_export },
     { "check", "check FILE... [--as KIND] [--json]",
       "whether pictures are seamless cells, and what they hold",

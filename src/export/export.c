@@ -188,6 +188,7 @@ static bool write_job(WrExportJob *job, const char *path, WrError *err)
                        .seen = wr_export_receipt,
                        .ctx = job };
     bool ok = wr_image_write(path, &out, 1, err);
+    job->report.unseen = !job->report.seen;
     for (int i = 0; i < job->attribute_count; i++) wr_text_fini(&job->attribute_texts[i]);
     return ok;
 }
@@ -314,4 +315,8 @@ void wr_export_report_text(const WrExportReport *report, WrText *text)
     add_count(text, report->clipped, "outside the range, clipped");
     add_count(text, report->replaced, "not finite, replaced by 0");
     if (report->seen) add_receipt(report, text);
+    if (report->unseen)
+        wr_text_add(text,
+                    "; read back whole, but not compared with the table: a limit on file sizes "
+                    "(ulimit -f) leaves no room for its rows");
 }

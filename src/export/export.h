@@ -92,8 +92,10 @@ typedef struct WrExportReport {
     double amplitude;     /* signed: A */
     const char *quantity; /* what low and high are of: "curvature"; NULL: heights */
     const char *convention; /* normals: "+Y (green up)"; else NULL */
-    /* What reading the written file back showed; `seen` is false where nothing could be compared: drawings, limits on file sizes. */
-    bool seen;
+    /* What reading the written file back showed; `seen` is false where nothing could be compared: drawings and bodies, which
+     * are read back as bytes, and `unseen` pictures whose texels were only hashed, since a limit on file sizes leaves no
+     * room for rows. */
+    bool seen, unseen;
     double worst;  /* largest error: table units, or the quantity's; of normals degrees */
     int64_t lines; /* drawings: visible stretches of lines; else 0 */
     /* Solids, in millimetres; triangles 0: none */

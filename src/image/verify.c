@@ -35,13 +35,33 @@ static bool verify_texts(WrImageFile *file, int index, const WrImageOut *part, W
     return true;
 }
 
-/* EXR gives channels back in the order of their names. */
-static bool same_order(const WrImageOut *part, const WrImagePart *is)
+#define MOST_CHANNELS 64 /* whose order can be another in the file */
+
+/* EXR gives channels back in the order of their names: where channel c of the part stands, from[c]. *moved: not all
+ * where they were. False if they are not the same ones. */
+static bool find_channels(const WrImageOut *part, const WrImagePart *is, int from[MOST_CHANNELS],
+                          bool *moved)
 {
-    if (is->channels != part->channels) return false;
-    for (int c = 0; part->channel_names && c < is->channels; c++)
-        if (strcmp(part->channel_names[c], is->channel_names[c]) != 0) return false;
+    *moved = false;
+    if (is->channels != part->channels || part->channels > MOST_CHANNELS) return false;
+    for (int c = 0; part->channel_names && c < is->channels; c++) {
+        int at = 0;
+        while (at < is->channels && strcmp(part->channel_names[c], is->channel_names[at]) != 0)
+            at++;
+        if (at == is->channels) return false;
+        from[c] = at;
+        *moved |= at != c;
+    }
     return true;
+}
+
+/* Values as they stand in the file, as the part has them. */
+static void put_in_order(const int *from, int channels, size_t texels, const float *values,
+                         float *out)
+{
+    for (size_t i = 0; i < texels; i++)
+        for (int c = 0; c < channels; c++)
+            out[i * (size_t)channels + (size_t)c] = values[i * (size_t)channels + (size_t)from[c]];
 }
 
 /* Rows travel through a memory file, two strips at a time at most, on which a limit on file sizes holds as well; digests
@@ -52,19 +72,25 @@ static bool rows_fit(const WrImageOut *part)
     return 2 * (uint64_t)row * WR_IMAGE_STRIP < wr_process_file_limit();
 }
 
-/* Strip by strip into the digest, and to whoever asked to see what stands there. */
+/* Strip by strip into the digest, and to whoever asked to see what stands there. from: where the channels stand; NULL:
+ * in the part's order. */
 static bool show_rows(WrImageFile *file, int index, const WrImageOut *part, bool exact,
-                      WrHash *have, WrError *err)
+                      const int *from, WrHash *have, WrError *err)
 {
     const size_t row = (size_t)part->width * (size_t)part->channels;
-    float *values = wr_try_alloc(row * WR_IMAGE_STRIP, sizeof *values, "rows of a picture", err);
+    const size_t strip = row * WR_IMAGE_STRIP;
+    float *values =
+        wr_try_alloc(from ? 2 * strip : strip, sizeof *values, "rows of a picture", err);
+    float *shown = from ? values + strip : values;
     bool good = values != NULL;
     for (int y = 0; y < part->height && good; y += WR_IMAGE_STRIP) {
         int rows = part->height - y < WR_IMAGE_STRIP ? part->height - y : WR_IMAGE_STRIP;
         good = (!wr_progress_stopped() || wr_fail(err, "cancelled")) &&
                wr_image_file_read_rows(file, index, y, rows, values, err);
         if (good) wr_digest_strip(have, values, row * (size_t)rows);
-        good = good && part->seen(part->ctx, y, rows, values, exact, err);
+        if (good && from)
+            put_in_order(from, part->channels, (size_t)part->width * (size_t)rows, values, shown);
+        good = good && part->seen(part->ctx, y, rows, shown, exact, err);
     }
     wr_free(values);
     return good;
@@ -91,8 +117,10 @@ static bool verify_part(WrImageFile *file, int index, const WrImageFormat *forma
     if (exact && is.channels != part->channels)
         return wr_fail(err, "part %d has %d channels, not %d", index + 1, is.channels,
                        part->channels);
-    bool shown = part->seen && same_order(part, &is) && rows_fit(part);
-    if (!(shown ? show_rows(file, index, part, format->exact, &have, err)
+    int from[MOST_CHANNELS];
+    bool moved;
+    bool shown = part->seen && find_channels(part, &is, from, &moved) && rows_fit(part);
+    if (!(shown ? show_rows(file, index, part, format->exact, moved ? from : NULL, &have, err)
                 : digest_rows(file, index, is.height, &have, err)))
         return false;
     if (exact && !wr_hash_equal(have, want))

@@ -165,14 +165,25 @@ bool wr_folder_drop(WrFolder *folder, const char *name)
     return unlinkat(dirfd(folder->dir), name, 0) == 0;
 }
 
+int wr_folder_open_unheld(WrFolder *folder, const char *name)
+{
+    struct stat info;
+    int fd = openat(dirfd(folder->dir), name,
+                    wr_fd_flags(WR_OPEN_READ | WR_OPEN_NO_LINK | WR_OPEN_NO_WAIT));
+    if (fd < 0) return -1;
+    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid() &&
+        flock(fd, LOCK_EX | LOCK_NB) == 0)
+        return fd;
+    close(fd);
+    return -1;
+}
+
 void wr_folder_drop_unheld(WrFolder *folder, const char *name)
 {
     struct stat info, named;
-    int in = dirfd(folder->dir);
-    int fd = openat(in, name, wr_fd_flags(WR_OPEN_READ | WR_OPEN_NO_LINK | WR_OPEN_NO_WAIT));
+    int in = dirfd(folder->dir), fd = wr_folder_open_unheld(folder, name);
     if (fd < 0) return;
-    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == geteuid() &&
-        flock(fd, LOCK_EX | LOCK_NB) == 0 && fstatat(in, name, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+    if (fstat(fd, &info) == 0 && fstatat(in, name, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
         named.st_ino == info.st_ino && named.st_dev == info.st_dev)
         unlinkat(in, name, 0);
     close(fd);

@@ -51,6 +51,9 @@ const char *wr_folder_next(WrFolder *folder);
 bool wr_folder_info(WrFolder *folder, const char *name, WrFileInfo *info);
 bool wr_folder_drop(WrFolder *folder, const char *name);
 
+/* Open the file of that name for reading if it is a file of our user's and nobody holds a lock on it; the lock is ours
+   then. -1. */
+int wr_folder_open_unheld(WrFolder *folder, const char *name);
 /* Remove the file of that name if it is a file of our user's, nobody holds a lock on it, and it is that one still. */
 void wr_folder_drop_unheld(WrFolder *folder, const char *name);
 

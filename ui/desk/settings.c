@@ -234,26 +234,6 @@ void wr_settings_print(const WrSettings *settings, WrText *text)
 
 /* ---- files ---- */
 
-static char *config_folder(void)
-{
-    const char *xdg = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
-    if (xdg && xdg[0] == '/') return wr_path_join(xdg, "wrinkle");
-    if (!home || home[0] != '/') return NULL;
-    char *config = wr_path_join(home, ".config");
-    char *folder = wr_path_join(config, "wrinkle");
-    wr_free(config);
-    return folder;
-}
-
-char *wr_config_path(const char *name)
-{
-    char *folder = config_folder();
-    if (!folder) return NULL;
-    char *path = wr_path_join(folder, name);
-    wr_free(folder);
-    return path;
-}
-
 void wr_settings_load(WrSettings *settings)
 {
     char *path = wr_config_path("window.conf"), *bytes = NULL;
@@ -280,7 +260,7 @@ static void make_folders(const char *path)
 
 void wr_settings_make_folder(void)
 {
-    char *folder = config_folder();
+    char *folder = wr_config_path("");
     if (folder) make_folders(folder);
     wr_free(folder);
 }

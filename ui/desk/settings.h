@@ -70,10 +70,8 @@ void wr_settings_fini(WrSettings *settings);
 void wr_settings_parse(WrSettings *settings, const char *text);
 void wr_settings_print(const WrSettings *settings, WrText *text);
 
-/* A file of ours in the user's configuration folder. Caller frees with wr_free; NULL if there is no home. */
-char *wr_config_path(const char *name);
 void wr_settings_load(WrSettings *settings);
-/* The folder of wr_config_path; a failure is silent: nothing is lost but comfort. */
+/* The folder of wr_config_path (base/file.h); a failure is silent: nothing is lost but comfort. */
 void wr_settings_make_folder(void);
 
 /* ---- settings_keep.c: the file while several windows are open ---- */

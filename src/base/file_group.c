@@ -1,0 +1,245 @@
+/* Whole files that take their places together (file.h).
+
+   Before the first gets its name a list of all lies in their folder, on the disk: lines "TEMPORARY/TARGET" between a
+   first and a last one that tell that it is whole. */
+#include "base/array.h"
+#include "base/error.h"
+#include "base/file_inner.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "system/fd.h"
+#include "system/process.h"
+
+#include <errno.h>
+#include <string.h>
+
+#define LIST_ENDING "together"
+#define LIST_FIRST "files that belong together\n"
+#define LIST_LAST "/\n"
+#define LIST_MOST 65536 /* bytes */
+
+typedef struct Member {
+    char *temporary, *path; /* owned */
+    char *before;           /* where what stood there waits meanwhile; owned; NULL: nothing did */
+    bool placed;
+} Member;
+
+struct WrFileGroup {
+    WR_ARRAY(Member) members;
+    char *list; /* owned; NULL: none was written */
+};
+
+static _Thread_local WrFileGroup *here;
+
+WrFileGroup *wr_file_group_begin(void)
+{
+    WR_ASSERT(!here);
+    here = wr_alloc(1, sizeof *here);
+    return here;
+}
+
+bool wr_file_group_takes(WrFileTarget *target)
+{
+    if (!here) return false;
+    const Member member = { .temporary = target->temporary, .path = target->path };
+    wr_array_push(&here->members, member);
+    *target = (WrFileTarget){ .fd = -1 };
+    return true;
+}
+
+/* Once more where it will not go: nobody else removes it before this process has ended. */
+static void take_away(const char *path)
+{
+    if (!wr_path_remove(path) && errno != ENOENT) wr_path_remove(path);
+}
+
+static void end(WrFileGroup *group)
+{
+    for (int i = 0; i < group->members.count; i++) {
+        const Member *m = &group->members.data[i];
+        if (!m->placed) take_away(m->temporary);
+        wr_free(m->temporary);
+        wr_free(m->path);
+        wr_free(m->before);
+    }
+    wr_array_free(&group->members);
+    wr_free(group->list);
+    wr_free(group);
+    here = NULL;
+}
+
+void wr_file_group_abort(WrFileGroup *group)
+{
+    if (group) end(group);
+}
+
+/* ---- the list ---- */
+
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static bool in_folder(const char *path, const char *folder)
+{
+    char *its = wr_path_folder(path);
+    bool same = strcmp(its, folder) == 0;
+    wr_free(its);
+    return same;
+}
+
+static bool put_list(WrFileGroup *group, const WrText *text)
+{
+    const unsigned how =
+        WR_OPEN_WRITE | WR_OPEN_NEW | WR_OPEN_NO_LINK | WR_OPEN_PRIVATE | WR_OPEN_READ;
+    int fd = wr_fd_open(group->list, how);
+    if (fd < 0) return false;
+    bool good = wr_fd_write(fd, text->data, text->length) && wr_fd_sync(fd);
+    int why = errno;
+    good = wr_fd_close(fd) && good;
+    if (good) return true;
+    if (why) errno = why;
+    return false;
+}
+
+/* One file needs none: it has its name or has not. */
+static bool write_list(WrFileGroup *group, const char *folder)
+{
+    if (group->members.count < 2) return true;
+    WrText text = { 0 };
+    wr_text_add(&text, LIST_FIRST);
+    for (int i = 0; i < group->members.count; i++) {
+        const Member *m = &group->members.data[i];
+        if (in_folder(m->path, folder) && !strchr(name_of(m->path), '\n'))
+            wr_text_addf(&text, "%s/%s\n", name_of(m->temporary), name_of(m->path));
+    }
+    wr_text_add(&text, LIST_LAST);
+    group->list = wr_file_hidden_name(folder, "files", LIST_ENDING);
+    bool good = group->list && put_list(group, &text);
+    wr_text_fini(&text);
+    return good;
+}
+
+static void drop_list(WrFileGroup *group)
+{
+    if (group->list) take_away(group->list);
+}
+
+/* ---- names ---- */
+
+/* What stands there gets a second name; where the disk knows none, that one alone. */
+static bool keep_before(Member *m)
+{
+    if (!wr_path_is_there(m->path)) return true;
+    char *folder = wr_path_folder(m->path), *kept = wr_file_hidden_name(folder, "before", "");
+    wr_free(folder);
+    m->before = kept;
+    return kept && (wr_path_link(m->path, kept) || wr_path_rename(m->path, kept));
+}
+
+static bool place(Member *m)
+{
+    m->placed = keep_before(m) && wr_path_rename(m->temporary, m->path);
+    return m->placed;
+}
+
+/* As it was; of a file whose second name was all that was made, that goes. */
+static void put_back(const Member *m)
+{
+    if (m->before) wr_path_rename(m->before, m->path), take_away(m->before);
+    else if (m->placed) take_away(m->path);
+}
+
+static bool place_all(WrFileGroup *group, WrError *err)
+{
+    for (int i = 0; i < group->members.count; i++) {
+        Member *m = &group->members.data[i];
+        char why[WR_FILE_WHY];
+        if (place(m)) continue;
+        wr_fail(err, "%s: cannot be written (%s)", m->path, wr_file_why(errno, why));
+        drop_list(group); /* first, so that nobody goes on with it */
+        for (int k = i; k >= 0; k--) put_back(&group->members.data[k]);
+        return false;
+    }
+    return true;
+}
+
+static void forget_before(const WrFileGroup *group)
+{
+    for (int i = 0; i < group->members.count; i++)
+        if (group->members.data[i].before) take_away(group->members.data[i].before);
+}
+
+bool wr_file_group_commit(WrFileGroup *group, WrError *err)
+{
+    if (group->members.count == 0) return end(group), true;
+    const char *first = group->members.data[0].path;
+    char *folder = wr_path_folder(first), why[WR_FILE_WHY];
+    bool good = write_list(group, folder);
+    if (!good) {
+        wr_fail(err, "%s: cannot be written (%s)", folder, wr_file_why(errno, why));
+        drop_list(group);
+    }
+    if (good) wr_file_sync_folder(first);
+    good = good && place_all(group, err);
+    if (good) {
+        wr_file_sync_folder(first);
+        forget_before(group);
+        drop_list(group);
+    }
+    end(group);
+    wr_free(folder);
+    return good;
+}
+
+/* ---- after a kill ---- */
+
+/* A name that stands in this folder. */
+static bool is_plain(const char *name)
+{
+    return *name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && !strchr(name, '/');
+}
+
+static void finish_one(const char *folder, WrFolder *dir, long process, char *line)
+{
+    char *target = strchr(line, '/');
+    if (!target) return;
+    *target++ = '\0';
+    if (!is_plain(target) || wr_file_owner(line) != process) return;
+    int fd = wr_folder_open_unheld(dir, line);
+    if (fd < 0) return;
+    char *from = wr_path_join(folder, line), *to = wr_path_join(folder, target);
+    wr_path_rename(from, to);
+    wr_fd_close(fd);
+    wr_free(from);
+    wr_free(to);
+}
+
+static void finish_all(const char *folder, WrFolder *dir, long process, char *text)
+{
+    const size_t first = sizeof LIST_FIRST - 1, last = sizeof LIST_LAST - 1, length = strlen(text);
+    if (length < first + last || strncmp(text, LIST_FIRST, first) != 0 ||
+        strcmp(text + length - last, LIST_LAST) != 0)
+        return;
+    text[length - last] = '\0';
+    for (char *line = text + first; *line;) {
+        char *next = line + strcspn(line, "\n");
+        if (*next) *next++ = '\0';
+        finish_one(folder, dir, process, line);
+        line = next;
+    }
+}
+
+void wr_file_group_finish(const char *folder, WrFolder *dir, const char *name)
+{
+    const size_t length = strlen(name), ending = sizeof ".part." LIST_ENDING - 1;
+    if (length < ending || strcmp(name + length - ending, ".part." LIST_ENDING) != 0) return;
+    int fd = wr_folder_open_unheld(dir, name);
+    if (fd < 0) return;
+    char *text = wr_alloc(LIST_MOST + 1, 1);
+    int64_t have = wr_fd_read(fd, text, LIST_MOST);
+    if (have > 0) finish_all(folder, dir, wr_file_owner(name), text);
+    wr_free(text);
+    wr_fd_close(fd);
+}

@@ -1,0 +1,19 @@
+/* file_inner.h - what the files that write files share.
+   Layer 0. Private to this room. */
+#pragma once
+#include "base/file.h"
+#include "system/path.h"
+
+/* FOLDER/.NAME.PID-HOST-RANDOM.part.ENDING: whose it is, and what nobody can know beforehand. ending may be "".
+   Caller frees; NULL. */
+char *wr_file_hidden_name(const char *folder, const char *name, const char *ending);
+/* The process of this machine whose file of half the way that is, by the name alone; 0: no such file. */
+long wr_file_owner(const char *name);
+void wr_file_sync_folder(const char *path); /* of the file of that name */
+
+/* ---- file_group.c ---- */
+
+/* A whole file waits under its temporary name: true if there is a group, which takes both names. */
+bool wr_file_group_takes(WrFileTarget *target);
+/* Where that is the list of a group whose process is gone: give its files their names. */
+void wr_file_group_finish(const char *folder, WrFolder *dir, const char *name);

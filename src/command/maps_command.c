@@ -1,0 +1,109 @@
+/* The command maps: a set of files for another program. */
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "command/args.h"
+#include "command/commands.h"
+#include "document/document.h"
+#include "export/export.h"
+#include "export/sets.h"
+
+#include <string.h>
+
+/* The words that go on to the maps: all that is given but the names. */
+typedef struct Words {
+    char *words[WR_SET_WORDS + 1]; /* owned */
+    int count;
+} Words;
+
+static void take_words(const WrCall *call, Words *out)
+{
+    for (int i = 0; i < call->count && out->count <= WR_SET_WORDS; i++) {
+        if (!call->args[i].given || call->specs[i].positional ||
+            strcmp(call->specs[i].name, "name") == 0)
+            continue;
+        WrText word = { 0 };
+        wr_text_addf(&word, "%s=%s", call->specs[i].name, call->args[i].text);
+        out->words[out->count++] = word.data;
+    }
+}
+
+static bool run_set(WrSession *session, const WrCall *call, const WrSet *set, WrError *err)
+{
+    Words words = { 0 };
+    WrText name = { 0 }, told = { 0 };
+    if (wr_call_given(call, "name")) wr_text_add(&name, wr_call_arg(call, "name")->text);
+    else wr_set_cell_name(session->state.path, &name);
+    take_words(call, &words);
+    const WrSetOrder order = { .set = set,
+                               .folder = wr_call_arg(call, "FOLDER")->text,
+                               .name = wr_text_get(&name),
+                               .words = (const char *const *)words.words,
+                               .word_count = words.count };
+    bool good = wr_export_set(&order, session->state.document, session->options.pool, &told, err);
+    for (const char *at = wr_text_get(&told); good && *at;) {
+        const size_t length = strcspn(at, "\n");
+        wr_session_note(session, "%.*s", (int)length, at);
+        at += length + (at[length] == '\n');
+    }
+    for (int i = 0; i < words.count; i++) wr_free(words.words[i]);
+    wr_text_fini(&name);
+    wr_text_fini(&told);
+    return good;
+}
+
+static bool run_maps(WrSession *session, WrCall *call, WrError *err)
+{
+    WrSet *set = wr_set_find(wr_call_arg(call, "SET")->text, err);
+    if (!set) return false;
+    wr_document_composite(session->state.document, session->options.pool);
+    bool good =
+        (!wr_progress_stopped() || wr_fail(err, "cancelled")) && run_set(session, call, set, err);
+    wr_set_free(set);
+    return good;
+}
+
+/* Each option that any kind has, once. Values are looked at by the kinds of the set. */
+static bool row_maps(WrForm *out)
+{
+    int count = 0;
+    *out = (WrForm){ 0 };
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
+        for (const WrExportOptionInfo *o = wr_export_kinds[i].options; o->name; o++) {
+            bool there = false;
+            for (int k = 0; k < count; k++) there |= strcmp(out->args[k].name, o->name) == 0;
+            if (there || count == WR_ARGS_MAX - 1) continue;
+            out->args[count++] = (WrArgSpec){ .name = o->name,
+                                              .type = o->named ? WR_ARG_NAME : WR_ARG_TEXT,
+                                              .shape = o->values,
+                                              .help = "of those maps that have it" };
+        }
+    return true;
+}
+
+static const WrArgSpec args_maps[] = {
+    { PLACE("SET"), .type = WR_ARG_TEXT, .help = "blender, unreal and so on, or one of your own" },
+    { PLACE("FOLDER"), .type = WR_ARG_PATH, .help = "that is there; all files or none" },
+    { .name = "name",
+      .type = WR_ARG_TEXT,
+      .shape = "NAME",
+      .help = "of the cell, in the files' names; left out: the document's" },
+    { 0 }
+};
+
+const WrCommand wr_command_maps = {
+    .name = "maps",
+    .kind = WR_CLASS_OUTPUT,
+    .row = row_maps,
+    .args = args_maps,
+    .run = run_maps,
+    .help = "write the set of maps that another program wants",
+    .details =
+        "Sets: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
+        "those "
+        "of your own, files NAME.set in the folder sets of your settings. Each file is read back; "
+        "then all take their places, or none.",
+    .example = "maps unreal . name=bricks"
+};

@@ -1,0 +1,243 @@
+/* A set of files while calls fail or the program is killed: an error leaves every old file; after a kill the next
+   program that looks into the folder makes it all old or all new, and nothing else stays. And lists of files that
+   belong together which nobody honest wrote. */
+#include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
+#include "fault_help.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "command/session.h"
+#include "image/image.h"
+#include "system/process.h"
+
+#include <dirent.h>
+#include <errno.h>
+
+#define OLD "what was there before"
+static const char *const files[] = { "T_tile_N.png", "T_tile_H.png" };
+static char *fresh[2]; /* the bytes of a run without trouble */
+static size_t fresh_length[2];
+
+static WrSession *session;
+static char (*said)[256];
+
+static void put(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void read_whole(const char *path, char **bytes, size_t *length)
+{
+    WrError err;
+    if (!wr_file_read(path, 1 << 24, bytes, length, &err)) fail_msg("%s", err.text);
+}
+
+static bool holds(const char *path, const char *bytes, size_t length)
+{
+    char *have;
+    size_t count;
+    read_whole(path, &have, &count);
+    const bool same = count == length && memcmp(have, bytes, length) == 0;
+    wr_free(have);
+    return same;
+}
+
+static int count_hidden(void)
+{
+    DIR *dir = opendir(".");
+    int count = -2; /* . and .. */
+    assert_non_null(dir);
+    for (struct dirent *entry; (entry = readdir(dir));) count += entry->d_name[0] == '.';
+    closedir(dir);
+    return count;
+}
+
+static void run_set(void)
+{
+    WrError err = { "" };
+    const bool good = wr_session_run(session, "maps unreal . name=tile", &err);
+    snprintf(*said, sizeof *said, "%.250s", err.text);
+    _exit(good ? 0 : 1);
+}
+
+static int make_world(void **state)
+{
+    static const char *const lines[] = { "table 37x29", "grid cells=4x3", "dab 0.3,0.3 radius=9",
+                                         NULL };
+    if (enter_folder(state) != 0) return -1;
+    session = session_of(lines);
+    wr_image_warm();
+    wr_session_set_outputs(session, true);
+    said = mmap(NULL, sizeof *said, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    return said == MAP_FAILED || !wr_fault_state() ? -1 : 0;
+}
+
+static int end_world(void **state)
+{
+    wr_session_free(session);
+    for (int i = 0; i < 2; i++) wr_free(fresh[i]);
+    return remove_folder(state);
+}
+
+static void make_old(bool there)
+{
+    for (int i = 0; i < 2; i++)
+        if (there) put(files[i], OLD);
+        else remove(files[i]);
+}
+
+static bool is_old(int i, bool there)
+{
+    if (!there) return access(files[i], F_OK) != 0;
+    return holds(files[i], OLD, sizeof OLD - 1);
+}
+
+static bool is_new(int i)
+{
+    return access(files[i], F_OK) == 0 && holds(files[i], fresh[i], fresh_length[i]);
+}
+
+/* old: files stood there before. */
+static void run_fault(FaultKind kind, int64_t n, FaultMode mode, bool old, FaultTally *tally)
+{
+    make_old(old);
+    pid_t child = fault_fork();
+    if (child == 0) {
+        wr_fault_arm(kind, n, mode, ENOSPC);
+        run_set();
+    }
+    const int status = fault_wait(child);
+    const FaultState *state = wr_fault_state();
+    wr_fault_state()->armed = 0;
+    tally->cases++;
+    if (WIFSIGNALED(status)) {
+        tally->kills[state->fell_place][state->fell_stage]++;
+        wr_file_sweep("."); /* as any program of ours does that writes or opens something here */
+        tally->killed_old += is_old(0, old), tally->killed_new += is_new(0);
+    }
+    const bool all_old = is_old(0, old) && is_old(1, old), all_new = is_new(0) && is_new(1);
+    if (!all_old && !all_new)
+        fail_msg("%s %lld, %s: status %x: a mix (%s)", wr_fault_kinds[kind], (long long)n,
+                 wr_fault_modes[mode], status, *said);
+    if (WIFEXITED(status) && (WEXITSTATUS(status) == 0) != all_new)
+        fail_msg("%s %lld, %s: status %x, and the files are the %s ones (%s)", wr_fault_kinds[kind],
+                 (long long)n, wr_fault_modes[mode], status, all_new ? "new" : "old", *said);
+    if (WIFEXITED(status)) WEXITSTATUS(status) ? tally->errors++ : tally->successes++;
+    if (count_hidden() != 0)
+        fail_msg("%s %lld, %s: something stays", wr_fault_kinds[kind], (long long)n,
+                 wr_fault_modes[mode]);
+}
+
+static FaultState count_calls(void)
+{
+    pid_t child = fault_fork();
+    if (child == 0) {
+        wr_fault_arm(FAULT_WRITE, 0, FAULT_COUNT, 0);
+        run_set();
+    }
+    if (fault_wait(child) != 0) fail_msg("%s", *said);
+    FaultState counted = *wr_fault_state();
+    wr_fault_state()->armed = 0;
+    return counted;
+}
+
+static void a_set_is_all_old_or_all_new(void **state)
+{
+    (void)state;
+    FaultTally tally = { 0 };
+    make_old(true);
+    const FaultState counted = count_calls();
+    for (int i = 0; i < 2; i++) read_whole(files[i], &fresh[i], &fresh_length[i]);
+    assert_int_equal(counted.counts[FAULT_RENAME], 2);
+    assert_int_equal(counted.careless, 0);
+    for (int old = 0; old < 2; old++)
+        for (int kind = 0; kind < FAULT_KINDS; kind++)
+            for (int64_t n = 1; n <= counted.counts[kind] - (kind == FAULT_UNLINK && !old); n++)
+                for (int mode = FAULT_ERROR; mode <= FAULT_TORN; mode++) {
+                    const bool names = kind == FAULT_RENAME || kind == FAULT_LINK ||
+                                       kind == FAULT_UNLINK || kind == FAULT_SYNC;
+                    if (fault_fits((FaultKind)kind, (FaultMode)mode) &&
+                        (names || fault_is_wanted(tally.cases + n, old)))
+                        run_fault((FaultKind)kind, n, (FaultMode)mode, old, &tally);
+                }
+    fault_tell("sets", &tally);
+    assert_true(tally.killed_new > 0 && tally.killed_old > 0 && tally.errors > 0);
+}
+
+/* ---- lists ---- */
+
+/* A list of a process that is gone, with one file that waits. */
+static void plant(long process, const char *list, const char *temporary)
+{
+    char name[120], text[300];
+    const unsigned host = (unsigned)wr_file_host();
+    snprintf(name, sizeof name, ".x.%ld-%08x-00000000000000aa.part.png", process, host);
+    put(name, "fresh");
+    snprintf(text, sizeof text, list, temporary ? temporary : name);
+    snprintf(name, sizeof name, ".files.%ld-%08x-00000000000000bb.part.together", process, host);
+    put(name, text);
+}
+
+static long dead_process(void)
+{
+    pid_t child = fork();
+    if (child == 0) _exit(0);
+    waitpid(child, NULL, 0);
+    return child;
+}
+
+#define FIRST "files that belong together\n"
+
+static void a_list_is_followed_only_where_it_is_whole_and_of_its_folder(void **state)
+{
+    (void)state;
+    const struct {
+        const char *list, *temporary;
+        bool taken;
+    } lists[] = {
+        { FIRST "%s/x.png\n/\n", NULL, true },      { FIRST "%s/x.png\n", NULL, false }, /* torn */
+        { "%s/x.png\n/\n", NULL, false },           /* no first line */
+        { FIRST "%s/../x.png\n/\n", NULL, false },  /* another folder */
+        { FIRST "%s/sub/x.png\n/\n", NULL, false }, /* likewise */
+        { FIRST "%s/x.png\n/\n", "kept", false },   /* a file that waits for nothing */
+        { FIRST "%s/.\n/\n", NULL, false },         { FIRST "%s\n/\n", NULL, false },
+    };
+    assert_int_equal(mkdir("sub", 0777), 0);
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        put("x.png", OLD);
+        put("kept", "kept");
+        plant(dead_process(), lists[i].list, lists[i].temporary);
+        wr_file_sweep(".");
+        if (holds("x.png", "fresh", 5) != lists[i].taken) fail_msg("list %zu", i);
+        assert_true(holds("kept", "kept", 4));
+        assert_int_equal(access("../x.png", F_OK), -1);
+        assert_int_equal(access("sub/x.png", F_OK), -1);
+        if (count_hidden() != 0) fail_msg("list %zu: something stays", i);
+    }
+}
+
+static void a_list_of_a_process_that_lives_is_left_alone(void **state)
+{
+    (void)state;
+    put("x.png", OLD);
+    plant((long)wr_process_id(), FIRST "%s/x.png\n/\n", NULL);
+    wr_file_sweep(".");
+    assert_true(holds("x.png", OLD, sizeof OLD - 1));
+    assert_int_equal(count_hidden(), 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_set_is_all_old_or_all_new),
+        cmocka_unit_test(a_list_is_followed_only_where_it_is_whole_and_of_its_folder),
+        cmocka_unit_test(a_list_of_a_process_that_lives_is_left_alone),
+    };
+    return cmocka_run_group_tests(tests, make_world, end_world);
+}
