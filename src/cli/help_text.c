@@ -1,8 +1,9 @@
+#include "cli/cli.h"
+
 #include "base/text.h"
+#include "command/help.h"
 #include "export/export.h"
 #include "export/sets.h"
-#include "cli/cli.h"
-#include "command/help.h"
 #include "render/plan.h"
 
 #include <stdio.h>

@@ -65,7 +65,19 @@ static bool run_maps(WrSession *session, WrCall *call, WrError *err)
     return good;
 }
 
-/* Each option that any kind has, once. Values are looked at by the kinds of the set. */
+/* Some kind takes that value; whether those of the set do is seen when it is written. */
+static bool check_word(const void *ctx, const char *name, const char *value, WrError *err)
+{
+    (void)ctx;
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
+        for (const WrExportOptionInfo *o = wr_export_kinds[i].options; o->name; o++) {
+            WrExportOptions options = wr_export_default();
+            if (strcmp(o->name, name) == 0 && o->set(&options, value, err)) return true;
+        }
+    return false;
+}
+
+/* Each option that any kind has, once. */
 static bool row_maps(WrForm *out)
 {
     int count = 0;
@@ -78,17 +90,17 @@ static bool row_maps(WrForm *out)
             out->args[count++] = (WrArgSpec){ .name = o->name,
                                               .type = o->named ? WR_ARG_NAME : WR_ARG_TEXT,
                                               .shape = o->values,
+                                              .check = check_word,
                                               .help = "of those maps that have it" };
         }
     return true;
 }
 
 static const WrArgSpec args_maps[] = {
-    { PLACE("SET"), .type = WR_ARG_TEXT, .help = "blender, unreal and so on, or one of your own" },
+    { PLACE("SET"), .type = WR_ARG_NAME, .help = "blender, unreal and so on, or one of your own" },
     { PLACE("FOLDER"), .type = WR_ARG_PATH, .help = "that is there; all files or none" },
     { .name = "name",
-      .type = WR_ARG_TEXT,
-      .shape = "NAME",
+      .type = WR_ARG_NAME,
       .help = "of the cell, in the files' names; left out: the document's" },
     { 0 }
 };
