@@ -156,6 +156,7 @@ static void a_set_is_all_old_or_all_new(void **state)
     for (int i = 0; i < 2; i++) read_whole(files[i], &fresh[i], &fresh_length[i]);
     assert_int_equal(counted.counts[FAULT_RENAME], 2);
     assert_int_equal(counted.careless, 0);
+    assert_int_equal(counted.counts[FAULT_SYNC], 5); /* both, their list, the folder twice */
     for (int old = 0; old < 2; old++)
         for (int kind = 0; kind < FAULT_KINDS; kind++)
             for (int64_t n = 1; n <= counted.counts[kind] - (kind == FAULT_UNLINK && !old); n++)
