@@ -209,6 +209,8 @@ static void a_list_is_followed_only_where_it_is_whole_and_of_its_folder(void **s
         { FIRST "%s/x.png\n/\n", "kept", false },   /* a file that waits for nothing */
         { FIRST "%s/.\n/\n", NULL, false },         { FIRST "%s\n/\n", NULL, false },
     };
+    assert_int_equal(mkdir("lists", 0777), 0);
+    assert_int_equal(chdir("lists"), 0); /* so that what stands above it is ours, too */
     assert_int_equal(mkdir("sub", 0777), 0);
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         put("x.png", OLD);
