@@ -52,12 +52,15 @@ struct WrCli {
     bool framed;       /* --frames was given */
     int first, last;   /* of --frames */
     int of;            /* --of; 0: not given */
-    bool missing;      /* --missing */
-    double memory;     /* --memory, MB; 0: not given */
-    bool turned;       /* --turn was given */
-    double turn_deg;   /* degrees a frame */
-    int face;          /* --face */
-    bool full;         /* --full */
+    double fps;        /* --fps; 0: not given */
+    bool looped;       /* --loop was given */
+    int loop;
+    bool missing;    /* --missing */
+    double memory;   /* --memory, MB; 0: not given */
+    bool turned;     /* --turn was given */
+    double turn_deg; /* degrees a frame */
+    int face;        /* --face */
+    bool full;       /* --full */
     bool json;
     const char *sheet;      /* --sheet */
     const char *thumbnails; /* --thumbnails */
@@ -89,7 +92,7 @@ typedef enum WrOption {
     WR_OPTION_AS,
     WR_OPTION_SIZE,
     WR_OPTION_FULL,
-    WR_OPTION_RENDER, /* --frames, --of, --turn, --missing, --memory */
+    WR_OPTION_RENDER, /* --frames, --of, --turn, --fps, --loop, --missing, --memory */
     WR_OPTION_AT,
     WR_OPTION_NOISE,
     WR_OPTION_FACE,

@@ -86,6 +86,21 @@ static bool set_of(WrCli *cli, const char *value, WrError *err)
     return wr_fail(err, "--of %.40s: must be a whole number, 1..1000000", value);
 }
 
+static bool set_fps(WrCli *cli, const char *value, WrError *err)
+{
+    if (wr_number_parse(value, strlen(value), &cli->fps) && cli->fps >= 0.1 && cli->fps <= 240)
+        return true;
+    return wr_fail(err, "--fps %.40s: must be frames a second, 0.1..240", value);
+}
+
+static bool set_loop(WrCli *cli, const char *value, WrError *err)
+{
+    cli->looped = true;
+    if (parse_whole(value, strlen(value), 0, 65535, &cli->loop)) return true;
+    return wr_fail(err, "--loop %.40s: must be how often it is played, 0 (for ever) to 65535",
+                   value);
+}
+
 static bool set_memory(WrCli *cli, const char *value, WrError *err)
 {
     if (wr_number_parse(value, strlen(value), &cli->memory) && cli->memory >= 1 &&
@@ -240,12 +255,16 @@ static const struct Option {
     { "--map", NULL, "FILE", WR_OPTION_EXPLAIN,
       "write a picture of where each effect ran, in colours that are listed", .set = set_map },
     { "--frames", NULL, "A-B", WR_OPTION_RENDER,
-      "a turntable: #### in OUT becomes the frame's number", .set = set_frames },
+      "a turntable: #### in OUT becomes the frame's number, or OUT is a film: gif, apng, webp, mp4",
+      .set = set_frames },
     { "--of", NULL, "N", WR_OPTION_RENDER,
       "A-B are some of that many frames (all there are): the same files however they are cut",
       .set = set_of },
     { "--turn", NULL, "DEGREES", WR_OPTION_RENDER,
       "a frame, about the world's y axis (360 over all frames)", .set = set_turn },
+    { "--fps", NULL, "N", WR_OPTION_RENDER, "of a film, frames a second (25)", .set = set_fps },
+    { "--loop", NULL, "N", WR_OPTION_RENDER, "how often a film is played, 0: for ever (0)",
+      .set = set_loop },
     { "--missing", NULL, NULL, WR_OPTION_RENDER,
       "leave out what is there already, whole and of that size and kind, whatever it shows",
       .flag = offsetof(WrCli, missing) },

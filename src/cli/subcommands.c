@@ -12,12 +12,14 @@ const WrSubcommand wr_subcommands[] = {
       "relative\n"
       "to the script's folder and written relative to the current one.",
       wr_cli_run },
-    { "render", "render [FILE] -o OUT [--size WxH] [--frames A-B [--of N]] [--missing]",
-      "a picture, or a turntable", BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(RENDER),
+    { "render", "render [FILE] -o OUT [--size WxH] [--frames A-B [--of N] [--fps N]] [--missing]",
+      "a picture, or a turntable as pictures or as a film",
+      BIT(OUT) | BIT(SIZE) | BIT(FULL) | BIT(RENDER),
       "exr and tiff files hold linear float red, green, blue and coverage, others 8-bit sRGB over "
       "the\n"
       "scene's background. Frame f of a turntable is turned by f times --turn degrees, or f/N of a "
       "full turn.\n"
+      "Films, gif, apng, webp and mp4, are made by the program ffmpeg.\n"
       "Large pictures are drawn and written by bands of rows; under a tolerance they are held "
       "whole.",
       wr_cli_render },

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/rows.h"
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
@@ -16,9 +17,31 @@
 
 /* ---- pictures ---- */
 
-static bool run_render(WrSession *session, WrCall *call, WrError *err)
+static bool run_turntable(WrSession *session, WrCall *call, WrError *err)
 {
     const double *size = wr_call_arg(call, "size")->numbers;
+    const double *frames = wr_call_arg(call, "frames")->numbers;
+    WrTurntable turntable = wr_turntable_default();
+    turntable.width = (int)size[0];
+    turntable.height = (int)size[1];
+    turntable.first = 1;
+    turntable.last = (int)frames[0];
+    turntable.turn_deg = wr_call_number(call, "turn");
+    turntable.stepped = wr_call_given(call, "step");
+    turntable.step_deg = wr_call_number(call, "step");
+    if (wr_call_given(call, "fps")) turntable.fps = wr_call_number(call, "fps");
+    if (wr_call_given(call, "loop")) turntable.loop = (int)wr_call_number(call, "loop");
+    return wr_session_turntable(session, wr_call_arg(call, "FILE")->text, &turntable, err);
+}
+
+static bool run_render(WrSession *session, WrCall *call, WrError *err)
+{
+    static const char *const of_frames[] = { "step", "fps", "loop" };
+    const double *size = wr_call_arg(call, "size")->numbers;
+    if (wr_call_given(call, "frames")) return run_turntable(session, call, err);
+    for (size_t i = 0; i < WR_LENGTH(of_frames); i++)
+        if (wr_call_given(call, of_frames[i]))
+            return wr_fail(err, "%s= is of several frames: say how many, frames=N", of_frames[i]);
     return wr_session_render(session, wr_call_arg(call, "FILE")->text, (int)size[0], (int)size[1],
                              wr_call_arg(call, "turn")->numbers[0], err);
 }
@@ -141,6 +164,33 @@ static const WrArgSpec args_render[] = {
       .fallback = NUMBERS(0),
       .unit = "degrees",
       .help = "of the object about the world's y axis" },
+    { .name = "frames",
+      .type = WR_ARG_NUMBER,
+      .low = 1,
+      .high = 100000,
+      .whole = true,
+      .help = "of a turntable: one film, gif, apng, webp or mp4, or files where "
+              "#### in FILE becomes the frame's number; frame F is turned by F steps more" },
+    { .name = "step",
+      .type = WR_ARG_NUMBER,
+      .low = -1e6,
+      .high = 1e6,
+      .fallback = NUMBERS(0),
+      .unit = "degrees",
+      .help = "a frame; left out: one turn over all of them" },
+    { .name = "fps",
+      .type = WR_ARG_NUMBER,
+      .low = 0.1,
+      .high = 240,
+      .fallback = NUMBERS(25),
+      .help = "of a film, frames a second" },
+    { .name = "loop",
+      .type = WR_ARG_NUMBER,
+      .low = 0,
+      .high = 65535,
+      .whole = true,
+      .fallback = NUMBERS(0),
+      .help = "how often a film is played; 0: for ever" },
     { 0 }
 };
 
@@ -166,5 +216,5 @@ const WrCommand wr_command_render = { .name = "render",
                                       .kind = WR_CLASS_OUTPUT,
                                       .args = args_render,
                                       .run = run_render,
-                                      .help = "write a picture of the scene",
+                                      .help = "write a picture of the scene, or a turntable",
                                       .example = "render bricks.png size=640x480" };

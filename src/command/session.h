@@ -200,6 +200,28 @@ void wr_chosen_write(const WrChoice *choice, const WrFrameRequest *request, WrTe
    says. */
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
                        WrError *err);
+/* The same into memory: 8-bit sRGB over the background, or with `alpha` over nothing, [height][width][3 or 4]. */
+bool wr_session_pixels(WrSession *session, int width, int height, double turn_deg, bool alpha,
+                       uint8_t *out, WrError *err);
+
+/* Frames of a turntable: as many files where the path holds #### for the frame's number, else one film, of a kind that
+   export/film.h has. */
+typedef struct WrTurntable {
+    int width, height; /* pixels */
+    int first, last;   /* frames, 0 <= first <= last; frame f is turned by f steps */
+    int of;            /* frames of the whole turn; 0: those are all */
+    bool stepped;      /* `step_deg` is given; else a whole turn is divided among them */
+    double step_deg;   /* a frame, about the world's y axis */
+    double turn_deg;   /* of frame 0 */
+    bool missing;      /* files that are there, whole, are left out */
+    double fps;        /* of a film: frames a second; 0: not given, 25 */
+    int loop;          /* of a film: how often it is played, 0: for ever; -1: not given, for ever */
+} WrTurntable;
+WrTurntable wr_turntable_default(void); /* 512x512, frames 1-120 */
+/* Refuse what cannot be written, before a document is loaded for it. */
+bool wr_turntable_check(const WrTurntable *turntable, const char *path, WrError *err);
+bool wr_session_turntable(WrSession *session, const char *path, const WrTurntable *turntable,
+                          WrError *err);
 /* Is such a picture's file there, of that size, and can it be read to its end? What it shows nobody knows. */
 bool wr_session_has_rendered(const WrSession *session, const char *path, int width, int height);
 /* Save under that name; then path and saved_revision are set. Refuses to save over a file of a newer version

@@ -300,6 +300,25 @@ bool wr_session_has_rendered(const WrSession *session, const char *path, int wid
     return whole;
 }
 
+bool wr_session_pixels(WrSession *session, int width, int height, double turn_deg, bool alpha,
+                       uint8_t *out, WrError *err)
+{
+    Picture picture = { .session = session, .alpha = alpha, .step = height };
+    if (!make_request(session, width, height, turn_deg, &picture.request, err)) return false;
+    const WrScene *scene = picture.request.scene;
+    picture.request.codes =
+        wr_frame_codes_of(scene, !alpha && scene->tolerance.kind == WR_TOLERANCE_NONE);
+    WrProgressPart part;
+    const WrProgress *whole = wr_progress_enter(&part, 0.0, DRAWN);
+    bool good = draw_first(&picture, err);
+    wr_progress_set(whole);
+    if (!good) return false;
+    wr_progress_enter(&part, DRAWN, 1.0);
+    good = give_rows(&picture, 0, height, out, err);
+    wr_progress_set(whole);
+    return good;
+}
+
 bool wr_session_render(WrSession *session, const char *path, int width, int height, double turn_deg,
                        WrError *err)
 {

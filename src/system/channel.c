@@ -98,6 +98,26 @@ void wr_channel_try_send(int channel, const void *bytes, size_t length)
     send(channel, bytes, length, MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
+int64_t wr_channel_put(int channel, const void *bytes, size_t length)
+{
+    ssize_t n;
+    do n = send(channel, bytes, length, MSG_NOSIGNAL | MSG_DONTWAIT);
+    while (n < 0 && errno == EINTR);
+    if (n >= 0) return (int64_t)n;
+    return errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS ? 0 : -1;
+}
+
+bool wr_channel_wait_room(int channel, int ms)
+{
+    struct pollfd ready = { .fd = channel, .events = POLLOUT };
+    return poll(&ready, 1, ms) > 0;
+}
+
+void wr_channel_end(int channel)
+{
+    shutdown(channel, SHUT_WR);
+}
+
 /* Keep the first descriptors of a message, close all others. */
 static void take_files(struct msghdr *message, int *files, int count)
 {

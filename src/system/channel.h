@@ -18,6 +18,12 @@ bool wr_channel_send(int channel, const void *head, size_t head_length, const vo
 /* The same of one piece, if that can be done without waiting. */
 void wr_channel_try_send(int channel, const void *bytes, size_t length);
 
+/* As many of the bytes, of a stream, as go without waiting: 0 while there is no room; -1: the other end is gone. */
+int64_t wr_channel_put(int channel, const void *bytes, size_t length);
+/* Wait until there is room, or the other end is gone; false when the time is over. */
+bool wr_channel_wait_room(int channel, int ms);
+void wr_channel_end(int channel); /* the other end reads to here and no further */
+
 /* Receive up to `length` bytes, and files that came along: files[count], -1 where there are fewer; those beyond are
    closed. Returns how many bytes; 0: the other end is gone; -1: it failed; -2: nothing, ask again. */
 int64_t wr_channel_receive(int channel, void *bytes, size_t length, int *files, int count);

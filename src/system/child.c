@@ -31,12 +31,14 @@ int wr_child_start(const WrChildStart *start, WrPid *child)
     posix_spawnattr_t attributes;
     sigset_t none, all;
     pid_t pid;
+    int trouble = start->bound ? wr_child_start_bound(start, child) : -1;
+    if (trouble >= 0) return trouble;
     posix_spawn_file_actions_init(&actions);
     posix_spawnattr_init(&attributes);
     give(&actions, start->in, STDIN_FILENO);
     give(&actions, start->out, STDOUT_FILENO);
     give(&actions, start->err, STDERR_FILENO);
-    if (start->apart) {
+    if (start->apart || start->bound) {
         sigemptyset(&none);
         sigfillset(&all);
         posix_spawnattr_setsigmask(&attributes, &none);
@@ -46,10 +48,9 @@ int wr_child_start(const WrChildStart *start, WrPid *child)
                                  (short)(flags | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF));
     }
     char *const *arguments = (char *const *)start->arguments;
-    int trouble =
-        start->search
-            ? posix_spawnp(&pid, start->program, &actions, &attributes, arguments, environ)
-            : posix_spawn(&pid, start->program, &actions, &attributes, arguments, environ);
+    trouble = start->search
+                  ? posix_spawnp(&pid, start->program, &actions, &attributes, arguments, environ)
+                  : posix_spawn(&pid, start->program, &actions, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (trouble == 0) *child = (WrPid)pid;
@@ -64,6 +65,15 @@ bool wr_child_wait(WrPid child, WrChildEnd *end)
     while (got < 0 && errno == EINTR);
     *end = wr_child_end_of(status);
     return got == (pid_t)child;
+}
+
+bool wr_child_ended(WrPid child, WrChildEnd *end)
+{
+    int status = 0;
+    pid_t got = waitpid((pid_t)child, &status, WNOHANG);
+    if (got == 0 || (got < 0 && errno == EINTR)) return false;
+    *end = got < 0 ? (WrChildEnd){ WR_CHILD_KILLED, 0 } : wr_child_end_of(status);
+    return true;
 }
 
 bool wr_child_is_gone(WrPid child)

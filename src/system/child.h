@@ -28,12 +28,16 @@ typedef struct WrChildStart {
     int in, out, err;             /* open files; -1: ours */
     bool search;                  /* where the user's programs are looked for */
     bool apart; /* gets no other open file, no signal kept from it, and a session of its own */
+    bool
+        bound; /* apart, and killed when the thread that starts it is gone, where the system has such */
 } WrChildStart;
 
 int wr_child_start(const WrChildStart *start, WrPid *child); /* 0, or what errno would say */
 
 /* Wait until it ends; false if it is no child of ours. */
 bool wr_child_wait(WrPid child, WrChildEnd *end);
+bool wr_child_ended(WrPid child,
+                    WrChildEnd *end); /* the same without waiting: false while it runs */
 bool wr_child_is_gone(WrPid child); /* it ended, which is then forgotten, or is no child of ours */
 void wr_child_kill(WrPid child);
 void wr_child_ask_to_end(WrPid child);

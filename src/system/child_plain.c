@@ -1,6 +1,6 @@
 /* Processes: what any POSIX system gets. Missing here: closing all that a started program should not get (what is opened
    here has the mark for that; what a library opens may lack it, and the reader closes everything by itself), a session of
-   its own from the start (the reader makes one). */
+   its own from the start (the reader makes one), an end with the thread that started it. */
 #include "system/child_inner.h"
 
 #include "system/fd.h"
@@ -22,6 +22,13 @@ short wr_child_set_apart(posix_spawn_file_actions_t *actions, posix_spawnattr_t 
     (void)actions;
     (void)attributes;
     return 0;
+}
+
+int wr_child_start_bound(const WrChildStart *start, WrPid *child)
+{
+    (void)start;
+    (void)child;
+    return -1;
 }
 
 /* A pipe to itself: a signal's handler may write to it. */

@@ -1,0 +1,188 @@
+/* Turntables: frames as files, or as one film. */
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "command/inner.h"
+#include "document/document.h"
+#include "export/film.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FPS 25.0 /* of films that nothing is said about */
+
+WrTurntable wr_turntable_default(void)
+{
+    return (WrTurntable){ .width = 512, .height = 512, .first = 1, .last = 120, .loop = -1 };
+}
+
+static bool is_film(const char *path)
+{
+    return !strchr(path, '#') && wr_film_kind(path);
+}
+
+bool wr_turntable_check(const WrTurntable *turntable, const char *path, WrError *err)
+{
+    const bool film = is_film(path);
+    if (!film && !strchr(path, '#'))
+        return wr_fail(err,
+                       "%s: the name of several frames must hold #### for the frame's number, or "
+                       "end as a film's does: gif, apng, webp or mp4",
+                       path);
+    if (film && turntable->missing)
+        return wr_fail(err, "%s: what is missing can be told of files with ####, not of a film",
+                       path);
+    if (!film && (turntable->fps > 0 || turntable->loop >= 0))
+        return wr_fail(err, "%s: frames a second and loops are of films: gif, apng, webp, mp4",
+                       path);
+    return true;
+}
+
+/* `out` with its last run of # replaced by the number, zero-padded to the run's length. */
+static void frame_name(const char *out, int number, WrText *name)
+{
+    const char *end = strrchr(out, '#') + 1, *start = end;
+    while (start > out && start[-1] == '#') start--;
+    wr_text_clear(name);
+    wr_text_add_n(name, out, (size_t)(start - out));
+    wr_text_addf(name, "%0*d%s", (int)(end - start), number, end);
+}
+
+/* One turntable under way. */
+typedef struct Turning {
+    WrSession *session;
+    const WrTurntable *order;
+    const char *path;
+    int total;       /* frames of the whole turn */
+    double step_deg; /* a frame */
+    bool chosen;     /* the dials, for all of them */
+    int there;       /* frames that were left out */
+    WrFilm *film;    /* NULL: files */
+    uint8_t *pixels; /* of a film's frame; owned */
+    bool alpha;
+} Turning;
+
+/* Each frame's angle comes from its number alone: fmod is exact, so nothing adds up (HC87). */
+static double angle_of(const Turning *turning, int frame)
+{
+    return fmod(turning->order->turn_deg, 360) + fmod(frame * turning->step_deg, 360);
+}
+
+/* Under a tolerance the dials are chosen once for the whole turn, whichever of its frames are asked for here. */
+static bool choose_for_all(Turning *turning, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    const int first = order->stepped && !order->of ? order->first : 1;
+    double *angles = wr_alloc((size_t)turning->total, sizeof *angles);
+    for (int i = 0; i < turning->total; i++) angles[i] = angle_of(turning, first + i);
+    turning->chosen =
+        wr_session_turn(turning->session, order->width, order->height, angles, turning->total, err);
+    wr_free(angles);
+    return turning->chosen;
+}
+
+static bool add_frame(Turning *turning, int frame, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    return (turning->chosen || choose_for_all(turning, err)) &&
+           wr_session_pixels(turning->session, order->width, order->height,
+                             angle_of(turning, frame), turning->alpha, turning->pixels, err) &&
+           wr_film_add(turning->film, turning->pixels, err);
+}
+
+static bool write_frame(Turning *turning, int frame, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    WrText name = { 0 };
+    bool good = true;
+    frame_name(turning->path, frame, &name);
+    const char *path = wr_text_get(&name);
+    if (order->missing &&
+        wr_session_has_rendered(turning->session, path, order->width, order->height))
+        turning->there++;
+    else
+        good = (turning->chosen || choose_for_all(turning, err)) &&
+               wr_session_render(turning->session, path, order->width, order->height,
+                                 angle_of(turning, frame), err);
+    wr_text_fini(&name);
+    return good;
+}
+
+#define DRAWN 0.95 /* of a film's work: its frames; reading it back is the rest */
+
+static bool all_frames(Turning *turning, double share, WrError *err)
+{
+    const int first = turning->order->first, count = turning->order->last - first + 1;
+    bool good = true;
+    for (int i = 0; good && i < count; i++) {
+        WrProgressPart part;
+        const WrProgress *whole =
+            wr_progress_enter(&part, share * i / count, share * (i + 1) / count);
+        good = (turning->film ? add_frame : write_frame)(turning, first + i, err);
+        wr_progress_set(whole);
+        if (good && wr_progress_stopped()) good = wr_fail(err, "cancelled");
+    }
+    return good;
+}
+
+static bool begin_film(Turning *turning, WrError *err)
+{
+    const WrTurntable *order = turning->order;
+    const bool bare =
+        turning->session->state.document->scene->background.kind == WR_BACKGROUND_NONE;
+    turning->alpha = bare && wr_film_kind(turning->path)->alpha;
+    const WrFilmOptions options = { .width = order->width,
+                                    .height = order->height,
+                                    .fps = order->fps > 0 ? order->fps : FPS,
+                                    .loop = order->loop > 0 ? order->loop : 0,
+                                    .alpha = turning->alpha };
+    if (order->last - order->first >= WR_FILM_FRAMES)
+        return wr_fail(err, "%s: %d frames: a film has at most %d", turning->path,
+                       order->last - order->first + 1, WR_FILM_FRAMES);
+    turning->film = wr_film_begin(turning->path, &options, err);
+    if (!turning->film) return false;
+    turning->pixels = wr_try_alloc((size_t)order->width * (size_t)order->height,
+                                   turning->alpha ? 4 : 3, "a frame", err);
+    return turning->pixels != NULL;
+}
+
+static bool make_film(Turning *turning, WrError *err)
+{
+    WrFilmReport report;
+    bool good = begin_film(turning, err) && all_frames(turning, DRAWN, err);
+    if (good) {
+        good = wr_film_end(turning->film, &report, err);
+        turning->film = NULL;
+    }
+    wr_film_drop(turning->film);
+    wr_free(turning->pixels);
+    if (!good) return false;
+    WrText text = { 0 };
+    wr_film_report_text(&report, &text);
+    wr_session_note(turning->session, "%s: %s", turning->path, wr_text_get(&text));
+    wr_text_fini(&text);
+    return true;
+}
+
+static bool make_files(Turning *turning, WrError *err)
+{
+    const bool good = all_frames(turning, 1.0, err);
+    if (turning->there > 0)
+        wr_session_note(turning->session, "%d of %d frames were there", turning->there,
+                        turning->order->last - turning->order->first + 1);
+    return good;
+}
+
+bool wr_session_turntable(WrSession *session, const char *path, const WrTurntable *turntable,
+                          WrError *err)
+{
+    if (!wr_turntable_check(turntable, path, err)) return false;
+    Turning turning = { .session = session,
+                        .order = turntable,
+                        .path = path,
+                        .total = turntable->of ? turntable->of
+                                               : turntable->last - turntable->first + 1 };
+    turning.step_deg = turntable->stepped ? turntable->step_deg : 360.0 / turning.total;
+    return (is_film(path) ? make_film : make_files)(&turning, err);
+}
