@@ -252,6 +252,35 @@ static void a_filled_picture_has_no_room_left(void **state)
     wr_session_free(session);
 }
 
+/* What filled a picture of 3:2 is as wide a part of narrower ones, and none of it lies outside. */
+static void narrower_pictures_see_the_whole(void **state)
+{
+    (void)state;
+    static const char *const cameras[] = { "camera perspective fov=57",
+                                           "camera orthographic size=1" };
+    for (int kind = 0; kind < 2; kind++) {
+        WrSession *session = session_of((const char *[]){ "surface bent", cameras[kind], NULL });
+        must_run(session, "camera fill aspect=1.5");
+        const Box wide = covered(session, 330, 220, 0), tall = covered(session, 330, 517, 0);
+        assert_in_range(tall.x0, wide.x0 - 1, wide.x0 + 1);
+        assert_in_range(tall.x1, wide.x1 - 1, wide.x1 + 1);
+        assert_in_range(tall.y1 - tall.y0, wide.y1 - wide.y0 - 1, wide.y1 - wide.y0 + 1);
+        const WrCamera before = scene_of(session)->camera;
+        must_run(
+            session,
+            "camera pan 0,0 aspect=0.61"); /* what a narrow window does widens nothing for good */
+        assert_near(scene_of(session)->camera.size, before.size, 1e-12);
+        assert_near(scene_of(session)->camera.frame, 1.5, 0);
+        const Box again = covered(session, 330, 517, 0);
+        assert_memory_equal(&again, &tall, sizeof again);
+        must_run(session, kind ? "camera orthographic fit=on" : "camera perspective fit=on");
+        must_run(session,
+                 "camera dolly 1.25"); /* from a view that fitted: the frame was another's */
+        assert_near(scene_of(session)->camera.frame, 0, 0);
+        wr_session_free(session);
+    }
+}
+
 static WrVec3 back_of(const WrSession *session)
 {
     const WrCamera *camera = &scene_of(session)->camera;
@@ -587,6 +616,7 @@ int main(void)
         cmocka_unit_test(surroundings_stand_behind_and_light_is_developed),
         cmocka_unit_test(edges_stand_before_their_background),
         cmocka_unit_test(a_filled_picture_has_no_room_left),
+        cmocka_unit_test(narrower_pictures_see_the_whole),
         cmocka_unit_test(the_camera_goes_where_it_is_sent),
         cmocka_unit_test(views_are_kept_under_names),
         cmocka_unit_test(only_what_shows_no_back_turns_whole),

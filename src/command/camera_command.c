@@ -301,6 +301,7 @@ const WrCommand wr_command_camera = {
     .details = "Only what is given changes. A view is no edit: undo leaves it as it is, `view "
                "back` goes back. To save or forget a view is an edit: the document keeps it. With "
                "fit=on all stays in the picture however it turns; `camera fill` leaves no more "
-               "margin than 2 %.",
+               "margin than 2 %, and narrower pictures than it was told of see the whole as well "
+               "(frame=).",
     .example = "camera perspective eye=0,1,4 fov=30"
 };

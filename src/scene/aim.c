@@ -79,9 +79,10 @@ void wr_aim_orbit(WrScene *scene, double right_deg, double up_deg)
 static bool hold(WrScene *scene, double aspect, WrPlacement *place, WrError *err)
 {
     if (!wr_scene_place(scene, 0, aspect, place, err)) return false;
+    if (scene->camera.fit) scene->camera.frame = 0; /* of another view */
     scene->camera.fit = false;
     scene->camera.eye = place->eye;
-    if (place->orthographic) scene->camera.size = 2 * place->half_height;
+    if (place->orthographic) scene->camera.size = 2 * place->half_height / place->widen;
     return true;
 }
 
@@ -229,6 +230,7 @@ bool wr_aim_fill(WrScene *scene, double aspect, double turn_from, double turn_to
 {
     WrPlacement place;
     WrCamera *camera = &scene->camera;
+    camera->frame = aspect;
     if (!wr_scene_place(scene, 0, aspect, &place, err)) return false;
     const bool flat = place.orthographic;
     const double slope = flat ? 0 : place.half_height / MARGIN;

@@ -13,6 +13,9 @@ typedef struct WrCamera {
     WrVec3 eye, target, up;
     double fov_deg; /* vertical, perspective: 0.01..179 */
     double size; /* height of the view in scene units, orthographic; <= 0: the object just fits */
+    /* Of what must be seen, width by height, unless `fit`: a narrower picture sees as much across, and more from bottom to
+       top; 0: however narrow, the height stays. */
+    double frame;
 } WrCamera;
 /* As in commands: "perspective", "orthographic". */
 extern const char *const wr_camera_names[2];

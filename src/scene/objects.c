@@ -248,6 +248,6 @@ WrScene *wr_scene_part(const WrScene *scene, int i, double aspect)
     if (!wr_scene_place(scene, 0, aspect, &place, NULL)) return part;
     part->camera.fit = false;
     part->camera.eye = place.eye;
-    if (part->camera.orthographic) part->camera.size = 2 * place.half_height;
+    if (part->camera.orthographic) part->camera.size = 2 * place.half_height / place.widen;
     return part;
 }

@@ -132,6 +132,8 @@ static bool check_camera(const WrCamera *camera, double aspect, WrError *err)
     if (!camera->orthographic && !(camera->fov_deg >= 0.01 && camera->fov_deg <= 179))
         return wr_fail(err, "camera fov = %g: must be 0.01..179 degrees", camera->fov_deg);
     if (!isfinite(camera->size)) return wr_fail(err, "camera size: must be finite");
+    if (!(camera->frame >= 0 && camera->frame <= 1e4))
+        return wr_fail(err, "camera frame = %g: must be 0..10000", camera->frame);
     WrVec3 back = v3_sub(camera->eye, camera->target);
     if (!finite3(back) || v3_len(back) > 1e150)
         return wr_fail(err, "camera eye and target: too far apart; keep them within 1e150");
@@ -165,6 +167,9 @@ static void place_camera(const WrCamera *camera, double aspect, WrPlacement *out
         wr_sincos_turns(camera->fov_deg / 720, &s, &c);
         out->half_height = s / c;
     }
+    const bool fits = camera->fit || (camera->orthographic && camera->size <= 0);
+    out->widen = !fits && camera->frame > aspect ? camera->frame / aspect : 1;
+    out->half_height *= out->widen;
     double away = fit_distance(ball, out->half_height, aspect, camera->orthographic);
     out->eye = camera->fit ? v3_mad(camera->target, back, away) : camera->eye;
 }

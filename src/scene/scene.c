@@ -225,7 +225,7 @@ bool wr_scene_view_equal(const WrSceneView *a, const WrSceneView *b)
            (!a->posed || equal3(a->rotate_deg, b->rotate_deg)) &&
            p->orthographic == q->orthographic && p->fit == q->fit && equal3(p->eye, q->eye) &&
            equal3(p->target, q->target) && equal3(p->up, q->up) && p->fov_deg == q->fov_deg &&
-           p->size == q->size;
+           p->size == q->size && p->frame == q->frame;
 }
 
 /* Where to look in the table: periodic axes are brought to 0..1; beyond the ends of a clamped one

@@ -212,7 +212,9 @@ typedef struct WrPlacement {
     WrVec3 eye; /* world; with `fit` resolved */
     /* World; orthonormal, right x up = -forward: the camera looks down its own -Z. */
     WrVec3 right, up, forward;
-    double half_height; /* tan(fov/2), or size/2; half the width is this times the aspect */
+    double
+        half_height; /* tan(fov/2), or size/2, times `widen`; half the width is this times the aspect */
+    double widen; /* for the camera's frame, in a narrower picture; 1: not needed */
     bool orthographic;
     double radius; /* of the object about its centre, in its units */
     double ball;   /* of all objects about the world's origin (objects.h) */

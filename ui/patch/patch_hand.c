@@ -168,6 +168,7 @@ static void pan_camera(WrApp *app, const WrPlacement *at, double dx, double dy)
     const double pixel = 2 * at->half_height * (at->orthographic ? 1 : away) / app->layout->patch.h;
     const WrVec3 by = v3_mad(v3_scale(at->right, -dx * pixel), at->up, dy * pixel);
     WrCamera *camera = &wr_app_live(app)->camera;
+    if (camera->fit) camera->frame = 0;
     camera->fit = false; /* the target's distance would change its own */
     camera->eye = v3_add(from->eye, by);
     camera->target = v3_add(from->target, by);
@@ -292,8 +293,9 @@ void wr_patch_wheel(WrApp *app, double steps)
     double far_off = 400.0 * at.ball, near_by = 1.02 * at.ball;
     double distance = v3_len(back), wanted = distance * factor;
     wanted = wanted > far_off ? far_off : wanted < near_by && distance > near_by ? near_by : wanted;
-    if (camera->orthographic) camera->size = 2.0 * at.half_height * factor;
+    if (camera->orthographic) camera->size = 2.0 * at.half_height / at.widen * factor;
     else back = v3_scale(back, wanted / distance);
+    if (camera->fit) camera->frame = 0;
     camera->fit = false;
     camera->eye = v3_add(camera->target, back);
     app->patch->zoom_commit_at = wr_clock_seconds() + ZOOM_COMMIT_SECONDS;
