@@ -20,7 +20,7 @@ typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 typedef struct WrText WrText;
 
-#define WR_HARDCASES 162
+#define WR_HARDCASES 164
 
 typedef enum WrHardPrecision { WR_HARD_FLOAT, WR_HARD_DOUBLE, WR_HARD_PRECISIONS } WrHardPrecision;
 

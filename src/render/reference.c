@@ -186,11 +186,21 @@ static bool render_pass(const Set *set, const WrReferenceRequest *request, int k
     return true;
 }
 
+/* Without a limit of the caller's: a ray takes ten times as long where the surface is displaced. */
+static int most_of(const WrReferenceRequest *request)
+{
+    bool displaced = false;
+    for (int i = 0; i < wr_scene_object_count(request->scene); i++)
+        displaced = displaced || wr_reference_displaced(wr_scene_object(request->scene, i));
+    const int own = displaced ? 16 : 32;
+    return request->most > 0 ? request->most : request->first > own ? 64 : own;
+}
+
 /* Doubles k until the picture stands still or the limit is reached. */
 static bool refine(const Set *set, const WrReferenceRequest *request, WrPool *pool,
                    WrReference *out, WrError *err)
 {
-    const int most = request->most > 0 ? request->most : request->first > 32 ? 64 : 32;
+    const int most = most_of(request);
     int k = request->first > 0 ? request->first : 4;
     while (k > most) k /= 2;
     const size_t pixels = (size_t)request->width * (size_t)request->height;
@@ -224,7 +234,9 @@ static bool make_set(Set *set, const WrReferenceRequest *request, WrPool *pool, 
         set->part[set->count] = part;
         good = wr_reference_stage_init(&set->stage[set->count++], own ? own : request->field, part,
                                        request->turn_deg, request->width, request->height, true,
-                                       pool, err);
+                                       pool, err) &&
+               wr_reference_stage_raise(&set->stage[set->count - 1], own ? own : request->field,
+                                        pool, err);
     }
     return good;
 }

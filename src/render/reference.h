@@ -8,6 +8,7 @@
             which is another model and not an approximation; none only if the scene has no height.
    Inverse  closed forms for plane, cube, sphere, cylinder, cone; else subdivision with Newton's method in
             double until the step is under 1e-12 of the patch, nearest root.
+   Shape    P + F n where the surface is displaced, by Newton's method on it: no facets (reference_raised.h).
    Pixels   the mean of k x k intensities, summed in pairs; k is doubled until the change from k to 2k is
             under a tenth of the error to be measured, or the limit is reached.
    Shading  as the scene's lights and material say, in double, with the C library's pow. */
@@ -30,7 +31,7 @@ typedef struct WrReferenceRequest {
     int width, height;            /* pixels, 1..4096 each */
     double turn_deg;
     int first; /* samples a side to begin with; a power of two, 1..64; 0: 4 */
-    int most;  /* and where to stop, first..64; 0: 32. k stays at a power of two */
+    int most;  /* and where to stop, first..64; 0: 32, of displaced surfaces 16. k stays at a power of two */
     double
         change_rms; /* converged when doubling changes less than this, RMS of linear intensity over
                           the covered pixels; 0: go on to `most` */

@@ -201,10 +201,9 @@ static void offer(Search *search, const WrSurfacePoint *at, double u, double v, 
     search->best = (WrReferenceHit){ .s = s, .u = u, .v = v, .lost = lost };
 }
 
-/* Newton's step: P + Pu du + Pv dv on the ray. Of dotting with Pv x d and d x Pu. False where the ray lies
- * in the tangent plane. */
-static bool newton_step(const WrReferenceRay *ray, WrVec3 p, WrVec3 pu, WrVec3 pv, double *du,
-                        double *dv)
+/* Of dotting with Pv x d and d x Pu. */
+bool wr_reference_newton_step(const WrReferenceRay *ray, WrVec3 p, WrVec3 pu, WrVec3 pv, double *du,
+                              double *dv)
 {
     const WrVec3 gap = v3_sub(ray->q, p), a = v3_cross(pv, ray->d), b = v3_cross(ray->d, pu);
     const double det = v3_dot(pu, a);
@@ -231,7 +230,7 @@ static void solve(Search *search, const WrReferencePiece *piece, double u, doubl
         const double distance = off_ray(search, at.p);
         stalled = distance < 0.5 * nearest ? 0 : stalled + 1;
         nearest = fmin(nearest, distance);
-        if (!newton_step(search->ray, at.p, at.pu, at.pv, &du, &dv)) break;
+        if (!wr_reference_newton_step(search->ray, at.p, at.pu, at.pv, &du, &dv)) break;
         const double reach = fmax(fabs(du) / wide, fabs(dv) / high);
         const double share = reach > most ? most / reach : 1;
         u += share * du, v += share * dv;
@@ -256,7 +255,8 @@ static void try_piece(Search *search, const WrReferencePiece *piece)
     const double wide = piece->u1 - piece->u0, high = piece->v1 - piece->v0;
     if (fabs(v3_dot(piece->n, search->ray->d)) > piece->sine * search->d_length) {
         double du, dv;
-        if (!newton_step(search->ray, piece->p, piece->pu, piece->pv, &du, &dv)) return;
+        if (!wr_reference_newton_step(search->ray, piece->p, piece->pu, piece->pv, &du, &dv))
+            return;
         if (fabs(du) > wide || fabs(dv) > high) return; /* half of it leads to the piece's end */
         solve(search, piece, u + du, v + dv, 2);
         return;

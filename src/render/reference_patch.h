@@ -35,3 +35,6 @@ void wr_reference_patches_fini(WrReferencePatches *patches); /* fine on a zeroed
 /* The nearest root beyond s_min. cull: one whose N = Pu x Pv points away from the viewer is none. */
 bool wr_reference_patches_hit(const WrReferencePatches *patches, const WrShape *shape, bool cull,
                               const WrReferenceRay *ray, WrReferenceHit *hit);
+/* Newton's step: P + Pu du + Pv dv on the ray. False where the ray lies in the tangent plane. */
+bool wr_reference_newton_step(const WrReferenceRay *ray, WrVec3 p, WrVec3 pu, WrVec3 pv, double *du,
+                              double *dv);

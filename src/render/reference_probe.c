@@ -27,6 +27,9 @@ static bool looker_init(Looker *looker, const WrField *field, const WrScene *sce
     if (width < 1 || height < 1 || width > PICTURE_MAX || height > PICTURE_MAX)
         return wr_fail(err, "picture size %dx%d: each side must be 1..%d", width, height,
                        PICTURE_MAX);
+    if (wr_reference_displaced(scene))
+        return wr_fail(err, "a displaced surface has no map and no pixel to look at yet: they take "
+                            "`bump displaced=off`");
     *looker = (Looker){ .field = field };
     if (!wr_reference_stage_init(&looker->stage, field, scene, turn_deg, width, height, table, pool,
                                  err))

@@ -12,6 +12,8 @@
 
 #include <math.h>
 
+#define WAVE 12 /* cells to a wave of a formula */
+
 /* The normal that a mode stands for: of a surface that is displaced, but where it is another by intention. */
 static WrBumpMode truth_of(WrBumpMode mode)
 {
@@ -70,8 +72,44 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
     return wr_reference_table_init(&stage->table, field, pool, err);
 }
 
+bool wr_reference_displaced(const WrScene *scene)
+{
+    return scene->displaced && scene->height != 0 && !wr_surfaces[scene->shape.kind]->held &&
+           !wr_shape_endless(&scene->shape);
+}
+
+static void height_of(const void *ctx, double u, double v, double *f, double *fu, double *fv)
+{
+    wr_reference_height(ctx, u, v, f, fu, fv);
+}
+
+/* Cells that hold one bend of F each: texels, or so many to a wave or a power. */
+static void cells_of(const WrScene *scene, const WrField *field, double cells[2])
+{
+    double u = field ? wr_field_width(field) : 1, v = field ? wr_field_height(field) : 1;
+    const WrAnalytic *formula = &scene->analytic;
+    if (formula->kind != WR_ANALYTIC_OFF) u = v = WAVE;
+    for (int k = 0; k < formula->count && formula->kind != WR_ANALYTIC_OFF; k++) {
+        u = fmax(u, WAVE * fabs((double)formula->terms[k].i));
+        v = fmax(v, WAVE * fabs((double)formula->terms[k].j));
+    }
+    cells[0] = fabs(scene->replicate_u) * u, cells[1] = fabs(scene->replicate_v) * v;
+}
+
+bool wr_reference_stage_raise(WrReferenceStage *stage, const WrField *field, WrPool *pool,
+                              WrError *err)
+{
+    double cells[2];
+    if (!wr_reference_displaced(stage->scene)) return true;
+    stage->bump = WR_BUMP_EXACT;
+    cells_of(stage->scene, field, cells);
+    return wr_reference_raised_init(&stage->raised, &stage->scene->shape, height_of, stage, cells,
+                                    pool, err);
+}
+
 void wr_reference_stage_fini(WrReferenceStage *stage)
 {
+    wr_reference_raised_fini(&stage->raised);
     wr_reference_view_fini(&stage->view);
     wr_reference_table_fini(&stage->table);
     wr_reference_surround_fini(&stage->surround);
@@ -286,13 +324,19 @@ static double eased_at(const WrReferenceStage *stage, const WrReferenceRay *ray,
     return isfinite(periods) ? left_of(periods) : 0;
 }
 
+static bool hit_stage(const WrReferenceStage *stage, const WrReferenceRay *ray, WrReferenceHit *hit)
+{
+    return stage->raised.count > 0 ? wr_reference_raised_hit(&stage->raised, ray, hit)
+                                   : wr_reference_view_hit(&stage->view, ray, hit);
+}
+
 bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrReferenceShare share,
                          WrReferenceSample *out)
 {
     const WrReferenceView *view = &stage->view;
     const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
     WrReferenceHit hit;
-    if (!wr_reference_view_hit(view, &ray, &hit)) return false;
+    if (!hit_stage(stage, &ray, &hit)) return false;
     WrSurfacePoint at;
     double f = 0, fu = 0, fv = 0;
     wr_reference_view_at(view, &hit, &at);
@@ -302,6 +346,10 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     fu *= eased, fv *= eased;
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
     out->normal = v3_scale(perturbed, wr_reference_side(view, &at));
+    if (stage->raised.count > 0) {
+        at.p = v3_mad(ray.q, ray.d, hit.s); /* which of an edge is not P + F n */
+        out->normal = v3_dot(perturbed, ray.d) > 0 ? v3_neg(perturbed) : perturbed;
+    }
     out->lost = hit.lost;
     out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
     out->normal = wr_reference_normal_stretched(view, out->normal);

@@ -2,6 +2,7 @@
    Layer 5, private to the reference. */
 #pragma once
 #include "noise/octaves.h"
+#include "render/reference_raised.h"
 #include "render/reference_surround.h"
 #include "render/reference_table.h"
 #include "render/reference_view.h"
@@ -16,9 +17,10 @@ typedef struct WrReferenceStage {
     WrReferenceView view;
     WrReferenceTable table; /* empty where F is a formula or has no height */
     WrReferenceSurround surround;
-    WrMatter matter;             /* of models other than Blinn-Phong's */
-    WrOctavesPlan grain;         /* the solid texture's noise */
-    WrBumpMode bump;             /* what the reference takes for the truth */
+    WrReferenceRaised raised; /* of a displaced surface, once it was raised; else without sheets */
+    WrMatter matter;          /* of models other than Blinn-Phong's */
+    WrOctavesPlan grain;      /* the solid texture's noise */
+    WrBumpMode bump;          /* what the reference takes for the truth */
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
     double
         shadow; /* scene units from the lowest to the highest of a relief that throws shadows; else 0 */
@@ -30,6 +32,12 @@ typedef struct WrReferenceStage {
 bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
                              double turn_deg, int width, int height, bool table, WrPool *pool,
                              WrError *err);
+/* Does F move the surface itself? */
+bool wr_reference_displaced(const WrScene *scene);
+/* Rays meet P + F n from now on, of a surface that is displaced; the stage stays where it is. Errors: those of
+ * wr_reference_raised_init. */
+bool wr_reference_stage_raise(WrReferenceStage *stage, const WrField *field, WrPool *pool,
+                              WrError *err);
 void wr_reference_stage_fini(WrReferenceStage *stage); /* fine on a zeroed one */
 
 /* F with height and replication: the formula, or the spline of the stage's table. */

@@ -100,9 +100,6 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
                                .height = height };
     WrPlacement place;
     const double aspect = (double)width / height;
-    if (scene->displaced && !view->info->held && scene->height != 0)
-        return wr_fail(err,
-                       "the reference knows no displaced surface: it takes `bump displaced=off`");
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
     view->perspective = !place.orthographic;
     view->size = place.size;
