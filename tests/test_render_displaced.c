@@ -1,10 +1,9 @@
-/* Displaced surfaces: outlines against closed forms, no holes between facets, what is left out, what never ends. */
+/* Displaced surfaces: outlines against closed forms, what is left out, what never ends. */
 #include "test.h"
 #include "test_render_scenes.h"
 
-#include "render/dice.h"
+#include "render/kern.h"
 #include "render/plan.h"
-#include "render/view.h"
 
 static WrField *level_field(double value)
 {
@@ -72,77 +71,6 @@ static void a_raised_plane_comes_nearer(void **state)
     const double f = 150.5 / tan(35 * WR_PI / 360);
     assert_near(side[0], f / d, 1);
     assert_near(side[1], f / (d - c), 1);
-    wr_field_free(field);
-}
-
-/* ---- cracks (HC124) ---- */
-
-/* An edge of a facet, by where its ends are; forth or back. */
-typedef struct Edge {
-    float end[2][3];
-    int way;
-} Edge;
-
-static int compare_edges(const void *a, const void *b)
-{
-    return memcmp(((const Edge *)a)->end, ((const Edge *)b)->end, sizeof((const Edge *)a)->end);
-}
-
-static Edge edge_of(const float *from, const float *to)
-{
-    Edge edge = { .way = memcmp(from, to, 3 * sizeof *from) < 0 ? 1 : -1 };
-    memcpy(edge.end[edge.way < 0], from, 3 * sizeof *from);
-    memcpy(edge.end[edge.way > 0], to, 3 * sizeof *to);
-    return edge;
-}
-
-/* Edges of the facets that are not met as often one way as the other: each is a crack. */
-static int cracks(const WrTriangles *t)
-{
-    const int32_t most = 3 * t->triangle_count;
-    Edge *edges = wr_alloc((size_t)most, sizeof *edges);
-    int32_t count = 0;
-    int open = 0;
-    for (int32_t i = 0; i < most; i++) {
-        const int32_t *c = t->triangles[i / 3].corner;
-        const float *from = t->corners[c[i % 3]].p, *to = t->corners[c[(i + 1) % 3]].p;
-        if (memcmp(from, to, 3 * sizeof *from) != 0) edges[count++] = edge_of(from, to);
-    }
-    qsort(edges, (size_t)count, sizeof *edges, compare_edges);
-    for (int32_t i = 0, end; i < count; i = end) {
-        int sum = 0;
-        for (end = i; end < count && compare_edges(&edges[i], &edges[end]) == 0; end++)
-            sum += edges[end].way;
-        open += sum != 0;
-    }
-    wr_free(edges);
-    return open;
-}
-
-/* The facets of a closed surface are closed, at four rates, wherever its domain ends. */
-static void no_ray_passes_between_facets(void **state)
-{
-    (void)state;
-    static const char *const kinds[] = { "cube", "sphere", "torus", "cube" };
-    static const double dice[] = { 16, 4, 1.7, 0.5 };
-    WrField *field = random_field(29, 23, 77);
-    for (int k = 0; k < 16; k++) {
-        WrScene *scene = displaced_of(kinds[k % 4], k % 4 == 2 ? -0.19 : 0.23);
-        scene->replicate_u = k / 4 % 2 ? 1.37 : 2, scene->replicate_v = 1;
-        if (k % 4 == 3) scene->shape.value[1] = 6; /* a cell of the table for each face */
-        Shot shot = shoot(scene, field, 97, 83, 1, "auto", false);
-        WrView view;
-        WrDice made = { 0 };
-        assert_true(wr_view_init(&view, scene, wr_shape_radius(&scene->shape), shot.frame.plan, 15,
-                                 97, 83, NULL));
-        assert_true(wr_dice_make(&made, scene, field, &view, dice[k / 4], shot.pool, NULL));
-        const int count = cracks(made.triangles);
-        if (count > 0) fail_msg("%s %d, dice %g: %d cracks", kinds[k % 4], k, dice[k / 4], count);
-        wr_dice_fini(&made);
-        wr_view_fini(&view);
-        put_away(&shot);
-        wr_scene_free(scene);
-    }
     wr_field_free(field);
 }
 
@@ -214,7 +142,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_raised_ball_is_a_larger_ball),
         cmocka_unit_test(a_raised_plane_comes_nearer),
-        cmocka_unit_test(no_ray_passes_between_facets),
         cmocka_unit_test(no_heights_make_nonsense),
         cmocka_unit_test(what_nobody_sees_is_bump),
         cmocka_unit_test(the_bits_are_the_same),
