@@ -31,8 +31,18 @@ refuse 1 'above 0' --size 16x16 --tolerance rms=0
 refuse 1 'above 0' --size 16x16 --tolerance rms=nan
 refuse 1 '.png or .svg' --size 8x8 --runs 3 --axis normal --plot plot.bmp
 refuse 1 'No such file' nosuch.wrinkle
+refuse 1 '--illusion alone' --size 8x8 --map map.png
+refuse 1 'goes with --size' --size 8x8 --illusion --csv a.csv
+refuse 1 'nothing here can be displaced' --size 8x8 --illusion --do 'bump height=0'
+refuse 1 'map.xyz' --size 8x8 --illusion --map map.xyz --do 'dab 0.3,0.7 radius=60 strength=1' --do 'bump height=0.1'
 refuse 1 '--runs 2' --runs 2
 refuse 2 '--csv' --csv
+
+"$program" accuracy --size 40x30 --illusion --map map.png --json --do 'dab 0.3,0.7 radius=60 strength=1' --do 'bump height=0.1' >a.json ||
+    complain 'the illusion is not measured'
+jq -e '.width == 40 and .shading > 0 and .outline >= 0 and .rise > 0 and (.advice | length > 20)' a.json >/dev/null || complain "the illusion's JSON lacks something"
+[[ $(identify -format '%m %w' map.png) == 'PNG 40' ]] || complain 'the map is no picture 40 wide'
+rm -f map.png
 
 scene=$source/samples/accuracy/contest/cube.wrinkle
 mkdir pictures

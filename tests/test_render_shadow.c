@@ -41,11 +41,14 @@ static WrScene *shadowy(const char *surface, double height)
 
 /* Pixels of the picture, in shares of those that are covered: that the relief darkens, and that the reference has otherwise
    by over a twentieth. */
-static void shares(const char *surface, double height, double *dark, double *off)
+static void shares(const char *surface, double height, bool displaced, double *dark, double *off)
 {
     WrError err = { "" };
     WrField *field = humps();
-    WrScene *scene = shadowy(surface, height), *bare = wr_scene_clone(scene);
+    WrScene *scene = shadowy(surface, height), *bare;
+    scene->displaced = displaced;
+    scene->dials.dice = 0.125;
+    bare = wr_scene_clone(scene);
     bare->material.shadow = false;
     const WrFrameRequest request = {
         .field = field, .scene = scene, .width = SIDE, .height = SIDE
@@ -88,17 +91,32 @@ static void pictures_have_the_shadows_of_marched_rays(void **state)
     for (int s = 0; s < 4; s++)
         for (int sign = -1; sign <= 1; sign += 2) {
             double dark, off;
-            shares(surfaces[s], sign * (s ? 0.21 : 0.06), &dark, &off);
+            shares(surfaces[s], sign * (s ? 0.21 : 0.06), false, &dark, &off);
             print_message("%s %d: %g dark, %g off\n", surfaces[s], sign, dark, off);
             assert_true(dark > 0.04);
             assert_true(off < 0.04);
         }
 }
 
+/* Displaced, rays meet the surface itself again: horizons over the tangent plane are near that, but where the ground ends or
+   bends. */
+static void displaced_surfaces_have_them_too(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 2; s++) {
+        double dark, off;
+        shares(s ? "sphere" : "plane", s ? 0.07 : 0.06, true, &dark, &off);
+        print_message("displaced %d: %g dark, %g off\n", s, dark, off);
+        assert_true(dark > 0.04);
+        assert_true(off < 0.08);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_have_the_shadows_of_marched_rays),
+        cmocka_unit_test(displaced_surfaces_have_them_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,6 +76,7 @@ struct WrCli {
     const char **tolerances; /* --tolerance, in order */
     int tolerance_count;
     bool hard_cases; /* --hard-cases */
+    bool illusion;   /* --illusion */
     bool beyond;     /* --beyond */
     bool script;     /* --script */
     bool in_place;   /* --in-place */
@@ -98,11 +99,12 @@ typedef enum WrOption {
     WR_OPTION_FACE,
     WR_OPTION_JSON,
     WR_OPTION_ACCURACY,  /* --axis, --runs, --budget, --csv, --plot, --differences,
-                            --tolerance, --hard-cases */
+                            --tolerance, --hard-cases, --illusion */
     WR_OPTION_RECOVER,   /* --beyond, --script, --in-place */
     WR_OPTION_SHEET,     /* --sheet, --thumbnails, --collection, --settings */
     WR_OPTION_MARKDOWN,  /* --markdown */
-    WR_OPTION_EXPLAIN,   /* --measure, --map */
+    WR_OPTION_EXPLAIN,   /* --measure */
+    WR_OPTION_MAP,       /* --map */
     WR_OPTION_CHECK,     /* --as, of pictures */
     WR_OPTION_ALL_WORDS, /* no option: takes any number of words, options that nobody knows too */
     WR_OPTION_COMMON     /* of every subcommand */

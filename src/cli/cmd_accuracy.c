@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "cli/cli.h"
 #include "cli/contest.h"
+#include "cli/illusion_run.h"
 #include "command/session.h"
 #include "document/document.h"
 #include "document/tables.h"
@@ -87,7 +88,7 @@ static bool check_line(const WrCli *cli, WrError *err)
                        cli->height, LARGEST);
     if (cli->differences && (!wr_path_info(cli->differences, &info) || info.kind != WR_KIND_FOLDER))
         return wr_fail(err, "--differences %.200s: is no folder", cli->differences);
-    return true;
+    return wr_illusion_check(cli, err);
 }
 
 static const char *name_of(const WrCli *cli)
@@ -213,7 +214,9 @@ int wr_cli_accuracy(const WrCli *cli)
     bool good = session != NULL;
     if (good) {
         prepare(cli, session, &work);
-        good = cli->tolerance_count > 0 ? compete(cli, &work, &err) : climb(cli, &work, &err);
+        good = cli->illusion ? wr_illusion_run(cli, &work.request, name_of(cli), &work.text, &err)
+               : cli->tolerance_count > 0 ? compete(cli, &work, &err)
+                                          : climb(cli, &work, &err);
         if (work.terminal) fprintf(stderr, "\r                 \r");
     }
     int status = good ? wr_cli_print(cli, &work.text) : wr_cli_fail(cli, WR_EXIT_FAILED, &err);

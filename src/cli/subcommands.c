@@ -49,7 +49,8 @@ const WrSubcommand wr_subcommands[] = {
       "precision; F, Fu, Fv carry the bump's height and the replication.",
       wr_cli_inspect },
     { "explain", "explain [FILE] [--measure] [--map FILE] [--full] [--json] [--size WxH]",
-      "the plan of a picture, with reasons", BIT(JSON) | BIT(SIZE) | BIT(FULL) | BIT(EXPLAIN),
+      "the plan of a picture, with reasons",
+      BIT(JSON) | BIT(SIZE) | BIT(FULL) | BIT(EXPLAIN) | BIT(MAP),
       "Renders once and prints what was simulated and what was left out. class I: leaving it out "
       "gives\n"
       "the same bits; B: within a stated bound; P: a choice that changes the picture.\n"
@@ -62,7 +63,7 @@ const WrSubcommand wr_subcommands[] = {
       "that was left out.",
       wr_cli_explain },
     { "accuracy", "accuracy [FILE] [--size WxH] [--plot FILE]... [--csv FILE] [--json]",
-      "what each approximation costs: error against time", BIT(JSON) | BIT(ACCURACY),
+      "what each approximation costs: error against time", BIT(JSON) | BIT(ACCURACY) | BIT(MAP),
       "Renders the document with each rung of each dial, one at a time and in the combinations "
       "that\n"
       "matter; times them interleaved, on one processor unless --threads says otherwise; measures "

@@ -80,7 +80,6 @@ static const char *no_horizon(const WrPlan *plan, const WrPlanAsk *ask)
     if (surface_of(ask)->held) return "on meshes and patches the relief has no shadows yet";
     if (columns * rows != 1)
         return "where each face has its own part of the table it has no shadows yet";
-    if (ask->scene->displaced) return "on a displaced surface the relief has no shadows yet";
     if (ask->facts.ends) return "the table ends at its edges: shadows are of tables that repeat";
     if (sizes.x != 0 || sizes.y != 0 || sizes.z != 0)
         return "the object is stretched along an axis: its relief has no shadows yet";

@@ -221,6 +221,15 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
     *white *= 1 - m->tint;
 }
 
+/* The ray towards the lamp meets the displaced surface again before it comes to it. */
+static bool meets_relief(const WrReferenceStage *stage, WrVec3 p, WrVec3 perturbed, WrVec3 l,
+                         double away)
+{
+    const WrReferenceRay ray = { v3_mad(p, perturbed, 1e-7 * stage->raised.size), l, 0 };
+    WrReferenceHit hit;
+    return wr_reference_raised_hit(&stage->raised, &ray, &hit) && hit.s < away;
+}
+
 /* Is a lamp in direction l hidden by the relief? Over the tangent plane the ray rises by n.l per length, and (a, b) is how it
    moves in u and v: it is marched by an eighth of a texel until it is above everything. */
 static bool is_hidden(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
@@ -271,9 +280,13 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
                             m->colour.z * colour[2] };
     for (int i = 0; i < view->light_count; i++) {
         const WrReferenceLight *light = &view->lights[i];
-        const WrVec3 l = light->point ? unit(v3_sub(light->where, p)) : light->where;
+        const WrVec3 way = v3_sub(light->where, p), l = light->point ? unit(way) : light->where;
+        const double away = light->point ? v3_len(way) : INFINITY;
         double own[3], white;
-        if (stage->shadow > 0 && is_hidden(stage, at, u, v, l)) continue;
+        if (stage->shadow > 0 &&
+            (stage->raised.count > 0 ? meets_relief(stage, at->p, perturbed, l, away)
+                                     : is_hidden(stage, at, u, v, l)))
+            continue;
         wr_reference_lamp(m, &stage->matter, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
             diffuse[c] += light->rgb[c] * own[c];

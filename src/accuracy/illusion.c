@@ -1,0 +1,267 @@
+#include "accuracy/illusion.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "base/progress.h"
+#include "render/frame.h"
+#include "render/reference_moved.h"
+#include "render/view.h"
+#include "scene/objects.h"
+#include "scene/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SAMPLES 4    /* a side of a pixel */
+#define FACETS 0.125 /* pixels */
+#define WHOLE 0.9999 /* coverage of a pixel that is no outline's */
+
+/* ---- the three pictures ---- */
+
+typedef enum Kind { BUMPED, RAISED, SHADOWED, KINDS } Kind;
+
+typedef struct Pictures {
+    const WrIllusionRequest *request;
+    WrPool *pool;
+    WrRenderer *renderer;
+    float *rgba[KINDS]; /* owned */
+} Pictures;
+
+static void set_object(WrScene *object, Kind kind)
+{
+    object->displaced = kind != BUMPED;
+    object->material.shadow = kind == SHADOWED;
+}
+
+static WrScene *scene_of(const WrScene *scene, Kind kind)
+{
+    WrScene *made = wr_scene_clone(scene);
+    for (int i = 0; i < wr_scene_object_count(made); i++) {
+        if (i == made->chosen) continue;
+        WrScene *other = wr_scene_clone(wr_scene_object(made, i));
+        set_object(other, kind);
+        wr_scene_set_object(made, i, other);
+    }
+    set_object(made, kind);
+    made->tolerance.kind = WR_TOLERANCE_NONE;
+    made->dials.aa = WR_AA_SUPERSAMPLE;
+    made->dials.samples = SAMPLES;
+    made->dials.dice = FACETS;
+    return made;
+}
+
+static bool render(Pictures *p, Kind kind, WrError *err)
+{
+    const WrIllusionRequest *request = p->request;
+    WrScene *scene = scene_of(request->scene, kind);
+    const WrFrameRequest wanted = { .field = request->field,
+                                    .fields = request->fields,
+                                    .scene = scene,
+                                    .width = request->width,
+                                    .height = request->height,
+                                    .turn_deg = request->turn_deg,
+                                    .cancel =
+                                        request->progress ? request->progress->cancel : NULL };
+    const size_t size = 4 * (size_t)request->width * (size_t)request->height;
+    WrFrame frame;
+    bool good = wr_renderer_frame(p->renderer, &wanted, &frame, err);
+    p->rgba[kind] = good ? wr_try_alloc(size, sizeof(float), "a picture to compare", err) : NULL;
+    good = p->rgba[kind] != NULL;
+    if (good) memcpy(p->rgba[kind], frame.rgba, size * sizeof(float));
+    wr_scene_free(scene);
+    return good;
+}
+
+/* ---- outlines ---- */
+
+static double cover(const Pictures *p, Kind kind, int x, int y)
+{
+    const WrIllusionRequest *r = p->request;
+    if (x < 0 || y < 0 || x >= r->width || y >= r->height) return 0;
+    return (double)p->rgba[kind][4 * ((size_t)y * (size_t)r->width + (size_t)x) + 3];
+}
+
+/* The length of what parts covered from uncovered: the integral of the gradient's length over the picture, by the four
+   corners of each square of pixels. */
+static double perimeter_of(const Pictures *p, Kind kind)
+{
+    double sum = 0;
+    for (int y = -1; y < p->request->height; y++)
+        for (int x = -1; x < p->request->width; x++) {
+            const double a = cover(p, kind, x, y), b = cover(p, kind, x + 1, y);
+            const double c = cover(p, kind, x, y + 1), d = cover(p, kind, x + 1, y + 1);
+            sum += hypot(b + d - a - c, c + d - a - b) / 2;
+        }
+    return sum;
+}
+
+typedef struct Place {
+    double x, y;
+} Place;
+
+/* Where coverage passes one half between neighbours; out NULL: how many there are. */
+static int crossings(const Pictures *p, Kind kind, Place *out)
+{
+    int count = 0;
+    for (int y = 0; y < p->request->height; y++)
+        for (int x = 0; x < p->request->width; x++)
+            for (int down = 0; down < 2; down++) {
+                const double a = cover(p, kind, x, y), b = cover(p, kind, x + !down, y + down);
+                if ((a >= 0.5) == (b >= 0.5)) continue;
+                const double t = (0.5 - a) / (b - a);
+                if (out) out[count] = (Place){ x + (down ? 0 : t), y + (down ? t : 0) };
+                count++;
+            }
+    return count;
+}
+
+/* The largest distance of a place of a to the nearest of b, squared, or `least` where that is larger. */
+static double farthest(const Place *a, int count, const Place *b, int others, double least)
+{
+    for (int i = 0; i < count; i++) {
+        double nearest = INFINITY;
+        for (int k = 0; k < others && nearest > least; k++) {
+            const double x = a[i].x - b[k].x, y = a[i].y - b[k].y;
+            nearest = fmin(nearest, x * x + y * y);
+        }
+        least = fmax(least, nearest);
+    }
+    return least;
+}
+
+static double hausdorff(const Pictures *p)
+{
+    const int a = crossings(p, BUMPED, NULL), b = crossings(p, RAISED, NULL);
+    if (a == 0 || b == 0) return NAN;
+    Place *from = wr_alloc((size_t)a, sizeof *from), *to = wr_alloc((size_t)b, sizeof *to);
+    crossings(p, BUMPED, from);
+    crossings(p, RAISED, to);
+    const double most = farthest(to, b, from, a, farthest(from, a, to, b, 0));
+    wr_free(from);
+    wr_free(to);
+    return sqrt(most);
+}
+
+/* ---- the measures ---- */
+
+static double squares(const float *a, const float *b, float *most)
+{
+    double sum = 0;
+    *most = 0;
+    for (int c = 0; c < 3; c++) {
+        const float d = fabsf(a[c] - b[c]);
+        *most = fmaxf(*most, d);
+        sum += (double)d * (double)d / 3;
+    }
+    return sum;
+}
+
+static void compare(const Pictures *p, WrIllusion *out)
+{
+    const size_t count = (size_t)out->width * (size_t)out->height_px;
+    double shading = 0, shadow = 0, all = 0;
+    for (size_t i = 0; i < count; i++) {
+        const float *b = p->rgba[BUMPED] + 4 * i, *d0 = p->rgba[RAISED] + 4 * i;
+        const float *d = p->rgba[SHADOWED] + 4 * i;
+        float *map = out->map + 3 * i, most;
+        map[0] = fabsf(b[3] - d[3]);
+        out->outline += (double)map[0];
+        if ((double)fminf(b[3], d[3]) < WHOLE) continue;
+        out->common++;
+        shading += squares(d0, b, &map[1]);
+        shadow += squares(d, d0, &map[2]);
+        all += squares(d, b, &most);
+    }
+    const double common = out->common > 0 ? (double)out->common : 1;
+    out->shading = sqrt(shading / common);
+    out->shadow = sqrt(shadow / common);
+    out->all = sqrt(all / common);
+    out->perimeter = perimeter_of(p, BUMPED);
+    out->outline_mean = out->perimeter > 0 ? out->outline / out->perimeter : 0;
+    out->hausdorff = hausdorff(p);
+}
+
+/* What happens to places of the surface. */
+static bool follow(const Pictures *p, WrIllusion *out, WrError *err)
+{
+    const WrIllusionRequest *request = p->request;
+    WrScene *scene = scene_of(request->scene, RAISED);
+    const WrReferenceRequest wanted = { .field = request->field,
+                                        .fields = request->fields,
+                                        .scene = scene,
+                                        .width = request->width,
+                                        .height = request->height,
+                                        .turn_deg = request->turn_deg,
+                                        .cancel =
+                                            request->progress ? request->progress->cancel : NULL };
+    WrMoved moved;
+    const bool good = wr_reference_moved(&wanted, p->pool, &moved, err);
+    if (good) {
+        out->shading_at = moved.light_rms;
+        out->way = moved.way_most, out->way_mean = moved.way_mean;
+    }
+    wr_scene_free(scene);
+    return good;
+}
+
+static bool any_to_move(const WrIllusionRequest *request, WrError *err)
+{
+    const WrScene *scene = request->scene;
+    for (int i = 0; i < wr_scene_object_count(scene); i++) {
+        const WrScene *object = wr_scene_object(scene, i);
+        if (!object->hidden && object->height != 0 && !wr_shape_endless(&object->shape) &&
+            !wr_surfaces[object->shape.kind]->held)
+            return true;
+    }
+    return wr_fail(err,
+                   "nothing here can be displaced: it needs a height other than 0 on a surface "
+                   "that is neither a mesh nor without end");
+}
+
+static bool measure(Pictures *p, WrIllusion *out, WrError *err)
+{
+    const WrIllusionRequest *request = p->request;
+    const size_t count = (size_t)request->width * (size_t)request->height;
+    out->map = wr_try_alloc(count, 3 * sizeof *out->map, "the map", err);
+    p->renderer = out->map ? wr_renderer_new(p->pool, request->isa, err) : NULL;
+    if (!p->renderer) return false;
+    for (int kind = 0; kind < KINDS; kind++) {
+        if (!wr_progress_step(request->progress, 0.15 * kind)) return wr_fail(err, "cancelled");
+        if (!render(p, (Kind)kind, err)) return false;
+    }
+    compare(p, out);
+    return wr_progress_step(request->progress, 0.5) ? follow(p, out, err)
+                                                    : wr_fail(err, "cancelled");
+}
+
+bool wr_illusion_measure(const WrIllusionRequest *request, WrIllusion *out, WrError *err)
+{
+    if (request->width < 1 || request->height < 1 || request->width > WR_ILLUSION_MOST ||
+        request->height > WR_ILLUSION_MOST)
+        return wr_fail(err, "a picture of %dx%d to compare: each side must be 1..%d",
+                       request->width, request->height, WR_ILLUSION_MOST);
+    if (!any_to_move(request, err)) return false;
+    WrIllusion made = { .width = request->width,
+                        .height_px = request->height,
+                        .height = request->scene->height,
+                        .rise = -1 };
+    Pictures p = { .request = request, .pool = wr_pool_new(request->threads) };
+    const bool good =
+        wr_view_rise(request->scene, request->field, wr_shape_radius(&request->scene->shape),
+                     request->turn_deg, request->width, request->height, &made.rise, err) &&
+        measure(&p, &made, err);
+    wr_renderer_free(p.renderer);
+    wr_pool_free(p.pool);
+    for (int kind = 0; kind < KINDS; kind++) wr_free(p.rgba[kind]);
+    wr_illusion_fini(out);
+    if (good) *out = made;
+    else wr_illusion_fini(&made);
+    return good;
+}
+
+void wr_illusion_fini(WrIllusion *illusion)
+{
+    wr_free(illusion->map);
+    *illusion = (WrIllusion){ 0 };
+}
