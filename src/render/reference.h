@@ -31,7 +31,7 @@ typedef struct WrReferenceRequest {
     int width, height;            /* pixels, 1..4096 each */
     double turn_deg;
     int first; /* samples a side to begin with; a power of two, 1..64; 0: 4 */
-    int most;  /* and where to stop, first..64; 0: 32, of displaced surfaces 16. k stays at a power of two */
+    int most; /* and where to stop, first..64; 0: 32, of displaced surfaces 16. k stays at a power of two */
     double
         change_rms; /* converged when doubling changes less than this, RMS of linear intensity over
                           the covered pixels; 0: go on to `most` */

@@ -95,7 +95,9 @@ struct WrAccuracy {
     bool fits;            /* the plot is of this table and this scene, but for its dials */
     int rung;             /* of it with the scene's dials, -1: none */
     bool plot_asked;
-    int plot_hot; /* point under the pointer, -1: none */
+    WrWork *illusion;     /* newest, owned; NULL: none */
+    bool illusion_wanted; /* to be measured when nothing else is */
+    int plot_hot;         /* point under the pointer, -1: none */
 
     WrPatchLook look;
     double split; /* share of the view left of the line */
@@ -162,6 +164,7 @@ void wr_accuracy_lay(WrApp *app, const WrWork *work);
 void wr_panel_accuracy(WrApp *app);
 void wr_panel_accuracy_dials(WrApp *app);     /* panel_accuracy_dials.c */
 void wr_panel_accuracy_tolerance(WrApp *app); /* the same */
+void wr_panel_illusion(WrApp *app);           /* panel_illusion.c */
 void wr_panel_accuracy_plot(WrApp *app);      /* panel_accuracy_plot.c */
 void wr_panel_inspector(WrApp *app);          /* panel_inspector.c */
 void wr_inspector_follow(WrApp *app);         /* its place, before each picture */

@@ -161,6 +161,10 @@ static void take_measured(WrApp *app)
             return;
         }
         if (strcmp(work->err.text, "cancelled") != 0) wr_app_fail(app, &work->err);
+    } else if (work->kind == WR_WORK_ILLUSION && work->done) {
+        wr_work_free(a->illusion);
+        a->illusion = work;
+        return;
     } else if (work->done) {
         wr_free(a->cases.report);
         a->cases.report = work->report;
@@ -245,6 +249,11 @@ static void begin_measuring(WrApp *app)
         a->cases.wanted = false;
         measure(app,
                 WR_WORK_CASES); /* in the place of what is under way, which begins again later */
+        return;
+    }
+    if (a->illusion_wanted && !a->measuring && wr_accuracy_rests(app)) {
+        a->illusion_wanted = false;
+        measure(app, WR_WORK_ILLUSION);
         return;
     }
     WrAccuracyMoment m = moment(app);
@@ -384,6 +393,7 @@ bool wr_accuracy_busy(WrApp *app, WrWorkKind kind, double *fraction)
 bool wr_accuracy_works(WrApp *app)
 {
     return wr_accuracy_busy(app, WR_WORK_LADDER, NULL) ||
+           wr_accuracy_busy(app, WR_WORK_ILLUSION, NULL) ||
            wr_accuracy_busy(app, WR_WORK_CASES, NULL);
 }
 

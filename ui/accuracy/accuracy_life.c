@@ -59,6 +59,7 @@ void wr_accuracy_free(WrApp *app)
     wr_accuracy_forget(app);
     wr_work_free(a->error);
     wr_work_free(a->plot);
+    wr_work_free(a->illusion);
     wr_free(a->plot_base);
     wr_free(a->cases.report);
     wr_field_free(a->field);

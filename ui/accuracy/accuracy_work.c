@@ -4,6 +4,7 @@
 #include "ui/jobs/job.h"
 
 #include "hardcases/hardcases.h"
+#include "accuracy/illusion.h"
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
 #include "accuracy/tolerance.h"
@@ -57,6 +58,7 @@ void wr_work_free(WrWork *work)
     wr_free(work->values);
     wr_ladder_fini(&work->ladder);
     wr_free(work->report);
+    wr_illusion_fini(&work->illusion);
     for (int i = 0; i < 2; i++) wr_free(work->bgra[i]);
     wr_free(work);
 }
@@ -186,6 +188,19 @@ static bool climb(WrWork *work, const WrProgress *progress)
     return wr_ladder_measure(&request, &work->ladder, &work->err);
 }
 
+static bool beside(WrWork *work, const WrProgress *progress)
+{
+    WrIllusionRequest request = { .field = work->field,
+                                  .fields = wr_tables_fields(work->tables),
+                                  .scene = work->scene,
+                                  .turn_deg = work->turn_deg,
+                                  .threads = 1,
+                                  .isa = work->tools->isa,
+                                  .progress = progress };
+    wr_accuracy_fit(work->width, work->height, WR_ERROR_SIDE, &request.width, &request.height);
+    return wr_illusion_measure(&request, &work->illusion, &work->err);
+}
+
 static bool draw_map(WrWork *work, WrPool *pool, const WrProgress *progress)
 {
     wr_accuracy_fit(work->width, work->height, WR_MAP_SIDE, &work->measured_w, &work->measured_h);
@@ -228,6 +243,7 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     case WR_WORK_ERROR: work->done = measure_error(work, pool, progress); break;
     case WR_WORK_LADDER: work->done = climb(work, progress); break;
     case WR_WORK_CASES: work->done = try_cases(work, pool, progress); break;
+    case WR_WORK_ILLUSION: work->done = beside(work, progress); break;
     case WR_WORK_PAIR: work->done = pair(work, pool, progress); break;
     case WR_WORK_MAP: work->done = draw_map(work, pool, progress); break;
     case WR_WORK_PROBE: work->done = wr_accuracy_probe(work); break;

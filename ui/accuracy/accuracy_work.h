@@ -4,6 +4,7 @@
 #include "ui/jobs/job.h"
 
 #include "hardcases/hardcases.h"
+#include "accuracy/illusion.h"
 #include "accuracy/ladder.h"
 #include "accuracy/metrics.h"
 #include "base/error.h"
@@ -23,12 +24,13 @@ typedef struct WrScene WrScene;
 #define WR_MAP_SIDE 512   /* and of a map over the patch */
 
 typedef enum WrWorkKind {
-    WR_WORK_ERROR,  /* the scene's own picture against the reference */
-    WR_WORK_LADDER, /* error and time of all settings */
-    WR_WORK_CASES,  /* the hard cases */
-    WR_WORK_PAIR,   /* two pictures to compare */
-    WR_WORK_MAP,    /* one quantity over the picture */
-    WR_WORK_PROBE   /* every quantity at one place */
+    WR_WORK_ERROR,    /* the scene's own picture against the reference */
+    WR_WORK_LADDER,   /* error and time of all settings */
+    WR_WORK_CASES,    /* the hard cases */
+    WR_WORK_ILLUSION, /* bump mapping beside displacement */
+    WR_WORK_PAIR,     /* two pictures to compare */
+    WR_WORK_MAP,      /* one quantity over the picture */
+    WR_WORK_PROBE     /* every quantity at one place */
 } WrWorkKind;
 
 /* What one thread keeps from one piece of work to the next. */
@@ -65,6 +67,7 @@ typedef struct WrWork {
     double high;          /* 99.5 percentile of them; 0 without any */
     WrLadder ladder;      /* owned */
     WrHardReport *report; /* owned */
+    WrIllusion illusion;  /* owned */
     uint8_t *bgra[2];     /* pair: [height][width][4]; owned */
     WrProbe probe;
     int object; /* probe: which of the scene's objects it is about */

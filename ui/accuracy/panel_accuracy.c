@@ -203,6 +203,8 @@ void wr_panel_accuracy(WrApp *app)
     wr_gui_space(8);
     wr_panel_accuracy_dials(app);
     wr_gui_space(8);
+    wr_panel_illusion(app);
+    wr_gui_space(8);
     wr_gui_heading("HARD CASES");
     if (wr_gui_button("Hard cases...", false)) wr_action_run(app, WR_ACT(hard_cases));
     wr_gui_tip(
