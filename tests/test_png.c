@@ -193,6 +193,43 @@ static void what_is_written_is_read_by_both(void **state)
     }
 }
 
+static bool has_chunk(const char *path, const char *name)
+{
+    unsigned char bytes[4096];
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t n = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    for (size_t i = 8; i + 8 <= n;) {
+        if (memcmp(bytes + i + 4, name, 4) == 0) return true;
+        i += 12 + ((size_t)bytes[i] << 24 | (size_t)bytes[i + 1] << 16 | (size_t)bytes[i + 2] << 8 |
+                   bytes[i + 3]);
+    }
+    return false;
+}
+
+/* With a gAMA chunk ImageMagick, browsers and others would change a normal map's numbers. */
+static void of_numbers_no_colour_space_is_said(void **state)
+{
+    (void)state;
+    static const char *const spaces[] = { "gAMA", "sRGB", "cHRM", "iCCP", "cICP" };
+    for (int data = 0; data < 2; data++) {
+        WrError err = { "" };
+        Codes codes = { WIDTH, 3, 2 };
+        const WrImageOut part = { .width = WIDTH,
+                                  .height = HEIGHT,
+                                  .channels = 3,
+                                  .type = WR_PIXEL_U16,
+                                  .data = data,
+                                  .rows = code_rows,
+                                  .ctx = &codes };
+        if (!wr_image_write("said.png", &part, 1, &err)) fail_msg("%s", err.text);
+        assert_true(has_chunk("said.png", "IDAT"));
+        for (int i = 0; i < 5; i++)
+            assert_int_equal(has_chunk("said.png", spaces[i]), !data && i < 3);
+    }
+}
+
 /* Damage anywhere is told or does no harm; nothing is said on standard error. */
 static void damage_is_told_in_one_line(void **state)
 {
@@ -229,6 +266,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_is_read_as_by_openimageio),
         cmocka_unit_test(what_is_written_is_read_by_both),
+        cmocka_unit_test(of_numbers_no_colour_space_is_said),
         cmocka_unit_test(damage_is_told_in_one_line),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);

@@ -219,7 +219,8 @@ static void picture(const Job *job, const Price *p, WrEstimate *out)
     double k = is_many(scene->dials.aa) ? scene->dials.samples : 1.0;
     const bool whole = scene->tolerance.kind != WR_TOLERANCE_NONE;
     const double bytes = p->bytes * pixels;
-    add(out, p->ns * pixels * k * k, whole ? bytes : fmin(bytes, WR_PICTURE_BYTES));
+    const double frames = wr_call_given(job->call, "frames") ? number(job, "frames", 0) : 1.0;
+    add(out, p->ns * pixels * k * k * frames, whole ? bytes : fmin(bytes, WR_PICTURE_BYTES));
 }
 
 static void all_layers(const Job *job, const Price *p, WrEstimate *out)

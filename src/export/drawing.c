@@ -1,4 +1,4 @@
-/* Line drawings of the cell as files: SVG, or a picture of antialiased lines. */
+/* Line drawings of the cell as files: SVG, PDF, or a picture of antialiased lines. */
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"

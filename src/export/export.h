@@ -31,7 +31,7 @@
    Z + round((Z - 1) (-H) / full), Z = 128 or 32768, clamped: 0 is exact; float files hold -H, 1 / scene unit.
 
    lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
-   white; vectors where the ending is svg, else a picture of 8 bits. profile: F along a line of the cell
+   white; vectors where the ending is svg or pdf, else a picture of 8 bits. profile: F along a line of the cell
    as a chart, by the scheme's interpolation.
 
    stl, ply, obj: the relief on its surface (replicated, stretched as the object is) as a closed body of triangles in

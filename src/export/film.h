@@ -33,7 +33,7 @@ typedef struct WrFilmKind {
     int first_loop; /* what it calls playing once; -1 or 1 */
 } WrFilmKind;
 
-#define WR_FILM_KIND_COUNT 4
+enum { WR_FILM_GIF, WR_FILM_APNG, WR_FILM_WEBP, WR_FILM_MP4, WR_FILM_KIND_COUNT };
 extern const WrFilmKind wr_film_kinds[];
 /* By the path's ending; NULL: it is no film. */
 const WrFilmKind *wr_film_kind(const char *path);

@@ -4,7 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "base/text.h"
+#include "export/ink_inner.h"
 #include "image/image.h"
 #include "image/label.h"
 
@@ -13,19 +13,17 @@
 
 #define LOOK 256 /* pieces of a line between two looks at the cancel */
 
-struct WrInk {
-    char *path;
-    int width, height;
-    double breadth, darkness;
-    bool vectors, drawing; /* drawing: a path element is open */
-    WrText text;           /* vectors */
-    float *ink;            /* pictures: [height][width] darkness 0..1 */
-};
+static const WrInkVectors *vectors_of(const char *path)
+{
+    char buffer[16];
+    const char *ending = wr_path_ending(path, buffer);
+    if (strcmp(ending, wr_ink_svg.ending) == 0) return &wr_ink_svg;
+    return strcmp(ending, wr_ink_pdf.ending) == 0 ? &wr_ink_pdf : NULL;
+}
 
 WrInk *wr_ink_new(const char *path, int width, int height, WrError *err)
 {
-    char buffer[16];
-    bool vectors = strcmp(wr_path_ending(path, buffer), "svg") == 0;
+    const WrInkVectors *vectors = vectors_of(path);
     float *pixels = NULL;
     if (!vectors) {
         if (!wr_image_can_write(path, WR_PIXEL_U8, 1, false, err)) return NULL;
@@ -40,12 +38,7 @@ WrInk *wr_ink_new(const char *path, int width, int height, WrError *err)
                     .darkness = 1.0,
                     .vectors = vectors,
                     .ink = pixels };
-    if (vectors)
-        wr_text_addf(&ink->text,
-                     "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
-                     "viewBox=\"0 0 %d %d\">\n<rect width=\"100%%\" height=\"100%%\" "
-                     "fill=\"#fff\"/>\n",
-                     width, height, width, height);
+    if (vectors) vectors->head(ink);
     return ink;
 }
 
@@ -62,40 +55,23 @@ void wr_ink_free(WrInk *ink)
 
 static void end_path(WrInk *ink)
 {
-    if (ink->drawing) wr_text_add(&ink->text, "\"/>\n");
+    if (ink->drawing) ink->vectors->end_path(ink);
     ink->drawing = false;
 }
 
-static int grey_of(const WrInk *ink)
+int wr_ink_grey(const WrInk *ink)
 {
     return (int)rint(255.0 * (double)wr_srgb_encode((float)(1.0 - ink->darkness)));
 }
 
-static void begin_path(WrInk *ink)
+/* Without an exponent, which PDF does not know. */
+void wr_ink_number(WrInk *ink, double x)
 {
-    if (ink->drawing) return;
-    int grey = grey_of(ink);
-    wr_text_addf(&ink->text,
-                 "<path fill=\"none\" stroke=\"#%02x%02x%02x\" stroke-linecap=\"round\" "
-                 "stroke-linejoin=\"round\" stroke-width=\"",
-                 grey, grey, grey);
-    wr_text_add_number(&ink->text, ink->breadth);
-    wr_text_add(&ink->text, "\" d=\"");
-    ink->drawing = true;
-}
-
-static void add_number(WrText *text, double x)
-{
-    char buffer[WR_NUMBER_SIZE];
-    wr_text_add(text, wr_number_print_float((float)(rint(100.0 * x) / 100.0), buffer));
-}
-
-static void add_place(WrText *text, const char *command, const WrInkPoint *p)
-{
-    wr_text_add(text, command);
-    add_number(text, p->x);
-    wr_text_add(text, " ");
-    add_number(text, p->y);
+    const long long parts = llrint(100.0 * fabs(x));
+    const int tenth = (int)(parts / 10 % 10), hundredth = (int)(parts % 10);
+    wr_text_addf(&ink->text, "%s%lld", x < 0 && parts ? "-" : "", parts / 100);
+    if (hundredth) wr_text_addf(&ink->text, ".%d%d", tenth, hundredth);
+    else if (tenth) wr_text_addf(&ink->text, ".%d", tenth);
 }
 
 /* Does b lie on the straight line from a to c, to a fiftieth of a pixel? */
@@ -108,39 +84,15 @@ static bool is_straight(const WrInkPoint *a, const WrInkPoint *b, const WrInkPoi
 
 static void vector_line(WrInk *ink, const WrInkPoint *p, int count)
 {
-    begin_path(ink);
-    add_place(&ink->text, "M", p);
+    if (!ink->drawing) ink->vectors->begin_path(ink);
+    ink->drawing = true;
+    ink->vectors->place(ink, true, p);
     for (int i = 1, from = 0; i < count; i++) {
         if (i + 1 < count && is_straight(p + from, p + i, p + i + 1)) continue;
-        add_place(&ink->text, "L", p + i);
+        ink->vectors->place(ink, false, p + i);
         from = i;
     }
-    wr_text_add(&ink->text, "\n");
-}
-
-static void vector_word(WrInk *ink, const char *word, double x, double y, double size,
-                        double anchor)
-{
-    end_path(ink);
-    wr_text_add(&ink->text, "<text font-family=\"Inter, sans-serif\" font-size=\"");
-    add_number(&ink->text, size);
-    wr_text_add(&ink->text, "\" x=\"");
-    add_number(&ink->text, x);
-    wr_text_add(&ink->text, "\" y=\"");
-    add_number(&ink->text, y);
-    wr_text_addf(&ink->text, "\" text-anchor=\"%s\">",
-                 anchor > 0.75   ? "end"
-                 : anchor > 0.25 ? "middle"
-                                 : "start");
-    for (; *word; word++) {
-        const char *escape = *word == '<'   ? "&lt;"
-                             : *word == '>' ? "&gt;"
-                             : *word == '&' ? "&amp;"
-                                            : NULL;
-        if (escape) wr_text_add(&ink->text, escape);
-        else wr_text_add_n(&ink->text, word, 1);
-    }
-    wr_text_add(&ink->text, "</text>\n");
+    ink->vectors->end_line(ink);
 }
 
 /* ---- pictures ---- */
@@ -240,14 +192,18 @@ void wr_ink_line(WrInk *ink, const WrInkPoint *points, int count)
 
 void wr_ink_word(WrInk *ink, const char *word, double x, double y, double size, double anchor)
 {
-    if (ink->vectors) vector_word(ink, word, x, y, size, anchor);
-    else ink_word(ink, word, x, y, size, anchor);
+    if (ink->vectors) {
+        end_path(ink);
+        ink->vectors->word(ink, word, x, y, size, anchor);
+    } else {
+        ink_word(ink, word, x, y, size, anchor);
+    }
 }
 
 bool wr_ink_write(WrInk *ink, WrError *err)
 {
     if (!ink->vectors) return write_picture(ink, err);
     end_path(ink);
-    wr_text_add(&ink->text, "</svg>\n");
+    ink->vectors->tail(ink);
     return wr_file_write(ink->path, wr_text_get(&ink->text), ink->text.length, err);
 }

@@ -1,4 +1,4 @@
-/* ink.h - black lines and words on white, as an SVG file or as a picture of antialiased lines.
+/* ink.h - black lines and words on white, as an SVG or PDF file or as a picture of antialiased lines.
    Layer 6. Private to this room. */
 #pragma once
 #include <stdbool.h>
@@ -12,7 +12,7 @@ typedef struct WrInkPoint {
 
 typedef struct WrInk WrInk;
 
-/* A sheet of width x height pixels; vectors if `path` ends in svg, else a picture, whose format must hold
+/* A sheet of width x height pixels; vectors if `path` ends in svg or pdf, else a picture, whose format must hold
  * grey of 8 bits. NULL and an error otherwise, or without memory. The caller owns it. */
 WrInk *wr_ink_new(const char *path, int width, int height, WrError *err);
 void wr_ink_free(WrInk *ink); /* NULL is fine */

@@ -145,7 +145,7 @@ typedef struct WrImageOut {
         *attributes; /* formats other than EXR keep them as lines "name=text" of the
                                            picture's description, where they have one */
     int attribute_count;
-    bool data;              /* numbers, not colours: tagged linear where a format can say so */
+    bool data; /* numbers, not colours: no format says that they are sRGB, nor PNG anything */
     const uint8_t *profile; /* an ICC profile that goes into the file; NULL: none */
     size_t profile_size;
     WrRowSource rows;

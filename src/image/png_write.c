@@ -63,14 +63,15 @@ static bool tell(const WrCodecWriter *writer, char *reason)
 
 /* ---- what it says of itself ---- */
 
-/* Numbers are linear; colours are sRGB, or as their profile has it. */
+/* Colours are sRGB, or as their profile has it. Of numbers nothing is said: a gAMA of 1, which would be true, has
+   ImageMagick, browsers and others change them when they are converted or shown. */
 static void tag_colours(const WrCodecWriter *writer, const WrImageOut *part)
 {
     if (part->profile)
         png_set_iCCP(writer->png, writer->info, "profile", PNG_COMPRESSION_TYPE_BASE, part->profile,
                      (png_uint_32)part->profile_size);
-    else if (part->data) png_set_gAMA_fixed(writer->png, writer->info, PNG_FP_1);
-    else png_set_sRGB_gAMA_and_cHRM(writer->png, writer->info, PNG_sRGB_INTENT_ABSOLUTE);
+    else if (!part->data)
+        png_set_sRGB_gAMA_and_cHRM(writer->png, writer->info, PNG_sRGB_INTENT_ABSOLUTE);
 }
 
 static void describe(const WrCodecWriter *writer, const char *description)

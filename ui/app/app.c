@@ -49,6 +49,7 @@
 
 #include "base/array.h"
 #include "base/error.h"
+#include "export/film.h"
 #include "scene/scene.h"
 #include "system/clock.h"
 
@@ -85,6 +86,11 @@ bool wr_app_begin(WrApp *app, WrError *err)
     app->keys = wr_keys_new();
     *app->forms = (WrForms){ .picture_width = 2048,
                              .picture_height = 2048,
+                             .film_width = 640,
+                             .film_height = 640,
+                             .film_frames = 120,
+                             .film_fps = 25,
+                             .film_kind = WR_FILM_MP4,
                              .cells_u = 8,
                              .cells_v = 8,
                              .line_width = 8,

@@ -9,6 +9,7 @@
     X(save, "Ctrl+S")                                                                              \
     X(save_as, "Ctrl+Shift+S")                                                                     \
     X(render, "")                                                                                  \
+    X(film, "")                                                                                    \
     X(export, "Ctrl+E Ctrl+Shift+E")                                                               \
     X(save_history, "")                                                                            \
     X(quit, "Ctrl+Q")                                                                              \

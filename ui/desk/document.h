@@ -20,9 +20,11 @@ typedef enum WrAfter {
 enum { WR_RANGE_AUTO, WR_RANGE_UNIT, WR_RANGE_SIGNED, WR_RANGES };
 
 typedef struct WrForms { /* what the dialogs hold while they are open */
+    double film_width, film_height, film_frames, film_fps;
     double width, height, picture_width, picture_height, fill, cells_u, cells_v, line_width, low,
         high;
     double solid_size, solid_error, solid_thickness; /* mm; thickness 0: as the export thinks fit */
+    int film_kind;                                   /* of wr_film_kinds */
     int wrap, kind, range;                           /* range: a WR_RANGE_ */
     bool fit;
 } WrForms;

@@ -55,6 +55,7 @@ static const struct {
     [WR_ROW(WR_FILE_SAVE)] = { "Save as", "Save", ".exr" },
     [WR_ROW(WR_FILE_EXPORT)] = { "Export to", "Export", ".png" },
     [WR_ROW(WR_FILE_RENDER)] = { "Render to", "Render", ".png" },
+    [WR_ROW(WR_FILE_FILM)] = { "Save the film to", "Save", ".mp4" },
     [WR_ROW(WR_FILE_IMPORT)] = { "Import heights", "Import", NULL },
     [WR_ROW(WR_FILE_HISTORY)] = { "Save the history as a script", "Save", ".wrinkle" },
     [WR_ROW(WR_FILE_STAMP)] = { "Open a picture as a stamp", "Open", NULL },

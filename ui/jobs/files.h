@@ -9,6 +9,7 @@ typedef enum WrFilePurpose {
     WR_FILE_SAVE,
     WR_FILE_EXPORT,
     WR_FILE_RENDER,
+    WR_FILE_FILM,
     WR_FILE_IMPORT,
     WR_FILE_HISTORY,
     WR_FILE_STAMP,

@@ -19,6 +19,7 @@
 #include "command/call.h"
 #include "document/document_file.h"
 #include "export/export.h"
+#include "export/film.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -264,6 +265,66 @@ void wr_file_take_render(WrApp *app, const char *path)
     wr_text_fini(&line);
 }
 
+/* ---- a turntable as a film ---- */
+
+/* Once round, from how the view is turned. */
+static void add_film_line(const WrApp *app, const char *path, WrText *line)
+{
+    const WrForms *f = app->forms;
+    wr_text_add(line, "render ");
+    wr_text_add_word(line, path);
+    wr_text_addf(line, " size=%dx%d frames=%d", (int)rint(f->film_width), (int)rint(f->film_height),
+                 (int)rint(f->film_frames));
+    wr_line_number(line, "fps", f->film_fps);
+    wr_line_number(line, "turn", app->patch->turn_deg);
+}
+
+static void film_numbers(WrForms *f)
+{
+    const char *kinds[WR_FILM_KIND_COUNT];
+    char text[120];
+    for (int i = 0; i < WR_FILM_KIND_COUNT; i++) kinds[i] = wr_film_kinds[i].name;
+    wr_gui_label("Format");
+    wr_gui_choice("film", 0, kinds, WR_FILM_KIND_COUNT, &f->film_kind);
+    const double most = wr_film_kinds[f->film_kind].most_fps;
+    number("Frames", 2, 360, 1, 100000, 120, 0, NULL, &f->film_frames);
+    number("Rate", 1, 60, 0.1, most, 25, 2, "a second", &f->film_fps);
+    number("Width", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_width);
+    number("Height", 16, 1920, 1, 8192, 640, 0, "pixels", &f->film_height);
+    if (f->film_fps > most) f->film_fps = most;
+    snprintf(text, sizeof text, "%.4g seconds, %.3g degrees a frame.", f->film_frames / f->film_fps,
+             360.0 / f->film_frames);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, text);
+}
+
+void wr_dialog_film(WrApp *app)
+{
+    WrForms *f = app->forms;
+    WrText line = { 0 };
+    char name[24];
+    if (!wr_gui_dialog_begin("Save a turntable as a film", 440)) return;
+    wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_LABEL,
+                        "Once round the world's upright axis, beginning as the view is turned now. "
+                        "The program ffmpeg makes it.");
+    film_numbers(f);
+    add_film_line(app, "x.png", &line);
+    const bool agreed = wr_dialog_buttons(app, "Choose a file...", true) > 0;
+    wr_panel_estimate(app, wr_text_get(&line));
+    wr_text_fini(&line);
+    snprintf(name, sizeof name, "turn.%s", wr_film_kinds[f->film_kind].ending);
+    if (agreed && !wr_files_ask(app->files, WR_FILE_FILM, NULL, name))
+        wr_dialog_open(app, WR_DIALOG_FILE);
+    wr_gui_dialog_end();
+}
+
+void wr_file_take_film(WrApp *app, const char *path)
+{
+    WrText line = { 0 };
+    add_film_line(app, path, &line);
+    wr_app_run_line(app, wr_text_get(&line)); /* its note says what was written */
+    wr_text_fini(&line);
+}
+
 /* The line that will take what it takes, whatever the file's name; "" where it is done at once. */
 static void file_line(const WrApp *app, WrText *line)
 {
@@ -271,6 +332,7 @@ static void file_line(const WrApp *app, WrText *line)
     if (of == WR_FILE_SAVE) wr_text_add(line, "save x.exr");
     if (of == WR_FILE_EXPORT) add_export_line(app, "x.png", line);
     if (of == WR_FILE_RENDER) add_render_line(app, "x.png", line);
+    if (of == WR_FILE_FILM) add_film_line(app, "x.mp4", line);
 }
 
 void wr_dialog_file(WrApp *app)

@@ -33,6 +33,7 @@ static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(import),
                                          WR_ACT(export),
                                          WR_ACT(render),
+                                         WR_ACT(film),
                                          "-",
                                          WR_ACT(quit),
                                          NULL };

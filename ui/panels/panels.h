@@ -33,6 +33,8 @@ void wr_dialog_grid(WrApp *app);
 void wr_dialog_import(WrApp *app);
 void wr_dialog_export(WrApp *app);
 void wr_dialog_render(WrApp *app);
+void wr_dialog_film(WrApp *app);
+void wr_file_take_film(WrApp *app, const char *path);
 void wr_file_take_render(WrApp *app, const char *path); /* what it asked for */
 void wr_dialog_file(WrApp *app);
 void wr_dialog_preset(WrApp *app); /* the name of a preset to be saved */
