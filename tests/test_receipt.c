@@ -177,6 +177,7 @@ static void every_kind_is_read_back_within_its_bound(void **state)
     for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++) {
         const WrExportKind *kind = &wr_export_kinds[i];
         WrExportOptions options = wr_export_default();
+        options.feather = 0.7; /* a mask of 0 and 1 would be exact */
         if (kind->write) continue;
         assert_near(export_good(document, kind, &options, "k.exr").worst, 0.0, 0.0);
         for (options.depth = 8; !kind->floats && options.depth <= 16; options.depth += 8) {

@@ -32,7 +32,16 @@ WrExportOptions wr_export_default(void)
                               .pen = 1.0,
                               .at = 0.5,
                               .grid = 8,
-                              .solid_error = 0.05 };
+                              .solid_error = 0.05,
+                              .directions = 16,
+                              .toward = 0,
+                              .radius = 8,
+                              .box = 9,
+                              .scale = NAN,
+                              .mask_low = NAN,
+                              .mask_high = NAN,
+                              .threshold = 0.2,
+                              .grain = 32 };
 }
 
 /* ---- what the kinds share ---- */
@@ -109,8 +118,8 @@ static WrPixelType type_of(int depth)
     return depth == 8 ? WR_PIXEL_U8 : depth == 16 ? WR_PIXEL_U16 : WR_PIXEL_F32;
 }
 
-static bool settle_options(const WrExportKind *kind, const WrScene *scene, const char *path,
-                           WrExportOptions *options, WrError *err)
+static bool settle_options(const WrExportKind *kind, int channels, const WrScene *scene,
+                           const char *path, WrExportOptions *options, WrError *err)
 {
     char ending[16];
     if (kind->ending && strcmp(wr_path_ending(path, ending), kind->ending) != 0)
@@ -121,12 +130,16 @@ static bool settle_options(const WrExportKind *kind, const WrScene *scene, const
         if (!wr_image_deepest(path, &type, err)) return false;
         options->depth = type == WR_PIXEL_U8 ? 8 : type == WR_PIXEL_U16 ? 16 : 32;
     }
+    if (channels > 4 && options->depth != 32)
+        return wr_fail(err,
+                       "%s of %d directions are floats, which %s does not hold: exr and tiff do",
+                       kind->name, channels, path);
     if (kind->floats && options->depth != 32)
         return wr_fail(err, "%s are floats, which %s does not hold: exr and tiff do", kind->name,
                        path);
     if (options->depth != 8 && options->depth != 16 && options->depth != 32)
         return wr_fail(err, "depth %d: must be 8, 16 or 32", options->depth);
-    if (!wr_image_can_write(path, type_of(options->depth), kind->channels, true, err)) return false;
+    if (!wr_image_can_write(path, type_of(options->depth), channels, true, err)) return false;
     if (options->dither && options->depth != 8)
         return wr_fail(err, "dither is for 8 bits a channel; this file has %d (depth=8 asks for 8)",
                        options->depth);
@@ -171,6 +184,9 @@ static void describe(WrExportJob *job)
 static bool write_job(WrExportJob *job, const char *path, WrError *err)
 {
     WrImageAttribute attributes[WR_EXPORT_ATTRIBUTES];
+    const char *names[WR_EXPORT_CHANNELS];
+    for (int i = 0; i < WR_EXPORT_CHANNELS; i++) names[i] = job->channel_names[i];
+    if (job->kind->make && !job->kind->make(job, err)) return false;
     if (job->kind->prepare) job->kind->prepare(job);
     describe(job);
     for (int i = 0; i < job->attribute_count; i++)
@@ -178,9 +194,9 @@ static bool write_job(WrExportJob *job, const char *path, WrError *err)
             (WrImageAttribute){ job->attribute_names[i], wr_text_get(&job->attribute_texts[i]) };
     WrImageOut out = { .width = job->width,
                        .height = job->height,
-                       .channels = job->kind->channels,
+                       .channels = job->channels,
                        .type = type_of(job->options.depth),
-                       .channel_names = job->kind->channel_names,
+                       .channel_names = job->channel_names[0][0] ? names : job->kind->channel_names,
                        .attributes = attributes,
                        .attribute_count = job->attribute_count,
                        .data = true,
@@ -222,20 +238,25 @@ static const char *convention_of(const WrExportKind *kind)
 
 static bool run_job(WrExportJob *job, const char *path, WrError *err)
 {
-    if (!settle_options(job->kind, job->scene, path, &job->options, err)) return false;
+    job->channels = job->kind->channels;
+    if (job->kind->count_channels)
+        job->channels = job->kind->count_channels(job, job->channel_names);
+    if (!settle_options(job->kind, job->channels, job->scene, path, &job->options, err))
+        return false;
     job->width = wr_field_width(job->field);
     job->height = wr_field_height(job->field);
     job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
     job->report = (WrExportReport){ .width = job->width,
                                     .height = job->height,
                                     .zero_code = -1,
-                                    .channels = job->kind->channels,
+                                    .channels = job->channels,
                                     .convention = convention_of(job->kind),
                                     .depth = job->options.depth };
     job->u = wr_alloc((size_t)job->width, sizeof *job->u);
     for (int i = 0; i < job->width; i++) job->u[i] = (i + 0.5) / job->width;
     bool ok = job->kind->write ? job->kind->write(job, path, err) : write_job(job, path, err);
     wr_free(job->u);
+    wr_free(job->map);
     return ok;
 }
 

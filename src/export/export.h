@@ -30,6 +30,18 @@
    with r, s, t the means of the second derivatives over a texel, that is differences of p and q across it. Codes are
    Z + round((Z - 1) (-H) / full), Z = 128 or 32768, clamped: 0 is exact; float files hold -H, 1 / scene unit.
 
+   curvature part=convex, concave: max(0, -H), max(0, H), from 0, which is code 0, to the largest or `full`.
+
+   occlusion, horizon, cavity, direction, roughness: field/maps.h and field/occlusion.h say what a texel holds. Codes 0..M are
+     occlusion, roughness  0 to 1          direction  0 to 360 degrees
+     horizon               slopes 0 to the largest, in one direction; all directions, a channel each, are floats
+     cavity                -full to 0: white is not in a cavity, black as deep as the deepest
+   displacement: scale (F - ground), 0 or the lowest or a given height being the ground; coded like heights.
+   mask: 1 from low to high, down to 0 over `feather` beyond either; sharp where that is 0.
+   wear: of edges. With c = convex curvature over `full`, or what one texel in 50 is above, at most 1, and N a periodic noise of -1..1 of `grain` cells,
+     max(0, min(1, (c (1 + noise N) - threshold) / (1 - threshold))).
+   All but wear with noise are moved with the table, to the bit.
+
    lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
    white; vectors where the ending is svg or pdf, else a picture of 8 bits. profile: F along a line of the cell
    as a chart, by the scheme's interpolation.
@@ -52,6 +64,14 @@ typedef enum WrExportRange {
     WR_EXPORT_RANGE_SIGNED
 } WrExportRange;
 
+typedef enum WrExportPart { WR_EXPORT_BOTH, WR_EXPORT_CONVEX, WR_EXPORT_CONCAVE } WrExportPart;
+
+typedef enum WrExportGround {
+    WR_EXPORT_GROUND_ZERO,
+    WR_EXPORT_GROUND_LOWEST,
+    WR_EXPORT_GROUND_GIVEN
+} WrExportGround;
+
 typedef struct WrExportOptions {
     int depth; /* bits a channel: 8, 16, 32 (float); 0 = the deepest that the ending holds */
     WrExportRange range;   /* integer heights only; given is the only one that clips */
@@ -61,7 +81,23 @@ typedef struct WrExportOptions {
     const char *
         object; /* whose table; borrowed; NULL: of all layers, scheme and formula of the object at hand */
     double full; /* curvature: what is white, 1 / scene unit; 0: the largest that there is */
-    bool dither; /* depth 8 only: ordered dither of up to half a code either way */
+    /* Maps of the whole table: */
+    int directions; /* occlusion, horizon: 4, 8, 16, 32 */
+    int reach;      /* the same: texels; 0: all */
+    double toward;  /* horizon: degrees; below 0: all directions, a channel each */
+    double radius;  /* cavity: standard deviation of the blur, texels */
+    int part;       /* curvature: a WrExportPart */
+    int box;        /* roughness: texels, odd */
+    double base;    /* roughness: Beckmann's alpha of the material, 0..1 */
+    WrExportGround ground;
+    double ground_at;           /* displacement: of ground given, table units */
+    double scale;               /* displacement: of F = 1; NAN: the scene's height */
+    double mask_low, mask_high; /* mask: NAN: the middle of the range; none */
+    double feather;             /* mask: table units, >= 0 */
+    double threshold;           /* wear: 0 up to 1 */
+    double noise;               /* wear: 0..1 */
+    int grain;                  /* wear: cells of the noise across the table */
+    bool dither;                /* depth 8 only: ordered dither of up to half a code either way */
     /* lines: */
     int lines_u, lines_v; /* lines along u, along v: 0..1024, not both 0; at most one a texel */
     double turn_deg, tilt_deg; /* about the vertical; above the horizon, 0..90 */
@@ -114,7 +150,10 @@ typedef struct WrExportOptionInfo {
     bool named;                /* its value is the name of something of the document */
 } WrExportOptionInfo;
 
-#define WR_EXPORT_OPTIONS 7 /* most options of a kind */
+#define WR_EXPORT_OPTIONS 9 /* most options of a kind */
+
+#define WR_EXPORT_CHANNELS 32 /* at most */
+#define WR_EXPORT_NAME 16     /* bytes of a channel's name */
 
 typedef struct WrExportJob WrExportJob; /* private to the room */
 
@@ -126,6 +165,10 @@ typedef struct WrExportKind {
     const char *const *channel_names;                  /* [channels]; NULL: the usual ones */
     double green;                                      /* normals: sign of the second component */
     const char *ending; /* the one that its files must have; NULL: a picture's or a drawing's */
+    /* The same, of options; NULL: `channels`, and the usual names. names: [WR_EXPORT_CHANNELS][WR_EXPORT_NAME] to be filled */
+    int (*count_channels)(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);
+    /* Make the whole map, which the rows then only put down: of kinds that must see all of the table. May be NULL. */
+    bool (*make)(WrExportJob *job, WrError *err);
     /* What must be known of the whole table before the first row (ranges). May be NULL. */
     void (*prepare)(WrExportJob *job);
     /* Write the whole file, in place of what follows: drawings. The job's options are settled. May be
@@ -137,7 +180,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 11
+#define WR_EXPORT_KIND_COUNT 19
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

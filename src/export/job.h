@@ -19,7 +19,9 @@ struct WrExportJob {
     const WrScene *scene;
     WrExportOptions options; /* depth and scheme settled */
     WrPool *pool;            /* may be NULL */
-    int width, height;
+    int width, height, channels;
+    char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* of kinds that count them */
+    float *map;            /* [height][width][channels] of kinds that make it whole */
     bool analytic;         /* F is the scene's formula, not the table */
     double *u;             /* [width] texel centres */
     WrExportReport report; /* pieces add their counts atomically */
@@ -58,6 +60,30 @@ void wr_export_describe_slopes(WrExportJob *job);
 /* Heights of rows [y, y + rows) in table units; returns how many were not finite and became 0. */
 int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out);
 
+/* What the maps of a table are made of. field: heights of a formula, sampled; owned by the caller; NULL: the table. */
+typedef struct WrGround WrGround;
+WrGround wr_export_ground(const WrExportJob *job, const WrField *field);
+/* Smallest and largest number of the map into the report. */
+void wr_export_map_range(WrExportJob *job, const char *quantity);
+/* Codes of a map about 0 in the middle, from -full to full. */
+void wr_export_signed_codes(WrExportJob *job, double full);
+/* The map's numbers in codes from low to high. */
+void wr_export_codes(WrExportJob *job, double low, double high);
+void wr_export_map_rows(WrExportJob *job, int y, int rows, void *out);
+void wr_export_map_describe(WrExportJob *job);
+
+/* maps.c, maps_plain.c */
+bool wr_export_occlusion_make(WrExportJob *job, WrError *err);
+bool wr_export_horizon_make(WrExportJob *job, WrError *err);
+int wr_export_horizon_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);
+bool wr_export_cavity_make(WrExportJob *job, WrError *err);
+bool wr_export_curvature_make(WrExportJob *job, WrError *err);
+bool wr_export_direction_make(WrExportJob *job, WrError *err);
+bool wr_export_roughness_make(WrExportJob *job, WrError *err);
+bool wr_export_displacement_make(WrExportJob *job, WrError *err);
+bool wr_export_mask_make(WrExportJob *job, WrError *err);
+bool wr_export_wear_make(WrExportJob *job, WrError *err);
+
 /* height.c, normal.c, derived.c, drawing.c, profile.c, solid.c: the functions of the kinds. */
 void wr_export_height_prepare(WrExportJob *job);
 void wr_export_height_rows(WrExportJob *job, int y, int rows, void *out);
@@ -66,9 +92,7 @@ void wr_export_normal_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_normal_describe(WrExportJob *job);
 void wr_export_slopes_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_rows(WrExportJob *job, int y, int rows, void *out);
-void wr_export_curvature_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_prepare(WrExportJob *job);
-void wr_export_curvature_prepare(WrExportJob *job);
 void wr_export_derived_describe(WrExportJob *job);
 bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err);

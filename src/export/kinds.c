@@ -2,6 +2,7 @@
 #include "base/rows.h"
 #include "export/job.h"
 #include "export/lines.h"
+#include "export/map_options.h"
 #include "field/scheme.h"
 
 #include <math.h>
@@ -50,17 +51,6 @@ static bool set_cell(WrExportOptions *options, const char *value, WrError *err)
         return wr_fail(err, "cell '%.80s': must be WIDTH,HEIGHT, both above 0", value);
     options->cell_w = w;
     options->cell_h = h;
-    return true;
-}
-
-static bool set_full(WrExportOptions *options, const char *value, WrError *err)
-{
-    double full = 0.0;
-    if (strcmp(value, "auto") != 0 &&
-        (!wr_number_parse(value, strlen(value), &full) || !(full > 0.0) || !isfinite(full)))
-        return wr_fail(err, "full '%.40s': must be a curvature above 0, 1 / scene unit, or auto",
-                       value);
-    options->full = full;
     return true;
 }
 
@@ -320,19 +310,80 @@ const WrExportKind wr_export_kinds[] = {
       .label = "curvature",
       .help = "mean curvature, ridges bright, grooves dark, level in the middle; float files "
               "hold it, ridges above 0",
-      .options = { DEPTH,
-                   CELL,
-                   SCHEME,
-                   DITHER,
-                   OBJECT,
-                   { "full", "CURVATURE or auto",
-                     "what is white, 1 / scene unit, and its opposite black; left out: the largest "
-                     "there is",
-                     set_full } },
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BEND, WR_OPTION_PART },
       .channels = 1,
-      .prepare = wr_export_curvature_prepare,
-      .rows = wr_export_curvature_rows,
-      .describe = wr_export_derived_describe },
+      .make = wr_export_curvature_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "occlusion",
+      .label = "ambient occlusion",
+      .help = "how much of the sky each texel sees, 0 to 1, by exact horizons",
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_DIRECTIONS, WR_OPTION_REACH },
+      .channels = 1,
+      .make = wr_export_occlusion_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "horizon",
+      .label = "horizons",
+      .help = "slopes up to the horizon: in one direction, or a channel of floats a direction",
+      .options = { DEPTH, CELL, DITHER, OBJECT, WR_OPTION_DIRECTIONS, WR_OPTION_REACH,
+                   WR_OPTION_TOWARD, WR_OPTION_STEEPEST },
+      .channels = 1,
+      .count_channels = wr_export_horizon_channels,
+      .make = wr_export_horizon_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "cavity",
+      .label = "cavity",
+      .help = "how deep a texel lies below what is about it, dark in grooves; float files hold "
+              "the depth, below 0",
+      .options = { DEPTH, DITHER, OBJECT, WR_OPTION_RADIUS, WR_OPTION_DEEPEST },
+      .channels = 1,
+      .make = wr_export_cavity_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "direction",
+      .label = "direction downhill",
+      .help = "degrees from u towards v, 0 to 360; level is 0",
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT },
+      .channels = 1,
+      .make = wr_export_direction_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "roughness",
+      .label = "roughness",
+      .help = "what the slopes of a box of texels are from afar, 0 to 1: the root of Beckmann's "
+              "alpha",
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BOX, WR_OPTION_BASE },
+      .channels = 1,
+      .make = wr_export_roughness_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "displacement",
+      .label = "displacement",
+      .help = "heights over a ground level, in scene units",
+      .options = { DEPTH, RANGE, DITHER, OBJECT, WR_OPTION_GROUND, WR_OPTION_SCALE },
+      .channels = 1,
+      .make = wr_export_displacement_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "mask",
+      .label = "mask of heights",
+      .help = "white from one height to another, black elsewhere",
+      .options = { DEPTH, DITHER, OBJECT, WR_OPTION_LOW, WR_OPTION_HIGH, WR_OPTION_FEATHER },
+      .channels = 1,
+      .make = wr_export_mask_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
+    { .name = "wear",
+      .label = "edge wear",
+      .help = "where edges rub off: what is convex, beyond a threshold, and broken up by noise",
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_WORN, WR_OPTION_THRESHOLD,
+                   WR_OPTION_NOISE, WR_OPTION_GRAIN },
+      .channels = 1,
+      .make = wr_export_wear_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_map_describe },
     { .name = "lines",
       .label = "line drawing",
       .help = "the cell as a 3D line drawing with hidden lines removed: svg, pdf, or a picture",

@@ -106,7 +106,7 @@ static void compare_piece(WrExportJob *job, int y, int rows, void *ctx)
 {
     Receipt *receipt = ctx;
     const bool normals = job->kind->green != 0.0;
-    const size_t step = normals ? 3 : 1, row = (size_t)job->width * (size_t)job->kind->channels;
+    const size_t step = normals ? 3 : 1, row = (size_t)job->width * (size_t)job->channels;
     double worst = 0.0;
     int bad_row = INT32_MAX;
     for (int j = 0; j < rows; j++) {
@@ -129,8 +129,8 @@ static float *wanted(const WrExportJob *job, int y, int rows)
     WrExportJob plain = *job;
     plain.options.depth = 32;
     plain.options.dither = false;
-    float *want = wr_alloc_unset((size_t)job->width * (size_t)job->kind->channels * (size_t)rows,
-                                 sizeof *want);
+    float *want =
+        wr_alloc_unset((size_t)job->width * (size_t)job->channels * (size_t)rows, sizeof *want);
     job->kind->rows(&plain, y, rows, want);
     return want;
 }

@@ -1,0 +1,322 @@
+/* Maps that are made of the whole table before the first row is written. */
+#include "export/job.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "field/field.h"
+#include "field/maps.h"
+#include "field/occlusion.h"
+#include "scene/scene.h"
+#include "system/thread.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- what they share ----------------------------------------------------------------------------- */
+
+WrGround wr_export_ground(const WrExportJob *job, const WrField *field)
+{
+    return (WrGround){ .field = field ? field : job->field,
+                       .formula = job->analytic ? &job->scene->analytic : NULL,
+                       .scheme = (WrScheme)job->options.scheme,
+                       .height = job->scene->height,
+                       .cell_w = job->options.cell_w,
+                       .cell_h = job->options.cell_h };
+}
+
+static bool hold_map(WrExportJob *job, WrError *err)
+{
+    const size_t texels = (size_t)job->width * (size_t)job->height;
+    job->map = wr_try_alloc(texels * (size_t)job->channels, sizeof(float), "map", err);
+    return job->map != NULL;
+}
+
+static WrMapPart whole(const WrExportJob *job)
+{
+    return (WrMapPart){ 0, 0, job->width, job->height, (size_t)job->width };
+}
+
+/* A formula's heights as a table, to be freed. */
+static WrField *sampled(WrExportJob *job, WrError *err)
+{
+    WrField *field = wr_field_new(job->width, job->height, wr_field_wrap_u(job->field),
+                                  wr_field_wrap_v(job->field), 0.0f, err);
+    float *row = wr_alloc((size_t)job->width, sizeof *row);
+    for (int y = 0; y < job->height && field; y++) {
+        job->report.replaced += wr_export_heights(job, y, 1, row);
+        wr_field_write(field, 0, y, job->width, 1, row, (size_t)job->width);
+    }
+    wr_free(row);
+    return field;
+}
+
+typedef struct Extent {
+    WrMutex lock;
+    double low, high;
+} Extent;
+
+static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
+{
+    Extent *extent = ctx;
+    const size_t row = (size_t)job->width * (size_t)job->channels;
+    const float *at = job->map + (size_t)y * row;
+    float low = at[0], high = at[0];
+    for (size_t i = 0; i < row * (size_t)rows; i++) {
+        low = at[i] < low ? at[i] : low;
+        high = at[i] > high ? at[i] : high;
+    }
+    wr_mutex_lock(&extent->lock);
+    extent->low = fmin(extent->low, (double)low);
+    extent->high = fmax(extent->high, (double)high);
+    wr_mutex_unlock(&extent->lock);
+}
+
+void wr_export_map_range(WrExportJob *job, const char *quantity)
+{
+    Extent extent = { .low = INFINITY, .high = -INFINITY };
+    wr_mutex_init(&extent.lock);
+    wr_export_run(job, 0, job->height, find_extent, &extent);
+    wr_mutex_fini(&extent.lock);
+    job->report.low = extent.low;
+    job->report.high = extent.high;
+    job->report.quantity = quantity;
+}
+
+void wr_export_codes(WrExportJob *job, double low, double high)
+{
+    WrExportReport *report = &job->report;
+    if (job->options.depth == 32) return;
+    report->ranged = true;
+    report->code_low = low;
+    report->code_high = high > low ? high : low + 1;
+}
+
+void wr_export_signed_codes(WrExportJob *job, double full)
+{
+    WrExportReport *report = &job->report;
+    if (job->options.depth == 32) return;
+    const double last = wr_export_last_code(job);
+    report->ranged = true;
+    report->amplitude = full;
+    report->zero_code = (int)(last + 1) / 2;
+    const double step = full / (report->zero_code - 1);
+    report->code_low = -step * report->zero_code;
+    report->code_high = step * (last - report->zero_code);
+}
+
+/* A number in codes above the code of 0, or above the first code. */
+static double code_of(const WrExportJob *job, double x)
+{
+    const WrExportReport *report = &job->report;
+    if (report->zero_code >= 0)
+        return report->amplitude > 0 ? (report->zero_code - 1) * x / report->amplitude : 0;
+    return wr_export_last_code(job) * (x - report->code_low) /
+           (report->code_high - report->code_low);
+}
+
+typedef struct Strip {
+    int y;
+    void *out;
+} Strip;
+
+static bool beyond(const WrExportReport *report, double x)
+{
+    if (report->zero_code >= 0) return fabs(x) > report->amplitude;
+    return x < report->code_low || x > report->code_high;
+}
+
+static void map_piece(WrExportJob *job, int y, int rows, void *ctx)
+{
+    const Strip *strip = ctx;
+    const size_t row = (size_t)job->width * (size_t)job->channels;
+    const size_t first = (size_t)(y - strip->y) * row;
+    const float *from = job->map + (size_t)y * row;
+    const int zero = job->report.zero_code < 0 ? 0 : job->report.zero_code;
+    int64_t clipped = 0;
+    if (job->options.depth == 32) {
+        memcpy((float *)strip->out + first, from, row * (size_t)rows * sizeof *from);
+        return;
+    }
+    for (size_t i = 0; i < row * (size_t)rows; i++) {
+        const int column = (int)(i % row) / job->channels, channel = (int)(i % row) % job->channels;
+        const double x = (double)from[i];
+        clipped += beyond(&job->report, x);
+        wr_export_store_code(job, strip->out, first + i, code_of(job, x), zero,
+                             (WrExportTexel){ column, y + (int)(i / row), channel });
+    }
+    __atomic_fetch_add(&job->report.clipped, clipped, __ATOMIC_RELAXED);
+}
+
+void wr_export_map_rows(WrExportJob *job, int y, int rows, void *out)
+{
+    Strip strip = { y, out };
+    wr_export_run(job, y, rows, map_piece, &strip);
+}
+
+static void describe_sky(WrExportJob *job)
+{
+    wr_text_addf(wr_export_attribute(job, "wrinkle:directions"), "%d", job->options.directions);
+    WrText *reach = wr_export_attribute(job, "wrinkle:reach");
+    if (job->options.reach) wr_text_addf(reach, "%d", job->options.reach);
+    else wr_text_add(reach, "all");
+}
+
+void wr_export_map_describe(WrExportJob *job)
+{
+    const WrExportKind *kind = job->kind;
+    if (kind->make == wr_export_occlusion_make || kind->make == wr_export_horizon_make)
+        describe_sky(job);
+    wr_export_derived_describe(job);
+}
+
+/* ---- maps of field/maps.h ------------------------------------------------------------------------ */
+
+/* Fill the map and its range. job: settings but the ground. */
+static bool fill(WrExportJob *job, WrMapKind kind, const WrMapJob *settings, const char *quantity,
+                 WrError *err)
+{
+    const WrMapPart part = whole(job);
+    WrField *own = job->analytic ? sampled(job, err) : NULL;
+    WrMapJob made = *settings;
+    int64_t replaced = 0;
+    if ((job->analytic && !own) || !hold_map(job, err)) {
+        wr_field_free(own);
+        return false;
+    }
+    made.ground = wr_export_ground(job, own);
+    const bool good = wr_map_make(kind, &made, &part, job->pool, job->map, &replaced, err);
+    wr_field_free(own);
+    job->report.replaced += replaced;
+    if (good) wr_export_map_range(job, quantity);
+    return good;
+}
+
+bool wr_export_occlusion_make(WrExportJob *job, WrError *err)
+{
+    const WrMapJob settings = { .directions = job->options.directions,
+                                .reach = job->options.reach };
+    if (!fill(job, WR_MAP_OCCLUSION, &settings, "occlusion", err)) return false;
+    wr_export_codes(job, 0, 1);
+    return true;
+}
+
+bool wr_export_cavity_make(WrExportJob *job, WrError *err)
+{
+    const WrMapJob settings = { .sigma = job->options.radius };
+    if (!fill(job, WR_MAP_CAVITY, &settings, "depth", err)) return false;
+    wr_export_codes(job, job->options.full > 0 ? -job->options.full : job->report.low, 0);
+    if (!(job->report.low < 0) && !(job->options.full > 0)) wr_export_codes(job, -1, 0);
+    return true;
+}
+
+bool wr_export_direction_make(WrExportJob *job, WrError *err)
+{
+    const WrMapJob settings = { 0 };
+    if (!fill(job, WR_MAP_DIRECTION, &settings, "degrees", err)) return false;
+    wr_export_codes(job, 0, 360);
+    return true;
+}
+
+bool wr_export_roughness_make(WrExportJob *job, WrError *err)
+{
+    const WrMapJob settings = { .box = job->options.box, .base = job->options.base };
+    if (!fill(job, WR_MAP_ROUGHNESS, &settings, "roughness", err)) return false;
+    wr_export_codes(job, 0, 1);
+    return true;
+}
+
+/* Of what is convex, or concave, alone; so that both are above 0. */
+static void keep_part(WrExportJob *job, WrExportPart part)
+{
+    const size_t texels = (size_t)job->width * (size_t)job->height;
+    const float sign = part == WR_EXPORT_CONVEX ? 1.0f : -1.0f;
+    for (size_t i = 0; i < texels && part != WR_EXPORT_BOTH; i++) {
+        const float x = sign * job->map[i];
+        job->map[i] = x > 0 ? x : 0.0f;
+    }
+}
+
+bool wr_export_curvature_make(WrExportJob *job, WrError *err)
+{
+    const WrMapJob settings = { 0 };
+    const double full = job->options.full;
+    if (!fill(job, WR_MAP_CURVATURE, &settings, "curvature", err)) return false;
+    const double most = fmax(fabs(job->report.low), fabs(job->report.high));
+    if (job->options.part == WR_EXPORT_BOTH) {
+        wr_export_signed_codes(job, full > 0 ? full : most);
+        return true;
+    }
+    keep_part(job, (WrExportPart)job->options.part);
+    wr_export_map_range(job, job->options.part == WR_EXPORT_CONVEX ? "convexity" : "concavity");
+    wr_export_codes(job, 0, full > 0 ? full : job->report.high);
+    return true;
+}
+
+/* ---- horizons ------------------------------------------------------------------------------------ */
+
+static WrOcclusion horizon_of(const WrExportJob *job, const WrField *field)
+{
+    return (WrOcclusion){ .field = field,
+                          .height = job->scene->height,
+                          .texel_w = job->options.cell_w / job->width,
+                          .texel_h = job->options.cell_h / job->height,
+                          .directions = job->options.directions,
+                          .reach = job->options.reach };
+}
+
+int wr_export_horizon_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NAME])
+{
+    WrExportJob sized = *job;
+    if (job->options.toward >= 0) return 1;
+    sized.width = wr_field_width(job->field);
+    sized.height = wr_field_height(job->field);
+    if (sized.options.cell_w == 0) sized.options.cell_w = job->scene->cell.w;
+    if (sized.options.cell_h == 0) sized.options.cell_h = job->scene->cell.h;
+    const WrOcclusion o = horizon_of(&sized, job->field);
+    for (int k = 0; k < o.directions; k++)
+        snprintf(names[k], WR_EXPORT_NAME, "h%02u_%03u", (unsigned)k % 100,
+                 (unsigned)lrint(wr_occlusion_degrees(&o, k)) % 1000);
+    return o.directions;
+}
+
+/* The direction that is nearest to those degrees. */
+static int nearest(const WrOcclusion *o, double degrees)
+{
+    int best = 0;
+    double least = 1e9;
+    for (int k = 0; k < o->directions; k++) {
+        const double off = fabs(remainder(wr_occlusion_degrees(o, k) - degrees, 360));
+        if (off < least) least = off, best = k;
+    }
+    return best;
+}
+
+static bool fill_horizons(WrExportJob *job, const WrOcclusion *o, WrError *err)
+{
+    const size_t texels = (size_t)job->width * (size_t)job->height,
+                 channels = (size_t)job->channels;
+    const WrMapPart part = whole(job);
+    float *one = job->channels > 1 ? wr_try_alloc(texels, sizeof *one, "horizons", err) : job->map;
+    bool good = one != NULL;
+    for (int k = 0; k < job->channels && good; k++) {
+        const int direction = job->channels > 1 ? k : nearest(o, job->options.toward);
+        good = wr_occlusion_horizon(o, &part, direction, job->pool, one, err);
+        for (size_t i = 0; i < texels && one != job->map; i++)
+            job->map[i * channels + (size_t)k] = one[i];
+    }
+    if (one != job->map) wr_free(one);
+    return good;
+}
+
+bool wr_export_horizon_make(WrExportJob *job, WrError *err)
+{
+    WrField *own = job->analytic ? sampled(job, err) : NULL;
+    const WrOcclusion o = horizon_of(job, own ? own : job->field);
+    const bool good = (own || !job->analytic) && hold_map(job, err) && fill_horizons(job, &o, err);
+    wr_field_free(own);
+    if (!good) return false;
+    wr_export_map_range(job, "slopes");
+    wr_export_codes(job, 0, job->options.full > 0 ? job->options.full : job->report.high);
+    return true;
+}

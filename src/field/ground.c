@@ -1,0 +1,209 @@
+#include "field/ground.h"
+
+#include "base/memory.h"
+#include "field/analytic.h"
+#include "field/field.h"
+
+#include <math.h>
+#include <string.h>
+
+#define APRON 2
+#define TAPS (2 * APRON + 1)
+
+/* A scheme along one axis, in texels, of the taps -2 .. 2 about a centre: value and slope there, and how much each grows
+   from half a texel before to half a texel after. `nearest`, whose slopes are those of `central` at the centres, has its
+   bends too. */
+typedef struct Stencil {
+    double value[TAPS], slope[TAPS], value_grows[TAPS], slope_grows[TAPS];
+} Stencil;
+
+static const Stencil central = {
+    { 0, 0, 1, 0, 0 }, { 0, -0.5, 0, 0.5, 0 }, { 0, -0.5, 0, 0.5, 0 }, { 0.25, 0, -0.5, 0, 0.25 }
+};
+static const Stencil bilinear = {
+    { 0, 0, 1, 0, 0 }, { 0, 0, -1, 1, 0 }, { 0, -0.5, 0, 0.5, 0 }, { 0, 1, -2, 1, 0 }
+};
+static const Stencil catmull = { { 0, 0, 1, 0, 0 },
+                                 { 0, -0.5, 0, 0.5, 0 },
+                                 { 0.0625, -0.625, 0, 0.625, -0.0625 },
+                                 { -0.125, 1.5, -2.75, 1.5, -0.125 } };
+static const Stencil spline = { { 0, 1 / 6.0, 4 / 6.0, 1 / 6.0, 0 },
+                                { 0, -0.5, 0, 0.5, 0 },
+                                { -1 / 48.0, -22 / 48.0, 0, 22 / 48.0, 1 / 48.0 },
+                                { 0.125, 0.5, -1.25, 0.5, 0.125 } };
+
+static const Stencil *stencil_of(WrScheme scheme)
+{
+    switch (scheme) {
+    case WR_SCHEME_BSPLINE:
+    case WR_SCHEME_BSPLINE_FIT: return &spline;
+    case WR_SCHEME_BILINEAR: return &bilinear;
+    case WR_SCHEME_CATMULL: return &catmull;
+    case WR_SCHEME_NEAREST:
+    case WR_SCHEME_CENTRAL:
+    case WR_SCHEME_COUNT: break;
+    }
+    return &central;
+}
+
+struct WrGroundBand {
+    WrGround ground;
+    int x, y, w, rows;
+    size_t pitch;
+    double
+        *taps; /* [rows + 2 APRON][pitch], the first texel at [APRON][APRON]; NULL of a formula */
+};
+
+WrGroundRow wr_ground_row_new(int count, bool bends)
+{
+    const size_t n = (size_t)count;
+    double *all = wr_alloc((bends ? 5 : 2) * n, sizeof *all);
+    WrGroundRow row = { .p = all, .q = all + n };
+    if (bends) row.r = all + 2 * n, row.s = all + 3 * n, row.t = all + 4 * n;
+    return row;
+}
+
+void wr_ground_row_free(WrGroundRow *row)
+{
+    wr_free(row->p);
+    *row = (WrGroundRow){ 0 };
+}
+
+static void read_taps(WrGroundBand *band)
+{
+    const WrField *field = band->ground.field;
+    const int wide = (int)band->pitch, tall = band->rows + 2 * APRON;
+    band->taps = wr_alloc_unset(band->pitch * (size_t)tall, sizeof(double));
+    if (wr_schemes[band->ground.scheme].taps == WR_TAPS_FITTED) {
+        wr_field_read_fitted_double(field, band->x - APRON, band->y - APRON, wide, tall, band->taps,
+                                    band->pitch);
+        return;
+    }
+    float *row = wr_alloc_unset(band->pitch, sizeof *row);
+    for (int j = 0; j < tall; j++) {
+        wr_field_read(field, band->x - APRON, band->y - APRON + j, wide, 1, row, band->pitch);
+        for (int i = 0; i < wide; i++)
+            band->taps[(size_t)j * band->pitch + (size_t)i] = (double)row[i];
+    }
+    wr_free(row);
+}
+
+WrGroundBand *wr_ground_open(const WrGround *ground, int x, int y, int w, int rows)
+{
+    WrGroundBand *band = wr_alloc(1, sizeof *band);
+    *band = (WrGroundBand){ *ground, x, y, w, rows, (size_t)w + 2 * APRON, NULL };
+    if (!ground->formula) read_taps(band);
+    return band;
+}
+
+void wr_ground_close(WrGroundBand *band)
+{
+    if (!band) return;
+    wr_free(band->taps);
+    wr_free(band);
+}
+
+/* out[i] = sum of weight[k] in[i + (k - APRON) step], from the first tap to the last. */
+static void weigh(const double weight[TAPS], const double *in, ptrdiff_t step, int count,
+                  double *restrict out)
+{
+    bool first = true;
+    for (int k = 0; k < TAPS; k++) {
+        const double *at = in + (k - APRON) * step, w = weight[k];
+        if (w == 0) continue;
+        if (first)
+            for (int i = 0; i < count; i++) out[i] = w * at[i];
+        else
+            for (int i = 0; i < count; i++) out[i] += w * at[i];
+        first = false;
+    }
+}
+
+static void scale(double by, int count, double *x)
+{
+    for (int i = 0; i < count; i++) x[i] *= by;
+}
+
+/* s is the mean of how q grows along x and of how p grows along y; rows go down, y up. */
+static void bends(const WrGroundBand *band, const Stencil *st, const double *at, double *line,
+                  const WrGroundRow *out)
+{
+    const int w = band->w, wide = (int)band->pitch;
+    const ptrdiff_t down = (ptrdiff_t)band->pitch;
+    double *inner = line + APRON, *more = line + band->pitch;
+    weigh(st->value, at - APRON, down, wide, line);
+    weigh(st->slope_grows, inner, 1, w, out->r);
+    weigh(st->slope_grows, at - APRON, down, wide, line);
+    weigh(st->value, inner, 1, w, out->t);
+    weigh(st->slope, at - APRON, down, wide, line);
+    weigh(st->value_grows, inner, 1, w, out->s);
+    weigh(st->value_grows, at - APRON, down, wide, line);
+    weigh(st->slope, inner, 1, w, more);
+    for (int i = 0; i < w; i++) out->s[i] += more[i];
+}
+
+static void row_of_table(const WrGroundBand *band, int j, const WrGroundRow *out)
+{
+    const WrGround *g = &band->ground;
+    const Stencil *st = stencil_of(g->scheme);
+    const ptrdiff_t down = (ptrdiff_t)band->pitch;
+    const double *at = band->taps + (j + APRON) * down + APRON;
+    const double x = g->cell_w / wr_field_width(g->field);
+    const double y = g->cell_h / wr_field_height(g->field);
+    double *line = wr_alloc_unset(2 * band->pitch, sizeof *line);
+    weigh(st->value, at - APRON, down, (int)band->pitch, line);
+    weigh(st->slope, line + APRON, 1, band->w, out->p);
+    weigh(st->slope, at - APRON, down, (int)band->pitch, line);
+    weigh(st->value, line + APRON, 1, band->w, out->q);
+    scale(g->height / x, band->w, out->p);
+    scale(-g->height / y, band->w, out->q);
+    if (out->r) {
+        bends(band, st, at, line, out);
+        scale(g->height / (x * x), band->w, out->r);
+        scale(-0.5 * g->height / (x * y), band->w, out->s);
+        scale(g->height / (y * y), band->w, out->t);
+    }
+    wr_free(line);
+}
+
+/* Slopes of the formula there, over u and v. */
+static void formula_slopes(const WrGround *g, double u, double v, double *p, double *q)
+{
+    double fu, fv;
+    wr_analytic_sample(g->formula, u, v, NULL, &fu, &fv);
+    *p = g->height * fu / g->cell_w;
+    *q = g->height * fv / g->cell_h;
+}
+
+static void row_of_formula(const WrGroundBand *band, int j, const WrGroundRow *out)
+{
+    const WrGround *g = &band->ground;
+    const int w = wr_field_width(g->field), h = wr_field_height(g->field);
+    const double v = 1 - (band->y + j + 0.5) / h, half_u = 0.5 / w, half_v = 0.5 / h;
+    for (int i = 0; i < band->w; i++) {
+        const double u = (band->x + i + 0.5) / w;
+        double p[4], q[4];
+        formula_slopes(g, u, v, &out->p[i], &out->q[i]);
+        if (!out->r) continue;
+        formula_slopes(g, u + half_u, v, &p[0], &q[0]);
+        formula_slopes(g, u - half_u, v, &p[1], &q[1]);
+        formula_slopes(g, u, v + half_v, &p[2], &q[2]);
+        formula_slopes(g, u, v - half_v, &p[3], &q[3]);
+        const double x = g->cell_w / w, y = g->cell_h / h;
+        out->r[i] = (p[0] - p[1]) / x;
+        out->t[i] = (q[2] - q[3]) / y;
+        out->s[i] = 0.5 * ((q[0] - q[1]) / x + (p[2] - p[3]) / y);
+    }
+}
+
+void wr_ground_row(const WrGroundBand *band, int j, const WrGroundRow *out)
+{
+    if (band->ground.formula) row_of_formula(band, j, out);
+    else row_of_table(band, j, out);
+}
+
+double wr_ground_convexity(double p, double q, double r, double s, double t)
+{
+    const double n2 = 1 + p * p + q * q;
+    return -((1 + q * q) * r - 2 * p * q * s + (1 + p * p) * t) / (2 * n2 * sqrt(n2));
+}

@@ -1,0 +1,49 @@
+/* ground.h - the slopes and bends of a table's relief over a cell, at the texels' centres.
+   Layer 1.
+
+   Every scheme's are a fixed stencil of table entries there (of coefficients for the splines), so that no position is
+   rounded: a table that is moved by whole texels over its periodic axes gives the moved numbers, to the bit. */
+#pragma once
+#include "field/scheme.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct WrAnalytic WrAnalytic;
+typedef struct WrField WrField;
+
+/* Heights times `height` over a cell of that size: scene units. */
+typedef struct WrGround {
+    const WrField *field;
+    const WrAnalytic *formula; /* in the table's place; NULL: none */
+    WrScheme scheme;
+    double height, cell_w, cell_h;
+} WrGround;
+
+/* A rectangle of texels inside the table; rows of what is made of it are `pitch` numbers apart. */
+typedef struct WrMapPart {
+    int x, y, w, h;
+    size_t pitch;
+} WrMapPart;
+
+/* Of a row of texels, y up: slopes, and second derivatives as differences of the scheme's slopes across a texel, that is
+ * their means over it. r, s and t are NULL where they are not wanted. */
+typedef struct WrGroundRow {
+    double *p, *q;     /* dz/dx, dz/dy */
+    double *r, *s, *t; /* d2z/dx2, d2z/dxdy, d2z/dy2 */
+} WrGroundRow;
+
+/* Rows of all widths' numbers, to be freed as a whole. bends: r, s and t too. */
+WrGroundRow wr_ground_row_new(int count, bool bends);
+void wr_ground_row_free(WrGroundRow *row);
+
+/* Some rows under way: what they need of the table is read, and fitted, once. */
+typedef struct WrGroundBand WrGroundBand;
+WrGroundBand *wr_ground_open(const WrGround *ground, int x, int y, int w, int rows);
+void wr_ground_close(WrGroundBand *band);
+/* The band's row j, 0..rows-1. */
+void wr_ground_row(const WrGroundBand *band, int j, const WrGroundRow *out);
+
+/* Minus the mean curvature, so that what is convex, ridges, is above 0:
+ *   ((1 + q^2) r - 2 p q s + (1 + p^2) t) / (-2 (1 + p^2 + q^2)^(3/2)) */
+double wr_ground_convexity(double p, double q, double r, double s, double t);

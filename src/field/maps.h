@@ -1,0 +1,58 @@
+/* maps.h - maps of a table, as rows of one table: exports and views of the canvas are made of them.
+   Layer 1.
+
+   | map       | a texel holds                                                                     |
+   | occlusion | what its plane sees of the sky, 0..1 (occlusion.h)                                |
+   | cavity    | min(0, F - blurred F) height, scene units: how deep it lies in what is about it   |
+   | curvature | minus the mean curvature (ground.h), 1 / scene unit: ridges above 0, grooves below |
+   | slope     | the angle of its plane, degrees 0..90                                             |
+   | direction | downhill, degrees 0..360 anticlockwise from u; 0 where it is level                |
+   | roughness | root of alpha, at most 1: alpha^2 = base^2 + the sum of the variances of both slopes over a box about it, |
+   |           | which is the mean of Beckmann's alpha^2 over the principal axes, each twice its variance               |
+
+   A table that is moved by whole texels over its periodic axes gives the moved map, to the bit, on any number of threads. */
+#pragma once
+#include "field/ground.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrPool WrPool;
+
+typedef struct WrMapJob {
+    WrGround ground; /* heights are those of its field, also where slopes are of its formula */
+    int directions, reach; /* occlusion */
+    double sigma;          /* cavity, texels, > 0 */
+    int box;               /* roughness: texels along a side, odd, 1..WR_MAP_BOX */
+    double base;           /* roughness: alpha of the material itself, 0..1 */
+} WrMapJob;
+
+#define WR_MAP_BOX 255
+
+WrMapJob wr_map_default(const WrGround *ground);
+
+typedef struct WrMap {
+    const char *name;
+    /* out: [h][part.pitch]. Errors: no memory; cancelled. Texels whose numbers were not finite become 0 and are counted. */
+    bool (*make)(const WrMapJob *job, const WrMapPart *part, WrPool *pool, float *out,
+                 int64_t *replaced, WrError *err);
+    /* How far from a texel its number depends on heights, in texels; -1: as far as there are any. */
+    int (*support)(const WrMapJob *job);
+} WrMap;
+
+typedef enum WrMapKind {
+    WR_MAP_OCCLUSION,
+    WR_MAP_CAVITY,
+    WR_MAP_CURVATURE,
+    WR_MAP_SLOPE,
+    WR_MAP_DIRECTION,
+    WR_MAP_ROUGHNESS,
+    WR_MAP_COUNT
+} WrMapKind;
+
+extern const WrMap wr_maps[WR_MAP_COUNT];
+
+/* As wr_maps[kind].make: of a part of the table, or of all of it. */
+bool wr_map_make(WrMapKind kind, const WrMapJob *job, const WrMapPart *part, WrPool *pool,
+                 float *out, int64_t *replaced, WrError *err);

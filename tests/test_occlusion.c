@@ -1,0 +1,382 @@
+/* Occlusion and horizons of tables: against looking at every texel of the lines, in double, and against closed forms. */
+#include "test.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+#include "field/occlusion.h"
+#include "field/occlusion_kern.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static uint32_t seed = 1978;
+
+static double random_between(double low, double high)
+{
+    seed = seed * 1664525u + 1013904223u;
+    return low + (high - low) * (seed / 4294967296.0);
+}
+
+static WrField *field_of(int w, int h, WrWrap u, WrWrap v)
+{
+    return wr_field_new(w, h, u, v, 0.0f, NULL);
+}
+
+static WrField *rough(int w, int h, WrWrap u, WrWrap v)
+{
+    WrField *field = field_of(w, h, u, v);
+    for (int k = 0; k < w * h; k++)
+        wr_field_set(field, k % w, k / w, (float)random_between(-1, 1.3));
+    return field;
+}
+
+typedef struct Map {
+    WrOcclusion how;
+    WrMapPart part;
+    float *p, *q, *out;
+} Map;
+
+static Map map_of(const WrField *field, int directions, int reach)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field);
+    Map map = {
+        { field, 1.7, 0.83, 1.21, directions, reach }, { 0, 0, w, h, (size_t)w + 3 }, 0, 0, 0
+    };
+    map.p = wr_alloc(map.part.pitch * (size_t)h, sizeof(float));
+    map.q = wr_alloc(map.part.pitch * (size_t)h, sizeof(float));
+    map.out = wr_alloc(map.part.pitch * (size_t)h, sizeof(float));
+    return map;
+}
+
+static void free_map(Map *map)
+{
+    wr_free(map->p), wr_free(map->q), wr_free(map->out);
+}
+
+static double out_at(const Map *map, int i, int j)
+{
+    return (double)map->out[(size_t)j * map->part.pitch + (size_t)i];
+}
+
+static int turned(int at, int n, WrWrap wrap)
+{
+    return wrap == WR_WRAP_PERIODIC ? (at % n + n) % n : at < 0 ? 0 : at < n ? at : n - 1;
+}
+
+static double texel(const WrField *f, int i, int j)
+{
+    return (double)wr_field_get(f, turned(i, wr_field_width(f), wr_field_wrap_u(f)),
+                                turned(j, wr_field_height(f), wr_field_wrap_v(f)));
+}
+
+/* The height where a step of t texels in direction k leads: what lies between two texels is between their heights. */
+static double on_line(const WrField *f, int i, int j, double x, double y, int t)
+{
+    const double u = i + t * x, v = j - t * y;
+    const int a = (int)floor(u), b = (int)floor(v);
+    const double s = u - a, r = v - b;
+    return (1 - s) * (1 - r) * texel(f, a, b) + s * (1 - r) * texel(f, a + 1, b) +
+           (1 - s) * r * texel(f, a, b + 1) + s * r * texel(f, a + 1, b + 1);
+}
+
+/* Direction k of n round the square, from u to v. */
+static void square(int k, int n, double *x, double *y)
+{
+    const double turn = 8.0 * k / n; /* eighths */
+    if (turn <= 1) *x = 1, *y = turn;
+    else if (turn < 3) *x = 2 - turn, *y = 1;
+    else if (turn <= 5) *x = -1, *y = 4 - turn;
+    else if (turn < 7) *x = turn - 6, *y = -1;
+    else *x = 1, *y = turn - 8;
+}
+
+static double looked(const Map *map, int i, int j, int k, int far)
+{
+    const WrOcclusion *how = &map->how;
+    double x, y, best = 0;
+    square(k, how->directions, &x, &y);
+    const double step = hypot(x * how->texel_w, y * how->texel_h);
+    const double from = texel(how->field, i, j);
+    for (int t = 1; t <= far; t++)
+        best = fmax(best, how->height * (on_line(how->field, i, j, x, y, t) - from) / (t * step));
+    return best;
+}
+
+static const int sizes[][2] = { { 1, 1 }, { 1, 5 },  { 6, 1 }, { 2, 3 },
+                                { 7, 9 }, { 11, 8 }, { 6, 14 } };
+
+/* HC122, HC155: all directions of small tables, on all wraps, as far as lines go until they have nothing new. */
+static void horizons_are_what_looking_finds(void **state)
+{
+    (void)state;
+    WrPool *pool = wr_pool_new(2);
+    for (int n = 0; n < 28; n++) {
+        const int *size = sizes[n / 4];
+        WrField *field = rough(size[0], size[1], n % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC,
+                               n / 2 % 2 ? WR_WRAP_CLAMP : WR_WRAP_PERIODIC);
+        Map map = map_of(field, 4 << n % 4, n % 3 == 2 ? 5 : 0);
+        if (n % 5 == 3) map.how.height = -0.9;
+        for (int k = 0; k < map.how.directions; k++) {
+            WrError err = { "" };
+            if (!wr_occlusion_horizon(&map.how, &map.part, k, pool, map.out, &err))
+                fail_msg("%s", err.text);
+            for (int m = 0; m < size[0] * size[1]; m++) {
+                const int i = m % size[0], j = m / size[0];
+                const double want = looked(
+                    &map, i, j, k, map.how.reach ? map.how.reach : 4 * size[0] * size[1] + 40);
+                if (!(fabs(out_at(&map, i, j) - want) <= 3e-7 * (1 + want)))
+                    fail_msg("%dx%d wrap %d, %d of %d at %d,%d: %.9g, not %.9g", size[0], size[1],
+                             n % 4, k, map.how.directions, i, j, out_at(&map, i, j), want);
+            }
+        }
+        free_map(&map);
+        wr_field_free(field);
+    }
+    wr_pool_free(pool);
+}
+
+static void make(Map *map, WrPool *pool)
+{
+    WrError err = { "" };
+    if (!wr_occlusion_make(&map->how, &map->part, map->p, map->q, pool, map->out, &err))
+        fail_msg("%s", err.text);
+}
+
+/* The share of the sky of a plane that rises by p, q, whose horizons have these slopes: the formula of the hemisphere's
+ * integral over each sector, by its own angles. */
+static double sky(const WrOcclusion *how, const double *slope, double p, double q)
+{
+    const double n = sqrt(1 + p * p + q * q);
+    double sum = 0;
+    for (int k = 0; k < how->directions; k++) {
+        double x, y, at[3];
+        for (int side = -1; side <= 1; side++) {
+            square((k + side + how->directions) % how->directions, how->directions, &x, &y);
+            at[side + 1] = atan2(y * how->texel_h, x * how->texel_w);
+        }
+        double wide = at[2] - at[0];
+        while (wide < 0) wide += 2 * PI;
+        const double out = -(p * cos(at[1]) + q * sin(at[1])) / n;
+        const double h = fmax(atan(slope[k]), atan2(-out, 1 / n)), up = cos(h);
+        sum += wide / 2 * (up * up / n / 2 + out * ((PI / 2 - h) / 2 - sin(2 * h) / 4));
+    }
+    return sum / PI;
+}
+
+static void occlusion_is_the_sky_that_horizons_leave(void **state)
+{
+    (void)state;
+    WrField *field = rough(9, 7, WR_WRAP_PERIODIC, WR_WRAP_CLAMP);
+    for (int n = 0; n < 8; n++) {
+        Map map = map_of(field, 4 << n % 4, n / 4 * 6);
+        for (int k = 0; k < 63; k++) {
+            const size_t at = (size_t)(k / 9) * map.part.pitch + (size_t)(k % 9);
+            map.p[at] = (float)random_between(-1.5, 1.5);
+            map.q[at] = (float)random_between(-1.5, 1.5);
+        }
+        make(&map, NULL);
+        for (int k = 0; k < 63; k++) {
+            const size_t at = (size_t)(k / 9) * map.part.pitch + (size_t)(k % 9);
+            double slope[32];
+            for (int d = 0; d < map.how.directions; d++)
+                slope[d] = looked(&map, k % 9, k / 9, d, map.how.reach ? map.how.reach : 400);
+            const double want = sky(&map.how, slope, (double)map.p[at], (double)map.q[at]);
+            assert_near(map.out[at], fmin(fmax(want, 0), 1), 3e-6);
+        }
+        free_map(&map);
+    }
+    wr_field_free(field);
+}
+
+/* Level ground sees all, whatever its height; 1 to the bit. */
+static void level_ground_sees_the_whole_sky(void **state)
+{
+    (void)state;
+    WrField *field = field_of(23, 10, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
+    wr_field_fill(field, -7.3f);
+    for (int n = 0; n < 8; n++) {
+        Map map = map_of(field, 4 << n % 4, n / 4 * 9);
+        make(&map, NULL);
+        for (int k = 0; k < 230; k++) assert_true(out_at(&map, k % 23, k / 23) == 1.0);
+        free_map(&map);
+    }
+    wr_field_free(field);
+}
+
+/* In the middle of a round pit: cos^2 of the rim's angle, R^2 / (R^2 + d^2). The rim is met within a texel. */
+static void a_round_pit_sees_what_its_rim_leaves(void **state)
+{
+    (void)state;
+    const int n = 257;
+    WrField *field = field_of(n, n, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
+    const double rim = 80, deep = 45;
+    for (int k = 0; k < n * n; k++)
+        wr_field_set(field, k % n, k / n,
+                     hypot(k % n - 128, k / n - 128) < rim ? (float)-deep : 0.0f);
+    for (int directions = 8; directions <= 32; directions *= 2) {
+        Map map = map_of(field, directions, directions == 16 ? 100 : 0);
+        map.how.height = map.how.texel_w = map.how.texel_h = 1;
+        make(&map, NULL);
+        const double want = rim * rim / (rim * rim + deep * deep);
+        assert_near(out_at(&map, 128, 128), want,
+                    2 * deep * deep * rim / pow(rim * rim + deep * deep, 2));
+        free_map(&map);
+    }
+    wr_field_free(field);
+}
+
+/* On the floor of a trench between walls at x1 and x2: 1/2 (1/sqrt(1 + d^2/x1^2) + 1/sqrt(1 + d^2/x2^2)); directions
+ * are few, and their error falls with the square of their number. */
+static void a_trench_sees_what_its_walls_leave(void **state)
+{
+    (void)state;
+    WrField *field = field_of(101, 101, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
+    const double deep = 13;
+    for (int k = 0; k < 101 * 101; k++)
+        wr_field_set(field, k % 101, k / 101, k % 101 > 20 && k % 101 < 60 ? (float)-deep : 0.0f);
+    double off[3];
+    for (int n = 0; n < 3; n++) {
+        Map map = map_of(field, 8 << n, 0);
+        map.how.height = map.how.texel_w = map.how.texel_h = 1;
+        make(&map, NULL);
+        off[n] = 0;
+        for (int i = 21; i < 60; i++) {
+            const double x1 = i - 20, x2 = 60 - i;
+            const double want =
+                0.5 / sqrt(1 + deep * deep / x1 / x1) + 0.5 / sqrt(1 + deep * deep / x2 / x2);
+            off[n] = fmax(off[n], fabs(out_at(&map, i, 50) - want));
+        }
+        free_map(&map);
+    }
+    if (!(off[0] < 0.1 && off[1] < 0.045 && off[2] < 0.013))
+        fail_msg("%g %g %g", off[0], off[1], off[2]);
+    wr_field_free(field);
+}
+
+/* A cos 2 pi x: from the trough the horizon's slope is 2 pi A 0.724611 along x, where tan(y / 2) = y; to the square of a texel. */
+static void the_horizon_of_a_trough_is_known(void **state)
+{
+    (void)state;
+    const int n = 1000;
+    WrField *field = field_of(n, 1, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
+    for (int i = 0; i < n; i++) wr_field_set(field, i, 0, (float)(0.37 * cos(2 * PI * i / n)));
+    Map map = map_of(field, 4, 0);
+    map.how.height = 1.5, map.how.texel_w = 1.0 / n;
+    WrError err = { "" };
+    for (int k = 0; k < 4; k += 2) {
+        assert_true(wr_occlusion_horizon(&map.how, &map.part, k, NULL, map.out, &err));
+        assert_near(out_at(&map, n / 2, 0), 2 * PI * 0.37 * 1.5 * 0.724611, 2e-5);
+    }
+    free_map(&map);
+    wr_field_free(field);
+}
+
+/* A plane tilted against a level horizon sees (1 + cos) / 2; in one that is its own, all. Of wide level ground each. */
+static void a_tilted_plane_sees_what_it_faces(void **state)
+{
+    (void)state;
+    WrField *field = field_of(8, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
+    for (int n = 0; n < 3; n++) {
+        Map map = map_of(field, 8 << n, 0);
+        map.how.texel_w = map.how.texel_h = 1;
+        for (size_t k = 0; k < 8 * map.part.pitch; k++) map.p[k] = 0.4f, map.q[k] = -0.7f;
+        make(&map, NULL);
+        const double want = (1 + 1 / sqrt(1 + 0.16 + 0.49)) / 2;
+        assert_near(out_at(&map, 3, 5), want, 0.03 / (1 << 2 * n));
+        free_map(&map);
+    }
+    wr_field_free(field);
+}
+
+/* Odd and unequal sizes, lines that do not close among them: rolled by whole texels, on other threads. */
+static void a_moved_table_gives_the_moved_map(void **state)
+{
+    (void)state;
+    const int shapes[][2] = { { 67, 41 }, { 64, 64 }, { 5, 130 }, { 1, 9 }, { 2, 3 } };
+    for (int n = 0; n < 10; n++) {
+        const int w = shapes[n / 2][0], h = shapes[n / 2][1], dx = w / 3 + 1, dy = h / 2;
+        WrField *field = rough(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
+        WrField *moved = field_of(w, h, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC);
+        WrPool *pool = wr_pool_new(3);
+        Map a = map_of(field, 32, n % 2 * 7), b = map_of(moved, 32, n % 2 * 7);
+        for (int k = 0; k < w * h; k++) {
+            const int i = (k % w + dx) % w, j = (k / w + dy) % h;
+            const size_t from = (size_t)(k / w) * a.part.pitch + (size_t)(k % w);
+            const size_t to = (size_t)j * a.part.pitch + (size_t)i;
+            wr_field_set(moved, i, j, wr_field_get(field, k % w, k / w));
+            b.p[to] = a.p[from] = (float)random_between(-1, 1);
+            b.q[to] = a.q[from] = (float)random_between(-1, 1);
+        }
+        make(&a, NULL);
+        make(&b, pool);
+        for (int k = 0; k < w * h; k++)
+            assert_true(out_at(&a, k % w, k / w) == out_at(&b, (k % w + dx) % w, (k / w + dy) % h));
+        free_map(&a), free_map(&b);
+        wr_pool_free(pool);
+        wr_field_free(field), wr_field_free(moved);
+    }
+}
+
+/* A part of the table within a reach is that part of the whole's map, to the bit. */
+static void a_part_is_that_of_the_whole(void **state)
+{
+    (void)state;
+    WrField *field = rough(90, 70, WR_WRAP_PERIODIC, WR_WRAP_CLAMP);
+    Map all = map_of(field, 16, 11), part = map_of(field, 16, 11);
+    make(&all, NULL);
+    part.part = (WrMapPart){ 61, 33, 29, 37, 40 };
+    make(&part, NULL);
+    for (int k = 0; k < 29 * 37; k++)
+        assert_true(part.out[(k / 29) * 40 + k % 29] == out_at(&all, 61 + k % 29, 33 + k / 29));
+    free_map(&all), free_map(&part);
+    wr_field_free(field);
+}
+
+/* All sets of instructions give the same bits. */
+static void kernels_agree_to_the_bit(void **state)
+{
+    (void)state;
+    enum { ROWS = 70, COUNT = ROWS * WR_SKY_LANES, SHARED = 77 };
+    static int32_t h[COUNT], next[COUNT], top[COUNT];
+    static float slope[2][COUNT], in[4][SHARED], loss[2][SHARED], best[2][SHARED];
+    int rows[ROWS];
+    for (int i = 0; i < COUNT; i++) h[i] = (int32_t)random_between(-0x1p30, 0x1p30);
+    for (int i = 0; i < ROWS; i++) rows[i] = ROWS - 1 - i;
+    for (int i = 0; i < 4 * SHARED; i++)
+        in[i / SHARED][i % SHARED] = (float)random_between(i / SHARED < 2 ? 0 : -2, 2);
+    const WrSkySweep sweep = { h, next, top, rows, ROWS, 0 };
+    const WrSkyShare share = { 0.1f, 0.6f, 0.8f, 0.0625f };
+    for (int n = 0; n < 3; n++) {
+        const WrSkyKernels *k = wr_sky_kernels_at(n);
+        const int to = n > 0;
+        if (!k) continue;
+        k->sweep(&sweep, 0.37, slope[to]);
+        for (int i = 0; i < SHARED; i++) loss[to][i] = 0.01f * (float)i, best[to][i] = 0;
+        k->share(&share, in[0], in[1], in[2], in[3], SHARED, loss[to]);
+        k->look(in[2], in[0], in[1], 0.25f, 0.7f, SHARED, best[to]);
+        assert_memory_equal(slope[to], slope[0], sizeof slope[0]);
+        assert_memory_equal(loss[to], loss[0], sizeof loss[0]);
+        assert_memory_equal(best[to], best[0], sizeof best[0]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(horizons_are_what_looking_finds),
+        cmocka_unit_test(occlusion_is_the_sky_that_horizons_leave),
+        cmocka_unit_test(level_ground_sees_the_whole_sky),
+        cmocka_unit_test(a_round_pit_sees_what_its_rim_leaves),
+        cmocka_unit_test(a_trench_sees_what_its_walls_leave),
+        cmocka_unit_test(the_horizon_of_a_trough_is_known),
+        cmocka_unit_test(a_tilted_plane_sees_what_it_faces),
+        cmocka_unit_test(a_moved_table_gives_the_moved_map),
+        cmocka_unit_test(a_part_is_that_of_the_whole),
+        cmocka_unit_test(kernels_agree_to_the_bit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
