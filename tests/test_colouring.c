@@ -1,4 +1,4 @@
-/* `colouring`: colours by height and slope, against their formula; that they follow is tested with terrains of layers
+/* `colouring`: colours by height, slope and cavity, against their formula; that they follow is tested with terrains of layers
    (test_terrain_layer.c), and that the renderer shows a picture as its reference does with colour pictures. */
 #include "test.h"
 #include "test_session_help.h"
@@ -112,6 +112,53 @@ static void a_table_has_the_colours_of_its_heights_and_slopes(void **state)
     wr_field_free(field);
 }
 
+/* The mean about texel (i, j) of a table that goes round, summed texel by texel. */
+static double mean_about(const WrField *field, int i, int j, double sigma)
+{
+    const int w = wr_field_width(field), h = wr_field_height(field), reach = (int)ceil(5 * sigma);
+    double sum = 0, all = 0;
+    for (int y = -reach; y <= reach; y++)
+        for (int x = -reach; x <= reach; x++) {
+            const double weight = exp(-0.5 * (x * x + y * y) / (sigma * sigma));
+            sum +=
+                weight * (double)wr_field_get(field, ((i + x) % w + w) % w, ((j + y) % h + h) % h);
+            all += weight;
+        }
+    return sum / all;
+}
+
+static void hollows_have_their_colour(void **state)
+{
+    (void)state;
+    enum { W = 23, H = 37 };
+    WrField *field = wr_field_new(W, H, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, NULL);
+    TestRandom random = { 77 };
+    for (int k = 0; k < W * H; k++) wr_field_set(field, k % W, k / W, (float)test_random(&random));
+    WrColouring own = ramp();
+    own.steep = false;
+    WrImage *plain = wr_colouring_table(&own, field, 1, NULL);
+    own.hollow = true, own.within = 1.9, own.depth[0] = 0.07, own.depth[1] = 0.31;
+    own.hollow_rgb[0] = 0.02, own.hollow_rgb[1] = 0.63, own.hollow_rgb[2] = 1.4;
+    WrImage *image = wr_colouring_table(&own, field, 1, NULL);
+    int untouched = 0, alone = 0;
+    for (int k = 0; k < W * H; k++) {
+        const double below =
+            mean_about(field, k % W, k / W, own.within) - (double)wr_field_get(field, k % W, k / W);
+        const double t = fmin(fmax((below - 0.07) / (0.31 - 0.07), 0), 1);
+        const double share = t * t * (3 - 2 * t);
+        untouched += t <= 0, alone += t >= 1;
+        for (int c = 0; c < 3; c++) {
+            const double from = (double)plain->data[3 * k + c];
+            /* the blur leaves 6e-5 of its weight out */
+            assert_near(image->data[3 * k + c], from + share * (own.hollow_rgb[c] - from), 2e-3);
+        }
+    }
+    assert_true(untouched > 100 && alone > 50);
+    wr_image_free(plain);
+    wr_image_free(image);
+    wr_field_free(field);
+}
+
 static const WrScene *scene_in(const WrSession *session)
 {
     return doc(session)->scene;
@@ -137,6 +184,12 @@ static void it_takes_the_place_of_a_colour_picture(void **state)
     must_fail(s, "colouring ramp of=form", "only a terrain has one");
     must_fail(s, "colouring ramp stops=1,0,0,0;0.5,0,0,0", "they must rise");
     must_fail(s, "colouring ramp slope=50,40", "must not be less");
+    must_fail(s, "colouring ramp depth=0.5,0.4", "must not be less");
+    must_fail(s, "colouring ramp within=0", "within");
+    must_run(s, "colouring ramp cavity=0.1,0.2,0.3 within=2.5");
+    must_run(s, "colouring ramp depth=0.05,0.0625");
+    assert_true(scene_in(s)->colouring.hollow && scene_in(s)->colouring.within == 2.5);
+    assert_true(scene_in(s)->colouring.depth[1] == 0.0625);
     must_fail(s, "colour repeat=once", "no colour picture");
     must_run(s, "surface terrain layer=1");
     must_run(s, "colouring ramp of=form");
@@ -158,6 +211,7 @@ int main(void)
         cmocka_unit_test(stops_are_met_and_steps_are_steps),
         cmocka_unit_test(a_plane_has_the_colours_of_its_heights),
         cmocka_unit_test(a_table_has_the_colours_of_its_heights_and_slopes),
+        cmocka_unit_test(hollows_have_their_colour),
         cmocka_unit_test(it_takes_the_place_of_a_colour_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

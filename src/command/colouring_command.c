@@ -1,4 +1,4 @@
-/* `colouring`: colours by height and slope, and the picture that is made of them, anew whenever what they go by has changed. */
+/* `colouring`: colours by height, slope and cavity, and the picture that is made of them, anew whenever what they go by has changed. */
 #include "command/inner.h"
 
 #include "base/array.h"
@@ -114,6 +114,16 @@ static void print_colouring(const WrScene *scene, WrText *text)
         wr_text_add(text, ",");
         wr_text_add_number(text, own->slope[1]);
     }
+    if (own->hollow) {
+        wr_text_add(text, " cavity=");
+        print_rgb(own->hollow_rgb, text);
+        wr_text_add(text, " depth=");
+        wr_text_add_number(text, own->depth[0]);
+        wr_text_add(text, ",");
+        wr_text_add_number(text, own->depth[1]);
+        wr_text_add(text, " within=");
+        wr_text_add_number(text, own->within);
+    }
     wr_text_addf(text, " of=%s\n", wr_colouring_names[own->of]);
 }
 
@@ -127,6 +137,20 @@ static bool take_stops(const WrArg *list, WrColouring *to, WrError *err)
         to->stops[i] = (WrStop){ row[0], { row[1], row[2], row[3] } };
     }
     to->count = list->rows;
+    return true;
+}
+
+static bool take_hollows(const WrCall *call, WrColouring *to, WrError *err)
+{
+    if (wr_call_given(call, "cavity")) {
+        to->hollow = true;
+        memcpy(to->hollow_rgb, wr_call_arg(call, "cavity")->numbers, sizeof to->hollow_rgb);
+    }
+    if (wr_call_given(call, "depth"))
+        memcpy(to->depth, wr_call_arg(call, "depth")->numbers, sizeof to->depth);
+    if (wr_call_given(call, "within")) to->within = wr_call_number(call, "within");
+    if (to->depth[1] < to->depth[0])
+        return wr_fail(err, "depth=%g,%g: the second must not be less", to->depth[0], to->depth[1]);
     return true;
 }
 
@@ -148,6 +172,7 @@ static bool take_ramp(const WrSession *session, const WrCall *call, WrScene *sce
         memcpy(to->slope, wr_call_arg(call, "slope")->numbers, sizeof to->slope);
     if (to->slope[1] < to->slope[0])
         return wr_fail(err, "slope=%g,%g: the second must not be less", to->slope[0], to->slope[1]);
+    if (!take_hollows(call, to, err)) return false;
     if (wr_call_given(call, "of")) to->of = (WrColouringOf)wr_call_choice(call, "of");
     if (to->of == WR_COLOURING_FORM && !terrain && !session->loading)
         return wr_fail(err, "of=form: only a terrain has one (`surface terrain`)");
@@ -205,6 +230,27 @@ static const WrForm colouring_forms[] = {
                                     .high = 90,
                                     .help = "from which slope on it shows, and from which on it "
                                             "alone, degrees; 30,45 to begin with" },
+                                  { .name = "cavity",
+                                    .type = WR_ARG_TUPLE,
+                                    .components = 3,
+                                    .low = 0,
+                                    .high = 1e6,
+                                    .help = "the colour of hollows: what lies lower than the mean "
+                                            "about it" },
+                                  { .name = "depth",
+                                    .type = WR_ARG_TUPLE,
+                                    .components = 2,
+                                    .low = 0,
+                                    .high = 1e30,
+                                    .help = "how far below that it begins to show, and from where "
+                                            "on it is alone, as heights; 0.01,0.1 to begin with" },
+                                  { .name = "within",
+                                    .type = WR_ARG_NUMBER,
+                                    .low = 0.05,
+                                    .high = 512,
+                                    .unit = "texels",
+                                    .help = "standard deviation of the mean's Gaussian; 8 to begin "
+                                            "with" },
                                   { .name = "of",
                                     .type = WR_ARG_CHOICE,
                                     .words = of_words,
@@ -224,7 +270,7 @@ const WrCommand wr_command_colouring = {
     .run = run_colouring,
     .print = print_colouring,
     .of_object = true,
-    .help = "colours by height and slope",
+    .help = "colours by height, slope and cavity",
     .details =
         "It stands in the place of a colour picture, and is made anew when a command, or a stroke, "
         "has changed the heights. Colours are linear.",

@@ -1,5 +1,5 @@
-/* colouring.h - colours that go by height and slope, of a terrain's form or of a table: sand below, meadows above, rock where it
-   is steep. They become a colour picture (WrScene.colour), which the renderer and its reference look up as any other.
+/* colouring.h - colours that go by height, slope and cavity, of a terrain's form or of a table: sand below, meadows above, rock
+   where it is steep, dirt in hollows. They become a colour picture (WrScene.colour), which the renderer and its reference look up as any other.
    Layer 4. Colours are linear. */
 #pragma once
 #include <stdbool.h>
@@ -26,6 +26,10 @@ typedef struct WrColouring {
     WrStop stops[WR_STOPS_MAX];
     bool steep; /* has its colour, which shows from slope[0] on, and alone from slope[1], degrees */
     double steep_rgb[3], slope[2];
+    bool
+        hollow; /* has its colour: of what lies lower than a Gaussian mean of `within` texels about it */
+    double hollow_rgb[3], depth[2],
+        within; /* shows from depth[0] on, and alone from depth[1], as heights */
     WrColouringOf of;
     uint64_t key; /* of what the picture was made of; 0: it is to be made */
 } WrColouring;
@@ -35,6 +39,8 @@ void wr_colouring_default(WrColouring *out);
 /* The colour: even beyond the ends, straight between two stops, a step where two have one height; where it is steep mixed
  * with that colour by t^2 (3 - 2 t). */
 void wr_colouring_at(const WrColouring *colouring, double height, double slope_deg, double rgb[3]);
+/* Then, of a place that lies so far below its surroundings: mixed with the colour of hollows in the same way. */
+void wr_colouring_hollow(const WrColouring *colouring, double below, double rgb[3]);
 /* The picture of a terrain's patches, laid once over it; height: what the terrain made of 1. */
 WrImage *wr_colouring_form(const WrColouring *colouring, const WrPatches *set, double height, int w,
                            int h, WrError *err);

@@ -1,4 +1,4 @@
-/* Colours by height and slope: a row for each stop, with its height and its colour. Every act is a command line. */
+/* Colours by height, slope and cavity: a row for each stop, with its height and its colour. Every act is a command line. */
 #include "ui/desk/desk.h"
 #include "ui/desk/scene_line.h"
 #include "ui/desk/session_view.h"
@@ -34,6 +34,12 @@ static void run_ramp(WrApp *app, const WrColouring *own)
         wr_text_add(&line, " steep=");
         add_rgb(&line, own->steep_rgb);
         wr_text_addf(&line, " slope=%.1f,%.1f", own->slope[0], fmax(own->slope[0], own->slope[1]));
+    }
+    if (own->hollow) {
+        wr_text_add(&line, " cavity=");
+        add_rgb(&line, own->hollow_rgb);
+        wr_text_addf(&line, " depth=%.4f,%.4f within=%.2f", own->depth[0],
+                     fmax(own->depth[0], own->depth[1]), own->within);
     }
     wr_text_addf(&line, " of=%s", wr_colouring_names[own->of]);
     wr_scene_run(app, &line);
@@ -103,6 +109,45 @@ static WrEdit steep_rows(WrColouring *own)
     return more(a, more(b, c));
 }
 
+/* Off is a depth that nothing has, so that the colour comes back as it was. */
+#define NO_DEPTH 1e6
+
+static WrEdit hollow_rows(WrColouring *own)
+{
+    static const WrNumber depth = { .low = 0,
+                                    .high = 0.5,
+                                    .hard_low = 0,
+                                    .hard_high = NO_DEPTH,
+                                    .decimals = 3,
+                                    .tip =
+                                        "Hollows: how far below the mean about them their colour "
+                                        "begins to show, and from where on it is alone" };
+    static const WrNumber within = { .low = 0.5,
+                                     .high = 64,
+                                     .hard_low = 0.05,
+                                     .hard_high = 512,
+                                     .reset = 8,
+                                     .decimals = 1,
+                                     .unit = "texels",
+                                     .tip = "Of the Gaussian mean that hollows are measured by" };
+    bool on = own->hollow && own->depth[0] < NO_DEPTH;
+    if (wr_gui_check("Hollows apart", &on)) {
+        own->hollow = true;
+        own->depth[0] = on ? 0.01 : NO_DEPTH, own->depth[1] = on ? 0.1 : NO_DEPTH;
+        return WR_EDIT_DONE;
+    }
+    if (!on) return WR_EDIT_NONE;
+    wr_gui_label("Hollows");
+    const WrEdit a = wr_gui_colour("hollow", 0, own->hollow_rgb);
+    wr_gui_label("Depths");
+    const double half = (wr_gui_available() - wr_gui_px(8)) / 2;
+    const WrEdit b = wr_gui_number("depth from", half, &depth, &own->depth[0]);
+    wr_gui_same_line(8);
+    const WrEdit c = wr_gui_number("depth to", half, &depth, &own->depth[1]);
+    wr_gui_label("Within");
+    return more(more(a, b), more(c, wr_gui_number("within", 0, &within, &own->within)));
+}
+
 static WrEdit ramp_rows(WrApp *app, WrColouring *own)
 {
     static const char *const of[WR_COLOURINGS] = { "The form", "The table" };
@@ -125,7 +170,8 @@ static WrEdit ramp_rows(WrApp *app, WrColouring *own)
         own->count--;
         done = WR_EDIT_DONE;
     }
-    return more(done, steep_rows(own));
+    done = more(done, steep_rows(own));
+    return more(done, hollow_rows(own));
 }
 
 void wr_panel_colouring(WrApp *app)
