@@ -101,15 +101,23 @@ static WrSession *busy_session(WrPool *pool, int side)
 
 /* "NAME FORM", or its beginning: done at once whatever the table's size, or not a command of the table's. */
 static const char *const instant[] = {
-    "object",     "table",           "view",         "surface",
-    "rotate",     "analytic",        "bump",         "replicate",
-    "material",   "light",           "camera",       "dials",
-    "tolerance",  "script",          "history",      "background",
-    "ground",     "layer add",       "grain",        "tone",
-    "layer use",  "layer move",      "layer rename", "layer set",
-    "layer solo", "layer duplicate", "layer delete", "colouring off",
-    "select all", "select none",     "fill",         "open",
-    "redo",
+    "object",       "table",
+    "view",         "surface",
+    "rotate",       "analytic",
+    "bump",         "replicate",
+    "material",     "light",
+    "camera",       "dials",
+    "tolerance",    "script",
+    "history",      "background",
+    "ground",       "layer add",
+    "grain",        "tone",
+    "layer use",    "layer move",
+    "layer rename", "layer set",
+    "layer solo",   "layer duplicate",
+    "layer delete", "colouring off",
+    "select all",   "select none",
+    "fill",         "open",
+    "redo",         "cell",
 };
 
 /* Large work. A file that a line reads is made before. */
@@ -165,6 +173,7 @@ static const char *const lines[] = {
     "environment big.exr",
     "save new.exr",
     "save new.ora",
+    "maps blender .",
     "export height new.png",
     "export height new.tif",
     "export normal+y new.exr",
@@ -178,6 +187,11 @@ static const char *const lines[] = {
     "export occlusion new12.exr reach=40",
     "export horizon new13.exr toward=all directions=8",
     "export roughness new16.png box=31",
+    "export cavity new17.png",
+    "export direction new18.png",
+    "export displacement new19.png",
+    "export mask new20.png",
+    "export wear new21.png",
     "export stl new8.stl",
     "export ply new9.ply error=0.3",
     "export obj new10.obj error=0.3",
@@ -256,9 +270,9 @@ static bool stop_at(Rig *rig, const char *line, int at, double *ms)
 /* Back to where the line began. */
 static void take_back(Rig *rig, const char *line)
 {
-    static const char *const outputs[] = { "save", "export", "render" };
+    static const char *const outputs[] = { "save", "export", "render", "maps" };
     bool output = false;
-    for (int i = 0; i < 3; i++) output |= strncmp(line, outputs[i], strlen(outputs[i])) == 0;
+    for (int i = 0; i < 4; i++) output |= strncmp(line, outputs[i], strlen(outputs[i])) == 0;
     if (strncmp(line, "undo", 4) == 0) must_run(rig->session, "redo 5");
     else if (!output) must_run(rig->session, "undo");
     rig->folder = look_at_folder();
