@@ -334,6 +334,38 @@ static void an_exported_map_gives_the_bumped_picture(void **state)
     }
 }
 
+/* A map along the object's axes has the surface in it, and any mode of the bump. */
+static void a_map_along_the_axes_gives_the_bumped_picture(void **state)
+{
+    (void)state;
+    static float bumped[60 * 40 * 4], mapped[60 * 40 * 4];
+    static const char *const scenes[] = { "surface sphere", "surface torus R=1 r=0.4",
+                                          "surface plane" };
+    static const char *const modes[] = { "blinn", "exact", "invariant" };
+    for (int k = 0; k < 9; k++) {
+        char line[100];
+        Said said = { "" };
+        WrSession *s = told_session(&said);
+        must_run(s, "table 256x256");
+        must_run(s, "solid sphere at=0.4,0.55 radius=60"), must_run(s, "adjust blur sigma=6");
+        must_run(s, scenes[k / 3]);
+        snprintf(line, sizeof line, "bump mode=%s scheme=bspline height=0.02", modes[k % 3]);
+        must_run(s, line);
+        draw(s, bumped);
+        must_run(s, k % 2 ? "export normal-object n.png" : "export normal-object n.exr");
+        must_run(s, "fill 0");
+        must_run(s, "bump mode=blinn");
+        must_run(s, k % 2 ? "normalmap n.png space=object" : "normalmap n.exr space=object");
+        draw(s, mapped);
+        double worst = 0;
+        for (int i = 0; i < 60 * 40 * 4; i++)
+            worst = fmax(worst, fabs((double)(bumped[i] - mapped[i])));
+        if (getenv("WR_SHOW")) printf("%s %s: %g\n", scenes[k / 3], modes[k % 3], worst);
+        if (!(worst < 6e-4)) fail_msg("case %d: %g", k, worst);
+        wr_session_free(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -344,6 +376,7 @@ int main(void)
         cmocka_unit_test(files_bring_them_back),
         cmocka_unit_test(maps_are_recovered_without_their_files),
         cmocka_unit_test(an_exported_map_gives_the_bumped_picture),
+        cmocka_unit_test(a_map_along_the_axes_gives_the_bumped_picture),
     };
     return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

@@ -22,6 +22,7 @@ WrExportOptions wr_export_default(void)
     return (WrExportOptions){ .range = WR_EXPORT_RANGE_AUTO,
                               .low = 0.0,
                               .high = 1.0,
+                              .strength = 1.0,
                               .scheme = -1,
                               .lines_u = 64,
                               .lines_v = 64,
@@ -124,6 +125,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
     char ending[16];
     if (kind->ending && strcmp(wr_path_ending(path, ending), kind->ending) != 0)
         return wr_fail(err, "%s: %s files end in .%s", path, kind->name, kind->ending);
+    if (kind->on_surface && !wr_export_object_check(scene, err)) return false;
     if (kind->write) return true; /* it sees to its own */
     if (options->depth == 0) {
         WrPixelType type;
@@ -167,9 +169,18 @@ static bool job_rows(void *ctx, int y, int rows, void *out, WrError *err)
     return true;
 }
 
+/* Normals by what they are rather than by what was asked for: readers go by it. */
+static const char *kind_told(const WrExportJob *job)
+{
+    const int *axes = job->options.axes;
+    if (job->kind->green == 0.0 || job->kind->on_surface) return job->kind->name;
+    if (axes[0] != 1 || abs(axes[1]) != 2 || axes[2] != 3) return "normal";
+    return axes[1] > 0 ? "normal+y" : "normal-y";
+}
+
 static void describe(WrExportJob *job)
 {
-    wr_text_add(wr_export_attribute(job, "wrinkle:kind"), job->kind->name);
+    wr_text_add(wr_export_attribute(job, "wrinkle:kind"), kind_told(job));
     wr_text_add(wr_export_attribute(job, "wrinkle:wrap"),
                 wr_document_wrap_word(wr_field_wrap_u(job->field), wr_field_wrap_v(job->field)));
     WrText *cell = wr_export_attribute(job, "wrinkle:cell");
@@ -177,7 +188,8 @@ static void describe(WrExportJob *job)
     wr_text_add(cell, ",");
     wr_text_add_number(cell, job->options.cell_h);
     wr_text_add(wr_export_attribute(job, "wrinkle:unit"), job->scene->cell.mm ? "mm" : "scene");
-    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"), job->scene->height);
+    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"),
+                       job->options.strength * job->scene->height);
     job->kind->describe(job);
 }
 
@@ -231,9 +243,23 @@ static WrScene *in_unit(const WrScene *scene)
     return own;
 }
 
-static const char *convention_of(const WrExportKind *kind)
+/* Normals: which axes its channels hold, where nobody says. */
+static void settle_axes(const WrExportKind *kind, int axes[3])
 {
-    return kind->green > 0 ? "+Y (green up)" : kind->green < 0 ? "-Y (green down)" : NULL;
+    if (axes[0] != 0) return;
+    axes[0] = 1;
+    axes[1] = kind->green < 0.0 ? -2 : 2;
+    axes[2] = 3;
+}
+
+static const char *convention_of(const WrExportKind *kind, const int axes[3])
+{
+    char text[7];
+    if (kind->green == 0.0) return NULL;
+    if (kind->on_surface) return "along the object's axes";
+    wr_export_axes_text(axes, text);
+    if (strcmp(text, "+x+y+z") == 0) return "+Y (green up)";
+    return strcmp(text, "+x-y+z") == 0 ? "-Y (green down)" : "axes of its own";
 }
 
 static bool run_job(WrExportJob *job, const char *path, WrError *err)
@@ -243,6 +269,7 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
         job->channels = job->kind->count_channels(job, job->channel_names);
     if (!settle_options(job->kind, job->channels, job->scene, path, &job->options, err))
         return false;
+    settle_axes(job->kind, job->options.axes);
     job->width = wr_field_width(job->field);
     job->height = wr_field_height(job->field);
     job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
@@ -250,7 +277,7 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
                                     .height = job->height,
                                     .zero_code = -1,
                                     .channels = job->channels,
-                                    .convention = convention_of(job->kind),
+                                    .convention = convention_of(job->kind, job->options.axes),
                                     .depth = job->options.depth };
     job->u = wr_alloc((size_t)job->width, sizeof *job->u);
     for (int i = 0; i < job->width; i++) job->u[i] = (i + 0.5) / job->width;
@@ -271,7 +298,7 @@ bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExp
     WrTables *tables = NULL;
     WrScene *scaled = NULL;
     bool ok = !options->object || take_object(&job, document, &tables, err);
-    if (ok && !kind->write) job.scene = scaled = in_unit(job.scene);
+    if (ok && !kind->write && !kind->on_surface) job.scene = scaled = in_unit(job.scene);
     ok = ok && run_job(&job, path, err);
     wr_scene_free(scaled);
     wr_tables_free(tables);

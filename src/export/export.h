@@ -22,6 +22,10 @@
    second component. In a +Y map the upper flank of a bump is bright green. Codes are
    round(M (n/2 + 1/2)); float files hold n/2 + 1/2.
 
+   axes=+x-z+y gives red, green and blue other components and signs, opengl and directx are +x+y+z and +x-y+z by name;
+   strength= multiplies the slopes, which are true at 1. normal-object: the unit normal of the scene's surface as the
+   bump turns it (shade/bump.h), along the object's axes, at (u,v) of the texel's centre.
+
    slopes, two channels of floats: p = height dF/dU / cell_w, q = height dF/dV / cell_h, V up, with the scheme's derivatives
    at each texel's centre. slope: atan sqrt(p^2 + q^2), 0 to 90 degrees as 0..M; float files hold degrees.
 
@@ -77,7 +81,10 @@ typedef struct WrExportOptions {
     WrExportRange range;   /* integer heights only; given is the only one that clips */
     double low, high;      /* range given: F of code 0 and of the last code, low < high */
     double cell_w, cell_h; /* size of the unit cell in the unit of the scene's; 0: the scene's */
-    int scheme;            /* normals: a WrScheme, or -1 for the scene's */
+    int axes[3];     /* normals: what red, green and blue hold, 1 x, 2 y, 3 z, below 0 its opposite;
+                        all 0: as the kind has it */
+    double strength; /* normals: slopes times this, finite, not 0 */
+    int scheme;      /* normals: a WrScheme, or -1 for the scene's */
     const char *
         object; /* whose table; borrowed; NULL: of all layers, scheme and formula of the object at hand */
     double full; /* curvature: what is white, 1 / scene unit; 0: the largest that there is */
@@ -163,7 +170,8 @@ typedef struct WrExportKind {
     int channels;                                      /* of a picture; 0 of a body */
     bool floats;                                       /* no codes: the file must hold floats */
     const char *const *channel_names;                  /* [channels]; NULL: the usual ones */
-    double green;                                      /* normals: sign of the second component */
+    bool on_surface;    /* it is of the scene's surface, in scene units, not of the cell */
+    double green;       /* normals: sign of the second component */
     const char *ending; /* the one that its files must have; NULL: a picture's or a drawing's */
     /* The same, of options; NULL: `channels`, and the usual names. names: [WR_EXPORT_CHANNELS][WR_EXPORT_NAME] to be filled */
     int (*count_channels)(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);
@@ -180,7 +188,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 19
+#define WR_EXPORT_KIND_COUNT 20
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

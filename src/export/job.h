@@ -2,6 +2,7 @@
    Layer 6. Private to this room. */
 #pragma once
 #include "base/text.h"
+#include "base/vec.h"
 #include "export/export.h"
 
 #include <stdbool.h>
@@ -90,6 +91,16 @@ void wr_export_height_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_height_describe(WrExportJob *job);
 void wr_export_normal_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_normal_describe(WrExportJob *job);
+void wr_export_object_rows(WrExportJob *job, int y, int rows, void *out);
+bool wr_export_object_check(const WrScene *scene, WrError *err);
+void wr_export_object_describe(WrExportJob *job);
+/* A unit normal as the options' axes have it, in codes or floats. */
+void wr_export_store_normal(const WrExportJob *job, void *out, size_t texel, WrVec3 n, int column,
+                            int row);
+bool wr_export_axes_parse(const char *text, int axes[3]); /* "+x-y+z", "directx" */
+void wr_export_axes_text(const int axes[3], char text[7]);
+/* Its attribute, where they are neither +Y nor -Y; returns which of these, 0 for others. */
+int wr_export_describe_axes(WrExportJob *job);
 void wr_export_slopes_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_prepare(WrExportJob *job);

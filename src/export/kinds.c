@@ -78,6 +78,26 @@ static bool set_dither(WrExportOptions *options, const char *value, WrError *err
     return true;
 }
 
+static bool set_axes(WrExportOptions *options, const char *value, WrError *err)
+{
+    if (wr_export_axes_parse(value, options->axes)) return true;
+    return wr_fail(err,
+                   "axes '%.40s': must be opengl, directx, or x, y and z in some order with signs, "
+                   "as +x-z+y",
+                   value);
+}
+
+static bool set_strength(WrExportOptions *options, const char *value, WrError *err)
+{
+    double strength;
+    if (!wr_number_parse(value, strlen(value), &strength) || !(fabs(strength) <= 1e6) ||
+        strength == 0.0)
+        return wr_fail(err, "strength '%.40s': must be a factor of slopes, -1e6..1e6, not 0",
+                       value);
+    options->strength = strength;
+    return true;
+}
+
 /* Whether there is one of that name is seen when it is exported. */
 static bool set_object(WrExportOptions *options, const char *value, WrError *err)
 {
@@ -243,9 +263,20 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
             set_object, true                                                                       \
     }
 
+#define AXES                                                                                       \
+    {                                                                                              \
+        "axes", "+x+y+z, opengl or directx",                                                       \
+            "what red, green and blue hold, in any order with any signs; left out: as the name "   \
+            "says",                                                                                \
+            set_axes                                                                               \
+    }
+
 #define NORMAL_OPTIONS                                                                             \
     {                                                                                              \
-        DEPTH, CELL, SCHEME, DITHER, OBJECT                                                        \
+        DEPTH, CELL, SCHEME, DITHER, OBJECT, AXES,                                                 \
+        {                                                                                          \
+            "strength", "FACTOR", "of the slopes; left out: 1, as they are", set_strength          \
+        }                                                                                          \
     }
 
 #define SOLID_OPTIONS                                                                              \
@@ -289,6 +320,15 @@ const WrExportKind wr_export_kinds[] = {
       .green = -1.0,
       .rows = wr_export_normal_rows,
       .describe = wr_export_normal_describe },
+    { .name = "normal-object",
+      .label = "normal map along the object's axes",
+      .help = "the surface's own normals as the bump turns them, for one object as it is",
+      .options = { DEPTH, DITHER, OBJECT, AXES },
+      .channels = 3,
+      .green = 1.0,
+      .on_surface = true,
+      .rows = wr_export_object_rows,
+      .describe = wr_export_object_describe },
     { .name = "slopes",
       .label = "slopes",
       .help = "dF/du and dF/dv as two channels of floats, in scene units: exr or tiff",

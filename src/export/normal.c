@@ -9,6 +9,8 @@
 #include "scene/scene.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Slopes at texel centres. There every scheme's derivative is a fixed stencil of table entries (scheme.h,
  * with x and y whole numbers), in texels, rows downwards:
@@ -32,16 +34,27 @@ static WrVec3 normal_of(double x, double y, int64_t *replaced)
     return v3_unit(n, up);
 }
 
-static void store(const WrExportJob *job, void *out, size_t texel, WrVec3 n, int column, int row)
+void wr_export_store_normal(const WrExportJob *job, void *out, size_t texel, WrVec3 n, int column,
+                            int row)
 {
-    double value[3] = { n.x / 2.0 + 0.5, job->kind->green * n.y / 2.0 + 0.5, n.z / 2.0 + 0.5 };
+    const double component[3] = { n.x, n.y, n.z };
     for (int c = 0; c < 3; c++) {
+        const int axis = job->options.axes[c];
+        const double own = axis < 0 ? -component[-axis - 1] : component[axis - 1];
+        const double value = own / 2.0 + 0.5;
         size_t i = 3 * texel + (size_t)c;
-        if (job->options.depth == 32) ((float *)out)[i] = (float)value[c];
+        if (job->options.depth == 32) ((float *)out)[i] = (float)value;
         else
-            wr_export_store_code(job, out, i, wr_export_last_code(job) * value[c], 0,
+            wr_export_store_code(job, out, i, wr_export_last_code(job) * value, 0,
                                  (WrExportTexel){ column, row, c });
     }
+}
+
+/* 1 where the components are x, y, z, -1 where they are x, -y, z, else 0. */
+static int sign_of_green(const WrExportJob *job)
+{
+    const int *axes = job->options.axes;
+    return axes[0] == 1 && abs(axes[1]) == 2 && axes[2] == 3 ? axes[1] / 2 : 0;
 }
 
 typedef struct Strip {
@@ -83,10 +96,10 @@ static void finish_run(Piece *piece, int x, int count, int j, const double *at, 
     size_t texel = (size_t)(piece->y - piece->strip->y + j) * (size_t)job->width + (size_t)x;
     void *out = piece->strip->out;
     bool plain = kernels->tilts(&piece->normal, at, (ptrdiff_t)pitch, count, tx, ty);
-    if (!plain || job->options.dither) {
+    if (!plain || job->options.dither || !sign_of_green(job)) {
         for (int i = 0; i < count; i++)
-            store(job, out, texel + (size_t)i, normal_of(tx[i], ty[i], &piece->replaced), x + i,
-                  piece->y + j);
+            wr_export_store_normal(job, out, texel + (size_t)i,
+                                   normal_of(tx[i], ty[i], &piece->replaced), x + i, piece->y + j);
         return;
     }
     switch (job->options.depth) {
@@ -137,13 +150,13 @@ static void table_piece(WrExportJob *job, int y, int rows, const Strip *strip, i
 {
     Piece piece = { .job = job,
                     .normal = { .stencil = stencil_of((WrScheme)job->options.scheme),
-                                .height = job->scene->height,
+                                .height = job->options.strength * job->scene->height,
                                 .cell_w = job->options.cell_w,
                                 .cell_h = job->options.cell_h,
                                 .width = job->width,
                                 .rows = job->height,
                                 .last = wr_export_last_code(job),
-                                .green = job->kind->green },
+                                .green = sign_of_green(job) },
                     .kernels = wr_normal_kernels(),
                     .strip = strip,
                     .y = y,
@@ -160,11 +173,12 @@ static void formula_rows(WrExportJob *job, int y, int rows, const Strip *strip, 
         for (int i = 0; i < job->width; i++) {
             double fu, fv;
             wr_analytic_sample(&job->scene->analytic, job->u[i], v, NULL, &fu, &fv);
-            double height = job->scene->height;
+            double height = job->options.strength * job->scene->height;
             WrVec3 n = normal_of(-height * fu / job->options.cell_w,
                                  -height * fv / job->options.cell_h, replaced);
-            store(job, strip->out, (size_t)(y - strip->y + j) * (size_t)job->width + (size_t)i, n,
-                  i, y + j);
+            wr_export_store_normal(job, strip->out,
+                                   (size_t)(y - strip->y + j) * (size_t)job->width + (size_t)i, n,
+                                   i, y + j);
         }
     }
 }
@@ -183,9 +197,43 @@ void wr_export_normal_rows(WrExportJob *job, int y, int rows, void *out)
     wr_export_run(job, y, rows, normal_piece, &strip);
 }
 
+/* ---- axes ---- */
+
+bool wr_export_axes_parse(const char *text, int axes[3])
+{
+    int seen = 0;
+    if (strcmp(text, "opengl") == 0) text = "+x+y+z";
+    if (strcmp(text, "directx") == 0) text = "+x-y+z";
+    for (int c = 0; c < 3; c++) {
+        const char sign = text[2 * c], letter = sign ? text[2 * c + 1] : '\0';
+        if ((sign != '+' && sign != '-') || letter < 'x' || letter > 'z') return false;
+        axes[c] = (sign == '-' ? -1 : 1) * (letter - 'x' + 1);
+        seen |= 1 << (letter - 'x');
+    }
+    return text[6] == '\0' && seen == 7;
+}
+
+void wr_export_axes_text(const int axes[3], char text[7])
+{
+    for (int c = 0; c < 3; c++) {
+        text[2 * c] = axes[c] < 0 ? '-' : '+';
+        text[2 * c + 1] = (char)('x' + abs(axes[c]) - 1);
+    }
+    text[6] = '\0';
+}
+
+int wr_export_describe_axes(WrExportJob *job)
+{
+    char text[7];
+    const int green = sign_of_green(job);
+    wr_export_axes_text(job->options.axes, text);
+    if (!green) wr_text_add(wr_export_attribute(job, "wrinkle:axes"), text);
+    return green;
+}
+
 void wr_export_normal_describe(WrExportJob *job)
 {
-    wr_text_add(wr_export_attribute(job, "wrinkle:convention"),
-                job->kind->green > 0.0 ? "+Y" : "-Y");
+    const int green = wr_export_describe_axes(job);
+    if (green) wr_text_add(wr_export_attribute(job, "wrinkle:convention"), green > 0 ? "+Y" : "-Y");
     wr_export_describe_slopes(job);
 }

@@ -1,0 +1,216 @@
+/* Normal maps with other axes, strengths, and along the object's axes: beside the formulas; what labels say of them. */
+#include "test.h"
+#include "test_folder.h"
+
+#include "base/error.h"
+#include "document/document.h"
+#include "export/export.h"
+#include "field/analytic.h"
+#include "field/field.h"
+#include "image/image.h"
+#include "scene/scene.h"
+
+#define WIDTH 37
+#define HEIGHT 22
+#define TAU 6.283185307179586
+
+static WrDocument *new_document(void)
+{
+    TestRandom random = { 77 };
+    WrDocument *document = wr_document_new();
+    WrField *field = wr_field_new(WIDTH, HEIGHT, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0.0f, NULL);
+    for (int j = 0; j < HEIGHT; j++)
+        for (int i = 0; i < WIDTH; i++)
+            wr_field_set(field, i, j, (float)(0.3 * test_random(&random)));
+    wr_field_free(document->layers[0].heights);
+    document->layers[0].heights = field;
+    WrScene *scene = wr_scene_clone(document->scene);
+    wr_scene_free(document->scene);
+    document->scene = scene;
+    scene->height = 0.37;
+    return document;
+}
+
+/* Export with up to three settings, and read it back. */
+static WrImage *exported(const WrDocument *document, const char *kind, const char *path,
+                         const char *const settings[3], WrExportReport *report)
+{
+    WrError err = { "" };
+    const WrExportKind *row = wr_export_find(kind);
+    WrExportOptions options = wr_export_default();
+    assert_non_null(row);
+    for (int i = 0; i < 3 && settings[i]; i++) {
+        char name[24] = "";
+        const char *value = strchr(settings[i], '=') + 1;
+        memcpy(name, settings[i], (size_t)(value - 1 - settings[i]));
+        if (!wr_export_option(row, &options, name, value, &err)) fail_msg("%s", err.text);
+    }
+    if (!wr_export(row, document, &options, NULL, path, report, &err)) fail_msg("%s", err.text);
+    assert_true(report->seen);
+    WrImage *image = wr_image_read(path, &err);
+    if (!image) fail_msg("%s", err.text);
+    return image;
+}
+
+static void any_order_and_signs_are_what_the_channels_hold(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *kind, *axes;
+        int axis[3]; /* from 1, with its sign */
+        WrLabelKind label;
+    } known[] = { { "normal+y", "axes=+x+y+z", { 1, 2, 3 }, WR_LABEL_NORMAL_UP },
+                  { "normal-y", "axes=opengl", { 1, 2, 3 }, WR_LABEL_NORMAL_UP },
+                  { "normal+y", "axes=directx", { 1, -2, 3 }, WR_LABEL_NORMAL_DOWN },
+                  { "normal-y", "axes=-x+z-y", { -1, 3, -2 }, WR_LABEL_NONE },
+                  { "normal+y", "axes=+z-x+y", { 3, -1, 2 }, WR_LABEL_NONE },
+                  { "normal+y", "axes=+y+x+z", { 2, 1, 3 }, WR_LABEL_NONE },
+                  { "normal+y", "axes=-x-y-z", { -1, -2, -3 }, WR_LABEL_NONE } };
+    static const struct {
+        const char *depth, *path;
+        double last;
+    } files[] = { { "depth=8", "n.png", 255 },
+                  { "depth=16", "n.png", 65535 },
+                  { "depth=32", "n.exr", 0 } };
+    static const char *const schemes[] = { "scheme=bilinear", "scheme=bspline-fit",
+                                           "scheme=catmull" };
+    WrDocument *document = new_document();
+    WrExportReport report;
+    for (int s = 0; s < 3; s++) {
+        WrImage *plain =
+            exported(document, "normal+y", "plain.exr", (const char *[3]){ schemes[s] }, &report);
+        for (size_t k = 0; k < sizeof known / sizeof *known; k++)
+            for (int f = 0; f < 3; f++) {
+                WrImage *image = exported(
+                    document, known[k].kind, files[f].path,
+                    (const char *[3]){ known[k].axes, files[f].depth, schemes[s] }, &report);
+                assert_int_equal(image->label.kind, known[k].label);
+                for (int t = 0; t < WIDTH * HEIGHT; t++)
+                    for (int c = 0; c < 3; c++) {
+                        const int axis = known[k].axis[c];
+                        const double n = 2.0 * plain->data[3 * t + abs(axis) - 1] - 1.0;
+                        const double want = (axis < 0 ? -n : n) / 2.0 + 0.5;
+                        const double bound = files[f].last > 0 ? 0.5 / files[f].last + 1e-6 : 3e-7;
+                        assert_near(image->data[3 * t + c], want, bound);
+                    }
+                wr_image_free(image);
+            }
+        wr_image_free(plain);
+    }
+    wr_document_free(document);
+}
+
+static void strength_multiplies_slopes(void **state)
+{
+    (void)state;
+    WrDocument *document = new_document();
+    WrExportReport report;
+    WrImage *once =
+        exported(document, "normal+y", "once.exr", (const char *[3]){ "cell=2,0.5" }, &report);
+    WrImage *more = exported(document, "normal-y", "more.exr",
+                             (const char *[3]){ "cell=2,0.5", "strength=-2.75" }, &report);
+    for (int t = 0; t < WIDTH * HEIGHT; t++) {
+        const float *a = once->data + 3 * t, *b = more->data + 3 * t;
+        const double az = 2.0 * a[2] - 1, bz = 2.0 * b[2] - 1;
+        const double p = (2.0 * a[0] - 1) / az, q = (2.0 * a[1] - 1) / az; /* green up */
+        const double size =
+            1 + 4 * (fabs(p) + fabs(q)) * (fabs(p) + fabs(q)); /* z is rounded, too */
+        assert_near((2.0 * b[0] - 1) / bz, -2.75 * p, 1e-5 * size);
+        assert_near((2.0 * b[1] - 1) / bz, 2.75 * q, 1e-5 * size);
+    }
+    assert_near(more->label.height, -2.75 * 0.37, 1e-6);
+    wr_image_free(once);
+    wr_image_free(more);
+    wr_document_free(document);
+}
+
+/* ---- along the object's axes ---- */
+
+/* Blinn's N + D on a sphere of radius R whose poles lie on z, from its longitude and latitude alone. */
+static void bumped(double u, double v, double fu, double fv, double radius, double n[3])
+{
+    const double a = TAU * u, b = TAU / 2 * (v - 0.5);
+    const double east[3] = { -sin(a), cos(a), 0 };
+    const double north[3] = { -sin(b) * cos(a), -sin(b) * sin(a), cos(b) };
+    const double out[3] = { cos(b) * cos(a), cos(b) * sin(a), sin(b) };
+    /* slopes along unit vectors: a turn is 2 pi R cos(b) long, from pole to pole it is pi R */
+    const double p = fu / (TAU * radius * cos(b)), q = fv / (TAU / 2 * radius);
+    const double length = sqrt(1 + p * p + q * q);
+    for (int c = 0; c < 3; c++) n[c] = (out[c] - p * east[c] - q * north[c]) / length;
+}
+
+static void on_a_sphere_it_is_blinns_normal(void **state)
+{
+    (void)state;
+    WrDocument *document = new_document();
+    WrScene *scene = document->scene;
+    WrExportReport report;
+    wr_shape_default(WR_SURFACE_sphere, &scene->shape);
+    scene->shape.value[0] = 1.7;
+    scene->bump = WR_BUMP_BLINN;
+    scene->scheme = WR_SCHEME_CENTRAL;
+    const struct {
+        const char *axes;
+        int axis[3];
+    } known[] = { { "axes=+x+y+z", { 1, 2, 3 } }, { "axes=+x+z-y", { 1, 3, -2 } } };
+    const WrField *field = wr_document_field(document);
+    for (int k = 0; k < 2; k++) {
+        WrImage *image = exported(document, "normal-object", "o.png",
+                                  (const char *[3]){ known[k].axes }, &report);
+        assert_true(image->type == WR_PIXEL_U16 && image->label.kind == WR_LABEL_NONE);
+        double worst = 0;
+        for (int j = 0; j < HEIGHT; j++)
+            for (int i = 0; i < WIDTH; i++) {
+                const double east = wr_field_get(field, (i + 1) % WIDTH, j),
+                             west = wr_field_get(field, (i + WIDTH - 1) % WIDTH, j);
+                const double below = wr_field_get(field, i, (j + 1) % HEIGHT),
+                             above = wr_field_get(field, i, (j + HEIGHT - 1) % HEIGHT);
+                double n[3];
+                bumped((i + 0.5) / WIDTH, 1 - (j + 0.5) / HEIGHT, 0.37 * WIDTH * (east - west) / 2,
+                       0.37 * HEIGHT * (above - below) / 2, 1.7, n);
+                for (int c = 0; c < 3; c++) {
+                    const int axis = known[k].axis[c];
+                    const double want = axis < 0 ? -n[-axis - 1] : n[axis - 1];
+                    worst =
+                        fmax(worst, fabs(image->data[3 * (j * WIDTH + i) + c] - (want / 2 + 0.5)));
+                }
+            }
+        assert_near(worst, 0, 0.5 / 65535 + 1e-7);
+        wr_image_free(image);
+    }
+    wr_document_free(document);
+}
+
+static void surfaces_without_one_chart_are_refused(void **state)
+{
+    (void)state;
+    WrDocument *document = new_document();
+    WrExportOptions options = wr_export_default();
+    WrError err = { "" };
+    wr_shape_default(WR_SURFACE_cube, &document->scene->shape);
+    assert_false(
+        wr_export(wr_export_find("normal-object"), document, &options, NULL, "c.png", NULL, &err));
+    assert_non_null(strstr(err.text, "surface cube"));
+    static const char *const bad[] = { "",    "+x",     "+x+y",   "+x+y+z+", "+x+x+z",
+                                       "xyz", "+x+y+w", "OpenGL", "+x+y z" };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_false(wr_export_option(wr_export_find("normal+y"), &options, "axes", bad[i], &err));
+        assert_non_null(strstr(err.text, "opengl, directx"));
+    }
+    static const char *const weak[] = { "0", "nan", "1e7", "", "x" };
+    for (size_t i = 0; i < sizeof weak / sizeof *weak; i++)
+        assert_false(
+            wr_export_option(wr_export_find("normal-y"), &options, "strength", weak[i], &err));
+    wr_document_free(document);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_order_and_signs_are_what_the_channels_hold),
+        cmocka_unit_test(strength_multiplies_slopes),
+        cmocka_unit_test(on_a_sphere_it_is_blinns_normal),
+        cmocka_unit_test(surfaces_without_one_chart_are_refused),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, remove_folder);
+}
