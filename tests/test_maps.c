@@ -45,7 +45,7 @@ static Made made_of(const WrField *field, WrScheme scheme)
     return made;
 }
 
-static void make(Made *made, WrMapKind kind, WrPool *pool)
+static void make(Made *made, WrFieldMapKind kind, WrPool *pool)
 {
     const WrMapPart part = { 0, 0, made->w, made->h, (size_t)made->w };
     WrError err = { "" };
@@ -94,19 +94,19 @@ static void slopes_and_bends_are_the_schemes_own(void **state)
     WrField *field = rough(23, 17, WR_WRAP_PERIODIC);
     for (int n = 0; n < 5; n++) {
         Made made = made_of(field, schemes[n]);
-        make(&made, WR_MAP_SLOPE, NULL);
+        make(&made, WR_FIELD_MAP_SLOPE, NULL);
         for (int k = 0; k < 23 * 17; k++) {
             double p, q;
             slopes_at(&made, k % 23 + 1e-7, k / 23 + 1e-7, &p, &q);
             assert_near(made.out[k], atan(hypot(p, q)) * 180 / PI, 1e-3);
         }
-        make(&made, WR_MAP_DIRECTION, NULL);
+        make(&made, WR_FIELD_MAP_DIRECTION, NULL);
         for (int k = 0; k < 23 * 17; k++) {
             double p, q;
             slopes_at(&made, k % 23 + 1e-7, k / 23 + 1e-7, &p, &q);
             assert_near(remainder((double)made.out[k] - atan2(-q, -p) * 180 / PI, 360), 0, 2e-3);
         }
-        make(&made, WR_MAP_CURVATURE, NULL);
+        make(&made, WR_FIELD_MAP_CURVATURE, NULL);
         double most = 0;
         for (int k = 0; k < 23 * 17; k++) most = fmax(most, fabs((double)made.out[k]));
         for (int k = 0; k < 23 * 17; k++)
@@ -129,7 +129,7 @@ static void curvature_of_paraboloids_is_known(void **state)
         }
         for (int scheme = 0; scheme < WR_SCHEME_COUNT; scheme++) {
             Made made = made_of(field, (WrScheme)scheme);
-            make(&made, WR_MAP_CURVATURE, NULL);
+            make(&made, WR_FIELD_MAP_CURVATURE, NULL);
             if (scheme == WR_SCHEME_BILINEAR) { /* its slope there is that half a texel on */
                 const double p = 0.37 * a * 1.3 / 31, q = 0.37 * b * 0.8 / 21;
                 const double n2 = 1 + p * p + q * q;
@@ -155,7 +155,7 @@ static void roughness_of_a_sine_is_known(void **state)
     for (int base = 0; base < 2; base++) {
         Made made = made_of(field, WR_SCHEME_CENTRAL);
         made.job.box = box, made.job.base = 0.3 * base;
-        make(&made, WR_MAP_ROUGHNESS, NULL);
+        make(&made, WR_FIELD_MAP_ROUGHNESS, NULL);
         const double steep = 0.37 * 0.02 * sin(2 * PI / box) / (1.3 / w);
         const double want = sqrt(sqrt(0.09 * base + steep * steep / 2));
         for (int k = 0; k < w * 5; k++) assert_near(made.out[k], want, 2e-5);
@@ -171,7 +171,7 @@ static void roughness_is_the_variance_of_a_box(void **state)
     Made made = made_of(field, WR_SCHEME_BSPLINE);
     made.job.ground.height = 0.02;
     made.job.box = 5, made.job.base = 0.1;
-    make(&made, WR_MAP_ROUGHNESS, NULL);
+    make(&made, WR_FIELD_MAP_ROUGHNESS, NULL);
     for (int k = 0; k < 13 * 300; k += 7) {
         double p, q, sum[4] = { 0 };
         for (int n = 0; n < 25; n++) {
@@ -193,7 +193,7 @@ static void a_cavity_is_what_lies_below_its_blur(void **state)
     WrField *field = rough(W, H, WR_WRAP_PERIODIC);
     Made made = made_of(field, WR_SCHEME_CENTRAL);
     made.job.sigma = 1.7;
-    make(&made, WR_MAP_CAVITY, NULL);
+    make(&made, WR_FIELD_MAP_CAVITY, NULL);
     int deep = 0;
     for (int k = 0; k < W * H; k++) {
         double sum = 0, weight = 0;
@@ -222,9 +222,9 @@ static void moved_tables_give_moved_maps(void **state)
     (void)state;
     const int sizes[][2] = { { 1, 1 }, { 1, 37 }, { 2, 3 }, { 67, 29 }, { 40, 131 } };
     WrPool *pool = wr_pool_new(3);
-    for (int n = 0; n < 5 * WR_MAP_COUNT; n++) {
+    for (int n = 0; n < 5 * WR_FIELD_MAP_COUNT; n++) {
         const int w = sizes[n % 5][0], h = sizes[n % 5][1], dx = w / 3 + 1, dy = h / 2;
-        const WrMapKind kind = (WrMapKind)(n / 5);
+        const WrFieldMapKind kind = (WrFieldMapKind)(n / 5);
         const WrScheme scheme = (WrScheme)(n * 5 / 3 % WR_SCHEME_COUNT);
         WrField *field = rough(w, h, WR_WRAP_PERIODIC);
         WrField *moved = rough(w, h, WR_WRAP_PERIODIC);
@@ -236,7 +236,7 @@ static void moved_tables_give_moved_maps(void **state)
         make(&b, kind, pool);
         for (int k = 0; k < w * h; k++)
             if (a.out[k] != b.out[(k / w + dy) % h * w + (k % w + dx) % w])
-                fail_msg("%s, %s, %dx%d", wr_maps[kind].name, wr_schemes[scheme].name, w, h);
+                fail_msg("%s, %s, %dx%d", wr_field_maps[kind].name, wr_schemes[scheme].name, w, h);
         wr_free(a.out), wr_free(b.out);
         wr_field_free(field), wr_field_free(moved);
     }
@@ -249,16 +249,16 @@ static void parts_are_those_of_the_whole(void **state)
     (void)state;
     WrField *field = rough(150, 110, WR_WRAP_PERIODIC);
     const WrMapPart part = { 101, 64, 49, 46, 52 };
-    for (int kind = 0; kind < WR_MAP_COUNT; kind++) {
+    for (int kind = 0; kind < WR_FIELD_MAP_COUNT; kind++) {
         Made made = made_of(field, WR_SCHEME_BSPLINE_FIT);
         made.job.reach = 13, made.job.sigma = 2.5;
-        make(&made, (WrMapKind)kind, NULL);
+        make(&made, (WrFieldMapKind)kind, NULL);
         float *out = wr_alloc(52 * 46, sizeof *out);
         WrError err = { "" };
-        assert_true(wr_map_make((WrMapKind)kind, &made.job, &part, NULL, out, NULL, &err));
+        assert_true(wr_map_make((WrFieldMapKind)kind, &made.job, &part, NULL, out, NULL, &err));
         for (int k = 0; k < 49 * 46; k++) {
             const double whole = (double)made.out[(64 + k / 49) * 150 + 101 + k % 49];
-            assert_near(out[k / 49 * 52 + k % 49], whole, kind == WR_MAP_CAVITY ? 1e-6 : 0);
+            assert_near(out[k / 49 * 52 + k % 49], whole, kind == WR_FIELD_MAP_CAVITY ? 1e-6 : 0);
         }
         wr_free(out);
         wr_free(made.out);
@@ -271,22 +271,22 @@ static void an_edit_reaches_no_farther_than_the_support(void **state)
 {
     (void)state;
     enum { N = 161 };
-    for (int kind = 0; kind < WR_MAP_COUNT; kind++)
+    for (int kind = 0; kind < WR_FIELD_MAP_COUNT; kind++)
         for (int scheme = WR_SCHEME_CENTRAL; scheme < WR_SCHEME_COUNT; scheme++) {
             WrField *field = rough(N, N, WR_WRAP_PERIODIC);
             Made a = made_of(field, (WrScheme)scheme);
             a.job.reach = 9, a.job.sigma = 2, a.job.box = 7;
             a.job.ground.height = 0.004; /* roughness under 1 */
-            make(&a, (WrMapKind)kind, NULL);
+            make(&a, (WrFieldMapKind)kind, NULL);
             wr_field_set(field, 80, 80, 1.9f);
             Made b = a;
             b.out = wr_alloc(N * N, sizeof(float));
-            make(&b, (WrMapKind)kind, NULL);
+            make(&b, (WrFieldMapKind)kind, NULL);
             int far = 0;
             for (int k = 0; k < N * N; k++)
                 if (a.out[k] != b.out[k])
                     far = (int)fmax(far, fmax(abs(k % N - 80), abs(k / N - 80)));
-            assert_in_range(far, 1, wr_maps[kind].support(&a.job));
+            assert_in_range(far, 1, wr_field_maps[kind].support(&a.job));
             wr_free(a.out), wr_free(b.out);
             wr_field_free(field);
         }

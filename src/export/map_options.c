@@ -96,7 +96,7 @@ bool wr_set_part(WrExportOptions *options, const char *value, WrError *err)
 
 bool wr_set_box(WrExportOptions *options, const char *value, WrError *err)
 {
-    const Allowed allowed = { "box", "an odd number of texels, 1..255", 1, WR_MAP_BOX, true };
+    const Allowed allowed = { "box", "an odd number of texels, 1..255", 1, WR_FIELD_MAP_BOX, true };
     double n;
     if (!parse(&allowed, value, &n, err)) return false;
     if (fmod(n, 2) != 1) return wr_fail(err, "box '%.40s': must be %s", value, allowed.what);

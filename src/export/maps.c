@@ -173,8 +173,8 @@ void wr_export_map_describe(WrExportJob *job)
 /* ---- maps of field/maps.h ------------------------------------------------------------------------ */
 
 /* Fill the map and its range. job: settings but the ground. */
-static bool fill(WrExportJob *job, WrMapKind kind, const WrMapJob *settings, const char *quantity,
-                 WrError *err)
+static bool fill(WrExportJob *job, WrFieldMapKind kind, const WrMapJob *settings,
+                 const char *quantity, WrError *err)
 {
     const WrMapPart part = whole(job);
     WrField *own = job->analytic ? sampled(job, err) : NULL;
@@ -196,7 +196,7 @@ bool wr_export_occlusion_make(WrExportJob *job, WrError *err)
 {
     const WrMapJob settings = { .directions = job->options.directions,
                                 .reach = job->options.reach };
-    if (!fill(job, WR_MAP_OCCLUSION, &settings, "occlusion", err)) return false;
+    if (!fill(job, WR_FIELD_MAP_OCCLUSION, &settings, "occlusion", err)) return false;
     wr_export_codes(job, 0, 1);
     return true;
 }
@@ -204,7 +204,7 @@ bool wr_export_occlusion_make(WrExportJob *job, WrError *err)
 bool wr_export_cavity_make(WrExportJob *job, WrError *err)
 {
     const WrMapJob settings = { .sigma = job->options.radius };
-    if (!fill(job, WR_MAP_CAVITY, &settings, "depth", err)) return false;
+    if (!fill(job, WR_FIELD_MAP_CAVITY, &settings, "depth", err)) return false;
     wr_export_codes(job, job->options.full > 0 ? -job->options.full : job->report.low, 0);
     if (!(job->report.low < 0) && !(job->options.full > 0)) wr_export_codes(job, -1, 0);
     return true;
@@ -213,7 +213,7 @@ bool wr_export_cavity_make(WrExportJob *job, WrError *err)
 bool wr_export_direction_make(WrExportJob *job, WrError *err)
 {
     const WrMapJob settings = { 0 };
-    if (!fill(job, WR_MAP_DIRECTION, &settings, "degrees", err)) return false;
+    if (!fill(job, WR_FIELD_MAP_DIRECTION, &settings, "degrees", err)) return false;
     wr_export_codes(job, 0, 360);
     return true;
 }
@@ -221,7 +221,7 @@ bool wr_export_direction_make(WrExportJob *job, WrError *err)
 bool wr_export_roughness_make(WrExportJob *job, WrError *err)
 {
     const WrMapJob settings = { .box = job->options.box, .base = job->options.base };
-    if (!fill(job, WR_MAP_ROUGHNESS, &settings, "roughness", err)) return false;
+    if (!fill(job, WR_FIELD_MAP_ROUGHNESS, &settings, "roughness", err)) return false;
     wr_export_codes(job, 0, 1);
     return true;
 }
@@ -241,7 +241,7 @@ bool wr_export_curvature_make(WrExportJob *job, WrError *err)
 {
     const WrMapJob settings = { 0 };
     const double full = job->options.full;
-    if (!fill(job, WR_MAP_CURVATURE, &settings, "curvature", err)) return false;
+    if (!fill(job, WR_FIELD_MAP_CURVATURE, &settings, "curvature", err)) return false;
     const double most = fmax(fabs(job->report.low), fabs(job->report.high));
     if (job->options.part == WR_EXPORT_BOTH) {
         wr_export_signed_codes(job, full > 0 ? full : most);

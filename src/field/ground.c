@@ -69,6 +69,28 @@ void wr_ground_row_free(WrGroundRow *row)
     *row = (WrGroundRow){ 0 };
 }
 
+static int held(int at, int n, WrWrap wrap)
+{
+    if (wrap == WR_WRAP_PERIODIC) return at;
+    return at < 0 ? 0 : at < n ? at : n - 1;
+}
+
+void wr_ground_read_held(const WrField *field, int i, int j, int count, float *out)
+{
+    const int w = wr_field_width(field),
+              row = held(j, wr_field_height(field), wr_field_wrap_v(field));
+    if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) {
+        wr_field_read(field, i, row, count, 1, out, (size_t)count);
+        return;
+    }
+    const int from = held(i, w, WR_WRAP_CLAMP), last = held(i + count - 1, w, WR_WRAP_CLAMP);
+    float *inner = out + (from - i > 0 ? from - i : 0);
+    if (inner >= out + count) inner = out + count - 1;
+    wr_field_read(field, from, row, last - from + 1, 1, inner, (size_t)count);
+    for (float *x = out; x < inner; x++) *x = *inner;
+    for (float *x = inner + (last - from) + 1; x < out + count; x++) *x = x[-1];
+}
+
 static void read_taps(WrGroundBand *band)
 {
     const WrField *field = band->ground.field;

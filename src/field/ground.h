@@ -44,6 +44,9 @@ void wr_ground_close(WrGroundBand *band);
 /* The band's row j, 0..rows-1. */
 void wr_ground_row(const WrGroundBand *band, int j, const WrGroundRow *out);
 
+/* `count` texels of row j from column i on, outside the table too: beyond a clamped axis its edge. */
+void wr_ground_read_held(const WrField *field, int i, int j, int count, float *out);
+
 /* Minus the mean curvature, so that what is convex, ridges, is above 0:
  *   ((1 + q^2) r - 2 p q s + (1 + p^2) t) / (-2 (1 + p^2 + q^2)^(3/2)) */
 double wr_ground_convexity(double p, double q, double r, double s, double t);

@@ -162,7 +162,7 @@ static WrField *cut_out(const WrField *field, const WrMapPart *part, int more, W
     WrField *cut = wr_field_new(w, h, WR_WRAP_CLAMP, WR_WRAP_CLAMP, wr_field_level(field), err);
     float *row = cut ? wr_alloc_unset((size_t)w, sizeof *row) : NULL;
     for (int j = 0; cut && j < h; j++) {
-        wr_field_read(field, part->x - more, part->y - more + j, w, 1, row, (size_t)w);
+        wr_ground_read_held(field, part->x - more, part->y - more + j, w, row);
         wr_field_write(cut, 0, j, w, 1, row, (size_t)w);
     }
     wr_free(row);
@@ -316,20 +316,20 @@ static int of_box(const WrMapJob *job)
     return job->box / 2 + of_slopes(job);
 }
 
-const WrMap wr_maps[WR_MAP_COUNT] = {
-    [WR_MAP_OCCLUSION] = { "occlusion", make_occlusion, of_occlusion },
-    [WR_MAP_CAVITY] = { "cavity", make_cavity, blurred },
-    [WR_MAP_CURVATURE] = { "curvature", make_curvature, of_bends },
-    [WR_MAP_SLOPE] = { "slope", make_slope, of_slopes },
-    [WR_MAP_DIRECTION] = { "direction", make_direction, of_slopes },
-    [WR_MAP_ROUGHNESS] = { "roughness", make_roughness, of_box },
+const WrFieldMap wr_field_maps[WR_FIELD_MAP_COUNT] = {
+    [WR_FIELD_MAP_OCCLUSION] = { "occlusion", make_occlusion, of_occlusion },
+    [WR_FIELD_MAP_CAVITY] = { "cavity", make_cavity, blurred },
+    [WR_FIELD_MAP_CURVATURE] = { "curvature", make_curvature, of_bends },
+    [WR_FIELD_MAP_SLOPE] = { "slope", make_slope, of_slopes },
+    [WR_FIELD_MAP_DIRECTION] = { "direction", make_direction, of_slopes },
+    [WR_FIELD_MAP_ROUGHNESS] = { "roughness", make_roughness, of_box },
 };
 
-bool wr_map_make(WrMapKind kind, const WrMapJob *job, const WrMapPart *part, WrPool *pool,
+bool wr_map_make(WrFieldMapKind kind, const WrMapJob *job, const WrMapPart *part, WrPool *pool,
                  float *out, int64_t *replaced, WrError *err)
 {
     int64_t count = 0;
-    const bool good = wr_maps[kind].make(job, part, pool, out, &count, err);
+    const bool good = wr_field_maps[kind].make(job, part, pool, out, &count, err);
     if (replaced) *replaced = count;
     return good;
 }

@@ -24,35 +24,35 @@ typedef struct WrMapJob {
     WrGround ground; /* heights are those of its field, also where slopes are of its formula */
     int directions, reach; /* occlusion */
     double sigma;          /* cavity, texels, > 0 */
-    int box;               /* roughness: texels along a side, odd, 1..WR_MAP_BOX */
+    int box;               /* roughness: texels along a side, odd, 1..WR_FIELD_MAP_BOX */
     double base;           /* roughness: alpha of the material itself, 0..1 */
 } WrMapJob;
 
-#define WR_MAP_BOX 255
+#define WR_FIELD_MAP_BOX 255
 
 WrMapJob wr_map_default(const WrGround *ground);
 
-typedef struct WrMap {
+typedef struct WrFieldMap {
     const char *name;
     /* out: [h][part.pitch]. Errors: no memory; cancelled. Texels whose numbers were not finite become 0 and are counted. */
     bool (*make)(const WrMapJob *job, const WrMapPart *part, WrPool *pool, float *out,
                  int64_t *replaced, WrError *err);
     /* How far from a texel its number depends on heights, in texels; -1: as far as there are any. */
     int (*support)(const WrMapJob *job);
-} WrMap;
+} WrFieldMap;
 
-typedef enum WrMapKind {
-    WR_MAP_OCCLUSION,
-    WR_MAP_CAVITY,
-    WR_MAP_CURVATURE,
-    WR_MAP_SLOPE,
-    WR_MAP_DIRECTION,
-    WR_MAP_ROUGHNESS,
-    WR_MAP_COUNT
-} WrMapKind;
+typedef enum WrFieldMapKind {
+    WR_FIELD_MAP_OCCLUSION,
+    WR_FIELD_MAP_CAVITY,
+    WR_FIELD_MAP_CURVATURE,
+    WR_FIELD_MAP_SLOPE,
+    WR_FIELD_MAP_DIRECTION,
+    WR_FIELD_MAP_ROUGHNESS,
+    WR_FIELD_MAP_COUNT
+} WrFieldMapKind;
 
-extern const WrMap wr_maps[WR_MAP_COUNT];
+extern const WrFieldMap wr_field_maps[WR_FIELD_MAP_COUNT];
 
-/* As wr_maps[kind].make: of a part of the table, or of all of it. */
-bool wr_map_make(WrMapKind kind, const WrMapJob *job, const WrMapPart *part, WrPool *pool,
+/* As wr_field_maps[kind].make: of a part of the table, or of all of it. */
+bool wr_map_make(WrFieldMapKind kind, const WrMapJob *job, const WrMapPart *part, WrPool *pool,
                  float *out, int64_t *replaced, WrError *err);

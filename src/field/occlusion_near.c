@@ -26,29 +26,6 @@ typedef struct Ground {
     int reach;
 } Ground;
 
-static int held(int at, int n, WrWrap wrap)
-{
-    if (wrap == WR_WRAP_PERIODIC) return at;
-    return at < 0 ? 0 : at < n ? at : n - 1;
-}
-
-/* `count` texels of row j from column i on: beyond a clamped axis its edge. */
-static void read_row(const WrField *field, int i, int j, int count, float *out)
-{
-    const int w = wr_field_width(field),
-              row = held(j, wr_field_height(field), wr_field_wrap_v(field));
-    if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) {
-        wr_field_read(field, i, row, count, 1, out, (size_t)count);
-        return;
-    }
-    const int from = held(i, w, WR_WRAP_CLAMP), last = held(i + count - 1, w, WR_WRAP_CLAMP);
-    float *inner = out + (from - i > 0 ? from - i : 0);
-    if (inner >= out + count) inner = out + count - 1;
-    wr_field_read(field, from, row, last - from + 1, 1, inner, (size_t)count);
-    for (float *x = out; x < inner; x++) *x = *inner;
-    for (float *x = inner + (last - from) + 1; x < out + count; x++) *x = x[-1];
-}
-
 static Ground open_ground(const Near *near, int y, int rows)
 {
     const WrOcclusion *o = near->occlusion;
@@ -57,7 +34,8 @@ static Ground open_ground(const Near *near, int y, int rows)
     g.heights = wr_alloc_unset((size_t)wide * (size_t)(rows + 2 * reach), sizeof(float));
     for (int j = 0; j < rows + 2 * reach; j++) {
         float *row = g.heights + (size_t)j * g.pitch;
-        read_row(o->field, near->part->x - reach, near->part->y + y + j - reach, wide, row);
+        wr_ground_read_held(o->field, near->part->x - reach, near->part->y + y + j - reach, wide,
+                            row);
         for (int i = 0; i < wide; i++) row[i] *= (float)o->height;
     }
     return g;

@@ -1,5 +1,6 @@
 /* The one table of actions: menus, keys and buttons all go by it. */
 #include "ui/app/actions.h"
+#include "ui/app/actions_look.h"
 #include "ui/accuracy/accuracy.h"
 #include "ui/app/roster_list.h"
 #include "ui/canvas/canvas.h"
@@ -219,26 +220,6 @@ static bool is_patch(const WrApp *app)
     return app->settings->views == WR_VIEWS_PATCH;
 }
 
-static void look_grey(WrApp *app)
-{
-    app->settings->look.colours = WR_CANVAS_GREY;
-}
-
-static void look_signed(WrApp *app)
-{
-    app->settings->look.colours = WR_CANVAS_SIGNED;
-}
-
-static bool is_grey(const WrApp *app)
-{
-    return app->settings->look.colours == WR_CANVAS_GREY;
-}
-
-static bool is_signed(const WrApp *app)
-{
-    return app->settings->look.colours == WR_CANVAS_SIGNED;
-}
-
 static void range_auto(WrApp *app)
 {
     app->settings->look.automatic = !app->settings->look.automatic;
@@ -412,8 +393,14 @@ const WrAction wr_actions[] = {
     ROW(view_both, "Table and patch", view_both, NULL, is_both),
     ROW(view_canvas, "Table alone", view_canvas, NULL, is_canvas),
     ROW(view_patch, "Patch alone", view_patch, NULL, is_patch),
-    ROW(look_grey, "Grey", look_grey, NULL, is_grey),
-    ROW(look_signed, "Blue below zero, orange above", look_signed, NULL, is_signed),
+    ROW(look_grey, "Grey", wr_act_look_grey, NULL, wr_is_grey),
+    ROW(look_signed, "Blue below zero, orange above", wr_act_look_signed, NULL, wr_is_signed),
+    ROW(look_occlusion, "Occlusion of the table", wr_act_look_occlusion, NULL, wr_is_occlusion),
+    ROW(look_curvature, "Curvature: grooves blue, ridges orange", wr_act_look_curvature, NULL,
+        wr_is_curvature),
+    ROW(look_cavity, "Cavity", wr_act_look_cavity, NULL, wr_is_cavity),
+    ROW(look_slope, "Steepness", wr_act_look_slope, NULL, wr_is_slope),
+    ROW(look_roughness, "Roughness", wr_act_look_roughness, NULL, wr_is_roughness),
     ROW(range_auto, "Range follows the table", range_auto, NULL, is_auto),
     ROW(range_unit, "Range from 0 to 1", range_unit, NULL, NULL),
     ROW(range_marks, "Mark what lies beyond the range", range_marks, NULL, is_marks),

@@ -2,6 +2,7 @@
 #include "ui/app/canvas_view.h"
 #include "base/rows.h"
 #include "ui/canvas/canvas.h"
+#include "ui/canvas/canvas_map.h"
 #include "ui/canvas/view.h"
 #include "ui/desk/desk.h"
 #include "ui/desk/document.h"
@@ -19,6 +20,7 @@
 #include "ui/views/marks.h"
 #include "ui/views/panel_seam.h"
 
+#include "document/document.h"
 #include "field/field.h"
 #include "scene/scene.h"
 
@@ -36,12 +38,58 @@ static bool is_held(const WrApp *app)
     return app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
 }
 
+/* Maps that can be shown: which, in which colours, and over which range where that does not follow the map. */
+typedef struct Shown {
+    const char *name;
+    WrFieldMapKind kind;
+    WrCanvasColours colours;
+    bool fixed;
+    double low, high;
+} Shown;
+
+static const Shown shown[WR_CANVAS_SHOWN] = {
+    [WR_CANVAS_HEIGHTS] = { .name = "Heights" },
+    [WR_CANVAS_OCCLUSION] = { "Occlusion", WR_FIELD_MAP_OCCLUSION, WR_CANVAS_GREY, true, 0, 1 },
+    [WR_CANVAS_CAVITY] = { "Cavity", WR_FIELD_MAP_CAVITY, WR_CANVAS_GREY, false, 0, 0 },
+    [WR_CANVAS_CURVATURE] = { "Curvature", WR_FIELD_MAP_CURVATURE, WR_CANVAS_SIGNED, true, -0.2,
+                              0.2 },
+    [WR_CANVAS_SLOPE] = { "Steepness", WR_FIELD_MAP_SLOPE, WR_CANVAS_GREY, true, 0, 90 },
+    [WR_CANVAS_ROUGHNESS] = { "Roughness", WR_FIELD_MAP_ROUGHNESS, WR_CANVAS_GREY, true, 0, 1 },
+};
+
+/* The map that is wanted in the table's place; NULL: none, or none yet. */
+static const WrField *map_of(WrApp *app, const WrField *field)
+{
+    const WrScene *scene = wr_app_document(app)->scene;
+    const WrCanvasShown now = app->settings->look.shown;
+    if (now == WR_CANVAS_HEIGHTS) return NULL;
+    const WrGround ground = { NULL,          NULL,         scene->scheme, wr_scene_relief(scene),
+                              scene->cell.w, scene->cell.h };
+    WrMapJob job = wr_map_default(&ground);
+    job.directions = 8; /* near things only, so that little is made anew while it is painted */
+    job.reach = 48;
+    return wr_canvas_map_bring(app->canvas_map, field, shown[now].kind, &job);
+}
+
 void wr_canvas_view_draw(WrApp *app)
 {
     if (app->layout->canvas.w <= 0) return;
+    const WrField *field = wr_app_canvas_field(app), *map = map_of(app, field);
+    WrCanvasLook look = app->settings->look;
+    if (map) {
+        const Shown *now = &shown[look.shown];
+        look.colours = now->colours;
+        look.automatic = !now->fixed;
+        look.marks = false;
+        if (now->fixed) look.low = now->low, look.high = now->high;
+    }
+    WrCanvasRange range;
     app->canvas_unfinished =
-        wr_canvas_draw(app->canvas, app->renderer, app->view, wr_app_canvas_field(app),
-                       &app->settings->look, is_held(app), MEANS_BUDGET, app->range);
+        wr_canvas_draw(app->canvas, app->renderer, app->view, map ? map : field, &look,
+                       is_held(app), MEANS_BUDGET, &range);
+    app->map_shown = map != NULL;
+    if (map) *app->map_range = range;
+    else *app->range = range;
     if (app->canvas_unfinished) wr_app_redraw(app);
     wr_marks_draw(app);
 }
@@ -110,7 +158,7 @@ static void hints(WrApp *app)
    what lies beyond the range is seen at its ends. */
 static void ramp(const WrApp *app, const char *id, double wide, double tall)
 {
-    const WrCanvasRange *r = app->range;
+    const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
     double low = fmin(r->low, r->table_low), high = fmax(r->high, r->table_high);
     WrPad pad = wr_gui_pad_begin(id, wide, tall);
     for (int x = 0; x < (int)pad.w; x++) {
@@ -122,10 +170,11 @@ static void ramp(const WrApp *app, const char *id, double wide, double tall)
 
 static void ramp_tip(const WrApp *app)
 {
-    const WrCanvasRange *r = app->range;
+    const WrCanvasRange *r = app->map_shown ? app->map_range : app->range;
     char tip[160];
     bool beyond = r->table_low < r->low || r->table_high > r->high;
-    snprintf(tip, sizeof tip, "The table goes from %.4g to %.4g%s", r->table_low, r->table_high,
+    snprintf(tip, sizeof tip, "The %s goes from %.4g to %.4g%s", app->map_shown ? "map" : "table",
+             r->table_low, r->table_high,
              beyond ? ": some of it lies beyond the range that is shown" : "");
     wr_gui_tip(tip);
 }
@@ -151,9 +200,23 @@ static void range_popup(WrApp *app)
                                          [WR_ROW(WR_CANVAS_SIGNED)] = "Signed" };
     WR_ROWS_END(looks, WR_CANVAS_COLOURS);
     static const char *const ways[] = { "As the table", "0 to 1", "As it is now" };
+    const char *maps[WR_CANVAS_SHOWN];
     WrCanvasLook *look = &app->settings->look;
-    int chosen = (int)look->colours, way = look->automatic ? 0 : is_unit(look) ? 1 : 2;
+    int chosen = (int)look->colours, now = (int)look->shown,
+        way = look->automatic ? 0
+              : is_unit(look) ? 1
+                              : 2;
     if (!wr_gui_popup_begin("range")) return;
+    for (int i = 0; i < WR_CANVAS_SHOWN; i++) maps[i] = shown[i].name;
+    if (wr_gui_segments("shown", maps, NULL, WR_CANVAS_SHOWN, &now))
+        look->shown = (WrCanvasShown)now;
+    wr_gui_tip("The table itself, or a map of it that follows the brush");
+    if (look->shown != WR_CANVAS_HEIGHTS) {
+        ramp(app, "wide", wr_gui_px(240), wr_gui_px(12));
+        ramp_tip(app);
+        wr_gui_popup_end();
+        return;
+    }
     if (wr_gui_segments("look", looks, NULL, WR_CANVAS_COLOURS, &chosen))
         look->colours = (WrCanvasColours)chosen;
     if (wr_gui_segments("way", ways, NULL, 3, &way)) choose_way(app, way);
@@ -191,12 +254,16 @@ static void chips(WrApp *app)
     const SDL_Rect *room = &app->layout->canvas;
     int gap = wr_gui_px(12);
     char text[96];
+    const WrCanvasLook *look = &app->settings->look;
+    const WrCanvasRange *range = app->map_shown ? app->map_range : app->range;
     snprintf(text, sizeof text, "%s %.3g \xe2\x80\x93 %.3g",
-             app->settings->look.colours == WR_CANVAS_GREY ? "Grey" : "Signed", app->range->low,
-             app->range->high);
+             app->map_shown                    ? shown[look->shown].name
+             : look->colours == WR_CANVAS_GREY ? "Grey"
+                                               : "Signed",
+             range->low, range->high);
     wr_gui_overlay_begin("##range", room->x + gap, room->y + gap, 0, 0);
     if (wr_gui_chip(WR_ICON_DOWN, text)) wr_gui_popup_open("range");
-    wr_gui_tip("Which heights are black and white");
+    wr_gui_tip("What is shown, and which numbers are black and white");
     if (room->w > wr_gui_px(300)) {
         wr_gui_same_line(6);
         ramp(app, "narrow", wr_gui_px(64), wr_gui_line_height(WR_FONT_TEXT));
@@ -259,4 +326,9 @@ static void forget(WrApp *app)
     wr_canvas_forget(app->canvas);
 }
 
-const WrPart wr_part_canvas = { .draw = draw, .forget = forget };
+static bool works(WrApp *app)
+{
+    return wr_canvas_map_busy(app->canvas_map);
+}
+
+const WrPart wr_part_canvas = { .draw = draw, .works = works, .forget = forget };

@@ -39,7 +39,7 @@ typedef struct Store {
     WrLayout layout;
     WrTiming timing;
     WrCanvasView view;
-    WrCanvasRange range;
+    WrCanvasRange range, map_range;
     WrHand hand;
     WrBrushHand brush;
     WrBrushSources brush_files;
@@ -77,6 +77,7 @@ WrApp *wr_store_new(void)
     app->timing = &store->timing;
     app->view = &store->view;
     app->range = &store->range;
+    app->map_range = &store->map_range;
     app->hand = &store->hand;
     app->brush = &store->brush;
     app->brush_files = &store->brush_files;

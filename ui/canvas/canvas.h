@@ -17,8 +17,20 @@ typedef enum WrCanvasColours {
     WR_CANVAS_COLOURS
 } WrCanvasColours;
 
+/* What is shown: the table, or a map of it (canvas_map.h). */
+typedef enum WrCanvasShown {
+    WR_CANVAS_HEIGHTS,
+    WR_CANVAS_OCCLUSION,
+    WR_CANVAS_CAVITY,
+    WR_CANVAS_CURVATURE,
+    WR_CANVAS_SLOPE,
+    WR_CANVAS_ROUGHNESS,
+    WR_CANVAS_SHOWN
+} WrCanvasShown;
+
 typedef struct WrCanvasLook {
-    WrCanvasColours colours; /* SIGNED: blue below zero, white at zero, orange above */
+    WrCanvasShown shown;
+    WrCanvasColours colours; /* of heights; SIGNED: blue below zero, white at zero, orange above */
     bool automatic;          /* low and high follow the table (canvas_range.h) */
     bool marks;              /* what lies beyond them is tinted: warm above, cool below */
     double low, high;        /* heights shown as black and white; low < high */

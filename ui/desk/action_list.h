@@ -113,6 +113,11 @@
     X(view_patch, "F4")                                                                            \
     X(look_grey, "Alt+1")                                                                          \
     X(look_signed, "Alt+2")                                                                        \
+    X(look_occlusion, "Alt+3")                                                                     \
+    X(look_curvature, "Alt+4")                                                                     \
+    X(look_cavity, "Alt+Shift+3")                                                                  \
+    X(look_slope, "Alt+Shift+4")                                                                   \
+    X(look_roughness, "")                                                                          \
     X(range_auto, "Alt+R")                                                                         \
     X(range_unit, "")                                                                              \
     X(range_marks, "")                                                                             \

@@ -13,6 +13,7 @@ typedef struct WrAppOptions WrAppOptions;
 typedef struct WrBrushHand WrBrushHand;
 typedef struct WrBrushSources WrBrushSources;
 typedef struct WrCanvas WrCanvas;
+typedef struct WrCanvasMap WrCanvasMap;
 typedef struct WrCanvasRange WrCanvasRange;
 typedef struct WrCanvasView WrCanvasView;
 typedef struct WrCloneHand WrCloneHand;
@@ -71,6 +72,7 @@ struct WrApp {
     SDL_Renderer *renderer;
     WrGui *gui;
     WrCanvas *canvas;
+    WrCanvasMap *canvas_map; /* shown in the table's place */
     WrPreview *preview;
     WrKeyMap *keys;
     WrPen *pen;
@@ -101,7 +103,9 @@ struct WrApp {
 
     WrCanvasView *view;
     bool view_placed;
-    WrCanvasRange *range; /* heights that the canvas shows */
+    WrCanvasRange *range;     /* heights that the canvas shows */
+    WrCanvasRange *map_range; /* numbers of the map that it shows in their place */
+    bool map_shown;
     bool canvas_unfinished;
     int tool;
     WrHand *hand;

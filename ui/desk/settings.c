@@ -129,6 +129,7 @@ static int rows_of(WrSettings *s, Row rows[ROWS_MAX])
         { "mouse_slow", &s->fake.slow, NULL, NULL, 1, 1e5 },
         { "mouse_fast", &s->fake.fast, NULL, NULL, 2, 1e5 },
         { "mouse_least", &s->fake.least, NULL, NULL, 0, 1 },
+        { "shown", NULL, (int *)&s->look.shown, NULL, 0, WR_CANVAS_SHOWN - 1 },
         { "colours", NULL, (int *)&s->look.colours, NULL, 0, WR_CANVAS_COLOURS - 1 },
         { "range_follows", NULL, NULL, &s->look.automatic, 0, 1 },
         { "range_marks", NULL, NULL, &s->look.marks, 0, 1 },

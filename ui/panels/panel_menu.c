@@ -142,6 +142,12 @@ static const char *const table_menu[] = { WR_ACT(table_size), WR_ACT(fill), WR_A
                                           "operations",       NULL };
 static const char *const view_menu[] = { WR_ACT(look_grey),
                                          WR_ACT(look_signed),
+                                         WR_ACT(look_occlusion),
+                                         WR_ACT(look_curvature),
+                                         WR_ACT(look_cavity),
+                                         WR_ACT(look_slope),
+                                         WR_ACT(look_roughness),
+                                         "-",
                                          WR_ACT(range_auto),
                                          WR_ACT(range_unit),
                                          WR_ACT(range_marks),

@@ -1,0 +1,78 @@
+#include "ui/app/actions_look.h"
+#include "ui/canvas/canvas.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/settings.h"
+
+void wr_act_look_grey(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_HEIGHTS;
+    app->settings->look.colours = WR_CANVAS_GREY;
+}
+
+void wr_act_look_signed(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_HEIGHTS;
+    app->settings->look.colours = WR_CANVAS_SIGNED;
+}
+
+bool wr_is_grey(const WrApp *app)
+{
+    const WrCanvasLook *look = &app->settings->look;
+    return look->shown == WR_CANVAS_HEIGHTS && look->colours == WR_CANVAS_GREY;
+}
+
+bool wr_is_signed(const WrApp *app)
+{
+    const WrCanvasLook *look = &app->settings->look;
+    return look->shown == WR_CANVAS_HEIGHTS && look->colours == WR_CANVAS_SIGNED;
+}
+
+void wr_act_look_occlusion(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_OCCLUSION;
+}
+
+bool wr_is_occlusion(const WrApp *app)
+{
+    return app->settings->look.shown == WR_CANVAS_OCCLUSION;
+}
+
+void wr_act_look_curvature(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_CURVATURE;
+}
+
+bool wr_is_curvature(const WrApp *app)
+{
+    return app->settings->look.shown == WR_CANVAS_CURVATURE;
+}
+
+void wr_act_look_cavity(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_CAVITY;
+}
+
+bool wr_is_cavity(const WrApp *app)
+{
+    return app->settings->look.shown == WR_CANVAS_CAVITY;
+}
+
+void wr_act_look_slope(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_SLOPE;
+}
+
+bool wr_is_slope(const WrApp *app)
+{
+    return app->settings->look.shown == WR_CANVAS_SLOPE;
+}
+
+void wr_act_look_roughness(WrApp *app)
+{
+    app->settings->look.shown = WR_CANVAS_ROUGHNESS;
+}
+
+bool wr_is_roughness(const WrApp *app)
+{
+    return app->settings->look.shown == WR_CANVAS_ROUGHNESS;
+}

@@ -1,0 +1,20 @@
+/* actions_look.h - what the canvas shows: the table in its colours, or a map of it. */
+#pragma once
+#include <stdbool.h>
+
+typedef struct WrApp WrApp;
+
+void wr_act_look_grey(WrApp *app);
+void wr_act_look_signed(WrApp *app);
+bool wr_is_grey(const WrApp *app);
+bool wr_is_signed(const WrApp *app);
+void wr_act_look_occlusion(WrApp *app);
+bool wr_is_occlusion(const WrApp *app);
+void wr_act_look_curvature(WrApp *app);
+bool wr_is_curvature(const WrApp *app);
+void wr_act_look_cavity(WrApp *app);
+bool wr_is_cavity(const WrApp *app);
+void wr_act_look_slope(WrApp *app);
+bool wr_is_slope(const WrApp *app);
+void wr_act_look_roughness(WrApp *app);
+bool wr_is_roughness(const WrApp *app);
