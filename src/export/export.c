@@ -190,6 +190,8 @@ static void describe(WrExportJob *job)
     wr_text_add(wr_export_attribute(job, "wrinkle:unit"), job->scene->cell.mm ? "mm" : "scene");
     wr_text_add_number(wr_export_attribute(job, "wrinkle:height"),
                        job->options.strength * job->scene->height);
+    wr_text_add(wr_export_attribute(job, "wrinkle:seam"),
+                wr_certificate_word(wr_certificate_order(&job->report.seam)));
     job->kind->describe(job);
 }
 
@@ -279,6 +281,11 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
                                     .channels = job->channels,
                                     .convention = convention_of(job->kind, job->options.axes),
                                     .depth = job->options.depth };
+    const int scheme = job->options.scheme;
+    job->report.seam =
+        job->analytic
+            ? wr_certificate_formula(&job->scene->analytic)
+            : wr_certificate_table(job->field, scheme < 0 ? job->scene->scheme : (WrScheme)scheme);
     job->u = wr_alloc((size_t)job->width, sizeof *job->u);
     for (int i = 0; i < job->width; i++) job->u[i] = (i + 0.5) / job->width;
     bool ok = job->kind->write ? job->kind->write(job, path, err) : write_job(job, path, err);
@@ -330,7 +337,7 @@ static void add_solid(const WrExportReport *report, WrText *text)
                  report->solid_volume);
 }
 
-void wr_export_report_text(const WrExportReport *report, WrText *text)
+static void add_facts(const WrExportReport *report, WrText *text)
 {
     if (report->triangles) {
         add_solid(report, text);
@@ -367,4 +374,11 @@ void wr_export_report_text(const WrExportReport *report, WrText *text)
         wr_text_add(text,
                     "; read back whole, but not compared with the table: a limit on file sizes "
                     "(ulimit -f) leaves no room for its rows");
+}
+
+void wr_export_report_text(const WrExportReport *report, WrText *text)
+{
+    add_facts(report, text);
+    wr_text_add(text, "; ");
+    wr_certificate_text(&report->seam, text);
 }

@@ -54,6 +54,8 @@
    millimetres: open sheets get a back, tubes are filled or get a wall. Decimated: no sample of the table lies farther from
    its triangle than the error that was asked for, and the report says how far the farthest does. */
 #pragma once
+#include "field/certificate.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -139,6 +141,8 @@ typedef struct WrExportReport {
      * are read back as bytes, and `unseen` pictures whose texels were only hashed, since a limit on file sizes leaves no
      * room for rows. */
     bool seen, unseen;
+    WrCertificate
+        seam;      /* how the cell's edges meet, by the scheme of the export, else the scene's */
     double worst;  /* largest error: table units, or the quantity's; of normals degrees */
     int64_t lines; /* drawings: visible stretches of lines; else 0 */
     /* Solids, in millimetres; triangles 0: none */

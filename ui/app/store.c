@@ -30,6 +30,7 @@
 #include "ui/views/marks.h"
 
 #include "base/memory.h"
+#include "field/certificate.h"
 #include "field/seam.h"
 
 typedef struct Store {
@@ -56,6 +57,7 @@ typedef struct Store {
     WrOutlineAsk selecting;
     WrFinder finder;
     WrSeam seam;
+    WrCertificate certificate;
     WrMeter meter;
     WrLater later;
     WrMessages messages;
@@ -94,6 +96,7 @@ WrApp *wr_store_new(void)
     app->selecting = &store->selecting;
     app->finder = &store->finder;
     app->seam = &store->seam;
+    app->certificate = &store->certificate;
     app->meter = &store->meter;
     app->later = &store->later;
     app->messages = &store->messages;

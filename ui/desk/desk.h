@@ -16,6 +16,7 @@ typedef struct WrCanvas WrCanvas;
 typedef struct WrCanvasMap WrCanvasMap;
 typedef struct WrCanvasRange WrCanvasRange;
 typedef struct WrCanvasView WrCanvasView;
+typedef struct WrCertificate WrCertificate;
 typedef struct WrCloneHand WrCloneHand;
 typedef struct WrDialogHand WrDialogHand;
 typedef struct WrDocument WrDocument;
@@ -136,7 +137,8 @@ struct WrApp {
     WrOutlineAsk *selecting; /* of the dialogs that change the selection */
     WrFinder *finder;
     WrSeam *seam;
-    uint64_t seam_key; /* of the table that it was measured on */
+    WrCertificate *certificate;
+    uint64_t seam_key; /* of the table and the scheme that both were measured on */
     WrMeter *meter;
     WrLater *later;
     /* While the session works on a thread of its own: the document from before; owned. */

@@ -9,8 +9,10 @@
 
 #include "base/text.h"
 #include "command/session.h"
+#include "field/certificate.h"
 #include "field/field.h"
 #include "field/seam.h"
+#include "scene/scene.h"
 
 #include <SDL.h>
 #include <math.h>
@@ -47,9 +49,14 @@ static void add_numbers(WrText *tip, const WrSeamEdge *edge)
 static void measure(WrApp *app)
 {
     const WrField *field = wr_app_field(app);
-    uint64_t key = wr_field_key(field);
+    const WrScene *scene = wr_app_scene(app);
+    const uint64_t key = (wr_field_key(field) * 31 + wr_session_revision(app->session)) * 8 +
+                         (uint64_t)scene->scheme;
     if (key == app->seam_key || wr_session_in_stroke(app->session)) return;
     *app->seam = wr_seam_measure(field, 256);
+    *app->certificate = scene->analytic.kind != WR_ANALYTIC_OFF
+                            ? wr_certificate_formula(&scene->analytic)
+                            : wr_certificate_table(field, scene->scheme);
     app->seam_key = key;
 }
 
@@ -67,6 +74,11 @@ void wr_panel_seam(WrApp *app)
     add_numbers(&tip, &seam->u);
     wr_text_addf(&tip, "\nTop and bottom edge: %s", word_of(&seam->v));
     add_numbers(&tip, &seam->v);
+    wr_text_addf(&tip, "\nBy the scheme at hand (%s): ",
+                 wr_app_scene(app)->analytic.kind != WR_ANALYTIC_OFF
+                     ? "a formula"
+                     : wr_schemes[wr_app_scene(app)->scheme].title);
+    wr_certificate_text(app->certificate, &tip);
     wr_gui_tip(wr_text_get(&tip));
     wr_gui_overlay_end();
     wr_text_fini(&tip);
