@@ -47,6 +47,7 @@ struct WrCli {
     const char *isa;   /* NULL: auto */
     const char *out;   /* -o */
     const char *kind;  /* --as */
+    bool watch;        /* --watch */
     bool sized;        /* --size was given */
     int width, height; /* of it; 512x512 */
     bool framed;       /* --frames was given */
@@ -90,7 +91,7 @@ struct WrCli {
 
 typedef enum WrOption {
     WR_OPTION_OUT,
-    WR_OPTION_AS,
+    WR_OPTION_AS, /* --as, --watch */
     WR_OPTION_SIZE,
     WR_OPTION_FULL,
     WR_OPTION_RENDER, /* --frames, --of, --turn, --fps, --loop, --missing, --memory */

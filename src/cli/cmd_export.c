@@ -1,11 +1,15 @@
 #include "cli/cli.h"
 
 #include "base/error.h"
+#include "base/hash.h"
+#include "base/stamp.h"
 #include "base/text.h"
 #include "command/session.h"
 #include "export/export.h"
 #include "export/sets.h"
+#include "system/watch.h"
 
+#include <errno.h>
 #include <string.h>
 
 static bool read_options(const WrCli *cli, const WrExportKind *kind, WrExportOptions *options,
@@ -43,16 +47,33 @@ static bool fail_unknown(const char *name, WrError *err)
     return false;
 }
 
-static bool export_file(const WrCli *cli, const WrExportKind *kind, WrText *report, WrError *err)
+/* Of the export before, while a file is watched. */
+typedef struct Last {
+    bool there;
+    WrHash hash; /* of the document */
+} Last;
+
+/* The document is what it was: its files are, too. */
+static bool is_last(const WrSession *session, Last *last)
+{
+    const WrHash hash = wr_session_hash(session);
+    const bool same = last->there && wr_hash_equal(hash, last->hash);
+    *last = (Last){ true, hash };
+    return same;
+}
+
+static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, WrText *report,
+                        WrError *err)
 {
     WrExportOptions options = wr_export_default();
     WrExportReport written;
     if (!read_options(cli, kind, &options, err)) return false;
     WrSession *session = wr_cli_load(cli, false, err);
     if (!session) return false;
-    bool good =
-        wr_export(kind, wr_session_document(session), &options, cli->pool, cli->out, &written, err);
-    if (good) {
+    const bool same = is_last(session, last);
+    bool good = same || wr_export(kind, wr_session_document(session), &options, cli->pool, cli->out,
+                                  &written, err);
+    if (good && !same) {
         wr_text_addf(report, "%s: ", cli->out);
         wr_export_report_text(&written, report);
         wr_text_add(report, "\n");
@@ -61,14 +82,16 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, WrText *repo
     return good;
 }
 
-static bool export_maps(const WrCli *cli, const WrSet *set, WrText *report, WrError *err)
+static bool export_maps(const WrCli *cli, const WrSet *set, Last *last, WrText *report,
+                        WrError *err)
 {
     WrSession *session = wr_cli_load(cli, false, err);
     if (!session) return false;
     WrText name = { 0 };
     wr_set_cell_name(cli->file, &name);
     WrSetOrder order = { set, cli->out, wr_text_get(&name), cli->words, cli->word_count };
-    bool good = wr_export_set(&order, wr_session_document(session), cli->pool, report, err);
+    bool good = is_last(session, last) ||
+                wr_export_set(&order, wr_session_document(session), cli->pool, report, err);
     wr_text_fini(&name);
     wr_session_free(session);
     return good;
@@ -83,27 +106,84 @@ static bool is_set(const char *name)
     return found;
 }
 
-static bool export_as(const WrCli *cli, WrText *report, WrError *err)
+static bool export_as(const WrCli *cli, Last *last, WrText *report, WrError *err)
 {
     const WrExportKind *kind = wr_export_find(cli->kind);
-    if (kind) return export_file(cli, kind, report, err);
+    if (kind) return export_file(cli, kind, last, report, err);
     if (!is_set(cli->kind)) return fail_unknown(cli->kind, err);
     WrSet *set = wr_set_find(cli->kind, err);
-    bool good = set && export_maps(cli, set, report, err);
+    bool good = set && export_maps(cli, set, last, report, err);
     wr_set_free(set);
     return good;
+}
+
+static int export_once(const WrCli *cli, Last *last)
+{
+    WrError err;
+    WrText report = { 0 };
+    int status = export_as(cli, last, &report, &err) ? wr_cli_print(cli, &report)
+                                                     : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    wr_text_fini(&report);
+    return status;
+}
+
+/* ---- --watch ---- */
+
+#define SETTLE_SECONDS 0.2 /* without another change: whoever writes is done */
+#define DAY_SECONDS 86400.0
+
+static bool is_cancelled(const WrCli *cli)
+{
+    return cli->cancel && *cli->cancel;
+}
+
+/* Until the file is another one than *stamp, and has been for a moment. False: an error, or an interrupt. */
+static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp, WrError *err)
+{
+    for (;;) {
+        WrWatchEnd end = wr_watch_wait(watch, DAY_SECONDS);
+        while (end == WR_WATCH_CHANGED && !is_cancelled(cli))
+            if ((end = wr_watch_wait(watch, SETTLE_SECONDS)) == WR_WATCH_NOTHING) break;
+        if (is_cancelled(cli)) return wr_fail(err, "interrupted");
+        if (end == WR_WATCH_LOST) return wr_fail(err, "%s: its folder is gone", cli->file);
+        const WrFileStamp now = wr_file_stamp(cli->file);
+        if (!now.there || wr_file_stamp_same(&now, stamp)) continue; /* between two files */
+        *stamp = now;
+        return true;
+    }
+}
+
+static int watch_file(const WrCli *cli)
+{
+    WrError err;
+    WrWatch *watch = wr_watch_new(cli->file);
+    WrFileStamp stamp = wr_file_stamp(cli->file);
+    Last last = { 0 };
+    if (!watch) {
+        wr_fail(&err, "%s: cannot be watched (%s)", cli->file, strerror(errno));
+        return wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+    }
+    int status = export_once(cli, &last);
+    while (status == WR_EXIT_DONE) {
+        wr_cli_note("watching: writes again when the file changes; an interrupt ends it");
+        if (!wait_for_change(cli, watch, &stamp, &err))
+            status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
+        else status = export_once(cli, &last);
+    }
+    wr_watch_free(watch);
+    return status;
 }
 
 int wr_cli_export(const WrCli *cli)
 {
     WrError err;
-    WrText report = { 0 };
-    if (!cli->kind || !cli->out) {
-        wr_fail(&err, "export: needs %s", cli->kind ? "-o OUT" : "--as KIND");
+    Last last = { 0 };
+    if (!cli->kind || !cli->out || (cli->watch && !cli->file)) {
+        wr_fail(&err, "export: needs %s",
+                !cli->kind  ? "--as KIND"
+                : !cli->out ? "-o OUT"
+                            : "FILE to watch");
         return wr_cli_fail(cli, WR_EXIT_USAGE, &err);
     }
-    int status = export_as(cli, &report, &err) ? wr_cli_print(cli, &report)
-                                               : wr_cli_fail(cli, WR_EXIT_FAILED, &err);
-    wr_text_fini(&report);
-    return status;
+    return cli->watch ? watch_file(cli) : export_once(cli, &last);
 }
