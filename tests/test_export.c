@@ -793,10 +793,11 @@ static void the_report_reads_as_a_sentence(void **state)
                               .high = 1.25,
                               .ranged = true,
                               .code_high = 1,
-                              .zero_code = -1 };
+                              .zero_code = -1,
+                              .seam = { { .order = 2 }, { .order = 2 } } };
     wr_export_report_text(&report, &text);
     assert_string_equal(wr_text_get(&text), "8x4, 16 bits, heights -0.5 to 1.25, codes are 0 to 1; "
-                                            "1 texel outside the range, clipped");
+                                            "1 texel outside the range, clipped; seam C2");
     wr_text_fini(&text);
 }
 
