@@ -23,8 +23,8 @@ const WrSubcommand wr_subcommands[] = {
       "Large pictures are drawn and written by bands of rows; under a tolerance they are held "
       "whole.",
       wr_cli_render },
-    { "export", "export [FILE] --as KIND [name=value...] -o OUT [--watch]", "the table for other programs",
-      BIT(OUT) | BIT(AS),
+    { "export", "export [FILE] --as KIND [name=value...] -o OUT [--watch]",
+      "the table for other programs", BIT(OUT) | BIT(AS),
       "`wrinkle help export` lists the kinds and what each takes. `--as SET -o FOLDER` writes the "
       "maps that a program wants, "
       "all or none: blender, gltf, unreal, unity, godot, substance, renderman, arnold, povray, and "
