@@ -8,6 +8,7 @@
 #include "document/document_file.h"
 #include "document/tables.h"
 #include "export/job.h"
+#include "export/picture.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "field/scheme.h"
@@ -288,28 +289,50 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
             : wr_certificate_table(job->field, scheme < 0 ? job->scene->scheme : (WrScheme)scheme);
     job->u = wr_alloc((size_t)job->width, sizeof *job->u);
     for (int i = 0; i < job->width; i++) job->u[i] = (i + 0.5) / job->width;
-    bool ok = job->kind->write ? job->kind->write(job, path, err) : write_job(job, path, err);
+    bool ok = job->picture       ? wr_export_fill_picture(job, err)
+              : job->kind->write ? job->kind->write(job, path, err)
+                                 : write_job(job, path, err);
     wr_free(job->u);
     wr_free(job->map);
+    return ok;
+}
+
+/* Of the document, where the job says what of it. */
+static bool run_on(WrExportJob *job, const WrDocument *document, const char *path, WrError *err)
+{
+    WrTables *tables = NULL;
+    WrScene *scaled = NULL;
+    job->field = wr_document_field(document);
+    job->scene = document->scene;
+    bool ok = !job->options.object || take_object(job, document, &tables, err);
+    if (ok && !job->kind->write && !job->kind->on_surface)
+        job->scene = scaled = in_unit(job->scene);
+    ok = ok && run_job(job, path, err);
+    wr_scene_free(scaled);
+    wr_tables_free(tables);
     return ok;
 }
 
 bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
                WrPool *pool, const char *path, WrExportReport *report, WrError *err)
 {
-    WrExportJob job = { .kind = kind,
-                        .field = wr_document_field(document),
-                        .scene = document->scene,
-                        .options = *options,
-                        .pool = pool };
-    WrTables *tables = NULL;
-    WrScene *scaled = NULL;
-    bool ok = !options->object || take_object(&job, document, &tables, err);
-    if (ok && !kind->write && !kind->on_surface) job.scene = scaled = in_unit(job.scene);
-    ok = ok && run_job(&job, path, err);
-    wr_scene_free(scaled);
-    wr_tables_free(tables);
+    WrExportJob job = { .kind = kind, .options = *options, .pool = pool };
+    bool ok = run_on(&job, document, path, err);
     if (ok && report) *report = job.report;
+    return ok;
+}
+
+bool wr_export_picture(const WrExportKind *kind, const WrDocument *document,
+                       const WrExportOptions *options, WrPool *pool, WrExportPicture *picture,
+                       WrError *err)
+{
+    *picture = (WrExportPicture){ 0 };
+    if (kind->write) return wr_fail(err, "%s: no picture of the table", kind->label);
+    WrExportJob job = { .kind = kind, .options = *options, .pool = pool, .picture = picture };
+    job.options.depth = kind->floats ? 32 : 8;
+    job.options.dither = false;
+    bool ok = run_on(&job, document, kind->floats ? "x.exr" : "x.png", err);
+    picture->report = job.report;
     return ok;
 }
 

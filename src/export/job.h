@@ -23,6 +23,7 @@ struct WrExportJob {
     int width, height, channels;
     char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* of kinds that count them */
     float *map;            /* [height][width][channels] of kinds that make it whole */
+    struct WrExportPicture *picture; /* this is wanted, and no file; NULL: a file */
     bool analytic;         /* F is the scene's formula, not the table */
     double *u;             /* [width] texel centres */
     WrExportReport report; /* pieces add their counts atomically */
@@ -51,6 +52,9 @@ void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void 
 
 /* receipt.c: what stands on the disk, a WrRowSeen of the job; its largest error goes into the report. */
 bool wr_export_receipt(void *ctx, int y, int rows, const float *values, bool exact, WrError *err);
+
+/* picture.c: in place of writing a file. */
+bool wr_export_fill_picture(WrExportJob *job, WrError *err);
 
 /* A new attribute's text, to be filled. */
 WrText *wr_export_attribute(WrExportJob *job, const char *name);

@@ -48,6 +48,12 @@ static bool settle_map(const WrSetOrder *order, const WrSetMap *map, WrExportOpt
     return true;
 }
 
+bool wr_set_options(const WrSetOrder *order, int map, WrExportOptions *options, WrError *err)
+{
+    bool taken[WR_SET_WORDS];
+    return settle_map(order, &order->set->maps.data[map], options, taken, err);
+}
+
 static bool settle(const WrSetOrder *order, WrExportOptions options[WR_SET_MAPS], WrError *err)
 {
     bool taken[WR_SET_WORDS] = { false };

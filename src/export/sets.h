@@ -18,6 +18,7 @@
 typedef struct WrDocument WrDocument;
 typedef struct WrError WrError;
 typedef struct WrExportKind WrExportKind;
+typedef struct WrExportOptions WrExportOptions;
 typedef struct WrPool WrPool;
 typedef struct WrText WrText;
 
@@ -71,6 +72,8 @@ typedef struct WrSetOrder {
     int word_count;
 } WrSetOrder;
 
+/* The options of that map: the set's settings, then the words. False and a message: a word that the map's kind refuses. */
+bool wr_set_options(const WrSetOrder *order, int map, WrExportOptions *options, WrError *err);
 /* FOLDER/T_clay_N.png */
 void wr_set_file(const WrSetOrder *order, int map, WrText *path);
 

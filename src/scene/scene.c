@@ -134,6 +134,7 @@ void wr_scene_take_shared(WrScene *scene, const WrScene *from)
     wr_environment_copy(&scene->environment, &from->environment);
     scene->tone = from->tone;
     scene->cell = from->cell;
+    scene->sheet = from->sheet;
 }
 
 bool wr_cell_size_given(const WrCellSize *cell)

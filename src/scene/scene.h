@@ -15,6 +15,7 @@
 #include "scene/dials.h"
 #include "scene/environment.h"
 #include "scene/normal_frame.h"
+#include "scene/sheet.h"
 #include "scene/tone.h"
 #include "shade/bump_mode.h"
 #include "shade/gloss.h"
@@ -148,7 +149,8 @@ struct WrScene {
     WrEnvironment environment;
     WrTone tone;
     WrCellSize cell;
-    double radius; /* of the shape, once it was found, of one of `others`; private */
+    WrSheetAsk sheet; /* for the window alone */
+    double radius;    /* of the shape, once it was found, of one of `others`; private */
 };
 
 /* The scene's surface becomes these triangles, which are taken over; NULL: any other shape, or the square. The shape stays

@@ -76,6 +76,7 @@ DIALOG(fill, WR_DIALOG_FILL)
 DIALOG(grid, WR_DIALOG_GRID)
 DIALOG(import, WR_DIALOG_IMPORT)
 DIALOG(export, WR_DIALOG_EXPORT)
+DIALOG(maps, WR_DIALOG_SHEET)
 DIALOG(render, WR_DIALOG_RENDER)
 DIALOG(film, WR_DIALOG_FILM)
 DIALOG(help, WR_DIALOG_HELP)
@@ -287,6 +288,7 @@ const WrAction wr_actions[] = {
     ROW(save, "Save", save, NULL, NULL),
     ROW(save_as, "Save as...", wr_app_save_as, NULL, NULL),
     ROW(export, "Export...", export, NULL, NULL),
+    ROW(maps, "Export maps...", maps, NULL, NULL),
     ROW(render, "Render a picture...", render, NULL, NULL),
     ROW(film, "Save a turntable as a film...", film, NULL, NULL),
     ROW(save_history, "Save history as script...", wr_app_save_history, has_history, NULL),

@@ -35,6 +35,7 @@
 #include "ui/panels/panel_tablet.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/panel_presets.h"
+#include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/pen/pen.h"
@@ -131,6 +132,7 @@ void wr_app_end(WrApp *app)
     wr_thumbs_free(app);
     wr_shelf_free(app);
     wr_stamp_forget(app);
+    wr_sheet_free(app);
     wr_presets_free(app);
     wr_gallery_free(app);
     wr_generate_free(app);

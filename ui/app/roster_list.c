@@ -20,6 +20,7 @@
 #include "ui/panels/panel_objects.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/panel_presets.h"
+#include "ui/panels/panel_sheet.h"
 #include "ui/patch/patch.h"
 #include "ui/tools/shelf.h"
 #include "ui/tools/stroke_hand.h"
@@ -40,6 +41,7 @@ static const WrDialogRow dialogs[] = {
     [WR_ROW(WR_DIALOG_GRID)] = { wr_dialog_grid, false },
     [WR_ROW(WR_DIALOG_IMPORT)] = { wr_dialog_import, false },
     [WR_ROW(WR_DIALOG_EXPORT)] = { wr_dialog_export, false },
+    [WR_ROW(WR_DIALOG_SHEET)] = { wr_dialog_sheet, false },
     [WR_ROW(WR_DIALOG_RENDER)] = { wr_dialog_render, false },
     [WR_ROW(WR_DIALOG_FILM)] = { wr_dialog_film, false },
     [WR_ROW(WR_DIALOG_FILE)] = { wr_dialog_file, false },
@@ -63,23 +65,12 @@ static const WrTab tabs[] = {
 };
 
 /* In the order in which they are updated and drawn. */
-static const WrPart *const parts[] = { &wr_part_window,
-                                       &wr_part_hand,
-                                       &wr_part_tools,
-                                       &wr_part_strokes,
-                                       &wr_part_select,
-                                       &wr_part_clone,
-                                       &wr_part_canvas,
-                                       &wr_part_marks,
-                                       &wr_part_stamp,
-                                       &wr_part_generate,
-                                       &wr_part_patch,
-                                       &wr_part_accuracy,
-                                       &wr_part_layers,
-                                       &wr_part_thumbs,
-                                       &wr_part_gallery,
-                                       &wr_part_presets,
-                                       NULL };
+static const WrPart *const parts[] = { &wr_part_window,   &wr_part_hand,   &wr_part_tools,
+                                       &wr_part_strokes,  &wr_part_select, &wr_part_clone,
+                                       &wr_part_canvas,   &wr_part_marks,  &wr_part_stamp,
+                                       &wr_part_generate, &wr_part_patch,  &wr_part_accuracy,
+                                       &wr_part_layers,   &wr_part_thumbs, &wr_part_gallery,
+                                       &wr_part_presets,  &wr_part_sheet,  NULL };
 
 static WrActionFamily *const families[] = { wr_adjust_by_name, wr_generate_by_name, NULL };
 

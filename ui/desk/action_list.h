@@ -11,6 +11,7 @@
     X(render, "")                                                                                  \
     X(film, "")                                                                                    \
     X(export, "Ctrl+E Ctrl+Shift+E")                                                               \
+    X(maps, "Ctrl+Alt+M")                                                                          \
     X(save_history, "")                                                                            \
     X(quit, "Ctrl+Q")                                                                              \
     X(undo, "Ctrl+Z Z")                                                                            \

@@ -54,6 +54,7 @@ typedef struct WrSeam WrSeam;
 typedef struct WrSelectHand WrSelectHand;
 typedef struct WrSession WrSession;
 typedef struct WrSettings WrSettings;
+typedef struct WrSheetState WrSheetState;
 typedef struct WrShelf WrShelf;
 typedef struct WrStampHand WrStampHand;
 typedef struct WrSurfaceHand WrSurfaceHand;
@@ -132,6 +133,7 @@ struct WrApp {
     WrLayersHand *layers;
     WrSurfaceHand *surface;
     WrObjectsHand *objects;
+    WrSheetState *sheet;    /* of the export sheet; owned; NULL until it is opened */
     WrPresetTiles *presets; /* owned; NULL until their list is drawn */
     WrAdjust *adjust;
     WrOutlineAsk *selecting; /* of the dialogs that change the selection */

@@ -13,6 +13,7 @@ typedef enum WrDialog {
     WR_DIALOG_GRID,
     WR_DIALOG_IMPORT,
     WR_DIALOG_EXPORT,
+    WR_DIALOG_SHEET, /* a set of maps */
     WR_DIALOG_RENDER,
     WR_DIALOG_FILM,
     WR_DIALOG_FILE,

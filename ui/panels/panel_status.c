@@ -12,6 +12,7 @@
 #include "ui/gui/gui.h"
 #include "ui/gui/theme.h"
 #include "ui/panels/panel_adjust.h"
+#include "ui/panels/panel_sheet.h"
 #include "ui/preview/preview.h"
 #include "ui/views/marks.h"
 #include "ui/jobs/trial.h"
@@ -231,12 +232,14 @@ static void right_side(WrApp *app)
     char render[300], size[64];
     bool safe = wr_session_journal_safe(app->session, &reason);
     const char *journal = safe ? "journal safe" : "journal not safe";
+    const bool live = app->sheet && app->sheet->live;
     picture(app, true, render, sizeof render);
     snprintf(size, sizeof size, "%d \xc3\x97 %d", wr_field_width(field), wr_field_height(field));
     double gap = wr_gui_px(18), memory_width = wr_gui_text_width(WR_FONT_TEXT, "8888 MB");
     double others = memory_width + 4 * gap + wr_gui_px(12);
-    const char *const parts[] = { size, saved, journal };
-    for (int i = 0; i < 3; i++) others += wr_gui_text_width(WR_FONT_TEXT, parts[i]);
+    const char *const parts[] = { size, saved, journal, "live" };
+    if (live) others += gap;
+    for (int i = 0; i < (live ? 4 : 3); i++) others += wr_gui_text_width(WR_FONT_TEXT, parts[i]);
     double width = others + wr_gui_text_width(WR_FONT_TEXT, render);
     if (width + left_width() > wr_gui_width()) {
         picture(app, false, render, sizeof render);
@@ -251,6 +254,11 @@ static void right_side(WrApp *app)
     memory(app);
     wr_gui_same_line(18);
     wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, saved);
+    if (live) {
+        wr_gui_same_line(18);
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_CELL, "live");
+        wr_gui_tip("Maps are written again after each pause of the hand: File, Export maps...");
+    }
     wr_gui_same_line(18);
     wr_gui_text(WR_FONT_TEXT, safe ? WR_COLOUR_LABEL : WR_COLOUR_RAISE, journal);
     wr_gui_tip(safe ? "Should the program or the computer stop, every change so far can be brought "
@@ -262,6 +270,17 @@ static void right_side(WrApp *app)
 static bool work(WrApp *app)
 {
     double fraction, seconds;
+    const char *as;
+    if (wr_sheet_writing(app, &fraction, &seconds, &as) && seconds > MOMENT_SECONDS) {
+        char what[80];
+        snprintf(what, sizeof what, "Writing %.40s", as);
+        wr_gui_text(WR_FONT_TEXT, WR_COLOUR_STRONG, what);
+        wr_gui_same_line(12);
+        wr_gui_progress(wr_gui_px(220), fraction);
+        wr_gui_same_line(12);
+        if (wr_gui_chip(NULL, "Cancel")) wr_sheet_cancel(app);
+        return true;
+    }
     bool tried = wr_trial_busy(app->trial, &fraction, &seconds) && seconds > MOMENT_SECONDS;
     bool outlined = !tried && wr_outliner_busy(app->marks->outliner, &fraction, &seconds) &&
                     seconds > MOMENT_SECONDS;

@@ -1,0 +1,99 @@
+#include "export/picture.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "document/document.h"
+#include "export/job.h"
+#include "field/field.h"
+
+#include <math.h>
+
+#define STRIP 64 /* rows at a time */
+
+/* One number 0..255 a channel; two channels are red and green. */
+static void put_codes(const uint8_t *from, int channels, size_t count, uint8_t *rgb)
+{
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            rgb[3 * i + (size_t)c] = channels == 1  ? from[i]
+                                     : c < channels ? from[i * (size_t)channels + (size_t)c]
+                                                    : 128;
+}
+
+/* Floats, 0 in the middle, the largest white or black. */
+static void put_floats(const float *from, int channels, size_t count, uint8_t *rgb)
+{
+    double most = 0;
+    for (size_t i = 0; i < count * (size_t)channels; i++) most = fmax(most, fabs((double)from[i]));
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++) {
+            const bool there = channels == 1 || c < channels;
+            const size_t at = i * (size_t)channels + (size_t)(channels == 1 ? 0 : c);
+            const double x = there && most > 0 ? from[at] / most : 0;
+            rgb[3 * i + (size_t)c] = (uint8_t)lrint(127.5 + 127.4 * x);
+        }
+}
+
+bool wr_export_fill_picture(WrExportJob *job, WrError *err)
+{
+    WrExportPicture *picture = job->picture;
+    const size_t count = (size_t)job->width * (size_t)job->height;
+    const int channels = job->kind->channels;
+    const size_t each = job->options.depth == 32 ? sizeof(float) : 1;
+    char *values = wr_try_alloc(count * (size_t)channels, each, "a picture of a map", err);
+    picture->rgb = values ? wr_try_alloc(count, 3, "a picture of a map", err) : NULL;
+    if (picture->rgb) {
+        if (job->kind->prepare) job->kind->prepare(job);
+        for (int y = 0; y < job->height; y += STRIP) {
+            const int rows = job->height - y < STRIP ? job->height - y : STRIP;
+            job->kind->rows(job, y, rows,
+                            values + (size_t)y * (size_t)job->width * (size_t)channels * each);
+        }
+        if (each == 1) put_codes((const uint8_t *)values, channels, count, picture->rgb);
+        else put_floats((const float *)(const void *)values, channels, count, picture->rgb);
+        picture->width = job->width;
+        picture->height = job->height;
+    }
+    wr_free(values);
+    return picture->rgb != NULL;
+}
+
+void wr_export_picture_fini(WrExportPicture *picture)
+{
+    wr_free(picture->rgb);
+    *picture = (WrExportPicture){ 0 };
+}
+
+/* ---- numbers ---- */
+
+static void count_row(const float *row, int width, WrHistogram *out)
+{
+    const double scale = out->high > out->low ? WR_HISTOGRAM / (out->high - out->low) : 0;
+    for (int i = 0; i < width; i++) {
+        const int bar = (int)(((double)row[i] - out->low) * scale);
+        out->count[bar < 0 ? 0 : bar < WR_HISTOGRAM ? bar : WR_HISTOGRAM - 1]++;
+    }
+}
+
+WrHistogram wr_export_histogram(const WrDocument *document, double from, double to)
+{
+    const WrField *field = wr_document_field(document);
+    const int width = wr_field_width(field);
+    WrHistogram out = { 0 };
+    float low, high, *row = wr_alloc_unset((size_t)width, sizeof *row);
+    wr_field_range(field, &low, &high);
+    out.low = low;
+    out.high = high;
+    for (int j = 0; j < wr_field_height(field); j++) {
+        wr_field_read(field, 0, j, width, 1, row, (size_t)width);
+        count_row(row, width, &out);
+        for (int i = 0; i < width; i++) out.outside += (double)row[i] < from || (double)row[i] > to;
+    }
+    wr_free(row);
+    return out;
+}
+
+double wr_export_bytes(const WrExportKind *kind, int width, int height, int depth)
+{
+    return (double)width * height * (kind->channels > 0 ? kind->channels : 1) * (depth / 8.0);
+}

@@ -1,0 +1,329 @@
+/* The export sheet. */
+#include "ui/panels/panel_sheet.h"
+#include "ui/desk/desk.h"
+#include "ui/desk/dialog.h"
+#include "ui/desk/session_view.h"
+#include "ui/gui/gui.h"
+#include "ui/gui/theme.h"
+
+#include "base/rows.h"
+#include "field/field.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define WIDE_UNITS 760
+#define PICTURE_UNITS 72
+#define OTHERS_UNITS 372 /* all but the list of maps, and what stands about a dialog */
+#define GREEN_SIDE 48    /* texels of the two bumps */
+#define CHOICES_MOST (WR_SET_ROWS + WR_SETS_MOST + WR_EXPORT_KIND_COUNT)
+
+/* ---- what ---- */
+
+/* Sets first, then single maps. */
+static int list_choices(const WrSheetState *sheet, const char **labels, const char **words)
+{
+    int count = 0;
+    for (int i = 0; i < sheet->names.names.count && count < WR_SET_ROWS + WR_SETS_MOST; i++) {
+        words[count] = sheet->names.names.data[i];
+        labels[count++] = sheet->names.names.data[i];
+    }
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++) {
+        if (wr_export_kinds[i].ending) continue; /* bodies have sizes of their own: Export... */
+        words[count] = wr_export_kinds[i].name;
+        labels[count++] = wr_export_kinds[i].label;
+    }
+    return count;
+}
+
+/* Short words, which leave the room to what they name. */
+static void label(const char *text)
+{
+    wr_gui_text(WR_FONT_TEXT, WR_COLOUR_LABEL, text);
+    wr_gui_same_line(0);
+    wr_gui_move_to(wr_gui_px(64));
+}
+
+static void choose_what(WrSheetState *sheet)
+{
+    const char *labels[CHOICES_MOST], *words[CHOICES_MOST];
+    int chosen = 0, count = list_choices(sheet, labels, words);
+    for (int i = 0; i < count; i++)
+        if (strcmp(words[i], sheet->ask.as) == 0) chosen = i;
+    label("For");
+    if (wr_gui_choice("as", 0, labels, count, &chosen))
+        snprintf(sheet->ask.as, sizeof sheet->ask.as, "%s", words[chosen]);
+    wr_gui_tip("A program, for all maps that it wants, named as it wants them; or one map alone. "
+               "Sets of your own "
+               "are files NAME.set in the folder sets of your settings");
+    const WrSheetLook *look = sheet->shown;
+    const WrExportKind *kind = wr_export_find(sheet->ask.as);
+    const char *about = kind                                    ? kind->help
+                        : look && look->set && look->set->about ? look->set->about
+                                                                : "";
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, about, wr_gui_available());
+}
+
+static void choose_how(const WrApp *app, WrSheetState *sheet)
+{
+    WR_ROWS(depths);
+    static const char *const depths[] = { [WR_ROW(WR_SHEET_AS_SET)] = "Its own depth",
+                                          [WR_ROW(WR_SHEET_8)] = "8 bits",
+                                          [WR_ROW(WR_SHEET_16)] = "16 bits",
+                                          [WR_ROW(WR_SHEET_FLOAT)] = "Floats" };
+    WR_ROWS_END(depths, WR_SHEET_DEPTHS);
+    WR_ROWS(ranges);
+    static const char *const ranges[] = { [WR_ROW(WR_SHEET_RANGE_SET)] = "Its own range",
+                                          [WR_ROW(WR_SHEET_RANGE_AUTO)] = "Lowest to highest",
+                                          [WR_ROW(WR_SHEET_RANGE_UNIT)] = "0 to 1, others clipped",
+                                          [WR_ROW(WR_SHEET_RANGE_SIGNED)] = "0 in the middle" };
+    WR_ROWS_END(ranges, WR_SHEET_RANGES);
+    char texts[WR_SHEET_SIZES][32];
+    const char *sizes[WR_SHEET_SIZES];
+    const WrField *field = wr_app_field(app);
+    for (int i = 0; i < WR_SHEET_SIZES; i++) {
+        int w = wr_field_width(field), h = wr_field_height(field);
+        wr_sheet_size(i, &w, &h);
+        snprintf(texts[i], sizeof texts[i], "%d \xc3\x97 %d%s", w, h,
+                 i == WR_SHEET_POWER ? " (power of 2)" : "");
+        sizes[i] = texts[i];
+    }
+    label("As");
+    const double third = (wr_gui_available() - wr_gui_px(16)) / 3;
+    wr_gui_choice("size", third, sizes, WR_SHEET_SIZES, &sheet->ask.size);
+    wr_gui_tip("Texels of each file. Smaller ones are means of what they cover");
+    wr_gui_same_line(8);
+    wr_gui_choice("depth", third, depths, WR_SHEET_DEPTHS, &sheet->ask.depth);
+    wr_gui_tip("Bits of each number; floats go into EXR files, codes into PNG");
+    wr_gui_same_line(8);
+    wr_gui_choice("range", third, ranges, WR_SHEET_RANGES, &sheet->ask.range);
+    wr_gui_tip("Heights of the first and the last code");
+}
+
+static void choose_where(WrSheetState *sheet)
+{
+    label("To");
+    const double name = wr_gui_px(150);
+    wr_gui_text_field("##folder", wr_gui_available() - name - wr_gui_px(8), sheet->ask.folder,
+                      sizeof sheet->ask.folder, false);
+    wr_gui_tip("The folder");
+    wr_gui_same_line(8);
+    wr_gui_text_field("##name", name, sheet->ask.name, sizeof sheet->ask.name, false);
+    wr_gui_tip("The cell's name, in the files' names");
+}
+
+/* ---- maps ---- */
+
+static void add_bytes(double bytes, char *text, size_t size)
+{
+    if (bytes >= 1e6) snprintf(text, size, "%.3g MB", bytes / 1e6);
+    else snprintf(text, size, "%.0f kB", fmax(1, bytes / 1e3));
+}
+
+/* "512 x 512, 16 bits, codes are -0.05 to 0.93; up to 512 kB" */
+static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
+{
+    const WrSetMap *map = &look->set->maps.data[i];
+    const WrExportReport *report = &look->pictures[i].report;
+    const int depth = wr_sheet_depth(map);
+    char bytes[24];
+    size_t used = 0;
+    if (map->kind->write) {
+        snprintf(text, size, "%s", map->kind->label);
+        return;
+    }
+    add_bytes(wr_export_bytes(map->kind, look->width, look->height, depth), bytes, sizeof bytes);
+    used += (size_t)snprintf(text, size, "%d \xc3\x97 %d, %s", look->width, look->height,
+                             depth == 8    ? "8 bits"
+                             : depth == 16 ? "16 bits"
+                                           : "floats");
+    if (report->ranged && depth != 32 && strcmp(map->kind->name, "height") == 0)
+        used += (size_t)snprintf(text + used, size - used, ", codes are %.3g to %.3g",
+                                 report->code_low, report->code_high);
+    if (report->convention)
+        used += (size_t)snprintf(text + used, size - used, ", %s", report->convention);
+    snprintf(text + used, size - used, "; up to %s", bytes);
+}
+
+static void map_row(const WrSheetState *sheet, int i)
+{
+    const WrSheetLook *look = sheet->shown;
+    const WrExportPicture *p = &look->pictures[i];
+    const WrSetOrder order = { look->set, "", look->ask.name, NULL, 0 };
+    const double side = wr_gui_px(PICTURE_UNITS),
+                 most = p->width > p->height ? p->width : p->height;
+    char facts[200];
+    WrText file = { 0 };
+    wr_set_file(&order, i, &file);
+    if (p->rgb && sheet->pictures[i])
+        wr_gui_image(sheet->pictures[i], side * p->width / most, side * p->height / most);
+    else wr_gui_image(NULL, side, side);
+    wr_gui_same_line(12);
+    wr_gui_group_begin();
+    wr_gui_text_cut(WR_FONT_BOLD, WR_COLOUR_TEXT, wr_text_get(&file) + 1, wr_gui_available());
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, look->set->maps.data[i].kind->label,
+                    wr_gui_available());
+    facts_of(look, i, facts, sizeof facts);
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, facts, wr_gui_available());
+    wr_gui_group_end();
+    wr_text_fini(&file);
+}
+
+static void show_maps(const WrApp *app, const WrSheetState *sheet)
+{
+    const double room = app->height - wr_gui_px(OTHERS_UNITS);
+    const double high =
+        fmax(wr_gui_px(PICTURE_UNITS + 16), fmin(wr_gui_px(3.3 * PICTURE_UNITS), room));
+    const WrSheetLook *look = sheet->shown;
+    wr_gui_list_begin("maps", high);
+    if (look && !look->set) wr_gui_text_wrapped(WR_FONT_TEXT, WR_COLOUR_BAD, look->err.text);
+    for (int i = 0; look && look->set && i < look->set->maps.count; i++) {
+        wr_gui_push_id(i);
+        map_row(sheet, i);
+        wr_gui_pop_id();
+    }
+    wr_gui_list_end();
+}
+
+/* ---- heights, and which way green runs ---- */
+
+/* Bars, and the first and last code's heights as lines; what is beyond them is clipped. */
+static void histogram(const WrSheetLook *look, double wide, double high)
+{
+    const WrHistogram *h = &look->histogram;
+    const WrPad pad = wr_gui_pad_begin("histogram", wide, high);
+    int64_t most = 1;
+    for (int i = 0; i < WR_HISTOGRAM; i++) most = h->count[i] > most ? h->count[i] : most;
+    for (int i = 0; i < WR_HISTOGRAM; i++) {
+        const double middle = h->low + (i + 0.5) / WR_HISTOGRAM * (h->high - h->low);
+        const bool out = look->ask.range == WR_SHEET_RANGE_UNIT && (middle < 0 || middle > 1);
+        const double tall =
+            h->count[i] > 0 ? fmax(1, pow((double)h->count[i] / (double)most, 0.4) * (pad.h - 2))
+                            : 0;
+        wr_gui_draw_fill(pad.x + i * pad.w / WR_HISTOGRAM, pad.y + pad.h - tall,
+                         pad.w / WR_HISTOGRAM, tall, out ? WR_COLOUR_RAISE : WR_COLOUR_LEVEL, 0);
+    }
+    if (h->low < 0 && h->high > 0) {
+        const double x = pad.x - h->low / (h->high - h->low) * pad.w;
+        wr_gui_draw_line(x, pad.y, x, pad.y + pad.h, WR_COLOUR_LABEL, 1);
+    }
+    wr_gui_pad_end();
+    wr_gui_tip(
+        "How many texels have which height; the line is 0. Orange: beyond the range, clipped");
+}
+
+/* A round bump as a normal map: its upper flank is bright green, or dark. */
+static SDL_Texture *make_green(SDL_Renderer *renderer, double green)
+{
+    uint8_t rgb[GREEN_SIDE * GREEN_SIDE * 3];
+    for (int j = 0; j < GREEN_SIDE; j++)
+        for (int i = 0; i < GREEN_SIDE; i++) {
+            const double x = (i + 0.5) / GREEN_SIDE * 2.4 - 1.2,
+                         y = 1.2 - (j + 0.5) / GREEN_SIDE * 2.4;
+            const double rr = x * x + y * y, in = rr < 1 ? 1 : 0;
+            const double n[3] = { in * x, green * in * y, sqrt(rr < 1 ? 1 - rr : 1) };
+            for (int c = 0; c < 3; c++)
+                rgb[(j * GREEN_SIDE + i) * 3 + c] = (uint8_t)lrint(127.5 + 127.5 * n[c]);
+        }
+    SDL_Texture *texture = SDL_CreateTexture(renderer, SDL_PIXELFORMAT_RGB24,
+                                             SDL_TEXTUREACCESS_STATIC, GREEN_SIDE, GREEN_SIDE);
+    if (texture) SDL_UpdateTexture(texture, NULL, rgb, GREEN_SIDE * 3);
+    return texture;
+}
+
+static bool has_green(const WrSheetLook *look, double green)
+{
+    for (int i = 0; i < look->set->maps.count; i++)
+        if (look->set->maps.data[i].kind->green == green) return true;
+    return false;
+}
+
+static void greens(const WrApp *app, WrSheetState *sheet, double side)
+{
+    static const char *const words[] = { "+Y", "-Y" };
+    static const char *const tips[] = {
+        "Green up: a bump's upper flank is bright green. OpenGL, glTF, Blender, Unity, "
+        "Godot, Maya",
+        "Green down: a bump's upper flank is dark. DirectX, Unreal, 3ds Max"
+    };
+    for (int i = 0; i < 2; i++) {
+        const bool here = has_green(sheet->shown, i ? -1.0 : 1.0);
+        if (!sheet->greens[i]) sheet->greens[i] = make_green(app->renderer, i ? -1.0 : 1.0);
+        wr_gui_same_line(12);
+        wr_gui_image(sheet->greens[i], side, side);
+        wr_gui_tip(tips[i]);
+        wr_gui_same_line(4);
+        wr_gui_text(here ? WR_FONT_BOLD : WR_FONT_TEXT, here ? WR_COLOUR_CELL : WR_COLOUR_LABEL,
+                    words[i]);
+        wr_gui_tip(tips[i]);
+    }
+}
+
+static void numbers(const WrApp *app, WrSheetState *sheet)
+{
+    const WrSheetLook *look = sheet->shown;
+    const double high = wr_gui_px(48);
+    if (!look || !look->set) return;
+    histogram(look, wr_gui_available() - 2 * (high + wr_gui_px(48)), high);
+    greens(app, sheet, high);
+    char bytes[24], line[300];
+    WrText seam = { 0 };
+    add_bytes(look->bytes, bytes, sizeof bytes);
+    wr_certificate_text(&look->seam, &seam);
+    const double texels =
+        (double)wr_field_width(wr_app_field(app)) * wr_field_height(wr_app_field(app));
+    snprintf(line, sizeof line, "Heights %.4g to %.4g, %.3g %% clipped; all files up to %s; %s",
+             look->histogram.low, look->histogram.high,
+             100.0 * (double)look->histogram.outside / texels, bytes, wr_text_get(&seam));
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_TEXT, line, wr_gui_available());
+    wr_gui_tip(line);
+    wr_text_fini(&seam);
+}
+
+/* ---- the end ---- */
+
+static void buttons(WrApp *app, WrSheetState *sheet)
+{
+    double fraction, seconds;
+    const char *as;
+    const bool busy = wr_sheet_writing(app, &fraction, &seconds, &as);
+    const bool good = sheet->shown && sheet->shown->set && *sheet->ask.folder && *sheet->ask.name;
+    wr_gui_space(4);
+    if (busy) {
+        if (wr_gui_button("Stop writing", false)) wr_sheet_cancel(app);
+        wr_gui_same_line(8);
+        wr_gui_progress(wr_gui_px(180), fraction);
+    } else {
+        wr_gui_disable(!good);
+        if (wr_gui_button("Write all", true)) wr_sheet_write(app, true);
+        wr_gui_enable();
+    }
+    wr_gui_same_line(8);
+    if (wr_gui_button("Close", false) || (!app->dialog->fresh && wr_gui_escape_pressed()))
+        wr_dialog_close(app);
+    wr_gui_same_line(16);
+    if (wr_gui_check("Live: write again after each pause", &sheet->live) && sheet->live && good)
+        wr_sheet_write(app, false);
+    wr_gui_tip("As long as this is on, the files follow the brush: half a second after the last "
+               "change that they know "
+               "of they are written again, all at once. An error ends it");
+}
+
+void wr_dialog_sheet(WrApp *app)
+{
+    WrSheetState *sheet = wr_sheet_open(app);
+    if (app->dialog->fresh) {
+        wr_set_names_free(&sheet->names);
+        sheet->names = wr_set_names();
+    }
+    wr_sheet_look(app);
+    if (!wr_gui_dialog_begin("Export maps", WIDE_UNITS)) return;
+    choose_what(sheet);
+    choose_where(sheet);
+    choose_how(app, sheet);
+    show_maps(app, sheet);
+    numbers(app, sheet);
+    buttons(app, sheet);
+    wr_gui_dialog_end();
+}
