@@ -61,7 +61,7 @@ static int count_hidden(void)
 static void run_set(void)
 {
     WrError err = { "" };
-    const bool good = wr_session_run(session, "maps unreal . name=tile", &err);
+    const bool good = wr_session_run(session, "maps two . name=tile", &err);
     snprintf(*said, sizeof *said, "%.250s", err.text);
     _exit(good ? 0 : 1);
 }
@@ -71,6 +71,12 @@ static int make_world(void **state)
     static const char *const lines[] = { "table 37x29", "grid cells=4x3", "dab 0.3,0.3 radius=9",
                                          NULL };
     if (enter_folder(state) != 0) return -1;
+    char path[200];
+    snprintf(path, sizeof path, "%s/config", (char *)*state);
+    if (mkdir("config", 0700) || mkdir("config/wrinkle", 0700) ||
+        mkdir("config/wrinkle/sets", 0700) || setenv("XDG_CONFIG_HOME", path, 1))
+        return -1;
+    put("config/wrinkle/sets/two.set", "normal-y T_*_N.png depth=8\nheight T_*_H.png depth=16\n");
     session = session_of(lines);
     wr_image_warm();
     wr_session_set_outputs(session, true);

@@ -38,11 +38,12 @@ bool wr_export_fill_picture(WrExportJob *job, WrError *err)
 {
     WrExportPicture *picture = job->picture;
     const size_t count = (size_t)job->width * (size_t)job->height;
-    const int channels = job->kind->channels;
+    const int channels = job->channels;
     const size_t each = job->options.depth == 32 ? sizeof(float) : 1;
     char *values = wr_try_alloc(count * (size_t)channels, each, "a picture of a map", err);
     picture->rgb = values ? wr_try_alloc(count, 3, "a picture of a map", err) : NULL;
-    if (picture->rgb) {
+    const bool made = picture->rgb && (!job->kind->make || job->kind->make(job, err));
+    if (made) {
         if (job->kind->prepare) job->kind->prepare(job);
         for (int y = 0; y < job->height; y += STRIP) {
             const int rows = job->height - y < STRIP ? job->height - y : STRIP;
@@ -55,7 +56,7 @@ bool wr_export_fill_picture(WrExportJob *job, WrError *err)
         picture->height = job->height;
     }
     wr_free(values);
-    return picture->rgb != NULL;
+    return made;
 }
 
 void wr_export_picture_fini(WrExportPicture *picture)

@@ -17,29 +17,44 @@
 
 /* Heights that a program multiplies itself leave as floats where it reads them; elsewhere as 16 bits. */
 const WrSetRow wr_set_rows[] = {
-    { "blender", "heights as floats and a normal map, named as Node Wrangler looks for them",
+    { "blender",
+      "heights as floats, normals, occlusion, roughness, named as Node Wrangler looks for them",
       "height *_displacement.exr depth=32\n"
-      "normal+y *_normal.png depth=16\n" },
-    { "gltf", "the normal texture", "normal+y *_normal.png depth=8\n" },
-    { "unreal", "T_NAME_N with green down, T_NAME_H of 16 bits",
-      "normal-y T_*_N.png depth=8\n"
-      "height T_*_H.png depth=16\n" },
-    { "unity", "normal map and height map",
-      "normal+y *_Normal.png depth=8\n"
-      "height *_Height.png depth=16\n" },
-    { "godot", "normal map and height map",
+      "normal+y *_normal.png depth=16\n"
+      "occlusion *_ao.png depth=8\n"
+      "roughness *_roughness.png depth=8\n" },
+    { "gltf", "the normal and the occlusion texture",
       "normal+y *_normal.png depth=8\n"
-      "height *_height.png depth=8 dither=on\n" },
-    { "substance", "heights about mid-grey and a normal map with green down, curvature",
+      "occlusion *_occlusion.png depth=8\n" },
+    { "unreal", "T_NAME_N with green down, T_NAME_H of 16 bits, T_NAME_AO, T_NAME_R for roughness",
+      "normal-y T_*_N.png depth=8\n"
+      "height T_*_H.png depth=16\n"
+      "occlusion T_*_AO.png depth=8\n"
+      "roughness T_*_R.png depth=8\n" },
+    { "unity", "normals, heights, occlusion",
+      "normal+y *_Normal.png depth=8\n"
+      "height *_Height.png depth=16\n"
+      "occlusion *_Occlusion.png depth=8\n" },
+    { "godot", "normals, heights, occlusion, roughness",
+      "normal+y *_normal.png depth=8\n"
+      "height *_height.png depth=8 dither=on\n"
+      "occlusion *_ao.png depth=8\n"
+      "roughness *_roughness.png depth=8\n" },
+    { "substance",
+      "heights about mid-grey, normals with green down, curvature, occlusion, roughness",
       "height *_Height.png depth=16 range=signed\n"
       "normal-y *_Normal.png depth=16\n"
-      "curvature *_Curvature.png depth=16\n" },
+      "curvature *_Curvature.png depth=16\n"
+      "occlusion *_AmbientOcclusion.png depth=16\n"
+      "roughness *_Roughness.png depth=16\n" },
     { "renderman", "heights as floats for displacement, slopes for bump",
       "height *_disp.exr depth=32\n"
       "slopes *_slopes.exr\n" },
-    { "arnold", "heights as floats for displacement, a normal map as floats",
+    { "arnold", "all as floats: heights for displacement, normals, occlusion, roughness",
       "height *_disp.exr depth=32\n"
-      "normal+y *_normal.exr depth=32\n" },
+      "normal+y *_normal.exr depth=32\n"
+      "occlusion *_ao.exr depth=32\n"
+      "roughness *_roughness.exr depth=32\n" },
     { "povray", "a height field of 16 bits, which is a bump map as well",
       "height *_hf.png depth=16\n" },
 };
