@@ -22,11 +22,11 @@ struct WrExportJob {
     WrPool *pool;            /* may be NULL */
     int width, height, channels;
     char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* of kinds that count them */
-    float *map;            /* [height][width][channels] of kinds that make it whole */
+    float *map;                      /* [height][width][channels] of kinds that make it whole */
     struct WrExportPicture *picture; /* this is wanted, and no file; NULL: a file */
-    bool analytic;         /* F is the scene's formula, not the table */
-    double *u;             /* [width] texel centres */
-    WrExportReport report; /* pieces add their counts atomically */
+    bool analytic;                   /* F is the scene's formula, not the table */
+    double *u;                       /* [width] texel centres */
+    WrExportReport report;           /* pieces add their counts atomically */
     const char *attribute_names[WR_EXPORT_ATTRIBUTES];
     WrText attribute_texts[WR_EXPORT_ATTRIBUTES];
     int attribute_count;
