@@ -121,6 +121,20 @@ static void add_bytes(double bytes, char *text, size_t size)
     else snprintf(text, size, "%.0f kB", fmax(1, bytes / 1e3));
 }
 
+/* Heights of the first and the last code: of the whole table, of which the picture has not all. */
+static void code_range(const WrSheetLook *look, int i, double *low, double *high)
+{
+    const WrSetOrder order = { look->set, "", "", NULL, 0 };
+    WrExportOptions options = wr_export_default();
+    WrError none;
+    if (!wr_set_options(&order, i, &options, &none)) options = wr_export_default();
+    const double most = fmax(fabs(look->histogram.low), fabs(look->histogram.high));
+    *low = look->histogram.low;
+    *high = look->histogram.high;
+    if (options.range == WR_EXPORT_RANGE_GIVEN) *low = options.low, *high = options.high;
+    if (options.range == WR_EXPORT_RANGE_SIGNED) *low = -most, *high = most;
+}
+
 /* "512 x 512, 16 bits, codes are -0.05 to 0.93; up to 512 kB" */
 static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
 {
@@ -138,9 +152,11 @@ static void facts_of(const WrSheetLook *look, int i, char *text, size_t size)
                              depth == 8    ? "8 bits"
                              : depth == 16 ? "16 bits"
                                            : "floats");
-    if (report->ranged && depth != 32 && strcmp(map->kind->name, "height") == 0)
-        used += (size_t)snprintf(text + used, size - used, ", codes are %.3g to %.3g",
-                                 report->code_low, report->code_high);
+    if (depth != 32 && strcmp(map->kind->name, "height") == 0) {
+        double low, high;
+        code_range(look, i, &low, &high);
+        used += (size_t)snprintf(text + used, size - used, ", codes are %.3g to %.3g", low, high);
+    }
     if (report->convention)
         used += (size_t)snprintf(text + used, size - used, ", %s", report->convention);
     snprintf(text + used, size - used, "; up to %s", bytes);
