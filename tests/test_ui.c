@@ -84,6 +84,27 @@ static void panning_moves_the_picture_by_the_pixels_dragged(void **state)
     assert_true(view.centre_y >= 0 && view.centre_y < 256);
 }
 
+/* A mirror at the canvas's middle: what was as far to the left of it is to the right. */
+static void a_mirrored_view_shows_left_at_the_right(void **state)
+{
+    (void)state;
+    TestRandom r = { 3 };
+    const double middle = 48 + 545 / 2.0;
+    for (int i = 0; i < 50; i++) {
+        WrCanvasView view = some_view(), mirrored = view;
+        double px = 48 + 545 * test_random(&r), py = 73 + 799 * test_random(&r), x, y, qx, qy;
+        mirrored.mirrored = true;
+        wr_view_to_texel(&view, px, py, &x, &y);
+        wr_view_to_pixel(&mirrored, x, y, &qx, &qy);
+        assert_near(qx, 2 * middle - px, 1e-9);
+        assert_near(qy, py, 1e-9);
+        wr_view_pan(&mirrored, 31, -7); /* under the pointer it goes with the hand all the same */
+        wr_view_to_texel(&mirrored, qx + 31, qy - 7, &px, &py);
+        assert_near((px - x) / 512 - rint((px - x) / 512), 0, 1e-9);
+        assert_near((py - y) / 256 - rint((py - y) / 256), 0, 1e-9);
+    }
+}
+
 static void zoom_stops_at_its_limits_for_tables_of_any_size(void **state)
 {
     (void)state;
@@ -637,6 +658,7 @@ int main(void)
         cmocka_unit_test(the_middle_of_the_canvas_shows_the_centre_texel),
         cmocka_unit_test(zooming_keeps_the_texel_under_the_pointer),
         cmocka_unit_test(panning_moves_the_picture_by_the_pixels_dragged),
+        cmocka_unit_test(a_mirrored_view_shows_left_at_the_right),
         cmocka_unit_test(zoom_stops_at_its_limits_for_tables_of_any_size),
         cmocka_unit_test(an_outline_in_the_middle_of_the_cell_has_no_copies),
         cmocka_unit_test(hc73_an_outline_over_an_edge_shows_on_the_other_side),

@@ -60,6 +60,18 @@ near "$(height ellipse.exr "$at" "$v")" 1 || complain "on the ellipse the height
 key shift+g
 drag $((cx - 80)) $cy 4 0 40
 becomes 'ramp linear from=*low=0 high=1' "a ramp by a drag"
+# In a mirror what the hand draws to the right goes to the left, and what is seen is the mirror's.
+from_to() { newest | sed -E 's/.* from=([0-9.]+),.* to=([0-9.]+),.*/\1 \2/'; }
+awk -v line="$(from_to)" 'BEGIN { split(line, u, " "); exit !(u[2] > u[1]) }' || complain "a drag to the right is $(newest)"
+shot plain
+key m
+shot mirrored
+changed=$(differs plain mirrored 400x400+70+200)
+[[ ${changed%.*} -gt 50 ]] || complain "the mirrored table differs by only $changed pixels"
+drag $((cx - 80)) $cy 4 0 40
+to_the_left() { awk -v line="$(from_to)" 'BEGIN { split(line, u, " "); exit !(u[2] < u[1]) }'; }
+until_true 60 "a ramp to the left in the mirror; $(newest)" to_the_left
+key m
 key r
 press $((cx - 40)) $cy
 xdotool mousemove $((X + cx + 40)) $((Y + cy + 40))

@@ -156,6 +156,17 @@ static void fit(WrApp *app)
     wr_view_fit(app->view, 0.06);
 }
 
+static void mirror_view(WrApp *app)
+{
+    app->view->mirrored = !app->view->mirrored;
+    wr_app_redraw(app);
+}
+
+static bool is_mirrored(const WrApp *app)
+{
+    return app->view->mirrored;
+}
+
 static void pan_by(WrApp *app, double x, double y)
 {
     wr_view_pan(app->view, x * app->view->w / 10.0, y * app->view->h / 10.0);
@@ -387,6 +398,7 @@ const WrAction wr_actions[] = {
     ROW(zoom_out, "Zoom out", zoom_out, NULL, NULL),
     ROW(zoom_100, "100 %", zoom_100, NULL, NULL),
     ROW(fit, "Fit the cell", fit, NULL, NULL),
+    ROW(mirror_view, "Mirror the view", mirror_view, NULL, is_mirrored),
     ROW(pan_left, "Look left", pan_left, NULL, NULL),
     ROW(pan_right, "Look right", pan_right, NULL, NULL),
     ROW(pan_up, "Look up", pan_up, NULL, NULL),

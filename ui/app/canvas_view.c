@@ -102,7 +102,7 @@ static void pixel_grid(const WrApp *app)
     double x0, y0, x1, y1, px, py;
     wr_view_to_texel(v, v->x, v->y, &x0, &y0);
     wr_view_to_texel(v, v->x + v->w, v->y + v->h, &x1, &y1);
-    for (double x = ceil(x0); x <= x1; x += 1.0) {
+    for (double x = ceil(fmin(x0, x1)); x <= fmax(x0, x1); x += 1.0) {
         wr_view_to_pixel(v, x, y0, &px, &py);
         wr_gui_draw_fill(rint(px), v->y, 1, v->h, 0x30808080u, 0);
     }
@@ -119,7 +119,7 @@ static void cell_outline(const WrApp *app)
     double x0, y0, x1, y1, line = wr_gui_px(1);
     wr_view_to_pixel(v, 0, 0, &x0, &y0);
     wr_view_to_pixel(v, v->table_w, v->table_h, &x1, &y1);
-    double x = rint(x0), y = rint(y0), w = rint(x1) - x, h = rint(y1) - y;
+    double x = rint(fmin(x0, x1)), y = rint(y0), w = rint(fmax(x0, x1)) - x, h = rint(y1) - y;
     wr_gui_draw_rect(x, y, w, h, 0x90000000u, 3.0 * line);
     wr_gui_draw_rect(x, y, w, h, WR_COLOUR_CELL, line);
 }

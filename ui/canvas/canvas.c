@@ -131,9 +131,11 @@ static void make_taps(WrCanvas *canvas, const WrField *field, int level)
     bool wraps_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
     double x0 = view->centre_x - view->w / 2.0 / view->zoom;
     double y0 = view->centre_y - view->h / 2.0 / view->zoom;
-    for (int i = 0; i < view->w; i++)
-        canvas->columns[i] = wr_taps_make(x0 + i / view->zoom, x0 + (i + 1) / view->zoom,
-                                          view->table_w, level, wraps_u);
+    for (int i = 0; i < view->w; i++) {
+        const int at = view->mirrored ? view->w - 1 - i : i;
+        canvas->columns[at] = wr_taps_make(x0 + i / view->zoom, x0 + (i + 1) / view->zoom,
+                                           view->table_w, level, wraps_u);
+    }
     for (int j = 0; j < view->h; j++)
         canvas->rows[j] = wr_taps_make(y0 + j / view->zoom, y0 + (j + 1) / view->zoom,
                                        view->table_h, level, wraps_v);
@@ -229,6 +231,8 @@ static void paint_tile(WrCanvas *canvas, SDL_Point tile, const WrField *field, i
             /* a pixel more on each side: footprints overlap the tile's edge */
             int x0 = (int)floor((x - left) * z) - 1, x1 = (int)ceil((x + tw - left) * z) + 1;
             int y0 = (int)floor((y - top) * z) - 1, y1 = (int)ceil((y + th - top) * z) + 1;
+            const int width = x1 - x0;
+            if (v->mirrored) x0 = v->w - x1, x1 = x0 + width;
             SDL_Rect rect = { x0, y0, x1 - x0, y1 - y0 }, whole = { 0, 0, v->w, v->h };
             if (SDL_IntersectRect(&rect, &whole, &rect))
                 paint_rect(canvas, rect, field, level, deadline);
@@ -261,7 +265,8 @@ static bool make_buffers(WrCanvas *canvas, SDL_Renderer *renderer, int w, int h,
 static bool same_view(const WrCanvasView *a, const WrCanvasView *b)
 {
     return a->w == b->w && a->h == b->h && a->table_w == b->table_w && a->table_h == b->table_h &&
-           a->zoom == b->zoom && a->centre_x == b->centre_x && a->centre_y == b->centre_y;
+           a->zoom == b->zoom && a->centre_x == b->centre_x && a->centre_y == b->centre_y &&
+           a->mirrored == b->mirrored;
 }
 
 static void choose_range(WrCanvas *canvas, const WrCanvasLook *look, bool held)

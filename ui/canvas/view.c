@@ -26,15 +26,20 @@ void wr_view_fit(WrCanvasView *view, double margin)
     view->centre_y = view->table_h / 2.0;
 }
 
+double wr_view_across(const WrCanvasView *view)
+{
+    return view->mirrored ? -view->zoom : view->zoom;
+}
+
 void wr_view_to_texel(const WrCanvasView *view, double px, double py, double *x, double *y)
 {
-    *x = view->centre_x + (px - view->x - view->w / 2.0) / view->zoom;
+    *x = view->centre_x + (px - view->x - view->w / 2.0) / wr_view_across(view);
     *y = view->centre_y + (py - view->y - view->h / 2.0) / view->zoom;
 }
 
 void wr_view_to_pixel(const WrCanvasView *view, double x, double y, double *px, double *py)
 {
-    *px = view->x + view->w / 2.0 + (x - view->centre_x) * view->zoom;
+    *px = view->x + view->w / 2.0 + (x - view->centre_x) * wr_view_across(view);
     *py = view->y + view->h / 2.0 + (y - view->centre_y) * view->zoom;
 }
 
@@ -60,7 +65,7 @@ void wr_view_zoom_at(WrCanvasView *view, double px, double py, double zoom)
 
 void wr_view_pan(WrCanvasView *view, double dx, double dy)
 {
-    view->centre_x -= dx / view->zoom;
+    view->centre_x -= dx / wr_view_across(view);
     view->centre_y -= dy / view->zoom;
     wr_view_keep_near(view);
 }

@@ -11,6 +11,7 @@ typedef struct WrCanvasView {
     int table_w, table_h;      /* texels */
     double zoom;               /* pixels a texel; see wr_view_zoom_range */
     double centre_x, centre_y; /* texel position in the middle of the canvas */
+    bool mirrored;             /* the table runs to the left: seen so, what is lopsided shows */
 } WrCanvasView;
 
 /* Zoom 1 is 100 %. From 1/128, or where the longer side is 64 pixels if that is less zoomed out, up to
@@ -29,6 +30,9 @@ void wr_view_to_texel(const WrCanvasView *view, double px, double py, double *x,
 void wr_view_to_pixel(const WrCanvasView *view, double x, double y, double *px, double *py);
 /* u = x/W, v = 1 - y/H: unwrapped parameters under a pixel. */
 void wr_view_to_uv(const WrCanvasView *view, double px, double py, double *u, double *v);
+
+/* Pixels to the right for a texel to the right: below 0 where the table is mirrored. */
+double wr_view_across(const WrCanvasView *view);
 
 /* The shifts by whole cells, (dx, dy) in texels, at which a disc of `radius` texels about (x, y) also
  * enters the real cell: what the stroke will touch on the other side. (x, y) is first brought into the

@@ -104,6 +104,7 @@
     X(zoom_out, "- Ctrl+- Keypad_-")                                                               \
     X(zoom_100, "1")                                                                               \
     X(fit, "2 Ctrl+0")                                                                             \
+    X(mirror_view, "M")                                                                            \
     X(pan_left, "Left")                                                                            \
     X(pan_right, "Right")                                                                          \
     X(pan_up, "Up")                                                                                \

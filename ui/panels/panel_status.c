@@ -305,7 +305,7 @@ void wr_panel_status(WrApp *app)
         under_pointer(app);
         snprintf(text, sizeof text, app->view->zoom < 0.1 ? "%.1f %%" : "%.0f %%",
                  app->view->zoom * 100.0);
-        pair("zoom", text);
+        pair(app->view->mirrored ? "mirror" : "zoom", text);
         right_side(app);
     }
     wr_gui_area_end();

@@ -73,10 +73,11 @@ int wr_brush_mark_points(const WrBrushMark *mark, double points[][2])
 }
 
 /* One outline about (x, y) in pixels; `copy` turns or mirrors it (NULL: as it is). */
-static void outline(const WrBrushMark *mark, double zoom, double x, double y, const WrCopy *copy,
-                    WrColour dark, WrColour light)
+static void outline(const WrBrushMark *mark, const WrCanvasView *view, double x, double y,
+                    const WrCopy *copy, WrColour dark, WrColour light)
 {
     bool round = !mark->square && mark->aspect == 1.0;
+    const double zoom = view->zoom, wide = wr_view_across(view);
     double points[SIDES][2];
     if (round && !mark->erases) {
         wr_gui_draw_circle(x, y, mark->radius * zoom + 1.0, dark, 1.5);
@@ -90,15 +91,15 @@ static void outline(const WrBrushMark *mark, double zoom, double x, double y, co
             if (mark->erases && pass == 1 && !mark->square && i % 4 >= 2) continue; /* dashes */
             double a = 1, b = 0, c = 0, d = 1;
             if (copy) a = copy->a, b = copy->b, c = copy->c, d = copy->d;
-            wr_gui_draw_line(x + zoom * (a * p[0] + b * p[1]), y + zoom * (c * p[0] + d * p[1]),
-                             x + zoom * (a * q[0] + b * q[1]), y + zoom * (c * q[0] + d * q[1]),
+            wr_gui_draw_line(x + wide * (a * p[0] + b * p[1]), y + zoom * (c * p[0] + d * p[1]),
+                             x + wide * (a * q[0] + b * q[1]), y + zoom * (c * q[0] + d * q[1]),
                              pass ? light : dark, pass ? 1.2 : 2.6);
         }
     }
     if (mark->erases && mark->square) {
         for (int i = 0; i < 2; i++)
-            wr_gui_draw_line(x + zoom * points[i][0], y + zoom * points[i][1],
-                             x + zoom * points[i + 2][0], y + zoom * points[i + 2][1], light, 1.0);
+            wr_gui_draw_line(x + wide * points[i][0], y + zoom * points[i][1],
+                             x + wide * points[i + 2][0], y + zoom * points[i + 2][1], light, 1.0);
     }
 }
 
@@ -113,13 +114,13 @@ static void outline_in_cell(const WrApp *app, const WrBrushMark *mark, double x,
     double x0, y0, x1, y1;
     wr_view_to_pixel(app->view, 0, 0, &x0, &y0);
     wr_view_to_pixel(app->view, app->view->table_w, app->view->table_h, &x1, &y1);
-    SDL_Rect cell = { (int)x0, (int)y0, (int)(x1 - x0), (int)(y1 - y0) };
+    SDL_Rect cell = { (int)fmin(x0, x1), (int)y0, (int)fabs(x1 - x0), (int)(y1 - y0) };
     wr_gui_draw_clip(cell);
     for (int i = 0; i < count; i++) {
         if (copies[i].dx == 0.0 && copies[i].dy == 0.0) continue;
         double px, py;
         wr_view_to_pixel(app->view, x + copies[i].dx, y + copies[i].dy, &px, &py);
-        outline(mark, app->view->zoom, px, py, NULL, 0x60000000u, 0x90f4f4f4u);
+        outline(mark, app->view, px, py, NULL, 0x60000000u, 0x90f4f4f4u);
     }
     wr_gui_draw_unclip();
 }
@@ -147,7 +148,7 @@ static void outline_copies(const WrApp *app, const WrBrushMark *mark, double x, 
         if (wraps_u) tx -= floor(tx / w) * w;
         if (wraps_v) ty -= floor(ty / h) * h;
         wr_view_to_pixel(app->view, tx + cell_x, ty + cell_y, &px, &py);
-        outline(mark, app->view->zoom, px, py, c, 0x48000000u, 0x70f4f4f4u);
+        outline(mark, app->view, px, py, c, 0x48000000u, 0x70f4f4f4u);
     }
     wr_free(copies);
 }
@@ -168,8 +169,8 @@ static void show_line(const WrApp *app, const WrBrushMark *mark)
         wr_gui_draw_line(x0 + nx, y0 + ny, x1 + nx, y1 + ny, pass ? 0x90f4f4f4u : colour, width);
         wr_gui_draw_line(x0 - nx, y0 - ny, x1 - nx, y1 - ny, pass ? 0x90f4f4f4u : colour, width);
     }
-    outline(mark, app->view->zoom, x0, y0, NULL, 0xb0000000u, 0xfff4f4f4u);
-    outline(mark, app->view->zoom, x1, y1, NULL, 0xb0000000u, 0xfff4f4f4u);
+    outline(mark, app->view, x0, y0, NULL, 0xb0000000u, 0xfff4f4f4u);
+    outline(mark, app->view, x1, y1, NULL, 0xb0000000u, 0xfff4f4f4u);
 }
 
 void wr_brush_show_string(const WrApp *app)
@@ -215,6 +216,6 @@ void wr_brush_overlay(WrApp *app)
         return;
     }
     outline_in_cell(app, &mark, x, y);
-    outline(&mark, app->view->zoom, px, py, NULL, 0xb0000000u, 0xfff4f4f4u);
+    outline(&mark, app->view, px, py, NULL, 0xb0000000u, 0xfff4f4f4u);
     if (app->hand->grab == WR_GRAB_RESIZE) show_size(app, at);
 }

@@ -29,6 +29,14 @@ static WrSteadyPoint steady_point(const WrPointer *at)
     return (WrSteadyPoint){ at->x, at->y, at->pressure, at->tilt_x, at->tilt_y, at->seconds };
 }
 
+/* As the table sees the hand: in a mirror the pen leans to the other side. */
+static void sample(WrApp *app, const WrPointer *at, double u, double v)
+{
+    WrPointer seen = *at;
+    if (app->view->mirrored) seen.tilt_x = -seen.tilt_x;
+    wr_strokes_sample(app, &seen, u, v);
+}
+
 static WrPointer pointer_of(const WrPointer *at, const WrSteadyPoint *p)
 {
     WrPointer out = *at;
@@ -83,7 +91,7 @@ static void draw_at(WrApp *app, const WrPointer *at)
 {
     double u, v;
     wr_view_to_uv(app->view, at->x, at->y, &u, &v);
-    wr_strokes_sample(app, at, u, v);
+    sample(app, at, u, v);
 }
 
 /* ---- straight lines ---- */
@@ -113,8 +121,7 @@ static void straight_on(WrApp *app, const WrPointer *at, double u, double v, dou
 {
     double du = to_u - u, dv = to_v - v;
     int pieces = (int)fmin(64.0, ceil(fmax(fabs(du), fabs(dv)) / 0.4));
-    for (int i = 1; i <= pieces; i++)
-        wr_strokes_sample(app, at, u + du * i / pieces, v + dv * i / pieces);
+    for (int i = 1; i <= pieces; i++) sample(app, at, u + du * i / pieces, v + dv * i / pieces);
 }
 
 /* The line as it was aimed. The pressure is the most that was. */
@@ -125,7 +132,7 @@ static void draw_line(WrApp *app, const WrPointer *at)
     steady.pressure = hand->pressure;
     WrBrush brush = wr_strokes_brush(app, at);
     if (!wr_strokes_begin(app, &brush, at)) return;
-    wr_strokes_sample(app, &steady, hand->line_u, hand->line_v);
+    sample(app, &steady, hand->line_u, hand->line_v);
     straight_on(app, &steady, hand->line_u, hand->line_v, hand->to_u, hand->to_v);
     wr_strokes_end(app);
 }
@@ -156,7 +163,7 @@ void wr_brush_press(WrApp *app, const WrPointer *at)
     if (joins) {
         double to_u, to_v;
         wr_view_to_uv(app->view, at->x, at->y, &to_u, &to_v);
-        wr_strokes_sample(app, at, u, v);
+        sample(app, at, u, v);
         straight_on(app, at, u, v, to_u, to_v);
     } else {
         draw_at(app, at);

@@ -27,7 +27,7 @@ static bool same_view(const WrCanvasView *a, const WrCanvasView *b)
 {
     return a->x == b->x && a->y == b->y && a->w == b->w && a->h == b->h &&
            a->table_w == b->table_w && a->table_h == b->table_h && a->zoom == b->zoom &&
-           a->centre_x == b->centre_x && a->centre_y == b->centre_y;
+           a->centre_x == b->centre_x && a->centre_y == b->centre_y && a->mirrored == b->mirrored;
 }
 
 void wr_marks_update(WrApp *app)

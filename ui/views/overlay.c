@@ -43,6 +43,10 @@ static Shifts shifts_of(const WrApp *app, WrSelectPoint low, WrSelectPoint high)
     double u0, v0, u1, v1;
     wr_view_to_uv(view, view->x, view->y + view->h, &u0, &v0);
     wr_view_to_uv(view, view->x + view->w, view->y, &u1, &v1);
+    if (view->mirrored) {
+        const double left = u1;
+        u1 = u0, u0 = left;
+    }
     Shifts s = { 0, 0, 0, 0 };
     if (wr_field_wrap_u(field) == WR_WRAP_PERIODIC) {
         s.from_u = (int)ceil(u0 - high.u);
