@@ -14,9 +14,10 @@ typedef struct WrSheetState {
         *greens[2];    /* owned; greens: a bump with green up, and down */
     WrSheetAsk looked; /* what the newest pictures were asked for, of that table */
     uint64_t looked_key;
-    WrSetNames names;     /* of sets, as the sheet was opened */
-    uint64_t written_key; /* live: of what was written last */
-    uint64_t seen_key;    /* live: of what is seen now, since */
+    WrSetNames names;                      /* of sets, as the sheet was opened */
+    uint64_t key, key_table, key_revision; /* of all that maps are made of, at that revision */
+    uint64_t written_key;                  /* live: of what was written last */
+    uint64_t seen_key;                     /* live: of what is seen now, since */
     double seen_at;
     bool loud; /* what is being written was asked for by the button */
 } WrSheetState;

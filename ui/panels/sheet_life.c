@@ -128,7 +128,7 @@ static bool is_seen_only(const char *line, size_t length)
 }
 
 /* Of all that the files are made from: the table, and what of the scene goes into maps. */
-static uint64_t key_of(const WrApp *app)
+static uint64_t make_key(const WrApp *app, uint64_t table)
 {
     WrText text = { 0 }, kept = { 0 };
     wr_session_scene_text(app->session, &text);
@@ -137,12 +137,24 @@ static uint64_t key_of(const WrApp *app)
         if (!is_seen_only(at, length)) wr_text_add_n(&kept, at, length);
         at += length + (at[length] == '\n');
     }
-    const uint64_t key = wr_field_key(wr_document_field(wr_session_document(app->session)));
     const WrHash hash =
-        wr_hash_bytes(wr_text_get(&kept), kept.length, (WrHash){ .low = key, .high = 1 });
+        wr_hash_bytes(wr_text_get(&kept), kept.length, (WrHash){ .low = table, .high = 1 });
     wr_text_fini(&text);
     wr_text_fini(&kept);
     return hash.low | 1;
+}
+
+/* Asked for in every picture of the window: the scene is looked at where a command ran since. */
+static uint64_t key_of(const WrApp *app)
+{
+    WrSheetState *sheet = app->sheet;
+    const uint64_t table = wr_field_key(wr_document_field(wr_session_document(app->session)));
+    const uint64_t revision = wr_session_revision(app->session);
+    if (sheet->key && table == sheet->key_table && revision == sheet->key_revision)
+        return sheet->key;
+    sheet->key_table = table;
+    sheet->key_revision = revision;
+    return sheet->key = make_key(app, table);
 }
 
 /* ---- pictures ---- */
@@ -286,6 +298,7 @@ static void another(WrApp *app)
 {
     if (!app->sheet) return;
     app->sheet->live = false;
+    app->sheet->key = 0;
     take_place(app, &app->sheet->ask);
 }
 
