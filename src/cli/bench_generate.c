@@ -1,7 +1,8 @@
 /* What is made at once rather than painted: generators and operations of whole tables, beside GEGL and
  * oiiotool doing the same where these are installed.
  *
- * Ours is the time of the command in a running program, the composite brought up to date. A peer's is that
+ * Ours is the time of the command in a running program, the composite brought up to date; of exports with their reading back,
+ * and of maps without the writing, which is measured by itself. A peer's is that
  * of its whole process less that of the same process that only loads the picture and saves it again. */
 #include "base/error.h"
 #include "base/memory.h"
@@ -25,7 +26,19 @@
 #define TEXT_LINES 60
 #define TEXT_GLYPHS 50 /* a line */
 
-typedef enum Kind { NOISE, BLUR, NORMALS, TEXT, ROUND_TEXT, RIVETS, MESH, KIND_COUNT } Kind;
+typedef enum Kind {
+    NOISE,
+    BLUR,
+    NORMALS,
+    OCCLUSION,
+    PNG,
+    EXR,
+    TEXT,
+    ROUND_TEXT,
+    RIVETS,
+    MESH,
+    KIND_COUNT
+} Kind;
 
 /* A row: a command of ours, and what GEGL does instead, if it can. */
 typedef struct Row {
@@ -33,6 +46,9 @@ typedef struct Row {
     const char *line; /* NULL: made for the occasion */
     const char *gegl; /* arguments; run in the bench's folder */
     const char *bare; /* the same without the operation */
+    const char *file; /* an export: what it writes */
+    int channels;     /* of it, where writing it is not what is measured; else 0 */
+    bool oiiotool;    /* writes the same file of the same heights */
 } Row;
 
 WR_ROWS(rows);
@@ -47,7 +63,12 @@ static const Row rows[KIND_COUNT] = {
                        "in.tif -o out.tif" },
     [WR_ROW(NORMALS)] = { "normals", "normal map", NULL,
                           "in.tif -o out.tif -- gegl:normal-map scale=10 tileable=true",
-                          "in.tif -o out.tif -- gegl:convert-format format='RGB float'" },
+                          "in.tif -o out.tif -- gegl:convert-format format='RGB float'",
+                          .file = "out.bmp", .channels = 3 },
+    [WR_ROW(OCCLUSION)] = { "occlusion", "occlusion, 8 directions", NULL, .file = "out.bmp",
+                            .channels = 1 },
+    [WR_ROW(PNG)] = { "png", "heights as 16-bit PNG", NULL, .file = "out.png", .oiiotool = true },
+    [WR_ROW(EXR)] = { "exr", "heights as float EXR", NULL, .file = "out.exr", .oiiotool = true },
     [WR_ROW(TEXT)] = { "text", "text, 3000 letters", NULL, NULL, NULL },
     [WR_ROW(ROUND_TEXT)] = { "text-round", "the same, rounded", NULL, NULL, NULL },
     [WR_ROW(RIVETS)] = { "rivets", "10000 spheres", "solid sphere radius=16 across=100 rows=100",
@@ -140,6 +161,10 @@ static void write_lines(Bench *b)
     for (int i = 0; i < KIND_COUNT; i++)
         if (rows[i].line) wr_text_add(&b->lines[i], rows[i].line);
     wr_text_addf(&b->lines[NORMALS], "export normal+y \"%s/out.bmp\" depth=8", b->folder);
+    wr_text_addf(&b->lines[OCCLUSION], "export occlusion \"%s/out.bmp\" depth=8 directions=8",
+                 b->folder);
+    wr_text_addf(&b->lines[PNG], "export height \"%s/out.png\" depth=16", b->folder);
+    wr_text_addf(&b->lines[EXR], "export height \"%s/out.exr\" depth=32", b->folder);
     add_text_line(&b->lines[TEXT], "");
     add_text_line(&b->lines[ROUND_TEXT], "profile=round bevel=6");
     wr_text_addf(&b->lines[MESH], "solid mesh \"%s/mesh.ply\" size=4000", b->folder);
@@ -187,8 +212,8 @@ static bool begin(Bench *b, WrError *err)
 
 static void end(Bench *b)
 {
-    static const char *const files[] = { "mesh.ply", "table.tif", "in.tif",
-                                         "crop.tif", "out.tif",   "out.bmp" };
+    static const char *const files[] = { "mesh.ply", "table.tif", "in.tif",  "crop.tif",
+                                         "out.tif",  "out.bmp",   "out.png", "out.exr" };
     char path[64];
     for (size_t i = 0; i < sizeof files / sizeof *files && b->folder[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", b->folder, files[i]);
@@ -200,15 +225,15 @@ static void end(Bench *b)
 }
 
 /* What writing as large a picture of codes takes by itself; the exported one is written over. */
-static bool time_write(const Bench *b, double *ms, WrError *err)
+static bool time_write(const Bench *b, int channels, double *ms, WrError *err)
 {
     char path[64];
     snprintf(path, sizeof path, "%s/out.bmp", b->folder);
-    unsigned char *codes = wr_try_alloc((size_t)TABLE * TABLE, 3, "a picture", err);
+    unsigned char *codes = wr_try_alloc((size_t)TABLE * TABLE, (size_t)channels, "a picture", err);
     if (!codes) return false;
-    memset(codes, 128, (size_t)TABLE * TABLE * 3);
+    memset(codes, 128, (size_t)TABLE * TABLE * (size_t)channels);
     double start = wr_clock_seconds();
-    bool good = wr_image_write_pixels(path, TABLE, TABLE, 3, WR_PIXEL_U8, true, codes, err);
+    bool good = wr_image_write_pixels(path, TABLE, TABLE, channels, WR_PIXEL_U8, true, codes, err);
     *ms = 1e3 * (wr_clock_seconds() - start);
     wr_free(codes);
     return good;
@@ -221,10 +246,24 @@ static bool time_ours(const Bench *b, Kind kind, double *ms, WrError *err)
     if (!wr_session_run(b->session, wr_text_get(&b->lines[kind]), err)) return false;
     wr_document_composite(wr_session_document(b->session), b->cli->pool);
     *ms = 1e3 * (wr_clock_seconds() - start);
-    if (kind != NORMALS) return wr_session_run(b->session, "undo", err);
-    if (!time_write(b, &bare, err)) return false;
+    if (!rows[kind].file) return wr_session_run(b->session, "undo", err);
+    if (!rows[kind].channels) return true;
+    if (!time_write(b, rows[kind].channels, &bare, err)) return false;
     *ms -= bare;
     return true;
+}
+
+/* The same file by oiiotool, and nothing but reading what it is made of. */
+static bool time_file(const Bench *b, const Row *row, double *whole, double *bare, WrError *err)
+{
+    char command[96];
+    int threads = b->cli->threads > 0 ? b->cli->threads : wr_pool_threads(b->cli->pool);
+    snprintf(command, sizeof command,
+             "oiiotool --threads %d -i:now=1 table.tif --cut 1x1 -o out.tif", threads);
+    if (!shell(b, command, bare, err)) return false;
+    snprintf(command, sizeof command, "oiiotool --threads %d table.tif -d %s -o %s", threads,
+             strcmp(row->file, "out.png") == 0 ? "uint16" : "float", row->file);
+    return shell(b, command, whole, err);
 }
 
 static bool round_of(Bench *b, int round, WrError *err)
@@ -235,6 +274,9 @@ static bool round_of(Bench *b, int round, WrError *err)
         if (b->gegl && row->gegl &&
             (!gegl(b, row->bare, &b->bare[kind][round], err) ||
              !gegl(b, row->gegl, &b->peer[kind][round], err)))
+            return false;
+        if (b->oiiotool && row->oiiotool &&
+            !time_file(b, row, &b->peer[kind][round], &b->bare[kind][round], err))
             return false;
         if (b->cli->cancel && *b->cli->cancel) return wr_fail(err, "interrupted");
     }
@@ -265,6 +307,12 @@ static double net(Bench *b, int kind)
     return ms > 0 ? ms : 0;
 }
 
+static const char *peer_of(const Bench *b, int kind)
+{
+    if (rows[kind].gegl && b->gegl) return "gegl";
+    return rows[kind].oiiotool && b->oiiotool ? "oiiotool" : NULL;
+}
+
 static void add_row(WrText *text, const char *label, double ours, const char *who, double peer)
 {
     wr_text_addf(text, "  %-28s %10.1f", label, ours);
@@ -280,8 +328,8 @@ static void print_table(Bench *b, WrText *text)
                  "peer", "ms", "ratio");
     for (int kind = 0; kind < KIND_COUNT; kind++) {
         double ours = wr_bench_median(b->ours[kind], b->rounds);
-        bool raced = rows[kind].gegl && b->gegl;
-        add_row(text, rows[kind].label, ours, raced ? "gegl" : NULL, raced ? net(b, kind) : 0);
+        const char *peer = peer_of(b, kind);
+        add_row(text, rows[kind].label, ours, peer, peer ? net(b, kind) : 0);
         if (kind == BLUR && b->oiiotool) add_row(text, "", ours, "oiiotool", b->oiiotool_ms);
     }
     if (b->oiiotool)
@@ -297,9 +345,9 @@ static void print_lines(Bench *b, WrText *text)
     for (int kind = 0; kind < KIND_COUNT; kind++) {
         wr_text_addf(text, "make %s wrinkle %d %d %.4f\n", rows[kind].name, TABLE, threads,
                      wr_bench_median(b->ours[kind], b->rounds));
-        if (rows[kind].gegl && b->gegl)
-            wr_text_addf(text, "make %s gegl %d %d %.4f\n", rows[kind].name, TABLE, threads,
-                         net(b, kind));
+        if (peer_of(b, kind))
+            wr_text_addf(text, "make %s %s %d %d %.4f\n", rows[kind].name, peer_of(b, kind), TABLE,
+                         threads, net(b, kind));
         if (kind == BLUR && b->oiiotool)
             wr_text_addf(text, "make %s oiiotool %d %d %.4f\n", rows[kind].name, TABLE, threads,
                          b->oiiotool_ms);

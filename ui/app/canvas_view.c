@@ -38,23 +38,21 @@ static bool is_held(const WrApp *app)
     return app->hand->grab != WR_GRAB_NONE || app->brush->jobs.count > 0;
 }
 
-/* Maps that can be shown: which, in which colours, and over which range where that does not follow the map. */
+/* Maps that can be shown: which, in which colours, and over which range. */
 typedef struct Shown {
     const char *name;
     WrFieldMapKind kind;
     WrCanvasColours colours;
-    bool fixed;
-    double low, high;
+    double low, high; /* low 0 and high 0: from the lowest number of the map to 0 */
 } Shown;
 
 static const Shown shown[WR_CANVAS_SHOWN] = {
     [WR_CANVAS_HEIGHTS] = { .name = "Heights" },
-    [WR_CANVAS_OCCLUSION] = { "Occlusion", WR_FIELD_MAP_OCCLUSION, WR_CANVAS_GREY, true, 0, 1 },
-    [WR_CANVAS_CAVITY] = { "Cavity", WR_FIELD_MAP_CAVITY, WR_CANVAS_GREY, false, 0, 0 },
-    [WR_CANVAS_CURVATURE] = { "Curvature", WR_FIELD_MAP_CURVATURE, WR_CANVAS_SIGNED, true, -0.2,
-                              0.2 },
-    [WR_CANVAS_SLOPE] = { "Steepness", WR_FIELD_MAP_SLOPE, WR_CANVAS_GREY, true, 0, 90 },
-    [WR_CANVAS_ROUGHNESS] = { "Roughness", WR_FIELD_MAP_ROUGHNESS, WR_CANVAS_GREY, true, 0, 1 },
+    [WR_CANVAS_OCCLUSION] = { "Occlusion", WR_FIELD_MAP_OCCLUSION, WR_CANVAS_GREY, 0, 1 },
+    [WR_CANVAS_CAVITY] = { "Cavity", WR_FIELD_MAP_CAVITY, WR_CANVAS_GREY, 0, 0 },
+    [WR_CANVAS_CURVATURE] = { "Curvature", WR_FIELD_MAP_CURVATURE, WR_CANVAS_SIGNED, -0.2, 0.2 },
+    [WR_CANVAS_SLOPE] = { "Steepness", WR_FIELD_MAP_SLOPE, WR_CANVAS_GREY, 0, 90 },
+    [WR_CANVAS_ROUGHNESS] = { "Roughness", WR_FIELD_MAP_ROUGHNESS, WR_CANVAS_GREY, 0, 1 },
 };
 
 /* The map that is wanted in the table's place; NULL: none, or none yet. */
@@ -79,15 +77,17 @@ void wr_canvas_view_draw(WrApp *app)
     if (map) {
         const Shown *now = &shown[look.shown];
         look.colours = now->colours;
-        look.automatic = !now->fixed;
-        look.marks = false;
-        if (now->fixed) look.low = now->low, look.high = now->high;
+        const double lowest = app->map_range->table_low;
+        look.automatic = look.marks = false;
+        look.low = now->low, look.high = now->high;
+        if (look.low == look.high) look.low = lowest < 0 ? lowest : -1;
     }
     WrCanvasRange range;
     app->canvas_unfinished =
         wr_canvas_draw(app->canvas, app->renderer, app->view, map ? map : field, &look,
                        is_held(app), MEANS_BUDGET, &range);
     app->map_shown = map != NULL;
+    if (map && range.table_low != app->map_range->table_low) wr_app_redraw(app);
     if (map) *app->map_range = range;
     else *app->range = range;
     if (app->canvas_unfinished) wr_app_redraw(app);

@@ -80,4 +80,24 @@ key F6
 sleep 20 # what the dials cost is measured while nothing moves
 picture "$out/accuracy.png" 250x700+950+30
 close
+
+# Maps of a table, beside its heights.
+maps=()
+while read -r -a words; do
+    "$program" export "$source/samples/bricks.wrinkle" --as "${words[@]}" depth=8 -o "map-${words[0]}.png" >/dev/null
+    maps+=("map-${words[0]}.png")
+done <<'MAPS'
+height
+occlusion
+horizon toward=90 full=2
+cavity
+curvature full=150
+slope
+direction
+roughness
+mask feather=0.2
+wear noise=0.8 threshold=0.1
+MAPS
+montage "${maps[@]}" -resize 128x128 -geometry +2+2 -tile 5x -background '#2b2b2b' -strip +dither -depth 8 -colors 64 \
+    -define png:compression-level=9 "PNG8:$out/maps.png"
 [[ $failures == 0 ]]
