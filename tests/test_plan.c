@@ -134,6 +134,17 @@ static void shadowed(Stage *stage)
     stage->scene->material.shadow = true;
 }
 
+static void occluded(Stage *stage)
+{
+    stage->scene->material.occlusion = true;
+}
+
+static void occluded_in_the_dark(Stage *stage)
+{
+    occluded(stage);
+    stage->scene->material.ambient = 0;
+}
+
 static void supersampled(Stage *stage)
 {
     stage->scene->dials.aa = WR_AA_SUPERSAMPLE;
@@ -557,6 +568,7 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_EXACT] = { exact, { { exact_cube, 1e-5 }, { keep_all, NOTHING } } },
     [WR_EFFECT_CURVATURE] = { exact, { { keep_all, 0 }, { smooth, 0 } } },
     [WR_EFFECT_SHADOW] = { shadowed, { { keep_all, NOTHING } } },
+    [WR_EFFECT_OCCLUSION] = { occluded, { { occluded_in_the_dark, 0 }, { keep_all, NOTHING } } },
     [WR_EFFECT_SAMPLES] = { supersampled, { { keep_all, NOTHING }, { one_sample, NOTHING } } },
     [WR_EFFECT_BOUND] = { bounded, { { keep_all, NOTHING }, { bounded_torus, NOTHING } } },
     [WR_EFFECT_FILTER] = { filtered, { { filtered_still, 0 }, { keep_all, NOTHING } } },

@@ -147,6 +147,28 @@ static void bricks_near(Stage *stage)
     stage->scene->replicate_u = stage->scene->replicate_v = 0.25;
 }
 
+/* A lamp 10 degrees above the plane; slopes far below that, and far above. */
+static void grazed(Stage *stage, double height)
+{
+    take_surface(stage, "plane");
+    stage->scene->posed = true;
+    stage->scene->rotate_deg = (WrVec3){ 0, 0, 0 };
+    stage->scene->replicate_u = stage->scene->replicate_v = 1;
+    stage->scene->height = height;
+    stage->scene->material.shadow = true;
+    stage->scene->lights[0].where = (WrVec3){ 0.2, 0.95, 0.17 };
+}
+
+static void grazed_gently(Stage *stage)
+{
+    grazed(stage, 1e-4);
+}
+
+static void grazed_roughly(Stage *stage)
+{
+    grazed(stage, 0.1);
+}
+
 static void checkered(Stage *stage)
 {
     for (int i = 0; i < 64 * 64; i++)
@@ -269,8 +291,8 @@ static const Scene scenes[] = {
     { "S13", invariant, LIGHT | NEAR | ROUND | RELIEF | E(INVARIANT) | E(DARK), 0 },
     { "S14", bricks_far, LIGHT | NEAR | E(BUMP) | E(GROUND) | OPEN | E(FILTER) | E(DARK), 0 },
     { "S15", bricks_near, LIGHT | NEAR | RELIEF | OPEN | E(FILTER) | E(DARK), 0 },
-    { "S16", NULL, 0, 0 },
-    { "S17", NULL, 0, 0 },
+    { "S16", grazed_gently, LIGHT | NEAR | RELIEF | OPEN | E(SHADOW), 0 },
+    { "S17", grazed_roughly, LIGHT | NEAR | RELIEF | OPEN | E(SHADOW), 0 },
     { "S18", checkered, LIGHT | NEAR, 0 },
     { "S18", checkered_bilinear, LIGHT | NEAR | ROUND | E(BUMP) | E(GROUND) | E(DARK), 0 },
     { "S19", least_table, LIGHT | NEAR, 0 },
@@ -634,7 +656,7 @@ static void the_guide_lists_them(void **state)
         if (there == (awaits && awaits < end)) fail_msg("S%02d: awaits or not?", s);
         awaiting += !there;
     }
-    assert_int_equal(awaiting, 6);
+    assert_int_equal(awaiting, 4);
     wr_free(page);
 }
 

@@ -112,11 +112,114 @@ static void displaced_surfaces_have_them_too(void **state)
     }
 }
 
+/* ---- round lamps, and the sky ---- */
+
+/* rms, over covered pixels, of the picture less the reference, and less the picture with that taken off. */
+static void compared(WrScene *scene, WrScene *without, double *off, double *effect)
+{
+    WrError err = { "" };
+    WrField *field = humps();
+    WrRenderer *renderer[2] = { wr_renderer_new(NULL, "auto", &err),
+                                wr_renderer_new(NULL, "auto", &err) };
+    WrFrame frame[2];
+    WrReference truth = { 0 };
+    enum { SMALL = 48 };
+    double sums[2] = { 0, 0 };
+    int covered = 0;
+    for (int k = 0; k < 2; k++) {
+        const WrFrameRequest request = {
+            .field = field, .scene = k ? without : scene, .width = SMALL, .height = SMALL
+        };
+        if (!wr_renderer_frame(renderer[k], &request, &frame[k], &err)) fail_msg("%s", err.text);
+    }
+    const WrReferenceRequest wanted = {
+        .field = field, .scene = scene, .width = SMALL, .height = SMALL, .first = 1, .most = 1
+    };
+    if (!wr_reference_render(&wanted, NULL, &truth, &err)) fail_msg("%s", err.text);
+    for (int k = 0; k < SMALL * SMALL; k++) {
+        if (frame[0].rgba[4 * k + 3] < 1) continue;
+        covered++;
+        sums[0] += pow((double)frame[0].rgba[4 * k] - truth.rgba[4 * k], 2);
+        sums[1] += pow((double)frame[0].rgba[4 * k] - (double)frame[1].rgba[4 * k], 2);
+    }
+    *off = sqrt(sums[0] / covered), *effect = sqrt(sums[1] / covered);
+    wr_reference_fini(&truth);
+    for (int k = 0; k < 2; k++) wr_renderer_free(renderer[k]);
+    wr_field_free(field);
+}
+
+/* Of a lamp of 7 degrees, whose disc the reference looks at place by place; hard shadows are another picture. */
+static void round_lamps_have_penumbras(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double off, effect;
+        WrScene *scene = shadowy(k ? "sphere" : "plane", k ? 0.13 : 0.06);
+        scene->lights[0].size_deg = 7;
+        if (k) scene->lights[0].kind = WR_LIGHT_POINT, scene->lights[0].where.z = 2.1;
+        WrScene *hard = wr_scene_clone(scene);
+        hard->lights[0].size_deg = 0;
+        compared(scene, hard, &off, &effect);
+        print_message("round %d: %g off, %g of effect\n", k, off, effect);
+        assert_true(effect > 0.01);
+        assert_true(off < 0.7 * effect);
+        wr_scene_free(scene);
+        wr_scene_free(hard);
+    }
+}
+
+/* Ambient light alone, as much as each place sees of the sky: the reference marches in 48 directions. */
+static void hollows_see_less_of_the_sky(void **state)
+{
+    (void)state;
+    static const char *const surfaces[] = { "plane", "cylinder", "torus" };
+    for (int k = 0; k < 3; k++) {
+        double off, effect;
+        WrScene *scene = shadowy(surfaces[k], k ? -0.12 : 0.06);
+        scene->material.shadow = k == 1;
+        scene->material.occlusion = true;
+        scene->material.ambient = 0.8;
+        if (k == 0) scene->light_count = 0;
+        WrScene *open = wr_scene_clone(scene);
+        open->material.occlusion = false;
+        compared(scene, open, &off, &effect);
+        print_message("%s: %g off, %g of effect\n", surfaces[k], off, effect);
+        assert_true(effect > 0.05);
+        assert_true(off < (k == 2 ? 0.4 : 0.25) * effect);
+        wr_scene_free(scene);
+        wr_scene_free(open);
+    }
+}
+
+/* More directions come nearer to the reference. */
+static void directions_are_a_dial(void **state)
+{
+    (void)state;
+    double off[2], effect;
+    for (int k = 0; k < 2; k++) {
+        WrScene *scene = shadowy("plane", 0.06);
+        scene->material.occlusion = true;
+        scene->material.ambient = 0.8;
+        scene->light_count = 0;
+        scene->dials.horizons = k ? 64 : 6; /* 4, a multiple of it */
+        WrScene *open = wr_scene_clone(scene);
+        open->material.occlusion = false;
+        compared(scene, open, &off[k], &effect);
+        wr_scene_free(scene);
+        wr_scene_free(open);
+    }
+    print_message("4 directions: %g off, 64: %g\n", off[0], off[1]);
+    assert_true(off[1] < 0.8 * off[0]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_have_the_shadows_of_marched_rays),
         cmocka_unit_test(displaced_surfaces_have_them_too),
+        cmocka_unit_test(round_lamps_have_penumbras),
+        cmocka_unit_test(hollows_see_less_of_the_sky),
+        cmocka_unit_test(directions_are_a_dial),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

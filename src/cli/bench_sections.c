@@ -202,6 +202,11 @@ static void moments(WrScene *scene)
     scene->dials.aa = WR_AA_MOMENTS;
 }
 
+static void occluded(WrScene *scene)
+{
+    scene->material.occlusion = true;
+}
+
 static void displaced(WrScene *scene)
 {
     scene->displaced = true;
@@ -312,6 +317,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_EXACT)] = { BUMPED, .with = exact },
     [WR_ROW(WR_EFFECT_CURVATURE)] = { BUMPED, .with = exact, .without = same },
     [WR_ROW(WR_EFFECT_SHADOW)] = { BUMPED, .with = shadowed, .without = same },
+    [WR_ROW(WR_EFFECT_OCCLUSION)] = { BUMPED, .with = occluded, .without = same },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { BUMPED, .with = supersampled },
     [WR_ROW(WR_EFFECT_BOUND)] = { BUMPED, .with = bounded },
     [WR_ROW(WR_EFFECT_FILTER)] = { BUMPED, .with = filtered },

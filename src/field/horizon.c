@@ -246,3 +246,75 @@ double wr_horizon_sky(const double *slope, int directions, const double n[3])
     }
     return 2 * sum / directions;
 }
+
+void wr_opening_make(WrOpening *opening, int directions, double across, double down)
+{
+    double angle[WR_HORIZON_MOST];
+    opening->directions = directions;
+    for (int k = 0; k < directions; k++) {
+        double x, y;
+        wr_horizon_direction(k, directions, &x, &y);
+        const double length = hypot(x, y), far = hypot(x * across, y * down);
+        opening->cosine[k] = x * across / far, opening->sine[k] = y * down / far;
+        opening->steep[k] = length / far;
+        angle[k] = wr_atan2(opening->sine[k], opening->cosine[k]);
+    }
+    for (int k = 0; k < directions; k++) {
+        double wide = angle[(k + 1) % directions] - angle[(k + directions - 1) % directions];
+        if (wide < 0) wide += 2 * PI;
+        opening->share[k] = wide / 2 / (2 * PI);
+    }
+}
+
+double wr_opening_sky(const WrOpening *opening, const float *slope, double along_i, double along_j)
+{
+    /* On the surface, by the two directions along the axes. */
+    const int quarter = opening->directions / 4;
+    const double gx = along_i * opening->steep[0], gy = along_j * opening->steep[quarter];
+    const double inv = 1 / sqrt(1 + gx * gx + gy * gy);
+    double sum = 0;
+    for (int k = 0; k < opening->directions; k++) {
+        const double out = -inv * (gx * opening->cosine[k] + gy * opening->sine[k]);
+        const double t = fmax((double)slope[k] * opening->steep[k], -out / inv);
+        const double cc = 1 / (1 + t * t), h = wr_atan2(t, 1);
+        sum += opening->share[k] * (inv * cc + out * (PI / 2 - h - t * cc));
+    }
+    return fmin(fmax(sum, 0), 1);
+}
+
+typedef struct OpeningJob {
+    const WrOpening *opening;
+    const WrHorizon *horizon;
+    const float *heights;
+    double sign;
+    float *out;
+} OpeningJob;
+
+static void open_row(int j, int worker, void *ctx)
+{
+    (void)worker;
+    const OpeningJob *job = ctx;
+    const int w = job->horizon->width, h = job->horizon->height;
+    const float *row = job->heights + (size_t)j * (size_t)w;
+    const float *above = job->heights + (size_t)((j + h - 1) % h) * (size_t)w;
+    const float *below = job->heights + (size_t)((j + 1) % h) * (size_t)w;
+    for (int i = 0; i < w; i++) {
+        const size_t at = (size_t)j * (size_t)w + (size_t)i;
+        const double x = (double)row[(i + 1) % w] - (double)row[(i + w - 1) % w];
+        const double y = (double)below[i] - (double)above[i];
+        job->out[at] = (float)wr_opening_sky(
+            job->opening, job->horizon->slope + at * (size_t)job->horizon->directions,
+            job->sign * x / 2, job->sign * y / 2);
+    }
+}
+
+void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const WrField *field,
+                      double sign, WrPool *pool, float *out)
+{
+    const int w = horizon->width, h = horizon->height;
+    float *heights = wr_alloc((size_t)w * (size_t)h, sizeof *heights);
+    wr_field_read(field, 0, 0, w, h, heights, (size_t)w);
+    OpeningJob job = { opening, horizon, heights, sign, out };
+    wr_pool_run(pool, h, open_row, &job);
+    wr_free(heights);
+}

@@ -1,6 +1,8 @@
 /* horizon.h - how high the relief stands about each of its points: what shadows and occludes it.
    Layer 1. Slopes are heights over distances, both of the table: of table units over texels here. */
 #pragma once
+#include "base/exactmath.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -52,7 +54,8 @@ static inline double wr_horizon_lamp(double elevation, double horizon, double a)
     const double over = elevation - horizon;
     if (!(fabs(over) < a)) return over >= 0 ? 1 : 0;
     const double x = over / a;
-    return 0.5 + (x * sqrt(1 - x * x) + asin(x)) / 3.14159265358979323846;
+    const double y = sqrt(1 - x * x);
+    return 0.5 + (x * y + wr_atan2(x, y)) / 3.14159265358979323846;
 }
 
 /* The share of the light of a whole sky that reaches a point whose unit normal is n, z up:
@@ -60,3 +63,19 @@ static inline double wr_horizon_lamp(double elevation, double horizon, double a)
  * h the higher of horizon and surface, of `directions` slopes at equal steps of phi from x to y. 1 where nothing stands
  * above the surface's own plane, and that is level. */
 double wr_horizon_sky(const double *slope, int directions, const double n[3]);
+
+/* What a table's relief leaves open of the sky at each texel: WrHorizon's directions on a surface where a texel is `across`
+   and `down` long, in units of height. */
+typedef struct WrOpening {
+    int directions;
+    double cosine[WR_HORIZON_MOST], sine[WR_HORIZON_MOST]; /* of the direction on the surface */
+    double share[WR_HORIZON_MOST]; /* of the whole circle, that it stands for */
+    double steep[WR_HORIZON_MOST]; /* times the table's slope: the horizon's tangent */
+} WrOpening;
+
+void wr_opening_make(WrOpening *opening, int directions, double across, double down);
+/* As wr_horizon_sky, of one texel's slopes: n by the slopes of F along i and j, heights over texels. */
+double wr_opening_sky(const WrOpening *opening, const float *slope, double along_i, double along_j);
+/* The same of each texel of the table that the horizon is of: out[height][width]. */
+void wr_opening_table(const WrOpening *opening, const WrHorizon *horizon, const WrField *field,
+                      double sign, WrPool *pool, float *out);

@@ -271,9 +271,11 @@ static bool find_rise(WrRenderer *renderer, const WrFrameRequest *request, doubl
    looks at. */
 static bool reaches_far(const WrScene *scene)
 {
-    bool any = scene->material.shadow || (scene->other_count > 0 && scene->displaced);
+    bool any = scene->material.shadow || scene->material.occlusion ||
+               (scene->other_count > 0 && scene->displaced);
     for (int i = 0; i < scene->other_count; i++)
-        any |= scene->others[i]->material.shadow || scene->others[i]->displaced;
+        any |= scene->others[i]->material.shadow || scene->others[i]->material.occlusion ||
+               scene->others[i]->displaced;
     return any;
 }
 

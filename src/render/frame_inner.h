@@ -2,6 +2,7 @@
    Layer 5, private to frame.c and its brothers, group.c. */
 #pragma once
 #include "field/horizon.h"
+#include "render/opening.h"
 #include "render/coder.h"
 #include "render/dice.h"
 #include "render/frame.h"
@@ -40,6 +41,7 @@ struct WrRenderer {
     WrHorizon horizon; /* of the table with this key, times this sign */
     uint64_t horizon_key;
     double horizon_sign;
+    WrOpeningTable opening;
     WrFrames frames;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */

@@ -13,8 +13,6 @@
 
 #include <math.h>
 
-#define WR_HORIZONS 32 /* directions in which horizons of the table are kept */
-
 void wr_frame_drop_tables(WrRenderer *renderer)
 {
     wr_table_fini(&renderer->table);
@@ -25,6 +23,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_relief_drop(&renderer->relief);
     wr_mirror_drop(&renderer->mirror);
     wr_horizon_drop(&renderer->horizon);
+    wr_opening_table_drop(&renderer->opening);
     wr_frames_drop(&renderer->frames);
 }
 
@@ -153,14 +152,26 @@ static bool bring_horizon(WrRenderer *renderer, const WrFrameRequest *request, W
     const double sign = request->scene->height < 0 ? -1 : 1;
     const uint64_t key = wr_field_key(renderer->looked);
     WrHorizon *horizon = &renderer->horizon;
-    if (!wr_plan_runs(&renderer->plan, WR_EFFECT_SHADOW)) {
+    const WrPlan *plan = &renderer->plan;
+    if (!wr_plan_runs(plan, WR_EFFECT_SHADOW) && !wr_plan_runs(plan, WR_EFFECT_OCCLUSION)) {
         if (!request->hold) wr_horizon_drop(horizon);
         return true;
     }
-    if (horizon->slope && renderer->horizon_key == key && renderer->horizon_sign == sign)
+    if (horizon->slope && renderer->horizon_key == key && renderer->horizon_sign == sign &&
+        horizon->directions == plan->horizons)
         return true;
     renderer->horizon_key = key, renderer->horizon_sign = sign;
-    return wr_horizon_make(horizon, renderer->looked, WR_HORIZONS, sign, renderer->pool, err);
+    return wr_horizon_make(horizon, renderer->looked, plan->horizons, sign, renderer->pool, err);
+}
+
+static bool bring_opening(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
+{
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_OCCLUSION))
+        return wr_opening_table_bring(&renderer->opening, request->scene, renderer->looked,
+                                      renderer->horizon_key, &renderer->horizon, renderer->pool,
+                                      err);
+    if (!request->hold) wr_opening_table_drop(&renderer->opening);
+    return true;
 }
 
 bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
@@ -171,6 +182,7 @@ bool wr_frame_prepare_maps(WrRenderer *renderer, const WrFrameRequest *request, 
     if (!bring_relief(renderer, request, err)) return false;
     if (!bring_mirror(renderer, request, err)) return false;
     if (!bring_horizon(renderer, request, err)) return false;
+    if (!bring_opening(renderer, request, err)) return false;
     if (!wr_plan_runs(plan, WR_EFFECT_COLOUR)) {
         wr_tint_drop(tint);
         return true;
@@ -395,6 +407,7 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->look = narrowed(&look, heights->data, gradient->data);
     job->looks = looks_of(request, renderer, &look);
     job->horizon = wr_plan_runs(&renderer->plan, WR_EFFECT_SHADOW) ? &renderer->horizon : NULL;
+    job->opening = &renderer->opening;
     job->relief_height = fabs(request->scene->height) * scale;
     fill_level(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_GRAIN))

@@ -89,6 +89,7 @@ typedef struct WR_T(WrKernLight) {
     bool point;
     REAL where[3]; /* unit direction towards it, or position */
     REAL rgb[3];   /* colour * strength */
+    double radius; /* of a round lamp, radians */
 } WR_T(WrKernLight);
 
 /* ks, s and the gate of a highlight. */

@@ -54,6 +54,7 @@ static bool lit(const WrSink *sink)
 
 #include "render/pipe_horizon_body.h"
 #include "render/pipe_shadow_body.h"
+#include "render/pipe_opening_body.h"
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"
 #include "render/pipe_depth_body.h"

@@ -111,7 +111,7 @@ static void shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrK
     const bool shadows = runs(job, WR_EFFECT_SHADOW);
     if (shadows) keep_sums(strip, &before);
     lamp_strip(job, rays, light, sink, strip, watch);
-    if (shadows) shadow_strip(job, &before, strip, watch);
+    if (shadows) shadow_strip(job, light, &before, strip, watch);
 }
 
 /* What surroundings add. */
@@ -143,7 +143,7 @@ static void mirror_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, const WrSink *sink)
 {
     const bool shines = runs(job, WR_EFFECT_SPECULAR);
-    if (runs(job, WR_EFFECT_MODEL) || runs(job, WR_EFFECT_SHADOW)) return NULL;
+    if (runs(job, WR_EFFECT_MODEL) || runs(job, WR_EFFECT_OCCLUSION)) return NULL;
     if (runs(job, WR_EFFECT_SURROUND) || runs(job, WR_EFFECT_MIRROR)) return NULL;
     if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
     if (!shines && !runs(job, WR_EFFECT_DIFFUSE)) return NULL;
@@ -176,6 +176,9 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     const bool specular = runs(job, WR_EFFECT_SPECULAR);
     const WrVec3 c = job->scene->material.colour;
     k->begin((REAL)job->scene->material.ambient, strip);
+    Sums before;
+    REAL *const sums[3] = { strip->dr, strip->dg, strip->db };
+    open_strip(job, NULL, sums, strip, watch);
     bring_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
     const bool viewed =
@@ -189,7 +192,11 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
         k->tint((REAL)job->plan->tint, strip);
         did(watch, WR_EFFECT_MODEL);
     }
-    if (runs(job, WR_EFFECT_SURROUND)) surround_strip(job, strip, watch);
+    if (runs(job, WR_EFFECT_SURROUND)) {
+        if (runs(job, WR_EFFECT_OCCLUSION)) keep_sums(strip, &before);
+        surround_strip(job, strip, watch);
+        open_strip(job, &before, sums, strip, watch);
+    }
     if (runs(job, WR_EFFECT_MIRROR)) mirror_strip(job, strip, watch);
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
 }
@@ -204,6 +211,32 @@ static void ambient_strip(const WrTileJob *job, const Rays *rays, Strip *strip, 
     bring_colour(job, rays, strip, watch->scratch, watch);
     KERNELS_OF(job)->ambient(&material, pictured(job), strip);
     watch_lap(watch, WR_STAGE_LIGHT);
+    open_strip(job, NULL, (REAL *const[3]){ strip->cr, strip->cg, strip->cb }, strip, watch);
+}
+
+/* One light in one pass; where it is hidden, the ambient light alone. */
+static void shadowed_at_once(const WrTileJob *job, WR_T(WrShadeKernel) shade, Strip *strip,
+                             Watch *watch)
+{
+    const WrMaterial *m = &job->scene->material;
+    const WR_T(WrKernMaterial) material = {
+        (REAL)m->ambient, (REAL)0, { (REAL)m->colour.x, (REAL)m->colour.y, (REAL)m->colour.z }
+    };
+    REAL share[WR_SPAN], lit[3][WR_SPAN], *const c[3] = { strip->cr, strip->cg, strip->cb };
+    const size_t size = (size_t)strip->count * sizeof(REAL);
+    const bool any = seen_of(job, &VIEWED(job->view, lights)[0], strip, share);
+    did(watch, WR_EFFECT_SHADOW);
+    watch_lap(watch, WR_STAGE_SHADOW);
+    REAL own[3][WR_SPAN]; /* the picture's colours */
+    for (int k = 0; any && k < 3; k++) memcpy(own[k], c[k], size);
+    light_at_once(job, &VIEWED(&job->view->lit, rays), shade, strip, watch);
+    if (!any) return;
+    for (int k = 0; k < 3; k++) memcpy(lit[k], c[k], size), memcpy(c[k], own[k], size);
+    KERNELS_OF(job)->ambient(&material, pictured(job), strip);
+    for (int i = 0; i < strip->count; i++)
+        for (int k = 0; k < 3; k++)
+            c[k][i] = share[i] < 1 ? c[k][i] + share[i] * (lit[k][i] - c[k][i]) : lit[k][i];
+    watch_lap(watch, WR_STAGE_SHADOW);
 }
 
 static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *sink, Strip *strip,
@@ -217,5 +250,6 @@ static void light_strip(const WrTileJob *job, const Rays *rays, const WrSink *si
     }
     bring_colour(job, rays, strip, watch->scratch, watch);
     stretch_strip(job->view, strip);
-    light_at_once(job, &VIEWED(&job->view->lit, rays), shade, strip, watch);
+    if (runs(job, WR_EFFECT_SHADOW)) shadowed_at_once(job, shade, strip, watch);
+    else light_at_once(job, &VIEWED(&job->view->lit, rays), shade, strip, watch);
 }

@@ -46,27 +46,54 @@ static REAL horizon_at(const WrHorizon *h, REAL x, REAL y, REAL u, REAL v)
     return slope;
 }
 
-/* Does the relief hide a lamp in direction l from the sample? Not where its back is seen: there the table is another. */
-static bool is_hidden(const WrTileJob *job, const Strip *s, int i)
+/* The share of a round lamp of that angular radius that stands above the horizon: `up` it rises and `slope` the horizon does,
+   both per unit of the way towards it. */
+static REAL share_above(REAL up, REAL slope, double radius)
 {
-    const REAL *const l[3] = { s->lx, s->ly, s->lz }, *const n[3] = { s->nx, s->ny, s->nz };
-    const REAL *const pu[3] = { s->pux, s->puy, s->puz }, *const pv[3] = { s->pvx, s->pvy, s->pvz };
-    const REAL *const bent[3] = { s->bx, s->by, s->bz };
-    REAL e = 0, f = 0, g = 0, lu = 0, lv = 0, up = 0, facing = 0;
-    for (int c = 0; c < 3; c++) {
-        e += pu[c][i] * pu[c][i], f += pu[c][i] * pv[c][i], g += pv[c][i] * pv[c][i];
-        lu += l[c][i] * pu[c][i], lv += l[c][i] * pv[c][i];
-        up += l[c][i] * n[c][i], facing += bent[c][i] * n[c][i];
-    }
-    const REAL det = e * g - f * f;
-    if (!(facing > 0) || !(det > 0)) return false;
+    if (!(radius > 0)) return up < slope ? (REAL)0 : (REAL)1;
+    const double over = (double)up, flat = sqrt(fmax(1 - over * over, 0));
+    return (REAL)wr_horizon_lamp(wr_atan2(over, flat), wr_atan2((double)slope, flat), radius);
+}
+
+/* The share of a lamp in direction l that the sample sees. All of it where its back is seen: there the table is another. */
+static REAL share_of(const WrTileJob *job, const Strip *s, int i, REAL lx, REAL ly, REAL lz,
+                     double radius)
+{
+    const REAL pux = s->pux[i], puy = s->puy[i], puz = s->puz[i];
+    const REAL pvx = s->pvx[i], pvy = s->pvy[i], pvz = s->pvz[i];
+    const REAL nx = s->nx[i], ny = s->ny[i], nz = s->nz[i];
+    const REAL e = pux * pux + puy * puy + puz * puz, f = pux * pvx + puy * pvy + puz * pvz;
+    const REAL g = pvx * pvx + pvy * pvy + pvz * pvz, det = e * g - f * f;
+    const REAL lu = lx * pux + ly * puy + lz * puz, lv = lx * pvx + ly * pvy + lz * pvz;
+    const REAL up = lx * nx + ly * ny + lz * nz;
+    const REAL facing = s->bx[i] * nx + s->by[i] * ny + s->bz[i] * nz;
+    if (!(facing > 0) || !(det > 0)) return 1;
     const WrHorizon *h = job->horizon;
     const REAL ru = (REAL)job->look_double.ru, rv = (REAL)job->look_double.rv;
     const REAL x = (g * lu - f * lv) / det * ru * (REAL)h->width;
     const REAL y = -(e * lv - f * lu) / det * rv * (REAL)h->height;
     const REAL far = (REAL)sqrt((double)(x * x + y * y)) * (REAL)job->relief_height;
-    if (up > far * (REAL)h->steepest) return false; /* above the steepest horizon of all */
-    return up < far * horizon_at(h, x, y, ru * s->u[i], rv * s->v[i]);
+    if (!(radius > 0) && up > far * (REAL)h->steepest) return 1; /* above the steepest of all */
+    return share_above(up, far * horizon_at(h, x, y, ru * s->u[i], rv * s->v[i]), radius);
+}
+
+/* What the strip's samples see of a lamp; false: all of it, everywhere. */
+static bool seen_of(const WrTileJob *job, const WR_T(WrKernLight) * light, const Strip *s,
+                    REAL share[WR_SPAN])
+{
+    bool any = false;
+    for (int i = 0; i < s->count; i++) {
+        REAL l[3] = { light->where[0], light->where[1], light->where[2] };
+        if (light->point) {
+            const REAL d[3] = { l[0] - s->px[i], l[1] - s->py[i], l[2] - s->pz[i] };
+            const REAL square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            const REAL inv = square > 0 ? 1 / (REAL)sqrt((double)square) : 0;
+            for (int c = 0; c < 3; c++) l[c] = d[c] * inv;
+        }
+        share[i] = share_of(job, s, i, l[0], l[1], l[2], light->radius);
+        any |= share[i] < 1;
+    }
+    return any;
 }
 
 /* The sums of the light so far, before a lamp adds to them. */
@@ -80,14 +107,16 @@ static void keep_sums(const Strip *s, Sums *sums)
     for (int k = 0; k < 6; k++) memcpy(sums->of[k], from[k], (size_t)s->count * sizeof(REAL));
 }
 
-/* The lamp whose direction the strip has added nothing where it is hidden. */
-static void shadow_strip(const WrTileJob *job, const Sums *before, Strip *s, Watch *watch)
+/* The lamp, which the strip has added, as far as it is seen. */
+static void shadow_strip(const WrTileJob *job, const WR_T(WrKernLight) * light, const Sums *before,
+                         Strip *s, Watch *watch)
 {
     REAL *const to[6] = { s->dr, s->dg, s->db, s->sr, s->sg, s->sb };
-    for (int i = 0; i < s->count; i++) {
-        if (!is_hidden(job, s, i)) continue;
-        for (int k = 0; k < 6; k++) to[k][i] = before->of[k][i];
-    }
+    REAL share[WR_SPAN];
+    const bool any = seen_of(job, light, s, share);
+    for (int i = 0; i < s->count && any; i++)
+        for (int k = 0; k < 6 && share[i] < 1; k++)
+            to[k][i] = before->of[k][i] + share[i] * (to[k][i] - before->of[k][i]);
     did(watch, WR_EFFECT_SHADOW);
     watch_lap(watch, WR_STAGE_SHADOW);
 }

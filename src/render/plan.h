@@ -46,6 +46,7 @@ typedef enum WrEffect {
     WR_EFFECT_EXACT,
     WR_EFFECT_CURVATURE,
     WR_EFFECT_SHADOW,
+    WR_EFFECT_OCCLUSION,
     WR_EFFECT_SAMPLES,
     WR_EFFECT_BOUND,
     WR_EFFECT_FILTER,
@@ -94,10 +95,11 @@ typedef enum WrStage {
     WR_STAGE_GRAIN, /* solid textures */
     WR_STAGE_DIFFUSE,
     WR_STAGE_SPECULAR,
-    WR_STAGE_SURROUND, /* diffuse light of surroundings */
-    WR_STAGE_MIRROR,   /* what is reflected of them */
-    WR_STAGE_SHADOW,   /* lamps that the relief hides */
-    WR_STAGE_LIGHT,    /* all of a single light in one pass */
+    WR_STAGE_SURROUND,  /* diffuse light of surroundings */
+    WR_STAGE_MIRROR,    /* what is reflected of them */
+    WR_STAGE_SHADOW,    /* lamps that the relief hides */
+    WR_STAGE_OCCLUSION, /* sky that it hides */
+    WR_STAGE_LIGHT,     /* all of a single light in one pass */
     WR_STAGE_BOUND,
     WR_STAGE_HALF, /* rounding to half precision */
     WR_STAGE_RESOLVE,
@@ -174,6 +176,7 @@ typedef enum WrPrecision {
      bump        as simplified: BLINN for exact on a flat base, ...
      scheme      how the table is looked up
      normals     the surface's geometry and n' are worked out
+     horizons    directions in which the table's are kept, for shadows too
      samples     K of K x K; 1 where one sample is taken
      anisotropic, tint_anisotropic    of several look-ups
      lean        by the whole covariance; else by its trace
@@ -196,6 +199,7 @@ typedef enum WrPrecision {
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \
     X(CURVATURE, bool, normals)                                                                    \
+    X(OCCLUSION, int, horizons)                                                                    \
     X(SAMPLES, int, samples)                                                                       \
     X(SAMPLES, WrSampling, sampling)                                                               \
     X(SAMPLES, WrSpread, spread)                                                                   \

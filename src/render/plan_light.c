@@ -1,6 +1,7 @@
 /* What the plan decides about light: diffuse reflection, highlights, and by which model. */
 #include "render/plan_inner.h"
 
+#include "field/horizon.h"
 #include "scene/scene.h"
 
 static bool any_light(const WrScene *scene)
@@ -97,4 +98,29 @@ WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanAsk *ask, const char 
     if (!runs(plan, WR_EFFECT_BUMP) || plan->source != WR_SOURCE_TABLE)
         return say(WR_VERDICT_NONE, why, "there is no relief to throw any");
     return say(WR_VERDICT_RUN, why, "lamps below the relief's horizon are hidden");
+}
+
+/* Light that occlusion keeps away: ambient, and that of surroundings. */
+static bool has_sky(const WrPlan *plan, const WrMaterial *m)
+{
+    return m->ambient != 0 || runs(plan, WR_EFFECT_SURROUND);
+}
+
+WrVerdict wr_decide_occlusion(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!ask->scene->material.occlusion)
+        return say(WR_VERDICT_NONE, why, "the material asks for no occlusion");
+    const char *reason = no_horizon(plan, ask);
+    if (reason) return say(WR_VERDICT_NONE, why, reason);
+    if (ask->scene->height == 0 || still(ask->scene) || ask->facts.flat || ask->facts.zero)
+        return say(WR_VERDICT_NONE, why, "there is no relief to hide any sky");
+    if (!has_sky(plan, &ask->scene->material))
+        return say(WR_VERDICT_SPARED, why, "there is neither ambient light nor surroundings");
+    return say(WR_VERDICT_RUN, why, "hollows of the relief see less of the sky");
+}
+
+void wr_settle_occlusion(WrPlan *plan, const WrPlanAsk *ask)
+{
+    const int n = ask->dials->horizons / WR_HORIZON_LEAST * WR_HORIZON_LEAST;
+    if (runs(plan, WR_EFFECT_OCCLUSION) || runs(plan, WR_EFFECT_SHADOW)) plan->horizons = n;
 }

@@ -358,6 +358,13 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "objects it is not known. Lamps above the steepest horizon of "
                                    "all look none up",
                                    STAGE(SHADOW), .only_way = true, .decide = wr_decide_shadow },
+    [WR_ROW(WR_EFFECT_OCCLUSION)] = { "E48", "ambient occlusion", WR_PROOF_IDENTICAL, NULL,
+                                      "the material asks for none, there is neither ambient light "
+                                      "nor surroundings, there is no relief; of what has no relief "
+                                      "shadow it is not known either",
+                                      STAGE(OCCLUSION), .only_way = true,
+                                      .decide = wr_decide_occlusion,
+                                      .settle = wr_settle_occlusion },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
                                     "one sample a pixel was asked for", STAGE(RESOLVE),
                                     .decide = decide_samples, .settle = settle_samples },

@@ -99,7 +99,7 @@ WrVerdict wr_decide_parameters(const WrPlan *plan, const WrPlanAsk *ask, const c
     if (!is_round(ask) && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "rays meet this surface at u and v");
     if (plan->source != WR_SOURCE_NONE || runs(plan, WR_EFFECT_COLOUR) ||
-        runs(plan, WR_EFFECT_NORMALS))
+        runs(plan, WR_EFFECT_NORMALS) || runs(plan, WR_EFFECT_OCCLUSION))
         return say(WR_VERDICT_RUN, why, "table, formula or a picture is looked up there");
     if (runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_BOUND))
         return say(WR_VERDICT_RUN, why, "second derivatives or bounds go by them");

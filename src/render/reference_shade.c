@@ -5,6 +5,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "render/reference_grain.h"
+#include "render/reference_open.h"
 #include "render/reference_reflect.h"
 #include "scene/laid.h"
 #include "scene/scene.h"
@@ -39,12 +40,14 @@ static void note_shadow(WrReferenceStage *stage, const WrField *field)
     int columns, rows;
     float low, high;
     wr_surface_cells(&scene->shape, &columns, &rows);
-    if (!scene->material.shadow || wr_surfaces[scene->shape.kind]->held || columns * rows != 1)
+    if ((!scene->material.shadow && !scene->material.occlusion) ||
+        wr_surfaces[scene->shape.kind]->held || columns * rows != 1)
         return;
-    if (!stage->periodic_u || !stage->periodic_v || scene->bump == WR_BUMP_NONE) return;
+    if (!stage->periodic_u || !stage->periodic_v) return;
     if (scene->sizes.x != 0 || scene->sizes.y != 0 || scene->sizes.z != 0) return;
     wr_field_range(field, &low, &high);
-    stage->shadow = fabs(scene->height) * ((double)high - (double)low);
+    stage->relief = fabs(scene->height) * ((double)high - (double)low);
+    stage->shadow = scene->material.shadow && scene->bump != WR_BUMP_NONE ? stage->relief : 0;
     stage->texels[0] = fabs(scene->replicate_u) * wr_field_width(field);
     stage->texels[1] = fabs(scene->replicate_v) * wr_field_height(field);
 }
@@ -221,39 +224,6 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
     *white *= 1 - m->tint;
 }
 
-/* The ray towards the lamp meets the displaced surface again before it comes to it. */
-static bool meets_relief(const WrReferenceStage *stage, WrVec3 p, WrVec3 perturbed, WrVec3 l,
-                         double away)
-{
-    const WrReferenceRay ray = { v3_mad(p, perturbed, 1e-7 * stage->raised.size), l, 0 };
-    WrReferenceHit hit;
-    return wr_reference_raised_hit(&stage->raised, &ray, &hit) && hit.s < away;
-}
-
-/* Is a lamp in direction l hidden by the relief? Over the tangent plane the ray rises by n.l per length, and (a, b) is how it
-   moves in u and v: it is marched by an eighth of a texel until it is above everything. */
-static bool is_hidden(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
-                      WrVec3 l)
-{
-    const double e = v3_dot(at->pu, at->pu), f = v3_dot(at->pu, at->pv), g = v3_dot(at->pv, at->pv);
-    const double lu = v3_dot(l, at->pu), lv = v3_dot(l, at->pv), det = e * g - f * f;
-    const double up = v3_dot(l, at->n_unit);
-    if (!(det > 0) || wr_reference_side(&stage->view, at) < 0) return false;
-    if (up < 0) return true;
-    const double a = (g * lu - f * lv) / det, b = (e * lv - f * lu) / det;
-    const double moves = hypot(a * stage->texels[0], b * stage->texels[1]);
-    const double farthest = 4 * (stage->texels[0] + stage->texels[1]);
-    double from, fu, fv, here;
-    wr_reference_height(stage, u, v, &from, &fu, &fv);
-    for (double way = 0.125; moves > 0 && way < farthest; way += 0.125) {
-        const double t = way / moves;
-        if (t * up > stage->shadow) return false;
-        wr_reference_height(stage, u + t * a, v + t * b, &here, &fu, &fv);
-        if (here - from > t * up) return true;
-    }
-    return false;
-}
-
 /* C at a place of the surface without the material's. */
 static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u, double v,
                          double rgb[3])
@@ -273,7 +243,10 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
     const WrReferenceView *view = &stage->view;
     const WrVec3 p = wr_reference_stretched(view, at->p);
     const WrVec3 to = view->perspective ? unit(v3_sub(view->lit_eye, p)) : view->lit_toward;
-    double diffuse[3] = { m->ambient, m->ambient, m->ambient }, shine[3] = { 0, 0, 0 };
+    const double open =
+        stage->relief > 0 && m->occlusion ? wr_reference_open(stage, at, u, v, perturbed) : 1;
+    const double ambient = open * m->ambient;
+    double diffuse[3] = { ambient, ambient, ambient }, shine[3] = { 0, 0, 0 };
     double colour[3];
     place_colour(stage, at->p, u, v, colour);
     const double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1],
@@ -283,19 +256,20 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
         const WrVec3 way = v3_sub(light->where, p), l = light->point ? unit(way) : light->where;
         const double away = light->point ? v3_len(way) : INFINITY;
         double own[3], white;
-        if (stage->shadow > 0 &&
-            (stage->raised.count > 0 ? meets_relief(stage, at->p, perturbed, l, away)
-                                     : is_hidden(stage, at, u, v, l)))
-            continue;
+        const double seen = stage->shadow > 0 ? wr_reference_lamp_share(stage, at, u, v, perturbed,
+                                                                        l, away, light->radius)
+                                              : 1;
+        if (seen == 0) continue;
         wr_reference_lamp(m, &stage->matter, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
-            diffuse[c] += light->rgb[c] * own[c];
-            shine[c] += light->rgb[c] * white;
+            diffuse[c] += seen * light->rgb[c] * own[c];
+            shine[c] += seen * light->rgb[c] * white;
         }
     }
     double around[3], mirrored[3];
     wr_reference_surround_light(stage, perturbed, to, has, share, around, mirrored);
-    for (int c = 0; c < 3; c++) rgb[c] = has[c] * (diffuse[c] + around[c]) + shine[c] + mirrored[c];
+    for (int c = 0; c < 3; c++)
+        rgb[c] = has[c] * (diffuse[c] + open * around[c]) + shine[c] + mirrored[c];
 }
 
 /* How a pixel's steps move the hit along the plane, in u and v: q + s d, where s changes so that it stays on it. */

@@ -24,6 +24,7 @@ typedef struct WrReferenceStage {
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
     double
         shadow; /* scene units from the lowest to the highest of a relief that throws shadows; else 0 */
+    double relief;    /* the same whether it throws shadows or occludes */
     double texels[2]; /* of the table along u and v of the patch */
 } WrReferenceStage;
 

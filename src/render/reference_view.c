@@ -54,6 +54,7 @@ static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPla
         out->point = light->kind == WR_LIGHT_POINT;
         out->where = out->point ? v3_times(point_to_object(place, light->where), place->stretch)
                                 : v3_unit(world_to_object(place, light->where), ahead);
+        out->radius = light->size_deg * (WR_PI / 180);
         out->rgb[0] = light->colour.x * light->strength;
         out->rgb[1] = light->colour.y * light->strength;
         out->rgb[2] = light->colour.z * light->strength;

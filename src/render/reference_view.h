@@ -17,6 +17,7 @@ typedef struct WrReferenceLight {
     bool point;
     WrVec3 where; /* object space: unit direction to the light, or its place */
     double rgb[3];
+    double radius; /* of a round lamp, radians */
 } WrReferenceLight;
 
 typedef struct WrReferenceView {

@@ -8,6 +8,7 @@
 #include "render/keep.h"
 #include "render/level.h"
 #include "render/mesh.h"
+#include "render/opening.h"
 #include "render/plan.h"
 #include "render/sight.h"
 #include "render/surround.h"
@@ -42,11 +43,12 @@ typedef struct WrTileJob {
     bool seen_before;   /* it is known */
     bool newton;        /* the mesh's parameters are made exact */
     WrLook look;
-    WrLookd look_double;      /* where kernels_double looks */
-    WrEffects looks;          /* what a look-up in the table does, by what it was given */
-    const WrHorizon *horizon; /* of the table, for shadows; NULL: none */
-    double relief_height;     /* of a table unit, kernel units, above 0 */
-    WrLevel level;            /* how steep the table is where; only for one of the next two */
+    WrLookd look_double;           /* where kernels_double looks */
+    WrEffects looks;               /* what a look-up in the table does, by what it was given */
+    const WrHorizon *horizon;      /* of the table, for shadows; NULL: none */
+    const WrOpeningTable *opening; /* how open the relief is */
+    double relief_height;          /* of a table unit, kernel units, above 0 */
+    WrLevel level;                 /* how steep the table is where; only for one of the next two */
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */
     WrMatter matter; /* what the plan's model goes by; kd and ks of what runs */

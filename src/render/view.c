@@ -2,6 +2,7 @@
 #include "render/plan_inner.h"
 
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "scene/scene.h"
@@ -323,6 +324,8 @@ static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *p
                            : v3_unit(wr_place_turn_back(place, light->where), ahead);
         store(out->where, where);
         store(out->rgb, v3_scale(light->colour, light->strength));
+        out->radius = scene->lights[i].size_deg * (WR_PI / 180);
+        view->lights[i].radius = out->radius;
         view->lights[i].point = out->point;
         narrow(view->lights[i].where, out->where);
         narrow(view->lights[i].rgb, out->rgb);

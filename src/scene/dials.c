@@ -24,6 +24,7 @@ WrDials wr_dials_default(void)
     return (WrDials){ .samples = 4,
                       .contrast = 0.002,
                       .newton = -1,
+                      .horizons = 32,
                       .dice = 0.5,
                       .heights = WR_HEIGHTS_FLOAT,
                       .harmonics = 2,
@@ -91,6 +92,7 @@ MEMBER(newton, int, dials.newton)
 MEMBER(texels, double, dials.texels)
 MEMBER(harmonics, int, dials.harmonics)
 MEMBER(gloss, double, dials.gloss)
+MEMBER(horizons, int, dials.horizons)
 MEMBER(dice, double, dials.dice)
 MEMBER(heights, WrHeights, dials.heights)
 MEMBER(shading, WrShading, dials.shading)
@@ -133,6 +135,11 @@ static bool with_surroundings(const WrScene *scene)
     return scene->environment.light != NULL;
 }
 
+static bool with_horizons(const WrScene *scene)
+{
+    return scene->material.shadow || scene->material.occlusion;
+}
+
 static bool with_dice(const WrScene *scene)
 {
     return scene->displaced && !wr_surfaces[scene->shape.kind]->held;
@@ -147,6 +154,7 @@ static const double newton_rungs[] = { 0, 1, 2, 3, NAN };
 static const double harmonic_rungs[] = { 0, 1, 2, NAN };
 static const double gloss_rungs[] = { 8, 16, 32, 64, NAN };
 static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
+static const double horizon_rungs[] = { 8, 16, 32, 64, NAN };
 static const double dice_rungs[] = { 1, 0.5, 0.25, NAN };
 
 #define CHOICES(name, count_) .choices = (count_), .choice = name##_name
@@ -209,6 +217,11 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                 "texels over the width of what surroundings are blurred by",
                                 .low = 4, .high = 128, MEMBERS(gloss), .matters = with_surroundings,
                                 .rungs = gloss_rungs },
+    [WR_ROW(WR_DIAL_HORIZONS)] = { "horizons", "dials", WR_AXIS_LIGHT, "Horizons",
+                                   "directions in which it is known how high the relief stands, a "
+                                   "multiple of 4",
+                                   .low = 4, .high = 64, .whole = true, MEMBERS(horizons),
+                                   .matters = with_horizons, .rungs = horizon_rungs },
     [WR_ROW(WR_DIAL_DICE)] = { "dice", "dials", WR_AXIS_VISIBILITY, "Facets",
                                "pixels; so near are a displaced surface's facets to it",
                                .low = 0.0625, .high = 16, MEMBERS(dice), .matters = with_dice,

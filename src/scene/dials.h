@@ -105,6 +105,7 @@ typedef struct WrDials {
     int mesh;        /* -4..4: curved surfaces' grid is 2^mesh times as fine each way */
     int newton;      /* most steps of the inversion, 0..8; -1: as many as the mesh calls for */
     double texels; /* the inversion stops where its step is shorter than so many texels; 0: never */
+    int horizons;  /* directions in which the relief's horizons are kept: 4..64 */
     double dice;   /* pixels: so near are a displaced surface's facets to it; 1/16..16 */
     WrHeights heights;
     WrShading shading;
@@ -132,6 +133,7 @@ typedef enum WrDialId {
     WR_DIAL_TEXELS,
     WR_DIAL_HARMONICS,
     WR_DIAL_GLOSS,
+    WR_DIAL_HORIZONS,
     WR_DIAL_DICE,
     WR_DIAL_HEIGHTS,
     WR_DIAL_SHADING,

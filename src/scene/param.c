@@ -96,6 +96,11 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_SHADOW)] = { "material", NULL, "shadow", IN_SCENE(material.shadow),
                                         .planned = true, .sparse = true,
                                         .help = "the relief throws shadows on itself" },
+    [WR_ROW(WR_SCENE_PARAM_OCCLUSION)] = { "material", NULL, "occlusion",
+                                           IN_SCENE(material.occlusion), .planned = true,
+                                           .sparse = true,
+                                           .help = "the relief keeps ambient light and that of "
+                                                   "surroundings from its hollows" },
     [WR_ROW(WR_SCENE_PARAM_GRAIN_LIGHT)] = { "grain", NULL, "light", IN_SCENE(grain.light),
                                              .components = 3, .high = 1e6, .fallback = { 1, 1, 1 },
                                              .planned = true, .shape = "r,g,b", .label = "Light",
@@ -129,12 +134,13 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                              .unit = "a scene unit",
                                              .help = "how fine the noise is", SLIDER(0.2, 40, 2),
                                              .logarithmic = true },
-    [WR_ROW(WR_SCENE_PARAM_GRAIN_OCTAVES)] = { "grain", NULL, "octaves", IN_SCENE(grain.octaves),
-                                               .components = 1, .low = 1, .high = 10,
-                                               .fallback = { 3 }, .label = "Octaves",
-                                               .help = "sums of noise, each twice as fine as the "
-                                                       "one before; to the nearest whole number",
-                                               SLIDER(1, 10, 0) },
+    [WR_ROW(
+        WR_SCENE_PARAM_GRAIN_OCTAVES)] = { "grain", NULL, "octaves", IN_SCENE(grain.octaves),
+                                           .components = 1, .low = 1, .high = 10, .fallback = { 3 },
+                                           .label = "Octaves",
+                                           .help = "sums of noise, each twice as fine as the "
+                                                   "one before; to the nearest whole number",
+                                           SLIDER(1, 10, 0) },
     [WR_ROW(
         WR_SCENE_PARAM_GRAIN_RATIO)] = { "grain", NULL, "ratio", IN_SCENE(grain.ratio),
                                          .components = 1, .low = 1.01, .high = 100,
@@ -159,6 +165,13 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                                 .fallback = { 1 }, .planned = true,
                                                 .label = "Strength", .help = "times the colour",
                                                 SLIDER(0, 2, 2) },
+    [WR_ROW(WR_SCENE_PARAM_LIGHT_SIZE)] = { "light", NULL, "size", .filled = true,
+                                            IN_LIGHT(size_deg), .components = 1, .high = 45,
+                                            .planned = true, .sparse = true, .unit = "degrees",
+                                            .label = "Softness",
+                                            .help = "angular radius of a round lamp: how soft the "
+                                                    "relief's shadows are; the sun has 0.27",
+                                            SLIDER(0, 10, 2) },
     [WR_ROW(WR_SCENE_PARAM_ENVIRONMENT_TURN)] = { "environment", NULL, "turn",
                                                   IN_SCENE(environment.turn_deg), .components = 1,
                                                   .low = -1e9, .high = 1e9, .unit = "degrees",

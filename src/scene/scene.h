@@ -41,6 +41,8 @@ typedef struct WrLight {
     WrVec3 where;  /* directional: from the surface TO the light, any length > 0; point: position */
     WrVec3 colour; /* linear RGB, 0..1e6 */
     double strength; /* 0..1e6; the light's L is colour * strength */
+    double
+        size_deg; /* 0..45: angular radius of a round lamp, for the relief's shadows; 0: a point */
 } WrLight;
 
 typedef struct WrMaterial {
@@ -52,8 +54,9 @@ typedef struct WrMaterial {
     WrReflect model;
     WrEnergy energy;
     double roughness, metalness, ior;
-    bool shadow; /* the relief hides lamps from itself */
-    double tint; /* share of the highlight that has the surface's colour */
+    bool shadow;    /* the relief hides lamps from itself */
+    bool occlusion; /* and the sky from itself */
+    double tint;    /* share of the highlight that has the surface's colour */
 } WrMaterial;
 
 /* What the picture must keep to; the dials that meet it are chosen by measuring (accuracy/tolerance.h). */

@@ -41,8 +41,9 @@ static bool one_light(WrApp *app, int i)
                                                        [WR_ROW(WR_LIGHT_POINT)] = "Point" };
     WR_ROWS_END(kinds, WR_LIGHT_KINDS);
     const WrSceneParam *power = &wr_scene_params[WR_SCENE_PARAM_LIGHT_STRENGTH],
-                       *tint = &wr_scene_params[WR_SCENE_PARAM_LIGHT_COLOUR];
-    const WrNumber strength = wr_param_slider(power);
+                       *tint = &wr_scene_params[WR_SCENE_PARAM_LIGHT_COLOUR],
+                       *round = &wr_scene_params[WR_SCENE_PARAM_LIGHT_SIZE];
+    const WrNumber strength = wr_param_slider(power), size = wr_param_slider(round);
     WrLight light = wr_app_scene(app)->lights[i];
     char label[24];
     int kind = (int)light.kind;
@@ -55,14 +56,18 @@ static bool one_light(WrApp *app, int i)
     WrEdit a = wr_gui_number(power->name, 0, &strength, &light.strength);
     wr_gui_label(tint->label);
     WrEdit b = wr_gui_colour(tint->name, 0, rgb);
+    wr_gui_label(round->label);
+    WrEdit c = wr_gui_number(round->name, 0, &size, &light.size_deg);
+    wr_gui_tip("Angular radius of a round lamp, degrees: how soft shadows of the relief are");
     light.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
-    if (a != WR_EDIT_NONE || b != WR_EDIT_NONE) wr_app_live(app)->lights[i] = light;
+    if (a != WR_EDIT_NONE || b != WR_EDIT_NONE || c != WR_EDIT_NONE)
+        wr_app_live(app)->lights[i] = light;
     if (chosen && kind != (int)light.kind) {
         light.kind = (WrLightKind)kind;
         WrVec3 unit = v3_unit(light.where, (WrVec3){ 0, 0, 1 });
         light.where = wr_line_round_vec(v3_scale(unit, kind == WR_LIGHT_POINT ? 4.0 : 1.0), 3);
     }
-    if (!chosen && a != WR_EDIT_DONE && b != WR_EDIT_DONE) return false;
+    if (!chosen && a != WR_EDIT_DONE && b != WR_EDIT_DONE && c != WR_EDIT_DONE) return false;
     WrText line = { 0 };
     light_line(&line, &light, i);
     wr_scene_run(app, &line);

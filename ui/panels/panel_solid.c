@@ -31,6 +31,8 @@ static void relief(WrApp *app)
     wr_gui_heading("RELIEF");
     flag(app, WR_SCENE_PARAM_SHADOW, "Throws shadows on itself",
          "By how high the relief stands about each texel, seen from there; lamps only");
+    flag(app, WR_SCENE_PARAM_OCCLUSION, "Keeps the sky from its hollows",
+         "Ambient occlusion: ambient light and that of surroundings, as much as each texel sees");
     flag(app, WR_SCENE_PARAM_DISPLACED, "Moves the surface itself",
          "True displacement, outline included, in place of bump mapping that imitates it. Slower; "
          "each edit cuts the surface anew");

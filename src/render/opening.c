@@ -1,0 +1,55 @@
+#include "render/opening.h"
+
+#include "base/memory.h"
+#include "field/field.h"
+#include "scene/scene.h"
+
+#include <math.h>
+
+#define LOOKS 12 /* places along u and v at which the surface is measured */
+
+void wr_opening_table_drop(WrOpeningTable *table)
+{
+    wr_free(table->open);
+    *table = (WrOpeningTable){ 0 };
+}
+
+void wr_opening_texel(const WrScene *scene, const WrField *field, double *across, double *down)
+{
+    double wide = 0, high = 0;
+    for (int k = 0; k < LOOKS * LOOKS; k++) {
+        WrSurfacePoint at;
+        wr_surface_at(&scene->shape, 0, (k % LOOKS + 0.5) / LOOKS,
+                      ((double)(k / LOOKS) + 0.5) / LOOKS, &at);
+        wide += v3_len(at.pu) / (LOOKS * LOOKS), high += v3_len(at.pv) / (LOOKS * LOOKS);
+    }
+    const double per = fabs(scene->height);
+    *across = wide / (fmax(fabs(scene->replicate_u), 1e-9) * wr_field_width(field) * per);
+    *down = high / (fmax(fabs(scene->replicate_v), 1e-9) * wr_field_height(field) * per);
+}
+
+bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const WrField *field,
+                            uint64_t key, const WrHorizon *horizon, WrPool *pool, WrError *err)
+{
+    const double sign = scene->height < 0 ? -1 : 1;
+    double across, down;
+    WrOpening opening;
+    wr_opening_texel(scene, field, &across, &down);
+    if (table->open && table->key == key && table->directions == horizon->directions &&
+        table->across == sign * across && table->down == sign * down)
+        return true;
+    wr_opening_table_drop(table);
+    const size_t texels = (size_t)horizon->width * (size_t)horizon->height;
+    float *open = wr_try_alloc(texels, sizeof *open, "how open the relief is", err);
+    if (!open) return false;
+    wr_opening_make(&opening, horizon->directions, across, down);
+    wr_opening_table(&opening, horizon, field, sign, pool, open);
+    *table = (WrOpeningTable){ .open = open,
+                               .width = horizon->width,
+                               .height = horizon->height,
+                               .key = key,
+                               .directions = horizon->directions,
+                               .across = sign * across,
+                               .down = sign * down };
+    return true;
+}

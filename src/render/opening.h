@@ -1,0 +1,25 @@
+/* opening.h - how much of the sky the relief leaves open at each texel, as the renderer keeps it.
+   Layer 5, private to the renderer. */
+#pragma once
+#include "field/horizon.h"
+
+#include <stdint.h>
+
+typedef struct WrScene WrScene;
+
+/* Zero-initialise; drop frees. */
+typedef struct WrOpeningTable {
+    float *open; /* [height][width], owned; NULL: none */
+    int width, height;
+    uint64_t key; /* of the table ... */
+    int directions;
+    double across,
+        down; /* ... and of a texel, in units of height; below 0 where it stands inside out */
+} WrOpeningTable;
+
+void wr_opening_table_drop(WrOpeningTable *table);
+/* Bring it up to date with the horizons of that table. A texel is as long as on the mean over the surface. */
+bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const WrField *field,
+                            uint64_t key, const WrHorizon *horizon, WrPool *pool, WrError *err);
+/* How long a texel is along u and v, in units of height, on the mean. */
+void wr_opening_texel(const WrScene *scene, const WrField *field, double *across, double *down);

@@ -1,0 +1,15 @@
+/* reference_open.h - what the relief hides, for the reference: lamps, and the sky, by marching along rays.
+   Layer 5, private to the reference. */
+#pragma once
+#include "base/vec.h"
+
+typedef struct WrReferenceStage WrReferenceStage;
+typedef struct WrSurfacePoint WrSurfacePoint;
+
+/* The share of a lamp in direction l that reaches the place, of one that is round and of that angular radius; away: how far
+   it stands. perturbed: n' towards the viewer's side. */
+double wr_reference_lamp_share(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
+                               double v, WrVec3 perturbed, WrVec3 l, double away, double radius);
+/* The share of the sky's light that does. */
+double wr_reference_open(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
+                         double v, WrVec3 perturbed);
