@@ -123,7 +123,7 @@ static void compared(WrScene *scene, WrScene *without, double *off, double *effe
                                 wr_renderer_new(NULL, "auto", &err) };
     WrFrame frame[2];
     WrReference truth = { 0 };
-    enum { SMALL = 48 };
+    enum { SMALL = 32 };
     double sums[2] = { 0, 0 };
     int covered = 0;
     for (int k = 0; k < 2; k++) {

@@ -16,11 +16,18 @@ static REAL direction_of(REAL x, REAL y, int directions)
     return at < 0 ? at + (REAL)directions : at;
 }
 
+/* The whole number below x, without a call where instructions are few. */
+static REAL below(REAL x)
+{
+    const REAL whole = (REAL)(int64_t)x;
+    return whole > x ? whole - 1 : whole;
+}
+
 /* x - 1/2 of texels on an axis of n that repeats: the texel and its neighbour, and how far past it. */
 static REAL texel_of(REAL x, int n, int out[2])
 {
-    const REAL at = (x - (REAL)floor((double)x)) * (REAL)n - (REAL)0.5;
-    const int low = (int)floor((double)at);
+    const REAL at = (x - below(x)) * (REAL)n - (REAL)0.5;
+    const int low = (int)below(at);
     out[0] = low < 0 ? n - 1 : low < n ? low : n - 1;
     out[1] = out[0] + 1 < n ? out[0] + 1 : 0;
     return at - (REAL)low;
