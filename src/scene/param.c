@@ -167,8 +167,7 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                                 SLIDER(0, 2, 2) },
     [WR_ROW(WR_SCENE_PARAM_LIGHT_SIZE)] = { "light", NULL, "size", .filled = true,
                                             IN_LIGHT(size_deg), .components = 1, .high = 45,
-                                            .planned = true, .sparse = true, .unit = "degrees",
-                                            .label = "Softness",
+                                            .sparse = true, .unit = "degrees", .label = "Softness",
                                             .help = "angular radius of a round lamp: how soft the "
                                                     "relief's shadows are; the sun has 0.27",
                                             SLIDER(0, 10, 2) },
