@@ -58,6 +58,13 @@ static WrScene *own_scene(WrDocument *document)
     return document->scene = scene;
 }
 
+/* A mesh where the kind is of one, else a plane. */
+static void fit_surface(WrDocument *document, const WrExportKind *kind)
+{
+    const bool mesh = kind->on_surface && kind->make;
+    wr_shape_default(mesh ? WR_SURFACE_mesh : WR_SURFACE_plane, &own_scene(document)->shape);
+}
+
 /* Options as a command gives them: "range=auto", ... ended by NULL. */
 static WrExportOptions options_of(const char *kind, const char *const *settings)
 {
@@ -583,6 +590,7 @@ static void the_bytes_do_not_depend_on_the_number_of_threads(void **state)
         for (int which = 0; which < 2; which++)
             for (int t = 0; t < 3; t++) {
                 const char *name = wr_export_kinds[kind].name;
+                fit_surface(which ? formula : table, &wr_export_kinds[kind]);
                 bool drawn = wr_export_kinds[kind].write || wr_export_kinds[kind].floats;
                 WrExportOptions options =
                     options_of(name, drawn ? NULL : SETTINGS("depth=8", "dither=on"));
@@ -681,6 +689,7 @@ static void hc95_a_single_texel_leaves_as_every_kind(void **state)
     own_scene(document)->height = 0.1;
     for (int kind = 0; kind < WR_EXPORT_KIND_COUNT; kind++)
         for (int k = wr_export_kinds[kind].floats; k < 3 && !wr_export_kinds[kind].write; k++) {
+            fit_surface(document, &wr_export_kinds[kind]);
             export_to(document, wr_export_kinds[kind].name, NULL, paths[k]);
             WrImage *image = read_back(paths[k]);
             assert_int_equal(image->width * image->height, 1);

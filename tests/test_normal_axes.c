@@ -9,6 +9,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 
 #define WIDTH 37
 #define HEIGHT 22
@@ -181,6 +182,141 @@ static void on_a_sphere_it_is_blinns_normal(void **state)
     wr_document_free(document);
 }
 
+/* ---- baked for a mesh ---- */
+
+static void set_mesh(WrScene *scene, const float (*points)[3], const float (*uv)[2],
+                     int points_count, const int32_t (*corners)[3], int count)
+{
+    WrError err = { "" };
+    const WrTrianglesSource source = { .points = points,
+                                       .uv = uv,
+                                       .corners = corners,
+                                       .point_count = points_count,
+                                       .triangle_count = count };
+    WrTriangles *mesh = wr_triangles_new(&source, &err);
+    if (!mesh) fail_msg("%s", err.text);
+    wr_shape_default(WR_SURFACE_mesh, &scene->shape);
+    wr_scene_set_triangles(scene, mesh, "", NULL);
+    scene->bump = WR_BUMP_BLINN;
+    scene->scheme = WR_SCHEME_CENTRAL;
+}
+
+/* Two triangles with the same (u,v), one mirrored: by MikkTSpace T is -x and x, and the map is the cell's own in both. */
+static void mirrored_parts_have_the_cells_own_map(void **state)
+{
+    (void)state;
+    static const float points[4][3] = { { -1, 0, 0 }, { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 } };
+    static const float uv[4][2] = { { 1, 0 }, { 0, 0 }, { 0, 1 }, { 1, 0 } };
+    static const int32_t corners[2][3] = { { 0, 1, 2 }, { 1, 3, 2 } };
+    WrExportReport report;
+    for (int k = 0; k < 3; k++) { /* the mirrored one, the other, both */
+        WrDocument *document = new_document();
+        set_mesh(document->scene, points, uv, 4, corners + (k == 1), k == 2 ? 2 : 1);
+        WrImage *cell = exported(document, "normal+y", "cell.exr",
+                                 (const char *[3]){ "scheme=central" }, &report);
+        WrImage *baked = exported(document, "normal-baked", "baked.exr",
+                                  (const char *[3]){ "padding=0" }, &report);
+        int inside = 0;
+        for (int j = 0; j < HEIGHT; j++)
+            for (int i = 0; i < WIDTH; i++) {
+                const double u = (i + 0.5) / WIDTH, v = 1 - (j + 0.5) / HEIGHT;
+                const float *a = cell->data + 3 * (j * WIDTH + i),
+                            *b = baked->data + 3 * (j * WIDTH + i);
+                inside += u + v < 1;
+                for (int c = 0; c < 3; c++)
+                    assert_near(b[c], u + v < 1 ? a[c] : c == 2 ? 1.0f : 0.5f, 3e-7);
+            }
+        assert_true(inside > WIDTH * HEIGHT / 3);
+        wr_image_free(cell);
+        wr_image_free(baked);
+        wr_document_free(document);
+    }
+}
+
+/* u = 1/2 + x/2 - y/2, v = x/2 + y: T is along grad v x n of the solve, B is n x T, and the map says so. */
+static void a_sheared_mesh_has_the_frame_of_mikktspace(void **state)
+{
+    (void)state;
+    static const float points[3][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    static const float uv[3][2] = { { 0.5f, 0 }, { 1, 0.5f }, { 0, 1 } };
+    static const int32_t corners[1][3] = { { 0, 1, 2 } };
+    const double t[2] = { 0.894427190999916, -0.447213595499958 }, b[2] = { -t[1], t[0] };
+    WrExportReport report;
+    WrDocument *document = new_document();
+    set_mesh(document->scene, points, uv, 3, corners, 1);
+    const WrField *field = wr_document_field(document);
+    WrImage *baked = exported(document, "normal-baked", "b.png",
+                              (const char *[3]){ "axes=directx", "padding=0" }, &report);
+    int inside = 0;
+    for (int j = 0; j < HEIGHT; j++)
+        for (int i = 0; i < WIDTH; i++) {
+            const double u = (i + 0.5) / WIDTH - 0.5, v = 1 - (j + 0.5) / HEIGHT;
+            const double x = (u + v / 2) / 0.75,
+                         y = v - x / 2; /* the inverse of the two lines above */
+            const float *have = baked->data + 3 * (j * WIDTH + i);
+            if (x < 1e-6 || y < 1e-6 || x + y > 1 - 1e-6) continue;
+            const double fu = 0.37 * WIDTH *
+                              (wr_field_get(field, (i + 1) % WIDTH, j) -
+                               wr_field_get(field, (i + WIDTH - 1) % WIDTH, j)) /
+                              2;
+            const double fv = 0.37 * HEIGHT *
+                              (wr_field_get(field, i, (j + HEIGHT - 1) % HEIGHT) -
+                               wr_field_get(field, i, (j + 1) % HEIGHT)) /
+                              2;
+            const double g[2] = { fu * 0.5 + fv * 0.5, fu * -0.5 + fv };
+            const double length = sqrt(1 + g[0] * g[0] + g[1] * g[1]);
+            assert_near(have[0], 0.5 - (g[0] * t[0] + g[1] * t[1]) / length / 2,
+                        0.5 / 65535 + 1e-6);
+            assert_near(have[1], 0.5 + (g[0] * b[0] + g[1] * b[1]) / length / 2,
+                        0.5 / 65535 + 1e-6);
+            assert_near(have[2], 0.5 + 1 / length / 2, 0.5 / 65535 + 1e-6);
+            inside++;
+        }
+    assert_true(inside > WIDTH * HEIGHT / 4);
+    wr_image_free(baked);
+    wr_document_free(document);
+}
+
+/* An island gets rings about it, across the map's edge too, and nothing beyond them. */
+static void padding_goes_as_far_as_it_is_told(void **state)
+{
+    (void)state;
+    static const float points[3][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    static const float uv[3][2] = { { 0.9f, 0.4f }, { 1.15f, 0.4f }, { 0.9f, 0.6f } };
+    static const int32_t corners[1][3] = { { 0, 1, 2 } };
+    WrExportReport report;
+    WrDocument *document = new_document();
+    set_mesh(document->scene, points, uv, 3, corners, 1);
+    WrImage *bare =
+        exported(document, "normal-baked", "p.exr", (const char *[3]){ "padding=0" }, &report);
+    WrImage *padded =
+        exported(document, "normal-baked", "p.exr", (const char *[3]){ "padding=3" }, &report);
+    int places = 0, rings = 0;
+    for (int j = 0; j < HEIGHT; j++)
+        for (int i = 0; i < WIDTH; i++) {
+            int nearest = 99; /* rings to a texel with a place; none of random heights is level */
+            for (int y = 0; y < HEIGHT; y++)
+                for (int x = 0; x < WIDTH; x++) {
+                    const float *n = bare->data + 3 * (y * WIDTH + x);
+                    if (n[0] == 0.5f && n[1] == 0.5f) continue;
+                    int dx = abs(x - i), dy = abs(y - j);
+                    dx = dx > WIDTH / 2 ? WIDTH - dx : dx, dy = dy > HEIGHT / 2 ? HEIGHT - dy : dy;
+                    nearest = dx > dy ? (dx < nearest ? dx : nearest) : dy < nearest ? dy : nearest;
+                }
+            const float *have = padded->data + 3 * (j * WIDTH + i),
+                        *was = bare->data + 3 * (j * WIDTH + i);
+            if (nearest == 0 || nearest > 3) assert_memory_equal(have, was, 3 * sizeof *have);
+            else assert_true(have[0] != 0.5f || have[1] != 0.5f);
+            const double n[3] = { 2.0 * have[0] - 1, 2.0 * have[1] - 1, 2.0 * have[2] - 1 };
+            assert_near(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-6);
+            places += nearest == 0, rings += nearest > 0 && nearest <= 3;
+        }
+    assert_true(places > 10 && rings > 40);
+    wr_image_free(bare);
+    wr_image_free(padded);
+    wr_document_free(document);
+}
+
 static void surfaces_without_one_chart_are_refused(void **state)
 {
     (void)state;
@@ -191,6 +327,9 @@ static void surfaces_without_one_chart_are_refused(void **state)
     assert_false(
         wr_export(wr_export_find("normal-object"), document, &options, NULL, "c.png", NULL, &err));
     assert_non_null(strstr(err.text, "surface cube"));
+    assert_false(
+        wr_export(wr_export_find("normal-baked"), document, &options, NULL, "c.png", NULL, &err));
+    assert_non_null(strstr(err.text, "baked for a mesh"));
     static const char *const bad[] = { "",    "+x",     "+x+y",   "+x+y+z+", "+x+x+z",
                                        "xyz", "+x+y+w", "OpenGL", "+x+y z" };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -211,6 +350,9 @@ int main(void)
         cmocka_unit_test(strength_multiplies_slopes),
         cmocka_unit_test(on_a_sphere_it_is_blinns_normal),
         cmocka_unit_test(surfaces_without_one_chart_are_refused),
+        cmocka_unit_test(mirrored_parts_have_the_cells_own_map),
+        cmocka_unit_test(a_sheared_mesh_has_the_frame_of_mikktspace),
+        cmocka_unit_test(padding_goes_as_far_as_it_is_told),
     };
     return cmocka_run_group_tests(tests, enter_folder, remove_folder);
 }

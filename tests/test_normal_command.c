@@ -366,6 +366,40 @@ static void a_map_along_the_axes_gives_the_bumped_picture(void **state)
     }
 }
 
+/* Of a mesh, by MikkTSpace: shaded by those frames it is the bumped picture. */
+static void a_baked_map_gives_the_bumped_picture(void **state)
+{
+    (void)state;
+    static float bumped[60 * 40 * 4], mapped[60 * 40 * 4];
+    static const char *const meshes[] = { "surface mesh", "surface mesh file=ball.obj" };
+    write_ball("ball.obj");
+    for (int k = 0; k < 4; k++) {
+        Said said = { "" };
+        WrSession *s = told_session(&said);
+        must_run(s, "table 512x512");
+        must_run(s, "formula fourier terms=3,2,0.5,0,0;0,5,0.3,0,0");
+        must_run(s, meshes[k / 2]);
+        must_run(s, "bump height=0.02 scheme=bspline");
+        draw(s, bumped);
+        must_run(s, k % 2 ? "export normal-baked b.png axes=directx" : "export normal-baked b.exr");
+        must_run(s, "fill 0");
+        must_run(s, k % 2 ? "normalmap b.png frame=mikk green=down"
+                          : "normalmap b.exr frame=mikk green=up");
+        draw(s, mapped);
+        double worst = 0, sum = 0;
+        for (int i = 0; i < 60 * 40 * 4; i++) {
+            const double off = fabs((double)(bumped[i] - mapped[i]));
+            worst = fmax(worst, off), sum += off * off;
+        }
+        const double rms = sqrt(sum / (60 * 40 * 4));
+        if (getenv("WR_SHOW")) printf("baked %s: %g, rms %g\n", meshes[k / 2], worst, rms);
+        /* Slopes jump at the ball's edges, which a map's texels blur. */
+        if (!(worst < (k / 2 ? 0.03 : 6e-4) && rms < (k / 2 ? 6e-4 : 2e-4)))
+            fail_msg("case %d: %g, rms %g", k, worst, rms);
+        wr_session_free(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -377,6 +411,7 @@ int main(void)
         cmocka_unit_test(maps_are_recovered_without_their_files),
         cmocka_unit_test(an_exported_map_gives_the_bumped_picture),
         cmocka_unit_test(a_map_along_the_axes_gives_the_bumped_picture),
+        cmocka_unit_test(a_baked_map_gives_the_bumped_picture),
     };
     return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
 }

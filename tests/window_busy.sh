@@ -46,6 +46,8 @@ begin() {
 }
 
 # ---- the view can be moved meanwhile, the rest is refused, Escape gives it up ----
+mkdir bin
+export PATH=$folder/bin:$PATH
 start small.exr
 begin
 shot working
@@ -88,15 +90,16 @@ key ctrl+z
 until_true 120 "the stroke undone" title_is after.exr
 
 # ---- a picture into a file: the command line's, and nothing is left of one that is given up ----
-ask_picture() {
+# ask_dialog WORDS: the action that they find.
+ask_dialog() {
     xdotool key ctrl+Return
     settle
-    xdotool type --delay 20 'render a picture'
+    xdotool type --delay 20 "$1"
     home
     key Return
     home
 }
-ask_picture
+ask_dialog 'render a picture'
 key Return # "Choose a file..."
 home
 key Return # picture.png
@@ -105,7 +108,7 @@ rest
 "$program" render after.exr -o same.png --size 2048x2048 2>/dev/null
 cmp picture.png same.png || complain "the window's picture is another than the command line's"
 rm picture.png
-ask_picture
+ask_dialog 'render a picture'
 for y in 349 378; do # width and height
     xdotool mousemove $((X + 650)) $((Y + y)) keydown ctrl click 1 keyup ctrl
     settle
@@ -124,6 +127,24 @@ until_true 120 "the bar of what takes long" shows_bar
 xdotool key Escape
 rest
 [[ $(halves) == 0 && ! -e picture.png ]] || complain "of a picture that was given up is left: $(find . -name '*picture*')"
+
+# ---- a turntable as a film: Cancel ends ffmpeg too, here a script that takes nothing, and nothing is left ----
+printf '#!/bin/sh\necho $$ >"%s/film.pid.new" && mv "%s/film.pid.new" "%s/film.pid"\nexec sleep 100\n' \
+    "$folder" "$folder" "$folder" >"$folder/bin/ffmpeg"
+chmod +x "$folder/bin/ffmpeg"
+home
+shot calm
+ask_dialog 'save a turntable'
+key Return # "Choose a file..."
+home
+xdotool key Return # turn.mp4
+until_true 120 "the program that makes films" test -f film.pid
+until_true 120 "the bar of what takes long" shows_bar
+xdotool key Escape
+rest
+is_ended() { [[ ! -d /proc/$(cat film.pid) ]]; }
+until_true 120 "the end of that program" is_ended
+[[ ! -e turn.mp4 && -z $(find . -maxdepth 1 -name '.turn*') ]] || complain "of a film that was given up is left: $(find . -name '*turn*')"
 
 # ---- a wish to quit waits until it is done, or given up ----
 begin

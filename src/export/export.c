@@ -23,6 +23,7 @@ WrExportOptions wr_export_default(void)
     return (WrExportOptions){ .range = WR_EXPORT_RANGE_AUTO,
                               .low = 0.0,
                               .high = 1.0,
+                              .padding = 8,
                               .strength = 1.0,
                               .scheme = -1,
                               .lines_u = 64,
@@ -126,7 +127,7 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
     char ending[16];
     if (kind->ending && strcmp(wr_path_ending(path, ending), kind->ending) != 0)
         return wr_fail(err, "%s: %s files end in .%s", path, kind->name, kind->ending);
-    if (kind->on_surface && !wr_export_object_check(scene, err)) return false;
+    if (kind->on_surface && !kind->make && !wr_export_object_check(scene, err)) return false;
     if (kind->write) return true; /* it sees to its own */
     if (options->depth == 0) {
         WrPixelType type;
@@ -259,7 +260,7 @@ static const char *convention_of(const WrExportKind *kind, const int axes[3])
 {
     char text[7];
     if (kind->green == 0.0) return NULL;
-    if (kind->on_surface) return "along the object's axes";
+    if (kind->on_surface && !kind->make) return "along the object's axes";
     wr_export_axes_text(axes, text);
     if (strcmp(text, "+x+y+z") == 0) return "+Y (green up)";
     return strcmp(text, "+x-y+z") == 0 ? "-Y (green down)" : "axes of its own";

@@ -24,7 +24,8 @@
 
    axes=+x-z+y gives red, green and blue other components and signs, opengl and directx are +x+y+z and +x-y+z by name;
    strength= multiplies the slopes, which are true at 1. normal-object: the unit normal of the scene's surface as the
-   bump turns it (shade/bump.h), along the object's axes, at (u,v) of the texel's centre.
+   bump turns it (shade/bump.h), along the object's axes, at (u,v) of the texel's centre. normal-baked: of a mesh, in the
+   frames of MikkTSpace, with padding about its islands (baked.c).
 
    slopes, two channels of floats: p = height dF/dU / cell_w, q = height dF/dV / cell_h, V up, with the scheme's derivatives
    at each texel's centre. slope: atan sqrt(p^2 + q^2), 0 to 90 degrees as 0..M; float files hold degrees.
@@ -85,6 +86,7 @@ typedef struct WrExportOptions {
     double cell_w, cell_h; /* size of the unit cell in the unit of the scene's; 0: the scene's */
     int axes[3];     /* normals: what red, green and blue hold, 1 x, 2 y, 3 z, below 0 its opposite;
                         all 0: as the kind has it */
+    int padding;     /* baked normals: rings of texels about what is covered, 0..64 */
     double strength; /* normals: slopes times this, finite, not 0 */
     int scheme;      /* normals: a WrScheme, or -1 for the scene's */
     const char *
@@ -192,7 +194,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 20
+#define WR_EXPORT_KIND_COUNT 21
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

@@ -98,6 +98,14 @@ void wr_export_normal_describe(WrExportJob *job);
 void wr_export_object_rows(WrExportJob *job, int y, int rows, void *out);
 bool wr_export_object_check(const WrScene *scene, WrError *err);
 void wr_export_object_describe(WrExportJob *job);
+bool wr_export_baked_make(WrExportJob *job, WrError *err);
+void wr_export_baked_rows(WrExportJob *job, int y, int rows, void *out);
+void wr_export_baked_describe(WrExportJob *job);
+/* Rows that a piece puts down, from y on. */
+typedef struct WrExportStrip {
+    int y;
+    void *out;
+} WrExportStrip;
 /* A unit normal as the options' axes have it, in codes or floats. */
 void wr_export_store_normal(const WrExportJob *job, void *out, size_t texel, WrVec3 n, int column,
                             int row);

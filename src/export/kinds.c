@@ -87,6 +87,16 @@ static bool set_axes(WrExportOptions *options, const char *value, WrError *err)
                    value);
 }
 
+static bool set_padding(WrExportOptions *options, const char *value, WrError *err)
+{
+    double rings;
+    if (!wr_number_parse(value, strlen(value), &rings) || rings != floor(rings) || rings < 0 ||
+        rings > 64)
+        return wr_fail(err, "padding '%.40s': must be a whole number of texels, 0..64", value);
+    options->padding = (int)rings;
+    return true;
+}
+
 static bool set_strength(WrExportOptions *options, const char *value, WrError *err)
 {
     double strength;
@@ -329,6 +339,23 @@ const WrExportKind wr_export_kinds[] = {
       .on_surface = true,
       .rows = wr_export_object_rows,
       .describe = wr_export_object_describe },
+    { .name = "normal-baked",
+      .label = "normal map baked for the mesh",
+      .help =
+          "the mesh's own normals as the bump turns them, in the frames of MikkTSpace: Blender, "
+          "Unreal, Unity, Godot, glTF",
+      .options = { DEPTH,
+                   DITHER,
+                   OBJECT,
+                   AXES,
+                   { "padding", "TEXELS", "about the islands of (u,v), 0..64; left out: 8",
+                     set_padding } },
+      .channels = 3,
+      .green = 1.0,
+      .on_surface = true,
+      .make = wr_export_baked_make,
+      .rows = wr_export_baked_rows,
+      .describe = wr_export_baked_describe },
     { .name = "slopes",
       .label = "slopes",
       .help = "dF/du and dF/dv as two channels of floats, in scene units: exr or tiff",

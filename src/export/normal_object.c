@@ -17,14 +17,9 @@ static WrVec3 normal_at(const WrExportJob *job, double u, double v)
     return wr_bump_unit_normal(scene->bump, p.n, p.n_unit, p.pu, p.pv, p.n_u, p.n_v, f, fu, fv);
 }
 
-typedef struct Strip {
-    int y;
-    void *out;
-} Strip;
-
 static void piece(WrExportJob *job, int y, int rows, void *ctx)
 {
-    const Strip *strip = ctx;
+    const WrExportStrip *strip = ctx;
     for (int j = y; j < y + rows; j++)
         for (int i = 0; i < job->width; i++)
             wr_export_store_normal(job, strip->out,
@@ -34,7 +29,7 @@ static void piece(WrExportJob *job, int y, int rows, void *ctx)
 
 void wr_export_object_rows(WrExportJob *job, int y, int rows, void *out)
 {
-    Strip strip = { y, out };
+    WrExportStrip strip = { y, out };
     wr_export_run(job, y, rows, piece, &strip);
 }
 
