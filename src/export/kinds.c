@@ -78,36 +78,6 @@ static bool set_dither(WrExportOptions *options, const char *value, WrError *err
     return true;
 }
 
-static bool set_axes(WrExportOptions *options, const char *value, WrError *err)
-{
-    if (wr_export_axes_parse(value, options->axes)) return true;
-    return wr_fail(err,
-                   "axes '%.40s': must be opengl, directx, or x, y and z in some order with signs, "
-                   "as +x-z+y",
-                   value);
-}
-
-static bool set_padding(WrExportOptions *options, const char *value, WrError *err)
-{
-    double rings;
-    if (!wr_number_parse(value, strlen(value), &rings) || rings != floor(rings) || rings < 0 ||
-        rings > 64)
-        return wr_fail(err, "padding '%.40s': must be a whole number of texels, 0..64", value);
-    options->padding = (int)rings;
-    return true;
-}
-
-static bool set_strength(WrExportOptions *options, const char *value, WrError *err)
-{
-    double strength;
-    if (!wr_number_parse(value, strlen(value), &strength) || !(fabs(strength) <= 1e6) ||
-        strength == 0.0)
-        return wr_fail(err, "strength '%.40s': must be a factor of slopes, -1e6..1e6, not 0",
-                       value);
-    options->strength = strength;
-    return true;
-}
-
 /* Whether there is one of that name is seen when it is exported. */
 static bool set_object(WrExportOptions *options, const char *value, WrError *err)
 {
@@ -278,14 +248,15 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
         "axes", "+x+y+z, opengl or directx",                                                       \
             "what red, green and blue hold, in any order with any signs; left out: as the name "   \
             "says",                                                                                \
-            set_axes                                                                               \
+            wr_export_set_axes                                                                     \
     }
 
 #define NORMAL_OPTIONS                                                                             \
     {                                                                                              \
         DEPTH, CELL, SCHEME, DITHER, OBJECT, AXES,                                                 \
         {                                                                                          \
-            "strength", "FACTOR", "of the slopes; left out: 1, as they are", set_strength          \
+            "strength", "FACTOR", "of the slopes; left out: 1, as they are",                       \
+                wr_export_set_strength                                                             \
         }                                                                                          \
     }
 
@@ -349,7 +320,7 @@ const WrExportKind wr_export_kinds[] = {
                    OBJECT,
                    AXES,
                    { "padding", "TEXELS", "about the islands of (u,v), 0..64; left out: 8",
-                     set_padding } },
+                     wr_export_set_padding } },
       .channels = 3,
       .green = 1.0,
       .on_surface = true,

@@ -1,5 +1,7 @@
 #include "export/map_options.h"
 
+#include "export/job.h"
+
 #include "base/error.h"
 #include "base/text.h"
 #include "field/maps.h"
@@ -163,5 +165,37 @@ bool wr_set_grain(WrExportOptions *options, const char *value, WrError *err)
     double n;
     if (!parse(&allowed, value, &n, err)) return false;
     options->grain = (int)n;
+    return true;
+}
+
+/* ---- normals ---- */
+
+bool wr_export_set_axes(WrExportOptions *options, const char *value, WrError *err)
+{
+    if (wr_export_axes_parse(value, options->axes)) return true;
+    return wr_fail(err,
+                   "axes '%.40s': must be opengl, directx, or x, y and z in some order with signs, "
+                   "as +x-z+y",
+                   value);
+}
+
+bool wr_export_set_padding(WrExportOptions *options, const char *value, WrError *err)
+{
+    double rings;
+    if (!wr_number_parse(value, strlen(value), &rings) || rings != floor(rings) || rings < 0 ||
+        rings > 64)
+        return wr_fail(err, "padding '%.40s': must be a whole number of texels, 0..64", value);
+    options->padding = (int)rings;
+    return true;
+}
+
+bool wr_export_set_strength(WrExportOptions *options, const char *value, WrError *err)
+{
+    double strength;
+    if (!wr_number_parse(value, strlen(value), &strength) || !(fabs(strength) <= 1e6) ||
+        strength == 0.0)
+        return wr_fail(err, "strength '%.40s': must be a factor of slopes, -1e6..1e6, not 0",
+                       value);
+    options->strength = strength;
     return true;
 }

@@ -96,3 +96,8 @@ WrExportSet wr_set_directions, wr_set_reach, wr_set_toward, wr_set_steepest, wr_
     {                                                                                              \
         "grain", "CELLS", "of the noise across the table; left out: 32", wr_set_grain              \
     }
+
+/* Of normals. */
+bool wr_export_set_axes(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_set_padding(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_set_strength(WrExportOptions *options, const char *value, WrError *err);
