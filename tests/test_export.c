@@ -689,6 +689,7 @@ static void hc95_a_single_texel_leaves_as_every_kind(void **state)
     own_scene(document)->height = 0.1;
     for (int kind = 0; kind < WR_EXPORT_KIND_COUNT; kind++)
         for (int k = wr_export_kinds[kind].floats; k < 3 && !wr_export_kinds[kind].write; k++) {
+            if (wr_export_kinds[kind].levels) continue; /* test_bump_slopes has it */
             fit_surface(document, &wr_export_kinds[kind]);
             export_to(document, wr_export_kinds[kind].name, NULL, paths[k]);
             WrImage *image = read_back(paths[k]);
@@ -715,7 +716,7 @@ static void options_out_of_range_are_errors_that_name_them(void **state)
                 { "height", "range", "0,inf", "auto" },
                 { "height", "range", "0,1,2", "auto" },
                 { "height", "dither", "yes", "on or off" },
-                { "height", "cell", "1,1", "no option 'cell'; it has depth, range, dither" },
+                { "height", "signs", "plain", "no option 'signs'; it has depth, range, cell" },
                 { "normal+y", "cell", "0,1", "above 0" },
                 { "normal+y", "cell", "1", "above 0" },
                 { "normal-y", "cell", "1,-1", "above 0" },
@@ -742,7 +743,7 @@ static void exports_that_cannot_be_leave_no_file(void **state)
     const struct {
         const char *path, *setting, *word;
     } bad[] = { { "no.png", "depth=32", "PNG holds 8 or 16 bits; for floats use EXR or TIFF" },
-                { "no.exr", "depth=16", "EXR holds 32-bit floats" },
+                { "no.exr", "depth=8", "EXR holds 32-bit floats" },
                 { "no.jpg", "depth=16", "JPEG holds 8 bits" },
                 { "no.hdr", "depth=32", "HDR" },
                 { "no.what", "depth=8", "'what' names no picture format" },

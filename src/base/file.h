@@ -78,6 +78,9 @@ typedef struct WrFileGroup WrFileGroup;
 WrFileGroup *wr_file_group_begin(void);
 bool wr_file_group_commit(WrFileGroup *group, WrError *err); /* ends it either way */
 void wr_file_group_abort(WrFileGroup *group);                /* likewise; NULL is fine */
+bool wr_file_group_is_open(void);                            /* of this thread */
+/* Where the file that was committed last lies meanwhile; NULL: there is none. Valid until the group's end. */
+const char *wr_file_group_last(void);
 
 /* Remove what killed programs of this user left half-written in a folder, and end what they had begun with a group of
    whole files: the name must tell a process of this machine that is gone, and nobody may hold the file. */

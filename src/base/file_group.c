@@ -38,6 +38,17 @@ WrFileGroup *wr_file_group_begin(void)
     return here;
 }
 
+bool wr_file_group_is_open(void)
+{
+    return here != NULL;
+}
+
+const char *wr_file_group_last(void)
+{
+    if (!here || here->members.count == 0) return NULL;
+    return here->members.data[here->members.count - 1].temporary;
+}
+
 bool wr_file_group_takes(WrFileTarget *target)
 {
     if (!here) return false;

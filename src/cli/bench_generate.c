@@ -12,6 +12,8 @@
 #include "cli/bench.h"
 #include "command/session.h"
 #include "document/document.h"
+#include "export/export.h"
+#include "export/levels.h"
 #include "image/image.h"
 #include "system/clock.h"
 #include "system/path.h"
@@ -33,6 +35,7 @@ typedef enum Kind {
     OCCLUSION,
     PNG,
     EXR,
+    BUMP_SLOPES,
     TEXT,
     ROUND_TEXT,
     RIVETS,
@@ -69,6 +72,7 @@ static const Row rows[KIND_COUNT] = {
                             .channels = 1 },
     [WR_ROW(PNG)] = { "png", "heights as 16-bit PNG", NULL, .file = "out.png", .oiiotool = true },
     [WR_ROW(EXR)] = { "exr", "heights as float EXR", NULL, .file = "out.exr", .oiiotool = true },
+    [WR_ROW(BUMP_SLOPES)] = { "bump-slopes", "bump slopes, all levels", NULL, NULL, NULL },
     [WR_ROW(TEXT)] = { "text", "text, 3000 letters", NULL, NULL, NULL },
     [WR_ROW(ROUND_TEXT)] = { "text-round", "the same, rounded", NULL, NULL, NULL },
     [WR_ROW(RIVETS)] = { "rivets", "10000 spheres", "solid sphere radius=16 across=100 rows=100",
@@ -86,6 +90,7 @@ typedef struct Bench {
     int rounds;
     double ours[KIND_COUNT][ROUNDS_MAX], peer[KIND_COUNT][ROUNDS_MAX], bare[KIND_COUNT][ROUNDS_MAX];
     double oiiotool_ms; /* of the blur, a whole table's; 0: unknown */
+    double maketx_ms;   /* of bump slopes, likewise */
 } Bench;
 
 /* Run a command of the shell in the bench's folder; milliseconds, or an error that names it. */
@@ -212,8 +217,8 @@ static bool begin(Bench *b, WrError *err)
 
 static void end(Bench *b)
 {
-    static const char *const files[] = { "mesh.ply", "table.tif", "in.tif",  "crop.tif",
-                                         "out.tif",  "out.bmp",   "out.png", "out.exr" };
+    static const char *const files[] = { "mesh.ply", "table.tif", "in.tif",  "crop.tif", "out.tif",
+                                         "out.bmp",  "out.png",   "out.exr", "six.exr" };
     char path[64];
     for (size_t i = 0; i < sizeof files / sizeof *files && b->folder[0]; i++) {
         snprintf(path, sizeof path, "%s/%s", b->folder, files[i]);
@@ -239,10 +244,25 @@ static bool time_write(const Bench *b, int channels, double *ms, WrError *err)
     return good;
 }
 
+/* In memory: files of six channels take far longer than the work. */
+static bool time_levels(const Bench *b, double *ms, WrError *err)
+{
+    const WrExportOptions options = wr_export_default();
+    const WrDocument *document = wr_session_document(b->session);
+    WrLevels levels;
+    const double start = wr_clock_seconds();
+    const bool good = wr_export_levels(wr_export_find("bump-slopes"), document, &options,
+                                       b->cli->pool, &levels, err);
+    *ms = 1e3 * (wr_clock_seconds() - start);
+    if (good) wr_levels_free(&levels);
+    return good;
+}
+
 /* One of ours. What changed the table is undone, so that all rounds are alike. */
 static bool time_ours(const Bench *b, Kind kind, double *ms, WrError *err)
 {
     double start = wr_clock_seconds(), bare = 0;
+    if (kind == BUMP_SLOPES) return time_levels(b, ms, err);
     if (!wr_session_run(b->session, wr_text_get(&b->lines[kind]), err)) return false;
     wr_document_composite(wr_session_document(b->session), b->cli->pool);
     *ms = 1e3 * (wr_clock_seconds() - start);
@@ -299,6 +319,19 @@ static bool time_oiiotool(Bench *b, WrError *err)
     return true;
 }
 
+/* maketx of a part of the table, less a process that loads and saves the six channels that it makes. */
+static bool time_maketx(Bench *b, WrError *err)
+{
+    double bare, whole;
+    if (!b->oiiotool || !present("maketx")) return true;
+    if (!shell(b, "maketx --bumpslopes --compression none --format openexr crop.tif -o six.exr",
+               &whole, err) ||
+        !shell(b, "oiiotool six.exr --tile 64 64 --compression none -o out.exr", &bare, err))
+        return false;
+    b->maketx_ms = (whole - bare) * ((double)TABLE / CROP) * ((double)TABLE / CROP);
+    return true;
+}
+
 /* A net of 0 or less is lost in the noise of two processes; it is told as 0. */
 static double net(Bench *b, int kind)
 {
@@ -331,7 +364,10 @@ static void print_table(Bench *b, WrText *text)
         const char *peer = peer_of(b, kind);
         add_row(text, rows[kind].label, ours, peer, peer ? net(b, kind) : 0);
         if (kind == BLUR && b->oiiotool) add_row(text, "", ours, "oiiotool", b->oiiotool_ms);
+        if (kind == BUMP_SLOPES && b->maketx_ms > 0)
+            add_row(text, "", ours, "maketx", b->maketx_ms);
     }
+    if (b->maketx_ms > 0) wr_text_addf(text, "  maketx is timed likewise, on %dx%d\n", CROP, CROP);
     if (b->oiiotool)
         wr_text_addf(text, "  oiiotool's blur is 65x65, timed on %dx%d and counted %d times\n",
                      CROP, CROP, TABLE / CROP * (TABLE / CROP));
@@ -348,6 +384,9 @@ static void print_lines(Bench *b, WrText *text)
         if (peer_of(b, kind))
             wr_text_addf(text, "make %s %s %d %d %.4f\n", rows[kind].name, peer_of(b, kind), TABLE,
                          threads, net(b, kind));
+        if (kind == BUMP_SLOPES && b->maketx_ms > 0)
+            wr_text_addf(text, "make %s maketx %d %d %.4f\n", rows[kind].name, TABLE, threads,
+                         b->maketx_ms);
         if (kind == BLUR && b->oiiotool)
             wr_text_addf(text, "make %s oiiotool %d %d %.4f\n", rows[kind].name, TABLE, threads,
                          b->oiiotool_ms);
@@ -362,7 +401,7 @@ bool wr_bench_generate(const WrCli *cli, bool quick, bool lines, WrText *text, W
     bool good = begin(b, err);
     for (int round = -1; round < b->rounds && good; round++) /* the first fills caches */
         good = round_of(b, round < 0 ? 0 : round, err);
-    good = good && time_oiiotool(b, err);
+    good = good && time_oiiotool(b, err) && time_maketx(b, err);
     if (good && lines) print_lines(b, text);
     if (good && !lines) print_table(b, text);
     end(b);

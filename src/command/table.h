@@ -15,7 +15,7 @@ typedef struct WrSession WrSession;
 typedef struct WrCall WrCall;
 
 #define WR_BIG_HEIGHT 3.4028234663852886e38 /* the largest float: heights are float32 */
-#define WR_ARGS_MAX 48                      /* arguments of one form of a command */
+#define WR_ARGS_MAX 64                      /* arguments of one form of a command */
 #define WR_LIGHTS_MAX 256                   /* lights of a scene */
 #define WR_POINTS_MAX 1000000               /* samples of a stroke */
 #define WR_TERMS_MAX 65536                  /* terms of an analytic function */

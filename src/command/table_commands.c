@@ -167,7 +167,7 @@ static WrField *heights_of_map(WrSession *session, const WrImageLabel *label, co
     WrRelief relief = { NULL, NULL };
     wr_generator_defaults(row, values);
     value_of(row, values, "file")->text = path;
-    value_of(row, values, "y")->number[0] = label->kind == WR_LABEL_NORMAL_UP ? 1 : 2;
+    value_of(row, values, "y")->number[0] = label->kind == WR_LABEL_NORMAL_DOWN ? 2 : 1;
     value_of(row, values, "cell")->number[0] = label->cell[0];
     value_of(row, values, "cell")->number[1] = label->cell[1];
     value_of(row, values, "height")->number[0] = fabs(label->height);
@@ -200,11 +200,11 @@ WrField *wr_session_heights_of(WrSession *session, WrImageRows *rows, const char
         wr_session_note(session, "%s: its label %s makes no sense and is not used", path,
                         label->refused);
     if (labels && label->kind >= WR_LABEL_NORMAL_UP) {
-        wr_session_note(
-            session,
-            "%s: its label tells that it is a normal map: read as the heights that have "
-            "its normals (labels=ignore reads its luma)",
-            path);
+        wr_session_note(session,
+                        "%s: its label tells that it holds %s: read as the heights that have "
+                        "them (labels=ignore reads its luma)",
+                        path,
+                        label->kind == WR_LABEL_SLOPES ? "slopes" : "normals, being a normal map");
         return heights_of_map(session, label, path, like, err);
     }
     const bool ranged = labels && wr_image_rows_apply_range(rows);

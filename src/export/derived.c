@@ -3,7 +3,9 @@
 
 #include "base/exactmath.h"
 #include "base/memory.h"
+#include "field/analytic.h"
 #include "field/ground.h"
+#include "scene/scene.h"
 #include "system/thread.h"
 
 #include <math.h>
@@ -45,23 +47,38 @@ typedef struct Rows {
     int y;
 } Rows;
 
+/* Beside the texels' centres, where stencils do not reach. */
+static void border_row(const WrExportJob *job, int y, const WrGroundRow *row)
+{
+    const double height = job->scene->height, v = wr_export_row_v(job, y);
+    for (int i = 0; i < job->width; i++) {
+        double *p = &row->p[i], *q = &row->q[i];
+        if (job->analytic) wr_analytic_sample(&job->scene->analytic, job->u[i], v, NULL, p, q);
+        else
+            wr_field_sample(job->field, (WrScheme)job->options.scheme, 1, &job->u[i], &v, NULL, p,
+                            q);
+        *p *= height / job->options.cell_w, *q *= height / job->options.cell_h;
+    }
+}
+
 static Rows open_rows(const WrExportJob *job, int y, int rows)
 {
     const WrGround ground = wr_export_ground(job, NULL);
-    return (Rows){ wr_ground_open(&ground, 0, y, job->width, rows),
+    return (Rows){ job->options.border ? NULL : wr_ground_open(&ground, 0, y, job->width, rows),
                    wr_ground_row_new(job->width, false), y };
 }
 
 static void close_rows(Rows *rows)
 {
-    wr_ground_close(rows->band);
+    if (rows->band) wr_ground_close(rows->band);
     wr_ground_row_free(&rows->row);
 }
 
 static int64_t derive_row(const WrExportJob *job, const Rows *rows, int y, Derive *derive,
                           double *out)
 {
-    wr_ground_row(rows->band, y - rows->y, &rows->row);
+    if (rows->band) wr_ground_row(rows->band, y - rows->y, &rows->row);
+    else border_row(job, y, &rows->row);
     return derive(job, &rows->row, out);
 }
 

@@ -9,10 +9,14 @@
 #include "document/tables.h"
 #include "export/job.h"
 #include "export/picture.h"
+#include "export/levels.h"
+#include "export/sheet.h"
 #include "field/analytic.h"
 #include "field/field.h"
+#include "field/ops.h"
 #include "field/scheme.h"
 #include "image/image.h"
+#include "image/sidecar.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -26,6 +30,8 @@ WrExportOptions wr_export_default(void)
                               .padding = 8,
                               .strength = 1.0,
                               .scheme = -1,
+                              .filter = WR_RESIZE_LANCZOS3,
+                              .margin = 4,
                               .lines_u = 64,
                               .lines_v = 64,
                               .turn_deg = 30.0,
@@ -56,7 +62,10 @@ double wr_export_last_code(const WrExportJob *job)
 
 double wr_export_row_v(const WrExportJob *job, int y)
 {
-    return 1.0 - (y + 0.5) / job->height;
+    if (!job->options.border) return 1.0 - (y + 0.5) / job->height;
+    const int h = job->height - 1;
+    const bool ring = wr_field_wrap_v(job->field) == WR_WRAP_PERIODIC;
+    return 1.0 - (double)(ring ? y % h : y) / h;
 }
 
 /* Between -1/2 and 1/2, both excluded: the additive sequence of the plastic number over the texels, whose
@@ -116,9 +125,18 @@ void wr_export_describe_slopes(WrExportJob *job)
 
 /* ---- one export ---- */
 
-static WrPixelType type_of(int depth)
+/* Files of numbers: 16 bits or floats. */
+static bool settle_numbers(const WrExportKind *kind, const char *path, WrExportOptions *options,
+                           WrError *err)
 {
-    return depth == 8 ? WR_PIXEL_U8 : depth == 16 ? WR_PIXEL_U16 : WR_PIXEL_F32;
+    char ending[16];
+    wr_path_ending(path, ending);
+    const int named = strcmp(ending, "r16") == 0 ? 16 : strcmp(ending, "r32") == 0 ? 32 : 0;
+    if (options->depth == 0) options->depth = named ? named : kind->floats ? 32 : 16;
+    if (options->depth == 8 || (named && options->depth != named))
+        return wr_fail(err, "%s: depth=%d: .r16 holds 16 bits, .r32 floats, .raw either", path,
+                       options->depth);
+    return true;
 }
 
 static bool settle_options(const WrExportKind *kind, int channels, const WrScene *scene,
@@ -129,11 +147,17 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
         return wr_fail(err, "%s: %s files end in .%s", path, kind->name, kind->ending);
     if (kind->on_surface && !kind->make && !wr_export_object_check(scene, err)) return false;
     if (kind->write) return true; /* it sees to its own */
-    if (options->depth == 0) {
+    if (wr_sidecar_takes(path)) {
+        if (!settle_numbers(kind, path, options, err)) return false;
+    } else if (options->depth == 0) {
         WrPixelType type;
         if (!wr_image_deepest(path, &type, err)) return false;
         options->depth = type == WR_PIXEL_U8 ? 8 : type == WR_PIXEL_U16 ? 16 : 32;
     }
+    if (options->depth == 16 && strcmp(wr_path_ending(path, ending), "exr") == 0)
+        options->half = true, options->depth = 32;
+    if (channels > 4 && wr_sidecar_takes(path))
+        return wr_fail(err, "%s: %d channels: files of numbers hold up to 4", path, channels);
     if (channels > 4 && options->depth != 32)
         return wr_fail(err,
                        "%s of %d directions are floats, which %s does not hold: exr and tiff do",
@@ -143,7 +167,9 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
                        path);
     if (options->depth != 8 && options->depth != 16 && options->depth != 32)
         return wr_fail(err, "depth %d: must be 8, 16 or 32", options->depth);
-    if (!wr_image_can_write(path, type_of(options->depth), channels, true, err)) return false;
+    if (!wr_sidecar_takes(path) &&
+        !wr_image_can_write(path, wr_export_pixels(options->depth), channels, true, err))
+        return false;
     if (options->dither && options->depth != 8)
         return wr_fail(err, "dither is for 8 bits a channel; this file has %d (depth=8 asks for 8)",
                        options->depth);
@@ -157,72 +183,12 @@ static bool settle_options(const WrExportKind *kind, int channels, const WrScene
         !isfinite(options->cell_h))
         return wr_fail(err, "cell %g,%g: both sizes must be above 0", options->cell_w,
                        options->cell_h);
+    if (options->border && options->atlas)
+        return wr_fail(err, "border=on is of one cell, an atlas holds several");
     if (options->scheme < 0) options->scheme = (int)scene->scheme;
     if (options->scheme >= WR_SCHEME_COUNT)
         return wr_fail(err, "scheme %d: must be 0..%d", options->scheme, WR_SCHEME_COUNT - 1);
     return true;
-}
-
-static bool job_rows(void *ctx, int y, int rows, void *out, WrError *err)
-{
-    (void)err;
-    WrExportJob *job = ctx;
-    job->kind->rows(job, y, rows, out);
-    return true;
-}
-
-/* Normals by what they are rather than by what was asked for: readers go by it. */
-static const char *kind_told(const WrExportJob *job)
-{
-    const int *axes = job->options.axes;
-    if (job->kind->green == 0.0 || job->kind->on_surface) return job->kind->name;
-    if (axes[0] != 1 || abs(axes[1]) != 2 || axes[2] != 3) return "normal";
-    return axes[1] > 0 ? "normal+y" : "normal-y";
-}
-
-static void describe(WrExportJob *job)
-{
-    wr_text_add(wr_export_attribute(job, "wrinkle:kind"), kind_told(job));
-    wr_text_add(wr_export_attribute(job, "wrinkle:wrap"),
-                wr_document_wrap_word(wr_field_wrap_u(job->field), wr_field_wrap_v(job->field)));
-    WrText *cell = wr_export_attribute(job, "wrinkle:cell");
-    wr_text_add_number(cell, job->options.cell_w);
-    wr_text_add(cell, ",");
-    wr_text_add_number(cell, job->options.cell_h);
-    wr_text_add(wr_export_attribute(job, "wrinkle:unit"), job->scene->cell.mm ? "mm" : "scene");
-    wr_text_add_number(wr_export_attribute(job, "wrinkle:height"),
-                       job->options.strength * job->scene->height);
-    wr_text_add(wr_export_attribute(job, "wrinkle:seam"),
-                wr_certificate_word(wr_certificate_order(&job->report.seam)));
-    job->kind->describe(job);
-}
-
-static bool write_job(WrExportJob *job, const char *path, WrError *err)
-{
-    WrImageAttribute attributes[WR_EXPORT_ATTRIBUTES];
-    const char *names[WR_EXPORT_CHANNELS];
-    for (int i = 0; i < WR_EXPORT_CHANNELS; i++) names[i] = job->channel_names[i];
-    if (job->kind->make && !job->kind->make(job, err)) return false;
-    if (job->kind->prepare) job->kind->prepare(job);
-    describe(job);
-    for (int i = 0; i < job->attribute_count; i++)
-        attributes[i] =
-            (WrImageAttribute){ job->attribute_names[i], wr_text_get(&job->attribute_texts[i]) };
-    WrImageOut out = { .width = job->width,
-                       .height = job->height,
-                       .channels = job->channels,
-                       .type = type_of(job->options.depth),
-                       .channel_names = job->channel_names[0][0] ? names : job->kind->channel_names,
-                       .attributes = attributes,
-                       .attribute_count = job->attribute_count,
-                       .data = true,
-                       .rows = job_rows,
-                       .seen = wr_export_receipt,
-                       .ctx = job };
-    bool ok = wr_image_write(path, &out, 1, err);
-    job->report.unseen = !job->report.seen;
-    for (int i = 0; i < job->attribute_count; i++) wr_text_fini(&job->attribute_texts[i]);
-    return ok;
 }
 
 /* Take what that object wears in place of the table of all layers; the tables are the caller's to free. */
@@ -266,36 +232,106 @@ static const char *convention_of(const WrExportKind *kind, const int axes[3])
     return strcmp(text, "+x-y+z") == 0 ? "-Y (green down)" : "axes of its own";
 }
 
-static bool run_job(WrExportJob *job, const char *path, WrError *err)
+/* Where the table, or what was laid of it, is sampled. */
+static void set_grid(WrExportJob *job)
 {
-    job->channels = job->kind->channels;
-    if (job->kind->count_channels)
-        job->channels = job->kind->count_channels(job, job->channel_names);
-    if (!settle_options(job->kind, job->channels, job->scene, path, &job->options, err))
-        return false;
-    settle_axes(job->kind, job->options.axes);
-    job->width = wr_field_width(job->field);
-    job->height = wr_field_height(job->field);
-    job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
+    const int w = wr_field_width(job->field), h = wr_field_height(job->field);
+    const bool border = job->options.border, ring = wr_field_wrap_u(job->field) == WR_WRAP_PERIODIC;
+    job->width = w + border;
+    job->height = h + border;
+    wr_free(job->u);
+    job->u = wr_alloc((size_t)job->width, sizeof *job->u);
+    for (int i = 0; i < job->width; i++)
+        job->u[i] = !border ? (i + 0.5) / w : (double)(ring ? i % w : i) / w;
+}
+
+static bool write_one(WrExportJob *job, const char *path, WrError *err)
+{
+    set_grid(job);
     job->report = (WrExportReport){ .width = job->width,
                                     .height = job->height,
                                     .zero_code = -1,
                                     .channels = job->channels,
                                     .convention = convention_of(job->kind, job->options.axes),
-                                    .depth = job->options.depth };
+                                    .depth = job->options.depth,
+                                    .half = job->options.half };
     const int scheme = job->options.scheme;
     job->report.seam =
         job->analytic
             ? wr_certificate_formula(&job->scene->analytic)
             : wr_certificate_table(job->field, scheme < 0 ? job->scene->scheme : (WrScheme)scheme);
-    job->u = wr_alloc((size_t)job->width, sizeof *job->u);
-    for (int i = 0; i < job->width; i++) job->u[i] = (i + 0.5) / job->width;
-    bool ok = job->picture       ? wr_export_fill_picture(job, err)
-              : job->kind->write ? job->kind->write(job, path, err)
-                                 : write_job(job, path, err);
+    return job->picture       ? wr_export_fill_picture(job, err)
+           : job->kind->write ? job->kind->write(job, path, err)
+                              : wr_export_write(job, path, err);
+}
+
+/* What codes stand for is the same on all levels. */
+static void keep_codes(WrExportJob *job)
+{
+    const WrExportReport *report = &job->report;
+    WrExportOptions *o = &job->options;
+    if (!report->ranged) return;
+    o->full = o->amplitude = report->amplitude;
+    if (report->zero_code >= 0) return;
+    o->range = WR_EXPORT_RANGE_GIVEN;
+    o->low = report->code_low, o->high = report->code_high;
+}
+
+/* The levels below it, each of the means of the heights above. */
+static bool write_levels(WrExportJob *job, const char *path, WrError *err)
+{
+    const WrExportReport report = job->report;
+    const WrField *first = job->field;
+    WrField *field = NULL;
+    keep_codes(job);
+    WrText name = { 0 };
+    bool good = true;
+    for (int k = 1; good && wr_field_width(job->field) * wr_field_height(job->field) > 1; k++) {
+        WrField *half = wr_export_half(job, job->field, err);
+        wr_field_free(field);
+        job->field = field = half;
+        wr_export_level_name(path, k, &name);
+        good = half && write_one(job, wr_text_get(&name), err);
+    }
+    wr_field_free(field);
+    wr_text_fini(&name);
+    job->field = first;
+    job->report = report;
+    return good;
+}
+
+/* All files of an export take their places together, unless they are of a larger group already. */
+static bool write_files(WrExportJob *job, const char *path, WrError *err)
+{
+    WrFileGroup *group = wr_file_group_is_open() ? NULL : wr_file_group_begin();
+    if (!write_one(job, path, err) || (job->options.mips && !write_levels(job, path, err))) {
+        wr_file_group_abort(group);
+        return false;
+    }
+    return !group || wr_file_group_commit(group, err);
+}
+
+static bool run_job(WrExportJob *job, const char *path, WrError *err)
+{
+    job->channels = job->kind->channels;
+    if (job->kind->count_channels)
+        job->channels = job->kind->count_channels(job, job->channel_names);
+    bool good = settle_options(job->kind, job->channels, job->scene, path, &job->options, err);
+    if (!good) return false;
+    settle_axes(job->kind, job->options.axes);
+    job->numbers = wr_sidecar_takes(path);
+    job->analytic = job->scene->analytic.kind != WR_ANALYTIC_OFF;
+    set_grid(job);
+    WrField *sheet = wr_export_sheet(job, &good, err);
+    if (sheet) job->field = sheet, job->analytic = false;
+    good = good && (!job->picture && (job->numbers || job->options.sidecar || job->options.mips)
+                        ? write_files(job, path, err)
+                        : write_one(job, path, err));
+    for (int i = 0; i < job->attribute_count; i++) wr_text_fini(&job->attribute_texts[i]);
+    wr_field_free(sheet);
     wr_free(job->u);
     wr_free(job->map);
-    return ok;
+    return good;
 }
 
 /* Of the document, where the job says what of it. */
@@ -337,6 +373,31 @@ bool wr_export_picture(const WrExportKind *kind, const WrDocument *document,
     return ok;
 }
 
+bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
+                      const WrExportOptions *options, WrPool *pool, WrLevels *levels, WrError *err)
+{
+    WrExportJob job = { .kind = kind,
+                        .field = wr_document_field(document),
+                        .scene = document->scene,
+                        .options = *options,
+                        .channels = kind->channels,
+                        .pool = pool };
+    *levels = (WrLevels){ 0 };
+    if (!settle_options(kind, kind->channels, job.scene, "levels.exr", &job.options, err))
+        return false;
+    job.analytic = job.scene->analytic.kind != WR_ANALYTIC_OFF;
+    set_grid(&job);
+    float *first = wr_try_alloc((size_t)job.width * (size_t)job.height * WR_LEVEL_CHANNELS,
+                                sizeof *first, "levels of a picture", err);
+    bool good = first != NULL;
+    if (good) kind->rows(&job, 0, job.height, first);
+    levels->level[0].data = first;
+    good = good && wr_levels_make(levels, job.width, job.height, wr_export_bump_slopes_level, &job,
+                                  pool, err);
+    wr_free(job.u);
+    return good;
+}
+
 static void add_count(WrText *text, int64_t count, const char *what)
 {
     if (count > 0)
@@ -376,6 +437,7 @@ static void add_facts(const WrExportReport *report, WrText *text)
     wr_text_addf(text, "%dx%d, %s", report->width, report->height,
                  report->depth == 8    ? "8 bits"
                  : report->depth == 16 ? "16 bits"
+                 : report->half        ? "16-bit floats"
                                        : "32-bit floats");
     if (report->channels == 1) {
         char buffer[WR_NUMBER_SIZE];

@@ -47,6 +47,10 @@
      max(0, min(1, (c (1 + noise N) - threshold) / (1 - threshold))).
    All but wear with noise are moved with the table, to the bit.
 
+   bump-slopes: six channels of floats, h, dh/ds, dh/dt, their squares and product, h in table units, s to the right and t
+   DOWN, per texel, or over the cell and divided by uvslopes=; in a tiled EXR of levels, of which each is the means of what
+   its texels cover, under the names of OpenImageIO's maketx --bumpslopes. signs=renderman turns both slopes round.
+
    lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
    white; vectors where the ending is svg or pdf, else a picture of 8 bits. profile: F along a line of the cell
    as a chart, by the scheme's interpolation.
@@ -55,6 +59,7 @@
    millimetres: open sheets get a back, tubes are filled or get a wall. Decimated: no sample of the table lies farther from
    its triangle than the error that was asked for, and the report says how far the farthest does. */
 #pragma once
+#include "base/rows.h"
 #include "field/certificate.h"
 
 #include <stdbool.h>
@@ -79,10 +84,20 @@ typedef enum WrExportGround {
     WR_EXPORT_GROUND_GIVEN
 } WrExportGround;
 
+/* How a cell is laid: see export's option lay=. */
+#define WR_LAY_LIST(X)                                                                             \
+    X(WR_LAY_PLAIN, "plain")                                                                       \
+    X(WR_LAY_HALF_DROP, "half-drop")                                                               \
+    X(WR_LAY_BRICK, "brick")                                                                       \
+    X(WR_LAY_HEX, "hex")
+typedef enum WrExportLay { WR_LAY_LIST(WR_WORD_ID) WR_LAYS } WrExportLay;
+extern const char *const wr_lay_names[]; /* ends with NULL */
+
 typedef struct WrExportOptions {
     int depth; /* bits a channel: 8, 16, 32 (float); 0 = the deepest that the ending holds */
-    WrExportRange range;   /* integer heights only; given is the only one that clips */
-    double low, high;      /* range given: F of code 0 and of the last code, low < high */
+    WrExportRange range; /* integer heights only; given is the only one that clips */
+    double low, high;    /* range given: F of code 0 and of the last code, low < high */
+    double amplitude; /* range signed: the height of the last code; 0: the largest that there is */
     double cell_w, cell_h; /* size of the unit cell in the unit of the scene's; 0: the scene's */
     int axes[3];     /* normals: what red, green and blue hold, 1 x, 2 y, 3 z, below 0 its opposite;
                         all 0: as the kind has it */
@@ -109,6 +124,23 @@ typedef struct WrExportOptions {
     double noise;               /* wear: 0..1 */
     int grain;                  /* wear: cells of the noise across the table */
     bool dither;                /* depth 8 only: ordered dither of up to half a code either way */
+    bool
+        half; /* 16-bit floats, in EXR alone: what depth 16 asks for there, whose depth then is 32 */
+    /* sheets: the table is laid, repeated, brought to another size, set beside others, in this order */
+    WrExportLay lay;
+    int repeat_u, repeat_v; /* 0 or 1: once */
+    int resize_w, resize_h; /* texels; 0: as they are, -1: the nearest powers of two */
+    int filter;             /* of resize, WR_RESIZE_... (field/ops.h) */
+    const char *atlas;      /* "A;B": files of further cells; borrowed; NULL: no atlas */
+    int margin;             /* texels around each cell of an atlas */
+    bool
+        border; /* heights, normals, slopes: one sample more each way, at i/n by the scheme, the last of a periodic axis
+                    the first again */
+    bool mips;  /* files of half the size, a quarter and so on beside it */
+    bool big;   /* files of numbers alone: the high byte first */
+    bool sidecar; /* a file beside it says what it is; files of numbers alone have it in any case */
+    bool renderman;  /* bump slopes: the signs of slopes turned round */
+    double uvslopes; /* bump slopes: over the cell, divided by this; 0: per texel */
     /* lines: */
     int lines_u, lines_v; /* lines along u, along v: 0..1024, not both 0; at most one a texel */
     double turn_deg, tilt_deg; /* about the vertical; above the horizon, 0..90 */
@@ -130,6 +162,7 @@ typedef struct WrExportOptions {
 /* What was written, for the user to read. */
 typedef struct WrExportReport {
     int width, height, channels, depth;
+    bool half;        /* with depth 32: 16-bit floats */
     int64_t clipped;  /* texels outside the range */
     int64_t replaced; /* texels whose F or normal was not finite and became 0 (or straight up) */
     double low, high; /* smallest and largest F, table units */
@@ -163,7 +196,7 @@ typedef struct WrExportOptionInfo {
     bool named;                /* its value is the name of something of the document */
 } WrExportOptionInfo;
 
-#define WR_EXPORT_OPTIONS 9 /* most options of a kind */
+#define WR_EXPORT_OPTIONS 20 /* most options of a kind */
 
 #define WR_EXPORT_CHANNELS 32 /* at most */
 #define WR_EXPORT_NAME 16     /* bytes of a channel's name */
@@ -175,9 +208,10 @@ typedef struct WrExportKind {
     WrExportOptionInfo options[WR_EXPORT_OPTIONS + 1]; /* a NULL name ends the list */
     int channels;                                      /* of a picture; 0 of a body */
     bool floats;                                       /* no codes: the file must hold floats */
-    const char *const *channel_names;                  /* [channels]; NULL: the usual ones */
+    bool levels;                      /* of levels, each the means of what it covers (levels.h) */
+    const char *const *channel_names; /* [channels]; NULL: the usual ones */
+    double green;                     /* normals: sign of the second component */
     bool on_surface;    /* it is of the scene's surface, in scene units, not of the cell */
-    double green;       /* normals: sign of the second component */
     const char *ending; /* the one that its files must have; NULL: a picture's or a drawing's */
     /* The same, of options; NULL: `channels`, and the usual names. names: [WR_EXPORT_CHANNELS][WR_EXPORT_NAME] to be filled */
     int (*count_channels)(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);
@@ -194,7 +228,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 21
+#define WR_EXPORT_KIND_COUNT 22
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 
@@ -218,6 +252,12 @@ bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const 
  * Errors    options out of range, a depth that the format cannot hold, anything about the file */
 bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExportOptions *options,
                WrPool *pool, const char *path, WrExportReport *report, WrError *err);
+
+/* The levels of a kind that has such, the first too, in memory, without a file. levels: the caller's, wr_levels_free
+ * (levels.h); borrowed is nothing. Errors: options out of range, no memory, "cancelled" */
+typedef struct WrLevels WrLevels;
+bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,
+                      const WrExportOptions *options, WrPool *pool, WrLevels *levels, WrError *err);
 
 /* The report as one sentence: "512x512, 16 bits, F -0.2..1.4, codes 0..65535 are 0..1; 37 texels were
  * outside the range and clipped". */

@@ -3,15 +3,33 @@
 #include "base/memory.h"
 #include "field/analytic.h"
 #include "field/field.h"
+#include "field/scheme.h"
 #include "image/image.h"
 #include "scene/scene.h"
 #include "system/thread.h"
 
 #include <math.h>
 
+/* By the scheme, where samples do not stand at texels' centres. */
+static void sample_border(const WrExportJob *job, int y, int rows, float *out)
+{
+    const size_t width = (size_t)job->width;
+    double *v = wr_alloc(2 * width, sizeof *v), *f = v + width;
+    for (int j = 0; j < rows; j++, out += width) {
+        for (size_t i = 0; i < width; i++) v[i] = wr_export_row_v(job, y + j);
+        wr_field_sample(job->field, (WrScheme)job->options.scheme, width, job->u, v, f, NULL, NULL);
+        for (size_t i = 0; i < width; i++) out[i] = (float)f[i];
+    }
+    wr_free(v);
+}
+
 /* Only formulas can give what is not finite. */
 int64_t wr_export_heights(const WrExportJob *job, int y, int rows, float *out)
 {
+    if (!job->analytic && job->options.border) {
+        sample_border(job, y, rows, out);
+        return 0;
+    }
     if (!job->analytic) {
         wr_field_read(job->field, 0, y, job->width, rows, out, (size_t)job->width);
         return 0;
@@ -60,7 +78,7 @@ static void find_extent(WrExportJob *job, int y, int rows, void *ctx)
 /* Smallest and largest F into the report. */
 static void find_range(WrExportJob *job)
 {
-    if (job->analytic) {
+    if (job->analytic || job->options.border) {
         Extent extent = { .low = INFINITY, .high = -INFINITY };
         wr_mutex_init(&extent.lock);
         for (int y = 0; y < job->height; y += WR_IMAGE_STRIP) {
@@ -101,7 +119,9 @@ void wr_export_height_prepare(WrExportJob *job)
             report->code_high = report->code_low + fmax(1.0, fabs(report->code_low) * 0x1p-20);
         break;
     case WR_EXPORT_RANGE_SIGNED:
-        report->amplitude = fmax(fabs(report->low), fabs(report->high));
+        report->amplitude = job->options.amplitude > 0.0
+                                ? job->options.amplitude
+                                : fmax(fabs(report->low), fabs(report->high));
         report->zero_code = (int)(last + 1.0) / 2;
         double step = report->amplitude / (report->zero_code - 1);
         report->code_low = -step * report->zero_code;

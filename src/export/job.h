@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "base/vec.h"
 #include "export/export.h"
+#include "image/image.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,6 +25,7 @@ struct WrExportJob {
     char channel_names[WR_EXPORT_CHANNELS][WR_EXPORT_NAME]; /* of kinds that count them */
     float *map;                      /* [height][width][channels] of kinds that make it whole */
     struct WrExportPicture *picture; /* this is wanted, and no file; NULL: a file */
+    bool numbers;                    /* a file of numbers alone (numbers.h) */
     bool analytic;                   /* F is the scene's formula, not the table */
     double *u;                       /* [width] texel centres */
     WrExportReport report;           /* pieces add their counts atomically */
@@ -49,6 +51,10 @@ void wr_export_store_code(const WrExportJob *job, void *out, size_t i, double x,
 #define WR_EXPORT_PIECE_ROWS 16 /* at most in one */
 typedef void (*WrExportPiece)(WrExportJob *job, int y, int rows, void *ctx);
 void wr_export_run(WrExportJob *job, int y, int rows, WrExportPiece piece, void *ctx);
+
+/* write.c: the picture file of a job whose options are settled; the type of its pixels. */
+bool wr_export_write(WrExportJob *job, const char *path, WrError *err);
+WrPixelType wr_export_pixels(int depth);
 
 /* receipt.c: what stands on the disk, a WrRowSeen of the job; its largest error goes into the report. */
 bool wr_export_receipt(void *ctx, int y, int rows, const float *values, bool exact, WrError *err);
@@ -117,6 +123,9 @@ void wr_export_slopes_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_prepare(WrExportJob *job);
 void wr_export_derived_describe(WrExportJob *job);
+void wr_export_bump_slopes_rows(WrExportJob *job, int y, int rows, void *out);
+void wr_export_bump_slopes_level(void *job, int y, int rows, float *out); /* a WrLevelRows */
+void wr_export_bump_slopes_describe(WrExportJob *job);
 bool wr_export_drawing_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_profile_write(WrExportJob *job, const char *path, WrError *err);
 bool wr_export_solid_write(WrExportJob *job, const char *path, WrError *err);

@@ -3,6 +3,7 @@
 #include "export/job.h"
 #include "export/lines.h"
 #include "export/map_options.h"
+#include "export/options.h"
 #include "field/scheme.h"
 
 #include <math.h>
@@ -86,24 +87,10 @@ static bool set_object(WrExportOptions *options, const char *value, WrError *err
     return true;
 }
 
-/* "MxN", whole numbers */
-static bool parse_size(const char *value, double low, double high, int *a, int *b)
-{
-    const char *x = strchr(value, 'x');
-    double m, n;
-    if (!x || !wr_number_parse(value, (size_t)(x - value), &m) ||
-        !wr_number_parse(x + 1, strlen(x + 1), &n) || m != floor(m) || n != floor(n) || m < low ||
-        n < low || m > high || n > high)
-        return false;
-    *a = (int)m;
-    *b = (int)n;
-    return true;
-}
-
 static bool set_lines(WrExportOptions *options, const char *value, WrError *err)
 {
     int u, v;
-    if (!parse_size(value, 0, WR_LINES_MOST, &u, &v) || u + v == 0)
+    if (!wr_export_parse_size(value, 0, WR_LINES_MOST, &u, &v) || u + v == 0)
         return wr_fail(err, "lines '%.40s': must be MxN, lines along u and along v, 0..%d each",
                        value, WR_LINES_MOST);
     options->lines_u = u;
@@ -113,7 +100,7 @@ static bool set_lines(WrExportOptions *options, const char *value, WrError *err)
 
 static bool set_size(WrExportOptions *options, const char *value, WrError *err)
 {
-    if (!parse_size(value, 16, WR_DRAWING_MOST, &options->drawing_w, &options->drawing_h))
+    if (!wr_export_parse_size(value, 16, WR_DRAWING_MOST, &options->drawing_w, &options->drawing_h))
         return wr_fail(err, "size '%.40s': must be WIDTHxHEIGHT in pixels, 16..%d each", value,
                        WR_DRAWING_MOST);
     return true;
@@ -213,7 +200,13 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
 #define DEPTH                                                                                      \
     {                                                                                              \
         "depth", "8, 16 or 32",                                                                    \
-            "bits a channel, 32 is float; left out: the deepest the ending holds", set_depth       \
+            "bits a channel, 32 is float, as 16 is in exr; left out: the deepest the ending "      \
+            "holds",                                                                               \
+            set_depth                                                                              \
+    }
+#define FLOATS                                                                                     \
+    {                                                                                              \
+        "depth", "16 or 32", "bits a number; 16: halves, in exr alone; left out: 32", set_depth    \
     }
 #define RANGE                                                                                      \
     {                                                                                              \
@@ -254,10 +247,9 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
 #define NORMAL_OPTIONS                                                                             \
     {                                                                                              \
         DEPTH, CELL, SCHEME, DITHER, OBJECT, AXES,                                                 \
-        {                                                                                          \
-            "strength", "FACTOR", "of the slopes; left out: 1, as they are",                       \
-                wr_export_set_strength                                                             \
-        }                                                                                          \
+            { "strength", "FACTOR", "of the slopes; left out: 1, as they are",                     \
+              wr_export_set_strength },                                                            \
+            WR_OPTION_ENDIAN, WR_OPTION_SIDECAR, WR_OPTION_SHEET, WR_OPTION_MIPS, WR_OPTION_BORDER \
     }
 
 #define SOLID_OPTIONS                                                                              \
@@ -275,12 +267,15 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
     }
 
 static const char *const slope_names[] = { "dF_du", "dF_dv" };
+static const char *const bump_slope_names[] = { "b0_h",     "b1_dhds",  "b2_dhdt",
+                                                "b3_dhds2", "b4_dhdt2", "b5_dh2dsdt" };
 
 const WrExportKind wr_export_kinds[] = {
     { .name = "height",
       .label = "height",
       .help = "the table itself: one channel, white is high",
-      .options = { DEPTH, RANGE, DITHER, OBJECT },
+      .options = { DEPTH, RANGE, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_ENDIAN, WR_OPTION_SIDECAR,
+                   WR_OPTION_SHEET, WR_OPTION_MIPS, WR_OPTION_BORDER },
       .channels = 1,
       .prepare = wr_export_height_prepare,
       .rows = wr_export_height_rows,
@@ -330,16 +325,39 @@ const WrExportKind wr_export_kinds[] = {
     { .name = "slopes",
       .label = "slopes",
       .help = "dF/du and dF/dv as two channels of floats, in scene units: exr or tiff",
-      .options = { CELL, SCHEME, OBJECT },
+      .options = { FLOATS, CELL, SCHEME, OBJECT, WR_OPTION_ENDIAN, WR_OPTION_SIDECAR,
+                   WR_OPTION_SHEET, WR_OPTION_MIPS, WR_OPTION_BORDER },
       .channels = 2,
       .floats = true,
       .channel_names = slope_names,
       .rows = wr_export_slopes_rows,
       .describe = wr_export_derived_describe },
+    { .name = "bump-slopes",
+      .label = "bump slopes",
+      .help = "height, slopes and their products on every level of a tiled exr, for textures that "
+              "are filtered: OpenImageIO, RenderMan, Arnold",
+      .options = { FLOATS,
+                   SCHEME,
+                   { "signs", "plain or renderman",
+                     "renderman: slopes turned round, as txmake has them; left out: plain",
+                     wr_export_set_signs },
+                   { "uvslopes", "DIVISOR",
+                     "slopes over the whole cell, divided by this; left out: 0, per texel",
+                     wr_export_set_uvslopes },
+                   OBJECT,
+                   WR_OPTION_SIDECAR,
+                   WR_OPTION_SHEET },
+      .channels = 6,
+      .floats = true,
+      .levels = true,
+      .channel_names = bump_slope_names,
+      .ending = "exr",
+      .rows = wr_export_bump_slopes_rows,
+      .describe = wr_export_bump_slopes_describe },
     { .name = "slope",
       .label = "steepness",
       .help = "the angle of the relief, 0 to 90 degrees; float files hold degrees",
-      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT },
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_SHEET, WR_OPTION_MIPS },
       .channels = 1,
       .prepare = wr_export_slope_prepare,
       .rows = wr_export_slope_rows,
@@ -348,7 +366,8 @@ const WrExportKind wr_export_kinds[] = {
       .label = "curvature",
       .help = "mean curvature, ridges bright, grooves dark, level in the middle; float files "
               "hold it, ridges above 0",
-      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BEND, WR_OPTION_PART },
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BEND, WR_OPTION_PART,
+                   WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_curvature_make,
       .rows = wr_export_map_rows,
@@ -356,7 +375,8 @@ const WrExportKind wr_export_kinds[] = {
     { .name = "occlusion",
       .label = "ambient occlusion",
       .help = "how much of the sky each texel sees, 0 to 1, by exact horizons",
-      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_DIRECTIONS, WR_OPTION_REACH },
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_DIRECTIONS, WR_OPTION_REACH,
+                   WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_occlusion_make,
       .rows = wr_export_map_rows,
@@ -365,7 +385,7 @@ const WrExportKind wr_export_kinds[] = {
       .label = "horizons",
       .help = "slopes up to the horizon: in one direction, or a channel of floats a direction",
       .options = { DEPTH, CELL, DITHER, OBJECT, WR_OPTION_DIRECTIONS, WR_OPTION_REACH,
-                   WR_OPTION_TOWARD, WR_OPTION_STEEPEST },
+                   WR_OPTION_TOWARD, WR_OPTION_STEEPEST, WR_OPTION_SHEET },
       .channels = 1,
       .count_channels = wr_export_horizon_channels,
       .make = wr_export_horizon_make,
@@ -375,7 +395,7 @@ const WrExportKind wr_export_kinds[] = {
       .label = "cavity",
       .help = "how deep a texel lies below what is about it, dark in grooves; float files hold "
               "the depth, below 0",
-      .options = { DEPTH, DITHER, OBJECT, WR_OPTION_RADIUS, WR_OPTION_DEEPEST },
+      .options = { DEPTH, DITHER, OBJECT, WR_OPTION_RADIUS, WR_OPTION_DEEPEST, WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_cavity_make,
       .rows = wr_export_map_rows,
@@ -383,7 +403,7 @@ const WrExportKind wr_export_kinds[] = {
     { .name = "direction",
       .label = "direction downhill",
       .help = "degrees from u towards v, 0 to 360; level is 0",
-      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT },
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_direction_make,
       .rows = wr_export_map_rows,
@@ -392,7 +412,8 @@ const WrExportKind wr_export_kinds[] = {
       .label = "roughness",
       .help = "what the slopes of a box of texels are from afar, 0 to 1: the root of Beckmann's "
               "alpha",
-      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BOX, WR_OPTION_BASE },
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_BOX, WR_OPTION_BASE,
+                   WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_roughness_make,
       .rows = wr_export_map_rows,
@@ -400,7 +421,8 @@ const WrExportKind wr_export_kinds[] = {
     { .name = "displacement",
       .label = "displacement",
       .help = "heights over a ground level, in scene units",
-      .options = { DEPTH, RANGE, DITHER, OBJECT, WR_OPTION_GROUND, WR_OPTION_SCALE },
+      .options = { DEPTH, RANGE, DITHER, OBJECT, WR_OPTION_GROUND, WR_OPTION_SCALE,
+                   WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_displacement_make,
       .rows = wr_export_map_rows,
@@ -408,7 +430,8 @@ const WrExportKind wr_export_kinds[] = {
     { .name = "mask",
       .label = "mask of heights",
       .help = "white from one height to another, black elsewhere",
-      .options = { DEPTH, DITHER, OBJECT, WR_OPTION_LOW, WR_OPTION_HIGH, WR_OPTION_FEATHER },
+      .options = { DEPTH, DITHER, OBJECT, WR_OPTION_LOW, WR_OPTION_HIGH, WR_OPTION_FEATHER,
+                   WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_mask_make,
       .rows = wr_export_map_rows,
@@ -417,7 +440,7 @@ const WrExportKind wr_export_kinds[] = {
       .label = "edge wear",
       .help = "where edges rub off: what is convex, beyond a threshold, and broken up by noise",
       .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_WORN, WR_OPTION_THRESHOLD,
-                   WR_OPTION_NOISE, WR_OPTION_GRAIN },
+                   WR_OPTION_NOISE, WR_OPTION_GRAIN, WR_OPTION_SHEET },
       .channels = 1,
       .make = wr_export_wear_make,
       .rows = wr_export_map_rows,
@@ -471,26 +494,3 @@ const WrExportKind wr_export_kinds[] = {
       .write = wr_export_solid_write },
 };
 _Static_assert(WR_LENGTH(wr_export_kinds) == WR_EXPORT_KIND_COUNT, "export.h counts them");
-
-const WrExportKind *wr_export_find(const char *name)
-{
-    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
-        if (strcmp(wr_export_kinds[i].name, name) == 0) return &wr_export_kinds[i];
-    return NULL;
-}
-
-bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const char *name,
-                      const char *value, WrError *err)
-{
-    WrText names = { 0 };
-    for (const WrExportOptionInfo *option = kind->options; option->name; option++) {
-        if (strcmp(option->name, name) == 0) {
-            wr_text_fini(&names);
-            return option->set(options, value, err);
-        }
-        wr_text_addf(&names, "%s%s", names.length ? ", " : "", option->name);
-    }
-    wr_fail(err, "%s has no option '%.40s'; it has %s", kind->name, name, wr_text_get(&names));
-    wr_text_fini(&names);
-    return false;
-}

@@ -62,9 +62,9 @@ typedef struct Strip {
     void *out;
 } Strip;
 
-static WrNormalStencil stencil_of(WrScheme scheme)
+WrNormalStencil wr_normal_stencil(int scheme)
 {
-    switch (scheme) {
+    switch ((WrScheme)scheme) {
     case WR_SCHEME_BSPLINE:
     case WR_SCHEME_BSPLINE_FIT: return WR_STENCIL_SPLINE;
     case WR_SCHEME_BILINEAR: return WR_STENCIL_FORWARD;
@@ -149,7 +149,7 @@ static void fitted_rows(Piece *piece)
 static void table_piece(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
 {
     Piece piece = { .job = job,
-                    .normal = { .stencil = stencil_of((WrScheme)job->options.scheme),
+                    .normal = { .stencil = wr_normal_stencil(job->options.scheme),
                                 .height = job->options.strength * job->scene->height,
                                 .cell_w = job->options.cell_w,
                                 .cell_h = job->options.cell_h,
@@ -166,13 +166,18 @@ static void table_piece(WrExportJob *job, int y, int rows, const Strip *strip, i
     *replaced += piece.replaced;
 }
 
-static void formula_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
+/* Formulas, and samples beside the texels' centres. */
+static void sampled_rows(WrExportJob *job, int y, int rows, const Strip *strip, int64_t *replaced)
 {
     for (int j = 0; j < rows; j++) {
         double v = wr_export_row_v(job, y + j);
         for (int i = 0; i < job->width; i++) {
             double fu, fv;
-            wr_analytic_sample(&job->scene->analytic, job->u[i], v, NULL, &fu, &fv);
+            if (job->analytic)
+                wr_analytic_sample(&job->scene->analytic, job->u[i], v, NULL, &fu, &fv);
+            else
+                wr_field_sample(job->field, (WrScheme)job->options.scheme, 1, &job->u[i], &v, NULL,
+                                &fu, &fv);
             double height = job->options.strength * job->scene->height;
             WrVec3 n = normal_of(-height * fu / job->options.cell_w,
                                  -height * fv / job->options.cell_h, replaced);
@@ -186,7 +191,7 @@ static void formula_rows(WrExportJob *job, int y, int rows, const Strip *strip, 
 static void normal_piece(WrExportJob *job, int y, int rows, void *ctx)
 {
     int64_t replaced = 0;
-    if (job->analytic) formula_rows(job, y, rows, ctx, &replaced);
+    if (job->analytic || job->options.border) sampled_rows(job, y, rows, ctx, &replaced);
     else table_piece(job, y, rows, ctx, &replaced);
     __atomic_fetch_add(&job->report.replaced, replaced, __ATOMIC_RELAXED);
 }

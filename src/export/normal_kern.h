@@ -19,6 +19,8 @@ typedef enum WrNormalStencil {
     WR_STENCIL_SPLINE
 } WrNormalStencil;
 
+WrNormalStencil wr_normal_stencil(int scheme); /* a WrScheme */
+
 typedef struct WrNormalJob {
     WrNormalStencil stencil;
     double height, cell_w, cell_h; /* of the scene; of the cell */

@@ -49,7 +49,7 @@ static double number_error(const WrExportJob *job, float have, float want, bool 
 {
     const WrExportReport *report = &job->report;
     const double should = clamp(report, want), error = fabs(decode(job, have) - should);
-    double bound = 0.0;
+    double bound = job->options.half ? fabs(should) * 0x1p-11 + 0x1p-25 : 0.0;
     if (report->ranged)
         bound =
             code_bound(job) * (report->code_high - report->code_low) / wr_export_last_code(job) +
@@ -83,7 +83,9 @@ static double degrees(double turned)
 static double normal_error(const WrExportJob *job, const float *have, const float *want, bool *bad)
 {
     const bool codes = job->options.depth != 32;
-    const double bound = codes ? code_bound(job) / wr_export_last_code(job) : 0.0;
+    const double bound = codes               ? code_bound(job) / wr_export_last_code(job)
+                         : job->options.half ? 0x1p-12
+                                             : 0.0;
     bool same = true;
     for (int c = 0; c < 3; c++) {
         *bad |= !(fabs((double)have[c] - want[c]) <= bound);
@@ -151,7 +153,8 @@ bool wr_export_receipt(void *ctx, int y, int rows, const float *values, bool exa
     if (!exact || receipt.bad_row == INT32_MAX) return true;
     return wr_fail(err, "row %d is wrong by up to %.3g%s, which is more than %s", receipt.bad_row,
                    worst, job->kind->green != 0.0 ? " degrees" : "",
-                   job->options.depth == 32 ? "floats are wrong by"
-                   : job->options.dither    ? "a dithered code may be"
-                                            : "half a code");
+                   job->options.half          ? "rounding to 16-bit floats may do"
+                   : job->options.depth == 32 ? "floats are wrong by"
+                   : job->options.dither      ? "a dithered code may be"
+                                              : "half a code");
 }

@@ -79,24 +79,51 @@ static void decode_texel(const WrImage *image, const float *pixel, bool as_is, s
     out->steep += steep;
 }
 
+/* Slopes of 0. */
+static bool begin(const WrImage *image, WrNormals *out, WrError *err)
+{
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    *out = (WrNormals){ .width = image->width, .height = image->height };
+    out->p = wr_try_alloc(count, sizeof *out->p, "a normal map", err);
+    out->q = out->p ? wr_try_alloc(count, sizeof *out->q, "a normal map", err) : NULL;
+    if (!out->q) wr_normals_fini(out);
+    return out->q != NULL;
+}
+
 bool wr_normals_decode(const WrImage *image, WrNormalCodes codes, WrNormals *out, WrError *err)
 {
     if (image->channels < 2)
         return wr_fail(err, "a normal map has 2 channels or more; this picture has 1: photo and "
                             "elevation read heights");
     size_t count = (size_t)image->width * (size_t)image->height;
-    WrNormals made = { .width = image->width, .height = image->height };
-    made.p = wr_try_alloc(count, sizeof *made.p, "a normal map", err);
-    made.q = made.p ? wr_try_alloc(count, sizeof *made.q, "a normal map", err) : NULL;
-    if (!made.q) {
-        wr_normals_fini(&made);
-        return false;
-    }
+    WrNormals made;
+    if (!begin(image, &made, err)) return false;
     bool as_is = is_signed(image, codes);
     bool going = true;
     for (size_t k = 0; k < count && going; k++) {
         going = wr_sheet_goes_on(k);
         decode_texel(image, image->data + k * (size_t)image->channels, as_is, k, &made);
+    }
+    if (going) *out = made;
+    else wr_normals_fini(&made);
+    return going || wr_fail(err, "cancelled");
+}
+
+bool wr_normals_from_slopes(const WrImage *image, double right, double down, WrNormals *out,
+                            WrError *err)
+{
+    WrNormals made;
+    if (image->channels < 2)
+        return wr_fail(err, "slopes are two channels or more; this picture has one");
+    if (!begin(image, &made, err)) return false;
+    const size_t count = (size_t)image->width * (size_t)image->height;
+    bool going = true;
+    for (size_t k = 0; k < count && going; k++) {
+        const float *c = image->data + k * (size_t)image->channels;
+        const double p = right * (double)c[0], q = down * (double)c[1];
+        going = wr_sheet_goes_on(k);
+        if (fabs(p) < 1e30 && fabs(q) < 1e30) made.p[k] = p, made.q[k] = q;
+        else made.unknown++;
     }
     if (going) *out = made;
     else wr_normals_fini(&made);

@@ -13,11 +13,14 @@ typedef struct WrError WrError;
 typedef struct WrGenerateJob WrGenerateJob;
 typedef struct WrImage WrImage;
 
-/* Unsigned: 0..1 stands for -1..1; signed: as they are, in files of floats alone. */
+/* Slopes: no normals, but height over width to the right and up; bump slopes: per texel to the right and down, channels
+ * b1_dhds and b2_dhdt. Of normals unsigned: 0..1 stands for -1..1; signed: as they are, in files of floats alone. */
 #define WR_NORMAL_CODES(X)                                                                         \
     X(WR_NORMALS_AUTO, "auto")                                                                     \
     X(WR_NORMALS_UNSIGNED, "unsigned")                                                             \
-    X(WR_NORMALS_SIGNED, "signed")
+    X(WR_NORMALS_SIGNED, "signed")                                                                 \
+    X(WR_NORMALS_SLOPES, "slopes")                                                                 \
+    X(WR_NORMALS_BUMP_SLOPES, "bump-slopes")
 typedef enum WrNormalCodes { WR_NORMAL_CODES(WR_WORD_ID) } WrNormalCodes;
 
 /* A map as slopes: scene units of height for each of width; y up is taken for granted. */
@@ -31,6 +34,9 @@ typedef struct WrNormals {
 /* Decode a map of 2 (z follows) to 4 channels. In integer files the two codes beside the middle stand for 0
  * both, so that a flat map is flat. Errors: one channel, no memory. */
 bool wr_normals_decode(const WrImage *image, WrNormalCodes codes, WrNormals *out, WrError *err);
+/* The same of slopes: the first two channels times these factors, to the right and down. */
+bool wr_normals_from_slopes(const WrImage *image, double right, double down, WrNormals *out,
+                            WrError *err);
 void wr_normals_fini(WrNormals *normals);
 
 /* Whether the green axis points up: heights have dp/dy = dq/dx, so

@@ -31,7 +31,8 @@ const WrParam wr_params_normals[] = {
     WR_P_CHOICE("slopes", "Slopes", SLOPES_AUTO, ways,
                 "of a smooth surface, or central differences between texels, as many tools write "
                 "them; auto: what fits the map better"),
-    WR_P_CHOICE("codes", "Codes", WR_NORMALS_AUTO, codes, "of files of floats"),
+    WR_P_CHOICE("codes", "Codes", WR_NORMALS_AUTO, codes,
+                "of files of floats; slopes, bump-slopes: no normals, but these"),
     { .name = "cell",
       .label = "Cell",
       .help = "size of the map in scene units, as in export",
@@ -147,19 +148,54 @@ static bool make(const WrParams *p, WrNormals *normals, const WrGenerateJob *job
     return good;
 }
 
+/* What a label tells counts where the line does not. */
+static WrNormalCodes codes_of(const WrParams *p, const WrImage *image)
+{
+    const int code = wr_param_whole(p, "codes");
+    if (code != WR_NORMALS_AUTO) return (WrNormalCodes)code;
+    return image->label.kind == WR_LABEL_SLOPES        ? WR_NORMALS_SLOPES
+           : image->label.kind == WR_LABEL_BUMP_SLOPES ? WR_NORMALS_BUMP_SLOPES
+                                                       : WR_NORMALS_AUTO;
+}
+
+/* Per texel and downwards, or over the cell and divided by a number that the file tells. */
+static bool decode_bump_slopes(const WrParams *p, const WrImage *first, WrNormals *out,
+                               WrError *err)
+{
+    const WrImageWish wish = { .channel = "b1_dhds,b2_dhdt",
+                               .part = wr_param_value(p, "part")->text };
+    const WrParamValue *cell = wr_param_value(p, "cell");
+    const WrImageLabel *label = &first->label;
+    const double k = label->uvslopes, height = wr_param_number(p, "height"),
+                 sign = label->turned ? -1 : 1;
+    WrImage *image = wr_image_read_wish(wr_param_value(p, "file")->text, &wish, err);
+    const bool good =
+        image && wr_normals_from_slopes(
+                     image, sign * height / cell->number[0] * (k > 0 ? k : image->width),
+                     sign * height / cell->number[1] * (k > 0 ? k : image->height), out, err);
+    if (image) wr_image_free(image);
+    return good;
+}
+
+static bool decode(const WrParams *p, const WrImage *image, WrNormals *out, WrError *err)
+{
+    const WrNormalCodes code = codes_of(p, image);
+    if (code == WR_NORMALS_BUMP_SLOPES) return decode_bump_slopes(p, image, out, err);
+    const bool good = code == WR_NORMALS_SLOPES ? wr_normals_from_slopes(image, 1, -1, out, err)
+                                                : wr_normals_decode(image, code, out, err);
+    if (!good) wr_error_prefix(err, "%s: ", wr_param_value(p, "file")->text);
+    return good;
+}
+
 bool wr_picture_normals(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
                         WrError *err)
 {
     const WrParams p = { wr_params_normals, values };
-    const char *path = wr_param_value(&p, "file")->text;
     WrNormals normals = { .p = NULL };
     WrImage *image = wr_picture_read(&p, "channel", false, job, err);
-    bool read = image != NULL;
-    int code = wr_param_whole(&p, "codes");
-    bool good = read && wr_normals_decode(image, (WrNormalCodes)code, &normals, err);
-    if (read && !good) wr_error_prefix(err, "%s: ", path);
+    const bool good =
+        image && decode(&p, image, &normals, err) && make(&p, &normals, job, out, err);
     wr_image_free(image);
-    good = good && make(&p, &normals, job, out, err);
     wr_normals_fini(&normals);
     return good;
 }

@@ -88,7 +88,7 @@ static bool is_light(const WrParams *p, const WrImage *image, const WrGenerateJo
                      "%s: its label tells that it holds %s: its codes are taken as numbers, not as "
                      "light (labels=ignore takes them as light)",
                      wr_param_value(p, "file")->text,
-                     label->kind >= WR_LABEL_NORMAL_UP ? "normals" : "heights");
+                     label->kind >= WR_LABEL_NORMAL_UP ? "normals or slopes" : "heights");
     return false;
 }
 

@@ -7,6 +7,7 @@
 #include "generate/terrain.h"
 #include "generate/terrain_raw.h"
 #include "image/image.h"
+#include "image/sidecar.h"
 
 #include <math.h>
 #include <string.h>
@@ -176,6 +177,9 @@ bool wr_terrain_elevation(const WrParamValue *values, const WrGenerateJob *job, 
         strcmp(ending, "raw") == 0 || strcmp(ending, "r16") == 0 || strcmp(ending, "r32") == 0;
     Elevation e = { .most = 0.0 };
     const char *size = wr_param_value(&p, "size")->text;
+    /* Numbers that a sidecar tells of are a picture like others, unless the line tells of them itself. */
+    if (raw && !(size && *size) && wr_param_whole(&p, "sample") == 0 && wr_sidecar_is_there(path))
+        raw = false;
     if (!raw && size && *size)
         return wr_fail(err,
                        "size=%s: a picture tells its own size; bare numbers end in .raw, .r16 "

@@ -87,6 +87,24 @@ static void list(const WrImagePart *part, WrText *text)
     if (part->channels > MOST) wr_text_addf(text, " and %d more", part->channels - MOST);
 }
 
+/* "a,b", each by its whole name. */
+static bool take_several(const WrImagePart *part, const char *names, WrChannelChoice *out)
+{
+    WrChannelChoice choice = { 0 };
+    for (const char *at = names; *at;) {
+        const size_t length = strcspn(at, ",");
+        int c = 0;
+        while (c < part->channels &&
+               (strncmp(part->channel_names[c], at, length) != 0 || part->channel_names[c][length]))
+            c++;
+        if (c == part->channels || choice.count == 4) return false;
+        choice.index[choice.count++] = c;
+        at += length + (at[length] == ',');
+    }
+    *out = choice;
+    return true;
+}
+
 bool wr_channels_choose(const WrImagePart *part, const char *channel, WrChannelChoice *choice,
                         WrError *err)
 {
@@ -100,6 +118,7 @@ bool wr_channels_choose(const WrImagePart *part, const char *channel, WrChannelC
             return true;
         }
     if (take_layer(part, channel, (int)strlen(channel), choice)) return true;
+    if (strchr(channel, ',') && take_several(part, channel, choice)) return true;
     WrText names = { 0 };
     list(part, &names);
     wr_fail(err, "channel '%.60s': there is no such; there are %.140s", channel,

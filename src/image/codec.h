@@ -13,6 +13,8 @@
 #define WR_CODEC_REASON 320
 #define WR_CODEC_NO_MEMORY "not enough memory" /* a reason that callers look for */
 
+#define WR_CODEC_LEVELS (-1)
+
 typedef struct WrCodecReader WrCodecReader;
 typedef struct WrCodecWriter WrCodecWriter;
 
@@ -26,7 +28,7 @@ typedef struct WrCodec {
     int version; /* of a module (WR_OIIO_VERSION) */
 
     /* fd: open for reading; borrowed until close. format: OpenImageIO's name or an ending. most: count parts
-       up to this many; more is an error. */
+       up to this many; more is an error; WR_CODEC_LEVELS: the first part's levels stand in their place. */
     WrCodecReader *(*open)(int fd, const char *format, int most, char *reason);
     void (*close)(WrCodecReader *reader);
     int (*parts)(const WrCodecReader *reader);

@@ -19,8 +19,10 @@ static inline double wr_pixel_last(WrPixelType type)
 typedef enum WrLabelKind {
     WR_LABEL_NONE, /* no label, or of a kind that is not read */
     WR_LABEL_HEIGHT,
-    WR_LABEL_NORMAL_UP, /* green up */
-    WR_LABEL_NORMAL_DOWN
+    WR_LABEL_BUMP_SLOPES, /* heights, with slopes beside them */
+    WR_LABEL_NORMAL_UP,   /* green up; from here on there are no heights in it */
+    WR_LABEL_NORMAL_DOWN,
+    WR_LABEL_SLOPES
 } WrLabelKind;
 
 typedef struct WrImageLabel {
@@ -31,8 +33,11 @@ typedef struct WrImageLabel {
     bool sized; /* tells how large the cell is: the next three hold */
     bool mm;    /* cell and height are millimetres, else scene units */
     double cell[2],
-        height;   /* as export had them, of normals and slopes in any case; height may be below 0 */
-    bool wrapped; /* tells what lies beyond the edges: the next one holds */
+        height;  /* as export had them, of normals and slopes in any case; height may be below 0 */
+    bool turned; /* bump slopes: their slopes have the other sign */
+    double
+        uvslopes; /* bump slopes: over the cell and divided by this, whoever wrote them; 0: per texel */
+    bool wrapped;     /* tells what lies beyond the edges: the next one holds */
     bool clamp[2];    /* u, v */
     char refused[96]; /* "wrinkle:range=nan,1": what made no sense and was not used; "" */
 } WrImageLabel;
@@ -55,6 +60,7 @@ typedef struct WrImage {
 
 #define WR_IMAGE_MAX 16384        /* pixels along a side */
 #define WR_IMAGE_PARTS_MAX 1024   /* parts in a file */
+#define WR_IMAGE_TILE 64          /* pixels along a side of the tiles that levels are kept in */
 #define WR_IMAGE_CHANNELS_MAX 256 /* channels in a part */
 #define WR_IMAGE_STRIP 64         /* rows that a WrRowSource is asked for at a time, at most */
 #define WR_IMAGE_BAND 512         /* rows that whole pictures are read by */
@@ -70,7 +76,8 @@ void wr_image_free(WrImage *image);
 WrImage *wr_image_read(const char *path, WrError *err);
 /* The same of what is wished for. */
 typedef struct WrImageWish {
-    const char *channel; /* "Depth.Z", or a layer of them, "diffuse"; NULL, "": as above */
+    const char
+        *channel; /* "Depth.Z", several, "a,b", or a layer of them, "diffuse"; NULL, "": as above */
     const char
         *part; /* its number, from 1, or its name; a frame of an animation; NULL, "": the first */
     bool keep_lost; /* what is not finite stays so (`replaced` counts it none the less) */
@@ -152,6 +159,12 @@ typedef struct WrImageOut {
     WrRowSeen seen; /* NULL: nobody but the writer looks */
     void *ctx;
     bool tells; /* rows tells itself how far the part is: it is most of the work */
+    bool half;  /* floats that are all halves, and are kept as such: EXR */
+    /* EXR: the parts are the levels of one picture in tiles, each half as large as the one before (rounded down, at
+       least 1), down to 1x1. Attributes are those of the first. */
+    bool levels;
+    bool uvslopes; /* of such a file: the next one goes into its number uvslopes_scale */
+    double uvslopes_scale;
 } WrImageOut;
 
 /* Write a file as a whole replacement (base/file.h); the format goes by the ending. Several parts only
@@ -185,6 +198,8 @@ typedef struct WrImagePart {
 
 /* Open for reading part by part; checks sizes, part and channel counts before anything is allocated. */
 WrImageFile *wr_image_file_open(const char *path, WrError *err);
+/* The levels of the first part in place of parts, where it has more than one. */
+WrImageFile *wr_image_file_open_levels(const char *path, WrError *err);
 void wr_image_file_close(WrImageFile *file);
 int wr_image_file_parts(const WrImageFile *file);
 WrImagePart wr_image_file_part(const WrImageFile *file, int part); /* valid until close */

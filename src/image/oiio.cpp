@@ -53,6 +53,7 @@ struct WrCodecReader {
     std::vector<char> codes; /* scratch */
     std::vector<float> band; /* of a tiled file: rows [band_y, band_y + band_rows) of band_part */
     int band_part = -1, band_y = 0, band_rows = 0, band_channels = 0;
+    bool levels = false; /* parts are levels of the first */
 };
 
 static bool check_spec(const ImageSpec &spec, char *reason)
@@ -94,6 +95,10 @@ static bool add_part(WrCodecReader &reader, ImageSpec spec, char *reason)
     if (!check_spec(spec, reason)) return false;
     unpack_description(spec);
     spec.attribute("wrinkle:orientation", std::to_string(spec.get_int_attribute("Orientation")));
+    /* A number in files of bump slopes; texts are all that is asked for. */
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", double(spec.get_float_attribute("uvslopes_scale")));
+    spec.attribute("wrinkle:uvslopes", text);
     WrCodecPart part = {};
     part.part.width = spec.width;
     part.part.height = spec.height;
@@ -162,6 +167,9 @@ static bool open_file(WrCodecReader &reader, const char *format, int most, char 
     }
     if (!add_part(reader, reader.in->spec(), reason)) return false;
     /* Readers find out about more parts by trying; some do not recover from it, so not without need. */
+    reader.levels = most == WR_CODEC_LEVELS;
+    for (int i = 1; reader.levels && i < WR_IMAGE_PARTS_MAX && reader.in->seek_subimage(0, i); i++)
+        if (!add_part(reader, reader.in->spec(), reason)) return false;
     for (int i = 1; most > 1 && reader.in->seek_subimage(i, 0); i++) {
         if (i >= most) return fail(reason, "more than " + std::to_string(most) + " parts");
         if (!add_part(reader, reader.in->spec(), reason)) return false;
@@ -255,12 +263,14 @@ static bool read_band(WrCodecReader &reader, int part, int y, int rows, int chan
         reader.codes.resize(count * type.size());
         to = reader.codes.data();
     }
-    int top = spec.y + y;
+    int top = spec.y + y, subimage = reader.levels ? 0 : part, level = reader.levels ? part : 0;
     bool ok;
     if (spec.tile_width)
-        ok = reader.in->read_tiles(part, 0, spec.x, spec.x + spec.width, top, top + rows, spec.z,
-                                   spec.z + 1, 0, channels, type, to);
-    else ok = reader.in->read_scanlines(part, 0, top, top + rows, spec.z, 0, channels, type, to);
+        ok = reader.in->read_tiles(subimage, level, spec.x, spec.x + spec.width, top, top + rows,
+                                   spec.z, spec.z + 1, 0, channels, type, to);
+    else
+        ok = reader.in->read_scanlines(subimage, level, top, top + rows, spec.z, 0, channels, type,
+                                       to);
     if (!check_read(reader, ok, reason)) return false;
     if (is.part.type == WR_PIXEL_U8 && is.divisor > 0.0)
         divide(static_cast<const unsigned char *>(to), count, 255.0f, out);
@@ -315,7 +325,8 @@ struct WrCodecWriter {
     std::unique_ptr<Disk> disk; /* outlives `out`; NULL where the library opens the file itself */
     std::unique_ptr<ImageOutput> out;
     std::vector<ImageSpec> specs;
-    std::vector<TypeDesc> types;
+    std::vector<TypeDesc> types; /* of the rows that are given */
+    bool levels = false;
     size_t part = 0;
 };
 
@@ -369,6 +380,18 @@ static void set_attributes(ImageSpec &spec, const WrImageOut &part, const char *
     if (!description.empty()) spec.attribute("ImageDescription", description);
 }
 
+/* What texture systems look for in a tiled file of levels. */
+static void set_levels(ImageSpec &spec, const WrImageOut &part)
+{
+    spec.tile_width = spec.tile_height = WR_IMAGE_TILE;
+    spec.tile_depth = 1;
+    spec.full_width = part.width;
+    spec.full_height = part.height;
+    spec.attribute("textureformat", "Plain Texture");
+    spec.attribute("openexr:roundingmode", 0); /* down */
+    if (part.uvslopes) spec.attribute("uvslopes_scale", float(part.uvslopes_scale));
+}
+
 static bool check_write(WrCodecWriter &writer, bool ok, char *reason)
 {
     std::string message = writer.out->geterror();
@@ -388,24 +411,29 @@ static bool create_file(WrCodecWriter &writer, int file, const char *format,
     writer.out = ImageOutput::create(format);
     if (!writer.out) return fail(reason, OIIO::geterror(), writer.path);
     for (int i = 0; i < count; i++) {
-        ImageSpec spec(parts[i].width, parts[i].height, parts[i].channels, types[parts[i].type]);
+        const TypeDesc type = types[parts[i].type];
+        ImageSpec spec(parts[i].width, parts[i].height, parts[i].channels,
+                       parts[i].half ? TypeDesc(TypeDesc::HALF) : type);
         /* The parts of an EXR file share one display window. */
         spec.full_width = parts[0].width;
         spec.full_height = parts[0].height;
         name_channels(spec, parts[i]);
         set_attributes(spec, parts[i], format);
+        if (parts[0].levels) set_levels(spec, parts[i]);
         writer.specs.push_back(spec);
-        writer.types.push_back(types[parts[i].type]);
+        writer.types.push_back(type);
     }
-    if (!wr_oiio_by_name(format, count)) {
+    writer.levels = parts[0].levels;
+    if (!wr_oiio_by_name(format, parts, count)) {
         writer.disk = std::make_unique<Disk>(file);
         if (!writer.out->set_ioproxy(writer.disk.get()))
             return fail(reason, "the format cannot be written to a file of ours");
     }
-    bool ok = count > 1 ? writer.out->open(writer.path, count, writer.specs.data())
-                        : writer.out->open(writer.path, writer.specs[0]);
+    bool ok = count > 1 && !writer.levels
+                  ? writer.out->open(writer.path, count, writer.specs.data())
+                  : writer.out->open(writer.path, writer.specs[0]);
     if (!check_write(writer, ok, reason)) return false;
-    if (writer.out->spec().format != writer.types[0])
+    if (writer.out->spec().format != writer.specs[0].format)
         return fail(reason, "the format does not hold this type");
     return true;
 }
@@ -428,7 +456,10 @@ static bool writer_write(WrCodecWriter *writer, int y, int rows, const void *pix
 {
     return guarded(reason, [&] {
         errno = 0;
-        bool ok = writer->out->write_scanlines(y, y + rows, 0, writer->types[writer->part], pixels);
+        const TypeDesc type = writer->types[writer->part];
+        bool ok = writer->levels ? writer->out->write_tiles(0, writer->specs[writer->part].width, y,
+                                                            y + rows, 0, 1, type, pixels)
+                                 : writer->out->write_scanlines(y, y + rows, 0, type, pixels);
         return check_write(*writer, ok, reason);
     });
 }
@@ -438,7 +469,8 @@ static bool writer_next(WrCodecWriter *writer, char *reason)
     return guarded(reason, [&] {
         writer->part++;
         bool ok = writer->out->open(writer->path, writer->specs[writer->part],
-                                    ImageOutput::AppendSubimage);
+                                    writer->levels ? ImageOutput::AppendMIPLevel
+                                                   : ImageOutput::AppendSubimage);
         return check_write(*writer, ok, reason);
     });
 }

@@ -7,14 +7,14 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define WR_OIIO_VERSION 4
+#define WR_OIIO_VERSION 5
 #define WR_OIIO_SYMBOL "wr_oiio_table"
 
 /* Whether the library does not write such a file through what we hand it, but opens it itself: EXR of several
    parts, and TIFF, which reads back what it wrote. */
-static inline bool wr_oiio_by_name(const char *format, int count)
+static inline bool wr_oiio_by_name(const char *format, const WrImageOut *parts, int count)
 {
-    return count > 1 || strcmp(format, "tiff") == 0;
+    return (count > 1 && !parts[0].levels) || strcmp(format, "tiff") == 0;
 }
 
 /* The table, loaded on first use by any thread; NULL and an error that says where it was looked for. */

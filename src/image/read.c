@@ -2,10 +2,12 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "image/codec.h"
 #include "image/decode.h"
 #include "image/process.h"
 #include "image/read_inner.h"
 #include "image/reader.h"
+#include "image/sidecar.h"
 #include "system/fd.h"
 #include "system/process.h"
 
@@ -52,11 +54,17 @@ WrImageFile *wr_image_file_open(const char *path, WrError *err)
                      !wr_reader_inside(), err);
 }
 
+WrImageFile *wr_image_file_open_levels(const char *path, WrError *err)
+{
+    return open_file(path, wr_reader_file(path, WR_FILE_MOST, err), WR_CODEC_LEVELS,
+                     !wr_reader_inside(), err);
+}
+
 /* Our own file: where there is no reader process to be had, or no cage for it, it is not lost for that. */
-WrImageFile *wr_image_file_take(const char *name, int fd, WrError *err)
+WrImageFile *wr_image_file_take(const char *name, int fd, bool levels, WrError *err)
 {
     bool outside = !wr_reader_inside() && wr_process_has_cage() && wr_process_start(NULL);
-    return open_file(name, fd, WR_IMAGE_PARTS_MAX, outside, err);
+    return open_file(name, fd, levels ? WR_CODEC_LEVELS : WR_IMAGE_PARTS_MAX, outside, err);
 }
 
 void wr_image_file_close(WrImageFile *file)
@@ -149,9 +157,8 @@ static WrImageRows *open_rows(const char *name, int fd, const WrImageWish *wish,
     return file ? wr_image_rows_take(file, wish, err) : NULL;
 }
 
-static WrImage *read_whole(const char *name, int fd, const WrImageWish *wish, WrError *err)
+static WrImage *read_whole(WrImageRows *rows, WrError *err)
 {
-    WrImageRows *rows = open_rows(name, fd, wish, err);
     WrImage *image = rows ? wr_image_rows_whole(rows, err) : NULL;
     wr_image_rows_close(rows);
     return image;
@@ -159,6 +166,7 @@ static WrImage *read_whole(const char *name, int fd, const WrImageWish *wish, Wr
 
 WrImageRows *wr_image_rows_open(const char *path, const WrImageWish *wish, WrError *err)
 {
+    if (wr_sidecar_takes(path)) return wr_sidecar_rows(path, wish, err);
     return open_rows(path, wr_reader_file(path, WR_FILE_MOST, err), wish, err);
 }
 
@@ -170,7 +178,7 @@ WrImage *wr_image_read(const char *path, WrError *err)
 
 WrImage *wr_image_read_wish(const char *path, const WrImageWish *wish, WrError *err)
 {
-    return read_whole(path, wr_reader_file(path, WR_FILE_MOST, err), wish, err);
+    return read_whole(wr_image_rows_open(path, wish, err), err);
 }
 
 WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length, WrError *err)
@@ -180,5 +188,5 @@ WrImage *wr_image_read_bytes(const char *name, const void *bytes, size_t length,
         wr_fail(err, "%s: is empty", name);
         return NULL;
     }
-    return read_whole(name, wr_fd_in_memory(name, bytes, length, err), &all, err);
+    return read_whole(open_rows(name, wr_fd_in_memory(name, bytes, length, err), &all, err), err);
 }

@@ -223,7 +223,7 @@ static bool take_parts(WrReader *reader, const Answer *answer, int most)
         reader->parts[i].channel_names = next;
         next += reader->parts[i].channels;
     }
-    return reader->count >= 1 && reader->count <= most;
+    return reader->count >= 1 && (most < 0 || reader->count <= most);
 }
 
 /* Have the process read the file; the reader gets its channel. */

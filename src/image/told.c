@@ -9,6 +9,16 @@
 #include <stdio.h>
 #include <string.h>
 
+typedef struct Source {
+    WrLabelText *text;
+    const void *from;
+} Source;
+
+static const char *text_of(const Source *from, const char *name)
+{
+    return from->text(from->from, name);
+}
+
 static bool number(const char *text, double *value)
 {
     return wr_number_parse(text, strlen(text), value) && fabs(*value) <= FLT_MAX;
@@ -30,9 +40,9 @@ static void refuse(WrImageLabel *label, const char *name, const char *text)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
 }
 
-static void read_range(WrImageFile *file, int part, double last, WrImageLabel *label)
+static void read_range(const Source *from, double last, WrImageLabel *label)
 {
-    const char *range = wr_image_file_attribute(file, part, "wrinkle:range");
+    const char *range = text_of(from, "wrinkle:range");
     if (!range) return;
     double low, high, zero, amplitude;
     if (!pair(range, &low, &high) || !(low < high)) {
@@ -44,9 +54,9 @@ static void read_range(WrImageFile *file, int part, double last, WrImageLabel *l
     label->step = (high - low) / last;
     label->zero = 0;
     /* Where 0 is a code of its own, heights count from there: so it comes back as 0 exactly. */
-    const char *text = wr_image_file_attribute(file, part, "wrinkle:amplitude");
+    const char *text = text_of(from, "wrinkle:amplitude");
     if (!text) return;
-    const char *code = wr_image_file_attribute(file, part, "wrinkle:zero");
+    const char *code = text_of(from, "wrinkle:zero");
     if (!code || !number(text, &amplitude) || !number(code, &zero) || amplitude < 0 ||
         zero != floor(zero) || zero < 2 || zero > last) {
         label->ranged = false;
@@ -60,10 +70,10 @@ static void read_range(WrImageFile *file, int part, double last, WrImageLabel *l
 
 /* The cell and what F = 1 is high; false where it was told wrong. Of scene units the height is no more than the bumps'
  * of the scene it came from: only slopes need one that makes sense. */
-static bool read_cell(WrImageFile *file, int part, bool slopes, WrImageLabel *label)
+static bool read_cell(const Source *from, bool slopes, WrImageLabel *label)
 {
-    const char *cell = wr_image_file_attribute(file, part, "wrinkle:cell");
-    const char *height = wr_image_file_attribute(file, part, "wrinkle:height");
+    const char *cell = text_of(from, "wrinkle:cell");
+    const char *height = text_of(from, "wrinkle:height");
     bool good = true;
     label->cell[0] = label->cell[1] = label->height = 1;
     if (cell && (!pair(cell, &label->cell[0], &label->cell[1]) || !(label->cell[0] >= 1e-9) ||
@@ -82,20 +92,20 @@ static bool read_cell(WrImageFile *file, int part, bool slopes, WrImageLabel *la
     return good && cell && height;
 }
 
-static void read_size(WrImageFile *file, int part, bool slopes, WrImageLabel *label)
+static void read_size(const Source *from, bool slopes, WrImageLabel *label)
 {
-    const char *unit = wr_image_file_attribute(file, part, "wrinkle:unit");
+    const char *unit = text_of(from, "wrinkle:unit");
     label->mm = unit && strcmp(unit, "mm") == 0;
     const bool known = unit && (label->mm || strcmp(unit, "scene") == 0);
     if (unit && !known) refuse(label, "wrinkle:unit", unit);
     if (!slopes && !known) return;
-    label->sized = read_cell(file, part, slopes, label) && known;
+    label->sized = read_cell(from, slopes, label) && known;
 }
 
-static void read_wrap(WrImageFile *file, int part, WrImageLabel *label)
+static void read_wrap(const Source *from, WrImageLabel *label)
 {
     static const char *const words[] = { "periodic", "clamp-u", "clamp-v", "clamp" };
-    const char *word = wr_image_file_attribute(file, part, "wrinkle:wrap");
+    const char *word = text_of(from, "wrinkle:wrap");
     if (!word) return;
     for (int i = 0; i < 4; i++) {
         if (strcmp(word, words[i]) != 0) continue;
@@ -105,22 +115,37 @@ static void read_wrap(WrImageFile *file, int part, WrImageLabel *label)
     if (!label->wrapped) refuse(label, "wrinkle:wrap", word);
 }
 
-void wr_image_label_read(WrImageFile *file, int part, WrPixelType type, WrImageLabel *label)
+static void read_bump_slopes(const Source *from, WrImageLabel *label)
 {
+    const char *signs = text_of(from, "wrinkle:signs"), *k = text_of(from, "wrinkle:uvslopes");
+    label->turned = signs && strcmp(signs, "renderman") == 0;
+    if (k && (!number(k, &label->uvslopes) || !(label->uvslopes >= 0 && label->uvslopes <= 1e9))) {
+        refuse(label, "uvslopes_scale", k);
+        label->uvslopes = 0;
+    }
+}
+
+void wr_image_label_read(WrLabelText *text, const void *source, WrPixelType type,
+                         WrImageLabel *label)
+{
+    const Source own = { text, source }, *from = &own;
     *label = (WrImageLabel){ .kind = WR_LABEL_NONE };
-    const char *kind = wr_image_file_attribute(file, part, "wrinkle:kind");
+    const char *kind = text_of(from, "wrinkle:kind");
+    read_bump_slopes(from, label);
     if (!kind) return;
     if (strcmp(kind, "height") == 0) {
         label->kind = WR_LABEL_HEIGHT;
-        if (type != WR_PIXEL_F32) read_range(file, part, wr_pixel_last(type), label);
+        if (type != WR_PIXEL_F32) read_range(from, wr_pixel_last(type), label);
     } else if (strcmp(kind, "normal+y") == 0 || strcmp(kind, "normal-y") == 0) {
         label->kind = kind[6] == '+' ? WR_LABEL_NORMAL_UP : WR_LABEL_NORMAL_DOWN;
+    } else if (strcmp(kind, "slopes") == 0 || strcmp(kind, "bump-slopes") == 0) {
+        label->kind = kind[0] == 'b' ? WR_LABEL_BUMP_SLOPES : WR_LABEL_SLOPES;
     } else {
         refuse(label, "wrinkle:kind", kind);
         return;
     }
-    read_size(file, part, label->kind != WR_LABEL_HEIGHT, label);
-    read_wrap(file, part, label);
+    read_size(from, label->kind != WR_LABEL_HEIGHT, label);
+    read_wrap(from, label);
 }
 
 bool wr_image_apply_range(WrImage *image)

@@ -3,4 +3,7 @@
 #pragma once
 #include "image/image.h"
 
-void wr_image_label_read(WrImageFile *file, int part, WrPixelType type, WrImageLabel *label);
+/* The text of that name, or NULL. */
+typedef const char *WrLabelText(const void *from, const char *name);
+void wr_image_label_read(WrLabelText *text, const void *from, WrPixelType type,
+                         WrImageLabel *label);

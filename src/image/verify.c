@@ -133,7 +133,7 @@ bool wr_image_verify(const char *name, int fd, const WrImageFormat *format, cons
                      int count, const WrHash *digests, WrError *err)
 {
     WrError inner = { "" };
-    WrImageFile *file = wr_image_file_take(name, open_again(fd, &inner), &inner);
+    WrImageFile *file = wr_image_file_take(name, open_again(fd, &inner), parts[0].levels, &inner);
     bool good = file != NULL;
     if (good && strcmp(format->library, "openexr") == 0) good = wr_exr_check_chunks(fd, &inner);
     if (good && wr_image_file_parts(file) != count)

@@ -214,6 +214,27 @@ static bool choose(WrImageRows *rows, const WrImageWish *wish, WrError *err)
     return true;
 }
 
+typedef struct Part {
+    WrImageFile *file;
+    int part;
+} Part;
+
+static const char *attribute_of(const void *from, const char *name)
+{
+    const Part *part = from;
+    return wr_image_file_attribute(part->file, part->part, name);
+}
+
+WrImageRows *wr_image_rows_of(WrImage *image, bool keep)
+{
+    WrImageRows *rows = wr_alloc(1, sizeof *rows);
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    image->replaced = replace_bad_pixels(image->data, pixels, image->channels, keep);
+    *rows = (WrImageRows){ .keep = keep, .turned = 1, .band = image, .head = *image };
+    rows->head.data = NULL;
+    return rows;
+}
+
 WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrError *err)
 {
     WrImageRows *rows = wr_alloc(1, sizeof *rows);
@@ -229,7 +250,8 @@ WrImageRows *wr_image_rows_take(WrImageFile *file, const WrImageWish *wish, WrEr
                             .height = across ? rows->is.width : rows->is.height,
                             .channels = rows->choice.count,
                             .type = rows->is.type };
-    wr_image_label_read(file, rows->part, rows->is.type, &rows->head.label);
+    const Part of = { file, rows->part };
+    wr_image_label_read(attribute_of, &of, rows->is.type, &rows->head.label);
     tell(file, rows->part, &rows->choice, &rows->head);
     return rows;
 }
@@ -238,7 +260,7 @@ void wr_image_rows_close(WrImageRows *rows)
 {
     if (!rows) return;
     wr_image_file_close(rows->file);
-    wr_image_free(rows->band);
+    if (rows->band) wr_image_free(rows->band);
     wr_free(rows->all);
     wr_free(rows);
 }
@@ -251,6 +273,7 @@ const WrImage *wr_image_rows_head(const WrImageRows *rows)
 bool wr_image_rows_apply_range(WrImageRows *rows)
 {
     rows->ranged = rows->head.label.ranged && rows->head.type != WR_PIXEL_F32;
+    if (rows->ranged && !rows->file) wr_image_apply_range(rows->band); /* all is there */
     return rows->ranged;
 }
 
@@ -266,6 +289,7 @@ static WrImage *new_image(const WrImageRows *rows, int height, WrError *err)
 
 WrImage *wr_image_rows_whole(WrImageRows *rows, WrError *err)
 {
+    if (!rows->file) return wr_image_share(rows->band);
     WrImage *image = new_image(rows, rows->is.height, err);
     if (image && !read_bands(rows, image, err)) {
         wr_image_free(image);

@@ -32,8 +32,10 @@ static bool check_parts(const char *path, const WrImageOut *parts, int count, Wr
     if (!format) return false;
     if (count < 1 || count > WR_IMAGE_PARTS_MAX)
         return wr_fail(err, "%s: %d parts: must be 1..%d", path, count, WR_IMAGE_PARTS_MAX);
-    if (count > 1 && strcmp(format->library, "openexr") != 0)
-        return wr_fail(err, "%s: %d parts in one file need EXR", path, count);
+    const bool exr = strcmp(format->library, "openexr") == 0;
+    if (count > 1 && !exr) return wr_fail(err, "%s: %d parts in one file need EXR", path, count);
+    if ((parts[0].levels || parts[0].half) && !exr)
+        return wr_fail(err, "%s: halves, and levels in one file, need EXR", path);
     for (int i = 0; i < count; i++) {
         const WrImageOut *part = &parts[i];
         if (!wr_image_can_write(path, part->type, part->channels, part->data, err)) return false;
@@ -136,9 +138,10 @@ static bool write_file(const char *path, int file, const char *format, const WrI
                        int count, WrHash *digests, WrError *err)
 {
     char reason[WR_CODEC_REASON] = "";
-    Writing to = {
-        .path = path, .file = file, .library = wr_codec(format, err), .packed = packed_rows(format)
-    };
+    Writing to = { .path = path,
+                   .file = file,
+                   .library = wr_codec(format, err),
+                   .packed = parts[0].levels ? WR_IMAGE_TILE : packed_rows(format) };
     if (!to.library) return false;
     to.writer = to.library->create(file, format, parts, count, reason);
     if (!to.writer) return fail_write(err, path, file, reason);
@@ -174,7 +177,8 @@ static int choose_spool(const WrFileTarget *target, const char *format, const Wr
     const char *setting = getenv("WRINKLE_SPOOL_MB");
     double most = SPOOL_MB;
     if (setting && !wr_number_parse(setting, strlen(setting), &most)) most = SPOOL_MB;
-    if (!wr_oiio_by_name(format, count) || raw_bytes(parts, count) > most * 1e6) return target->fd;
+    if (!wr_oiio_by_name(format, parts, count) || raw_bytes(parts, count) > most * 1e6)
+        return target->fd;
     int fd = wr_fd_memory("wrinkle picture");
     return fd >= 0 ? fd : target->fd;
 }

@@ -31,8 +31,8 @@ static WrEdit sides(WrCellSize *cell)
 {
     const WrSceneParam *param = &wr_scene_params[WR_SCENE_PARAM_CELL_SIZE];
     const WrNumber spec = wr_param_slider(param);
-    const double half = (wr_gui_available() - wr_gui_px(8)) / 2;
     wr_gui_label(param->label);
+    const double half = (wr_gui_available() - wr_gui_px(8)) / 2;
     const WrEdit w = wr_gui_number("cell w", half, &spec, &cell->w);
     wr_gui_same_line(8);
     const WrEdit h = wr_gui_number("cell h", half, &spec, &cell->h);

@@ -1,0 +1,167 @@
+/* Options of exports that say how their files are laid out. */
+#include "export/options.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "export/export.h"
+#include "field/ops.h"
+#include "field/wrap.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *const wr_lay_names[] = { WR_LAY_LIST(WR_WORD) NULL };
+static const char *const filters[] = { WR_RESIZE_FILTERS(WR_WORD) NULL };
+
+static bool set_switch(const char *name, const char *value, bool *out, WrError *err)
+{
+    *out = strcmp(value, "on") == 0;
+    return *out || strcmp(value, "off") == 0 ||
+           wr_fail(err, "%s '%.40s': must be on or off", name, value);
+}
+
+bool wr_export_set_signs(WrExportOptions *options, const char *value, WrError *err)
+{
+    options->renderman = strcmp(value, "renderman") == 0;
+    return options->renderman || strcmp(value, "plain") == 0 ||
+           wr_fail(err, "signs '%.40s': must be plain or renderman", value);
+}
+
+bool wr_export_set_uvslopes(WrExportOptions *options, const char *value, WrError *err)
+{
+    double k;
+    if (!wr_number_parse(value, strlen(value), &k) || !(k >= 0 && k <= 1e9))
+        return wr_fail(err, "uvslopes '%.40s': must be a divisor above 0, or 0: per texel", value);
+    options->uvslopes = k;
+    return true;
+}
+
+bool wr_export_set_endian(WrExportOptions *options, const char *value, WrError *err)
+{
+    options->big = strcmp(value, "big") == 0;
+    return options->big || strcmp(value, "little") == 0 ||
+           wr_fail(err, "endian '%.40s': must be little or big", value);
+}
+
+bool wr_export_set_sidecar(WrExportOptions *options, const char *value, WrError *err)
+{
+    return set_switch("sidecar", value, &options->sidecar, err);
+}
+
+/* ---- sheets ---- */
+
+bool wr_export_parse_size(const char *value, double low, double high, int *a, int *b)
+{
+    const char *x = strchr(value, 'x');
+    double m, n;
+    if (!x || !wr_number_parse(value, (size_t)(x - value), &m) ||
+        !wr_number_parse(x + 1, strlen(x + 1), &n) || m != floor(m) || n != floor(n) || m < low ||
+        n < low || m > high || n > high)
+        return false;
+    *a = (int)m;
+    *b = (int)n;
+    return true;
+}
+
+static bool set_word(const char *name, const char *const *words, const char *value, int *out,
+                     WrError *err)
+{
+    WrText all = { 0 };
+    for (int k = 0; words[k]; k++) {
+        if (strcmp(words[k], value) == 0) {
+            wr_text_fini(&all);
+            *out = k;
+            return true;
+        }
+        wr_text_addf(&all, "%s%s", k ? ", " : "", words[k]);
+    }
+    wr_fail(err, "%s '%.40s': must be one of %s", name, value, wr_text_get(&all));
+    wr_text_fini(&all);
+    return false;
+}
+
+bool wr_export_set_lay(WrExportOptions *options, const char *value, WrError *err)
+{
+    int lay;
+    if (!set_word("lay", wr_lay_names, value, &lay, err)) return false;
+    options->lay = (WrExportLay)lay;
+    return true;
+}
+
+bool wr_export_set_repeat(WrExportOptions *options, const char *value, WrError *err)
+{
+    return wr_export_parse_size(value, 1, WR_FIELD_MAX, &options->repeat_u, &options->repeat_v) ||
+           wr_fail(err, "repeat '%.40s': must be MxN, whole numbers, 1..%d each", value,
+                   WR_FIELD_MAX);
+}
+
+bool wr_export_set_resize(WrExportOptions *options, const char *value, WrError *err)
+{
+    options->resize_w = options->resize_h = -1;
+    return strcmp(value, "pot") == 0 ||
+           wr_export_parse_size(value, 1, WR_FIELD_MAX, &options->resize_w, &options->resize_h) ||
+           wr_fail(err, "resize '%.40s': must be WIDTHxHEIGHT, 1..%d each, or pot", value,
+                   WR_FIELD_MAX);
+}
+
+bool wr_export_set_filter(WrExportOptions *options, const char *value, WrError *err)
+{
+    return set_word("filter", filters, value, &options->filter, err);
+}
+
+bool wr_export_set_border(WrExportOptions *options, const char *value, WrError *err)
+{
+    return set_switch("border", value, &options->border, err);
+}
+
+bool wr_export_set_mips(WrExportOptions *options, const char *value, WrError *err)
+{
+    return set_switch("mips", value, &options->mips, err);
+}
+
+bool wr_export_set_atlas(WrExportOptions *options, const char *value, WrError *err)
+{
+    for (const char *at = value; at; at = strchr(at, ';') ? strchr(at, ';') + 1 : NULL)
+        if (!memchr(at, '.', strcspn(at, ";")))
+            return wr_fail(err,
+                           "atlas '%.80s': must be files with their endings, parted by "
+                           "semicolons",
+                           value);
+    options->atlas = value;
+    return true;
+}
+
+bool wr_export_set_margin(WrExportOptions *options, const char *value, WrError *err)
+{
+    double texels;
+    if (!wr_number_parse(value, strlen(value), &texels) || texels != floor(texels) ||
+        !(texels >= 0 && texels <= 1024))
+        return wr_fail(err, "margin '%.40s': must be a whole number of texels, 0..1024", value);
+    options->margin = (int)texels;
+    return true;
+}
+
+/* ---- by name ---- */
+
+const WrExportKind *wr_export_find(const char *name)
+{
+    for (int i = 0; i < WR_EXPORT_KIND_COUNT; i++)
+        if (strcmp(wr_export_kinds[i].name, name) == 0) return &wr_export_kinds[i];
+    return NULL;
+}
+
+bool wr_export_option(const WrExportKind *kind, WrExportOptions *options, const char *name,
+                      const char *value, WrError *err)
+{
+    WrText names = { 0 };
+    for (const WrExportOptionInfo *option = kind->options; option->name; option++) {
+        if (strcmp(option->name, name) == 0) {
+            wr_text_fini(&names);
+            return option->set(options, value, err);
+        }
+        wr_text_addf(&names, "%s%s", names.length ? ", " : "", option->name);
+    }
+    wr_fail(err, "%s has no option '%.40s'; it has %s", kind->name, name, wr_text_get(&names));
+    wr_text_fini(&names);
+    return false;
+}

@@ -1,0 +1,218 @@
+#include "image/sidecar.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "image/image.h"
+#include "image/read_inner.h"
+#include "image/told.h"
+#include "system/path.h"
+
+#include <json-c/json.h>
+#include <math.h>
+#include <string.h>
+
+#define MOST_BYTES (1 << 20) /* of a sidecar */
+#define DEPTH 8
+
+bool wr_sidecar_takes(const char *path)
+{
+    static const char *const endings[] = { "raw", "r16", "r32" };
+    char buffer[16];
+    const char *ending = wr_path_ending(path, buffer);
+    for (int k = 0; k < 3; k++)
+        if (strcmp(ending, endings[k]) == 0) return true;
+    return false;
+}
+
+void wr_sidecar_name(const char *path, WrText *name)
+{
+    wr_text_clear(name);
+    wr_text_addf(name, "%s.json", path);
+}
+
+bool wr_sidecar_is_there(const char *path)
+{
+    WrText name = { 0 };
+    wr_sidecar_name(path, &name);
+    const bool is = wr_path_is_there(wr_text_get(&name));
+    wr_text_fini(&name);
+    return is;
+}
+
+/* ---- what it says ---- */
+
+typedef enum Type { U8, U16, F16, F32, TYPES } Type;
+
+static const struct {
+    const char *name;
+    int bytes;
+    WrPixelType pixel;
+} types[TYPES] = { { "u8", 1, WR_PIXEL_U8 },
+                   { "u16", 2, WR_PIXEL_U16 },
+                   { "f16", 2, WR_PIXEL_F32 },
+                   { "f32", 4, WR_PIXEL_F32 } };
+
+typedef struct Told {
+    const char *name; /* of the sidecar */
+    json_object *root;
+    int width, height, channels;
+    Type type;
+    bool big;
+} Told;
+
+static bool parse(Told *told, const char *text, size_t length, WrError *err)
+{
+    json_tokener *tokener = json_tokener_new_ex(DEPTH);
+    if (!tokener) return wr_fail(err, "%s: not enough memory", told->name);
+    told->root = json_tokener_parse_ex(tokener, text, (int)length);
+    const bool good = json_tokener_get_error(tokener) == json_tokener_success &&
+                      json_object_is_type(told->root, json_type_object);
+    json_tokener_free(tokener);
+    return good || wr_fail(err, "%s: is not JSON of a sidecar", told->name);
+}
+
+static bool take_count(const Told *told, const char *name, int most, int fallback, int *out,
+                       WrError *err)
+{
+    json_object *found;
+    *out = fallback;
+    const bool is = json_object_object_get_ex(told->root, name, &found);
+    if (!is && fallback > 0) return true;
+    const int64_t value =
+        is && json_object_is_type(found, json_type_int) ? json_object_get_int64(found) : 0;
+    if (value < 1 || value > most)
+        return wr_fail(err, "%s: %s must be a whole number, 1..%d", told->name, name, most);
+    *out = (int)value;
+    return true;
+}
+
+/* NULL where it has none. */
+static const char *text_of(json_object *root, const char *name)
+{
+    json_object *found;
+    if (!json_object_object_get_ex(root, name, &found) ||
+        !json_object_is_type(found, json_type_string))
+        return NULL;
+    return json_object_get_string(found);
+}
+
+static bool take_type(Told *told, WrError *err)
+{
+    const char *type = text_of(told->root, "type"), *endian = text_of(told->root, "endian");
+    int k = 0;
+    while (k < TYPES && type && strcmp(type, types[k].name) != 0) k++;
+    if (!type || k == TYPES)
+        return wr_fail(err, "%s: type '%.40s': must be u8, u16, f16 or f32", told->name,
+                       type ? type : "");
+    told->type = (Type)k;
+    told->big = endian && strcmp(endian, "big") == 0;
+    if (endian && !told->big && strcmp(endian, "little") != 0)
+        return wr_fail(err, "%s: endian '%.40s': must be little or big", told->name, endian);
+    return true;
+}
+
+static bool read_told(Told *told, WrError *err)
+{
+    char *text;
+    size_t length;
+    if (!wr_file_read(told->name, MOST_BYTES, &text, &length, err)) return false;
+    const bool good = parse(told, text, length, err) &&
+                      take_count(told, "width", WR_IMAGE_MAX, 0, &told->width, err) &&
+                      take_count(told, "height", WR_IMAGE_MAX, 0, &told->height, err) &&
+                      take_count(told, "channels", 4, 1, &told->channels, err) &&
+                      take_type(told, err);
+    wr_free(text);
+    return good;
+}
+
+/* ---- the numbers ---- */
+
+static float half_of(uint16_t code)
+{
+    const int power = code >> 10 & 31, rest = code & 1023;
+    const double size = power == 31  ? (rest ? NAN : INFINITY)
+                        : power == 0 ? ldexp(rest, -24)
+                                     : ldexp(1024 + rest, power - 25);
+    return (float)(code >> 15 ? -size : size);
+}
+
+static float number_of(const Told *told, const unsigned char *at)
+{
+    const int bytes = types[told->type].bytes;
+    uint32_t word = 0;
+    for (int k = 0; k < bytes; k++) word |= (uint32_t)at[told->big ? bytes - 1 - k : k] << 8 * k;
+    float value;
+    switch (told->type) {
+    case U8: return (float)word / 255.0f;
+    case U16: return (float)word / 65535.0f;
+    case F16: return half_of((uint16_t)word);
+    default: memcpy(&value, &word, sizeof value); return value;
+    }
+}
+
+static bool check_hash(const Told *told, const char *path, const char *bytes, size_t length,
+                       WrError *err)
+{
+    const char *want = text_of(told->root, "sha256");
+    char have[65];
+    if (!want) return true;
+    wr_sha256_bytes(bytes, length, have);
+    return strcmp(want, have) == 0 ||
+           wr_fail(err, "%s: is not the file that %s tells of (sha256)", path, told->name);
+}
+
+static WrImage *read_numbers(const Told *told, const char *path, WrError *err)
+{
+    const size_t count = (size_t)told->width * (size_t)told->height * (size_t)told->channels;
+    const size_t step = (size_t)types[told->type].bytes;
+    char *bytes;
+    size_t length;
+    if (!wr_file_read(path, count * step + 1, &bytes, &length, err)) return NULL;
+    WrImage *image = NULL;
+    if (length != count * step)
+        wr_fail(err, "%s: has %zu bytes; %dx%d of %d channels of %s are %zu", path, length,
+                told->width, told->height, told->channels, types[told->type].name, count * step);
+    else if (check_hash(told, path, bytes, length, err))
+        image = wr_image_new(told->width, told->height, told->channels, err);
+    for (size_t k = 0; image && k < count; k++)
+        image->data[k] = number_of(told, (const unsigned char *)bytes + k * step);
+    wr_free(bytes);
+    if (image) image->type = types[told->type].pixel;
+    return image;
+}
+
+/* ---- the picture ---- */
+
+static const char *label_text(const void *from, const char *name)
+{
+    json_object *labels;
+    const Told *told = from;
+    if (!json_object_object_get_ex(told->root, "labels", &labels) ||
+        !json_object_is_type(labels, json_type_object))
+        return NULL;
+    return text_of(labels, name);
+}
+
+WrImageRows *wr_sidecar_rows(const char *path, const WrImageWish *wish, WrError *err)
+{
+    WrText name = { 0 };
+    WrImageRows *rows = NULL;
+    wr_sidecar_name(path, &name);
+    Told told = { .name = wr_text_get(&name) };
+    if (!wr_path_is_there(told.name)) {
+        wr_fail(err,
+                "%s: is nothing but numbers, and %s, which would say of what size, is not there; "
+                "`terrain elevation` takes size=WxH",
+                path, told.name);
+    } else if (read_told(&told, err)) {
+        WrImage *image = read_numbers(&told, path, err);
+        if (image) wr_image_label_read(label_text, &told, image->type, &image->label);
+        if (image) rows = wr_image_rows_of(image, wish->keep_lost);
+    }
+    json_object_put(told.root);
+    wr_text_fini(&name);
+    return rows;
+}
