@@ -151,8 +151,8 @@ static void bench_init(Bench *b, TestRandom *random)
                         .scale_u = 0.3f,
                         .scale_v = 0.2f };
     b->colour = (WrColourLook){ b->rgba, SIDE + 2, SIDE, SIDE, 3, 2, true, true };
-    b->light[0] = (WrKernLight){ false, { 0.6f, 0, 0.8f }, { 1, 0.9f, 0.8f } };
-    b->light[1] = (WrKernLight){ true, { 1, 3, 5 }, { 0.5f, 0.9f, 1 } };
+    b->light[0] = (WrKernLight){ false, { 0.6f, 0, 0.8f }, { 1, 0.9f, 0.8f }, 0 };
+    b->light[1] = (WrKernLight){ true, { 1, 3, 5 }, { 0.5f, 0.9f, 1 }, 0 };
 }
 
 static void bench_fini(Bench *b)
