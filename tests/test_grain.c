@@ -1,6 +1,7 @@
 /* test_grain.c - solid textures: pictures against the reference, which has formulas and noise of its own, in single and
-   double precision, on surfaces posed at random angles. Where rays are met in closed form every sample agrees; on the
-   torus, which is met by a mesh and steps of Newton, up to 0.5 % differ, in single and double precision alike. */
+   double precision, on surfaces posed at random angles; as colours and as bumps; filtered ones against its many samples.
+   Every sample agrees, but on the torus five of a thousand: it is met by steps of Newton, and a place
+   within rounding of a step's edge may be on either side. */
 #include "test.h"
 #include "test_render_scenes.h"
 
@@ -11,8 +12,7 @@
 
 enum { W = 61, H = 47 };
 
-/* The share of samples that are farther from the reference than `enough`, and how many there are. */
-static double differ(const WrScene *scene, const WrField *field, double enough, int *shown)
+static WrReference truth_of(const WrScene *scene, const WrField *field, int samples)
 {
     WrError err = { "" };
     WrReference r = { 0 };
@@ -22,10 +22,17 @@ static double differ(const WrScene *scene, const WrField *field, double enough, 
                                          .width = W,
                                          .height = H,
                                          .turn_deg = 15,
-                                         .first = 1,
-                                         .most = 1 };
+                                         .first = samples,
+                                         .most = samples };
     if (!wr_reference_render(&request, pool, &r, &err)) fail_msg("%s", err.text);
     wr_pool_free(pool);
+    return r;
+}
+
+/* The share of samples that are farther from the reference than `enough`, and how many there are. */
+static double differ(const WrScene *scene, const WrField *field, double enough, int *shown)
+{
+    WrReference r = truth_of(scene, field, 1);
     Shot shot = shoot(scene, field, W, H, 2, "auto", false);
     int off = 0;
     *shown = 0;
@@ -41,6 +48,19 @@ static double differ(const WrScene *scene, const WrField *field, double enough, 
     return (double)off / *shown;
 }
 
+static WrScene *grainy(WrGrainKind kind, const char *surface, int number)
+{
+    WrScene *scene = scene_of(surface);
+    scene->grain = wr_grains[kind].usual;
+    scene->grain.axis = (WrGrainAxis)((kind + (unsigned)number) % WR_GRAIN_AXES);
+    scene->grain.rings *= 0.8137, scene->grain.cells *= 1.193;
+    scene->height = 0; /* the reference has slopes of its own */
+    scene->posed = true;
+    scene->rotate_deg = (WrVec3){ 31.7 + 50 * number, 12.9 * kind, -71.3 };
+    scene->dials.aa = WR_AA_POINT;
+    return scene;
+}
+
 static void pictures_are_the_references(void **state)
 {
     (void)state;
@@ -49,15 +69,8 @@ static void pictures_are_the_references(void **state)
     for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++)
         for (int s = 0; s < 4; s++)
             for (int in_double = 0; in_double < 2; in_double++) {
-                WrScene *scene = scene_of(surfaces[s]);
+                WrScene *scene = grainy((WrGrainKind)kind, surfaces[s], s);
                 int shown;
-                scene->grain = wr_grains[kind].usual;
-                scene->grain.axis = (WrGrainAxis)((kind + s) % WR_GRAIN_AXES);
-                scene->grain.rings *= 0.8137, scene->grain.cells *= 1.193;
-                scene->height = 0; /* the reference has slopes of its own */
-                scene->posed = true;
-                scene->rotate_deg = (WrVec3){ 31.7 + 50 * s, 12.9 * kind, -71.3 };
-                scene->dials.aa = WR_AA_POINT;
                 if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
                 const double off = differ(scene, field, in_double ? 1e-5 : 1e-3, &shown);
                 if (!(shown > 200 && off <= (s == 3 ? 0.005 : 0)))
@@ -68,8 +81,252 @@ static void pictures_are_the_references(void **state)
     wr_field_free(field);
 }
 
+/* Slopes of steps' edges are steps again: a sample within rounding of one may be on either side. */
+static void bumps_are_the_references(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++)
+        for (int in_double = 0; in_double < 2; in_double++) {
+            WrScene *scene =
+                grainy((WrGrainKind)kind, kind % 2 == 0 ? "sphere" : "cube", 1 + in_double);
+            int shown;
+            scene->grain.drives = WR_GRAIN_COLOURS | WR_GRAIN_BUMPS;
+            scene->grain.edge = 0.137 * in_double;
+            scene->grain.height = kind % 2 == 0 ? 0.0237 : -0.0173;
+            if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
+            const double off = differ(scene, field, in_double ? 1e-5 : 5e-3, &shown);
+            if (!(shown > 200 && off <= (in_double ? 0 : 0.002)))
+                fail_msg("%s %d: %g of %d apart", wr_grains[kind].name, in_double, off, shown);
+            wr_scene_free(scene);
+        }
+    wr_field_free(field);
+}
+
+/* ---- roughness ---- */
+
+/* Lamps on facets whose roughness the texture drives. */
+static void roughness_is_the_references(void **state)
+{
+    static const WrReflect models[] = { WR_REFLECT_GGX, WR_REFLECT_OREN_NAYAR,
+                                        WR_REFLECT_TORRANCE_SPARROW };
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    for (int k = 0; k < 12; k++) {
+        const bool in_double = k / 3 % 2;
+        WrScene *scene = grainy(k % 2 ? WR_GRAIN_NOISE : WR_GRAIN_GRANITE, "sphere", k % 3);
+        int shown;
+        scene->grain.drives = WR_GRAIN_ROUGHENS;
+        scene->grain.roughness[0] = 0.137, scene->grain.roughness[1] = 0.83;
+        scene->material.model = models[k % 3];
+        scene->material.energy = (WrEnergy)(k / 6);
+        scene->material.metalness = 0.37, scene->material.specular = 0.7;
+        scene->material.diffuse = 0.8;
+        if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
+        /* the albedo of kept facets goes straight between sixteenths of roughness */
+        const bool kept = models[k % 3] == WR_REFLECT_GGX && k / 6 == 0;
+        const double off = differ(scene, field, kept ? 5e-3 : in_double ? 1e-5 : 2e-3, &shown);
+        if (!(shown > 200 && off == 0))
+            fail_msg("%s %d: %g of %d apart", wr_reflects[models[k % 3]].name, k, off, shown);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
+static double apart(const WrScene *a, const WrScene *b, const WrField *field)
+{
+    Shot one = shoot(a, field, W, H, 2, "auto", false);
+    Shot other = shoot(b, field, W, H, 2, "auto", false);
+    double squares = 0, all = 0;
+    for (int i = 0; i < 4 * W * H; i++) {
+        const double d = (double)one.frame.rgba[i] - (double)other.frame.rgba[i];
+        if (one.frame.rgba[i | 3] == 1 && other.frame.rgba[i | 3] == 1) squares += d * d, all += 1;
+    }
+    put_away(&one);
+    put_away(&other);
+    return sqrt(squares / all);
+}
+
+static WrScene *under_sky(double roughness)
+{
+    WrScene *scene = grainy(WR_GRAIN_WOOD, "sphere", 0);
+    scene->grain = wr_grains[WR_GRAIN_OFF].usual;
+    wr_environment_set(&scene->environment, WR_SURROUND_STUDIO,
+                       wr_surround_built(WR_SURROUND_STUDIO, NULL), NULL, NULL);
+    scene->light_count = 0;
+    scene->material.model = WR_REFLECT_GGX, scene->material.metalness = 0.83;
+    scene->material.specular = 1;
+    scene->material.roughness = roughness;
+    return scene;
+}
+
+/* Surroundings are mirrored alike by a roughness that is the material's and by one that a texture drives, at a rung of
+   the blur and, nearly, between; under 1/8 the blur goes over to the mirror without a step. */
+static void rungs_of_the_blur_meet(void **state)
+{
+    static const double at[] = { 0.5, 0.25, 0.41, 0.17 };
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    for (int k = 0; k < 4; k++) {
+        WrScene *all = under_sky(at[k]), *by = under_sky(0.9);
+        by->grain = wr_grains[WR_GRAIN_WOOD].usual;
+        by->grain.drives = WR_GRAIN_ROUGHENS;
+        by->grain.roughness[0] = by->grain.roughness[1] = at[k];
+        const double off = apart(all, by, field);
+        if (!(off <= (k < 2 ? 2e-3 : 0.03))) fail_msg("roughness %g: %g apart", at[k], off);
+        wr_scene_free(all);
+        wr_scene_free(by);
+    }
+    WrScene *below = under_sky(0.1249), *above = under_sky(0.1251), *mirror = under_sky(0.01);
+    WrScene *near = under_sky(0.0316);
+    const double step = apart(below, above, field), whole = apart(below, mirror, field);
+    const double last = apart(near, mirror, field);
+    if (!(step < 0.05 * whole && last < 0.1 * whole && whole > 0.01))
+        fail_msg("%g, %g of %g", step, last, whole);
+    wr_scene_free(below);
+    wr_scene_free(above);
+    wr_scene_free(mirror);
+    wr_scene_free(near);
+    wr_field_free(field);
+}
+
+/* Slopes finer than pixels blur what a smooth surface mirrors. */
+static void slopes_widen_what_is_mirrored(void **state)
+{
+    (void)state;
+    WrField *field = random_field(256, 256, 1978);
+    WrScene *scene = under_sky(0.13);
+    scene->height = 0.01;
+    scene->replicate_u = 4, scene->replicate_v = 2;
+    scene->dials.aa = WR_AA_SUPERSAMPLE, scene->dials.samples = 16; /* each with its own normal */
+    Shot truth = shoot(scene, field, W, H, 2, "auto", false);
+    double rms[2] = { 0 };
+    for (int k = 0; k < 2; k++) {
+        scene->dials.aa = k ? WR_AA_MOMENTS : WR_AA_FILTER;
+        Shot shot = shoot(scene, field, W, H, 2, "auto", false);
+        for (int i = 0; i < 4 * W * H; i += 4)
+            if (truth.frame.rgba[i + 3] == 1 && shot.frame.rgba[i + 3] == 1)
+                rms[k] += pow((double)(shot.frame.rgba[i] - truth.frame.rgba[i]), 2);
+        put_away(&shot);
+    }
+    if (!(rms[1] < 0.5 * rms[0])) fail_msg("%g of %g", rms[1], rms[0]);
+    put_away(&truth);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+/* ---- filtered ---- */
+
+typedef struct Far {
+    double rms, mean; /* from the reference; of the means' difference */
+} Far;
+
+static Far far_from(const WrScene *scene, const WrField *field, const WrReference *r)
+{
+    Shot shot = shoot(scene, field, W, H, 2, "auto", false);
+    double squares = 0, sum = 0, all = 0;
+    for (int i = 0; i < W * H; i++) {
+        if (r->rgba[4 * i + 3] != 1 || shot.frame.rgba[4 * i + 3] != 1) continue;
+        const double d = (double)shot.frame.rgba[4 * i] - r->rgba[4 * i];
+        squares += d * d, sum += d, all += 1;
+    }
+    put_away(&shot);
+    return (Far){ sqrt(squares / all), fabs(sum / all) };
+}
+
+/* Rings and cells of about a pixel: filters are nearer than points, and as bright as the truth (HC121). What noise alone
+   fades is what a pixel could show half of. */
+static void filtered_ones_are_nearer(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++)
+        for (int s = 0; s < 2; s++) {
+            WrScene *scene = grainy((WrGrainKind)kind, s ? "plane" : "sphere", s);
+            for (int c = 0; c < 3; c++) scene->grain.light[c] = 1, scene->grain.dark[c] = 0;
+            scene->grain.rings = 13.7, scene->grain.cells = kind == WR_GRAIN_WOOD ? 2.3 : 9.3;
+            scene->material.ambient = 1, scene->material.diffuse = scene->material.specular = 0;
+            WrReference r = truth_of(scene, field, 16);
+            const Far point = far_from(scene, field, &r);
+            scene->dials.aa = WR_AA_FILTER;
+            const Far filter = far_from(scene, field, &r);
+            wr_reference_fini(&r);
+            const bool nearer = !wr_grains[kind].ringed || filter.rms < 0.85 * point.rms;
+            if (!(nearer && filter.mean < (wr_grains[kind].ringed ? 0.01 : 0.06)))
+                fail_msg("%s %d: %g of %g, %g", wr_grains[kind].name, s, filter.rms, point.rms,
+                         filter.mean);
+            wr_scene_free(scene);
+        }
+    wr_field_free(field);
+}
+
+/* Up to the horizon of ground without end, whatever the dials say. */
+static void ground_without_end_is_its_mean(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    WrScene *scene = grainy(WR_GRAIN_CHECKER, "plane", 0);
+    scene->shape.value[2] = 1;
+    scene->rotate_deg = (WrVec3){ -90, 0, 0 };
+    scene->grain.rings = 40;
+    scene->camera.fit = false;
+    scene->camera.eye = (WrVec3){ 0.13, 0.4, 2 }, scene->camera.target = (WrVec3){ 0, 0.3, 0 };
+    for (int c = 0; c < 3; c++) scene->grain.light[c] = 1, scene->grain.dark[c] = 0;
+    scene->material.ambient = 1, scene->material.diffuse = scene->material.specular = 0;
+    Shot shot = shoot(scene, field, W, H, 2, "auto", false);
+    int far = 0;
+    for (int x = 0; x < W; x++)
+        for (int y = 1; y < H; y++) { /* the row below the horizon's */
+            const float *here = shot.frame.rgba + 4 * (y * W + x), *above = here - 4 * W;
+            if (!(here[3] == 1 && above[3] < 1)) continue;
+            assert_near((double)here[0], 0.5, 0.15);
+            far++;
+            break;
+        }
+    assert_true(far > W / 2);
+    put_away(&shot);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
+/* ---- turned (HC120) ---- */
+
+/* An object that turns by quarters with its camera shows the same bits: its grain is in it. */
+static void turning_leaves_the_grains_bits(void **state)
+{
+    (void)state;
+    WrField *field = bumpy_field(16, 16);
+    for (int kind = WR_GRAIN_WOOD; kind < WR_GRAIN_KINDS; kind++) {
+        WrScene *scene = grainy((WrGrainKind)kind, "sphere", 0);
+        scene->material.ambient = 1, scene->material.diffuse = scene->material.specular = 0;
+        scene->camera.fit = false, scene->camera.target = (WrVec3){ 0, 0, 0 };
+        scene->rotate_deg = (WrVec3){ 0, 0, 0 }, scene->camera.eye = (WrVec3){ 0, 0, 3.7 };
+        Shot before = shoot(scene, field, W, H, 2, "auto", false);
+        scene->rotate_deg = (WrVec3){ 0, 90, 0 }, scene->camera.eye = (WrVec3){ 3.7, 0, 0 };
+        Shot after = shoot(scene, field, W, H, 2, "auto", false);
+        assert_true(same_picture(&before, &after));
+        put_away(&after);
+        scene->rotate_deg = (WrVec3){ 0, 37, 0 };
+        after = shoot(scene, field, W, H, 2, "auto", false);
+        assert_false(same_picture(&before, &after));
+        put_away(&after);
+        put_away(&before);
+        wr_scene_free(scene);
+    }
+    wr_field_free(field);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(pictures_are_the_references) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_are_the_references),
+        cmocka_unit_test(bumps_are_the_references),
+        cmocka_unit_test(roughness_is_the_references),
+        cmocka_unit_test(rungs_of_the_blur_meet),
+        cmocka_unit_test(slopes_widen_what_is_mirrored),
+        cmocka_unit_test(filtered_ones_are_nearer),
+        cmocka_unit_test(ground_without_end_is_its_mean),
+        cmocka_unit_test(turning_leaves_the_grains_bits),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

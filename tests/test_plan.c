@@ -411,6 +411,45 @@ static void checkered_through(Stage *stage)
     stage->scene->grain = wr_grains[WR_GRAIN_CHECKER].usual;
 }
 
+static void wooden_far(Stage *stage)
+{
+    wooden(stage);
+    filtered(stage);
+}
+
+static void of_facets(Stage *stage);
+
+static void roughened(Stage *stage)
+{
+    wooden(stage);
+    of_facets(stage);
+    stage->scene->grain.drives = WR_GRAIN_ROUGHENS;
+}
+
+static void roughened_dull(Stage *stage)
+{
+    roughened(stage);
+    stage->scene->material.model = WR_REFLECT_BLINN_PHONG;
+}
+
+static void embossed(Stage *stage)
+{
+    wooden(stage);
+    stage->scene->grain.drives = WR_GRAIN_BUMPS;
+}
+
+static void embossed_flat(Stage *stage)
+{
+    embossed(stage);
+    stage->scene->grain.height = 0;
+}
+
+static void embossed_dark(Stage *stage)
+{
+    embossed(stage);
+    dark(stage);
+}
+
 static void of_facets(Stage *stage)
 {
     stage->scene->material.model = WR_REFLECT_GGX;
@@ -492,7 +531,7 @@ static void mirror_around(Stage *stage)
 {
     surrounded(stage);
     stage->scene->material.model = WR_REFLECT_GGX;
-    stage->scene->material.roughness = 0.1;
+    stage->scene->material.roughness = 0.01;
 }
 
 static void to_horizon(Stage *stage)
@@ -550,6 +589,16 @@ static const Case cases[WR_EFFECT_COUNT] = {
                               { checkered_through, NOTHING },
                               { wooden_even, NOTHING },
                               { keep_all, NOTHING } } },
+    [WR_EFFECT_FADED] = { wooden_far, { { wooden, NOTHING }, { filtered, NOTHING } } },
+    [WR_EFFECT_VARIED] = { roughened,
+                           { { roughened_dull, NOTHING },
+                             { wooden, NOTHING },
+                             { keep_all, NOTHING } } },
+    [WR_EFFECT_EMBOSSED] = { embossed,
+                             { { embossed_flat, 1e-5 },
+                               { embossed_dark, 1e-5 },
+                               { wooden, NOTHING },
+                               { keep_all, NOTHING } } },
     [WR_EFFECT_TINT] = { tinted,
                          { { tinted_evenly, 0 },
                            { tinted_still, 0 },

@@ -225,6 +225,42 @@ static void all_at_once(Stage *stage)
     stage->scene->dials.shading = WR_SHADING_HALF;
 }
 
+/* Solid noise that turns normals, of which a pixel holds many cells, or few. */
+static void noise_far(Stage *stage)
+{
+    WrGrain *grain = &stage->scene->grain;
+    *grain = wr_grains[WR_GRAIN_NOISE].usual;
+    grain->drives = WR_GRAIN_BUMPS;
+    grain->cells = 200;
+    stage->scene->height = 0;
+    stage->scene->dials.aa = WR_AA_FILTER;
+}
+
+static void noise_near(Stage *stage)
+{
+    noise_far(stage);
+    stage->scene->grain.cells = 0.5;
+}
+
+static void wood_of_no_amplitude(Stage *stage)
+{
+    stage->scene->grain = wr_grains[WR_GRAIN_WOOD].usual;
+    stage->scene->grain.amount = 0;
+    stage->scene->height = 0;
+}
+
+static void constant_surroundings(Stage *stage)
+{
+    WrImage *image = wr_image_new(4, 2, 3, NULL);
+    WrSurroundTold told;
+    for (int i = 0; i < 24; i++) image->data[i] = 0.37f;
+    image->type = WR_PIXEL_F32;
+    wr_environment_set(&stage->scene->environment, WR_SURROUND_FILE,
+                       wr_surround_new(image, &told, NULL), "sky", NULL);
+    stage->scene->environment.strength = 0.7;
+    wr_image_free(image);
+}
+
 /* Of the faces that are seen, 0 has bumps, 3 letters, here two strokes, and 4 nothing at all. */
 static void faces(Stage *stage)
 {
@@ -297,14 +333,15 @@ static const Scene scenes[] = {
     { "S18", checkered_bilinear, LIGHT | NEAR | ROUND | E(BUMP) | E(GROUND) | E(DARK), 0 },
     { "S19", least_table, LIGHT | NEAR, 0 },
     { "S20", still, LIGHT | NEAR, 0 },
-    { "S21", NULL, 0, 0 },
-    { "S22", NULL, 0, 0 },
-    { "S23", NULL, 0, 0 },
+    { "S21", noise_far, LIGHT | NEAR | E(EMBOSSED) | E(OCTAVES) | E(FADED) | E(DARK), 0 },
+    { "S22", noise_near, LIGHT | NEAR | E(EMBOSSED) | E(OCTAVES) | E(FADED) | E(DARK), 0 },
+    { "S23", wood_of_no_amplitude, LIGHT | NEAR | E(GRAIN), 0 },
     { "S24", faces, LIGHT | NEAR | E(BUMP) | E(GRADIENT), 0 },
     { "S25", hidden_sphere, LIGHT | NEAR | ROUND | RELIEF | E(BETWEEN), 0 },
     { "S26", torus, LIGHT | NEAR | RELIEF | MET, 0 },
     { "S27", from_within, LIGHT | NEAR | ROUND | RELIEF | OPEN, 0 },
-    { "S28", NULL, 0, 0 },
+    { "S28", constant_surroundings,
+      LIGHT | NEAR | ROUND | RELIEF | E(SURROUND) | E(MIRROR) | E(DARK), 1e-5 },
     /* S29 and S30 are about a second picture: below */
     { "S31", not_a_number, LIGHT | NEAR | RELIEF | OPEN, 0 },
     { "S32", all_at_once,
@@ -656,7 +693,7 @@ static void the_guide_lists_them(void **state)
         if (there == (awaits && awaits < end)) fail_msg("S%02d: awaits or not?", s);
         awaiting += !there;
     }
-    assert_int_equal(awaiting, 4);
+    assert_int_equal(awaiting, 0);
     wr_free(page);
 }
 

@@ -203,6 +203,7 @@ static void the_plan_looks_at_what_says_so_and_at_nothing_else(void **state)
         { "surface sphere", "material model=torrance-sparrow" },
         { "surface sphere", "grain wood dark=0,0,0" },
         { "surface sphere", "grain marble light=0,0,0" },
+        { "surface sphere", "grain noise drives=bump height=0.01" },
     };
     static const double special[] = { 0, 1, 0.3, 2500, 1e-3 };
     bool seen[WR_SCENE_PARAM_COUNT] = { false };

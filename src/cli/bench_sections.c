@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/rows.h"
 #include "cli/bench.h"
+#include "cli/bench_matter.h"
 #include "image/image.h"
 #include "render/kern.h"
 #include "scene/dials.h"
@@ -156,11 +157,6 @@ static void exact(WrScene *scene)
     scene->bump = WR_BUMP_EXACT;
 }
 
-static void of_facets(WrScene *scene)
-{
-    scene->material.model = WR_REFLECT_GGX;
-}
-
 /* Instead of the lamp. */
 static void under_sky(WrScene *scene)
 {
@@ -172,11 +168,6 @@ static void under_sky(WrScene *scene)
 static void shadowed(WrScene *scene)
 {
     scene->material.shadow = true;
-}
-
-static void wooden(WrScene *scene)
-{
-    scene->grain = wr_grains[WR_GRAIN_WOOD].usual;
 }
 
 static void supersampled(WrScene *scene)
@@ -299,15 +290,19 @@ WR_ROWS(effects);
 static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_DIFFUSE)] = { BUMPED, .with = same },
     [WR_ROW(WR_EFFECT_SPECULAR)] = { BUMPED, .with = same },
-    [WR_ROW(WR_EFFECT_MODEL)] = { BUMPED, .with = of_facets, .without = same },
+    [WR_ROW(WR_EFFECT_MODEL)] = { BUMPED, .with = wr_bench_of_facets, .without = same },
     [WR_ROW(WR_EFFECT_SURROUND)] = { BUMPED, .with = under_sky, .without = same },
     [WR_ROW(WR_EFFECT_HARMONICS)] = { BUMPED, .with = under_sky },
     [WR_ROW(WR_EFFECT_MIRROR)] = { BUMPED, .with = under_sky },
     [WR_ROW(WR_EFFECT_BLUR)] = { BUMPED, .with = under_sky },
     [WR_ROW(WR_EFFECT_COLOUR)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = same },
     [WR_ROW(WR_EFFECT_TINT)] = { .surface = "sphere", .mode = WR_BENCH_TEXTURE, .with = filtered },
-    [WR_ROW(WR_EFFECT_GRAIN)] = { BUMPED, .with = wooden, .without = same },
-    [WR_ROW(WR_EFFECT_OCTAVES)] = { BUMPED, .with = wooden },
+    [WR_ROW(WR_EFFECT_VARIED)] = { BUMPED, .with = wr_bench_roughened,
+                                   .without = wr_bench_of_facets },
+    [WR_ROW(WR_EFFECT_EMBOSSED)] = { BUMPED, .with = wr_bench_embossed, .without = same },
+    [WR_ROW(WR_EFFECT_GRAIN)] = { BUMPED, .with = wr_bench_wooden, .without = same },
+    [WR_ROW(WR_EFFECT_OCTAVES)] = { BUMPED, .with = wr_bench_wooden },
+    [WR_ROW(WR_EFFECT_FADED)] = { BUMPED, .with = wr_bench_wooden_filtered },
     [WR_ROW(WR_EFFECT_NORMALS)] = { BUMPED, .with = mapped },
     [WR_ROW(WR_EFFECT_DISPLACED)] = { BUMPED, .with = displaced, .without = exact, .forced = true },
     [WR_ROW(WR_EFFECT_BUMP)] = { BUMPED, .with = same },

@@ -14,11 +14,14 @@ static bool untouched(const WrGrain *grain)
 {
     const WrGrain *usual = &wr_grains[WR_GRAIN_OFF].usual;
     return grain->kind == WR_GRAIN_OFF && grain->axis == usual->axis &&
+           grain->drives == usual->drives &&
            memcmp(grain->light, usual->light, sizeof grain->light) == 0 &&
            memcmp(grain->dark, usual->dark, sizeof grain->dark) == 0 &&
+           memcmp(grain->roughness, usual->roughness, sizeof grain->roughness) == 0 &&
            grain->rings == usual->rings && grain->share == usual->share &&
            grain->amount == usual->amount && grain->cells == usual->cells &&
-           grain->octaves == usual->octaves && grain->ratio == usual->ratio;
+           grain->octaves == usual->octaves && grain->ratio == usual->ratio &&
+           grain->edge == usual->edge && grain->height == usual->height;
 }
 
 static void print_grain(const WrScene *scene, WrText *text)
@@ -26,6 +29,8 @@ static void print_grain(const WrScene *scene, WrText *text)
     const WrGrain *grain = &scene->grain;
     if (untouched(grain)) return;
     wr_text_addf(text, "grain %s axis=%s", wr_grains[grain->kind].name, wr_grain_axes[grain->axis]);
+    if (grain->drives != WR_GRAIN_COLOURS)
+        wr_text_addf(text, " drives=%s", wr_grain_drives[grain->drives]);
     wr_scene_print_params("grain", NULL, scene, text);
     wr_text_add(text, "\n");
 }
@@ -36,11 +41,10 @@ static bool run_grain(WrSession *session, WrCall *call, WrError *err)
     const WrArg *kind = wr_call_arg(call, "KIND");
     WrScene *scene = wr_scene_clone(session->state.document->scene);
     WrGrain *grain = &scene->grain;
-    if (kind->given && kind->choice == WR_GRAIN_OFF) grain->kind = WR_GRAIN_OFF;
-    else if (kind->given && kind->choice != (int)grain->kind)
-        *grain = wr_grains[kind->choice].usual;
+    if (kind->given && kind->choice != (int)grain->kind) *grain = wr_grains[kind->choice].usual;
     wr_scene_take(call, NULL, scene);
     if (wr_call_given(call, "axis")) grain->axis = (WrGrainAxis)wr_call_choice(call, "axis");
+    if (wr_call_given(call, "drives")) grain->drives = 1 + wr_call_choice(call, "drives");
     wr_session_replace_scene(session, scene);
     return true;
 }
@@ -48,6 +52,11 @@ static bool run_grain(WrSession *session, WrCall *call, WrError *err)
 static const char *axis_choice(int i)
 {
     return i < WR_GRAIN_AXES ? wr_grain_axes[i] : NULL;
+}
+
+static const char *drive_choice(int i)
+{
+    return i + 1 < WR_GRAIN_DRIVES ? wr_grain_drives[i + 1] : NULL;
 }
 
 static const char *kind_choice(int i)
@@ -68,8 +77,12 @@ static bool row_grain(WrForm *out)
                             { .name = "axis",
                               .type = WR_ARG_CHOICE,
                               .choice = axis_choice,
-                              .help = "of the object, which rings go round and bands along" } } };
-    return wr_scene_args("grain", NULL, out->args + 2) > 0;
+                              .help = "of the object, which rings go round and bands along" },
+                            { .name = "drives",
+                              .type = WR_ARG_CHOICE,
+                              .choice = drive_choice,
+                              .help = "what the pattern changes; colour unless told" } } };
+    return wr_scene_args("grain", NULL, out->args + 3) > 0;
 }
 
 const WrCommand wr_command_grain = {
@@ -81,8 +94,11 @@ const WrCommand wr_command_grain = {
     .of_object = true,
     .help = "a solid texture that the object is cut out of",
     .details = "It goes through the object and turns with it: rings of wood end where it is cut "
-               "open. Its colours are multiplied with the material's and the colour picture's. Of "
-               "another kind than before all numbers that are not given are that kind's usual "
-               "ones; else only what is given changes. off keeps the numbers.",
+               "open. Its colours are multiplied with the material's and the colour picture's; as "
+               "bump it is a height that turns the normal, and as roughness it goes from smooth "
+               "to rough. Under dials aa=filter or moments, and on ground without end, what is "
+               "finer than a pixel is its mean. Of another kind than before all numbers that are "
+               "not given are that kind's usual ones; else only what is given changes. off "
+               "forgets them all.",
     .example = "grain wood rings=12 amount=0.6"
 };

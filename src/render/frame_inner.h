@@ -7,6 +7,7 @@
 #include "render/dice.h"
 #include "render/frame.h"
 #include "render/keep.h"
+#include "render/grades.h"
 #include "render/mirror.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
@@ -38,6 +39,7 @@ struct WrRenderer {
     WrTint tint;
     WrRelief relief;
     WrMirror mirror;
+    WrGrades grades;   /* the same by rungs */
     WrHorizon horizon; /* of the table with this key, times this sign */
     uint64_t horizon_key;
     double horizon_sign;

@@ -1,5 +1,6 @@
 /* What a frame's surface is rasterised from: a grid of points that is cut for the view, or a mesh out of a file. */
 #include "base/error.h"
+#include "base/exactmath.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "field/scheme.h"
@@ -17,6 +18,17 @@ void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but)
         if (&renderer->meshes[i] != but) wr_view_mesh_fini(&renderer->meshes[i]);
 }
 
+/* How many sixteenths of a solid texture's rings, or of its finest cells, an object may hold all round. */
+static double grains(const WrRenderer *renderer, const WrScene *scene)
+{
+    const WrGrain *grain = &scene->grain;
+    if (renderer->plan.grain == WR_GRAIN_OFF) return 0;
+    const WrGrainInfo *info = &wr_grains[grain->kind];
+    const double rings = info->ringed ? grain->rings : 0;
+    const double cells = info->noisy ? ldexp(grain->cells, (int)grain->octaves - 1) : 0;
+    return 16 * 2 * WR_PI * fmax(rings, cells) / renderer->view.scale;
+}
+
 /* Passes of one picture, which hold what they make, differ in their samples: each number keeps its mesh. */
 static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
                          const WrKernels *kernels)
@@ -26,8 +38,12 @@ static void prepare_mesh(WrRenderer *renderer, const WrFrameRequest *request,
     const WrMeshAsk ask = { .mesh = plan->mesh,
                             .newton = plan->newton,
                             .texels = plan->texels,
-                            .table_w = fabs(scene->replicate_u) * wr_field_width(request->field),
-                            .table_h = fabs(scene->replicate_v) * wr_field_height(request->field) };
+                            .table_w =
+                                fmax(grains(renderer, scene),
+                                     fabs(scene->replicate_u) * wr_field_width(request->field)),
+                            .table_h =
+                                fmax(grains(renderer, scene),
+                                     fabs(scene->replicate_v) * wr_field_height(request->field)) };
     int slot = 0;
     while (slot + 1 < WR_HELD_MESHES && 1 << slot < plan->samples) slot++;
     const bool grid = plan->inversion == WR_INVERT_MESH && wr_plan_runs(plan, WR_EFFECT_DEPTH);

@@ -22,6 +22,7 @@ void wr_frame_drop_tables(WrRenderer *renderer)
     wr_tint_drop(&renderer->tint);
     wr_relief_drop(&renderer->relief);
     wr_mirror_drop(&renderer->mirror);
+    wr_grades_drop(&renderer->grades);
     wr_horizon_drop(&renderer->horizon);
     wr_opening_table_drop(&renderer->opening);
     wr_frames_drop(&renderer->frames);
@@ -137,7 +138,12 @@ static bool bring_mirror(WrRenderer *renderer, const WrFrameRequest *request, Wr
     const WrSurround *light = request->scene->environment.light;
     const bool blurred = wr_plan_runs(plan, WR_EFFECT_BLUR);
     WrGloss gloss;
-    if (!wr_plan_runs(plan, WR_EFFECT_MIRROR) || (light->even && !blurred)) {
+    if (!plan->graded && !request->hold) wr_grades_drop(&renderer->grades);
+    if (plan->graded || wr_plan_runs(plan, WR_EFFECT_VARIED)) {
+        if (!wr_grades_bring(&renderer->grades, request->scene, plan, renderer->pool, err))
+            return false;
+    }
+    if (plan->graded || !wr_plan_runs(plan, WR_EFFECT_MIRROR) || (light->even && !blurred)) {
         wr_mirror_drop(&renderer->mirror);
         return true;
     }
@@ -379,8 +385,8 @@ static void fill_map(const WrRenderer *renderer, const WrFrameRequest *request, 
 
 static void fill_grain(const WrPlan *plan, const WrGrain *grain, double scale, WrTileJob *job)
 {
-    wr_grain_kern_fill(grain, plan->grain, wr_plan_runs(plan, WR_EFFECT_OCTAVES), scale,
-                       &job->grain_double);
+    wr_grain_kern_fill(grain, plan->grain, wr_plan_runs(plan, WR_EFFECT_OCTAVES),
+                       wr_plan_runs(plan, WR_EFFECT_FADED), scale, &job->grain_double);
     wr_grain_kern_narrow(&job->grain_double, &job->grain);
 }
 
@@ -410,13 +416,17 @@ void wr_frame_fill_looks(const WrRenderer *renderer, const WrFrameRequest *reque
     job->opening = &renderer->opening;
     job->relief_height = fabs(request->scene->height) * scale;
     fill_level(renderer, request, job);
-    if (wr_plan_runs(&renderer->plan, WR_EFFECT_GRAIN))
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_GRAIN) ||
+        wr_plan_runs(&renderer->plan, WR_EFFECT_EMBOSSED) ||
+        wr_plan_runs(&renderer->plan, WR_EFFECT_VARIED))
         fill_grain(&renderer->plan, &request->scene->grain, renderer->view.scale, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_MODEL)) fill_matter(&renderer->plan, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_SURROUND) ||
         wr_plan_runs(&renderer->plan, WR_EFFECT_MIRROR))
         wr_surround_look(request->scene, &renderer->plan, renderer->view.rotation,
                          &renderer->mirror, &job->surround);
+    if (wr_plan_runs(&renderer->plan, WR_EFFECT_VARIED) || renderer->plan.graded)
+        wr_grades_fill(&renderer->grades, request->scene, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_COLOUR)) fill_colour(renderer, request, job);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_NORMALS)) fill_map(renderer, request, scale, job);
 }

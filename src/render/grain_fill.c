@@ -2,14 +2,20 @@
 
 #include "noise/octaves.h"
 
-void wr_grain_kern_fill(const WrGrain *grain, WrGrainKind kind, bool noisy, double scale,
-                        WrKernGraind *out)
+void wr_grain_kern_fill(const WrGrain *grain, WrGrainKind kind, bool noisy, bool faded,
+                        double scale, WrKernGraind *out)
 {
+    const WrGrainNoise of = wr_grains[grain->kind].noise;
     WrOctavesPlan noise;
     wr_grain_noise(grain, &noise);
     *out = (WrKernGraind){ .kind = kind,
                            .axis = grain->axis,
-                           .creased = wr_grains[grain->kind].creased,
+                           .noise = of,
+                           .faded = faded,
+                           .mean = wr_grain_means[of],
+                           .variance = wr_grain_variances[of],
+                           .edge = wr_grain_edge(grain),
+                           .height = grain->height * scale,
                            .rings = grain->rings / scale,
                            .share = grain->share,
                            .amount = grain->amount,
@@ -28,7 +34,12 @@ void wr_grain_kern_narrow(const WrKernGraind *grain, WrKernGrain *out)
 {
     *out = (WrKernGrain){ .kind = grain->kind,
                           .axis = grain->axis,
-                          .creased = grain->creased,
+                          .noise = grain->noise,
+                          .faded = grain->faded,
+                          .mean = (float)grain->mean,
+                          .variance = (float)grain->variance,
+                          .edge = (float)grain->edge,
+                          .height = (float)grain->height,
                           .rings = (float)grain->rings,
                           .share = (float)grain->share,
                           .amount = (float)grain->amount,

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-/* kind: of the plan; noisy: its noise is worked out; scale: object units -> kernel units. */
-void wr_grain_kern_fill(const WrGrain *grain, WrGrainKind kind, bool noisy, double scale,
-                        WrKernGraind *out);
+/* kind: of the plan; noisy: its noise is worked out; faded: over pixels; scale: object units -> kernel units. */
+void wr_grain_kern_fill(const WrGrain *grain, WrGrainKind kind, bool noisy, bool faded,
+                        double scale, WrKernGraind *out);
 void wr_grain_kern_narrow(const WrKernGraind *grain, WrKernGrain *out);

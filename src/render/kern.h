@@ -12,6 +12,7 @@
 #include "shade/grain.h"
 #include "shade/reflect.h"
 #include "shade/surround.h"
+#include "shade/vary.h"
 #include "surface/surface.h"
 
 #include <stdbool.h>
@@ -79,6 +80,12 @@ typedef enum WrReflectSpread {
     WR_REFLECT_LEAN,
     WR_REFLECT_ROUND
 } WrReflectSpread;
+
+/* Surroundings blurred by one width, as WrKernMirror has them. */
+typedef struct WrKernRung {
+    const float *rgba;
+    int pitch, width, height;
+} WrKernRung;
 
 #define REAL float
 #define SHAPE WrShapef

@@ -51,6 +51,7 @@
 #define SURROUND WrKernSurroundd
 #define MIRROR WrKernMirrord
 #define GRAIN WrKernGraind
+#define VARY WrKernVaryd
 #define NEWTON WrNewtond
 #define KERNELS WrKernelsd
 #define WR_FORMULA_FLOAT /* the formulas alone, without the surfaces' rows */
@@ -73,6 +74,7 @@
 #define SURROUND WrKernSurround
 #define MIRROR WrKernMirror
 #define GRAIN WrKernGrain
+#define VARY WrKernVary
 #define NEWTON WrNewton
 #define KERNELS WrKernels
 #endif
@@ -206,8 +208,10 @@ ALWAYS VEC unit_or(VEC a, VEC otherwise)
 #include "render/kern_reflect_body.h"
 #include "shade/surround_body.h"
 #include "render/kern_surround_body.h"
+#include "render/kern_vary_body.h"
 #include "render/kern_dark_body.h"
 #include "render/kern_filter_body.h"
+#include "shade/grain_body.h"
 #include "render/kern_grain_body.h"
 #include "render/kern_moments_body.h"
 #include "render/kern_bound_body.h"
@@ -282,6 +286,8 @@ const KERNELS WR_KERN_TABLE = {
     .colour = kern_colour,
     .colour_pyramid = kern_colour_pyramid,
     .grain = kern_grain,
+    .grain_bump = kern_grain_bump,
+    .grain_rough = kern_grain_rough,
     .view = kern_view,
     .begin = kern_begin,
     .light = kern_light,
@@ -295,6 +301,9 @@ const KERNELS WR_KERN_TABLE = {
         [WR_REFLECT_OREN_NAYAR] = { kern_matt_1, kern_matt_0 },
         [WR_REFLECT_GGX] = { kern_ggx_1, kern_ggx_0 },
     },
+    .reflect_vary = kern_reflect_vary,
+    .surround_vary = kern_surround_vary,
+    .mirror_vary = kern_mirror_vary,
     .surround = { { kern_surround_00, kern_surround_01, kern_surround_02 },
                   { kern_surround_10, kern_surround_11, kern_surround_12 } },
     .mirror = kern_mirror,

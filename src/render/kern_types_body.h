@@ -26,6 +26,7 @@ typedef struct WR_T(WrStrip) {
     REAL vx[WR_SPAN], vy[WR_SPAN], vz[WR_SPAN]; /* unit, towards the viewer */
     REAL lx[WR_SPAN], ly[WR_SPAN], lz[WR_SPAN]; /* unit, towards the light at hand */
     REAL n_dot_l[WR_SPAN];
+    REAL rough[WR_SPAN], metal[WR_SPAN];        /* only where they are not the same everywhere */
     REAL dr[WR_SPAN], dg[WR_SPAN], db[WR_SPAN]; /* ambient and diffuse sums */
     REAL sr[WR_SPAN], sg[WR_SPAN], sb[WR_SPAN]; /* specular sums */
     REAL cr[WR_SPAN], cg[WR_SPAN], cb[WR_SPAN]; /* C(u,v), then the finished colour */
@@ -109,12 +110,15 @@ typedef struct WR_T(WrKernMatter) {
     REAL kd, ks, colour[3], shininess, scale, alpha, ior, f0, metal, a, b, mean, again;
     REAL albedo[WR_ALBEDO_TERMS];
 } WR_T(WrKernMatter);
-/* A solid texture as kernels want it: frequencies and rings a kernel unit; octaves 0: no noise. */
+
+/* A solid texture as kernels want it: frequencies and rings a kernel unit; octaves 0: no noise. faded: over what pixels
+   hold. height: of bumps, kernel units. mean, variance: of an octave. */
 typedef struct WR_T(WrKernGrain) {
     WrGrainKind kind;
     WrGrainAxis axis;
-    bool creased;
-    REAL light[3], dark[3], rings, share, amount;
+    WrGrainNoise noise;
+    bool faded;
+    REAL light[3], dark[3], rings, share, amount, edge, height, mean, variance;
     int octaves;
     uint32_t start[WR_GRAIN_OCTAVES]; /* of the chain of hashes */
     REAL frequency[WR_GRAIN_OCTAVES], amplitude[WR_GRAIN_OCTAVES], offset[WR_GRAIN_OCTAVES][3];
@@ -138,6 +142,15 @@ typedef struct WR_T(WrKernMirror) {
     int pitch, width, height;
     REAL even[3];
 } WR_T(WrKernMirror);
+/* WrVary's numbers (shade/vary.h), and what is mirrored, rung by rung. */
+typedef struct WR_T(WrKernVary) {
+    bool metals; /* metal has no diffuse light */
+    REAL mean[WR_VARY_STEPS], again[WR_VARY_STEPS];
+    REAL albedo[WR_VARY_STEPS][WR_ALBEDO_TERMS], matt[WR_VARY_STEPS][WR_ALBEDO_TERMS];
+    REAL twice[WR_VARY_STEPS][WR_ALBEDO_TERMS];
+    REAL own[2][WR_VARY_STEPS][WR_ALBEDO_TERMS], white[2][WR_VARY_STEPS][WR_ALBEDO_TERMS];
+    WrKernRung rung[WR_VARY_RUNGS];
+} WR_T(WrKernVary);
 typedef void (*WR_T(WrSurroundKernel))(const WR_T(WrKernSurround) * how, WR_T(WrStrip) * strip);
 
 typedef void (*WR_T(WrShadeKernel))(const WR_T(WrRays) * rays, const WR_T(WrKernLight) * light,
@@ -230,8 +243,15 @@ typedef struct WR_T(WrKernels) {
     void (*colour)(const WrColourLook *look, WR_T(WrStrip) * strip); /* after begin */
     /* C from its pyramid at u, v and level. */
     void (*colour_pyramid)(const WR_T(WrLook) * look, WR_T(WrStrip) * strip);
-    /* C times the solid texture at P; over: `colour` has brought C, else it is 1. */
-    void (*grain)(const WR_T(WrKernGrain) * grain, bool over, WR_T(WrStrip) * strip);
+    /* C times the solid texture at P; over: `colour` has brought C, else it is 1. rays: of faded ones; with x, y. */
+    void (*grain)(const WR_T(WrRays) * rays, const WR_T(WrKernGrain) * grain, bool over,
+                  WR_T(WrStrip) * strip);
+    /* n' once more from what its height is at P; after bump. */
+    void (*grain_bump)(const WR_T(WrRays) * rays, const WR_T(WrKernGrain) * grain,
+                       WR_T(WrStrip) * strip);
+    /* rough from low to high by the solid texture at P. */
+    void (*grain_rough)(const WR_T(WrRays) * rays, const WR_T(WrKernGrain) * grain, REAL low,
+                        REAL high, WR_T(WrStrip) * strip);
     void (*light)(const WR_T(WrKernLight) * light, WR_T(WrStrip) * strip);
     void (*diffuse)(const WR_T(WrKernLight) * light, REAL kd, WR_T(WrStrip) * strip);
     void (*specular)(const WR_T(WrKernLight) * light, REAL ks, REAL shininess, bool gate,
@@ -243,6 +263,14 @@ typedef struct WR_T(WrKernels) {
                              WR_T(WrStrip) * strip);
     /* Diffuse light and highlight of other models, as published or kept; NULL: Blinn-Phong's is made of the above. */
     WR_T(WrReflectKernel) reflect[WR_REFLECT_COUNT][WR_ENERGY_COUNT];
+    /* The same, and of surroundings, by rough and metal of each sample; what is mirrored also as wide as slopes spread. */
+    void (*reflect_vary)(const WR_T(WrKernLight) * light, const WR_T(WrKernMatter) * matter,
+                         const WR_T(WrKernVary) * vary, WrReflect model, bool kept,
+                         WrReflectSpread how, WR_T(WrStrip) * strip);
+    void (*surround_vary)(const WR_T(WrKernSurround) * how, const WR_T(WrKernVary) * vary,
+                          WR_T(WrStrip) * strip);
+    void (*mirror_vary)(const WR_T(WrKernMirror) * how, const WR_T(WrKernVary) * vary, bool spread,
+                        WR_T(WrStrip) * strip);
     /* Diffuse light of surroundings; after `view` where it is not Lambert's: [by n', else of one colour] [0: Lambert's;
        1: by matt; 2: and again]. */
     WR_T(WrSurroundKernel) surround[2][3];

@@ -29,6 +29,7 @@
 #define MAP_OF(job) (&(job)->relief)
 #define TINT_OF(job) (&(job)->tint)
 #define GRAIN_OF(job) (&(job)->grain)
+#define VARY_OF(job) (&(job)->vary)
 #define VIEWED(view, member) ((view)->member)
 #define MORE_STEPS 0 /* more steps of Newton's method than single precision needs */
 #define TURN 0x1p-18 /* part of a tangent that Newton's last step may change it by */

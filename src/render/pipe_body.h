@@ -143,6 +143,7 @@ static void bend_strip(const WrTileJob *job, const Rays *rays, bool level, const
     scratch->ran |= normal_effects[bump] &
                     (runs(job, WR_EFFECT_BUMP) ? ~(WrEffects)0 : ~WR_EFFECT_BIT(WR_EFFECT_BUMP));
     watch_lap(watch, WR_STAGE_BUMP);
+    if (runs(job, WR_EFFECT_EMBOSSED)) emboss(job, rays, strip, watch);
     if (runs(job, WR_EFFECT_SPREAD) && lit(sink)) {
         k->widen(job->plan->bump == WR_BUMP_INVARIANT, strip);
         did(watch, WR_EFFECT_SPREAD);
@@ -405,7 +406,7 @@ static void row_places(const WrDepthTile *tile, int y, WrScatter *places)
 static void note_places(const WrTileJob *job, const WrSink *sink, REAL gx, REAL gy, Strip *strip)
 {
     if (!runs(job, WR_EFFECT_FILTER) && !runs(job, WR_EFFECT_TINT) && !job->plan->map_filtered &&
-        !sink->bound && !job->map && !runs(job, WR_EFFECT_HORIZON))
+        !sink->bound && !job->map && !runs(job, WR_EFFECT_HORIZON) && !runs(job, WR_EFFECT_FADED))
         return;
     for (int i = 0; i < strip->count; i++) {
         strip->x[i] = gx + (REAL)strip->index[i];

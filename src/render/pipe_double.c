@@ -29,6 +29,7 @@
 #define MAP_OF(job) (&(job)->relief_double)
 #define TINT_OF(job) (&(job)->tint_double)
 #define GRAIN_OF(job) (&(job)->grain_double)
+#define VARY_OF(job) (&(job)->vary_double)
 #define VIEWED(view, member) ((view)->member##_d)
 #define MORE_STEPS 1 /* one step of Newton's method more: twice the digits */
 #define TURN 0x1p-47 /* part of a tangent that Newton's last step may change it by */

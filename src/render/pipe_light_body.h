@@ -65,7 +65,10 @@ static void reflect_strip(const WrTileJob *job, const WR_T(WrKernLight) * light,
     const WrReflectSpread how = !runs(job, WR_EFFECT_SPREAD) ? WR_REFLECT_AS_IT_IS
                                 : job->plan->lean            ? WR_REFLECT_LEAN
                                                              : WR_REFLECT_ROUND;
-    reflect_of(job)(light, &matter, how, strip);
+    if (runs(job, WR_EFFECT_VARIED))
+        KERNELS_OF(job)->reflect_vary(light, &matter, VARY_OF(job), job->plan->model,
+                                      job->scene->material.energy == WR_ENERGY_KEPT, how, strip);
+    else reflect_of(job)(light, &matter, how, strip);
     if (runs(job, WR_EFFECT_DIFFUSE)) did(watch, WR_EFFECT_DIFFUSE);
     if (shines) did(watch, WR_EFFECT_SPECULAR);
     did(watch, WR_EFFECT_MODEL);
@@ -119,7 +122,9 @@ static void surround_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 {
     const WrSurroundLook *look = &job->surround;
     const bool turns = runs(job, WR_EFFECT_HARMONICS);
-    KERNELS_OF(job)->surround[turns][look->shares](SURROUND_OF(look), strip);
+    if (runs(job, WR_EFFECT_VARIED))
+        KERNELS_OF(job)->surround_vary(SURROUND_OF(look), VARY_OF(job), strip);
+    else KERNELS_OF(job)->surround[turns][look->shares](SURROUND_OF(look), strip);
     if (turns) did(watch, WR_EFFECT_HARMONICS);
     did(watch, WR_EFFECT_SURROUND);
     watch_lap(watch, WR_STAGE_SURROUND);
@@ -131,7 +136,9 @@ static void mirror_strip(const WrTileJob *job, Strip *strip, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
     const WrSurroundLook *look = &job->surround;
-    (look->mirror.rgba ? k->mirror : k->mirror_even)(MIRROR_OF(look), strip);
+    if (job->plan->graded)
+        k->mirror_vary(MIRROR_OF(look), VARY_OF(job), runs(job, WR_EFFECT_SPREAD), strip);
+    else (look->mirror.rgba ? k->mirror : k->mirror_even)(MIRROR_OF(look), strip);
     if (runs(job, WR_EFFECT_BLUR)) did(watch, WR_EFFECT_BLUR);
     did(watch, WR_EFFECT_MIRROR);
     watch_lap(watch, WR_STAGE_MIRROR);
@@ -180,6 +187,7 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
     REAL *const sums[3] = { strip->dr, strip->dg, strip->db };
     open_strip(job, NULL, sums, strip, watch);
     bring_colour(job, rays, strip, watch->scratch, watch);
+    if (runs(job, WR_EFFECT_VARIED) || job->plan->graded) bring_roughness(job, rays, strip, watch);
     stretch_strip(job->view, strip);
     const bool viewed =
         specular || reflect_of(job) || job->surround.shares > 0 || runs(job, WR_EFFECT_MIRROR);

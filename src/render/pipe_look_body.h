@@ -288,6 +288,13 @@ static bool pictured(const WrTileJob *job)
     return runs(job, WR_EFFECT_COLOUR) || runs(job, WR_EFFECT_GRAIN);
 }
 
+static void note_grain(const WrTileJob *job, Watch *watch)
+{
+    if (runs(job, WR_EFFECT_OCTAVES)) did(watch, WR_EFFECT_OCTAVES);
+    if (runs(job, WR_EFFECT_FADED)) did(watch, WR_EFFECT_FADED);
+    watch_lap(watch, WR_STAGE_GRAIN);
+}
+
 /* C of the colour picture, of the solid texture at P, or of both. */
 static void bring_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
                          WrTileScratch *scratch, Watch *watch)
@@ -295,8 +302,29 @@ static void bring_colour(const WrTileJob *job, const Rays *rays, Strip *strip,
     const bool over = runs(job, WR_EFFECT_COLOUR);
     if (over) look_colour(job, rays, strip, scratch, watch);
     if (!runs(job, WR_EFFECT_GRAIN)) return;
-    KERNELS_OF(job)->grain(GRAIN_OF(job), over, strip);
+    KERNELS_OF(job)->grain(rays, GRAIN_OF(job), over, strip);
     did(watch, WR_EFFECT_GRAIN);
-    if (runs(job, WR_EFFECT_OCTAVES)) did(watch, WR_EFFECT_OCTAVES);
-    watch_lap(watch, WR_STAGE_GRAIN);
+    note_grain(job, watch);
+}
+
+/* Roughness and metalness of each sample. */
+static void bring_roughness(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
+{
+    const double *by = job->scene->grain.roughness;
+    for (int i = 0; i < strip->count; i++) {
+        strip->rough[i] = (REAL)job->rough;
+        strip->metal[i] = (REAL)job->scene->material.metalness;
+    }
+    if (!runs(job, WR_EFFECT_VARIED)) return;
+    KERNELS_OF(job)->grain_rough(rays, GRAIN_OF(job), (REAL)by[0], (REAL)by[1], strip);
+    did(watch, WR_EFFECT_VARIED);
+    note_grain(job, watch);
+}
+
+/* n' of the solid texture's heights. */
+static void emboss(const WrTileJob *job, const Rays *rays, Strip *strip, Watch *watch)
+{
+    KERNELS_OF(job)->grain_bump(rays, GRAIN_OF(job), strip);
+    did(watch, WR_EFFECT_EMBOSSED);
+    note_grain(job, watch);
 }

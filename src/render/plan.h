@@ -35,8 +35,11 @@ typedef enum WrEffect {
     WR_EFFECT_BLUR,
     WR_EFFECT_COLOUR,
     WR_EFFECT_TINT,
+    WR_EFFECT_VARIED,
+    WR_EFFECT_EMBOSSED,
     WR_EFFECT_GRAIN,
     WR_EFFECT_OCTAVES,
+    WR_EFFECT_FADED,
     WR_EFFECT_NORMALS,
     WR_EFFECT_DISPLACED,
     WR_EFFECT_BUMP,
@@ -170,7 +173,7 @@ typedef enum WrPrecision {
    renderer reads these and the rows, and neither scene nor dials, to choose what it does.
      model       how lamps are reflected; blinn-phong where that comes to the same
      tint        share of highlights that has the surface's colour
-     grain       of the solid texture; off: its first colour alone
+     grain       the solid texture's pattern; off: none is worked out, of colours the first is all
      map_filtered, map_anisotropic    the normal map's slopes over footprints
      map_frame   what its vectors are turned by; gradient where there are none
      bump        as simplified: BLINN for exact on a flat base, ...
@@ -180,6 +183,7 @@ typedef enum WrPrecision {
      samples     K of K x K; 1 where one sample is taken
      anisotropic, tint_anisotropic    of several look-ups
      lean        by the whole covariance; else by its trace
+     graded      what is mirrored is blurred as widely as each sample calls for
      inversion   how rays meet the surface
      mesh, newton, texels, dice, spread, refine, contrast    as the dials of that name
      heights     what they are rounded to
@@ -211,6 +215,7 @@ typedef enum WrPrecision {
     X(NEWTON, int, newton)                                                                         \
     X(NEWTON, double, texels)                                                                      \
     X(SPREAD, bool, lean)                                                                          \
+    X(SPREAD, bool, graded)                                                                        \
     X(ROUNDED, WrHeights, heights)                                                                 \
     X(DOUBLE, bool, shading_double)                                                                \
     X(DOUBLE, WrPrecision, precision)

@@ -34,8 +34,18 @@ static inline bool wants_filter(const WrDials *dials)
     return dials->aa == WR_AA_FILTER || dials->aa == WR_AA_MOMENTS;
 }
 
+/* Does the material's roughness change from place to place? */
+static inline bool roughens(const WrScene *scene)
+{
+    return scene->grain.kind != WR_GRAIN_OFF && scene->grain.drives & WR_GRAIN_ROUGHENS &&
+           wr_reflects[scene->material.model].roughness;
+}
+
 /* Does light of surroundings depend on n'? */
 bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene);
+
+/* Is what is mirrored blurred as widely as each sample calls for? */
+bool wr_plan_graded(const WrPlan *plan, const WrScene *scene);
 
 /* Does anything depend on n'? */
 static inline bool lit(const WrPlan *plan, const WrPlanAsk *ask)
@@ -58,7 +68,8 @@ WrDecide wr_decide_back, wr_decide_depth, wr_decide_newton, wr_decide_perspectiv
     wr_decide_blocks, wr_decide_horizon, wr_decide_normals, wr_decide_diffuse, wr_decide_specular,
     wr_decide_model, wr_decide_shadow, wr_decide_occlusion, wr_decide_filter, wr_decide_surround,
     wr_decide_harmonics, wr_decide_mirror, wr_decide_blur, wr_decide_displaced, wr_decide_exact,
-    wr_decide_curvature, wr_decide_grain, wr_decide_octaves;
+    wr_decide_curvature, wr_decide_grain, wr_decide_octaves, wr_decide_faded, wr_decide_embossed,
+    wr_decide_varied;
 WrSettle wr_settle_filter, wr_settle_depth, wr_settle_newton, wr_settle_tint, wr_settle_normals,
     wr_settle_model, wr_settle_occlusion, wr_settle_harmonics, wr_settle_blur, wr_settle_displaced,
     wr_settle_exact, wr_settle_curvature, wr_settle_grain;

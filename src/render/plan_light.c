@@ -38,10 +38,11 @@ WrVerdict wr_decide_specular(const WrPlan *plan, const WrPlanAsk *ask, const cha
 }
 
 /* Why Blinn-Phong's stages do what another model would, or NULL. */
-static const char *same_model(const WrPlan *plan, const WrMaterial *m)
+static const char *same_model(const WrPlan *plan, const WrScene *scene)
 {
     const bool shines = runs(plan, WR_EFFECT_SPECULAR);
-    if (m->model == WR_REFLECT_OREN_NAYAR && m->roughness == 0)
+    const WrMaterial *m = &scene->material;
+    if (m->model == WR_REFLECT_OREN_NAYAR && m->roughness == 0 && !roughens(scene))
         return "facets of roughness 0 are matt as a whole: Lambert's";
     if (m->model != WR_REFLECT_OREN_NAYAR && m->model != WR_REFLECT_GGX && !shines)
         return "without a highlight it is Lambert's";
@@ -55,7 +56,7 @@ WrVerdict wr_decide_model(const WrPlan *plan, const WrPlanAsk *ask, const char *
         return say(WR_VERDICT_NONE, why, "the material is Blinn-Phong's, its highlight white");
     if (!runs(plan, WR_EFFECT_SPECULAR) && !runs(plan, WR_EFFECT_DIFFUSE))
         return say(WR_VERDICT_NONE, why, "no light is worked out");
-    const char *reason = same_model(plan, m);
+    const char *reason = same_model(plan, ask->scene);
     if (reason) return say(WR_VERDICT_SPARED, why, reason);
     return say(WR_VERDICT_RUN, why,
                m->model == WR_REFLECT_BLINN_PHONG ? "the highlight has the material's colour"
@@ -68,6 +69,19 @@ void wr_settle_model(WrPlan *plan, const WrPlanAsk *ask)
     const bool run = runs(plan, WR_EFFECT_MODEL);
     plan->model = run ? m->model : WR_REFLECT_BLINN_PHONG;
     plan->tint = run && runs(plan, WR_EFFECT_SPECULAR) ? m->tint : 0;
+}
+
+WrVerdict wr_decide_varied(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrScene *scene = ask->scene;
+    if (scene->grain.kind == WR_GRAIN_OFF || !(scene->grain.drives & WR_GRAIN_ROUGHENS))
+        return say(WR_VERDICT_NONE, why, "roughness is the same everywhere");
+    if (!roughens(scene))
+        return say(WR_VERDICT_NONE, why, "the reflection model goes by no roughness");
+    if (!runs(plan, WR_EFFECT_MODEL) && !runs(plan, WR_EFFECT_SURROUND) &&
+        !runs(plan, WR_EFFECT_MIRROR))
+        return say(WR_VERDICT_NONE, why, "no light is worked out that goes by roughness");
+    return say(WR_VERDICT_RUN, why, "the solid texture drives roughness");
 }
 
 /* Why the relief's horizon is not known, or NULL. */

@@ -81,16 +81,43 @@ WrVerdict wr_decide_grain(const WrPlan *plan, const WrPlanAsk *ask, const char *
     (void)plan;
     if (grain->kind == WR_GRAIN_OFF)
         return say(WR_VERDICT_NONE, why, "the object has no solid texture");
+    if (!(grain->drives & WR_GRAIN_COLOURS))
+        return say(WR_VERDICT_NONE, why, "the solid texture drives no colour");
     if (all_white(grain)) return say(WR_VERDICT_SPARED, why, "both its colours are white");
     if (one_colour(grain))
         return say(WR_VERDICT_RUN, why, "both its colours are one: no pattern is worked out");
     return say(WR_VERDICT_RUN, why, "the object is cut out of it");
 }
 
+/* Why the solid texture turns no normal, or NULL if it does. */
+static const char *no_embossing(const WrPlan *plan, const WrPlanAsk *ask)
+{
+    const WrGrain *grain = &ask->scene->grain;
+    if (grain->height == 0) return "the solid texture's height is 0";
+    if (!lit(plan, ask)) return "no light depends on the normal";
+    return NULL;
+}
+
+WrVerdict wr_decide_embossed(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const WrGrain *grain = &ask->scene->grain;
+    if (grain->kind == WR_GRAIN_OFF)
+        return say(WR_VERDICT_NONE, why, "the object has no solid texture");
+    if (!(grain->drives & WR_GRAIN_BUMPS))
+        return say(WR_VERDICT_NONE, why, "the solid texture drives no bump");
+    const char *reason = no_embossing(plan, ask);
+    if (reason) return say(WR_VERDICT_SPARED, why, reason);
+    return say(WR_VERDICT_RUN, why, "the solid texture has heights and a light shows them");
+}
+
+/* Is its pattern asked for? */
 void wr_settle_grain(WrPlan *plan, const WrPlanAsk *ask)
 {
     const WrGrain *grain = &ask->scene->grain;
-    plan->grain = runs(plan, WR_EFFECT_GRAIN) && !one_colour(grain) ? grain->kind : WR_GRAIN_OFF;
+    const bool coloured = runs(plan, WR_EFFECT_GRAIN) && !one_colour(grain);
+    plan->grain = coloured || runs(plan, WR_EFFECT_EMBOSSED) || runs(plan, WR_EFFECT_VARIED)
+                      ? grain->kind
+                      : WR_GRAIN_OFF;
 }
 
 WrVerdict wr_decide_octaves(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
@@ -102,6 +129,18 @@ WrVerdict wr_decide_octaves(const WrPlan *plan, const WrPlanAsk *ask, const char
     if (ask->scene->grain.amount == 0)
         return say(WR_VERDICT_SPARED, why, "the solid texture's noise has the amount 0");
     return say(WR_VERDICT_RUN, why, "noise moves the solid texture");
+}
+
+WrVerdict wr_decide_faded(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    const bool endless = wr_shape_endless(&ask->scene->shape) && !ask->scene->camera.orthographic;
+    if (plan->grain == WR_GRAIN_OFF)
+        return say(WR_VERDICT_NONE, why, "no solid pattern is worked out");
+    if (!wants_filter(ask->dials) && !endless)
+        return say(WR_VERDICT_NONE, why, "the dials ask for no filtering");
+    return say(WR_VERDICT_RUN, why,
+               endless ? "towards the horizon pixels hold any number of its rings"
+                       : "octaves finer than pixels are their mean, and edges as wide as pixels");
 }
 
 /* ---- a normal map ---- */

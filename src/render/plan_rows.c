@@ -186,7 +186,7 @@ static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const c
         return say(WR_VERDICT_NONE, why, "the dials do not ask for moments");
     if (!runs(plan, WR_EFFECT_FILTER) && !plan->map_filtered)
         return say(WR_VERDICT_NONE, why, "nothing is filtered");
-    if (!runs(plan, WR_EFFECT_SPECULAR))
+    if (!runs(plan, WR_EFFECT_SPECULAR) && !runs(plan, WR_EFFECT_MIRROR))
         return say(WR_VERDICT_NONE, why, "there is no highlight to widen");
     return say(WR_VERDICT_RUN, why,
                ask->dials->moments == WR_MOMENTS_LEAN
@@ -196,6 +196,7 @@ static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const c
 
 static void settle_spread(WrPlan *plan, const WrPlanAsk *ask)
 {
+    plan->graded = wr_plan_graded(plan, ask->scene);
     plan->lean = runs(plan, WR_EFFECT_SPREAD) && ask->dials->moments == WR_MOMENTS_LEAN;
 }
 
@@ -283,9 +284,9 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                "reflection model has no highlight, or its facets' index is 1",
                                STAGE(MIRROR), .decide = wr_decide_mirror },
     [WR_ROW(WR_EFFECT_BLUR)] = { "E43", "blurred surroundings", WR_PROOF_BOUNDED,
-                                 "what lies within a 64th of a radian",
+                                 "what lies within a thousandth of a radian",
                                  "none are seen in the surface, they are of one colour, or the "
-                                 "lobe is narrower than 1/64, where the surface mirrors",
+                                 "lobe is a thousandth wide, where the surface mirrors",
                                  0, .decide = wr_decide_blur, .settle = wr_settle_blur },
     [WR_ROW(WR_EFFECT_COLOUR)] = { "E5", "colour picture", WR_PROOF_IDENTICAL, NULL,
                                    "there is none, or it is white everywhere", STAGE(COLOUR),
@@ -296,6 +297,16 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                  "or it is of one colour; footprints up to one of its texels look "
                                  "up the picture itself",
                                  STAGE(TINT), .decide = wr_decide_tint, .settle = wr_settle_tint },
+    [WR_ROW(WR_EFFECT_VARIED)] = { "E72", "roughness by place", WR_PROOF_IDENTICAL, NULL,
+                                   "no solid texture drives it, the reflection model goes by no "
+                                   "roughness, or no light is worked out",
+                                   0, .only_way = true, .decide = wr_decide_varied },
+    [WR_ROW(WR_EFFECT_EMBOSSED)] = { "E71", "bump of the solid texture", WR_PROOF_BOUNDED,
+                                     "rounding of the normal",
+                                     "there is none, or it drives no bump; its height is 0; no "
+                                     "light depends on the normal",
+                                     STAGE(GRAIN), .spared = WR_RUN_DARK,
+                                     .decide = wr_decide_embossed },
     [WR_ROW(WR_EFFECT_GRAIN)] = { "E46", "solid texture", WR_PROOF_IDENTICAL, NULL,
                                   "there is none, or both its colours are white; of two that are "
                                   "one the pattern is left out",
@@ -305,6 +316,10 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                     "no pattern is worked out, it has no noise, or the noise's "
                                     "amount is 0",
                                     STAGE(GRAIN), .decide = wr_decide_octaves },
+    [WR_ROW(WR_EFFECT_FADED)] = { "E70", "filtered solid texture", WR_PROOF_POLICY, NULL,
+                                  "no pattern is worked out; the dials ask for no filtering and no "
+                                  "plane goes on to the horizon",
+                                  STAGE(GRAIN), .decide = wr_decide_faded },
     [WR_ROW(WR_EFFECT_NORMALS)] = { "E58", "normal map", WR_PROOF_IDENTICAL, NULL,
                                     "there is none, or it is straight up everywhere; its strength "
                                     "or repetition is 0; the mode is none; no light depends on "

@@ -79,5 +79,6 @@ void wr_settle_curvature(WrPlan *plan, const WrPlanAsk *ask)
 {
     plan->normals = lit(plan, ask) || runs(plan, WR_EFFECT_BUMP) ||
                     runs(plan, WR_EFFECT_CURVATURE) || runs(plan, WR_EFFECT_TINT) ||
-                    runs(plan, WR_EFFECT_NORMALS);
+                    runs(plan, WR_EFFECT_NORMALS) || runs(plan, WR_EFFECT_GRAIN) ||
+                    runs(plan, WR_EFFECT_EMBOSSED);
 }

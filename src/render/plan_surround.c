@@ -76,8 +76,13 @@ WrVerdict wr_decide_blur(const WrPlan *plan, const WrPlanAsk *ask, const char **
     if (ask->scene->environment.light->even)
         return say(WR_VERDICT_SPARED, why, "surroundings of one colour are the same when blurred");
     wr_scene_gloss(&ask->scene->material, &gloss);
-    if (gloss.alpha < WR_BLUR_LEAST)
-        return say(WR_VERDICT_SPARED, why, "so smooth a surface mirrors: its lobe is under 1/64");
+    const bool widened = roughens(ask->scene) || ask->dials->aa == WR_AA_MOMENTS;
+    if (gloss.alpha <= WR_ALPHA_LEAST && !widened)
+        return say(WR_VERDICT_SPARED, why,
+                   "so smooth a surface mirrors: its lobe is a thousandth wide");
+    if (widened)
+        return say(WR_VERDICT_RUN, why,
+                   "what is reflected is blurred as widely as each sample calls for");
     return say(WR_VERDICT_RUN, why, "what is reflected is blurred by the material's lobe, once");
 }
 
@@ -88,4 +93,13 @@ bool wr_plan_surround_turns(const WrPlan *plan, const WrScene *scene)
     if (!runs(plan, WR_EFFECT_SURROUND)) return false;
     return runs(plan, WR_EFFECT_HARMONICS) || model == WR_REFLECT_GGX ||
            model == WR_REFLECT_OREN_NAYAR;
+}
+
+bool wr_plan_graded(const WrPlan *plan, const WrScene *scene)
+{
+    WrGloss gloss;
+    wr_scene_gloss(&scene->material, &gloss);
+    const bool narrow = gloss.alpha < WR_BLUR_LEAST; /* for a blurred picture of its own */
+    const bool blurred = runs(plan, WR_EFFECT_BLUR) && (runs(plan, WR_EFFECT_SPREAD) || narrow);
+    return runs(plan, WR_EFFECT_MIRROR) && (blurred || runs(plan, WR_EFFECT_VARIED));
 }

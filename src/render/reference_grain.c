@@ -5,51 +5,105 @@
 
 #include <math.h>
 
-/* Along the axis, and across it. */
-static void along_axis(WrGrainAxis axis, WrVec3 p, double *x, double *y, double *z)
-{
-    switch (axis) {
-    case WR_GRAIN_X: *x = p.y, *y = p.z, *z = p.x; return;
-    case WR_GRAIN_Y: *x = p.z, *y = p.x, *z = p.y; return;
-    case WR_GRAIN_Z:
-    case WR_GRAIN_AXES: break;
-    }
-    *x = p.x, *y = p.y, *z = p.z;
-}
-
 static double fraction(double t)
 {
     return t - floor(t);
 }
 
-static double board(double k, WrVec3 p)
+/* A pattern by one number, and how it rises with that. */
+typedef struct Rise {
+    double value, slope;
+} Rise;
+
+/* How long the pulses 1 - d .. 1 of all turns are together from 0 to t. */
+static double pulses(double t, double d)
 {
-    return fmod(fabs(floor(k * p.x) + floor(k * p.y) + floor(k * p.z)), 2);
+    return floor(t) * d + fmax(0, fraction(t) - (1 - d));
 }
 
-static double pattern(const WrGrain *grain, const WrOctavesPlan *noise, WrVec3 p)
+static double pulse(double t, double d)
 {
-    const double at[3] = { p.x, p.y, p.z };
-    double x, y, z;
-    along_axis(grain->axis, p, &x, &y, &z);
-    const double moved = wr_grains[grain->kind].noisy && grain->amount != 0
-                             ? grain->amount * wr_octaves_at(noise, at, NULL)
-                             : 0;
+    return fraction(t) >= 1 - d ? 1 : 0;
+}
+
+/* Pulses, or their mean over an edge. */
+static Rise ring(double t, double d, double edge)
+{
+    if (!(edge > 0)) return (Rise){ pulse(t, d), 0 };
+    const double f = fraction(t), low = f - edge / 2, high = f + edge / 2;
+    return (Rise){ (pulses(high, d) - pulses(low, d)) / edge,
+                   (pulse(high, d) - pulse(low, d)) / edge };
+}
+
+static Rise ramp(double t)
+{
+    return (Rise){ fmin(fmax(t, 0), 1), t > 0 && t < 1 ? 1 : 0 };
+}
+
+static Rise wave(double t)
+{
+    const double turn = 2 * WR_PI * fraction(t);
+    return (Rise){ 0.5 + 0.5 * sin(turn), WR_PI * cos(turn) };
+}
+
+/* Cubes: odd cells along one axis are 1, even ones 0. */
+static double board(const WrGrain *grain, double edge, const double p[3], double slope[3])
+{
+    double side[3], rise[3];
+    for (int a = 0; a < 3; a++) {
+        const Rise odd = ring(grain->rings * p[a] / 2, 0.5, edge / 2);
+        side[a] = 1 - 2 * odd.value;
+        rise[a] = -grain->rings * odd.slope;
+    }
+    for (int a = 0; a < 3; a++) slope[a] = -0.5 * rise[a] * side[(a + 1) % 3] * side[(a + 2) % 3];
+    return 0.5 - 0.5 * side[0] * side[1] * side[2];
+}
+
+/* What the pattern goes by, with its slope: the noise, and rings or bands. */
+static double place(const WrGrain *grain, const WrOctavesPlan *noise, const double p[3],
+                    double slope[3])
+{
+    const int x = (grain->axis + 1) % 3, y = (grain->axis + 2) % 3, z = grain->axis;
+    const double amount = grain->kind == WR_GRAIN_NOISE ? grain->amount / 2 : grain->amount;
+    double t = 0, by[3] = { 0, 0, 0 };
+    if (wr_grains[grain->kind].noisy && amount != 0) t = amount * wr_octaves_at(noise, p, by);
+    for (int a = 0; a < 3; a++) slope[a] = amount * by[a];
+    if (grain->kind == WR_GRAIN_NOISE) return 0.5 + t;
+    if (grain->kind == WR_GRAIN_MARBLE) {
+        slope[z] += grain->rings;
+        return grain->rings * p[z] + t;
+    }
+    if (grain->kind != WR_GRAIN_WOOD) return t;
+    const double from = hypot(p[x], p[y]);
+    if (from > 0) slope[x] += grain->rings * p[x] / from, slope[y] += grain->rings * p[y] / from;
+    return grain->rings * from + t;
+}
+
+static Rise pattern(const WrGrain *grain, double edge, double t)
+{
     switch (grain->kind) {
-    case WR_GRAIN_WOOD:
-        return fraction(grain->rings * hypot(x, y) + moved) >= 1 - grain->share ? 1 : 0;
-    case WR_GRAIN_MARBLE: return 0.5 + 0.5 * sin(2 * WR_PI * fraction(grain->rings * z + moved));
-    case WR_GRAIN_CHECKER: return board(grain->rings, p);
-    case WR_GRAIN_GRANITE: return fmin(moved, 1);
-    case WR_GRAIN_NOISE: return fmin(fmax(0.5 + 0.5 * moved, 0), 1);
+    case WR_GRAIN_WOOD: return ring(t, grain->share, edge);
+    case WR_GRAIN_MARBLE: return wave(t);
+    case WR_GRAIN_GRANITE:
+    case WR_GRAIN_NOISE: return ramp(t);
+    case WR_GRAIN_CHECKER:
     case WR_GRAIN_OFF:
     case WR_GRAIN_KINDS: break;
     }
-    return 0;
+    return (Rise){ 0, 0 };
 }
 
-void wr_reference_grain(const WrGrain *grain, const WrOctavesPlan *noise, WrVec3 p, double rgb[3])
+double wr_reference_grain(const WrGrain *grain, const WrOctavesPlan *noise, WrVec3 p, WrVec3 *slope)
 {
-    const double g = pattern(grain, noise, p);
-    for (int c = 0; c < 3; c++) rgb[c] = (1 - g) * grain->light[c] + g * grain->dark[c];
+    const double at[3] = { p.x, p.y, p.z }, edge = wr_grain_edge(grain);
+    double by[3], value;
+    if (grain->kind == WR_GRAIN_CHECKER) {
+        value = board(grain, edge, at, by);
+    } else {
+        const Rise got = pattern(grain, edge, place(grain, noise, at, by));
+        value = got.value;
+        for (int a = 0; a < 3; a++) by[a] *= got.slope;
+    }
+    if (slope) *slope = (WrVec3){ by[0], by[1], by[2] };
+    return value;
 }

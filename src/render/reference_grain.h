@@ -4,5 +4,7 @@
 #include "base/vec.h"
 #include "shade/grain.h"
 
-/* The texture's colour at a point of the object, scene units. noise: wr_grain_noise's. */
-void wr_reference_grain(const WrGrain *grain, const WrOctavesPlan *noise, WrVec3 p, double rgb[3]);
+/* The pattern at a point of the object, scene units, 0..1, and its slope there by the scene unit. noise: wr_grain_noise's;
+   slope NULL: not wanted. */
+double wr_reference_grain(const WrGrain *grain, const WrOctavesPlan *noise, WrVec3 p,
+                          WrVec3 *slope);

@@ -1,6 +1,7 @@
 #include "render/reference_shade.h"
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "field/analytic.h"
 #include "field/field.h"
 #include "image/image.h"
@@ -52,6 +53,44 @@ static void note_shadow(WrReferenceStage *stage, const WrField *field)
     stage->texels[1] = fabs(scene->replicate_v) * wr_field_height(field);
 }
 
+#define ROUGHS 257
+
+/* What facets of each roughness come to: their integrals change so little that the nearest serves (matter_at). */
+static void note_roughness(WrReferenceStage *stage)
+{
+    const WrGrain *grain = &stage->scene->grain;
+    WrMaterial m = stage->scene->material;
+    if (grain->kind == WR_GRAIN_OFF || !(grain->drives & WR_GRAIN_ROUGHENS)) return;
+    if (!wr_reflects[m.model].roughness) return;
+    stage->rough = wr_alloc(ROUGHS, sizeof *stage->rough);
+    const double low = fmin(grain->roughness[0], grain->roughness[1]);
+    const double high = fmax(grain->roughness[0], grain->roughness[1]);
+    for (int i = (int)floor(low * (ROUGHS - 1)); i <= (int)ceil(high * (ROUGHS - 1)); i++) {
+        m.roughness = (double)i / (ROUGHS - 1);
+        wr_scene_matter(&m, &stage->rough[i]);
+    }
+}
+
+/* The material's numbers at a place: alpha is its own, albedos between two 256ths. */
+static WrMatter matter_at(const WrReferenceStage *stage, WrVec3 object)
+{
+    const WrGrain *grain = &stage->scene->grain;
+    if (!stage->rough) return stage->matter;
+    const double g = wr_reference_grain(grain, &stage->grain, object, NULL);
+    WrMaterial m = stage->scene->material;
+    m.roughness = (1 - g) * grain->roughness[0] + g * grain->roughness[1];
+    const double x = fmin(m.roughness * (ROUGHS - 1), ROUGHS - 1), t = x - floor(x);
+    const WrMatter *low = &stage->rough[(int)floor(x)], *high = &stage->rough[(int)ceil(x)];
+    WrMatter out = *low;
+    out.alpha = fmax(m.roughness * m.roughness, WR_ALPHA_LEAST), out.sigma = m.roughness;
+    out.a += t * (high->a - low->a), out.b += t * (high->b - low->b);
+    out.scale += t * (high->scale - low->scale), out.mean += t * (high->mean - low->mean);
+    out.again += t * (high->again - low->again);
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++)
+        out.albedo[i] += t * (high->albedo[i] - low->albedo[i]);
+    return out;
+}
+
 bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, const WrScene *scene,
                              double turn_deg, int width, int height, bool table, WrPool *pool,
                              WrError *err)
@@ -65,6 +104,7 @@ bool wr_reference_stage_init(WrReferenceStage *stage, const WrField *field, cons
     }
     wr_scene_matter(&scene->material, &stage->matter);
     wr_grain_noise(&scene->grain, &stage->grain);
+    note_roughness(stage);
     stage->bump = has_slopes(scene) ? truth_of(scene->bump) : WR_BUMP_NONE;
     if (wr_surfaces[scene->shape.kind]->held && stage->bump == WR_BUMP_EXACT)
         stage->bump = WR_BUMP_BLINN; /* triangles are flat: it is exact there */
@@ -114,6 +154,7 @@ void wr_reference_stage_fini(WrReferenceStage *stage)
 {
     wr_reference_raised_fini(&stage->raised);
     wr_reference_view_fini(&stage->view);
+    wr_free(stage->rough);
     wr_reference_table_fini(&stage->table);
     wr_reference_surround_fini(&stage->surround);
 }
@@ -228,12 +269,23 @@ void wr_reference_lamp(const WrMaterial *m, const WrMatter *matter, WrVec3 n, Wr
 static void place_colour(const WrReferenceStage *stage, WrVec3 object, double u, double v,
                          double rgb[3])
 {
-    double solid[3];
     rgb[0] = rgb[1] = rgb[2] = 1;
     if (stage->scene->colour) picture_colour(stage, u, v, rgb);
-    if (stage->scene->grain.kind == WR_GRAIN_OFF) return;
-    wr_reference_grain(&stage->scene->grain, &stage->grain, object, solid);
-    for (int c = 0; c < 3; c++) rgb[c] *= solid[c];
+    const WrGrain *grain = &stage->scene->grain;
+    if (grain->kind == WR_GRAIN_OFF || !(grain->drives & WR_GRAIN_COLOURS)) return;
+    const double g = wr_reference_grain(grain, &stage->grain, object, NULL);
+    for (int c = 0; c < 3; c++) rgb[c] *= (1 - g) * grain->light[c] + g * grain->dark[c];
+}
+
+/* n' once more, of the solid texture's heights: the surface moved along n by them (Perlin 1985). */
+static WrVec3 embossed(const WrReferenceStage *stage, WrVec3 object, double side, WrVec3 n)
+{
+    const WrGrain *grain = &stage->scene->grain;
+    WrVec3 slope;
+    if (grain->kind == WR_GRAIN_OFF || !(grain->drives & WR_GRAIN_BUMPS)) return n;
+    wr_reference_grain(grain, &stage->grain, object, &slope);
+    const WrVec3 s = v3_scale(slope, side * grain->height);
+    return unit(v3_sub(n, v3_mad(s, n, -v3_dot(s, n))));
 }
 
 void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
@@ -249,6 +301,7 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
     double diffuse[3] = { ambient, ambient, ambient }, shine[3] = { 0, 0, 0 };
     double colour[3];
     place_colour(stage, at->p, u, v, colour);
+    const WrMatter matter = matter_at(stage, at->p);
     const double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1],
                             m->colour.z * colour[2] };
     for (int i = 0; i < view->light_count; i++) {
@@ -260,14 +313,14 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
                                                                         l, away, light->radius)
                                               : 1;
         if (seen == 0) continue;
-        wr_reference_lamp(m, &stage->matter, perturbed, l, to, has, own, &white);
+        wr_reference_lamp(m, &matter, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
             diffuse[c] += seen * light->rgb[c] * own[c];
             shine[c] += seen * light->rgb[c] * white;
         }
     }
     double around[3], mirrored[3];
-    wr_reference_surround_light(stage, perturbed, to, has, share, around, mirrored);
+    wr_reference_surround_light(stage, &matter, perturbed, to, has, share, around, mirrored);
     for (int c = 0; c < 3; c++)
         rgb[c] = has[c] * (diffuse[c] + open * around[c]) + shine[c] + mirrored[c];
 }
@@ -332,11 +385,13 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     const double eased = eased_at(stage, &ray, &hit, &at, &out->cover);
     fu *= eased, fv *= eased;
     const WrVec3 perturbed = wr_reference_normal(stage->bump, &at, f, fu, fv);
-    out->normal = v3_scale(perturbed, wr_reference_side(view, &at));
+    const double side = wr_reference_side(view, &at);
+    WrVec3 seen = v3_scale(perturbed, side);
     if (stage->raised.count > 0) {
         at.p = v3_mad(ray.q, ray.d, hit.s); /* which of an edge is not P + F n */
-        out->normal = v3_dot(perturbed, ray.d) > 0 ? v3_neg(perturbed) : perturbed;
+        seen = v3_dot(perturbed, ray.d) > 0 ? v3_neg(perturbed) : perturbed;
     }
+    out->normal = embossed(stage, at.p, side, seen);
     out->lost = hit.lost;
     out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
     out->normal = wr_reference_normal_stretched(view, out->normal);

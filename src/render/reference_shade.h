@@ -19,8 +19,9 @@ typedef struct WrReferenceStage {
     WrReferenceSurround surround;
     WrReferenceRaised raised; /* of a displaced surface, once it was raised; else without sheets */
     WrMatter matter;          /* of models other than Blinn-Phong's */
-    WrOctavesPlan grain;      /* the solid texture's noise */
-    WrBumpMode bump;          /* what the reference takes for the truth */
+    WrMatter *rough; /* the same by 256ths of roughness, where a solid texture drives it; owned */
+    WrOctavesPlan grain;         /* the solid texture's noise */
+    WrBumpMode bump;             /* what the reference takes for the truth */
     bool periodic_u, periodic_v; /* of the colour picture, as of the table */
     double
         shadow; /* scene units from the lowest to the highest of a relief that throws shadows; else 0 */

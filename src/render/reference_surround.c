@@ -123,12 +123,12 @@ static bool takes(WrReferenceShare share, int column, int row)
 }
 
 /* Diffuse light: every part of the sphere is a lamp. */
-static void add_diffuse(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const double colour[3],
-                        WrReferenceShare share, double own[3])
+static void add_diffuse(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n, WrVec3 v,
+                        const double colour[3], WrReferenceShare share, double own[3])
 {
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceSurround *from = &stage->surround;
-    WrMatter matter = stage->matter;
+    WrMatter matter = *is;
     WrMaterial only = *m;
     matter.ks = only.specular = 0;
     for (int i = 0; i < from->count; i++) {
@@ -161,13 +161,13 @@ static double width_of(const WrMaterial *m, const WrMatter *matter)
 }
 
 /* Highlights: facets h, as many as stand that way, each mirrors what comes from 2 (v.h) h - v. */
-static void add_shine(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const double colour[3],
-                      WrReferenceShare part, double own[3], double white[3])
+static void add_shine(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n, WrVec3 v,
+                      const double colour[3], WrReferenceShare part, double own[3], double white[3])
 {
     const double short_of =
         fmax(0, 1e-3 - v3_dot(n, v)); /* facets lie about the normal that is seen */
     const WrVec3 seen = v3_unit(v3_mad(n, v, short_of), n);
-    WrMatter matter = stage->matter;
+    WrMatter matter = *is;
     WrMaterial only = stage->scene->material;
     matter.kd = only.diffuse = 0;
     const double alpha = width_of(&only, &matter), a2 = alpha * alpha;
@@ -194,14 +194,14 @@ static void add_shine(const WrReferenceStage *stage, WrVec3 n, WrVec3 v, const d
     }
 }
 
-void wr_reference_surround_light(const WrReferenceStage *stage, WrVec3 n, WrVec3 v,
-                                 const double colour[3], WrReferenceShare share, double own[3],
-                                 double white[3])
+void wr_reference_surround_light(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n,
+                                 WrVec3 v, const double colour[3], WrReferenceShare share,
+                                 double own[3], double white[3])
 {
     const WrMaterial *m = &stage->scene->material;
     for (int c = 0; c < 3; c++) own[c] = white[c] = 0;
     if (stage->surround.count == 0) return;
-    if (m->diffuse != 0) add_diffuse(stage, n, v, colour, share, own);
+    if (m->diffuse != 0) add_diffuse(stage, is, n, v, colour, share, own);
     if (m->specular != 0 && wr_reflects[m->model].shines)
-        add_shine(stage, n, v, colour, share, own, white);
+        add_shine(stage, is, n, v, colour, share, own, white);
 }

@@ -3,6 +3,7 @@
    Layer 5, private to the reference. */
 #pragma once
 #include "base/vec.h"
+#include "shade/reflect.h"
 
 typedef struct WrScene WrScene;
 typedef struct WrReferenceStage WrReferenceStage;
@@ -29,7 +30,7 @@ typedef struct WrReferenceSurround {
 void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *scene,
                                 const double rotation[9]);
 void wr_reference_surround_fini(WrReferenceSurround *surround);
-/* What they add: in the surface's colour, and in their own. n towards the viewer's side; colour as wr_reference_reflect's. */
-void wr_reference_surround_light(const WrReferenceStage *stage, WrVec3 n, WrVec3 v,
-                                 const double colour[3], WrReferenceShare share, double own[3],
-                                 double white[3]);
+/* What they add, is: the material there: in the surface's colour, and in their own. n towards the viewer's side; colour as wr_reference_reflect's. */
+void wr_reference_surround_light(const WrReferenceStage *stage, const WrMatter *is, WrVec3 n,
+                                 WrVec3 v, const double colour[3], WrReferenceShare share,
+                                 double own[3], double white[3]);

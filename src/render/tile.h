@@ -58,6 +58,9 @@ typedef struct WrTileJob {
     WrLookd tint_double;
     WrKernGrain grain; /* the solid texture */
     WrKernGraind grain_double;
+    double rough;    /* where no place has its own */
+    WrKernVary vary; /* only where some has, or lobes widen */
+    WrKernVaryd vary_double;
     WrLook relief; /* the normal map's slopes (relief.h); pyramid NULL: none */
     WrLookd relief_double;
     const WrFrames *frames; /* of the mesh's corners, that the map is turned by; or NULL */

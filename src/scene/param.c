@@ -148,6 +148,32 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
                                          .help =
                                              "how much weaker each octave is than the one before",
                                          SLIDER(1.1, 4, 2) },
+    [WR_ROW(WR_SCENE_PARAM_GRAIN_EDGE)] = { "grain", NULL, "edge", IN_SCENE(grain.edge),
+                                            .components = 1, .high = 1, .sparse = true,
+                                            .label = "Edge",
+                                            .help = "part of a ring or cell within which wood and "
+                                                    "checker go over; bumps take 1/16 at least",
+                                            SLIDER(0, 1, 3) },
+    [WR_ROW(WR_SCENE_PARAM_GRAIN_HEIGHT)] = { "grain", NULL, "height", IN_SCENE(grain.height),
+                                              .components = 1, .low = -1e6, .high = 1e6,
+                                              .fallback = { 0.01 }, .planned = true, .sparse = true,
+                                              .unit = "scene units", .label = "Height",
+                                              .help = "of the dark above the light, where it "
+                                                      "drives bump",
+                                              SLIDER(-0.1, 0.1, 3) },
+    [WR_ROW(WR_SCENE_PARAM_GRAIN_ROUGH_LIGHT)] = { "grain", NULL, "rough_light",
+                                                   IN_SCENE(grain.roughness[0]), .components = 1,
+                                                   .high = 1, .fallback = { 0.3 }, .sparse = true,
+                                                   .label = "Light's roughness",
+                                                   .help =
+                                                       "roughness of the light, where it drives "
+                                                       "roughness",
+                                                   SLIDER(0, 1, 3) },
+    [WR_ROW(WR_SCENE_PARAM_GRAIN_ROUGH_DARK)] = { "grain", NULL, "rough_dark",
+                                                  IN_SCENE(grain.roughness[1]), .components = 1,
+                                                  .high = 1, .fallback = { 0.5 }, .sparse = true,
+                                                  .label = "Dark's roughness",
+                                                  .help = "the same of the dark", SLIDER(0, 1, 3) },
     [WR_ROW(WR_SCENE_PARAM_LIGHT_TO)] = { "light", "directional", "to", .required = true,
                                           IN_LIGHT(where), PLACE_RANGE,
                                           .fallback = { -0.5, 0.6, 0.75 },

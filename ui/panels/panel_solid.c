@@ -38,10 +38,17 @@ static void relief(WrApp *app)
          "each edit cuts the surface anew");
 }
 
-/* Is the number one that this kind of solid goes by? */
-static bool counts(const WrGrainInfo *info, WrSceneParamId id)
+/* Is the number one that this solid goes by? */
+static bool counts(const WrGrain *grain, WrSceneParamId id)
 {
+    const WrGrainInfo *info = &wr_grains[grain->kind];
     switch (id) {
+    case WR_SCENE_PARAM_GRAIN_LIGHT:
+    case WR_SCENE_PARAM_GRAIN_DARK: return grain->drives & WR_GRAIN_COLOURS;
+    case WR_SCENE_PARAM_GRAIN_HEIGHT: return grain->drives & WR_GRAIN_BUMPS;
+    case WR_SCENE_PARAM_GRAIN_ROUGH_LIGHT:
+    case WR_SCENE_PARAM_GRAIN_ROUGH_DARK: return grain->drives & WR_GRAIN_ROUGHENS;
+    case WR_SCENE_PARAM_GRAIN_EDGE: return info->stepped;
     case WR_SCENE_PARAM_GRAIN_RINGS: return info->ringed;
     case WR_SCENE_PARAM_GRAIN_SHARE: return info->shared;
     case WR_SCENE_PARAM_GRAIN_AMOUNT:
@@ -65,6 +72,9 @@ static void choose(WrApp *app, const char *id, const char *const *names, int cou
 static void solid(WrApp *app)
 {
     static const char *const axes[WR_GRAIN_AXES] = { "X", "Y", "Z" };
+    static const char *const drives[WR_GRAIN_DRIVES - 1] = {
+        "Colour", "Roughness", "Colour, roughness", "Bump", "Colour, bump", "Roughness, bump", "All"
+    };
     const char *titles[WR_GRAIN_KINDS], *words[WR_GRAIN_KINDS];
     const WrGrain *grain = &wr_app_scene(app)->grain;
     const WrGrainInfo *info = &wr_grains[grain->kind];
@@ -77,12 +87,17 @@ static void solid(WrApp *app)
     wr_gui_tip("A pattern that goes through the object and stays where it is while that turns; its "
                "colours are multiplied with the material's");
     if (wr_app_scene(app)->grain.kind == WR_GRAIN_OFF) return;
+    wr_gui_label("Drives");
+    choose(app, "drives", drives, WR_GRAIN_DRIVES - 1, grain->drives - 1,
+           "grain drives=", wr_grain_drives + 1);
+    wr_gui_tip("What the pattern changes: the colour, the roughness of facets, and heights that "
+               "turn the normal");
     if (info->ringed && info->noisy) {
         wr_gui_label("Axis");
         choose(app, "axis", axes, WR_GRAIN_AXES, (int)grain->axis, "grain axis=", wr_grain_axes);
     }
-    for (int id = WR_SCENE_PARAM_GRAIN_LIGHT; id <= WR_SCENE_PARAM_GRAIN_RATIO; id++)
-        if (counts(info, (WrSceneParamId)id)) wr_param_row(app, &wr_scene_params[id]);
+    for (int id = WR_SCENE_PARAM_GRAIN_LIGHT; id <= WR_SCENE_PARAM_GRAIN_ROUGH_DARK; id++)
+        if (counts(grain, (WrSceneParamId)id)) wr_param_row(app, &wr_scene_params[id]);
 }
 
 void wr_panel_solid(WrApp *app)

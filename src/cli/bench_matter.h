@@ -1,0 +1,11 @@
+/* bench_matter.h - what scenes of the bench are made of, for the effects of reflection and of solid textures.
+   Layer 7. */
+#pragma once
+
+typedef struct WrScene WrScene;
+
+void wr_bench_of_facets(WrScene *scene);
+void wr_bench_wooden(WrScene *scene);
+void wr_bench_wooden_filtered(WrScene *scene);
+void wr_bench_roughened(WrScene *scene);
+void wr_bench_embossed(WrScene *scene);
