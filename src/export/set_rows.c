@@ -47,9 +47,9 @@ const WrSetRow wr_set_rows[] = {
       "curvature *_Curvature.png depth=16\n"
       "occlusion *_AmbientOcclusion.png depth=16\n"
       "roughness *_Roughness.png depth=16\n" },
-    { "renderman", "heights as floats for displacement, slopes for bump",
+    { "renderman", "heights as floats for displacement, bump slopes with RenderMan's signs",
       "height *_disp.exr depth=32\n"
-      "slopes *_slopes.exr\n" },
+      "bump-slopes *_b2r.exr signs=renderman\n" },
     { "arnold", "all as floats: heights for displacement, normals, occlusion, roughness",
       "height *_disp.exr depth=32\n"
       "normal+y *_normal.exr depth=32\n"
