@@ -118,6 +118,7 @@ static const char *const instant[] = {
     "select all",   "select none",
     "fill",         "open",
     "redo",         "cell",
+    "sheet",        "export normal-baked",
 };
 
 /* Large work. A file that a line reads is made before. */
@@ -192,6 +193,8 @@ static const char *const lines[] = {
     "export displacement new19.png",
     "export mask new20.png",
     "export wear new21.png",
+    "export normal-object new22.png",
+    "export bump-slopes new24.exr",
     "export stl new8.stl",
     "export ply new9.ply error=0.3",
     "export obj new10.obj error=0.3",

@@ -353,6 +353,7 @@ static const Price prices[] = {
     BODY("stl"),
     BODY("ply"),
     BODY("obj"),
+    { "maps", NULL, texels, .ns = 1500, .bytes = 24 }, /* four of them, as most sets have */
     { "render", NULL, picture, .ns = 33, .bytes = 17 },
     { "script", NULL, .count = NULL },
 };

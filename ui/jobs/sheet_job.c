@@ -84,7 +84,10 @@ static void adapt(WrSetMap *map, const WrSheetAsk *ask)
     WR_ROWS_END(ranges, WR_SHEET_RANGES);
     if (ranges[ask->range]) put(map, "range", ranges[ask->range]);
     if (!depths[ask->depth] || !has_option(map->kind, "depth")) return;
+    const bool fixed = map->kind->ending != NULL; /* one format, which knows no 8 bits */
+    if (fixed && ask->depth == WR_SHEET_8) return;
     put(map, "depth", depths[ask->depth]);
+    if (fixed) return;
     if (ask->depth == WR_SHEET_FLOAT) change_ending(map, ".png", ".exr");
     else change_ending(map, ".exr", ".png");
     if (ask->depth != WR_SHEET_8) drop_setting(map, "dither");

@@ -157,7 +157,7 @@ static void add_export_line(const WrApp *app, const char *path, WrText *line)
     wr_text_addf(line, "export %s ", kind->name);
     wr_text_add_word(line, path);
     if (strcmp(kind->name, "height") == 0) wr_text_addf(line, " range=%s", ranges[f->range]);
-    if (!kind->ending) return;
+    if (kind->channels > 0) return; /* no body */
     wr_line_number(line, "size", f->solid_size);
     wr_line_number(line, "error", f->solid_error);
     if (f->solid_thickness > 0) wr_line_number(line, "thickness", f->solid_thickness);
@@ -208,7 +208,7 @@ void wr_dialog_export(WrApp *app)
         wr_gui_label("Codes hold");
         wr_gui_choice("range", 0, ranges, WR_RANGES, &f->range);
     }
-    if (wr_export_kinds[f->kind].ending) solid_numbers(f);
+    if (wr_export_kinds[f->kind].channels == 0) solid_numbers(f);
     else
         wr_gui_text_wrapped(
             WR_FONT_SMALL, WR_COLOUR_LABEL,
