@@ -41,20 +41,20 @@ becomes 'surface terrain * height=0.375 cells=9 layer=1' "the ground of another 
 xdotool mousemove $((X + 1000)) $((Y + 300))
 for _ in $(seq 24); do xdotool click 5; done
 rest
-click 1110 282
+click 1110 163
 becomes 'camera save "view 1"' "a view that is kept"
 xdotool mousemove $((X + 760)) $((Y + 700))
 key KP_Next
 becomes 'camera from right' "another view"
-click 1000 282
+click 1000 163
 becomes 'camera use "view 1"' "the view that was kept"
-xdotool mousemove $((X + 1174)) $((Y + 282))
+xdotool mousemove $((X + 1174)) $((Y + 163))
 rest # with the icon's tip, which lies over a row
 xdotool click 1
 becomes 'camera forget "view 1"' "the view forgotten"
-pick 1110 343 2
+pick 1110 225 2
 becomes 'background gradient' "a gradient behind"
-pick 1110 343 3
+pick 1110 225 3
 becomes 'background none' "nothing behind"
 closed
 

@@ -62,10 +62,9 @@ static WrEdit rows(WrCellSize *cell)
 static void tell_texel(const WrCellSize *cell, const WrField *field)
 {
     WrText text = { 0 };
-    wr_text_addf(&text, "%d x %d texels of %.4g x %.4g %s", wr_field_width(field),
-                 wr_field_height(field), cell->w / wr_field_width(field),
+    wr_text_addf(&text, "%.4g x %.4g %s a texel", cell->w / wr_field_width(field),
                  cell->h / wr_field_height(field), cell->mm ? "mm" : "scene units");
-    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&text));
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, wr_text_get(&text));
     wr_text_fini(&text);
 }
 
