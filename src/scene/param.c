@@ -164,7 +164,7 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_GRAIN_ROUGH_LIGHT)] = { "grain", NULL, "rough_light",
                                                    IN_SCENE(grain.roughness[0]), .components = 1,
                                                    .high = 1, .fallback = { 0.3 }, .sparse = true,
-                                                   .label = "Light's roughness",
+                                                   .label = "Rough light",
                                                    .help =
                                                        "roughness of the light, where it drives "
                                                        "roughness",
@@ -172,7 +172,7 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_GRAIN_ROUGH_DARK)] = { "grain", NULL, "rough_dark",
                                                   IN_SCENE(grain.roughness[1]), .components = 1,
                                                   .high = 1, .fallback = { 0.5 }, .sparse = true,
-                                                  .label = "Dark's roughness",
+                                                  .label = "Rough dark",
                                                   .help = "the same of the dark", SLIDER(0, 1, 3) },
     [WR_ROW(WR_SCENE_PARAM_LIGHT_TO)] = { "light", "directional", "to", .required = true,
                                           IN_LIGHT(where), PLACE_RANGE,
