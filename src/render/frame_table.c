@@ -95,6 +95,7 @@ bool wr_frame_prepare_table(WrRenderer *renderer, const WrFrameRequest *request,
     WrPlan *plan = &renderer->plan;
     WrPlanFacts *facts = &ask->facts;
     facts->flat = wr_table_flat(table, field);
+    if (!table->ranged) return wr_fail(err, "cancelled");
     facts->ends =
         wr_field_wrap_u(field) != WR_WRAP_PERIODIC || wr_field_wrap_v(field) != WR_WRAP_PERIODIC;
     facts->zero = facts->flat && wr_field_get(field, 0, 0) == 0.0f;

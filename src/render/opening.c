@@ -1,6 +1,8 @@
 #include "render/opening.h"
 
+#include "base/error.h"
 #include "base/memory.h"
+#include "base/progress.h"
 #include "field/field.h"
 #include "scene/scene.h"
 
@@ -44,6 +46,10 @@ bool wr_opening_table_bring(WrOpeningTable *table, const WrScene *scene, const W
     if (!open) return false;
     wr_opening_make(&opening, horizon->directions, across, down);
     wr_opening_table(&opening, horizon, field, sign, pool, open);
+    if (wr_progress_stopped()) { /* half of it may be missing */
+        wr_free(open);
+        return wr_fail(err, "cancelled");
+    }
     *table = (WrOpeningTable){ .open = open,
                                .width = horizon->width,
                                .height = horizon->height,

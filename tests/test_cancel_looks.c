@@ -1,0 +1,196 @@
+/* Work that is stopped at any of its looks at the cancel, not at its reports alone: it ends with "cancelled", and what
+   it left half made is never taken for whole afterwards. Pictures, films and generators of every kind of table the
+   renderer keeps. The test stands in for the looks (tests/CMakeLists.txt). */
+#include "test.h"
+#include "test_folder.h"
+#include "test_session_help.h"
+#include "cancel_lines.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include <math.h>
+
+#define THREADS 2
+#define STOPS 14     /* of one picture */
+#define LINE_STOPS 3 /* of one line */
+#define TABLE "table 130x97", "noise perlin", "surface sphere", "bump height=0.05"
+#define SCENE 10
+
+/* The look to stop at, from 1; 0: none. Any thread looks. */
+static struct {
+    int64_t at, seen;
+    volatile int cancel;
+} looks;
+
+static void look(void)
+{
+    const int64_t seen = __atomic_add_fetch(&looks.seen, 1, __ATOMIC_RELAXED);
+    if (looks.at > 0 && seen >= looks.at) __atomic_store_n(&looks.cancel, 1, __ATOMIC_RELAXED);
+}
+
+bool __real_wr_progress_cancelled(const WrProgress *progress);
+bool __wrap_wr_progress_cancelled(const WrProgress *progress);
+bool __wrap_wr_progress_cancelled(const WrProgress *progress)
+{
+    look();
+    return __real_wr_progress_cancelled(progress);
+}
+
+bool __real_wr_progress_step(const WrProgress *progress, double fraction);
+bool __wrap_wr_progress_step(const WrProgress *progress, double fraction);
+bool __wrap_wr_progress_step(const WrProgress *progress, double fraction)
+{
+    look();
+    return __real_wr_progress_step(progress, fraction);
+}
+
+bool __real_wr_progress_stopped(void);
+bool __wrap_wr_progress_stopped(void);
+bool __wrap_wr_progress_stopped(void)
+{
+    look();
+    return __real_wr_progress_stopped();
+}
+
+bool __real_wr_progress_tell(double fraction);
+bool __wrap_wr_progress_tell(double fraction);
+bool __wrap_wr_progress_tell(double fraction)
+{
+    look();
+    return __real_wr_progress_tell(fraction);
+}
+
+static bool run_until(WrSession *session, const char *line, int64_t at, WrError *err)
+{
+    looks.at = at;
+    __atomic_store_n(&looks.seen, 0, __ATOMIC_RELAXED);
+    looks.cancel = 0;
+    const WrProgress progress = { .cancel = &looks.cancel };
+    wr_progress_set(&progress);
+    const bool good = wr_session_run(session, line, err);
+    wr_progress_set(NULL);
+    return good;
+}
+
+/* 0, 0: it is not there. */
+static WrHash hash_of(const char *path)
+{
+    char *bytes;
+    size_t length;
+    WrError err;
+    if (access(path, F_OK) != 0) return (WrHash){ 0, 0 };
+    if (!wr_file_read(path, 1 << 24, &bytes, &length, &err)) fail_msg("%s", err.text);
+    const WrHash hash = wr_hash_bytes(bytes, length, (WrHash){ 0, 0 });
+    wr_free(bytes);
+    return hash;
+}
+
+static WrSession *session_with(WrPool *pool, const char *const *scene)
+{
+    const WrSessionOptions options = { .pool = pool, .outputs = true };
+    WrSession *session = wr_session_new(&options);
+    for (; *scene; scene++) must_run(session, *scene);
+    return session;
+}
+
+/* Which look of so many is the nth that is tried: the first few, then spread over all, none special. */
+static int64_t nth_look(int n, int64_t all)
+{
+    if (n < 4) return n + 1;
+    return 1 + (int64_t)(fmod(n * 0.6180339887498949, 1.0) * (double)all);
+}
+
+/* The scene is made anew for each stop, so that all of the renderer's tables are. */
+static void try_scene(WrPool *pool, const char *const *scene, const char *line, const char *path)
+{
+    WrError err = { "" };
+    WrSession *whole = session_with(pool, scene);
+    if (!run_until(whole, line, 0, &err)) fail_msg("%s\n  %s", line, err.text);
+    const int64_t all = looks.seen;
+    const WrHash right = hash_of(path);
+    wr_session_free(whole);
+    assert_true(all > 4);
+    for (int n = 0; n < STOPS; n++) {
+        const int64_t at = nth_look(n, all);
+        WrSession *session = session_with(pool, scene);
+        remove(path);
+        const bool good = run_until(session, line, at, &err);
+        if (good && at < all / 2)
+            fail_msg("%s: look %d of %d did not stop it", scene[4], (int)at, (int)all);
+        if (good && !wr_hash_equal(hash_of(path), right))
+            fail_msg("%s: look %d", scene[4], (int)at);
+        if (!good && !strstr(err.text, "cancelled"))
+            fail_msg("%s: stopped at look %d of %d it said %s", scene[4], (int)at, (int)all,
+                     err.text);
+        if (!good) assert_true(wr_hash_equal(hash_of(path), (WrHash){ 0, 0 }));
+        must_run(session, line);
+        if (!wr_hash_equal(hash_of(path), right))
+            fail_msg("%s: after a stop at look %d of %d the picture is another", scene[4], (int)at,
+                     (int)all);
+        wr_session_free(session);
+    }
+}
+
+static void a_picture_stops_at_any_look(void **state)
+{
+    (void)state;
+    static const char *const scenes[][SCENE] = {
+        { TABLE, "bump scheme=bilinear" },
+        { TABLE, "surface torus", "bump scheme=bspline mode=exact" },
+        { TABLE, "dials aa=filter" },
+        { TABLE, "dials aa=moments moments=lean", "replicate 3,2" },
+        { TABLE, "dials heights=8bit" },
+        { TABLE, "dials shading=double", "bump scheme=bspline-fit" },
+        { TABLE, "dials aa=adaptive samples=4" },
+        { TABLE, "environment studio", "material model=ggx roughness=0.3" },
+        { TABLE, "grain wood drives=all" },
+        { TABLE, "colouring ramp cavity=0.2,0.1,0.3" },
+        { TABLE, "bump displaced=on" },
+        { TABLE, "material shadow=on occlusion=on" },
+        { TABLE, "object add second at=1,0.3,0", "surface cube", "ground on" },
+    };
+    WrPool *pool = wr_pool_new(THREADS);
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        try_scene(pool, scenes[i], "render p.png size=61x47", "p.png");
+    wr_pool_free(pool);
+}
+
+/* Each line of the table's, at a few looks: nothing is changed, nothing is left behind, and afterwards it can be
+   done. */
+static void a_line_stops_at_any_look(void **state)
+{
+    (void)state;
+    WrPool *pool = wr_pool_new(THREADS);
+    WrSession *session = busy_session(pool, 256);
+    must_run(session, "export normal+y big.exr");
+    must_run(session, "export normal+y big.png");
+    const WrHash hash = wr_session_hash(session);
+    uint64_t folder = look_at_folder();
+    for (int i = 0; i < LINES; i++) {
+        WrError err = { "" };
+        int64_t all = 40 * (i % 7 + 1);
+        for (int n = 0; n < LINE_STOPS; n++) {
+            const int64_t at = nth_look(n + 7 * i, all);
+            if (run_until(session, lines[i], at, &err)) {
+                take_back_line(session, lines[i]);
+                folder = look_at_folder();
+                all = looks.seen;
+            } else if (!strstr(err.text, "cancelled")) {
+                fail_msg("%s: stopped at look %d it said %s", lines[i], (int)at, err.text);
+            }
+            if (!wr_hash_equal(wr_session_hash(session), hash))
+                fail_msg("%s: stopped at look %d it changed the document", lines[i], (int)at);
+            if (look_at_folder() != folder) fail_msg("%s: left a file behind", lines[i]);
+        }
+    }
+    wr_session_free(session);
+    wr_pool_free(pool);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(a_picture_stops_at_any_look),
+                                        cmocka_unit_test(a_line_stops_at_any_look) };
+    return cmocka_run_group_tests(tests, enter_state_folder, remove_folder);
+}
