@@ -1,8 +1,9 @@
 /* cancel_lines.h - lines of every command that may take long, and a session that they have something to do in. After
-   test.h, test_session_help.h; in one file of a test. */
+   test.h; in one file of a test. */
 #pragma once
 #include "base/hash.h"
 #include "base/pool.h"
+#include "test_session_help.h"
 
 #include <dirent.h>
 
