@@ -6,6 +6,7 @@
 #include "brush/brush.h"
 #include "command/call.h"
 #include "command/session.h"
+#include "document/document.h"
 #include "document/document_file.h"
 #include "document/history.h"
 #include "document/journal.h"
@@ -19,8 +20,6 @@
 #include <stdint.h>
 
 typedef struct WrBrushFiles WrBrushFiles;
-typedef struct WrDocument WrDocument;
-typedef struct WrLayer WrLayer;
 
 /* A brush and what it borrows from. */
 typedef struct WrHeldBrush {
@@ -79,6 +78,7 @@ struct WrSession {
     WrStroke *stroke;    /* open stroke, or NULL; owned */
     WrCall *stroke_call; /* its line so far; owned */
     WrPainting painting; /* what it paints with and on */
+    WrStandIn stand_in;  /* for the mask that a command, or the open stroke, changes */
 
     WrBrushFiles *brush_files; /* presets and tips that were read; made on first use; owned */
     WR_ARRAY(char *) kept;     /* SHA-256 of the files that the journal has copies of; owned */
@@ -165,8 +165,9 @@ bool wr_colouring_lags(const WrSession *session, const WrScene *object);
 bool wr_colouring_make(const WrSession *session, WrScene *object, WrError *err);
 /* Terrains take the form of their layers, where those have changed, and colours by height follow. Called when a command, or a stroke, is done. */
 bool wr_session_follow(WrSession *session, WrError *err);
-/* The layer that edits change. NULL and an error if it is locked or not shown. */
+/* The layer that edits change, or what stands in for its mask. NULL and an error if it is locked or not shown. */
 WrLayer *wr_session_layer(WrSession *session, WrError *err);
+bool wr_session_check_layer(const WrSession *session, WrError *err); /* only whether */
 /* "layer 2 \"moss\"": how messages name a layer. */
 const char *wr_session_layer_name(const WrSession *session, int index, WrText *buffer);
 /* Fails if that layer is locked. */

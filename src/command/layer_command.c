@@ -5,10 +5,9 @@
 #include "base/text.h"
 #include "command/args.h"
 #include "command/commands.h"
+#include "command/layer_mask.h"
 #include "document/document.h"
 #include "field/field.h"
-#include "field/ops.h"
-#include "field/select.h"
 #include "scene/objects.h"
 
 #include <string.h>
@@ -151,7 +150,16 @@ static bool layer_flatten(WrSession *session, WrCall *call, WrError *err)
 
 static bool layer_use(WrSession *session, WrCall *call, WrError *err)
 {
-    return find(session, call, "N", &session->state.document->active, err);
+    WrDocument *document = session->state.document;
+    if (!find(session, call, "N", &document->active, err)) return false;
+    if (!wr_call_given(call, "part")) return true;
+    WrLayer *layer = &document->layers[document->active];
+    bool on_mask = wr_call_choice(call, "part") == 1;
+    if (on_mask && !layer->mask)
+        return wr_fail(err, "part=mask: layer %d has none: `layer mask %d from=white` makes one",
+                       document->active + 1, document->active + 1);
+    layer->on_mask = on_mask;
+    return true;
 }
 
 static bool layer_move(WrSession *session, WrCall *call, WrError *err)
@@ -227,19 +235,9 @@ static bool layer_clear(WrSession *session, WrCall *call, WrError *err)
 
 static bool layer_mask(WrSession *session, WrCall *call, WrError *err)
 {
-    enum { FROM_SELECTION, FROM_NONE, FROM_WHITE };
-    WrDocument *document = session->state.document;
-    int index, from = wr_call_choice(call, "from");
-    if (!find_unlocked(session, call, &index, err)) return false;
-    if (from == FROM_SELECTION && !document->selection)
-        return wr_fail(err, "from=selection: nothing is selected");
-    WrLayer *layer = &document->layers[index];
-    WrField *mask = from == FROM_SELECTION ? wr_field_share(document->selection)
-                    : from == FROM_NONE    ? NULL
-                                           : uniform(layer, from == FROM_WHITE ? 1.0f : 0.0f);
-    wr_field_free(layer->mask);
-    layer->mask = mask;
-    return true;
+    int index;
+    return find_unlocked(session, call, &index, err) &&
+           wr_layer_mask_make(session, call, index, err);
 }
 
 enum {
@@ -285,7 +283,7 @@ static const char *blend_name(int i)
     return i < WR_BLEND_COUNT ? wr_blends[i].name : NULL;
 }
 
-static const char *const mask_sources[] = { "selection", "none", "white", "black", NULL };
+static const char *const layer_parts[] = { "heights", "mask", NULL };
 
 #define LAYER_N                                                                                    \
     {                                                                                              \
@@ -323,7 +321,13 @@ static const WrForm layer_forms[] = {
     [WR_ROW(LAYER_DELETE)] = { .name = "delete", .help = "remove a layer", .args = { LAYER_N } },
     [WR_ROW(LAYER_USE)] = { .name = "use",
                             .help = "edits go to this layer from now on",
-                            .args = { LAYER_N } },
+                            .args = { LAYER_N,
+                                      { .name = "part",
+                                        .type = WR_ARG_CHOICE,
+                                        .words = layer_parts,
+                                        .help =
+                                            "what of it strokes, fills, generators and `adjust` "
+                                            "change; left out, as it was" } } },
     [WR_ROW(LAYER_MOVE)] = { .name = "move",
                              .help = "bring a layer to another place in the stack",
                              .args = { LAYER_N,
@@ -375,13 +379,7 @@ static const WrForm layer_forms[] = {
                                          .help = "the layer, or off" } } },
     [WR_ROW(LAYER_MASK)] = { .name = "mask",
                              .help = "how much of a layer shows, texel by texel",
-                             .args = { LAYER_N,
-                                       { .name = "from",
-                                         .type = WR_ARG_CHOICE,
-                                         .required = true,
-                                         .words = mask_sources,
-                                         .help = "what is selected, no mask, a mask that shows all "
-                                                 "or nothing" } } },
+                             .args = { LAYER_N, WR_MASK_ARGS } },
 };
 WR_ROWS_END(layer_forms, LAYER_FORMS);
 

@@ -113,6 +113,16 @@ static WrField *select_flood(WrSession *session, const WrCall *call, WrError *er
                            wr_progress_here(), err);
 }
 
+static WrField *select_mask(WrSession *session, const WrCall *call, WrError *err)
+{
+    int index;
+    if (!wr_session_find_layer(session, wr_call_arg(call, "N")->text, &index, err)) return NULL;
+    const WrField *mask = session->state.document->layers[index].mask;
+    if (mask) return wr_field_share(mask);
+    wr_fail(err, "layer %d has no mask", index + 1);
+    return NULL;
+}
+
 /* ---- changes of the present one ---- */
 
 static const WrField *present(const WrSession *session, const WrCall *call, WrError *err)
@@ -150,6 +160,7 @@ enum {
     SELECT_HEIGHT,
     SELECT_SLOPE,
     SELECT_FLOOD,
+    SELECT_MASK,
     SELECT_GROW,
     SELECT_SHRINK,
     SELECT_FEATHER,
@@ -170,6 +181,7 @@ static const struct {
     [WR_ROW(SELECT_HEIGHT)] = { select_height, true },
     [WR_ROW(SELECT_SLOPE)] = { select_slope, true },
     [WR_ROW(SELECT_FLOOD)] = { select_flood, true },
+    [WR_ROW(SELECT_MASK)] = { select_mask, true },
     [WR_ROW(SELECT_GROW)] = { select_grow, false },
     [WR_ROW(SELECT_SHRINK)] = { select_shrink, false },
     [WR_ROW(SELECT_FEATHER)] = { select_feather, false },
@@ -288,6 +300,10 @@ static const WrForm select_forms[] = {
                                    "a connected part of the composite that is of about one height, "
                                    "without soft edge",
                                .args = { WR_ARGS_FLOOD("heights"), JOIN } },
+    [WR_ROW(SELECT_MASK)] = { .name = "mask",
+                              .help = "what a layer's mask shows",
+                              .args = { { PLACE("N"), .type = WR_ARG_LAYER, .help = "the layer" },
+                                        JOIN } },
     [WR_ROW(SELECT_GROW)] = { .name = "grow",
                               .help = "move its edge outwards",
                               .args = { TEXELS(WR_FIELD_MAX, "how far") } },

@@ -157,7 +157,7 @@ static bool take_made(WrSession *session, const WrCall *call, WrError *err)
     WrDocument *document = session->state.document;
     const WrDocument *made = session->made;
     bool all = wr_call_gives(call, "layers") && wr_call_choice(call, "layers") == 1;
-    if (!all && !wr_session_layer(session, err)) return false;
+    if (!all && !wr_session_check_layer(session, err)) return false;
     if (made->layer_count != document->layer_count)
         return wr_fail(err, "what was made has %d layers, the document %d", made->layer_count,
                        document->layer_count);
@@ -185,6 +185,7 @@ static bool run_edit(WrSession *session, WrCall *call, WrError *err)
     const WrProgress *whole = wr_progress_enter(&part, 0.0, layers ? 0.8 : 1.0);
     bool good = !wr_progress_stopped() && (session->made ? take_made(session, call, err)
                                                          : call->command->run(session, call, err));
+    wr_document_edit_end(session->state.document, &session->stand_in);
     good = went_through(good, err);
     part.from = part.to;
     part.to = 1.0;

@@ -67,13 +67,16 @@ static bool check_shown(const WrSession *session, int index, WrError *err)
     return false;
 }
 
+bool wr_session_check_layer(const WrSession *session, WrError *err)
+{
+    const int active = session->state.document->active;
+    return wr_session_check_unlocked(session, active, err) && check_shown(session, active, err);
+}
+
 WrLayer *wr_session_layer(WrSession *session, WrError *err)
 {
-    WrDocument *document = session->state.document;
-    if (!wr_session_check_unlocked(session, document->active, err) ||
-        !check_shown(session, document->active, err))
-        return NULL;
-    return &document->layers[document->active];
+    if (!wr_session_check_layer(session, err)) return NULL;
+    return wr_document_edit_begin(session->state.document, &session->stand_in);
 }
 
 void wr_session_put_field(WrSession *session, WrField **field, WrField *made)

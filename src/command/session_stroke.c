@@ -18,6 +18,7 @@ bool wr_session_stroke_begin(WrSession *session, const char *head, WrError *err)
     }
     WrPainting painting;
     if (!wr_painting_begin(session, call, &painting, err)) {
+        wr_document_edit_end(session->state.document, &session->stand_in);
         wr_call_free(call);
         wr_error_prefix(err, "stroke: ");
         return false;
@@ -101,6 +102,7 @@ bool wr_session_stroke_end(WrSession *session, WrError *err)
     if (!session->stroke) return wr_fail(err, "no stroke is being drawn");
     wr_stroke_free(session->stroke);
     wr_painting_end(session, &session->painting);
+    wr_document_edit_end(session->state.document, &session->stand_in);
     WrCall *call = take_call(session);
     bool drawn = wr_call_given(call, "points");
     const bool good = !drawn || wr_session_follow(session, err);
@@ -117,6 +119,7 @@ void wr_session_stroke_cancel(WrSession *session)
     if (!session->stroke) return;
     wr_stroke_abandon(session->stroke);
     wr_painting_end(session, &session->painting);
+    wr_document_edit_end(session->state.document, &session->stand_in);
     wr_call_free(take_call(session));
     wr_session_journal_stroke_end(session, false);
     wr_session_restore(session);

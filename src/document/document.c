@@ -55,6 +55,54 @@ void wr_layer_fini(WrLayer *layer)
     *layer = (WrLayer){ 0 };
 }
 
+WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in)
+{
+    WrLayer *layer = &document->layers[document->active];
+    if (!layer->on_mask) return layer;
+    if (stand_in->layer.heights) return &stand_in->layer;
+    *stand_in = (WrStandIn){
+        .layer = { .name = layer->name, .heights = layer->mask, .opacity = 1.0f, .visible = true },
+        .before = wr_field_share(layer->mask),
+        .index = document->active
+    };
+    return &stand_in->layer;
+}
+
+/* Beyond the table's edge there is the level, which is in 0..1 by then. */
+static void keep_to_unit(int tx, int ty, void *ctx)
+{
+    WrField *mask = ctx;
+    const float *old = wr_field_tile(mask, tx, ty);
+    float *tile = NULL;
+    for (int i = 0; old && i < WR_TILE * WR_TILE; i++) {
+        if (old[i] >= 0.0f && old[i] <= 1.0f) continue;
+        if (!tile) old = tile = wr_field_tile_write(mask, tx, ty);
+        tile[i] = old[i] > 1.0f ? 1.0f : 0.0f;
+    }
+}
+
+static WrField *with_unit_level(WrField *mask)
+{
+    float level = wr_field_level(mask);
+    if (level >= 0.0f && level <= 1.0f) return mask;
+    WrField *kept = empty_like(mask, level > 1.0f ? 1.0f : 0.0f);
+    for (int ty = 0; ty < wr_field_tiles_v(mask); ty++)
+        for (int tx = 0; tx < wr_field_tiles_u(mask); tx++)
+            if (wr_field_tile(mask, tx, ty)) wr_field_tile_share(kept, mask, tx, ty);
+    wr_field_free(mask);
+    return kept;
+}
+
+void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in)
+{
+    if (!stand_in->layer.heights) return;
+    WrField *mask = with_unit_level(stand_in->layer.heights);
+    wr_field_changes(stand_in->before, mask, keep_to_unit, mask);
+    document->layers[stand_in->index].mask = mask;
+    wr_field_free(stand_in->before);
+    *stand_in = (WrStandIn){ .index = 0 };
+}
+
 bool wr_document_shows(const WrDocument *document, int index)
 {
     if (document->solo >= 0) return document->solo == index;
@@ -227,6 +275,7 @@ static WrHash hash_layer(const WrLayer *layer, WrHash hash)
     hash = wr_hash_bytes(layer->name, strlen(layer->name) + 1, hash);
     hash = wr_hash_bytes(settings, sizeof settings, hash);
     hash = wr_hash_bytes(numbers, sizeof numbers, hash);
+    if (layer->on_mask) hash = wr_hash_bytes("mask", 4, hash);
     hash = hash_field(layer->heights, hash);
     hash = hash_field(layer->cover, hash);
     return hash_field(layer->mask, hash);

@@ -25,6 +25,7 @@ typedef struct WrLayer {
     float radius;     /* of the smooth blends, height units, 0 or more */
     bool visible;     /* hidden layers are not in the composite, and edits refuse them */
     bool locked;      /* edits refuse it */
+    bool on_mask;     /* edits go to its mask, which it then has */
 } WrLayer;
 
 typedef struct WrComposite WrComposite; /* private to the room */
@@ -77,6 +78,17 @@ size_t wr_document_difference(const WrDocument *before, const WrDocument *after)
 WrLayer wr_layer_new(const char *name, const WrField *like);
 WrLayer wr_layer_share(const WrLayer *layer); /* a second one, fields shared */
 void wr_layer_fini(WrLayer *layer);
+/* What edits are to change: the active layer itself; or, where they go to its mask, `stand_in`, a plain layer of the
+ * mask's values as heights, which shares its texels with the mask as long as they are written in place. Every
+ * beginning (a second one changes nothing) needs its end before anything else of the document is touched. */
+typedef struct WrStandIn {
+    WrLayer layer;   /* heights: the mask itself, or what came in its place; NULL: none */
+    WrField *before; /* the mask as it was; owned */
+    int index;       /* of the layer whose mask it is */
+} WrStandIn;
+WrLayer *wr_document_edit_begin(WrDocument *document, WrStandIn *stand_in);
+/* The mask is what was made of it, kept to 0..1. Does nothing without a beginning. */
+void wr_document_edit_end(WrDocument *document, WrStandIn *stand_in);
 /* Is it shown: visible, and no other layer alone? */
 bool wr_document_shows(const WrDocument *document, int index);
 

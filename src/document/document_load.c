@@ -326,9 +326,11 @@ static bool read_layer(Loading *in, int index, WrLayer *out, WrError *err)
                             &layer.radius, err) &&
                 read_switch(in, slot.heights, "wrinkle:visible", &layer.visible, err) &&
                 read_switch(in, slot.heights, "wrinkle:locked", &layer.locked, err) &&
+                read_switch(in, slot.heights, "wrinkle:on-mask", &layer.on_mask, err) &&
                 (layer.heights = read_field(in, slot.heights, true, err)) &&
                 (!slot.cover || (layer.cover = read_field(in, slot.cover, false, err))) &&
                 (!slot.mask || (layer.mask = read_field(in, slot.mask, false, err)));
+    layer.on_mask = layer.on_mask && layer.mask;
     if (good) *out = layer;
     else wr_layer_fini(&layer);
     return good;

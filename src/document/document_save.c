@@ -19,7 +19,7 @@
 #endif
 
 #define FILE_ATTRIBUTES 8
-#define LAYER_ATTRIBUTES 6
+#define LAYER_ATTRIBUTES 7
 #define PARTS_MAX                                                                                  \
     (3 + WR_OBJECT_PICTURES * WR_OBJECTS_MAX +                                                     \
      3 * WR_LAYERS_MAX) /* F, selection, mesh, pictures; heights, cover, mask of a layer */
@@ -198,6 +198,7 @@ static void describe_layer(Saving *to, int index, WrImageAttribute out[LAYER_ATT
         { "wrinkle:radius", keep_number(to, layer->radius) },
         { "wrinkle:visible", layer->visible ? "on" : "off" },
         { "wrinkle:locked", layer->locked ? "on" : "off" },
+        { "wrinkle:on-mask", layer->on_mask ? "on" : "off" },
     };
     memcpy(out, attributes, sizeof attributes);
 }

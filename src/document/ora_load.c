@@ -255,6 +255,7 @@ static bool read_layer(Loading *in, const WrOraLayer *from, int number, WrLayer 
             note(in, layer.name, "its float heights are gone; taken from its picture");
     }
     good = good && (!from->mask || (layer.mask = read_field(in, from->mask, false, err)));
+    layer.on_mask = from->on_mask && layer.mask;
     if (good) *out = layer;
     else wr_layer_fini(&layer);
     return good;

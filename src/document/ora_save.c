@@ -360,6 +360,7 @@ static bool add_layer(Saving *to, int index, WrError *err)
     add_looks(to, index);
     if (layer->locked) wr_ora_add_attribute(xml, "edit-locked", "true");
     if (index == to->document->active) wr_ora_add_attribute(xml, "selected", "true");
+    if (layer->on_mask) wr_ora_add_attribute(xml, "wrinkle:on-mask", "on");
     wr_ora_add_attribute(xml, "wrinkle:blend", wr_blends[layer->blend].name);
     wr_ora_add_float(xml, "wrinkle:radius", layer->radius);
     bool good =

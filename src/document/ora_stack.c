@@ -177,6 +177,7 @@ static void add_layer(Reading *reading, const char **attributes)
                          .opacity = joined.opacity,
                          .visible = joined.visible,
                          .locked = is(find(attributes, "edit-locked"), "true"),
+                         .on_mask = is(find(attributes, OURS "on-mask"), "on"),
                          .selected = is(find(attributes, "selected"), "true"),
                          .name = wr_strdup(find(attributes, "name")),
                          .src = wr_strdup(find(attributes, "src")),

@@ -22,6 +22,7 @@ typedef struct WrOraLayer {
     char *operation;                                            /* composite-op */
     char *heights, *cover, *mask, *blend, *radius, *name_bytes; /* ours */
     char *own_opacity, *own_visible; /* ours, where others are told otherwise */
+    bool on_mask;                    /* ours */
 } WrOraLayer;
 
 typedef struct WrOraStack {

@@ -88,7 +88,14 @@ bool wr_can_several_layers(const WrApp *app);
 bool wr_can_merge(const WrApp *app); /* there is a layer below */
 bool wr_can_raise(const WrApp *app);
 bool wr_can_mask_selection(const WrApp *app); /* something is selected */
-bool wr_can_mask_none(const WrApp *app);
+void wr_act_mask_height(WrApp *app);
+void wr_act_mask_slope(WrApp *app);
+void wr_act_mask_invert(WrApp *app);
+void wr_act_mask_edit(WrApp *app);
+void wr_act_mask_alone(WrApp *app);
+void wr_act_select_mask(WrApp *app);
+bool wr_has_mask(const WrApp *app);
+bool wr_is_mask_edited(const WrApp *app);
 bool wr_is_solo(const WrApp *app);
 bool wr_is_layer_shown(const WrApp *app);
 bool wr_is_layer_locked(const WrApp *app);

@@ -132,6 +132,42 @@ void wr_act_mask_none(WrApp *app)
     mask_from(app, "none");
 }
 
+void wr_act_mask_height(WrApp *app)
+{
+    wr_dialog_select_open(app, WR_OUTLINE_HEIGHT);
+    app->selecting->to_mask = true;
+}
+
+void wr_act_mask_slope(WrApp *app)
+{
+    wr_dialog_select_open(app, WR_OUTLINE_SLOPE);
+    app->selecting->to_mask = true;
+}
+
+void wr_act_mask_invert(WrApp *app)
+{
+    mask_from(app, "inverse");
+}
+
+void wr_act_mask_edit(WrApp *app)
+{
+    wr_app_run_linef(app, "layer use %d part=%s", number(app),
+                     active(app)->on_mask ? "heights" : "mask");
+}
+
+void wr_act_mask_alone(WrApp *app)
+{
+    bool alone = !wr_app_shows_mask(app);
+    if (alone && !active(app)->on_mask) wr_act_mask_edit(app);
+    app->mask_alone = alone;
+    wr_app_redraw(app);
+}
+
+void wr_act_select_mask(WrApp *app)
+{
+    wr_app_run_linef(app, "select mask %d", number(app));
+}
+
 /* ---- what can be done ---- */
 
 bool wr_can_several_layers(const WrApp *app)
@@ -154,9 +190,14 @@ bool wr_can_mask_selection(const WrApp *app)
     return wr_app_document(app)->selection != NULL;
 }
 
-bool wr_can_mask_none(const WrApp *app)
+bool wr_has_mask(const WrApp *app)
 {
     return active(app)->mask != NULL;
+}
+
+bool wr_is_mask_edited(const WrApp *app)
+{
+    return active(app)->on_mask;
 }
 
 bool wr_is_solo(const WrApp *app)

@@ -60,7 +60,7 @@ static const WrField *map_of(WrApp *app, const WrField *field)
 {
     const WrScene *scene = wr_app_document(app)->scene;
     const WrCanvasShown now = app->settings->look.shown;
-    if (now == WR_CANVAS_HEIGHTS) return NULL;
+    if (now == WR_CANVAS_HEIGHTS || wr_app_shows_mask(app)) return NULL;
     const WrGround ground = { NULL,          NULL,         scene->scheme, wr_scene_relief(scene),
                               scene->cell.w, scene->cell.h };
     WrMapJob job = wr_map_default(&ground);
@@ -82,6 +82,8 @@ void wr_canvas_view_draw(WrApp *app)
         look.low = now->low, look.high = now->high;
         if (look.low == look.high) look.low = lowest < 0 ? lowest : -1;
     }
+    if (wr_app_shows_mask(app))
+        look = (WrCanvasLook){ .colours = WR_CANVAS_GREY, .low = 0.0, .high = 1.0 };
     WrCanvasRange range;
     app->canvas_unfinished =
         wr_canvas_draw(app->canvas, app->renderer, app->view, map ? map : field, &look,
@@ -257,7 +259,8 @@ static void chips(WrApp *app)
     const WrCanvasLook *look = &app->settings->look;
     const WrCanvasRange *range = app->map_shown ? app->map_range : app->range;
     snprintf(text, sizeof text, "%s %.3g \xe2\x80\x93 %.3g",
-             app->map_shown                    ? shown[look->shown].name
+             wr_app_shows_mask(app)            ? "Mask"
+             : app->map_shown                  ? shown[look->shown].name
              : look->colours == WR_CANVAS_GREY ? "Grey"
                                                : "Signed",
              range->low, range->high);

@@ -28,6 +28,7 @@ typedef struct WrOutlineAsk {
     WrOutlineKind kind;
     double by, low, high, soft;
     WrSelectMode mode;
+    bool to_mask; /* it is to be the active layer's mask, not the selection */
 } WrOutlineAsk;
 
 /* Ask for it; replaces what was asked before. A snapshot is taken. */

@@ -77,6 +77,7 @@
     X(select_feather, "")                                                                          \
     X(select_height, "")                                                                           \
     X(select_slope, "")                                                                            \
+    X(select_mask, "")                                                                             \
     X(layer_add, "Ctrl+Shift+N Insert")                                                            \
     X(layer_duplicate, "Ctrl+J")                                                                   \
     X(layer_delete, "Shift+Delete")                                                                \
@@ -94,7 +95,12 @@
     X(mask_selection, "")                                                                          \
     X(mask_white, "")                                                                              \
     X(mask_black, "")                                                                              \
+    X(mask_height, "")                                                                             \
+    X(mask_slope, "")                                                                              \
+    X(mask_invert, "")                                                                             \
     X(mask_none, "")                                                                               \
+    X(mask_edit, "Alt+M")                                                                          \
+    X(mask_alone, "Alt+Shift+M")                                                                   \
     X(table_size, "")                                                                              \
     X(offset_half, "Ctrl+Shift+H")                                                                 \
     X(fill, "")                                                                                    \

@@ -108,6 +108,7 @@ struct WrApp {
     WrCanvasRange *range;     /* heights that the canvas shows */
     WrCanvasRange *map_range; /* numbers of the map that it shows in their place */
     bool map_shown;
+    bool mask_alone; /* the canvas shows the active layer's mask, as long as edits go there */
     bool canvas_unfinished;
     int tool;
     WrHand *hand;

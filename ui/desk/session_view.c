@@ -24,10 +24,17 @@ const WrField *wr_app_field(const WrApp *app)
     return tried ? tried : wr_document_field(wr_app_document(app));
 }
 
+bool wr_app_shows_mask(const WrApp *app)
+{
+    const WrDocument *document = wr_app_document(app);
+    return app->mask_alone && !app->trying && document->layers[document->active].on_mask;
+}
+
 const WrField *wr_app_canvas_field(const WrApp *app)
 {
     const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = &document->layers[document->active];
+    if (wr_app_shows_mask(app)) return layer->mask;
     const bool worn = !app->trying && !wr_document_shows(document, document->active) &&
                       document->solo < 0 && wr_scene_wears(document->scene, layer->name);
     return worn ? layer->heights : wr_app_field(app);

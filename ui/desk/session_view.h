@@ -13,6 +13,8 @@ typedef struct WrScene WrScene;
 const WrField *wr_app_field(const WrApp *app);
 /* What the canvas shows: the same, or, where the active layer is hidden and an object wears it, that layer alone. */
 const WrField *wr_app_canvas_field(const WrApp *app);
+/* Does it show the active layer's mask, in the place of heights? */
+bool wr_app_shows_mask(const WrApp *app);
 const WrDocument *wr_app_document(const WrApp *app);
 /* Show what this would give; the document is not touched. */
 void wr_app_try(WrApp *app, const WrTrialAsk *ask);

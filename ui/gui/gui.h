@@ -240,6 +240,8 @@ void wr_gui_drop_line(double y);
 void wr_gui_text_cut(WrFont font, WrColour colour, const char *text, double width);
 /* A picture of w x h pixels, with a thin edge. */
 void wr_gui_image(SDL_Texture *texture, double w, double h);
+/* The same as a button; chosen: with a frame around it. */
+bool wr_gui_image_button(const char *id, SDL_Texture *texture, double w, double h, bool chosen);
 
 /* ---- menus, popups, dialogs: begin returns true while open, and only then end follows ---- */
 /* tight: there is little room. Returns its height in pixels. */

@@ -117,6 +117,24 @@ try {
 }
 WR_CAUGHT()
 
+extern "C" bool wr_gui_image_button(const char *id, SDL_Texture *texture, double w, double h,
+                                    bool chosen)
+try {
+    ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + (float)w, at.y + (float)h);
+    bool pressed = ImGui::InvisibleButton(id, ImVec2((float)w, (float)h));
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_FIELD));
+    if (texture) list->AddImage(wr_gui_texture_id(texture), at, end);
+    wr_gui_edge(list, at, end);
+    if (chosen) {
+        float out = px(2);
+        list->AddRect(ImVec2(at.x - out, at.y - out), ImVec2(end.x + out, end.y + out),
+                      wr_gui_colour_of(WR_COLOUR_ACCENT), 0, 0, px(2));
+    }
+    return pressed;
+}
+WR_CAUGHT(false)
+
 extern "C" bool wr_gui_find_button(const char *label, const char *keys, double width)
 try {
     ImFont *small = wr_gui_current()->fonts[WR_FONT_SMALL];

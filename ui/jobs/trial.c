@@ -86,8 +86,12 @@ static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError
         return work->field != NULL;
     }
     options.mask = document->selection;
-    if (!work->ask.all_layers)
-        return adjust_layer(work, &document->layers[document->active], &options, err);
+    if (!work->ask.all_layers) {
+        WrStandIn stand_in = { .index = 0 };
+        bool good = adjust_layer(work, wr_document_edit_begin(document, &stand_in), &options, err);
+        wr_document_edit_end(document, &stand_in);
+        return good;
+    }
     for (int i = 0; i < document->layer_count; i++)
         if (!adjust_layer(work, &document->layers[i], &options, err)) return false;
     return true;
@@ -96,12 +100,14 @@ static bool adjust(Work *work, WrPool *pool, const WrProgress *progress, WrError
 static void dab(Work *work, WrPool *pool)
 {
     WrDocument *document = work->document;
-    WrLayer *layer = &document->layers[document->active];
+    WrStandIn stand_in = { .index = 0 };
+    const WrLayer *layer = wr_document_edit_begin(document, &stand_in);
     WrBrushGround ground = { .field = layer->heights,
                              .mark = layer->cover,
                              .selection = document->selection,
                              .pool = pool };
     wr_brush_dab_on(&ground, &work->brush, work->ask.u, work->ask.v);
+    wr_document_edit_end(document, &stand_in);
 }
 
 static void run(void *arg, WrPool *pool, const WrProgress *progress)

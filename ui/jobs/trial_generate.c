@@ -110,18 +110,20 @@ bool wr_trial_generate(WrDocument *document, const char *line, bool rough, WrPoo
                        const WrProgress *progress, WrText *notes, WrError *err)
 {
     WrCall *call = NULL;
+    if (!wr_call_parse(line, false, &call, err)) return false;
     WrRelief relief = { NULL, NULL };
-    WrLayer *layer = &document->layers[document->active];
+    WrStandIn stand_in = { .index = 0 };
+    WrLayer *layer = wr_document_edit_begin(document, &stand_in);
     WrGenerateJob job = { .like = layer->heights,
                           .pool = pool,
                           .progress = progress,
                           .coarse = rough,
                           .note = note,
                           .note_ctx = notes };
-    if (!wr_call_parse(line, false, &call, err)) return false;
     bool good = wr_call_generator(call) ? make(call, &job, &relief, err)
                                         : wr_fail(err, "%s: must be a generator's line", line);
     good = good && wr_call_join(call, &relief, document->selection, layer, pool, progress, err);
+    wr_document_edit_end(document, &stand_in);
     wr_relief_fini(&relief);
     wr_call_free(call);
     return good;

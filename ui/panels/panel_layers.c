@@ -209,13 +209,49 @@ static void row_name(const WrLayer *layer, double x, double right, bool shown, b
     wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_LABEL, text, right - x);
 }
 
+/* A part of a layer was clicked: edits go there; with Alt the mask is shown alone, or no longer. */
+static bool choose_part(WrApp *app, int i, bool mask)
+{
+    const WrDocument *document = wr_app_document(app);
+    bool alone = mask && (SDL_GetModState() & KMOD_ALT), there = document->active == i;
+    if (alone) app->mask_alone = !(there && wr_app_shows_mask(app));
+    wr_app_redraw(app);
+    if (there && document->layers[i].on_mask == mask) return false;
+    return wr_app_run_linef(app, "layer use %d part=%s", i + 1, mask ? "mask" : "heights");
+}
+
+/* Its heights and its mask; a frame is round what edits go to. True if a command was run. */
+static bool row_pictures(WrApp *app, int i, bool active, double *x)
+{
+    const WrLayer *layer = &wr_app_document(app)->layers[i];
+    double side = wr_gui_px(THUMB_UNITS), gap = wr_gui_px(8);
+    SDL_Texture *picture = thumb(app, 2 * i, layer->heights, layer->cover, false);
+    wr_gui_row_at(*x, side);
+    if (!layer->mask) {
+        wr_gui_image(picture, side, side);
+        *x += side + gap;
+        return false;
+    }
+    if (wr_gui_image_button("heights", picture, side, side, active && !layer->on_mask))
+        return choose_part(app, i, false);
+    wr_gui_tip("The layer's heights: click to edit them");
+    *x += side + gap;
+    wr_gui_row_at(*x, side);
+    picture = thumb(app, 2 * i + 1, layer->mask, NULL, true);
+    if (wr_gui_image_button("mask", picture, side, side, active && layer->on_mask))
+        return choose_part(app, i, true);
+    wr_gui_tip("Its mask: click to paint on it, Alt+click to see it alone");
+    *x += side + gap;
+    return false;
+}
+
 /* True if a command was run: the layers are others now. */
 static bool row_parts(WrApp *app, int i, bool active)
 {
     const WrDocument *document = wr_app_document(app);
     const WrLayer *layer = &document->layers[i];
     bool shown = wr_document_shows(document, i);
-    double side = wr_gui_px(THUMB_UNITS), x = wr_gui_px(8), gap = wr_gui_px(8);
+    double x = wr_gui_px(8), gap = wr_gui_px(8);
     double right = wr_gui_row_width() - wr_gui_px(34);
     wr_gui_row_at(x, wr_gui_px(24));
     const char *eye = layer->visible ? WR_ICON_EYE : WR_ICON_EYE_OFF;
@@ -226,14 +262,7 @@ static bool row_parts(WrApp *app, int i, bool active)
                : layer->visible    ? "Hide this layer"
                                    : "Show this layer");
     x += wr_gui_px(24) + gap;
-    wr_gui_row_at(x, side);
-    wr_gui_image(thumb(app, 2 * i, layer->heights, layer->cover, false), side, side);
-    x += side + gap;
-    if (layer->mask) {
-        wr_gui_row_at(x, side);
-        wr_gui_image(thumb(app, 2 * i + 1, layer->mask, NULL, true), side, side);
-        x += side + gap;
-    }
+    if (row_pictures(app, i, active, &x)) return true;
     wr_gui_row_at(right, wr_gui_px(24));
     const char *lock = layer->locked ? WR_ICON_LOCK : WR_ICON_UNLOCK;
     if (wr_gui_glyph("lock", lock, 24, layer->locked ? WR_COLOUR_CELL : 0xff5c5c5cu))
@@ -305,7 +334,14 @@ static void menu(WrApp *app)
                                          WR_ACT(mask_selection),
                                          WR_ACT(mask_white),
                                          WR_ACT(mask_black),
+                                         WR_ACT(mask_height),
+                                         WR_ACT(mask_slope),
+                                         WR_ACT(mask_invert),
                                          WR_ACT(mask_none),
+                                         "-",
+                                         WR_ACT(mask_edit),
+                                         WR_ACT(mask_alone),
+                                         WR_ACT(select_mask),
                                          NULL };
     if (app->layers->open) wr_gui_popup_open("layer");
     app->layers->open = false;

@@ -13,6 +13,7 @@
 
 #include "base/rows.h"
 #include "base/text.h"
+#include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
 
@@ -91,6 +92,7 @@ static bool range_fields(WrApp *app)
                       "Over how much it fades beyond the ends", &a->soft);
     if (a->low > a->high) a->high = a->low;
     int mode = (int)a->mode;
+    if (a->to_mask) return changed;
     wr_gui_label("How");
     if (wr_gui_choice("join", 0, joins, WR_SELECT_MODES, &mode)) {
         a->mode = (WrSelectMode)mode;
@@ -103,12 +105,16 @@ static void commit(WrApp *app)
 {
     const WrOutlineAsk *a = app->selecting;
     WrText line = { 0 };
-    wr_text_addf(&line, "select %s", kinds[a->kind].verb);
+    if (a->to_mask)
+        wr_text_addf(&line, "layer mask %d from=%s", wr_app_document(app)->active + 1,
+                     kinds[a->kind].verb);
+    else wr_text_addf(&line, "select %s", kinds[a->kind].verb);
     if (ranged(app)) {
         wr_line_number(&line, "low", a->low);
         wr_line_number(&line, "high", a->high);
         if (a->soft > 0.0) wr_line_number(&line, "soft", a->soft);
-        if (a->mode != WR_SELECT_REPLACE) wr_text_addf(&line, " mode=%s", wr_select_modes[a->mode]);
+        if (a->mode != WR_SELECT_REPLACE && !a->to_mask)
+            wr_text_addf(&line, " mode=%s", wr_select_modes[a->mode]);
     } else {
         wr_line_number(&line, "by", a->by);
     }
@@ -119,7 +125,11 @@ static void commit(WrApp *app)
 void wr_dialog_select(WrApp *app)
 {
     WrOutlineKind kind = app->selecting->kind;
-    if (!wr_gui_dialog_begin_at(kinds[kind].title, wr_dialog_side(app))) return;
+    bool mask = app->selecting->to_mask;
+    const char *title = !mask                       ? kinds[kind].title
+                        : kind == WR_OUTLINE_HEIGHT ? "Mask by height"
+                                                    : "Mask by slope";
+    if (!wr_gui_dialog_begin_at(title, wr_dialog_side(app))) return;
     wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_LABEL, kinds[kind].help);
     wr_gui_space(4);
     bool feather = kind == WR_OUTLINE_FEATHER;
@@ -129,7 +139,7 @@ void wr_dialog_select(WrApp *app)
             : number(feather ? "Width" : "By", 0, 64, 0, feather ? 1024 : WR_FIELD_MAX, 4, "texels",
                      feather ? "Standard deviation of the blur" : "How far", &app->selecting->by);
     if (changed) wr_marks_try(app, app->selecting);
-    int answer = wr_dialog_buttons(app, "Select", true);
+    int answer = wr_dialog_buttons(app, mask ? "Make mask" : "Select", true);
     if (answer > 0) commit(app);
     if (answer != 0) wr_marks_try(app, NULL);
     wr_gui_dialog_end();
