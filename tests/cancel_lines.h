@@ -125,6 +125,7 @@ static const char *const lines[] = {
     "export displacement new19.png",
     "export mask new20.png",
     "export wear new21.png",
+    "export packed new25.png alpha=cavity",
     "export normal-object new22.png",
     "export bump-slopes new24.exr",
     "export stl new8.stl",

@@ -677,7 +677,8 @@ static const struct {
 } lone[] = { { "slopes", 0, 0 },    { "slope", 0, 0 },     { "curvature", 32768 / 65535.0, 0 },
              { "occlusion", 1, 1 }, { "horizon", 0, 0 },   { "cavity", 1, 0 },
              { "direction", 0, 0 }, { "roughness", 0, 0 }, { "displacement", 0, 0.3 * 0.1 },
-             { "mask", 1, 1 },      { "wear", 0, 0 },      { NULL, 0, 0 } };
+             { "mask", 1, 1 },      { "wear", 0, 0 },      { "packed", 1, 1 },
+             { NULL, 0, 0 } };
 
 static void hc95_a_single_texel_leaves_as_every_kind(void **state)
 {

@@ -53,13 +53,12 @@ static void every_set_has_the_names_and_formats_of_its_program(void **state)
         { "blender", "clay_ao.png", WR_PIXEL_U8, 1, 0 },
         { "blender", "clay_roughness.png", WR_PIXEL_U8, 1, 0 },
         { "gltf", "clay_normal.png", WR_PIXEL_U8, 3, 1 },
-        { "gltf", "clay_occlusion.png", WR_PIXEL_U8, 1, 0 },
+        { "gltf", "clay_occlusionRoughnessMetallic.png", WR_PIXEL_U8, 3, 0 },
         { "unreal", "T_clay_N.png", WR_PIXEL_U8, 3, -1 },
         { "unreal", "T_clay_H.png", WR_PIXEL_U16, 1, 0 },
-        { "unreal", "T_clay_AO.png", WR_PIXEL_U8, 1, 0 },
-        { "unreal", "T_clay_R.png", WR_PIXEL_U8, 1, 0 },
+        { "unreal", "T_clay_ORM.png", WR_PIXEL_U8, 3, 0 },
         { "unity", "clay_Normal.png", WR_PIXEL_U8, 3, 1 },
-        { "unity", "clay_Occlusion.png", WR_PIXEL_U8, 1, 0 },
+        { "unity", "clay_MaskMap.png", WR_PIXEL_U8, 4, 0 },
         { "unity", "clay_Height.png", WR_PIXEL_U16, 1, 0 },
         { "godot", "clay_normal.png", WR_PIXEL_U8, 3, 1 },
         { "godot", "clay_height.png", WR_PIXEL_U8, 1, 0 },
@@ -90,6 +89,36 @@ static void every_set_has_the_names_and_formats_of_its_program(void **state)
         }
         wr_image_free(image);
         assert_true(wr_path_remove(known[i].file));
+    }
+}
+
+/* At the foot of the bump, which is darker there than far off it: occlusion in red, in Unity's in green, whose alpha is
+ * smoothness; the material's shininess of 40 is a roughness of 0.467. */
+static void packed_maps_have_their_channels_where_programs_look(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *set, *file;
+        int channels, occlusion, metal, rough, full;
+    } known[] = { { "gltf", "clay_occlusionRoughnessMetallic.png", 3, 0, 2, 1, -1 },
+                  { "unreal", "T_clay_ORM.png", 3, 0, 2, 1, -1 },
+                  { "unity", "clay_MaskMap.png", 4, 1, 0, 3, 2 } };
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        WrError err = { "" };
+        if (!write_set(known[k].set, NULL, 0, &err)) fail_msg("%s", err.text);
+        WrImage *image = wr_image_read(known[k].file, &err);
+        if (!image) fail_msg("%s", err.text);
+        const int n = known[k].channels;
+        const float *far = image->data, *foot = image->data + (14 * 37 + 18) * n;
+        const float level = n == 4 ? 1 - far[known[k].rough] : far[known[k].rough];
+        assert_near(far[known[k].occlusion], 1, 0.02);
+        assert_true(foot[known[k].occlusion] < far[known[k].occlusion] - 0.01f);
+        assert_near(level, 0.467, 0.003);
+        assert_true(n == 4 ? foot[3] < far[3] : foot[1] > far[1]);
+        assert_near(far[known[k].metal], 0, 0);
+        if (known[k].full >= 0) assert_near(far[known[k].full], 1, 0);
+        wr_image_free(image);
+        assert_true(wr_path_remove(known[k].file));
     }
 }
 
@@ -286,6 +315,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_set_has_the_names_and_formats_of_its_program),
+        cmocka_unit_test(packed_maps_have_their_channels_where_programs_look),
         cmocka_unit_test(all_files_of_a_set_are_replaced_or_none),
         cmocka_unit_test(words_go_to_the_maps_that_have_them),
         cmocka_unit_test(an_own_set_is_written_as_its_lines_say),

@@ -45,6 +45,7 @@
    mask: 1 from low to high, down to 0 over `feather` beyond either; sharp where that is 0.
    wear: of edges. With c = convex curvature over `full`, or what one texel in 50 is above, at most 1, and N a periodic noise of -1..1 of `grain` cells,
      max(0, min(1, (c (1 + noise N) - threshold) / (1 - threshold))).
+   packed: several of these in one picture, a channel each, 0..1 of what their codes go over; curvature is 1/2 where it is 0.
    All but wear with noise are moved with the table, to the bit.
 
    bump-slopes: six channels of floats, h, dh/ds, dh/dt, their squares and product, h in table units, s to the right and t
@@ -84,6 +85,13 @@ typedef enum WrExportGround {
     WR_EXPORT_GROUND_GIVEN
 } WrExportGround;
 
+/* What a channel of a packed picture holds. */
+typedef struct WrExportPack {
+    int filling; /* 0: as usual; a map of packed.c, counted from 1; or NUMBER */
+    double number;
+} WrExportPack;
+#define WR_PACK_NUMBER (-1)
+
 /* How a cell is laid: see export's option lay=. */
 #define WR_LAY_LIST(X)                                                                             \
     X(WR_LAY_PLAIN, "plain")                                                                       \
@@ -114,7 +122,8 @@ typedef struct WrExportOptions {
     double radius;  /* cavity: standard deviation of the blur, texels */
     int part;       /* curvature: a WrExportPart */
     int box;        /* roughness: texels, odd */
-    double base;    /* roughness: Beckmann's alpha of the material, 0..1 */
+    double base;    /* roughness: Beckmann's alpha of the material, 0..1; below 0: the scene's */
+    WrExportPack pack[4]; /* packed: red, green, blue, alpha */
     WrExportGround ground;
     double ground_at;           /* displacement: of ground given, table units */
     double scale;               /* displacement: of F = 1; NAN: the scene's height */
@@ -228,7 +237,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 22
+#define WR_EXPORT_KIND_COUNT 23
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

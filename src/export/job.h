@@ -95,6 +95,11 @@ bool wr_export_displacement_make(WrExportJob *job, WrError *err);
 bool wr_export_mask_make(WrExportJob *job, WrError *err);
 bool wr_export_wear_make(WrExportJob *job, WrError *err);
 
+/* packed.c */
+int wr_export_packed_channels(const WrExportJob *job, char (*names)[WR_EXPORT_NAME]);
+bool wr_export_packed_make(WrExportJob *job, WrError *err);
+void wr_export_packed_describe(WrExportJob *job);
+
 /* height.c, normal.c, derived.c, drawing.c, profile.c, solid.c: the functions of the kinds. */
 void wr_export_height_prepare(WrExportJob *job);
 void wr_export_height_rows(WrExportJob *job, int y, int rows, void *out);

@@ -4,6 +4,7 @@
 #include "export/lines.h"
 #include "export/map_options.h"
 #include "export/options.h"
+#include "export/packed.h"
 #include "field/scheme.h"
 
 #include <math.h>
@@ -172,31 +173,6 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
     return true;
 }
 
-/* Millimetres. */
-static bool parse_length(const char *name, const char *value, double *out, WrError *err)
-{
-    double mm;
-    if (!wr_number_parse(value, strlen(value), &mm) || !(mm >= 1e-6 && mm <= 1e6))
-        return wr_fail(err, "%s '%.40s': must be millimetres, 1e-6..1e6", name, value);
-    *out = mm;
-    return true;
-}
-
-static bool set_solid_size(WrExportOptions *options, const char *value, WrError *err)
-{
-    return parse_length("size", value, &options->solid_size, err);
-}
-
-static bool set_solid_error(WrExportOptions *options, const char *value, WrError *err)
-{
-    return parse_length("error", value, &options->solid_error, err);
-}
-
-static bool set_thickness(WrExportOptions *options, const char *value, WrError *err)
-{
-    return parse_length("thickness", value, &options->solid_thickness, err);
-}
-
 #define DEPTH                                                                                      \
     {                                                                                              \
         "depth", "8, 16 or 32",                                                                    \
@@ -257,12 +233,12 @@ static bool set_thickness(WrExportOptions *options, const char *value, WrError *
         { "size", "MM",                                                                            \
           "longest side of the surface without its relief; left out: of a plane what "             \
           "`cell mm=on` says, else 100",                                                           \
-          set_solid_size },                                                                        \
+          wr_export_set_solid_size },                                                              \
             { "error", "MM", "how far a texel may be from its triangle; left out: 0.05",           \
-              set_solid_error },                                                                   \
+              wr_export_set_solid_error },                                                         \
             { "thickness", "MM",                                                                   \
               "under the lowest texel; left out: 2 for a sheet, a tube is filled",                 \
-              set_thickness },                                                                     \
+              wr_export_set_thickness },                                                           \
             OBJECT                                                                                 \
     }
 
@@ -445,6 +421,17 @@ const WrExportKind wr_export_kinds[] = {
       .make = wr_export_wear_make,
       .rows = wr_export_map_rows,
       .describe = wr_export_map_describe },
+    { .name = "packed",
+      .label = "packed maps",
+      .help = "several maps in one picture, a channel each: occlusion, roughness and metalness, "
+              "or what red=, green=, blue= and alpha= say",
+      .options = { DEPTH, CELL, SCHEME, DITHER, OBJECT, WR_OPTION_PACK, WR_OPTION_DIRECTIONS,
+                   WR_OPTION_REACH, WR_OPTION_BOX, WR_OPTION_BASE, WR_OPTION_SHEET },
+      .channels = 3,
+      .count_channels = wr_export_packed_channels,
+      .make = wr_export_packed_make,
+      .rows = wr_export_map_rows,
+      .describe = wr_export_packed_describe },
     { .name = "lines",
       .label = "line drawing",
       .help = "the cell as a 3D line drawing with hidden lines removed: svg, pdf, or a picture",

@@ -108,8 +108,10 @@ bool wr_set_box(WrExportOptions *options, const char *value, WrError *err)
 
 bool wr_set_base(WrExportOptions *options, const char *value, WrError *err)
 {
-    const Allowed allowed = { "base", "Beckmann's alpha of the material, 0..1", 0, 1, false };
-    return parse(&allowed, value, &options->base, err);
+    const Allowed allowed = { "base", "Beckmann's alpha of the material, 0..1, or material", 0, 1,
+                              false };
+    options->base = -1;
+    return strcmp(value, "material") == 0 || parse(&allowed, value, &options->base, err);
 }
 
 bool wr_set_ground(WrExportOptions *options, const char *value, WrError *err)

@@ -56,7 +56,7 @@ WrExportSet wr_set_directions, wr_set_reach, wr_set_toward, wr_set_steepest, wr_
     }
 #define WR_OPTION_BASE                                                                             \
     {                                                                                              \
-        "base", "ALPHA", "of the material itself, 0..1; left out: 0", wr_set_base                  \
+        "base", "ALPHA or material", "of the material itself, 0..1; left out: 0", wr_set_base      \
     }
 #define WR_OPTION_GROUND                                                                           \
     {                                                                                              \

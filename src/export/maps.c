@@ -7,6 +7,7 @@
 #include "field/maps.h"
 #include "field/occlusion.h"
 #include "scene/scene.h"
+#include "shade/reflect.h"
 #include "system/thread.h"
 
 #include <math.h>
@@ -218,9 +219,20 @@ bool wr_export_direction_make(WrExportJob *job, WrError *err)
     return true;
 }
 
+/* Beckmann's alpha of the scene's material: roughness squared, or as wide as the lobe of its shininess (Walter, Marschner,
+ * Li, Torrance 2007: s = 2 / alpha^2 - 2). */
+static double material_alpha(const WrScene *scene)
+{
+    const double roughness = scene->material.roughness;
+    if (wr_reflects[scene->material.model].roughness) return roughness * roughness;
+    return fmin(1, sqrt(2 / (scene->material.shininess + 2)));
+}
+
 bool wr_export_roughness_make(WrExportJob *job, WrError *err)
 {
-    const WrMapJob settings = { .box = job->options.box, .base = job->options.base };
+    const double base = job->options.base;
+    const WrMapJob settings = { .box = job->options.box,
+                                .base = base < 0 ? material_alpha(job->scene) : base };
     if (!fill(job, WR_FIELD_MAP_ROUGHNESS, &settings, "roughness", err)) return false;
     wr_export_codes(job, 0, 1);
     return true;

@@ -141,6 +141,33 @@ bool wr_export_set_margin(WrExportOptions *options, const char *value, WrError *
     return true;
 }
 
+/* ---- bodies ---- */
+
+/* Millimetres. */
+static bool parse_length(const char *name, const char *value, double *out, WrError *err)
+{
+    double mm;
+    if (!wr_number_parse(value, strlen(value), &mm) || !(mm >= 1e-6 && mm <= 1e6))
+        return wr_fail(err, "%s '%.40s': must be millimetres, 1e-6..1e6", name, value);
+    *out = mm;
+    return true;
+}
+
+bool wr_export_set_solid_size(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_length("size", value, &options->solid_size, err);
+}
+
+bool wr_export_set_solid_error(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_length("error", value, &options->solid_error, err);
+}
+
+bool wr_export_set_thickness(WrExportOptions *options, const char *value, WrError *err)
+{
+    return parse_length("thickness", value, &options->solid_thickness, err);
+}
+
 /* ---- by name ---- */
 
 const WrExportKind *wr_export_find(const char *name)

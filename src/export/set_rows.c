@@ -23,18 +23,25 @@ const WrSetRow wr_set_rows[] = {
       "normal+y *_normal.png depth=16\n"
       "occlusion *_ao.png depth=8\n"
       "roughness *_roughness.png depth=8\n" },
-    { "gltf", "the normal and the occlusion texture",
+    { "gltf",
+      "the normal texture, and one for occlusion (red), roughness (green) and metalness (blue)",
       "normal+y *_normal.png depth=8\n"
-      "occlusion *_occlusion.png depth=8\n" },
-    { "unreal", "T_NAME_N with green down, T_NAME_H of 16 bits, T_NAME_AO, T_NAME_R for roughness",
+      "packed *_occlusionRoughnessMetallic.png depth=8 red=occlusion green=roughness "
+      "blue=metalness base=material\n" },
+    { "unreal",
+      "T_NAME_N with green down, T_NAME_H of 16 bits, T_NAME_ORM: occlusion (red), roughness "
+      "(green), metalness (blue)",
       "normal-y T_*_N.png depth=8\n"
       "height T_*_H.png depth=16\n"
-      "occlusion T_*_AO.png depth=8\n"
-      "roughness T_*_R.png depth=8\n" },
-    { "unity", "normals, heights, occlusion",
+      "packed T_*_ORM.png depth=8 red=occlusion green=roughness blue=metalness base=material\n" },
+    { "unity",
+      "normals, heights, the mask map: metalness (red), occlusion (green), where details go "
+      "(blue: everywhere), smoothness (alpha); the built-in pipeline takes it for metalness and "
+      "occlusion as well",
       "normal+y *_Normal.png depth=8\n"
       "height *_Height.png depth=16\n"
-      "occlusion *_Occlusion.png depth=8\n" },
+      "packed *_MaskMap.png depth=8 red=metalness green=occlusion blue=1 alpha=smoothness "
+      "base=material\n" },
     { "godot", "normals, heights, occlusion, roughness",
       "normal+y *_normal.png depth=8\n"
       "height *_height.png depth=8 dither=on\n"
