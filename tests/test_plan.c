@@ -259,6 +259,30 @@ static void torus(Stage *stage)
     take_surface(stage, "torus");
 }
 
+static void keep_all_hides(Stage *stage)
+{
+    stage->scene->lights[0].shadow = true;
+}
+
+static void torus_hides(Stage *stage)
+{
+    torus(stage);
+    keep_all_hides(stage);
+    stage->scene->lights[0].where = (WrVec3){ -0.83, 0.4, 0.31 };
+}
+
+static void hides_in_the_dark(Stage *stage)
+{
+    torus_hides(stage);
+    dark(stage);
+}
+
+static void hides_without_rays(Stage *stage)
+{
+    torus_hides(stage);
+    stage->scene->dials.rays = 0;
+}
+
 static void torus_flat_on(Stage *stage)
 {
     torus(stage);
@@ -269,6 +293,12 @@ static void torus_flat_on(Stage *stage)
 static void cube(Stage *stage)
 {
     take_surface(stage, "cube");
+}
+
+static void cube_hides(Stage *stage)
+{
+    cube(stage);
+    keep_all_hides(stage);
 }
 
 static void cube_from_within(Stage *stage)
@@ -617,6 +647,12 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_EXACT] = { exact, { { exact_cube, 1e-5 }, { keep_all, NOTHING } } },
     [WR_EFFECT_CURVATURE] = { exact, { { keep_all, 0 }, { smooth, 0 } } },
     [WR_EFFECT_SHADOW] = { shadowed, { { keep_all, NOTHING } } },
+    [WR_EFFECT_CAST] = { torus_hides,
+                         { { keep_all_hides, 0 },
+                           { cube_hides, 0 },
+                           { hides_in_the_dark, NOTHING },
+                           { hides_without_rays, NOTHING },
+                           { keep_all, NOTHING } } },
     [WR_EFFECT_OCCLUSION] = { occluded, { { occluded_in_the_dark, 0 }, { keep_all, NOTHING } } },
     [WR_EFFECT_SAMPLES] = { supersampled, { { keep_all, NOTHING }, { one_sample, NOTHING } } },
     [WR_EFFECT_BOUND] = { bounded, { { keep_all, NOTHING }, { bounded_torus, NOTHING } } },

@@ -141,7 +141,8 @@ static void hc153_stretched_objects_look_alike(void **state)
             scene->height *= 0.5;
             if (k % 2) scene->camera.orthographic = true;
             if (k % 3 == 1)
-                scene->lights[0] = (WrLight){ WR_LIGHT_POINT, { -2, 3, 4 }, { 1, 1, 1 }, 1, 0 };
+                scene->lights[0] =
+                    (WrLight){ WR_LIGHT_POINT, { -2, 3, 4 }, { 1, 1, 1 }, 1, 0, false };
             covered += assert_sees(scene, field, wr_surfaces[kind]->name, k);
             wr_scene_free(scene);
         }
@@ -241,8 +242,13 @@ static void lights_of_every_kind_shine_alike(void **state)
     for (int k = 0; k < 4; k++) {
         WrScene *scene = scene_of(k % 2 ? "torus" : "sphere");
         WrLight lights[2] = {
-            { WR_LIGHT_POINT, { 1, 2, 2.5 }, { 1, 0.5, 0.2 }, 0.8, 0 },
-            { k < 2 ? WR_LIGHT_DIRECTIONAL : WR_LIGHT_POINT, { -3, 1, 1 }, { 0, 0.4, 1 }, 0.6, 0 },
+            { WR_LIGHT_POINT, { 1, 2, 2.5 }, { 1, 0.5, 0.2 }, 0.8, 0, false },
+            { k < 2 ? WR_LIGHT_DIRECTIONAL : WR_LIGHT_POINT,
+              { -3, 1, 1 },
+              { 0, 0.4, 1 },
+              0.6,
+              0,
+              false },
         };
         wr_free(scene->lights);
         scene->lights = wr_alloc(2, sizeof *scene->lights);
@@ -326,7 +332,7 @@ static void hc84_from_inside_the_same_side_is_seen(void **state)
         if (k == 3) scene->rotate_deg = (WrVec3){ -90, 0, 0 };
         scene->camera.target = v3_add(scene->camera.eye, (WrVec3){ 0.1, -0.2, -1 });
         scene->camera.fov_deg = 80;
-        WrLight inside = { WR_LIGHT_POINT, scene->camera.eye, { 1, 1, 1 }, 1, 0 };
+        WrLight inside = { WR_LIGHT_POINT, scene->camera.eye, { 1, 1, 1 }, 1, 0, false };
         scene->lights[0] = inside;
         assert_agree(scene, field, FLOAT_BOUND);
         wr_scene_free(scene);

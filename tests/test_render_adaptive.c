@@ -224,7 +224,7 @@ static void contrast_keeps_near_all_samples(void **state)
         scene->camera.orthographic = which % 3 == 0;
         scene->material.gate = which % 5 == 0;
         scene->lights = wr_realloc(scene->lights, 1, 2, sizeof *scene->lights);
-        scene->lights[1] = (WrLight){ WR_LIGHT_POINT, { 3, 1, 2 }, { 0.2, 0.5, 1 }, 0.7, 0 };
+        scene->lights[1] = (WrLight){ WR_LIGHT_POINT, { 3, 1, 2 }, { 0.2, 0.5, 1 }, 0.7, 0, false };
         scene->light_count = 2;
         Shot all = with_dials(scene, field, WR_AA_SUPERSAMPLE, WR_REFINE_CONTRAST, k, within);
         Shot some = with_dials(scene, field, WR_AA_ADAPTIVE, WR_REFINE_CONTRAST, k, within);

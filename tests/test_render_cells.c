@@ -126,7 +126,7 @@ static void cells_look_as_the_reference_says(void **state)
         scene->camera.eye = (WrVec3){ 0.05, -0.1, 0.2 };
         scene->camera.target = v3_add(scene->camera.eye, (WrVec3){ 0.1, -0.2, -1 });
         scene->camera.fov_deg = 80;
-        scene->lights[0] = (WrLight){ WR_LIGHT_POINT, scene->camera.eye, { 1, 1, 1 }, 1, 0 };
+        scene->lights[0] = (WrLight){ WR_LIGHT_POINT, scene->camera.eye, { 1, 1, 1 }, 1, 0, false };
         assert_agrees(scene, field, 8000);
         wr_scene_free(scene);
     }

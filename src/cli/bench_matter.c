@@ -30,3 +30,8 @@ void wr_bench_embossed(WrScene *scene)
     wr_bench_wooden(scene);
     scene->grain.drives = WR_GRAIN_BUMPS;
 }
+
+void wr_bench_objects_hide(WrScene *scene)
+{
+    scene->lights[0].shadow = true;
+}

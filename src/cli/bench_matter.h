@@ -8,4 +8,5 @@ void wr_bench_of_facets(WrScene *scene);
 void wr_bench_wooden(WrScene *scene);
 void wr_bench_wooden_filtered(WrScene *scene);
 void wr_bench_roughened(WrScene *scene);
+void wr_bench_objects_hide(WrScene *scene);
 void wr_bench_embossed(WrScene *scene);

@@ -99,9 +99,10 @@ WrScene *wr_bench_scene(const char *surface, WrBenchMode mode, bool fast, WrErro
                                     .gate = true,
                                     .roughness = 0.3,
                                     .ior = 1.5 };
-    scene->lights[0] = (WrLight){
-        WR_LIGHT_DIRECTIONAL, { 0.36514837, 0.54772256, 0.75592895 }, { 1, 1, 1 }, 1, 0
-    };
+    scene->lights[0] = (WrLight){ .kind = WR_LIGHT_DIRECTIONAL,
+                                  .where = { 0.36514837, 0.54772256, 0.75592895 },
+                                  .colour = { 1, 1, 1 },
+                                  .strength = 1 };
     scene->height = 1;
     const bool bump = mode != WR_BENCH_PHONG && mode != WR_BENCH_TEXTURE;
     scene->bump = bump ? WR_BUMP_BLINN : WR_BUMP_NONE;

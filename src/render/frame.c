@@ -55,6 +55,7 @@ void wr_renderer_forget(WrRenderer *renderer)
     wr_triangles_free(renderer->square);
     renderer->square = NULL;
     wr_sight_fini(&renderer->sight);
+    wr_cast_body_fini(&renderer->body);
 }
 
 void wr_renderer_free(WrRenderer *renderer)
@@ -228,6 +229,10 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
     job.sight = renderer->sighting ? &renderer->sight : NULL;
     job.seen_before = renderer->sighted;
+    job.cast = &renderer->cast;
+    job.cast_count =
+        wr_plan_calls(&renderer->plan, WR_EFFECT_CAST) ? renderer->cast.count : renderer->cast.all;
+    job.cast_unit = 1 / renderer->view.scale;
     return job;
 }
 
@@ -387,6 +392,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     };
     ask.facts.normals = request->normals;
     ask.facts.among = renderer->among;
+    ask.facts.hiders = renderer->cast.count;
     if (!find_outside(renderer, request, &ask.facts.outside, err)) return false;
     if (!find_rise(renderer, request, &ask.facts.rise, err)) return false;
     if (!wr_frame_prepare_table(renderer, request, &ask, err)) return false;
@@ -438,6 +444,8 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     const WrKeep *const own = &renderer->keep;
     wr_group_free(renderer);
     if (!wr_frame_resize(renderer, request, err)) return false;
+    const WrScene *scene = request->scene;
+    if (!wr_frame_casts(&renderer, &scene, 1, request, err)) return false;
     if (!wr_frame_prepare(renderer, request, err)) return false;
     wr_frame_bring_sight(renderer, request, (WrHash){ 0 },
                          wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN));

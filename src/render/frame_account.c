@@ -121,8 +121,8 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
                 seconds[WR_STAGE_NORMALS] + seconds[WR_STAGE_BUMP] + seconds[WR_STAGE_SPREAD],
         .shade = seconds[WR_STAGE_COLOUR] + seconds[WR_STAGE_TINT] + seconds[WR_STAGE_DIFFUSE] +
                  seconds[WR_STAGE_SPECULAR] + seconds[WR_STAGE_SURROUND] +
-                 seconds[WR_STAGE_MIRROR] + seconds[WR_STAGE_SHADOW] + seconds[WR_STAGE_OCCLUSION] +
-                 seconds[WR_STAGE_LIGHT],
+                 seconds[WR_STAGE_MIRROR] + seconds[WR_STAGE_SHADOW] + seconds[WR_STAGE_CAST] +
+                 seconds[WR_STAGE_OCCLUSION] + seconds[WR_STAGE_LIGHT],
         .resolve = seconds[WR_STAGE_RESOLVE] + seconds[WR_STAGE_BOUND] + seconds[WR_STAGE_STORE],
         .pyramid = renderer->pyramid_seconds,
         .total = total,

@@ -5,6 +5,7 @@
 #include "render/opening.h"
 #include "render/coder.h"
 #include "render/dice.h"
+#include "render/cast.h"
 #include "render/frame.h"
 #include "render/keep.h"
 #include "render/grades.h"
@@ -44,6 +45,8 @@ struct WrRenderer {
     uint64_t horizon_key;
     double horizon_sign;
     WrOpeningTable opening;
+    WrCastBody body; /* of the object, as it throws shadows */
+    WrCast cast;     /* what can hide lamps from it */
     WrFrames frames;
     WrSight sight;           /* of the last view that rested */
     WrTileScratch **scratch; /* [threads], made on first use */
@@ -136,6 +139,9 @@ void wr_frame_account(WrRenderer *renderer, double prepared, double started, WrF
 void wr_frame_drop_meshes(WrRenderer *renderer, const WrViewMesh *but);
 /* The triangles that the scene shows; the renderer's, or the scene's. */
 const WrTriangles *wr_frame_triangles(WrRenderer *renderer, const WrScene *scene);
+/* What can hide lamps from each of `count` objects, those of a picture, each with its renderer. Errors: as wr_cast_prepare. */
+bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes, int count,
+                    const WrFrameRequest *request, WrError *err);
 /* As kernels look them up. */
 WrTriangleLook wr_frame_look_up(const WrViewTriangles *triangles, double scale);
 /* Bring what the surface is rasterised from up to the view. Errors: no memory. */

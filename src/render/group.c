@@ -112,6 +112,13 @@ static WrFrameRequest request_of(const Part *part, const WrFrameRequest *request
 static bool prepare_parts(WrRenderer *renderer, const WrFrameRequest *request, WrError *err)
 {
     WrGroup *group = renderer->group;
+    WrRenderer *own_renderers[WR_OBJECTS_MAX];
+    const WrScene *own_scenes[WR_OBJECTS_MAX];
+    for (int i = 0; i < group->count; i++) {
+        own_renderers[i] = group->parts[i].renderer;
+        own_scenes[i] = group->parts[i].scene;
+    }
+    if (!wr_frame_casts(own_renderers, own_scenes, group->count, request, err)) return false;
     for (int i = 0; i < group->count; i++) {
         Part *part = &group->parts[i];
         const WrFrameRequest own = request_of(part, request);

@@ -91,6 +91,7 @@ typedef struct WR_T(WrKernLight) {
     REAL where[3]; /* unit direction towards it, or position */
     REAL rgb[3];   /* colour * strength */
     double radius; /* of a round lamp, radians */
+    bool shadow;   /* objects hide it */
 } WR_T(WrKernLight);
 
 /* ks, s and the gate of a highlight. */

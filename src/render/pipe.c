@@ -4,10 +4,12 @@
 #include "base/kernmath.h"
 #include "base/vec.h"
 #include "field/horizon.h"
+#include "render/cast.h"
 #include "render/pyramid.h"
 #include "render/relief.h"
 #include "scene/normal_map.h"
 #include "scene/scene.h"
+#include "surface/triangles.h"
 #include "shade/slope.h"
 #include "system/clock.h"
 

@@ -44,7 +44,6 @@ static void did(const Watch *watch, WrEffect effect)
 #include "render/pipe_half_body.h"
 #include "render/pipe_look_body.h"
 #include "render/pipe_map_body.h"
-#include "system/clock.h"
 
 /* Is light worked out? */
 static bool lit(const WrSink *sink)
@@ -54,6 +53,7 @@ static bool lit(const WrSink *sink)
 
 #include "render/pipe_horizon_body.h"
 #include "render/pipe_shadow_body.h"
+#include "render/pipe_cast_body.h"
 #include "render/pipe_opening_body.h"
 #include "render/pipe_light_body.h"
 #include "render/pipe_dark_body.h"

@@ -15,20 +15,6 @@ static void base_strip(const WrTileJob *job, int face, Strip *strip, Watch *watc
     watch_lap(watch, WR_STAGE_GEOMETRY);
 }
 
-/* The facet's normal times its area, twice. */
-static void facet_of(const WrTriangleLook *look, int32_t triangle, REAL n[3])
-{
-    const int32_t *corner = look->triangles + 3 * (size_t)triangle;
-    const float *a = look->corners + 8 * (size_t)corner[0];
-    const float *b = look->corners + 8 * (size_t)corner[1];
-    const float *c = look->corners + 8 * (size_t)corner[2];
-    REAL e[3], f[3];
-    for (int k = 0; k < 3; k++) e[k] = (REAL)(b[k] - a[k]), f[k] = (REAL)(c[k] - a[k]);
-    n[0] = e[1] * f[2] - e[2] * f[1];
-    n[1] = e[2] * f[0] - e[0] * f[2];
-    n[2] = e[0] * f[1] - e[1] * f[0];
-}
-
 /* n' of a displaced surface is on the side of the facet that is seen, whichever side of the base that is. */
 static void face_viewer(const WrTileJob *job, const Rays *rays, Strip *strip)
 {

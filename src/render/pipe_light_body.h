@@ -106,15 +106,16 @@ static void lamp_strip(const WrTileJob *job, const Rays *rays, const WR_T(WrKern
     watch_lap(watch, WR_STAGE_BOUND);
 }
 
-/* The same where the relief does not hide it. */
+/* The same where neither the relief nor an object hides it. */
 static void shadowed_lamp(const WrTileJob *job, const Rays *rays, const WR_T(WrKernLight) * light,
                           const WrSink *sink, Strip *strip, Watch *watch)
 {
     Sums before;
-    const bool shadows = runs(job, WR_EFFECT_SHADOW);
-    if (shadows) keep_sums(strip, &before);
+    const bool shadows = runs(job, WR_EFFECT_SHADOW), casts = runs(job, WR_EFFECT_CAST);
+    if (shadows || casts) keep_sums(strip, &before);
     lamp_strip(job, rays, light, sink, strip, watch);
     if (shadows) shadow_strip(job, light, &before, strip, watch);
+    if (casts) cast_strip(job, light, &before, strip, watch);
 }
 
 /* What surroundings add. */
@@ -152,6 +153,7 @@ static WR_T(WrShadeKernel) single_pass(const WrTileJob *job, const Rays *rays, c
     const bool shines = runs(job, WR_EFFECT_SPECULAR);
     if (runs(job, WR_EFFECT_MODEL) || runs(job, WR_EFFECT_OCCLUSION)) return NULL;
     if (runs(job, WR_EFFECT_SURROUND) || runs(job, WR_EFFECT_MIRROR)) return NULL;
+    if (runs(job, WR_EFFECT_CAST)) return NULL;
     if (job->view->light_count != 1 || sink->bound || runs(job, WR_EFFECT_HALF)) return NULL;
     if (!shines && !runs(job, WR_EFFECT_DIFFUSE)) return NULL;
     if (shines && runs(job, WR_EFFECT_SPREAD)) return NULL;

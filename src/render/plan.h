@@ -49,6 +49,7 @@ typedef enum WrEffect {
     WR_EFFECT_EXACT,
     WR_EFFECT_CURVATURE,
     WR_EFFECT_SHADOW,
+    WR_EFFECT_CAST,
     WR_EFFECT_OCCLUSION,
     WR_EFFECT_SAMPLES,
     WR_EFFECT_BOUND,
@@ -101,6 +102,7 @@ typedef enum WrStage {
     WR_STAGE_SURROUND,  /* diffuse light of surroundings */
     WR_STAGE_MIRROR,    /* what is reflected of them */
     WR_STAGE_SHADOW,    /* lamps that the relief hides */
+    WR_STAGE_CAST,      /* lamps that objects hide */
     WR_STAGE_OCCLUSION, /* sky that it hides */
     WR_STAGE_LIGHT,     /* all of a single light in one pass */
     WR_STAGE_BOUND,
@@ -180,6 +182,7 @@ typedef enum WrPrecision {
      scheme      how the table is looked up
      normals     the surface's geometry and n' are worked out
      horizons    directions in which the table's are kept, for shadows too
+     rays        to a round lamp that objects may hide
      samples     K of K x K; 1 where one sample is taken
      anisotropic, tint_anisotropic    of several look-ups
      lean        by the whole covariance; else by its trace
@@ -203,6 +206,7 @@ typedef enum WrPrecision {
     X(BUMP, WrSource, source)                                                                      \
     X(BUMP, WrScheme, scheme)                                                                      \
     X(CURVATURE, bool, normals)                                                                    \
+    X(CAST, int, rays)                                                                             \
     X(OCCLUSION, int, horizons)                                                                    \
     X(SAMPLES, int, samples)                                                                       \
     X(SAMPLES, WrSampling, sampling)                                                               \
@@ -261,6 +265,7 @@ typedef struct WrPlanFacts {
     bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
     bool sighted;    /* what the view's samples look at is known from the last picture */
     int among;       /* objects that are shown; 0 or 1: this one alone */
+    int hiders;      /* objects that can hide a lamp from this one, itself among them */
     double rise;     /* pixels that F could move a point at most; below 0: not known */
     bool rests;    /* the last picture is kept, and was made by the same plan of the same request */
     double sloped; /* the share of the table's tiles that have a slope; below 0: not known */

@@ -2,6 +2,7 @@
 #include "render/plan_inner.h"
 
 #include "field/horizon.h"
+#include "render/cast.h"
 #include "scene/scene.h"
 
 static bool any_light(const WrScene *scene)
@@ -112,6 +113,29 @@ WrVerdict wr_decide_shadow(const WrPlan *plan, const WrPlanAsk *ask, const char 
     if (!runs(plan, WR_EFFECT_BUMP) || plan->source != WR_SOURCE_TABLE)
         return say(WR_VERDICT_NONE, why, "there is no relief to throw any");
     return say(WR_VERDICT_RUN, why, "lamps below the relief's horizon are hidden");
+}
+
+WrVerdict wr_decide_cast(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!wr_cast_asked(ask->scene)) return say(WR_VERDICT_NONE, why, "no light asks for them");
+    if (ask->dials->rays == 0)
+        return say(WR_VERDICT_NONE, why, "the dial lets no ray go to a lamp");
+    if (runs(plan, WR_EFFECT_DISPLACED))
+        return say(WR_VERDICT_NONE, why, "displaced surfaces have none yet");
+    if (!runs(plan, WR_EFFECT_DIFFUSE) && !runs(plan, WR_EFFECT_SPECULAR))
+        return say(WR_VERDICT_NONE, why, "no light is worked out");
+    if (ask->facts.hiders > 0)
+        return say(WR_VERDICT_RUN, why, "an object can stand between this one and a lamp");
+    return say(
+        WR_VERDICT_SPARED, why,
+        ask->facts.among > 1
+            ? "no object's ball stands between this one's and a lamp, and it hides none itself"
+            : "a convex or flat object alone hides no lamp from itself");
+}
+
+void wr_settle_cast(WrPlan *plan, const WrPlanAsk *ask)
+{
+    if (runs(plan, WR_EFFECT_CAST)) plan->rays = ask->dials->rays;
 }
 
 /* Light that occlusion keeps away: ambient, and that of surroundings. */

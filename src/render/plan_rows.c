@@ -89,97 +89,6 @@ static void settle_invariant(WrPlan *plan, const WrPlanAsk *ask)
 
 /* ---- samples ---- */
 
-static bool takes_grid(const WrDials *dials)
-{
-    return dials->aa == WR_AA_ADAPTIVE || dials->aa == WR_AA_SUPERSAMPLE;
-}
-
-/* Is a bound asked for that nobody knows? Where outlines meet, light may change by anything. */
-static bool unbounded(const WrPlanAsk *ask)
-{
-    return ask->facts.among > 1 && ask->dials->refine == WR_REFINE_BOUND;
-}
-
-static WrVerdict decide_samples(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    const WrDials *dials = ask->dials;
-    (void)plan;
-    if (!takes_grid(dials))
-        return say(WR_VERDICT_NONE, why, "the dial says one sample at the pixel's centre");
-    if (dials->samples == 1) return say(WR_VERDICT_NONE, why, "one sample a pixel was asked for");
-    if (dials->aa == WR_AA_ADAPTIVE && unbounded(ask))
-        return say(WR_VERDICT_RUN, why,
-                   "up to K x K were asked for: no bound is known of several objects");
-    if (dials->aa == WR_AA_ADAPTIVE && ask->facts.lively)
-        return say(WR_VERDICT_RUN, why,
-                   "up to K x K were asked for: here fewer would cost more, so all are taken");
-    return say(WR_VERDICT_RUN, why,
-               dials->aa == WR_AA_SUPERSAMPLE
-                   ? "the dial asks for the mean of K x K intensities"
-                   : "up to K x K where one is not enough for `contrast`; a smooth view may be as "
-                     "near with fewer");
-}
-
-static void settle_samples(WrPlan *plan, const WrPlanAsk *ask)
-{
-    const WrDials *dials = ask->dials;
-    const bool run = runs(plan, WR_EFFECT_SAMPLES);
-    plan->samples = run ? dials->samples : 1;
-    const bool adaptive = dials->aa == WR_AA_ADAPTIVE && !ask->facts.lively && !unbounded(ask) &&
-                          plan->grain == WR_GRAIN_OFF; /* which may change within any pixel */
-    plan->sampling = !run ? WR_SAMPLING_ONE : adaptive ? WR_SAMPLING_ADAPTIVE : WR_SAMPLING_ALL;
-    if (!run) return;
-    plan->spread = dials->spread;
-    plan->refine = dials->refine;
-    plan->contrast = dials->contrast;
-}
-
-/* Why no bound on the intensity's change over a pixel is known, or NULL if one is. */
-static const char *no_bound(const WrPlan *plan, const WrPlanAsk *ask)
-{
-    if (runs(plan, WR_EFFECT_SHADOW)) return "no bound is known of shadows: K x K everywhere";
-    if (ask->dials->shading == WR_SHADING_HALF)
-        return "no bound is known of rounding to half precision: K x K everywhere";
-    if (v3_len(ask->scene->sizes) > 0)
-        return "no bound is known of a stretched object: K x K everywhere";
-    if (runs(plan, WR_EFFECT_MODEL))
-        return "no bound is known of this reflection: K x K everywhere";
-    if (runs(plan, WR_EFFECT_SURROUND) || runs(plan, WR_EFFECT_MIRROR))
-        return "no bound is known of light from surroundings: K x K everywhere";
-    const WrInversion how = surface_of(ask)->inversion;
-    if (runs(plan, WR_EFFECT_DISPLACED))
-        return "no bound is known of a displaced surface: K x K everywhere";
-    if (how != WR_INVERT_PLANE && how != WR_INVERT_CUBE && how != WR_INVERT_SPHERE)
-        return "no bound is known on this surface: K x K everywhere";
-    if (runs(plan, WR_EFFECT_COLOUR))
-        return "no bound is known for a colour picture: K x K everywhere";
-    if (runs(plan, WR_EFFECT_GRAIN))
-        return "no bound is known for a solid texture: K x K everywhere";
-    if (runs(plan, WR_EFFECT_NORMALS))
-        return "no bound is known for a normal map: K x K everywhere";
-    if (plan->bump == WR_BUMP_NONE) return NULL;
-    if (plan->bump != WR_BUMP_BLINN)
-        return "no bound is known for this normal formula: K x K everywhere";
-    if (!runs(plan, WR_EFFECT_GRADIENT))
-        return "a bound needs slopes from a table, central or nearest: K x K everywhere";
-    return NULL;
-}
-
-static WrVerdict decide_bound(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
-{
-    if (ask->dials->aa != WR_AA_ADAPTIVE || plan->refine != WR_REFINE_BOUND)
-        return say(WR_VERDICT_NONE, why, "the dials do not ask for a bound");
-    const char *reason = no_bound(plan, ask);
-    if (reason) return say(WR_VERDICT_NONE, why, reason);
-    if (ask->facts.among > 1)
-        return say(WR_VERDICT_NONE, why, "no bound is known of several objects: K x K everywhere");
-    if (ask->facts.lively)
-        return say(WR_VERDICT_NONE, why,
-                   "bounds would spare too little of this view: K x K everywhere");
-    return say(WR_VERDICT_RUN, why,
-               "K x K only where the intensity may change by more than `contrast`");
-}
-
 static WrVerdict decide_spread(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
 {
     if (ask->dials->aa != WR_AA_MOMENTS)
@@ -373,6 +282,13 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                    "objects it is not known. Lamps above the steepest horizon of "
                                    "all look none up",
                                    STAGE(SHADOW), .only_way = true, .decide = wr_decide_shadow },
+    [WR_ROW(
+        WR_EFFECT_CAST)] = { "E49", "object shadow", WR_PROOF_IDENTICAL, NULL,
+                             "no light that shines asks for any, `dials rays=0`, no light is "
+                             "worked out, the surface is displaced; one convex or flat object "
+                             "alone, or no ball about another stands between its own and a lamp",
+                             STAGE(CAST), .spared = WR_RUN_DARK, .decide = wr_decide_cast,
+                             .settle = wr_settle_cast },
     [WR_ROW(WR_EFFECT_OCCLUSION)] = { "E48", "ambient occlusion", WR_PROOF_IDENTICAL, NULL,
                                       "the material asks for none, there is neither ambient light "
                                       "nor surroundings, there is no relief; of what has no relief "
@@ -382,7 +298,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                                       .settle = wr_settle_occlusion },
     [WR_ROW(WR_EFFECT_SAMPLES)] = { "E15", "supersampling", WR_PROOF_POLICY, NULL,
                                     "one sample a pixel was asked for", STAGE(RESOLVE),
-                                    .decide = decide_samples, .settle = settle_samples },
+                                    .decide = wr_decide_samples, .settle = wr_settle_samples },
     [WR_ROW(
         WR_EFFECT_BOUND)] = { "E16", "refinement by bound", WR_PROOF_BOUNDED, "`contrast`",
                               "the dials do not ask for it, or no bound on the intensity's change "
@@ -391,7 +307,7 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
                               "slopes "
                               "not from central or nearest, a normal other than blinn, a colour "
                               "picture; or bounds would spare too little of the view",
-                              STAGE(BOUND), .decide = decide_bound },
+                              STAGE(BOUND), .decide = wr_decide_bound },
     [WR_ROW(WR_EFFECT_FILTER)] = { "E17", "filtered slopes", WR_PROOF_IDENTICAL, NULL,
                                    "the dials ask for no filtering, or no table is looked up; "
                                    "footprints "

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "render/frame.h"
-#include "render/reference_shade.h"
+#include "render/reference_cast.h"
 #include "scene/objects.h"
 #include "system/clock.h"
 
@@ -18,6 +18,7 @@
 typedef struct Set {
     WrReferenceStage stage[WR_OBJECTS_MAX];
     WrScene *part[WR_OBJECTS_MAX]; /* own */
+    WrReferenceCaster casters[WR_OBJECTS_MAX];
     int count;
 } Set;
 
@@ -237,6 +238,10 @@ static bool make_set(Set *set, const WrReferenceRequest *request, WrPool *pool, 
                                        pool, err) &&
                wr_reference_stage_raise(&set->stage[set->count - 1], own ? own : request->field,
                                         pool, err);
+    }
+    for (int i = 0; i < set->count && good; i++) {
+        wr_reference_caster(&set->casters[i], &set->stage[i]);
+        set->stage[i].casters = set->casters, set->stage[i].caster_count = set->count;
     }
     return good;
 }

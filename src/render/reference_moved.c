@@ -39,7 +39,7 @@ static void light_of(const WrReferenceStage *stage, WrSurfacePoint at, const WrR
     const WrReferenceView *view = &stage->view;
     const WrVec3 to = view->perspective ? v3_sub(view->eye, at.p) : view->toward;
     if (v3_dot(at.n_unit, to) < 0) perturbed = v3_neg(perturbed);
-    wr_reference_light(stage, &at, hit->u, hit->v, wr_reference_normal_stretched(view, perturbed),
+    wr_reference_light(stage, &at, hit, wr_reference_normal_stretched(view, perturbed),
                        (WrReferenceShare){ 0, 1 }, rgb);
 }
 

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/pool.h"
 #include "field/field.h"
-#include "render/reference_shade.h"
+#include "render/reference_cast.h"
 #include "scene/scene.h"
 #include "shade/bump.h"
 
@@ -114,10 +114,12 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
         footprint(&looker, at, &ray, hit.s, &looker.per_y, probe.footprint + 2);
         probe.level = level_of(probe.footprint);
         probe.samples = samples_of(&scene->dials);
+        WrReferenceCaster own;
+        wr_reference_caster(&own, &looker.stage);
+        looker.stage.casters = &own, looker.stage.caster_count = 1;
         const WrVec3 seen = v3_scale(probe.perturbed, wr_reference_side(view, at));
-        wr_reference_light(&looker.stage, at, hit.u, hit.v,
-                           wr_reference_normal_stretched(view, seen), (WrReferenceShare){ 0, 1 },
-                           probe.rgb);
+        wr_reference_light(&looker.stage, at, &hit, wr_reference_normal_stretched(view, seen),
+                           (WrReferenceShare){ 0, 1 }, probe.rgb);
     }
     wr_reference_stage_fini(&looker.stage);
     *out = probe;

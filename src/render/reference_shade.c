@@ -6,6 +6,7 @@
 #include "field/field.h"
 #include "image/image.h"
 #include "render/reference_grain.h"
+#include "render/reference_cast.h"
 #include "render/reference_open.h"
 #include "render/reference_reflect.h"
 #include "scene/laid.h"
@@ -288,9 +289,11 @@ static WrVec3 embossed(const WrReferenceStage *stage, WrVec3 object, double side
     return unit(v3_sub(n, v3_mad(s, n, -v3_dot(s, n))));
 }
 
-void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
-                        WrVec3 perturbed, WrReferenceShare share, double rgb[3])
+void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
+                        const WrReferenceHit *hit, WrVec3 perturbed, WrReferenceShare share,
+                        double rgb[3])
 {
+    const double u = hit->u, v = hit->v;
     const WrMaterial *m = &stage->scene->material;
     const WrReferenceView *view = &stage->view;
     const WrVec3 p = wr_reference_stretched(view, at->p);
@@ -309,9 +312,12 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
         const WrVec3 way = v3_sub(light->where, p), l = light->point ? unit(way) : light->where;
         const double away = light->point ? v3_len(way) : INFINITY;
         double own[3], white;
-        const double seen = stage->shadow > 0 ? wr_reference_lamp_share(stage, at, u, v, perturbed,
-                                                                        l, away, light->radius)
-                                              : 1;
+        double seen = stage->shadow > 0 ? wr_reference_lamp_share(stage, at, u, v, perturbed, l,
+                                                                  away, light->radius)
+                                        : 1;
+        if (light->shadow && seen > 0)
+            seen *=
+                wr_reference_cast_share(stage, at, hit, perturbed, l, away, light->radius, share);
         if (seen == 0) continue;
         wr_reference_lamp(m, &matter, perturbed, l, to, has, own, &white);
         for (int c = 0; c < 3; c++) {
@@ -395,7 +401,7 @@ bool wr_reference_sample(const WrReferenceStage *stage, double x, double y, WrRe
     out->lost = hit.lost;
     out->depth = view->size * v3_dot(v3_sub(at.p, view->eye), view->deep);
     out->normal = wr_reference_normal_stretched(view, out->normal);
-    wr_reference_light(stage, &at, hit.u, hit.v, out->normal, share, out->rgb);
+    wr_reference_light(stage, &at, &hit, out->normal, share, out->rgb);
     for (int c = 0; c < 3; c++) out->rgb[c] *= out->cover;
     return true;
 }

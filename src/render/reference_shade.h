@@ -11,8 +11,16 @@
 
 #include <stdbool.h>
 
+typedef struct WrReferenceStage WrReferenceStage;
+
+/* An object as shadow rays meet it: its backs and hidden faces are there. */
+typedef struct WrReferenceCaster {
+    WrReferenceView view; /* its members borrowed from the stage's own */
+    const WrReferenceStage *stage;
+} WrReferenceCaster;
+
 /* All that samples of one picture share; read only while they are taken. */
-typedef struct WrReferenceStage {
+struct WrReferenceStage {
     const WrScene *scene; /* borrowed */
     WrReferenceView view;
     WrReferenceTable table; /* empty where F is a formula or has no height */
@@ -27,7 +35,10 @@ typedef struct WrReferenceStage {
         shadow; /* scene units from the lowest to the highest of a relief that throws shadows; else 0 */
     double relief;    /* the same whether it throws shadows or occludes */
     double texels[2]; /* of the table along u and v of the patch */
-} WrReferenceStage;
+    const WrReferenceCaster
+        *casters; /* [caster_count], borrowed: all objects of the picture; or NULL */
+    int caster_count;
+};
 
 /* field may be NULL where the scene's F is a formula. table: also find its coefficients.
  * Errors: no field; a camera that cannot look; no memory. Call fini even then. */
@@ -56,8 +67,9 @@ WrVec3 wr_reference_normal(WrBumpMode mode, const WrSurfacePoint *at, double f, 
 double wr_reference_side(const WrReferenceView *view, const WrSurfacePoint *at);
 /* I = C (ka + sum kd L max(0, n'.l)) + sum ks L max(0, n'.h)^s, the highlight gated as the material says.
  * perturbed: n' towards the viewer's side. share: of what surroundings send. */
-void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at, double u, double v,
-                        WrVec3 perturbed, WrReferenceShare share, double rgb[3]);
+void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
+                        const WrReferenceHit *hit, WrVec3 perturbed, WrReferenceShare share,
+                        double rgb[3]);
 
 /* What one light of strength 1 adds: in the surface's colour, and in its own. matter: of the material. */
 void wr_reference_lamp(const WrMaterial *material, const WrMatter *matter, WrVec3 n, WrVec3 l,

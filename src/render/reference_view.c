@@ -55,6 +55,7 @@ static void take_lights(WrReferenceView *view, const WrScene *scene, const WrPla
         out->where = out->point ? v3_times(point_to_object(place, light->where), place->stretch)
                                 : v3_unit(world_to_object(place, light->where), ahead);
         out->radius = light->size_deg * (WR_PI / 180);
+        out->shadow = light->shadow;
         out->rgb[0] = light->colour.x * light->strength;
         out->rgb[1] = light->colour.y * light->strength;
         out->rgb[2] = light->colour.z * light->strength;
@@ -102,6 +103,7 @@ bool wr_reference_view_init(WrReferenceView *view, const WrScene *scene, double 
     WrPlacement place;
     const double aspect = (double)width / height;
     if (!wr_scene_place(scene, turn_deg, aspect, &place, err)) return false;
+    view->place = place;
     view->perspective = !place.orthographic;
     view->size = place.size;
     for (int i = 0; i < 9; i++) view->rotation[i] = place.rotation[i];

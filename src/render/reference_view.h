@@ -5,11 +5,11 @@
 #include "render/reference_bezier.h"
 #include "render/reference_mesh.h"
 #include "render/reference_patch.h"
+#include "scene/scene.h"
 
 #include <stdbool.h>
 
 typedef struct WrError WrError;
-typedef struct WrScene WrScene;
 typedef struct WrShape WrShape;
 typedef struct WrSurfaceInfo WrSurfaceInfo;
 
@@ -18,10 +18,12 @@ typedef struct WrReferenceLight {
     WrVec3 where; /* object space: unit direction to the light, or its place */
     double rgb[3];
     double radius; /* of a round lamp, radians */
+    bool shadow;   /* objects hide it */
 } WrReferenceLight;
 
 typedef struct WrReferenceView {
     const WrShape *shape; /* the scene's */
+    WrPlacement place;
     const WrSurfaceInfo *info;
     double width, height;                   /* pixels */
     WrVec3 eye, right, up, forward, middle; /* middle: where the axis of view passes the object */

@@ -22,6 +22,7 @@
 #define WR_TILE_SAMPLES_H 64
 #define WR_TILE_ROOM (WR_TILE_SAMPLES_W * WR_TILE_SAMPLES_H + WR_WALK_PAD)
 
+typedef struct WrCast WrCast;
 typedef struct WrFrames WrFrames;
 typedef struct WrHorizon WrHorizon;
 typedef struct WrPipe WrPipe;
@@ -48,6 +49,9 @@ typedef struct WrTileJob {
     const WrHorizon *horizon;      /* of the table, for shadows; NULL: none */
     const WrOpeningTable *opening; /* how open the relief is */
     double relief_height;          /* of a table unit, kernel units, above 0 */
+    const WrCast *cast;            /* what can hide lamps from it; read where the plan runs that */
+    int cast_count;                /* of cast->to */
+    double cast_unit;              /* kernel units -> those of the object */
     WrLevel level;                 /* how steep the table is where; only for one of the next two */
     bool ground,
         dark; /* runs of samples are asked: is the table level there? Are all lights behind? */

@@ -324,7 +324,8 @@ static void make_lights(WrView *view, const WrScene *scene, const WrPlacement *p
                            : v3_unit(wr_place_turn_back(place, light->where), ahead);
         store(out->where, where);
         store(out->rgb, v3_scale(light->colour, light->strength));
-        out->radius = scene->lights[i].size_deg * (WR_PI / 180);
+        out->radius = light->size_deg * (WR_PI / 180);
+        view->lights[i].shadow = out->shadow = light->shadow;
         view->lights[i].radius = out->radius;
         view->lights[i].point = out->point;
         narrow(view->lights[i].where, out->where);

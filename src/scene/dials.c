@@ -25,6 +25,7 @@ WrDials wr_dials_default(void)
                       .contrast = 0.002,
                       .newton = -1,
                       .horizons = 32,
+                      .rays = 32,
                       .dice = 0.5,
                       .heights = WR_HEIGHTS_FLOAT,
                       .harmonics = 2,
@@ -93,6 +94,7 @@ MEMBER(texels, double, dials.texels)
 MEMBER(harmonics, int, dials.harmonics)
 MEMBER(gloss, double, dials.gloss)
 MEMBER(horizons, int, dials.horizons)
+MEMBER(rays, int, dials.rays)
 MEMBER(dice, double, dials.dice)
 MEMBER(heights, WrHeights, dials.heights)
 MEMBER(shading, WrShading, dials.shading)
@@ -140,6 +142,13 @@ static bool with_horizons(const WrScene *scene)
     return scene->material.shadow || scene->material.occlusion;
 }
 
+static bool with_rays(const WrScene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++)
+        if (scene->lights[i].shadow) return true;
+    return false;
+}
+
 static bool with_dice(const WrScene *scene)
 {
     return scene->displaced && !wr_surfaces[scene->shape.kind]->held;
@@ -155,6 +164,7 @@ static const double harmonic_rungs[] = { 0, 1, 2, NAN };
 static const double gloss_rungs[] = { 8, 16, 32, 64, NAN };
 static const double texel_rungs[] = { 0.1, 0.01, 0.0009765625, NAN };
 static const double horizon_rungs[] = { 8, 16, 32, 64, NAN };
+static const double ray_rungs[] = { 0, 1, 8, 32, 128, NAN };
 static const double dice_rungs[] = { 1, 0.5, 0.25, NAN };
 
 #define CHOICES(name, count_) .choices = (count_), .choice = name##_name
@@ -222,6 +232,11 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                    "multiple of 4",
                                    .low = 4, .high = 64, .whole = true, MEMBERS(horizons),
                                    .matters = with_horizons, .rungs = horizon_rungs },
+    [WR_ROW(WR_DIAL_RAYS)] = { "rays", "dials", WR_AXIS_LIGHT, "Shadow rays",
+                               "to a round lamp that objects may hide; 1: to its middle, 0: "
+                               "objects hide none",
+                               .low = 0, .high = 256, .whole = true, MEMBERS(rays),
+                               .matters = with_rays, .rungs = ray_rungs },
     [WR_ROW(WR_DIAL_DICE)] = { "dice", "dials", WR_AXIS_VISIBILITY, "Facets",
                                "pixels; so near are a displaced surface's facets to it",
                                .low = 0.0625, .high = 16, MEMBERS(dice), .matters = with_dice,

@@ -106,6 +106,7 @@ typedef struct WrDials {
     int newton;      /* most steps of the inversion, 0..8; -1: as many as the mesh calls for */
     double texels; /* the inversion stops where its step is shorter than so many texels; 0: never */
     int horizons;  /* directions in which the relief's horizons are kept: 4..64 */
+    int rays;      /* to a round lamp that objects may hide; 0: they hide none; 0..256 */
     double dice;   /* pixels: so near are a displaced surface's facets to it; 1/16..16 */
     WrHeights heights;
     WrShading shading;
@@ -134,6 +135,7 @@ typedef enum WrDialId {
     WR_DIAL_HARMONICS,
     WR_DIAL_GLOSS,
     WR_DIAL_HORIZONS,
+    WR_DIAL_RAYS,
     WR_DIAL_DICE,
     WR_DIAL_HEIGHTS,
     WR_DIAL_SHADING,

@@ -194,9 +194,14 @@ const WrSceneParam wr_scene_params[WR_SCENE_PARAM_COUNT] = {
     [WR_ROW(WR_SCENE_PARAM_LIGHT_SIZE)] = { "light", NULL, "size", .filled = true,
                                             IN_LIGHT(size_deg), .components = 1, .high = 45,
                                             .sparse = true, .unit = "degrees", .label = "Softness",
-                                            .help = "angular radius of a round lamp: how soft the "
-                                                    "relief's shadows are; the sun has 0.27",
+                                            .help = "angular radius of a round lamp: how soft "
+                                                    "shadows are; the sun has 0.27",
                                             SLIDER(0, 10, 2) },
+    [WR_ROW(WR_SCENE_PARAM_LIGHT_SHADOW)] = { "light", NULL, "shadow", .filled = true,
+                                              IN_LIGHT(shadow), .planned = true, .sparse = true,
+                                              .label = "Shadows of objects",
+                                              .help = "objects throw shadows in this light, on one "
+                                                      "another and on themselves" },
     [WR_ROW(WR_SCENE_PARAM_ENVIRONMENT_TURN)] = { "environment", NULL, "turn",
                                                   IN_SCENE(environment.turn_deg), .components = 1,
                                                   .low = -1e9, .high = 1e9, .unit = "degrees",

@@ -41,8 +41,8 @@ typedef struct WrLight {
     WrVec3 where;  /* directional: from the surface TO the light, any length > 0; point: position */
     WrVec3 colour; /* linear RGB, 0..1e6 */
     double strength; /* 0..1e6; the light's L is colour * strength */
-    double
-        size_deg; /* 0..45: angular radius of a round lamp, for the relief's shadows; 0: a point */
+    double size_deg; /* 0..45: angular radius of a round lamp, for shadows; 0: a point */
+    bool shadow;     /* objects hide it from one another and from themselves */
 } WrLight;
 
 typedef struct WrMaterial {

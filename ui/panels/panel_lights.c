@@ -42,7 +42,8 @@ static bool one_light(WrApp *app, int i)
     WR_ROWS_END(kinds, WR_LIGHT_KINDS);
     const WrSceneParam *power = &wr_scene_params[WR_SCENE_PARAM_LIGHT_STRENGTH],
                        *tint = &wr_scene_params[WR_SCENE_PARAM_LIGHT_COLOUR],
-                       *round = &wr_scene_params[WR_SCENE_PARAM_LIGHT_SIZE];
+                       *round = &wr_scene_params[WR_SCENE_PARAM_LIGHT_SIZE],
+                       *hides = &wr_scene_params[WR_SCENE_PARAM_LIGHT_SHADOW];
     const WrNumber strength = wr_param_slider(power), size = wr_param_slider(round);
     WrLight light = wr_app_scene(app)->lights[i];
     char label[24];
@@ -58,7 +59,9 @@ static bool one_light(WrApp *app, int i)
     WrEdit b = wr_gui_colour(tint->name, 0, rgb);
     wr_gui_label(round->label);
     WrEdit c = wr_gui_number(round->name, 0, &size, &light.size_deg);
-    wr_gui_tip("Angular radius of a round lamp, degrees: how soft shadows of the relief are");
+    wr_gui_tip("Angular radius of a round lamp, degrees: how soft shadows are");
+    const bool thrown = wr_gui_check(hides->label, &light.shadow);
+    wr_gui_tip("Objects throw shadows in this light, on one another and on themselves");
     light.colour = (WrVec3){ rgb[0], rgb[1], rgb[2] };
     if (a != WR_EDIT_NONE || b != WR_EDIT_NONE || c != WR_EDIT_NONE)
         wr_app_live(app)->lights[i] = light;
@@ -67,7 +70,8 @@ static bool one_light(WrApp *app, int i)
         WrVec3 unit = v3_unit(light.where, (WrVec3){ 0, 0, 1 });
         light.where = wr_line_round_vec(v3_scale(unit, kind == WR_LIGHT_POINT ? 4.0 : 1.0), 3);
     }
-    if (!chosen && a != WR_EDIT_DONE && b != WR_EDIT_DONE && c != WR_EDIT_DONE) return false;
+    if (!chosen && !thrown && a != WR_EDIT_DONE && b != WR_EDIT_DONE && c != WR_EDIT_DONE)
+        return false;
     WrText line = { 0 };
     light_line(&line, &light, i);
     wr_scene_run(app, &line);

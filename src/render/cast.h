@@ -1,0 +1,94 @@
+/* cast.h - objects that hide lamps from one another and from themselves (E49): rays from a place towards a lamp, in double
+   precision, so that the answers are the same on every processor.
+   Layer 5, private to the renderer.
+
+   A body is the shape itself where rays meet it in closed form (plane, cube, sphere, cylinder, cone); else triangles, those
+   of a mesh or facets of the surface, in a tree of boxes. Facets are off by no more than the body's `lift`.
+
+   Rays start that far above the surface, on the side that is seen, so that no facet darkens the place that it stands for.
+   Where the lamp is below the surface's own horizon, as it may be for what bumps lean towards it, the ray to the own body
+   runs along the horizon: so no convex body hides a lamp from itself. */
+#pragma once
+#include "scene/scene.h"
+#include "surface/surface.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct WrError WrError;
+typedef struct WrTriangles WrTriangles;
+
+#define WR_CAST_RAYS 256 /* to a round lamp, at most */
+#define WR_CAST_OBJECTS 64
+
+/* A parallelogram. */
+typedef struct WrCastQuad {
+    WrVec3 from, normal, along, across; /* along, across: dot products with them give parts 0..1 */
+} WrCastQuad;
+
+/* What throws a shadow, in its object's units. Zero-initialise; fini frees. */
+typedef struct WrCastBody {
+    WrShape shape; /* that all else was made for; kept while the scene's is the same */
+    double radius; /* about the object's centre */
+    bool made;     /* what rays meet is there */
+    WrCastQuad quads[6];
+    int quad_count;
+    bool endless;
+    WrTriangles *triangles; /* own share; NULL: closed form */
+    float (*boxes)[6];      /* a heap: the children of k are 2 k + 1 and 2 k + 2; owned */
+    int32_t *order;         /* triangles, those of a box one after the other; owned */
+    int32_t leaves;         /* of the heap, a power of two */
+    double lift;            /* how far from the surface rays start */
+} WrCastBody;
+
+/* One body as places of another object see it: o = m p + from, of p in that one's units, stretched. */
+typedef struct WrCastTo {
+    const WrCastBody *body;
+    double m[9];
+    WrVec3 from;
+    WrVec3 middle; /* of a ball that holds it, in those units; radius INFINITY: it has no end */
+    double radius;
+    bool own; /* it is the object itself */
+} WrCastTo;
+
+/* What can hide lamps from one object. */
+typedef struct WrCast {
+    WrCastTo to[WR_CAST_OBJECTS]; /* `count` that can, then the others of `all` */
+    int count, all;
+    double lift;                  /* where its rays start, its units, stretched */
+    double disc[WR_CAST_RAYS][2]; /* places on a round lamp of radius 1, of as many as `rays` */
+    int rays;
+} WrCast;
+
+/* Does the scene ask for such shadows, of a light that shines? */
+bool wr_cast_asked(const WrScene *scene);
+/* Is the shape such that it never hides a lamp from itself? */
+bool wr_cast_spares_itself(const WrShape *shape);
+/* The body's size alone. */
+void wr_cast_body_size(WrCastBody *body, const WrScene *scene);
+/* All of it. Errors: no memory. */
+bool wr_cast_body_bring(WrCastBody *body, const WrScene *scene, WrError *err);
+void wr_cast_body_fini(WrCastBody *body);
+/* Does the ray o + t d meet it for 0 < t < most? */
+bool wr_cast_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
+/* The same of its tree. */
+bool wr_cast_tree_bring(WrCastBody *body, WrError *err);
+bool wr_cast_tree_meets(const WrCastBody *body, WrVec3 o, WrVec3 d, double most);
+/* Facets of a surface without a closed form into body->triangles, and what they are off by into its lift. */
+bool wr_cast_facets(WrCastBody *body, WrError *err);
+
+/* Which of `count` objects (scenes of one each, and their bodies) can hide a lamp from object `at`: those come first. Bodies
+   that can, or, if so wanted, all of them are made. rays: to a round lamp. Errors: no memory; a camera that cannot look. */
+typedef struct WrCastAsk {
+    const WrScene *const *scenes;
+    WrCastBody *const *bodies;
+    int count, at, rays;
+    bool all;
+    double turn_deg, aspect;
+} WrCastAsk;
+bool wr_cast_prepare(WrCast *cast, const WrCastAsk *ask, WrError *err);
+
+/* What is seen of a lamp from p, n the surface's unit normal there on the side that is seen, both in the object's units,
+   stretched: 0..1. l: unit, towards it; away: how far it is; radius: of a round lamp, radians. count: of cast->to. */
+double wr_cast_share(const WrCast *cast, int count, WrVec3 p, WrVec3 n, WrVec3 l, double away,
+                     double radius);

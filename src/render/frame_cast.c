@@ -1,0 +1,33 @@
+/* Which objects of a picture can hide lamps from which, before it is planned. */
+#include "render/frame_inner.h"
+#include "scene/objects.h"
+
+/* Against the plan, those too that cannot. */
+static bool wants_all(const WrFrameRequest *request)
+{
+    return request->full || (request->force && request->force[WR_EFFECT_CAST] == WR_FORCE_ON);
+}
+
+bool wr_frame_casts(WrRenderer *const *renderers, const WrScene *const *scenes, int count,
+                    const WrFrameRequest *request, WrError *err)
+{
+    const WrDials *dials = request->dials ? request->dials : &request->scene->dials;
+    WrCastBody *bodies[WR_OBJECTS_MAX];
+    for (int i = 0; i < count; i++) {
+        renderers[i]->cast.count = renderers[i]->cast.all = 0;
+        bodies[i] = &renderers[i]->body;
+    }
+    if (dials->rays == 0 || !wr_cast_asked(request->scene)) return true;
+    for (int i = 0; i < count; i++) {
+        const WrCastAsk ask = { .scenes = scenes,
+                                .bodies = bodies,
+                                .count = count,
+                                .at = i,
+                                .rays = dials->rays,
+                                .all = wants_all(request),
+                                .turn_deg = request->turn_deg,
+                                .aspect = (double)request->width / request->height };
+        if (!wr_cast_prepare(&renderers[i]->cast, &ask, err)) return false;
+    }
+    return true;
+}
