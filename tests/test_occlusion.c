@@ -341,14 +341,15 @@ static void kernels_agree_to_the_bit(void **state)
 {
     (void)state;
     enum { ROWS = 70, COUNT = ROWS * WR_SKY_LANES, SHARED = 77 };
-    static int32_t h[COUNT], next[COUNT], top[COUNT];
+    static int32_t h[COUNT];
+    static int64_t seen[COUNT];
     static float slope[2][COUNT], in[4][SHARED], loss[2][SHARED], best[2][SHARED];
     int rows[ROWS];
-    for (int i = 0; i < COUNT; i++) h[i] = (int32_t)random_between(-0x1p30, 0x1p30);
+    for (int i = 0; i < COUNT; i++) h[i] = (int32_t)random_between(-0x1p29, 0x1p29);
     for (int i = 0; i < ROWS; i++) rows[i] = ROWS - 1 - i;
     for (int i = 0; i < 4 * SHARED; i++)
         in[i / SHARED][i % SHARED] = (float)random_between(i / SHARED < 2 ? 0 : -2, 2);
-    const WrSkySweep sweep = { h, next, top, rows, ROWS, 0 };
+    const WrSkySweep sweep = { h, seen, rows, ROWS, 0 };
     const WrSkyShare share = { 0.1f, 0.6f, 0.8f, 0.0625f };
     for (int n = 0; n < 3; n++) {
         const WrSkyKernels *k = wr_sky_kernels_at(n);
@@ -356,7 +357,12 @@ static void kernels_agree_to_the_bit(void **state)
         if (!k) continue;
         k->sweep(&sweep, 0.37, slope[to]);
         for (int i = 0; i < SHARED; i++) loss[to][i] = 0.01f * (float)i, best[to][i] = 0;
-        k->share(&share, in[0], in[1], in[2], in[3], SHARED, loss[to]);
+        const WrSkyRun runs[] = {
+            { in[0], in[1], in[2], in[3], loss[to], 40 },
+            { in[0] + 40, in[1] + 40, in[2] + 40, in[3] + 40, loss[to] + 40, WR_SKY_LANES },
+            { in[0] + 56, in[1] + 56, in[2] + 56, in[3] + 56, loss[to] + 56, SHARED - 56 }
+        };
+        k->share(&share, runs, 3);
         k->look(in[2], in[0], in[1], 0.25f, 0.7f, SHARED, best[to]);
         assert_memory_equal(slope[to], slope[0], sizeof slope[0]);
         assert_memory_equal(loss[to], loss[0], sizeof loss[0]);

@@ -3,6 +3,9 @@
 #include "field/occlusion_kern.h"
 
 #include <string.h>
+#ifdef __AVX512DQ__
+#include <immintrin.h>
+#endif
 
 #define LANES WR_SKY_LANES
 #define ALWAYS static inline __attribute__((always_inline))
@@ -16,6 +19,9 @@ ALWAYS bool any(const int32_t *restrict lane)
            ((pair[4] | pair[5]) | (pair[6] | pair[7]));
 }
 
+#ifdef __AVX512DQ__
+#include "field/occlusion_wide.h"
+#else
 /* What the lanes of row s look at, so far: the row, and how much higher it is. */
 typedef struct Sight {
     int32_t at[LANES];
@@ -24,14 +30,16 @@ typedef struct Sight {
 
 /* One step along the hulls that are seen from row s; whether any lane went on. sign: 1 where rows ahead have larger
  * numbers, else -1. */
-ALWAYS bool step_on(const int32_t *restrict low, const int32_t *restrict next,
-                    const int32_t *restrict top, int32_t s, int32_t sign, Sight *restrict sight)
+ALWAYS bool step_on(const int32_t *restrict low, const int64_t *restrict seen, int32_t s,
+                    int32_t sign, Sight *restrict sight)
 {
     int32_t went[LANES];
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        const int32_t c = sight->at[l], n = next[c * LANES + l];
-        const double farther = (double)(top[c * LANES + l] - low[l]);
+        const int32_t c = sight->at[l];
+        const int64_t at = seen[c * LANES + l];
+        const int32_t n = (int32_t)(at >> 32), top = (int32_t)at;
+        const double farther = (double)(top - low[l]);
         const double here = (double)(sign * (c - s)), there = (double)(sign * (n - s));
         const int go = farther * here > sight->rise[l] * there;
         sight->at[l] = go ? n : c;
@@ -43,29 +51,28 @@ ALWAYS bool step_on(const int32_t *restrict low, const int32_t *restrict next,
 
 /* The first one, whose row is the same in all lanes; what that row looks at was noted last. */
 ALWAYS bool step_first(const int32_t *restrict low, const int32_t *restrict high,
-                       const int32_t *restrict next, const int32_t *restrict top, int32_t first,
-                       int32_t s, int32_t sign, Sight *restrict sight)
+                       const int64_t *restrict seen, int32_t first, int32_t s, int32_t sign,
+                       Sight *restrict sight)
 {
     const double here = (double)(sign * (first - s));
     int32_t went[LANES];
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        const double rise = (double)(high[l] - low[l]), farther = (double)(top[l] - low[l]);
-        const int go = farther * here > rise * (double)(sign * (next[l] - s));
-        sight->at[l] = go ? next[l] : first;
+        const int32_t n = (int32_t)(seen[l] >> 32), top = (int32_t)seen[l];
+        const double rise = (double)(high[l] - low[l]), farther = (double)(top - low[l]);
+        const int go = farther * here > rise * (double)(sign * (n - s));
+        sight->at[l] = go ? n : first;
         sight->rise[l] = go ? farther : rise;
         went[l] = go;
     }
     return any(went);
 }
 
-ALWAYS void note(const int32_t *restrict low, const Sight *restrict sight, int32_t *restrict next,
-                 int32_t *restrict top)
+ALWAYS void note(const int32_t *restrict low, const Sight *restrict sight, int64_t *restrict seen)
 {
 #pragma omp simd
     for (int l = 0; l < LANES; l++) {
-        next[l] = sight->at[l];
-        top[l] = low[l] + (int32_t)sight->rise[l];
+        seen[l] = (int64_t)sight->at[l] << 32 | (uint32_t)(low[l] + (int32_t)sight->rise[l]);
     }
 }
 
@@ -90,14 +97,15 @@ static void sweep(const WrSkySweep *given, double scale, float *restrict slope)
         Sight sight;
         if (i == 0)
             for (int l = 0; l < LANES; l++) sight.at[l] = s, sight.rise[l] = 0;
-        else if (step_first(low, high, w.next + first * LANES, w.top + first * LANES, first, s,
-                            sign, &sight))
-            while (step_on(low, w.next, w.top, s, sign, &sight)) {
+        else if (step_first(low, high, w.seen + first * LANES, first, s, sign, &sight))
+            while (step_on(low, w.seen, s, sign, &sight)) {
             }
-        note(low, &sight, w.next + s * LANES, w.top + s * LANES);
+        note(low, &sight, w.seen + s * LANES);
         if (i >= w.from) put_slopes(&sight, s, sign, scale, slope + s * LANES);
     }
 }
+
+#endif
 
 static bool higher(const int32_t *restrict row, int32_t *restrict highest)
 {
@@ -139,15 +147,37 @@ ALWAYS float taken(float level, float horizon, float s)
     return h * h * c + s * (acot(h) - h * c);
 }
 
-static void share(const WrSkyShare *given, const float *restrict ahead,
-                  const float *restrict behind, const float *restrict p, const float *restrict q,
-                  int count, float *restrict loss)
+/* Of `count` texels side by side. */
+ALWAYS void share_run(const WrSkyShare k, const WrSkyRun *run, int count, float *restrict loss)
 {
-    const WrSkyShare k = *given;
+    const float *restrict ahead = run->ahead, *restrict behind = run->behind;
+    const float *restrict p = run->p, *restrict q = run->q;
 #pragma omp simd
     for (int i = 0; i < count; i++) {
         const float s = p[i] * k.ux + q[i] * k.uy;
-        loss[i] += k.weight * (taken(k.level, ahead[i], s) + taken(k.level, behind[i], -s));
+        loss[i] = k.weight * (taken(k.level, ahead[i], s) + taken(k.level, behind[i], -s));
+    }
+}
+
+ALWAYS void add_run(const float *restrict loss, int count, float *restrict out)
+{
+#pragma omp simd
+    for (int i = 0; i < count; i++) out[i] += loss[i];
+}
+
+/* All is read before anything is written: rows of large tables lie a multiple of 4096 bytes apart, where a load waits
+ * for every store before it. */
+static void share(const WrSkyShare *given, const WrSkyRun *runs, int count)
+{
+    float loss[WR_SKY_STRIP];
+    const WrSkyShare k = *given;
+    for (int r = 0, at = 0; r < count; at += runs[r++].count) {
+        if (runs[r].count == LANES) share_run(k, &runs[r], LANES, loss + at);
+        else share_run(k, &runs[r], runs[r].count, loss + at);
+    }
+    for (int r = 0, at = 0; r < count; at += runs[r++].count) {
+        if (runs[r].count == LANES) add_run(loss + at, LANES, runs[r].loss);
+        else add_run(loss + at, runs[r].count, runs[r].loss);
     }
 }
 

@@ -16,11 +16,18 @@ typedef struct WrSkyShare {
     float weight; /* of each: a part of the circle */
 } WrSkyShare;
 
+/* Texels that lie side by side: their horizons, the slopes of their planes, and what they lose of the sky. */
+typedef struct WrSkyRun {
+    const float *ahead, *behind, *p, *q;
+    float *loss;
+    int count;
+} WrSkyRun;
+
 /* Heights of lines, side by side, in whole steps: h[row * LANES + lane]. */
 typedef struct WrSkySweep {
     const int32_t *h;
-    int32_t *next, *top; /* scratch, like h: the row that is looked at, and its height */
-    const int *rows;     /* those that count, the farthest ahead first */
+    int64_t *seen;   /* scratch, like h: what is looked at, and in the lower half its height */
+    const int *rows; /* those that count, the farthest ahead first */
     int count, from;
 } WrSkySweep;
 
@@ -32,9 +39,9 @@ typedef struct WrSkyKernels {
     void (*sweep)(const WrSkySweep *sweep, double scale, float *slope);
     /* Whether a lane of the row is higher than `highest`, which becomes the higher of both. */
     bool (*higher)(const int32_t *row, int32_t *highest);
-    /* loss[i] += what horizons `ahead` and `behind` take of 1, by the slopes p, q of the texel's own plane. */
-    void (*share)(const WrSkyShare *share, const float *ahead, const float *behind, const float *p,
-                  const float *q, int count, float *loss);
+    /* loss[i] += what horizons `ahead` and `behind` take of 1, by the slopes p, q of the texel's own plane. STRIP texels
+     * at most in all runs together. */
+    void (*share)(const WrSkyShare *share, const WrSkyRun *runs, int count);
     /* best[i] = max(best[i], rise to a[i] * inverse), rises over c[i], or to a + part (b - a) where part is not 0. */
     void (*look)(const float *c, const float *a, const float *b, float part, float inverse,
                  int count, float *best);

@@ -73,9 +73,13 @@ static void strip(const Near *near, const Ground *g, int x, int y, int from, int
         if (near->k >= 0 && near->k != course.k && near->k != opposite) continue;
         if (near->k != opposite) look_along(near, g, &course, 1, c, count, ahead);
         if (near->k != course.k) look_along(near, g, &course, -1, c, count, behind);
-        if (near->k < 0)
-            near->kernels->share(&course.share, ahead, behind, near->p + at, near->q + at, count,
-                                 near->out + at);
+        const WrSkyRun run = { ahead,
+                               behind,
+                               near->k < 0 ? near->p + at : NULL,
+                               near->k < 0 ? near->q + at : NULL,
+                               near->out + at,
+                               count };
+        if (near->k < 0) near->kernels->share(&course.share, &run, 1);
         else
             memcpy(near->out + at, near->k == course.k ? ahead : behind,
                    (size_t)count * sizeof(float));

@@ -1,0 +1,362 @@
+/* Lines of a whole table, LANES of them swept side by side. */
+#include "field/occlusion_lines.h"
+
+#include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+#include "field/horizon.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LANES WR_SKY_LANES
+#define AHEAD 16 /* rows; prefetching waits for the memory of a table that no cache holds */
+
+/* All lines of one course. */
+typedef struct Lines {
+    const WrSky *sky;
+    WrSkyCourse course;
+    int along, across; /* texels of the own axis and of the other */
+    bool turns_along, turns_across;
+    bool closes;          /* beyond the table lines are what they are within */
+    int ahead;            /* rows that are looked at beyond the table */
+    int first, stripes;   /* of lanes, over the other axis */
+    double scale;         /* of steps a row */
+    size_t texels;        /* of the map */
+    struct Work **worker; /* [threads] */
+} Lines;
+
+typedef struct Work {
+    int32_t *h;      /* [ahead + along + ahead][LANES] */
+    int64_t *seen;   /* the same */
+    int *rows;       /* [along + ahead] */
+    float *slope[2]; /* [along][LANES] */
+} Work;
+
+/* Lines are a few tables long: most of them need no division. */
+static int place(int64_t at, int n, bool turns)
+{
+    if (!turns) return at < 0 ? 0 : at < n ? (int)at : n - 1;
+    if (at >= n) at -= n;
+    else if (at < 0) at += n;
+    if (at >= 0 && at < n) return (int)at;
+    const int left = (int)(at % n);
+    return left < 0 ? left + n : left;
+}
+
+/* How far a line has moved over the other axis after some rows, in parts of a texel: q is 1, 2 or 4. */
+static int64_t whole_of(int64_t parts, int q)
+{
+    return q == 1 ? parts : q == 2 ? parts >> 1 : parts >> 2;
+}
+
+/* Texels of row `row` of the own axis, lanes from `from` on over the other. */
+static void texels(const Lines *l, int row, int64_t from, int32_t *restrict out)
+{
+    const WrSky *sky = l->sky;
+    const size_t own = l->course.upright ? sky->pitch : 1,
+                 other = l->course.upright ? 1 : sky->pitch;
+    const int32_t *at = sky->steps + (size_t)row * own;
+    const int first = place(from, l->across, l->turns_across);
+    const bool inside = l->turns_across || (from >= 0 && from < l->across);
+    if (inside && first + LANES <= l->across) {
+        at += (size_t)first * other;
+        if (other == 1) __builtin_prefetch(at + (row + AHEAD < l->along ? AHEAD * own : 0));
+        if (other == 1) memcpy(out, at, LANES * sizeof *out);
+        else
+            for (int i = 0; i < LANES; i++) out[i] = at[(size_t)i * other];
+        return;
+    }
+    for (int i = 0; i < LANES; i++)
+        out[i] = at[(size_t)place(from + i, l->across, l->turns_across) * other];
+}
+
+/* Row s, beyond the table too, of lanes that start at `base` and meet texels in rows of this phase. */
+static void sample(const Lines *l, int64_t s, int64_t base, int phase, int32_t *restrict out)
+{
+    const int q = l->course.q;
+    const int64_t moved = (int64_t)l->course.p * (s - phase), whole = whole_of(moved, q);
+    const int part = (int)(moved - whole * q), row = place(s, l->along, l->turns_along);
+    texels(l, row, base + whole, out);
+    if (q == 1) return;
+    if (part == 0) {
+        for (int i = 0; i < LANES; i++) out[i] *= q;
+        return;
+    }
+    int32_t beside[LANES];
+    texels(l, row, base + whole + 1, beside);
+    for (int i = 0; i < LANES; i++) out[i] = (q - part) * out[i] + part * beside[i];
+}
+
+/* Of what lies beyond the table only rows count that are higher than all before them, in some lane. */
+static int beyond(const Lines *l, int sign, int64_t base, int phase, int32_t *h, int *rows)
+{
+    int32_t highest[LANES], row[LANES];
+    int count = 0;
+    for (int i = 0; i < LANES; i++) highest[i] = INT32_MIN;
+    for (int k = 0; k < l->ahead; k++) {
+        const int64_t s = sign > 0 ? l->along + k : -1 - k;
+        const int32_t *from = row;
+        if (l->closes) from = h + (size_t)(l->ahead + (sign > 0 ? k : l->along - 1 - k)) * LANES;
+        else sample(l, s, base, phase, row);
+        if (!l->sky->kernels->higher(from, highest)) continue;
+        memcpy(h + (s + l->ahead) * LANES, from, sizeof row);
+        rows[count++] = (int)(s + l->ahead);
+    }
+    for (int i = 0; i < count / 2; i++) {
+        const int far = rows[count - 1 - i];
+        rows[count - 1 - i] = rows[i];
+        rows[i] = far;
+    }
+    return count;
+}
+
+static int opposite_of(const Lines *l)
+{
+    const int directions = l->sky->occlusion->directions;
+    return (l->course.k + directions / 2) % directions;
+}
+
+/* Horizons ahead, and behind, of lanes from `base` on. */
+static void sweep_both(const Lines *l, int64_t base, int phase, Work *work)
+{
+    const int opposite = opposite_of(l);
+    int32_t *h = work->h;
+    for (int s = 0; s < l->along; s++)
+        sample(l, s, base, phase, h + (size_t)(s + l->ahead) * LANES);
+    for (int side = 0; side < 2; side++) {
+        if (l->sky->k >= 0 && l->sky->k != (side ? opposite : l->course.k)) continue;
+        const int count = beyond(l, side ? -1 : 1, base, phase, h, work->rows);
+        for (int i = 0; i < l->along; i++)
+            work->rows[count + i] = l->ahead + (side ? i : l->along - 1 - i);
+        const WrSkySweep sweep = { h, work->seen, work->rows, count + l->along, count };
+        l->sky->kernels->sweep(&sweep, l->scale, work->slope[side] - (ptrdiff_t)l->ahead * LANES);
+    }
+}
+
+/* ---- what is made of them ------------------------------------------------------------------------ */
+
+/* Runs of texels side by side, as many as are worked on at once. */
+typedef struct Batch {
+    WrSkyRun run[LANES];
+    int count;
+} Batch;
+
+/* The horizon in the one direction that is asked for. */
+static void put_horizon(const Lines *l, const WrSkyRun *run)
+{
+    const float level = l->course.share.level;
+    const float *slope = l->sky->k == l->course.k ? run->ahead : run->behind;
+    for (int i = 0; i < run->count; i++) {
+        const float over = slope[i] > level ? 2 * (slope[i] - level) : 0;
+        run->loss[i] = over < slope[i] ? over : slope[i];
+    }
+}
+
+static void put_batch(const Lines *l, Batch *batch)
+{
+    if (l->sky->k < 0) l->sky->kernels->share(&l->course.share, batch->run, batch->count);
+    else
+        for (int r = 0; r < batch->count; r++) put_horizon(l, &batch->run[r]);
+    batch->count = 0;
+}
+
+/* at: of the first texel. What is at the same place some rows farther down is asked for meanwhile. */
+static inline void add_run(const Lines *l, Batch *batch, size_t at, const float *ahead,
+                           const float *behind, int count)
+{
+    const WrSky *sky = l->sky;
+    WrSkyRun *run = &batch->run[batch->count++];
+    *run = (WrSkyRun){ ahead, behind, NULL, NULL, sky->out + at, count };
+    if (sky->k < 0) {
+        const size_t later = AHEAD * sky->part->pitch;
+        run->p = sky->p + at, run->q = sky->q + at;
+        if (at + later < l->texels) {
+            __builtin_prefetch(run->p + later);
+            __builtin_prefetch(run->q + later);
+            __builtin_prefetch(run->loss + later, 1);
+        }
+    }
+    if (batch->count == LANES) put_batch(l, batch);
+}
+
+/* The lanes of row s, whose other axis is that of the table's rows. */
+static void put_row(const Lines *l, int64_t start, int lanes, int s, const Work *work, Batch *batch)
+{
+    const size_t from = (size_t)s * LANES, row = (size_t)s * l->sky->part->pitch;
+    const float *ahead = work->slope[0] + from, *behind = work->slope[1] + from;
+    for (int i = 0, more; i < lanes; i += more) {
+        const int64_t at = start + i;
+        const int across = place(at, l->across, l->turns_across);
+        more = l->across - across < lanes - i ? l->across - across : lanes - i;
+        if (!l->turns_across && at < 0) more = -at < lanes - i ? (int)-at : lanes - i;
+        else if (!l->turns_across && at >= l->across) more = lanes - i;
+        else add_run(l, batch, row + (size_t)across, ahead + i, behind + i, more);
+    }
+}
+
+/* Rows s to s + LANES - 1 of lines that go along the table's rows: lane by lane, since it is there that texels lie side by
+ * side. */
+static int put_block(const Lines *l, int64_t start, int lanes, int s, const Work *work,
+                     Batch *batch)
+{
+    float turned[2][LANES][LANES];
+    const int rows = l->along - s < LANES ? l->along - s : LANES;
+    for (int side = 0; side < 2; side++)
+        for (int k = 0; k < rows; k++)
+            for (int i = 0; i < LANES; i++)
+                turned[side][i][k] = work->slope[side][(size_t)(s + k) * LANES + (size_t)i];
+    for (int i = 0; i < lanes; i++) {
+        if (!l->turns_across && (start + i < 0 || start + i >= l->across)) continue;
+        const size_t row = (size_t)place(start + i, l->across, l->turns_across);
+        add_run(l, batch, row * l->sky->part->pitch + (size_t)s, turned[0][i], turned[1][i], rows);
+    }
+    put_batch(l, batch);
+    return rows;
+}
+
+/* Texels that lie side by side nowhere: copies of what is known of them. */
+typedef struct Loose {
+    float p[LANES * LANES], q[LANES * LANES], out[LANES * LANES];
+    size_t at[LANES * LANES];
+    int count;
+} Loose;
+
+static void put_loose(const Lines *l, Loose *loose, Batch *batch)
+{
+    put_batch(l, batch);
+    for (int i = 0; i < loose->count; i++)
+        if (loose->at[i] < l->texels) l->sky->out[loose->at[i]] = loose->out[i];
+    loose->count = 0;
+}
+
+/* The lanes of row s of lines that go along the table's rows and lean. */
+static void take_leaning(const Lines *l, int64_t start, int lanes, int s, const Work *work,
+                         Loose *loose, Batch *batch)
+{
+    const WrSky *sky = l->sky;
+    const int from = loose->count;
+    for (int i = 0; i < lanes; i++) {
+        const bool there = l->turns_across || (start + i >= 0 && start + i < l->across);
+        const size_t row = (size_t)place(start + i, l->across, l->turns_across);
+        const size_t at = row * sky->part->pitch + (size_t)s;
+        loose->at[from + i] = there ? at : SIZE_MAX;
+        loose->out[from + i] = sky->out[at];
+        if (sky->k >= 0) continue;
+        loose->p[from + i] = sky->p[at];
+        loose->q[from + i] = sky->q[at];
+    }
+    const size_t first = (size_t)s * LANES;
+    batch->run[batch->count++] =
+        (WrSkyRun){ work->slope[0] + first, work->slope[1] + first, loose->p + from,
+                    loose->q + from,        loose->out + from,      lanes };
+    loose->count += lanes;
+    if (batch->count == LANES) put_loose(l, loose, batch);
+}
+
+static void put_lines(const Lines *l, int64_t base, int phase, const Work *work)
+{
+    const int64_t left = l->turns_across ? l->across - base : LANES;
+    const int lanes = left < LANES ? (int)left : LANES, q = l->course.q, p = l->course.p;
+    Batch batch;
+    Loose loose;
+    batch.count = loose.count = 0;
+    for (int s = phase, more = q; s < l->along; s += more) {
+        const int64_t start = base + whole_of((int64_t)p * (s - phase), q);
+        if (l->course.upright) put_row(l, start, lanes, s, work, &batch);
+        else if (p == 0) more = put_block(l, start, lanes, s, work, &batch);
+        else take_leaning(l, start, lanes, s, work, &loose, &batch);
+    }
+    put_loose(l, &loose, &batch);
+}
+
+static void free_work(Work *work)
+{
+    if (!work) return;
+    wr_free(work->h), wr_free(work->seen), wr_free(work->rows);
+    wr_free(work->slope[0]), wr_free(work->slope[1]);
+    wr_free(work);
+}
+
+static Work *new_work(const Lines *l)
+{
+    const size_t rows = (size_t)l->along + 2 * (size_t)l->ahead, main = (size_t)l->along;
+    Work *work = wr_alloc(1, sizeof *work);
+    work->h = wr_alloc_unset(rows * LANES, sizeof(int32_t));
+    work->seen = wr_alloc_unset(rows * LANES, sizeof(int64_t));
+    work->rows = wr_alloc_unset(rows, sizeof(int));
+    for (int side = 0; side < 2; side++) work->slope[side] = wr_alloc(main * LANES, sizeof(float));
+    return work;
+}
+
+static void piece(int index, int worker, void *ctx)
+{
+    const Lines *l = ctx;
+    const int64_t base = l->first + (int64_t)(index % l->stripes) * LANES;
+    if (!l->worker[worker]) l->worker[worker] = new_work(l);
+    sweep_both(l, base, index / l->stripes, l->worker[worker]);
+    put_lines(l, base, index / l->stripes, l->worker[worker]);
+}
+
+/* ---- a course ------------------------------------------------------------------------------------ */
+
+static int64_t common(int64_t a, int64_t b)
+{
+    return b == 0 ? a : common(b, a % b);
+}
+
+/* Rows after which a line has nothing new to show: it is where it began, or goes along clamped edges. */
+static int64_t period_of(const Lines *l)
+{
+    const int64_t q = l->course.q, p = llabs((long long)l->course.p);
+    int64_t settle = 0, period = 1;
+    if (l->turns_along) period = l->along / common(l->along, q) * q;
+    else settle += l->along;
+    if (p == 0) return settle + period;
+    if (!l->turns_across) return settle + (l->across + p - 1) / p * q + period;
+    if (!l->turns_along) return settle + q * l->across;
+    const int64_t drift = p * period / q;
+    return period * (l->across / common(l->across, drift % l->across));
+}
+
+static void open_lines(Lines *l)
+{
+    const WrField *field = l->sky->occlusion->field;
+    const bool turns_u = wr_field_wrap_u(field) == WR_WRAP_PERIODIC;
+    const bool turns_v = wr_field_wrap_v(field) == WR_WRAP_PERIODIC;
+    const int w = wr_field_width(field), h = wr_field_height(field), longer = w > h ? w : h;
+    const int most = longer * WR_OCCLUSION_ROUND > WR_OCCLUSION_LEAST ? longer * WR_OCCLUSION_ROUND
+                                                                      : WR_OCCLUSION_LEAST;
+    l->along = l->course.upright ? h : w;
+    l->across = l->course.upright ? w : h;
+    l->turns_along = l->course.upright ? turns_v : turns_u;
+    l->turns_across = l->course.upright ? turns_u : turns_v;
+    const int64_t period = period_of(l);
+    l->ahead = period <= most ? (int)period : most;
+    l->course.share.level =
+        period <= most ? 0 : (float)(l->sky->range / (l->ahead * l->course.step));
+    l->scale = l->sky->unit / (l->course.q * l->course.step);
+    const int drift = (int)whole_of((int64_t)l->course.p * l->along, l->course.q);
+    const int less = l->turns_across || drift < 0 ? 0 : drift,
+              more = l->turns_across || drift > 0 ? 0 : -drift;
+    l->first = -less - (less > 0 ? LANES : 0);
+    l->stripes = (l->across + more + (more > 0 ? LANES : 0) - l->first + LANES - 1) / LANES;
+    l->closes = l->turns_along && l->ahead == l->along && l->along % l->course.q == 0 &&
+                drift % l->across == 0 && (drift == 0 || l->turns_across);
+    l->texels = l->sky->part->pitch * (size_t)l->sky->part->h;
+}
+
+bool wr_sky_run_pair(const WrSky *sky, int pair, WrPool *pool)
+{
+    const int threads = wr_pool_threads(pool);
+    Lines l = { .sky = sky, .course = wr_sky_course(sky->occlusion, pair) };
+    const int opposite = opposite_of(&l);
+    if (sky->k >= 0 && sky->k != l.course.k && sky->k != opposite) return true;
+    open_lines(&l);
+    l.worker = wr_alloc((size_t)threads, sizeof *l.worker);
+    const bool good = wr_pool_run(pool, l.stripes * l.course.q, piece, &l);
+    for (int i = 0; i < threads; i++) free_work(l.worker[i]);
+    wr_free(l.worker);
+    return good;
+}
