@@ -1,9 +1,12 @@
 #include "base/memory.h"
 
 #include "base/error.h"
+#include "system/pages.h"
 
 #include <stdint.h>
 #include <string.h>
+
+#define LARGE ((size_t)8 << 20) /* bytes; malloc takes such blocks from the system, untouched */
 
 /* Blocks above this come from mmap by way of malloc's own threshold; zeroing them by hand would touch
    every page, so calloc is asked for and its pointer aligned by hand. The original pointer is kept in
@@ -14,6 +17,7 @@ static void *aligned(size_t bytes, bool zeroed)
     size_t whole = bytes + WR_ALIGN + sizeof(void *);
     char *raw = zeroed ? calloc(1, whole) : malloc(whole);
     if (!raw) return NULL;
+    if (whole >= LARGE) wr_pages_large(raw, whole);
     uintptr_t start = ((uintptr_t)raw + sizeof(void *) + WR_ALIGN - 1) & ~(uintptr_t)(WR_ALIGN - 1);
     ((void **)start)[-1] = raw;
     return (void *)start;
