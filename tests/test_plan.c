@@ -663,6 +663,7 @@ static const Case cases[WR_EFFECT_COUNT] = {
     [WR_EFFECT_NEWTON] = { torus, { { keep_all, NOTHING } } },
     [WR_EFFECT_PERSPECTIVE] = { keep_all, { { orthographic, NOTHING } } },
     [WR_EFFECT_AGAIN] = { keep_all, { { resting, 0 } } },
+    [WR_EFFECT_STEADY] = { keep_all, { { dark, NOTHING } } },
     [WR_EFFECT_BESIDE] = { NULL, { { keep_all, 0 }, { torus, 0 }, { cube, 0 } } },
     [WR_EFFECT_SPREAD] = { moments, { { filtered, NOTHING }, { moments_dull, NOTHING } } },
     [WR_EFFECT_ROUNDED] = { eight_bits, { { keep_all, NOTHING } } },

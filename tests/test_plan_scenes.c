@@ -297,8 +297,9 @@ static void hidden_sphere(Stage *stage)
 /* ---- what runs in each ----------------------------------------------------------------------------- */
 
 #define E(name) WR_EFFECT_BIT(WR_EFFECT_##name)
+#define NEW (E(AGAIN) | E(STEADY))
 #define LIGHT (E(DIFFUSE) | E(SPECULAR))
-#define NEAR (E(PERSPECTIVE) | E(AGAIN)) /* a new picture in perspective */
+#define NEAR (E(PERSPECTIVE) | NEW) /* a new picture in perspective */
 #define ROUND (E(PARAMETERS) | E(TANGENTS))
 #define RELIEF (E(BUMP) | E(GRADIENT) | E(GROUND)) /* a table with slopes all over */
 #define OPEN E(BACK)                               /* a sheet, whose back can be seen */
@@ -318,7 +319,7 @@ static const Scene scenes[] = {
     { "S04", only_highlight, E(SPECULAR) | NEAR | ROUND | RELIEF, 0 },
     { "S05", least_highlight, LIGHT | NEAR | ROUND | RELIEF, 0 },
     { "S06", from_behind, NEAR, 0 },
-    { "S07", ramp, LIGHT | E(AGAIN) | RELIEF | OPEN | E(SAMPLES) | E(BOUND) | E(DARK), 0 },
+    { "S07", ramp, LIGHT | NEW | RELIEF | OPEN | E(SAMPLES) | E(BOUND) | E(DARK), 0 },
     { "S08", ramp_near, LIGHT | NEAR | RELIEF | OPEN | E(SAMPLES) | E(BOUND) | E(DARK), 0 },
     { "S09", exact_plane, LIGHT | NEAR | RELIEF | OPEN, 1e-5 },
     { "S10", exact_low, LIGHT | NEAR | ROUND | RELIEF | E(EXACT) | E(CURVATURE) | E(DARK), 0 },

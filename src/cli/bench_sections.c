@@ -328,6 +328,7 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_NEWTON)] = { .surface = "torus", .mode = WR_BENCH_BUMP, .with = same },
     [WR_ROW(WR_EFFECT_PERSPECTIVE)] = { BUMPED, .with = same, .without = orthographic },
     [WR_ROW(WR_EFFECT_AGAIN)] = { BUMPED, .with = same, .without = same },
+    [WR_ROW(WR_EFFECT_STEADY)] = { BUMPED, .with = same, .without = same },
     [WR_ROW(WR_EFFECT_BESIDE)] = { BUMPED, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_SPREAD)] = { BUMPED, .with = moments },
     [WR_ROW(WR_EFFECT_ROUNDED)] = { BUMPED, .with = rounded },
@@ -361,6 +362,7 @@ static bool add_effect(WrBenchSections *all, int effect, bool with, WrError *err
     if (with && e->forced) p->force[effect] = WR_FORCE_ON;
     if (!with && !e->forced && !e->without && !e->other) p->force[effect] = WR_FORCE_OFF;
     if (!with && effect == WR_EFFECT_AGAIN) p->view = WR_BENCH_RESTS;
+    if (!with && effect == WR_EFFECT_STEADY) p->view = WR_BENCH_RELIT;
     return true;
 }
 

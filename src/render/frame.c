@@ -56,6 +56,7 @@ void wr_renderer_forget(WrRenderer *renderer)
     renderer->square = NULL;
     wr_sight_fini(&renderer->sight);
     wr_cast_body_fini(&renderer->body);
+    wr_steady_fini(&renderer->steady);
 }
 
 void wr_renderer_free(WrRenderer *renderer)
@@ -227,8 +228,7 @@ WrTileJob wr_frame_job(WrRenderer *renderer, const WrFrameRequest *request)
     WrTileJob job = wr_frame_canvas(renderer, request);
     if (!request) return job;
     wr_frame_fill_looks(renderer, request, renderer->view.scale, &job);
-    job.sight = renderer->sighting ? &renderer->sight : NULL;
-    job.seen_before = renderer->sighted;
+    wr_frame_fill_sight(renderer, &job);
     job.cast = &renderer->cast;
     job.cast_count =
         wr_plan_calls(&renderer->plan, WR_EFFECT_CAST) ? renderer->cast.count : renderer->cast.all;
@@ -405,6 +405,7 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
     if (stands) look_for_life(renderer, request, &ask);
     ask.facts.rests = rests(renderer, request, &before, last);
     wr_plan_again(&renderer->plan, &ask);
+    wr_frame_choose_steady(renderer, request, &ask);
     if (wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN)) {
         wr_keep_fini(&renderer->keep);
         renderer->outside = ask.facts.outside;
@@ -425,6 +426,7 @@ static void start_keep(WrRenderer *renderer, const WrFrameRequest *request, Fram
     }
     wr_did(renderer->scratch[0], WR_EFFECT_AGAIN);
     job->cancel = request->cancel;
+    if (renderer->steady.use == WR_STEADY_KNOWN) return; /* no tile tells what it looks at */
     if (!wr_frame_may_keep(request)) return;
     wr_keep_start(&renderer->keep, wr_frame_tiles(&job->tile));
     job->tile.seen = renderer->keep.seen;
@@ -461,6 +463,7 @@ static bool single_frame(WrRenderer *renderer, const WrFrameRequest *request, Wr
     }
     wr_frame_shown(renderer);
     wr_frame_account(renderer, prepared, started, frame);
+    if (renderer->steady.use == WR_STEADY_NOTE) wr_steady_noted(&renderer->steady, frame->shaded);
     return true;
 }
 

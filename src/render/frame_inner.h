@@ -49,6 +49,7 @@ struct WrRenderer {
     WrCast cast;     /* what can hide lamps from it */
     WrFrames frames;
     WrSight sight;           /* of the last view that rested */
+    WrSteady steady;         /* of one that rests but for its light */
     WrTileScratch **scratch; /* [threads], made on first use */
     int threads;
     float *rgba;         /* the last picture, or the last band of it ... */
@@ -109,6 +110,11 @@ bool wr_frame_prepare(WrRenderer *renderer, const WrFrameRequest *request, WrErr
    objects of the picture, 0: there are none. */
 void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrHash beside,
                           bool anew);
+/* Is what a resting view shows, but for its light, of use to this frame (steady.h)? The rows that go by it are decided once
+   more. */
+void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask);
+/* Both, as the frame's tiles find or fill them. */
+void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job);
 /* Where its tiles go, and of what size they are; request NULL: for picking. */
 WrTileJob wr_frame_canvas(WrRenderer *renderer, const WrFrameRequest *request);
 /* The same, and what they look up. */

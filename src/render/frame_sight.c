@@ -1,7 +1,11 @@
-/* What the samples of a resting view look at (sight.h): when it is known, and when it is noted. */
+/* What the samples of a resting view look at (sight.h), and n' and P of them (steady.h): when it is known, and when it is
+   noted. */
+#include "field/field.h"
 #include "render/frame_inner.h"
+#include "scene/objects.h"
 
-#define SIGHT_MOST (1 << 24) /* pixels; 8 bytes each */
+#define SIGHT_MOST (1 << 24)  /* pixels; 8 bytes each */
+#define STEADY_MOST (1 << 22) /* likewise; 25 bytes each, and 24 more while they are noted */
 
 /* Against the planner nothing is noted: what is drawn is not what it would be. */
 static bool is_forced(const WrFrameRequest *request)
@@ -24,7 +28,10 @@ static bool bring_sight(WrRenderer *renderer, const WrFrameRequest *request, WrH
     renderer->sighting = small && wr_frame_may_keep(request) && renderer->mesh &&
                          plan->newton != 0 && plan->sampling == WR_SAMPLING_ONE &&
                          !plan->shading_double && !is_forced(request);
-    if (!renderer->sighting) return false;
+    if (!renderer->sighting || renderer->steady.use == WR_STEADY_KNOWN) {
+        renderer->sighting = false;
+        return false;
+    }
     const WrTileJob job = { .plan = plan, .scene = renderer->scene };
     wr_sight_key(&key, renderer->mesh, &renderer->view, wr_tile_exact(&job), renderer->kernels);
     key.beside = beside;
@@ -39,4 +46,47 @@ void wr_frame_bring_sight(WrRenderer *renderer, const WrFrameRequest *request, W
     WrPlanAsk *ask = &renderer->ask;
     ask->facts.sighted = renderer->sighted = bring_sight(renderer, request, beside, anew);
     wr_plan_again(&renderer->plan, ask);
+}
+
+static bool is_any_forced(const WrForce *force)
+{
+    bool any = false;
+    for (int e = 0; force && e < WR_EFFECT_COUNT; e++) any |= force[e] != WR_FORCE_NONE;
+    return any;
+}
+
+/* One object in one piece, as the planner would have it, and nothing wanted of it but its light. */
+static bool may_be_steady(const WrRenderer *renderer, const WrFrameRequest *request)
+{
+    return wr_frame_may_keep(request) && !renderer->among && !request->normals && !request->map &&
+           !is_any_forced(request->force) && !request->full && request->scene->other_count == 0 &&
+           (int64_t)request->width * request->height <= STEADY_MOST &&
+           wr_steady_suits(request->scene, &renderer->plan);
+}
+
+void wr_frame_choose_steady(WrRenderer *renderer, const WrFrameRequest *request, WrPlanAsk *ask)
+{
+    const WrSteadyView view = { .scene = request->scene,
+                                .plan = &renderer->plan,
+                                .kernels = renderer->kernels,
+                                .turn_deg = request->turn_deg,
+                                .width = request->width,
+                                .height = request->height,
+                                .field = wr_field_key(request->field) };
+    const bool suits = may_be_steady(renderer, request);
+    const bool all = wr_plan_runs(&renderer->plan, WR_EFFECT_AGAIN);
+    WrSteady *steady = &renderer->steady;
+    steady->use = suits && all ? wr_steady_bring(steady, &view) : WR_STEADY_NONE;
+    ask->facts.steady = steady->use == WR_STEADY_KNOWN;
+    ask->facts.normals |= steady->use == WR_STEADY_NOTE; /* also where it is dark */
+    wr_plan_again(&renderer->plan, ask);
+}
+
+void wr_frame_fill_sight(WrRenderer *renderer, WrTileJob *job)
+{
+    WrSteady *steady = &renderer->steady;
+    job->sight = renderer->sighting ? &renderer->sight : NULL;
+    job->seen_before = renderer->sighted;
+    if (steady->use == WR_STEADY_KNOWN) job->steady = steady;
+    if (steady->use == WR_STEADY_NOTE) job->normals = steady->normals, job->points = steady->points;
 }

@@ -157,6 +157,7 @@ static unsigned normal_strip(const WrTileJob *job, const Rays *rays, int face, c
                              Strip *strip, WrTileScratch *scratch, Watch *watch)
 {
     const bool level = is_level(job, strip);
+    did(watch, WR_EFFECT_STEADY);
     surface_strip(job, face, level, sink, strip, watch);
     if (sink->nearest) keep_near(job, sink, strip, watch);
     if (strip->count == 0) return 0;
@@ -209,76 +210,7 @@ static unsigned shade_strip(const WrTileJob *job, const Rays *rays, int quad, co
     return spared;
 }
 
-/* Colours of neighbours, one after the other: how many of them were empty. */
-static int store_run(const Strip *strip, float *restrict out)
-{
-    int fresh = 0;
-    for (int i = 0; i < strip->count; i++) fresh += out[4 * i + 3] == 0.0f;
-    for (int i = 0; i < strip->count; i++) {
-        out[4 * i] = (float)strip->cr[i];
-        out[4 * i + 1] = (float)strip->cg[i];
-        out[4 * i + 2] = (float)strip->cb[i];
-        out[4 * i + 3] = 1.0f;
-    }
-    return fresh;
-}
-
-/* A strip's colours as codes; how many numbers were not finite. */
-static int64_t make_codes(const WrTileJob *job, const Strip *strip, uint32_t *to)
-{
-    const WrBehind nothing = { 0 };
-    float rgba[WR_SPAN][4];
-    if (job->coder.tone.plain) return KERNELS_OF(job)->codes(job->coder.bins, strip, to);
-    for (int i = 0; i < strip->count; i++) {
-        rgba[i][0] = (float)strip->cr[i];
-        rgba[i][1] = (float)strip->cg[i];
-        rgba[i][2] = (float)strip->cb[i];
-        rgba[i][3] = 1.0f;
-    }
-    return wr_code_row(&job->coder, &nothing, 0, strip->count, rgba[0], to);
-}
-
-/* The same as codes, whose alpha is 0 where nothing is yet; once: each to its place at once. */
-static void store_codes(const WrTileJob *job, const Strip *strip, bool run, const WrSink *sink,
-                        WrTileScratch *scratch)
-{
-    uint32_t codes[WR_SPAN], *restrict out = sink->codes;
-    const bool direct = sink->once && run;
-    uint32_t *to = direct ? out + strip->index[0] : codes;
-    int fresh = 0;
-    scratch->not_finite += make_codes(job, strip, to);
-    for (int i = 0; i < strip->count && !direct; i++) {
-        fresh += out[strip->index[i]] >> 24 == 0;
-        out[strip->index[i]] = codes[i];
-    }
-    scratch->covered += sink->once ? strip->count : fresh;
-}
-
-/* Finished strip -> its samples' places. */
-static void store(const WrTileJob *job, const WrSink *sink, const Strip *strip,
-                  WrTileScratch *scratch)
-{
-    const int last = strip->count - 1;
-    const bool run = strip->index[last] - strip->index[0] == last;
-    if (sink->codes) store_codes(job, strip, run, sink, scratch);
-    if (sink->rgba && run) scratch->covered += store_run(strip, sink->rgba + 4 * strip->index[0]);
-    for (int i = 0; i < strip->count && sink->rgba && !run; i++) {
-        float *out = sink->rgba + 4 * strip->index[i];
-        out[0] = (float)strip->cr[i];
-        out[1] = (float)strip->cg[i];
-        out[2] = (float)strip->cb[i];
-        scratch->covered += out[3] == 0.0f;
-        out[3] = 1.0f;
-    }
-    for (int i = 0; i < strip->count && sink->normals; i++) {
-        float *out = sink->normals + 3 * strip->index[i];
-        out[0] = (float)strip->bx[i];
-        out[1] = (float)strip->by[i];
-        out[2] = (float)strip->bz[i];
-    }
-    for (int i = 0; i < strip->count && sink->bound; i++)
-        sink->bound[strip->index[i]] = (float)strip->bound[i];
-}
+#include "render/pipe_store_body.h"
 
 /* What the view made of the strip, and in what numbers. */
 static void note_view(const WrTileJob *job, const Rays *rays, WrTileScratch *scratch)
@@ -336,6 +268,7 @@ static void finish_strip(const WrTileJob *job, const Rays *rays, int quad, const
 
 #include "render/pipe_mesh_body.h"
 #include "render/pipe_triangles_body.h"
+#include "render/pipe_steady_body.h"
 
 static void pour(const WrScatter *places, Strip *strip)
 {
@@ -360,6 +293,11 @@ static void points(const WrTileJob *job, int k, const WrDepthTile *tile, const W
     Strip *strip = STRIP_OF(scratch);
     Watch watch = watch_start(scratch);
     if (places->count == 0) return;
+    if (job->steady) {
+        recall_places(job, tile, places, strip);
+        light_known(job, rays, sink, scratch, &watch);
+        return;
+    }
     if (job->triangles) {
         for (scratch->face = 0; scratch->face < faces_of(job); scratch->face++) {
             meet_places(job, rays, tile, places, runs(job, WR_EFFECT_PARAMETERS), scratch, &watch);
@@ -428,6 +366,11 @@ static void row(const WrTileJob *job, int k, const WrDepthTile *tile, int y, con
     Strip *strip = STRIP_OF(scratch);
     Watch watch = watch_start(scratch);
     const REAL gx = (REAL)tile->x, gy = (REAL)(tile->y + y);
+    if (job->steady) {
+        recall_row_of(job, rays, tile, y, strip);
+        light_known(job, rays, sink, scratch, &watch);
+        return;
+    }
     if (job->triangles) {
         for (scratch->face = 0; scratch->face < faces_of(job); scratch->face++) {
             meet_row(job, rays, tile, y, scratch, &watch);

@@ -59,6 +59,7 @@ typedef enum WrEffect {
     WR_EFFECT_NEWTON,
     WR_EFFECT_PERSPECTIVE,
     WR_EFFECT_AGAIN,
+    WR_EFFECT_STEADY,
     WR_EFFECT_BESIDE,
     WR_EFFECT_SPREAD,
     WR_EFFECT_ROUNDED,
@@ -264,6 +265,7 @@ typedef struct WrPlanFacts {
     bool outside;    /* the eye is outside a closed surface, for certain */
     bool lively;     /* adaptive: nearly all of the view's pixels need all samples */
     bool sighted;    /* what the view's samples look at is known from the last picture */
+    bool steady;     /* and n' and P of them */
     int among;       /* objects that are shown; 0 or 1: this one alone */
     int hiders;      /* objects that can hide a lamp from this one, itself among them */
     double rise;     /* pixels that F could move a point at most; below 0: not known */

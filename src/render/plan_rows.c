@@ -334,6 +334,11 @@ const WrEffectInfo wr_effects[WR_EFFECT_COUNT] = {
     [WR_ROW(WR_EFFECT_AGAIN)] = { "E29", "re-rendering", WR_PROOF_IDENTICAL, NULL,
                                   "the view rests and no edit reaches the tile", 0,
                                   .only_way = true, .manner = true, .decide = wr_decide_again },
+    [WR_ROW(WR_EFFECT_STEADY)] = { "E76", "normals of a resting view", WR_PROOF_IDENTICAL, NULL,
+                                   "nothing but light and material of a resting view has changed "
+                                   "since its points and normals were noted",
+                                   0, .only_way = true, .manner = true,
+                                   .decide = wr_decide_steady },
     [WR_ROW(WR_EFFECT_BESIDE)] = { "E30", "tiles beside the object", WR_PROOF_IDENTICAL, NULL,
                                    "beyond the object's outline tiles, and parts of tiles, are "
                                    "cleared and no more",

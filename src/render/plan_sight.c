@@ -35,7 +35,7 @@ WrVerdict wr_decide_depth(const WrPlan *plan, const WrPlanAsk *ask, const char *
         return say(WR_VERDICT_RUN, why, "facets of the displaced surface hide others");
     if (surface_of(ask)->inversion != WR_INVERT_MESH && !is_held(ask))
         return say(WR_VERDICT_NONE, why, "the nearest root of the ray is enough");
-    if (ask->facts.sighted)
+    if (ask->facts.sighted || ask->facts.steady)
         return say(WR_VERDICT_SPARED, why, "the view rests: what it looks at is known");
     return say(WR_VERDICT_RUN, why, "parts of the surface may hide others");
 }
@@ -54,7 +54,8 @@ WrVerdict wr_decide_newton(const WrPlan *plan, const WrPlanAsk *ask, const char 
                    "rays meet triangles in closed form, and patches near them in a few steps");
     if (plan->inversion != WR_INVERT_MESH)
         return say(WR_VERDICT_NONE, why, "rays meet this surface in closed form");
-    if (ask->facts.sighted) return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
+    if (ask->facts.sighted || ask->facts.steady)
+        return say(WR_VERDICT_SPARED, why, "the view rests: u and v are known");
     return say(WR_VERDICT_RUN, why, "this surface has no closed inverse");
 }
 
@@ -81,6 +82,15 @@ WrVerdict wr_decide_again(const WrPlan *plan, const WrPlanAsk *ask, const char *
     if (!ask->facts.rests || runs(plan, WR_EFFECT_BOUND))
         return say(WR_VERDICT_RUN, why, "a new picture: every tile is rendered");
     return say(WR_VERDICT_SPARED, why, "the view rests: only tiles that an edit reached are new");
+}
+
+WrVerdict wr_decide_steady(const WrPlan *plan, const WrPlanAsk *ask, const char **why)
+{
+    if (!plan->normals) return say(WR_VERDICT_NONE, why, "no light depends on the normal");
+    if (ask->facts.steady)
+        return say(WR_VERDICT_SPARED, why,
+                   "the view rests, and only its light changed: points and normals are known");
+    return say(WR_VERDICT_RUN, why, "points and normals are new");
 }
 
 /* ---- what of the surface ---- */

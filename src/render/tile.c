@@ -54,13 +54,13 @@ WrDepthTile wr_tile_depth(const WrTileJob *job, int k, int x, int y, int w, int 
                          .k = k,
                          .kernels = job->kernels };
     if (k > 1 && job->plan->spread == WR_SPREAD_JITTERED) wr_tile_jitter(&tile, k, scratch->shift);
-    if (job->mesh && !job->seen_before) {
+    if (job->mesh && !job->seen_before && !job->steady) {
         double start = wr_clock_seconds();
         wr_view_mesh_raster(job->mesh, job->view, &tile);
         wr_did(scratch, WR_EFFECT_DEPTH);
         scratch->whole[WR_STAGE_VISIBILITY] += wr_clock_seconds() - start;
     }
-    if (job->triangles) {
+    if (job->triangles && !job->steady) {
         double start = wr_clock_seconds();
         wr_view_triangles_raster(job->triangles, job->view, &tile);
         wr_did(scratch, WR_EFFECT_DEPTH);
@@ -125,6 +125,7 @@ static WrSink row_sink(const WrTileRows *rows, int y)
     const size_t row = (size_t)y;
     return (WrSink){ .rgba = rows->rgba ? rows->rgba + row * rows->rgba_step : NULL,
                      .normals = rows->normals ? rows->normals + row * rows->normals_step : NULL,
+                     .points = rows->points ? rows->points + row * rows->normals_step : NULL,
                      .codes = rows->codes ? rows->codes + row * rows->codes_step : NULL,
                      .nearest = rows->nearest ? rows->nearest + row * rows->nearest_step : NULL };
 }
@@ -177,7 +178,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
 {
     WrScatter *places = &scratch->scatter;
     const int many = WR_SPAN / tile->w;
-    float rgba[WR_SPAN][4], normals[WR_SPAN][3];
+    float rgba[WR_SPAN][4], normals[WR_SPAN][3], points[WR_SPAN][3];
     uint32_t codes[WR_SPAN];
     WrNearest nearest[WR_SPAN];
     for (int top = 0; top < tile->h; top += many) {
@@ -197,6 +198,7 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
         if (out->codes) fill_packed(job, tile, top, rows, codes);
         WrSink sink = { .rgba = out->rgba ? rgba[0] : NULL,
                         .normals = out->normals ? normals[0] : NULL,
+                        .points = out->points ? points[0] : NULL,
                         .codes = out->codes ? codes : NULL,
                         .nearest = out->nearest ? nearest : NULL };
         const double packed = wr_clock_seconds();
@@ -208,6 +210,8 @@ static void run_packed(const WrTileJob *job, int k, const WrDepthTile *tile, con
             if (out->rgba) memcpy(out->rgba + to * out->rgba_step, rgba[from], w * sizeof rgba[0]);
             if (out->normals)
                 memcpy(out->normals + to * out->normals_step, normals[from], w * sizeof normals[0]);
+            if (out->points)
+                memcpy(out->points + to * out->normals_step, points[from], w * sizeof points[0]);
             if (out->codes) put_codes(codes + from, tile->w, out->codes + to * out->codes_step);
             if (out->nearest)
                 memcpy(out->nearest + to * out->nearest_step, nearest + from, w * sizeof *nearest);
@@ -248,6 +252,7 @@ static void render_point(const WrTileJob *job, WrTilePart part, bool light, WrTi
     if (light && job->codes) out.codes = code_at(job, part.x, part.y);
     else if (light) out.rgba = wr_tile_pixel(job, part.x, part.y);
     if (job->normals) out.normals = job->normals + wr_tile_place(job, part.x, part.y) * 3;
+    if (job->points) out.points = job->points + wr_tile_place(job, part.x, part.y) * 3;
     wr_tile_samples(job, 1, &tile, &out, scratch);
 }
 

@@ -11,6 +11,7 @@
 #include "render/opening.h"
 #include "render/plan.h"
 #include "render/sight.h"
+#include "render/steady.h"
 #include "render/surround.h"
 #include "render/dice.h"
 #include "render/triangles.h"
@@ -40,9 +41,10 @@ typedef struct WrTileJob {
         *sight; /* what the view's samples look at, or where that is noted; NULL: neither */
     const WrViewTriangles *triangles; /* a mesh out of a file; or NULL */
     WrTriangleLook triangle_look;
-    const WrDice *dice; /* of a displaced surface, what the triangles are; or NULL */
-    bool seen_before;   /* it is known */
-    bool newton;        /* the mesh's parameters are made exact */
+    const WrDice *dice;     /* of a displaced surface, what the triangles are; or NULL */
+    bool seen_before;       /* it is known */
+    const WrSteady *steady; /* n' and P of the view's samples, which are known; or NULL */
+    bool newton;            /* the mesh's parameters are made exact */
     WrLook look;
     WrLookd look_double;           /* where kernels_double looks */
     WrEffects looks;               /* what a look-up in the table does, by what it was given */
@@ -80,7 +82,8 @@ typedef struct WrTileJob {
     uint32_t *codes; /* the band as 8-bit codes over `background`; or NULL */
     WrCoder coder;
     const WrBackdrop *backdrop; /* of the band */
-    float *normals;             /* WrFrameRequest's; or NULL */
+    float *normals;             /* WrFrameRequest's, or the renderer's own; or NULL */
+    float *points;              /* of those, where they lie; or NULL */
     uint8_t *map;               /* likewise */
     WrBlocks *seen;             /* [tiles] to fill with what each tile looks at; NULL: not wanted */
     int object;                 /* which of the scene's it draws */
@@ -98,6 +101,7 @@ typedef struct WrSink {
     uint32_t *codes; /* one a sample: rgba as 8-bit codes; with neither, no light is worked out */
     bool once;       /* no sample is met twice: codes are the picture's own, opaque everywhere */
     float *normals;  /* 3 a sample: n' */
+    float *points;   /* 3 a sample: P, kernel units */
     WrNearest *nearest; /* one a sample; what lies behind it is not stored */
     float *bound;       /* how far the intensity may change over the pixel */
     double pixel;       /* of the bound, samples a side */

@@ -9,8 +9,8 @@
 
 /* Where the rows of a tile go. */
 typedef struct WrTileRows {
-    float *rgba, *normals;          /* of the first row; NULL: not wanted */
-    size_t rgba_step, normals_step; /* floats a row */
+    float *rgba, *normals, *points; /* of the first row; NULL: not wanted */
+    size_t rgba_step, normals_step; /* floats a row; of points as of normals */
     uint32_t *codes;
     size_t codes_step;
     WrNearest *nearest;

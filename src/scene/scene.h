@@ -184,6 +184,9 @@ WrScene *wr_scene_share(const WrScene *scene); /* constant time */
 /* What all objects have in common, lights to surroundings, from another scene: for one that may be changed. */
 void wr_scene_take_shared(WrScene *scene, const WrScene *from);
 void wr_scene_free(WrScene *scene);
+/* Do both, of one object each, show the same points with the same normals, whatever their light, material and dials? Both
+   are held by the caller, so that what they share is the same where it is at one address. */
+bool wr_scene_same_normals(const WrScene *a, const WrScene *b);
 /* Take a shape; what it borrows is shared from now on. */
 void wr_scene_set_shape(WrScene *scene, const WrShape *shape);
 
