@@ -249,9 +249,24 @@ static void the_plan_looks_at_what_says_so_and_at_nothing_else(void **state)
     wr_renderer_free(renderer);
 }
 
+/* What a line leaves out is off, also where it is a word. */
+static void what_is_left_out_of_a_light_is_off(void **state)
+{
+    (void)state;
+    WrSession *s = wr_session_new(NULL);
+    must_run(s, "light directional to=1,0.3,2");
+    assert_false(doc(s)->scene->lights[0].shadow);
+    must_run(s, "light point at=1,0.3,2 shadow=on index=1");
+    assert_true(doc(s)->scene->lights[0].shadow);
+    must_run(s, "light directional to=1,0.3,2 index=1");
+    assert_false(doc(s)->scene->lights[0].shadow);
+    wr_session_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_left_out_of_a_light_is_off),
         cmocka_unit_test(ranges_defaults_and_words_are_sound),
         cmocka_unit_test(each_is_set_by_its_command_and_printed_again),
         cmocka_unit_test(a_preset_is_a_whole_material),

@@ -280,6 +280,7 @@ typedef struct EffectCase {
     Change with, without;
     const char *other;
     bool forced;
+    WrBenchView view; /* without it */
 } EffectCase;
 
 #define BUMPED .surface = "sphere", .mode = WR_BENCH_BUMP
@@ -327,8 +328,8 @@ static const EffectCase effects[WR_EFFECT_COUNT] = {
                                   .other = "sphere" },
     [WR_ROW(WR_EFFECT_NEWTON)] = { .surface = "torus", .mode = WR_BENCH_BUMP, .with = same },
     [WR_ROW(WR_EFFECT_PERSPECTIVE)] = { BUMPED, .with = same, .without = orthographic },
-    [WR_ROW(WR_EFFECT_AGAIN)] = { BUMPED, .with = same, .without = same },
-    [WR_ROW(WR_EFFECT_STEADY)] = { BUMPED, .with = same, .without = same },
+    [WR_ROW(WR_EFFECT_AGAIN)] = { BUMPED, same, same, .view = WR_BENCH_RESTS },
+    [WR_ROW(WR_EFFECT_STEADY)] = { BUMPED, same, same, .view = WR_BENCH_RELIT },
     [WR_ROW(WR_EFFECT_BESIDE)] = { BUMPED, .with = same, .forced = true },
     [WR_ROW(WR_EFFECT_SPREAD)] = { BUMPED, .with = moments },
     [WR_ROW(WR_EFFECT_ROUNDED)] = { BUMPED, .with = rounded },
@@ -361,8 +362,7 @@ static bool add_effect(WrBenchSections *all, int effect, bool with, WrError *err
     (with || !e->without ? e->with : e->without)(p->scene);
     if (with && e->forced) p->force[effect] = WR_FORCE_ON;
     if (!with && !e->forced && !e->without && !e->other) p->force[effect] = WR_FORCE_OFF;
-    if (!with && effect == WR_EFFECT_AGAIN) p->view = WR_BENCH_RESTS;
-    if (!with && effect == WR_EFFECT_STEADY) p->view = WR_BENCH_RELIT;
+    if (!with) p->view = e->view;
     return true;
 }
 
@@ -427,7 +427,6 @@ static bool fill_views(WrBenchSections *all, const WrBenchView *views, const cha
     return true;
 }
 
-/* Surfaces whose (u,v) take longest: still they are kept. */
 static bool fill_relit(WrBenchSections *all, WrError *err)
 {
     for (int s = 1; s < 3; s++)

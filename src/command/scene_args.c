@@ -35,7 +35,8 @@ void wr_scene_take(const WrCall *call, const char *form, void *owner)
     const WrSceneParam *p;
     for (int i = 0; (p = wr_scene_param(call->command->name, form, i)) != NULL; i++) {
         if (!p->filled && !wr_call_given(call, p->name)) continue;
-        const double on = p->components == 0 ? wr_call_choice(call, p->name) : 0;
+        const double on =
+            p->components == 0 && wr_call_choice(call, p->name) > 0; /* -1: not given */
         wr_scene_param_set(p, owner,
                            p->components == 0 ? &on : wr_call_arg(call, p->name)->numbers);
     }
