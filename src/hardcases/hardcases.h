@@ -1,4 +1,4 @@
-/* hardcases.h - the hard cases of bump mapping: 169 inputs at which a naive program divides by zero, loses
+/* hardcases.h - the hard cases of bump mapping: 173 inputs at which a naive program divides by zero, loses
    its digits, reads outside its table or shows a seam; for each what must hold here, and a measurement of
    how far the program's own code is from it, in float and in double.
    Layer 6.
@@ -20,7 +20,7 @@ typedef struct WrPool WrPool;
 typedef struct WrProgress WrProgress;
 typedef struct WrText WrText;
 
-#define WR_HARDCASES 169
+#define WR_HARDCASES 173
 
 typedef enum WrHardPrecision { WR_HARD_FLOAT, WR_HARD_DOUBLE, WR_HARD_PRECISIONS } WrHardPrecision;
 

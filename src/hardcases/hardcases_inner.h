@@ -137,7 +137,7 @@ bool wr_hard_shine(const WrHardLit *lit, double part[2], WrError *err);
     X(noise) X(octaves) X(faces) X(tiling)                                                         \
     X(dab) X(stroke) X(stamp) X(undo)                                                              \
     X(sight) X(turn) X(light) X(reflect) X(surround) X(grain) X(horizon) X(raised)                                                                    \
-    X(fans) X(maps) X(forms) X(patches) X(stretch) X(later)
+    X(fans) X(maps) X(forms) X(patches) X(stretch) X(later) X(cast)
 /* clang-format on */
 
 typedef struct WrHardList {

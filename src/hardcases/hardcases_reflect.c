@@ -2,6 +2,8 @@
 #include "hardcases/hardcases_inner.h"
 
 #include "base/error.h"
+#include "field/field.h"
+#include "scene/scene.h"
 #include "shade/reflect.h"
 
 /* One lamp of strength 1 on one place. */
@@ -256,6 +258,46 @@ static bool hc108(WrHardGauge *g, WrError *err)
     return true;
 }
 
+/* A picture of metal, half or whole, in that colour. */
+static bool of_metal(WrHardGauge *g, double metal, double colour, bool in_double, WrHardShot *shot,
+                     WrError *err)
+{
+    WrScene *scene = wr_scene_new();
+    WrShape shape;
+    wr_shape_default(WR_SURFACE_sphere, &shape);
+    wr_scene_set_shape(scene, &shape);
+    scene->bump = WR_BUMP_NONE;
+    scene->material.model = WR_REFLECT_GGX, scene->material.metalness = metal;
+    scene->material.roughness = 0.37, scene->material.specular = 1;
+    scene->material.colour = (WrVec3){ colour, colour, colour };
+    if (in_double) scene->dials.shading = WR_SHADING_DOUBLE;
+    WrField *field = wr_field_new(4, 3, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, err);
+    const WrFrameRequest request = { .field = field, .scene = scene, .width = 13, .height = 11 };
+    const bool good = field && wr_hard_shoot(g, &request, shot, err);
+    wr_field_free(field);
+    wr_scene_free(scene);
+    return good;
+}
+
+static bool hc110(WrHardGauge *g, WrError *err)
+{
+    const double metals[] = { 0.5, 0.83, 1 }, colours[] = { 1 + 1e-6, 3.7, 1e6 };
+    bool good = true;
+    for (int i = 0; i < 18 && good; i++) {
+        WrHardShot white, more;
+        const bool wide = i / 9 > 0;
+        good = of_metal(g, metals[i % 3], 1, wide, &white, err);
+        if (!good) break;
+        good = of_metal(g, metals[i % 3], colours[i / 3 % 3], wide, &more, err);
+        for (int k = 0; good && k < 13 * 11 * 4; k++)
+            wr_hard_holds(g, wide ? WR_HARD_DOUBLE : WR_HARD_FLOAT,
+                          white.frame.rgba[k] == more.frame.rgba[k]);
+        if (good) wr_hard_put_away(&more);
+        wr_hard_put_away(&white);
+    }
+    return good;
+}
+
 #define ROW(number, situation, rule, u, float_bound, double_bound, material)                       \
     {                                                                                              \
         .id = "HC" #number, .subject = WR_HARD_RENDER, .what = situation, .holds = rule,           \
@@ -283,5 +325,7 @@ static const WrHardCase rows[] = {
         "model=oren-nayar roughness=1"),
     ROW(108, "Oren and Nayar's facets of roughness 0", "Lambert's law", "intensity", 1e-6, 1e-7,
         "model=oren-nayar roughness=0"),
+    ROW(110, "metal, half or whole, of a colour above 1", "taken as 1: no more light than comes",
+        "violations", 0, 0, "model=ggx metalness=0.5 colour=3,2,1"),
 };
 WR_HARD_LIST(reflect, rows);

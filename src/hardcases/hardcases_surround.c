@@ -221,6 +221,59 @@ static bool hc115(WrHardGauge *g, WrError *err)
     return good;
 }
 
+/* m1 of facets in the prefilter of n = v = r: what a linear sky keeps of its slope. */
+static double slope_kept(double alpha)
+{
+    const double a2 = alpha * alpha, a = (1 + a2) / 2, k = (1 - a2) / 2;
+    const double whole = 2 * a2 / (k * k) * (a / a2 - 1 + log(a2 / a));
+    return 2 * a2 * (a * a / a2 - a2 - 2 * a * log(a / a2)) / (k * k * k * whole);
+}
+
+static double linear(WrVec3 d)
+{
+    return 1 + 0.9 * v3_dot(d, east);
+}
+
+static WrGloss facets_of(double alpha)
+{
+    return (WrGloss){ .lobe = WR_LOBE_FACETS, .alpha = alpha, .power = 1, .gated = true };
+}
+
+static bool hc101(WrHardGauge *g, WrError *err)
+{
+    const double near[] = { 1, 1 - 1e-12, 1 - 1e-6, 0.9991 };
+    const double flat[] = { 1, 2.0 / 3, 1.0 / 4, 0, -1.0 / 24 }; /* of max(0, c) */
+    double order[5];
+    for (int i = 0; i < 4; i++) {
+        const WrGloss gloss = facets_of(near[i]);
+        wr_blur_orders(&gloss, 5, order);
+        for (int l = 0; l < 5; l++) /* the slope at 1 is below 1 */
+            wr_hard_off(g, WR_HARD_DOUBLE, fmax(0, fabs(order[l] - flat[l]) - (1 - near[i])));
+    }
+    for (int i = 0; i < 20; i++) {
+        const double alpha = wr_hard_between(g, 0.2, 0.97), mu = wr_hard_between(g, 0.02, 1);
+        const WrGloss gloss = facets_of(alpha);
+        double e[2];
+        wr_blur_orders(&gloss, 2, order);
+        wr_hard_off(g, WR_HARD_DOUBLE, fabs(order[1] - slope_kept(alpha)));
+        wr_ggx_albedo(1, mu, e);
+        wr_hard_off(g, WR_HARD_FLOAT, fabs(e[0] + e[1] - (1 - mu * log(1 + 1 / mu))));
+    }
+    WrSurround *from = around(64, 32, linear, err);
+    WrMirror m = { 0 };
+    const WrGloss gloss = facets_of(1);
+    bool good = from && wr_mirror_bring(&m, from, &gloss, 16, g->pool, err);
+    for (int i = 0; i < 20 && good; i++)
+        for (int set = 0; set < g->all; set++) {
+            const WrVec3 d = random_unit(g);
+            const double want = 1 + 0.9 * 2 / 3 * v3_dot(d, east);
+            wr_hard_off(g, WR_HARD_FLOAT, fabs(mirrored(g, set, &m, d) - want));
+        }
+    wr_mirror_drop(&m);
+    wr_surround_free(from);
+    return good;
+}
+
 static bool hc116(WrHardGauge *g, WrError *err)
 {
     (void)err;
@@ -245,6 +298,9 @@ static bool hc116(WrHardGauge *g, WrError *err)
                  "bump height=0.02\nlight clear\nmaterial " material                               \
     }
 static const WrHardCase rows[] = {
+    ROW(101, "facets of width 1, and all but: what their lobe keeps of a linear sky, their albedo",
+        "that of a matt lobe; 1 - mu ln(1 + 1/mu)", "of the light", 2.5e-3, 1e-6,
+        "model=ggx roughness=1 specular=1\nenvironment sky"),
     ROW(111, "surroundings straight up and down, and where longitudes jump",
         "the same from all sides", "of a texel", 1e-4, 1e-6,
         "model=ggx roughness=0\nenvironment sky"),

@@ -177,13 +177,29 @@ static void light_at_once(const WrTileJob *job, const Rays *rays, WR_T(WrShadeKe
     watch_lap(watch, WR_STAGE_LIGHT);
 }
 
+/* C within 0..1 of a model that keeps its energy: more would reflect more than comes (HC110). */
+static WrVec3 colour_within(const WrTileJob *job, Strip *strip)
+{
+    const WrMaterial *m = &job->scene->material;
+    const WrVec3 c = m->colour, white = { 1, 1, 1 };
+    const bool kept = m->model == WR_REFLECT_GGX && m->energy == WR_ENERGY_KEPT;
+    if (!kept || (!pictured(job) && c.x <= 1 && c.y <= 1 && c.z <= 1)) return c;
+    REAL *const of[3] = { strip->cr, strip->cg, strip->cb };
+    const REAL by[3] = { (REAL)c.x, (REAL)c.y, (REAL)c.z };
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < strip->count; i++) {
+            const REAL own = by[k] * of[k][i], least = own > 0 ? own : (REAL)0;
+            of[k][i] = least < 1 ? least : (REAL)1;
+        }
+    return white;
+}
+
 /* The sums of all lights, stage by stage, then the colour. */
 static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink *sink,
                             Strip *strip, Watch *watch)
 {
     const Kernels *k = KERNELS_OF(job);
     const bool specular = runs(job, WR_EFFECT_SPECULAR);
-    const WrVec3 c = job->scene->material.colour;
     k->begin((REAL)job->scene->material.ambient, strip);
     Sums before;
     REAL *const sums[3] = { strip->dr, strip->dg, strip->db };
@@ -208,6 +224,7 @@ static void light_by_stages(const WrTileJob *job, const Rays *rays, const WrSink
         open_strip(job, &before, sums, strip, watch);
     }
     if (runs(job, WR_EFFECT_MIRROR)) mirror_strip(job, strip, watch);
+    const WrVec3 c = colour_within(job, strip);
     k->finish((const REAL[3]){ (REAL)c.x, (REAL)c.y, (REAL)c.z }, strip);
 }
 

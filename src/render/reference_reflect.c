@@ -7,7 +7,7 @@ static const double pi = 3.14159265358979323846;
 /* A lamp's and the viewer's place by the normal that facets go by. */
 typedef struct Facing {
     double nl, nv, nh, vh;
-    double tilt; /* between n and h */
+    double c, s; /* cosine and sine of the angle between n and h */
 } Facing;
 
 static double dot(WrVec3 a, WrVec3 b)
@@ -34,7 +34,8 @@ static bool face(WrVec3 n, WrVec3 l, WrVec3 v, Facing *out)
     if (!(dot(sum, sum) > 1e-12) || !(dot(n, l) > 0) || !(dot(seen, l) > 0)) return false;
     const WrVec3 h = unit_of(sum), across = v3_cross(seen, h);
     *out = (Facing){ .nl = dot(seen, l), .nv = dot(seen, v), .nh = dot(seen, h), .vh = dot(v, h) };
-    out->tilt = atan2(sqrt(dot(across, across)), out->nh);
+    const double side = sqrt(dot(across, across)), whole = sqrt(side * side + out->nh * out->nh);
+    out->c = out->nh / whole, out->s = side / whole;
     return true;
 }
 
@@ -64,7 +65,7 @@ static double torrance_sparrow(const WrMatter *m, WrEnergy energy, WrVec3 n, WrV
 {
     Facing at;
     if (!face(n, l, v, &at)) return 0;
-    const double c = cos(at.tilt), s = sin(at.tilt), c3 = m->alpha * m->alpha;
+    const double c = at.c, s = at.s, c3 = m->alpha * m->alpha;
     const double root = c3 / (c * c * c3 + s * s), d = root * root;
     const double whole = energy == WR_ENERGY_KEPT ? 1 / (4 * c3) : 1;
     const double g = fmin(1, fmin(2 * at.nh * at.nv / at.vh, 2 * at.nh * at.nl / at.vh));
@@ -104,9 +105,9 @@ static void oren_nayar(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, W
 
 static double kept_albedo(const WrMatter *m, double mu)
 {
-    double sum = 0;
-    for (int i = 0; i < WR_ALBEDO_TERMS; i++)
-        sum += m->albedo[i] * pow(fmin(fmax(0, mu), 1), 0.5 * i);
+    const double x = sqrt(fmin(fmax(0, mu), 1));
+    double sum = 0, power = 1;
+    for (int i = 0; i < WR_ALBEDO_TERMS; i++, power *= x) sum += m->albedo[i] * power;
     return fmin(sum, 1);
 }
 
@@ -119,19 +120,22 @@ static void ggx(const WrMatter *m, WrEnergy energy, WrVec3 n, WrVec3 l, WrVec3 v
     if (!(lit > 0)) return;
     double f = m->f0, lobe = 0, p = 0;
     const WrVec3 sum = v3_add(l, v);
-    p = pow(fmax(0, 1 - 0.5 * sqrt(dot(sum, sum))), 5);
+    const double off = fmax(0, 1 - 0.5 * sqrt(dot(sum, sum)));
+    p = off * off * off * off * off;
     f += (1 - m->f0) * p;
     if (face(n, l, v, &at)) {
-        const double c = cos(at.tilt), s = sin(at.tilt), root = c * c * a2 + s * s;
+        const double c = at.c, s = at.s, root = c * c * a2 + s * s;
         const double d = a2 / (root * root);
         lobe = m->ks * d * at.nl * 0.5 /
                (at.nl * sqrt(at.nv * at.nv * (1 - a2) + a2) +
                 at.nv * sqrt(at.nl * at.nl * (1 - a2) + a2));
     }
-    const double left = energy == WR_ENERGY_KEPT
+    const double matt = m->kd * (1 - m->metal);
+    const double left = matt == 0 ? 0
+                        : energy == WR_ENERGY_KEPT
                             ? (1 - kept_albedo(m, lit)) * (1 - kept_albedo(m, nv)) * m->again
                             : 1 - f;
-    *own = m->kd * (1 - m->metal) * lit * left + m->metal * (1 - p) * lobe;
+    *own = matt * lit * left + m->metal * (1 - p) * lobe;
     *white = (1 - m->metal) * f * lobe + m->metal * p * lobe;
 }
 

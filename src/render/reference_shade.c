@@ -305,8 +305,9 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
     double colour[3];
     place_colour(stage, at->p, u, v, colour);
     const WrMatter matter = matter_at(stage, at->p);
-    const double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1],
-                            m->colour.z * colour[2] };
+    double has[3] = { m->colour.x * colour[0], m->colour.y * colour[1], m->colour.z * colour[2] };
+    const bool kept = m->model == WR_REFLECT_GGX && m->energy == WR_ENERGY_KEPT;
+    for (int c = 0; c < 3 && kept; c++) has[c] = fmin(fmax(has[c], 0), 1);
     for (int i = 0; i < view->light_count; i++) {
         const WrReferenceLight *light = &view->lights[i];
         const WrVec3 way = v3_sub(light->where, p), l = light->point ? unit(way) : light->where;

@@ -10,8 +10,8 @@
 /* Parts of the sphere that diffuse light is summed over: so small that a cosine is even over each. */
 #define ACROSS 96
 #define DOWN 48
-#define FACETS 48 /* directions of facets each way: highlights are summed over them */
-#define FINE 4    /* of a small picture, places a side in each of them */
+#define FACETS WR_REFERENCE_FACETS
+#define FINE 4 /* of a small picture, places a side in each of them */
 
 static const double pi = 3.14159265358979323846;
 
@@ -98,6 +98,12 @@ void wr_reference_surround_init(WrReferenceSurround *surround, const WrScene *sc
     *surround = (WrReferenceSurround){ 0 };
     if (!e->light) return;
     for (int i = 0; i < 9; i++) surround->rotation[i] = rotation[i];
+    const double turn = fmod(e->turn_deg, 360) * pi / 180;
+    surround->turn[0] = cos(turn), surround->turn[1] = sin(turn);
+    for (int i = 0; i < FACETS; i++) {
+        const double a = 2 * pi * (i + 0.5) / FACETS;
+        surround->around[i][0] = cos(a), surround->around[i][1] = sin(a);
+    }
     const WrImage *image = e->light->image;
     const int n = places(image->width, ACROSS), m = places(image->height, DOWN);
     surround->sectors = wr_alloc(ACROSS * DOWN, sizeof *surround->sectors);
@@ -145,11 +151,12 @@ static void add_diffuse(const WrReferenceStage *stage, const WrMatter *is, WrVec
 static void look_along(const WrReferenceStage *stage, WrVec3 d, double rgb[3])
 {
     const WrEnvironment *e = &stage->scene->environment;
-    const double *r = stage->surround.rotation, t = fmod(e->turn_deg, 360) * pi / 180;
+    const double *r = stage->surround.rotation;
     const WrVec3 w = { r[0] * d.x + r[1] * d.y + r[2] * d.z, r[3] * d.x + r[4] * d.y + r[5] * d.z,
                        r[6] * d.x + r[7] * d.y + r[8] * d.z };
-    const double x = w.x * cos(t) - w.z * sin(t), z = w.x * sin(t) + w.z * cos(t);
-    look(e->light, atan2(x, -z), atan2(w.y, hypot(x, z)), rgb);
+    const double *turn = stage->surround.turn; /* cosine, sine */
+    const double x = w.x * turn[0] - w.z * turn[1], z = w.x * turn[1] + w.z * turn[0];
+    look(e->light, atan2(x, -z), atan2(w.y, sqrt(x * x + z * z)), rgb);
     for (int c = 0; c < 3; c++) rgb[c] *= e->strength;
 }
 
@@ -176,10 +183,10 @@ static void add_shine(const WrReferenceStage *stage, const WrMatter *is, WrVec3 
     for (int i = 0; i < FACETS * FACETS; i++) {
         if (!takes(part, i % FACETS, i / FACETS)) continue;
         const double t = (i / FACETS + 0.5) / FACETS, x = t * t * (3 - 2 * t);
-        const double turn = 2 * pi * (i % FACETS + 0.5) / FACETS;
+        const double *turn = stage->surround.around[i % FACETS];
         const double c = sqrt((1 - x) / (1 + x * (a2 - 1))), s = sqrt(fmax(0, 1 - c * c));
-        const WrVec3 h = v3_add(v3_scale(seen, c),
-                                v3_add(v3_scale(e, s * cos(turn)), v3_scale(f, s * sin(turn))));
+        const WrVec3 h =
+            v3_add(v3_scale(seen, c), v3_add(v3_scale(e, s * turn[0]), v3_scale(f, s * turn[1])));
         const double vh = v3_dot(v, h), w = 1 + c * c * (a2 - 1);
         if (!(vh > 0)) continue;
         const double share =
@@ -201,7 +208,8 @@ void wr_reference_surround_light(const WrReferenceStage *stage, const WrMatter *
     const WrMaterial *m = &stage->scene->material;
     for (int c = 0; c < 3; c++) own[c] = white[c] = 0;
     if (stage->surround.count == 0) return;
-    if (m->diffuse != 0) add_diffuse(stage, is, n, v, colour, share, own);
+    const bool metal = m->model == WR_REFLECT_GGX && is->metal == 1;
+    if (m->diffuse != 0 && !metal) add_diffuse(stage, is, n, v, colour, share, own);
     if (m->specular != 0 && wr_reflects[m->model].shines)
         add_shine(stage, is, n, v, colour, share, own, white);
 }

@@ -20,10 +20,14 @@ typedef struct WrReferenceShare {
     int part, of; /* 0 <= part < of; of 1: all */
 } WrReferenceShare;
 
+#define WR_REFERENCE_FACETS 48 /* directions of facets each way: highlights are summed over them */
+
 typedef struct WrReferenceSurround {
     WrReferenceSector *sectors; /* [count], owned; NULL: there are no surroundings */
     int count;
     double rotation[9];
+    double turn[2];                        /* cosine and sine of the turn by hand */
+    double around[WR_REFERENCE_FACETS][2]; /* of facets' turns about the normal */
 } WrReferenceSurround;
 
 /* rotation: the object's axes -> the world. */
