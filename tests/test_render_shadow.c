@@ -5,6 +5,7 @@
 #include "field/field.h"
 #include "render/reference.h"
 #include "scene/scene.h"
+#include "base/exactmath.h"
 
 #define SIDE 96
 
@@ -168,6 +169,52 @@ static void round_lamps_have_penumbras(void **state)
     }
 }
 
+/* A straight ridge across the lamp's way: over the floor behind it the horizon is straight, its slope the ridge's height by the
+   way to its last texel, and what is seen of the lamp a segment of its disc: 1/2 + (x sqrt(1 - x^2) + asin x) / pi. */
+static void a_ridge_has_the_penumbra_of_a_disc(void **state)
+{
+    (void)state;
+    enum { WIDE = 256, RIDGE = 16 };
+    const double elevation = 21.3 * WR_PI / 180, radius = 6.7, height = 0.1;
+    WrError err = { "" };
+    WrField *field = wr_field_new(WIDE, 8, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 0, &err);
+    for (int i = 0; i < RIDGE * 8; i++) wr_field_set(field, i % RIDGE, i / RIDGE, 1);
+    WrScene *scene = shadowy("plane", height);
+    scene->replicate_u = scene->replicate_v = 1;
+    scene->scheme = WR_SCHEME_CENTRAL, scene->bump = WR_BUMP_BLINN;
+    scene->material.ambient = 0, scene->material.diffuse = 1;
+    scene->material.colour = (WrVec3){ 1, 1, 1 };
+    scene->posed = true;
+    scene->camera.fit = false, scene->camera.orthographic = true, scene->camera.size = 1;
+    scene->camera.eye = (WrVec3){ 0, 0, 3 }, scene->camera.target = (WrVec3){ 0, 0, 0 };
+    scene->lights[0].where = (WrVec3){ -cos(elevation), 0, sin(elevation) };
+    scene->lights[0].size_deg = radius;
+    WrRenderer *renderer = wr_renderer_new(NULL, "auto", &err);
+    const WrFrameRequest request = {
+        .field = field, .scene = scene, .width = SIDE, .height = SIDE
+    };
+    WrFrame frame;
+    double worst = 0;
+    int partly = 0;
+    if (!wr_renderer_frame(renderer, &request, &frame, &err)) fail_msg("%s", err.text);
+    for (int k = 0; k < SIDE; k++) {
+        const double way = (k + 0.5) / SIDE - (RIDGE - 0.5) / WIDE;
+        if (way < 0.05 || way > 0.8) continue;
+        const double horizon = atan2(height, way);
+        const double x = fmin(fmax((elevation - horizon) / (radius * WR_PI / 180), -1), 1);
+        const double want = (0.5 + (x * sqrt(1 - x * x) + asin(x)) / WR_PI) * sin(elevation);
+        const double got = (double)frame.rgba[4 * (SIDE * (SIDE / 2) + k)];
+        worst = fmax(worst, fabs(got - want));
+        partly += fabs(x) < 1;
+    }
+    print_message("ridge: %g off over %d pixels in part\n", worst, partly);
+    assert_true(partly > 15);
+    assert_true(worst < 3e-4);
+    wr_renderer_free(renderer);
+    wr_scene_free(scene);
+    wr_field_free(field);
+}
+
 /* Ambient light alone, as much as each place sees of the sky: the reference marches in 48 directions. */
 static void hollows_see_less_of_the_sky(void **state)
 {
@@ -218,6 +265,7 @@ int main(void)
         cmocka_unit_test(pictures_have_the_shadows_of_marched_rays),
         cmocka_unit_test(displaced_surfaces_have_them_too),
         cmocka_unit_test(round_lamps_have_penumbras),
+        cmocka_unit_test(a_ridge_has_the_penumbra_of_a_disc),
         cmocka_unit_test(hollows_see_less_of_the_sky),
         cmocka_unit_test(directions_are_a_dial),
     };

@@ -57,19 +57,21 @@ static void across(WrVec3 d, WrVec3 *a, WrVec3 *b)
 }
 
 double wr_reference_lamp_share(const WrReferenceStage *stage, const WrSurfacePoint *at, double u,
-                               double v, WrVec3 perturbed, WrVec3 l, double away, double radius)
+                               double v, WrVec3 perturbed, WrVec3 l, double away, double radius,
+                               WrReferenceShare share)
 {
     if (!(radius > 0)) return hides(stage, at, u, v, perturbed, l, away) ? 0 : 1;
     WrVec3 a, b;
-    int seen = 0;
+    int seen = 0, all = 0;
     across(l, &a, &b);
-    for (int k = 0; k < DISC; k++) { /* even over the disc: by the golden angle */
+    for (int k = share.part % DISC; k < DISC;
+         k += share.of, all++) { /* even over the disc: by the golden angle */
         const double r = radius * sqrt((k + 0.5) / DISC), turn = 2.39996322972865 * k;
         const WrVec3 side = v3_mad(v3_scale(a, cos(turn)), b, sin(turn));
         const WrVec3 to = v3_mad(v3_scale(l, cos(r)), side, sin(r));
         seen += !hides(stage, at, u, v, perturbed, to, away);
     }
-    return (double)seen / DISC;
+    return (double)seen / all;
 }
 
 /* The tangent of the horizon's elevation along w, which lies in the tangent plane and is unit: marched by quarters of a texel

@@ -314,7 +314,7 @@ void wr_reference_light(const WrReferenceStage *stage, const WrSurfacePoint *at,
         const double away = light->point ? v3_len(way) : INFINITY;
         double own[3], white;
         double seen = stage->shadow > 0 ? wr_reference_lamp_share(stage, at, u, v, perturbed, l,
-                                                                  away, light->radius)
+                                                                  away, light->radius, share)
                                         : 1;
         if (light->shadow && seen > 0)
             seen *=
