@@ -264,7 +264,7 @@ static void draw_scale(const WrApp *app)
         wr_gui_draw_fill(left + pad + x0, y, x1 - x0, 10 * s,
                          0xff000000u | (WrColour)rgb[0] << 16 | (WrColour)rgb[1] << 8 | rgb[2], 0);
     }
-    wr_gui_draw_rect(left + pad, y, bar, 10 * s, 0xff5a5a5au, 1);
+    wr_gui_draw_rect(left + pad, y, bar, 10 * s, WR_COLOUR_OFF, 1);
     for (int i = 0; i <= 2; i++) {
         snprintf(text, sizeof text, "%s%s%s", wr_plot_number(map->full * i / 2, number),
                  scales[map->look].unit, i == 2 ? " and up" : "");
@@ -314,7 +314,7 @@ static void draw_ran(const WrApp *app)
         if (fits) {
             const double middle = y + (high - 4 * s - swatch) / 2 + s;
             wr_gui_draw_fill(left + pad, middle, swatch, swatch, colour, 2 * s);
-            wr_gui_draw_rect(left + pad, middle, swatch, swatch, 0xff8a8a8au, 1);
+            wr_gui_draw_rect(left + pad, middle, swatch, swatch, WR_COLOUR_MUTED, 1);
             wr_gui_draw_text(left + pad + swatch + 8 * s, y, WR_FONT_SMALL, WR_COLOUR_TEXT,
                              wr_text_get(&text[i]));
         }

@@ -94,7 +94,7 @@ static void caption(const WrWork *error, bool old)
                             "Of the view before; measured anew when it rests.");
     snprintf(text, sizeof text, "%d \xc3\x97 %d pixels, a reference of %d \xc3\x97 %d",
              error->measured_w, error->measured_h, error->samples, error->samples);
-    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, text);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
     wr_gui_tip(
         "The view is measured scaled down to at most 256 pixels along its longer side. The "
         "reference "
@@ -102,7 +102,7 @@ static void caption(const WrWork *error, bool old)
     snprintf(text, sizeof text, "samples, itself off by about %s",
              wr_plot_number(error->change, number));
     wr_gui_space(-6);
-    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, text);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
     wr_gui_tip("What the last doubling of its samples changed, rms: smaller errors may be its own");
 }
 
@@ -185,7 +185,7 @@ static void stages(WrApp *app)
     }
     wr_picture_words(picture, words);
     wr_gui_space(6);
-    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, words);
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, words);
 }
 
 /* ---- all ---- */

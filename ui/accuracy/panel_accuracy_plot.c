@@ -26,7 +26,7 @@
 #define REACH_UNITS 12 /* from the pointer to a point */
 
 static const WrColour axis_colours[] = { 0xff4a8fdcu, 0xffe8a25cu, 0xff4fb39au, 0xffb191d6u,
-                                         0xffe07f8eu, 0xffd8c95cu, 0xffc4c4c4u };
+                                         0xffe07f8eu, 0xffd8c95cu, 0xff9a9a9au };
 _Static_assert(WR_LENGTH(axis_colours) == WR_AXIS_COUNT + 1, "and one for several axes at once");
 
 typedef struct Plot {
@@ -99,7 +99,7 @@ static void draw_axes(const WrPad *pad, const Plot *plot)
     for (int i = 0; i < count; i++) {
         const double y = floor(plot->y + plot->h * (1 - wr_plot_place(&plot->error, ticks[i])));
         wr_plot_number(ticks[i], text);
-        wr_gui_draw_fill(plot->x, y, plot->w, 1, 0xff333333u, 0);
+        wr_gui_draw_fill(plot->x, y, plot->w, 1, WR_COLOUR_GRID, 0);
         wr_gui_draw_text(plot->x - 6 * s - wr_gui_text_width(WR_FONT_SMALL, text), y - line / 2,
                          WR_FONT_SMALL, WR_COLOUR_LABEL, text);
     }
@@ -109,18 +109,19 @@ static void draw_axes(const WrPad *pad, const Plot *plot)
         const double x = floor(plot->x + plot->w * wr_plot_place(&plot->time, ticks[i]));
         wr_plot_number(1e3 * ticks[i], text);
         const double wide = wr_gui_text_width(WR_FONT_SMALL, text), end = pad->x + pad->w - 4 * s;
-        wr_gui_draw_fill(x, plot->y, 1, plot->h, 0xff333333u, 0);
+        wr_gui_draw_fill(x, plot->y, 1, plot->h, WR_COLOUR_GRID, 0);
         wr_gui_draw_text(fmin(x - wide / 2, end - wide), plot->y + plot->h + 4 * s, WR_FONT_SMALL,
                          WR_COLOUR_LABEL, text);
     }
     if (plot->floor > plot->error.low) {
         const double y = plot->y + plot->h * (1 - wr_plot_place(&plot->error, plot->floor));
         for (double x = plot->x; x < plot->x + plot->w; x += 8 * s)
-            wr_gui_draw_fill(x, floor(y), fmin(4 * s, plot->x + plot->w - x), 1, 0xff7a7a7au, 0);
-        wr_gui_draw_text(plot->x + 5 * s, y + 2 * s, WR_FONT_SMALL, 0xff8c8c8cu,
+            wr_gui_draw_fill(x, floor(y), fmin(4 * s, plot->x + plot->w - x), 1, WR_COLOUR_FAINT,
+                             0);
+        wr_gui_draw_text(plot->x + 5 * s, y + 2 * s, WR_FONT_SMALL, WR_COLOUR_MUTED,
                          "the reference's own");
     }
-    wr_gui_draw_rect(plot->x, plot->y, plot->w, plot->h, 0xff4a4a4au, 1);
+    wr_gui_draw_rect(plot->x, plot->y, plot->w, plot->h, WR_COLOUR_GRAB, 1);
     wr_gui_draw_text(pad->x + 6 * s, pad->y + 5 * s, WR_FONT_SMALL, WR_COLOUR_TEXT, "error, rms");
     const char *time = "ms a picture \xe2\x86\x92";
     wr_gui_draw_text(pad->x + pad->w - 8 * s - wr_gui_text_width(WR_FONT_SMALL, time),
@@ -164,8 +165,8 @@ static void draw_points(const WrAccuracy *a, const Plot *plot, int present, bool
                              faded(axis_colours[rung->axis], old));
         }
     if (present >= 0 && has_point(&ladder->rungs[present])) {
-        wr_gui_draw_circle(plot->points[present][0], plot->points[present][1], 7.5 * s, 0xffffffffu,
-                           2 * s);
+        wr_gui_draw_circle(plot->points[present][0], plot->points[present][1], 7.5 * s,
+                           WR_COLOUR_STRONG, 2 * s);
     }
     if (a->plot_hot >= 0)
         wr_gui_draw_circle(plot->points[a->plot_hot][0], plot->points[a->plot_hot][1], 6 * s,
@@ -241,7 +242,7 @@ static void foot(WrApp *app)
     const WrLadder *ladder = &a->plot->ladder;
     snprintf(text, sizeof text, "%d \xc3\x97 %d, one thread", ladder->width, ladder->height);
     wr_gui_same_line(10);
-    wr_gui_text(WR_FONT_SMALL, 0xff8c8c8cu, text);
+    wr_gui_text(WR_FONT_SMALL, WR_COLOUR_MUTED, text);
 }
 
 static void field(WrApp *app)
@@ -261,7 +262,7 @@ static void field(WrApp *app)
                 wr_plot_nearest((const double(*)[2])plot.points, plot.count, pad.pointer_x,
                                 pad.pointer_y, REACH_UNITS * wr_gui_scale());
         draw_axes(&pad, &plot);
-        draw_front(&a->plot->ladder, &plot, faded(0xff9a9a9au, old));
+        draw_front(&a->plot->ladder, &plot, faded(WR_COLOUR_MUTED, old));
         draw_points(a, &plot, present, old);
         if (pad.pressed) clicked = a->plot_hot;
     } else {

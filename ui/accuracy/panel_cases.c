@@ -71,7 +71,7 @@ static void worst(double end, const WrHardCase *row, const WrHardResult *result,
 {
     char text[16];
     if (!result || isnan(row->bound[p]) || isnan(result->worst[p])) {
-        right(end, "\xe2\x80\x93", 0xff7a7a7au);
+        right(end, "\xe2\x80\x93", WR_COLOUR_FAINT);
         return;
     }
     right(end, wr_plot_number(result->worst[p], text),
@@ -124,7 +124,7 @@ static WrRow row_of(const WrCases *cases, int index)
     worst(END_FLOAT * wide, row, result, WR_HARD_FLOAT);
     worst(END_DOUBLE * wide, row, result, WR_HARD_DOUBLE);
     wr_gui_row_at(END_UNIT * wide, 0);
-    wr_gui_text_cut(WR_FONT_SMALL, 0xff8c8c8cu, row->unit, 0.1 * wide);
+    wr_gui_text_cut(WR_FONT_SMALL, WR_COLOUR_MUTED, row->unit, 0.1 * wide);
     right(END_VERDICT * wide, verdict_of(row, result), verdict_colour(result));
     wr_gui_row_end();
     return r;
@@ -163,7 +163,7 @@ static void detail(const WrCases *cases)
     for (const char *c = row->scene ? row->scene : "Nothing of it is to be seen on a patch."; *c;
          c++)
         wr_text_add_n(&text, *c == '\n' ? "  \xc2\xb7  " : c, *c == '\n' ? 6 : 1);
-    wr_gui_text_wrapped(WR_FONT_SMALL, 0xff8c8c8cu, wr_text_get(&text));
+    wr_gui_text_wrapped(WR_FONT_SMALL, WR_COLOUR_MUTED, wr_text_get(&text));
     wr_gui_list_end();
     wr_text_fini(&bound);
     wr_text_fini(&text);

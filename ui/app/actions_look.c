@@ -76,3 +76,33 @@ bool wr_is_roughness(const WrApp *app)
 {
     return app->settings->look.shown == WR_CANVAS_ROUGHNESS;
 }
+
+void wr_act_theme_dark(WrApp *app)
+{
+    app->settings->theme = WR_THEME_DARK;
+}
+
+bool wr_is_theme_dark(const WrApp *app)
+{
+    return app->settings->theme == WR_THEME_DARK;
+}
+
+void wr_act_theme_light(WrApp *app)
+{
+    app->settings->theme = WR_THEME_LIGHT;
+}
+
+bool wr_is_theme_light(const WrApp *app)
+{
+    return app->settings->theme == WR_THEME_LIGHT;
+}
+
+void wr_act_theme_contrast(WrApp *app)
+{
+    app->settings->theme = WR_THEME_CONTRAST;
+}
+
+bool wr_is_theme_contrast(const WrApp *app)
+{
+    return app->settings->theme == WR_THEME_CONTRAST;
+}

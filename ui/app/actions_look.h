@@ -1,4 +1,4 @@
-/* actions_look.h - what the canvas shows: the table in its colours, or a map of it. */
+/* actions_look.h - what the canvas shows: the table in its colours, or a map of it; and the window's own colours. */
 #pragma once
 #include <stdbool.h>
 
@@ -18,3 +18,9 @@ void wr_act_look_slope(WrApp *app);
 bool wr_is_slope(const WrApp *app);
 void wr_act_look_roughness(WrApp *app);
 bool wr_is_roughness(const WrApp *app);
+void wr_act_theme_dark(WrApp *app);
+bool wr_is_theme_dark(const WrApp *app);
+void wr_act_theme_light(WrApp *app);
+bool wr_is_theme_light(const WrApp *app);
+void wr_act_theme_contrast(WrApp *app);
+bool wr_is_theme_contrast(const WrApp *app);

@@ -28,6 +28,7 @@
 #include "ui/generate/generate_gallery.h"
 #include "ui/generate/generate_hand.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 #include "ui/help/guide.h"
 #include "ui/panels/panel_layers.h"
@@ -243,14 +244,16 @@ static void set_cursor(WrApp *app)
 static void draw_divider(const SDL_Rect *d, bool hot)
 {
     if (d->w <= 0) return;
-    wr_gui_draw_fill(d->x, d->y, d->w, d->h, hot ? WR_COLOUR_SELECTED : 0xff232323u, 0);
+    wr_gui_draw_fill(d->x, d->y, d->w, d->h, hot ? WR_COLOUR_SELECTED : WR_COLOUR_LINE, 0);
 }
 
 static void draw(WrApp *app, double now)
 {
     WrError err;
     double scale = wr_app_wanted_scale(app);
-    if (scale != app->drawn_scale) {
+    if (scale != app->drawn_scale || wr_theme() != app->settings->theme) {
+        if (wr_theme() != app->settings->theme) wr_canvas_forget(app->canvas);
+        wr_theme_set(app->settings->theme);
         if (!wr_gui_set_scale(app->gui, scale, &err)) wr_app_fail(app, &err);
         app->drawn_scale = scale;
         app->redraw = 2;
@@ -265,8 +268,7 @@ static void draw(WrApp *app, double now)
     wr_panel_options(app);
     wr_panel_tools(app);
     wr_panel_right(app);
-    SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
-    SDL_RenderClear(app->renderer);
+    wr_gui_sdl_clear(app->renderer, WR_COLOUR_BAR);
     for (const WrPart *const *p = app->roster->parts; *p; p++)
         if ((*p)->draw) (*p)->draw(app);
     draw_divider(&app->layout->divider, app->hand->grab == WR_GRAB_DIVIDER);

@@ -58,6 +58,9 @@
     X(lock_size, "")                                                                               \
     X(symmetry, "U")                                                                               \
     X(symmetry_on, "Shift+M")                                                                      \
+    X(theme_dark, "")                                                                              \
+    X(theme_light, "")                                                                             \
+    X(theme_contrast, "")                                                                          \
     X(keys_paint, "")                                                                              \
     X(keys_sculpt, "")                                                                             \
     X(straight_line, "V")                                                                          \

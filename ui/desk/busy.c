@@ -14,6 +14,7 @@
 #include "ui/desk/roster.h"
 #include "ui/desk/session_view.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 #include "ui/pen/pen.h"
 #include "ui/jobs/job.h"
@@ -141,7 +142,7 @@ static void bar(Wait *wait, double now)
     wr_job_busy(wait->job, &fraction, NULL);
     if (fraction > wait->furthest) wait->furthest = fraction;
     if (room.w <= 0) room = (SDL_Rect){ 0, app->height - tall, app->width, tall };
-    wr_gui_area_begin("##busy", WR_AREA_BAR, room, refused ? 0xff5a3030u : WR_COLOUR_BAR);
+    wr_gui_area_begin("##busy", WR_AREA_BAR, room, refused ? WR_COLOUR_REFUSED : WR_COLOUR_BAR);
     double wide = squeezed(320, 0.6), long_bar = squeezed(220, 0.4);
     double end = wr_gui_px(30) + wide + long_bar;
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_STRONG, words(wait, refused), wide);
@@ -169,8 +170,7 @@ static void draw(Wait *wait, double now)
     SDL_GetRendererOutputSize(app->renderer, &app->width, &app->height);
     wr_gui_frame_begin(app->gui, app->width, app->height, PICTURE_SECONDS);
     wr_app_make_layout(app);
-    SDL_SetRenderDrawColor(app->renderer, 0x26, 0x26, 0x26, 255);
-    SDL_RenderClear(app->renderer);
+    wr_gui_sdl_clear(app->renderer, WR_COLOUR_BAR);
     SDL_Rect place = { 0, 0, wait->behind_w, wait->behind_h };
     if (wait->behind) SDL_RenderCopy(app->renderer, wait->behind, NULL, &place);
     for (const WrPart *const *p = app->roster->parts; *p; p++)

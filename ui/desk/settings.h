@@ -3,6 +3,7 @@
 #pragma once
 #include "ui/canvas/canvas.h"
 #include "ui/desk/layout.h"
+#include "ui/gui/theme.h"
 #include "ui/pen/pen_curve.h"
 
 #include "brush/brush.h"
@@ -33,7 +34,8 @@ typedef struct WrDrawSettings {
 typedef struct WrSettings {
     int width, height; /* of the window, pixels at scale 1 of the display */
     bool maximized;
-    double scale;   /* 0.75..3; 0: from the display */
+    double scale; /* 0.75..3; 0: from the display */
+    WrThemeKind theme;
     double divider; /* the canvas's share of the views, 0..1 */
     WrShownViews views;
     bool panels;  /* shown */

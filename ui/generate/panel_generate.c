@@ -130,7 +130,7 @@ static void presets(WrApp *app)
     wr_gui_same_line(4);
     bool own = hand->preset >= 0;
     wr_gui_disable(!own);
-    if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : 0xff5c5c5cu))
+    if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : WR_COLOUR_OFF))
         wr_generate_preset_delete(app, hand->preset);
     wr_gui_enable();
     wr_gui_tip(own ? "Delete this preset" : "Only presets of your own can be deleted");
@@ -240,7 +240,7 @@ void wr_panel_generate(WrApp *app, SDL_Rect room)
     head(app);
     wr_gui_area_end();
     if (room.h > wr_gui_px(20)) {
-        wr_gui_area_begin("##generate_values", WR_AREA_PANEL, room, 0xff292929u);
+        wr_gui_area_begin("##generate_values", WR_AREA_PANEL, room, WR_COLOUR_LIST);
         wr_panel_generate_values(app);
         wr_gui_area_end();
     }

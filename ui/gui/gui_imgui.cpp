@@ -38,23 +38,23 @@ void wr_gui_edge(ImDrawList *list, ImVec2 low, ImVec2 high)
 static void set_colours(ImVec4 *c)
 {
     c[ImGuiCol_Text] = wr_gui_vec_of(WR_COLOUR_TEXT);
-    c[ImGuiCol_TextDisabled] = wr_gui_vec_of(0xff787878u);
+    c[ImGuiCol_TextDisabled] = wr_gui_vec_of(WR_COLOUR_FAINT);
     c[ImGuiCol_WindowBg] = c[ImGuiCol_MenuBarBg] = wr_gui_vec_of(WR_COLOUR_PANEL);
-    c[ImGuiCol_PopupBg] = wr_gui_vec_of(0xff242424u);
+    c[ImGuiCol_PopupBg] = wr_gui_vec_of(WR_COLOUR_POPUP);
     c[ImGuiCol_Border] = wr_gui_vec_of(WR_COLOUR_EDGE);
     c[ImGuiCol_FrameBg] = c[ImGuiCol_ChildBg] = wr_gui_vec_of(WR_COLOUR_FIELD);
-    c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_FrameBgActive] = wr_gui_vec_of(0xff252525u);
-    c[ImGuiCol_Button] = wr_gui_vec_of(0xff393939u);
-    c[ImGuiCol_ButtonHovered] = wr_gui_vec_of(0xff454545u);
+    c[ImGuiCol_FrameBgHovered] = c[ImGuiCol_FrameBgActive] = wr_gui_vec_of(WR_COLOUR_FIELD_HOT);
+    c[ImGuiCol_Button] = wr_gui_vec_of(WR_COLOUR_BUTTON);
+    c[ImGuiCol_ButtonHovered] = wr_gui_vec_of(WR_COLOUR_BUTTON_HOT);
     c[ImGuiCol_ButtonActive] = c[ImGuiCol_HeaderActive] = wr_gui_vec_of(WR_COLOUR_SELECTED);
     c[ImGuiCol_Header] = c[ImGuiCol_HeaderHovered] = wr_gui_vec_of(WR_COLOUR_SELECTED);
     c[ImGuiCol_CheckMark] = wr_gui_vec_of(WR_COLOUR_ACCENT);
     c[ImGuiCol_Separator] = wr_gui_vec_of(WR_COLOUR_EDGE);
     c[ImGuiCol_TextSelectedBg] = wr_gui_vec_of(WR_COLOUR_SELECTED);
     c[ImGuiCol_ScrollbarBg] = wr_gui_vec_of(0x00000000u);
-    c[ImGuiCol_ScrollbarGrab] = wr_gui_vec_of(0xff444444u);
-    c[ImGuiCol_ScrollbarGrabHovered] = wr_gui_vec_of(0xff555555u);
-    c[ImGuiCol_ScrollbarGrabActive] = wr_gui_vec_of(0xff666666u);
+    c[ImGuiCol_ScrollbarGrab] = wr_gui_vec_of(WR_COLOUR_GRAB);
+    c[ImGuiCol_ScrollbarGrabHovered] = wr_gui_vec_of(WR_COLOUR_GRAB_HOT);
+    c[ImGuiCol_ScrollbarGrabActive] = wr_gui_vec_of(WR_COLOUR_GRAB_HELD);
     c[ImGuiCol_ModalWindowDimBg] = wr_gui_vec_of(0x60000000u);
     c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = wr_gui_vec_of(WR_COLOUR_BAR);
 }

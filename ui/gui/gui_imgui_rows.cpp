@@ -41,12 +41,12 @@ try {
     bool menu = hovered && ImGui::IsMouseClicked(1);
     bool moved = ImGui::IsMouseDragPastThreshold(0, px(5));
     ImGui::SetItemAllowOverlap();
-    WrColour ground = selected ? 0xff36475cu : hovered ? 0xff323232u : 0;
+    WrColour ground = selected ? WR_COLOUR_ROW_SELECTED : hovered ? WR_COLOUR_ROW_HOT : 0;
     if (ground)
         list->AddRectFilled(ImVec2(left, at.y), ImVec2(right, at.y + height),
                             wr_gui_colour_of(ground));
     list->AddRectFilled(ImVec2(left, at.y + height - 1), ImVec2(right, at.y + height),
-                        wr_gui_colour_of(0xff242424u));
+                        wr_gui_colour_of(WR_COLOUR_POPUP));
     bool was = gui->row_drag != 0 && gui->row_drag == ImGui::GetID("row");
     if (held && moved) gui->row_drag = ImGui::GetID("row");
     bool dropped = was && !held;
@@ -152,7 +152,7 @@ try {
     float y = at.y + floorf((h - wr_gui_size_of(small)) / 2);
     list->AddText(small, wr_gui_size_of(small), ImVec2(at.x + pad, y), ink, label);
     list->AddText(small, wr_gui_size_of(small), ImVec2(end.x - pad - size.x, y),
-                  wr_gui_colour_of(0xff7a7a7au), keys);
+                  wr_gui_colour_of(WR_COLOUR_FAINT), keys);
     return pressed;
 }
 WR_CAUGHT(false)

@@ -83,8 +83,8 @@ WR_CAUGHT(false)
 extern "C" bool wr_gui_fold(const char *label, bool open)
 try {
     ImGui::PushStyleColor(ImGuiCol_Header, wr_gui_colour_of(0));
-    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, wr_gui_colour_of(0xff363636u));
-    ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_of(0xff363636u));
+    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, wr_gui_colour_of(WR_COLOUR_BUTTON));
+    ImGui::PushStyleColor(ImGuiCol_HeaderActive, wr_gui_colour_of(WR_COLOUR_BUTTON));
     ImGui::PushStyleColor(ImGuiCol_Text, wr_gui_colour_of(WR_COLOUR_LABEL));
     ImGui::PushFont(wr_gui_current()->fonts[WR_FONT_SMALL]);
     bool shown = ImGui::CollapsingHeader(label, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);

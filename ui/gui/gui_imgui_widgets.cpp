@@ -407,7 +407,7 @@ try {
     ImVec2 end(at.x + side, at.y + side);
     if (selected) list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_SELECTED), px(3));
     else if (ImGui::IsItemHovered())
-        list->AddRectFilled(at, end, wr_gui_colour_of(0xff3c3c3cu), px(3));
+        list->AddRectFilled(at, end, wr_gui_colour_of(WR_COLOUR_BUTTON), px(3));
     ImFont *font = wr_gui_current()->fonts[WR_FONT_ICON];
     icon = wr_gui_icon(icon);
     ImVec2 size = font->CalcTextSizeA(wr_gui_size_of(font), FLT_MAX, 0, icon);
@@ -424,7 +424,7 @@ try {
     snprintf(text, sizeof text, "%s%s%s", icon ? wr_gui_icon(icon) : "",
              icon && label[0] ? "  " : "", label);
     ImGui::PushStyleColor(ImGuiCol_Button, wr_gui_colour_of(WR_COLOUR_CHIP));
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(0xf0343434u));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, wr_gui_colour_of(WR_COLOUR_CHIP_HOT));
     ImGui::PushStyleVar(ImGuiStyleVar_FrameRounding, px(3));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), px(3)));
     bool pressed = ImGui::Button(text);

@@ -93,3 +93,21 @@ SDL_Texture *wr_gui_sdl_texture(SDL_Renderer *renderer, int width, int height, c
     SDL_SetTextureScaleMode(texture, SDL_ScaleModeLinear);
     return texture;
 }
+
+static void take_colour(SDL_Renderer *renderer, uint32_t argb)
+{
+    SDL_SetRenderDrawColor(renderer, (uint8_t)(argb >> 16), (uint8_t)(argb >> 8), (uint8_t)argb,
+                           (uint8_t)(argb >> 24));
+}
+
+void wr_gui_sdl_clear(SDL_Renderer *renderer, uint32_t argb)
+{
+    take_colour(renderer, argb);
+    SDL_RenderClear(renderer);
+}
+
+void wr_gui_sdl_fill(SDL_Renderer *renderer, const SDL_Rect *place, uint32_t argb)
+{
+    take_colour(renderer, argb);
+    SDL_RenderFillRect(renderer, place);
+}

@@ -22,6 +22,10 @@ void wr_gui_sdl_draw(SDL_Renderer *renderer, SDL_Texture *texture, float white_u
                      const WrGuiVertex *vertices, int vertex_count, const uint16_t *indices,
                      int index_count, SDL_Rect clip);
 
+/* All of the window, or a rectangle of it, in one colour (0xAARRGGBB). */
+void wr_gui_sdl_clear(SDL_Renderer *renderer, uint32_t argb);
+void wr_gui_sdl_fill(SDL_Renderer *renderer, const SDL_Rect *place, uint32_t argb);
+
 /* A texture of white with the given coverage, from width x height RGBA bytes; NULL if SDL cannot. */
 SDL_Texture *wr_gui_sdl_texture(SDL_Renderer *renderer, int width, int height, const void *rgba);
 

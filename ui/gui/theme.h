@@ -1,4 +1,4 @@
-/* theme.h - the window's colours (0xAARRGGBB, sRGB) and sizes (pixels at scale 1).
+/* theme.h - the window's colours (0xAARRGGBB, sRGB) and sizes (pixels at scale 1), in three themes.
    A neutral grey surround, so that greys are judged rightly, and one accent. Raise is warm and lower is
    cool, everywhere. */
 #pragma once
@@ -6,22 +6,115 @@
 
 typedef uint32_t WrColour; /* 0xAARRGGBB */
 
-#define WR_COLOUR_SURROUND 0xff323232u /* behind the table and the patch */
-#define WR_COLOUR_BAR 0xff262626u      /* menu, option row, status line */
-#define WR_COLOUR_PANEL 0xff2c2c2cu
-#define WR_COLOUR_FIELD 0xff1f1f1fu
-#define WR_COLOUR_EDGE 0xff3a3a3au
-#define WR_COLOUR_TEXT 0xffd6d6d6u
-#define WR_COLOUR_LABEL 0xffa8a8a8u
-#define WR_COLOUR_STRONG 0xfff0f0f0u
-#define WR_COLOUR_ACCENT 0xff4a8fdcu
-#define WR_COLOUR_SELECTED 0xff3f6fa8u
-#define WR_COLOUR_FILL 0xff3a6290u /* the part of a slider's field below its value */
-#define WR_COLOUR_RAISE 0xffc7772eu
-#define WR_COLOUR_LOWER 0xff2e86b8u
-#define WR_COLOUR_LEVEL 0xff6f7a86u /* mode `to` */
-#define WR_COLOUR_CELL 0xffe8a25cu  /* outline of the real cell */
-#define WR_COLOUR_CHIP 0xe0202020u  /* labels that lie on the canvas or the patch */
-#define WR_COLOUR_BAD 0xffe0694fu   /* a message that something failed */
-#define WR_COLOUR_LINE 0xff1a1a1au  /* between bars and views */
-#define WR_COLOUR_LIGHT 0xffffd873u /* the light on the patch */
+/* X(name, dark, light, high contrast) */
+#define WR_THEME_COLOURS(X)                                                                        \
+    X(SURROUND, 0xff323232u, 0xff909090u, 0xff1a1a1au) /* behind the table and the patch */        \
+    X(BAR, 0xff262626u, 0xffe4e4e4u, 0xff000000u)      /* menu, option row, status line */         \
+    X(PANEL, 0xff2c2c2cu, 0xffeeeeeeu, 0xff000000u)                                                \
+    X(FIELD, 0xff1f1f1fu, 0xffffffffu, 0xff000000u)                                                \
+    X(FIELD_HOT, 0xff252525u, 0xfff4f8fcu, 0xff282828u) /* under the pointer */                    \
+    X(EDGE, 0xff3a3a3au, 0xffbababau, 0xffa0a0a0u)                                                 \
+    X(TEXT, 0xffd6d6d6u, 0xff1e1e1eu, 0xffffffffu)                                                 \
+    X(LABEL, 0xffa8a8a8u, 0xff505050u, 0xfff0f0f0u)                                                \
+    X(STRONG, 0xfff0f0f0u, 0xff000000u, 0xffffffffu)                                               \
+    X(MUTED, 0xff8a8a8au, 0xff686868u, 0xffd8d8d8u) /* words beside what matters */                \
+    X(FAINT, 0xff787878u, 0xff868686u, 0xffb8b8b8u) /* what is not to be had now */                \
+    X(OFF, 0xff5c5c5cu, 0xffacacacu, 0xff8a8a8au)   /* signs of what is off */                     \
+    X(ACCENT, 0xff4a8fdcu, 0xff1f6fc4u, 0xffffd400u)                                               \
+    X(SELECTED, 0xff3f6fa8u, 0xffa5cbf2u, 0xff0050c8u)                                             \
+    X(FILL, 0xff3a6290u, 0xffb5d3f3u,                                                              \
+      0xff003c96u) /* the part of a slider's field below its value */                              \
+    X(FILL_HOT, 0xff42709fu, 0xffa0c6eeu, 0xff0050c8u)                                             \
+    X(ROW_HOT, 0xff323232u, 0xffdfe6eeu, 0xff303030u)                                              \
+    X(ROW_SELECTED, 0xff36475cu, 0xffc0dbf6u, 0xff0050c8u)                                         \
+    X(LIST, 0xff292929u, 0xfff6f6f6u, 0xff000000u)                                                 \
+    X(POPUP, 0xff242424u, 0xfffafafau, 0xff000000u)                                                \
+    X(BUTTON, 0xff393939u, 0xffd6d6d6u, 0xff303030u)                                               \
+    X(BUTTON_HOT, 0xff454545u, 0xffc6c6c6u, 0xff505050u)                                           \
+    X(GRAB, 0xff444444u, 0xffbcbcbcu, 0xff909090u) /* of a scroll bar */                           \
+    X(GRAB_HOT, 0xff555555u, 0xffa6a6a6u, 0xffc0c0c0u)                                             \
+    X(GRAB_HELD, 0xff666666u, 0xff8e8e8eu, 0xffffffffu)                                            \
+    X(GRID, 0xff333333u, 0xffd2d2d2u, 0xff505050u) /* lines of plots */                            \
+    X(RAISE, 0xffc7772eu, 0xffb4560au, 0xffff9a3cu)                                                \
+    X(LOWER, 0xff2e86b8u, 0xff17739fu, 0xff4cc2ffu)                                                \
+    X(LEVEL, 0xff6f7a86u, 0xff6f7a86u, 0xffb0b8c0u) /* mode `to` */                                \
+    X(CELL, 0xffe8a25cu, 0xffa8540au,                                                              \
+      0xffffb000u) /* outline of the real cell; a word of warning */                               \
+    X(CHIP, 0xe0202020u, 0xe8f4f4f4u,                                                              \
+      0xff000000u) /* labels that lie on the canvas or the patch */                                \
+    X(CHIP_HOT, 0xf0343434u, 0xf8ffffffu, 0xff303030u)                                             \
+    X(BAD, 0xffe0694fu, 0xffb3261eu, 0xffff7a66u)     /* a message that something failed */        \
+    X(REFUSED, 0xff5a3030u, 0xfff3c9c4u, 0xff700000u) /* behind what cannot be done now */         \
+    X(LINK, 0xff78aeeau, 0xff1a5fb4u,                                                              \
+      0xff6fc3ffu) /* in the guide: brighter than the accent, since it is read */                  \
+    X(GROUND, 0xff2e2e2eu, 0xfff2f2f2u, 0xff181818u) /* behind its code */                         \
+    X(MARKED, 0xff34485eu, 0xffffe9a8u, 0xff004a9cu) /* what was searched for */                   \
+    X(LINE, 0xff1a1a1au, 0xffc2c2c2u, 0xffffffffu)   /* between bars and views */                  \
+    X(LIGHT, 0xffffd873u, 0xffffd873u, 0xffffd873u)  /* the light on the patch */
+
+typedef enum WrThemeColour {
+#define WR_THEME_NAME(name, dark, light, contrast) WR_THEMED_##name,
+    WR_THEME_COLOURS(WR_THEME_NAME)
+#undef WR_THEME_NAME
+        WR_THEMED_COUNT
+} WrThemeColour;
+
+typedef enum WrThemeKind {
+    WR_THEME_DARK,
+    WR_THEME_LIGHT,
+    WR_THEME_CONTRAST,
+    WR_THEME_KINDS
+} WrThemeKind;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The theme that is shown; the dark one at first. The window's thread alone asks and sets. */
+WrThemeKind wr_theme(void);
+void wr_theme_set(WrThemeKind kind);
+WrColour wr_theme_colour(WrThemeColour name);
+
+#ifdef __cplusplus
+}
+#endif
+
+#define WR_COLOUR_SURROUND wr_theme_colour(WR_THEMED_SURROUND)
+#define WR_COLOUR_BAR wr_theme_colour(WR_THEMED_BAR)
+#define WR_COLOUR_PANEL wr_theme_colour(WR_THEMED_PANEL)
+#define WR_COLOUR_FIELD wr_theme_colour(WR_THEMED_FIELD)
+#define WR_COLOUR_FIELD_HOT wr_theme_colour(WR_THEMED_FIELD_HOT)
+#define WR_COLOUR_EDGE wr_theme_colour(WR_THEMED_EDGE)
+#define WR_COLOUR_TEXT wr_theme_colour(WR_THEMED_TEXT)
+#define WR_COLOUR_LABEL wr_theme_colour(WR_THEMED_LABEL)
+#define WR_COLOUR_STRONG wr_theme_colour(WR_THEMED_STRONG)
+#define WR_COLOUR_MUTED wr_theme_colour(WR_THEMED_MUTED)
+#define WR_COLOUR_FAINT wr_theme_colour(WR_THEMED_FAINT)
+#define WR_COLOUR_OFF wr_theme_colour(WR_THEMED_OFF)
+#define WR_COLOUR_ACCENT wr_theme_colour(WR_THEMED_ACCENT)
+#define WR_COLOUR_SELECTED wr_theme_colour(WR_THEMED_SELECTED)
+#define WR_COLOUR_FILL wr_theme_colour(WR_THEMED_FILL)
+#define WR_COLOUR_FILL_HOT wr_theme_colour(WR_THEMED_FILL_HOT)
+#define WR_COLOUR_ROW_HOT wr_theme_colour(WR_THEMED_ROW_HOT)
+#define WR_COLOUR_ROW_SELECTED wr_theme_colour(WR_THEMED_ROW_SELECTED)
+#define WR_COLOUR_LIST wr_theme_colour(WR_THEMED_LIST)
+#define WR_COLOUR_POPUP wr_theme_colour(WR_THEMED_POPUP)
+#define WR_COLOUR_BUTTON wr_theme_colour(WR_THEMED_BUTTON)
+#define WR_COLOUR_BUTTON_HOT wr_theme_colour(WR_THEMED_BUTTON_HOT)
+#define WR_COLOUR_GRAB wr_theme_colour(WR_THEMED_GRAB)
+#define WR_COLOUR_GRAB_HOT wr_theme_colour(WR_THEMED_GRAB_HOT)
+#define WR_COLOUR_GRAB_HELD wr_theme_colour(WR_THEMED_GRAB_HELD)
+#define WR_COLOUR_GRID wr_theme_colour(WR_THEMED_GRID)
+#define WR_COLOUR_RAISE wr_theme_colour(WR_THEMED_RAISE)
+#define WR_COLOUR_LOWER wr_theme_colour(WR_THEMED_LOWER)
+#define WR_COLOUR_LEVEL wr_theme_colour(WR_THEMED_LEVEL)
+#define WR_COLOUR_CELL wr_theme_colour(WR_THEMED_CELL)
+#define WR_COLOUR_CHIP wr_theme_colour(WR_THEMED_CHIP)
+#define WR_COLOUR_CHIP_HOT wr_theme_colour(WR_THEMED_CHIP_HOT)
+#define WR_COLOUR_BAD wr_theme_colour(WR_THEMED_BAD)
+#define WR_COLOUR_REFUSED wr_theme_colour(WR_THEMED_REFUSED)
+#define WR_COLOUR_LINK wr_theme_colour(WR_THEMED_LINK)
+#define WR_COLOUR_GROUND wr_theme_colour(WR_THEMED_GROUND)
+#define WR_COLOUR_MARKED wr_theme_colour(WR_THEMED_MARKED)
+#define WR_COLOUR_LINE wr_theme_colour(WR_THEMED_LINE)
+#define WR_COLOUR_LIGHT wr_theme_colour(WR_THEMED_LIGHT)

@@ -12,13 +12,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MARGIN 16        /* units beside the text */
-#define INDENT 18        /* of items */
-#define CELL_GAP 14      /* between columns */
-#define LEADING 1.34     /* of a line, by the height of its letters */
-#define LINK 0xff78aeeau /* brighter than the accent: it is read, not seen */
-#define GROUND 0xff2e2e2eu
-#define MARKED 0xff34485eu
+#define MARGIN 16    /* units beside the text */
+#define INDENT 18    /* of items */
+#define CELL_GAP 14  /* between columns */
+#define LEADING 1.34 /* of a line, by the height of its letters */
+#define LINK WR_COLOUR_LINK
+#define GROUND WR_COLOUR_GROUND
+#define MARKED WR_COLOUR_MARKED
 
 /* A text that is being set, word by word. */
 typedef struct Flow {

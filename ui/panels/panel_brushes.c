@@ -230,7 +230,7 @@ static void foot(WrApp *app)
     wr_gui_same_line(4);
     bool own = strncmp(id, "user/", 5) == 0;
     wr_gui_disable(!own);
-    if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : 0xff5c5c5cu))
+    if (wr_gui_glyph("delete", WR_ICON_DELETE, 24, own ? WR_COLOUR_LABEL : WR_COLOUR_OFF))
         wr_shelf_delete(app, id);
     wr_gui_enable();
     wr_gui_tip(own ? "Delete this preset" : "Only presets of your own can be deleted");
@@ -255,7 +255,7 @@ void wr_panel_brushes(WrApp *app, SDL_Rect room)
     head(app, &groups, both);
     wr_gui_area_end();
     if (both || part == 0) {
-        wr_gui_area_begin("##brushes", WR_AREA_PANEL, list, 0xff292929u);
+        wr_gui_area_begin("##brushes", WR_AREA_PANEL, list, WR_COLOUR_LIST);
         tiles(app, &groups);
         wr_gui_area_end();
     }

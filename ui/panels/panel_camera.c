@@ -109,7 +109,7 @@ static bool view_row(WrApp *app, int i)
     wr_gui_row_at(wr_gui_px(8), 0);
     wr_gui_text_cut(WR_FONT_TEXT, WR_COLOUR_TEXT, view->name, right - wr_gui_px(16));
     wr_gui_row_at(right, wr_gui_px(20));
-    const bool forget = wr_gui_glyph("forget", WR_ICON_DELETE, 20, 0xff8a8a8au);
+    const bool forget = wr_gui_glyph("forget", WR_ICON_DELETE, 20, WR_COLOUR_MUTED);
     wr_gui_tip("Forget this view");
     wr_gui_row_end();
     if (forget) run_view(app, "forget", view);

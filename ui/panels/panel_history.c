@@ -47,7 +47,7 @@ static bool row(const WrApp *app, int position)
     int now = wr_session_history_position(app->session);
     bool kept = position >= wr_session_history_oldest(app->session);
     WrColour colour = position == now           ? WR_COLOUR_STRONG
-                      : position > now || !kept ? 0xff777777u
+                      : position > now || !kept ? WR_COLOUR_FAINT
                                                 : WR_COLOUR_TEXT;
     WrRow r = wr_gui_row_begin(position, ROW_UNITS, position == now);
     if (position > 0) tip_of(app, position - 1, kept);

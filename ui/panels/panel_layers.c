@@ -191,7 +191,7 @@ static void describe(const WrLayer *layer, char *text, size_t size)
 /* The name, and blend and opacity beside it, or below it where it is narrow. */
 static void row_name(const WrLayer *layer, double x, double right, bool shown, bool active)
 {
-    WrColour ink = !shown ? 0xff8a8a8au : active ? WR_COLOUR_STRONG : WR_COLOUR_TEXT;
+    WrColour ink = !shown ? WR_COLOUR_MUTED : active ? WR_COLOUR_STRONG : WR_COLOUR_TEXT;
     char text[64];
     describe(layer, text, sizeof text);
     double wide = wr_gui_text_width(WR_FONT_SMALL, text), gap = wr_gui_px(6);
@@ -255,7 +255,7 @@ static bool row_parts(WrApp *app, int i, bool active)
     double right = wr_gui_row_width() - wr_gui_px(34);
     wr_gui_row_at(x, wr_gui_px(24));
     const char *eye = layer->visible ? WR_ICON_EYE : WR_ICON_EYE_OFF;
-    if (wr_gui_glyph("eye", eye, 24, shown ? WR_COLOUR_TEXT : 0xff6c6c6cu))
+    if (wr_gui_glyph("eye", eye, 24, shown ? WR_COLOUR_TEXT : WR_COLOUR_OFF))
         return wr_app_run_linef(app, "layer set %d visible=%s", i + 1,
                                 layer->visible ? "off" : "on");
     wr_gui_tip(document->solo == i ? "Shown alone"
@@ -265,7 +265,7 @@ static bool row_parts(WrApp *app, int i, bool active)
     if (row_pictures(app, i, active, &x)) return true;
     wr_gui_row_at(right, wr_gui_px(24));
     const char *lock = layer->locked ? WR_ICON_LOCK : WR_ICON_UNLOCK;
-    if (wr_gui_glyph("lock", lock, 24, layer->locked ? WR_COLOUR_CELL : 0xff5c5c5cu))
+    if (wr_gui_glyph("lock", lock, 24, layer->locked ? WR_COLOUR_CELL : WR_COLOUR_OFF))
         return wr_app_run_linef(app, "layer set %d lock=%s", i + 1, layer->locked ? "off" : "on");
     wr_gui_tip(layer->locked ? "Locked: edits refuse it. Click to unlock"
                              : "Click to lock: edits then refuse this layer");
@@ -380,7 +380,7 @@ static void foot(WrApp *app)
         if (i) wr_gui_same_line(8);
         wr_gui_disable(!enabled);
         if (wr_gui_glyph(buttons[i].action, buttons[i].icon, 24,
-                         enabled ? WR_COLOUR_TEXT : 0xff5c5c5cu))
+                         enabled ? WR_COLOUR_TEXT : WR_COLOUR_OFF))
             wr_action_run(app, buttons[i].action);
         wr_gui_enable();
         snprintf(tip, sizeof tip, "%s   %s", action->label,
@@ -405,7 +405,7 @@ void wr_panel_layers(WrApp *app, SDL_Rect room)
     settings(app, active);
     wr_gui_area_end();
     if (middle.h > 0) {
-        wr_gui_area_begin("##layers", WR_AREA_PANEL, middle, 0xff292929u);
+        wr_gui_area_begin("##layers", WR_AREA_PANEL, middle, WR_COLOUR_LIST);
         list(app);
         wr_gui_area_end();
     }

@@ -21,7 +21,7 @@
 
 #define FIND_UNITS 190 /* width of what opens the search */
 
-/* Names of actions; "-" is a line, "recent", "scale" and "operations" are made below. */
+/* Names of actions; "-" is a line, "recent", "scale", "theme" and "operations" are made below. */
 static const char *const file_menu[] = { WR_ACT(new),
                                          WR_ACT(open),
                                          "recent",
@@ -182,6 +182,7 @@ static const char *const view_menu[] = { WR_ACT(look_grey),
                                          WR_ACT(view_patch),
                                          WR_ACT(panels),
                                          WR_ACT(fullscreen),
+                                         "theme",
                                          "scale",
                                          NULL };
 static const char *const help_menu[] = { WR_ACT(help), WR_ACT(tablet), WR_ACT(about), NULL };
@@ -325,6 +326,13 @@ static void camera(WrApp *app)
     submenu(app, "Camera", names, WR_LENGTH(names));
 }
 
+static void theme(WrApp *app)
+{
+    static const char *const names[] = { WR_ACT(theme_dark), WR_ACT(theme_light),
+                                         WR_ACT(theme_contrast) };
+    submenu(app, "Theme", names, WR_LENGTH(names));
+}
+
 static void menu(WrApp *app, const char *label, const char *const *names)
 {
     if (!wr_gui_menu_begin(label)) return;
@@ -332,6 +340,7 @@ static void menu(WrApp *app, const char *label, const char *const *names)
         if (strcmp(*names, "-") == 0) wr_gui_menu_separator();
         else if (strcmp(*names, "recent") == 0) recent(app);
         else if (strcmp(*names, "scale") == 0) scale(app);
+        else if (strcmp(*names, "theme") == 0) theme(app);
         else if (strcmp(*names, "operations") == 0) operations(app);
         else if (strcmp(*names, "compare") == 0) compare(app);
         else if (strcmp(*names, "camera") == 0) camera(app);

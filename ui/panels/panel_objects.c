@@ -48,12 +48,12 @@ static bool row(WrApp *app, int i)
     const double right = wr_gui_row_width() - wr_gui_px(8);
     wr_gui_row_at(wr_gui_px(4), wr_gui_px(20));
     const bool eye = wr_gui_glyph("eye", object->hidden ? WR_ICON_EYE_OFF : WR_ICON_EYE, 20,
-                                  object->hidden ? 0xff8a8a8au : WR_COLOUR_TEXT);
+                                  object->hidden ? WR_COLOUR_MUTED : WR_COLOUR_TEXT);
     wr_gui_tip(object->hidden ? "Show it" : "Hide it");
     const double wide = wr_gui_text_width(WR_FONT_SMALL, kind), x = wr_gui_px(32);
     wr_gui_row_at(x, 0);
     wr_gui_text_cut(WR_FONT_TEXT,
-                    object->hidden ? 0xff8a8a8au
+                    object->hidden ? WR_COLOUR_MUTED
                     : chosen       ? WR_COLOUR_STRONG
                                    : WR_COLOUR_TEXT,
                     wr_scene_object_label(scene, i, buffer), right - x - wide - wr_gui_px(8));

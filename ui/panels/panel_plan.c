@@ -43,7 +43,7 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
     WR_ROWS_END(proofs, WR_PROOF_COUNT);
     char text[240];
     if (has_eye(e, &wr_effects[i])) eye(app, i, e->run);
-    wr_gui_text(WR_FONT_TEXT, e->run ? WR_COLOUR_STRONG : 0xff868686u, e->name);
+    wr_gui_text(WR_FONT_TEXT, e->run ? WR_COLOUR_STRONG : WR_COLOUR_MUTED, e->name);
     if (e->run && e->ns_per_pixel > 0.0) {
         snprintf(text, sizeof text, "%.3g ns", e->ns_per_pixel);
         wr_gui_same_line(8);
@@ -54,7 +54,7 @@ static void effect(WrApp *app, int i, const WrPlanRow *e)
     wr_gui_space(-6);
     if (e->run) snprintf(text, sizeof text, "%s: %s", e->rule, e->reason);
     else snprintf(text, sizeof text, "%s, %s: %s", e->rule, proofs[e->proof], e->reason);
-    wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : 0xff767676u, text);
+    wr_gui_text_wrapped(WR_FONT_SMALL, e->run ? WR_COLOUR_LABEL : WR_COLOUR_FAINT, text);
     wr_gui_space(4);
 }
 

@@ -74,7 +74,7 @@ static void draw_points(const WrProfileHand *hand, const WrPad *pad, int over)
         const bool held = i == hand->held - 1;
         const WrColour colour = held && hand->wrong ? WR_COLOUR_RAISE
                                 : held || i == over ? WR_COLOUR_ACCENT
-                                                    : 0xfff0f0f0u;
+                                                    : WR_COLOUR_STRONG;
         wr_gui_draw_disc(x, y, half + 1.5 * s, 0xb0000000u);
         if (p->corner) wr_gui_draw_fill(x - half, y - half, 2 * half, 2 * half, colour, 0);
         else wr_gui_draw_disc(x, y, half, colour);

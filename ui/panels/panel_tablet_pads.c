@@ -102,7 +102,7 @@ void wr_tester_scribble(WrApp *app, double width, double height)
         const char *hint = "Scribble here: harder is thicker";
         double w = wr_gui_text_width(WR_FONT_TEXT, hint), h = wr_gui_line_height(WR_FONT_TEXT);
         wr_gui_draw_text(floor(pad.x + (pad.w - w) / 2), floor(pad.y + (pad.h - h) / 2),
-                         WR_FONT_TEXT, 0xff5a5a5au, hint);
+                         WR_FONT_TEXT, WR_COLOUR_OFF, hint);
     }
     wr_gui_pad_end();
 }
@@ -146,7 +146,7 @@ static void put_bar(Lines *at, const char *label, double value, WrColour colour)
     double line = wr_gui_line_height(WR_FONT_TEXT), top = floor(at->y + (line - bar) / 2) + 1;
     snprintf(text, sizeof text, "%.3f", value);
     wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, label);
-    wr_gui_draw_fill(from, top, to - from, bar, 0xff343434u, 0);
+    wr_gui_draw_fill(from, top, to - from, bar, WR_COLOUR_BUTTON, 0);
     wr_gui_draw_fill(from, top, (to - from) * value, bar, colour, 0);
     wr_gui_draw_text(floor(at->x + at->w - wr_gui_text_width(WR_FONT_TEXT, text)), floor(at->y),
                      WR_FONT_TEXT, WR_COLOUR_TEXT, text);
@@ -159,8 +159,8 @@ static void put_tilt(Lines *at, const WrPenDevice *d, const WrPenEvent *e)
     static const char *const names[] = { "tip", "2", "3" };
     double r = 1.55 * at->step, x = at->x + wr_gui_px(70) + r, y = at->y + r;
     wr_gui_draw_text(at->x, floor(at->y), WR_FONT_TEXT, WR_COLOUR_LABEL, "Tilt");
-    wr_gui_draw_disc(x, y, r, 0xff2b2b2bu);
-    wr_gui_draw_circle(x, y, r, 0xff4a4a4au, 1.0);
+    wr_gui_draw_disc(x, y, r, WR_COLOUR_BUTTON);
+    wr_gui_draw_circle(x, y, r, WR_COLOUR_GRAB, 1.0);
     if (d->has_tilt) {
         double tx = x + r * e->tilt_x, ty = y + r * e->tilt_y;
         wr_gui_draw_line(x, y, tx, ty, WR_COLOUR_ACCENT, wr_gui_px(2));
@@ -173,7 +173,7 @@ static void put_tilt(Lines *at, const WrPenDevice *d, const WrPenEvent *e)
         double left = bx + (b - 1) * (side + wr_gui_px(4)), top = at->y + at->step;
         double w = wr_gui_text_width(WR_FONT_SMALL, names[b - 1]);
         double h = wr_gui_line_height(WR_FONT_SMALL);
-        wr_gui_draw_fill(left, top, side, side, down ? WR_COLOUR_ACCENT : 0xff343434u, 3);
+        wr_gui_draw_fill(left, top, side, side, down ? WR_COLOUR_ACCENT : WR_COLOUR_BUTTON, 3);
         wr_gui_draw_text(floor(left + (side - w) / 2), floor(top + (side - h) / 2), WR_FONT_SMALL,
                          down ? WR_COLOUR_STRONG : WR_COLOUR_LABEL, names[b - 1]);
     }
@@ -248,8 +248,8 @@ static void draw_curve(const WrApp *app, const WrPad *pad, const WrPenCurve *c, 
 {
     double last = 0.0;
     for (int i = 1; i < 4; i++) {
-        wr_gui_draw_fill(floor(pad->x + pad->w * i / 4), pad->y, 1, pad->h, 0xff2d2d2du, 0);
-        wr_gui_draw_fill(pad->x, floor(pad->y + pad->h * i / 4), pad->w, 1, 0xff2d2d2du, 0);
+        wr_gui_draw_fill(floor(pad->x + pad->w * i / 4), pad->y, 1, pad->h, WR_COLOUR_GRID, 0);
+        wr_gui_draw_fill(pad->x, floor(pad->y + pad->h * i / 4), pad->w, 1, WR_COLOUR_GRID, 0);
     }
     WrPenEvent e;
     if (newest_of(app, &e) && e.raw > 0.0)

@@ -10,6 +10,7 @@
 #include "ui/desk/session_view.h"
 #include "ui/desk/settings.h"
 #include "ui/gui/gui.h"
+#include "ui/gui/gui_sdl.h"
 #include "ui/gui/theme.h"
 #include "ui/patch/patch_paint.h"
 #include "ui/preview/preview.h"
@@ -268,8 +269,7 @@ void wr_patch_draw(WrApp *app)
     if (room->w <= 0) return;
     const WrPreviewPicture *picture = wr_preview_picture(app->preview);
     if (!p->texture || picture->serial == 0) {
-        SDL_SetRenderDrawColor(app->renderer, 0x2e, 0x2f, 0x30, 255);
-        SDL_RenderFillRect(app->renderer, room);
+        wr_gui_sdl_fill(app->renderer, room, WR_COLOUR_SURROUND);
         return;
     }
     if (picture->serial != p->serial) take_picture(app);
@@ -285,7 +285,7 @@ static void draw_ring(const WrApp *app, const WrPreviewPicture *picture)
     wr_gui_draw_circle(x, y, 6.0 * s, 0x60000000u, 2.0 * s);
     if (picture->level > WR_PREVIEW_NONE)
         wr_gui_draw_arc(x, y, 6.0 * s, picture->level / (double)WR_PREVIEW_FINAL,
-                        picture->level == WR_PREVIEW_FINAL ? 0xff8a8a8au : WR_COLOUR_ACCENT,
+                        picture->level == WR_PREVIEW_FINAL ? WR_COLOUR_MUTED : WR_COLOUR_ACCENT,
                         2.0 * s);
 }
 

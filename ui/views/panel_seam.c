@@ -17,12 +17,12 @@
 #include <SDL.h>
 #include <math.h>
 
-#define QUIET 0xff6f7a86u
-#define CREASED 0xffc9a86au
+#define QUIET WR_COLOUR_LEVEL
+#define CREASED WR_COLOUR_CELL
 
 static WrColour colour_of(const WrSeamEdge *edge)
 {
-    return !edge->wraps    ? 0xff444444u
+    return !edge->wraps    ? WR_COLOUR_GRAB
            : edge->jumps   ? WR_COLOUR_RAISE
            : edge->creases ? CREASED
                            : QUIET;

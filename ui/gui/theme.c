@@ -1,0 +1,24 @@
+#include "ui/gui/theme.h"
+
+static const WrColour colours[][WR_THEME_KINDS] = {
+#define WR_THEME_ROW(name, dark, light, contrast) { dark, light, contrast },
+    WR_THEME_COLOURS(WR_THEME_ROW)
+#undef WR_THEME_ROW
+};
+
+static WrThemeKind shown;
+
+WrThemeKind wr_theme(void)
+{
+    return shown;
+}
+
+void wr_theme_set(WrThemeKind kind)
+{
+    shown = kind;
+}
+
+WrColour wr_theme_colour(WrThemeColour name)
+{
+    return colours[name][shown];
+}
