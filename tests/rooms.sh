@@ -34,7 +34,7 @@ BEGIN {
     # Libraries, by how their headers begin, and the rooms that may say so.
     library["SDL"] = "ui"
     library["imgui"] = "ui/gui"
-    library["X11/"] = "ui/pen"
+    library["X11/"] = "ui/pen ui/gui"
     library["OpenImageIO/"] = library["assimp/"] = "image"
     library["ft2build"] = library["freetype/"] = "image ui" # the type of the window is drawn with it too
     library["hb"] = library["fribidi"] = library["fontconfig/"] = library["zlib"] = "image"

@@ -8,6 +8,7 @@
 #include "ui/desk/layout.h"
 #include "ui/desk/roster.h"
 #include "ui/desk/settings.h"
+#include "ui/gui/desktop.h"
 #include "ui/gui/gui.h"
 #include "ui/gui/screen.h"
 
@@ -18,9 +19,10 @@
 
 double wr_window_scale(SDL_Window *window)
 {
-    float dpi = 96.0f;
+    float dpi = (float)wr_desktop_dpi(window);
     int display = SDL_GetWindowDisplayIndex(window);
-    if (display < 0 || SDL_GetDisplayDPI(display, NULL, &dpi, NULL) != 0) return 1.0;
+    if (dpi == 0.0f && (display < 0 || SDL_GetDisplayDPI(display, NULL, &dpi, NULL) != 0))
+        return 1.0;
     double scale = floor((double)dpi / 96.0 * 4.0 + 0.25) / 4.0; /* displays that say 97 mean 96 */
     return scale < 1.0 ? 1.0 : scale > 3.0 ? 3.0 : scale;
 }
@@ -143,6 +145,7 @@ static void window_event(WrApp *app, const SDL_WindowEvent *event)
         if (!(SDL_GetWindowFlags(app->window) & SDL_WINDOW_MAXIMIZED))
             app->settings->maximized = false;
         break;
+    case SDL_WINDOWEVENT_FOCUS_GAINED: /* the desktop's scale may be another by now */
     case SDL_WINDOWEVENT_DISPLAY_CHANGED: app->display_scale = wr_window_scale(app->window); break;
     default: break;
     }

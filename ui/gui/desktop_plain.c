@@ -1,0 +1,8 @@
+/* No desktop of X: what a system gets that nobody has written a file for, in the place of desktop_x11.c. */
+#include "ui/gui/desktop.h"
+
+double wr_desktop_dpi(SDL_Window *window)
+{
+    (void)window;
+    return 0;
+}
