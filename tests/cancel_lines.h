@@ -72,6 +72,10 @@ static const char *const lines[] = {
     "layer mask 2 from=height low=0.2",
     "layer mask 2 from=slope low=20",
     "select mask 3 mode=add",
+    "transform move=17,9",
+    "transform turn=31 scale=0.7,-1.2 layers=all",
+    "copy copied.exr",
+    "copy copied2.exr of=composite",
     "select invert",
     "select rect from=0.1,0.1 to=0.9,0.9 mode=add",
     "select ellipse centre=0.3,0.3 radii=0.2,0.2 mode=add",
@@ -139,8 +143,8 @@ static const char *const lines[] = {
 /* What is written stays; everything else is undone. */
 static inline void take_back_line(WrSession *session, const char *line)
 {
-    static const char *const outputs[] = { "save", "export", "render", "maps" };
-    for (int i = 0; i < 4; i++)
+    static const char *const outputs[] = { "save", "export", "render", "maps", "copy" };
+    for (int i = 0; i < 5; i++)
         if (strncmp(line, outputs[i], strlen(outputs[i])) == 0) return;
     must_run(session, strncmp(line, "undo", 4) == 0 ? "redo 5" : "undo");
 }

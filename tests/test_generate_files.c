@@ -18,6 +18,7 @@ static const Case cases[] = {
     { "terrain elevation a.r16 size=8x8", "a.r16" },
     { "picture photo a.png seamless=off", "a.png" },
     { "picture normals a.png y=up", "a.png" },
+    { "picture paste a.png", "a.png" },
 };
 #define CASES (sizeof cases / sizeof *cases)
 

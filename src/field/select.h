@@ -94,6 +94,13 @@ WrField *wr_select_shrink(const WrField *a, double r, WrPool *pool, WrError *err
 /* Blur by a Gaussian of `sigma` texels, the table operation "blur"; the result stays in 0..1. */
 WrField *wr_select_feather(const WrField *a, double sigma, WrPool *pool, WrError *err);
 
+/* The smallest box that holds all texels that are selected at all, from texel (i, j), row j from the top; it may go over
+ * periodic edges. False: there is none. */
+typedef struct WrSelectBox {
+    int i, j, count_i, count_j;
+} WrSelectBox;
+bool wr_select_box(const WrField *selection, WrSelectBox *box);
+
 /* The outline, for drawing: where the bilinear surface through the texels' centres is about 1/2. */
 typedef struct WrOutlineLoop {
     int first, count;   /* points[first] .. points[first + count - 1], in order, the inside on the

@@ -91,4 +91,5 @@ WrImage *wr_picture_read(const WrParams *params, const char *channels, bool keep
                            WrError *err)
 WR_PICTURE(photo);   /* picture_photo.c */
 WR_PICTURE(normals); /* normals_row.c */
+WR_PICTURE(paste);   /* picture_paste.c */
 #undef WR_PICTURE

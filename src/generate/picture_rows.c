@@ -6,5 +6,7 @@ const WrGenerator wr_picture_rows[] = {
     { "picture", "normals", "Normal map",
       "the heights whose normals are nearest to those of a normal map", "replace",
       wr_params_normals, wr_picture_normals },
+    { "picture", "paste", "Picture", "a picture as it is, at a place: what was copied, say",
+      "replace", wr_params_paste, wr_picture_paste },
     { .family = NULL },
 };

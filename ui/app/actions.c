@@ -106,6 +106,7 @@ TOOL(shape_ellipse)
 TOOL(shape_polygon)
 TOOL(shape_path)
 TOOL(stamp)
+TOOL(transform)
 TOOL(pick)
 TOOL(select_rect)
 TOOL(select_ellipse)
@@ -306,6 +307,10 @@ const WrAction wr_actions[] = {
     ROW(quit, "Quit", wr_app_quit, NULL, NULL),
     ROW(undo, "Undo", undo, can_undo, NULL),
     ROW(redo, "Redo", redo, can_redo, NULL),
+    ROW(cut, "Cut", wr_act_cut, NULL, NULL),
+    ROW(copy, "Copy", wr_act_copy, NULL, NULL),
+    ROW(copy_shown, "Copy what is shown", wr_act_copy_shown, NULL, NULL),
+    ROW(paste, "Paste", wr_act_paste, NULL, NULL),
     ROW(search, "Search actions...", search, NULL, NULL),
     ROW(brush, "Brush", tool_brush, NULL, NULL),
     ROW(smooth, "Smooth", tool_smooth, NULL, NULL),
@@ -323,6 +328,7 @@ const WrAction wr_actions[] = {
     ROW(select_rect, "Rectangle selection", tool_select_rect, NULL, NULL),
     ROW(select_ellipse, "Ellipse selection", tool_select_ellipse, NULL, NULL),
     ROW(select_lasso, "Lasso selection", tool_select_lasso, NULL, NULL),
+    ROW(transform, "Free transform", tool_transform, NULL, NULL),
     ROW(pick, "Pick height", tool_pick, NULL, NULL),
     ROW(pan, "Move the table", tool_pan, NULL, NULL),
     ROW(zoom, "Zoom", tool_zoom, NULL, NULL),

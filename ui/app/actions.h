@@ -88,6 +88,10 @@ bool wr_can_several_layers(const WrApp *app);
 bool wr_can_merge(const WrApp *app); /* there is a layer below */
 bool wr_can_raise(const WrApp *app);
 bool wr_can_mask_selection(const WrApp *app); /* something is selected */
+void wr_act_copy(WrApp *app);
+void wr_act_copy_shown(WrApp *app);
+void wr_act_cut(WrApp *app);
+void wr_act_paste(WrApp *app);
 void wr_act_mask_height(WrApp *app);
 void wr_act_mask_slope(WrApp *app);
 void wr_act_mask_invert(WrApp *app);

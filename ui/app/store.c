@@ -27,6 +27,7 @@
 #include "ui/tools/tool_clone.h"
 #include "ui/tools/tool_shape.h"
 #include "ui/tools/tool_stamp.h"
+#include "ui/tools/tool_transform.h"
 #include "ui/views/marks.h"
 
 #include "base/memory.h"
@@ -64,6 +65,7 @@ typedef struct Store {
     WrForms forms;
     WrReplace replace;
     WrCloneHand clone;
+    WrTransformHand transform;
     WrStampHand stamp;
     WrDialogHand dialog;
     WrDocumentHand file;
@@ -103,6 +105,7 @@ WrApp *wr_store_new(void)
     app->forms = &store->forms;
     app->replace = &store->replace;
     app->clone = &store->clone;
+    app->transform = &store->transform;
     app->stamp = &store->stamp;
     app->dialog = &store->dialog;
     app->file = &store->file;

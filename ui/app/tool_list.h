@@ -4,4 +4,4 @@
 
 /* All of them, in the order of the strip. */
 extern const WrTool *const wr_tools[];
-#define WR_TOOL_COUNT 18
+#define WR_TOOL_COUNT 19

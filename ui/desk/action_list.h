@@ -16,6 +16,10 @@
     X(quit, "Ctrl+Q")                                                                              \
     X(undo, "Ctrl+Z Z")                                                                            \
     X(redo, "Ctrl+Shift+Z Ctrl+Y Y")                                                               \
+    X(cut, "Ctrl+X")                                                                               \
+    X(copy, "Ctrl+C")                                                                              \
+    X(copy_shown, "Ctrl+Shift+C")                                                                  \
+    X(paste, "Ctrl+V")                                                                             \
     X(search, "Ctrl+Return")                                                                       \
     X(brush, "B")                                                                                  \
     X(smooth, "Shift+U")                                                                           \
@@ -33,6 +37,7 @@
     X(select_rect, "Shift+R")                                                                      \
     X(select_ellipse, "Shift+E")                                                                   \
     X(select_lasso, "Shift+L")                                                                     \
+    X(transform, "Ctrl+T")                                                                         \
     X(pick, "P")                                                                                   \
     X(pan, "H")                                                                                    \
     X(zoom, "Shift+Z")                                                                             \

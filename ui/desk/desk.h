@@ -62,6 +62,7 @@ typedef struct WrObjectsHand WrObjectsHand;
 typedef struct WrTester WrTester;
 typedef struct WrTiming WrTiming;
 typedef struct WrTool WrTool;
+typedef struct WrTransformHand WrTransformHand;
 typedef struct WrTrial WrTrial;
 
 /* The window owns what these point to unless they say otherwise. Lengths are pixels of the window, times seconds of
@@ -117,6 +118,7 @@ struct WrApp {
     WrShelf *shelf;
     WrDrawHand *draw;
     WrCloneHand *clone;
+    WrTransformHand *transform;
     WrStampHand *stamp;
     WrGenerateHand *generate; /* owned */
     WrAccuracy *accuracy;     /* owned */

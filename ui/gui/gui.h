@@ -59,56 +59,57 @@ double wr_gui_scale(void);   /* pixels a unit */
 int wr_gui_px(double units); /* units as whole pixels */
 
 /* ---- icons (UTF-8 of the icon font; short words where it is missing: gui_icons.h) ---- */
-#define WR_ICON_BRUSH "\xef\x83\xa3"    /* f0e3 */
-#define WR_ICON_HAND "\xef\x81\x81"     /* f041 arrow-all */
-#define WR_ICON_ZOOM "\xef\x8d\x89"     /* f349 */
-#define WR_ICON_PICK "\xef\x88\x8a"     /* f20a */
-#define WR_ICON_PLAY "\xef\x90\x8a"     /* f40a */
-#define WR_ICON_PAUSE "\xef\x8f\xa4"    /* f3e4 */
-#define WR_ICON_DOWN "\xef\x8d\x9d"     /* f35d */
-#define WR_ICON_CLOSE "\xef\x85\x96"    /* f156 */
-#define WR_ICON_PLUS "\xef\x90\x95"     /* f415 */
-#define WR_ICON_DELETE "\xef\x87\x80"   /* f1c0 */
-#define WR_ICON_HELP "\xef\x8b\x97"     /* f2d7 */
-#define WR_ICON_ALERT "\xef\x80\xa6"    /* f026 */
-#define WR_ICON_FOLDER "\xef\x89\x8b"   /* f24b */
-#define WR_ICON_FILE "\xef\x88\xa4"     /* f224 */
-#define WR_ICON_UP "\xef\x81\x9d"       /* f05d */
-#define WR_ICON_CHECK "\xef\x84\xac"    /* f12c */
-#define WR_ICON_CAMERA "\xef\x91\xa4"   /* f464 rotate-3d */
-#define WR_ICON_EYE "\xef\x88\x88"      /* f208 */
-#define WR_ICON_EYE_OFF "\xef\x88\x89"  /* f209 */
-#define WR_ICON_LOCK "\xef\x8c\xbe"     /* f33e */
-#define WR_ICON_UNLOCK "\xef\x8d\x80"   /* f340 lock-open-outline */
-#define WR_ICON_COPY "\xef\x86\x91"     /* f191 content-duplicate */
-#define WR_ICON_MERGE "\xef\x83\xb8"    /* f0f8 call-merge */
-#define WR_ICON_LOWER "\xef\x81\x85"    /* f045 arrow-down */
-#define WR_ICON_RAISE "\xef\x81\x9d"    /* f05d arrow-up */
-#define WR_ICON_RECT "\xef\x92\x89"     /* f489 selection */
-#define WR_ICON_ELLIPSE "\xef\x95\x96"  /* f556 vector-circle */
-#define WR_ICON_LASSO "\xef\x95\xa2"    /* f562 vector-selection */
-#define WR_ICON_MORE "\xef\x87\x99"     /* f1d9 dots-vertical */
-#define WR_ICON_SEARCH "\xef\x8d\x89"   /* f349 magnify */
-#define WR_ICON_STAR "\xef\x93\x8e"     /* f4ce */
-#define WR_ICON_STAR_OFF "\xef\x93\x92" /* f4d2 star-outline */
-#define WR_ICON_DROP "\xef\x96\x8c"     /* f58c water */
-#define WR_ICON_FINGER "\xef\x8b\x87"   /* f2c7 hand-pointing-right */
-#define WR_ICON_CLONE "\xef\x86\x8f"    /* f18f content-copy */
-#define WR_ICON_BOX "\xef\x84\xb1"      /* f131 checkbox-blank-outline */
-#define WR_ICON_ROUND "\xef\x84\xb0"    /* f130 checkbox-blank-circle-outline */
-#define WR_ICON_POLYGON "\xef\x95\xa0"  /* f560 vector-polygon */
-#define WR_ICON_CURVE "\xef\x95\x99"    /* f559 vector-curve */
-#define WR_ICON_BUCKET "\xef\x89\xa6"   /* f266 format-color-fill */
-#define WR_ICON_RAMP "\xef\x82\xb6"     /* f0b6 blur-linear */
-#define WR_ICON_SEAL "\xef\x91\xba"     /* f47a */
-#define WR_ICON_FLOWER "\xef\x89\x8a"   /* f24a */
-#define WR_ICON_TUNE "\xef\x98\xae"     /* f62e */
-#define WR_ICON_SAVE "\xef\x86\x93"     /* f193 content-save */
-#define WR_ICON_BACK "\xef\x91\xa5"     /* f465 rotate-left */
-#define WR_ICON_DOTS "\xef\x87\x98"     /* f1d8 dots-horizontal */
-#define WR_ICON_WAND "\xef\x81\xa8"     /* f068 auto-fix */
-#define WR_ICON_DICE "\xef\x87\x8e"     /* f1ce dice-5 */
-#define WR_ICON_GRID "\xef\x95\xb3"     /* f573 view-module */
+#define WR_ICON_BRUSH "\xef\x83\xa3"     /* f0e3 */
+#define WR_ICON_HAND "\xef\x81\x81"      /* f041 arrow-all */
+#define WR_ICON_ZOOM "\xef\x8d\x89"      /* f349 */
+#define WR_ICON_PICK "\xef\x88\x8a"      /* f20a */
+#define WR_ICON_PLAY "\xef\x90\x8a"      /* f40a */
+#define WR_ICON_PAUSE "\xef\x8f\xa4"     /* f3e4 */
+#define WR_ICON_DOWN "\xef\x8d\x9d"      /* f35d */
+#define WR_ICON_CLOSE "\xef\x85\x96"     /* f156 */
+#define WR_ICON_PLUS "\xef\x90\x95"      /* f415 */
+#define WR_ICON_DELETE "\xef\x87\x80"    /* f1c0 */
+#define WR_ICON_HELP "\xef\x8b\x97"      /* f2d7 */
+#define WR_ICON_ALERT "\xef\x80\xa6"     /* f026 */
+#define WR_ICON_FOLDER "\xef\x89\x8b"    /* f24b */
+#define WR_ICON_FILE "\xef\x88\xa4"      /* f224 */
+#define WR_ICON_UP "\xef\x81\x9d"        /* f05d */
+#define WR_ICON_CHECK "\xef\x84\xac"     /* f12c */
+#define WR_ICON_CAMERA "\xef\x91\xa4"    /* f464 rotate-3d */
+#define WR_ICON_EYE "\xef\x88\x88"       /* f208 */
+#define WR_ICON_EYE_OFF "\xef\x88\x89"   /* f209 */
+#define WR_ICON_LOCK "\xef\x8c\xbe"      /* f33e */
+#define WR_ICON_UNLOCK "\xef\x8d\x80"    /* f340 lock-open-outline */
+#define WR_ICON_COPY "\xef\x86\x91"      /* f191 content-duplicate */
+#define WR_ICON_MERGE "\xef\x83\xb8"     /* f0f8 call-merge */
+#define WR_ICON_LOWER "\xef\x81\x85"     /* f045 arrow-down */
+#define WR_ICON_RAISE "\xef\x81\x9d"     /* f05d arrow-up */
+#define WR_ICON_RECT "\xef\x92\x89"      /* f489 selection */
+#define WR_ICON_ELLIPSE "\xef\x95\x96"   /* f556 vector-circle */
+#define WR_ICON_LASSO "\xef\x95\xa2"     /* f562 vector-selection */
+#define WR_ICON_MORE "\xef\x87\x99"      /* f1d9 dots-vertical */
+#define WR_ICON_SEARCH "\xef\x8d\x89"    /* f349 magnify */
+#define WR_ICON_STAR "\xef\x93\x8e"      /* f4ce */
+#define WR_ICON_STAR_OFF "\xef\x93\x92"  /* f4d2 star-outline */
+#define WR_ICON_DROP "\xef\x96\x8c"      /* f58c water */
+#define WR_ICON_FINGER "\xef\x8b\x87"    /* f2c7 hand-pointing-right */
+#define WR_ICON_CLONE "\xef\x86\x8f"     /* f18f content-copy */
+#define WR_ICON_BOX "\xef\x84\xb1"       /* f131 checkbox-blank-outline */
+#define WR_ICON_ROUND "\xef\x84\xb0"     /* f130 checkbox-blank-circle-outline */
+#define WR_ICON_POLYGON "\xef\x95\xa0"   /* f560 vector-polygon */
+#define WR_ICON_CURVE "\xef\x95\x99"     /* f559 vector-curve */
+#define WR_ICON_BUCKET "\xef\x89\xa6"    /* f266 format-color-fill */
+#define WR_ICON_RAMP "\xef\x82\xb6"      /* f0b6 blur-linear */
+#define WR_ICON_SEAL "\xef\x91\xba"      /* f47a */
+#define WR_ICON_FLOWER "\xef\x89\x8a"    /* f24a */
+#define WR_ICON_TUNE "\xef\x98\xae"      /* f62e */
+#define WR_ICON_SAVE "\xef\x86\x93"      /* f193 content-save */
+#define WR_ICON_BACK "\xef\x91\xa5"      /* f465 rotate-left */
+#define WR_ICON_DOTS "\xef\x87\x98"      /* f1d8 dots-horizontal */
+#define WR_ICON_WAND "\xef\x81\xa8"      /* f068 auto-fix */
+#define WR_ICON_DICE "\xef\x87\x8e"      /* f1ce dice-5 */
+#define WR_ICON_TRANSFORM "\xef\x99\x95" /* f655 move-resize */
+#define WR_ICON_GRID "\xef\x95\xb3"      /* f573 view-module */
 
 /* ---- areas: fixed rectangles that hold widgets ---- */
 typedef enum WrAreaKind {

@@ -16,6 +16,7 @@
 #include "system/clock.h"
 
 #include <SDL.h>
+#include <string.h>
 
 typedef struct Work {
     WrDocument *document; /* a snapshot of its own, changed by the work */
@@ -116,8 +117,10 @@ static void run(void *arg, WrPool *pool, const WrProgress *progress)
     const WrTrialAsk *ask = &work->ask;
     double began = wr_clock_seconds();
     if (ask->line) {
-        if (!wr_trial_generate(work->document, ask->line, ask->rough, pool, progress, &work->notes,
-                               &work->err)) {
+        bool moves = strncmp(ask->line, "transform", 9) == 0;
+        if (moves ? !wr_trial_transform(work->document, ask->line, pool, progress, &work->err)
+                  : !wr_trial_generate(work->document, ask->line, ask->rough, pool, progress,
+                                       &work->notes, &work->err)) {
             work->cancelled = wr_progress_cancelled(progress);
             return;
         }

@@ -29,7 +29,7 @@ typedef struct WrTrialAsk {
                            presets do not count */
     double u, v;
 
-    const char *line; /* or a generator's command line (trial_generate.h); copied */
+    const char *line; /* or a generator's command line, or `transform` (trial_generate.h); copied */
     bool rough;       /* first roughly, at once, and only then as the command makes it */
 
     int layer; /* or a layer with other settings */

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "command/call.h"
 #include "command/generate.h"
+#include "command/transform.h"
 #include "document/document.h"
 #include "field/field.h"
 #include "field/ops.h"
@@ -125,6 +126,20 @@ bool wr_trial_generate(WrDocument *document, const char *line, bool rough, WrPoo
     good = good && wr_call_join(call, &relief, document->selection, layer, pool, progress, err);
     wr_document_edit_end(document, &stand_in);
     wr_relief_fini(&relief);
+    wr_call_free(call);
+    return good;
+}
+
+bool wr_trial_transform(WrDocument *document, const char *line, WrPool *pool,
+                        const WrProgress *progress, WrError *err)
+{
+    WrCall *call = NULL;
+    WrStandIn stand_in = { .index = 0 };
+    if (!wr_call_parse(line, false, &call, err)) return false;
+    bool all = wr_call_choice(call, "layers") == 1;
+    WrLayer *layer = all ? NULL : wr_document_edit_begin(document, &stand_in);
+    bool good = wr_call_transform(call, document, layer, pool, progress, err);
+    wr_document_edit_end(document, &stand_in);
     wr_call_free(call);
     return good;
 }

@@ -1,4 +1,4 @@
-/* trial_generate.h - what a generator's command line would make of a document. */
+/* trial_generate.h - what a command line, most often a generator's, would make of a document. */
 #pragma once
 #include <stdbool.h>
 
@@ -18,3 +18,7 @@ typedef struct WrText WrText;
  * Threads   one for each document */
 bool wr_trial_generate(WrDocument *document, const char *line, bool rough, WrPool *pool,
                        const WrProgress *progress, WrText *notes, WrError *err);
+
+/* The same of a `transform` line. */
+bool wr_trial_transform(WrDocument *document, const char *line, WrPool *pool,
+                        const WrProgress *progress, WrError *err);

@@ -17,5 +17,6 @@ extern const WrTool wr_tool_pick;
 extern const WrTool wr_tool_select_rect;
 extern const WrTool wr_tool_select_ellipse;
 extern const WrTool wr_tool_select_lasso;
+extern const WrTool wr_tool_transform;
 extern const WrTool wr_tool_pan;
 extern const WrTool wr_tool_zoom;

@@ -23,6 +23,7 @@
 #include "document/document.h"
 #include "field/field.h"
 #include "field/select.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <string.h>
@@ -113,6 +114,7 @@ static void press(WrApp *app, const WrPointer *at)
     hand->points.count = 0;
     texel_at(app, at, &hand->x, &hand->y);
     app->hints = false;
+    wr_image_warm_writing(); /* it may be copied next */
     follow(app, at);
     wr_app_redraw(app);
 }

@@ -1,0 +1,113 @@
+/* Pictures of the X server's clipboard, on a connection of our own: SDL's would take our events. What is large comes
+   in pieces (INCR of the Inter-Client Communication Conventions Manual, section 2.7.2). */
+#include "ui/pen/clip.h"
+
+#include "base/array.h"
+#include "base/memory.h"
+#include "system/clock.h"
+
+#include <SDL.h>
+#include <X11/Xatom.h>
+#include <X11/Xlib.h>
+#include <string.h>
+
+#define WAIT_SECONDS 2.0
+#define BYTES_MOST (256 << 20)
+
+typedef WR_ARRAY(char) Bytes;
+
+typedef struct Asking {
+    Display *display;
+    Window window;
+    Atom clipboard, png, incr, property;
+    double until;
+    Bytes got;
+} Asking;
+
+/* The next event of that type that is about our property. */
+static bool wait_for(Asking *ask, int type, XEvent *event)
+{
+    while (wr_clock_seconds() < ask->until) {
+        if (XCheckTypedWindowEvent(ask->display, ask->window, type, event)) {
+            if (type != PropertyNotify || (event->xproperty.atom == ask->property &&
+                                           event->xproperty.state == PropertyNewValue))
+                return true;
+            continue;
+        }
+        SDL_PumpEvents(); /* where we hold it, SDL answers that we have no picture */
+        SDL_Delay(2);
+    }
+    return false;
+}
+
+/* What the property holds is appended, and the property removed, which asks for the next piece. */
+static bool take(Asking *ask, Atom *type, unsigned long *count)
+{
+    unsigned char *data = NULL;
+    int format = 0;
+    unsigned long rest = 0;
+    *count = 0;
+    if (XGetWindowProperty(ask->display, ask->window, ask->property, 0, BYTES_MOST / 4, True,
+                           AnyPropertyType, type, &format, count, &rest, &data) != Success)
+        return false;
+    bool fits = format == 8 && (size_t)ask->got.count + *count <= BYTES_MOST;
+    for (unsigned long i = 0; fits && *type == ask->png && i < *count; i++)
+        wr_array_push(&ask->got, (char)data[i]);
+    if (data) XFree(data);
+    return *type == ask->incr || (fits && *type == ask->png);
+}
+
+static bool take_all(Asking *ask)
+{
+    XEvent event;
+    Atom type = None;
+    unsigned long count;
+    if (!wait_for(ask, SelectionNotify, &event) || event.xselection.property == None) return false;
+    while (XCheckTypedWindowEvent(ask->display, ask->window, PropertyNotify, &event)) {
+    }
+    if (!take(ask, &type, &count)) return false;
+    if (type != ask->incr) return ask->got.count > 0;
+    do {
+        ask->until = wr_clock_seconds() + WAIT_SECONDS;
+        if (!wait_for(ask, PropertyNotify, &event) || !take(ask, &type, &count)) return false;
+    } while (count > 0);
+    return ask->got.count > 0;
+}
+
+static bool ask(Asking *ask)
+{
+    if (XGetSelectionOwner(ask->display, ask->clipboard) == None) return false;
+    XSelectInput(ask->display, ask->window, PropertyChangeMask);
+    XConvertSelection(ask->display, ask->clipboard, ask->png, ask->property, ask->window,
+                      CurrentTime);
+    XFlush(ask->display);
+    return take_all(ask);
+}
+
+static bool is_png(const Bytes *bytes)
+{
+    static const char magic[] = "\x89PNG\r\n\x1a\n";
+    return bytes->count > 8 && memcmp(bytes->data, magic, 8) == 0;
+}
+
+bool wr_clip_picture(char **bytes, size_t *length)
+{
+    Asking asking = { .display = XOpenDisplay(NULL), .until = wr_clock_seconds() + WAIT_SECONDS };
+    if (!asking.display) return false;
+    Display *d = asking.display;
+    asking.window = XCreateSimpleWindow(d, DefaultRootWindow(d), 0, 0, 1, 1, 0, 0, 0);
+    asking.clipboard = XInternAtom(d, "CLIPBOARD", False);
+    asking.png = XInternAtom(d, "image/png", False);
+    asking.incr = XInternAtom(d, "INCR", False);
+    asking.property = XInternAtom(d, "WRINKLE_PICTURE", False);
+    bool good = ask(&asking) && is_png(&asking.got);
+    XDestroyWindow(d, asking.window);
+    XCloseDisplay(d);
+    if (good) {
+        *bytes = asking.got.data;
+        *length = (size_t)asking.got.count;
+    } else {
+        wr_array_free(&asking.got);
+    }
+    return good;
+}
