@@ -55,9 +55,9 @@ static void set_since(Dog *dog, double since)
 
 /* ---- lines ---- */
 
-static const char *const verbs[] = { "grid",  "dab",     "stroke", "shape",   "flood",
-                                     "ramp",  "pattern", "noise",  "formula", "text",
-                                     "solid", "terrain", "select", "adjust" };
+static const char *const verbs[] = { "grid", "dab",     "stroke",  "shape",   "flood",
+                                     "ramp", "pattern", "noise",   "formula", "text",
+                                     "rim",  "solid",   "terrain", "select",  "adjust" };
 
 /* What is not left out: positional arguments, and those that must be given. */
 static const char *needed(const WrCommand *command, const char *form)

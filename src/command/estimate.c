@@ -302,6 +302,7 @@ static const Price prices[] = {
     NOISE("torus", 280, 280),
     { "formula", "fourier", terms, .ns = 100, .bytes = 8.2 },
     { "formula", "poly", terms, .ns = 5.5, .bytes = 8.2 },
+    { "rim", NULL, texels, .ns = 150, .bytes = 20 },
     { "text", NULL, texels, .ns = 6, .bytes = 6 },
     SOLID("sphere", 50, 0.05, 1, 0.25, 2e3),
     SOLID("ellipsoid", 50, 0.05, 1, 2.5, 2e3),

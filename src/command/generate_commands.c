@@ -108,7 +108,10 @@ bool wr_run_generate(WrSession *session, WrCall *call, WrError *err)
     WrLayer *layer = wr_session_layer(session, err);
     if (!layer) return false;
     WrProgressPart making, joining;
+    const WrDocument *document = session->state.document;
     WrGenerateJob job = { .like = layer->heights,
+                          .selection = document->selection,
+                          .mask = document->layers[document->active].mask,
                           .pool = session->options.pool,
                           .progress = wr_progress_part(&making, wr_progress_here(), 0.0, 0.9),
                           .note = note,
@@ -292,6 +295,11 @@ static bool form_picture(int i, WrForm *out)
     return form_of(wr_picture_rows, i, out);
 }
 
+static bool row_rim(WrForm *out)
+{
+    return form_of(wr_rim_rows, 0, out);
+}
+
 static bool row_text(WrForm *out)
 {
     return form_of(wr_text_rows, 0, out);
@@ -348,6 +356,18 @@ const WrCommand wr_command_text = {
     .details = "They are added to the active layer, where they cover it, unless blend= says "
                "otherwise. In quotes \\\\n begins a new line. Overlapping letters are one shape.",
     .example = "text Wrinkle font=serif size=90 profile=round bevel=6"
+};
+
+const WrCommand wr_command_rim = {
+    .name = "rim",
+    .kind = WR_CLASS_EDIT,
+    .row = row_rim,
+    .run = wr_run_generate,
+    .help = "bevel, round, ridge, outline or emboss an edge by the distance from it",
+    .details =
+        "The edge is that of the selection, where it is half selected; of the layer's mask; or "
+        "where the layer's heights cross a level. What is made is not kept to the selection.",
+    .example = "rim kind=round width=8"
 };
 
 const WrCommand wr_command_solid = {

@@ -203,7 +203,8 @@ bool wr_call_join(const WrCall *call, const WrRelief *relief, const WrField *sel
     float(*result)[TEXELS] = wr_try_alloc(BATCH, sizeof *result, "tiles to be joined", err);
     if (!result) return false;
     const WrGenerator *generator = wr_call_generator(call);
-    WrField *weight = weight_of(relief->cover, selection);
+    WrField *weight =
+        weight_of(relief->cover, wr_family_find(generator->family)->beyond ? NULL : selection);
     Joining joining = {
         .blend = (WrBlend)wr_call_choice(call, wr_generator_argument(generator, "blend")),
         .radius = (float)wr_call_number(call, wr_generator_argument(generator, "radius")),

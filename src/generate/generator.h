@@ -74,8 +74,10 @@ void wr_relief_fini(WrRelief *relief);
 
 typedef struct WrGenerateJob {
     const WrField
-        *like;    /* lends size and wrap; its heights are what lies there (erosion reads it) */
-    WrPool *pool; /* NULL: the calling thread */
+        *like; /* lends size and wrap; its heights are what lies there (erosion reads it) */
+    const WrField *selection,
+        *mask;                  /* of that size: what is selected, the layer's mask; NULL: none */
+    WrPool *pool;               /* NULL: the calling thread */
     const WrProgress *progress; /* NULL: no reports, no cancelling */
     bool coarse;                /* a preview that may be rough where that is much faster */
     void (*note)(void *ctx,
@@ -106,12 +108,13 @@ typedef struct WrFamily {
     const char *help;  /* one sentence, for the command's help */
     const char *example;
     const WrGenerator *rows; /* ends with family NULL */
+    bool beyond;             /* made of the selection, and not kept to it */
 } WrFamily;
 
 /* In the order of the panel; ends with name NULL. A family is one file's table. */
 extern const WrFamily wr_families[];
 extern const WrGenerator wr_patterns[], wr_noise_rows[], wr_text_rows[], wr_solids[], wr_terrains[],
-    wr_picture_rows[], wr_formula_rows[];
+    wr_picture_rows[], wr_formula_rows[], wr_rim_rows[];
 
 const WrFamily *wr_family_find(const char *name);
 const WrGenerator *wr_generator_find(const char *family,

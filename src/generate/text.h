@@ -47,6 +47,9 @@ void wr_text_shape_fini(WrTextShape *shape);
 bool wr_text_shape_add(WrTextShape *shape, const double *xy, int count, const double move[2],
                        WrError *err);
 
+/* One side alone, from a to b; then the winding numbers at the rows' corners mean nothing. Within 2^20 of 0. */
+bool wr_text_shape_side(WrTextShape *shape, const double a[2], const double b[2], WrError *err);
+
 /* What is inside, of a whole table. */
 typedef struct WrTextInside {
     /* The covered part of each texel; below 0 where the texel's centre is outside. Within 1/16384 of
@@ -100,6 +103,9 @@ typedef struct WrTextFinish {
     double height; /* table units */
 } WrTextFinish;
 
+/* Of a texel that is covered by `cover`, whose centre is inside or not and so far from the rim; such that times the
+ * coverage it gives the profile. */
+float wr_text_height(const WrTextFinish *finish, double cover, bool centre, double distance);
 /* The relief of a shape: heights, and the covered part of each texel as cover. */
 bool wr_text_relief(WrTextShape *shape, const WrTextFinish *finish, const WrGenerateJob *job,
                     WrRelief *out, WrError *err);

@@ -168,3 +168,16 @@ bool wr_text_shape_add(WrTextShape *shape, const double *xy, int count, const do
     }
     return true;
 }
+
+bool wr_text_shape_side(WrTextShape *shape, const double a[2], const double b[2], WrError *err)
+{
+    const double *ends[2] = { a, b };
+    Point at[2];
+    for (int k = 0; k < 2; k++) {
+        if (!(fabs(ends[k][0]) <= REACH && fabs(ends[k][1]) <= REACH))
+            return wr_fail(err, "an edge reaches farther than %.0f texels", REACH);
+        at[k] = (Point){ 2 * (int64_t)floor(ends[k][0] * WR_TEXT_SUB + 0.5) + 1,
+                         2 * (int64_t)floor(ends[k][1] * WR_TEXT_SUB + 0.5) + 1 };
+    }
+    return (at[0].x == at[1].x && at[0].y == at[1].y) || cut_rows(shape, at[0], at[1], err);
+}

@@ -31,9 +31,8 @@ static double profile(const WrTextFinish *f, double d)
     return wr_edge(&edge, d);
 }
 
-/* Heights are such that times the coverage they give the profile: on a texel that is covered in part, the
- * profile's mean belongs to that part alone. */
-static float height_at(const WrTextFinish *f, double cover, bool centre, double distance)
+/* On a texel that is covered in part, the profile's mean belongs to that part alone. */
+float wr_text_height(const WrTextFinish *f, double cover, bool centre, double distance)
 {
     double height = f->profile == WR_TEXT_ENGRAVED ? -f->height : f->height;
     if (f->profile == WR_TEXT_FLAT || f->bevel == 0.0) return (float)height;
@@ -69,7 +68,7 @@ static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, fl
             if (!want[k]) continue;
             double part = fabs((double)tile[k]);
             double d = needs_distance(r->finish) ? (double)distance[k] : 0.0;
-            heights[k] = height_at(r->finish, part, tile[k] > 0.0f, d);
+            heights[k] = wr_text_height(r->finish, part, tile[k] > 0.0f, d);
             cover[k] = (float)part;
         }
 }

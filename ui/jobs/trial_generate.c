@@ -116,6 +116,8 @@ bool wr_trial_generate(WrDocument *document, const char *line, bool rough, WrPoo
     WrStandIn stand_in = { .index = 0 };
     WrLayer *layer = wr_document_edit_begin(document, &stand_in);
     WrGenerateJob job = { .like = layer->heights,
+                          .selection = document->selection,
+                          .mask = document->layers[document->active].mask,
                           .pool = pool,
                           .progress = progress,
                           .coarse = rough,

@@ -1,0 +1,228 @@
+/* Reliefs along the edge of what is selected, of a mask, of what lies higher than a level: by the distance from the edge,
+   as text has them. */
+#include "base/array.h"
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/pool.h"
+#include "field/field.h"
+#include "field/ops.h"
+#include "field/select.h"
+#include "generate/param.h"
+#include "generate/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define KINDS(X)                                                                                   \
+    X(RIM_BEVEL, "bevel")                                                                          \
+    X(RIM_ROUND, "round") X(RIM_RIDGE, "ridge") X(RIM_OUTLINE, "outline") X(RIM_EMBOSS, "emboss")
+enum { KINDS(WR_WORD_ID) };
+static const char *const kinds[] = { KINDS(WR_WORD) NULL };
+
+#define SOURCES(X)                                                                                 \
+    X(OF_AUTO, "auto") X(OF_SELECTION, "selection") X(OF_MASK, "mask") X(OF_HEIGHTS, "heights")
+enum { SOURCES(WR_WORD_ID) };
+static const char *const sources[] = { SOURCES(WR_WORD) NULL };
+
+static const WrParam params[] = {
+    WR_P_CHOICE("kind", "Kind", RIM_BEVEL, kinds,
+                "bevel: a slope, then level; round: a quarter circle, then level; ridge: up to the "
+                "middle; outline: a cord along the edge; emboss: a soft step across it"),
+    WR_P_CHOICE("of", "Of", OF_AUTO, sources,
+                "what has the edge; auto: the selection, or without one the heights"),
+    WR_P_ABOVE("width", "Width", 12, 0, 4096, 64, "texels",
+               "of the slope, of the cord, of half the step; of a ridge the way up to the height"),
+    WR_P_HEIGHT,
+    WR_P_NUMBER("level", "Level", 0.5, -WR_PARAM_HEIGHT, WR_PARAM_HEIGHT, 1, "table units",
+                "of heights: the edge is where they cross it"),
+    WR_P_END
+};
+
+typedef struct Rim {
+    const WrField *shape; /* the edge is where it crosses 1/2 */
+    WrTextShape pieces;
+    WrTextInside inside; /* its rims only */
+    WrTextNear *near;    /* [threads] */
+    int kind;
+    double width, height, reach;
+} Rim;
+
+/* ---- the edge ---- */
+
+/* Sides along a clamped axis' end are where the table ends, not an edge. */
+static bool is_end(const WrTextShape *s, const double a[2], const double b[2])
+{
+    return (!s->wraps_u && a[0] == b[0] && (a[0] <= 0.0 || a[0] >= s->width)) ||
+           (!s->wraps_v && a[1] == b[1] && (a[1] <= 0.0 || a[1] >= s->height));
+}
+
+static bool add_loop(WrTextShape *shape, const WrOutline *outline, const WrOutlineLoop *loop,
+                     WrError *err)
+{
+    const double w = shape->width, h = shape->height;
+    for (int i = 0; i < loop->count; i++) {
+        const bool last = i + 1 == loop->count;
+        const WrSelectPoint *p = &outline->points[loop->first + i];
+        const WrSelectPoint *q = &outline->points[loop->first + (last ? 0 : i + 1)];
+        double a[2] = { p->u * w, (1.0 - p->v) * h };
+        double b[2] = { (q->u + (last ? loop->wind_u : 0)) * w,
+                        (1.0 - q->v - (last ? loop->wind_v : 0)) * h };
+        if (!is_end(shape, a, b) && !wr_text_shape_side(shape, a, b, err)) return false;
+    }
+    return true;
+}
+
+static int compare(int64_t a, int64_t b)
+{
+    return (a > b) - (a < b);
+}
+
+/* By row, then by column, then by what they are. */
+static int compare_pieces(const void *a, const void *b)
+{
+    const WrTextPiece *p = a, *q = b;
+    int by = compare(p->j, q->j);
+    if (!by) by = compare(p->i, q->i);
+    if (!by) by = compare(p->y0, q->y0);
+    if (!by) by = compare(p->x0, q->x0);
+    if (!by) by = compare(p->y1, q->y1);
+    return by ? by : compare(p->x1, q->x1);
+}
+
+static bool sort_rims(Rim *rim, WrError *err)
+{
+    WrTextShape *s = &rim->pieces;
+    const int strips = (s->height + WR_TILE - 1) / WR_TILE;
+    rim->inside.rims = wr_try_alloc((size_t)strips, sizeof *rim->inside.rims, "an edge", err);
+    if (!rim->inside.rims) return false;
+    if (s->count > 1) qsort(s->pieces, (size_t)s->count, sizeof *s->pieces, compare_pieces);
+    int64_t k = 0;
+    for (int j = 0; j < strips * WR_TILE; j++) {
+        struct WrTextRim *r = &rim->inside.rims[j / WR_TILE];
+        r->first[j % WR_TILE] = r->pieces.count;
+        for (; k < s->count && s->pieces[k].j == j; k++) wr_array_push(&r->pieces, s->pieces[k]);
+        r->first[j % WR_TILE + 1] = r->pieces.count;
+    }
+    return true;
+}
+
+static bool find_edge(Rim *rim, const WrField *like, WrError *err)
+{
+    WrOutline outline = { 0 };
+    if (!wr_text_shape_init(&rim->pieces, like, false, err) ||
+        !wr_select_outline(rim->shape, &outline, err))
+        return false;
+    bool good = true;
+    for (int i = 0; good && i < outline.loop_count; i++)
+        good = add_loop(&rim->pieces, &outline, &outline.loops[i], err);
+    wr_outline_fini(&outline);
+    return good && sort_rims(rim, err);
+}
+
+/* ---- heights ---- */
+
+static double unit(double x)
+{
+    return x > 0.0 ? x < 1.0 ? x : 1.0 : 0.0;
+}
+
+/* At d texels inside of the edge (below 0: outside): the height there, and how much is covered. */
+static float height_at(const Rim *rim, double d, float *cover)
+{
+    WR_ROWS(profiles);
+    static const WrTextProfile profiles[] = {
+        [WR_ROW(RIM_BEVEL)] = WR_TEXT_CHISEL,
+        [WR_ROW(RIM_ROUND)] = WR_TEXT_ROUND,
+        [WR_ROW(RIM_RIDGE)] = WR_TEXT_RIDGE,
+    };
+    WR_ROWS_END(profiles, RIM_OUTLINE);
+    const double half = 0.5 * rim->width;
+    if (rim->kind == RIM_OUTLINE) {
+        double across = unit(fabs(d) / half);
+        *cover = (float)unit(half - fabs(d) + 0.5);
+        return (float)(rim->height * sqrt(1.0 - across * across));
+    }
+    if (rim->kind == RIM_EMBOSS) {
+        double t = unit((d + rim->width) / (2.0 * rim->width));
+        *cover = (float)unit(d + rim->width + 0.5);
+        return (float)(rim->height * t * t * (3.0 - 2.0 * t));
+    }
+    const WrTextFinish finish = { profiles[rim->kind], rim->width, rim->height };
+    *cover = (float)unit(d + 0.5);
+    return *cover > 0.0f ? wr_text_height(&finish, (double)*cover, d >= 0.0, fabs(d)) : 0.0f;
+}
+
+static void fill_block(const void *ctx, const WrGenerateBlock *b, int worker, float *heights,
+                       float *cover)
+{
+    const Rim *rim = ctx;
+    bool want[WR_TILE * WR_TILE];
+    float distance[WR_TILE * WR_TILE];
+    const float *tile = wr_field_tile(rim->shape, b->i / WR_TILE, b->j / WR_TILE);
+    const float level = wr_field_level(rim->shape);
+    for (int k = 0; k < WR_TILE * WR_TILE; k++)
+        want[k] = k % WR_TILE < b->count_i && k / WR_TILE < b->count_j;
+    wr_text_distances(&rim->pieces, &rim->inside, b, rim->reach, want, &rim->near[worker],
+                      distance);
+    for (int k = 0; k < WR_TILE * WR_TILE; k++) {
+        if (!want[k]) continue;
+        bool in = (tile ? tile[k] : level) >= 0.5f;
+        double d = (double)distance[k];
+        heights[k] = height_at(rim, in ? d : -d, &cover[k]);
+    }
+}
+
+/* ---- the row ---- */
+
+static WrField *above(const WrField *heights, double level, const WrGenerateJob *job, WrError *err)
+{
+    const double amount[WR_OP_PARAMS] = { 0.5 - level };
+    const WrOpOptions options = { .pool = job->pool, .progress = job->progress };
+    return wr_op_run(wr_op_find("add"), heights, amount, &options, err);
+}
+
+static WrField *shape_of(const WrParams *p, const WrGenerateJob *job, WrError *err)
+{
+    int of = wr_param_whole(p, "of");
+    if (of == OF_AUTO) of = job->selection ? OF_SELECTION : OF_HEIGHTS;
+    const WrField *field = of == OF_SELECTION ? job->selection : job->mask;
+    if (of == OF_HEIGHTS) return above(job->like, wr_param_number(p, "level"), job, err);
+    if (field) return wr_field_share(field);
+    wr_fail(err,
+            of == OF_MASK ? "of=mask: the layer has none" : "of=selection: nothing is selected");
+    return NULL;
+}
+
+static bool make_rim(const WrParamValue *values, const WrGenerateJob *job, WrRelief *out,
+                     WrError *err)
+{
+    const WrParams p = { params, values };
+    WrField *shape = shape_of(&p, job, err);
+    if (!shape) return false;
+    const int threads = wr_pool_threads(job->pool);
+    const double across = (double)wr_field_width(shape) + wr_field_height(shape);
+    Rim rim = { .shape = shape,
+                .kind = wr_param_whole(&p, "kind"),
+                .width = wr_param_number(&p, "width"),
+                .height = wr_param_number(&p, "height") };
+    rim.reach = rim.kind == RIM_RIDGE || rim.width + 1.0 > across ? across : rim.width + 1.0;
+    rim.near = wr_alloc((size_t)threads, sizeof *rim.near);
+    bool good = find_edge(&rim, job->like, err) &&
+                wr_generate_build(job, fill_block, &rim, true, 0.2, out, err);
+    for (int t = 0; t < threads; t++) wr_text_near_fini(&rim.near[t]);
+    wr_free(rim.near);
+    wr_text_inside_fini(&rim.inside, rim.pieces.height);
+    wr_text_shape_fini(&rim.pieces);
+    wr_field_free(shape);
+    return good;
+}
+
+const WrGenerator wr_rim_rows[] = {
+    { .family = "rim",
+      .label = "Edge",
+      .help = "bevels, cords and steps along the edge of what is selected",
+      .blend = "add",
+      .params = params,
+      .make = make_rim },
+    { .family = NULL },
+};
