@@ -130,6 +130,7 @@ static const char *const lines[] = {
     "export mask new20.png",
     "export wear new21.png",
     "export packed new25.png alpha=cavity",
+    "export contact new26.png",
     "export normal-object new22.png",
     "export bump-slopes new24.exr",
     "export stl new8.stl",

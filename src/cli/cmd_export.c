@@ -82,14 +82,31 @@ static bool export_file(const WrCli *cli, const WrExportKind *kind, Last *last, 
     return good;
 }
 
+/* All words but name=, which becomes the cell's. Returns how many, one too many at most. */
+static int take_name(const WrCli *cli, const char *words[WR_SET_WORDS + 1], WrText *name)
+{
+    int count = 0;
+    for (int i = 0; i < cli->word_count && count <= WR_SET_WORDS; i++) {
+        if (strncmp(cli->words[i], "name=", 5) != 0) {
+            words[count++] = cli->words[i];
+            continue;
+        }
+        wr_text_clear(name);
+        wr_text_add(name, cli->words[i] + 5);
+    }
+    return count;
+}
+
 static bool export_maps(const WrCli *cli, const WrSet *set, Last *last, WrText *report,
                         WrError *err)
 {
     WrSession *session = wr_cli_load(cli, false, err);
     if (!session) return false;
     WrText name = { 0 };
+    const char *words[WR_SET_WORDS + 1];
     wr_set_cell_name(cli->file, &name);
-    WrSetOrder order = { set, cli->out, wr_text_get(&name), cli->words, cli->word_count };
+    WrSetOrder order = { set, cli->out, NULL, words, take_name(cli, words, &name) };
+    order.name = wr_text_get(&name);
     bool good = is_last(session, last) ||
                 wr_export_set(&order, wr_session_document(session), cli->pool, report, err);
     wr_text_fini(&name);

@@ -352,6 +352,7 @@ static const Price prices[] = {
     { "save", NULL, saving, .ns = 165, .bytes = 6, .more = 840 },
     { "export", NULL, texels, .ns = 400, .bytes = 6 },
     { "export", "height", texels, .ns = 150, .bytes = 6 },
+    { "export", "contact", texels, .ns = 6000, .bytes = 30 }, /* all maps of the cell */
     { "export", "packed", texels, .ns = 1200, .bytes = 24 },
     { "export", "lines", drawing, .ns = 210, .bytes = 4.5, .more = 600 },
     { "export", "profile", drawing, .ns = 0, .bytes = 0, .more = 90 },

@@ -99,6 +99,9 @@ static bool row_maps(WrForm *out)
 static const WrArgSpec args_maps[] = {
     { PLACE("SET"), .type = WR_ARG_NAME, .help = "blender, unreal and so on, or one of your own" },
     { PLACE("FOLDER"), .type = WR_ARG_PATH, .help = "that is there; all files or none" },
+    { .name = "contact",
+      .type = WR_ARG_NAME,
+      .help = "a picture beside them that shows all, each with its name: contact.png" },
     { .name = "name",
       .type = WR_ARG_NAME,
       .help = "of the cell, in the files' names; left out: the document's" },

@@ -7,6 +7,7 @@
 #include "document/document.h"
 #include "document/document_file.h"
 #include "document/tables.h"
+#include "export/contact.h"
 #include "export/job.h"
 #include "export/picture.h"
 #include "export/levels.h"
@@ -36,6 +37,7 @@ WrExportOptions wr_export_default(void)
                               .lines_v = 64,
                               .turn_deg = 30.0,
                               .tilt_deg = 35.0,
+                              .contact_tile = WR_CONTACT_TILE,
                               .drawing_w = 1024,
                               .drawing_h = 768,
                               .pen = 1.0,
@@ -216,7 +218,7 @@ static WrScene *in_unit(const WrScene *scene)
 /* Normals: which axes its channels hold, where nobody says. */
 static void settle_axes(const WrExportKind *kind, int axes[3])
 {
-    if (axes[0] != 0) return;
+    if (axes[0] != 0 || kind->green == 0.0) return;
     axes[0] = 1;
     axes[1] = kind->green < 0.0 ? -2 : 2;
     axes[2] = 3;
@@ -334,18 +336,23 @@ static bool run_job(WrExportJob *job, const char *path, WrError *err)
     return good;
 }
 
+static bool run_scaled(WrExportJob *job, const char *path, WrError *err)
+{
+    WrScene *scaled = NULL;
+    if (!job->kind->write && !job->kind->on_surface) job->scene = scaled = in_unit(job->scene);
+    const bool ok = run_job(job, path, err);
+    wr_scene_free(scaled);
+    return ok;
+}
+
 /* Of the document, where the job says what of it. */
 static bool run_on(WrExportJob *job, const WrDocument *document, const char *path, WrError *err)
 {
     WrTables *tables = NULL;
-    WrScene *scaled = NULL;
     job->field = wr_document_field(document);
     job->scene = document->scene;
-    bool ok = !job->options.object || take_object(job, document, &tables, err);
-    if (ok && !job->kind->write && !job->kind->on_surface)
-        job->scene = scaled = in_unit(job->scene);
-    ok = ok && run_job(job, path, err);
-    wr_scene_free(scaled);
+    const bool ok = (!job->options.object || take_object(job, document, &tables, err)) &&
+                    run_scaled(job, path, err);
     wr_tables_free(tables);
     return ok;
 }
@@ -359,6 +366,14 @@ bool wr_export(const WrExportKind *kind, const WrDocument *document, const WrExp
     return ok;
 }
 
+/* A file that would hold what a picture is made of, whose depth goes into the job. */
+static const char *picture_path(WrExportJob *job)
+{
+    job->options.depth = job->kind->floats ? 32 : 8;
+    job->options.dither = false;
+    return job->kind->floats ? "x.exr" : "x.png";
+}
+
 bool wr_export_picture(const WrExportKind *kind, const WrDocument *document,
                        const WrExportOptions *options, WrPool *pool, WrExportPicture *picture,
                        WrError *err)
@@ -366,11 +381,22 @@ bool wr_export_picture(const WrExportKind *kind, const WrDocument *document,
     *picture = (WrExportPicture){ 0 };
     if (kind->write) return wr_fail(err, "%s: no picture of the table", kind->label);
     WrExportJob job = { .kind = kind, .options = *options, .pool = pool, .picture = picture };
-    job.options.depth = kind->floats ? 32 : 8;
-    job.options.dither = false;
-    bool ok = run_on(&job, document, kind->floats ? "x.exr" : "x.png", err);
+    bool ok = run_on(&job, document, picture_path(&job), err);
     picture->report = job.report;
     return ok;
+}
+
+bool wr_export_picture_like(const WrExportJob *like, const WrExportKind *kind,
+                            WrExportPicture *picture, WrError *err)
+{
+    *picture = (WrExportPicture){ 0 };
+    WrExportJob job = { .kind = kind,
+                        .field = like->field,
+                        .scene = like->scene,
+                        .options = like->options,
+                        .pool = like->pool,
+                        .picture = picture };
+    return run_scaled(&job, picture_path(&job), err);
 }
 
 bool wr_export_levels(const WrExportKind *kind, const WrDocument *document,

@@ -52,6 +52,8 @@
    DOWN, per texel, or over the cell and divided by uvslopes=; in a tiled EXR of levels, of which each is the means of what
    its texels cover, under the names of OpenImageIO's maketx --bumpslopes. signs=renderman turns both slopes round.
 
+   contact: maps as small pictures in one, each with its name.
+
    lines: a 3D line drawing of the cell with its hidden lines removed, the paper's figure 5, black on
    white; vectors where the ending is svg or pdf, else a picture of 8 bits. profile: F along a line of the cell
    as a chart, by the scheme's interpolation.
@@ -148,8 +150,10 @@ typedef struct WrExportOptions {
     bool mips;  /* files of half the size, a quarter and so on beside it */
     bool big;   /* files of numbers alone: the high byte first */
     bool sidecar; /* a file beside it says what it is; files of numbers alone have it in any case */
-    bool renderman;  /* bump slopes: the signs of slopes turned round */
-    double uvslopes; /* bump slopes: over the cell, divided by this; 0: per texel */
+    bool renderman;           /* bump slopes: the signs of slopes turned round */
+    double uvslopes;          /* bump slopes: over the cell, divided by this; 0: per texel */
+    const char *contact_maps; /* contact: "A;B", kinds; borrowed; NULL: all of the cell */
+    int contact_tile;         /* pixels of each */
     /* lines: */
     int lines_u, lines_v; /* lines along u, along v: 0..1024, not both 0; at most one a texel */
     double turn_deg, tilt_deg; /* about the vertical; above the horizon, 0..90 */
@@ -237,7 +241,7 @@ typedef struct WrExportKind {
     void (*describe)(WrExportJob *job);
 } WrExportKind;
 
-#define WR_EXPORT_KIND_COUNT 23
+#define WR_EXPORT_KIND_COUNT 24
 extern const WrExportKind wr_export_kinds[];
 const WrExportKind *wr_export_find(const char *name); /* NULL if there is none */
 

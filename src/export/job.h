@@ -61,6 +61,11 @@ bool wr_export_receipt(void *ctx, int y, int rows, const float *values, bool exa
 
 /* picture.c: in place of writing a file. */
 bool wr_export_fill_picture(WrExportJob *job, WrError *err);
+/* As wr_export_picture, of another kind: of what that job is of, with its options. */
+struct WrExportPicture;
+bool wr_export_picture_like(const WrExportJob *job, const WrExportKind *kind,
+                            struct WrExportPicture *picture, WrError *err);
+bool wr_export_contact_write(WrExportJob *job, const char *path, WrError *err);
 
 /* A new attribute's text, to be filled. */
 WrText *wr_export_attribute(WrExportJob *job, const char *name);

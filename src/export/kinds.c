@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/rows.h"
+#include "export/contact.h"
 #include "export/job.h"
 #include "export/lines.h"
 #include "export/map_options.h"
@@ -432,6 +433,23 @@ const WrExportKind wr_export_kinds[] = {
       .make = wr_export_packed_make,
       .rows = wr_export_map_rows,
       .describe = wr_export_packed_describe },
+    { .name = "contact",
+      .label = "contact sheet",
+      .help = "maps as small pictures in one, each with its name below",
+      .options = { { "maps", "KIND;KIND...", "which; left out: all of the cell",
+                     wr_export_set_contact_maps },
+                   { "tile", "PIXELS", "the longer side of each, 32..1024; left out: 256",
+                     wr_export_set_contact_tile },
+                   CELL,
+                   SCHEME,
+                   OBJECT,
+                   WR_OPTION_DIRECTIONS,
+                   WR_OPTION_REACH,
+                   WR_OPTION_BOX,
+                   WR_OPTION_BASE,
+                   WR_OPTION_SHEET },
+      .channels = 3,
+      .write = wr_export_contact_write },
     { .name = "lines",
       .label = "line drawing",
       .help = "the cell as a 3D line drawing with hidden lines removed: svg, pdf, or a picture",

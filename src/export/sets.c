@@ -3,13 +3,18 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "export/contact.h"
 #include "export/export.h"
+#include "export/picture.h"
 #include "system/path.h"
 
 #include <errno.h>
 #include <string.h>
+
+#define CONTACT "contact="
 
 /* ---- options ---- */
 
@@ -54,15 +59,29 @@ bool wr_set_options(const WrSetOrder *order, int map, WrExportOptions *options, 
     return settle_map(order, &order->set->maps.data[map], options, taken, err);
 }
 
+/* The contact sheet that the words ask for; NULL: none. */
+static const char *contact_of(const WrSetOrder *order)
+{
+    for (int i = 0; i < order->word_count; i++)
+        if (strncmp(order->words[i], CONTACT, sizeof CONTACT - 1) == 0)
+            return order->words[i] + sizeof CONTACT - 1;
+    return NULL;
+}
+
 static bool settle(const WrSetOrder *order, WrExportOptions options[WR_SET_MAPS], WrError *err)
 {
     bool taken[WR_SET_WORDS] = { false };
+    const char *contact = contact_of(order);
+    if (contact && (!*contact || *contact == '.' || strchr(contact, '/')))
+        return wr_fail(
+            err, CONTACT "%.80s: must be a picture's name, such as contact.png, without a folder",
+            contact);
     if (order->word_count > WR_SET_WORDS)
         return wr_fail(err, "%d options: a set takes up to %d", order->word_count, WR_SET_WORDS);
     for (int i = 0; i < order->set->maps.count; i++)
         if (!settle_map(order, &order->set->maps.data[i], &options[i], taken, err)) return false;
     for (int i = 0; i < order->word_count; i++)
-        if (!taken[i])
+        if (!taken[i] && strncmp(order->words[i], CONTACT, sizeof CONTACT - 1) != 0)
             return wr_fail(err, "%.60s: no map of the set %s has such an option", order->words[i],
                            order->set->name);
     return true;
@@ -127,6 +146,69 @@ static bool write_maps(const WrSetOrder *order, const WrExportOptions *options,
     return good && (!wr_progress_stopped() || wr_fail(err, "cancelled"));
 }
 
+/* ---- the contact sheet ---- */
+
+/* Maps that are pictures of the table, into `shown`. */
+static int shown_of(const WrSet *set, int shown[WR_SET_MAPS])
+{
+    int count = 0;
+    for (int i = 0; i < set->maps.count; i++)
+        if (!set->maps.data[i].kind->write) shown[count++] = i;
+    return count;
+}
+
+static bool add_map(WrContact *contact, const WrSetOrder *order, int map,
+                    const WrExportOptions *options, const WrDocument *document, WrPool *pool,
+                    WrError *err)
+{
+    const WrSetMap *row = &order->set->maps.data[map];
+    WrText name = { 0 };
+    WrExportPicture picture;
+    const bool good = wr_export_picture(row->kind, document, options, pool, &picture, err);
+    wr_text_addf(&name, "%s%s%s", row->before, order->name, row->after);
+    if (good) wr_contact_add(contact, wr_text_get(&name), &picture);
+    wr_export_picture_fini(&picture);
+    wr_text_fini(&name);
+    return good;
+}
+
+static bool is_map(const WrSetOrder *order, const char *name)
+{
+    WrText own = { 0 };
+    bool same = false;
+    for (int i = 0; i < order->set->maps.count && !same; i++) {
+        const WrSetMap *row = &order->set->maps.data[i];
+        wr_text_clear(&own);
+        wr_text_addf(&own, "%s%s%s", row->before, order->name, row->after);
+        same = strcmp(wr_text_get(&own), name) == 0;
+    }
+    wr_text_fini(&own);
+    return same;
+}
+
+static bool write_contact(const WrSetOrder *order, const WrExportOptions *options,
+                          const WrDocument *document, WrPool *pool, WrText *told, WrError *err)
+{
+    int shown[WR_SET_MAPS];
+    const int count = shown_of(order->set, shown);
+    if (count == 0)
+        return wr_fail(err, CONTACT "%.80s: no map of the set %s is a picture of the table",
+                       contact_of(order), order->set->name);
+    if (is_map(order, contact_of(order)))
+        return wr_fail(err, CONTACT "%.80s: is the name of one of the maps", contact_of(order));
+    char *path = wr_path_join(order->folder, contact_of(order));
+    WrContact *contact = wr_contact_new(path, count, WR_CONTACT_TILE, err);
+    bool good = contact != NULL;
+    for (int i = 0; i < count && good; i++)
+        good = add_map(contact, order, shown[i], &options[shown[i]], document, pool, err) &&
+               (!wr_progress_stopped() || wr_fail(err, "cancelled"));
+    good = good && wr_contact_write(contact, err);
+    if (good) wr_text_addf(told, "%s: contact sheet of %d maps\n", path, count);
+    wr_contact_free(contact);
+    wr_free(path);
+    return good;
+}
+
 bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *pool, WrText *told,
                    WrError *err)
 {
@@ -134,7 +216,8 @@ bool wr_export_set(const WrSetOrder *order, const WrDocument *document, WrPool *
     const size_t before = told->length;
     if (!check_names(order, err) || !settle(order, options, err)) return false;
     WrFileGroup *group = wr_file_group_begin();
-    bool good = write_maps(order, options, document, pool, told, err);
+    bool good = write_maps(order, options, document, pool, told, err) &&
+                (!contact_of(order) || write_contact(order, options, document, pool, told, err));
     if (good) good = wr_file_group_commit(group, err);
     else wr_file_group_abort(group);
     if (!good && told->length > before) { /* nothing stands there */

@@ -68,7 +68,8 @@ typedef struct WrSetOrder {
     const char *folder; /* is there already */
     const char *name;   /* of the cell, in the files' names: no folder in it */
     const char *const *
-        words; /* [word_count] "cell=2,1": for those maps that have the option; at least one must */
+        words; /* [word_count] "cell=2,1": for those maps that have the option; at least one must. "contact=FILE":
+                  a contact sheet beside them */
     int word_count;
 } WrSetOrder;
 
