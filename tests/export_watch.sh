@@ -56,6 +56,24 @@ grep -q '^wrinkle: tile.wrinkle:2: unknown command "nonsense"' err || complain "
 [[ $(sha256sum out/*) == "$sum" ]] || complain 'an error changed files'
 [[ -z $(find . -name '.?*') ]] || complain "something stays: $(find . -name '.?*')"
 
+# What the script reads is looked at too: a picture in another folder, a brush's tip behind a link.
+picture() { "$program" export --do "table $1" --do "dab 0.5,0.5 radius=$2 strength=1" --as height depth=8 -o "$3" 2>/dev/null >&2; }
+mkdir other
+picture 21x20 4 other/p.png && picture 9x9 2 other/tip.png && ln -s other/tip.png tip.png
+printf 'image other/p.png\ndab 0.5,0.5 tip=tip.png radius=4 strength=1\n' >tile.wrinkle
+(trap - INT; exec "$program" export tile.wrinkle --as unreal -o out --watch >told 2>err) &
+child=$!
+expect 1 1 21
+picture 23x20 4 other/p.png
+expect 2 2 23
+picture 9x9 3 other/tip.png
+expect 3 3 23
+picture 25x20 4 new.png && mv new.png other/p.png
+expect 4 4 25
+kill -TERM "$child"
+wait "$child"
+child=
+
 printf 'table 37x20\n' >tile.wrinkle
 (trap - INT; exec "$program" export tile.wrinkle --as height -o one.png --watch >told 2>err) &
 child=$!

@@ -1,7 +1,9 @@
 #include "cli/cli.h"
 
+#include "base/array.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/memory.h"
 #include "base/stamp.h"
 #include "base/text.h"
 #include "command/session.h"
@@ -47,18 +49,37 @@ static bool fail_unknown(const char *name, WrError *err)
     return false;
 }
 
+/* A file that the document was made of, as it was read. */
+typedef struct Input {
+    char *path; /* owned */
+    WrFileStamp stamp;
+} Input;
+
 /* Of the export before, while a file is watched. */
 typedef struct Last {
     bool there;
-    WrHash hash; /* of the document */
+    WrHash hash;            /* of the document */
+    WR_ARRAY(Input) inputs; /* besides FILE itself */
 } Last;
+
+static void forget_inputs(Last *last)
+{
+    for (int i = 0; i < last->inputs.count; i++) wr_free(last->inputs.data[i].path);
+    wr_array_free(&last->inputs);
+}
 
 /* The document is what it was: its files are, too. */
 static bool is_last(const WrSession *session, Last *last)
 {
     const WrHash hash = wr_session_hash(session);
     const bool same = last->there && wr_hash_equal(hash, last->hash);
-    *last = (Last){ true, hash };
+    forget_inputs(last);
+    for (int i = 0; i < wr_session_input_count(session); i++) {
+        const WrSessionInput input = wr_session_input(session, i);
+        wr_array_push(&last->inputs, ((Input){ wr_strdup(input.path), input.stamp }));
+    }
+    last->there = true;
+    last->hash = hash;
     return same;
 }
 
@@ -154,20 +175,34 @@ static bool is_cancelled(const WrCli *cli)
     return cli->cancel && *cli->cancel;
 }
 
-/* Until the file is another one than *stamp, and has been for a moment. False: an error, or an interrupt. */
-static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp, WrError *err)
+/* The file, or one that it was made of, is another one than it was; what is between two files counts later. */
+static bool is_another(const WrCli *cli, WrFileStamp *stamp, const Last *last)
 {
-    for (;;) {
+    const WrFileStamp now = wr_file_stamp(cli->file);
+    bool other = false;
+    if (!now.there) return false;
+    if (!wr_file_stamp_same(&now, stamp)) other = true, *stamp = now;
+    for (int i = 0; i < last->inputs.count; i++) {
+        const Input *input = &last->inputs.data[i];
+        const WrFileStamp own = wr_file_stamp(input->path);
+        if (!own.there) return false;
+        other |= !wr_file_stamp_same(&own, &input->stamp);
+    }
+    return other;
+}
+
+/* Until that is so, and has been for a moment. False: an error, or an interrupt. */
+static bool wait_for_change(const WrCli *cli, WrWatch *watch, WrFileStamp *stamp, const Last *last,
+                            WrError *err)
+{
+    while (!is_another(cli, stamp, last)) { /* since it was read, at first */
         WrWatchEnd end = wr_watch_wait(watch, DAY_SECONDS);
         while (end == WR_WATCH_CHANGED && !is_cancelled(cli))
             if ((end = wr_watch_wait(watch, SETTLE_SECONDS)) == WR_WATCH_NOTHING) break;
         if (is_cancelled(cli)) return wr_fail(err, "interrupted");
         if (end == WR_WATCH_LOST) return wr_fail(err, "%s: its folder is gone", cli->file);
-        const WrFileStamp now = wr_file_stamp(cli->file);
-        if (!now.there || wr_file_stamp_same(&now, stamp)) continue; /* between two files */
-        *stamp = now;
-        return true;
     }
+    return true;
 }
 
 static int watch_file(const WrCli *cli)
@@ -182,11 +217,13 @@ static int watch_file(const WrCli *cli)
     }
     int status = export_once(cli, &last);
     while (status == WR_EXIT_DONE) {
+        for (int i = 0; i < last.inputs.count; i++) wr_watch_add(watch, last.inputs.data[i].path);
         wr_cli_note("watching: writes again when the file changes; an interrupt ends it");
-        if (!wait_for_change(cli, watch, &stamp, &err))
+        if (!wait_for_change(cli, watch, &stamp, &last, &err))
             status = wr_cli_fail(cli, WR_EXIT_FAILED, &err);
         else status = export_once(cli, &last);
     }
+    forget_inputs(&last);
     wr_watch_free(watch);
     return status;
 }

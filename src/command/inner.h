@@ -82,13 +82,17 @@ struct WrSession {
 
     WrBrushFiles *brush_files; /* presets and tips that were read; made on first use; owned */
     WR_ARRAY(char *) kept;     /* SHA-256 of the files that the journal has copies of; owned */
+    WR_ARRAY(WrSessionInput) inputs; /* their paths are owned */
 };
 
 /* Say something that is no failure. */
 void wr_session_note(WrSession *session, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* `path` as a command of the running script means it for reading. Caller frees. */
-char *wr_session_input_path(const WrSession *session, const char *path);
+char *wr_session_input_path(WrSession *session, const char *path);
+/* That file is about to be read, or was: one of wr_session_input. */
+void wr_session_note_input(WrSession *session, const char *path);
+void wr_session_forget_inputs(WrSession *session);
 /* "a stroke is being drawn" */
 bool wr_session_refuse_in_stroke(const WrSession *session, WrError *err);
 

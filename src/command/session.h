@@ -8,6 +8,7 @@
 #pragma once
 #include "accuracy/saving.h"
 #include "accuracy/tolerance.h"
+#include "base/stamp.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -113,6 +114,15 @@ const char *wr_session_path(const WrSession *session); /* of the document file, 
 /* What stands under that name now is not what was opened or saved here last: another program has written
    it since. False where nothing stands there. */
 bool wr_session_file_changed(const WrSession *session);
+
+/* A file that a line of this session has read - a picture, a mesh, a font, a brush - and what stood under its name
+ * just before that was done first. Borrowed until the next call that changes the session. */
+typedef struct WrSessionInput {
+    const char *path;
+    WrFileStamp stamp;
+} WrSessionInput;
+int wr_session_input_count(const WrSession *session);
+WrSessionInput wr_session_input(const WrSession *session, int index);
 
 /* ---- the journal ---- */
 

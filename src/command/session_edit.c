@@ -12,9 +12,36 @@
 
 #include <string.h>
 
-char *wr_session_input_path(const WrSession *session, const char *path)
+/* ---- files that lines read ---- */
+
+void wr_session_note_input(WrSession *session, const char *path)
 {
-    return wr_path_join(session->folder, path);
+    for (int i = 0; i < session->inputs.count; i++)
+        if (strcmp(session->inputs.data[i].path, path) == 0) return;
+    wr_array_push(&session->inputs, ((WrSessionInput){ wr_strdup(path), wr_file_stamp(path) }));
+}
+
+void wr_session_forget_inputs(WrSession *session)
+{
+    for (int i = 0; i < session->inputs.count; i++) wr_free((char *)session->inputs.data[i].path);
+    wr_array_free(&session->inputs);
+}
+
+int wr_session_input_count(const WrSession *session)
+{
+    return session->inputs.count;
+}
+
+WrSessionInput wr_session_input(const WrSession *session, int index)
+{
+    return session->inputs.data[index];
+}
+
+char *wr_session_input_path(WrSession *session, const char *path)
+{
+    char *full = wr_path_join(session->folder, path);
+    wr_session_note_input(session, full);
+    return full;
 }
 
 void wr_session_replace_scene(WrSession *session, WrScene *scene)

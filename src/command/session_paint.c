@@ -97,6 +97,8 @@ static bool take_preset(WrSession *session, WrCall *call, WrHeldBrush *held, WrE
                                 err) ||
         !wr_call_check_sha256(call, "preset_sha256", file.path, file.sha256, err))
         return false;
+    wr_session_note_input(session, file.path);
+    if (file.tip_path) wr_session_note_input(session, file.tip_path);
     held->preset = wr_call_gives(call, "set")
                        ? wr_preset_with(file.preset, wr_call_arg(call, "set")->text, err)
                        : wr_preset_share(file.preset);
@@ -115,6 +117,7 @@ static bool take_tip(WrSession *session, WrCall *call, WrHeldBrush *held, WrErro
                              err) ||
         !wr_call_check_sha256(call, "tip_sha256", file.path, file.sha256, err))
         return false;
+    wr_session_note_input(session, file.path);
     held->tip = wr_tip_share(file.tip);
     held->brush.tip = held->tip;
     if (!wr_call_gives(call, "spacing") && wr_tip_spacing(held->tip) > 0.0)

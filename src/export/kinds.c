@@ -72,15 +72,6 @@ static bool set_scheme(WrExportOptions *options, const char *value, WrError *err
     return false;
 }
 
-static bool set_dither(WrExportOptions *options, const char *value, WrError *err)
-{
-    bool on = strcmp(value, "on") == 0;
-    if (!on && strcmp(value, "off") != 0)
-        return wr_fail(err, "dither '%.40s': must be on or off", value);
-    options->dither = on;
-    return true;
-}
-
 /* Whether there is one of that name is seen when it is exported. */
 static bool set_object(WrExportOptions *options, const char *value, WrError *err)
 {
@@ -135,15 +126,6 @@ static bool set_pen(WrExportOptions *options, const char *value, WrError *err)
     if (!wr_number_parse(value, strlen(value), &pen) || !(pen >= 0.1 && pen <= 20.0))
         return wr_fail(err, "pen '%.40s': must be the breadth of lines in pixels, 0.1..20", value);
     options->pen = pen;
-    return true;
-}
-
-static bool set_hidden(WrExportOptions *options, const char *value, WrError *err)
-{
-    bool on = strcmp(value, "on") == 0;
-    if (!on && strcmp(value, "off") != 0)
-        return wr_fail(err, "hidden '%.40s': must be on or off", value);
-    options->hidden = on;
     return true;
 }
 
@@ -204,7 +186,8 @@ static bool set_grid(WrExportOptions *options, const char *value, WrError *err)
     }
 #define DITHER                                                                                     \
     {                                                                                              \
-        "dither", "on or off", "hides the steps of 8-bit files; left out: off", set_dither         \
+        "dither", "on or off", "hides the steps of 8-bit files; left out: off",                    \
+            wr_export_set_dither                                                                   \
     }
 
 #define OBJECT                                                                                     \
@@ -462,7 +445,8 @@ const WrExportKind wr_export_kinds[] = {
                      set_relief },
                    { "size", "WIDTHxHEIGHT", "pixels; left out: 1024x768", set_size },
                    { "pen", "WIDTH", "of a line, pixels; left out: 1", set_pen },
-                   { "hidden", "on or off", "draw what is hidden too; left out: off", set_hidden },
+                   { "hidden", "on or off", "draw what is hidden too; left out: off",
+                     wr_export_set_hidden },
                    OBJECT },
       .channels = 1,
       .write = wr_export_drawing_write },

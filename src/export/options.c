@@ -20,6 +20,16 @@ static bool set_switch(const char *name, const char *value, bool *out, WrError *
            wr_fail(err, "%s '%.40s': must be on or off", name, value);
 }
 
+bool wr_export_set_dither(WrExportOptions *options, const char *value, WrError *err)
+{
+    return set_switch("dither", value, &options->dither, err);
+}
+
+bool wr_export_set_hidden(WrExportOptions *options, const char *value, WrError *err)
+{
+    return set_switch("hidden", value, &options->hidden, err);
+}
+
 bool wr_export_set_signs(WrExportOptions *options, const char *value, WrError *err)
 {
     options->renderman = strcmp(value, "renderman") == 0;

@@ -6,6 +6,8 @@
 typedef struct WrError WrError;
 typedef struct WrExportOptions WrExportOptions;
 
+bool wr_export_set_dither(WrExportOptions *options, const char *value, WrError *err);
+bool wr_export_set_hidden(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_signs(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_uvslopes(WrExportOptions *options, const char *value, WrError *err);
 bool wr_export_set_endian(WrExportOptions *options, const char *value, WrError *err);

@@ -11,7 +11,6 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
-#define MARKS 2 /* the name, and what is behind it */
 #define WANTED (IN_CLOSE_WRITE | IN_MOVED_TO | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR)
 
 typedef struct Mark {
@@ -21,8 +20,8 @@ typedef struct Mark {
 
 struct WrWatch {
     int fd;
-    int count;
-    Mark marks[MARKS];
+    int count, room;
+    Mark *marks; /* each name, and what is behind it */
 };
 
 static bool add(WrWatch *watch, const char *path)
@@ -36,11 +35,31 @@ static bool add(WrWatch *watch, const char *path)
     }
     if (slash) memcpy(folder, path, length);
     folder[length] = '\0';
+    if (watch->count == watch->room) {
+        const int room = 2 * watch->room + 2;
+        Mark *grown = realloc(watch->marks, (size_t)room * sizeof *grown);
+        if (!grown) return false;
+        watch->marks = grown;
+        watch->room = room;
+    }
     Mark *mark = &watch->marks[watch->count];
     strcpy(mark->name, name);
     mark->folder = inotify_add_watch(watch->fd, slash ? folder : ".", WANTED);
-    watch->count += mark->folder >= 0;
-    return mark->folder >= 0;
+    if (mark->folder < 0) return false;
+    for (int i = 0; i < watch->count; i++)
+        if (watch->marks[i].folder == mark->folder && strcmp(watch->marks[i].name, name) == 0)
+            return true;
+    watch->count++;
+    return true;
+}
+
+bool wr_watch_add(WrWatch *watch, const char *path)
+{
+    const bool good = add(watch, path);
+    char *real = good ? wr_path_real(path) : NULL;
+    if (real) add(watch, real);
+    free(real);
+    return good;
 }
 
 WrWatch *wr_watch_new(const char *path)
@@ -48,13 +67,10 @@ WrWatch *wr_watch_new(const char *path)
     WrWatch *watch = calloc(1, sizeof *watch);
     if (!watch) return NULL;
     watch->fd = inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
-    bool good = watch->fd >= 0 && add(watch, path);
-    char *real = good ? wr_path_real(path) : NULL;
-    if (real) add(watch, real);
-    free(real);
-    if (good) return watch;
+    if (watch->fd >= 0 && wr_watch_add(watch, path)) return watch;
     const int why = errno;
     if (watch->fd >= 0) close(watch->fd);
+    free(watch->marks);
     free(watch);
     errno = why;
     return NULL;
@@ -64,6 +80,7 @@ void wr_watch_free(WrWatch *watch)
 {
     if (!watch) return;
     close(watch->fd);
+    free(watch->marks);
     free(watch);
 }
 

@@ -14,6 +14,7 @@
 struct WrWatch {
     WrFileInfo last;
     bool there;
+    WrWatch *more; /* the next name; NULL: none */
     char path[];
 };
 
@@ -28,7 +29,19 @@ WrWatch *wr_watch_new(const char *path)
 
 void wr_watch_free(WrWatch *watch)
 {
-    free(watch);
+    for (WrWatch *more; watch; watch = more) {
+        more = watch->more;
+        free(watch);
+    }
+}
+
+bool wr_watch_add(WrWatch *watch, const char *path)
+{
+    WrWatch *one = wr_watch_new(path);
+    if (!one) return false;
+    one->more = watch->more;
+    watch->more = one;
+    return true;
 }
 
 static bool has_changed(WrWatch *watch)
@@ -47,7 +60,8 @@ static bool has_changed(WrWatch *watch)
 WrWatchEnd wr_watch_wait(WrWatch *watch, double seconds)
 {
     for (;;) {
-        if (has_changed(watch)) return WR_WATCH_CHANGED;
+        for (WrWatch *one = watch; one; one = one->more)
+            if (has_changed(one)) return WR_WATCH_CHANGED;
         if (!(seconds > 0)) return WR_WATCH_NOTHING;
         const double rest = seconds < LOOK_SECONDS ? seconds : LOOK_SECONDS;
         const struct timespec nap = { (time_t)rest, (long)((rest - (double)(time_t)rest) * 1e9) };
