@@ -52,6 +52,10 @@ static const Job jobs[] = {
     { "lines.svg", "export lines lines.svg", true },
     { "profile.svg", "export profile profile.svg", true },
     { "lines.png", "export lines lines.png size=60x40", true },
+    { "lines.pdf", "export lines lines.pdf lines=9x7", true },
+    { "slopes.exr", "export bump-slopes slopes.exr", true },
+    { "body.stl", "export stl body.stl error=2", true },
+    { "contact.png", "export contact contact.png tile=32 maps=height;normal+y", true },
     { "done.wrinkle", "script done.wrinkle", false },
 };
 #define JOBS (int)(sizeof jobs / sizeof *jobs)

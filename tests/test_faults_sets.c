@@ -1,4 +1,4 @@
-/* A set of files while calls fail or the program is killed: an error leaves every old file; after a kill the next
+/* Files that belong together - a set, a file and its sidecar, levels, a contact sheet - while calls fail or the program is killed: an error leaves every old file; after a kill the next
    program that looks into the folder makes it all old or all new, and nothing else stays. And lists of files that
    belong together which nobody honest wrote. */
 #include "test.h"
@@ -17,9 +17,26 @@
 #include <errno.h>
 
 #define OLD "what was there before"
-static const char *const files[] = { "T_tile_N.png", "T_tile_H.png" };
-static char *fresh[2]; /* the bytes of a run without trouble */
-static size_t fresh_length[2];
+#define FILES_MOST 3
+
+/* A line, and what it writes. */
+typedef struct Together {
+    const char *line, *files[FILES_MOST + 1];
+} Together;
+
+static const Together groups[] = {
+    { "maps two . name=tile", { "T_tile_N.png", "T_tile_H.png" } },
+    { "maps two . name=tile contact=all.png", { "T_tile_N.png", "T_tile_H.png", "all.png" } },
+    { "export height bare.r16 endian=big", { "bare.r16", "bare.r16.json" } },
+    { "export bump-slopes six.exr sidecar=on", { "six.exr", "six.exr.json" } },
+    { "export height level.png resize=3x2 mips=on depth=8", { "level.png", "level_1.png" } },
+};
+#define GROUPS (int)(sizeof groups / sizeof *groups)
+
+static const Together *now;     /* of them */
+static int count;               /* of its files */
+static char *fresh[FILES_MOST]; /* the bytes of a run without trouble */
+static size_t fresh_length[FILES_MOST];
 
 static WrSession *session;
 static char (*said)[256];
@@ -41,9 +58,9 @@ static void read_whole(const char *path, char **bytes, size_t *length)
 static bool holds(const char *path, const char *bytes, size_t length)
 {
     char *have;
-    size_t count;
-    read_whole(path, &have, &count);
-    const bool same = count == length && memcmp(have, bytes, length) == 0;
+    size_t own;
+    read_whole(path, &have, &own);
+    const bool same = own == length && memcmp(have, bytes, length) == 0;
     wr_free(have);
     return same;
 }
@@ -51,17 +68,17 @@ static bool holds(const char *path, const char *bytes, size_t length)
 static int count_hidden(void)
 {
     DIR *dir = opendir(".");
-    int count = -2; /* . and .. */
+    int hidden = -2; /* . and .. */
     assert_non_null(dir);
-    for (struct dirent *entry; (entry = readdir(dir));) count += entry->d_name[0] == '.';
+    for (struct dirent *entry; (entry = readdir(dir));) hidden += entry->d_name[0] == '.';
     closedir(dir);
-    return count;
+    return hidden;
 }
 
 static void run_set(void)
 {
     WrError err = { "" };
-    const bool good = wr_session_run(session, "maps two . name=tile", &err);
+    const bool good = wr_session_run(session, now->line, &err);
     snprintf(*said, sizeof *said, "%.250s", err.text);
     _exit(good ? 0 : 1);
 }
@@ -87,26 +104,32 @@ static int make_world(void **state)
 static int end_world(void **state)
 {
     wr_session_free(session);
-    for (int i = 0; i < 2; i++) wr_free(fresh[i]);
     return remove_folder(state);
 }
 
 static void make_old(bool there)
 {
-    for (int i = 0; i < 2; i++)
-        if (there) put(files[i], OLD);
-        else remove(files[i]);
+    for (int i = 0; i < count; i++)
+        if (there) put(now->files[i], OLD);
+        else remove(now->files[i]);
 }
 
 static bool is_old(int i, bool there)
 {
-    if (!there) return access(files[i], F_OK) != 0;
-    return holds(files[i], OLD, sizeof OLD - 1);
+    if (!there) return access(now->files[i], F_OK) != 0;
+    return holds(now->files[i], OLD, sizeof OLD - 1);
 }
 
 static bool is_new(int i)
 {
-    return access(files[i], F_OK) == 0 && holds(files[i], fresh[i], fresh_length[i]);
+    return access(now->files[i], F_OK) == 0 && holds(now->files[i], fresh[i], fresh_length[i]);
+}
+
+static bool all_are(bool fresh_ones, bool there)
+{
+    bool all = true;
+    for (int i = 0; i < count; i++) all = all && (fresh_ones ? is_new(i) : is_old(i, there));
+    return all;
 }
 
 /* old: files stood there before. */
@@ -127,10 +150,10 @@ static void run_fault(FaultKind kind, int64_t n, FaultMode mode, bool old, Fault
         wr_file_sweep("."); /* as any program of ours does that writes or opens something here */
         tally->killed_old += is_old(0, old), tally->killed_new += is_new(0);
     }
-    const bool all_old = is_old(0, old) && is_old(1, old), all_new = is_new(0) && is_new(1);
+    const bool all_old = all_are(false, old), all_new = all_are(true, old);
     if (!all_old && !all_new)
-        fail_msg("%s %lld, %s: status %x: a mix (%s)", wr_fault_kinds[kind], (long long)n,
-                 wr_fault_modes[mode], status, *said);
+        fail_msg("%s: %s %lld, %s: status %x: a mix (%s)", now->line, wr_fault_kinds[kind],
+                 (long long)n, wr_fault_modes[mode], status, *said);
     if (WIFEXITED(status) && (WEXITSTATUS(status) == 0) != all_new)
         fail_msg("%s %lld, %s: status %x, and the files are the %s ones (%s)", wr_fault_kinds[kind],
                  (long long)n, wr_fault_modes[mode], status, all_new ? "new" : "old", *said);
@@ -153,28 +176,47 @@ static FaultState count_calls(void)
     return counted;
 }
 
-static void a_set_is_all_old_or_all_new(void **state)
+/* How often the calls that a fault may be planted in come. All of names and syncing of the first group, of others
+ * every other kill; of writing a tenth. */
+static void try_faults(const FaultState *counted, bool old, FaultTally *tally)
 {
-    (void)state;
+    for (int kind = 0; kind < FAULT_KINDS; kind++)
+        for (int64_t n = 1; n <= counted->counts[kind] - (kind == FAULT_UNLINK && !old ? 1 : 0);
+             n++)
+            for (int mode = FAULT_ERROR; mode <= FAULT_TORN; mode++) {
+                const bool names = kind == FAULT_RENAME || kind == FAULT_LINK ||
+                                   kind == FAULT_UNLINK || kind == FAULT_SYNC;
+                if (fault_fits((FaultKind)kind, (FaultMode)mode) &&
+                    ((names && (now == groups || (old && mode == FAULT_KILL && n % 2 == 0))) ||
+                     fault_is_wanted(tally->cases + n, old)))
+                    run_fault((FaultKind)kind, n, (FaultMode)mode, old, tally);
+            }
+}
+
+static void try_group(const Together *group)
+{
     FaultTally tally = { 0 };
+    now = group;
+    for (count = 0; group->files[count];) count++;
     make_old(true);
     const FaultState counted = count_calls();
-    for (int i = 0; i < 2; i++) read_whole(files[i], &fresh[i], &fresh_length[i]);
-    assert_int_equal(counted.counts[FAULT_RENAME], 2);
+    for (int i = 0; i < count; i++) read_whole(group->files[i], &fresh[i], &fresh_length[i]);
+    assert_int_equal(counted.counts[FAULT_RENAME], count);
     assert_int_equal(counted.careless, 0);
-    assert_int_equal(counted.counts[FAULT_SYNC], 5); /* both, their list, the folder twice */
-    for (int old = 0; old < 2; old++)
-        for (int kind = 0; kind < FAULT_KINDS; kind++)
-            for (int64_t n = 1; n <= counted.counts[kind] - (kind == FAULT_UNLINK && !old); n++)
-                for (int mode = FAULT_ERROR; mode <= FAULT_TORN; mode++) {
-                    const bool names = kind == FAULT_RENAME || kind == FAULT_LINK ||
-                                       kind == FAULT_UNLINK || kind == FAULT_SYNC;
-                    if (fault_fits((FaultKind)kind, (FaultMode)mode) &&
-                        (names || fault_is_wanted(tally.cases + n, old)))
-                        run_fault((FaultKind)kind, n, (FaultMode)mode, old, &tally);
-                }
-    fault_tell("sets", &tally);
-    assert_true(tally.killed_new > 0 && tally.killed_old > 0 && tally.errors > 0);
+    assert_int_equal(counted.counts[FAULT_SYNC],
+                     count + 3); /* they, their list, the folder twice */
+    for (int old = 0; old < 2; old++) try_faults(&counted, old, &tally);
+    fault_tell(group->files[0], &tally);
+    assert_true(tally.killed_old > 0 && tally.killed_new > 0);
+    if (group == groups) assert_true(tally.errors > 0);
+    make_old(false);
+    for (int i = 0; i < count; i++) wr_free(fresh[i]);
+}
+
+static void what_belongs_together_is_all_old_or_all_new(void **state)
+{
+    (void)state;
+    for (int g = 0; g < GROUPS; g++) try_group(&groups[g]);
 }
 
 /* ---- lists ---- */
@@ -244,7 +286,7 @@ static void a_list_of_a_process_that_lives_is_left_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_set_is_all_old_or_all_new),
+        cmocka_unit_test(what_belongs_together_is_all_old_or_all_new),
         cmocka_unit_test(a_list_is_followed_only_where_it_is_whole_and_of_its_folder),
         cmocka_unit_test(a_list_of_a_process_that_lives_is_left_alone),
     };
