@@ -273,6 +273,16 @@ static void a_sheared_mesh_has_the_frame_of_mikktspace(void **state)
             inside++;
         }
     assert_true(inside > WIDTH * HEIGHT / 4);
+    assert_int_equal(baked->label.kind, WR_LABEL_NONE); /* it is of no cell */
+    assert_int_equal(baked->label.green, -1);
+    assert_string_equal(baked->label.refused, "");
+    wr_image_free(baked);
+    baked = exported(document, "normal-baked", "b.exr", (const char *[3]){ "padding=0" }, &report);
+    assert_int_equal(baked->label.green, 1);
+    wr_image_free(baked);
+    baked =
+        exported(document, "normal-baked", "b.exr", (const char *[3]){ "axes=+x-z+y" }, &report);
+    assert_int_equal(baked->label.green, 0);
     wr_image_free(baked);
     wr_document_free(document);
 }

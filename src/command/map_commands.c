@@ -245,12 +245,11 @@ static WrImage *read_normals(WrSession *session, const WrCall *call, const char 
 {
     const int channels = wr_call_choice(call, "channels");
     const WrGreen asked = (WrGreen)wr_call_choice(call, "green");
-    const WrLabelKind label = file->label.kind;
-    const bool labelled = label == WR_LABEL_NORMAL_UP || label == WR_LABEL_NORMAL_DOWN;
+    const bool labelled = file->label.green != 0;
     WrGreen green = asked;
     WrNormalTold told;
     if (green == WR_GREEN_AUTO && labelled)
-        green = label == WR_LABEL_NORMAL_DOWN ? WR_GREEN_DOWN : WR_GREEN_UP;
+        green = file->label.green < 0 ? WR_GREEN_DOWN : WR_GREEN_UP;
     WrImage *image = map->object
                          ? wr_normal_map_read_object(file, green == WR_GREEN_DOWN, &told, err)
                          : wr_normal_map_read(file, green, channels ? channels + 1 : 0, &told, err);

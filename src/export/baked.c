@@ -21,12 +21,15 @@
 #define LOOK 4096   /* triangles between two looks at the cancel */
 #define SLIVER 1e-5 /* height over longest side */
 
+/* Of a texel, in place of a triangle. */
+enum { NOBODY = -1, PADDING = -2, THIS_RING = -3 };
+
 typedef struct Bake {
     WrExportJob *job;
     const WrTriangles *mesh;
     const WrTangent *frames; /* [3 triangles] */
-    int32_t *owner;          /* [height][width] triangle; -1: none, -2: padding */
-    int padded;              /* texels that the ring at hand has got */
+    int32_t *owner;          /* [height][width] triangle, or one of these */
+    int padded;              /* whether the ring at hand has got any texel */
 } Bake;
 
 /* ---- which triangle a texel is of ---- */
@@ -202,7 +205,8 @@ static bool pad_texel(Bake *bake, int x, int y)
             const size_t at =
                 (size_t)wrapped(y + dy, height) * (size_t)width + (size_t)wrapped(x + dx, width);
             const float *n = bake->job->map + 3 * at;
-            if (bake->owner[at] == -1) continue;
+            const int32_t owner = __atomic_load_n(&bake->owner[at], __ATOMIC_RELAXED);
+            if (owner == NOBODY || owner == THIS_RING) continue;
             sum = v3_add(sum, (WrVec3){ (double)n[0], (double)n[1], (double)n[2] });
             count++;
         }
@@ -211,17 +215,32 @@ static bool pad_texel(Bake *bake, int x, int y)
 }
 
 /* Those of this ring count for the next only. */
+static void ring_piece(WrExportJob *job, int y, int rows, void *ctx)
+{
+    Bake *bake = ctx;
+    for (int j = y; j < y + rows; j++)
+        for (int i = 0; i < job->width; i++) {
+            int32_t *owner = &bake->owner[(size_t)j * (size_t)job->width + (size_t)i];
+            if (*owner != NOBODY || !pad_texel(bake, i, j)) continue;
+            __atomic_store_n(owner, THIS_RING, __ATOMIC_RELAXED);
+            __atomic_store_n(&bake->padded, 1, __ATOMIC_RELAXED);
+        }
+}
+
+static void settle_piece(WrExportJob *job, int y, int rows, void *ctx)
+{
+    const Bake *bake = ctx;
+    int32_t *owner = bake->owner + (size_t)y * (size_t)job->width;
+    for (size_t i = 0; i < (size_t)rows * (size_t)job->width; i++)
+        if (owner[i] == THIS_RING) owner[i] = PADDING;
+}
+
 static void pad_ring(Bake *bake)
 {
-    const size_t texels = (size_t)bake->job->width * (size_t)bake->job->height;
-    size_t *ring = wr_alloc(texels, sizeof *ring), count = 0;
-    for (size_t i = 0; i < texels; i++)
-        if (bake->owner[i] == -1 && pad_texel(bake, (int)(i % (size_t)bake->job->width),
-                                              (int)(i / (size_t)bake->job->width)))
-            ring[count++] = i;
-    for (size_t i = 0; i < count; i++) bake->owner[ring[i]] = -2;
-    bake->padded = (int)(count > 0);
-    wr_free(ring);
+    WrExportJob *job = bake->job;
+    bake->padded = 0;
+    wr_export_run(job, 0, job->height, ring_piece, bake);
+    wr_export_run(job, 0, job->height, settle_piece, bake);
 }
 
 /* ---- all of it ---- */
@@ -233,7 +252,7 @@ static bool bake_all(Bake *bake, WrError *err)
     bake->owner = wr_try_alloc(texels, sizeof *bake->owner, "a map", err);
     job->map = bake->owner ? wr_try_alloc(3 * texels, sizeof(float), "a map", err) : NULL;
     if (!job->map) return false;
-    for (size_t i = 0; i < texels; i++) bake->owner[i] = -1;
+    for (size_t i = 0; i < texels; i++) bake->owner[i] = NOBODY;
     for (int32_t i = 0; i < bake->mesh->triangle_count; i++) {
         if (i % LOOK == 0 && wr_progress_stopped()) break;
         cover(bake, i);

@@ -127,8 +127,8 @@ void wr_export_store_normal(const WrExportJob *job, void *out, size_t texel, WrV
                             int row);
 bool wr_export_axes_parse(const char *text, int axes[3]); /* "+x-y+z", "directx" */
 void wr_export_axes_text(const int axes[3], char text[7]);
-/* Its attribute, where they are neither +Y nor -Y; returns which of these, 0 for others. */
-int wr_export_describe_axes(WrExportJob *job);
+/* Their attribute: +Y or -Y as the convention, else all three. */
+void wr_export_describe_axes(WrExportJob *job);
 void wr_export_slopes_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_rows(WrExportJob *job, int y, int rows, void *out);
 void wr_export_slope_prepare(WrExportJob *job);

@@ -227,18 +227,17 @@ void wr_export_axes_text(const int axes[3], char text[7])
     text[6] = '\0';
 }
 
-int wr_export_describe_axes(WrExportJob *job)
+void wr_export_describe_axes(WrExportJob *job)
 {
     char text[7];
     const int green = sign_of_green(job);
     wr_export_axes_text(job->options.axes, text);
     if (!green) wr_text_add(wr_export_attribute(job, "wrinkle:axes"), text);
-    return green;
+    else wr_text_add(wr_export_attribute(job, "wrinkle:convention"), green > 0 ? "+Y" : "-Y");
 }
 
 void wr_export_normal_describe(WrExportJob *job)
 {
-    const int green = wr_export_describe_axes(job);
-    if (green) wr_text_add(wr_export_attribute(job, "wrinkle:convention"), green > 0 ? "+Y" : "-Y");
+    wr_export_describe_axes(job);
     wr_export_describe_slopes(job);
 }

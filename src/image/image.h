@@ -27,6 +27,7 @@ typedef enum WrLabelKind {
 
 typedef struct WrImageLabel {
     WrLabelKind kind;
+    int green; /* of normals, also of those that are of a surface and so of no kind here: 1 up, -1 down, 0: not told */
     bool ranged; /* integer heights: F = low + step (code - zero) */
     double low, step;
     int zero;

@@ -125,6 +125,14 @@ static void read_bump_slopes(const Source *from, WrImageLabel *label)
     }
 }
 
+static void read_green(const Source *from, WrImageLabel *label)
+{
+    const char *word = text_of(from, "wrinkle:convention");
+    if (!word) return;
+    label->green = strcmp(word, "+Y") == 0 ? 1 : strcmp(word, "-Y") == 0 ? -1 : 0;
+    if (!label->green) refuse(label, "wrinkle:convention", word);
+}
+
 void wr_image_label_read(WrLabelText *text, const void *source, WrPixelType type,
                          WrImageLabel *label)
 {
@@ -140,10 +148,15 @@ void wr_image_label_read(WrLabelText *text, const void *source, WrPixelType type
         label->kind = kind[6] == '+' ? WR_LABEL_NORMAL_UP : WR_LABEL_NORMAL_DOWN;
     } else if (strcmp(kind, "slopes") == 0 || strcmp(kind, "bump-slopes") == 0) {
         label->kind = kind[0] == 'b' ? WR_LABEL_BUMP_SLOPES : WR_LABEL_SLOPES;
+    } else if (strcmp(kind, "normal-baked") == 0 || strcmp(kind, "normal-object") == 0) {
+        read_green(from, label);
+        return;
     } else {
         refuse(label, "wrinkle:kind", kind);
         return;
     }
+    if (label->kind >= WR_LABEL_NORMAL_UP && label->kind <= WR_LABEL_NORMAL_DOWN)
+        label->green = label->kind == WR_LABEL_NORMAL_UP ? 1 : -1;
     read_size(from, label->kind != WR_LABEL_HEIGHT, label);
     read_wrap(from, label);
 }
