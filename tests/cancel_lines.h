@@ -134,7 +134,6 @@ static const char *const lines[] = {
     "export height new27.r16",
     "export height new28.png lay=brick repeat=2x2 mips=on",
     "export lines new29.pdf",
-    "export slope new30.png sidecar=on",
     "export normal-object new22.png",
     "export bump-slopes new24.exr",
     "export stl new8.stl",
