@@ -345,9 +345,54 @@ static void filtered_maps_come_near_the_reference(void **state)
     }
 }
 
+/* A ball whose table is 1 everywhere, displaced by c, is a ball of R + c: what is told of a pixel is that ball's. */
+static void a_displaced_ball_is_told_of_as_a_larger_one(void **state)
+{
+    (void)state;
+    WrError err = { "" };
+    const double c = 0.273;
+    WrField *level = wr_field_new(9, 7, WR_WRAP_PERIODIC, WR_WRAP_PERIODIC, 1, NULL);
+    WrScene *scene = scene_of("sphere"), *large = NULL;
+    float map[2][WIDE * HIGH];
+    scene->height = c, scene->displaced = true;
+    scene->replicate_u = scene->replicate_v = 1;
+    scene->camera.fit = false;
+    scene->camera.eye = (WrVec3){ 0.3, 0.2, 4 }, scene->camera.target = (WrVec3){ 0.1, 0, 0 };
+    large = wr_scene_clone(scene);
+    large->displaced = false, large->height = 0, large->shape.value[0] = 1 + c;
+    int hits = 0;
+    for (int k = 0; k < 60; k++) {
+        WrProbe a, b;
+        const double x = WIDE * ((k % 10) + 0.317) / 10, y = HIGH * ((k / 10) + 0.719) / 6;
+        assert_true(wr_reference_probe(level, scene, WIDE, HIGH, 15, x, y, &a, &err));
+        assert_true(wr_reference_probe(level, large, WIDE, HIGH, 15, x, y, &b, &err));
+        assert_true(a.hit == b.hit);
+        if (!a.hit) continue;
+        hits++;
+        assert_true(fabs(a.u - b.u) < 1e-9 && fabs(a.v - b.v) < 1e-9);
+        assert_true(a.f == c && a.tilt_deg < 1e-5);
+        for (int i = 0; i < 4; i++)
+            assert_true(fabs(a.footprint[i] - b.footprint[i]) < 1e-6 * (1 + fabs(b.footprint[i])));
+        for (int i = 0; i < 3; i++) assert_true(fabs(a.rgb[i] - b.rgb[i]) < 1e-7);
+    }
+    assert_true(hits > 15);
+    for (int k = 0; k < 2; k++)
+        if (!wr_reference_map(level, k ? large : scene, WIDE, HIGH, 15, WR_MAP_LEVEL, NULL, NULL,
+                              map[k], &err))
+            fail_msg("%s", err.text);
+    for (int i = 0; i < WIDE * HIGH; i++) {
+        assert_true(isnan(map[0][i]) == isnan(map[1][i]));
+        assert_true(isnan(map[0][i]) || fabs((double)map[0][i] - (double)map[1][i]) < 1e-4);
+    }
+    wr_scene_free(scene);
+    wr_scene_free(large);
+    wr_field_free(level);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_displaced_ball_is_told_of_as_a_larger_one),
         cmocka_unit_test(pictures_have_the_references_normals),
         cmocka_unit_test(objects_that_hide_each_other_have_them_too),
         cmocka_unit_test(one_triangle_turns_the_map_as_by_hand),

@@ -96,6 +96,27 @@ static void a_balls_shadow_is_an_ellipse(void **state)
     }
 }
 
+/* From far along the way to the lamp, onto something small. */
+static void far_bodies_reach(void **state)
+{
+    (void)state;
+    const WrVec3 at = { 3.1, -2.2, 6.4 };
+    for (int kind = 0; kind < 2; kind++) {
+        WrScene *scene = above_ground("sphere", at, 0.21);
+        WrScene *ground = wr_scene_choose(scene, 0);
+        ground->shape.value[0] = ground->shape.value[1] = 0.9;
+        ground->lights[0].kind = kind ? WR_LIGHT_POINT : WR_LIGHT_DIRECTIONAL;
+        ground->lights[0].where = kind ? v3_scale(at, 4) : at;
+        Shot shot = shot_of(ground, NULL);
+        const float *middle = shot.frame.rgba + 4 * (SIDE * (SIDE / 2) + SIDE / 2);
+        assert_true(middle[3] == 1 && middle[0] == 0);
+        assert_true(middle[4 * 8] > 0);
+        put_away(&shot);
+        wr_scene_free(ground);
+        wr_scene_free(scene);
+    }
+}
+
 /* The edge of a wide board is straight: what is seen of a round lamp is a segment of its disc. */
 static void a_boards_edge_has_the_penumbra_of_a_disc(void **state)
 {
@@ -261,6 +282,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_balls_shadow_is_an_ellipse),
+        cmocka_unit_test(far_bodies_reach),
         cmocka_unit_test(a_boards_edge_has_the_penumbra_of_a_disc),
         cmocka_unit_test(objects_shadow_themselves_as_the_reference_has_it),
         cmocka_unit_test(objects_shadow_one_another_as_the_reference_has_it),

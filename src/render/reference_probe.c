@@ -27,12 +27,12 @@ static bool looker_init(Looker *looker, const WrField *field, const WrScene *sce
     if (width < 1 || height < 1 || width > PICTURE_MAX || height > PICTURE_MAX)
         return wr_fail(err, "picture size %dx%d: each side must be 1..%d", width, height,
                        PICTURE_MAX);
-    if (wr_reference_displaced(scene))
-        return wr_fail(err, "a displaced surface has no map and no pixel to look at yet: they take "
-                            "`bump displaced=off`");
     *looker = (Looker){ .field = field };
-    if (!wr_reference_stage_init(&looker->stage, field, scene, turn_deg, width, height, table, pool,
-                                 err))
+    /* Rays meet a displaced surface as the reference has it, which goes by the spline of the table. */
+    const bool displaced = wr_reference_displaced(scene);
+    if (!wr_reference_stage_init(&looker->stage, field, scene, turn_deg, width, height,
+                                 table || displaced, pool, err) ||
+        !wr_reference_stage_raise(&looker->stage, field, pool, err))
         return false;
     looker->texels_u = scene->replicate_u * (field ? wr_field_width(field) : 1);
     looker->texels_v = -scene->replicate_v * (field ? wr_field_height(field) : 1);
@@ -60,6 +60,29 @@ static void footprint(const Looker *looker, const WrSurfacePoint *at, const WrRe
     out[1] = down == 0 ? 0 : within_reach(down / det);
 }
 
+static bool is_raised(const Looker *looker)
+{
+    return looker->stage.raised.count > 0;
+}
+
+static bool hit_surface(const Looker *looker, const WrReferenceRay *ray, WrReferenceHit *hit)
+{
+    return is_raised(looker) ? wr_reference_raised_hit(&looker->stage.raised, ray, hit)
+                             : wr_reference_view_hit(&looker->stage.view, ray, hit);
+}
+
+/* The surface that is seen, to first order: of a displaced one P + F n, and what u and v do to it. */
+static WrSurfacePoint seen_at(const Looker *looker, const WrSurfacePoint *at, double f, double fu,
+                              double fv)
+{
+    WrSurfacePoint out = *at;
+    if (!is_raised(looker)) return out;
+    out.p = v3_mad(at->p, at->n_unit, f);
+    out.pu = v3_mad(v3_mad(at->pu, at->n_unit, fu), at->n_u, f);
+    out.pv = v3_mad(v3_mad(at->pv, at->n_unit, fv), at->n_v, f);
+    return out;
+}
+
 static double level_of(const double footprint[4])
 {
     const double x = hypot(footprint[0], footprint[1]), y = hypot(footprint[2], footprint[3]);
@@ -70,6 +93,7 @@ static double level_of(const double footprint[4])
 /* Triangles are flat: the exact formula's terms in F and its Pu x Pv, which is along n of a patch alone, are none of theirs. */
 static WrBumpMode mode_of(const Looker *looker, WrBumpMode mode)
 {
+    if (is_raised(looker)) return WR_BUMP_EXACT;
     return looker->stage.view.info->held && mode == WR_BUMP_EXACT ? WR_BUMP_BLINN : mode;
 }
 
@@ -96,7 +120,7 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
     const WrReferenceView *view = &looker.stage.view;
     const WrReferenceRay ray = wr_reference_view_ray(view, x, y);
     WrReferenceHit hit;
-    WrProbe probe = { .hit = wr_reference_view_hit(view, &ray, &hit) };
+    WrProbe probe = { .hit = hit_surface(&looker, &ray, &hit) };
     if (probe.hit) {
         WrSurfacePoint *at = &probe.at;
         probe.u = hit.u, probe.v = hit.v, probe.face = hit.face;
@@ -110,15 +134,18 @@ bool wr_reference_probe(const WrField *field, const WrScene *scene, int width, i
         probe.tilt_deg = wr_bump_tilt_deg(at->n_unit, probe.perturbed);
         probe.dropped_deg =
             dropped_deg(&looker, at, probe.f, probe.fu, probe.fv, &probe.perturbed_exact);
-        footprint(&looker, at, &ray, hit.s, &looker.per_x, probe.footprint);
-        footprint(&looker, at, &ray, hit.s, &looker.per_y, probe.footprint + 2);
+        const WrSurfacePoint there = seen_at(&looker, at, probe.f, probe.fu, probe.fv);
+        footprint(&looker, &there, &ray, hit.s, &looker.per_x, probe.footprint);
+        footprint(&looker, &there, &ray, hit.s, &looker.per_y, probe.footprint + 2);
         probe.level = level_of(probe.footprint);
         probe.samples = samples_of(&scene->dials);
         WrReferenceCaster own;
         wr_reference_caster(&own, &looker.stage);
         looker.stage.casters = &own, looker.stage.caster_count = 1;
-        const WrVec3 seen = v3_scale(probe.perturbed, wr_reference_side(view, at));
-        wr_reference_light(&looker.stage, at, &hit, wr_reference_normal_stretched(view, seen),
+        const bool back = v3_dot(probe.perturbed, ray.d) > 0;
+        const double side = is_raised(&looker) ? (back ? -1 : 1) : wr_reference_side(view, at);
+        const WrVec3 seen = v3_scale(probe.perturbed, side);
+        wr_reference_light(&looker.stage, &there, &hit, wr_reference_normal_stretched(view, seen),
                            (WrReferenceShare){ 0, 1 }, probe.rgb);
     }
     wr_reference_stage_fini(&looker.stage);
@@ -149,10 +176,13 @@ static float quantity(const MapJob *job, const WrSurfacePoint *at, double f, dou
     return (float)wr_bump_tilt_deg(at->n_unit, wr_reference_normal(mode, at, f, fu, fv));
 }
 
-static float level_at(const Looker *looker, const WrSurfacePoint *at, const WrReferenceRay *ray,
-                      double s)
+static float level_at(const Looker *looker, const WrSurfacePoint *base, const WrReferenceHit *hit,
+                      const WrReferenceRay *ray)
 {
-    double pixel[4];
+    double pixel[4], f = 0, fu = 0, fv = 0;
+    const double s = hit->s;
+    if (is_raised(looker)) wr_reference_height(&looker->stage, hit->u, hit->v, &f, &fu, &fv);
+    const WrSurfacePoint there = seen_at(looker, base, f, fu, fv), *at = &there;
     footprint(looker, at, ray, s, &looker->per_x, pixel);
     footprint(looker, at, ray, s, &looker->per_y, pixel + 2);
     return (float)level_of(pixel);
@@ -170,11 +200,11 @@ static void map_row(int y, int worker, void *ctx)
         const WrReferenceRay ray = wr_reference_view_ray(view, x + 0.5, y + 0.5);
         WrReferenceHit hit;
         out[x] = NAN;
-        if (!wr_reference_view_hit(view, &ray, &hit)) continue;
+        if (!hit_surface(looker, &ray, &hit)) continue;
         WrSurfacePoint at;
         wr_reference_view_at(view, &hit, &at);
         if (job->map == WR_MAP_LEVEL) {
-            out[x] = level_at(looker, &at, &ray, hit.s);
+            out[x] = level_at(looker, &at, &hit, &ray);
             continue;
         }
         double f, fu, fv;

@@ -62,6 +62,11 @@ static const char *scheme_name(int rung)
     return rung >= 0 && rung < WR_SCHEME_COUNT ? wr_schemes[rung].name : NULL;
 }
 
+static const char *energy_name(int rung)
+{
+    return rung >= 0 && rung < WR_ENERGY_COUNT ? wr_energies[rung] : NULL;
+}
+
 static const char *normal_name(int rung)
 {
     return rung >= 0 && rung < WR_BUMP_COUNT ? wr_bumps[rung].name : NULL;
@@ -93,6 +98,7 @@ MEMBER(newton, int, dials.newton)
 MEMBER(texels, double, dials.texels)
 MEMBER(harmonics, int, dials.harmonics)
 MEMBER(gloss, double, dials.gloss)
+MEMBER(energy, WrEnergy, material.energy)
 MEMBER(horizons, int, dials.horizons)
 MEMBER(rays, int, dials.rays)
 MEMBER(dice, double, dials.dice)
@@ -140,6 +146,11 @@ static bool with_surroundings(const WrScene *scene)
 static bool with_horizons(const WrScene *scene)
 {
     return scene->material.shadow || scene->material.occlusion;
+}
+
+static bool with_energies(const WrScene *scene)
+{
+    return wr_reflects[scene->material.model].energies;
 }
 
 static bool with_rays(const WrScene *scene)
@@ -219,6 +230,11 @@ const WrDial wr_dials[WR_DIAL_COUNT] = {
                                  "a step shorter than so many texels; 0: never before its last",
                                  .low = 0, .high = 16, MEMBERS(texels), .matters = with_mesh,
                                  .rungs = texel_rungs },
+    [WR_ROW(
+        WR_DIAL_ENERGY)] = { "energy", "material", WR_AXIS_LIGHT, "Energy",
+                             "never more light than came, or the reflection as its source has it",
+                             CHOICES(energy, WR_ENERGY_COUNT), MEMBERS(energy),
+                             .matters = with_energies },
     [WR_ROW(WR_DIAL_HARMONICS)] = { "harmonics", "dials", WR_AXIS_LIGHT, "Diffuse light",
                                     "of surroundings, by harmonics up to this order", .low = 0,
                                     .high = 2, .whole = true, MEMBERS(harmonics),

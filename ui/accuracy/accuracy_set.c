@@ -55,13 +55,13 @@ static void add_dial(WrText *line, int dial, double value)
 /* The scene's dials become these, by as few commands as there are verbs. */
 static void set_all(WrApp *app, const double value[WR_DIAL_COUNT])
 {
-    static const char *const verbs[] = { "bump", "dials" };
+    static const char *const verbs[] = { "bump", "material", "dials" };
     wr_app_settle(app);
     wr_app_live_end(app);
     if (wr_app_scene(app)->tolerance.kind != WR_TOLERANCE_NONE &&
         !wr_app_run_line(app, "tolerance off"))
         return;
-    for (int v = 0; v < 2; v++) {
+    for (int v = 0; v < (int)(sizeof verbs / sizeof *verbs); v++) {
         WrText line = { 0 };
         for (int d = 0; d < WR_DIAL_COUNT; d++)
             if (strcmp(wr_dials[d].command, verbs[v]) == 0 &&
