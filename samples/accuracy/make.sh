@@ -329,6 +329,8 @@ say ''
 say 'Made by `make.sh` from measurements; the sentences follow from the numbers. Errors are of linear intensity'
 say 'against the reference in double precision; times are of one thread.'
 say ''
+say 'Reflection, surroundings, shadows and displacement have a page of their own: [light](light/README.md).'
+say ''
 say "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) threads."
 say ''
 for name in "${shown[@]}"; do tell_scene "$name"; done
